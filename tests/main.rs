@@ -1,16 +1,16 @@
-//! The method's specification: one test program, in folders that mirror the rooms of `src/`, in the order of the text,
-//! and in `evidence` the studies whose tables `paper/*.md` quotes.
+//! The method's specification as one test program. `spec` follows the paper, and its names sort in the paper's order; `refuses` holds
+//! what is refused, `evidence` the studies whose tables `paper/*.md` quotes and the comparisons with other programs, `readers` a
+//! user's files, `presentation` tables, figures and the program, `ledgers` the lists of documents held against the code.
 
 mod common;
 mod ledgers;
 
-mod sparse;
-mod method;
-mod closed_forms;
-mod cases;
-mod studies;
-mod files;
-mod present;
-mod program;
+mod spec;
+
+mod refuses;
 
 mod evidence;
+
+mod readers;
+
+mod presentation;

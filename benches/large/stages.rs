@@ -117,14 +117,15 @@ pub fn of(wing: &Wing) -> (Stages, Known, ModalModel) {
     };
     let structure = stages.time("grids and elements", || wing.structure().expect("a wing"));
     stages.dof = structure.free_dof().len();
-    drop(stages.time("element matrices (once)", || {
-        element_matrices(&structure).expect("elements")
-    }));
+    drop(stages.time("element matrices (once)", || element_matrices(&structure)));
     drop(structure);
     let known = planted(wing).expect("a wing");
     let (model, test) = (&known.model, &known.test);
     let ones = vec![1.0; model.parameters().len()];
-    let (elements, sizes) = (model.element_matrices(), model.sizes(&ones).expect("sizes"));
+    let (elements, sizes) = (
+        model.element_matrices(),
+        model.at(&ones).expect("sizes").sizes,
+    );
     let free = model.structure().free_dof();
     let plan = || FactorizationPlan::new(model.structure(), elements).expect("a plan");
     let plan = Arc::new(stages.time("ordering and pattern (once)", plan));
@@ -194,7 +195,7 @@ pub fn whole_modes(wing: &Wing, stages: &mut Stages) -> (SparseMatrix, Vec<f64>)
 pub fn papers_costs(known: &Known, stages: &Stages) -> Vec<(&'static str, f64, f64)> {
     let model = &known.model;
     let ones = vec![1.0; model.parameters().len()];
-    let sizes = model.sizes(&ones).expect("sizes");
+    let sizes = model.at(&ones).expect("sizes").sizes;
     let structural = FactorizedStiffness::new(
         model.element_matrices(),
         &sizes,

@@ -43,7 +43,7 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
     let deck = deck::read(&file.display().to_string(), &bytes, &job.model.ignore)?;
     let bulk = &deck.model;
     let structure = bulk.structure()?;
-    let elements = element_matrices(&structure)?;
+    let elements = element_matrices(&structure);
     let count = structure.free_dof().len();
     let row_of: BTreeMap<usize, usize> = elements
         .iter()

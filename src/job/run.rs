@@ -3,6 +3,7 @@
 use super::{Method, ParameterRule, Prepared};
 use crate::files::deck::rewrite;
 use crate::files::error::FileError;
+use crate::method::derivatives::error_changes;
 use crate::method::error_sum::{ModeWeight, mode_errors};
 use crate::method::model::{ModalModel, Range};
 use crate::method::outer_loop::{Correlation, Pass, correlate_while, meets};
@@ -246,6 +247,7 @@ pub(super) fn run_from(
             let ranges: Vec<_> = ranges.iter().zip(start).map(seen).collect();
             let run = correlate_while(
                 &mut |factors| analyze(&total(factors)),
+                &|model, state| error_changes(model, state, settings.inner.derivatives),
                 &ranges,
                 settings,
                 &mut told,

@@ -3,9 +3,7 @@
 
 use crate::method::assembly::ElementMatrix;
 use crate::method::error::{Error, at_least_one};
-use crate::method::linear_algebra::{
-    check_finite, check_shape, cholesky, finite, solve_lower, symmetric_part,
-};
+use crate::method::linear_algebra::{check_matrix, cholesky, solve_lower, symmetric_part};
 use nalgebra::DMatrix;
 
 /// Pivot of the flexibility relative to its diagonal below which a dynamic DOF is a combination of others.
@@ -54,13 +52,8 @@ pub fn condense(
 ) -> Result<Condensed, Error> {
     let (dof_count, dynamic_count) = load_distribution.shape();
     at_least_one("dynamic degrees of freedom", dynamic_count)?;
-    check_shape(
-        "load distribution",
-        load_distribution,
-        stiffness.nrows(),
-        dynamic_count,
-    )?;
-    check_finite("load distribution", load_distribution)?;
+    let what = "load distribution";
+    check_matrix(what, load_distribution, stiffness.nrows(), dynamic_count)?;
     // Round-off of a pivot grows as the root of the number of DOF.
     let round_off = 32.0 * f64::EPSILON * (dof_count as f64).sqrt();
     let lower = cholesky("structural stiffness", stiffness, round_off)?;
@@ -85,7 +78,7 @@ pub(crate) fn dynamic_stiffness(flexibility: &DMatrix<f64>) -> Result<DMatrix<f6
     .map_err(|error| error.or_dependent("dynamic degree of freedom"))?;
     let identity = DMatrix::identity(flexibility.nrows(), flexibility.nrows());
     let inverse_factor = solve_lower(&lower, identity);
-    finite("dynamic stiffness", inverse_factor.tr_mul(&inverse_factor))
+    Ok(inverse_factor.tr_mul(&inverse_factor))
 }
 
 /// An element's share of the stiffness for shapes at the structural DOF, $s_e V_e^t K_e V_e$ (A.9), where $V_e$ are the rows of

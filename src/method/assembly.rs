@@ -3,7 +3,8 @@
 
 use crate::method::elements::{corner_volumes, unit_stiffness};
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_length, check_shape, finite, finite_list};
+use crate::method::geometry::Geometry;
+use crate::method::linear_algebra::{check_length, check_shape};
 use crate::method::modes::check_count;
 use crate::method::structure::{Element, Structure};
 use nalgebra::{DMatrix, DVector};
@@ -49,9 +50,6 @@ pub(crate) fn check_element(element: &ElementMatrix, dof_count: usize) -> Result
 
 /// Unit stiffness and mass of every element, restricted to the free DOF, in the structure's order.
 ///
-/// # Errors
-/// [`Error::InElement`] around the geometry error of the first bad element.
-///
 /// # Example
 ///
 /// ```rust
@@ -60,41 +58,34 @@ pub(crate) fn check_element(element: &ElementMatrix, dof_count: usize) -> Result
 /// use nalgebra::dmatrix;
 ///
 /// // The first rod's end at the wall has no free DOF.
-/// let elements = element_matrices(&rods(&[100.0, 50.0], [true, false])?)?;
+/// let elements = element_matrices(&rods(&[100.0, 50.0], [true, false])?);
 /// assert_eq!((elements[0].dof.clone(), elements[0].unit.clone()), (vec![0], dmatrix![1.0]));
 /// assert_eq!(elements[1].unit, dmatrix![1.0, -1.0; -1.0, 1.0]);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn element_matrices(structure: &Structure) -> Result<Vec<ElementMatrix>, Error> {
-    let of_element = |element: &Element| {
-        let &Element {
-            label,
-            kind,
-            ref grids,
-            material,
-            ..
-        } = element;
-        let corners = structure.corners(element);
-        let full =
-            unit_stiffness(kind, &corners, &material).map_err(|error| error.in_element(label))?;
-        let volumes = corner_volumes(kind, &corners)?;
-        let all = grids.iter().flat_map(|&grid| {
+pub fn element_matrices(structure: &Structure) -> Vec<ElementMatrix> {
+    let of_element = |(element, geometry): (&Element, &Geometry)| {
+        let dof = element.grids.iter().flat_map(|&grid| {
             (0..3).map(move |direction| structure.free_dof_index(grid, direction))
         });
-        let (local, dof): (Vec<usize>, Vec<usize>) = all
+        let (local, dof): (Vec<usize>, Vec<usize>) = dof
             .enumerate()
             .filter_map(|(local, dof)| Some((local, dof?)))
             .unzip();
-        let unit_mass = local.iter().map(|&row| material.density * volumes[row / 3]);
-        let unit_mass = DVector::from_iterator(local.len(), unit_mass);
-        Ok(ElementMatrix {
-            label,
-            unit_mass,
+        let full = unit_stiffness(geometry, &element.material);
+        let volumes = corner_volumes(geometry);
+        let unit_mass = local
+            .iter()
+            .map(|&row| element.material.density * volumes[row / 3]);
+        ElementMatrix {
+            label: element.label,
+            unit_mass: DVector::from_iterator(local.len(), unit_mass),
             unit: full.select_rows(&local).select_columns(&local),
             dof,
-        })
+        }
     };
-    structure.elements().iter().map(of_element).collect()
+    let elements = structure.elements().iter();
+    elements.zip(structure.geometry()).map(of_element).collect()
 }
 
 /// The structural stiffness $K_S = \sum_e s_e K_e$ at the free DOF as a dense matrix, lbf/in.
@@ -102,7 +93,7 @@ pub fn element_matrices(structure: &Structure) -> Result<Vec<ElementMatrix>, Err
 /// `sizes` are the gages (in) and areas (in²) $s_e$, one per element; `dof_count` the number of free DOF.
 ///
 /// # Errors
-/// [`Error::WrongShape`], [`Error::TooMany`] for elements that do not fit their sizes or the DOF; [`Error::NotFinite`].
+/// [`Error::WrongShape`], [`Error::TooMany`] for elements that do not fit their sizes or the DOF.
 ///
 /// # Example
 ///
@@ -111,7 +102,7 @@ pub fn element_matrices(structure: &Structure) -> Result<Vec<ElementMatrix>, Err
 /// use corfem::method::assembly::{dense_stiffness, element_matrices};
 /// use nalgebra::dmatrix;
 ///
-/// let elements = element_matrices(&rods(&[100.0, 50.0], [true, false])?)?;
+/// let elements = element_matrices(&rods(&[100.0, 50.0], [true, false])?);
 /// let stiffness = dense_stiffness(&elements, &[100.0, 50.0], 2)?;
 /// assert_eq!(stiffness, dmatrix![150.0, -50.0; -50.0, 50.0]);
 /// # Ok::<(), corfem::method::error::Error>(())
@@ -130,7 +121,7 @@ pub fn dense_stiffness(
     {
         stiffness[(row, column)] += value;
     }
-    finite("structural stiffness", stiffness)
+    Ok(stiffness)
 }
 
 /// The lumped mass of elements of the given sizes at every free DOF, lbf·s²/in.
@@ -149,7 +140,7 @@ pub fn lumped_mass(
             lumped[row] += size * unit;
         }
     }
-    finite_list("lumped mass", lumped.data.into()).map(DVector::from_vec)
+    Ok(lumped)
 }
 
 /// Row, column and value of every entry of $s_e K_e$.

@@ -1,4 +1,4 @@
-//! The method's one error type: every message says what was expected and what was found, and names the offender.
+//! The method's one error type: every message names the offender, its value and what it must be.
 
 use thiserror::Error;
 
@@ -193,8 +193,8 @@ pub enum Error {
     /// A structure on supports, where the reactions balance the forces of a mode: the largest squared suspension frequency over
     /// the mode's, and the largest ratio allowed.
     #[error(
-        "test mode {mode} (from zero): expected a free or softly suspended structure, rigid-body stiffness at most \
-         {limit} of the mode's inertia, found {ratio:.3e}; supports balance the forces there"
+        "test mode {mode} (from zero): the rigid-body stiffness is {ratio:.3e} of the mode's inertia; on a free or softly \
+         suspended structure it is at most {limit}, and supports balance the forces of any other"
     )]
     Supported { mode: usize, ratio: f64, limit: f64 },
 }
@@ -253,7 +253,7 @@ pub(crate) fn positive_setting(name: &'static str, found: f64) -> Result<(), Err
     )
 }
 
-/// Refuses to go on with none of something.
+/// Errors if `count` is zero.
 pub(crate) fn at_least_one(what: &'static str, count: usize) -> Result<(), Error> {
     if count > 0 {
         Ok(())

@@ -72,7 +72,7 @@ pub struct ModeError {
 /// # Errors
 /// [`Error::WrongShape`], [`Error::TooMany`] for modes other than those paired; [`Error::NotPositive`] for an analysis mode that
 /// moves at none of the DOF compared; [`Error::NotFinite`] for frequencies so far apart, or shapes so small, that their squares are
-/// no number.
+/// not finite.
 pub fn mode_errors(
     analysis: &ModeSet,
     pairing: &Pairing,

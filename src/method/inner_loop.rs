@@ -4,7 +4,7 @@
 use crate::method::derivatives::{DerivativeRule, error_changes};
 use crate::method::error::{Error, positive_setting};
 use crate::method::error_sum::{ErrorMeasure, Errors};
-use crate::method::linear_algebra::{check_length, finite_list};
+use crate::method::linear_algebra::check_length;
 use crate::method::model::{ModalModel, Range};
 use crate::method::state::{ModalState, UpdateRule};
 use crate::method::step::{
@@ -60,6 +60,16 @@ impl Default for InnerSettings {
             measure: ErrorMeasure::default(),
             update: UpdateRule::default(),
         }
+    }
+}
+
+impl InnerSettings {
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let Range { lower, upper } = self.factor_range;
+        Range::positive("factor limits", lower, upper)?;
+        positive_setting("first_relaxation", self.first_relaxation)?;
+        positive_setting("relaxation", self.relaxation)?;
+        positive_setting("tolerance", self.tolerance)
     }
 }
 
@@ -145,86 +155,23 @@ pub fn run(
     total_ranges: &[Option<Range>],
     settings: &InnerSettings,
 ) -> Result<InnerRun, Error> {
-    positive_setting("first_relaxation", settings.first_relaxation)?;
-    positive_setting("relaxation", settings.relaxation)?;
-    positive_setting("tolerance", settings.tolerance)?;
-    Range::positive(
-        "factor limits",
-        settings.factor_range.lower,
-        settings.factor_range.upper,
-    )?;
-    check_length("parameter factors", base.len(), model.shares.len())?;
-    check_length("parameter limits", total_ranges.len(), model.shares.len())?;
-    let is_range =
-        |range: &Range| Range::positive("parameter limits", range.lower, range.upper).map(drop);
-    total_ranges.iter().flatten().try_for_each(is_range)?;
-    let (mut factors, mut state) = (vec![1.0; base.len()], ModalState::start(model));
-    let start = state.errors;
-    let scale = settings.measure.scale(model.test.len());
-    let mut iterations: Vec<Iteration> = Vec::new();
-    let mut first_unlimited_factors = Vec::new();
-    let stop = loop {
-        if iterations.len() == settings.iterations {
-            break Stop::Iterations;
-        }
-        let changes = error_changes(model, &state, settings.derivatives)?;
-        let stiffnesses = stiffness_changes(model, &state.factors, &factors, settings.step);
-        let relaxation = if iterations.is_empty() {
-            settings.first_relaxation
-        } else {
-            settings.relaxation
-        };
-        let unlimited = finite_list(
-            "unlimited factors",
-            unlimited_factors(
-                &changes,
-                &stiffnesses,
-                scale * state.errors.sum(),
-                relaxation,
-            ),
-        )?;
-        if iterations.is_empty() {
-            first_unlimited_factors.clone_from(&unlimited);
-        }
-        let step = match lowering_step(
-            model,
-            &state,
-            &factors,
-            &unlimited,
-            base,
-            total_ranges,
-            settings,
-        ) {
-            Ok(Some(step)) => step,
-            Ok(None) => break Stop::LocalMinimum,
-            // An error in the first step names the modes that prevent any; later ones end the loop where it is.
-            Err(error) if error.is_of_close_modes() && !iterations.is_empty() => {
-                break Stop::LocalMinimum;
-            }
-            Err(error) => return Err(error),
-        };
-        (factors, state) = (step.factors, step.state);
-        iterations.push(Iteration {
-            error_changes: changes,
-            stiffness_changes: stiffnesses,
-            unlimited_factors: unlimited,
-            halvings: step.halvings,
-            factors: factors.clone(),
-            limits: step.limits,
-            errors: state.errors,
-        });
-        if scale * state.errors.sum() < settings.tolerance {
-            break Stop::Tolerance;
-        }
-    };
-    Ok(InnerRun {
-        start,
-        iterations,
-        last: state,
-        factors,
-        first_unlimited_factors,
-        stop,
-    })
+    settings.check()?;
+    InnerLoop::new(model, base, total_ranges, settings, &|model, state| {
+        error_changes(model, state, settings.derivatives)
+    })?
+    .run()
+}
+
+/// The function that gives the change of the error sum by every parameter (12): [`error_changes`] or a faster form of it.
+pub type Derivative<'a> = &'a dyn Fn(&ModalModel, &ModalState) -> Result<Vec<f64>, Error>;
+
+/// What one inner loop works on.
+pub(crate) struct InnerLoop<'a> {
+    model: &'a ModalModel,
+    base: &'a [f64],
+    total_ranges: &'a [Option<Range>],
+    settings: &'a InnerSettings,
+    derivative: Derivative<'a>,
 }
 
 /// A step that lowers the error sum, and where it leads.
@@ -235,54 +182,155 @@ struct Step {
     state: ModalState,
 }
 
-/// The longest of the limited step and its halvings that lowers the error sum, if one does. An error when modes are too close
-/// in every one of them: that of the shortest.
-fn lowering_step(
-    model: &ModalModel,
-    state: &ModalState,
-    factors: &[f64],
-    unlimited: &[f64],
-    base: &[f64],
-    total_ranges: &[Option<Range>],
-    settings: &InnerSettings,
-) -> Result<Option<Step>, Error> {
-    let (mut is_too_far, mut refusal) = (false, None);
-    for halvings in 0..=settings.halvings {
-        let fraction = 0.5_f64.powi(halvings as i32);
-        let next = |e: usize| {
-            limited_factor(
-                unlimited[e],
-                fraction,
-                factors[e],
-                base[e],
-                settings.factor_range,
-                total_ranges[e],
-            )
-        };
-        let (next, limits): (Vec<f64>, Vec<Limit>) = (0..factors.len()).map(next).unzip();
-        let share_factor = |e: usize| {
-            settings
-                .accumulation
-                .next_share_factor(state.factors[e], factors[e], next[e])
-        };
-        match ModalState::at(
-            model,
-            (0..factors.len()).map(share_factor).collect(),
-            settings.update,
-        ) {
-            Ok(lower) if lower.errors.sum() < state.errors.sum() => {
-                return Ok(Some(Step {
-                    halvings,
-                    limits,
-                    factors: next,
-                    state: lower,
-                }));
-            }
-            // Uphill, or too far for the perturbation: a shorter step may do.
-            Ok(_) | Err(Error::LostRoot { .. } | Error::NotAVibration { .. }) => is_too_far = true,
-            Err(error) if error.is_of_close_modes() => refusal = Some(error),
-            Err(other) => return Err(other),
+impl<'a> InnerLoop<'a> {
+    pub(crate) fn new(
+        model: &'a ModalModel,
+        base: &'a [f64],
+        total_ranges: &'a [Option<Range>],
+        settings: &'a InnerSettings,
+        derivative: Derivative<'a>,
+    ) -> Result<Self, Error> {
+        check_length("parameter factors", base.len(), model.shares.len())?;
+        check_length("parameter limits", total_ranges.len(), model.shares.len())?;
+        for range in total_ranges.iter().flatten() {
+            Range::positive("parameter limits", range.lower, range.upper)?;
         }
+        Ok(Self {
+            model,
+            base,
+            total_ranges,
+            settings,
+            derivative,
+        })
     }
-    refusal.filter(|_| !is_too_far).map_or(Ok(None), Err)
+
+    pub(crate) fn run(&self) -> Result<InnerRun, Error> {
+        let (mut factors, mut state) = (vec![1.0; self.base.len()], ModalState::start(self.model));
+        let start = state.errors;
+        let (mut iterations, mut first_unlimited_factors) = (Vec::new(), Vec::new());
+        let stop = loop {
+            if iterations.len() == self.settings.iterations {
+                break Stop::Iterations;
+            }
+            let is_first = iterations.is_empty();
+            let direction = self.direction(&state, &factors, is_first)?;
+            if is_first {
+                first_unlimited_factors.clone_from(&direction.unlimited_factors);
+            }
+            let step = match self.lowering_step(&state, &factors, &direction.unlimited_factors) {
+                Ok(Some(step)) => step,
+                Ok(None) => break Stop::LocalMinimum,
+                // An error in the first step names the modes that prevent any; later ones end the loop where it is.
+                Err(error) if error.is_of_close_modes() && !is_first => break Stop::LocalMinimum,
+                Err(error) => return Err(error),
+            };
+            (factors, state) = (step.factors, step.state);
+            iterations.push(Iteration {
+                halvings: step.halvings,
+                factors: factors.clone(),
+                limits: step.limits,
+                errors: state.errors,
+                ..direction
+            });
+            if self.measured(&state) < self.settings.tolerance {
+                break Stop::Tolerance;
+            }
+        };
+        Ok(InnerRun {
+            start,
+            iterations,
+            last: state,
+            factors,
+            first_unlimited_factors,
+            stop,
+        })
+    }
+
+    /// The error sum in the measure of the settings.
+    fn measured(&self, state: &ModalState) -> f64 {
+        self.settings.measure.scale(self.model.test.len()) * state.errors.sum()
+    }
+
+    /// Derivatives (12) and the factors of (13) at the present state: an iteration whose step is yet to come.
+    fn direction(
+        &self,
+        state: &ModalState,
+        factors: &[f64],
+        is_first: bool,
+    ) -> Result<Iteration, Error> {
+        let settings = self.settings;
+        let error_changes = (self.derivative)(self.model, state)?;
+        let stiffness_changes =
+            stiffness_changes(self.model, &state.factors, factors, settings.step);
+        let relaxation = if is_first {
+            settings.first_relaxation
+        } else {
+            settings.relaxation
+        };
+        let unlimited_factors = unlimited_factors(
+            &error_changes,
+            &stiffness_changes,
+            self.measured(state),
+            relaxation,
+        );
+        Ok(Iteration {
+            error_changes,
+            stiffness_changes,
+            unlimited_factors,
+            halvings: 0,
+            factors: Vec::new(),
+            limits: Vec::new(),
+            errors: state.errors,
+        })
+    }
+
+    /// Tries the limited step, then its halvings, and returns the first that lowers the error sum. When modes come too close in
+    /// every trial, returns the last error.
+    fn lowering_step(
+        &self,
+        state: &ModalState,
+        factors: &[f64],
+        unlimited: &[f64],
+    ) -> Result<Option<Step>, Error> {
+        let settings = self.settings;
+        let (mut is_too_far, mut refusal) = (false, None);
+        for halvings in 0..=settings.halvings {
+            let fraction = 0.5_f64.powi(halvings as i32);
+            let next = |e: usize| {
+                let (total_range, base) = (self.total_ranges[e], self.base[e]);
+                limited_factor(
+                    unlimited[e],
+                    fraction,
+                    factors[e],
+                    base,
+                    settings.factor_range,
+                    total_range,
+                )
+            };
+            let (next, limits): (Vec<f64>, Vec<Limit>) = (0..factors.len()).map(next).unzip();
+            let accumulated = |e: usize| {
+                settings
+                    .accumulation
+                    .next_share_factor(state.factors[e], factors[e], next[e])
+            };
+            let share_factors = (0..factors.len()).map(accumulated).collect();
+            match ModalState::at(self.model, share_factors, settings.update) {
+                Ok(lower) if lower.errors.sum() < state.errors.sum() => {
+                    return Ok(Some(Step {
+                        halvings,
+                        limits,
+                        factors: next,
+                        state: lower,
+                    }));
+                }
+                // Uphill, or too far for the perturbation: a shorter step may do.
+                Ok(_) | Err(Error::LostRoot { .. } | Error::NotAVibration { .. }) => {
+                    is_too_far = true;
+                }
+                Err(error) if error.is_of_close_modes() => refusal = Some(error),
+                Err(other) => return Err(other),
+            }
+        }
+        refusal.filter(|_| !is_too_far).map_or(Ok(None), Err)
+    }
 }

@@ -64,6 +64,20 @@ pub fn check_shape<T>(
     }
 }
 
+/// Refuses matrices, real or complex, of another shape or with entries that are not finite.
+///
+/// # Errors
+/// Those of [`check_shape`] and [`check_finite`].
+pub(crate) fn check_matrix<T: Number>(
+    what: &'static str,
+    matrix: &DMatrix<T>,
+    rows: usize,
+    columns: usize,
+) -> Result<(), Error> {
+    check_shape(what, matrix, rows, columns)?;
+    check_finite(what, matrix)
+}
+
 /// Refuses lists of another length.
 ///
 /// # Errors
@@ -86,8 +100,7 @@ pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result
 /// # Errors
 /// [`Error::WrongShape`], [`Error::NotFinite`], [`Error::NotSymmetric`].
 pub fn check_symmetric(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), Error> {
-    check_shape(what, matrix, matrix.nrows(), matrix.nrows())?;
-    check_finite(what, matrix)?;
+    check_matrix(what, matrix, matrix.nrows(), matrix.nrows())?;
     let pairs = (0..matrix.ncols())
         .flat_map(|column| (column..matrix.nrows()).map(move |row| (row, column)));
     let apart =

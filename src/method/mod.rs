@@ -6,6 +6,7 @@
 pub mod error;
 pub mod linear_algebra;
 
+pub mod geometry;
 pub mod structure;
 pub mod elements;
 pub mod assembly;

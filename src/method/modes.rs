@@ -3,7 +3,7 @@
 
 use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{
-    check_finite, check_shape, check_symmetric, cholesky, pencil_eigen,
+    check_matrix, check_shape, check_symmetric, cholesky, pencil_eigen,
 };
 use crate::method::structure::positive;
 use nalgebra::{DMatrix, DVector, DVectorView};
@@ -14,7 +14,14 @@ use std::ops::Deref;
 /// in a symmetric shape does not choose its sign.
 pub(crate) const SIGN_TIE: f64 = 1e-6;
 
-/// A set of modes in any order and of any scale: measured ones, or those that a perturbation leads to.
+/// A set of modes in any order and of any scale: measured ones, or those that a perturbation leads to. Every squared frequency is
+/// positive, and every shape has a component that is not zero:
+///
+/// ```compile_fail,E0451
+/// # use corfem::method::modes::ModeSet;
+/// # use nalgebra::{dmatrix, dvector};
+/// let still = ModeSet { omega_squared: dvector![0.0], shapes: dmatrix![0.0] };
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModeSet {
     /// Squared circular frequencies $\omega_i^2$, rad²/s².
@@ -41,13 +48,8 @@ impl ModeSet {
     /// positive or a shape that is zero.
     pub fn new(omega_squared: DVector<f64>, shapes: DMatrix<f64>) -> Result<Self, Error> {
         at_least_one("test modes", omega_squared.len())?;
-        check_shape(
-            "test mode shapes",
-            &shapes,
-            shapes.nrows(),
-            omega_squared.len(),
-        )?;
-        check_finite("test mode shapes", &shapes)?;
+        let (rows, modes) = (shapes.nrows(), omega_squared.len());
+        check_matrix("test mode shapes", &shapes, rows, modes)?;
         for (mode, (&square, shape)) in omega_squared.iter().zip(shapes.column_iter()).enumerate() {
             positive("squared frequency", || test_mode(mode), square)?;
             positive("largest component", || test_mode(mode), shape.amax())?;
@@ -150,7 +152,14 @@ fn test_mode(mode: usize) -> String {
 /// $$ V^t M V = I, \qquad V^t K V = \mathrm{diag}(\omega^2), $$
 ///
 /// in in/(lbf·s²/in)^½, signed so that the first of their largest components (within one part in a million) is positive.
-/// Nothing outside this module can make or change one, so every `Modes` keeps that promise; it is read as a [`ModeSet`].
+/// Nothing outside this crate can make or change one, so every `Modes` keeps that promise; it is read as a [`ModeSet`]:
+///
+/// ```compile_fail,E0423
+/// # use corfem::method::modes::{ModeSet, Modes};
+/// # use nalgebra::{dmatrix, dvector};
+/// // Measured modes are not an eigensolution.
+/// let modes = Modes(ModeSet::new(dvector![9.0], dmatrix![1.0]).unwrap());
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modes(ModeSet);
 
@@ -189,7 +198,7 @@ impl Modes {
     }
 }
 
-/// Refuses to take none of something, or more of it than there is.
+/// Requires at least one and at most as many as there are.
 pub(crate) fn check_count(
     what: &'static str,
     requested: usize,

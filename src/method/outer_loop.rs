@@ -1,12 +1,14 @@
 //! The outer loop: finite element analysis, inner loop, and back, until analysis and test agree.
 //! Tour: [chapter 5](crate::tour::chapter_05_inner_loop).
 
+use crate::method::derivatives::error_changes;
 use crate::method::error::{Error, positive_setting};
 use crate::method::error_sum::{Errors, mode_errors};
-use crate::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
+use crate::method::inner_loop::{Derivative, InnerLoop, InnerRun, InnerSettings, Stop};
 use crate::method::linear_algebra::check_length;
 use crate::method::model::{Check, ModalModel, Range};
 use crate::method::verdict::{Outcome, Verdict};
+use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 /// When analysis and test count as correlated, and how long to try.
@@ -42,6 +44,16 @@ impl Default for Settings {
             least_passes: 1,
             most_passes: 10,
         }
+    }
+}
+
+impl Settings {
+    fn check(&self) -> Result<(), Error> {
+        self.inner.check()?;
+        positive_setting("later_inner_tolerance", self.later_inner_tolerance)?;
+        positive_setting("error_sum_tolerance", self.error_sum_tolerance)?;
+        positive_setting("frequency_tolerance", self.frequency_tolerance)?;
+        positive_setting("shape_tolerance", self.shape_tolerance)
     }
 }
 
@@ -110,40 +122,40 @@ pub fn correlate<E: From<Error>>(
     settings: &Settings,
     mut progress: impl FnMut(usize, &Pass),
 ) -> Result<Correlation, E> {
-    correlate_while(&mut analyze, total_ranges, settings, &mut |number, pass| {
-        progress(number, pass);
-        true
-    })
+    let derivative = |model: &_, state: &_| error_changes(model, state, settings.inner.derivatives);
+    correlate_while(
+        &mut analyze,
+        &derivative,
+        total_ranges,
+        settings,
+        &mut |number, pass| {
+            progress(number, pass);
+            true
+        },
+    )
 }
 
-/// The same, ended after a pass for which `progress` returns false: what was found until then is kept. It is compiled once per
-/// type of error, and not once per caller.
+/// The same with any function for the derivatives, ended after a pass for which `progress` returns false: what was found until
+/// then is kept. It is compiled once per type of error, and not once per caller.
 pub(crate) fn correlate_while<E: From<Error>>(
     analyze: &mut dyn FnMut(&[f64]) -> Result<ModalModel, E>,
+    derivative: Derivative,
     total_ranges: &[Option<Range>],
     settings: &Settings,
     progress: &mut dyn FnMut(usize, &Pass) -> bool,
 ) -> Result<Correlation, E> {
-    positive_setting("later_inner_tolerance", settings.later_inner_tolerance)?;
-    positive_setting("error_sum_tolerance", settings.error_sum_tolerance)?;
-    positive_setting("frequency_tolerance", settings.frequency_tolerance)?;
-    positive_setting("shape_tolerance", settings.shape_tolerance)?;
+    settings.check()?;
     let mut factors = vec![1.0; total_ranges.len()];
     let mut model = analyze(&factors)?;
-    check_length("parameter factors", total_ranges.len(), model.shares.len())?;
-    let (test, initial) = (model.test.clone(), model.exact.clone());
-    let seen: Vec<f64> = model
-        .test_shares
-        .iter()
-        .map(|share| share.diagonal().amax())
-        .collect();
-    let mut passes: Vec<Pass> = Vec::new();
+    check_length("parameter factors", factors.len(), model.shares.len())?;
+    let (first, mut passes) = (model.clone(), Vec::<Pass>::new());
     let mut inner_settings = settings.inner.clone();
-    let mut converged = meets(&initial.errors, settings);
+    let mut converged = meets(&model.exact.errors, settings);
     while passes.len() < settings.most_passes
         && (passes.len() < settings.least_passes || !converged)
     {
-        let inner = match run(&model, &factors, total_ranges, &inner_settings) {
+        let inner = InnerLoop::new(&model, &factors, total_ranges, &inner_settings, derivative)?;
+        let inner = match inner.run() {
             Ok(inner) => inner,
             // Nowhere to go from here, as in a local minimum: what the passes before have reached is kept.
             Err(error) if error.is_of_close_modes() && !passes.is_empty() => break,
@@ -166,46 +178,68 @@ pub(crate) fn correlate_while<E: From<Error>>(
         }
         inner_settings.tolerance = settings.later_inner_tolerance;
     }
-    // The start stands before the passes. Whether it is within tolerance comes before how large its error sum is.
-    let ones = vec![1.0; total_ranges.len()];
-    let checks = passes
-        .iter()
-        .enumerate()
-        .map(|(pass, Pass { check, factors, .. })| (Some(pass), check, factors));
-    let place = |check: &Check| (!meets(&check.errors, settings), check.errors.sum());
-    let (best, check, factors) = checks.fold((None, &initial, &ones), |best, next| {
-        if place(next.1) < place(best.1) {
-            next
-        } else {
-            best
-        }
-    });
-    let converged = meets(&check.errors, settings);
-    let errors = mode_errors(&check.modes, &check.pairing, &test)?;
-    let has_stepped = passes.iter().any(|pass| !pass.inner.iterations.is_empty());
-    let outcome = match passes.last() {
-        _ if !has_stepped && !converged => Outcome::Nothing,
-        Some(pass) if pass.inner.stop == Stop::LocalMinimum => Outcome::LocalMinimum,
-        _ if converged => Outcome::Tolerance,
-        _ => Outcome::Cap,
-    };
-    let verdict = Verdict::new(
-        outcome,
-        (check.errors.sum(), &errors),
-        factors,
-        &seen,
-        total_ranges,
-        converged,
-    );
-    let best_factors = factors.clone();
-    Ok(Correlation {
-        initial,
+    Ok(Correlation::best_of(
+        &first,
         passes,
-        best,
-        best_factors,
-        converged,
-        verdict,
-    })
+        total_ranges,
+        settings,
+    )?)
+}
+
+impl Correlation {
+    /// The best of the first model and all passes, and the verdict on it.
+    fn best_of(
+        first: &ModalModel,
+        passes: Vec<Pass>,
+        total_ranges: &[Option<Range>],
+        settings: &Settings,
+    ) -> Result<Self, Error> {
+        let ones = vec![1.0; total_ranges.len()];
+        let start = (None, &first.exact, &ones);
+        let checks = passes
+            .iter()
+            .enumerate()
+            .map(|(pass, Pass { check, factors, .. })| (Some(pass), check, factors));
+        // Whether a result is within tolerance comes before how large its error sum is.
+        let place = |check: &Check| (!meets(&check.errors, settings), check.errors.sum());
+        let (best, check, factors) = checks.fold(start, |best, next| {
+            if place(next.1) < place(best.1) {
+                next
+            } else {
+                best
+            }
+        });
+        let converged = meets(&check.errors, settings);
+        let has_stepped = passes.iter().any(|pass| !pass.inner.iterations.is_empty());
+        let outcome = match passes.last() {
+            _ if !has_stepped && !converged => Outcome::Nothing,
+            Some(pass) if pass.inner.stop == Stop::LocalMinimum => Outcome::LocalMinimum,
+            _ if converged => Outcome::Tolerance,
+            _ => Outcome::Cap,
+        };
+        let errors = mode_errors(&check.modes, &check.pairing, &first.test)?;
+        let largest_part = |share: &DMatrix<f64>| share.diagonal().amax();
+        let verdict = Verdict::new(
+            outcome,
+            (check.errors.sum(), &errors),
+            factors,
+            &first
+                .test_shares
+                .iter()
+                .map(largest_part)
+                .collect::<Vec<_>>(),
+            total_ranges,
+            converged,
+        );
+        Ok(Self {
+            initial: first.exact.clone(),
+            best,
+            best_factors: factors.clone(),
+            passes,
+            converged,
+            verdict,
+        })
+    }
 }
 
 /// Whether errors meet the tolerances in the measure of the settings.

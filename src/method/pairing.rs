@@ -1,13 +1,17 @@
 //! Pairing (4), which the paper calls mode sorting: which analysis mode answers which test mode.
 //! Tour: [chapter 3](crate::tour::chapter_03_error_sum).
 
-use crate::method::error::Error;
+use crate::method::error::{Error, setting};
 use crate::method::linear_algebra::{check_finite, check_length, check_shape, finite};
 use crate::method::modes::{ModeSet, check_count};
 use crate::method::structure::positive;
 use nalgebra::DMatrix;
 
-/// The analysis mode paired with every test mode.
+/// The analysis mode paired with every test mode. A sign is +1 or −1:
+///
+/// ```compile_fail,E0451
+/// let pairing = corfem::method::pairing::Pairing { analysis_mode: vec![0], sign: vec![0.5] };
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pairing {
     /// For each test mode, the index of its analysis mode.
@@ -30,9 +34,12 @@ impl Pairing {
     /// Pairs of known analysis modes (from zero) and signs, one of each for every test mode.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] for lists of different lengths.
+    /// [`Error::WrongShape`] for lists of different lengths; [`Error::Setting`] for another sign.
     pub fn new(analysis_mode: Vec<usize>, sign: Vec<f64>) -> Result<Self, Error> {
         check_length("signs of paired modes", sign.len(), analysis_mode.len())?;
+        for &sign in &sign {
+            setting("sign of a paired mode", "1 or -1", sign, sign.abs() == 1.0)?;
+        }
         Ok(Self {
             analysis_mode,
             sign,
@@ -212,15 +219,12 @@ pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
 /// The paired analysis modes, in the order and with the signs of the test modes.
 ///
 /// # Errors
-/// [`Error::WrongShape`], [`Error::TooMany`] for a pairing of other modes; [`Error::NotFinite`].
+/// [`Error::WrongShape`], [`Error::TooMany`] for a pairing of other modes.
 pub fn paired(analysis: &ModeSet, pairing: &Pairing) -> Result<ModeSet, Error> {
     pairing.check(analysis, pairing.sign.len())?;
     let mut paired = analysis.select(&pairing.analysis_mode);
     for (mut shape, &sign) in paired.shapes.column_iter_mut().zip(&pairing.sign) {
         shape *= sign;
     }
-    Ok(ModeSet {
-        shapes: finite("paired mode shapes", paired.shapes)?,
-        ..paired
-    })
+    Ok(paired)
 }

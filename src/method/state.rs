@@ -30,7 +30,13 @@ pub enum UpdateRule {
     Eigensolution,
 }
 
-/// The modes and errors at some factors on a modal model's shares.
+/// The modes and errors at some factors on a modal model's shares. They belong together:
+///
+/// ```compile_fail,E0616
+/// # fn better(mut state: corfem::method::state::ModalState) {
+/// state.errors.shape = 0.0;
+/// # }
+/// ```
 #[derive(Debug, Clone)]
 pub struct ModalState {
     /// Factor on each parameter's share since the last exact modes.

@@ -70,7 +70,7 @@ pub fn unlimited_factors(
     relaxation: f64,
 ) -> Vec<f64> {
     let factor = |(&error, &stiffness): (&f64, &f64)| match stiffness > 0.0 {
-        // One beyond the range of numbers is limited all the same.
+        // An infinite factor becomes the largest finite number; the limits cut it anyway.
         true => (1.0 - relaxation * error_sum * error / stiffness).clamp(-f64::MAX, f64::MAX),
         false => 1.0,
     };
@@ -151,7 +151,7 @@ impl Accumulation {
     /// The factor on a stored share after a step that takes its gage's factor from `total` to `next`.
     pub fn next_share_factor(self, share_factor: f64, total: f64, next: f64) -> f64 {
         match self {
-            // Not `max`, which would make a number of what is none.
+            // `f64::max` would turn NaN into a number.
             Self::Sum if share_factor + next / total - 1.0 < LEAST_SHARE => LEAST_SHARE,
             Self::Sum => share_factor + next / total - 1.0,
             Self::Product => next,

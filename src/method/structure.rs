@@ -2,8 +2,9 @@
 //! Tour: [chapter 7](crate::tour::chapter_07_box).
 
 use crate::method::error::{Error, at_least_one, setting};
+pub use crate::method::geometry::ElementKind;
+use crate::method::geometry::Geometry;
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
 use std::collections::{HashMap, HashSet};
 
 /// Names of the three directions of a grid point's motion, in the order of its DOF.
@@ -80,30 +81,6 @@ fn material() -> String {
     "the material".into()
 }
 
-/// What an element is made of and what it resists.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum ElementKind {
-    /// Axial member between two grids; its size is a cross section (area), in².
-    Rod,
-    /// Garvey shear panel between four grids; its size is a gage (thickness), in.
-    ShearPanel,
-    /// Membrane panel of four overlapping triangles between four grids; its size is a gage, in.
-    Membrane,
-    /// Constant-strain triangle between three grids; its size is a gage, in.
-    Triangle,
-}
-
-impl ElementKind {
-    /// How many grid points the element joins.
-    pub fn corner_count(self) -> usize {
-        match self {
-            Self::Rod => 2,
-            Self::Triangle => 3,
-            Self::ShearPanel | Self::Membrane => 4,
-        }
-    }
-}
-
 /// One finite element.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Element {
@@ -120,35 +97,25 @@ pub struct Element {
 }
 
 impl Element {
-    fn check(&self, index_of_grid: &HashMap<usize, usize>) -> Result<(), Error> {
-        let (expected, found) = (self.kind.corner_count(), self.grids.len());
-        if found != expected {
-            return Err(Error::WrongCornerCount { expected, found }.in_element(self.label));
-        }
+    /// Where the element lies, from the positions of all grids.
+    fn geometry(
+        &self,
+        position: impl Fn(usize) -> Option<Vector3<f64>>,
+    ) -> Result<Geometry, Error> {
         let owner = || format!("element {}", self.label);
-        if let Some(&label) = self
-            .grids
-            .iter()
-            .find(|grid| !index_of_grid.contains_key(grid))
-        {
-            return Err(Error::Unknown {
+        let corner = |&label: &usize| {
+            position(label).ok_or_else(|| Error::Unknown {
                 owner: owner(),
                 what: "grid",
                 label,
-            });
-        }
-        self.material
-            .check()
-            .map_err(|error| error.in_element(self.label))?;
-        positive(
-            if self.kind == ElementKind::Rod {
-                "area"
-            } else {
-                "gage"
-            },
-            owner,
-            self.size,
-        )
+            })
+        };
+        let corners: Vec<_> = self.grids.iter().map(corner).collect::<Result<_, _>>()?;
+        let is_rod = self.kind == ElementKind::Rod;
+        positive(if is_rod { "area" } else { "gage" }, owner, self.size)?;
+        (self.material.check())
+            .and_then(|()| Geometry::new(self.kind, &corners))
+            .map_err(|error| error.in_element(self.label))
     }
 }
 
@@ -161,7 +128,7 @@ pub struct StructuralDof {
     pub direction: usize,
 }
 
-/// A checked structure: grids and elements that refer to each other correctly.
+/// A checked structure: grids and elements that refer to each other correctly and have a length or an area.
 ///
 /// Its free structural DOF (SDOF) are the directions that are not constrained, grid by grid in the order given,
 /// x before y before z. Every matrix over SDOF in this crate has its rows in that order.
@@ -169,6 +136,7 @@ pub struct StructuralDof {
 pub struct Structure {
     grids: Vec<Grid>,
     elements: Vec<Element>,
+    geometry: Vec<Geometry>,
     index_of_grid: HashMap<usize, usize>,
     free: Vec<StructuralDof>,
     free_index: HashMap<(usize, usize), usize>,
@@ -179,7 +147,7 @@ impl Structure {
     ///
     /// # Errors
     /// [`Error::Empty`] without elements; [`Error::Duplicate`], [`Error::Unknown`], [`Error::NotFinite`] (a
-    /// coordinate), [`Error::NotPositive`] (a size), and [`Error::InElement`] around a bad material or number of grids.
+    /// coordinate), [`Error::NotPositive`] (a size), and [`Error::InElement`] around a bad material or geometry.
     ///
     /// # Example
     ///
@@ -233,7 +201,13 @@ impl Structure {
                 }
             }
         }
+        let position = |label| {
+            index_of_grid
+                .get(&label)
+                .map(|&row: &usize| grids[row].position)
+        };
         let mut seen = HashSet::new();
+        let mut geometry = Vec::new();
         for element in &elements {
             if !seen.insert(element.label) {
                 return Err(Error::Duplicate {
@@ -241,11 +215,12 @@ impl Structure {
                     label: element.label,
                 });
             }
-            element.check(&index_of_grid)?;
+            geometry.push(element.geometry(position)?);
         }
         Ok(Self {
             grids,
             elements,
+            geometry,
             index_of_grid,
             free,
             free_index,
@@ -260,6 +235,11 @@ impl Structure {
     /// The elements, in the order given.
     pub fn elements(&self) -> &[Element] {
         &self.elements
+    }
+
+    /// Where every element lies.
+    pub fn geometry(&self) -> &[Geometry] {
+        &self.geometry
     }
 
     /// The free structural DOF, in the order of every SDOF matrix.

@@ -44,7 +44,7 @@ pub fn dump(case: &Case) -> Result<Dump, PresentError> {
         let modes = solve(&dynamic.stiffness, &dynamic.mass, dynamic.mass.nrows())?;
         let points = DMatrix::identity(dynamic.mass.nrows(), dynamic.mass.nrows());
         let b = (&condensed.transformation * &points).transpose();
-        let mut analysis = json!({"factors": factors, "sizes": model.sizes(factors)?, "frequencies_hz": modes.frequencies_hz()});
+        let mut analysis = json!({"factors": factors, "sizes": model.at(factors)?.sizes, "frequencies_hz": modes.frequencies_hz()});
         for (name, matrix) in [
             ("K_D", &dynamic.stiffness),
             ("M", &dynamic.mass),

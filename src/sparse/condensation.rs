@@ -4,9 +4,9 @@
 use crate::method::appendix_a::dynamic_stiffness;
 use crate::method::assembly::ElementMatrix;
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_length, check_shape, finite};
+use crate::method::linear_algebra::{check_length, check_shape};
 use crate::method::model::{
-    DynamicModel, FiniteElementModel, ModalModel, Parameter, ScaledStructure, Share,
+    DynamicModel, FiniteElementModel, ModalModel, Parameter, ScaledSizes, ScaledStructure, Share,
 };
 use crate::method::modes::{ModeSet, Modes, solve};
 use crate::method::structure::Structure;
@@ -97,20 +97,22 @@ impl LargeModel {
     /// # Errors
     /// Those of [`FiniteElementModel::condense`].
     pub fn condense(&self, factors: &[f64]) -> Result<LargeCondensation, Error> {
-        let (sizes, mass_sizes) = (self.sizes(factors)?, self.mass_sizes(factors)?);
+        self.condense_at(&self.at(factors)?)
+    }
+
+    fn condense_at(&self, at: &ScaledSizes) -> Result<LargeCondensation, Error> {
         let (elements, loads) = (self.element_matrices(), self.load_distribution.clone());
         let free = self.structure().free_dof();
-        let structural = FactorizedStiffness::planned(&self.plan, elements, &sizes, free)?;
+        let structural = FactorizedStiffness::planned(&self.plan, elements, &at.sizes, free)?;
         let stiffness = dynamic_stiffness(&structural.flexibility(&loads)?)?;
-        let mut mass = self.point_masses(factors)?;
+        let mut mass = at.point_masses.clone();
         if elements
             .iter()
             .any(|element| element.unit_mass.amax() > 0.0)
         {
             let b = structural.solve_transposed(&loads.times(&stiffness))?;
-            mass += sum_of_mass(&b, elements.iter().zip(mass_sizes.iter().copied()));
+            mass += sum_of_mass(&b, elements.iter().zip(at.mass_sizes.iter().copied()));
         }
-        let mass = finite("dynamic mass", mass)?;
         Ok(LargeCondensation {
             stiffness,
             mass,
@@ -119,19 +121,19 @@ impl LargeModel {
         })
     }
 
-    fn shares(
+    fn condensed_shares(
         &self,
         condensed: &LargeCondensation,
-        factors: &[f64],
+        at: &ScaledSizes,
         shapes: &DMatrix<f64>,
     ) -> Result<Vec<Share>, Error> {
         let transposed = condensed.transposed_shapes(shapes)?;
-        self.scaled.shares_of(
-            factors,
+        Ok(self.scaled.shares(
+            at,
             shapes,
             |members| sum_of_stiffness(&transposed, members.iter().copied()),
             |members| sum_of_mass(&transposed, members.iter().copied()),
-        )
+        ))
     }
 
     /// The finite element analysis at the given parameter factors, compared with the test modes: the same as
@@ -145,14 +147,15 @@ impl LargeModel {
         test: &ModeSet,
         analysis_modes: Option<usize>,
     ) -> Result<ModalModel, Error> {
-        let condensed = self.condense(factors)?;
+        let at = self.at(factors)?;
+        let condensed = self.condense_at(&at)?;
         let LargeCondensation {
             stiffness, mass, ..
         } = &condensed;
         let model = ModalModel::new(stiffness, mass, test, analysis_modes, |shapes| {
-            self.shares(&condensed, factors, shapes)
+            self.condensed_shares(&condensed, &at, shapes)
         })?;
-        Ok(model.with_sizes(self.mean_sizes(factors)?))
+        Ok(model.with_sizes(at.mean_sizes))
     }
 
     /// $K_D$, $M$ and every parameter's share of them as matrices (d × d).
@@ -160,9 +163,10 @@ impl LargeModel {
     /// # Errors
     /// Those of [`Self::condense`].
     pub fn matrices(&self, factors: &[f64]) -> Result<DynamicModel, Error> {
-        let condensed = self.condense(factors)?;
+        let at = self.at(factors)?;
+        let condensed = self.condense_at(&at)?;
         let identity = DMatrix::identity(self.mass().nrows(), self.mass().nrows());
-        let shares = self.shares(&condensed, factors, &identity)?;
+        let shares = self.condensed_shares(&condensed, &at, &identity)?;
         Ok(DynamicModel {
             stiffness: condensed.stiffness,
             mass: condensed.mass,

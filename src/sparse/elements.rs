@@ -43,10 +43,7 @@ impl WholeModel {
             model.structure(),
             model.load_distribution().columns(),
         );
-        let (count, points) = (
-            structure.free_dof().len(),
-            model.point_masses(&vec![1.0; model.parameters().len()])?,
-        );
+        let (count, points) = (structure.free_dof().len(), model.mass());
         let size = |row: usize| structure.elements()[row].size;
         let stiffness = |row: usize| stiffness_entries(&elements[row], size(row));
         let lumped = |row: usize| mass_entries(&elements[row], size(row));

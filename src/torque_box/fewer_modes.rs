@@ -124,7 +124,7 @@ pub fn fewer_modes_run(
         .passes
         .first()
         .ok_or(Error::Empty { what: "passes" })?;
-    let gages = model.sizes(&pass.factors)?[..PANEL_COUNT].to_vec();
+    let gages = model.at(&pass.factors)?.sizes[..PANEL_COUNT].to_vec();
     let last = &pass.inner.last;
     let all_modes = model.analyze(&pass.factors, &all, None)?.exact;
     Ok(FewerModesRun {

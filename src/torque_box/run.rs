@@ -109,7 +109,7 @@ pub fn run_case_with<E: From<CaseError> + From<Error>>(
     let pass_gages = correlation
         .passes
         .iter()
-        .map(|pass| Ok(model.sizes(&pass.factors)?[..PANEL_COUNT].to_vec()));
+        .map(|pass| Ok(model.at(&pass.factors)?.sizes[..PANEL_COUNT].to_vec()));
     let pass_gages = pass_gages.collect::<Result<_, Error>>()?;
     let parameter_names: Vec<String> = model.parameters().iter().map(|p| p.name.clone()).collect();
     let first = correlation.passes.first();

@@ -270,7 +270,7 @@ impl Draws {
     /// Element matrices, their sizes and the DOF they belong to, of which a part may not fit the others.
     pub fn elements(&mut self) -> Result<Elements, Error> {
         let structure = self.structure()?;
-        let mut elements = element_matrices(&structure)?;
+        let mut elements = element_matrices(&structure);
         let mut free = structure.free_dof().to_vec();
         let count = self.about(elements.len());
         let sizes = (0..count)

@@ -1,5 +1,6 @@
 //! What the tests share: the ledger of tolerances, the strategies, and small structures.
 
+pub mod appendix_b;
 pub mod appendix_c;
 pub mod boxes;
 pub mod blocks;

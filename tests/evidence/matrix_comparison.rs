@@ -104,7 +104,7 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
         &settings,
         |_, _| {},
     )?;
-    let found = model.sizes(&correlation.best_factors)?[..PANEL_COUNT].to_vec();
+    let found = model.at(&correlation.best_factors)?.sizes[..PANEL_COUNT].to_vec();
 
     let baruch = baruch_stiffness(&start.stiffness, &start.mass, &test)?;
     let read = as_read(&test, &start.mass)?;

@@ -1,8 +1,12 @@
 //! The studies behind what `paper/*.md` claims of the method: made-up structures, made-up noise, and the tables that the documents
 //! quote. Nothing here runs a user's structure; the tests beside each room hold the numbers against the goldens.
 
+pub mod appendices_expected;
+pub mod certified;
+pub mod claims;
 pub mod coverage;
 pub mod delta_wing_tables;
+pub mod double_double;
 pub mod eigensolutions;
 pub mod fit;
 pub mod linearization;

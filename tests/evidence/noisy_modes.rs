@@ -162,7 +162,7 @@ fn correlated(
         |_, _| {},
     )?;
     let factors = &correlation.best_factors;
-    let gages = model.sizes(factors)?[..PANEL_COUNT].to_vec();
+    let gages = model.at(factors)?.sizes[..PANEL_COUNT].to_vec();
     let truth = model.analyze(factors, exact, None)?.exact().errors;
     let errors: Vec<f64> = gages.iter().map(|gage| gage / TEST_GAGE - 1.0).collect();
     Ok(Found {

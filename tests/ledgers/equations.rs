@@ -90,6 +90,65 @@ fn every_function_named_exists() {
     }
 }
 
+/// Modules of the specification in the order of their names, each with its section and the equations of its name.
+fn specification() -> Vec<(String, String, Vec<usize>)> {
+    let text = include_str!("../spec/mod.rs");
+    let mut modules: Vec<&str> = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'))
+        .collect();
+    modules.sort_unstable();
+    let parts = modules.into_iter().map(|module| {
+        let mut words = module.split('_');
+        let section = words.next().expect("a section");
+        let numbers: Vec<usize> = match module.contains("_eq_") {
+            true => words.filter_map(|word| word.parse().ok()).take(2).collect(),
+            false => Vec::new(),
+        };
+        (module.to_owned(), section.to_owned(), numbers)
+    });
+    parts.collect()
+}
+
+#[test]
+fn the_specification_sorts_in_the_papers_order_and_has_every_equation() {
+    let modules = specification();
+    let first = modules.first().expect("a module");
+    assert_eq!(first.0, "s00_two_programs");
+    let mut covered = BTreeSet::new();
+    let mut last = ("", 0);
+    for (module, section, numbers) in &modules {
+        assert!(
+            [
+                "s00", "s01", "s02", "s0", "s1", "s2", "s3", "s4", "s5", "sA", "sB", "sC"
+            ]
+            .contains(&section.as_str()),
+            "{module}"
+        );
+        let Some(&start) = numbers.first() else {
+            continue;
+        };
+        let now = (section.as_str(), start);
+        assert!(last <= now, "{module} comes after {last:?}");
+        last = now;
+        let letter = section.trim_start_matches(['s', '1']);
+        let dot = if letter.is_empty() { "" } else { "." };
+        let end = numbers.get(1).map_or(start, |&end| end.max(start));
+        covered.extend((start..=end).map(|number| format!("{letter}{dot}{number}")));
+    }
+    assert_eq!(covered, numbers().into_iter().collect());
+}
+
+#[test]
+fn every_equation_with_a_function_has_a_law_in_the_specification() {
+    for entry in entries() {
+        let tests = strings(&entry, "tests");
+        let has_law = tests.iter().any(|test| test.starts_with("spec::s"));
+        let is_definition = strings(&entry, "functions").is_empty();
+        assert!(has_law || is_definition, "{}", entry["number"]);
+    }
+}
+
 #[test]
 fn every_test_named_exists_and_is_a_test() {
     for entry in entries() {

@@ -104,7 +104,7 @@ impl BulkData {
     /// $$ -u_m + \sum_s T_{sm} u_s = 0 $$
     ///
     /// # Errors
-    /// Those of [`sizes`](crate::method::model::ScaledStructure::sizes); [`Error::WrongShape`] unless there is a point per dynamic DOF;
+    /// Those of [`at`](crate::method::model::ScaledStructure::at); [`Error::WrongShape`] unless there is a point per dynamic DOF;
     /// [`Error::CoupledMass`] for a mass matrix that is not diagonal.
     pub fn of(
         model: &FiniteElementModel,
@@ -112,14 +112,12 @@ impl BulkData {
         points: &[Vector3<f64>],
     ) -> Result<Self, FileError> {
         let structure = model.structure();
-        let (t, mass) = (model.load_distribution(), model.point_masses(factors)?);
+        let at = model.at(factors)?;
+        let (t, mass) = (model.load_distribution(), &at.point_masses);
         check_length("positions of dynamic points", points.len(), t.ncols())?;
         let mut all = Self::of_structure(structure);
-        let sizes = model
-            .sizes(factors)?
-            .into_iter()
-            .zip(model.mass_sizes(factors)?);
-        for (element, (size, mass_size)) in all.elements.iter_mut().zip(sizes) {
+        let sizes = at.sizes.iter().zip(&at.mass_sizes);
+        for (element, (&size, mass_size)) in all.elements.iter_mut().zip(sizes) {
             element.size = size;
             element.material.density *= mass_size / size;
         }

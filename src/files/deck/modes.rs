@@ -26,7 +26,7 @@ const INDEPENDENT: f64 = 1e-10;
 /// [`Error::NotPositive`] for a squared frequency or a generalized mass beyond the range of numbers.
 pub fn modes(model: &BulkData) -> Result<WholeModes, FileError> {
     let structure = model.structure()?;
-    let elements = element_matrices(&structure)?;
+    let elements = element_matrices(&structure);
     check_stiffness(&structure, &elements)?;
     let at = model.mass_dof(&structure, &elements)?;
     let (sizes, free) = (model.sizes(), structure.free_dof());
@@ -63,11 +63,12 @@ pub fn modes(model: &BulkData) -> Result<WholeModes, FileError> {
 /// at the free ones may be round-off.
 fn check_stiffness(structure: &Structure, elements: &[ElementMatrix]) -> Result<(), FileError> {
     let mut extremes: Option<[(f64, usize); 2]> = None;
-    for (element, matrix) in structure.elements().iter().zip(elements) {
+    let elements = structure.elements().iter().zip(elements);
+    for ((element, matrix), geometry) in elements.zip(structure.geometry()) {
         if matrix.dof.is_empty() {
             continue;
         }
-        let unit = unit_stiffness(element.kind, &structure.corners(element), &element.material)?;
+        let unit = unit_stiffness(geometry, &element.material);
         let own = (element.size * unit.amax(), element.label);
         let [low, high] = extremes.unwrap_or([own; 2]);
         extremes = Some([

@@ -206,15 +206,11 @@ fn check_assembled(
     answer: &Matrices,
 ) -> Result<(), FileError> {
     let free = model.structure().free_dof();
-    let sizes = model.sizes(factors)?;
-    let stiffness = dense_stiffness(model.element_matrices(), &sizes, free.len())?;
+    let at = model.at(factors)?;
+    let stiffness = dense_stiffness(model.element_matrices(), &at.sizes, free.len())?;
     let t = model.load_distribution().clone();
-    let lumped = lumped_mass(
-        model.element_matrices(),
-        &model.mass_sizes(factors)?,
-        free.len(),
-    )?;
-    let mass = &t * model.point_masses(factors)? * t.transpose() + DMatrix::from_diagonal(&lumped);
+    let lumped = lumped_mass(model.element_matrices(), &at.mass_sizes, free.len())?;
+    let mass = &t * &at.point_masses * t.transpose() + DMatrix::from_diagonal(&lumped);
     // NASTRAN's order is that of the grids' numbers.
     let mut order: Vec<usize> = (0..free.len()).collect();
     order.sort_by_key(|&row| (free[row].grid, free[row].direction));

@@ -2,7 +2,7 @@
 
 use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{
-    check_finite, check_shape, check_symmetric, cholesky, finite, pencil_eigen,
+    check_matrix, check_shape, check_symmetric, cholesky, finite, pencil_eigen,
 };
 use crate::method::modes::ModeSet;
 use nalgebra::{DMatrix, Unit, Vector3};
@@ -73,13 +73,8 @@ pub fn balance(
     check_shape("dynamic stiffness", stiffness, mass.nrows(), mass.nrows())?;
     check_symmetric("dynamic stiffness", stiffness)?;
     at_least_one("rigid-body vectors", rigid_body.ncols())?;
-    check_shape(
-        "rigid-body vectors",
-        rigid_body,
-        mass.nrows(),
-        rigid_body.ncols(),
-    )?;
-    check_finite("rigid-body vectors", rigid_body)?;
+    let motion_count = rigid_body.ncols();
+    check_matrix("rigid-body vectors", rigid_body, mass.nrows(), motion_count)?;
     let rigid_mass = rigid_body.tr_mul(&(mass * rigid_body));
     let lower = cholesky("rigid-body mass", &rigid_mass, SMALLEST_INDEPENDENT_PART)
         .map_err(|error| error.or_dependent("rigid-body vector"))?;

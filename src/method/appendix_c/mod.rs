@@ -80,7 +80,7 @@ impl<T: Number> Settled<T> {
     /// can lead two modes to one, and then another is missed.
     fn check(self, tolerance: f64, orders: usize) -> Result<Self, Error> {
         let (largest, last_change) = (tolerance.max(LARGEST_UNSETTLED_CHANGE), self.last_change);
-        // A change that is no number has not settled either.
+        // NaN has not settled either.
         if last_change.is_nan() || last_change > largest {
             return Err(Error::UnsettledRoots {
                 largest,

@@ -6,7 +6,7 @@
 
 use super::{Perturbed, SMALLEST_SEPARATION, Settled};
 use crate::method::error::{Error, at_least_one, setting};
-use crate::method::linear_algebra::{check_finite, check_shape};
+use crate::method::linear_algebra::{check_finite, check_matrix};
 use nalgebra::{DMatrix, DVector};
 
 /// First order (C.20, C.21):
@@ -179,8 +179,7 @@ pub(crate) fn check_order(order: usize) -> Result<(), Error> {
 /// Refuses generalized stiffnesses that are not vibrations and a change that does not fit them.
 pub(crate) fn check_input(k: &DVector<f64>, beta: &DMatrix<f64>) -> Result<(), Error> {
     at_least_one("modes", k.len())?;
-    check_shape("generalized stiffness change", beta, k.len(), k.len())?;
-    check_finite("generalized stiffness change", beta)?;
+    check_matrix("generalized stiffness change", beta, k.len(), k.len())?;
     match k
         .iter()
         .position(|&value| value <= 0.0 || !value.is_finite())

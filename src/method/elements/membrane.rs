@@ -1,8 +1,6 @@
 //! The constant-strain triangle in plane stress, and the membrane panel of four that overlap.
 
-use crate::method::elements::panel::{mean_plane, normal_and_area};
-use crate::method::error::Error;
-use crate::method::linear_algebra::finite;
+use crate::method::geometry::MeanPlane;
 use crate::method::structure::Material;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
@@ -15,8 +13,7 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 /// out of the plane meets no resistance. Rank three. Source: Turner, Clough, Martin and Topp, *Journal of the
 /// Aeronautical Sciences* 23 (1956), 805.
 ///
-/// # Errors
-/// [`Error::ZeroArea`] when the corners lie on a line.
+/// Corners on a line have no such stiffness: their entries are not finite numbers.
 ///
 /// # Example
 ///
@@ -27,14 +24,15 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 ///
 /// // Corner 2 moves along x by one: strain 1 in an area of 1/2, with E = 1 and no Poisson's ratio.
 /// let corners = [Vector3::zeros(), Vector3::x(), Vector3::y()];
-/// let stiffness = triangle(corners, &Material::isotropic(1.0, 0.0)?)?;
+/// let stiffness = triangle(corners, &Material::isotropic(1.0, 0.0)?);
 /// assert!((stiffness[(3, 3)] - 0.5).abs() < 1e-15);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn triangle(corners: [Vector3<f64>; 3], material: &Material) -> Result<DMatrix<f64>, Error> {
+pub fn triangle(corners: [Vector3<f64>; 3], material: &Material) -> DMatrix<f64> {
     let [a, b, c] = corners;
-    let longest = (b - a).norm().max((c - a).norm()).max((c - b).norm());
-    let (k, area) = normal_and_area((b - a).cross(&(c - a)), longest)?;
+    let normal = (b - a).cross(&(c - a));
+    let area = 0.5 * normal.norm();
+    let k = normal / (2.0 * area);
     // B in a frame with its first axis along the first side. The gradient of corner n's shape function is k × s/(2A), with s the
     // side opposite to it.
     let i = (b - a).normalize();
@@ -58,10 +56,7 @@ pub fn triangle(corners: [Vector3<f64>; 3], material: &Material) -> Result<DMatr
     } = *material;
     let e = youngs_modulus / (1.0 - nu * nu);
     let elasticity = Matrix3::new(e, nu * e, 0.0, nu * e, e, 0.0, 0.0, 0.0, shear_modulus);
-    finite(
-        "element stiffness",
-        area * strain.transpose() * (elasticity * &strain),
-    )
+    area * strain.transpose() * (elasticity * &strain)
 }
 
 /// The four triangles of a quadrilateral 1-2-3-4; each of its two diagonals splits it once.
@@ -75,28 +70,27 @@ const TRIANGLES: [[usize; 3]; 4] = [[0, 1, 3], [1, 2, 0], [2, 3, 1], [3, 0, 2]];
 /// triangle keeps its true corners in space, so that a rigid-body motion costs no energy even when the panel is warped.
 /// Rank 5 when flat, 6 when warped. Source: the QDMEM element of NASTRAN, NASA SP-222; formulas rederived.
 ///
-/// # Errors
-/// [`Error::ZeroArea`] and [`Error::NotConvex`] for a degenerate quadrilateral.
-///
 /// # Example
 ///
 /// ```rust
 /// use corfem::method::elements::membrane::membrane;
+/// use corfem::method::geometry::mean_plane;
 /// use corfem::method::structure::Material;
 /// use nalgebra::{DVector, Vector3};
 ///
 /// let (o, x, y) = (Vector3::zeros(), Vector3::x(), Vector3::y());
-/// let stiffness = membrane(&[o, x, x + y, y], &Material::isotropic(1.0, 0.0)?)?;
+/// let square = mean_plane(&[o, x, x + y, y])?;
+/// let stiffness = membrane(&square, &Material::isotropic(1.0, 0.0)?);
 /// // A unit square stretched by one along x holds twice the energy E A = 1.
 /// let stretch = DVector::from_iterator(12, [o, x, x, o].iter().flatten().copied());
 /// assert!((stretch.dot(&(stiffness * &stretch)) - 1.0).abs() < 1e-14);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn membrane(corners: &[Vector3<f64>; 4], material: &Material) -> Result<DMatrix<f64>, Error> {
-    mean_plane(corners)?;
+pub fn membrane(panel: &MeanPlane, material: &Material) -> DMatrix<f64> {
+    let corners = panel.corners_in_space();
     let mut stiffness = DMatrix::zeros(12, 12);
     for nodes in TRIANGLES {
-        let part = triangle(nodes.map(|n| corners[n]), material)?;
+        let part = triangle(nodes.map(|n| corners[n]), material);
         for (a, &row_node) in nodes.iter().enumerate() {
             for (b, &column_node) in nodes.iter().enumerate() {
                 let mut block = stiffness.fixed_view_mut::<3, 3>(3 * row_node, 3 * column_node);
@@ -104,5 +98,5 @@ pub fn membrane(corners: &[Vector3<f64>; 4], material: &Material) -> Result<DMat
             }
         }
     }
-    finite("element stiffness", stiffness)
+    stiffness
 }

@@ -1,10 +1,8 @@
 //! The Garvey shear panel.
 
-use crate::method::elements::panel::{MeanPlane, mean_plane};
-use crate::method::error::Error;
-use crate::method::linear_algebra::finite;
+use crate::method::geometry::MeanPlane;
 use crate::method::structure::Material;
-use nalgebra::{DMatrix, DVector, Matrix2, Vector2, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 /// Points per direction of the quadrature: eight reach round-off on the panels of a wing; twelve agree with the closed
 /// forms to 7e-7 on strongly distorted ones.
@@ -18,18 +16,17 @@ const QUADRATURE_POINTS: usize = 12;
 /// panel resists a single pattern of motion: rank one. Source: Garvey, "The Quadrilateral Shear Panel", *Aircraft
 /// Engineering* 23 (1951), 134; NASA SP-222.
 ///
-/// # Errors
-/// [`Error::ZeroArea`] and [`Error::NotConvex`] for a degenerate quadrilateral.
-///
 /// # Example
 ///
 /// ```rust
 /// use corfem::method::elements::shear::shear_panel;
+/// use corfem::method::geometry::mean_plane;
 /// use corfem::method::structure::Material;
 /// use nalgebra::{DVector, Vector3};
 ///
 /// let (o, x, y) = (Vector3::zeros(), Vector3::x(), Vector3::y());
-/// let stiffness = shear_panel(&[o, x, x + y, y], &Material::isotropic(2.5, 0.25)?)?;
+/// let square = mean_plane(&[o, x, x + y, y])?;
+/// let stiffness = shear_panel(&square, &Material::isotropic(2.5, 0.25)?);
 /// // A unit square sheared by one holds twice the energy G A = 1; stretched it holds none.
 /// let shear = DVector::from_iterator(12, [o, o, x, x].iter().flatten().copied());
 /// let stretch = DVector::from_iterator(12, [o, x, x, o].iter().flatten().copied());
@@ -37,16 +34,9 @@ const QUADRATURE_POINTS: usize = 12;
 /// assert!((&stiffness * stretch).norm() < 1e-14);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn shear_panel(
-    corners: &[Vector3<f64>; 4],
-    material: &Material,
-) -> Result<DMatrix<f64>, Error> {
-    let plane = mean_plane(corners)?;
-    let a = corner_forces(&plane);
-    finite(
-        "element stiffness",
-        (0.5 / energy_coefficient(&plane, material)) * &a * a.transpose(),
-    )
+pub fn shear_panel(panel: &MeanPlane, material: &Material) -> DMatrix<f64> {
+    let a = corner_forces(panel);
+    (0.5 / energy_coefficient(panel, material)) * &a * a.transpose()
 }
 
 /// The 12 corner forces in equilibrium with a unit mean shear flow on side 1-2, lbf per lbf/in.
@@ -57,12 +47,13 @@ pub fn shear_panel(
 ///    f_2 = \frac{X_2 Y_3}{2\big(\tau - X_2 (Y_3 - Y_4)\big)} d_{24} = -f_4 . $$
 ///
 /// They act along the true diagonals, so that force and moment vanish exactly, even on a warped panel.
-pub fn corner_forces(plane: &MeanPlane) -> DVector<f64> {
-    let [_, c2, c3, c4] = plane.corners;
+pub fn corner_forces(panel: &MeanPlane) -> DVector<f64> {
+    let [_, c2, c3, c4] = panel.corners();
+    let [d13, d24] = panel.diagonals();
     let x2 = c2.x;
     let tau = c4.x * c3.y - c3.x * c4.y;
-    let f1 = -0.5 * x2 * c4.y / tau * plane.diagonals[0];
-    let f2 = 0.5 * x2 * c3.y / (tau - x2 * (c3.y - c4.y)) * plane.diagonals[1];
+    let f1 = -0.5 * x2 * c4.y / tau * d13;
+    let f2 = 0.5 * x2 * c3.y / (tau - x2 * (c3.y - c4.y)) * d24;
     DVector::from_iterator(12, [f1, f2, -f1, -f2].iter().flatten().copied())
 }
 
@@ -76,8 +67,9 @@ pub fn corner_forces(plane: &MeanPlane) -> DVector<f64> {
 ///
 /// In homogeneous coordinates $P$, $Q$ and the line between them also exist when sides are parallel, so that one
 /// quadrature serves every panel.
-pub fn energy_coefficient(plane: &MeanPlane, material: &Material) -> f64 {
-    let corners = plane.corners.map(|corner| corner.push(1.0));
+pub fn energy_coefficient(panel: &MeanPlane, material: &Material) -> f64 {
+    let flat = panel.corners();
+    let corners = flat.map(|corner| corner.push(1.0));
     let side: [_; 4] = std::array::from_fn(|k| corners[k].cross(&corners[(k + 1) % 4]));
     let p = side[0].cross(&side[2]);
     let q = side[1].cross(&side[3]);
@@ -87,7 +79,7 @@ pub fn energy_coefficient(plane: &MeanPlane, material: &Material) -> f64 {
     let mut energy = 0.0;
     for &(s, ws) in &rule {
         for &(t, wt) in &rule {
-            let (point, jacobian) = bilinear(&plane.corners, s, t);
+            let (point, jacobian) = bilinear(&flat, s, t);
             let flow = first_two / line.dot(&point.push(1.0)).powi(2);
             // Directions to P and Q, which may lie at infinity, unscaled.
             let [to_p, to_q] = [p, q].map(|end| end.xy() - end.z * point);

@@ -1,10 +1,10 @@
 //! The finite element analysis: a model at given parameter factors, condensed and seen through its modes.
 
-use super::{DynamicModel, FiniteElementModel, ModalModel, Share};
+use super::{DynamicModel, FiniteElementModel, ModalModel, ScaledSizes, Share};
 use crate::method::appendix_a::{Condensed, condense, generalized_mass, generalized_stiffness};
 use crate::method::assembly::{ElementMatrix, dense_stiffness};
 use crate::method::error::Error;
-use crate::method::linear_algebra::{finite, free_motion};
+use crate::method::linear_algebra::{check_finite, free_motion};
 use crate::method::modes::{ModeSet, Modes, solve};
 use crate::method::structure::{DIRECTIONS, StructuralDof};
 use nalgebra::DMatrix;
@@ -23,8 +23,7 @@ pub struct CondensedModel {
 impl FiniteElementModel {
     /// The structure condensed to the dynamic DOF at the given parameter factors: $K_S$ anew, with it $B$, $K_D$ and $M$.
     ///
-    /// With $s_e$ of [`sizes`](super::ScaledStructure::sizes), $m_e$ of [`mass_sizes`](super::ScaledStructure::mass_sizes) and
-    /// $M_{points}$ of [`point_masses`](super::ScaledStructure::point_masses):
+    /// With the sizes $s_e$, the mass sizes $m_e$ and the point masses $M_{points}$ of [`at`](super::ScaledStructure::at):
     ///
     /// $$ K_D = \sum_e s_e B K_e B^t, \qquad M = M_{points} + \sum_e m_e B M_e B^t $$
     ///
@@ -32,9 +31,12 @@ impl FiniteElementModel {
     /// [`Error::WrongShape`] and [`Error::NotPositive`] for bad factors; [`Error::SingularStiffness`] naming the grid and
     /// direction that nothing holds; [`Error::Dependent`] when a dynamic DOF is a combination of others.
     pub fn condense(&self, factors: &[f64]) -> Result<CondensedModel, Error> {
-        let (sizes, mass_sizes) = (self.sizes(factors)?, self.mass_sizes(factors)?);
+        self.condense_at(&self.at(factors)?)
+    }
+
+    fn condense_at(&self, at: &ScaledSizes) -> Result<CondensedModel, Error> {
         let (elements, free) = (self.element_matrices(), self.structure().free_dof());
-        let structural = dense_stiffness(elements, &sizes, free.len())?;
+        let structural = dense_stiffness(elements, &at.sizes, free.len())?;
         let Condensed {
             stiffness,
             transformation,
@@ -45,13 +47,14 @@ impl FiniteElementModel {
             } => is_free(&structural, free).unwrap_or(error),
             other => other,
         })?;
-        let mut mass = self.point_masses(factors)?;
-        for (element, size) in elements.iter().zip(mass_sizes) {
+        let mut mass = at.point_masses.clone();
+        for (element, &size) in elements.iter().zip(&at.mass_sizes) {
             mass += generalized_mass(element, size, &transformation);
         }
+        check_finite("dynamic mass", &mass)?;
         Ok(CondensedModel {
             stiffness,
-            mass: finite("dynamic mass", mass)?,
+            mass,
             transformation,
         })
     }
@@ -61,12 +64,12 @@ impl FiniteElementModel {
     /// $$ V^t B K_e B^t V = V_e^t K_e V_e, \qquad V_S = B^t V $$
     ///
     /// With the identity for $V$ they are the shares of $K_D$ and $M$ themselves (A.9).
-    fn shares(
+    fn condensed_shares(
         &self,
         condensed: &CondensedModel,
-        factors: &[f64],
+        at: &ScaledSizes,
         shapes: &DMatrix<f64>,
-    ) -> Result<Vec<Share>, Error> {
+    ) -> Vec<Share> {
         let structural = &condensed.transformation * shapes;
         let sum = |members: &[(&ElementMatrix, f64)], share: GeneralizedShare| {
             members
@@ -74,8 +77,8 @@ impl FiniteElementModel {
                 .map(|(element, size)| share(element, *size, &structural))
                 .sum()
         };
-        self.shares_of(
-            factors,
+        self.shares(
+            at,
             shapes,
             |members| sum(members, generalized_stiffness),
             |members| sum(members, generalized_mass),
@@ -111,14 +114,15 @@ impl FiniteElementModel {
         test: &ModeSet,
         analysis_modes: Option<usize>,
     ) -> Result<ModalModel, Error> {
-        let condensed = self.condense(factors)?;
+        let at = self.at(factors)?;
+        let condensed = self.condense_at(&at)?;
         let CondensedModel {
             stiffness, mass, ..
         } = &condensed;
         let model = ModalModel::new(stiffness, mass, test, analysis_modes, |shapes| {
-            self.shares(&condensed, factors, shapes)
+            Ok(self.condensed_shares(&condensed, &at, shapes))
         })?;
-        Ok(model.with_sizes(self.mean_sizes(factors)?))
+        Ok(model.with_sizes(at.mean_sizes))
     }
 
     /// $K_D$, $M$ and every parameter's share of them as matrices (d × d), for those who look at whole matrices.
@@ -126,9 +130,10 @@ impl FiniteElementModel {
     /// # Errors
     /// Those of [`Self::condense`].
     pub fn matrices(&self, factors: &[f64]) -> Result<DynamicModel, Error> {
-        let condensed = self.condense(factors)?;
+        let at = self.at(factors)?;
+        let condensed = self.condense_at(&at)?;
         let identity = DMatrix::identity(self.mass().nrows(), self.mass().nrows());
-        let shares = self.shares(&condensed, factors, &identity)?;
+        let shares = self.condensed_shares(&condensed, &at, &identity);
         Ok(DynamicModel {
             stiffness: condensed.stiffness,
             mass: condensed.mass,

@@ -13,7 +13,7 @@ pub use parameters::{Parameter, Range, Scaled};
 use crate::method::assembly::{ElementMatrix, element_matrices};
 use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{
-    check_finite, check_length, check_shape, check_symmetric, cholesky, finite_list,
+    check_finite, check_length, check_matrix, check_shape, check_symmetric, cholesky,
 };
 use crate::method::structure::{Structure, positive};
 use nalgebra::DMatrix;
@@ -27,8 +27,8 @@ pub const REFERENCE_GAGE: f64 = 0.01;
 ///
 /// A stiffness parameter scales stiffness alone. An element keeps the mass of its first size, times the factor of a mass
 /// parameter if there is one: in the paper, too, the mass is known and never changes. A gage that a correlation finds is
-/// therefore a statement about stiffness and does not make the element heavier. [`Self::sizes`], [`Self::mass_sizes`] and
-/// [`Self::point_masses`] follow this law, and so does whatever is made of them: analyses, decks, reports.
+/// therefore a statement about stiffness and does not make the element heavier. [`Self::at`] follows this law, and so
+/// does whatever is made of it: analyses, decks, reports.
 #[derive(Debug, Clone)]
 pub struct ScaledStructure {
     structure: Structure,
@@ -37,6 +37,19 @@ pub struct ScaledStructure {
     parameters: Vec<Parameter>,
     /// Rows of every parameter's members among the elements or the dynamic DOF.
     rows: Vec<Vec<usize>>,
+}
+
+/// What the parameters scale, at some factors: see [`ScaledStructure::at`].
+#[derive(Debug, Clone)]
+pub struct ScaledSizes {
+    /// Gage (in) or area (in²) of every element for its stiffness, in the structure's order.
+    pub sizes: Vec<f64>,
+    /// The same for its mass: its first size times the factor of a mass parameter.
+    pub mass_sizes: Vec<f64>,
+    /// The dynamic mass $M$ without that of elements, lbf·s²/in (d × d).
+    pub point_masses: DMatrix<f64>,
+    /// Mean size of every stiffness parameter's elements; [`REFERENCE_GAGE`] for other parameters.
+    pub mean_sizes: Vec<f64>,
 }
 
 /// A [`ScaledStructure`] with its load distribution $T$ (A.3): what an analysis needs.
@@ -71,7 +84,7 @@ pub struct ScaledStructure {
 /// let limits = model.factor_ranges()?;
 /// let settings = Settings { error_sum_tolerance: 0.005, later_inner_tolerance: 0.002, ..Settings::default() };
 /// let result = correlate(|factors| model.analyze(factors, &test, None), &limits, &settings, |_, _| {})?;
-/// let areas = model.sizes(&result.best_factors)?;
+/// let areas = model.at(&result.best_factors)?.sizes;
 /// assert!((areas[0] - 0.08).abs() < 0.001 && (areas[1] - 0.12).abs() < 0.001);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
@@ -105,8 +118,7 @@ impl FiniteElementModel {
     ) -> Result<Self, Error> {
         let (free, dynamic) = (structure.free_dof().len(), load_distribution.ncols());
         at_least_one("dynamic degrees of freedom", dynamic)?;
-        check_shape("load distribution", &load_distribution, free, dynamic)?;
-        check_finite("load distribution", &load_distribution)?;
+        check_matrix("load distribution", &load_distribution, free, dynamic)?;
         check_shape("dynamic mass", &mass, dynamic, dynamic)?;
         let scaled = ScaledStructure::new(structure, mass, parameters)?;
         Ok(Self {
@@ -170,7 +182,11 @@ impl ScaledStructure {
                 return Err(Error::CoupledMass(dof));
             }
         }
-        let element_matrices = element_matrices(&structure)?;
+        let element_matrices = element_matrices(&structure);
+        for element in &element_matrices {
+            check_finite("element stiffness", &element.unit)
+                .map_err(|error| error.in_element(element.label))?;
+        }
         Ok(Self {
             structure,
             element_matrices,
@@ -239,106 +255,71 @@ impl ScaledStructure {
         self.parameters.iter().zip(&self.rows).map(bounds).collect()
     }
 
-    /// Gage or area of every element for its stiffness at the given parameter factors, in the structure's order.
+    /// Sizes and masses at the given parameter factors, one each.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] unless there is one factor per parameter; [`Error::NotPositive`] for a factor that is not.
-    pub fn sizes(&self, factors: &[f64]) -> Result<Vec<f64>, Error> {
-        self.scaled(self.first_sizes(), Scaled::Stiffness, factors)
-    }
-
-    /// The same for its mass: the first size times the factors of mass parameters alone.
-    ///
-    /// # Errors
-    /// Those of [`Self::sizes`].
-    pub fn mass_sizes(&self, factors: &[f64]) -> Result<Vec<f64>, Error> {
-        self.scaled(self.first_sizes(), Scaled::ElementMass, factors)
-    }
-
-    /// The dynamic mass $M$ without that of elements at the given parameter factors, lbf·s²/in (d × d).
-    ///
-    /// # Errors
-    /// Those of [`Self::sizes`].
-    pub fn point_masses(&self, factors: &[f64]) -> Result<DMatrix<f64>, Error> {
-        let ones = vec![1.0; self.mass.nrows()];
-        let mut mass = self.mass.clone();
-        for (dof, factor) in self
-            .scaled(ones, Scaled::PointMass, factors)?
-            .iter()
-            .enumerate()
-        {
-            mass[(dof, dof)] *= factor;
-        }
-        Ok(mass)
-    }
-
-    fn first_sizes(&self) -> Vec<f64> {
-        self.structure
-            .elements()
-            .iter()
-            .map(|element| element.size)
-            .collect()
-    }
-
-    /// `values` times the factors of the parameters that scale them.
-    fn scaled(
-        &self,
-        mut values: Vec<f64>,
-        scaled: Scaled,
-        factors: &[f64],
-    ) -> Result<Vec<f64>, Error> {
+    /// [`Error::WrongShape`] for another number of factors; [`Error::NotPositive`] for a factor that is not;
+    /// [`Error::NotFinite`] for what it takes beyond the largest number.
+    pub fn at(&self, factors: &[f64]) -> Result<ScaledSizes, Error> {
         check_length("parameter factors", factors.len(), self.parameters.len())?;
+        let elements = self.structure.elements().iter();
+        let mut sizes: Vec<f64> = elements.map(|element| element.size).collect();
+        let (mut mass_sizes, mut point_masses) = (sizes.clone(), self.mass.clone());
         for ((parameter, rows), &factor) in self.parameters.iter().zip(&self.rows).zip(factors) {
             positive("factor", || parameter.owner(), factor)?;
-            if parameter.scaled == scaled {
-                rows.iter().for_each(|&row| values[row] *= factor);
+            for &row in rows {
+                let scaled = match parameter.scaled {
+                    Scaled::Stiffness => &mut sizes[row],
+                    Scaled::ElementMass => &mut mass_sizes[row],
+                    Scaled::PointMass => &mut point_masses[(row, row)],
+                };
+                *scaled *= factor;
+                check_finite(
+                    "scaled sizes or masses",
+                    &DMatrix::from_element(1, 1, *scaled),
+                )?;
             }
         }
-        finite_list("scaled sizes or masses", values)
-    }
-
-    /// Mean gage or area of every stiffness parameter's elements at the given factors; [`REFERENCE_GAGE`] for other parameters.
-    pub(crate) fn mean_sizes(&self, factors: &[f64]) -> Result<Vec<f64>, Error> {
-        let sizes = self.sizes(factors)?;
         let mean = |(parameter, rows): (&Parameter, &Vec<usize>)| match parameter.scaled {
             Scaled::Stiffness => {
                 rows.iter().map(|&row| sizes[row]).sum::<f64>() / rows.len() as f64
             }
             Scaled::ElementMass | Scaled::PointMass => REFERENCE_GAGE,
         };
-        Ok(self.parameters.iter().zip(&self.rows).map(mean).collect())
+        let mean_sizes = self.parameters.iter().zip(&self.rows).map(mean).collect();
+        Ok(ScaledSizes {
+            sizes,
+            mass_sizes,
+            point_masses,
+            mean_sizes,
+        })
     }
 
     /// Every parameter's share seen through shapes at the dynamic DOF (d × m), from what `stiffness` and `mass` make of elements
     /// with their sizes; of point masses from their rows of the shapes.
-    pub(crate) fn shares_of(
+    pub(crate) fn shares(
         &self,
-        factors: &[f64],
+        at: &ScaledSizes,
         shapes: &DMatrix<f64>,
         stiffness: impl Fn(&[(&ElementMatrix, f64)]) -> DMatrix<f64>,
         mass: impl Fn(&[(&ElementMatrix, f64)]) -> DMatrix<f64>,
-    ) -> Result<Vec<Share>, Error> {
-        let (sizes, mass_sizes) = (self.sizes(factors)?, self.mass_sizes(factors)?);
-        let points = self.point_masses(factors)?;
+    ) -> Vec<Share> {
         let of_parameter = |(parameter, rows): (&Parameter, &Vec<usize>)| {
             let members = |sizes: &[f64]| -> Vec<(&ElementMatrix, f64)> {
                 rows.iter()
                     .map(|&row| (&self.element_matrices[row], sizes[row]))
                     .collect()
             };
-            let point =
-                |&row: &usize| points[(row, row)] * shapes.row(row).tr_mul(&shapes.row(row));
+            let point = |&row: &usize| {
+                at.point_masses[(row, row)] * shapes.row(row).tr_mul(&shapes.row(row))
+            };
             match parameter.scaled {
-                Scaled::Stiffness => Share::Stiffness(stiffness(&members(&sizes))),
-                Scaled::ElementMass => Share::Mass(mass(&members(&mass_sizes))),
+                Scaled::Stiffness => Share::Stiffness(stiffness(&members(&at.sizes))),
+                Scaled::ElementMass => Share::Mass(mass(&members(&at.mass_sizes))),
                 Scaled::PointMass => Share::Mass(rows.iter().map(point).sum()),
             }
         };
-        Ok(self
-            .parameters
-            .iter()
-            .zip(&self.rows)
-            .map(of_parameter)
-            .collect())
+        let parameters = self.parameters.iter();
+        parameters.zip(&self.rows).map(of_parameter).collect()
     }
 }

@@ -79,7 +79,7 @@ impl DynamicModel {
     }
 }
 
-/// Refuses weights that are not one a test mode, are negative or no number, or are all zero.
+/// Requires one finite, non-negative weight per test mode and number, not all zero.
 pub(crate) fn check_weights(weights: &[ModeWeight], modes: usize) -> Result<(), Error> {
     check_length("weights", weights.len(), modes)?;
     let all = || {
@@ -286,7 +286,7 @@ impl ModalModel {
     /// The same model with weights of the test modes: in all errors $w_i e_i$ stands for $e_i$ of (5) and (6).
     ///
     /// # Errors
-    /// [`Error::WrongShape`] unless there is one weight a test mode; [`Error::Setting`] for one that is negative or no number, and when
+    /// [`Error::WrongShape`] unless there is one weight per test mode; [`Error::Setting`] for one that is negative or not finite, and when
     /// all are zero.
     pub fn weighted(mut self, weights: &[ModeWeight]) -> Result<Self, Error> {
         check_weights(weights, self.test.len())?;

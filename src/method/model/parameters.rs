@@ -49,7 +49,7 @@ impl Range {
 
     /// The nearest number in the interval; unlike [`f64::clamp`] no interval makes it panic.
     pub(crate) fn clamp(&self, value: f64) -> f64 {
-        // What is no number stays none.
+        // NaN stays NaN, which `max` would turn into a number.
         if value.is_nan() {
             value
         } else {

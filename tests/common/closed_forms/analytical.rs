@@ -1,7 +1,7 @@
 //! Closed forms that the numerical routes are compared with: the energy of the shear panel, chains of equal
 //! masses and springs, the uniform rod.
 
-use corfem::method::elements::panel::MeanPlane;
+use corfem::method::geometry::MeanPlane;
 use corfem::method::structure::Material;
 use std::f64::consts::PI;
 
@@ -14,9 +14,9 @@ use std::f64::consts::PI;
 /// $X_i$, $Y_i$ are the corners in the mean plane (corner 1 at the origin, $Y_2 = 0$), $A$ the area. The caller says
 /// that the sides are parallel; nothing is tested. Source: NASA SP-222, shear panel; rederived.
 pub fn parallelogram_energy(plane: &MeanPlane, material: &Material) -> f64 {
-    let [_, c2, c3, c4] = plane.corners;
+    let [_, c2, c3, c4] = plane.corners();
     let d = -0.5 * (c4.x / c4.y + (c3.x - c2.x) / c3.y + (c3.y - c4.y) / (c3.x - c4.x));
-    plane.area / (2.0 * material.shear_modulus) * (1.0 + skewness_weight(material) * 3.0 * d * d)
+    plane.area() / (2.0 * material.shear_modulus) * (1.0 + skewness_weight(material) * 3.0 * d * d)
 }
 
 /// $Z$ of a shear panel whose sides 1-2 and 3-4 alone are parallel, in⁴/lbf; as [`parallelogram_energy`] otherwise.
@@ -26,11 +26,11 @@ pub fn parallelogram_energy(plane: &MeanPlane, material: &Material) -> f64 {
 ///
 /// $(x_b, y_b)$ is where sides 1-4 and 2-3 meet.
 pub fn sides_12_34_parallel_energy(plane: &MeanPlane, material: &Material) -> f64 {
-    let [_, c2, c3, c4] = plane.corners;
+    let [_, c2, c3, c4] = plane.corners();
     let (xb, yb) = meeting_of_sides_14_23(plane);
     let (s, c) = ((c2.x - xb) / yb, -xb / yb);
     let flow_ratio = yb * yb / ((yb - c3.y) * (yb - c4.y));
-    flow_ratio * plane.area / (2.0 * material.shear_modulus)
+    flow_ratio * plane.area() / (2.0 * material.shear_modulus)
         * (1.0 + skewness_weight(material) * (s * s + s * c + c * c))
 }
 
@@ -42,12 +42,12 @@ pub fn sides_12_34_parallel_energy(plane: &MeanPlane, material: &Material) -> f6
 ///
 /// $(x_a, 0)$ is where sides 1-2 and 3-4 meet.
 pub fn sides_14_23_parallel_energy(plane: &MeanPlane, material: &Material) -> f64 {
-    let [_, c2, c3, c4] = plane.corners;
+    let [_, c2, c3, c4] = plane.corners();
     let xa = meeting_of_sides_12_34(plane);
     let d = -0.5 * (c4.x / c4.y + (c3.x - c2.x) / c3.y);
-    let p = plane.corners.map(|c| xa - c.x - d * c.y);
+    let p = plane.corners().map(|c| xa - c.x - d * c.y);
     let b = ((xa - c4.x) * d + c4.y) / ((xa - c4.x) - c4.y * d);
-    p[0] * p[1] / (p[2] * p[3]) * plane.area / (2.0 * material.shear_modulus)
+    p[0] * p[1] / (p[2] * p[3]) * plane.area() / (2.0 * material.shear_modulus)
         * (1.0 + skewness_weight(material) * (b * b + b * d + d * d))
 }
 
@@ -71,7 +71,7 @@ pub fn no_sides_parallel_energy(plane: &MeanPlane, material: &Material) -> f64 {
     let l = (xa - xb).hypot(yb);
     let d = (xa - xb) / yb;
     let p = plane
-        .corners
+        .corners()
         .map(|corner| yb / l * (xa - corner.x - d * corner.y));
     let c = l / p[0] - d;
     let b = l / p[3] - c;
@@ -87,7 +87,7 @@ pub fn no_sides_parallel_energy(plane: &MeanPlane, material: &Material) -> f64 {
     let f = p.iter().product::<f64>() / (2.0 * l * l)
         * (w(a, b) + w(c, d) - w(b, c) - w(d, a) + 0.1 * powers(2, 3) - 0.2 * powers(1, 4));
     p[0] * p[1] / (p[2] * p[3]) / (2.0 * material.shear_modulus)
-        * (plane.area + 6.0 * skewness_weight(material) * (f - plane.area / 1.5))
+        * (plane.area() + 6.0 * skewness_weight(material) * (f - plane.area() / 1.5))
 }
 
 /// $\frac23/(1+\nu)$: how much the direct stresses of a panel that is not a rectangle weigh.
@@ -97,12 +97,12 @@ fn skewness_weight(material: &Material) -> f64 {
 
 /// Where side 3-4 meets the line of side 1-2, the first axis.
 fn meeting_of_sides_12_34(plane: &MeanPlane) -> f64 {
-    let [_, _, c3, c4] = plane.corners;
+    let [_, _, c3, c4] = plane.corners();
     c4.x - c4.y * (c3.x - c4.x) / (c3.y - c4.y)
 }
 
 fn meeting_of_sides_14_23(plane: &MeanPlane) -> (f64, f64) {
-    let [_, c2, c3, c4] = plane.corners;
+    let [_, c2, c3, c4] = plane.corners();
     let along = c2.x * c3.y / (c3.y * c4.x - c4.y * (c3.x - c2.x));
     (along * c4.x, along * c4.y)
 }

@@ -2,7 +2,7 @@
 //! aerodynamic terms.
 
 use crate::method::error::{Error, at_least_one};
-use crate::method::linear_algebra::{as_faer, check_finite, check_shape, cholesky, reduced};
+use crate::method::linear_algebra::{as_faer, check_matrix, cholesky, reduced};
 use crate::method::modes::{Modes, SIGN_TIE};
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -70,8 +70,7 @@ pub fn solve(
     at_least_one("degrees of freedom", size)?;
     let lower = cholesky("stiffness", stiffness, 0.0)?.map(Complex::from);
     let what = "mass and aerodynamic terms";
-    check_shape(what, g, size, size)?;
-    check_finite(what, g)?;
+    check_matrix(what, g, size, size)?;
     let eigen = as_faer(&reduced(&lower, g))
         .eigen()
         .map_err(|_| Error::NoConvergence(what))?;

@@ -4,7 +4,7 @@ use super::complex_modes::LeftRightModes;
 use super::{Number, Pencil};
 use crate::method::appendix_c::SMALLEST_SEPARATION;
 use crate::method::error::{Error, at_least_one};
-use crate::method::linear_algebra::{check_finite, check_shape};
+use crate::method::linear_algebra::{check_matrix, check_shape};
 use nalgebra::{DMatrix, DVector};
 
 /// Generalized stiffness between a left and another right mode, relative to their own, above which shapes count as not
@@ -60,8 +60,7 @@ impl<T: Number> ModalChange<T> {
             ("stiffness change", stiffness_change),
             ("change of mass and aerodynamic terms", g_change),
         ] {
-            check_shape(what, matrix, dof_count, dof_count)?;
-            check_finite(what, matrix)?;
+            check_matrix(what, matrix, dof_count, dof_count)?;
         }
         let through_modes = |matrix: &DMatrix<T>| modes.left.tr_mul(&(matrix * &modes.right));
         let k = through_modes(stiffness);
@@ -116,8 +115,7 @@ impl<T: Number> ModalChange<T> {
                 size,
             ),
         ] {
-            check_shape(what, matrix, size, columns)?;
-            check_finite(what, matrix)?;
+            check_matrix(what, matrix, size, columns)?;
         }
         let stiffness = DMatrix::from_diagonal(k) + &self.beta;
         for mode in 0..size {

@@ -56,7 +56,7 @@ impl DeltaWing {
         &self,
     ) -> Result<(Structure, Vec<ElementMatrix>, Vec<f64>, FactorizedStiffness), Error> {
         let structure = self.structure()?;
-        let elements = element_matrices(&structure)?;
+        let elements = element_matrices(&structure);
         let sizes: Vec<f64> = structure.elements().iter().map(|e| e.size).collect();
         let stiffness = FactorizedStiffness::new(&elements, &sizes, structure.free_dof())?;
         Ok((structure, elements, sizes, stiffness))

@@ -1,0 +1,160 @@
+//! What the delta wing does under load and in vibration, beside what NASTRAN printed, what was measured, and what an analog
+//! computer gave: an experiment nobody here can tune.
+
+use crate::common::known::delta_wing::{
+    DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies,
+};
+use crate::common::tolerances::{
+    ANALOG_FREQUENCY, CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF, PRINTED_SEVEN_DIGITS, ROUND_OFF,
+};
+use approx::assert_relative_eq;
+use corfem::files::deck::{self, BulkData, bulk_data};
+use corfem::method::assembly::{dense_stiffness, element_matrices};
+use nalgebra::{DMatrix, DVector};
+
+fn wing() -> DeltaWing {
+    DeltaWing::embedded().expect("the wing")
+}
+
+#[test]
+fn deflections_are_those_nastran_printed_in_1995() {
+    let known = known_deflections().expect("the table");
+    let labels: Vec<String> = MEASURED_GRIDS.iter().map(usize::to_string).collect();
+    assert_eq!(known.labels, labels);
+    assert_eq!(known.number, 0, "it is not of the paper");
+    for (load, heading) in [
+        (TipLoad::TrailingEdge, "te_1995_in"),
+        (TipLoad::LeadingEdge, "le_1995_in"),
+    ] {
+        let found = wing().deflections(load).expect("deflections");
+        assert_eq!(found.len(), 9);
+        for (label, z) in labels.iter().zip(found) {
+            let printed = known.required(label, heading).expect("printed");
+            assert_relative_eq!(z, printed, max_relative = PRINTED_SEVEN_DIGITS);
+        }
+    }
+}
+
+#[test]
+fn deflections_are_near_the_measured_ones() {
+    let known = known_deflections().expect("the table");
+    let differences = |load, heading: &str| -> Vec<f64> {
+        let found = wing().deflections(load).expect("deflections");
+        let pairs = MEASURED_GRIDS.iter().zip(found);
+        pairs
+            .map(|(grid, z)| {
+                z - known
+                    .required(&grid.to_string(), heading)
+                    .expect("measured")
+            })
+            .collect()
+    };
+    let largest = |differences: &[f64]| differences.iter().fold(0.0_f64, |w, d| w.max(d.abs()));
+    // Nothing is fitted: the largest differences, in, are what the model and its reading from figures leave.
+    let trailing = differences(TipLoad::TrailingEdge, "te_experiment_in");
+    let leading = differences(TipLoad::LeadingEdge, "le_experiment_in");
+    assert_eq!(
+        format!("{:.4} {:.4}", largest(&trailing), largest(&leading)),
+        "0.0338 0.0197"
+    );
+    let analog = differences(TipLoad::TrailingEdge, "te_analog_in");
+    assert_eq!(format!("{:.4}", largest(&analog)), "0.0395");
+    assert!(known.value("55", "te_analog_in") == Some(-0.144));
+}
+
+#[test]
+fn loads_at_either_end_of_the_tip_are_reciprocal() {
+    // Maxwell: the trailing edge moves under the leading edge's load as that does under its own.
+    let at = |load: TipLoad, grid: usize| {
+        let row = MEASURED_GRIDS.iter().position(|&own| own == grid);
+        wing().deflections(load).expect("deflections")[row.expect("measured")]
+    };
+    let (te, le) = (TipLoad::TrailingEdge, TipLoad::LeadingEdge);
+    assert_eq!((te.grid(), le.grid()), (16, 36));
+    assert_relative_eq!(at(te, 36), at(le, 16), max_relative = MATRIX_ROUND_OFF);
+    assert!(at(te, 16) < 0.0);
+    let twice = DeltaWing {
+        tip_load: 1000.0,
+        ..wing()
+    };
+    let double = twice.deflections(te).expect("deflections");
+    assert_relative_eq!(double[2], 2.0 * at(te, 16), max_relative = ROUND_OFF);
+}
+
+#[test]
+fn lowest_eigenvalues_are_those_nastran_printed_in_1995() {
+    let known = known_frequencies().expect("the table");
+    assert_eq!(known.labels, ["1", "2", "3"]);
+    let found = wing().modes().expect("modes");
+    assert_eq!((found.dof.len(), found.modes.len()), (86, 86));
+    for (mode, label) in known.labels.iter().enumerate() {
+        let printed = |heading: &str| known.required(label, heading).expect("printed");
+        assert_relative_eq!(
+            found.modes.omega_squared()[mode],
+            printed("eigenvalue_1995"),
+            max_relative = PRINTED_SEVEN_DIGITS
+        );
+        assert_relative_eq!(
+            found.modes.frequencies_hz()[mode],
+            printed("frequency_1995_hz"),
+            max_relative = PRINTED_SEVEN_DIGITS
+        );
+        // The analog computer, a coarser model of finite differences.
+        assert_relative_eq!(
+            found.modes.frequencies_hz()[mode],
+            printed("analog_hz"),
+            max_relative = ANALOG_FREQUENCY
+        );
+    }
+}
+
+#[test]
+fn modes_are_those_of_the_dense_pencil() {
+    let structure = wing().structure().expect("a structure");
+    let elements = element_matrices(&structure);
+    let sizes: Vec<f64> = structure.elements().iter().map(|e| e.size).collect();
+    let count = structure.free_dof().len();
+    let stiffness = dense_stiffness(&elements, &sizes, count).expect("a matrix");
+    let mut mass = DVector::zeros(count);
+    for (element, size) in elements.iter().zip(&sizes) {
+        for (&row, unit) in element.dof.iter().zip(element.unit_mass.iter()) {
+            mass[row] += size * unit;
+        }
+    }
+    let dense = corfem::method::modes::solve(&stiffness, &DMatrix::from_diagonal(&mass), count);
+    let dense = dense.expect("modes").omega_squared().clone();
+    let found = wing().modes().expect("modes").modes.omega_squared().clone();
+    // The dense solution rounds at its highest root; the lowest dozen keep what that leaves.
+    let highest = dense.max();
+    for (a, b) in dense.iter().zip(found.iter()).take(12) {
+        let allowed = CONDITIONED_ROUND_OFF * highest / a;
+        assert!((b / a - 1.0).abs() < allowed, "{a} {b} {allowed:.1e}");
+    }
+}
+
+#[test]
+fn wing_to_deck_to_wing_is_the_identity() {
+    let model = BulkData::of_structure(&wing().structure().expect("a structure"));
+    let text = bulk_data(&model).expect("a deck");
+    for (card, count) in [
+        ("GRID*", 48),
+        ("CROD", 60),
+        ("CSHEAR", 36),
+        ("CQDMEM", 14),
+        ("CTRMEM", 3),
+        ("PTRMEM", 3),
+        ("MAT1", 2),
+    ] {
+        let cards = text
+            .lines()
+            .filter(|line| line.split_whitespace().next() == Some(card));
+        assert_eq!(cards.count(), count, "{card}");
+    }
+    let read = deck::read("wing", text.as_bytes(), &[]).expect("it reads");
+    assert_eq!(read.model, model);
+    assert!(read.unread.is_empty());
+    assert_eq!(
+        deck::modes(&read.model).expect("modes"),
+        wing().modes().expect("modes")
+    );
+}

@@ -1,0 +1,13 @@
+//! What the studies must show for the documents to say so.
+
+pub mod delta_wing;
+pub mod delta_wing_answers;
+pub mod delta_wing_correlation;
+pub mod delta_wing_scenario;
+pub mod eigensolutions;
+pub mod linearization;
+pub mod matrix_comparison;
+pub mod matrix_comparison_elements;
+pub mod matrix_correction;
+pub mod noisy_modes;
+pub mod preflight_rates;

@@ -1,0 +1,169 @@
+//! The figures as drawn: complete, the same every time, their letters apart, and as stored.
+
+use crate::common::drawings::{size, written};
+use crate::common::golden::Numbers;
+use crate::presentation::figures::{all_figures, draw_all, figures};
+
+#[test]
+fn figures_of_a_run_in_the_order_of_the_report() {
+    let names: Vec<&str> = all_figures()
+        .iter()
+        .map(|figure| figure.name.as_str())
+        .collect();
+    let mut expected = vec![
+        "box_points".to_owned(),
+        "box_elements".into(),
+        "cover_gages".into(),
+    ];
+    for case in 1..=3 {
+        for name in [
+            "errors",
+            "node_lines",
+            "mode_shapes",
+            "agreement",
+            "derivatives",
+        ] {
+            expected.push(format!("case_{case}_{name}"));
+        }
+    }
+    expected.extend(["case_4_factors", "case_4_derivatives", "truncation"].map(String::from));
+    let wings = [(
+        "delta_wing",
+        &[
+            "structure",
+            "mode_shapes",
+            "errors",
+            "factors",
+            "agreement",
+            "derivatives",
+        ][..],
+    )];
+    for (wing, drawn) in wings
+        .into_iter()
+        .chain([("wing", &["structure", "errors", "factors", "agreement"][..])])
+    {
+        expected.extend(drawn.iter().map(|what| format!("{wing}_{what}")));
+    }
+    assert_eq!(names, expected);
+    for figure in all_figures() {
+        assert!(
+            figure.caption.ends_with('.') && figure.caption.len() > 30,
+            "{}",
+            figure.name
+        );
+        // Caption, title and the words above the drawing say what it is of.
+        let title = written(&figure.svg).remove(0).text;
+        assert!(
+            figure.svg.contains(&format!("<title>{title}</title>")),
+            "{title}"
+        );
+        let of = match figure.name.split_once('_') {
+            Some(("case", case)) => format!("Case {}:", &case[..1]),
+            Some(("delta" | "wing", _)) => {
+                format!(
+                    "{} with wrong gages:",
+                    title.split(" with").next().expect("a name")
+                )
+            }
+            _ => "Case".to_owned(),
+        };
+        assert!(
+            figure.caption.starts_with(&of) && title.starts_with(&of),
+            "{}: {title}",
+            figure.name
+        );
+    }
+}
+
+#[test]
+fn figures_are_the_same_bytes_every_time() {
+    assert_eq!(draw_all(), figures());
+}
+
+#[test]
+fn letters_stay_on_the_page_and_off_each_other() {
+    let mut faults = Vec::new();
+    for figure in all_figures() {
+        let (width, height) = size(&figure.svg);
+        assert_eq!(width, 760.0);
+        let words: Vec<_> = written(&figure.svg)
+            .into_iter()
+            .filter(|word| !word.text.is_empty())
+            .collect();
+        // The large wing has a title, one kind of support and its axes, and no numbers.
+        assert!(
+            words.len()
+                > if figure.name == "wing_structure" {
+                    2
+                } else {
+                    10
+                },
+            "{}",
+            figure.name
+        );
+        for (row, one) in words.iter().enumerate() {
+            let [left, top, right, bottom] = one.bounds;
+            if left < 0.0 || top < 0.0 || right > width || bottom > height {
+                faults.push(format!("{}: {one:?} leaves the page", figure.name));
+            }
+            for other in &words[row + 1..] {
+                let [l, t, r, b] = other.bounds;
+                if right > l && r > left && bottom > t && b > top {
+                    faults.push(format!("{}: {one:?} on {other:?}", figure.name));
+                }
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{faults:#?}");
+}
+
+#[test]
+fn stored_figures_are_what_the_command_writes() {
+    let numbers = Numbers::DRAWN;
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/figures");
+    let mut compared = 0;
+    for entry in std::fs::read_dir(folder).expect("the folder") {
+        let path = entry.expect("a file").path();
+        let name = path
+            .file_stem()
+            .and_then(|name| name.to_str())
+            .expect("a name");
+        let figure = figures()
+            .iter()
+            .find(|figure| figure.name == name)
+            .expect("a figure of that name");
+        let stored = std::fs::read_to_string(&path).expect("it reads");
+        assert!(
+            numbers.agree(&stored, &figure.svg),
+            "{name} differs: write it again"
+        );
+        compared += 1;
+    }
+    assert_eq!(compared, 10, "one of every kind");
+}
+
+#[test]
+fn captions_name_the_papers_figures() {
+    let caption = |name: &str| {
+        let figure = figures().iter().find(|figure| figure.name == name);
+        figure.expect("drawn").caption.as_str()
+    };
+    for (name, number) in [
+        ("box_points", 2),
+        ("box_elements", 3),
+        ("cover_gages", 4),
+        ("case_1_errors", 5),
+        ("case_1_node_lines", 6),
+        ("case_2_errors", 7),
+        ("case_3_errors", 8),
+    ] {
+        assert!(
+            caption(name).contains(&format!("Figure {number})")),
+            "{name}"
+        );
+    }
+    // The paper has node lines of its first case only.
+    for name in ["case_2_node_lines", "case_3_node_lines"] {
+        assert!(!caption(name).contains("Figure"), "{name}");
+    }
+}

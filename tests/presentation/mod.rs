@@ -1,0 +1,26 @@
+//! Tables, figures, the page, and the program from outside.
+
+pub mod cost_tables;
+pub mod deck_tables;
+pub mod delta_wing_report;
+pub mod figures;
+pub mod figures_axes;
+pub mod figures_box;
+pub mod figures_comparisons;
+pub mod figures_drawing;
+pub mod figures_legible;
+pub mod figures_made_up;
+pub mod figures_structure;
+pub mod frame;
+pub mod histogram;
+pub mod job_subject;
+pub mod matrix_tables;
+pub mod noisy_tables;
+pub mod page;
+pub mod preflight_tables;
+pub mod program;
+pub mod published_tables;
+pub mod render;
+pub mod story;
+pub mod subject;
+pub mod weighted_tables;

@@ -1,0 +1,144 @@
+//! Noisy test modes as tables, number by number.
+
+use crate::common::golden::{Numbers, assert_golden};
+use crate::common::tolerances::ROUND_OFF;
+use crate::evidence::claims::noisy_modes::study;
+use crate::evidence::noisy_modes::{NOISY_CASE, noisy_modes, noisy_tables};
+use corfem::present::render::{WIDTH, csv, markdown, text};
+use corfem::present::table::{Cell, Table};
+use corfem::torque_box::Case;
+use corfem::weighted::noise::Noise;
+
+#[test]
+fn noisy_modes_as_numbers() {
+    let numbers = Numbers::BY_UNIT;
+    let tables = noisy_tables(study());
+    let names: Vec<&str> = tables.iter().map(|table| table.name.as_str()).collect();
+    assert_eq!(names, ["noisy_gages", "noisy_course", "noisy_truth"]);
+    for table in &tables {
+        assert!(
+            table
+                .rows
+                .iter()
+                .all(|row| row.cells.len() == table.columns.len()),
+            "{}",
+            table.name
+        );
+    }
+    let written = csv(&tables);
+    assert!(written.contains("\nnoisy_gages,median,Raw all,%,"));
+    assert!(written.lines().all(|line| line.split(',').count() == 6));
+    assert_golden("noisy_modes", &written, numbers);
+    assert!(text(&tables).starts_with("Case 2 with noisy test modes"));
+    assert!(
+        text(&tables)
+            .lines()
+            .all(|line| line.chars().count() <= WIDTH)
+    );
+    assert!(
+        markdown(&tables).contains("| Raw shear, % | Orthogonal shear, % | Screened shear, % |")
+    );
+    assert_eq!(study().runs.len(), 21);
+    for (seed, run) in study().runs.iter().enumerate() {
+        assert_eq!(
+            (run.seed, run.orthogonal.gages_in.len()),
+            ((seed > 0).then_some(seed as u64), 15)
+        );
+    }
+}
+
+fn number(table: &Table, row: &str, column: &str) -> f64 {
+    let at = table
+        .columns
+        .iter()
+        .position(|found| found.name == column)
+        .expect("the column");
+    match table
+        .rows
+        .iter()
+        .find(|found| found.label == row)
+        .expect("the row")
+        .cells[at]
+    {
+        Cell::Number { computed, .. } => computed,
+        ref other => panic!("{row}, {column}: {other:?}"),
+    }
+}
+
+#[test]
+fn median_and_worst_are_of_the_seeds_alone() {
+    let case = Case::new(NOISY_CASE).unwrap();
+    let odd = noisy_modes(&case, Noise::USUAL, 1..=3).unwrap();
+    for study in [study(), &odd] {
+        let gages = &noisy_tables(study)[0];
+        let raw: Vec<f64> = study.runs[1..]
+            .iter()
+            .map(|run| 100.0 * run.raw.gage_rms)
+            .collect();
+        let (median, worst) = (
+            number(gages, "median", "Raw all"),
+            number(gages, "worst", "Raw all"),
+        );
+        let below = raw
+            .iter()
+            .filter(|value| **value < median - ROUND_OFF)
+            .count();
+        let above = raw
+            .iter()
+            .filter(|value| **value > median + ROUND_OFF)
+            .count();
+        assert_eq!((below, above), (raw.len() / 2, raw.len() / 2));
+        assert_eq!(worst, raw.iter().copied().fold(0.0, f64::max));
+        let labels = gages.rows.iter().map(|row| row.label.as_str());
+        assert_eq!(
+            labels
+                .filter(|label| label.parse::<u64>().is_err())
+                .collect::<Vec<_>>(),
+            ["no noise", "median", "worst"]
+        );
+    }
+}
+
+#[test]
+fn notes_say_why_nothing_is_balanced_and_whether_appendix_b_helps() {
+    let tables = noisy_tables(study());
+    let notes = tables[0].notes.join(" ");
+    let better = study().runs[1..]
+        .iter()
+        .filter(|run| run.screened.gage_rms < run.raw.gage_rms)
+        .count();
+    assert!(
+        notes.contains("Balancing does not apply")
+            && notes.contains(&format!("screened ones with {better}."))
+    );
+    // One that is as good is not better.
+    let mut alike = study().clone();
+    alike
+        .runs
+        .iter_mut()
+        .for_each(|run| run.screened.gage_rms = run.raw.gage_rms);
+    alike.runs[1].screened.gage_rms *= 0.9;
+    assert!(
+        noisy_tables(&alike)[0]
+            .notes
+            .join(" ")
+            .contains("screened ones with 1.")
+    );
+    assert!(notes.contains("1.0 % of its shape's largest component"));
+    let mut free = study().clone();
+    free.support_ratio = None;
+    assert!(
+        noisy_tables(&free)[0]
+            .notes
+            .join(" ")
+            .contains("balanced first")
+    );
+    free.runs.truncate(1);
+    let alone = &noisy_tables(&free)[0];
+    assert!(
+        alone.rows[1..]
+            .iter()
+            .all(|row| row.cells.iter().all(|cell| *cell == Cell::Blank)),
+        "no seeds"
+    );
+}

@@ -1,0 +1,112 @@
+//! `corfem init` from outside: a job and a test that explain themselves, and that the readers take.
+
+use crate::presentation::program::cli::{corfem, text};
+use crate::presentation::program::cli_jobs::{folder_of, words};
+use corfem::job::{Job, Prepared, read};
+use std::fs;
+
+#[test]
+fn init_writes_a_job_that_reads_and_nothing_over_another() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("job.toml");
+    assert_eq!(corfem(&["init", words(&path)]).status.code(), Some(0));
+    let written = fs::read(&path).expect("it reads");
+    assert_eq!(written, corfem(&["init"]).stdout);
+    let refused = corfem(&["init", words(&path)]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(
+        text(&refused.stderr).contains("job.toml: entity already exists"),
+        "{}",
+        text(&refused.stderr)
+    );
+    assert_eq!(fs::read(&path).expect("it reads"), written);
+    let job = read(&path).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(job.title.as_deref(), Some("my structure"));
+    // Every example and default is one that the reader takes, but for those of a model of matrices.
+    let examples = String::from_utf8(written.clone()).expect("UTF-8");
+    let examples: String = examples
+        .lines()
+        .skip_while(|line| !line.starts_with("title"))
+        .fold(String::new(), |all, line| {
+            let entry = line
+                .strip_prefix("# ")
+                .filter(|entry| entry.split(' ').nth(1) == Some("="));
+            all + entry.unwrap_or(line) + "\n"
+        });
+    toml::from_str::<Job>(&examples).unwrap_or_else(|error| panic!("{error}"));
+    // Pointed to files that exist, it is a job that can be looked at.
+    let wing = |file: &str| words(&folder_of("wing").join(file)).to_owned();
+    let text = String::from_utf8(written).expect("UTF-8");
+    let text = text.replace("\"model.bdf\"", &format!("{:?}", wing("model.bdf")));
+    let text = text.replace("\"test.unv\"", &format!("{:?}", wing("test.unv")));
+    let text = text.replace("# by = \"grid\"", "by = \"nearest\"");
+    fs::write(&path, text).expect("written");
+    Prepared::new(&path).unwrap_or_else(|error| panic!("{error}"));
+}
+
+/// The names of a struct's fields, as the reader itself lists them when it finds another.
+fn entries(table: &str) -> Vec<String> {
+    let base = "[model]\n[test]\nfile = \"t\"\n";
+    let text = match table {
+        "" => format!("stranger = 1\n{base}"),
+        "model" => "[model]\nstranger = 1\n[test]\nfile = \"t\"\n".to_owned(),
+        "test" => format!("{base}stranger = 1\n"),
+        table => format!("{base}{table}\nstranger = 1\n"),
+    };
+    let error = toml::from_str::<Job>(&text)
+        .expect_err("a stranger")
+        .to_string();
+    let list = error
+        .split("expected ")
+        .nth(1)
+        .unwrap_or_else(|| panic!("{table}: {error}"));
+    list.split('`')
+        .skip(1)
+        .step_by(2)
+        .map(str::to_owned)
+        .collect()
+}
+
+#[test]
+fn init_explains_every_entry_that_a_job_may_have() {
+    let template = text(&corfem(&["init"]).stdout);
+    let tables = [
+        "",
+        "model",
+        "test",
+        "[sensors]",
+        "[[parameter]]",
+        "[compare]",
+        "[[sensors.place]]",
+    ];
+    let all: Vec<String> = tables.iter().flat_map(|table| entries(table)).collect();
+    let correlation = ["[correlation]", "[correlation.inner]"].map(entries);
+    let correlation: Vec<String> = correlation.into_iter().flatten().collect();
+    // Less six names of tables at the top, one of the inner loop's, and the three entries of a sensor's place.
+    let count = all.len() + correlation.len() - 10;
+    assert_eq!(count, 40, "{all:?} {correlation:?}");
+    let uses = |entry: &str| {
+        let is_use = |line: &str| {
+            let line = line.trim_start_matches(['#', ' ']);
+            line.starts_with(&format!("[{entry}]")) || line.starts_with(&format!("[[{entry}]]"))
+        };
+        template.contains(&format!("{entry} = ")) || template.lines().any(is_use)
+    };
+    for entry in all {
+        assert!(uses(&entry), "{entry}");
+    }
+    for entry in correlation {
+        assert!(
+            uses(&entry) || uses(&format!("correlation.{entry}")),
+            "correlation: {entry}"
+        );
+    }
+}
+
+#[test]
+fn the_example_of_a_test_reads() {
+    let output = corfem(&["init", "--test"]);
+    let data = corfem::files::test_data::read("test.csv", &output.stdout)
+        .unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!((data.sensors.len(), data.frequencies_hz.len()), (2, 2));
+}

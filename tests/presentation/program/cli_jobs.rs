@@ -1,0 +1,437 @@
+//! `corfem correlate` and `corfem check JOB` from outside: what they print, write and leave alone.
+
+use crate::common::tolerances::{FIELD_ROUNDING, WEIGHTED_FACTOR};
+use crate::presentation::program::cli::{corfem, text};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+/// The worked jobs, and whether their models are decks.
+const JOBS: [(&str, bool); 3] = [("box", true), ("building", false), ("wing", true)];
+
+pub fn folder_of(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/jobs")
+        .join(name)
+}
+
+pub fn words(path: &Path) -> &str {
+    path.to_str().expect("UTF-8")
+}
+
+fn correlate(job: &Path, more: &[&str]) -> Output {
+    corfem(&[&["correlate", words(job), "-q"], more].concat())
+}
+
+/// A job with its report in a folder of its own.
+fn reported(name: &str) -> (tempfile::TempDir, String) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = correlate(
+        &folder_of(name).join("job.toml"),
+        &["--folder", words(folder.path())],
+    );
+    let is_within = json(&folder.path().join("correlation.json"))["verdict"]["is_within"] == true;
+    let status = if is_within { 0 } else { 3 };
+    assert_eq!(
+        (output.status.code(), text(&output.stderr)),
+        (Some(status), String::new()),
+        "{name}"
+    );
+    (folder, text(&output.stdout))
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("a folder").flatten();
+    let mut names: Vec<String> = entries
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    names
+}
+
+fn json(path: &Path) -> Value {
+    serde_json::from_slice(&fs::read(path).expect("it reads")).expect("JSON")
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|number| number.as_f64().expect("a number"))
+        .collect()
+}
+
+/// Without the breaks of lines.
+fn unbroken(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn a_worked_job_has_its_report_its_factors_and_its_deck() {
+    for (name, is_deck) in JOBS {
+        let (folder, report) = reported(name);
+        let mut expected = vec!["correlation.json", "factors.csv", "report.html"];
+        expected.splice(0..0, is_deck.then_some("corrected.bdf"));
+        expected.sort_unstable();
+        assert_eq!(names(folder.path()), expected, "{name}");
+        let found = json(&folder.path().join("correlation.json"));
+        assert!(
+            is_deck <= found["verdict"]["is_within"].as_bool().expect("a verdict"),
+            "{name}"
+        );
+        let (factors, deviations) = (
+            numbers(&found["factors"]),
+            numbers(&found["standard_deviations"]),
+        );
+        let parameters = found["parameters"].as_array().expect("a list");
+        assert_eq!(
+            (factors.len(), deviations.len()),
+            (parameters.len(), parameters.len()),
+            "{name}"
+        );
+        let path = folder.path().join("factors.csv");
+        let run = format!(
+            "corfem {} correlate job.toml, inputs ",
+            env!("CARGO_PKG_VERSION")
+        );
+        for name in &expected {
+            let text = std::fs::read_to_string(folder.path().join(name)).expect("it reads");
+            // A corrected deck keeps every byte beside its corrected numbers.
+            assert_eq!(text.contains(&run), *name != "corrected.bdf", "{name}");
+        }
+        let mut reader = csv::ReaderBuilder::new();
+        let mut table = reader.comment(Some(b'#')).from_path(path).expect("a table");
+        let rows: Vec<csv::StringRecord> = table.records().map(|row| row.expect("a row")).collect();
+        for (e, parameter) in parameters.iter().enumerate() {
+            let of = |column: &str| {
+                let mut own = rows
+                    .iter()
+                    .filter(|row| *parameter == row[1] && row[2] == *column);
+                own.next().expect("a number")[4]
+                    .parse::<f64>()
+                    .expect("a number")
+            };
+            for (column, number) in [
+                ("Factor", factors[e]),
+                ("Standard deviation", deviations[e]),
+            ] {
+                approx::assert_relative_eq!(of(column), number, max_relative = FIELD_ROUNDING);
+            }
+        }
+        assert!(
+            report.lines().all(|line| line.chars().count() <= 100),
+            "{report}"
+        );
+        let verdict = found["verdict_in_words"].as_str().expect("words");
+        assert!(unbroken(&report).ends_with(verdict), "{report}");
+        let page = fs::read_to_string(folder.path().join("report.html")).expect("it reads");
+        assert!(
+            page.starts_with("<!DOCTYPE html>")
+                && page.contains(found["name"].as_str().expect("a name"))
+        );
+    }
+}
+
+#[test]
+fn a_corrected_deck_differs_in_properties_and_materials_and_has_the_corrected_frequencies() {
+    const OWN: [&str; 6] = ["PSHEAR", "PQDMEM", "PTRMEM", "PROD", "MAT1", "CONROD"];
+    for (name, _) in JOBS.iter().filter(|(_, is_deck)| *is_deck) {
+        let (folder, _) = reported(name);
+        let path = folder.path().join("corrected.bdf");
+        let original = fs::read_to_string(folder_of(name).join("model.bdf")).expect("it reads");
+        let corrected = fs::read_to_string(&path).expect("it reads");
+        for (one, other) in [(&original, &corrected), (&corrected, &original)] {
+            let known: BTreeSet<&str> = other.lines().collect();
+            let own: Vec<&str> = one.lines().filter(|line| !known.contains(line)).collect();
+            assert!(!own.is_empty(), "{name}: something is corrected");
+            for line in own {
+                // An element may have been given a property of its own, and a card a continuation.
+                let card = line.split(['*', ',', ' ']).next().expect("a card");
+                let is_element = card.starts_with('C') && !line.starts_with("CMASS");
+                assert!(
+                    OWN.contains(&card) || card.is_empty() || line.starts_with('+') || is_element,
+                    "{name}: {line}"
+                );
+            }
+        }
+        let found = json(&folder.path().join("correlation.json"));
+        let best = found["best_pass"].as_u64().expect("a pass") as usize - 1;
+        let modes = corfem(&["modes", words(&path), "-f", "json"]);
+        let modes: Value = serde_json::from_slice(&modes.stdout).expect("JSON");
+        let all = numbers(&modes["frequencies_hz"]);
+        for hertz in numbers(&found["passes"][best]["exact"]["frequencies_hz"]) {
+            let nearest = all
+                .iter()
+                .copied()
+                .min_by(|a, b| (a - hertz).abs().total_cmp(&(b - hertz).abs()));
+            approx::assert_relative_eq!(
+                nearest.expect("a mode"),
+                hertz,
+                max_relative = FIELD_ROUNDING
+            );
+        }
+    }
+}
+
+#[test]
+fn the_same_job_gives_the_same_bytes() {
+    for (name, _) in JOBS {
+        let [(one, report), (other, again)] = [reported(name), reported(name)];
+        assert_eq!(report, again);
+        for file in names(one.path()) {
+            let [a, b] =
+                [&one, &other].map(|folder| fs::read(folder.path().join(&file)).expect("it reads"));
+            assert!(a == b, "{name}: {file}");
+        }
+    }
+}
+
+#[test]
+fn every_format_has_the_factors() {
+    let job = folder_of("box").join("job.toml");
+    let of = |format: &str| {
+        let output = correlate(&job, &["-f", format]);
+        assert_eq!(output.status.code(), Some(0), "{format}");
+        text(&output.stdout)
+    };
+    let document: Value = serde_json::from_str(&of("json")).expect("JSON");
+    let first = numbers(&document["factors"])[0];
+    assert!(
+        of("text")
+            .lines()
+            .any(|line| line.starts_with("panel 1 ") && line.contains(&format!("{first:.3}")))
+    );
+    assert!(
+        of("markdown")
+            .lines()
+            .any(|line| line.starts_with("| panel 1 |") && line.contains(&format!("{first:.3}")))
+    );
+    let csv = of("csv");
+    let cell = csv
+        .lines()
+        .find_map(|line| line.strip_prefix("job_factors,panel 1,Factor,,"))
+        .expect("a factor");
+    approx::assert_relative_eq!(
+        cell.trim_end_matches(',').parse::<f64>().expect("a number"),
+        first,
+        max_relative = FIELD_ROUNDING
+    );
+}
+
+#[test]
+fn check_says_what_is_doubtful_without_a_step() {
+    for (name, _) in JOBS {
+        let job = folder_of(name).join("job.toml");
+        let output = corfem(&["check", words(&job)]);
+        assert_eq!(
+            (output.status.code(), text(&output.stderr)),
+            (Some(0), String::new()),
+            "{name}"
+        );
+        let report = text(&output.stdout);
+        assert!(
+            report.contains("Before the first step") && report.contains("Sensors on the model"),
+            "{report}"
+        );
+        assert!(
+            report.lines().all(|line| line.chars().count() <= 100),
+            "{report}"
+        );
+        let document: Value =
+            serde_json::from_slice(&corfem(&["check", words(&job), "-f", "json"]).stdout)
+                .expect("JSON");
+        assert!(document.is_object() || document.is_array());
+        assert_eq!(
+            names(&folder_of(name))
+                .iter()
+                .filter(|name| name.starts_with("report"))
+                .count(),
+            0
+        );
+    }
+    // Weights that do not fit are doubtful too.
+    let (_folder, job) = changed("box", "[compare]", "[compare]\nshape_weights = [1]");
+    let refused = corfem(&["check", words(&job)]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(
+        text(&refused.stderr).contains("shape_weights, one a test mode"),
+        "{}",
+        text(&refused.stderr)
+    );
+}
+
+/// A worked job with one text replaced by another, in a folder of its own.
+fn changed(name: &str, old: &str, new: &str) -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a folder");
+    for file in names(&folder_of(name)) {
+        fs::copy(folder_of(name).join(&file), folder.path().join(&file)).expect("copied");
+    }
+    let path = folder.path().join("job.toml");
+    let job = fs::read_to_string(&path).expect("it reads");
+    assert!(job.contains(old), "{old}");
+    fs::write(&path, job.replacen(old, new, 1)).expect("written");
+    (folder, path)
+}
+
+#[test]
+fn a_job_outside_tolerance_is_exit_status_3_with_its_verdict() {
+    let (_folder, job) = changed(
+        "building",
+        "error_sum_tolerance = 0.002",
+        "error_sum_tolerance = 1e-9",
+    );
+    let output = correlate(&job, &[]);
+    assert_eq!(output.status.code(), Some(3));
+    assert!(
+        unbroken(&text(&output.stdout)).contains("outside tolerance: error sum"),
+        "{}",
+        text(&output.stdout)
+    );
+}
+
+#[test]
+fn a_mistake_is_exit_status_2_on_one_line_and_nothing_is_written() {
+    let (folder, job) = changed("building", "story_3.mtx", "no.mtx");
+    let out = folder.path().join("out");
+    let output = correlate(&job, &["--folder", words(&out)]);
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
+    let expected = format!(
+        "corfem: cannot read {}/no.mtx (parameter story 3 in job.toml): no such file",
+        words(folder.path())
+    );
+    assert!(
+        text(&output.stderr).starts_with(&expected),
+        "{}",
+        text(&output.stderr)
+    );
+    assert!(!out.exists());
+}
+
+/// Factors of point masses cannot be written into the deck; the report of the correlation is there all the same.
+#[test]
+fn a_report_is_written_although_its_deck_cannot_be() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, file) in crate::common::jobs::rods() {
+        let masses = "elements = [1]\nmasses = [12]\nscales = \"mass\"";
+        fs::write(
+            folder.path().join(name),
+            file.replacen("elements = [1]", masses, 1),
+        )
+        .expect("written");
+    }
+    let out = folder.path().join("out");
+    let output = correlate(&folder.path().join("job.toml"), &["--folder", words(&out)]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        text(&output.stderr).contains("a is one of point masses"),
+        "{}",
+        text(&output.stderr)
+    );
+    assert_eq!(
+        names(&out),
+        ["correlation.json", "factors.csv", "report.html"]
+    );
+}
+
+/// A correlation that would last is stopped: the best so far is written whole, and standard error says so.
+#[cfg(unix)]
+#[test]
+fn a_signal_keeps_the_best_so_far() {
+    use crate::common::signals::{send, undisturbed};
+    use rustix::process::Signal;
+    use std::os::unix::process::ExitStatusExt;
+    use std::process::{Command, Stdio};
+    use std::time::Duration;
+    let endless = "method = \"gauss_newton\"\nstarts = 1000000";
+    let (folder, job) = changed("wing", "method = \"gauss_newton\"", endless);
+    let out = folder.path().join("out");
+    let program = assert_cmd::cargo::cargo_bin("corfem");
+    let command: Vec<&Path> = undisturbed()
+        .iter()
+        .map(Path::new)
+        .chain([program.as_path()])
+        .collect();
+    let mut child = Command::new(command[0])
+        .args(&command[1..])
+        .args(["correlate", words(&job), "-q", "--folder", words(&out)])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    // Until it has taken the signal over, and then for some analyses.
+    let takes_it = || {
+        let status =
+            std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
+        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
+        caught
+            .and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())
+            .is_none_or(|mask| mask & 2 != 0)
+    };
+    for _ in 0..600 {
+        std::thread::sleep(Duration::from_millis(100));
+        if takes_it() {
+            break;
+        }
+    }
+    std::thread::sleep(Duration::from_secs(3));
+    assert!(child.try_wait().expect("a state").is_none(), "it lasts");
+    send(&child, Signal::INT);
+    let output = child.wait_with_output().expect("an end");
+    assert_eq!(output.status.signal(), Some(Signal::INT.as_raw()));
+    assert_eq!(
+        text(&output.stderr),
+        "corfem: stopped by request; the best factors so far are given\n"
+    );
+    assert!(text(&output.stdout).contains("What the test sees of the parameters"));
+    assert_eq!(
+        names(&out),
+        [
+            "corrected.bdf",
+            "correlation.json",
+            "factors.csv",
+            "report.html"
+        ]
+    );
+    let factors = numbers(&json(&out.join("correlation.json"))["factors"]);
+    assert!(
+        factors
+            .iter()
+            .any(|factor| (factor - 1.0).abs() > FIELD_ROUNDING),
+        "better than the first model"
+    );
+}
+
+/// Starts and seed of the command line stand for those of the job.
+#[test]
+fn starts_and_seed_are_taken_from_the_command_line() {
+    let job = folder_of("building").join("job.toml");
+    let report = |more: &[&str]| {
+        let output = correlate(&job, &[&["--format", "json"], more].concat());
+        serde_json::from_slice::<Value>(&output.stdout).expect("JSON")
+    };
+    let (paper, once, twice) = (
+        report(&[]),
+        report(&["--starts", "1"]),
+        report(&["--starts", "2", "--seed", "5"]),
+    );
+    assert!(
+        paper["passes"][0]["iterations"]
+            .as_u64()
+            .is_some_and(|count| count > 1)
+    );
+    // Of an exact test both starts find the same building.
+    for (a, b) in numbers(&once["factors"])
+        .iter()
+        .zip(numbers(&twice["factors"]))
+    {
+        assert!((a / b - 1.0).abs() < WEIGHTED_FACTOR, "{a} {b}");
+    }
+    assert_eq!(
+        correlate(&job, &["--seed", "5"]).status.code(),
+        Some(2),
+        "a seed without starts"
+    );
+}

@@ -1,0 +1,165 @@
+//! `-o` to places where no new file can be made, and what is on the disk before a name changes.
+//!
+//! Pipes, devices, links and the umask are in [`super::cli_streams`].
+
+#![cfg(unix)]
+
+use crate::presentation::program::cli::text;
+use rustix::process::geteuid;
+use std::fs::{self, Permissions};
+use std::io::ErrorKind;
+use std::os::unix::fs::{PermissionsExt, symlink};
+use std::os::unix::process::CommandExt;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::thread::sleep;
+use std::time::Duration;
+use tempfile::TempDir;
+
+/// A user who owns nothing.
+const NOBODY: u32 = 65534;
+
+/// A folder with the program and an old file in `held`, which takes no new files from the user the program runs as.
+struct Place {
+    root: TempDir,
+    held: PathBuf,
+    file: PathBuf,
+}
+
+impl Place {
+    fn new(mode: u32) -> Self {
+        let root = tempfile::tempdir().expect("a folder");
+        let held = root.path().join("held");
+        let file = held.join("report.txt");
+        fs::copy(
+            assert_cmd::cargo::cargo_bin("corfem"),
+            root.path().join("corfem"),
+        )
+        .expect("copied");
+        fs::create_dir(&held).expect("made");
+        fs::write(&file, "old ".repeat(10_000)).expect("written");
+        set(root.path(), 0o755);
+        set(&file, mode);
+        set(&held, 0o555);
+        Self { root, held, file }
+    }
+
+    /// The program's shortest report; as nobody where everything is allowed to root.
+    fn run(&self, to: &Path) -> Output {
+        let mut command = Command::new(self.root.path().join("corfem"));
+        command
+            .args(["cases", "4", "-q", "-o"])
+            .arg(to)
+            .current_dir("/");
+        if geteuid().is_root() {
+            command.uid(NOBODY).gid(NOBODY);
+        }
+        // Another test may start a program of its own while the copy is still open for writing, and hold it open for a moment.
+        for _ in 0..200 {
+            match command.output() {
+                Err(busy) if busy.kind() == ErrorKind::ExecutableFileBusy => {
+                    sleep(Duration::from_millis(50))
+                }
+                done => return done.expect("it starts"),
+            }
+        }
+        panic!("the program stays busy")
+    }
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        set(&self.held, 0o755);
+    }
+}
+
+fn set(path: &Path, mode: u32) {
+    fs::set_permissions(path, Permissions::from_mode(mode)).expect("set");
+}
+
+fn names(folder: &Path) -> usize {
+    fs::read_dir(folder).expect("a folder").count()
+}
+
+/// A new file takes the place of the old one, so that the folder must take it.
+#[test]
+fn a_folder_that_takes_no_files_and_a_file_that_may_not_be_written_are_refused() {
+    for (of_file, of_folder) in [(0o666, 0o555), (0o444, 0o777)] {
+        let place = Place::new(of_file);
+        set(&place.held, of_folder);
+        let old = fs::read(&place.file).expect("it reads");
+        let link = place.root.path().join("link");
+        symlink("held/report.txt", &link).expect("made");
+        for to in [&place.file, &link] {
+            let refused = place.run(to);
+            assert_eq!(refused.status.code(), Some(2), "{}", to.display());
+            assert!(
+                text(&refused.stderr).contains("cannot write "),
+                "{}",
+                text(&refused.stderr)
+            );
+        }
+        assert_eq!(fs::read(&place.file).expect("it reads"), old);
+        assert_eq!(names(&place.held), 1);
+    }
+}
+
+/// The calls of a run that wait for the disk or change a name, in order.
+fn calls(arguments: &[&str], folder: &Path) -> Option<Vec<String>> {
+    let log = folder.join("log");
+    let mut command = Command::new("strace");
+    command
+        .args([
+            "-f",
+            "-y",
+            "-qq",
+            "-e",
+            "trace=fsync,?rename,?renameat,?renameat2",
+            "-o",
+        ])
+        .arg(&log);
+    command
+        .arg(assert_cmd::cargo::cargo_bin("corfem"))
+        .args(arguments)
+        .current_dir(folder);
+    if !command.status().is_ok_and(|status| status.success()) {
+        println!("NOT RUN: the order of system calls. It needs strace.");
+        return None;
+    }
+    Some(
+        fs::read_to_string(log)
+            .expect("it reads")
+            .lines()
+            .map(str::to_owned)
+            .collect(),
+    )
+}
+
+#[test]
+fn new_files_are_on_the_disk_before_they_take_a_name() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let Some(calls) = calls(&["cases", "4", "-q", "-o", "report.txt"], folder.path()) else {
+        return;
+    };
+    let kinds: Vec<&str> = calls
+        .iter()
+        .map(|call| {
+            if call.contains("fsync(") {
+                "sync"
+            } else {
+                "rename"
+            }
+        })
+        .collect();
+    assert_eq!(kinds, ["sync", "rename", "sync"], "{calls:?}");
+    let out = tempfile::tempdir().expect("a folder");
+    let Some(calls) = self::calls(&["figures", "-q", "-o", "figures"], out.path()) else {
+        return;
+    };
+    // Every file before its name, and its name before the next file.
+    let kinds: String = calls
+        .iter()
+        .map(|call| if call.contains("fsync(") { 's' } else { 'r' })
+        .collect();
+    assert_eq!(kinds, "srs".repeat(names(&out.path().join("figures"))));
+}

@@ -1,0 +1,394 @@
+//! Standard output, standard error and `-o`: what cannot be written is said, and nothing else is touched.
+
+#![cfg(unix)]
+
+use crate::presentation::program::cli::{corfem, text};
+use std::fs::{self, File};
+use std::os::unix::fs::{FileTypeExt, MetadataExt, PermissionsExt, symlink};
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+/// Case 4 is the shortest report.
+const SHORT: [&str; 3] = ["cases", "4", "-q"];
+
+fn program(arguments: &[&str]) -> Command {
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin("corfem"));
+    command.args(arguments);
+    command
+}
+
+fn full() -> Stdio {
+    File::options()
+        .write(true)
+        .open("/dev/full")
+        .expect("a device that is always full")
+        .into()
+}
+
+fn to_file(path: &Path) -> Output {
+    corfem(&[&SHORT[..], &["-o", path.to_str().expect("UTF-8")]].concat())
+}
+
+fn report() -> Vec<u8> {
+    corfem(&SHORT).stdout
+}
+
+#[test]
+fn standard_output_that_takes_nothing_is_an_error() {
+    for arguments in [
+        &SHORT[..],
+        &["deck", "4"],
+        &["tables", "13", "-o", "-"],
+        &["--help"],
+        &["tables", "--version"],
+    ] {
+        let output = program(arguments)
+            .stdout(full())
+            .output()
+            .expect("it starts");
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        let said = text(&output.stderr);
+        assert!(
+            said.starts_with("corfem: cannot write standard output: No space"),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn a_reader_that_has_seen_enough_is_no_error() {
+    let (reader, writer) = std::io::pipe().expect("a pipe");
+    drop(reader);
+    let output = program(&SHORT).stdout(writer).output().expect("it starts");
+    assert_eq!((output.status.code(), output.stderr.len()), (Some(0), 0));
+}
+
+#[test]
+fn nobody_listening_on_standard_error_changes_nothing() {
+    for (arguments, status) in [
+        (&["cases", "4"][..], 0),
+        (&["cases", "9"], 2),
+        (&["cases", "x"], 2),
+    ] {
+        let output = program(arguments)
+            .stderr(full())
+            .output()
+            .expect("it starts");
+        assert_eq!(output.status.code(), Some(status), "{arguments:?}");
+    }
+}
+
+#[test]
+fn a_dash_and_names_of_standard_output_are_standard_output() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // Another descriptor, and a file it is appended to.
+    let shell = "echo before > log; \"$0\" cases 4 -q -o /dev/stderr 2>> log; cat log; rm log";
+    let program_path = assert_cmd::cargo::cargo_bin("corfem");
+    let output = Command::new("sh")
+        .args(["-c", shell])
+        .arg(program_path)
+        .current_dir(folder.path())
+        .output();
+    assert_eq!(
+        output.expect("a shell").stdout,
+        [b"before\n", &report()[..]].concat()
+    );
+    for name in ["-", "/dev/stdout", "/dev/fd/1"] {
+        let arguments = [&SHORT[..], &["-o", name]].concat();
+        let output = program(&arguments)
+            .current_dir(folder.path())
+            .output()
+            .expect("it starts");
+        assert_eq!(output.status.code(), Some(0), "{name}");
+        assert_eq!(output.stdout, report(), "{name}");
+        // A file it is appended to keeps what it has.
+        let path = folder.path().join("log");
+        fs::write(&path, "before\n").expect("written");
+        let log = File::options().append(true).open(&path).expect("it opens");
+        assert!(
+            program(&arguments)
+                .stdout(log)
+                .status()
+                .expect("it starts")
+                .success()
+        );
+        assert_eq!(
+            fs::read(&path).expect("it reads"),
+            [b"before\n", &report()[..]].concat()
+        );
+    }
+    assert_eq!(
+        fs::read_dir(folder.path()).expect("a folder").count(),
+        1,
+        "no file is called -"
+    );
+}
+
+/// A socket cannot be opened by a name: what is written to that name goes to the open one.
+#[test]
+fn a_socket_as_standard_output_is_written_to_by_its_name() {
+    let (mut ours, theirs) = std::os::unix::net::UnixStream::pair().expect("a pair");
+    let mut command = program(&[&SHORT[..], &["-o", "/dev/stdout"]].concat());
+    let mut child = command
+        .stdout(std::os::fd::OwnedFd::from(theirs))
+        .spawn()
+        .expect("it starts");
+    drop(command);
+    let mut read = Vec::new();
+    std::io::Read::read_to_end(&mut ours, &mut read).expect("it reads");
+    assert_eq!(
+        (child.wait().expect("an end").code(), read),
+        (Some(0), report())
+    );
+}
+
+#[test]
+fn devices_and_pipes_are_written_through_and_stay_what_they_are() {
+    assert_eq!(to_file(Path::new("/dev/null")).status.code(), Some(0));
+    assert!(
+        fs::metadata("/dev/null")
+            .expect("it is there")
+            .file_type()
+            .is_char_device()
+    );
+    let refused = to_file(Path::new("/dev/full"));
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(text(&refused.stderr).starts_with("corfem: cannot write /dev/full: "));
+    let folder = tempfile::tempdir().expect("a folder");
+    let pipe = folder.path().join("pipe");
+    assert!(
+        Command::new("mkfifo")
+            .arg(&pipe)
+            .status()
+            .expect("mkfifo")
+            .success()
+    );
+    let reader = std::thread::spawn({
+        let pipe = pipe.clone();
+        move || fs::read(pipe).expect("it reads")
+    });
+    assert_eq!(to_file(&pipe).status.code(), Some(0));
+    assert_eq!(reader.join().expect("a reader"), report());
+    assert!(
+        fs::metadata(&pipe)
+            .expect("it is there")
+            .file_type()
+            .is_fifo()
+    );
+}
+
+#[test]
+fn links_are_followed_and_modes_are_those_of_new_files() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    symlink("there.txt", path("link")).expect("made");
+    symlink("link", path("link to link")).expect("made");
+    // To nothing yet, and then to a file with a mode of its own.
+    assert_eq!(to_file(&path("link to link")).status.code(), Some(0));
+    assert_eq!(fs::read(path("there.txt")).expect("it reads"), report());
+    fs::write(path("there.txt"), "before").expect("written");
+    fs::set_permissions(path("there.txt"), PermissionsExt::from_mode(0o604)).expect("set");
+    assert_eq!(to_file(&path("link")).status.code(), Some(0));
+    assert_eq!(fs::read(path("there.txt")).expect("it reads"), report());
+    let mode = |name: &str| fs::metadata(path(name)).expect("it is there").mode() & 0o777;
+    fs::write(path("new"), "").expect("written");
+    assert_eq!(mode("there.txt"), mode("new"));
+    fs::remove_file(path("new")).expect("removed");
+    assert!(path("link").is_symlink() && path("link to link").is_symlink());
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 3);
+}
+
+#[test]
+fn new_files_and_folders_have_the_rights_of_the_umask() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let program = assert_cmd::cargo::cargo_bin("corfem");
+    let shell = "umask 027; \"$0\" cases 4 -q -o file && \"$0\" report -q -o out && stat -c %a file out out/report.html";
+    let output = Command::new("sh")
+        .args(["-c", shell])
+        .arg(program)
+        .current_dir(folder.path())
+        .output();
+    assert_eq!(text(&output.expect("a shell").stdout), "640\n750\n640\n");
+}
+
+#[test]
+fn a_path_that_cannot_be_written_is_refused_before_the_work() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
+    for name in ["", "no/such", "new/"] {
+        let refused = corfem(&["cases", "4", "-o", &path(name)]);
+        assert_eq!(refused.status.code(), Some(2), "{name}");
+        let said = text(&refused.stderr);
+        assert!(
+            said.starts_with(&format!("corfem: cannot write {}: ", path(name))),
+            "no progress: {said}"
+        );
+    }
+    // A link that leads to itself leads nowhere.
+    std::os::unix::fs::symlink("circle", folder.path().join("circle")).expect("linked");
+    assert_eq!(
+        corfem(&["cases", "4", "-o", &path("circle")]).status.code(),
+        Some(2)
+    );
+    fs::remove_file(path("circle")).expect("removed");
+    fs::write(path("file"), "mine").expect("written");
+    for name in ["file", "file/new"] {
+        let refused = corfem(&["figures", "-o", &path(name)]);
+        let said = text(&refused.stderr);
+        assert!(
+            refused.status.code() == Some(2) && said.contains("Not a directory"),
+            "{said}"
+        );
+    }
+    assert_eq!(fs::read_to_string(path("file")).expect("it reads"), "mine");
+    fs::remove_file(path("file")).expect("removed");
+    for command in ["figures", "report"] {
+        for name in ["-".to_owned(), path("no/such"), "/dev/null".to_owned()] {
+            let refused = corfem(&[command, "-o", &name]);
+            assert_eq!(refused.status.code(), Some(2), "{command} {name}");
+            assert_eq!(text(&refused.stderr).lines().count(), 1, "no progress");
+        }
+    }
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
+}
+
+#[test]
+fn what_was_meant_is_suggested() {
+    for (arguments, said) in [
+        (
+            &["case", "1"][..],
+            "case is not the number of a case, 1 to 4; did you mean corfem cases?",
+        ),
+        (
+            &["-q", "cases", "1"],
+            "cases is not the number of a case, 1 to 4; a command comes first: corfem cases",
+        ),
+        (&["qqqqqq"], "qqqqqq is not the number of a case, 1 to 4\n"),
+        (&["cases", "2", "1", "2"], "corfem: case 2 is defined twice"),
+        (&["cases", "1", "--nastran", "x"], "--solver <SOLVER>"),
+        (&["cases", "1", "--time-limit", "9"], "--solver <SOLVER>"),
+        (
+            &["modes", "deck", "-c", "0"],
+            "invalid value '0' for '--count <N>'",
+        ),
+    ] {
+        let refused = corfem(arguments);
+        assert_eq!(
+            (refused.status.code(), refused.stdout.len()),
+            (Some(2), 0),
+            "{arguments:?}"
+        );
+        assert!(
+            text(&refused.stderr).contains(said),
+            "{}",
+            text(&refused.stderr)
+        );
+    }
+}
+
+#[test]
+fn an_empty_variable_is_as_good_as_none() {
+    let with = |solver: &[&str]| {
+        let arguments = [&SHORT[..], solver].concat();
+        program(&arguments)
+            .env("NASTRAN95", "")
+            .env("HOME", "/no/such")
+            .output()
+            .expect("it starts")
+    };
+    assert_eq!(with(&[]).stdout, report());
+    assert!(
+        text(&with(&["--solver", "nastran95"]).stderr)
+            .contains("found none at /no/such/.cache/nastran95")
+    );
+}
+
+#[test]
+fn quiet_and_version_mean_the_same_everywhere() {
+    for command in ["cases", "tables", "fewer-modes", "deck", "modes"] {
+        assert_eq!(
+            text(&corfem(&[command, "--version"]).stdout),
+            concat!("corfem ", env!("CARGO_PKG_VERSION"), "\n")
+        );
+        assert!(
+            text(&corfem(&[command, "--help"]).stdout).contains("--quiet"),
+            "{command}"
+        );
+    }
+    assert_eq!(corfem(&["-q", "4"]).stdout, report());
+    assert!(corfem(&["-q", "4"]).stderr.is_empty());
+}
+
+#[test]
+fn every_format_says_what_became_of_every_case() {
+    let arguments = [
+        "cases",
+        "1",
+        "4",
+        "-q",
+        "--groups",
+        "--iterations",
+        "1",
+        "--passes",
+        "1",
+        "-f",
+    ];
+    let outcome = |format: &str| {
+        let output = corfem(&[&arguments[..], &[format]].concat());
+        assert_eq!(output.status.code(), Some(3), "{format}");
+        text(&output.stdout)
+    };
+    let ends_with = |report: &str, case: &str, words: &str| {
+        report
+            .lines()
+            .filter(|line| line.starts_with(case) && line.ends_with(words))
+            .count()
+    };
+    let (first, last) = ("not converged", "no modeling error detected");
+    let (plain, markdown) = (outcome("text"), outcome("markdown"));
+    assert_eq!(
+        (
+            ends_with(&plain, "1 ", first),
+            ends_with(&plain, "4 ", last)
+        ),
+        (1, 1),
+        "{plain}"
+    );
+    let bar = |words: &str| format!("{words} |");
+    assert_eq!(
+        (
+            ends_with(&markdown, "| 1 ", &bar(first)),
+            ends_with(&markdown, "| 4 ", &bar(last))
+        ),
+        (1, 1)
+    );
+    let csv = outcome("csv");
+    assert!(
+        csv.contains(&format!("\noutcome,1,Outcome,,{first},\n"))
+            && csv.contains(&format!("outcome,4,Outcome,,{last},\n"))
+    );
+    let json: serde_json::Value = serde_json::from_str(&outcome("json")).expect("JSON");
+    assert_eq!(
+        (&json["cases"][0]["outcome"], &json["cases"][1]["outcome"]),
+        (&first.into(), &last.into())
+    );
+}
+
+#[test]
+fn control_characters_in_an_error_are_shown() {
+    let said = text(&corfem(&["modes", "no\u{1b}[31m.dat"]).stderr);
+    assert!(
+        said.starts_with("corfem: cannot read no\\u{1b}[31m.dat: "),
+        "{said}"
+    );
+}
+
+#[test]
+fn letters_lines_and_tabs_of_an_error_are_shown_as_they_are() {
+    let words = "expected \"Fl\u{fc}gel\",\n\tfound 'C:\\x'";
+    assert_eq!(corfem::files::escaped(words), words);
+    assert_eq!(
+        corfem::files::escaped("\u{1b}[2J\r\u{9b}"),
+        "\\u{1b}[2J\\r\\u{9b}"
+    );
+}

@@ -1,0 +1,276 @@
+//! `corfem study` from outside: the same samples whatever the threads, gone on with after any end, and alone.
+
+use crate::presentation::program::cli::{corfem, text};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+const COUNT: usize = 6;
+
+fn job(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/jobs")
+        .join(name)
+        .join("job.toml")
+}
+
+fn words(path: &Path) -> &str {
+    path.to_str().expect("UTF-8")
+}
+
+fn study(folder: &Path, more: &[&str]) -> Output {
+    let job = job("building");
+    let count = COUNT.to_string();
+    let base = [
+        "study",
+        words(&job),
+        "-q",
+        "--samples",
+        &count,
+        "--seed",
+        "5",
+        "--folder",
+        words(folder),
+    ];
+    corfem(&[&base[..], more].concat())
+}
+
+/// The lines of the samples, sorted, and the files that are made of them.
+fn found(folder: &Path) -> (Vec<String>, [Vec<u8>; 2]) {
+    let samples = fs::read_to_string(folder.join("samples.csv")).expect("it reads");
+    assert!(
+        samples.ends_with('\n')
+            && samples.starts_with("sample,outcome,within,error_sum,analyses,\"story 1\",")
+    );
+    let mut lines: Vec<String> = samples.lines().skip(1).map(str::to_owned).collect();
+    lines.sort();
+    (
+        lines,
+        ["summary.csv", "histogram.svg"].map(|name| fs::read(folder.join(name)).expect("it reads")),
+    )
+}
+
+/// Whatever the number of threads, and after any end, the folder is the same.
+#[test]
+fn threads_and_stops_change_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let one = folder.path().join("one");
+    let output = study(&one, &["--threads", "1"]);
+    assert_eq!(
+        (output.status.code(), text(&output.stderr)),
+        (Some(0), String::new())
+    );
+    let expected = found(&one);
+    assert_eq!(expected.0.len(), COUNT);
+    let two = folder.path().join("two");
+    assert_eq!(study(&two, &["--threads", "2"]).stdout, output.stdout);
+    assert_eq!(found(&two), expected);
+    // Three whole lines and a torn one.
+    let whole = fs::read_to_string(one.join("samples.csv")).expect("it reads");
+    let cut = whole.match_indices('\n').nth(3).expect("four lines").0 + 20;
+    fs::write(two.join("samples.csv"), &whole[..cut]).expect("written");
+    assert_eq!(study(&two, &[]).stdout, output.stdout);
+    assert_eq!(found(&two), expected);
+    // Nothing is left to do, and one more is.
+    let before = fs::read(two.join("samples.csv")).expect("it reads");
+    assert_eq!(study(&two, &[]).stdout, output.stdout);
+    assert_eq!(fs::read(two.join("samples.csv")).expect("it reads"), before);
+    let summary = text(&output.stdout);
+    assert!(summary.contains(
+        "6 samples, seed 5, with noise on the test: 0 within tolerance, 6 outside, 0 failed."
+    ));
+    assert!(
+        summary.lines().all(|line| line.chars().count() <= 100),
+        "{summary}"
+    );
+}
+
+/// The samples of a scheduler, each of a process of its own, are one file behind one another.
+#[test]
+fn samples_run_alone_and_put_together_are_the_study() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [one, merged] = ["one", "merged"].map(|name| folder.path().join(name));
+    let output = study(&one, &[]);
+    let alone = |sample: usize, more: &[&str]| {
+        let (job, sample) = (job("building"), sample.to_string());
+        let output = corfem(
+            &[
+                &["study", words(&job), "--seed", "5", "--sample", &sample],
+                more,
+            ]
+            .concat(),
+        );
+        assert_eq!(
+            (output.status.code(), text(&output.stderr)),
+            (Some(0), String::new())
+        );
+        text(&output.stdout)
+    };
+    let mut lines: Vec<String> = (1..=COUNT).map(|sample| alone(sample, &[])).collect();
+    assert_eq!(lines.concat().lines().collect::<Vec<_>>(), found(&one).0);
+    let file = folder.path().join("3.csv");
+    assert_eq!(alone(3, &["--output", words(&file)]), "");
+    assert_eq!(fs::read_to_string(&file).expect("it reads"), lines[2]);
+    lines.rotate_left(2);
+    fs::create_dir(&merged).expect("made");
+    fs::write(merged.join("samples.csv"), lines.concat()).expect("written");
+    assert_eq!(study(&merged, &[]).stdout, output.stdout);
+    assert_eq!(
+        fs::read_to_string(merged.join("samples.csv")).expect("it reads"),
+        lines.concat()
+    );
+    assert_eq!(
+        fs::read(merged.join("histogram.svg")).expect("it reads"),
+        found(&one).1[1]
+    );
+}
+
+#[test]
+fn a_folder_of_another_study_is_refused_and_left_alone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = study(folder.path(), &[]);
+    assert_eq!(output.status.code(), Some(0));
+    let before = fs::read(folder.path().join("samples.csv")).expect("it reads");
+    let (building, wing) = (job("building"), job("wing"));
+    for (other, seed, vary) in [
+        (&building, "6", "noise"),
+        (&building, "5", "noise,start"),
+        (&wing, "5", "noise"),
+    ] {
+        let base = [
+            "study",
+            words(other),
+            "--samples",
+            "6",
+            "--seed",
+            seed,
+            "--vary",
+            vary,
+        ];
+        let output = corfem(&[&base[..], &["--folder", words(folder.path())]].concat());
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
+        assert!(
+            text(&output.stderr).contains("samples.csv, line "),
+            "{}",
+            text(&output.stderr)
+        );
+        assert_eq!(
+            fs::read(folder.path().join("samples.csv")).expect("it reads"),
+            before
+        );
+    }
+}
+
+#[test]
+fn a_study_needs_samples_and_a_folder_or_one_sample() {
+    let job = job("building");
+    for more in [
+        &["--samples", "3"][..],
+        &["--folder", "x"],
+        &["--sample", "1", "--samples", "3"],
+        &["--sample", "0"],
+    ] {
+        let output = corfem(&[&["study", words(&job)], more].concat());
+        assert_eq!(
+            (output.status.code(), output.stdout.len()),
+            (Some(2), 0),
+            "{more:?}"
+        );
+    }
+    assert_eq!(
+        corfem(&["study", words(&job), "--sample", "1", "--vary", "weather"])
+            .status
+            .code(),
+        Some(2)
+    );
+}
+
+/// A study that would last is stopped: whole lines of what is done are there, and the same command goes on with them.
+#[cfg(unix)]
+#[test]
+fn a_signal_keeps_the_samples_done() {
+    use crate::common::signals::{send, undisturbed};
+    use rustix::process::Signal;
+    use std::os::unix::process::ExitStatusExt;
+    use std::process::{Command, Stdio};
+    use std::time::Duration;
+    let folder = tempfile::tempdir().expect("a folder");
+    let (job, path) = (job("building"), folder.path().join("samples.csv"));
+    let program = assert_cmd::cargo::cargo_bin("corfem");
+    let command: Vec<&Path> = undisturbed()
+        .iter()
+        .map(Path::new)
+        .chain([program.as_path()])
+        .collect();
+    let mut child = Command::new(command[0])
+        .args(&command[1..])
+        .args([
+            "study",
+            words(&job),
+            "-q",
+            "--samples",
+            "1000000",
+            "--seed",
+            "5",
+            "--folder",
+            words(folder.path()),
+        ])
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    let lines = || fs::read_to_string(&path).map_or(0, |text| text.matches('\n').count());
+    for _ in 0..600 {
+        if lines() > COUNT + 1 {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(100));
+    }
+    assert!(child.try_wait().expect("a state").is_none(), "it lasts");
+    send(&child, Signal::INT);
+    let output = child.wait_with_output().expect("an end");
+    assert_eq!(output.status.signal(), Some(Signal::INT.as_raw()));
+    let done = lines() - 1;
+    let said = format!(
+        "corfem: stopped by request; {done} of 1000000 samples are done, and the same command goes on\n"
+    );
+    assert_eq!(text(&output.stderr), said);
+    assert!(
+        fs::read_to_string(&path).expect("it reads").ends_with('\n')
+            && !folder.path().join("summary.csv").exists()
+    );
+    let whole = tempfile::tempdir().expect("a folder");
+    let [resumed, uninterrupted] =
+        [folder.path(), whole.path()].map(|folder| study(folder, &[]).stdout);
+    assert_eq!(resumed, uninterrupted);
+}
+
+/// Progress is for a terminal that nobody asked to be quiet on; `script` lends one, where it is installed.
+#[cfg(unix)]
+#[test]
+fn progress_stands_on_a_terminal_alone() {
+    use std::process::{Command, Stdio};
+    let program = assert_cmd::cargo::cargo_bin("corfem");
+    let on_terminal = |more: &str| {
+        let command = format!("{} check {} {more}", words(&program), words(&job("wing")));
+        let output = Command::new("script")
+            .args(["-qec", &command, "/dev/null"])
+            .stdin(Stdio::null())
+            .output();
+        output
+            .ok()
+            .filter(|output| output.status.success())
+            .map(|output| text(&output.stdout))
+    };
+    let silent = corfem(&["check", words(&job("wing"))]);
+    assert_eq!(
+        (silent.status.code(), text(&silent.stderr)),
+        (Some(0), String::new())
+    );
+    let (Some(loud), Some(quiet)) = (on_terminal(""), on_terminal("-q")) else {
+        println!("NOT RUN: progress on a terminal. It needs script.");
+        return;
+    };
+    assert!(loud.contains("looking at the job"), "{loud}");
+    assert!(!quiet.contains("looking at the job"), "{quiet}");
+}

@@ -1,0 +1,16 @@
+//! The program from outside.
+
+pub mod cli;
+pub mod cli_check;
+pub mod cli_comparisons;
+pub mod cli_init;
+pub mod cli_jobs;
+pub mod cli_pictures;
+pub mod cli_places;
+pub mod cli_settings;
+pub mod cli_streams;
+pub mod cli_study;
+pub mod cli_tables;
+pub mod deck_cli;
+pub mod dump;
+pub mod stops;

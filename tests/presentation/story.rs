@@ -1,0 +1,134 @@
+//! The report as a story: the method, every case with its figures and what to see in them, then the appendix.
+
+use crate::presentation::figures::{figures, wings};
+use crate::presentation::page::html;
+
+/// Ids of all sections with what stands in them.
+fn sections(html: &str) -> Vec<(&str, &str)> {
+    let sections = html.split("<section id=\"").skip(1);
+    sections
+        .map(|rest| rest.split_once('"').expect("an id"))
+        .collect()
+}
+
+#[test]
+fn method_comes_first_then_cases_then_the_appendix() {
+    let html = html();
+    let found: Vec<&str> = sections(&html).into_iter().map(|(id, _)| id).collect();
+    let story = ["method", "case-1", "case-2", "case-3", "case-4"];
+    let mut expected: Vec<String> = story.iter().map(|part| format!("story-{part}")).collect();
+    expected.extend(["appendix", "summary-section", "box", "preflight"].map(String::from));
+    expected.extend((1..=4).map(|case| format!("case-{case}")));
+    expected.extend(["fewer-modes", "cost", "differences", "made"].map(String::from));
+    assert_eq!(found, expected);
+    // No table of numbers stands before the appendix.
+    let appendix = html.find("<section id=\"appendix\"").expect("an appendix");
+    assert!(html.find("<table id=").expect("tables") > appendix);
+    assert!(html.find("<h2>Method").expect("the method") < html.find("<figure").expect("figures"));
+}
+
+#[test]
+fn every_case_has_its_figures_with_a_sentence_on_each() {
+    let (html, words) = (html(), include_str!("../../paper/report.md"));
+    let told: Vec<_> = sections(&html)
+        .into_iter()
+        .filter(|(id, _)| id.starts_with("story-"))
+        .collect();
+    assert_eq!(told.len(), words.matches("\n## ").count());
+    for (id, body) in &told[1..] {
+        let captions: Vec<&str> = body.split("<figcaption><strong>").skip(1).collect();
+        let count = if *id == "story-case-4" { 3 } else { 2 };
+        assert_eq!(
+            (captions.len(), body.matches("<figure ").count()),
+            (count, count),
+            "{id}"
+        );
+        for caption in captions {
+            let (see, rest) = caption.split_once("</strong> ").expect("words to see");
+            assert!(see.ends_with('.') && see.len() > 40, "{id}: {see}");
+            assert!(rest.starts_with("Case"), "{rest}");
+        }
+        assert!(
+            body.contains("class=\"note\"") || body.contains("class=\"finding\""),
+            "{id} says what it came to"
+        );
+    }
+    // Every name in the words is one of a figure.
+    for name in words
+        .split("\n- `")
+        .skip(1)
+        .filter_map(|line| line.split('`').next())
+    {
+        assert!(figures().iter().any(|figure| figure.name == name), "{name}");
+    }
+}
+
+#[test]
+fn the_method_has_its_flow_five_equations_and_the_words_it_uses() {
+    let html = html();
+    let (id, method) = sections(&html)[0];
+    assert_eq!((id, method.matches("<li>").count()), ("story-method", 6));
+    for number in ["(1, 2)", "(4)", "(5, 6)", "(7, 8)", "(12, 13)"] {
+        let row = method
+            .split("<tr>")
+            .find(|row| row.contains(number))
+            .expect("an equation");
+        assert!(row.contains("<math>"), "{number}");
+    }
+    for word in ["GVT", "SRSS, RMS", "<i>T</i>", "<i>B</i>", "MAC"] {
+        assert!(method.contains(&format!("<tr><td>{word}</td>")), "{word}");
+    }
+}
+
+#[test]
+fn page_refers_to_no_file_that_it_does_not_carry() {
+    let html = html();
+    assert_eq!(
+        html.matches("href=").count(),
+        html.matches("href=\"#").count()
+    );
+    assert_eq!(html.matches(" src=").count(), 0);
+    for end in [".md", ".toml", ".csv", ".svg", ".json", ".rs", ".snap"] {
+        for (at, _) in html.match_indices(end) {
+            let is_longer =
+                html[at + end.len()..].starts_with(|letter: char| letter.is_ascii_alphanumeric());
+            let before: String = html[..at].chars().rev().take(60).collect();
+            assert!(
+                is_longer,
+                "{}{end}",
+                before.chars().rev().collect::<String>()
+            );
+        }
+    }
+}
+
+#[test]
+fn both_wings_come_within_tolerance_of_their_tests_and_not_all_of_their_gages() {
+    for wing in wings() {
+        assert!(wing.converged(), "{}: {}", wing.title, wing.words());
+        assert_eq!(wing.truth.len(), wing.parameters.len());
+        let off = |factors: &[f64]| {
+            factors
+                .iter()
+                .zip(&wing.truth)
+                .map(|(f, t)| (f / t - 1.0).abs())
+                .fold(0.0, f64::max)
+        };
+        assert!(off(&wing.factors()) > 0.05);
+    }
+    let closer = |wing: usize| {
+        let wing = &wings()[wing];
+        let first = vec![1.0; wing.truth.len()];
+        let pairs = wing.factors().into_iter().zip(first).zip(&wing.truth);
+        pairs
+            .filter(|((last, first), truth)| (last - *truth).abs() < (first - *truth).abs())
+            .count()
+    };
+    // Groups that end nearer the right factor than they began, of those that were wrong.
+    let wrong = wings()
+        .iter()
+        .map(|wing| wing.truth.iter().filter(|truth| **truth != 1.0).count())
+        .collect::<Vec<_>>();
+    assert_eq!(closer(0), wrong[0]);
+    assert!(2 * closer(1) > wrong[1], "{} of {}", closer(1), wrong[1]);
+}

@@ -1,0 +1,232 @@
+//! Decks: the identity of writing and reading, and the theorem that NASTRAN's reduction of a deck is Appendix A.
+
+use crate::common::decks::{bulk_data, restyled, style};
+use crate::common::tolerances::{DECK_ROUNDING, ROUND_OFF, SINGULAR_MASS_ROOT};
+use corfem::files::deck::bulk_data as written;
+use corfem::files::deck::number::nearest_in_field;
+use corfem::files::deck::{self, BulkData, Task};
+use corfem::method::assembly::element_matrices;
+use corfem::sparse::LargeModel;
+use corfem::torque_box::wing_box::dynamic_points;
+use corfem::torque_box::{CASES, Case};
+use nalgebra::{DMatrix, SymmetricEigen};
+use proptest::prelude::*;
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    #[test]
+    fn deck_to_model_to_deck_is_the_identity(model in bulk_data()) {
+        let text = written(&model).expect("a deck");
+        let read = deck::read("deck", text.as_bytes(), &[]).expect("it reads");
+        prop_assert_eq!(&read.model, &model);
+        prop_assert!(read.unread.is_empty());
+        prop_assert_eq!(written(&read.model).expect("a deck"), text);
+    }
+
+    #[test]
+    fn order_and_format_of_lines_do_not_matter(
+        (model, lines) in bulk_data().prop_flat_map(|model| {
+            let text = written(&model).expect("a deck");
+            let lines: Vec<String> = text.lines().map(str::to_owned).collect();
+            let count = lines.len();
+            let styles = prop::collection::vec(style(), count);
+            (Just(model), (Just(lines), styles).prop_map(|(lines, styles)| {
+                lines.iter().zip(styles).map(|(line, style)| restyled(line, style)).collect::<Vec<_>>()
+            }).prop_shuffle())
+        })
+    ) {
+        let read = deck::read("deck", lines.join("\n").as_bytes(), &[]).expect("it reads");
+        prop_assert_eq!(read.model, model);
+    }
+
+    /// $(K_S, T M T^t)$ has d finite roots, those of $(K_D, M)$, for any stiffness, full-rank T and masses.
+    #[test]
+    fn finite_roots_of_the_singular_pencil_are_those_of_the_dynamic_one(
+        (stiffness, _) in crate::common::strategies::positive_definite(6, 3.0),
+        directions in crate::common::strategies::orthogonal(6),
+        scales in prop::collection::vec(0.1..10.0_f64, 4),
+        masses in prop::collection::vec(0.1..10.0_f64, 4),
+    ) {
+        let t = directions.columns(0, 4) * DMatrix::from_diagonal(&scales.into());
+        let mass = DMatrix::from_diagonal(&masses.into());
+        let flexibility = t.tr_mul(&stiffness.clone().try_inverse().expect("definite")) .clone() * &t;
+        let dynamic_stiffness = flexibility.try_inverse().expect("full rank");
+        let dynamic = corfem::method::modes::solve(&symmetric(&dynamic_stiffness), &mass, 4).expect("modes");
+        let roots = singular_pencil_roots(&stiffness, &(&t * &mass * t.transpose()));
+        prop_assert_eq!(roots.len(), 6);
+        for (omega_squared, root) in dynamic.omega_squared().iter().zip(&roots) {
+            // The condition of the flexibility is that of the stiffness times that of T squared: 1e3 times 1e4.
+            prop_assert!((omega_squared * root - 1.0).abs() < SINGULAR_MASS_ROOT, "{} {}", omega_squared, root);
+        }
+        for root in &roots[4..] {
+            prop_assert!(root.abs() < SINGULAR_MASS_ROOT * roots[3], "{:?}", roots);
+        }
+    }
+}
+
+fn symmetric(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    0.5 * (matrix + matrix.transpose())
+}
+
+/// All roots $\lambda = 1/\omega^2$ of $\lambda K v = M v$, largest first, by nalgebra: zero where $\omega$ is infinite.
+fn singular_pencil_roots(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Vec<f64> {
+    let lower = stiffness
+        .clone()
+        .cholesky()
+        .expect("a constrained structure")
+        .l();
+    let half = lower
+        .solve_lower_triangular(mass)
+        .expect("a nonzero diagonal");
+    let reduced = lower
+        .solve_lower_triangular(&half.transpose())
+        .expect("a nonzero diagonal");
+    let mut roots: Vec<f64> = SymmetricEigen::new(symmetric(&reduced))
+        .eigenvalues
+        .iter()
+        .copied()
+        .collect();
+    roots.sort_by(|a, b| b.total_cmp(a));
+    roots
+}
+
+#[test]
+fn nine_finite_roots_of_the_box_are_its_dynamic_modes() {
+    for number in CASES {
+        let case = Case::new(number).expect("a case");
+        let model = case.model().expect("a model");
+        let dynamic = model.matrices(&[1.0; 15]).expect("an analysis");
+        let modes =
+            corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
+        let sizes = model.at(&[1.0; 15]).expect("sizes").sizes;
+        let stiffness =
+            corfem::method::assembly::dense_stiffness(model.element_matrices(), &sizes, 36)
+                .expect("stiffness");
+        let t = &model.load_distribution().clone();
+        let roots = singular_pencil_roots(&stiffness, &(t * model.mass() * t.transpose()));
+        assert_eq!(roots.len(), 36);
+        for (omega_squared, root) in modes.omega_squared().iter().zip(&roots) {
+            approx::assert_relative_eq!(omega_squared * root, 1.0, epsilon = SINGULAR_MASS_ROOT);
+        }
+        assert!(
+            roots[9].abs() < SINGULAR_MASS_ROOT * roots[8],
+            "case {number}: {roots:?}"
+        );
+    }
+}
+
+/// The deck of a case at its first gages times `factors`.
+fn box_deck(number: usize, factors: &[f64]) -> (BulkData, String) {
+    let case = Case::new(number).expect("a case");
+    let points = dynamic_points(&case.reconstruction).expect("points");
+    let bulk = BulkData::of(&case.model().expect("a model"), factors, &points).expect("bulk data");
+    let task = Task::Modes {
+        count: 9,
+        range_hz: [5.0, 3000.0],
+    };
+    let text = deck::write(&bulk, "box", &task).expect("a deck");
+    (bulk, text)
+}
+
+#[test]
+fn the_box_read_from_its_deck_has_its_modes() {
+    for number in CASES {
+        let factors: Vec<f64> = (0..15).map(|row| 1.0 + f64::from(row) / 7.0).collect();
+        let (_, text) = box_deck(number, &factors);
+        let read = deck::read("box", text.as_bytes(), &[]).expect("it reads");
+        assert!(read.unread.is_empty(), "{:?}", read.unread);
+        let found = deck::modes(&read.model).expect("modes");
+        let model = Case::new(number).expect("a case").model().expect("a model");
+        // By the same factorization, so that the digits of the deck are all that differs.
+        let model = LargeModel::of(&model).expect("a plan");
+        let expected = model.modes(&factors).expect("modes");
+        let labels: Vec<usize> = found.dof.iter().map(|dof| dof.grid).collect();
+        assert_eq!(labels, (101..=109).collect::<Vec<_>>());
+        assert!(found.dof.iter().all(|dof| dof.direction == 2));
+        assert_eq!(found.modes.shapes().shape(), (9, 9));
+        // An eigensolution rounds by the largest of its eigenvalues, in the lowest mode 1e5 times its own.
+        let highest = expected.omega_squared().max();
+        let lowest = expected.omega_squared().iter().map(|value| highest / value);
+        for ((a, b), spread) in found
+            .modes
+            .frequencies_hz()
+            .iter()
+            .zip(expected.frequencies_hz())
+            .zip(lowest)
+        {
+            approx::assert_relative_eq!(
+                *a,
+                b,
+                max_relative = DECK_ROUNDING + f64::EPSILON * spread
+            );
+        }
+        // A shape component moves with the tenth digit of T by as much as modes are close.
+        let largest = expected.shapes().amax();
+        approx::assert_relative_eq!(
+            found.modes.shapes(),
+            expected.shapes(),
+            epsilon = 1e3 * DECK_ROUNDING * largest
+        );
+        let generalized = found
+            .modes
+            .shapes()
+            .tr_mul(&(model.mass() * found.modes.shapes()));
+        approx::assert_relative_eq!(
+            generalized,
+            DMatrix::identity(9, 9),
+            epsilon = 1e3 * ROUND_OFF
+        );
+    }
+}
+
+#[test]
+fn mpc_cards_are_the_load_distribution() {
+    let (_, text) = box_deck(2, &[1.0; 15]);
+    let read = deck::read("box", text.as_bytes(), &[])
+        .expect("it reads")
+        .model;
+    let structure = read.structure().expect("a structure");
+    let model = Case::new(2).expect("a case").model().expect("a model");
+    assert_eq!(structure.free_dof(), model.structure().free_dof());
+    let elements = element_matrices(&structure);
+    let dynamic = read.mass_dof(&structure, &elements).expect("masses");
+    assert_eq!(dynamic.load_distribution.shape(), (36, 9));
+    for (read, meant) in dynamic
+        .load_distribution
+        .iter()
+        .zip(model.load_distribution().clone().iter())
+    {
+        assert_eq!(*read, nearest_in_field(*meant));
+    }
+    assert_eq!(DMatrix::from_diagonal(&dynamic.mass), *model.mass());
+    assert_eq!(read.ties.len(), 9);
+    assert!(read.ties.iter().all(|tie| tie.coefficient == -1.0));
+}
+
+#[test]
+fn dynamic_points_lie_at_mid_depth() {
+    let case = Case::new(1).expect("a case");
+    let (bulk, _) = box_deck(1, &[1.0; 15]);
+    let grids = &case.reconstruction.grids;
+    for (rib, first) in [(0, 1), (1, 5), (2, 9)] {
+        let at = |grid: usize| nalgebra::Vector3::from(grids[&grid]);
+        let point = |k: usize| bulk.grids[16 + 3 * rib + k].position;
+        approx::assert_relative_eq!(
+            point(0),
+            0.5 * (at(first) + at(first + 1)),
+            epsilon = ROUND_OFF
+        );
+        approx::assert_relative_eq!(
+            point(2),
+            0.5 * (at(first + 2) + at(first + 3)),
+            epsilon = ROUND_OFF
+        );
+        let fraction = case.reconstruction.mid_chord_fraction;
+        approx::assert_relative_eq!(
+            point(1) - point(0),
+            fraction * (point(2) - point(0)),
+            epsilon = 100.0 * ROUND_OFF
+        );
+    }
+}

@@ -1,0 +1,159 @@
+//! Cards that are not understood: added to a good deck, each of them makes it fail.
+
+use crate::readers::deck_errors::GOOD;
+use corfem::files::deck::{self, Reason, Unread};
+use corfem::files::error::FileError;
+
+/// The cards that a deck is refused for.
+fn refused(deck: &str) -> Vec<Unread> {
+    match deck::read("wing.dat", deck.as_bytes(), &[]).expect_err(deck) {
+        FileError::DeckCards { file, cards } => {
+            assert_eq!(file, "wing.dat");
+            cards
+        }
+        error => panic!("{deck}: {error}"),
+    }
+}
+
+fn unknown(card: &str, line: usize, count: usize) -> Unread {
+    Unread {
+        card: card.into(),
+        line,
+        count,
+        reason: Reason::Unknown,
+    }
+}
+
+/// One test for every family of cards, by name: cards of the family, the last with two lines of one card.
+macro_rules! families {
+    ($($family:ident: $($card:literal)+;)+) => {$(
+        #[test]
+        fn $family() {
+            for card in [$($card),+] {
+                let name = card.split([',', ' ']).next().expect("a name");
+                let parameter = || card[..card.rfind(',').expect("a value")].replace(',', " ");
+                let name = if name == "PARAM" { parameter() } else { name.to_owned() };
+                let expected = [unknown(&name, 8, 1)];
+                assert_eq!(refused(&format!("{GOOD}{card}\n")), expected, "behind the others");
+                assert_eq!(refused(&format!("{GOOD}{}\n", card.to_lowercase())), expected, "in small letters");
+                assert_eq!(refused(&format!("SPC = 1\nBEGIN BULK\n{GOOD}{card}\n"))[0].line, 10, "with case control");
+                let deck = format!("{GOOD}{card}\n");
+                let names = std::slice::from_ref(&name);
+                let ignored = deck::read("wing.dat", deck.as_bytes(), names).expect(card);
+                assert_eq!(ignored.unread, [Unread { reason: Reason::Ignored, ..unknown(&name, 8, 1) }]);
+                assert_eq!(ignored.model, deck::read("wing.dat", GOOD.as_bytes(), &[]).expect("good").model);
+            }
+        }
+    )+};
+}
+
+families! {
+    bars_and_beams: "CBAR,9,9,1,2,0.,1.,0." "CBEAM,9,9,1,2,0.,1.,0." "BAROR,,9,,,0.,1.,0." "PBAR,9,1,1." "PBEAM,9,1,1.";
+    plates: "CQUAD4,9,9,1,2,1,2" "CTRIA3,9,9,1,2,1" "CQUAD2,9,9,1,2,1,2" "PSHELL,9,1,.1" "PQUAD2,9,1,.1";
+    tubes_and_solids: "CTUBE,9,9,1,2" "PTUBE,9,1,1." "CHEXA,9,9,1,2,1,2,1,2";
+    springs: "CELAS1,9,9,1,1" "CELAS2,9,1.,1,1" "PELAS,9,1." "GENEL,9,,1,1" "CBUSH,9,9,1,2";
+    misspelled: "CSHAER,9,9,1,2,1,2" "CORD,9,1,1,2" "GIRD,9" "MTA1,9,1.+6,,.3" "SCP1,1,1,2" "CQDEMM,9,9,1,2,1,2";
+    materials: "MAT2,9,1." "MAT8,9,1." "MATT1,1,1" "TABLEM1,1";
+    masses: "CMASS1,9,9,1,1" "PMASS,9,1." "CONM1,9,1" "CMASS3,9,9,1,2" "CMASS4,9,1.,1,2" "NSM,1,PROD,1,.1";
+    coordinate_systems: "CORD2R,9,,0.,0.,0.,0.,0.,1." "CORD2C,9" "CORD2S,9" "CORD1R,9,1,2,1";
+    points_and_reductions: "SPOINT,9" "EPOINT,9" "ASET,1,1" "ASET1,1,1" "OMIT,1,1" "OMIT1,1,1" "SEBSET,1,1,1";
+    supports: "SPC,1,1,1" "SUPORT,1,1" "SUPORT1,1,1,1" "SPCOFF,1,1" "SPCAX,1,1";
+    rigid_elements: "RBE2,9,1,1,2" "RBE3,9,,1,1" "RROD,9,1,2,1" "RBAR,9,1,2" "CRIGD1,9,1,2";
+    matrices: "DMIG,K2GG,0,6,1,0" "K2GG,9";
+    other_files: "INCLUDE 'wing/covers.bdf'" "INCLUDE \"a\"" "READFILE covers";
+    parameters_of_the_model: "PARAM,COUPMASS,1" "PARAM,CM1,2." "PARAM,CM2,2." "PARAM,CK1,2." "PARAM,CK2,2.";
+}
+
+#[test]
+fn all_of_them_stand_in_one_error_before_any_other() {
+    let deck = format!(
+        "CBAR,1,1,1,2\n{GOOD}CSHAER,9,9,1,2,1,2\nGRID,x\nCBAR,2,1,1,2,,,,,+A\n+A,9\nFORCE,1,2\n"
+    );
+    assert_eq!(
+        refused(&deck),
+        [unknown("CBAR", 1, 2), unknown("CSHAER", 9, 1)]
+    );
+    assert_eq!(
+        deck::read("wing.dat", deck.as_bytes(), &[])
+            .expect_err("three cards")
+            .to_string(),
+        "wing.dat: expected cards that are read here, found CBAR (line 1, 2 cards), CSHAER (line 9, 1 card); they may \
+         carry stiffness, mass, supports or coordinates: correct them, or take responsibility for leaving them out \
+         with --ignore 'CBAR,CSHAER'"
+    );
+}
+
+#[test]
+fn other_files_are_refused_in_every_section() {
+    let deck = format!(
+        "ID A\nREADFILE exec\nCEND\n  include 'case.inc'\nSPC = 1\nBEGIN BULK\n{GOOD}INCLUDE'bulk.bdf'\n"
+    );
+    assert_eq!(
+        refused(&deck),
+        [unknown("READFILE", 2, 1), unknown("INCLUDE", 4, 2)]
+    );
+    let title = format!("TITLE = INCLUDE NOTHING\nSPC = 1\nBEGIN BULK\n{GOOD}");
+    assert!(deck::read("wing.dat", title.as_bytes(), &[]).is_ok());
+}
+
+#[test]
+fn a_slip_in_any_name_is_refused() {
+    let names = [
+        "GRID", "GRDSET", "CONROD", "MAT1", "CMASS2", "CONM2", "SPC1", "SPCADD", "MPC", "MPCADD",
+        "PARAM", "EIGR", "EIGRL", "CROD", "PROD", "CSHEAR", "PSHEAR", "CQDMEM", "PQDMEM", "CTRMEM",
+        "PTRMEM", "FORCE", "LOAD",
+    ];
+    for name in names {
+        for place in 0..name.len() {
+            let without = format!("{}{}", &name[..place], &name[place + 1..]);
+            let doubled = format!("{}{}", &name[..=place], &name[place..]);
+            let mut exchanged: Vec<char> = name.chars().collect();
+            exchanged.swap(place, (place + 1) % name.len());
+            for slip in [without, doubled, exchanged.into_iter().collect()] {
+                if slip.starts_with(|c: char| c.is_ascii_alphabetic())
+                    && !names.contains(&slip.as_str())
+                {
+                    assert_eq!(
+                        refused(&format!("{GOOD}{slip},9\n")),
+                        [unknown(&slip, 8, 1)]
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_consistent_mass_that_is_off_is_a_note() {
+    for value in ["-1", "0", "NO", ""] {
+        let read = deck::read(
+            "wing.dat",
+            format!("{GOOD}PARAM,COUPMASS,{value}\n").as_bytes(),
+            &[],
+        );
+        // A blank is not off for sure.
+        assert_eq!(read.is_ok(), !value.is_empty(), "{value}");
+    }
+}
+
+#[test]
+fn what_is_read_cannot_be_ignored() {
+    for name in ["GRID", "CROD", "PSHEAR", "MAT1", "SPCADD", "PARAM WTMASS"] {
+        let error =
+            deck::read("wing.dat", GOOD.as_bytes(), &["CBAR".into(), name.into()]).expect_err(name);
+        assert_eq!(
+            error.to_string(),
+            format!("--ignore: expected a card that is not read here, found {name}")
+        );
+    }
+    assert!(
+        deck::read(
+            "wing.dat",
+            GOOD.as_bytes(),
+            &["CBAR".into(), "FORCE".into()]
+        )
+        .expect("it reads")
+        .unread
+        .is_empty()
+    );
+}

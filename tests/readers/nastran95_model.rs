@@ -1,0 +1,209 @@
+//! What of a model goes into the deck of an analysis, and what of an analysis into the correlation.
+
+#![cfg(unix)]
+
+use crate::common::fake_solver::{fake, solver};
+use crate::common::tolerances::{GOLDEN_RELATIVE, MATRIX_ROUND_OFF};
+use crate::readers::nastran95_analysis::disordered;
+use corfem::files::deck::BulkData;
+use corfem::files::error::FileError;
+use corfem::method::error::Error;
+use corfem::method::model::FiniteElementModel;
+use corfem::present::tables::cases::all_tables;
+use corfem::present::{json, render};
+use corfem::torque_box::error::CaseError;
+use corfem::torque_box::{Case, CaseResult, run_case, run_case_with};
+use nalgebra::DMatrix;
+
+#[test]
+fn the_deck_of_an_analysis_has_every_element_twice() {
+    let model = disordered();
+    let home = fake("cat > \"$RFDIR/deck\"");
+    let error = solver(&home)
+        .elements(&model, &[2.0, 1.0])
+        .expect_err("no answer");
+    assert!(matches!(error, FileError::SolverAnswer { .. }), "{error}");
+    let text = std::fs::read_to_string(home.path().join("rf/deck")).expect("a deck");
+    for line in [
+        "INSERT READ,-1 $",
+        "OUTPUT5 KGG,KAA,MAA,,//-1/15/*CORFEM*/1 $",
+        "EXIT $",
+        "ENDALTER",
+        "DIAG    44",
+    ] {
+        assert!(text.lines().any(|found| found == line), "{line}");
+    }
+    let read = corfem::files::deck::read("deck", text.as_bytes(), &[])
+        .expect("it reads")
+        .model;
+    // Five grids and two dynamic points, then a grid for every corner, after all of them and held.
+    let labels: Vec<usize> = read.grids.iter().map(|grid| grid.label).collect();
+    assert_eq!(labels[..7], [1, 3, 5, 7, 9, 101, 102]);
+    assert_eq!(labels[7..], (201..=213).collect::<Vec<_>>());
+    assert!(
+        read.grids[7..]
+            .iter()
+            .all(|grid| grid.constrained == [true; 3])
+    );
+    let labels: Vec<usize> = read.elements.iter().map(|element| element.label).collect();
+    assert_eq!(labels, [2, 4, 6, 8, 12, 40, 201, 202, 203, 204, 205, 206]);
+    assert_eq!(read.elements[5].size, 0.2);
+    let position = |label: usize| {
+        read.grids
+            .iter()
+            .find(|grid| grid.label == label)
+            .map(|grid| grid.position)
+    };
+    let mut next = 201..;
+    for (one, other) in read.elements[..6].iter().zip(&read.elements[6..]) {
+        assert_eq!((one.kind, one.size), (other.kind, other.size));
+        assert_eq!(one.material, other.material);
+        for (&a, &b) in one.grids.iter().zip(&other.grids) {
+            assert_eq!(Some(b), next.next());
+            assert!(position(a).is_some() && position(a) == position(b));
+        }
+    }
+    assert_eq!(read.masses.len(), 2);
+}
+
+#[test]
+fn a_deck_holds_point_masses_alone() {
+    let mut mass = DMatrix::identity(2, 2);
+    mass[(0, 1)] = 0.1;
+    mass[(1, 0)] = 0.1;
+    let model = disordered();
+    let coupled = FiniteElementModel::new(
+        model.structure().clone(),
+        model.load_distribution().clone(),
+        mass,
+        model.parameters().to_vec(),
+    )
+    .expect("a model");
+    let error = BulkData::of(&coupled, &[1.0, 1.0], &[nalgebra::Vector3::zeros(); 2]);
+    assert!(matches!(
+        error,
+        Err(FileError::Method(Error::CoupledMass(0)))
+    ));
+}
+
+#[test]
+fn element_matrices_of_another_origin_must_fit() {
+    let model = disordered();
+    let own: Vec<DMatrix<f64>> = model
+        .element_matrices()
+        .iter()
+        .map(|element| element.unit.clone())
+        .collect();
+    let doubled = own.iter().map(|unit| 2.0 * unit).collect();
+    let stiffer = model.with_unit_stiffness(doubled).expect("they fit");
+    let (once, twice) = (
+        model.matrices(&[1.0, 1.0]).expect("an analysis"),
+        stiffer.matrices(&[1.0, 1.0]).expect("an analysis"),
+    );
+    let expected = 2.0 * once.stiffness;
+    approx::assert_relative_eq!(
+        twice.stiffness,
+        expected,
+        epsilon = MATRIX_ROUND_OFF * expected.amax()
+    );
+    let changed = |change: &dyn Fn(&mut Vec<DMatrix<f64>>)| {
+        let mut units = own.clone();
+        change(&mut units);
+        model
+            .with_unit_stiffness(units)
+            .expect_err("they do not fit")
+    };
+    let error = changed(&|units| drop(units.pop()));
+    assert!(
+        matches!(
+            error,
+            Error::WrongShape {
+                what: "element matrices",
+                expected_rows: 6,
+                rows: 5,
+                ..
+            }
+        ),
+        "{error}"
+    );
+    let error = changed(&|units| units[1] = DMatrix::identity(4, 4));
+    assert!(
+        matches!(
+            error,
+            Error::WrongShape {
+                what: "element stiffness",
+                expected_rows: 3,
+                rows: 4,
+                columns: 4,
+                ..
+            }
+        ),
+        "{error}"
+    );
+    let error = changed(&|units| units[0][(0, 1)] += 1e7);
+    assert!(
+        matches!(
+            error,
+            Error::NotSymmetric {
+                what: "element stiffness",
+                ..
+            }
+        ),
+        "{error}"
+    );
+    let error = changed(&|units| units[0][(0, 0)] = f64::NAN);
+    assert!(
+        matches!(
+            error,
+            Error::NotFinite {
+                what: "element stiffness",
+                ..
+            }
+        ),
+        "{error}"
+    );
+}
+
+/// Test modes and passes come from the analysis that is given: four times the stiffness on both sides doubles every
+/// frequency and leaves every factor alone.
+#[test]
+fn a_case_runs_with_the_analysis_it_is_given() {
+    let case = Case::new(2).expect("a case");
+    let stiffer = |model: &FiniteElementModel, _: &[f64]| {
+        let elements = model.element_matrices().iter();
+        let units = elements.map(|element| 4.0 * &element.unit).collect();
+        Ok::<_, CaseError>(model.with_unit_stiffness(units)?)
+    };
+    let own = run_case(&case, |_, _| ()).expect("a run");
+    let other = run_case_with(&case, "a stiffer box", stiffer, |_, _| ()).expect("a run");
+    for (a, b) in [
+        (&own.test, &other.test),
+        (
+            &own.correlation.passes[1].check.modes,
+            &other.correlation.passes[1].check.modes,
+        ),
+    ] {
+        let doubled = b.omega_squared().map(|root| root / 4.0);
+        approx::assert_relative_eq!(doubled, a.omega_squared(), max_relative = GOLDEN_RELATIVE);
+    }
+    // The report says whose analysis it is, and nothing of the crate's own.
+    let report = |run: &CaseResult| {
+        let run = std::slice::from_ref(run);
+        let tables = all_tables(run).expect("it reads");
+        [
+            render::text(&tables),
+            render::markdown(&tables),
+            json::cases(run).expect("written"),
+        ]
+    };
+    for (own, other) in report(&own)[..2].iter().zip(&report(&other)) {
+        let says = "\nFinite element analyses by a stiffer box, of the test configuration too;";
+        assert_eq!(other.matches(says).count(), 1, "{other}");
+        assert!(!own.contains("analyses by"), "{own}");
+    }
+    assert!(report(&own)[2].contains("\"solver\": \"built-in\""));
+    assert!(report(&other)[2].contains("\"solver\": \"a stiffer box\""));
+    for (a, b) in own.pass_gages[1].iter().zip(&other.pass_gages[1]) {
+        approx::assert_relative_eq!(a, b, max_relative = GOLDEN_RELATIVE);
+    }
+}

@@ -1,0 +1,12 @@
+//! What constructors and functions of the library refuse.
+
+pub mod appendix_c;
+pub mod appendix_c_general;
+pub mod inner_loop;
+pub mod mass_parameters;
+pub mod model;
+pub mod modes;
+pub mod no_panic;
+pub mod outer_loop;
+pub mod pairing;
+pub mod structures;

@@ -1,0 +1,312 @@
+//! Elements, structures and models.
+
+use super::{Entry, entries, modes};
+use corfem::method::appendix_a;
+use corfem::method::assembly::{dense_stiffness, element_matrices, lumped_mass};
+use corfem::method::elements::membrane::triangle;
+use corfem::method::elements::shear::{corner_forces, energy_coefficient, gauss_legendre};
+use corfem::method::elements::{corner_volumes, membrane, rod, shear, unit_stiffness};
+use corfem::method::geometry::{Geometry, mean_plane};
+use corfem::method::model::{FiniteElementModel, Range, ScaledStructure};
+use corfem::method::structure::{ElementKind, Material, Structure};
+use corfem::sparse::LargeModel;
+use corfem::sparse::WholeModel;
+use corfem::sparse::factorization::{FactorizationPlan, FactorizedStiffness};
+use corfem::sparse::load_distribution::LoadDistribution;
+use std::sync::Arc;
+
+pub const STRUCTURES: &[Entry] = &[
+    // A product of these beyond the largest number is refused by the model that they become part of.
+    ("elements::rod", |d| {
+        let [a, b, ..] = d.corners();
+        rod([a, b], d.number());
+        Ok(Vec::new())
+    }),
+    ("membrane::triangle", |d| {
+        let ([a, b, c, _], material) = (d.corners(), d.material());
+        triangle([a, b, c], &material);
+        Ok(Vec::new())
+    }),
+    ("membrane::membrane", |d| {
+        let (corners, material) = (d.corners(), d.material());
+        mean_plane(&corners).map(|panel| membrane::membrane(&panel, &material))?;
+        Ok(Vec::new())
+    }),
+    ("shear::shear_panel", |d| {
+        let (corners, material) = (d.corners(), d.material());
+        mean_plane(&corners).map(|panel| shear::shear_panel(&panel, &material))?;
+        Ok(Vec::new())
+    }),
+    ("Geometry::new", |d| {
+        let kinds = [
+            ElementKind::Rod,
+            ElementKind::Triangle,
+            ElementKind::ShearPanel,
+            ElementKind::Membrane,
+        ];
+        let (kind, corners) = (kinds[d.below(4)], d.corners());
+        Geometry::new(kind, &corners[..d.below(5)]).map(|_| Vec::new())
+    }),
+    ("elements::unit_stiffness", |d| {
+        let panel = Geometry::new(ElementKind::ShearPanel, &d.corners())?;
+        unit_stiffness(&panel, &d.material());
+        Ok(Vec::new())
+    }),
+    ("elements::corner_volumes", |d| {
+        corner_volumes(&Geometry::new(ElementKind::Membrane, &d.corners())?);
+        Ok(Vec::new())
+    }),
+    ("MeanPlane::diagonals", |d| {
+        let diagonals = mean_plane(&d.corners())?.diagonals();
+        Ok(diagonals.iter().flatten().copied().collect())
+    }),
+    ("Material::isotropic", |d| {
+        let (modulus, ratio) = (d.number(), d.number());
+        Material::isotropic(modulus, ratio).map(|found| vec![found.shear_modulus])
+    }),
+    ("Range::positive", |d| {
+        let (lower, upper) = (d.number(), d.number());
+        Range::positive("range", lower, upper).map(|found| vec![found.lower, found.upper])
+    }),
+    ("DynamicModel::analyze", |d| {
+        let (model, count) = (d.dynamic(), d.size());
+        let test = d.modes(model.mass.nrows())?;
+        let count = Some(count).filter(|count| *count > 0);
+        model
+            .analyze(&test, count)
+            .map(|found| vec![found.exact().errors.sum()])
+    }),
+    ("Range::contains", |d| {
+        Range {
+            lower: d.number(),
+            upper: d.number(),
+        }
+        .contains(d.number());
+        Ok(Vec::new())
+    }),
+    ("geometry::mean_plane", |d| {
+        let plane = mean_plane(&d.corners())?;
+        Ok(plane
+            .corners()
+            .iter()
+            .flatten()
+            .chain(plane.diagonals().iter().flatten())
+            .copied()
+            .chain([plane.area()])
+            .collect())
+    }),
+    ("shear::corner_forces", |d| {
+        mean_plane(&d.corners())
+            .map(|plane| corner_forces(&plane))
+            .map(|_| Vec::new())
+    }),
+    ("shear::energy_coefficient", |d| {
+        let (corners, material) = (d.corners(), d.material());
+        mean_plane(&corners)
+            .map(|plane| energy_coefficient(&plane, &material))
+            .map(|_| Vec::new())
+    }),
+    ("shear::gauss_legendre", |d| {
+        Ok(gauss_legendre(d.below(40))
+            .into_iter()
+            .flat_map(|(point, weight)| [point, weight])
+            .collect())
+    }),
+    ("Material::with_density", |d| {
+        let material = d.material();
+        material
+            .with_density(d.number())
+            .map(|found| vec![found.density])
+    }),
+    ("Structure::new", |d| {
+        let structure = d.structure()?;
+        let grids = structure.grids().to_vec();
+        Structure::new(grids, structure.elements().to_vec()).map(|_| Vec::new())
+    }),
+    ("Structure::free_dof_index", |d| {
+        let (structure, grid, direction) = (d.structure()?, d.size(), d.size());
+        structure.free_dof_index(grid, direction);
+        Ok(Vec::new())
+    }),
+    ("Structure::corners", |d| {
+        let (structure, other) = (d.structure()?, d.structure()?);
+        let found = other
+            .elements()
+            .iter()
+            .flat_map(|element| structure.corners(element));
+        Ok(found
+            .flat_map(|corner| [corner.x, corner.y, corner.z])
+            .collect())
+    }),
+    ("assembly::element_matrices", |d| {
+        element_matrices(&d.structure()?);
+        Ok(Vec::new())
+    }),
+    ("assembly::dense_stiffness", |d| {
+        let (elements, sizes, free) = d.elements()?;
+        dense_stiffness(&elements, &sizes, free.len()).map(|_| Vec::new())
+    }),
+    ("assembly::lumped_mass", |d| {
+        let (elements, sizes, free) = d.elements()?;
+        lumped_mass(&elements, &sizes, free.len()).map(|_| Vec::new())
+    }),
+    ("FactorizedStiffness::new", |d| {
+        let (elements, sizes, free) = d.elements()?;
+        FactorizedStiffness::new(&elements, &sizes, &free).map(|_| Vec::new())
+    }),
+    ("FactorizedStiffness::solve", |d| {
+        let (elements, sizes, free) = d.elements()?;
+        let (rows, columns) = (d.about(free.len()), d.size());
+        FactorizedStiffness::new(&elements, &sizes, &free)?
+            .solve(&d.matrix(rows, columns))
+            .map(|found| entries(&found))
+    }),
+    ("FactorizationPlan::new", |d| {
+        let structure = d.structure()?;
+        let (elements, ..) = d.elements()?;
+        FactorizationPlan::new(&structure, &elements)
+            .map(|plan| vec![plan.factor_entries() as f64, plan.factor_operations()])
+    }),
+    ("FactorizedStiffness::planned", |d| {
+        let structure = d.structure()?;
+        let plan = Arc::new(FactorizationPlan::new(
+            &structure,
+            &element_matrices(&structure),
+        )?);
+        let (elements, sizes, free) = d.elements()?;
+        FactorizedStiffness::planned(&plan, &elements, &sizes, &free).map(|_| Vec::new())
+    }),
+    ("FactorizedStiffness::flexibility", |d| {
+        let (elements, sizes, free) = d.elements()?;
+        let loads = LoadDistribution::of(&d.load_distribution(free.len()))?;
+        FactorizedStiffness::new(&elements, &sizes, &free)?
+            .flexibility(&loads)
+            .map(|found| entries(&found))
+    }),
+    ("LoadDistribution::new", |d| {
+        let terms = (0..d.size())
+            .map(|_| vec![(d.below(6), d.number())])
+            .collect();
+        LoadDistribution::new(d.size(), terms).map(|found| entries(&found.dense()))
+    }),
+    ("LoadDistribution::of", |d| {
+        LoadDistribution::of(&d.load_distribution(6)).map(|_| Vec::new())
+    }),
+    ("LoadDistribution::dense", |d| {
+        LoadDistribution::of(&d.load_distribution(6)).map(|found| entries(&found.dense()))
+    }),
+    ("appendix_a::condense", |d| {
+        let (elements, sizes, free) = d.elements()?;
+        let structural = dense_stiffness(&elements, &sizes, free.len())?;
+        let load_distribution = d.load_distribution(free.len());
+        let found = appendix_a::condense(&structural, &load_distribution)?;
+        Ok([entries(&found.stiffness), entries(&found.transformation)].concat())
+    }),
+    ("ScaledStructure::new", |d| {
+        let (structure, size) = (d.structure()?, d.size());
+        let mass = d.symmetric(size);
+        ScaledStructure::new(structure, mass, d.parameters()).map(|_| Vec::new())
+    }),
+    ("FiniteElementModel::new", |d| {
+        let structure = d.structure()?;
+        let load_distribution = d.load_distribution(structure.free_dof().len());
+        let mass = d.symmetric(load_distribution.ncols());
+        FiniteElementModel::new(structure, load_distribution, mass, d.parameters())
+            .map(|_| Vec::new())
+    }),
+    ("LargeModel::new", |d| {
+        let structure = d.structure()?;
+        let loads = LoadDistribution::of(&d.load_distribution(structure.free_dof().len()))?;
+        let mass = d.symmetric(loads.columns().len());
+        LargeModel::new(structure, loads, mass, d.parameters()).map(|_| Vec::new())
+    }),
+    ("LargeCondensation::structural_shapes", |d| {
+        let (model, factors) = d.finite_element()?;
+        let (rows, columns) = (d.about(model.mass().nrows()), d.size());
+        LargeModel::of(&model)?
+            .condense(&factors)?
+            .structural_shapes(&d.matrix(rows, columns))
+            .map(|found| entries(&found))
+    }),
+    ("FiniteElementModel::with_unit_stiffness", |d| {
+        let (model, factors) = d.finite_element()?;
+        let count = d.about(model.element_matrices().len());
+        let size = |row: usize| {
+            model
+                .element_matrices()
+                .get(row)
+                .map_or(2, |element| element.dof.len())
+        };
+        let units = (0..count).map(|row| d.symmetric(size(row))).collect();
+        model
+            .with_unit_stiffness(units)?
+            .condense(&factors)
+            .map(|found| entries(&found.stiffness))
+    }),
+    ("ScaledStructure::factor_ranges", |d| {
+        let (model, factors) = d.finite_element()?;
+        let ranges = model
+            .factor_ranges()
+            .map(|ranges| ranges.into_iter().flatten().collect::<Vec<_>>())?;
+        Ok(ranges
+            .iter()
+            .flat_map(|range| [range.lower, range.upper])
+            .chain(factors)
+            .take(2 * ranges.len())
+            .collect())
+    }),
+    ("ScaledStructure::at", |d| {
+        let (model, factors) = d.finite_element()?;
+        let at = model.at(&factors)?;
+        Ok([at.sizes, at.mass_sizes, entries(&at.point_masses)].concat())
+    }),
+    ("FiniteElementModel::condense", |d| {
+        let (model, factors) = d.finite_element()?;
+        let found = model.condense(&factors)?;
+        let shapes = found.transformation;
+        Ok([
+            entries(&found.stiffness),
+            entries(&found.mass),
+            entries(&shapes),
+        ]
+        .concat())
+    }),
+    ("FiniteElementModel::analyze", |d| {
+        let (model, factors) = d.finite_element()?;
+        let test = d.modes(model.mass().nrows())?;
+        let test = model.modes(&factors).map_or(test, |found| found.into());
+        model
+            .analyze(&factors, &test, None)
+            .map(|found| vec![found.exact().errors.sum()])
+    }),
+    ("FiniteElementModel::matrices", |d| {
+        let (model, factors) = d.finite_element()?;
+        let found = model.matrices(&factors)?;
+        Ok(found
+            .shares
+            .iter()
+            .flat_map(|share| entries(share.matrix()))
+            .chain(entries(&found.mass))
+            .collect())
+    }),
+    ("FiniteElementModel::modes", |d| {
+        let (model, factors) = d.finite_element()?;
+        model.modes(&factors).map(|found| modes(&found))
+    }),
+    ("WholeModel::seen_modes", |d| {
+        let (model, factors) = d.finite_element()?;
+        let (whole, sensors) = WholeModel::of(&LargeModel::of(&model)?)?;
+        whole
+            .seen_modes(&factors, &sensors, d.size())
+            .map(|found| modes(&found))
+    }),
+    ("WholeModel::condensation_errors", |d| {
+        let (model, factors) = d.finite_element()?;
+        let (whole, sensors) = WholeModel::of(&LargeModel::of(&model)?)?;
+        let found = whole.condensation_errors(&factors, &sensors, d.size())?;
+        Ok(found
+            .iter()
+            .flat_map(|error| [error.whole_hz, error.frequency, error.shape])
+            .collect())
+    }),
+];

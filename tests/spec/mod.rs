@@ -1,0 +1,107 @@
+//! The specification: the paper's contents as tests, in its order.
+//!
+//! `s00` to `s02`: the text, the machine and the plain program are one; `s0` what the equations stand on; `s1` the equations of the main text by their
+//! numbers; `s2` the loops; `s3` the torque box; `s4` Cases 1 to 4 and Tables 1 to 13; `s5` what was added for a user's structure;
+//! `sA`, `sB`, `sC` the appendices. `cargo test -- --list 'spec::'` prints them.
+
+#![allow(
+    non_snake_case,
+    reason = "appendices keep their letters, and sort after the sections by them"
+)]
+
+pub mod s0_closed_forms;
+pub mod s0_elements;
+pub mod s0_elements_geometry;
+pub mod s0_elements_mass;
+pub mod s0_elements_membrane;
+pub mod s0_elements_nastran95;
+pub mod s0_elements_quadrature;
+pub mod s0_elements_shear;
+pub mod s0_linear_algebra;
+pub mod s02_plain_program;
+pub mod s0_strategies;
+pub mod s0_structure;
+pub mod s00_two_programs;
+pub mod s01_any_size;
+pub mod s1_eq_01_flexibility;
+pub mod s1_eq_02_transformation;
+pub mod s1_eq_03_modes;
+pub mod s1_eq_03_supports;
+pub mod s1_eq_04_pairing;
+pub mod s1_eq_05_printed_error;
+pub mod s1_eq_05_to_06_error_sum;
+pub mod s1_eq_07_roots;
+pub mod s1_eq_08_shapes;
+pub mod s1_eq_09_to_11_state;
+pub mod s1_eq_10_frequencies;
+pub mod s1_eq_12_derivatives;
+pub mod s1_eq_12_gradient;
+pub mod s1_eq_13_printed_step;
+pub mod s1_eq_13_step;
+pub mod s1_eq_13_step_matrix;
+pub mod s1_eq_13_step_scale;
+pub mod s2_inner_loop;
+pub mod s2_inner_loop_alternatives;
+pub mod s2_inner_loop_close_roots;
+pub mod s2_inner_loop_recursion;
+pub mod s2_inner_loop_stops;
+pub mod s2_outer_loop;
+pub mod s2_outer_loop_mass;
+pub mod s2_outer_loop_metamorphic;
+pub mod s2_outer_loop_stops;
+pub mod s2_parameters;
+pub mod s2_parameters_groups;
+pub mod s2_parameters_mass;
+pub mod s2_verdict;
+pub mod s3_torque_box;
+pub mod s3_torque_box_data;
+pub mod s3_torque_box_nastran95;
+pub mod s4_cases_expected;
+pub mod s4_errata_tables;
+pub mod s4_fewer_modes;
+pub mod s4_readings;
+pub mod s4_snapshots;
+pub mod s4_tables_published;
+pub mod s5_assignment;
+pub mod s5_expansion;
+pub mod s5_localization;
+pub mod s5_metrics;
+pub mod s5_preflight;
+pub mod s5_preflight_modes;
+pub mod s5_preflight_orders;
+pub mod s5_weighted;
+pub mod s5_weighted_coverage;
+pub mod s5_weighted_steps;
+pub mod sA_eq_01_to_04_assembly;
+pub mod sA_eq_05_to_08_condensation;
+pub mod sA_eq_07_to_08_transformation;
+pub mod sA_eq_08_bounds;
+pub mod sA_eq_09_shares;
+pub mod sB_eq_01_to_02_rigid_body;
+pub mod sB_eq_03_to_04_balance;
+pub mod sB_eq_03_to_04_balance_by_hand;
+pub mod sB_eq_05_to_07_orthogonalize;
+pub mod sB_eq_05_to_07_orthogonalize_by_hand;
+pub mod sB_eq_07_roots;
+pub mod sB_eq_07_then_deletion;
+pub mod sB_eq_07_then_examine;
+pub mod sB_eq_07_then_examine_by_hand;
+pub mod sB_strategies;
+pub mod sC_eq_01_to_10_complex;
+pub mod sC_eq_02_wing_section;
+pub mod sC_eq_04_to_09_transposed;
+pub mod sC_eq_11_to_13_generalized;
+pub mod sC_eq_14_general;
+pub mod sC_eq_14_general_limits;
+pub mod sC_eq_14_to_15_change;
+pub mod sC_eq_15_to_19_printed_rows;
+pub mod sC_eq_16_to_19_rows;
+pub mod sC_eq_20_series;
+pub mod sC_eq_20_two_dof;
+pub mod sC_eq_21_close_roots;
+pub mod sC_eq_21_clusters;
+pub mod sC_eq_22_distinct;
+pub mod sC_eq_22_recursion_orders;
+pub mod sC_eq_22_to_23_orders;
+pub mod sC_eq_24_explicit_roots;
+pub mod sC_eq_24_table_1;

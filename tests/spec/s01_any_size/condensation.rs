@@ -1,0 +1,211 @@
+//! What condensation to the measured DOF costs, and that the test is not blamed for it: a bar of ten rods measured at five joints.
+
+use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
+use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
+use crate::common::vibrations::modes_by_nalgebra;
+use crate::common::whole_models::{chain_of_springs, masses, sensors_at, springs};
+use corfem::method::assembly::{dense_stiffness, element_matrices};
+use corfem::method::error::Error;
+use corfem::method::model::{FiniteElementModel, Parameter};
+use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
+use corfem::sparse::LargeModel;
+use corfem::sparse::{
+    FINITE, LARGEST_CONDENSATION_ERROR, SparseMatrix, WholeModel, WholeParameter, WholeShare,
+};
+use nalgebra::{DMatrix, DVector, Vector3};
+use proptest::prelude::*;
+
+const RODS: usize = 10;
+
+/// Areas of the rods, and which joints (1 to 10, from the wall) are measured.
+fn bar(areas: &[f64], measured: &[usize]) -> FiniteElementModel {
+    let material = Material::isotropic(1.0e7, 0.3)
+        .and_then(|material| material.with_density(2.5e-4))
+        .expect("a metal");
+    let grids = (0..=RODS).map(|joint| Grid {
+        label: joint + 1,
+        // Rods of unlike lengths: in a bar of like ones all that is condensed vibrates at one frequency, and costs no orthogonality.
+        position: Vector3::new(10.0 * joint as f64 + 4.0 * (joint % 3) as f64, 0.0, 0.0),
+        constrained: [joint == 0, true, true],
+    });
+    let rods = areas.iter().enumerate().map(|(rod, &size)| Element {
+        label: rod + 1,
+        kind: ElementKind::Rod,
+        grids: vec![rod + 1, rod + 2],
+        size,
+        material,
+    });
+    let structure = Structure::new(grids.collect(), rods.collect()).expect("a bar");
+    let t = DMatrix::from_fn(RODS, measured.len(), |row, column| {
+        f64::from(u8::from(row + 1 == measured[column]))
+    });
+    let parameters = (1..=RODS)
+        .map(|rod| Parameter::element(rod, None))
+        .collect();
+    let none = DMatrix::zeros(measured.len(), measured.len());
+    FiniteElementModel::new(structure, t, none, parameters).expect("a model")
+}
+
+/// The same without condensation, and what reads the measured joints.
+fn whole(model: &FiniteElementModel) -> (WholeModel, SparseMatrix) {
+    WholeModel::of(&LargeModel::of(model).expect("a plan")).expect("a whole model")
+}
+
+const FIVE: [usize; 5] = [2, 4, 6, 8, 10];
+const ONES: [f64; RODS] = [1.0; RODS];
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    #[test]
+    fn whole_modes_are_those_of_the_assembled_pencil(areas in prop::collection::vec(0.5..2.0_f64, RODS)) {
+        let model = bar(&areas, &FIVE);
+        let elements = element_matrices(model.structure());
+        let stiffness = dense_stiffness(&elements, &areas, RODS).expect("a stiffness");
+        let mut lumped = DVector::zeros(RODS);
+        for (element, area) in elements.iter().zip(&areas) {
+            element.dof.iter().zip(&element.unit_mass).for_each(|(&row, unit)| lumped[row] += area * unit);
+        }
+        let (omega_squared, shapes) = modes_by_nalgebra(&stiffness, &DMatrix::from_diagonal(&lumped));
+        let (whole, joints) = whole(&model);
+        let found = whole.seen_modes(&ONES, &joints, 5).expect("modes");
+        for mode in 0..5 {
+            prop_assert!((found.omega_squared()[mode] / omega_squared[mode] - 1.0).abs() < 1e2 * EIGEN_ROUND_OFF);
+            let expected = DVector::from_fn(5, |row, _| shapes[(FIVE[row] - 1, mode)]);
+            let (a, b) = (found.shapes().column(mode), &expected);
+            let sign = a.dot(b).signum();
+            prop_assert!((a - sign * b).amax() < 1e3 * EIGEN_ROUND_OFF * b.amax());
+        }
+    }
+
+    #[test]
+    fn condensed_frequencies_are_those_of_a_ritz_approximation(areas in prop::collection::vec(0.5..2.0_f64, RODS)) {
+        // Mode by mode none lies below the whole structure's.
+        let model = bar(&areas, &FIVE);
+        let condensed = model.modes(&ONES).expect("modes").frequencies_hz();
+        let (whole, joints) = whole(&model);
+        let whole = whole.seen_modes(&ONES, &joints, 5).expect("modes").frequencies_hz();
+        for (condensed, whole) in condensed.iter().zip(whole) {
+            prop_assert!(*condensed >= whole * (1.0 - EIGEN_ROUND_OFF));
+        }
+    }
+
+    #[test]
+    fn where_every_joint_is_measured_condensation_costs_nothing(areas in prop::collection::vec(0.5..2.0_f64, RODS)) {
+        let all: Vec<usize> = (1..=RODS).collect();
+        let (whole, joints) = whole(&bar(&areas, &all));
+        for error in whole.condensation_errors(&ONES, &joints, RODS).expect("errors") {
+            prop_assert!(error.frequency.abs() < MATRIX_ROUND_OFF && error.shape.abs() < MATRIX_ROUND_OFF);
+        }
+    }
+}
+
+#[test]
+fn five_of_ten_joints_are_too_few_for_the_higher_modes() {
+    let (model, joints) = whole(&bar(&[1.0; RODS], &FIVE));
+    let errors = model
+        .condensation_errors(&ONES, &joints, 5)
+        .expect("errors");
+    // Static condensation raises the fourth and the fifth frequency by several percent, the first by next to nothing.
+    assert!(errors[0].frequency < 0.005 && errors[0].frequency > 0.0);
+    assert!(errors[4].frequency > 0.03, "{errors:?}");
+    let refused = errors
+        .iter()
+        .filter(|error| error.frequency > LARGEST_CONDENSATION_ERROR)
+        .count();
+    assert!((1..=4).contains(&refused), "{errors:?}");
+}
+
+/// A model whose one parameter is all its stiffness.
+fn of_matrices(stiffness: SparseMatrix, values: &[f64]) -> WholeModel {
+    let share = WholeShare::Stiffness(stiffness.clone());
+    let all = WholeParameter {
+        name: "all".to_owned(),
+        share,
+        range: None,
+    };
+    WholeModel::new(stiffness, masses(values), vec![all]).expect("a model")
+}
+
+#[test]
+fn modes_that_move_no_sensor_are_passed_over_in_any_units() {
+    for (spring, mass) in [(1.0, 1.0), (1e20, 1e20), (1e-20, 1e-20)] {
+        // Three masses between two walls, measured at the middle one, which rests in the second mode.
+        let model = of_matrices(
+            chain_of_springs(ChainEnds::FixedFixed, 3, spring),
+            &[mass; 3],
+        );
+        let sensors = sensors_at(&[1], 3);
+        let roots = chain_eigenvalues(ChainEnds::FixedFixed, 3, spring, mass);
+        for count in [1, 2] {
+            let found = model.seen_modes(&[1.0], &sensors, count).expect("modes");
+            for (found, expected) in found.omega_squared().iter().zip([roots[0], roots[2]]) {
+                assert!(
+                    (found / expected - 1.0).abs() < MATRIX_ROUND_OFF,
+                    "{found} {expected}"
+                );
+            }
+            assert_eq!(found.len(), count);
+        }
+        let refused = model.seen_modes(&[1.0], &sensors, 3);
+        assert!(
+            matches!(
+                refused,
+                Err(Error::TooMany {
+                    what: "modes that move a sensor",
+                    available: 2,
+                    requested: 3
+                })
+            ),
+            "{refused:?}"
+        );
+        // Of two that are not joined the lower one does not move the other's sensor at all.
+        let alone = of_matrices(
+            springs(2, &[(0, None, spring), (1, None, 4.0 * spring)]),
+            &[mass; 2],
+        );
+        let found = alone
+            .seen_modes(&[1.0], &sensors_at(&[1], 2), 1)
+            .expect("a mode");
+        assert!((found.omega_squared()[0] / (4.0 * spring / mass) - 1.0).abs() < MATRIX_ROUND_OFF);
+    }
+}
+
+#[test]
+fn what_only_moves_as_one_has_no_mode_that_a_sensor_could_see() {
+    // One mass, and a point without that hangs on it.
+    let model = of_matrices(chain_of_springs(ChainEnds::FreeFree, 2, 1.0), &[1.0, 0.0]);
+    let refused = model.seen_modes(&[1.0], &sensors_at(&[0], 2), 1);
+    assert!(
+        matches!(
+            refused,
+            Err(Error::TooMany {
+                what: FINITE,
+                available: 0,
+                requested: 1
+            })
+        ),
+        "{refused:?}"
+    );
+}
+
+#[test]
+fn more_modes_than_there_are_is_an_error() {
+    let (model, joints) = whole(&bar(&[1.0; RODS], &FIVE));
+    assert!(matches!(
+        model.seen_modes(&ONES, &joints, 11),
+        Err(Error::TooMany {
+            available: 10,
+            requested: 11,
+            ..
+        })
+    ));
+    assert!(matches!(
+        model.seen_modes(&ONES, &joints, 0),
+        Err(Error::Empty { .. })
+    ));
+    assert!(matches!(
+        model.condensation_errors(&ONES, &joints, 6),
+        Err(Error::TooMany { .. })
+    ));
+}

@@ -1,0 +1,234 @@
+//! Free structures and massless degrees of freedom: every mode found once, and counted another way.
+
+use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
+use crate::common::draws::Draws;
+use crate::common::known::delta_wing::DeltaWing;
+use crate::common::tolerances::{COUNTED_ROOT, EIGEN_ROUND_OFF};
+use corfem::chain::spring_stiffness;
+use corfem::method::assembly::{dense_stiffness, element_matrices, lumped_mass};
+use corfem::method::error::Error;
+use corfem::method::structure::{Grid, Structure};
+use corfem::sparse::free_modes::{count_below, counted_modes};
+use nalgebra::{DMatrix, DVector};
+use proptest::prelude::*;
+
+impl Draws {
+    /// A well-conditioned square matrix: a rotation times factors from a half to two.
+    fn basis(&mut self, size: usize) -> DMatrix<f64> {
+        let random = DMatrix::from_fn(size, size, |_, _| 2.0 * self.unit() - 1.0);
+        let rotation = random.qr().q();
+        let scale = DVector::from_fn(size, |_, _| 0.5 + 1.5 * self.unit());
+        DMatrix::from_diagonal(&scale) * rotation
+    }
+}
+
+/// Ten thousand pencils with repeated roots, rigid-body modes and massless motions, their answers known from how they are made.
+#[test]
+fn random_pencils_are_counted_and_solved_every_time() {
+    let mut draws = Draws(2026);
+    let (mut repeated, mut free, mut massless_ones) = (0, 0, 0);
+    for number in 0..10_000 {
+        let (rigid, massless, vibrations) = (draws.below(3), draws.below(3), 1 + draws.below(4));
+        let size = rigid + massless + vibrations;
+        let mut roots: Vec<f64> = (0..vibrations)
+            .map(|_| [1.0, 1.0, 4.0, 30.0, 30.5, 900.0][draws.below(6)])
+            .collect();
+        roots.sort_by(f64::total_cmp);
+        repeated += usize::from(roots.windows(2).any(|pair| pair[0] == pair[1]));
+        (free, massless_ones) = (
+            free + usize::from(rigid > 0),
+            massless_ones + usize::from(massless > 0),
+        );
+        let units = [1.0, 1e6, 1e-4][draws.below(3)];
+        let basis = draws.basis(size);
+        let of = |row: usize| match row {
+            row if row < rigid => (0.0, 1.0),
+            row if row < rigid + vibrations => (roots[row - rigid], 1.0),
+            _ => (3.0, 0.0),
+        };
+        let diagonal = |value: &dyn Fn(usize) -> f64| {
+            DMatrix::from_diagonal(&DVector::from_fn(size, |row, _| value(row)))
+        };
+        let through = |inner: DMatrix<f64>| units * basis.transpose() * inner * &basis;
+        let (stiffness, mass) = (
+            through(diagonal(&|row| of(row).0)),
+            through(diagonal(&|row| of(row).1)),
+        );
+        let symmetric = |matrix: &DMatrix<f64>| 0.5 * (matrix + matrix.transpose());
+        let (stiffness, mass) = (symmetric(&stiffness), symmetric(&mass));
+        let found = counted_modes(&stiffness, &mass)
+            .unwrap_or_else(|error| panic!("pencil {number}: {error}"));
+        assert_eq!(found.rigid_body.ncols(), rigid, "pencil {number}");
+        assert_eq!(found.vibrations.len(), vibrations, "pencil {number}");
+        for (omega_squared, root) in found.vibrations.omega_squared().iter().zip(&roots) {
+            assert!(
+                (omega_squared / root - 1.0).abs() < COUNTED_ROOT,
+                "pencil {number}: {omega_squared} for {root}"
+            );
+        }
+        for (shape, omega_squared) in found
+            .vibrations
+            .shapes()
+            .column_iter()
+            .zip(found.vibrations.omega_squared())
+        {
+            let residual = &stiffness * shape - *omega_squared * (&mass * shape);
+            assert!(
+                residual.norm() < COUNTED_ROOT * stiffness.amax() * shape.norm(),
+                "pencil {number}"
+            );
+        }
+        assert!(
+            (&stiffness * &found.rigid_body).norm()
+                <= COUNTED_ROOT * stiffness.amax() * found.rigid_body.norm()
+        );
+        let shapes = DMatrix::from_fn(size, rigid + vibrations, |row, column| match column {
+            column if column < rigid => found.rigid_body[(row, column)],
+            column => found.vibrations.shapes()[(row, column - rigid)],
+        });
+        let generalized = shapes.transpose() * &mass * &shapes;
+        let identity = DMatrix::identity(rigid + vibrations, rigid + vibrations);
+        assert!(
+            (generalized - identity).amax() < COUNTED_ROOT,
+            "pencil {number}"
+        );
+    }
+    assert!(repeated > 3000 && free > 3000 && massless_ones > 3000);
+}
+
+#[test]
+fn a_free_spring_chain_has_the_closed_form() {
+    for count in 2..=9 {
+        let mut stiffness = DMatrix::zeros(count, count);
+        for spring in 0..count - 1 {
+            let mut ends = DVector::zeros(count);
+            (ends[spring], ends[spring + 1]) = (1.0, -1.0);
+            stiffness += 100.0 * &ends * ends.transpose();
+        }
+        let mass = DMatrix::from_diagonal_element(count, count, 0.01);
+        let found = counted_modes(&stiffness, &mass).expect("modes");
+        assert_eq!(found.rigid_body.ncols(), 1);
+        let expected = chain_eigenvalues(ChainEnds::FreeFree, count, 100.0, 0.01);
+        let expected: Vec<f64> = expected.into_iter().filter(|value| *value > 1e-6).collect();
+        assert_eq!(found.vibrations.len(), expected.len());
+        for (found, expected) in found.vibrations.omega_squared().iter().zip(&expected) {
+            assert!((found / expected - 1.0).abs() < COUNTED_ROOT);
+        }
+        // The chain moves as one.
+        let first = found.rigid_body[(0, 0)];
+        assert!(
+            found
+                .rigid_body
+                .iter()
+                .all(|component| (component / first - 1.0).abs() < COUNTED_ROOT)
+        );
+        for (below, bound) in [
+            (0, -1.0),
+            (1, 0.5 * expected[0]),
+            (count, 2.0 * expected[count - 2]),
+        ] {
+            assert_eq!(
+                count_below(&stiffness, &mass, bound).expect("a count"),
+                below
+            );
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    /// Other units of every degree of freedom are a congruence.
+    #[test]
+    fn a_count_does_not_depend_on_units(decades in prop::collection::vec(-9..=9_i32, 6), below in 0..=6_usize) {
+        let roots = chain_eigenvalues(ChainEnds::FixedFree, 6, 1.0, 1.0);
+        let bound = match below {
+            0 => 0.5 * roots[0],
+            6 => 2.0 * roots[5],
+            _ => 0.5 * (roots[below - 1] + roots[below]),
+        };
+        let stiffness: DMatrix<f64> = (0..6).map(|spring| spring_stiffness(6, spring, 1.0)).sum();
+        let units = DMatrix::from_diagonal(&DVector::from_iterator(6, decades.iter().map(|&ten| 10_f64.powi(ten))));
+        prop_assert_eq!(count_below(&(&units * stiffness * &units), &(&units * &units), bound).expect("a count"), below);
+    }
+}
+
+#[test]
+fn a_motion_without_stiffness_and_mass_is_in_no_count() {
+    let [stiffness, mass] =
+        [3.0, 1.0].map(|one| DMatrix::from_diagonal(&DVector::from_vec(vec![one, 0.0])));
+    for (below, bound) in [(0, 2.0), (1, 4.0)] {
+        assert_eq!(
+            count_below(&stiffness, &mass, bound).expect("a count"),
+            below
+        );
+    }
+}
+
+#[test]
+fn a_free_delta_wing_has_its_rigid_body_modes_and_no_mode_is_lost() {
+    let wing = DeltaWing::embedded().expect("the wing");
+    let held = wing.structure().expect("a structure");
+    let free = held.grids().iter().map(|grid| Grid {
+        constrained: [false; 3],
+        ..grid.clone()
+    });
+    let free = Structure::new(free.collect(), held.elements().to_vec()).expect("it hangs free");
+    let (elements, count) = (element_matrices(&free), free.free_dof().len());
+    let sizes: Vec<f64> = free.elements().iter().map(|element| element.size).collect();
+    let stiffness = dense_stiffness(&elements, &sizes, count).expect("a stiffness");
+    let lumped = lumped_mass(&elements, &sizes, count).expect("masses");
+    let found = counted_modes(&stiffness, &DMatrix::from_diagonal(&lumped)).expect("modes");
+    let heavy = lumped.iter().filter(|mass| **mass > 0.0).count();
+    assert_eq!(found.rigid_body.ncols() + found.vibrations.len(), heavy);
+    // Every motion of a rigid body is among the modes without strain.
+    for axis in 0..3 {
+        let along = DVector::from_fn(count, |row, _| {
+            f64::from(u8::from(free.free_dof()[row].direction == axis))
+        });
+        assert!((&stiffness * &along).amax() < EIGEN_ROUND_OFF * stiffness.amax());
+        let massive = DMatrix::from_diagonal(&lumped) * &along;
+        let projected = &found.rigid_body * found.rigid_body.tr_mul(&massive);
+        let apart = (projected - &along)
+            .component_mul(&lumped.map(f64::sqrt))
+            .norm();
+        assert!(apart < 1e-6 * massive.dot(&along).sqrt(), "{axis}: {apart}");
+    }
+}
+
+#[test]
+fn a_soft_suspension_is_a_vibration_and_no_rigid_body_mode() {
+    // A hundred-millionth of the other's stiffness, and still no zero.
+    let stiffness = DMatrix::from_diagonal(&DVector::from_vec(vec![1e-8, 1.0]));
+    let found = counted_modes(&stiffness, &DMatrix::identity(2, 2)).expect("modes");
+    assert_eq!((found.rigid_body.ncols(), found.vibrations.len()), (0, 2));
+    assert!((found.vibrations.omega_squared()[0] / 1e-8 - 1.0).abs() < COUNTED_ROOT);
+}
+
+#[test]
+fn what_cannot_be_counted_is_refused() {
+    let two = DMatrix::identity(2, 2);
+    assert!(matches!(
+        counted_modes(&two, &DMatrix::zeros(2, 2)),
+        Err(Error::Empty { .. })
+    ));
+    let negative = DMatrix::from_diagonal(&DVector::from_vec(vec![1.0, -1.0]));
+    assert!(matches!(
+        counted_modes(&two, &negative),
+        Err(Error::NotPositiveDefinite { what: "mass", .. })
+    ));
+    // A motion with neither stiffness nor mass.
+    let one = DMatrix::from_diagonal(&DVector::from_vec(vec![1.0, 0.0]));
+    assert!(matches!(
+        counted_modes(&one, &one),
+        Err(Error::NotPositiveDefinite { .. })
+    ));
+    assert!(matches!(
+        counted_modes(&two, &DMatrix::identity(3, 3)),
+        Err(Error::WrongShape { .. })
+    ));
+    assert!(matches!(
+        counted_modes(&(f64::NAN * &two), &two),
+        Err(Error::NotFinite { .. })
+    ));
+}

@@ -1,0 +1,155 @@
+//! The model the correlation sees: parameters, their sizes and bounds.
+
+use crate::common::matrices::relative_distance;
+use crate::common::structures::{chain_model as chain, group};
+use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
+use crate::common::torque_boxes::{case, factors, with_every_element, with_parameters};
+use corfem::method::model::{Parameter, Range, Scaled};
+use corfem::torque_box::Case;
+use nalgebra::DMatrix;
+use proptest::prelude::*;
+
+/// The paper's substructures: covers, spars, ribs, and the rods as one more.
+const SUBSTRUCTURES: [(&str, &[usize]); 4] = [
+    ("covers", &[2, 4, 8, 9, 11, 15]),
+    ("spars", &[1, 3, 5, 6, 10, 14]),
+    ("ribs", &[7, 12, 13]),
+    (
+        "rods",
+        &[
+            16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37,
+            38, 39,
+        ],
+    ),
+];
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    /// A group's factor is that factor on each of its elements, and its share the sum of theirs.
+    #[test]
+    fn a_group_is_its_elements_together(case in case(), factors in factors(4)) {
+        let groups = with_parameters(&case, SUBSTRUCTURES.map(|(name, elements)| Parameter::group(name, elements)).to_vec());
+        let single = with_every_element(&case);
+        let mut each = vec![1.0; 39];
+        for ((_, elements), factor) in SUBSTRUCTURES.iter().zip(&factors) {
+            for &element in *elements {
+                each[element - 1] = *factor;
+            }
+        }
+        prop_assert_eq!(groups.at(&factors).unwrap().sizes, single.at(&each).unwrap().sizes);
+        let (together, apart) = (groups.matrices(&factors).unwrap(), single.matrices(&each).unwrap());
+        prop_assert_eq!(together.shares.len(), 4);
+        prop_assert!(relative_distance(&together.stiffness, &apart.stiffness) <= ROUND_OFF);
+        for ((_, elements), share) in SUBSTRUCTURES.iter().zip(&together.shares) {
+            let sum: DMatrix<f64> = elements.iter().map(|&element| apart.shares[element - 1].matrix()).sum();
+            prop_assert!(relative_distance(share.matrix(), &sum) <= MATRIX_ROUND_OFF);
+        }
+        prop_assert_eq!(&together.mass, groups.mass());
+    }
+
+    /// Sizes are the first ones times the factors, element by element; those in no parameter stay.
+    #[test]
+    fn sizes_are_first_sizes_times_factors(case in case(), factors in factors(15)) {
+        let model = case.model().unwrap();
+        let sizes = model.at(&factors).unwrap().sizes;
+        prop_assert_eq!(sizes.len(), 39);
+        for (panel, (size, factor)) in case.panels.iter().zip(sizes.iter().zip(&factors)) {
+            prop_assert_eq!(*size, panel.gage * factor);
+        }
+        prop_assert!(sizes[15..].iter().all(|&area| area == case.rod_area));
+    }
+
+    /// Factors within their range keep every element of the parameter within its bounds, those outside do not.
+    #[test]
+    fn factor_ranges_keep_sizes_within_bounds(lower in 0.5..2.0_f64, upper in 8.0..20.0_f64, beyond in 1e-6..0.1_f64) {
+        let model = chain(vec![group("all", &[1, 2, 3], Some(Range { lower, upper }))]).unwrap();
+        let range = model.factor_ranges().unwrap()[0].unwrap();
+        let within = |factor: f64| model.at(&[factor]).unwrap().sizes.iter().all(|&size| {
+            size >= lower * (1.0 - ROUND_OFF) && size <= upper * (1.0 + ROUND_OFF)
+        });
+        prop_assert!(within(range.lower) && within(range.upper));
+        prop_assert!(!within(range.lower * (1.0 - beyond)) && !within(range.upper * (1.0 + beyond)));
+    }
+}
+
+#[test]
+fn a_model_keeps_what_it_was_made_of() {
+    let parameters = vec![Parameter::element(2, None), group("ends", &[1, 3], None)];
+    let model = chain(parameters.clone()).unwrap();
+    assert_eq!(model.parameters(), parameters);
+    let Parameter {
+        name,
+        scaled,
+        members,
+        ..
+    } = &model.parameters()[0];
+    assert_eq!(
+        (name.as_str(), *scaled, members.as_slice()),
+        ("2", Scaled::Stiffness, &[2][..])
+    );
+    let range = Range {
+        lower: 1.0,
+        upper: 5.0,
+    };
+    assert_eq!(Parameter::element(2, Some(range)).size_range, Some(range));
+    assert_eq!(model.structure().elements().len(), 3);
+    let labels: Vec<usize> = model
+        .element_matrices()
+        .iter()
+        .map(|matrix| matrix.label)
+        .collect();
+    assert_eq!(labels, [1, 2, 3]);
+    assert_eq!(model.load_distribution().clone(), DMatrix::identity(3, 3));
+    assert_eq!(model.mass(), &DMatrix::identity(3, 3));
+    assert_eq!(model.at(&[3.0, 0.5]).unwrap().sizes, [1.0, 12.0, 4.0]);
+    // T and M the identity: K_D is K_S, and a spring's share its own matrix.
+    let dynamic = model.matrices(&[3.0, 0.5]).unwrap();
+    let expected =
+        DMatrix::from_row_slice(3, 3, &[13.0, -12.0, 0.0, -12.0, 16.0, -4.0, 0.0, -4.0, 4.0]);
+    assert!(relative_distance(&dynamic.stiffness, &expected) <= MATRIX_ROUND_OFF);
+    let middle =
+        DMatrix::from_row_slice(3, 3, &[12.0, -12.0, 0.0, -12.0, 12.0, 0.0, 0.0, 0.0, 0.0]);
+    assert!(relative_distance(dynamic.shares[0].matrix(), &middle) <= MATRIX_ROUND_OFF);
+    assert!(
+        relative_distance(dynamic.shares[1].matrix(), &(expected - middle)) <= MATRIX_ROUND_OFF
+    );
+}
+
+#[test]
+fn factor_ranges_are_size_bounds_over_first_sizes() {
+    let bounds = |lower, upper| Some(Range { lower, upper });
+    let model = chain(vec![
+        Parameter::element(1, bounds(1.0, 3.0)),
+        Parameter::element(2, None),
+        Parameter::element(3, bounds(4.0, 8.0)),
+    ]);
+    let found = model.unwrap().factor_ranges().unwrap();
+    assert_eq!(found, [bounds(0.5, 1.5), None, bounds(0.5, 1.0)]);
+    let both = Parameter {
+        factor_range: bounds(0.25, 1.25),
+        ..group("both", &[1, 2], bounds(1.0, 8.0))
+    };
+    let factor_alone = Parameter {
+        factor_range: bounds(0.1, 7.0),
+        ..Parameter::element(3, None)
+    };
+    let found = chain(vec![both, factor_alone]).unwrap().factor_ranges();
+    assert_eq!(found.unwrap(), [bounds(0.5, 1.25), bounds(0.1, 7.0)]);
+    let together = chain(vec![group("all", &[1, 2, 3], bounds(1.0, 16.0))]);
+    assert_eq!(
+        together.unwrap().factor_ranges().unwrap(),
+        [bounds(0.5, 2.0)]
+    );
+    let paper = Case::new(3)
+        .unwrap()
+        .model()
+        .unwrap()
+        .factor_ranges()
+        .unwrap();
+    assert_eq!(paper.len(), 15);
+    assert_eq!(
+        (paper[0], paper[1]),
+        (bounds(0.007 / 0.013, 1.0), bounds(1.0, 0.013 / 0.007))
+    );
+}

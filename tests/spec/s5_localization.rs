@@ -1,0 +1,88 @@
+//! Rankings of suspects: by the first iteration's own factors, and by what one parameter alone explains.
+
+use crate::common::known::Known;
+use crate::common::measured::equal_weights;
+use crate::common::tolerances::{MATRIX_ROUND_OFF, SINGLE_FIT_FACTOR};
+use crate::evidence::localization::NOISE;
+use crate::spec::s5_weighted::at;
+use corfem::job::localization::{by_factor, by_single_fit};
+use corfem::method::inner_loop::{InnerSettings, run};
+use corfem::method::modes::ModeSet;
+use corfem::torque_box::Case;
+use corfem::weighted::residuals::residuals;
+
+#[test]
+fn the_first_ranking_is_by_what_the_first_iteration_asks_for() {
+    for (number, modes) in [(1, 9), (2, 9), (3, 5)] {
+        let known = Known::of_case(number).unwrap();
+        // With fewer than nine modes the error sum has a scale.
+        let lowest: Vec<usize> = (0..modes).collect();
+        let (omega_squared, shapes) = (
+            known.test.omega_squared().select_rows(&lowest),
+            known.test.shapes().select_columns(&lowest),
+        );
+        let test = ModeSet::new(omega_squared, shapes).expect("modes");
+        let model = known.model.analyze(&[1.0; 15], &test, None).unwrap();
+        let settings = InnerSettings {
+            iterations: 1,
+            ..InnerSettings::default()
+        };
+        let asked = run(&model, &[1.0; 15], &[None; 15], &settings)
+            .unwrap()
+            .first_unlimited_factors;
+        let suspects = by_factor(&model, &settings).unwrap();
+        for suspect in &suspects {
+            assert_eq!(suspect.factor, asked[suspect.parameter], "case {number}");
+            assert_eq!(suspect.evidence, (suspect.factor - 1.0).abs());
+        }
+        assert!(
+            suspects
+                .windows(2)
+                .all(|pair| pair[0].evidence >= pair[1].evidence)
+        );
+        let mut all: Vec<usize> = suspects.iter().map(|suspect| suspect.parameter).collect();
+        all.sort_unstable();
+        assert_eq!(all, (0..15).collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn evidence_is_what_the_objective_falls_by_at_the_factor_named() {
+    let case = Case::new(2).unwrap();
+    let (first, test) = (
+        case.model().unwrap().matrices(&[1.0; 15]).unwrap(),
+        ModeSet::from(case.test_modes().unwrap()),
+    );
+    let weights = equal_weights(NOISE, test.len());
+    let objective = |factors: &[f64]| {
+        let model = at(&first, factors).analyze(&test, None).unwrap();
+        0.5 * residuals(&model, &weights).unwrap().norm_squared()
+    };
+    let ones = [1.0; 15];
+    let start = objective(&ones);
+    for suspect in by_single_fit(&first.analyze(&test, None).unwrap(), &weights).unwrap() {
+        let fall = |factor: f64| {
+            let mut factors = ones;
+            factors[suspect.parameter] = factor;
+            start - objective(&factors)
+        };
+        // The box has all its modes, whose combinations are exact.
+        assert!(
+            (suspect.evidence - fall(suspect.factor)).abs() < MATRIX_ROUND_OFF * start,
+            "{suspect:?}"
+        );
+        // No factor near by, to the search's one percent, does better; one at the search's end would be smaller still.
+        for factor in [
+            0.9,
+            1.0 - 2.0 * SINGLE_FIT_FACTOR,
+            1.0 + 2.0 * SINGLE_FIT_FACTOR,
+            1.1,
+        ] {
+            let is_at_the_end = suspect.factor < 1e-3;
+            assert!(
+                is_at_the_end || fall(suspect.factor * factor) < suspect.evidence,
+                "{suspect:?} {factor}"
+            );
+        }
+    }
+}

@@ -1,0 +1,286 @@
+//! The pre-flight: what it says of frequencies, of modes, of settings and of two mistakes at once.
+
+use crate::common::alter;
+use crate::common::tolerances::{DEPENDENT_SHAPES, ROUND_OFF};
+use crate::evidence::specimen::Specimen;
+use crate::spec::s5_preflight::{case, chain, findings, wing, with_shapes};
+use corfem::job::preflight::{
+    Change, FACTORS, Finding, FrequenciesExchanged, LARGEST_TOLERANCE, preflight,
+};
+use corfem::method::error::Error;
+use corfem::method::model::{DynamicModel, Range};
+use corfem::method::outer_loop::Settings;
+
+#[test]
+fn exchanged_frequencies_are_named_where_models_are_closer_than_modes() {
+    for specimen in [case(2), wing()] {
+        for first in 0..specimen.test.len() - 1 {
+            let mut wrong = specimen.clone();
+            alter(&mut wrong.test, |squares, _| {
+                squares.swap_rows(first, first + 1)
+            });
+            match findings(&wrong)[..] {
+                [
+                    Finding::FrequenciesExchanged(FrequenciesExchanged {
+                        modes,
+                        before,
+                        after,
+                    }),
+                ] => {
+                    assert_eq!(modes, [first, first + 1]);
+                    assert!(after < before);
+                }
+                ref other => panic!("{} {first}: {other:?}", specimen.name),
+            }
+        }
+    }
+}
+
+#[test]
+fn a_mode_measured_twice_and_dependent_modes_are_told() {
+    for specimen in [case(2), case(3), wing(), chain()] {
+        let mut wrong = specimen.clone();
+        let copy = specimen.test.shapes().column(1).into_owned();
+        alter(&mut wrong.test, |_, shapes| {
+            shapes.set_column(4, &(-3.0 * copy))
+        });
+        let same = |wrong: &Specimen| match findings(wrong)[..] {
+            [
+                Finding::NearlySame {
+                    modes,
+                    assurance,
+                    frequency_ratio,
+                },
+            ] => {
+                assert_eq!(modes, [1, 4], "{}", specimen.name);
+                assert!((assurance - 1.0).abs() < ROUND_OFF);
+                (frequency_ratio, findings(wrong)[0].to_string())
+            }
+            ref other => panic!("{}: {other:?}", specimen.name),
+        };
+        let (ratio, words) = same(&wrong);
+        assert!(ratio > 1.1 && !words.contains("twice"));
+        alter(&mut wrong.test, |squares, _| {
+            squares[4] = specimen.test.omega_squared()[1];
+        });
+        assert!(
+            words
+                .starts_with("Test modes 2 and 5 are nearly the same shape, modal assurance 1.000"),
+            "{words}"
+        );
+        let (ratio, words) = same(&wrong);
+        assert!(
+            (ratio - 1.0).abs() < ROUND_OFF && words.contains("measured twice?"),
+            "{words}"
+        );
+        // A shape between two others.
+        let unit = |mode: usize| specimen.test.shapes().column(mode).normalize();
+        alter(&mut wrong.test, |_, shapes| {
+            shapes.set_column(4, &(unit(1) + unit(3)))
+        });
+        let modes = specimen.test.len();
+        let is_told = |finding: &Finding| match finding {
+            Finding::TooManyModes {
+                modes: all,
+                distinct,
+                smallest,
+                ..
+            } => (*all, *distinct) == (modes, modes - 1) && smallest.abs() < 1.0,
+            _ => false,
+        };
+        assert!(findings(&wrong).iter().any(is_told), "{}", specimen.name);
+    }
+}
+
+#[test]
+fn more_modes_than_points_are_told_and_nothing_else() {
+    let right = chain();
+    let points = [0, 2, 4, 6];
+    let [stiffness, mass] = [&right.model.stiffness, &right.model.mass]
+        .map(|matrix| matrix.select_rows(&points).select_columns(&points));
+    let mut few = with_shapes(&right, right.test.shapes().select_rows(&points));
+    few.model = DynamicModel {
+        stiffness,
+        mass,
+        shares: Vec::new(),
+    };
+    let found = findings(&few);
+    let (last, others) = found.split_last().expect("a finding");
+    let Finding::TooManyModes {
+        modes,
+        points: 4,
+        distinct: 4,
+        smallest,
+    } = *last
+    else {
+        panic!("{found:?}")
+    };
+    assert!(
+        others
+            .iter()
+            .all(|finding| matches!(finding, Finding::NearlySame { .. })),
+        "{found:?}"
+    );
+    assert!(modes + others.len() == 8 && smallest < DEPENDENT_SHAPES);
+}
+
+#[test]
+fn two_mistakes_at_once_are_both_named() {
+    let mut wrong = case(2);
+    alter(&mut wrong.test, |squares, _| {
+        *squares *= FACTORS[0].factor.powi(2)
+    });
+    alter(&mut wrong.test, |_, shapes| shapes.row_mut(3).neg_mut());
+    let found = findings(&wrong);
+    assert!(
+        matches!(&found[..], [Finding::CommonFactor(factor), Finding::Mended(mended)]
+        if factor.named == Some(FACTORS[0]) && mended.change == Change::Reversed(3)),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn tolerances_in_percent_and_bounds_that_exclude_the_start_are_named() {
+    for right in [case(3), wing(), chain()] {
+        let ranges = vec![
+            Some(Range {
+                lower: 0.5,
+                upper: 2.0
+            });
+            right.ranges.len()
+        ];
+        let found = |settings: &Settings, ranges: &[Option<Range>]| {
+            preflight(&right.model, &right.test, settings, ranges).unwrap()
+        };
+        assert_eq!(found(&right.settings, &ranges), []);
+        let mut settings = right.settings.clone();
+        settings.inner.tolerance = 2.5;
+        settings.shape_tolerance = 4.0;
+        settings.frequency_tolerance = LARGEST_TOLERANCE;
+        let percent = |setting, value| Finding::Percent { setting, value };
+        assert_eq!(
+            found(&settings, &ranges),
+            [
+                percent("inner.tolerance", 2.5),
+                percent("shape_tolerance", 4.0)
+            ]
+        );
+        settings = Settings {
+            later_inner_tolerance: 1.5,
+            error_sum_tolerance: 5.0,
+            ..right.settings.clone()
+        };
+        let expected = [
+            percent("later_inner_tolerance", 1.5),
+            percent("error_sum_tolerance", 5.0),
+        ];
+        assert_eq!(found(&settings, &ranges), expected);
+        settings = Settings {
+            frequency_tolerance: 1.5,
+            ..right.settings.clone()
+        };
+        assert_eq!(
+            found(&settings, &ranges),
+            [percent("frequency_tolerance", 1.5)]
+        );
+        let mut wrong = ranges.clone();
+        wrong[2] = Some(Range {
+            lower: 55.0,
+            upper: 150.0,
+        });
+        wrong[5] = None;
+        let range = Range {
+            lower: 55.0,
+            upper: 150.0,
+        };
+        let expected = [
+            Finding::ExcludesStart {
+                parameter: 2,
+                range,
+            },
+            Finding::Unbounded(vec![5]),
+        ];
+        assert_eq!(found(&right.settings, &wrong), expected);
+    }
+}
+
+#[test]
+fn a_test_that_does_not_fit_the_model_is_an_error() {
+    let (right, other) = (case(2), chain());
+    assert!(matches!(
+        right.findings(&other.test),
+        Err(Error::WrongShape { .. })
+    ));
+}
+
+#[test]
+fn findings_are_said_with_places_from_one() {
+    let mut wrong = case(2);
+    alter(&mut wrong.test, |_, shapes| shapes.row_mut(3).neg_mut());
+    alter(&mut wrong.test, |squares, _| squares.swap_rows(0, 1));
+    alter(&mut wrong.test, |squares, _| {
+        *squares *= FACTORS[0].factor.powi(2)
+    });
+    wrong.settings.shape_tolerance = 4.0;
+    wrong.ranges[2] = Some(Range {
+        lower: 55.0,
+        upper: 150.0,
+    });
+    let said: Vec<String> = wrong
+        .findings(&wrong.test)
+        .unwrap()
+        .iter()
+        .map(Finding::to_string)
+        .collect();
+    let all = said.join("\n");
+    for words in [
+        "times the model's, near 2π: the test is in rad/s?",
+        "Sensor 4 reversed? It would raise the mean cross-orthogonality from 0.9",
+        "the next best, ",
+        "Frequencies of test modes 1 and 2 exchanged? It would lower the mean deviation of the ratios from ",
+        "shape_tolerance is 4, that is 400 %: a percentage where a fraction is meant?",
+        "Bounds on the factor of parameter 3, 55 to 150, exclude its first value.",
+        "Parameters without bounds: 1, 2, 4, 5, ",
+    ] {
+        assert!(all.contains(words), "{words} in {all}");
+    }
+    let last = case(4);
+    let said = last
+        .findings(&last.test)
+        .unwrap()
+        .iter()
+        .map(Finding::to_string)
+        .collect::<Vec<_>>()
+        .join("\n");
+    assert!(
+        said.starts_with("Test mode 5 and analysis mode 5 have a cross-orthogonality of 0.7"),
+        "{said}"
+    );
+    assert!(
+        said.ends_with("Parameters without bounds: 1 to 15."),
+        "{said}"
+    );
+    let exchanged = FrequenciesExchanged {
+        modes: [0, 4],
+        before: 0.123,
+        after: 0.045,
+    };
+    assert_eq!(
+        Finding::FrequenciesExchanged(exchanged).to_string(),
+        "Frequencies of test modes 1 and 5 exchanged? It would lower the mean deviation of the ratios from 12.3 to 4.5 %."
+    );
+    for (change, words) in [
+        (Change::Exchanged([0, 4]), "sensors 1 and 5 exchanged"),
+        (
+            Change::Reordered(vec![2, 0, 1]),
+            "points in another order (3, 1, 2)",
+        ),
+        (
+            Change::Columns(vec![1, 0]),
+            "columns of T in another order (2, 1)",
+        ),
+        (Change::Transposed, "shapes transposed"),
+    ] {
+        assert_eq!(change.to_string(), words);
+    }
+}

@@ -1,0 +1,174 @@
+//! Appendix A: from structural to dynamic DOF, by more than one route.
+
+use crate::common::matrices::relative_distance;
+use crate::common::strategies::{orthogonal, positive_definite};
+use crate::common::tolerances::{CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF};
+use corfem::method::appendix_a::{Condensed, condense};
+use corfem::method::error::Error;
+use nalgebra::{DMatrix, DVector};
+use proptest::prelude::*;
+
+/// Condition numbers of the random stiffness matrices, in decades. Round-off grows with their square here: five decades
+/// leave three digits to compare in the worst case.
+const DECADES: f64 = 5.0;
+
+/// A random structural stiffness with its condition number and some of its DOF, at least one, at most all.
+pub fn stiffness_and_kept() -> impl Strategy<Value = (DMatrix<f64>, f64, Vec<usize>)> {
+    (2..10_usize)
+        .prop_flat_map(|n| {
+            (
+                positive_definite(n, DECADES),
+                prop::sample::subsequence((0..n).collect::<Vec<_>>(), 1..=n),
+            )
+        })
+        .prop_map(|((stiffness, exponents), kept)| {
+            let least = exponents.iter().copied().fold(f64::INFINITY, f64::min);
+            let most = exponents.iter().copied().fold(0.0, f64::max);
+            (stiffness, 10f64.powf(most - least), kept)
+        })
+}
+
+/// A random structural stiffness with its condition number and a load distribution of independent columns.
+fn stiffness_and_distribution() -> impl Strategy<Value = (DMatrix<f64>, f64, DMatrix<f64>)> {
+    stiffness_and_kept()
+        .prop_flat_map(|(stiffness, condition, kept)| {
+            let count = stiffness.nrows();
+            (Just((stiffness, condition, kept.len())), orthogonal(count))
+        })
+        .prop_map(|((stiffness, condition, count), columns)| {
+            (stiffness, condition, columns.columns(0, count).into_owned())
+        })
+}
+
+fn condensed(stiffness: &DMatrix<f64>, t: &DMatrix<f64>) -> Result<Condensed, Error> {
+    condense(stiffness, t)
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    /// (A.3) to (A.8): the flexibility is TᵗK_S⁻¹T; B carries it back, K_D = B K_S Bᵗ; by equal work TᵗBᵗ = I.
+    #[test]
+    fn condensed_stiffness_and_transformation_satisfy_appendix_a(
+        (stiffness, condition, t) in stiffness_and_distribution(),
+    ) {
+        let found = condensed(&stiffness, &t).unwrap();
+        let flexibility = t.tr_mul(&stiffness.clone().cholesky().unwrap().solve(&t));
+        // Round-off of the flexibility grows once more in its inverse.
+        let spread = flexibility.symmetric_eigenvalues();
+        let bar = CONDITIONED_ROUND_OFF * condition * spread.max() / spread.min();
+        let expected = flexibility.try_inverse().unwrap();
+        prop_assert!(relative_distance(&found.stiffness, &expected) <= bar);
+        prop_assert_eq!(&found.stiffness, &found.stiffness.transpose());
+        let bt = &found.transformation;
+        prop_assert_eq!(bt.shape(), t.shape());
+        let identity = DMatrix::identity(t.ncols(), t.ncols());
+        prop_assert!(relative_distance(&t.tr_mul(bt), &identity) <= bar);
+        let through_b = bt.tr_mul(&(&stiffness * bt));
+        prop_assert!((through_b - &found.stiffness).amax() <= bar * stiffness.amax());
+        // What Bᵗ leaves of the loads is what T put there.
+        prop_assert!((&stiffness * bt - &t * &found.stiffness).amax() <= bar * stiffness.amax());
+    }
+
+    /// Of all structural motions with given dynamic ones, q_D = Tᵗq_S, that of Bᵗ has the least energy: K_D's.
+    #[test]
+    fn condensed_energy_is_the_least(
+        (stiffness, condition, t) in stiffness_and_distribution(),
+        motion in prop::collection::vec(-1.0..1.0_f64, 10),
+    ) {
+        let found = condensed(&stiffness, &t).unwrap();
+        let structural = DVector::from_column_slice(&motion[..stiffness.nrows()]);
+        let dynamic = t.tr_mul(&structural);
+        let energy = structural.dot(&(&stiffness * &structural));
+        let least = dynamic.dot(&(&found.stiffness * &dynamic));
+        prop_assert!(least <= energy * (1.0 + CONDITIONED_ROUND_OFF * condition), "{least} {energy}");
+        prop_assert!(least >= 0.0);
+    }
+
+    #[test]
+    fn a_combination_of_earlier_dynamic_dof_is_refused_by_its_number(
+        ((stiffness, _), columns, weights, dof) in (3..9_usize).prop_flat_map(|n| (
+            positive_definite(n, 2.0),
+            orthogonal(n),
+            prop::collection::vec(0.5..2.0_f64, n),
+            1..n,
+        )),
+    ) {
+        let mut t = columns;
+        let mut combination = DVector::zeros(t.nrows());
+        for (column, weight) in t.column_iter().zip(&weights[..dof]) {
+            combination += *weight * column;
+        }
+        t.set_column(dof, &combination);
+        let refused = condensed(&stiffness, &t);
+        let Err(Error::Dependent { what: "dynamic degree of freedom", index }) = refused else {
+            return Err(TestCaseError::fail(format!("{refused:?}, not {dof}")));
+        };
+        prop_assert_eq!(index, dof);
+    }
+}
+
+/// Springs 1 and 2 in a row, one dynamic DOF that is the mean of the two grids' motion: T = (1/2, 1/2), flexibility
+/// 1/4·(1 + 1 + 1 + 3/2) = 9/8, deflections 8/9·(1, 5/4).
+#[test]
+fn two_springs_and_a_mean_are_the_hand_result() {
+    let stiffness = DMatrix::from_row_slice(2, 2, &[3.0, -2.0, -2.0, 2.0]);
+    let found = condensed(&stiffness, &DMatrix::from_column_slice(2, 1, &[0.5, 0.5])).unwrap();
+    let expected = DMatrix::from_element(1, 1, 8.0 / 9.0);
+    assert!(relative_distance(&found.stiffness, &expected) <= MATRIX_ROUND_OFF);
+    let motion = DMatrix::from_column_slice(2, 1, &[8.0 / 9.0, 10.0 / 9.0]);
+    assert!(relative_distance(&found.transformation, &motion) <= MATRIX_ROUND_OFF);
+}
+
+#[test]
+fn a_bad_load_distribution_is_refused_by_name() {
+    let stiffness = DMatrix::identity(3, 3);
+    let refused = condensed(&stiffness, &DMatrix::zeros(3, 0)).unwrap_err();
+    assert!(
+        matches!(
+            refused,
+            Error::Empty {
+                what: "dynamic degrees of freedom"
+            }
+        ),
+        "{refused:?}"
+    );
+    let refused = condensed(&stiffness, &DMatrix::zeros(4, 2)).unwrap_err();
+    assert!(
+        matches!(
+            refused,
+            Error::WrongShape {
+                what: "load distribution",
+                expected_rows: 3,
+                rows: 4,
+                ..
+            }
+        ),
+        "{refused:?}"
+    );
+    let refused = condensed(&stiffness, &DMatrix::from_element(3, 1, f64::NAN)).unwrap_err();
+    assert!(
+        matches!(
+            refused,
+            Error::NotFinite {
+                what: "load distribution",
+                row: 0,
+                column: 0,
+                ..
+            }
+        ),
+        "{refused:?}"
+    );
+    // A dynamic DOF that no load reaches is a combination of none.
+    let refused = condensed(&stiffness, &DMatrix::zeros(3, 1)).unwrap_err();
+    assert!(
+        matches!(
+            refused,
+            Error::Dependent {
+                what: "dynamic degree of freedom",
+                index: 0
+            }
+        ),
+        "{refused:?}"
+    );
+}

@@ -1,0 +1,289 @@
+//! Balance of forces and moments (B.1 to B.4) on three masses, and what is refused.
+
+use crate::common::appendix_b::modes;
+use crate::common::tolerances::{FAR_REFERENCE_AXIS, ROUND_OFF};
+use approx::assert_relative_eq;
+use corfem::method::appendix_b::{LARGEST_SUSPENSION_RATIO, balance};
+use corfem::method::error::Error;
+use corfem::method::modes::ModeSet;
+use nalgebra::{DMatrix, dmatrix, dvector};
+
+/// Three unit masses at −1, 0 and 1, one of the outer moved: {1} takes a third, {x} a half, 1/6 (1, −2, 1) remains.
+fn three_masses() -> (DMatrix<f64>, DMatrix<f64>) {
+    (
+        DMatrix::identity(3, 3),
+        dmatrix![1.0, -1.0; 1.0, 0.0; 1.0, 1.0],
+    )
+}
+
+#[test]
+fn three_free_masses_by_hand() {
+    let (mass, rigid_body) = three_masses();
+    let raw = modes(&[7.0], dmatrix![1.0; 0.0; 0.0]);
+    let balanced = balance(&raw, &DMatrix::zeros(3, 3), &mass, &rigid_body).unwrap();
+    assert_relative_eq!(
+        balanced.coefficients,
+        dmatrix![-1.0 / 3.0; 0.5],
+        max_relative = ROUND_OFF
+    );
+    assert_relative_eq!(
+        balanced.shapes,
+        dmatrix![1.0; -2.0; 1.0] / 6.0,
+        max_relative = ROUND_OFF
+    );
+    assert_relative_eq!(
+        balanced.change[0],
+        (5.0_f64 / 6.0).sqrt(),
+        max_relative = ROUND_OFF
+    );
+}
+
+#[test]
+fn three_suspended_masses_by_hand() {
+    // Springs of rate k at both ends: r1 = −(ω² − k)/(3ω² − 2k), r2 = 1/2.
+    let (mass, rigid_body) = three_masses();
+    let (omega_squared, k) = (100.0, 3.0);
+    let stiffness = DMatrix::from_diagonal(&dvector![k, 0.0, k]);
+    let raw = modes(&[omega_squared], dmatrix![1.0; 0.0; 0.0]);
+    let balanced = balance(&raw, &stiffness, &mass, &rigid_body).unwrap();
+    let plunge = -(omega_squared - k) / (3.0 * omega_squared - 2.0 * k);
+    assert_relative_eq!(
+        balanced.coefficients,
+        dmatrix![plunge; 0.5],
+        max_relative = ROUND_OFF
+    );
+    let change = (3.0 * plunge * plunge + 2.0 * 0.25_f64).sqrt();
+    assert_relative_eq!(balanced.change[0], change, max_relative = ROUND_OFF);
+}
+
+#[test]
+fn each_mode_is_balanced_at_its_own_frequency() {
+    let (mass, rigid_body) = three_masses();
+    let stiffness = DMatrix::from_diagonal(&dvector![3.0, 0.0, 3.0]);
+    let shape = dvector![1.0, 0.0, 0.0];
+    let raw = modes(
+        &[100.0, 400.0],
+        DMatrix::from_columns(&[shape.clone(), shape]),
+    );
+    let balanced = balance(&raw, &stiffness, &mass, &rigid_body).unwrap();
+    assert_relative_eq!(
+        balanced.coefficients[(0, 0)],
+        -97.0 / 294.0,
+        max_relative = ROUND_OFF
+    );
+    assert_relative_eq!(
+        balanced.coefficients[(0, 1)],
+        -397.0 / 1194.0,
+        max_relative = ROUND_OFF
+    );
+}
+
+#[test]
+fn a_rigid_body_shape_is_all_change() {
+    let (mass, rigid_body) = three_masses();
+    let raw = modes(&[7.0], dmatrix![1.0; 3.0; 5.0]);
+    let balanced = balance(&raw, &DMatrix::zeros(3, 3), &mass, &rigid_body).unwrap();
+    assert_relative_eq!(balanced.change[0], 1.0, max_relative = ROUND_OFF);
+    assert!(balanced.shapes.amax() <= ROUND_OFF * 5.0);
+}
+
+#[test]
+fn suspension_is_refused_past_the_limit_and_named() {
+    // Masses 1, 2, 3 on springs of c times the mass: every suspension mode has μ = c.
+    let mass = DMatrix::from_diagonal(&dvector![1.0, 2.0, 3.0]);
+    let rigid_body = three_masses().1;
+    let raw = modes(&[400.0, 100.0, 50.0], DMatrix::identity(3, 3));
+    let allowed = LARGEST_SUSPENSION_RATIO * 50.0;
+    for (rate, refused) in [
+        (0.999_999 * allowed, None),
+        (1.000_001 * allowed, Some((2, 50.0))),
+        (-1.000_001 * allowed, Some((2, 50.0))),
+        (2.5 * allowed, Some((1, 100.0))),
+    ] {
+        let outcome = balance(&raw, &(rate * &mass), &mass, &rigid_body);
+        match (outcome, refused) {
+            (Ok(balanced), None) => assert_eq!(balanced.shapes.shape(), (3, 3)),
+            (Err(error), Some((first, omega_squared))) => {
+                assert!(
+                    error.to_string().contains("supports balance the forces"),
+                    "{error}"
+                );
+                let Error::Supported { mode, ratio, limit } = error else {
+                    panic!("expected Error::Supported, found {error}");
+                };
+                assert_eq!((mode, limit), (first, LARGEST_SUSPENSION_RATIO));
+                assert_relative_eq!(ratio, rate.abs() / omega_squared, max_relative = ROUND_OFF);
+            }
+            (outcome, _) => panic!("rate {rate}: found {outcome:?}"),
+        }
+    }
+}
+
+#[test]
+fn the_stiffest_suspension_mode_decides() {
+    // Plunge μ = 2k/3, pitch μ = k.
+    let (mass, rigid_body) = three_masses();
+    let k = 1.2 * LARGEST_SUSPENSION_RATIO * 100.0;
+    let stiffness = DMatrix::from_diagonal(&dvector![k, 0.0, k]);
+    let raw = modes(&[100.0], dmatrix![1.0; 0.0; 0.0]);
+    let Err(Error::Supported { ratio, .. }) = balance(&raw, &stiffness, &mass, &rigid_body) else {
+        panic!("pitch lies above the limit");
+    };
+    assert_relative_eq!(ratio, k / 100.0, max_relative = ROUND_OFF);
+    let plunge = rigid_body.columns(0, 1).into_owned();
+    assert!(balance(&raw, &stiffness, &mass, &plunge).is_ok());
+}
+
+#[test]
+fn a_suspension_at_the_limit_is_allowed() {
+    // One mass of the three on a spring, and its motion the only rigid-body vector: μ is the spring's rate exactly.
+    let raw = modes(&[100.0], dmatrix![1.0; 1.0; 0.0]);
+    let rate = LARGEST_SUSPENSION_RATIO * 100.0;
+    let stiffness = DMatrix::from_diagonal(&dvector![rate, 0.0, 0.0]);
+    let outcome = balance(
+        &raw,
+        &stiffness,
+        &DMatrix::identity(3, 3),
+        &dmatrix![1.0; 0.0; 0.0],
+    );
+    assert_relative_eq!(
+        outcome.unwrap().shapes,
+        dmatrix![0.0; 1.0; 0.0],
+        epsilon = ROUND_OFF
+    );
+}
+
+#[test]
+fn the_wing_box_on_its_root_is_refused() {
+    let case = corfem::torque_box::Case::new(1).unwrap();
+    let model = case.model().unwrap();
+    let dynamic = model.matrices(&[1.0; 15]).unwrap();
+    let outcome = balance(
+        &case.test_modes().unwrap(),
+        &dynamic.stiffness,
+        &dynamic.mass,
+        &DMatrix::repeat(9, 1, 1.0),
+    );
+    assert!(
+        matches!(outcome, Err(Error::Supported { mode: 0, .. })),
+        "{outcome:?}"
+    );
+}
+
+#[test]
+fn dependent_rigid_body_vectors_are_named() {
+    let (mass, _) = three_masses();
+    let free = DMatrix::zeros(3, 3);
+    let raw = modes(&[7.0], dmatrix![1.0; 0.0; 0.0]);
+    for (rigid_body, dependent) in [
+        // All points at one station: pitch is plunge.
+        (dmatrix![1.0, 8.0; 1.0, 8.0; 1.0, 8.0], 1),
+        // Vertical points see no side force.
+        (dmatrix![0.0, 1.0; 0.0, 1.0; 0.0, 1.0], 0),
+        (dmatrix![1.0, -1.0, 3.0; 1.0, 0.0, 1.0; 1.0, 1.0, -1.0], 2),
+        (
+            dmatrix![1.0, -1.0, 0.0, 2.0; 1.0, 0.0, 1.0, 5.0; 1.0, 1.0, 0.0, 4.0],
+            3,
+        ),
+    ] {
+        let outcome = balance(&raw, &free, &mass, &rigid_body);
+        assert!(
+            matches!(outcome, Err(Error::Dependent { what: "rigid-body vector", index }) if index == dependent),
+            "{outcome:?}"
+        );
+    }
+}
+
+#[test]
+fn a_far_reference_axis_is_not_dependence() {
+    let (mass, _) = three_masses();
+    let rigid_body = dmatrix![1.0, 999.0; 1.0, 1000.0; 1.0, 1001.0];
+    let raw = modes(&[7.0], dmatrix![1.0; 0.0; 0.0]);
+    let balanced = balance(&raw, &DMatrix::zeros(3, 3), &mass, &rigid_body).unwrap();
+    assert_relative_eq!(
+        balanced.shapes,
+        dmatrix![1.0; -2.0; 1.0] / 6.0,
+        max_relative = FAR_REFERENCE_AXIS
+    );
+}
+
+#[test]
+fn aerodynamic_forces_in_the_mass_are_refused() {
+    // The paper allows them in M. They are not conservative, as the balance has to be: a flow acts on the first mass
+    // where the last one moves, and not the other way round.
+    let (mut mass, rigid_body) = three_masses();
+    mass[(0, 2)] = 0.1;
+    let outcome = balance(
+        &modes(&[7.0], dmatrix![1.0; 0.0; 0.0]),
+        &DMatrix::zeros(3, 3),
+        &mass,
+        &rigid_body,
+    );
+    assert!(
+        matches!(
+            outcome,
+            Err(Error::NotSymmetric {
+                what: "dynamic mass",
+                ..
+            })
+        ),
+        "{outcome:?}"
+    );
+}
+
+#[test]
+fn bad_input_is_refused() {
+    let (mass, rigid_body) = three_masses();
+    let free = DMatrix::<f64>::zeros(3, 3);
+    let raw = modes(&[7.0], dmatrix![1.0; 0.0; 0.0]);
+    let outcome =
+        |raw: &ModeSet, stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, rigid: &DMatrix<f64>| {
+            balance(raw, stiffness, mass, rigid).unwrap_err()
+        };
+    assert!(matches!(
+        outcome(&raw, &DMatrix::zeros(2, 2), &mass, &rigid_body),
+        Error::WrongShape {
+            what: "dynamic stiffness",
+            expected_rows: 3,
+            expected_columns: 3,
+            rows: 2,
+            columns: 2
+        }
+    ));
+    let mut skew = free.clone();
+    skew[(0, 1)] = 1.0;
+    assert!(matches!(
+        outcome(&raw, &skew, &mass, &rigid_body),
+        Error::NotSymmetric {
+            what: "dynamic stiffness",
+            ..
+        }
+    ));
+    assert!(matches!(
+        outcome(&raw, &free, &mass, &DMatrix::zeros(3, 0)),
+        Error::Empty {
+            what: "rigid-body vectors"
+        }
+    ));
+    assert!(matches!(
+        outcome(&raw, &free, &mass, &DMatrix::identity(2, 2)),
+        Error::WrongShape {
+            what: "rigid-body vectors",
+            expected_rows: 3,
+            expected_columns: 2,
+            rows: 2,
+            columns: 2
+        }
+    ));
+    let mut unknown = rigid_body.clone();
+    unknown[(2, 1)] = f64::NAN;
+    assert!(matches!(
+        outcome(&raw, &free, &mass, &unknown),
+        Error::NotFinite {
+            what: "rigid-body vectors",
+            row: 2,
+            column: 1,
+            ..
+        }
+    ));
+}

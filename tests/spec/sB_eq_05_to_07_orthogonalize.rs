@@ -1,0 +1,254 @@
+//! Orthogonal test modes (B.5 to B.7).
+
+use crate::common::alter;
+use crate::common::appendix_b::{mass_norm, modes, relative_difference};
+use crate::common::log_log_slope;
+use crate::common::measured::{noise, orthonormal_modes};
+use crate::common::tolerances::{
+    ASYMPTOTIC_SLOPE, EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ORTHOGONAL_INPUT, ROUND_OFF,
+};
+use approx::assert_relative_eq;
+use corfem::method::appendix_b::{generalized_mass, orthogonalize};
+use corfem::method::error::Error;
+use corfem::method::modes::ModeSet;
+use corfem::method::pairing::modal_assurance;
+use nalgebra::{DMatrix, DVector, SymmetricEigen, dmatrix};
+use proptest::prelude::*;
+
+const DOF: usize = 7;
+const MODES: usize = 5;
+/// Noise on every component of a mass-orthonormal set. The 35 components keep the overlap matrix within
+/// 2·6·0.04 + (6·0.04)² of the identity, so it stays definite.
+const NOISE: f64 = 0.04;
+
+/// Shapes of exact modes with noise in and out of their span.
+fn noisy() -> impl Strategy<Value = (ModeSet, DMatrix<f64>)> {
+    (orthonormal_modes(DOF, MODES), noise(DOF, MODES)).prop_map(|((mut exact, mass), noise)| {
+        let inverse = mass.clone().cholesky().unwrap().l().try_inverse().unwrap();
+        alter(&mut exact, |_, shapes| {
+            *shapes += NOISE * inverse.tr_mul(&noise)
+        });
+        (exact, mass)
+    })
+}
+
+/// The overlap matrix of shapes scaled to unit generalized mass.
+fn overlap(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> DMatrix<f64> {
+    let generalized = shapes.tr_mul(&(mass * shapes));
+    DMatrix::from_fn(generalized.nrows(), generalized.ncols(), |i, j| {
+        generalized[(i, j)] / (generalized[(i, i)] * generalized[(j, j)]).sqrt()
+    })
+}
+
+fn sorted(values: &DVector<f64>) -> Vec<f64> {
+    let mut values = values.as_slice().to_vec();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    #[test]
+    fn orthogonalized_shapes_are_mass_orthonormal((raw, mass) in noisy()) {
+        let found = orthogonalize(&raw, &mass).unwrap();
+        prop_assert_eq!(found.modes.shapes().shape(), (DOF, MODES));
+        prop_assert_eq!(found.modes.len(), MODES);
+        prop_assert_eq!(found.movement.len(), MODES);
+        let identity = DMatrix::identity(MODES, MODES);
+        prop_assert!((generalized_mass(found.modes.shapes(), &mass).unwrap() - identity).amax() <= MATRIX_ROUND_OFF);
+    }
+
+    /// (B.7) itself: the new shapes are V q, and q with the new roots satisfies the equations of motion of the raw set.
+    #[test]
+    fn combinations_satisfy_the_equations_of_motion((raw, mass) in noisy()) {
+        let found = orthogonalize(&raw, &mass).unwrap();
+        let generalized = raw.shapes().tr_mul(&(&mass * raw.shapes()));
+        let q = generalized.clone().lu().solve(&raw.shapes().tr_mul(&(&mass * found.modes.shapes()))).unwrap();
+        prop_assert!((raw.shapes() * &q - found.modes.shapes()).amax() <= MATRIX_ROUND_OFF * raw.shapes().amax());
+        let stiffness = DMatrix::from_fn(MODES, MODES, |i, j| {
+            if i == j { raw.omega_squared()[i] * generalized[(i, i)] } else { 0.0 }
+        });
+        let inertia = generalized * &q * DMatrix::from_diagonal(found.modes.omega_squared());
+        prop_assert!((stiffness * &q - inertia).amax() <= MATRIX_ROUND_OFF * raw.omega_squared().max());
+    }
+
+    /// nalgebra's eigenvalues of D^-1/2 m D^-1/2 are the reciprocals of the squared frequencies.
+    #[test]
+    fn roots_agree_with_another_reduction((raw, mass) in noisy()) {
+        let found = orthogonalize(&raw, &mass).unwrap();
+        let root = DMatrix::from_diagonal(&raw.omega_squared().map(|value| value.sqrt().recip()));
+        let eigen = SymmetricEigen::new(&root * overlap(raw.shapes(), &mass) * &root);
+        let expected = sorted(&eigen.eigenvalues.map(f64::recip));
+        let condition = raw.omega_squared().max() / raw.omega_squared().min();
+        for (found, expected) in sorted(found.modes.omega_squared()).into_iter().zip(expected) {
+            assert_relative_eq!(found, expected, max_relative = EIGEN_ROUND_OFF * condition);
+        }
+    }
+
+    /// The trace of D^-1 m is the trace of D^-1: orthogonalization keeps the sum of the roots 1/ω².
+    #[test]
+    fn the_sum_of_the_roots_is_kept((raw, mass) in noisy()) {
+        let found = orthogonalize(&raw, &mass).unwrap();
+        assert_relative_eq!(
+            found.modes.omega_squared().map(f64::recip).sum(),
+            raw.omega_squared().map(f64::recip).sum(),
+            max_relative = MATRIX_ROUND_OFF
+        );
+    }
+
+    /// Ostrowski: with overlaps E of spectral norm e < 1 every root, in ascending order, satisfies
+    /// 1/(1 + e) ≤ ω²/ω_G² ≤ 1/(1 − e). So noise of size ε moves frequencies by no more than the order of ε.
+    #[test]
+    fn roots_stay_within_ostrowskis_bounds((raw, mass) in noisy()) {
+        let found = orthogonalize(&raw, &mass).unwrap();
+        let e = SymmetricEigen::new(overlap(raw.shapes(), &mass) - DMatrix::identity(MODES, MODES)).eigenvalues.amax();
+        prop_assert!(e < 1.0);
+        for (new, old) in sorted(found.modes.omega_squared()).into_iter().zip(sorted(raw.omega_squared())) {
+            prop_assert!(new / old <= (1.0 + MATRIX_ROUND_OFF) / (1.0 - e));
+            prop_assert!(new / old >= (1.0 - MATRIX_ROUND_OFF) / (1.0 + e));
+        }
+    }
+
+    /// Orthogonal shapes of any scale, sign and order, also of equal frequency, stay as they are.
+    #[test]
+    fn orthogonal_modes_are_a_fixed_point(
+        (exact, mass) in orthonormal_modes(DOF, MODES),
+        scales in prop::collection::vec(prop_oneof![-10.0..-0.1_f64, 0.1..10.0_f64], MODES),
+        order in Just((0..MODES).collect::<Vec<_>>()).prop_shuffle(),
+        repeated in any::<bool>(),
+    ) {
+        let mut omega_squared = DVector::from_fn(MODES, |i, _| exact.omega_squared()[order[i]]);
+        if repeated {
+            omega_squared.fill(exact.omega_squared()[0]);
+        }
+        let signed = DMatrix::from_fn(DOF, MODES, |row, i| exact.shapes()[(row, order[i])] * scales[i].signum());
+        let scaled = &signed * DMatrix::from_diagonal(&DVector::from_vec(scales).abs());
+        let found = orthogonalize(&modes(omega_squared.as_slice(), scaled), &mass).unwrap();
+        prop_assert!(relative_difference(&signed, found.modes.shapes()) <= ORTHOGONAL_INPUT);
+        for mode in 0..MODES {
+            assert_relative_eq!(found.modes.omega_squared()[mode], omega_squared[mode], max_relative = ORTHOGONAL_INPUT);
+            prop_assert!(found.movement[mode].frequency.abs() <= ORTHOGONAL_INPUT);
+            prop_assert!(found.movement[mode].shape <= ORTHOGONAL_INPUT);
+        }
+    }
+
+    /// Order, scale and sign of the raw shapes carry over and change nothing else.
+    #[test]
+    fn order_and_scale_carry_over(
+        (raw, mass) in noisy(),
+        scales in prop::collection::vec(prop_oneof![-10.0..-0.1_f64, 0.1..10.0_f64], MODES),
+        order in Just((0..MODES).collect::<Vec<_>>()).prop_shuffle(),
+    ) {
+        let found = orthogonalize(&raw, &mass).unwrap();
+        let shuffled = DMatrix::from_fn(DOF, MODES, |row, i| raw.shapes()[(row, order[i])] * scales[i]);
+        let omega_squared: Vec<f64> = order.iter().map(|&i| raw.omega_squared()[i]).collect();
+        let other = orthogonalize(&modes(&omega_squared, shuffled), &mass).unwrap();
+        let condition = raw.omega_squared().max() / raw.omega_squared().min();
+        let tolerance = EIGEN_ROUND_OFF * condition;
+        for i in 0..MODES {
+            assert_relative_eq!(other.modes.omega_squared()[i], found.modes.omega_squared()[order[i]], max_relative = tolerance);
+            assert_relative_eq!(other.movement[i].frequency, found.movement[order[i]].frequency, epsilon = tolerance);
+            assert_relative_eq!(other.movement[i].shape, found.movement[order[i]].shape, epsilon = tolerance);
+            let same = found.modes.shapes().column(order[i]) * scales[i].signum();
+            prop_assert!((other.modes.shapes().column(i) - same).amax() <= tolerance * raw.shapes().amax());
+        }
+    }
+
+    /// The movement is what its definition says, and agrees with the modal assurance criterion in the mass product.
+    #[test]
+    fn movement_is_measured_from_the_raw_mode((raw, mass) in noisy()) {
+        let found = orthogonalize(&raw, &mass).unwrap();
+        let root = mass.clone().cholesky().unwrap().l().transpose();
+        let assurance = modal_assurance(&(&root * found.modes.shapes()), &(&root * raw.shapes())).unwrap();
+        let (before, after) = (raw.frequencies_hz(), found.modes.frequencies_hz());
+        for mode in 0..MODES {
+            let movement = found.movement[mode];
+            assert_relative_eq!(movement.frequency, (after[mode] - before[mode]) / before[mode], epsilon = ROUND_OFF);
+            let shape = raw.shapes().column(mode).into_owned();
+            let shape = &shape / mass_norm(&shape, &mass);
+            let difference = found.modes.shapes().column(mode) - shape;
+            assert_relative_eq!(movement.shape, mass_norm(&difference, &mass), epsilon = ROUND_OFF);
+            assert_relative_eq!(
+                (1.0 - movement.shape.powi(2) / 2.0).powi(2), assurance[(mode, mode)], epsilon = MATRIX_ROUND_OFF
+            );
+        }
+    }
+
+    /// Two unit shapes apart by 90° − asin|e| become orthogonal only if the two turn by asin|e| together, so one of them
+    /// turns by half of it at least: no overlap escapes the report.
+    #[test]
+    fn an_overlap_moves_one_of_its_modes((raw, mass) in noisy()) {
+        let found = orthogonalize(&raw, &mass).unwrap();
+        let overlap = overlap(raw.shapes(), &mass);
+        for i in 0..MODES {
+            for j in 0..i {
+                let least = 2.0 * (overlap[(i, j)].abs().asin() / 4.0).sin();
+                let moved = found.movement[i].shape.max(found.movement[j].shape);
+                prop_assert!(moved >= least - ROUND_OFF);
+            }
+        }
+    }
+
+    /// With m₁'s diagonal scaled to one, noise ε in the shapes overlaps them by the order of ε; this moves shapes by the
+    /// order of ε and frequencies, whose first-order change vanishes with the diagonal's, by that of ε².
+    #[test]
+    fn noise_moves_shapes_by_its_size_and_frequencies_by_its_square(
+        (exact, mass) in orthonormal_modes(DOF, MODES),
+        mut mixing in noise(MODES, MODES),
+        first_and_last in 0.3..1.0_f64,
+    ) {
+        // An overlap that does not vanish: the highest mode's terms all have one sign and cannot cancel it.
+        mixing[(0, MODES - 1)] = first_and_last;
+        mixing[(MODES - 1, 0)] = first_and_last;
+        let (mut frequency, mut shape) = (Vec::new(), Vec::new());
+        for size in [3e-3, 1e-3, 3e-4, 1e-4] {
+            let noisy = exact.shapes() * (DMatrix::identity(MODES, MODES) + size * &mixing);
+            let found = orthogonalize(&modes(exact.omega_squared().as_slice(), noisy), &mass).unwrap();
+            let largest = |of: fn(&corfem::method::appendix_b::Movement) -> f64| found.movement.iter().map(of).fold(0.0, f64::max);
+            frequency.push((size, largest(|movement| movement.frequency.abs())));
+            shape.push((size, largest(|movement| movement.shape)));
+        }
+        assert_relative_eq!(log_log_slope(&frequency), 2.0, epsilon = ASYMPTOTIC_SLOPE);
+        assert_relative_eq!(log_log_slope(&shape), 1.0, epsilon = ASYMPTOTIC_SLOPE);
+    }
+
+    /// Two modes of overlap e: (1 − e²)μ² − (a + b)μ + ab = 0 for the squared frequencies a and b.
+    #[test]
+    fn two_modes_have_a_closed_form(
+        lower in 10.0..1000.0_f64,
+        ratio in 1.1..4.0_f64,
+        e in -0.9..0.9_f64,
+        scales in (0.1..10.0_f64, 0.1..10.0_f64),
+    ) {
+        let (a, b) = (lower, lower * ratio);
+        let mass = DMatrix::<f64>::identity(2, 2);
+        let shapes = dmatrix![scales.0, scales.1 * e; 0.0, scales.1 * (1.0 - e * e).sqrt()];
+        let found = orthogonalize(&modes(&[a, b], shapes), &mass).unwrap();
+        let middle = (a + b) / (2.0 * (1.0 - e * e));
+        let high = middle + (middle.powi(2) - a * b / (1.0 - e * e)).sqrt();
+        let low = a * b / ((1.0 - e * e) * high);
+        let roots = sorted(found.modes.omega_squared());
+        assert_relative_eq!(roots[0], low, max_relative = MATRIX_ROUND_OFF);
+        assert_relative_eq!(roots[1], high, max_relative = MATRIX_ROUND_OFF);
+        // The lower frequency goes down, the higher up.
+        prop_assert!(roots[0] <= a * (1.0 + ROUND_OFF) && roots[1] >= b * (1.0 - ROUND_OFF));
+    }
+
+    /// A shape that the others span is named: it, if it comes last, or the last of those it is made of.
+    #[test]
+    fn a_dependent_shape_is_named(
+        (raw, mass) in noisy(),
+        parts in prop::collection::vec(0.3..1.0_f64, 2),
+        place in 2..MODES,
+    ) {
+        let mut dependent = raw.clone();
+        let shape = parts[0] * raw.shapes().column(0) + parts[1] * raw.shapes().column(1);
+        alter(&mut dependent, |_, shapes| shapes.set_column(place, &shape));
+        let outcome = orthogonalize(&dependent, &mass);
+        prop_assert!(
+            matches!(outcome, Err(Error::Dependent { what: "test mode", index }) if index == place),
+            "{outcome:?}"
+        );
+    }
+}
