@@ -180,7 +180,8 @@ fn cases() -> String {
     };
     let iterations = CASES.map(|(case, _, _, passes)| {
         let each = |of: Source| {
-            let counts = (1..=passes).map(|pass| of("table_13/table_13", case, &format!("Pass {pass}"), 0));
+            let counts =
+                (1..=passes).map(|pass| of("table_13/table_13", case, &format!("Pass {pass}"), 0));
             counts.collect::<Vec<_>>().join(", ")
         };
         format!("{} ({})", each(computed), each(published))
@@ -365,7 +366,12 @@ fn fewer_modes() -> [(&'static str, String); 3] {
                     ("inner shape RMS, %", inner("inner shape RMS")),
                     (
                         "iterations",
-                        vec![three, five, seven, both("table_13/table_13", "2", "Pass 1", 0)],
+                        vec![
+                            three,
+                            five,
+                            seven,
+                            both("table_13/table_13", "2", "Pass 1", 0),
+                        ],
                     ),
                 ],
                 |cells| cells,
