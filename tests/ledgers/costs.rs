@@ -95,6 +95,9 @@ fn growth(what: &str, usual: &str, is_memory: bool) -> String {
     )
 }
 
+/// A number for each size, where it was measured.
+type Bound<'a> = &'a dyn Fn(usize) -> Option<f64>;
+
 /// Rates of the stages, against those of the machine, and shares of one stage in another.
 fn bounds() -> String {
     let ratio = |one, other| move |size| Some(cost(one, size)? / cost(other, size)?);
@@ -108,7 +111,7 @@ fn bounds() -> String {
         let others = [CONDENSED, MODES, SHAPES].map(|stage| each(stage)(size));
         Some(each(ANALYSIS)(size)? - others.into_iter().sum::<Option<f64>>()?)
     };
-    let rows: [(&str, &dyn Fn(usize) -> Option<f64>); 13] = [
+    let rows: [(&str, Bound<'_>); 13] = [
         ("entries of the factor for every DOF", &|size| {
             Some(1e6 * entries(size)? / sizes()[size])
         }),

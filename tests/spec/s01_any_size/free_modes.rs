@@ -167,7 +167,7 @@ fn a_motion_without_stiffness_and_mass_is_in_no_count() {
 
 #[test]
 fn a_free_delta_wing_has_its_rigid_body_modes_and_no_mode_is_lost() {
-    let wing = DeltaWing::embedded().expect("the wing");
+    let wing = DeltaWing::embedded();
     let held = wing.structure().expect("a structure");
     let free = held.grids().iter().map(|grid| Grid {
         constrained: [false; 3],
