@@ -3,7 +3,7 @@
 //! `cargo bench --bench large` measures the two smallest of the wings, `cargo bench --bench large -- 1k 10k 100k 1M` those
 //! named. With `--write FOLDER` the problems are written there for `benches/scipy_wing.py`, which does the same with SciPy, and with
 //! `--scipy python3` that is done in the same run, in a process for each wing. With `--store paper/costs.csv` what was measured replaces
-//! what stands there, and the tables of `paper/cost.md` follow by `CORFEM_WRITE=1 cargo test documents`.
+//! what stands there, and the tables of `paper/cost.md` follow by `CORFEM_WRITE=1 cargo test`.
 
 #[path = "../../tests/common/known/mod.rs"]
 #[allow(dead_code, unused_imports, reason = "the tests use the rest")]

@@ -160,7 +160,7 @@ fn floor(row: usize) -> Vector3<f64> {
 
 /// The delta wing with wrong gages, and the ten lowest modes of its right half as a Universal File.
 pub fn delta_wing() -> Files {
-    let wing = DeltaWing::embedded().expect("a wing");
+    let wing = DeltaWing::embedded();
     let model = first_model(&wing).expect("a model");
     let whole = wing.modes().expect("modes");
     let lowest = whole.modes.lowest(10).expect("ten modes");

@@ -44,6 +44,7 @@ pub mod vibrations;
 pub mod whole_models;
 pub mod wing_subjects;
 
+use corfem::method::error::Error;
 use corfem::method::modes::ModeSet;
 use nalgebra::{DMatrix, DVector};
 use proptest::test_runner::{Config, FileFailurePersistence};
@@ -90,6 +91,12 @@ pub fn log_log_slope(points: &[(f64, f64)]) -> f64 {
     let above: f64 = logs.iter().map(|p| (p.0 - mx) * (p.1 - my)).sum();
     let below: f64 = logs.iter().map(|p| (p.0 - mx).powi(2)).sum();
     above / below
+}
+
+/// Asserts that an answer is this error, with these words and numbers; what is no number is the same as itself.
+#[track_caller]
+pub fn assert_refused<T>(answer: Result<T, Error>, error: Error) {
+    assert_eq!(format!("{:?}", answer.err()), format!("{:?}", Some(error)));
 }
 
 /// Changes something about modes.

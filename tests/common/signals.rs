@@ -1,6 +1,7 @@
 //! Signals for programs under test.
 
 use rustix::process::{Pid, Signal, kill_process};
+use std::ffi::OsStr;
 use std::process::{Child, Command};
 
 /// The signals that ask a program to stop, as `env` calls them.
@@ -20,6 +21,15 @@ pub fn undisturbed() -> &'static [&'static str] {
         .output()
         .is_ok_and(|output| output.status.success());
     if can { words } else { &[] }
+}
+
+/// The program `corfem`, perhaps run by another one.
+pub fn corfem_run_by(run_by: &[&str]) -> Command {
+    let program = assert_cmd::cargo::cargo_bin("corfem");
+    let mut words = run_by.iter().map(OsStr::new).chain([program.as_os_str()]);
+    let mut command = Command::new(words.next().expect("a program"));
+    command.args(words);
+    command
 }
 
 /// Sends a signal to a program, which may have ended already.

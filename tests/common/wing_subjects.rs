@@ -52,7 +52,7 @@ pub fn wing_subject(wing: &DeltaWing, run: &WingCorrelation) -> Result<Report, P
 /// # Errors
 /// Those of both correlations, and of [`wing_subject`].
 pub fn wing_subjects() -> Result<[Report; 2], PresentError> {
-    let (wing, (known, run)) = (DeltaWing::embedded()?, recovered()?);
+    let (wing, (known, run)) = (DeltaWing::embedded(), recovered()?);
     let names: Vec<String> = known
         .model
         .parameters()

@@ -106,10 +106,10 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
     )?;
     let found = model.at(&correlation.best_factors)?.sizes[..PANEL_COUNT].to_vec();
 
-    let baruch = baruch_stiffness(&start.stiffness, &start.mass, &test)?;
+    let baruch = baruch_stiffness(&start.stiffness, &start.mass, &test);
     let read = as_read(&test, &start.mass)?;
-    let corrected_mass = berman_nagy_mass(&start.mass, read.shapes())?;
-    let berman_nagy = baruch_stiffness(&start.stiffness, &corrected_mass, &read)?;
+    let corrected_mass = berman_nagy_mass(&start.mass, read.shapes());
+    let berman_nagy = baruch_stiffness(&start.stiffness, &corrected_mass, &read);
 
     let right = [TEST_GAGE; PANEL_COUNT];
     let tested = |gages: &[f64]| analysis(case, gages).map(|model| model.stiffness);
@@ -129,7 +129,7 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
             after_change: frequency_errors(&changed, own_mass, &true_changed)?,
             stiffness_change: relative_entries(&change, &start.stiffness),
             mass_change: relative_entries(&(own_mass - mass), mass),
-            distance_left: distance(&stiffness)? / distance(&start.stiffness)?,
+            distance_left: distance(&stiffness) / distance(&start.stiffness),
             beyond_elements: nearest_factors(&change, &start)?.1,
         })
     };
@@ -225,7 +225,7 @@ fn relative_entries(change: &DMatrix<f64>, before: &DMatrix<f64>) -> Vec<Vec<f64
 /// determined: of all nearest sets it is the smallest, each $c_e$ weighted with the norm of its share.
 fn nearest_factors(change: &DMatrix<f64>, start: &DynamicModel) -> Result<(Vec<f64>, f64), Error> {
     let weighted = |matrix: &DMatrix<f64>| {
-        let weighted = mass_weighted(matrix, &start.mass)?;
+        let weighted = mass_weighted(matrix, &start.mass);
         Ok::<_, Error>(DVector::from_column_slice(weighted.as_slice()))
     };
     let mut shares: Vec<_> = start

@@ -7,7 +7,7 @@ use crate::common::known::Known;
 use corfem::method::appendix_c::{Perturbed, first_order, recursive_1};
 use corfem::method::error::Error;
 use corfem::method::error_sum::{Errors, errors};
-use corfem::method::linear_algebra::{check_length, symmetric_part};
+use corfem::method::linear_algebra::symmetric_part;
 use corfem::method::model::DynamicModel;
 use corfem::method::modes::{ModeSet, solve};
 use corfem::method::pairing::{cross_orthogonality, pair_modes};
@@ -81,14 +81,13 @@ fn taylor(k: &DVector<f64>, beta: &DMatrix<f64>, of_roots: bool) -> Perturbed {
 /// The predictions of steps from a model's first factors, all one, toward given ones: fractions `steps` of the way.
 ///
 /// # Errors
-/// Those of [`LargeModel::matrices`], [`solve`] and [`pair_modes`]; [`Error::WrongShape`] for a wrong number of factors.
+/// Those of [`LargeModel::matrices`], [`solve`] and [`pair_modes`].
 pub fn predictions(
     model: &LargeModel,
     toward: &[f64],
     steps: &[f64],
     exact: Exact,
 ) -> Result<Vec<Prediction>, Error> {
-    check_length("parameter factors", toward.len(), model.parameters().len())?;
     let DynamicModel {
         stiffness,
         mass,

@@ -63,7 +63,7 @@ pub fn compare_all(settings: &WeightedSettings) -> Result<Vec<[Compared; 3]>, Ca
         let (known, paper) = match number {
             0 => (
                 Known::delta_wing()?,
-                correlate_wing(&DeltaWing::embedded()?, |_, _| {})?.correlation,
+                correlate_wing(&DeltaWing::embedded(), |_, _| {})?.correlation,
             ),
             _ => (
                 Known::of_case(number)?,

@@ -1,35 +1,16 @@
 //! The numbers and figures of README.md, `paper/*.md` and the tour that the program computes.
 //!
 //! A computed block stands in its document between `<!-- computed: NAME -->` and `<!-- end -->`;
-//! `CORFEM_WRITE=1 cargo test documents` writes all of them anew. `documents.toml` has the tables, whose numbers come from the
-//! goldens, and sentences, which must stand in their document word for word and are changed by hand. Numbers of other origin
-//! stand in tables marked `measured:` (with machine and date) or `stored:` (with the file).
+//! `CORFEM_WRITE=1 cargo test` writes all of them anew. `tables.rs` makes the tables from the goldens, and sentences, which must
+//! stand in their document word for word and are changed by hand. Numbers of other origin stand in tables marked `measured:`
+//! (with machine and date) or `stored:` (with the file).
 
 use crate::common::golden::Numbers;
-use crate::ledgers::costs;
-use crate::ledgers::files_below;
-use crate::ledgers::places::{filled, goldens};
 use crate::ledgers::tour_figures::figures;
+use crate::ledgers::{files_below, tables};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
-use toml::Table;
-
-fn ledger() -> Table {
-    include_str!("documents.toml").parse().expect("it reads")
-}
-
-fn entries(key: &str) -> Vec<(String, String)> {
-    let ledger = ledger();
-    let list = ledger[key].as_array().expect("a list");
-    let string = |value: &toml::Value| value.as_str().expect("a string").to_owned();
-    list.iter()
-        .map(|entry| {
-            let name = entry.get("name").unwrap_or_else(|| &entry["document"]);
-            (string(name), string(&entry["text"]))
-        })
-        .collect()
-}
 
 /// README.md, the texts in `paper/` and the tour, by their path.
 fn documents() -> BTreeMap<String, String> {
@@ -47,27 +28,14 @@ fn documents() -> BTreeMap<String, String> {
         .collect()
 }
 
-/// What stands in every computed block, by its name.
-fn blocks() -> BTreeMap<String, String> {
-    let goldens = goldens();
-    let table = |(name, template): (String, String)| {
-        let text = filled(&template, &goldens).unwrap_or_else(|what| panic!("{name}: {what}"));
-        (name, text)
-    };
-    let figure = |(number, svg)| (format!("{FIGURE}{number}"), svg);
-    let tables = entries("table").into_iter().map(table);
-    let mut blocks: BTreeMap<_, _> = tables.chain(figures().into_iter().map(figure)).collect();
-    blocks.insert("costs".to_owned(), costs::table());
-    blocks
-}
-
 /// How the name of a figure begins.
 const FIGURE: &str = "figure_";
 
 #[test]
 fn computed_blocks_are_what_the_program_computes() {
     let (start, end) = ("<!-- computed: ", "<!-- end -->");
-    let blocks = blocks();
+    let mut blocks = tables::tables();
+    blocks.extend(figures().map(|(number, sketch)| (format!("{FIGURE}{number}"), sketch.svg())));
     let (mut seen, mut wrong) = (BTreeSet::new(), Vec::new());
     for (document, text) in documents() {
         let mut pieces = text.split(start);
@@ -105,19 +73,11 @@ fn computed_blocks_are_what_the_program_computes() {
 
 #[test]
 fn sentences_in_documents_are_what_the_program_computes() {
-    let goldens = goldens();
     let documents = documents();
     let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
-    let wrong: Vec<String> = entries("sentence")
-        .into_iter()
-        .filter_map(|(document, template)| {
-            let sentence =
-                filled(&template, &goldens).unwrap_or_else(|what| panic!("{document}: {what}"));
-            let said = words(&documents[&document]).contains(&words(&sentence));
-            (!said).then(|| format!("{document} should say: {sentence}"))
-        })
-        .collect();
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    let mut wrong = tables::sentences();
+    wrong.retain(|(document, sentence)| !words(&documents[*document]).contains(&words(sentence)));
+    assert!(wrong.is_empty(), "these documents should say: {wrong:#?}");
 }
 
 /// The print is quoted there, not computed.

@@ -12,11 +12,10 @@ use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::step::{StepRule, stiffness_changes, unlimited_factors};
 use corfem::torque_box::table_1::TwoMasses;
 use nalgebra::DMatrix;
-use std::collections::BTreeMap;
 
-/// Every chapter's figure as SVG.
-pub fn figures() -> BTreeMap<&'static str, String> {
-    let sketches = [
+/// Every chapter's figure.
+pub fn figures() -> [(&'static str, Sketch); 10] {
+    [
         ("01", two_springs()),
         ("02", orders()),
         ("03", crease()),
@@ -27,11 +26,7 @@ pub fn figures() -> BTreeMap<&'static str, String> {
         ("08", demands()),
         ("09", deviations()),
         ("10", stories()),
-    ];
-    sketches
-        .into_iter()
-        .map(|(number, sketch)| (number, sketch.svg()))
-        .collect()
+    ]
 }
 
 /// Numbers from one to another in equal steps.

@@ -13,7 +13,7 @@ static RUN: LazyLock<WingCorrelation> =
     LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).expect("it runs"));
 
 fn wing() -> DeltaWing {
-    DeltaWing::embedded().expect("the wing")
+    DeltaWing::embedded()
 }
 
 fn tables() -> Vec<Table> {

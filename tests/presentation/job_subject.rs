@@ -238,7 +238,7 @@ fn a_case_and_both_wings_have_the_bounds_and_the_places_of_their_models() {
     let [delta, large] = wings() else {
         panic!("two wings")
     };
-    let model = first_model(&DeltaWing::embedded().expect("the wing")).expect("a model");
+    let model = first_model(&DeltaWing::embedded()).expect("a model");
     let grids = model.structure().grids();
     assert_eq!(delta.ranges, model.factor_ranges().expect("bounds"));
     let held = grids

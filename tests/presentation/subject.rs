@@ -103,7 +103,7 @@ fn along(row: usize) -> (Vector3<f64>, Vector3<f64>) {
 }
 
 static WING: LazyLock<Report> = LazyLock::new(|| {
-    let wing = DeltaWing::embedded().expect("the wing");
+    let wing = DeltaWing::embedded();
     let run = correlate_wing(&wing, |_, _| {}).expect("it runs");
     wing_subject(&wing, &run).expect("a subject")
 });

@@ -6,7 +6,7 @@ use crate::common::tolerances::{JOB_RESULTS, SINGLE_FIT_FACTOR};
 use crate::evidence::coverage::{Coverage, Held, all_coverages, coverage_tables};
 use crate::evidence::localization::{localization, localization_tables};
 use crate::evidence::rules::{compare_all, rules_table};
-use crate::ledgers::places::{filled, goldens};
+use crate::ledgers::tables::computed;
 use corfem::job::LoadedJob;
 use corfem::present::render::{WIDTH, csv, markdown, text};
 use corfem::present::table::{Cell, Table};
@@ -60,7 +60,6 @@ fn two_rules_as_numbers() {
 fn culprits_without_noise_are_those_of_the_golden() {
     let tables = localization_tables(&localization(1..=1).expect("it runs"));
     fits(&tables);
-    let goldens = goldens();
     for table in &tables {
         assert_eq!(table.rows.len(), 16);
         for (row, column) in table
@@ -68,11 +67,11 @@ fn culprits_without_noise_are_those_of_the_golden() {
             .iter()
             .flat_map(|row| [0, 3].map(|column| (row, column)))
         {
-            let place = format!(
-                "{{localization|{}|{}|{}|0}}",
-                table.name, row.label, table.columns[column].name
+            let name = &table.columns[column].name;
+            assert_eq!(
+                row.cells[column].computed(),
+                computed(&table.name, &row.label, name, 0)
             );
-            assert_eq!(Ok(row.cells[column].computed()), filled(&place, &goldens));
         }
     }
     // All panels are found first by their own fit, with one seed's noise too.
@@ -124,21 +123,13 @@ fn a_few_tests_see_the_parameters_that_a_thousand_see() {
     fits(&tables);
     assert!(tables[0].title.ends_with("over 3 noisy tests") && tables[1].rows.len() == 15);
     assert!(csv(&tables).contains("\ncoverage,Delta wing,Parameters,,21,\n"));
-    let goldens = goldens();
     for structure in &tables[0].rows {
-        let place = |column: &str| {
-            filled(
-                &format!("{{coverage|coverage|{}|{column}|0}}", structure.label),
-                &goldens,
-            )
-        };
-        assert_eq!(Ok(structure.cells[0].computed()), place("Parameters"));
-        assert_eq!(
-            Ok(structure.cells[1].computed()),
-            place("Seen"),
-            "{}",
-            structure.label
-        );
+        for (cell, column) in structure.cells.iter().zip(["Parameters", "Seen"]) {
+            assert_eq!(
+                cell.computed(),
+                computed("coverage", &structure.label, column, 0)
+            );
+        }
     }
 }
 

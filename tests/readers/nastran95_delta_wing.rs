@@ -23,7 +23,7 @@ static RUN: LazyLock<WingCorrelation> =
     LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).expect("it runs"));
 
 fn wing() -> DeltaWing {
-    DeltaWing::embedded().expect("the wing")
+    DeltaWing::embedded()
 }
 
 /// NASTRAN-95's frequencies at the gages its own correlation went through are the crate's at the same gages: no panel of

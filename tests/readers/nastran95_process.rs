@@ -3,7 +3,7 @@
 #![cfg(unix)]
 
 use crate::common::fake_solver::{fake, solver};
-use crate::common::signals::{SIGNALS, send, undisturbed};
+use crate::common::signals::{SIGNALS, corfem_run_by, send, undisturbed};
 use corfem::files::error::FileError;
 use corfem::job::nastran95::{Nastran95, default_folder};
 use rustix::process::Signal;
@@ -242,14 +242,7 @@ fn no_run_leaves_anything_behind() {
 fn stopped_by(signal: Signal, run_by: &[&str]) -> (std::process::ExitStatus, usize) {
     let temporary = tempfile::tempdir().expect("a folder");
     let home = fake("touch started; sleep 3");
-    let program = assert_cmd::cargo::cargo_bin("corfem");
-    let words = run_by
-        .iter()
-        .map(Path::new)
-        .chain([program.as_path()])
-        .collect::<Vec<_>>();
-    let mut child = std::process::Command::new(words[0])
-        .args(&words[1..])
+    let mut child = corfem_run_by(run_by)
         .args([
             "cases",
             "4",

@@ -171,7 +171,7 @@ fn nastran_analyzes_the_delta_wing_as_the_crate_does() {
         return;
     };
     let stored = stored_wing();
-    let wing = DeltaWing::embedded().expect("the wing");
+    let wing = DeltaWing::embedded();
     let model = first_model(&wing).expect("a model");
     let test = test_modes(&wing).expect("test modes");
     for expected in stored.checks() {
@@ -217,7 +217,7 @@ fn nastran_corrects_the_delta_wing_as_stored() {
         return;
     };
     let run = correlate_wing_with(
-        &DeltaWing::embedded().expect("the wing"),
+        &DeltaWing::embedded(),
         &settings(),
         NAME,
         |model, factors| Ok::<_, PresentError>(nastran.elements(model, factors)?),

@@ -5,7 +5,6 @@
 //! reader with that word in its name, all of them without, and says how many and in what time. `CORFEM_SEED=100000` goes on behind them.
 
 use crate::common::draws::Draws;
-use crate::common::known::delta_wing::DeltaWing;
 use crate::common::test_files::{write_csv, write_universal};
 use corfem::files::deck::{modes, read as read_deck, rewrite};
 use corfem::files::matrices::read as read_matrix;
@@ -122,10 +121,6 @@ const READERS: &[Reader] = &[
     ("rows of a job", ROWS, |text| prepares(JOB, text)),
     ("torque box", include_bytes!("../../paper/reconstruction.toml"), |text| {
         Reconstruction::parse("box", &String::from_utf8_lossy(text)).is_ok()
-    }),
-    ("delta wing", include_bytes!("../../paper/delta_wing.toml"), |text| {
-        let wing = DeltaWing::parse("wing", &String::from_utf8_lossy(text));
-        wing.ok().is_some_and(|wing| wing.structure().is_ok())
     }),
     ("published table", include_bytes!("../../paper/tables/table_10.csv"), |text| {
         PublishedTable::parse(10, "table", &String::from_utf8_lossy(text)).is_ok()

@@ -1,5 +1,6 @@
 //! What the inner loop refuses before it takes a step.
 
+use crate::common::assert_refused;
 use crate::common::loops::chain_problem;
 use crate::common::vibrations::Chain;
 use corfem::method::error::Error;
@@ -34,19 +35,14 @@ fn relaxations_and_tolerance_must_be_positive() {
     ];
     for (setting, set) in setters {
         for bad in [0.0, -1.0, f64::INFINITY] {
-            match with_settings(|settings| set(settings, bad)) {
-                Err(Error::Setting {
-                    name,
-                    expected,
-                    found,
-                }) => {
-                    assert_eq!(
-                        (name, expected, found),
-                        (setting, "a positive finite number", bad)
-                    )
-                }
-                other => panic!("{other:?}"),
-            }
+            assert_refused(
+                with_settings(|settings| set(settings, bad)),
+                Error::Setting {
+                    name: setting,
+                    expected: "a positive finite number",
+                    found: bad,
+                },
+            );
         }
         assert!(matches!(
             with_settings(|settings| set(settings, f64::NAN)),
@@ -63,12 +59,14 @@ fn factor_limits_must_be_in_order() {
             lower: low,
             upper: high,
         };
-        match with_settings(|settings| settings.factor_range = range) {
-            Err(Error::Limits { what, lower, upper }) => {
-                assert_eq!((what.as_str(), lower, upper), ("factor limits", low, high));
-            }
-            other => panic!("{other:?}"),
-        }
+        assert_refused(
+            with_settings(|settings| settings.factor_range = range),
+            Error::Limits {
+                what: "factor limits".into(),
+                lower: low,
+                upper: high,
+            },
+        );
     }
 }
 
@@ -78,15 +76,14 @@ fn total_limits_must_be_in_order() {
         lower: 2.0,
         upper: 0.5,
     };
-    match run_with(&[1.0; 2], &[None, Some(crossed)], |_| {}) {
-        Err(Error::Limits { what, lower, upper }) => {
-            assert_eq!(
-                (what.as_str(), lower, upper),
-                ("parameter limits", 2.0, 0.5)
-            );
-        }
-        other => panic!("{other:?}"),
-    }
+    assert_refused(
+        run_with(&[1.0; 2], &[None, Some(crossed)], |_| {}),
+        Error::Limits {
+            what: "parameter limits".into(),
+            lower: 2.0,
+            upper: 0.5,
+        },
+    );
 }
 
 #[test]
@@ -97,21 +94,17 @@ fn lists_must_have_one_entry_a_parameter() {
         (2, 0, ("parameter limits", 2, 1, 0, 1)),
         (2, 3, ("parameter limits", 2, 1, 3, 1)),
     ] {
-        match run_with(&vec![1.0; factors], &vec![None; limits], |_| {}) {
-            Err(Error::WrongShape {
+        let (what, expected_rows, expected_columns, rows, columns) = expected;
+        assert_refused(
+            run_with(&vec![1.0; factors], &vec![None; limits], |_| {}),
+            Error::WrongShape {
                 what,
                 expected_rows,
                 expected_columns,
                 rows,
                 columns,
-            }) => {
-                assert_eq!(
-                    (what, expected_rows, expected_columns, rows, columns),
-                    expected
-                )
-            }
-            other => panic!("{other:?}"),
-        }
+            },
+        );
     }
 }
 

@@ -1,5 +1,6 @@
 //! What the eigenproblem and the measured modes refuse, by variant and by who is named.
 
+use crate::common::assert_refused;
 use corfem::method::error::Error;
 use corfem::method::modes::{ModeSet, solve};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
@@ -19,24 +20,26 @@ fn a_zero_or_negative_mass_names_its_dof() {
         ([1.0, 1.0, -2.0], 2),
         ([0.0, 1.0, 1.0], 0),
     ] {
-        match solve(&identity(3), &diagonal(&masses), 3) {
-            Err(Error::NotPositiveDefinite { what, dof }) => {
-                assert_eq!((what, dof), ("dynamic mass", expected));
-            }
-            other => panic!("{other:?}"),
-        }
+        assert_refused(
+            solve(&identity(3), &diagonal(&masses), 3),
+            Error::NotPositiveDefinite {
+                what: "dynamic mass",
+                dof: expected,
+            },
+        );
     }
 }
 
 #[test]
 fn an_indefinite_mass_names_where_it_shows() {
     // The leading 2 x 2 is singular although its diagonal is positive.
-    match solve(&identity(2), &dmatrix![1.0, 2.0; 2.0, 1.0], 2) {
-        Err(Error::NotPositiveDefinite { what, dof }) => {
-            assert_eq!((what, dof), ("dynamic mass", 1));
-        }
-        other => panic!("{other:?}"),
-    }
+    assert_refused(
+        solve(&identity(2), &dmatrix![1.0, 2.0; 2.0, 1.0], 2),
+        Error::NotPositiveDefinite {
+            what: "dynamic mass",
+            dof: 1,
+        },
+    );
 }
 
 #[test]
@@ -57,20 +60,15 @@ fn nan_and_infinity_name_their_entry() {
     }
     let mut mass = identity(3);
     mass[(0, 2)] = f64::INFINITY;
-    match solve(&identity(3), &mass, 3) {
-        Err(Error::NotFinite {
-            what,
-            row,
-            column,
-            value,
-        }) => {
-            assert_eq!(
-                (what, row, column, value),
-                ("dynamic mass", 0, 2, f64::INFINITY)
-            )
-        }
-        other => panic!("{other:?}"),
-    }
+    assert_refused(
+        solve(&identity(3), &mass, 3),
+        Error::NotFinite {
+            what: "dynamic mass",
+            row: 0,
+            column: 2,
+            value: f64::INFINITY,
+        },
+    );
 }
 
 #[test]
@@ -98,61 +96,51 @@ fn an_unsymmetric_matrix_names_the_worst_pair() {
 
 #[test]
 fn matrices_of_other_shapes_are_refused() {
-    match solve(&DMatrix::zeros(3, 2), &identity(3), 1) {
-        Err(Error::WrongShape {
-            what,
-            expected_rows,
-            expected_columns,
-            rows,
-            columns,
-        }) => {
-            assert_eq!(
-                (what, expected_rows, expected_columns, rows, columns),
-                ("dynamic stiffness", 3, 3, 3, 2)
-            )
-        }
-        other => panic!("{other:?}"),
-    }
-    match solve(&identity(3), &identity(2), 1) {
-        Err(Error::WrongShape {
-            what,
-            expected_rows,
-            expected_columns,
-            rows,
-            columns,
-        }) => {
-            assert_eq!(
-                (what, expected_rows, expected_columns, rows, columns),
-                ("dynamic mass", 3, 3, 2, 2)
-            )
-        }
-        other => panic!("{other:?}"),
-    }
+    assert_refused(
+        solve(&DMatrix::zeros(3, 2), &identity(3), 1),
+        Error::WrongShape {
+            what: "dynamic stiffness",
+            expected_rows: 3,
+            expected_columns: 3,
+            rows: 3,
+            columns: 2,
+        },
+    );
+    assert_refused(
+        solve(&identity(3), &identity(2), 1),
+        Error::WrongShape {
+            what: "dynamic mass",
+            expected_rows: 3,
+            expected_columns: 3,
+            rows: 2,
+            columns: 2,
+        },
+    );
 }
 
 #[test]
 fn too_many_modes_or_none_are_refused() {
-    match solve(&identity(3), &identity(3), 4) {
-        Err(Error::TooMany {
-            what,
-            available,
-            requested,
-        }) => assert_eq!((what, available, requested), ("modes", 3, 4)),
-        other => panic!("{other:?}"),
-    }
-    match solve(&identity(3), &identity(3), 0) {
-        Err(Error::Empty { what }) => assert_eq!(what, "modes"),
-        other => panic!("{other:?}"),
-    }
+    assert_refused(
+        solve(&identity(3), &identity(3), 4),
+        Error::TooMany {
+            what: "modes",
+            available: 3,
+            requested: 4,
+        },
+    );
+    assert_refused(
+        solve(&identity(3), &identity(3), 0),
+        Error::Empty { what: "modes" },
+    );
     let modes = solve(&identity(3), &identity(3), 2).unwrap();
-    match modes.lowest(3) {
-        Err(Error::TooMany {
-            what,
-            available,
-            requested,
-        }) => assert_eq!((what, available, requested), ("modes", 2, 3)),
-        other => panic!("{other:?}"),
-    }
+    assert_refused(
+        modes.lowest(3),
+        Error::TooMany {
+            what: "modes",
+            available: 2,
+            requested: 3,
+        },
+    );
     assert!(matches!(
         modes.lowest(0),
         Err(Error::Empty { what: "modes" })
@@ -161,37 +149,38 @@ fn too_many_modes_or_none_are_refused() {
 
 #[test]
 fn a_motion_that_is_no_vibration_is_refused() {
-    match solve(&diagonal(&[3.0, -2.0]), &diagonal(&[1.0, 4.0]), 2) {
-        Err(Error::NotAVibration { mode, value }) => assert_eq!((mode, value), (0, -0.5)),
-        other => panic!("{other:?}"),
-    }
-    match solve(&diagonal(&[0.0, 1.0]), &identity(2), 1) {
-        Err(Error::NotAVibration { mode, value }) => assert_eq!((mode, value), (0, 0.0)),
-        other => panic!("{other:?}"),
-    }
+    assert_refused(
+        solve(&diagonal(&[3.0, -2.0]), &diagonal(&[1.0, 4.0]), 2),
+        Error::NotAVibration {
+            mode: 0,
+            value: -0.5,
+        },
+    );
+    assert_refused(
+        solve(&diagonal(&[0.0, 1.0]), &identity(2), 1),
+        Error::NotAVibration {
+            mode: 0,
+            value: 0.0,
+        },
+    );
 }
 
 #[test]
 fn measured_modes_must_fit_together() {
-    match ModeSet::from_measured(&[], &DMatrix::zeros(2, 0)) {
-        Err(Error::Empty { what }) => assert_eq!(what, "test modes"),
-        other => panic!("{other:?}"),
-    }
-    match ModeSet::from_measured(&[1.0, 2.0], &DMatrix::zeros(3, 1)) {
-        Err(Error::WrongShape {
-            what,
-            expected_rows,
-            expected_columns,
-            rows,
-            columns,
-        }) => {
-            assert_eq!(
-                (what, expected_rows, expected_columns, rows, columns),
-                ("test mode shapes", 3, 2, 3, 1)
-            )
-        }
-        other => panic!("{other:?}"),
-    }
+    assert_refused(
+        ModeSet::from_measured(&[], &DMatrix::zeros(2, 0)),
+        Error::Empty { what: "test modes" },
+    );
+    assert_refused(
+        ModeSet::from_measured(&[1.0, 2.0], &DMatrix::zeros(3, 1)),
+        Error::WrongShape {
+            what: "test mode shapes",
+            expected_rows: 3,
+            expected_columns: 2,
+            rows: 3,
+            columns: 1,
+        },
+    );
     match ModeSet::from_measured(&[1.0], &dmatrix![1.0; f64::NAN]) {
         Err(Error::NotFinite {
             what, row, column, ..
@@ -205,15 +194,14 @@ fn measured_modes_must_fit_together() {
 #[test]
 fn measured_frequencies_must_be_positive() {
     for bad in [0.0, -1.0, f64::INFINITY] {
-        match ModeSet::from_measured(&[1.0, bad], &identity(2)) {
-            Err(Error::NotPositive { what, owner, value }) => {
-                assert_eq!(
-                    (what, owner.as_str(), value),
-                    ("frequency", "test mode 1 (from zero)", bad)
-                )
-            }
-            other => panic!("{other:?}"),
-        }
+        assert_refused(
+            ModeSet::from_measured(&[1.0, bad], &identity(2)),
+            Error::NotPositive {
+                what: "frequency",
+                owner: "test mode 1 (from zero)".into(),
+                value: bad,
+            },
+        );
     }
     assert!(matches!(
         ModeSet::from_measured(&[f64::NAN], &dmatrix![1.0]),
@@ -223,44 +211,37 @@ fn measured_frequencies_must_be_positive() {
 
 #[test]
 fn measured_shapes_must_move() {
-    match ModeSet::from_measured(&[1.0, 2.0], &dmatrix![1.0, 0.0; 0.0, 0.0]) {
-        Err(Error::NotPositive { what, owner, value }) => {
-            assert_eq!(
-                (what, owner.as_str(), value),
-                ("largest component", "test mode 1 (from zero)", 0.0)
-            )
-        }
-        other => panic!("{other:?}"),
-    }
+    assert_refused(
+        ModeSet::from_measured(&[1.0, 2.0], &dmatrix![1.0, 0.0; 0.0, 0.0]),
+        Error::NotPositive {
+            what: "largest component",
+            owner: "test mode 1 (from zero)".into(),
+            value: 0.0,
+        },
+    );
 }
 
 #[test]
 fn shapes_are_scaled_with_a_mass_that_fits_and_that_they_move() {
     let modes = ModeSet::from_measured(&[1.0, 2.0], &identity(2)).unwrap();
-    match modes.scaled_with(&DMatrix::from_diagonal(&dvector![1.0, -4.0])) {
-        Err(Error::NotPositive { what, owner, value }) => {
-            assert_eq!(
-                (what, owner.as_str(), value),
-                ("generalized mass", "test mode 1 (from zero)", -4.0)
-            )
-        }
-        other => panic!("{other:?}"),
-    }
-    match modes.scaled_with(&identity(3)) {
-        Err(Error::WrongShape {
-            what,
-            expected_rows,
-            expected_columns,
-            rows,
-            columns,
-        }) => {
-            assert_eq!(
-                (what, expected_rows, expected_columns, rows, columns),
-                ("test mode shapes", 3, 2, 2, 2)
-            )
-        }
-        other => panic!("{other:?}"),
-    }
+    assert_refused(
+        modes.scaled_with(&DMatrix::from_diagonal(&dvector![1.0, -4.0])),
+        Error::NotPositive {
+            what: "generalized mass",
+            owner: "test mode 1 (from zero)".into(),
+            value: -4.0,
+        },
+    );
+    assert_refused(
+        modes.scaled_with(&identity(3)),
+        Error::WrongShape {
+            what: "test mode shapes",
+            expected_rows: 3,
+            expected_columns: 2,
+            rows: 2,
+            columns: 2,
+        },
+    );
     let mut broken = identity(2);
     broken[(0, 1)] = f64::INFINITY;
     assert!(matches!(

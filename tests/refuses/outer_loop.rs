@@ -1,5 +1,6 @@
 //! What the outer loop refuses, and the errors of others that it hands on.
 
+use crate::common::assert_refused;
 use crate::common::vibrations::Chain;
 use corfem::method::error::Error;
 use corfem::method::model::{ModalModel, Range};
@@ -47,19 +48,14 @@ fn tolerances_must_be_positive() {
     ];
     for (setting, set) in setters {
         for bad in [0.0, -0.1, f64::INFINITY] {
-            match with_settings(|settings| set(settings, bad)) {
-                Err(Error::Setting {
-                    name,
-                    expected,
-                    found,
-                }) => {
-                    assert_eq!(
-                        (name, expected, found),
-                        (setting, "a positive finite number", bad)
-                    )
-                }
-                other => panic!("{other:?}"),
-            }
+            assert_refused(
+                with_settings(|settings| set(settings, bad)),
+                Error::Setting {
+                    name: setting,
+                    expected: "a positive finite number",
+                    found: bad,
+                },
+            );
         }
         assert!(matches!(
             with_settings(|settings| set(settings, f64::NAN)),

@@ -1,5 +1,6 @@
 //! What mode sorting refuses.
 
+use crate::common::assert_refused;
 use corfem::method::error::Error;
 use corfem::method::modes::ModeSet;
 use corfem::method::pairing::{cross_orthogonality, modal_assurance, pair_modes};
@@ -7,20 +8,18 @@ use nalgebra::{DMatrix, DVector, dmatrix};
 
 #[test]
 fn no_test_modes_too_many_or_nan_are_refused() {
-    match pair_modes(&DMatrix::zeros(3, 0)) {
-        Err(Error::Empty { what }) => assert_eq!(what, "test modes"),
-        other => panic!("{other:?}"),
-    }
-    match pair_modes(&DMatrix::zeros(2, 3)) {
-        Err(Error::TooMany {
-            what,
-            available,
-            requested,
-        }) => {
-            assert_eq!((what, available, requested), ("test modes", 2, 3))
-        }
-        other => panic!("{other:?}"),
-    }
+    assert_refused(
+        pair_modes(&DMatrix::zeros(3, 0)),
+        Error::Empty { what: "test modes" },
+    );
+    assert_refused(
+        pair_modes(&DMatrix::zeros(2, 3)),
+        Error::TooMany {
+            what: "test modes",
+            available: 2,
+            requested: 3,
+        },
+    );
     match pair_modes(&dmatrix![1.0, 0.0; 0.0, f64::NAN]) {
         Err(Error::NotFinite {
             what, row, column, ..
@@ -61,37 +60,28 @@ fn shapes_and_mass_must_fit() {
             ("dynamic mass", 3, 3, 3, 2),
         ),
     ] {
-        match cross_orthogonality(&analysis, &test, &mass) {
-            Err(Error::WrongShape {
+        let (what, expected_rows, expected_columns, rows, columns) = expected;
+        assert_refused(
+            cross_orthogonality(&analysis, &test, &mass),
+            Error::WrongShape {
                 what,
                 expected_rows,
                 expected_columns,
                 rows,
                 columns,
-            }) => {
-                assert_eq!(
-                    (what, expected_rows, expected_columns, rows, columns),
-                    expected
-                )
-            }
-            other => panic!("{other:?}"),
-        }
+            },
+        );
     }
-    match modal_assurance(&DMatrix::zeros(3, 2), &DMatrix::zeros(4, 1)) {
-        Err(Error::WrongShape {
-            what,
-            expected_rows,
-            expected_columns,
-            rows,
-            columns,
-        }) => {
-            assert_eq!(
-                (what, expected_rows, expected_columns, rows, columns),
-                ("mode shapes", 3, 1, 4, 1)
-            )
-        }
-        other => panic!("{other:?}"),
-    }
+    assert_refused(
+        modal_assurance(&DMatrix::zeros(3, 2), &DMatrix::zeros(4, 1)),
+        Error::WrongShape {
+            what: "mode shapes",
+            expected_rows: 3,
+            expected_columns: 1,
+            rows: 4,
+            columns: 1,
+        },
+    );
 }
 
 #[test]
@@ -102,14 +92,13 @@ fn a_zero_shape_has_no_assurance() {
         (&with_zero, &shapes, "mode shape 1 (from zero)"),
         (&shapes, &with_zero, "other mode shape 1 (from zero)"),
     ] {
-        match modal_assurance(one, other) {
-            Err(Error::NotPositive { what, owner, value }) => {
-                assert_eq!(
-                    (what, owner.as_str(), value),
-                    ("largest component", expected, 0.0)
-                );
-            }
-            other => panic!("{other:?}"),
-        }
+        assert_refused(
+            modal_assurance(one, other),
+            Error::NotPositive {
+                what: "largest component",
+                owner: expected.into(),
+                value: 0.0,
+            },
+        );
     }
 }

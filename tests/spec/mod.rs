@@ -101,7 +101,6 @@ pub mod sC_eq_20_two_dof;
 pub mod sC_eq_21_close_roots;
 pub mod sC_eq_21_clusters;
 pub mod sC_eq_22_distinct;
-pub mod sC_eq_22_recursion_orders;
 pub mod sC_eq_22_to_23_orders;
 pub mod sC_eq_24_explicit_roots;
 pub mod sC_eq_24_table_1;

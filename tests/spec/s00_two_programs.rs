@@ -213,7 +213,7 @@ fn every_case_has_the_same_matrices_and_modes() {
 
 #[test]
 fn the_delta_wing_has_the_same_matrices_and_modes() {
-    let model = first_model(&DeltaWing::embedded().expect("the wing")).expect("a model");
+    let model = first_model(&DeltaWing::embedded()).expect("a model");
     assert_same_matrices(&model, &vec![1.0; model.parameters().len()]);
     assert_same_modes(&model, 10);
 }

@@ -1,6 +1,7 @@
 //! The modal model: what the loops are handed, and the state they make of factors.
 
 use crate::common::alter;
+use crate::common::assert_refused;
 use crate::common::boxes::{first_problem, problem_of, uneven_box};
 use crate::common::tolerances::{CONVERGED_STATE, MATRIX_ROUND_OFF, PRINTED_RMS, ROUND_OFF};
 use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
@@ -227,19 +228,16 @@ fn there_is_one_factor_a_parameter() {
     let problem = problem(&chain, &[1.1; 3]);
     for factors in [vec![1.0; 2], vec![1.0; 4]] {
         let found = factors.len();
-        match ModalState::at(&problem, factors, UpdateRule::default()) {
-            Err(Error::WrongShape {
-                what,
-                expected_rows,
-                expected_columns,
-                rows,
-                columns,
-            }) => assert_eq!(
-                (what, expected_rows, expected_columns, rows, columns),
-                ("parameter factors", 3, 1, found, 1)
-            ),
-            other => panic!("{other:?}"),
-        }
+        assert_refused(
+            ModalState::at(&problem, factors, UpdateRule::default()),
+            Error::WrongShape {
+                what: "parameter factors",
+                expected_rows: 3,
+                expected_columns: 1,
+                rows: found,
+                columns: 1,
+            },
+        );
     }
     assert!(matches!(
         ModalState::at(&problem, vec![1.0, f64::NAN, 1.0], UpdateRule::default()),

@@ -1,5 +1,6 @@
 //! The step (13): factors from derivatives by every rule, and the bounds that limit them.
 
+use crate::common::assert_refused;
 use crate::common::loops::STEP_RULES;
 use crate::common::structures::spring_chain;
 use crate::common::tolerances::ROUND_OFF;
@@ -306,12 +307,14 @@ fn ranges_are_of_positive_finite_numbers_in_order() {
         (2.0, 1.0),
         (1.0, f64::INFINITY),
     ] {
-        match Range::positive("gage", low, high) {
-            Err(Error::Limits { what, lower, upper }) => {
-                assert_eq!((what.as_str(), lower, upper), ("gage", low, high));
-            }
-            other => panic!("{other:?}"),
-        }
+        assert_refused(
+            Range::positive("gage", low, high),
+            Error::Limits {
+                what: "gage".into(),
+                lower: low,
+                upper: high,
+            },
+        );
     }
     assert!(Range::positive("gage", f64::NAN, 1.0).is_err());
     assert!(Range::positive("gage", 0.5, f64::NAN).is_err());

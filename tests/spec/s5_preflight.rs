@@ -317,7 +317,7 @@ fn columns_of_t_in_another_order_are_named() {
         assert!((found.after - agreement(&case(2).model, &case(2).test)).abs() < MATRIX_ROUND_OFF);
     }
     // The wing's masses are made with T and take its order: to the test it is the points that have another.
-    let model = correlation::first_model(&DeltaWing::embedded().unwrap()).unwrap();
+    let model = correlation::first_model(&DeltaWing::embedded()).unwrap();
     let order: Vec<usize> = (0..19).map(|place| (7 * place + 3) % 19).collect();
     let t = model.load_distribution().clone().select_columns(&order);
     let parameters = model.parameters().to_vec();

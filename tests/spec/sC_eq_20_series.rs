@@ -12,8 +12,7 @@
 //! | Recursive 2, order r ≥ 2 | $t^{2r-1}$ | $t^{2r}$ |
 //!
 //! for changes of stiffness alone, and of stiffness and mass together, symmetric or not. The functions of the crate are those rows
-//! in floating point: they differ from the rows in rational numbers by round-off. `appendix_c_recursion_orders` has the same table
-//! by slopes.
+//! in floating point: they differ from the rows in rational numbers by round-off.
 
 use crate::common::appendix_c::of_stiffness;
 use crate::common::blocks::{CloseRootsSettings, close_roots};

@@ -56,7 +56,7 @@ impl Known {
     /// # Errors
     /// Those of the wing and its model.
     pub fn delta_wing() -> Result<Self, CaseError> {
-        let wing = DeltaWing::embedded()?;
+        let wing = DeltaWing::embedded();
         let truth = GROUPS.iter().map(Group::true_factor).collect();
         Ok(Self {
             name: "Delta wing".to_owned(),

@@ -163,12 +163,8 @@ impl Wing {
     /// The wing as a structure.
     ///
     /// # Errors
-    /// [`Error::Empty`] without a bay or cell; those of [`Structure::new`].
+    /// Those of [`Structure::new`].
     pub fn structure(&self) -> Result<Structure, Error> {
-        if self.bays.contains(&0) {
-            let what = "bays and cells";
-            return Err(Error::Empty { what });
-        }
         let (lines, levels) = (self.bays[1] + 1, self.bays[2] + 1);
         let grid = |n: usize| {
             let place = [n / (lines * levels), n / levels % lines, n % levels];
@@ -216,12 +212,9 @@ impl Wing {
     /// The wing as a model: a parameter per group, the measured points as dynamic DOF with the mass on them.
     ///
     /// # Errors
-    /// Those of [`Self::structure`] and [`LargeModel::new`]; [`Error::Empty`], [`Error::TooMany`] for zones and measured points.
+    /// Those of [`Self::structure`] and [`LargeModel::new`].
     pub fn model(&self) -> Result<LargeModel, Error> {
-        let ([ribs, chord, _], [on_span, on_rib], zones) = (self.bays, self.measured, self.zones);
-        check_count("zones", zones, ribs)?;
-        check_count("measured ribs", on_span, ribs)?;
-        check_count("measured points of a rib", on_rib, chord + 1)?;
+        let (ribs, zones) = (self.bays[0], self.zones);
         let (structure, points) = (self.structure()?, self.points());
         let loads = SparseMatrix::of_columns(
             "load distribution",
@@ -243,18 +236,5 @@ impl Wing {
             .enumerate()
             .map(|(group, labels)| Parameter::group(&name(group), labels));
         LargeModel::new(structure, loads, mass, parameters.collect())
-    }
-}
-
-/// Refuses none of something, or more of it than there is.
-fn check_count(what: &'static str, requested: usize, available: usize) -> Result<(), Error> {
-    match requested {
-        0 => Err(Error::Empty { what }),
-        _ if requested > available => Err(Error::TooMany {
-            what,
-            available,
-            requested,
-        }),
-        _ => Ok(()),
     }
 }

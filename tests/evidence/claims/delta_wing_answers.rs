@@ -13,7 +13,7 @@ use corfem::method::assembly::{dense_stiffness, element_matrices};
 use nalgebra::{DMatrix, DVector};
 
 fn wing() -> DeltaWing {
-    DeltaWing::embedded().expect("the wing")
+    DeltaWing::embedded()
 }
 
 #[test]

@@ -10,7 +10,7 @@ use corfem::method::modes::solve;
 use corfem::method::pairing::{cross_orthogonality, pair_modes};
 
 fn wing() -> DeltaWing {
-    DeltaWing::embedded().expect("the wing")
+    DeltaWing::embedded()
 }
 
 fn true_factors() -> Vec<f64> {

@@ -7,11 +7,9 @@ use crate::evidence::matrix_comparison::{
     COVER_DOUBLER, MatrixComparison, Prediction, USUAL_TEST_MODES, compare_matrices,
 };
 use crate::evidence::matrix_correction::baruch_stiffness;
-use corfem::method::error::Error;
 use corfem::method::model::DynamicModel;
 use corfem::method::modes::solve;
 use corfem::torque_box::Case;
-use corfem::torque_box::error::CaseError;
 use corfem::torque_box::wing_box::COVERS;
 
 pub const TEST_MODES: usize = USUAL_TEST_MODES;
@@ -161,7 +159,7 @@ fn element_factors_are_analyzed_anew_and_matrices_are_added_to() {
             .unwrap()
             .lowest(TEST_MODES)
             .unwrap();
-        let baruch = baruch_stiffness(&first.stiffness, &first.mass, &test).unwrap();
+        let baruch = baruch_stiffness(&first.stiffness, &first.mass, &test);
         let elements =
             [false, true].map(|doublers| model(case, &gages(case, &found, doublers)).stiffness);
         let matrices = [baruch.clone(), &baruch + design_change];
@@ -237,21 +235,4 @@ fn as_many_modes_as_points_give_baruch_the_truth() {
     assert!(largest(&baruch.as_tested) <= CORRECTION_ROUND_OFF);
     // But not after the change.
     assert!(largest(&baruch.after_change) > 0.004);
-}
-
-#[test]
-fn numbers_of_test_modes_out_of_range_are_errors() {
-    let case = Case::new(2).unwrap();
-    assert!(matches!(
-        compare_matrices(&case, 0),
-        Err(CaseError::Method(Error::Empty { what: "modes" }))
-    ));
-    assert!(matches!(
-        compare_matrices(&case, 10),
-        Err(CaseError::Method(Error::TooMany {
-            what: "modes",
-            available: 9,
-            requested: 10
-        }))
-    ));
 }

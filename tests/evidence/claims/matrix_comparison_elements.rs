@@ -17,13 +17,12 @@ fn nearest_factors_leave_the_least() {
             .unwrap()
             .lowest(TEST_MODES)
             .unwrap();
-        let corrected = baruch_stiffness(&first.stiffness, &first.mass, &test).unwrap();
+        let corrected = baruch_stiffness(&first.stiffness, &first.mass, &test);
         let change: DMatrix<f64> = corrected - &first.stiffness;
         let left = |factors: &[f64]| {
             let made = first.shares.iter().zip(factors);
             let made: DMatrix<f64> = made.map(|(share, c)| (c - 1.0) * share.matrix()).sum();
-            weighted_norm(&(&change - made), &first.mass).unwrap()
-                / weighted_norm(&change, &first.mass).unwrap()
+            weighted_norm(&(&change - made), &first.mass) / weighted_norm(&change, &first.mass)
         };
         let nearest: Vec<f64> = comparison
             .factors

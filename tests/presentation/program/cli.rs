@@ -15,6 +15,28 @@ pub fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).expect("UTF-8")
 }
 
+/// What it prints, without a word on standard error.
+pub fn printed(arguments: &[&str]) -> String {
+    let done = corfem(arguments);
+    let is_silent = done.stderr.is_empty();
+    assert_eq!(
+        (done.status.code(), is_silent),
+        (Some(0), true),
+        "{arguments:?}"
+    );
+    text(&done.stdout)
+}
+
+/// The numbers of a list in JSON.
+pub fn numbers(value: &Value) -> Vec<f64> {
+    value
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|number| number.as_f64().expect("a number"))
+        .collect()
+}
+
 pub fn parsed(arguments: &[&str]) -> Value {
     serde_json::from_slice(&corfem(arguments).stdout).expect("JSON")
 }
@@ -209,14 +231,8 @@ fn another_box_is_a_change_of_data_alone() {
         path.to_str().expect("UTF-8"),
     ]);
     let own = parsed(&["cases", "2", "-f", "json"]);
-    let frequencies = |document: &Value| -> Vec<f64> {
-        let list = document["cases"][0]["correlation"]["test_frequencies_hz"]
-            .as_array()
-            .expect("a list");
-        list.iter()
-            .map(|value| value.as_f64().expect("a number"))
-            .collect()
-    };
+    let frequencies =
+        |document: &Value| numbers(&document["cases"][0]["correlation"]["test_frequencies_hz"]);
     for (a, b) in frequencies(&other).iter().zip(frequencies(&own)) {
         approx::assert_relative_eq!(
             *a,

@@ -1,25 +1,12 @@
 //! `corfem check` from outside.
 
-use assert_cmd::Command;
+use crate::presentation::program::cli::printed;
 use serde_json::Value;
 use std::path::Path;
 
-fn corfem(arguments: &[&str]) -> String {
-    let done = Command::cargo_bin("corfem")
-        .expect("the program is built")
-        .args(arguments)
-        .output()
-        .expect("it starts");
-    assert!(
-        done.status.success() && done.stderr.is_empty(),
-        "{arguments:?}"
-    );
-    String::from_utf8(done.stdout).expect("UTF-8")
-}
-
 #[test]
 fn check_says_what_it_finds() {
-    let corfem = |format: &str| corfem(&["check", "--format", format]);
+    let corfem = |format: &str| printed(&["check", "--format", format]);
     let report = corfem("text");
     let words = report.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(report.starts_with("Before the first step"), "{report:.200}");
@@ -41,14 +28,14 @@ fn check_says_what_it_finds() {
 fn a_check_of_a_job_ranks_its_parameters() {
     let job = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/jobs/building/job.toml");
     let job = job.to_str().expect("a name");
-    let text = corfem(&["check", job]);
+    let text = printed(&["check", job]);
     let suspects = text.split("Suspects: ").nth(1).expect("the table");
     assert!(
         (1..=10).all(|story| suspects.contains(&format!("story {story} "))),
         "{suspects}"
     );
     let json: Value =
-        serde_json::from_str(&corfem(&["check", job, "--format", "json"])).expect("JSON");
+        serde_json::from_str(&printed(&["check", job, "--format", "json"])).expect("JSON");
     assert_eq!(
         (
             &json["tables"][3]["name"],

@@ -1,19 +1,7 @@
 //! The program's comparison from outside: fewer modes.
 
-use assert_cmd::Command;
+use crate::presentation::program::cli::{corfem, text};
 use serde_json::Value;
-
-fn corfem(arguments: &[&str]) -> std::process::Output {
-    Command::cargo_bin("corfem")
-        .expect("the program is built")
-        .args(arguments)
-        .output()
-        .expect("it starts")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).expect("UTF-8")
-}
 
 #[test]
 fn fewer_modes_in_every_format() {

@@ -1,7 +1,7 @@
 //! `corfem correlate` and `corfem check JOB` from outside: what they print, write and leave alone.
 
 use crate::common::tolerances::{FIELD_ROUNDING, WEIGHTED_FACTOR};
-use crate::presentation::program::cli::{corfem, text};
+use crate::presentation::program::cli::{corfem, numbers, text};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
@@ -53,15 +53,6 @@ fn names(folder: &Path) -> Vec<String> {
 
 fn json(path: &Path) -> Value {
     serde_json::from_slice(&fs::read(path).expect("it reads")).expect("JSON")
-}
-
-fn numbers(value: &Value) -> Vec<f64> {
-    value
-        .as_array()
-        .expect("a list")
-        .iter()
-        .map(|number| number.as_f64().expect("a number"))
-        .collect()
 }
 
 /// Without the breaks of lines.
@@ -340,22 +331,15 @@ fn a_report_is_written_although_its_deck_cannot_be() {
 #[cfg(unix)]
 #[test]
 fn a_signal_keeps_the_best_so_far() {
-    use crate::common::signals::{send, undisturbed};
+    use crate::common::signals::{corfem_run_by, send, undisturbed};
     use rustix::process::Signal;
     use std::os::unix::process::ExitStatusExt;
-    use std::process::{Command, Stdio};
+    use std::process::Stdio;
     use std::time::Duration;
     let endless = "method = \"gauss_newton\"\nstarts = 1000000";
     let (folder, job) = changed("wing", "method = \"gauss_newton\"", endless);
     let out = folder.path().join("out");
-    let program = assert_cmd::cargo::cargo_bin("corfem");
-    let command: Vec<&Path> = undisturbed()
-        .iter()
-        .map(Path::new)
-        .chain([program.as_path()])
-        .collect();
-    let mut child = Command::new(command[0])
-        .args(&command[1..])
+    let mut child = corfem_run_by(undisturbed())
         .args(["correlate", words(&job), "-q", "--folder", words(&out)])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())

@@ -1,16 +1,8 @@
 //! `corfem figures` and `corfem report` from outside: their files.
 
 use crate::presentation::figures::figures;
-use assert_cmd::Command;
+use crate::presentation::program::cli::corfem;
 use std::path::Path;
-
-fn corfem(arguments: &[&str]) -> std::process::Output {
-    Command::cargo_bin("corfem")
-        .expect("the program is built")
-        .args(arguments)
-        .output()
-        .expect("it starts")
-}
 
 fn names_in(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).expect("a folder");

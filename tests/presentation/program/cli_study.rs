@@ -189,21 +189,14 @@ fn a_study_needs_samples_and_a_folder_or_one_sample() {
 #[cfg(unix)]
 #[test]
 fn a_signal_keeps_the_samples_done() {
-    use crate::common::signals::{send, undisturbed};
+    use crate::common::signals::{corfem_run_by, send, undisturbed};
     use rustix::process::Signal;
     use std::os::unix::process::ExitStatusExt;
-    use std::process::{Command, Stdio};
+    use std::process::Stdio;
     use std::time::Duration;
     let folder = tempfile::tempdir().expect("a folder");
     let (job, path) = (job("building"), folder.path().join("samples.csv"));
-    let program = assert_cmd::cargo::cargo_bin("corfem");
-    let command: Vec<&Path> = undisturbed()
-        .iter()
-        .map(Path::new)
-        .chain([program.as_path()])
-        .collect();
-    let mut child = Command::new(command[0])
-        .args(&command[1..])
+    let mut child = corfem_run_by(undisturbed())
         .args([
             "study",
             words(&job),

@@ -1,32 +1,22 @@
 //! `corfem tables`, and what reports say of the paper's tables in them.
 
-use assert_cmd::Command;
+use crate::presentation::program::cli::{corfem, printed};
 use serde_json::Value;
-
-fn stdout(arguments: &[&str]) -> String {
-    let done = Command::cargo_bin("corfem")
-        .expect("the program is built")
-        .args(arguments)
-        .output()
-        .expect("it starts");
-    assert_eq!(done.status.code(), Some(0), "{arguments:?}");
-    String::from_utf8(done.stdout).expect("UTF-8")
-}
 
 #[test]
 fn all_thirteen_tables_or_those_asked_for() {
-    let all = stdout(&["tables"]);
+    let all = printed(&["tables"]);
     assert!(all.contains("(Table 1, computed anew)"));
     assert!((2..=13).all(|number| all.contains(&format!("Table {number}. "))));
-    let one = stdout(&["tables", "13"]);
+    let one = printed(&["tables", "13"]);
     assert!(one.starts_with("Table 13. ") && one.contains("1.9") && !one.contains("Table 2. "));
-    assert!(stdout(&["tables", "1", "-f", "csv"]).contains("\ntable_1,1,First order,%,"));
+    assert!(printed(&["tables", "1", "-f", "csv"]).contains("\ntable_1,1,First order,%,"));
     assert!(
-        stdout(&["tables", "13", "-f", "csv"]).contains("\npublished_13,3,Pass 1 time,s,,4.8\n")
+        printed(&["tables", "13", "-f", "csv"]).contains("\npublished_13,3,Pass 1 time,s,,4.8\n")
     );
-    assert!(stdout(&["tables", "13", "-f", "markdown"]).contains("| Pass 1 time, s |"));
+    assert!(printed(&["tables", "13", "-f", "markdown"]).contains("| Pass 1 time, s |"));
     let json: Value =
-        serde_json::from_str(&stdout(&["tables", "1", "13", "-f", "json"])).expect("JSON");
+        serde_json::from_str(&printed(&["tables", "1", "13", "-f", "json"])).expect("JSON");
     let tables = json["tables"].as_array().expect("a list");
     assert_eq!(tables.len(), 2);
     for table in tables {
@@ -50,11 +40,7 @@ fn all_thirteen_tables_or_those_asked_for() {
 #[test]
 fn other_numbers_are_bad_input() {
     for number in ["0", "14"] {
-        let mut command = Command::cargo_bin("corfem").expect("the program is built");
-        let done = command
-            .args(["tables", number])
-            .output()
-            .expect("it starts");
+        let done = corfem(&["tables", number]);
         assert_eq!((done.status.code(), done.stdout.len()), (Some(2), 0));
     }
 }
@@ -69,7 +55,7 @@ fn a_report_says_which_tables_it_holds() {
     ] {
         let sentence = format!("Of the paper's tables, here are {numbers}; corfem tables prints");
         assert!(
-            words(stdout(arguments)).contains(&sentence),
+            words(printed(arguments)).contains(&sentence),
             "{arguments:?}"
         );
     }

@@ -1,28 +1,13 @@
 //! `corfem deck` and `corfem modes` from outside.
 
 use crate::common::tolerances::DECK_ROUNDING;
-use assert_cmd::Command;
+use crate::presentation::program::cli::{corfem, numbers, text};
 use corfem::sparse::{LargeModel, WholeModel};
 use corfem::torque_box::{Case, run_case};
 use serde_json::Value;
 
-fn corfem(arguments: &[&str]) -> std::process::Output {
-    Command::cargo_bin("corfem")
-        .expect("the program is built")
-        .args(arguments)
-        .output()
-        .expect("it starts")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).expect("UTF-8")
-}
-
 fn frequencies(document: &Value) -> Vec<f64> {
-    let list = document["frequencies_hz"].as_array().expect("a list");
-    list.iter()
-        .map(|value| value.as_f64().expect("a number"))
-        .collect()
+    numbers(&document["frequencies_hz"])
 }
 
 #[test]
@@ -61,12 +46,7 @@ fn a_deck_of_a_pass_has_the_frequencies_of_that_pass() {
             .iter()
             .zip(document["generalized_masses"].as_array().expect("a list"))
         {
-            let shape: Vec<f64> = shape
-                .as_array()
-                .expect("a list")
-                .iter()
-                .map(|x| x.as_f64().expect("a number"))
-                .collect();
+            let shape = numbers(shape);
             let largest = shape.iter().copied().fold(f64::MIN, f64::max);
             assert_eq!((shape.len(), largest), (9, 1.0));
             let generalized: f64 = shape

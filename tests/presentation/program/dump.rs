@@ -3,21 +3,13 @@
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
 use crate::common::vibrations::modes_by_nalgebra;
-use assert_cmd::Command;
+use crate::presentation::program::cli::{corfem, numbers};
 use corfem::files::matrices::read;
 use nalgebra::DMatrix;
 use serde_json::Value;
 use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
-
-fn corfem(arguments: &[&str]) -> std::process::Output {
-    Command::cargo_bin("corfem")
-        .expect("the program is built")
-        .args(arguments)
-        .output()
-        .expect("it starts")
-}
 
 /// A case's document.
 fn dumped(case: &str) -> Value {
@@ -26,17 +18,13 @@ fn dumped(case: &str) -> Value {
     serde_json::from_slice(&output.stdout).expect("JSON")
 }
 
-fn list(value: &Value) -> Vec<f64> {
-    value
-        .as_array()
-        .expect("a list")
-        .iter()
-        .map(|number| number.as_f64().expect("a number"))
-        .collect()
-}
-
 fn matrix(value: &Value) -> DMatrix<f64> {
-    let rows: Vec<Vec<f64>> = value.as_array().expect("rows").iter().map(list).collect();
+    let rows: Vec<Vec<f64>> = value
+        .as_array()
+        .expect("rows")
+        .iter()
+        .map(numbers)
+        .collect();
     DMatrix::from_fn(rows.len(), rows[0].len(), |row, column| rows[row][column])
 }
 
@@ -83,7 +71,7 @@ fn dumped_matrices_have_the_dumped_modes() {
         for analysis in entries(&dump["analyses"]) {
             let [k, m, v, b] = ["K_D", "M", "V", "B"].map(|name| matrix(&analysis[name]));
             let (omega_squared, _) = modes_by_nalgebra(&k, &m);
-            for (frequency, omega_squared) in list(&analysis["frequencies_hz"])
+            for (frequency, omega_squared) in numbers(&analysis["frequencies_hz"])
                 .into_iter()
                 .zip(omega_squared.iter())
             {
@@ -135,7 +123,7 @@ fn dumped_factors_follow_from_the_dumped_changes() {
                     "unlimited_factors",
                     "factors",
                 ]
-                .map(|key| list(&iteration[key]));
+                .map(|key| numbers(&iteration[key]));
                 let fraction = 0.5_f64.powi(number(&iteration["halvings"]) as i32);
                 for e in 0..15 {
                     let c = 1.0 - relaxation * error_sum * changes[e] / stiffness[e];
@@ -149,7 +137,7 @@ fn dumped_factors_follow_from_the_dumped_changes() {
                 (error_sum, totals) = (number(&iteration["error_sum"]), factors);
             }
             // The pass ends where its iterations led.
-            let [before, after] = [0, 1].map(|at| list(&analyses[at]["factors"]));
+            let [before, after] = [0, 1].map(|at| numbers(&analyses[at]["factors"]));
             for e in 0..15 {
                 assert!((after[e] / before[e] - totals[e]).abs() < MATRIX_ROUND_OFF);
             }

@@ -5,7 +5,7 @@
 
 #![cfg(unix)]
 
-use crate::common::signals::{SIGNALS, send, undisturbed};
+use crate::common::signals::{SIGNALS, corfem_run_by, send, undisturbed};
 use crate::presentation::figures::figures;
 use rustix::process::Signal;
 use std::fs;
@@ -61,18 +61,9 @@ fn old_set(folder: &Path) {
 
 /// The program writing figures into a folder, perhaps run by another one.
 fn start(run_by: &[&str], folder: &Path) -> Child {
-    let program = assert_cmd::cargo::cargo_bin("corfem");
-    let words = run_by
-        .iter()
-        .map(Path::new)
-        .chain([program.as_path()])
-        .collect::<Vec<_>>();
-    let mut command = Command::new(words[0]);
-    command
-        .args(&words[1..])
+    corfem_run_by(run_by)
         .args(["figures", "-q", "-o"])
-        .arg(folder);
-    command
+        .arg(folder)
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .spawn()

@@ -246,10 +246,7 @@ fn a_free_chain_is_corrected_without_its_rigid_body_mode() {
 /// The delta wing without its supports: its motions without strain are kept out, and the wrong covers found from the others.
 #[test]
 fn a_free_delta_wing_is_corrected_without_its_rigid_body_modes() {
-    let wing = DeltaWing::embedded()
-        .expect("a wing")
-        .structure()
-        .expect("a structure");
+    let wing = DeltaWing::embedded().structure().expect("a structure");
     let grids = wing.grids().iter().map(|grid| Grid {
         constrained: [false; 3],
         ..grid.clone()

@@ -5,7 +5,6 @@ use crate::common::structures::{factorized, wings};
 use crate::common::tolerances::{COARSE_WING, ELEMENT_ROUND_OFF, ROUND_OFF, SLENDER_BEAM};
 use approx::assert_relative_eq;
 use corfem::method::elements::corner_volumes;
-use corfem::method::error::Error;
 use corfem::method::structure::{ElementKind, Material, Structure};
 use nalgebra::DMatrix;
 use proptest::prelude::*;
@@ -193,77 +192,6 @@ fn lowest_modes_hardly_depend_on_the_mesh() {
     for (coarse, fine) in coarse.iter().zip(&fine) {
         assert_relative_eq!(coarse, fine, max_relative = COARSE_WING);
     }
-}
-
-#[test]
-fn wings_that_cannot_be_are_refused() {
-    let with = |bays: [usize; 3], zones, measured| {
-        Wing {
-            bays,
-            zones,
-            measured,
-            ..Wing::default()
-        }
-        .model()
-    };
-    assert!(matches!(
-        with([0, 1, 1], 1, [1, 1]),
-        Err(Error::Empty { what: "zones" } | Error::TooMany { .. })
-    ));
-    assert!(matches!(
-        with([1, 0, 1], 1, [1, 1]),
-        Err(Error::Empty {
-            what: "bays and cells"
-        })
-    ));
-    assert!(matches!(
-        with([1, 1, 0], 1, [1, 1]),
-        Err(Error::Empty {
-            what: "bays and cells"
-        })
-    ));
-    assert!(matches!(
-        with([2, 1, 1], 0, [1, 1]),
-        Err(Error::Empty { what: "zones" })
-    ));
-    assert!(matches!(
-        with([2, 1, 1], 3, [1, 1]),
-        Err(Error::TooMany {
-            what: "zones",
-            available: 2,
-            requested: 3
-        })
-    ));
-    assert!(matches!(
-        with([2, 1, 1], 1, [3, 1]),
-        Err(Error::TooMany {
-            what: "measured ribs",
-            ..
-        })
-    ));
-    assert!(matches!(
-        with([2, 1, 1], 1, [1, 3]),
-        Err(Error::TooMany {
-            what: "measured points of a rib",
-            ..
-        })
-    ));
-    let flat = Wing {
-        thickness: 0.0,
-        ..Wing::default()
-    };
-    assert!(matches!(flat.model(), Err(Error::InElement { .. })));
-    let light = Wing {
-        mass: 0.0,
-        ..Wing::default()
-    };
-    assert!(matches!(
-        light.model(),
-        Err(Error::NotPositiveDefinite {
-            what: "dynamic mass",
-            ..
-        })
-    ));
 }
 
 proptest! {

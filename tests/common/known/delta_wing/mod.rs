@@ -21,9 +21,7 @@ pub mod correlation;
 pub use answers::{MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies};
 
 use corfem::method::error::Error;
-use corfem::method::linear_algebra::check_length;
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use corfem::torque_box::error::CaseError;
 use nalgebra::Vector3;
 use serde::Deserialize;
 
@@ -72,55 +70,9 @@ pub struct DeltaWing {
 }
 
 impl DeltaWing {
-    /// The wing that comes with the crate.
-    ///
-    /// # Errors
-    /// As [`Self::parse`], if the data file were damaged.
-    pub fn embedded() -> Result<Self, CaseError> {
-        Self::parse(
-            "paper/delta_wing.toml",
-            include_str!("../../../../paper/delta_wing.toml"),
-        )
-    }
-
-    /// Reads a wing of this planform from TOML text; `name` stands in error messages.
-    ///
-    /// # Errors
-    /// [`CaseError::Toml`] for text of another form; [`Error::WrongShape`] for tables that do not fit the planform.
-    pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
-        let wrong = |source| CaseError::Toml {
-            name: name.to_owned(),
-            expected: "a delta wing: material, half depths and sizes",
-            source: Box::new(source),
-        };
-        let read: Self = toml::from_str(text).map_err(wrong)?;
-        let at_grids: Vec<usize> = (0..LINES.len()).map(stations_on).collect();
-        let along_lines: Vec<usize> = at_grids.iter().map(|count| count - 1).collect();
-        let along_stations: Vec<usize> = (1..STATIONS.len())
-            .map(|station| lines_at(station) - 1)
-            .collect();
-        for (what, table, lengths) in [
-            ("half depths", &read.half_depths, &at_grids),
-            ("post areas", &read.post_areas, &at_grids),
-            ("spanwise cap areas", &read.spanwise_cap_areas, &along_lines),
-            (
-                "chordwise cap areas",
-                &read.chordwise_cap_areas,
-                &along_stations,
-            ),
-        ] {
-            check_length(what, table.len(), lengths.len())?;
-            table
-                .iter()
-                .zip(lengths)
-                .try_for_each(|(row, &length)| check_length(what, row.len(), length))?;
-        }
-        check_length(
-            "leading-edge cap areas",
-            read.leading_edge_cap_areas.len(),
-            leading_edge().len() - 1,
-        )?;
-        Ok(read)
+    /// The wing of `paper/delta_wing.toml`.
+    pub fn embedded() -> Self {
+        toml::from_str(include_str!("../../../../paper/delta_wing.toml")).expect("a delta wing")
     }
 
     /// The wing as a structure: 48 grids; 14 membranes and 3 triangles (covers, 1 to 17), 36 shear panels (webs, 18 to
