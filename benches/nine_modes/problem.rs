@@ -2,7 +2,7 @@
 
 use corfem::method::derivatives::DERIVATIVE_STEP;
 use corfem::method::inner_loop::InnerSettings;
-use corfem::method::model::{FiniteElementModel, ModalModel, Range};
+use corfem::method::model::{Bounds, FiniteElementModel, ModalModel};
 use corfem::method::modes::ModeSet;
 use corfem::method::state::ModalState;
 use corfem::torque_box::{CASES, Case, run_case};
@@ -77,7 +77,7 @@ pub struct PassSetting {
     /// The model.
     pub model: FiniteElementModel,
     /// Bounds on its factors.
-    pub ranges: Vec<Option<Range>>,
+    pub ranges: Vec<Option<Bounds>>,
     /// Its test modes.
     pub test: ModeSet,
     /// Factors at its start.

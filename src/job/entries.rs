@@ -4,7 +4,7 @@ use crate::files::error::FileError;
 use crate::method::derivatives::DerivativeRule;
 use crate::method::error_sum::ErrorMeasure;
 use crate::method::inner_loop::InnerSettings;
-use crate::method::model::Range;
+use crate::method::model::Bounds;
 use crate::method::outer_loop::Settings;
 use crate::method::state::UpdateRule;
 use crate::method::step::{Accumulation, StepRule};
@@ -42,7 +42,7 @@ struct InnerEntries {
     first_relaxation: f64,
     #[serde(skip)]
     relaxation: f64,
-    factor_range: Range,
+    factor_range: Bounds,
     tolerance: f64,
     #[serde(skip)]
     halvings: usize,

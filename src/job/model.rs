@@ -5,7 +5,7 @@ use crate::files::deck::{self, Deck, Membership};
 use crate::files::error::FileError;
 use crate::method::assembly::{element_matrices, stiffness_entries};
 use crate::method::error::Error;
-use crate::method::model::Range;
+use crate::method::model::Bounds;
 use crate::method::structure::StructuralDof;
 use crate::sparse::elements::{mass_entries, moving_mass_entries};
 use crate::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
@@ -234,11 +234,11 @@ pub(super) fn range(
     job: &Job,
     rule: &ParameterRule,
     sizes: &[f64],
-) -> Result<Option<Range>, FileError> {
+) -> Result<Option<Bounds>, FileError> {
     let name = &rule.name;
     let both = |[lower, upper]: [Option<f64>; 2], names: &str, what: &str| match (lower, upper) {
         (None, None) => Ok(None),
-        (Some(lower), Some(upper)) => Ok(Some(Range::positive(
+        (Some(lower), Some(upper)) => Ok(Some(Bounds::positive(
             &format!("{what} of parameter {name}"),
             lower,
             upper,
@@ -267,7 +267,7 @@ pub(super) fn range(
     let upper = sizes
         .iter()
         .fold(upper, |upper, size| upper.min(of_sizes.upper / size));
-    Ok(Some(Range::positive(
+    Ok(Some(Bounds::positive(
         &format!("factor of parameter {name}"),
         lower,
         upper,

@@ -5,7 +5,7 @@ use crate::files::deck::rewrite;
 use crate::files::error::FileError;
 use crate::method::derivatives::error_changes;
 use crate::method::error_sum::{ModeWeight, mode_errors};
-use crate::method::model::{ModalModel, Range};
+use crate::method::model::{Bounds, ModalModel};
 use crate::method::outer_loop::{Correlation, Pass, correlate_while, meets};
 use crate::method::structure::{Element, Material};
 use crate::method::verdict::{Outcome, Verdict};
@@ -236,8 +236,8 @@ pub(super) fn run_from(
                     .map(|(a, b)| a * b)
                     .collect::<Vec<f64>>()
             };
-            let seen = |(range, start): (&Option<Range>, &f64)| {
-                range.map(|range| Range {
+            let seen = |(range, start): (&Option<Bounds>, &f64)| {
+                range.map(|range| Bounds {
                     lower: range.lower / start,
                     upper: range.upper / start,
                 })

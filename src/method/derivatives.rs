@@ -9,7 +9,7 @@ use crate::method::appendix_c::{SMALLEST_SEPARATION, first_order};
 use crate::method::error::Error;
 use crate::method::error_sum::unit_shape_difference;
 use crate::method::linear_algebra::finite_list;
-use crate::method::model::{ModalModel, Share};
+use crate::method::model::{ModalModel, ParameterMatrix};
 use crate::method::modes::ModeSet;
 use crate::method::state::ModalState;
 use nalgebra::{DMatrix, DVectorView};
@@ -67,12 +67,12 @@ pub fn error_changes(
 ///
 /// ```rust
 /// use corfem::method::derivatives::by_definition;
-/// use corfem::method::model::{DynamicModel, Share};
+/// use corfem::method::model::{DynamicModel, ParameterMatrix};
 /// # use corfem::method::modes::ModeSet;
 /// # use corfem::method::state::ModalState;
 /// # use nalgebra::{dmatrix, dvector};
 ///
-/// let shares = vec![Share::Stiffness(dmatrix![4.0])];
+/// let shares = vec![ParameterMatrix::Stiffness(dmatrix![4.0])];
 /// let model = DynamicModel { stiffness: dmatrix![4.0], mass: dmatrix![1.0], shares };
 /// let test = ModeSet::new(dvector![9.0], dmatrix![1.0])?;
 /// let modal = model.analyze(&test, None)?;
@@ -86,13 +86,13 @@ pub fn by_definition(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>,
     let (k, p) = (&state.modes.omega_squared, &state.generalized_shapes);
     let are_close =
         |i: usize, j: usize| i != j && (k[i] - k[j]).abs() < HELD_SEPARATION * k[i].max(k[j]);
-    let of_parameter = |(share, factor): (&Share, &f64)| {
+    let of_parameter = |(share, factor): (&ParameterMatrix, &f64)| {
         let change = DERIVATIVE_STEP * *factor * p.tr_mul(&(share.matrix() * p));
         let change =
             change.map_with_location(|i, j, entry| if are_close(i, j) { 0.0 } else { entry });
         let perturbed = match share {
-            Share::Stiffness(_) => first_order(k, &change)?,
-            Share::Mass(_) => {
+            ParameterMatrix::Stiffness(_) => first_order(k, &change)?,
+            ParameterMatrix::Mass(_) => {
                 general::first_order(&ModalChange::of_vibrations(k, 0.0 * &change, change))?
             }
         };
@@ -133,12 +133,12 @@ pub fn by_definition(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>,
 ///
 /// ```rust
 /// use corfem::method::derivatives::gradient;
-/// use corfem::method::model::{DynamicModel, Share};
+/// use corfem::method::model::{DynamicModel, ParameterMatrix};
 /// # use corfem::method::modes::ModeSet;
 /// # use corfem::method::state::ModalState;
 /// # use nalgebra::{dmatrix, dvector};
 ///
-/// let shares = vec![Share::Stiffness(dmatrix![4.0])];
+/// let shares = vec![ParameterMatrix::Stiffness(dmatrix![4.0])];
 /// let model = DynamicModel { stiffness: dmatrix![4.0], mass: dmatrix![1.0], shares };
 /// let test = ModeSet::new(dvector![9.0], dmatrix![1.0])?;
 /// let modal = model.analyze(&test, None)?;
@@ -153,12 +153,12 @@ pub fn gradient(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>, Erro
     let has_mass = model
         .shares
         .iter()
-        .any(|share| matches!(share, Share::Mass(_)));
+        .any(|share| matches!(share, ParameterMatrix::Mass(_)));
     let of_mass =
         has_mass.then(|| in_exact_modes(sensitivity(model, state, pull.clone(), |k| -k), state));
     let of_stiffness = in_exact_modes(sensitivity(model, state, pull, |_| 1.0), state);
-    let slope = |share: &Share| match (share, &of_mass) {
-        (Share::Mass(matrix), Some(of_mass)) => entries(of_mass).dot(&entries(matrix)),
+    let slope = |share: &ParameterMatrix| match (share, &of_mass) {
+        (ParameterMatrix::Mass(matrix), Some(of_mass)) => entries(of_mass).dot(&entries(matrix)),
         (share, _) => entries(&of_stiffness).dot(&entries(share.matrix())),
     };
     let slopes = model

@@ -5,7 +5,7 @@ use crate::method::derivatives::{DerivativeRule, error_changes};
 use crate::method::error::{Error, positive_setting};
 use crate::method::error_sum::{ErrorMeasure, Errors};
 use crate::method::linear_algebra::check_length;
-use crate::method::model::{ModalModel, Range};
+use crate::method::model::{Bounds, ModalModel};
 use crate::method::state::{ModalState, UpdateRule};
 use crate::method::step::{
     Accumulation, Limit, StepRule, limited_factor, stiffness_changes, unlimited_factors,
@@ -21,7 +21,7 @@ pub struct InnerSettings {
     /// Relaxation $R$ of the others.
     pub relaxation: f64,
     /// Bounds of one iteration's factor.
-    pub factor_range: Range,
+    pub factor_range: Bounds,
     /// Tolerance TOLI on the error sum $e_S$, in the measure below.
     pub tolerance: f64,
     /// How often a step that does not lower $e_S$ is halved before the place counts as a local minimum; zero stops
@@ -47,7 +47,7 @@ impl Default for InnerSettings {
         Self {
             first_relaxation: 0.8,
             relaxation: 1.0,
-            factor_range: Range {
+            factor_range: Bounds {
                 lower: 0.55,
                 upper: 1.50,
             },
@@ -65,8 +65,8 @@ impl Default for InnerSettings {
 
 impl InnerSettings {
     pub(crate) fn check(&self) -> Result<(), Error> {
-        let Range { lower, upper } = self.factor_range;
-        Range::positive("factor limits", lower, upper)?;
+        let Bounds { lower, upper } = self.factor_range;
+        Bounds::positive("factor limits", lower, upper)?;
         positive_setting("first_relaxation", self.first_relaxation)?;
         positive_setting("relaxation", self.relaxation)?;
         positive_setting("tolerance", self.tolerance)
@@ -135,12 +135,12 @@ pub struct InnerRun {
 ///
 /// ```rust
 /// use corfem::method::inner_loop::{InnerSettings, Stop, run};
-/// use corfem::method::model::{DynamicModel, Share};
+/// use corfem::method::model::{DynamicModel, ParameterMatrix};
 /// # use corfem::method::modes::ModeSet;
 /// # use nalgebra::{dmatrix, dvector};
 ///
 /// // A unit mass on a spring of 4 beside a test mode of ω² = 9.
-/// let shares = vec![Share::Stiffness(dmatrix![4.0])];
+/// let shares = vec![ParameterMatrix::Stiffness(dmatrix![4.0])];
 /// let model = DynamicModel { stiffness: dmatrix![4.0], mass: dmatrix![1.0], shares };
 /// let test = ModeSet::new(dvector![9.0], dmatrix![1.0])?;
 /// let inner = run(&model.analyze(&test, None)?, &[1.0], &[None], &InnerSettings::default())?;
@@ -152,7 +152,7 @@ pub struct InnerRun {
 pub fn run(
     model: &ModalModel,
     base: &[f64],
-    total_ranges: &[Option<Range>],
+    total_ranges: &[Option<Bounds>],
     settings: &InnerSettings,
 ) -> Result<InnerRun, Error> {
     settings.check()?;
@@ -169,7 +169,7 @@ pub type Derivative<'a> = &'a dyn Fn(&ModalModel, &ModalState) -> Result<Vec<f64
 pub(crate) struct InnerLoop<'a> {
     model: &'a ModalModel,
     base: &'a [f64],
-    total_ranges: &'a [Option<Range>],
+    total_ranges: &'a [Option<Bounds>],
     settings: &'a InnerSettings,
     derivative: Derivative<'a>,
 }
@@ -186,14 +186,14 @@ impl<'a> InnerLoop<'a> {
     pub(crate) fn new(
         model: &'a ModalModel,
         base: &'a [f64],
-        total_ranges: &'a [Option<Range>],
+        total_ranges: &'a [Option<Bounds>],
         settings: &'a InnerSettings,
         derivative: Derivative<'a>,
     ) -> Result<Self, Error> {
         check_length("parameter factors", base.len(), model.shares.len())?;
         check_length("parameter limits", total_ranges.len(), model.shares.len())?;
         for range in total_ranges.iter().flatten() {
-            Range::positive("parameter limits", range.lower, range.upper)?;
+            Bounds::positive("parameter limits", range.lower, range.upper)?;
         }
         Ok(Self {
             model,

@@ -6,7 +6,7 @@ use crate::method::error::{Error, positive_setting};
 use crate::method::error_sum::{Errors, mode_errors};
 use crate::method::inner_loop::{Derivative, InnerLoop, InnerRun, InnerSettings, Stop};
 use crate::method::linear_algebra::check_length;
-use crate::method::model::{Check, ModalModel, Range};
+use crate::method::model::{Bounds, ExactResult, ModalModel};
 use crate::method::verdict::{Outcome, Verdict};
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
@@ -65,14 +65,14 @@ pub struct Pass {
     /// Factor of each parameter on its first value, after the pass.
     pub factors: Vec<f64>,
     /// The exact solution at these factors.
-    pub check: Check,
+    pub check: ExactResult,
 }
 
 /// The whole history of a correlation.
 #[derive(Debug, Clone)]
 pub struct Correlation {
     /// The exact solution before any change.
-    pub initial: Check,
+    pub initial: ExactResult,
     /// The passes made.
     pub passes: Vec<Pass>,
     /// The pass with the lowest exact error sum, of those within tolerance if there are any, from zero; none when no pass improved
@@ -100,7 +100,7 @@ pub struct Correlation {
 ///
 /// ```rust
 /// use corfem::method::error::Error;
-/// use corfem::method::model::{DynamicModel, Share};
+/// use corfem::method::model::{DynamicModel, ParameterMatrix};
 /// # use corfem::method::modes::ModeSet;
 /// use corfem::method::outer_loop::{Settings, correlate};
 /// # use nalgebra::{dmatrix, dvector};
@@ -109,7 +109,7 @@ pub struct Correlation {
 /// let test = ModeSet::new(dvector![9.0], dmatrix![1.0])?;
 /// let analyze = |factors: &[f64]| -> Result<_, Error> {
 ///     let stiffness = dmatrix![4.0 * factors[0]];
-///     let shares = vec![Share::Stiffness(stiffness.clone())];
+///     let shares = vec![ParameterMatrix::Stiffness(stiffness.clone())];
 ///     DynamicModel { stiffness, mass: dmatrix![1.0], shares }.analyze(&test, None)
 /// };
 /// let result = correlate(analyze, &[None], &Settings::default(), |_, _| {})?;
@@ -118,7 +118,7 @@ pub struct Correlation {
 /// ```
 pub fn correlate<E: From<Error>>(
     mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
-    total_ranges: &[Option<Range>],
+    total_ranges: &[Option<Bounds>],
     settings: &Settings,
     mut progress: impl FnMut(usize, &Pass),
 ) -> Result<Correlation, E> {
@@ -140,7 +140,7 @@ pub fn correlate<E: From<Error>>(
 pub(crate) fn correlate_while<E: From<Error>>(
     analyze: &mut dyn FnMut(&[f64]) -> Result<ModalModel, E>,
     derivative: Derivative,
-    total_ranges: &[Option<Range>],
+    total_ranges: &[Option<Bounds>],
     settings: &Settings,
     progress: &mut dyn FnMut(usize, &Pass) -> bool,
 ) -> Result<Correlation, E> {
@@ -191,7 +191,7 @@ impl Correlation {
     fn best_of(
         first: &ModalModel,
         passes: Vec<Pass>,
-        total_ranges: &[Option<Range>],
+        total_ranges: &[Option<Bounds>],
         settings: &Settings,
     ) -> Result<Self, Error> {
         let ones = vec![1.0; total_ranges.len()];
@@ -201,7 +201,7 @@ impl Correlation {
             .enumerate()
             .map(|(pass, Pass { check, factors, .. })| (Some(pass), check, factors));
         // Whether a result is within tolerance comes before how large its error sum is.
-        let place = |check: &Check| (!meets(&check.errors, settings), check.errors.sum());
+        let place = |check: &ExactResult| (!meets(&check.errors, settings), check.errors.sum());
         let (best, check, factors) = checks.fold(start, |best, next| {
             if place(next.1) < place(best.1) {
                 next

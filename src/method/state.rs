@@ -6,7 +6,7 @@ use crate::method::appendix_c::{eigensolution, normalize_with_mass, recursive_1_
 use crate::method::error::Error;
 use crate::method::error_sum::Errors;
 use crate::method::linear_algebra::{check_length, check_shape};
-use crate::method::model::{ModalModel, Share};
+use crate::method::model::{ModalModel, ParameterMatrix};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::Pairing;
 use nalgebra::DMatrix;
@@ -110,15 +110,15 @@ impl ModalState {
         let (mut beta, mut alpha) = (DMatrix::zeros(count, count), DMatrix::zeros(count, count));
         for (share, factor) in model.shares.iter().zip(&factors) {
             match share {
-                Share::Stiffness(matrix) => beta += (factor - 1.0) * matrix,
-                Share::Mass(matrix) => alpha += (factor - 1.0) * matrix,
+                ParameterMatrix::Stiffness(matrix) => beta += (factor - 1.0) * matrix,
+                ParameterMatrix::Mass(matrix) => alpha += (factor - 1.0) * matrix,
             }
         }
         let k = &exact.omega_squared;
         let has_mass = model
             .shares
             .iter()
-            .any(|share| matches!(share, Share::Mass(_)));
+            .any(|share| matches!(share, ParameterMatrix::Mass(_)));
         let whole = || ModalChange::of_vibrations(k, beta.clone(), alpha.clone());
         let perturbed = match rule {
             UpdateRule::Eigensolution => eigensolution(&whole())?,

@@ -2,7 +2,7 @@
 //! Tour: [chapter 4](crate::tour::chapter_04_step).
 
 use crate::method::derivatives::DERIVATIVE_STEP;
-use crate::method::model::{ModalModel, REFERENCE_GAGE, Range};
+use crate::method::model::{Bounds, ModalModel, REFERENCE_GAGE};
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
@@ -103,8 +103,8 @@ pub fn limited_factor(
     fraction: f64,
     total: f64,
     base: f64,
-    factor_range: Range,
-    total_range: Option<Range>,
+    factor_range: Bounds,
+    total_range: Option<Bounds>,
 ) -> (f64, Limit) {
     let factor = factor_range.clamp(unlimited);
     let next = total * (1.0 + fraction * (factor - 1.0));

@@ -2,7 +2,7 @@
 //! Tour: [chapter 10](crate::tour::chapter_10_own_structure).
 
 use crate::method::error_sum::ModeError;
-use crate::method::model::Range;
+use crate::method::model::Bounds;
 use serde::Serialize;
 
 /// Largest part of a test mode's generalized stiffness (or mass) below which a parameter counts as unseen: twice as much of it
@@ -50,7 +50,7 @@ impl Verdict {
         (error_sum, errors): (f64, &[ModeError]),
         factors: &[f64],
         seen: &[f64],
-        ranges: &[Option<Range>],
+        ranges: &[Option<Bounds>],
         is_within: bool,
     ) -> Self {
         let size = |mode: &usize| errors[*mode].frequency.powi(2) + errors[*mode].shape.powi(2);

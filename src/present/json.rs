@@ -11,7 +11,7 @@ use super::tables::deck::{not_read, unit_shapes};
 use crate::files::deck::Deck;
 use crate::job::preflight::Finding;
 use crate::method::inner_loop::Iteration;
-use crate::method::model::{Check, Range};
+use crate::method::model::{Bounds, ExactResult};
 use crate::method::step::Limit;
 use crate::method::structure::DIRECTIONS;
 use crate::method::verdict::Verdict;
@@ -55,7 +55,7 @@ struct ReportValue<'a> {
     verdict: &'a Option<Verdict>,
     verdict_in_words: String,
     parameters: &'a [String],
-    ranges: &'a [Option<Range>],
+    ranges: &'a [Option<Bounds>],
     factors: &'a [f64],
     standard_deviations: &'a Option<Vec<f64>>,
     at_bound: Vec<bool>,
@@ -152,7 +152,7 @@ pub fn report(report: &Report) -> Result<Value, PresentError> {
     Ok(serde_json::to_value(value)?)
 }
 
-fn agreement(report: &Report, check: &Check) -> Result<AgreementValue, PresentError> {
+fn agreement(report: &Report, check: &ExactResult) -> Result<AgreementValue, PresentError> {
     let found = report.agreement(check)?;
     let modes = check.pairing.analysis_mode.iter();
     Ok(AgreementValue {
@@ -170,7 +170,7 @@ pub(super) fn matrix_rows(matrix: &DMatrix<f64>) -> MatrixRows {
     rows.map(|row| row.iter().copied().collect()).collect()
 }
 
-fn solution(check: &Check) -> SolutionValue<'_> {
+fn solution(check: &ExactResult) -> SolutionValue<'_> {
     SolutionValue {
         frequencies_hz: &check.frequencies_hz,
         frequency_rms: check.errors.frequency_rms(),

@@ -3,7 +3,7 @@
 use clap::Args;
 use corfem::job::removed_step;
 use corfem::method::linear_algebra::check_length;
-use corfem::method::model::Range;
+use corfem::method::model::Bounds;
 use corfem::method::outer_loop::Settings;
 use corfem::method::step::{Accumulation, StepRule};
 use corfem::present::PresentError;
@@ -61,7 +61,7 @@ impl SettingsArguments {
             (inner.tolerance, settings.later_inner_tolerance) = (first, others);
         }
         if let Some((lower, upper)) = pair("--limits", self.limits.as_deref())? {
-            inner.factor_range = Range::positive("--limits", lower, upper)?;
+            inner.factor_range = Bounds::positive("--limits", lower, upper)?;
         }
         inner.iterations = self
             .iterations

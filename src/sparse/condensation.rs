@@ -6,7 +6,8 @@ use crate::method::assembly::ElementMatrix;
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_length, check_shape};
 use crate::method::model::{
-    DynamicModel, FiniteElementModel, ModalModel, Parameter, ScaledSizes, ScaledStructure, Share,
+    DynamicModel, FiniteElementModel, ModalModel, Parameter, ParameterMatrix, ScaledSizes,
+    ScaledStructure,
 };
 use crate::method::modes::{ModeSet, Modes, solve};
 use crate::method::structure::Structure;
@@ -123,7 +124,7 @@ impl LargeModel {
         condensed: &LargeCondensation,
         at: &ScaledSizes,
         shapes: &DMatrix<f64>,
-    ) -> Result<Vec<Share>, Error> {
+    ) -> Result<Vec<ParameterMatrix>, Error> {
         let transposed = condensed.transposed_shapes(shapes)?;
         Ok(self.scaled.shares(
             at,

@@ -7,7 +7,7 @@ use crate::method::appendix_a::{Condensed, dynamic_stiffness};
 use crate::method::assembly::{ElementMatrix, check_element, stiffness_entries};
 use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_length, check_symmetric, symmetric_part};
-use crate::method::model::{ModalModel, Pair, Range, Share};
+use crate::method::model::{Bounds, ModalModel, Pair, ParameterMatrix};
 use crate::method::modes::{ModeSet, Modes, check_count};
 use crate::method::structure::positive;
 use nalgebra::DMatrix;
@@ -31,7 +31,7 @@ pub struct WholeParameter {
     /// Its part of the first matrices.
     pub share: WholeShare,
     /// Bounds on its factor, if any.
-    pub range: Option<Range>,
+    pub range: Option<Bounds>,
 }
 
 /// A structure at all its degrees of freedom.
@@ -77,9 +77,9 @@ impl WholeModel {
                 }
                 WholeShare::Mass(matrix) => check("mass of a parameter", matrix)?,
             }
-            if let Some(Range { lower, upper }) = *range {
+            if let Some(Bounds { lower, upper }) = *range {
                 let what = format!("factor of parameter {name}");
-                if !Range::positive(&what, lower, upper)?.contains(1.0) {
+                if !Bounds::positive(&what, lower, upper)?.contains(1.0) {
                     return Err(Error::StartOutside { what, lower, upper });
                 }
             }
@@ -102,7 +102,7 @@ impl WholeModel {
     }
 
     /// The bounds on every parameter's factor.
-    pub fn ranges(&self) -> Vec<Option<Range>> {
+    pub fn ranges(&self) -> Vec<Option<Bounds>> {
         self.parameters
             .iter()
             .map(|parameter| parameter.range)
@@ -212,20 +212,26 @@ impl WholeModel {
     }
 
     /// Every parameter's present share in shapes $V$ at all DOF, $c_e V^t K_e V$ or $c_e V^t M_e V$.
-    fn shares(&self, factors: &[f64], shapes: &DMatrix<f64>) -> Result<Vec<Share>, Error> {
+    fn shares(
+        &self,
+        factors: &[f64],
+        shapes: &DMatrix<f64>,
+    ) -> Result<Vec<ParameterMatrix>, Error> {
         let transposed = shapes.transpose();
         let share = |(parameter, &factor): (&WholeParameter, &f64)| {
             Ok(match &parameter.share {
                 WholeShare::Stiffness(matrix) => {
-                    Share::Stiffness(factor * matrix.through(&transposed)?)
+                    ParameterMatrix::Stiffness(factor * matrix.through(&transposed)?)
                 }
                 WholeShare::Elements(members) => {
                     let present = members
                         .iter()
                         .map(|(element, size)| (element, factor * size));
-                    Share::Stiffness(sum_of_stiffness(&transposed, present))
+                    ParameterMatrix::Stiffness(sum_of_stiffness(&transposed, present))
                 }
-                WholeShare::Mass(matrix) => Share::Mass(factor * matrix.through(&transposed)?),
+                WholeShare::Mass(matrix) => {
+                    ParameterMatrix::Mass(factor * matrix.through(&transposed)?)
+                }
             })
         };
         self.parameters.iter().zip(factors).map(share).collect()

@@ -7,7 +7,7 @@
 use crate::method::error::Error;
 use crate::method::error_sum::Errors;
 use crate::method::inner_loop::Stop;
-use crate::method::model::Check;
+use crate::method::model::ExactResult;
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::{Settings, correlate};
 use crate::method::pairing::Pairing;
@@ -56,7 +56,7 @@ impl Agreement {
         }
     }
 
-    fn from_check(check: &Check) -> Self {
+    fn from_check(check: &ExactResult) -> Self {
         Self::new(&check.modes, &check.pairing, &check.errors)
     }
 }

@@ -12,7 +12,7 @@ pub use run::{ANOMALY_RATIO, Anomaly, BUILT_IN, CaseResult, anomaly, run_case, r
 use crate::method::error_sum::ErrorMeasure;
 use crate::method::inner_loop::InnerSettings;
 use crate::method::linear_algebra::check_length;
-use crate::method::model::{FiniteElementModel, Parameter, Range};
+use crate::method::model::{Bounds, FiniteElementModel, Parameter};
 use crate::method::modes::Modes;
 use crate::method::outer_loop::Settings;
 use crate::method::step::StepRule;
@@ -56,7 +56,7 @@ pub struct Case {
     /// Area of every rod, in² (Table 2).
     pub rod_area: f64,
     /// Bounds on the gages, in, if the paper set any.
-    pub gage_range: Option<Range>,
+    pub gage_range: Option<Bounds>,
     /// Which panels share a factor.
     pub grouping: Grouping,
     /// Tolerances and passes.
@@ -117,7 +117,7 @@ impl Case {
                 .collect::<Result<_, CaseError>>()?,
             rod_area: table.required("16-39", &gage_heading)?,
             // Case 3 kept its gages between its own two; the others were bounded by the factor limits alone.
-            gage_range: (number == 3).then_some(Range {
+            gage_range: (number == 3).then_some(Bounds {
                 lower: 0.007,
                 upper: 0.013,
             }),
@@ -171,7 +171,7 @@ impl Case {
                 .collect();
         }
         // A group may have panels at both gage bounds, and no panel may leave them by more than their ratio.
-        let ratio = |range: Range| Range {
+        let ratio = |range: Bounds| Bounds {
             lower: range.lower / range.upper,
             upper: range.upper / range.lower,
         };

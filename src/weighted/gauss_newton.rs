@@ -5,7 +5,7 @@ use super::residuals::{jacobian, residuals};
 use crate::method::error::{Error, positive_setting};
 use crate::method::error_sum::ModeWeight;
 use crate::method::linear_algebra::check_length;
-use crate::method::model::{Check, ModalModel, Range};
+use crate::method::model::{Bounds, ExactResult, ModalModel};
 use crate::sparse::random::uniform;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -61,7 +61,7 @@ pub struct WeightedIteration {
     /// Factor of each parameter on its first value, after the step.
     pub factors: Vec<f64>,
     /// The exact solution there.
-    pub check: Check,
+    pub check: ExactResult,
     /// The objective there.
     pub objective: f64,
 }
@@ -70,7 +70,7 @@ pub struct WeightedIteration {
 #[derive(Debug, Clone)]
 pub struct WeightedCorrelation {
     /// The exact solution at the first factors.
-    pub initial: Check,
+    pub initial: ExactResult,
     /// Accepted steps.
     pub iterations: Vec<WeightedIteration>,
     /// Factor of each parameter on its first value, where it ended.
@@ -88,7 +88,7 @@ pub struct WeightedCorrelation {
 /// Where a correlation stands.
 struct Iterate {
     factors: Vec<f64>,
-    exact: Check,
+    exact: ExactResult,
     jacobian: DMatrix<f64>,
     objective: f64,
     gradient: DVector<f64>,
@@ -117,7 +117,7 @@ struct Iterate {
 pub fn gauss_newton<E: From<Error>>(
     mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
     first: &[f64],
-    ranges: &[Option<Range>],
+    ranges: &[Option<Bounds>],
     weights: &[ModeWeight],
     settings: &WeightedSettings,
 ) -> Result<WeightedCorrelation, E> {
@@ -127,10 +127,10 @@ pub fn gauss_newton<E: From<Error>>(
     ranges
         .iter()
         .flatten()
-        .try_for_each(|r| Range::positive("parameter limits", r.lower, r.upper).map(drop))?;
+        .try_for_each(|r| Bounds::positive("parameter limits", r.lower, r.upper).map(drop))?;
     let prior = settings.prior_deviation.powi(-2);
     let mut place_at = |factors: Vec<f64>| -> Result<Iterate, E> {
-        let within = |(&factor, range): (&f64, &Option<Range>)| {
+        let within = |(&factor, range): (&f64, &Option<Bounds>)| {
             range.map_or(factor, |range| range.clamp(factor))
         };
         let factors: Vec<f64> = factors.iter().zip(ranges).map(within).collect();
@@ -161,17 +161,17 @@ pub fn gauss_newton<E: From<Error>>(
             curvature,
             ..
         } = &place;
-        let room = |(range, factor): (&Option<Range>, &f64)| {
-            let range = range.unwrap_or(Range {
+        let room = |(range, factor): (&Option<Bounds>, &f64)| {
+            let range = range.unwrap_or(Bounds {
                 lower: 0.0,
                 upper: f64::INFINITY,
             });
-            Range {
+            Bounds {
                 lower: (range.lower / factor).ln(),
                 upper: (range.upper / factor).ln(),
             }
         };
-        let room: Vec<Range> = ranges.iter().zip(factors).map(room).collect();
+        let room: Vec<Bounds> = ranges.iter().zip(factors).map(room).collect();
         let is_free = |&e: &usize| {
             if gradient[e] > 0.0 {
                 room[e].lower < 0.0
@@ -241,7 +241,7 @@ fn bounded_step(
     curvature: &DMatrix<f64>,
     gradient: &DVector<f64>,
     mut free: Vec<usize>,
-    room: &[Range],
+    room: &[Bounds],
     damping: f64,
 ) -> Result<DVector<f64>, Error> {
     let mut step = DVector::zeros(gradient.len());
@@ -277,7 +277,7 @@ fn bounded_step(
 /// Those of [`gauss_newton`]; [`Error::Empty`] without starts.
 pub fn from_several_starts<E: From<Error>>(
     mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
-    ranges: &[Option<Range>],
+    ranges: &[Option<Bounds>],
     weights: &[ModeWeight],
     settings: &WeightedSettings,
     starts: usize,

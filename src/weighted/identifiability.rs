@@ -2,7 +2,7 @@
 
 use crate::method::error::{Error, at_least_one, positive_setting};
 use crate::method::linear_algebra::{as_faer, check_finite, check_length};
-use crate::method::model::Range;
+use crate::method::model::Bounds;
 use nalgebra::DMatrix;
 use serde::Serialize;
 
@@ -120,11 +120,11 @@ impl Identifiability {
     ///
     /// # Errors
     /// [`Error::WrongShape`] unless there is one factor per parameter.
-    pub fn intervals(&self, factors: &[f64]) -> Result<Vec<Range>, Error> {
+    pub fn intervals(&self, factors: &[f64]) -> Result<Vec<Bounds>, Error> {
         check_length("parameter factors", factors.len(), self.deviations.len())?;
         let interval = |(&factor, &deviation): (&f64, &f64)| {
             let ratio = (NORMAL_95 * deviation).exp();
-            Range {
+            Bounds {
                 lower: factor / ratio,
                 upper: factor * ratio,
             }

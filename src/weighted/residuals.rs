@@ -4,7 +4,7 @@ use crate::method::appendix_c::SMALLEST_SEPARATION;
 use crate::method::error::Error;
 use crate::method::error_sum::ModeWeight;
 use crate::method::linear_algebra::{finite, finite_list};
-use crate::method::model::{ModalModel, Share, check_weights};
+use crate::method::model::{ModalModel, ParameterMatrix, check_weights};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::Pairing;
 use crate::weighted::noise::Noise;
@@ -94,9 +94,9 @@ pub fn jacobian(model: &ModalModel, weights: &[ModeWeight]) -> Result<DMatrix<f6
     );
     let mut jacobian = DMatrix::zeros(rows * test.len(), count);
     for (j, &i) in model.exact.pairing.analysis_mode.iter().enumerate() {
-        let change = |r: usize, share: &Share| match share {
-            Share::Stiffness(beta) => beta[(r, i)],
-            Share::Mass(alpha) => -k[i] * alpha[(r, i)],
+        let change = |r: usize, share: &ParameterMatrix| match share {
+            ParameterMatrix::Stiffness(beta) => beta[(r, i)],
+            ParameterMatrix::Mass(alpha) => -k[i] * alpha[(r, i)],
         };
         let ratio = (k[i] / test.omega_squared[j]).sqrt();
         // The share of every other mode that each parameter adds to this one (n × p).

@@ -2,7 +2,7 @@
 //! those of the whole model.
 
 use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, ModalModel, Share};
+use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::method::pairing::{modal_assurance, pair_modes};
 use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
@@ -104,15 +104,17 @@ pub fn analyze_condensed(
     let b = condensed.transformation.transpose();
     let share = |(parameter, &factor): (&WholeParameter, &f64)| {
         Ok(match &parameter.share {
-            WholeShare::Stiffness(matrix) => Share::Stiffness(factor * matrix.through(&b)?),
-            WholeShare::Mass(matrix) => Share::Mass(factor * matrix.through(&b)?),
+            WholeShare::Stiffness(matrix) => {
+                ParameterMatrix::Stiffness(factor * matrix.through(&b)?)
+            }
+            WholeShare::Mass(matrix) => ParameterMatrix::Mass(factor * matrix.through(&b)?),
             WholeShare::Elements(members) => {
                 let of_element = members.iter().map(|(element, size)| {
                     let own = b.select_columns(&element.dof);
                     factor * *size * &own * &element.unit * own.transpose()
                 });
                 let none = DMatrix::zeros(b.nrows(), b.nrows());
-                Share::Stiffness(of_element.fold(none, |sum, share| sum + share))
+                ParameterMatrix::Stiffness(of_element.fold(none, |sum, share| sum + share))
             }
         })
     };

@@ -7,7 +7,7 @@ use corfem::method::assembly::{ElementMatrix, element_matrices};
 use corfem::method::error::Error;
 use corfem::method::error_sum::Errors;
 use corfem::method::model::{
-    DynamicModel, FiniteElementModel, ModalModel, Parameter, Range, Scaled, Share,
+    Bounds, DynamicModel, FiniteElementModel, ModalModel, Parameter, ParameterMatrix, Scaled,
 };
 use corfem::method::modes::{ModeSet, solve};
 use corfem::method::pairing::Pairing;
@@ -122,13 +122,13 @@ impl Draws {
         metal
     }
 
-    pub fn shares(&mut self, size: usize) -> Vec<Share> {
+    pub fn shares(&mut self, size: usize) -> Vec<ParameterMatrix> {
         let share = |draws: &mut Self| {
             let matrix = draws.symmetric(size);
             if draws.below(3) == 0 {
-                Share::Mass(matrix)
+                ParameterMatrix::Mass(matrix)
             } else {
-                Share::Stiffness(matrix)
+                ParameterMatrix::Stiffness(matrix)
             }
         };
         (0..self.below(4)).map(|_| share(self)).collect()
@@ -146,9 +146,13 @@ impl Draws {
     /// A spring chain and its modal model: what comes out of a constructor, for the loops to be given bad settings and factors.
     pub fn chain(&mut self) -> Option<ModalModel> {
         let count = 1 + self.below(4);
-        let share = |spring: usize| Share::Stiffness(spring_stiffness(count, spring, 100.0));
-        let shares: Vec<Share> = (0..count).map(share).collect();
-        let stiffness = shares.iter().map(Share::matrix).sum::<DMatrix<f64>>();
+        let share =
+            |spring: usize| ParameterMatrix::Stiffness(spring_stiffness(count, spring, 100.0));
+        let shares: Vec<ParameterMatrix> = (0..count).map(share).collect();
+        let stiffness = shares
+            .iter()
+            .map(ParameterMatrix::matrix)
+            .sum::<DMatrix<f64>>();
         let mass = DMatrix::identity(count, count);
         let test = solve(&(1.2 * &stiffness), &mass, count).ok()?;
         DynamicModel {
@@ -325,7 +329,7 @@ impl Draws {
                 place + usize::from(place == 0)
             };
             let mut range = || {
-                (draws.below(3) == 0).then(|| Range {
+                (draws.below(3) == 0).then(|| Bounds {
                     lower: draws.number(),
                     upper: draws.number(),
                 })

@@ -5,7 +5,7 @@ use super::vibrations::{Chain, chain_and_truth};
 use corfem::method::derivatives::DerivativeRule;
 use corfem::method::error_sum::ErrorMeasure;
 use corfem::method::inner_loop::{InnerRun, InnerSettings};
-use corfem::method::model::{ModalModel, Range};
+use corfem::method::model::{Bounds, ModalModel};
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
 use corfem::method::state::UpdateRule;
 use corfem::method::step::{Accumulation, StepRule};
@@ -38,7 +38,7 @@ pub struct Given {
     /// Factors of earlier passes.
     pub base: Vec<f64>,
     /// Bounds on the products.
-    pub total_ranges: Vec<Option<Range>>,
+    pub total_ranges: Vec<Option<Bounds>>,
     /// The settings.
     pub settings: InnerSettings,
 }
@@ -72,7 +72,7 @@ fn settings() -> impl Strategy<Value = InnerSettings> {
                 InnerSettings {
                     first_relaxation: relaxations.0,
                     relaxation: relaxations.1,
-                    factor_range: Range { lower, upper },
+                    factor_range: Bounds { lower, upper },
                     tolerance,
                     halvings,
                     iterations,
@@ -100,7 +100,7 @@ pub fn given() -> impl Strategy<Value = Given> {
                 .iter()
                 .zip(&base)
                 .map(|(range, base)| {
-                    range.map(|(lower, upper)| Range {
+                    range.map(|(lower, upper)| Bounds {
                         lower: base * lower,
                         upper: base * upper,
                     })
@@ -130,7 +130,12 @@ pub fn assert_error_sum_only_falls(run: &InnerRun) {
 }
 
 /// In every iteration every factor, and every product with the passes before, stays within its bounds.
-pub fn assert_limits_hold(run: &InnerRun, base: &[f64], ranges: &[Option<Range>], factors: Range) {
+pub fn assert_limits_hold(
+    run: &InnerRun,
+    base: &[f64],
+    ranges: &[Option<Bounds>],
+    factors: Bounds,
+) {
     let mut before = vec![1.0; base.len()];
     for iteration in &run.iterations {
         for e in 0..base.len() {

@@ -4,7 +4,7 @@ use crate::common::known::wing::Wing;
 use corfem::chain::rods;
 use corfem::method::assembly::{ElementMatrix, dense_stiffness, element_matrices};
 use corfem::method::error::Error;
-use corfem::method::model::{FiniteElementModel, Parameter, Range};
+use corfem::method::model::{Bounds, FiniteElementModel, Parameter};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, StructuralDof, Structure};
 use corfem::sparse::factorization::FactorizedStiffness;
 use nalgebra::{DMatrix, DVector};
@@ -39,7 +39,7 @@ pub fn spring_chain(springs: &[f64], constrained: [bool; 2]) -> Structure {
 }
 
 /// Elements that change together, with bounds on their sizes.
-pub fn group(name: &str, elements: &[usize], size_range: Option<Range>) -> Parameter {
+pub fn group(name: &str, elements: &[usize], size_range: Option<Bounds>) -> Parameter {
     Parameter {
         size_range,
         ..Parameter::group(name, elements)

@@ -4,7 +4,7 @@
 use super::pairings::pairs_by_sorting;
 use super::strategies::positive_definite;
 use corfem::chain::spring_stiffness;
-use corfem::method::model::{DynamicModel, Share};
+use corfem::method::model::{DynamicModel, ParameterMatrix};
 use corfem::method::modes::{ModeSet, Modes};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
@@ -130,7 +130,7 @@ impl Chain {
         DynamicModel {
             stiffness: shares.iter().sum(),
             mass: self.mass(),
-            shares: shares.into_iter().map(Share::Stiffness).collect(),
+            shares: shares.into_iter().map(ParameterMatrix::Stiffness).collect(),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::common::closed_forms::analytical::ChainEnds;
 use corfem::method::error::Error;
-use corfem::method::model::Range;
+use corfem::method::model::Bounds;
 use corfem::sparse::{
     CountedModes, FINITE, SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes,
 };
@@ -62,7 +62,7 @@ pub fn masses(values: &[f64]) -> SparseMatrix {
 }
 
 /// A building of as many stories as stiffnesses, one mass a floor, each story a parameter.
-pub fn shear_building(stories: &[f64], mass: f64, range: Option<Range>) -> WholeModel {
+pub fn shear_building(stories: &[f64], mass: f64, range: Option<Bounds>) -> WholeModel {
     let count = stories.len();
     let story = |floor: usize| (floor, floor.checked_sub(1), stories[floor]);
     let parameters = (0..count).map(|floor| WholeParameter {

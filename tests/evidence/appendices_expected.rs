@@ -13,7 +13,7 @@ use corfem::method::appendix_c::general::{
     ModalChange, original, recursive_1, recursive_1_converged, recursive_2,
 };
 use corfem::method::derivatives::gradient;
-use corfem::method::model::{DynamicModel, ModalModel, Share};
+use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
 use corfem::method::modes::ModeSet;
 use corfem::method::state::ModalState;
 use corfem::torque_box::Case;
@@ -232,7 +232,7 @@ fn gradients_are_numpys() {
             stiffness, mass, ..
         } = model.matrices(&ones).expect("solved");
         let of_point = |dof: usize| {
-            Share::Mass(DMatrix::from_fn(9, 9, |i, j| {
+            ParameterMatrix::Mass(DMatrix::from_fn(9, 9, |i, j| {
                 if i == dof { mass[(i, j)] } else { 0.0 }
             }))
         };

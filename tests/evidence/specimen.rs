@@ -4,7 +4,7 @@ use crate::common::known::Known;
 use crate::common::known::delta_wing::correlation;
 use corfem::job::preflight::{Finding, preflight};
 use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, Range};
+use corfem::method::model::{Bounds, DynamicModel};
 use corfem::method::modes::ModeSet;
 use corfem::method::outer_loop::Settings;
 use corfem::sparse::LargeModel;
@@ -23,7 +23,7 @@ pub struct Specimen {
     /// How it is correlated.
     pub settings: Settings,
     /// Bounds on its parameters' factors.
-    pub ranges: Vec<Option<Range>>,
+    pub ranges: Vec<Option<Bounds>>,
 }
 
 impl Specimen {

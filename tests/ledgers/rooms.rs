@@ -158,7 +158,7 @@ fn the_tour_is_documentation_alone() {
 
 #[test]
 fn the_check_finds_every_import() {
-    let text = "use crate::method::{modes, model::{Pair,\n    Share}};\nuse super::state;\npub use state::At;";
+    let text = "use crate::method::{modes, model::{Pair,\n    ParameterMatrix}};\nuse super::state;\npub use state::At;";
     let found: Vec<String> = imports(text)
         .iter()
         .map(|path| absolute("a::b", path))
@@ -168,7 +168,7 @@ fn the_check_finds_every_import() {
         [
             "method::modes",
             "method::model::Pair",
-            "method::model::Share",
+            "method::model::ParameterMatrix",
             "a::state"
         ]
     );

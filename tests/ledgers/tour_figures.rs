@@ -5,7 +5,7 @@ use crate::ledgers::tour_figures_box::{bounds, demands, deviations, gages, histo
 use corfem::chain::spring_stiffness;
 use corfem::method::derivatives::{DerivativeRule, error_changes};
 use corfem::method::error_sum::{ErrorMeasure, Errors};
-use corfem::method::model::{DynamicModel, ModalModel, Share};
+use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
 use corfem::method::modes::solve;
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::state::{ModalState, UpdateRule};
@@ -82,7 +82,7 @@ fn too_stiff(shares: Vec<DMatrix<f64>>, too_stiff: f64) -> ModalModel {
     let count = stiffness.nrows();
     let mass = DMatrix::identity(count, count);
     let test = solve(&(&stiffness / too_stiff), &mass, count).expect("modes");
-    let shares = shares.into_iter().map(Share::Stiffness).collect();
+    let shares = shares.into_iter().map(ParameterMatrix::Stiffness).collect();
     DynamicModel {
         stiffness,
         mass,
@@ -177,11 +177,11 @@ fn first_step() -> Sketch {
 fn stories() -> Sketch {
     let analyze = |factors: &[f64]| {
         let share = |(story, factor): (usize, &f64)| {
-            Share::Stiffness(spring_stiffness(4, story, 4000.0 * factor))
+            ParameterMatrix::Stiffness(spring_stiffness(4, story, 4000.0 * factor))
         };
-        let shares: Vec<Share> = factors.iter().enumerate().map(share).collect();
+        let shares: Vec<ParameterMatrix> = factors.iter().enumerate().map(share).collect();
         DynamicModel {
-            stiffness: shares.iter().map(Share::matrix).sum(),
+            stiffness: shares.iter().map(ParameterMatrix::matrix).sum(),
             mass: DMatrix::identity(4, 4),
             shares,
         }

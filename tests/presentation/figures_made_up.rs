@@ -5,7 +5,7 @@ use crate::common::drawings::words;
 use crate::common::golden::{Numbers, assert_golden};
 use corfem::job::{Spread, Summary};
 use corfem::method::error_sum::Errors;
-use corfem::method::model::Range;
+use corfem::method::model::Bounds;
 use corfem::present::figures::error_history::{self, PassHistory};
 use corfem::present::figures::factors::{DrawnFactor, Factors};
 use corfem::present::figures::histogram;
@@ -80,7 +80,7 @@ fn factor(name: &str, value: f64) -> DrawnFactor {
 
 #[test]
 fn factors_with_bounds_deviations_and_remarks() {
-    let range = |lower, upper| Some(Range { lower, upper });
+    let range = |lower, upper| Some(Bounds { lower, upper });
     let long = "a name that has fifty letters is cut off after forty";
     let rows = vec![
         DrawnFactor {

@@ -13,7 +13,7 @@ use crate::readers::job_prepared::prepared;
 use approx::assert_relative_eq;
 use corfem::job::{Study, Summary, Vary, run};
 use corfem::method::error::Error;
-use corfem::method::model::Range;
+use corfem::method::model::Bounds;
 use corfem::present::render::text;
 use corfem::present::report::{Derivatives, Report};
 use corfem::present::tables::job::{doubts_table, places_table, study_table, suspects_table};
@@ -46,7 +46,7 @@ fn a_job_has_the_rods_the_grids_and_the_wall_of_its_deck() {
     assert_eq!(
         subject.ranges,
         [
-            Some(Range {
+            Some(Bounds {
                 lower: 0.5,
                 upper: 2.0
             }),
@@ -271,7 +271,7 @@ fn a_case_and_both_wings_have_the_bounds_and_the_places_of_their_models() {
 /// A frequency's derivative by the mass of a parameter, against frequencies of a model with a little more of it.
 #[test]
 fn a_derivative_by_a_mass_is_the_change_of_frequency_with_it() {
-    use corfem::method::model::{DynamicModel, Share};
+    use corfem::method::model::{DynamicModel, ParameterMatrix};
     use nalgebra::DMatrix;
     let (stiffness, share) = (
         DMatrix::from_row_slice(2, 2, &[3.0, -1.0, -1.0, 2.0]),
@@ -279,7 +279,7 @@ fn a_derivative_by_a_mass_is_the_change_of_frequency_with_it() {
     );
     let model = |factor: f64| {
         let mass = DMatrix::<f64>::identity(2, 2) + factor * &share;
-        let shares = vec![Share::Mass(factor * &share)];
+        let shares = vec![ParameterMatrix::Mass(factor * &share)];
         let test =
             corfem::method::modes::solve(&stiffness, &(DMatrix::identity(2, 2) + &share), 2)?
                 .into();

@@ -7,7 +7,7 @@ use crate::common::known::delta_wing::correlation::correlate_wing;
 use crate::common::wing_subjects::wing_subject;
 use corfem::chain::spring_stiffness;
 use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, Range, Share};
+use corfem::method::model::{Bounds, DynamicModel, ParameterMatrix};
 use corfem::method::modes::ModeSet;
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::pairing::Pairing;
@@ -42,10 +42,10 @@ pub fn chain(
         .expect("solved")
         .into();
     let model = |factors: &[f64]| {
-        let shares: Vec<Share> = shares
+        let shares: Vec<ParameterMatrix> = shares
             .iter()
             .zip(factors)
-            .map(|(share, f)| Share::Stiffness(share * *f))
+            .map(|(share, f)| ParameterMatrix::Stiffness(share * *f))
             .collect();
         let stiffness = shares
             .iter()
@@ -60,7 +60,7 @@ pub fn chain(
         .analyze(&test, None)
     };
     let ranges = vec![
-        Some(Range {
+        Some(Bounds {
             lower: 0.8,
             upper: 1.4
         });

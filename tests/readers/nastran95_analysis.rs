@@ -9,7 +9,7 @@ use corfem::files::error::FileError;
 use corfem::files::nastran95::Matrices;
 use corfem::method::elements::unit_stiffness;
 use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, FiniteElementModel, Share};
+use corfem::method::model::{DynamicModel, FiniteElementModel, ParameterMatrix};
 use corfem::torque_box::Case;
 use nalgebra::DMatrix;
 use tempfile::TempDir;
@@ -76,7 +76,7 @@ fn assert_same(found: &DynamicModel, expected: &DynamicModel) {
     same(&found.mass, &expected.mass);
     assert_eq!(found.shares.len(), expected.shares.len());
     for (a, b) in found.shares.iter().zip(&expected.shares) {
-        assert!(matches!(a, Share::Stiffness(_)));
+        assert!(matches!(a, ParameterMatrix::Stiffness(_)));
         same(a.matrix(), b.matrix());
     }
 }

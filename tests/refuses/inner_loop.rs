@@ -5,12 +5,12 @@ use crate::common::loops::chain_problem;
 use crate::common::vibrations::Chain;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, run};
-use corfem::method::model::Range;
+use corfem::method::model::Bounds;
 
 /// Two springs, the given lists, and the default settings with one change.
 fn run_with(
     base: &[f64],
-    total_ranges: &[Option<Range>],
+    total_ranges: &[Option<Bounds>],
     change: impl Fn(&mut InnerSettings),
 ) -> Result<InnerRun, Error> {
     let mut settings = InnerSettings::default();
@@ -55,7 +55,7 @@ fn relaxations_and_tolerance_must_be_positive() {
 #[test]
 fn factor_limits_must_be_in_order() {
     for (low, high) in [(1.5, 0.55), (0.0, 1.5), (1.0, 1.0), (0.5, f64::INFINITY)] {
-        let range = Range {
+        let range = Bounds {
             lower: low,
             upper: high,
         };
@@ -72,7 +72,7 @@ fn factor_limits_must_be_in_order() {
 
 #[test]
 fn total_limits_must_be_in_order() {
-    let crossed = Range {
+    let crossed = Bounds {
         lower: 2.0,
         upper: 0.5,
     };
@@ -110,7 +110,7 @@ fn lists_must_have_one_entry_a_parameter() {
 
 #[test]
 fn a_factor_of_an_earlier_pass_that_is_no_number_is_an_error() {
-    let range = Some(Range {
+    let range = Some(Bounds {
         lower: 0.5,
         upper: 2.0,
     });

@@ -2,7 +2,7 @@
 
 use crate::common::structures::{chain_model as chain, group, spring_chain, unit_material};
 use corfem::method::error::Error;
-use corfem::method::model::{FiniteElementModel, Parameter, Range};
+use corfem::method::model::{Bounds, FiniteElementModel, Parameter};
 use corfem::method::structure::{Element, ElementKind, Structure};
 use corfem::torque_box::Case;
 use corfem::torque_box::error::CaseError;
@@ -16,7 +16,7 @@ fn with_mass(t: DMatrix<f64>, mass: DMatrix<f64>) -> Result<FiniteElementModel, 
 #[test]
 fn bounds_that_no_factor_or_not_the_start_satisfies_are_refused_by_their_parameter() {
     let refused = |elements: &[usize], lower: f64, upper: f64| {
-        let model = chain(vec![group("some", elements, Some(Range { lower, upper }))]).unwrap();
+        let model = chain(vec![group("some", elements, Some(Bounds { lower, upper }))]).unwrap();
         match model.factor_ranges() {
             Err(Error::Limits { what, lower, upper }) => (what, lower, upper, "crossed"),
             Err(Error::StartOutside { what, lower, upper }) => (what, lower, upper, "start"),
@@ -47,7 +47,7 @@ fn bounds_that_no_factor_or_not_the_start_satisfies_are_refused_by_their_paramet
     let error = chain(vec![group(
         "some",
         &[1],
-        Some(Range {
+        Some(Bounds {
             lower: 3.0,
             upper: 4.0,
         }),

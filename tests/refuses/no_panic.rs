@@ -51,8 +51,8 @@ const NOT_CALLED: [&str; 20] = [
     "Parameter::element",
     "Parameter::group",
     "Parameter::of",
-    "Share::map",
-    "Share::matrix",
+    "ParameterMatrix::map",
+    "ParameterMatrix::matrix",
     "StepRule::name",
 ];
 

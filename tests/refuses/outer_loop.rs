@@ -3,7 +3,7 @@
 use crate::common::assert_refused;
 use crate::common::vibrations::Chain;
 use corfem::method::error::Error;
-use corfem::method::model::{ModalModel, Range};
+use corfem::method::model::{Bounds, ModalModel};
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
 
 const TRUTH: [f64; 3] = [1.3, 0.8, 1.1];
@@ -17,7 +17,7 @@ fn analyzed(factors: &[f64]) -> Result<ModalModel, Error> {
 /// Three springs with the given analysis, bounds and a change of the default settings.
 fn correlate_with(
     analyze: impl FnMut(&[f64]) -> Result<ModalModel, Error>,
-    ranges: &[Option<Range>],
+    ranges: &[Option<Bounds>],
     change: impl Fn(&mut Settings),
 ) -> Result<Correlation, Error> {
     let mut settings = Settings::default();
@@ -153,7 +153,7 @@ fn there_must_be_bounds_or_none_for_every_parameter() {
 
 #[test]
 fn bounds_must_be_in_order() {
-    let crossed = Some(Range {
+    let crossed = Some(Bounds {
         lower: 2.0,
         upper: 0.5,
     });

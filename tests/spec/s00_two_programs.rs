@@ -5,7 +5,7 @@ use crate::common::known::delta_wing::DeltaWing;
 use crate::common::known::delta_wing::correlation::first_model;
 use crate::common::tolerances::TWO_PROGRAMS;
 use corfem::method::assembly::{dense_stiffness, lumped_mass};
-use corfem::method::model::{FiniteElementModel, Parameter, Scaled, Share};
+use corfem::method::model::{FiniteElementModel, Parameter, ParameterMatrix, Scaled};
 use corfem::method::modes::{Modes, solve};
 use corfem::method::structure::Structure;
 use corfem::sparse::{LargeModel, WholeModel};
@@ -112,7 +112,7 @@ fn assert_same_matrices(model: &FiniteElementModel, factors: &[f64]) {
     let (stiffness, mass) = (plain.stiffness.norm(), plain.mass.norm());
     assert_eq!(plain.shares.len(), fast.shares.len());
     for (plain, fast) in plain.shares.iter().zip(&fast.shares) {
-        let kind = |share: &Share| matches!(share, Share::Stiffness(_));
+        let kind = |share: &ParameterMatrix| matches!(share, ParameterMatrix::Stiffness(_));
         assert_eq!(kind(plain), kind(fast));
         // Shares add up to the whole matrix, whose norm is their measure: a small share is what large motions leave.
         let whole = if kind(fast) { stiffness } else { mass };

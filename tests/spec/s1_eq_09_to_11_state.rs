@@ -7,7 +7,7 @@ use crate::common::tolerances::{CONVERGED_STATE, MATRIX_ROUND_OFF, PRINTED_RMS, 
 use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
 use corfem::method::appendix_c::recursive_1_converged;
 use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, ModalModel, Share};
+use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
 use corfem::method::modes::ModeSet;
 use corfem::method::state::{MOST_ORDERS, ModalState, ROOT_TOLERANCE, UpdateRule};
 use corfem::torque_box::Case;
@@ -31,7 +31,7 @@ proptest! {
         let problem = problem(&chain, &truth);
         prop_assert_eq!(problem.shares().len(), truth.len());
         prop_assert_eq!(problem.shares().len(), truth.len());
-        let sum: DMatrix<f64> = problem.shares().iter().map(Share::matrix).sum();
+        let sum: DMatrix<f64> = problem.shares().iter().map(ParameterMatrix::matrix).sum();
         let expected = DMatrix::from_diagonal(problem.exact().modes.omega_squared());
         let error = (sum - &expected).amax();
         prop_assert!(error <= MATRIX_ROUND_OFF * expected.amax(), "{error:e}");
@@ -128,7 +128,7 @@ proptest! {
     fn shares_of_the_box_leave_the_rods_out(case in uneven_box()) {
         // The parameters are the panels; what the nine modes have beyond them is the rods' stiffness.
         let problem = problem_of(&case);
-        let panels: DMatrix<f64> = problem.shares().iter().map(Share::matrix).sum();
+        let panels: DMatrix<f64> = problem.shares().iter().map(ParameterMatrix::matrix).sum();
         let rods = DMatrix::from_diagonal(problem.exact().modes.omega_squared()) - panels;
         let lowest = rods.symmetric_eigenvalues().min();
         prop_assert!(lowest >= -MATRIX_ROUND_OFF * problem.exact().modes.omega_squared().amax());
@@ -174,7 +174,7 @@ fn problems_that_do_not_fit_are_refused() {
         Err(Error::Empty { what: "parameters" })
     ));
     assert!(matches!(
-        new(&|model| model.shares[1] = Share::Stiffness(DMatrix::identity(2, 2))),
+        new(&|model| model.shares[1] = ParameterMatrix::Stiffness(DMatrix::identity(2, 2))),
         Err(Error::WrongShape {
             what: "parameter share",
             expected_rows: 3,
@@ -185,7 +185,7 @@ fn problems_that_do_not_fit_are_refused() {
     ));
     assert!(matches!(
         new(&|model| model.shares[2] =
-            Share::Stiffness(dmatrix![1.0, 0.0, 0.0; 2.0, 1.0, 0.0; 0.0, 0.0, 1.0])),
+            ParameterMatrix::Stiffness(dmatrix![1.0, 0.0, 0.0; 2.0, 1.0, 0.0; 0.0, 0.0, 1.0])),
         Err(Error::NotSymmetric {
             what: "parameter share",
             row: 1,

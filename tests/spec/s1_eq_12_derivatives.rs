@@ -4,7 +4,7 @@ use crate::common::boxes::{first_problem, problem_of, uneven_box};
 use crate::common::tolerances::{CENTRAL_DIFFERENCE, CONVERGED_STATE, FIRST_ORDER_REMAINDER};
 use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
 use corfem::method::derivatives::{DERIVATIVE_STEP, HELD_SEPARATION, by_definition, gradient};
-use corfem::method::model::{DynamicModel, ModalModel, Share};
+use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
 use corfem::method::modes::solve;
 use corfem::method::state::{ModalState, UpdateRule};
 use nalgebra::{DMatrix, dmatrix};
@@ -202,7 +202,9 @@ fn derivatives_away_from_the_start_are_those_of_a_new_start() {
 fn close_modes_are_held_to_their_own_shapes() {
     let changes = |apart: f64, coupling: f64| {
         let stiffness = dmatrix![100.0, 0.0; 0.0, 100.0 * (1.0 + apart)];
-        let shares = vec![Share::Stiffness(dmatrix![30.0, coupling; coupling, 50.0])];
+        let shares = vec![ParameterMatrix::Stiffness(
+            dmatrix![30.0, coupling; coupling, 50.0],
+        )];
         let model = DynamicModel {
             shares,
             mass: DMatrix::identity(2, 2),

@@ -16,7 +16,7 @@ use corfem::method::derivatives::{
 };
 use corfem::method::error::Error;
 use corfem::method::error_sum::{ModeWeight, mode_errors};
-use corfem::method::model::{DynamicModel, ModalModel, Share};
+use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
 use corfem::method::modes::ModeSet;
 use corfem::method::modes::solve;
 use corfem::method::state::{ModalState, UpdateRule};
@@ -126,7 +126,7 @@ fn the_gradient_of_weighted_errors_is_their_central_difference() {
 
 /// A model with every share a part of what it was: a tenth of a share changed by 0.1 % is the share changed by 0.01 %.
 fn with_smaller_shares((dynamic, test): &(DynamicModel, ModeSet), part: f64) -> ModalModel {
-    let smaller = |share: &Share| share.map(|matrix| part * matrix);
+    let smaller = |share: &ParameterMatrix| share.map(|matrix| part * matrix);
     let shares = dynamic.shares.iter().map(smaller).collect();
     let dynamic = DynamicModel {
         shares,
@@ -204,7 +204,10 @@ fn derivatives_at_repeated_roots_are_those_of_the_roots() {
     let first = dmatrix![100.0, 0.0; 0.0, 0.0];
     let coupled = dmatrix![50.0, 50.0; 50.0, 50.0];
     let model = DynamicModel {
-        shares: vec![Share::Stiffness(first), Share::Stiffness(coupled)],
+        shares: vec![
+            ParameterMatrix::Stiffness(first),
+            ParameterMatrix::Stiffness(coupled),
+        ],
         mass: DMatrix::identity(2, 2),
         stiffness,
     };
@@ -279,8 +282,8 @@ fn either_rule_gives_changes_for_a_thousandth() {
 #[test]
 fn roots_apart_by_round_off_count_as_equal() {
     let gradient_at = |apart: f64| {
-        let first = Share::Stiffness(dmatrix![100.0, 0.0; 0.0, 0.0]);
-        let coupled = Share::Stiffness(dmatrix![50.0, 50.0; 50.0, 50.0]);
+        let first = ParameterMatrix::Stiffness(dmatrix![100.0, 0.0; 0.0, 0.0]);
+        let coupled = ParameterMatrix::Stiffness(dmatrix![50.0, 50.0; 50.0, 50.0]);
         let stiffness = dmatrix![100.0, 0.0; 0.0, 100.0 * (1.0 + apart)];
         let model = DynamicModel {
             shares: vec![first, coupled],

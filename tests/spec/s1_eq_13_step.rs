@@ -8,7 +8,7 @@ use crate::common::vibrations::chain_and_truth;
 use corfem::method::derivatives::by_definition;
 use corfem::method::error::Error;
 use corfem::method::model::{
-    DynamicModel, FiniteElementModel, ModalModel, Parameter, Range, Share,
+    Bounds, DynamicModel, FiniteElementModel, ModalModel, Parameter, ParameterMatrix,
 };
 use corfem::method::modes::ModeSet;
 use corfem::method::state::ModalState;
@@ -31,8 +31,8 @@ fn changes() -> impl Strategy<Value = (Vec<f64>, Vec<f64>)> {
 }
 
 /// A range around one, wide or narrow.
-fn range() -> impl Strategy<Value = Range> {
-    (0.1..0.99_f64, 1.01..10.0_f64).prop_map(|(lower, upper)| Range { lower, upper })
+fn range() -> impl Strategy<Value = Bounds> {
+    (0.1..0.99_f64, 1.01..10.0_f64).prop_map(|(lower, upper)| Bounds { lower, upper })
 }
 
 proptest! {
@@ -119,7 +119,7 @@ fn by_hand() -> (ModalModel, Vec<f64>) {
     // Test modes of ω = 2 and 4, powers of two, whose shapes are the unit vectors.
     let omega = dvector![2.0, 4.0];
     let share = |relative: DMatrix<f64>| {
-        Share::Stiffness(relative.component_mul(&(&omega * omega.transpose())))
+        ParameterMatrix::Stiffness(relative.component_mul(&(&omega * omega.transpose())))
     };
     let model = DynamicModel {
         stiffness: dmatrix![3.0, 0.0; 0.0, 14.0],
@@ -207,11 +207,11 @@ fn a_parameter_without_stiffness_keeps_one() {
 
 #[test]
 fn limits_by_hand() {
-    let factor_range = Range {
+    let factor_range = Bounds {
         lower: 0.5,
         upper: 1.5,
     };
-    let total_range = Some(Range {
+    let total_range = Some(Bounds {
         lower: 0.7,
         upper: 1.3,
     });
@@ -247,7 +247,7 @@ fn limits_by_hand() {
 #[test]
 fn a_halving_shortens_the_limited_step() {
     // However far beyond the bound the unlimited factor lies: half of the step to 1.5, then a quarter.
-    let factor_range = Range {
+    let factor_range = Bounds {
         lower: 0.5,
         upper: 1.5,
     };
@@ -288,7 +288,7 @@ fn changes_add_on_the_shares_or_multiply_with_the_gages() {
 
 #[test]
 fn crossed_ranges_do_not_panic() {
-    let crossed = Range {
+    let crossed = Bounds {
         lower: 2.0,
         upper: 1.0,
     };
@@ -298,7 +298,7 @@ fn crossed_ranges_do_not_panic() {
 
 #[test]
 fn ranges_are_of_positive_finite_numbers_in_order() {
-    let range = Range::positive("gage", 0.007, 0.013).unwrap();
+    let range = Bounds::positive("gage", 0.007, 0.013).unwrap();
     assert_eq!((range.lower, range.upper), (0.007, 0.013));
     for (low, high) in [
         (0.0, 1.0),
@@ -308,7 +308,7 @@ fn ranges_are_of_positive_finite_numbers_in_order() {
         (1.0, f64::INFINITY),
     ] {
         assert_refused(
-            Range::positive("gage", low, high),
+            Bounds::positive("gage", low, high),
             Error::Limits {
                 what: "gage".into(),
                 lower: low,
@@ -316,6 +316,6 @@ fn ranges_are_of_positive_finite_numbers_in_order() {
             },
         );
     }
-    assert!(Range::positive("gage", f64::NAN, 1.0).is_err());
-    assert!(Range::positive("gage", 0.5, f64::NAN).is_err());
+    assert!(Bounds::positive("gage", f64::NAN, 1.0).is_err());
+    assert!(Bounds::positive("gage", 0.5, f64::NAN).is_err());
 }

@@ -5,7 +5,7 @@ use crate::common::loops::chain_problem;
 use crate::common::tolerances::MATRIX_ROUND_OFF;
 use crate::common::vibrations::chain_and_truth;
 use corfem::method::derivatives::DERIVATIVE_STEP;
-use corfem::method::model::{DynamicModel, ModalModel, Share};
+use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::method::step::{StepRule, stiffness_changes};
 use nalgebra::{DMatrix, DVector};
@@ -37,7 +37,9 @@ impl RankOne {
         let ones = vec![1.0; self.vectors.len()];
         let mass = DMatrix::from_diagonal(&DVector::from_column_slice(&self.mass));
         let share = |e: usize| {
-            Share::Stiffness(self.stiffness[e] * &self.vectors[e] * self.vectors[e].transpose())
+            ParameterMatrix::Stiffness(
+                self.stiffness[e] * &self.vectors[e] * self.vectors[e].transpose(),
+            )
         };
         let shares = (0..ones.len()).map(share).collect();
         let model = DynamicModel {

@@ -5,7 +5,7 @@ use crate::common::tolerances::ROUND_OFF;
 use crate::common::vibrations::Chain;
 use corfem::method::error_sum::ErrorMeasure;
 use corfem::method::inner_loop::{InnerSettings, Stop, run};
-use corfem::method::model::{DynamicModel, Share};
+use corfem::method::model::{DynamicModel, ParameterMatrix};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::step::StepRule;
@@ -17,7 +17,7 @@ fn first_step_over_newtons(modes: usize, measure: ErrorMeasure) -> f64 {
     let chain = Chain::uniform(modes);
     let whole = chain.model(&vec![1.0; modes]);
     let model = DynamicModel {
-        shares: vec![Share::Stiffness(whole.stiffness.clone())],
+        shares: vec![ParameterMatrix::Stiffness(whole.stiffness.clone())],
         ..whole
     };
     let test = solve(&(1.1 * &model.stiffness), &model.mass, modes).expect("modes");
@@ -72,7 +72,7 @@ fn doubling_every_test_mode_changes_neither_factors_nor_stop() {
     let chain = Chain::uniform(3);
     let one = chain.model(&[1.0; 3]);
     let one = DynamicModel {
-        shares: vec![Share::Stiffness(one.stiffness.clone())],
+        shares: vec![ParameterMatrix::Stiffness(one.stiffness.clone())],
         ..one
     };
     let by = |model: &DynamicModel| {

@@ -8,7 +8,7 @@ use crate::common::loops::{
 use crate::common::vibrations::chain_and_truth;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
-use corfem::method::model::{ModalModel, Range};
+use corfem::method::model::{Bounds, ModalModel};
 use corfem::method::state::ModalState;
 use corfem::torque_box::Case;
 use corfem::torque_box::wing_box::Panel;
@@ -29,14 +29,14 @@ fn run_given(given: &Given) -> Result<(ModalModel, InnerRun), TestCaseError> {
 }
 
 /// A box corrected between 0.007 and 0.013 in of every panel.
-fn limited_run(case: &Case) -> (InnerRun, Vec<Option<Range>>) {
+fn limited_run(case: &Case) -> (InnerRun, Vec<Option<Bounds>>) {
     let of_panel = |panel: &Panel| {
-        Some(Range {
+        Some(Bounds {
             lower: 0.007 / panel.gage,
             upper: 0.013 / panel.gage,
         })
     };
-    let ranges: Vec<Option<Range>> = case.panels.iter().map(of_panel).collect();
+    let ranges: Vec<Option<Bounds>> = case.panels.iter().map(of_panel).collect();
     let run = run(
         &problem_of(case),
         &[1.0; 15],

@@ -7,7 +7,7 @@ use corfem::method::appendix_c::{Perturbed, first_order, normalize_with_mass, re
 use corfem::method::error::Error;
 use corfem::method::error_sum::errors;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
-use corfem::method::model::{ModalModel, Share};
+use corfem::method::model::{ModalModel, ParameterMatrix};
 use corfem::method::modes::ModeSet;
 use corfem::method::pairing::pair_modes;
 use corfem::method::state::UpdateRule;
@@ -66,7 +66,7 @@ fn the_converged_recursion_makes_the_history_of_the_eigensolution() {
 
 /// β of given factors on a model's parameters.
 fn change_by(problem: &ModalModel, factors: &[f64]) -> DMatrix<f64> {
-    let of_parameter = |(share, factor): (&Share, &f64)| (factor - 1.0) * share.matrix();
+    let of_parameter = |(share, factor): (&ParameterMatrix, &f64)| (factor - 1.0) * share.matrix();
     problem.shares().iter().zip(factors).map(of_parameter).sum()
 }
 

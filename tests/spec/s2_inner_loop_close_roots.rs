@@ -4,7 +4,7 @@ use crate::common::tolerances::{ROUND_OFF, STOPPED_FACTOR, STOPPED_FACTOR_BY_DEF
 use corfem::method::appendix_c::LARGEST_UNSETTLED_CHANGE;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerSettings, Stop, run};
-use corfem::method::model::{DynamicModel, ModalModel, Range, Share};
+use corfem::method::model::{Bounds, DynamicModel, ModalModel, ParameterMatrix};
 use corfem::method::modes::solve;
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::state::{MOST_ORDERS, ModalState, UpdateRule};
@@ -15,7 +15,7 @@ use nalgebra::{DMatrix, dmatrix};
 fn repeated_roots_that_nothing_couples_are_corrected_by_either_rule() {
     let stiffness = DMatrix::identity(2, 2) * 100.0;
     let model = DynamicModel {
-        shares: vec![Share::Stiffness(stiffness.clone())],
+        shares: vec![ParameterMatrix::Stiffness(stiffness.clone())],
         mass: DMatrix::identity(2, 2),
         stiffness,
     };
@@ -40,7 +40,7 @@ fn coupled(missing: f64) -> ModalModel {
     let mass = DMatrix::identity(2, 2);
     let test = solve(&(&stiffness + missing * &coupling), &mass, 2).unwrap();
     let model = DynamicModel {
-        shares: vec![Share::Stiffness(coupling)],
+        shares: vec![ParameterMatrix::Stiffness(coupling)],
         stiffness,
         mass,
     };
@@ -70,7 +70,7 @@ fn roots_that_do_not_settle_are_an_error_and_not_an_answer() {
     }
     // In the loop such a step is halved; when none settles, the first is an error.
     let by = |halvings| {
-        let factor_range = Range {
+        let factor_range = Bounds {
             lower: 0.05,
             upper: 8.0,
         };
@@ -94,7 +94,7 @@ fn modes_that_meet_end_a_correlation_begun() {
     let of = |first: f64, second: f64, coupling: f64| {
         let stiffness = dmatrix![first, 0.0; 0.0, second];
         DynamicModel {
-            shares: vec![Share::Stiffness(
+            shares: vec![ParameterMatrix::Stiffness(
                 &stiffness + dmatrix![0.0, coupling; coupling, 0.0],
             )],
             mass: DMatrix::identity(2, 2),

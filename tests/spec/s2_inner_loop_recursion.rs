@@ -5,7 +5,7 @@ use crate::common::appendix_c::three_mass_chain;
 use crate::common::assert_refused;
 use crate::common::tolerances::EIGEN_ROUND_OFF;
 use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, ModalModel, Share};
+use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
 use corfem::method::modes::ModeSet;
 use corfem::method::state::{ModalState, UpdateRule};
 use nalgebra::{DMatrix, dmatrix};
@@ -25,7 +25,7 @@ fn chain() -> ModalModel {
         shares: grounds
             .into_iter()
             .chain(betweens)
-            .map(Share::Stiffness)
+            .map(ParameterMatrix::Stiffness)
             .collect(),
     };
     model.analyze(&test, Some(3)).expect("a held chain")
@@ -96,7 +96,7 @@ fn mass_that_is_taken_whole_loses_the_root() {
     let model = DynamicModel {
         stiffness: dmatrix![1.0, 0.0; 0.0, 4.0],
         mass: DMatrix::identity(2, 2),
-        shares: vec![Share::Mass(dmatrix![0.0, 0.0; 0.0, 1.0])],
+        shares: vec![ParameterMatrix::Mass(dmatrix![0.0, 0.0; 0.0, 1.0])],
     };
     let test = ModeSet::from_measured(&[0.1, 0.4], &DMatrix::identity(2, 2)).unwrap();
     let model = model.analyze(&test, None).unwrap();

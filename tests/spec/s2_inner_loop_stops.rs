@@ -7,7 +7,7 @@ use crate::common::vibrations::Chain;
 use corfem::method::error::Error;
 use corfem::method::error_sum::ErrorMeasure;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
-use corfem::method::model::{DynamicModel, ModalModel, Range, Share};
+use corfem::method::model::{Bounds, DynamicModel, ModalModel, ParameterMatrix};
 use corfem::method::modes::solve;
 use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::step::{Limit, StepRule};
@@ -98,7 +98,7 @@ fn a_step_that_overshoots_is_halved() {
 fn a_step_too_far_for_the_perturbation_is_halved() {
     // Springs of 2, 1/2 and 1 times: the whole step loses a root, half of it raises the error sum, a quarter is good.
     let problem = chain_problem(&Chain::uniform(3), &[2.0, 0.5, 1.0]);
-    let wide = Range {
+    let wide = Bounds {
         lower: 0.05,
         upper: 20.0,
     };
@@ -132,8 +132,8 @@ fn a_step_beyond_stability_is_halved_under_the_eigensolution_too() {
         stiffness: dmatrix![100.0],
         mass: dmatrix![1.0],
         shares: vec![
-            Share::Stiffness(dmatrix![300.0]),
-            Share::Stiffness(dmatrix![-200.0]),
+            ParameterMatrix::Stiffness(dmatrix![300.0]),
+            ParameterMatrix::Stiffness(dmatrix![-200.0]),
         ],
     };
     let test = solve(&dmatrix![81.0], &model.mass, 1).unwrap();

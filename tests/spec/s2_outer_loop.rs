@@ -6,7 +6,7 @@ use crate::common::vibrations::{chain_and_truth, error_sum_by_definition};
 use corfem::method::error::Error;
 use corfem::method::error_sum::Errors;
 use corfem::method::inner_loop::InnerSettings;
-use corfem::method::model::Range;
+use corfem::method::model::Bounds;
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::state::UpdateRule;
 use corfem::method::step::Accumulation;
@@ -106,9 +106,9 @@ proptest! {
         (chain, truth) in chain_and_truth(),
         bounds in prop::collection::vec((0.8..0.95_f64, 1.05..1.2_f64), 5),
     ) {
-        let ranges: Vec<Option<Range>> = bounds[..truth.len()]
+        let ranges: Vec<Option<Bounds>> = bounds[..truth.len()]
             .iter()
-            .map(|&(lower, upper)| Some(Range { lower, upper }))
+            .map(|&(lower, upper)| Some(Bounds { lower, upper }))
             .collect();
         let settings = Settings { least_passes: 3, most_passes: 3, ..Settings::default() };
         let test = chain.modes(&truth);

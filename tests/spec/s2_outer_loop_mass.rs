@@ -64,7 +64,7 @@ fn stiffness_and_mass_change_together() {
 #[test]
 fn mass_limits_hold() {
     let wrong = [1.3, 0.8, 1.2, 0.75, 1.25, 0.9, 1.1, 0.85, 1.15];
-    let range = corfem::method::model::Range::positive("factor", 0.9, 1.1).expect("a range");
+    let range = corfem::method::model::Bounds::positive("factor", 0.9, 1.1).expect("a range");
     let parameters = point_masses()
         .into_iter()
         .map(|p| Parameter {

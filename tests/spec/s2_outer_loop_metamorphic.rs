@@ -4,7 +4,7 @@
 //! pass and end at the same factors and the same error sum.
 
 use crate::common::tolerances::SAME_CORRELATION;
-use corfem::method::model::{FiniteElementModel, Parameter, Range};
+use corfem::method::model::{Bounds, FiniteElementModel, Parameter};
 use corfem::method::modes::ModeSet;
 use corfem::method::outer_loop::{Correlation, correlate};
 use corfem::method::structure::{Element, ElementKind, Grid, Structure};
@@ -206,7 +206,7 @@ fn millimeters_and_newtons_give_the_same_factors() {
                 .iter_mut()
                 .flat_map(|of| &mut of.size_range)
             {
-                *range = Range {
+                *range = Bounds {
                     lower: range.lower * length,
                     upper: range.upper * length,
                 };
@@ -254,7 +254,7 @@ fn a_panel_is_two_of_half_its_gage() {
             given.elements.extend(twins);
             for parameter in &mut given.parameters {
                 parameter.members.push(parameter.members[0] + 200);
-                let half = |range: Range| Range {
+                let half = |range: Bounds| Bounds {
                     lower: 0.5 * range.lower,
                     upper: 0.5 * range.upper,
                 };

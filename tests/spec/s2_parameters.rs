@@ -4,7 +4,7 @@ use crate::common::matrices::relative_distance;
 use crate::common::structures::{chain_model as chain, group};
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::torque_boxes::{case, factors, with_every_element, with_parameters};
-use corfem::method::model::{Parameter, Range, Scaled};
+use corfem::method::model::{Bounds, Parameter, Scaled};
 use corfem::torque_box::Case;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
@@ -63,7 +63,7 @@ proptest! {
     /// Factors within their range keep every element of the parameter within its bounds, those outside do not.
     #[test]
     fn factor_ranges_keep_sizes_within_bounds(lower in 0.5..2.0_f64, upper in 8.0..20.0_f64, beyond in 1e-6..0.1_f64) {
-        let model = chain(vec![group("all", &[1, 2, 3], Some(Range { lower, upper }))]).unwrap();
+        let model = chain(vec![group("all", &[1, 2, 3], Some(Bounds { lower, upper }))]).unwrap();
         let range = model.factor_ranges().unwrap()[0].unwrap();
         let within = |factor: f64| model.at(&[factor]).unwrap().sizes.iter().all(|&size| {
             size >= lower * (1.0 - ROUND_OFF) && size <= upper * (1.0 + ROUND_OFF)
@@ -88,7 +88,7 @@ fn a_model_keeps_what_it_was_made_of() {
         (name.as_str(), *scaled, members.as_slice()),
         ("2", Scaled::Stiffness, &[2][..])
     );
-    let range = Range {
+    let range = Bounds {
         lower: 1.0,
         upper: 5.0,
     };
@@ -118,7 +118,7 @@ fn a_model_keeps_what_it_was_made_of() {
 
 #[test]
 fn factor_ranges_are_size_bounds_over_first_sizes() {
-    let bounds = |lower, upper| Some(Range { lower, upper });
+    let bounds = |lower, upper| Some(Bounds { lower, upper });
     let model = chain(vec![
         Parameter::element(1, bounds(1.0, 3.0)),
         Parameter::element(2, None),

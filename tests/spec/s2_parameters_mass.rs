@@ -11,7 +11,7 @@ use corfem::method::derivatives::{DERIVATIVE_STEP, by_definition};
 use corfem::method::elements::corner_volumes;
 use corfem::method::error::Error;
 use corfem::method::geometry::Geometry;
-use corfem::method::model::{FiniteElementModel, ModalModel, Parameter, Scaled, Share};
+use corfem::method::model::{FiniteElementModel, ModalModel, Parameter, ParameterMatrix, Scaled};
 use corfem::method::modes::ModeSet;
 use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::structure::Structure;
@@ -117,7 +117,7 @@ fn mass_shares_sum_to_the_mass() {
         let dynamic = model.matrices(&factors).expect("held");
         let mut sum = DMatrix::zeros(9, 9);
         for share in &dynamic.shares {
-            assert!(matches!(share, Share::Mass(_)));
+            assert!(matches!(share, ParameterMatrix::Mass(_)));
             sum += share.matrix();
         }
         assert_relative_eq!(
@@ -208,8 +208,8 @@ fn first_order_state(problem: &ModalModel, factors: &[f64]) -> DVector<f64> {
     let (mut beta, mut alpha) = (DMatrix::zeros(count, count), DMatrix::zeros(count, count));
     for (share, factor) in problem.shares().iter().zip(factors) {
         match share {
-            Share::Stiffness(matrix) => beta += (factor - 1.0) * matrix,
-            Share::Mass(matrix) => alpha += (factor - 1.0) * matrix,
+            ParameterMatrix::Stiffness(matrix) => beta += (factor - 1.0) * matrix,
+            ParameterMatrix::Mass(matrix) => alpha += (factor - 1.0) * matrix,
         }
     }
     let change = ModalChange::of_vibrations(problem.exact().modes.omega_squared(), beta, alpha);

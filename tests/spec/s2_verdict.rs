@@ -4,7 +4,7 @@ use crate::common::loops::correlate_chain;
 use crate::common::tolerances::ROUND_OFF;
 use crate::common::vibrations::Chain;
 use corfem::method::error_sum::{ModeError, errors, mode_errors};
-use corfem::method::model::Range;
+use corfem::method::model::Bounds;
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
 use corfem::method::verdict::{Outcome, Verdict};
 use corfem::present::verdict::verdict_in_words;
@@ -47,7 +47,7 @@ fn every_outcome_is_said_as_what_it_is() {
     let (chain, ranges) = (
         Chain::uniform(3),
         [
-            Some(Range {
+            Some(Bounds {
                 lower: 0.9,
                 upper: 1.1,
             }),

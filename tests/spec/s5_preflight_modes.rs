@@ -8,7 +8,7 @@ use corfem::job::preflight::{
     Change, FACTORS, Finding, FrequenciesExchanged, LARGEST_TOLERANCE, preflight,
 };
 use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, Range};
+use corfem::method::model::{Bounds, DynamicModel};
 use corfem::method::outer_loop::Settings;
 
 #[test]
@@ -143,13 +143,13 @@ fn two_mistakes_at_once_are_both_named() {
 fn tolerances_in_percent_and_bounds_that_exclude_the_start_are_named() {
     for right in [case(3), wing(), chain()] {
         let ranges = vec![
-            Some(Range {
+            Some(Bounds {
                 lower: 0.5,
                 upper: 2.0
             });
             right.ranges.len()
         ];
-        let found = |settings: &Settings, ranges: &[Option<Range>]| {
+        let found = |settings: &Settings, ranges: &[Option<Bounds>]| {
             preflight(&right.model, &right.test, settings, ranges).unwrap()
         };
         assert_eq!(found(&right.settings, &ranges), []);
@@ -184,12 +184,12 @@ fn tolerances_in_percent_and_bounds_that_exclude_the_start_are_named() {
             [percent("frequency_tolerance", 1.5)]
         );
         let mut wrong = ranges.clone();
-        wrong[2] = Some(Range {
+        wrong[2] = Some(Bounds {
             lower: 55.0,
             upper: 150.0,
         });
         wrong[5] = None;
-        let range = Range {
+        let range = Bounds {
             lower: 55.0,
             upper: 150.0,
         };
@@ -222,7 +222,7 @@ fn findings_are_said_with_places_from_one() {
         *squares *= FACTORS[0].factor.powi(2)
     });
     wrong.settings.shape_tolerance = 4.0;
-    wrong.ranges[2] = Some(Range {
+    wrong.ranges[2] = Some(Bounds {
         lower: 55.0,
         upper: 150.0,
     });

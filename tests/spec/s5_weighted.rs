@@ -10,7 +10,7 @@ use crate::common::tolerances::{
 use crate::evidence::rules::compare_all;
 use corfem::method::error::Error;
 use corfem::method::error_sum::ModeWeight;
-use corfem::method::model::{DynamicModel, ModalModel, Range, Share};
+use corfem::method::model::{Bounds, DynamicModel, ModalModel, ParameterMatrix};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::nalgebra::{DMatrix, DVector};
 use corfem::torque_box::Case;
@@ -28,7 +28,7 @@ fn by_matrices() -> DynamicModel {
     for dof in 0..9 {
         let mut mass = DMatrix::zeros(9, 9);
         mass[(dof, dof)] = matrices.mass[(dof, dof)];
-        matrices.shares.push(Share::Mass(mass));
+        matrices.shares.push(ParameterMatrix::Mass(mass));
     }
     matrices
 }
@@ -38,8 +38,8 @@ pub fn at(first: &DynamicModel, factors: &[f64]) -> DynamicModel {
     let mut model = first.clone();
     for (share, factor) in first.shares.iter().zip(factors) {
         match share {
-            Share::Stiffness(matrix) => model.stiffness += (factor - 1.0) * matrix,
-            Share::Mass(matrix) => model.mass += (factor - 1.0) * matrix,
+            ParameterMatrix::Stiffness(matrix) => model.stiffness += (factor - 1.0) * matrix,
+            ParameterMatrix::Mass(matrix) => model.mass += (factor - 1.0) * matrix,
         }
     }
     model.shares = first
@@ -135,7 +135,7 @@ fn shapes_are_scaled_by_least_squares_and_the_tests_scale_and_sign_do_not_matter
 
 fn corrected(
     known: &Known,
-    ranges: &[Option<Range>],
+    ranges: &[Option<Bounds>],
     settings: &WeightedSettings,
 ) -> WeightedCorrelation {
     let analyze = |factors: &[f64]| known.model.analyze(factors, &known.test, None);
@@ -201,7 +201,7 @@ fn what_is_at_a_bound_is_pressed_there_and_all_else_is_stationary() {
     let known = Known::of_case(2).unwrap();
     let settings = WeightedSettings::default();
     // The truth is 2/3 of the first gages.
-    let bound = Range {
+    let bound = Bounds {
         lower: 0.8,
         upper: 1.2,
     };
@@ -237,8 +237,8 @@ fn what_is_at_a_bound_is_pressed_there_and_all_else_is_stationary() {
 fn modes_that_change_places_are_followed_and_recorded() {
     let diagonal = |a, b| DMatrix::from_diagonal(&DVector::from_vec(vec![a, b]));
     let shares = vec![
-        Share::Stiffness(diagonal(400.0, 0.0)),
-        Share::Stiffness(diagonal(0.0, 200.0)),
+        ParameterMatrix::Stiffness(diagonal(400.0, 0.0)),
+        ParameterMatrix::Stiffness(diagonal(0.0, 200.0)),
     ];
     let first = DynamicModel {
         stiffness: diagonal(400.0, 200.0),
@@ -401,7 +401,7 @@ fn input_out_of_range_is_refused() {
         known.model.analyze(factors, &known.test, None)
     };
     let run = |first: &[f64],
-               ranges: &[Option<Range>],
+               ranges: &[Option<Bounds>],
                weights: &[ModeWeight],
                settings: &WeightedSettings| {
         gauss_newton(analyze, first, ranges, weights, settings).err()
@@ -441,7 +441,7 @@ fn input_out_of_range_is_refused() {
         run(&[0.0; 15], &free, &weights(9), &usual),
         Some(Error::NotPositive { .. })
     ));
-    let upside_down = [Some(Range {
+    let upside_down = [Some(Bounds {
         lower: 2.0,
         upper: 1.0,
     }); 15];

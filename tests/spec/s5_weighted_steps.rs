@@ -5,7 +5,7 @@ use crate::common::measured::equal_weights;
 use crate::common::tolerances::{ROUND_OFF, STANDARD_ERRORS};
 use corfem::method::appendix_c::SMALLEST_SEPARATION;
 use corfem::method::error_sum::ModeWeight;
-use corfem::method::model::{DynamicModel, Share};
+use corfem::method::model::{DynamicModel, ParameterMatrix};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop, from_several_starts};
 use corfem::weighted::identifiability::identifiability;
@@ -61,7 +61,7 @@ fn shapes_of_modes_closer_than_they_can_be_told_apart_are_held() {
         let model = DynamicModel {
             stiffness,
             mass: DMatrix::identity(2, 2),
-            shares: vec![Share::Stiffness(share.clone())],
+            shares: vec![ParameterMatrix::Stiffness(share.clone())],
         };
         let test: ModeSet = solve(&model.stiffness, &model.mass, 2).unwrap().into();
         let modal = model.analyze(&test, None).unwrap();

@@ -6,7 +6,7 @@ use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
 use crate::common::torque_boxes::{case, factors, stiffness, with_every_element};
 use corfem::method::appendix_a::condense;
 use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, Share};
+use corfem::method::model::{DynamicModel, ParameterMatrix};
 use corfem::method::modes;
 use corfem::torque_box::Case;
 use corfem::torque_box::published::PublishedTable;
@@ -63,11 +63,11 @@ proptest! {
         let model = with_every_element(&case);
         let dynamic = model.matrices(&factors).unwrap();
         prop_assert_eq!(dynamic.shares.len(), 39);
-        let sum: DMatrix<f64> = dynamic.shares.iter().map(Share::matrix).sum();
+        let sum: DMatrix<f64> = dynamic.shares.iter().map(ParameterMatrix::matrix).sum();
         prop_assert!(relative_distance(&sum, &dynamic.stiffness) <= MATRIX_ROUND_OFF);
         for share in &dynamic.shares {
             let transposed = share.matrix().transpose();
-            prop_assert_eq!(share, &Share::Stiffness(transposed));
+            prop_assert_eq!(share, &ParameterMatrix::Stiffness(transposed));
         }
     }
 
@@ -161,6 +161,6 @@ fn shares_of_an_indefinite_element_sum_to_the_stiffness() {
         .unwrap()
         .matrices(&factors)
         .unwrap();
-    let sum: DMatrix<f64> = found.shares.iter().map(Share::matrix).sum();
+    let sum: DMatrix<f64> = found.shares.iter().map(ParameterMatrix::matrix).sum();
     assert!((sum - &found.stiffness).amax() <= MATRIX_ROUND_OFF * found.stiffness.amax());
 }

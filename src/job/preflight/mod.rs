@@ -20,7 +20,7 @@ pub use shapes::{Change, LEAST_DIFFERENCE, LEAST_GAIN, LEAST_SHARE, LOW_PAIR, Me
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
-use crate::method::model::{DynamicModel, FiniteElementModel, Range};
+use crate::method::model::{Bounds, DynamicModel, FiniteElementModel};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::Settings;
 use crate::method::pairing::{modal_assurance, pair_modes};
@@ -80,7 +80,7 @@ pub enum Finding {
     /// The value of a tolerance looks like percent.
     Percent { setting: &'static str, value: f64 },
     /// The bounds on a parameter's factor exclude its first value.
-    ExcludesStart { parameter: usize, range: Range },
+    ExcludesStart { parameter: usize, range: Bounds },
     /// Parameters without bounds.
     Unbounded(Vec<usize>),
 }
@@ -116,7 +116,7 @@ pub fn preflight(
     model: &DynamicModel,
     test: &ModeSet,
     settings: &Settings,
-    ranges: &[Option<Range>],
+    ranges: &[Option<Bounds>],
 ) -> Result<Vec<Finding>, Error> {
     test.scaled_with(&model.mass)?;
     let (places, mut findings) = distinct_shapes(test)?;
@@ -229,7 +229,7 @@ fn too_many_modes(test: &ModeSet, mass: &DMatrix<f64>) -> Result<Option<Finding>
     }))
 }
 
-fn check_settings(settings: &Settings, ranges: &[Option<Range>]) -> Vec<Finding> {
+fn check_settings(settings: &Settings, ranges: &[Option<Bounds>]) -> Vec<Finding> {
     let tolerances = [
         ("inner.tolerance", settings.inner.tolerance),
         ("later_inner_tolerance", settings.later_inner_tolerance),

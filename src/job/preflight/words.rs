@@ -3,7 +3,7 @@
 use super::frequencies::{CommonFactor, FrequenciesExchanged, NamedFactor};
 use super::shapes::{Change, Mended};
 use super::{Finding, SAME_FREQUENCY};
-use crate::method::model::Range;
+use crate::method::model::Bounds;
 use std::fmt::{Display, Formatter, Result};
 
 /// Places from one: the first and the last of them when none is missing between.
@@ -111,7 +111,7 @@ impl Display for Finding {
             }
             Self::ExcludesStart {
                 parameter,
-                range: Range { lower, upper },
+                range: Bounds { lower, upper },
             } => {
                 let parameter = parameter + 1;
                 format!(

@@ -1,6 +1,6 @@
 //! The finite element analysis: a model at given parameter factors, condensed and seen through its modes.
 
-use super::{DynamicModel, FiniteElementModel, ModalModel, ScaledSizes, Share};
+use super::{DynamicModel, FiniteElementModel, ModalModel, ParameterMatrix, ScaledSizes};
 use crate::method::appendix_a::{Condensed, condense, generalized_mass, generalized_stiffness};
 use crate::method::assembly::{ElementMatrix, dense_stiffness};
 use crate::method::error::Error;
@@ -69,7 +69,7 @@ impl FiniteElementModel {
         condensed: &CondensedModel,
         at: &ScaledSizes,
         shapes: &DMatrix<f64>,
-    ) -> Vec<Share> {
+    ) -> Vec<ParameterMatrix> {
         let structural = &condensed.transformation * shapes;
         let sum = |members: &[(&ElementMatrix, f64)], share: GeneralizedShare| {
             members

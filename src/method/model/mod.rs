@@ -7,8 +7,8 @@ mod parameters;
 
 pub use analysis::CondensedModel;
 pub(crate) use modal::check_weights;
-pub use modal::{Check, DynamicModel, ModalModel, Pair, Share};
-pub use parameters::{Parameter, Range, Scaled};
+pub use modal::{DynamicModel, ExactResult, ModalModel, Pair, ParameterMatrix};
+pub use parameters::{Bounds, Parameter, Scaled};
 
 use crate::method::assembly::{ElementMatrix, element_matrices};
 use crate::method::error::{Error, at_least_one};
@@ -225,7 +225,7 @@ impl ScaledStructure {
     ///
     /// # Errors
     /// [`Error::Limits`] when no factor meets both, or when the first sizes lie outside.
-    pub fn factor_ranges(&self) -> Result<Vec<Option<Range>>, Error> {
+    pub fn factor_ranges(&self) -> Result<Vec<Option<Bounds>>, Error> {
         let bounds = |(parameter, rows): (&Parameter, &Vec<usize>)| {
             // A mass has no size: its rows may be those of points.
             let sizes = parameter
@@ -245,7 +245,7 @@ impl ScaledStructure {
                 }
             }
             let what = format!("factor of {}", parameter.owner());
-            let factors = Range::positive(&what, lower, upper)?;
+            let factors = Bounds::positive(&what, lower, upper)?;
             if factors.contains(1.0) {
                 Ok(Some(factors))
             } else {
@@ -303,7 +303,7 @@ impl ScaledStructure {
         shapes: &DMatrix<f64>,
         stiffness: impl Fn(&[(&ElementMatrix, f64)]) -> DMatrix<f64>,
         mass: impl Fn(&[(&ElementMatrix, f64)]) -> DMatrix<f64>,
-    ) -> Vec<Share> {
+    ) -> Vec<ParameterMatrix> {
         let of_parameter = |(parameter, rows): (&Parameter, &Vec<usize>)| {
             let members = |sizes: &[f64]| -> Vec<(&ElementMatrix, f64)> {
                 rows.iter()
@@ -314,9 +314,9 @@ impl ScaledStructure {
                 at.point_masses[(row, row)] * shapes.row(row).tr_mul(&shapes.row(row))
             };
             match parameter.scaled {
-                Scaled::Stiffness => Share::Stiffness(stiffness(&members(&at.sizes))),
-                Scaled::ElementMass => Share::Mass(mass(&members(&at.mass_sizes))),
-                Scaled::PointMass => Share::Mass(rows.iter().map(point).sum()),
+                Scaled::Stiffness => ParameterMatrix::Stiffness(stiffness(&members(&at.sizes))),
+                Scaled::ElementMass => ParameterMatrix::Mass(mass(&members(&at.mass_sizes))),
+                Scaled::PointMass => ParameterMatrix::Mass(rows.iter().map(point).sum()),
             }
         };
         let parameters = self.parameters.iter();

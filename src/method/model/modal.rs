@@ -14,14 +14,14 @@ use nalgebra::DMatrix;
 
 /// What one parameter holds of a matrix: at d DOF (d × d), or in n modes as $V^t K_e V$ or $V^t M_e V$ (n × n).
 #[derive(Debug, Clone, PartialEq)]
-pub enum Share {
+pub enum ParameterMatrix {
     /// Of the stiffness, lbf/in, or rad²/s² in mass-orthonormal modes.
     Stiffness(DMatrix<f64>),
     /// Of the mass, lbf·s²/in, or a fraction in mass-orthonormal modes.
     Mass(DMatrix<f64>),
 }
 
-impl Share {
+impl ParameterMatrix {
     /// The matrix, whatever it is a share of.
     pub fn matrix(&self) -> &DMatrix<f64> {
         match self {
@@ -46,7 +46,7 @@ pub struct DynamicModel {
     /// Dynamic mass $M$, lbf·s²/in (d × d).
     pub mass: DMatrix<f64>,
     /// Each parameter's present share of either (d × d).
-    pub shares: Vec<Share>,
+    pub shares: Vec<ParameterMatrix>,
 }
 
 impl DynamicModel {
@@ -95,7 +95,7 @@ pub(crate) fn check_weights(weights: &[ModeWeight], modes: usize) -> Result<(), 
 
 /// Exact modes compared with the test modes.
 #[derive(Debug, Clone)]
-pub struct Check {
+pub struct ExactResult {
     /// The exact modes, ascending.
     pub modes: Modes,
     /// Which of them answers which test mode.
@@ -113,7 +113,7 @@ pub type Pair = fn(&DMatrix<f64>) -> Result<Pairing, Error>;
 #[derive(Debug, Clone)]
 pub struct ModalModel {
     /// The exact modes and how far they are from the test.
-    pub(crate) exact: Check,
+    pub(crate) exact: ExactResult,
     /// The test modes, scaled to unit generalized mass with the model's mass.
     pub(crate) test: ModeSet,
     /// Cross-orthogonality of the exact modes with the test modes (4), or the cosine between them, n × g.
@@ -123,7 +123,7 @@ pub struct ModalModel {
     /// Weights of the test modes in the error sum, ones unless [`Self::weighted`].
     pub(crate) weights: Vec<ModeWeight>,
     /// Generalized stiffness or mass of every parameter, $V^t K_e V$ (rad²/s²) or $V^t M_e V$ (n × n).
-    pub(crate) shares: Vec<Share>,
+    pub(crate) shares: Vec<ParameterMatrix>,
     /// The same on the test shapes, relative to the test's own: $V_{Gi}^t K_e V_{Gj}/(\omega_{Gi} \omega_{Gj})$ or
     /// $V_{Gi}^t M_e V_{Gj}$ (g × g).
     pub(crate) test_shares: Vec<DMatrix<f64>>,
@@ -133,7 +133,7 @@ pub struct ModalModel {
 
 impl ModalModel {
     /// The exact modes and how far they are from the test.
-    pub fn exact(&self) -> &Check {
+    pub fn exact(&self) -> &ExactResult {
         &self.exact
     }
 
@@ -153,7 +153,7 @@ impl ModalModel {
     }
 
     /// Generalized stiffness or mass of every parameter, $V^t K_e V$ (rad²/s²) or $V^t M_e V$ (n × n).
-    pub fn shares(&self) -> &[Share] {
+    pub fn shares(&self) -> &[ParameterMatrix] {
         &self.shares
     }
 
@@ -178,7 +178,7 @@ impl ModalModel {
         mass: &DMatrix<f64>,
         test: &ModeSet,
         analysis_modes: Option<usize>,
-        shares: impl FnOnce(&DMatrix<f64>) -> Result<Vec<Share>, Error>,
+        shares: impl FnOnce(&DMatrix<f64>) -> Result<Vec<ParameterMatrix>, Error>,
     ) -> Result<Self, Error> {
         let modes = solve(stiffness, mass, analysis_modes.unwrap_or(stiffness.nrows()))?;
         let test = test.scaled_with(mass)?;
@@ -194,7 +194,8 @@ impl ModalModel {
         let block = |matrix: &DMatrix<f64>, first, size| {
             matrix.view((first, first), (size, size)).into_owned()
         };
-        let of_test = |share: &Share| share.map(|matrix| block(matrix, count, test_count));
+        let of_test =
+            |share: &ParameterMatrix| share.map(|matrix| block(matrix, count, test_count));
         let test_shares = through_both.iter().map(of_test).collect();
         let shares = through_both
             .iter()
@@ -219,7 +220,7 @@ impl ModalModel {
         modes: Modes,
         test: &ModeSet,
         pair: Pair,
-        shares: Vec<Share>,
+        shares: Vec<ParameterMatrix>,
     ) -> Result<Self, Error> {
         let cross =
             signed_assurance(&modes.shapes, &test.shapes)?.map(|a| a.signum() * a.abs().sqrt());
@@ -249,19 +250,21 @@ impl ModalModel {
         (modes, test): (Modes, ModeSet),
         cross: DMatrix<f64>,
         (pair, pairing): (Pair, Pairing),
-        shares: Vec<Share>,
-        on_test: Vec<Share>,
+        shares: Vec<ParameterMatrix>,
+        on_test: Vec<ParameterMatrix>,
     ) -> Result<Self, Error> {
         at_least_one("parameters", shares.len())?;
         let omega = test.omega_squared.map(f64::sqrt);
-        let relative = |share: Share| match share {
-            Share::Stiffness(matrix) => matrix.component_div(&(&omega * omega.transpose())),
-            Share::Mass(matrix) => matrix,
+        let relative = |share: ParameterMatrix| match share {
+            ParameterMatrix::Stiffness(matrix) => {
+                matrix.component_div(&(&omega * omega.transpose()))
+            }
+            ParameterMatrix::Mass(matrix) => matrix,
         };
         let test_shares = on_test.into_iter().map(relative).collect();
         let frequencies_hz = paired(&modes, &pairing)?.frequencies_hz();
         let errors = errors(&modes, &pairing, &test)?;
-        let exact = Check {
+        let exact = ExactResult {
             modes,
             pairing,
             frequencies_hz,

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 /// A closed interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Range {
+pub struct Bounds {
     /// Its lower end.
     pub lower: f64,
     /// Its upper end.
@@ -17,7 +17,7 @@ pub struct Range {
 /// How near to an end of its range, relative, a factor counts as at its bound.
 const AT_END: f64 = 1e-9;
 
-impl Range {
+impl Bounds {
     /// An interval of positive numbers.
     ///
     /// # Errors
@@ -79,14 +79,14 @@ pub struct Parameter {
     /// Labels of the elements, or indices of the dynamic DOF, that it scales.
     pub members: Vec<usize>,
     /// Bounds on the gages (in) or areas (in²) of its elements, if any; for stiffness alone.
-    pub size_range: Option<Range>,
+    pub size_range: Option<Bounds>,
     /// Bounds on the factor on its first value, if any.
-    pub factor_range: Option<Range>,
+    pub factor_range: Option<Bounds>,
 }
 
 impl Parameter {
     /// The stiffness of one element, named by its number.
-    pub fn element(label: usize, size_range: Option<Range>) -> Self {
+    pub fn element(label: usize, size_range: Option<Bounds>) -> Self {
         Self {
             size_range,
             ..Self::group(&label.to_string(), &[label])

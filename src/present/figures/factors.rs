@@ -1,7 +1,7 @@
 //! Factors of parameters as marks on a common axis, with their limits, published values and uncertainties.
 
 use super::canvas::*;
-use crate::method::model::Range;
+use crate::method::model::Bounds;
 use crate::present::table::Digits;
 
 /// Margins of the plot: left at least, right, top, bottom, px.
@@ -22,7 +22,7 @@ pub struct DrawnFactor {
     /// The published factor.
     pub published: Option<f64>,
     /// Bounds of its own.
-    pub bounds: Option<Range>,
+    pub bounds: Option<Bounds>,
     /// What makes it stand out, if anything does.
     pub remark: Option<&'static str>,
 }
@@ -33,7 +33,7 @@ pub struct Factors {
     /// Rows.
     pub rows: Vec<DrawnFactor>,
     /// Limits of all of them.
-    pub limits: Option<Range>,
+    pub limits: Option<Bounds>,
     /// Name of the horizontal axis.
     pub across: String,
     /// Decimals of the numbers.

@@ -7,7 +7,7 @@ use crate::method::derivatives::{DERIVATIVE_STEP, by_definition};
 use crate::method::error::Error;
 use crate::method::error_sum::Errors;
 use crate::method::inner_loop::{InnerRun, Stop};
-use crate::method::model::{Check, ModalModel, Range, Share};
+use crate::method::model::{Bounds, ExactResult, ModalModel, ParameterMatrix};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::{Correlation, Pass};
 use crate::method::pairing::{cross_orthogonality, modal_assurance};
@@ -34,7 +34,7 @@ pub struct Stage {
     /// Factor of each parameter on its first value, after it.
     pub factors: Vec<f64>,
     /// The exact solution there.
-    pub check: Check,
+    pub check: ExactResult,
     /// Its inner loop, if it has one.
     pub inner: Option<InnerRun>,
     /// Why it ended, in words.
@@ -62,7 +62,7 @@ pub struct Report {
     /// Names of the parameters.
     pub parameters: Vec<String>,
     /// Bounds on their factors, if any.
-    pub ranges: Vec<Option<Range>>,
+    pub ranges: Vec<Option<Bounds>>,
     /// Standard deviation of every factor of the best stage, if known.
     pub deviations: Option<Vec<f64>>,
     /// Factors that make the model right, where they are known.
@@ -83,7 +83,7 @@ pub struct Report {
     /// Mass at the sensors, for cross-orthogonality.
     pub mass: Option<DMatrix<f64>>,
     /// The exact solution of the first model.
-    pub initial: Check,
+    pub initial: ExactResult,
     /// Tolerances of the inner loops on the error sum, of the first pass and of later ones, where they are to be drawn.
     pub tolerances: Option<[f64; 2]>,
     /// The stages after it.
@@ -115,10 +115,10 @@ impl Derivatives {
         let frequency = DMatrix::from_fn(first.shares.len(), first.test.len(), |e, j| {
             let i = first.exact.pairing.analysis_mode[j];
             match &first.shares[e] {
-                Share::Stiffness(share) => {
+                ParameterMatrix::Stiffness(share) => {
                     share[(i, i)] / (2.0 * first.exact.modes.omega_squared[i])
                 }
-                Share::Mass(share) => -0.5 * share[(i, i)],
+                ParameterMatrix::Mass(share) => -0.5 * share[(i, i)],
             }
         });
         Ok(Self {
@@ -138,7 +138,7 @@ impl Report {
         name: &str,
         parameters: &[String],
         test: &ModeSet,
-        initial: &Check,
+        initial: &ExactResult,
         run: Option<&Correlation>,
     ) -> Self {
         let stage = |pass: &Pass| {
@@ -219,7 +219,7 @@ impl Report {
     }
 
     /// The exact solution of the best stage.
-    pub fn corrected(&self) -> &Check {
+    pub fn corrected(&self) -> &ExactResult {
         self.best_stage()
             .map_or(&self.initial, |stage| &stage.check)
     }
@@ -259,7 +259,7 @@ impl Report {
     ///
     /// # Errors
     /// [`Error::WrongShape`] when shapes and mass do not fit; [`Error::NotPositive`] for a shape that is zero or has no mass.
-    pub fn agreement(&self, check: &Check) -> Result<PairAgreement, Error> {
+    pub fn agreement(&self, check: &ExactResult) -> Result<PairAgreement, Error> {
         let highest = check
             .pairing
             .analysis_mode

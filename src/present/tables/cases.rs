@@ -5,7 +5,7 @@ use super::stages::{self, ErrorStage};
 use super::unlimited::unlimited_table;
 use super::{MODE_ERRORS, PERCENT, RMS_PERCENT, remarks};
 use crate::method::error_sum::Errors;
-use crate::method::model::Check;
+use crate::method::model::ExactResult;
 use crate::method::step::Accumulation;
 use crate::method::structure::ElementKind;
 use crate::present::PresentError;
@@ -54,7 +54,7 @@ pub fn frequency_table(result: &CaseResult) -> Result<Table, PresentError> {
     let checks = std::iter::once(&run.initial)
         .chain(run.passes.iter().map(|pass| &pass.check))
         .enumerate();
-    let stage = |(pass, check): (usize, &Check)| {
+    let stage = |(pass, check): (usize, &ExactResult)| {
         ErrorStage::new(
             "pass",
             pass,
@@ -133,7 +133,7 @@ pub fn published_iterations(result: &CaseResult) -> Result<Vec<Option<f64>>, Pre
 }
 
 /// The last exact solution.
-fn last(result: &CaseResult) -> &Check {
+fn last(result: &CaseResult) -> &ExactResult {
     let run = &result.correlation;
     run.passes.last().map_or(&run.initial, |pass| &pass.check)
 }

@@ -7,7 +7,7 @@ use crate::job::localization::{by_factor, by_single_fit};
 use crate::job::metrics::coordinate_assurance;
 use crate::job::preflight::{Finding, preflight};
 use crate::job::{JobResult, LoadedJob, PlacedSensor, Study, Summary, Vary};
-use crate::method::model::{DynamicModel, Range};
+use crate::method::model::{Bounds, DynamicModel};
 use crate::present::table::{Cell, Digits, Table, counted, numbers, percents};
 use crate::weighted::identifiability::Identifiability;
 use crate::weighted::residuals::residuals;
@@ -239,7 +239,7 @@ pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileE
             names[a], names[b]
         )
     };
-    let ends = |end: fn(&Range) -> f64| numbers(intervals.iter().map(end), Digits::Fixed(4));
+    let ends = |end: fn(&Bounds) -> f64| numbers(intervals.iter().map(end), Digits::Fixed(4));
     let deviations =
         |seen: &Identifiability| percents(seen.deviations.clone(), Digits::Significant(3));
     Ok(

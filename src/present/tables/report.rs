@@ -2,7 +2,7 @@
 
 use super::{HERTZ, RMS_PERCENT};
 use crate::method::error::Error;
-use crate::method::model::{Check, Range};
+use crate::method::model::{Bounds, ExactResult};
 use crate::present::report::{PairAgreement, Report};
 use crate::present::table::{Cell, Digits, Table, numbers, percents};
 use crate::torque_box::BUILT_IN;
@@ -92,7 +92,7 @@ pub fn paired_table(report: &Report) -> Result<Table, Error> {
 impl PairAgreement {
     /// Of a test mode and its partner: the magnitude of their cross-orthogonality, or their assurance without mass, and the largest
     /// other entry of either's row and column.
-    fn pair(&self, check: &Check, mode: usize) -> (f64, f64) {
+    fn pair(&self, check: &ExactResult, mode: usize) -> (f64, f64) {
         let (matrix, i) = (
             self.orthogonality.as_ref().unwrap_or(&self.assurance),
             check.pairing.analysis_mode[mode],
@@ -113,7 +113,7 @@ impl PairAgreement {
 /// Factors of the corrected model with their standard deviations, their bounds, and what must be known of each.
 pub fn factor_table(report: &Report) -> Table {
     let factors = report.factors();
-    let bounds = |end: fn(Range) -> f64| {
+    let bounds = |end: fn(Bounds) -> f64| {
         numbers(report.ranges.iter().map(move |range| range.map(end)), THREE)
     };
     let remark = |(e, factor): (usize, &f64)| {

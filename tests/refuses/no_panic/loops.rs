@@ -6,7 +6,7 @@ use corfem::method::derivatives::{DerivativeRule, by_definition, error_changes, 
 use corfem::method::error::Error;
 use corfem::method::error_sum::{ErrorMeasure, ModeWeight, errors, mode_errors};
 use corfem::method::inner_loop::{InnerSettings, run};
-use corfem::method::model::Range;
+use corfem::method::model::Bounds;
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::step::{
@@ -33,12 +33,12 @@ pub const LOOPS: &[Entry] = &[
             d.list(count)
         };
         let range = |d: &mut Draws| {
-            (d.below(2) == 0).then(|| Range {
+            (d.below(2) == 0).then(|| Bounds {
                 lower: d.number(),
                 upper: d.number(),
             })
         };
-        let ranges: Vec<Option<Range>> = (0..count).map(|_| range(d)).collect();
+        let ranges: Vec<Option<Bounds>> = (0..count).map(|_| range(d)).collect();
         let mut settings = InnerSettings {
             iterations: d.below(4),
             halvings: d.below(4),
@@ -50,7 +50,7 @@ pub const LOOPS: &[Entry] = &[
                 tolerance: d.number(),
                 ..settings
             };
-            settings.factor_range = Range {
+            settings.factor_range = Bounds {
                 lower: d.number(),
                 upper: d.number(),
             };
@@ -95,7 +95,7 @@ pub const LOOPS: &[Entry] = &[
         Ok(Vec::new())
     }),
     ("step::limited_factor", |d| {
-        let range = Range {
+        let range = Bounds {
             lower: d.number(),
             upper: d.number(),
         };

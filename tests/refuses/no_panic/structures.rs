@@ -8,7 +8,7 @@ use corfem::method::elements::membrane::triangle;
 use corfem::method::elements::shear::{corner_forces, energy_coefficient, gauss_legendre};
 use corfem::method::elements::{corner_volumes, membrane, rod, shear, unit_stiffness};
 use corfem::method::geometry::{Geometry, mean_plane};
-use corfem::method::model::{FiniteElementModel, Range, ScaledStructure};
+use corfem::method::model::{Bounds, FiniteElementModel, ScaledStructure};
 use corfem::method::structure::{ElementKind, Material, Structure};
 use corfem::sparse::LargeModel;
 use corfem::sparse::factorization::{Factor, FactorizationPlan, FactorizedStiffness};
@@ -63,9 +63,9 @@ pub const STRUCTURES: &[Entry] = &[
         let (modulus, ratio) = (d.number(), d.number());
         Material::isotropic(modulus, ratio).map(|found| vec![found.shear_modulus])
     }),
-    ("Range::positive", |d| {
+    ("Bounds::positive", |d| {
         let (lower, upper) = (d.number(), d.number());
-        Range::positive("range", lower, upper).map(|found| vec![found.lower, found.upper])
+        Bounds::positive("range", lower, upper).map(|found| vec![found.lower, found.upper])
     }),
     ("DynamicModel::analyze", |d| {
         let (model, count) = (d.dynamic(), d.size());
@@ -75,8 +75,8 @@ pub const STRUCTURES: &[Entry] = &[
             .analyze(&test, count)
             .map(|found| vec![found.exact().errors.sum()])
     }),
-    ("Range::contains", |d| {
-        Range {
+    ("Bounds::contains", |d| {
+        Bounds {
             lower: d.number(),
             upper: d.number(),
         }

@@ -9,7 +9,7 @@ use crate::common::whole_models::{counted_modes, masses, sensors_at, shear_build
 use corfem::method::assembly::ElementMatrix;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::InnerSettings;
-use corfem::method::model::{FiniteElementModel, Parameter, Share};
+use corfem::method::model::{FiniteElementModel, Parameter, ParameterMatrix};
 use corfem::method::modes::ModeSet;
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::pairing::{modal_assurance, pair_modes};
@@ -192,7 +192,7 @@ fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
             < SAME_ANALYSIS
     );
     for (a, b) in at_sensors.shares().iter().zip(expected.shares()) {
-        let magnitude = |share: &Share| share.matrix().abs();
+        let magnitude = |share: &ParameterMatrix| share.matrix().abs();
         assert!((magnitude(a) - magnitude(b)).amax() < SAME_ANALYSIS * b.matrix().amax());
     }
 }

@@ -48,7 +48,7 @@ impl From<&Modes> for LeftRightModes<f64> {
 /// - Phase: the first of the largest components of $v$ (within one part in a million) is real and positive.
 ///
 /// # Errors
-/// Those of [`cholesky`] for the stiffness and of [`check_shape`] and [`check_finite`] for $G$; [`Error::Empty`] without
+/// Those of [`cholesky`] for the stiffness; [`Error::WrongShape`] and [`Error::NotFinite`] for $G$; [`Error::Empty`] without
 /// DOF; [`Error::Defective`] when the pencil has fewer shapes than DOF; [`Error::NoConvergence`].
 ///
 /// # Example
