@@ -17,6 +17,7 @@ mod run;
 mod samples;
 mod sensors;
 mod study;
+mod trust;
 
 pub use entries::removed_step;
 pub use loaded::LoadedJob;
@@ -25,6 +26,7 @@ pub use run::{History, JobResult, run};
 pub use samples::{Samples, Spread, Summary};
 pub use sensors::PlacedSensor;
 pub use study::{Study, Vary};
+pub use trust::Concern;
 
 use crate::files::error::{FileError, is_not};
 use crate::method::outer_loop::Settings;

@@ -3,6 +3,7 @@
 use super::frequencies::{CommonFactor, FrequenciesExchanged, NamedFactor};
 use super::shapes::{Change, Mended};
 use super::{Finding, SAME_FREQUENCY};
+use crate::job::Concern;
 use crate::method::model::Bounds;
 use std::fmt::{Display, Formatter, Result};
 
@@ -29,6 +30,32 @@ impl Display for Change {
             Self::Transposed => write!(f, "shapes transposed"),
             Self::Columns(order) => write!(f, "columns of T in another order ({})", list(order)),
         }
+    }
+}
+
+impl Finding {
+    /// The finding as a concern; parameters without bounds alone are no mistake.
+    pub fn concern(&self) -> Concern {
+        let identifier = match self {
+            Self::CommonFactor(_) => "common-factor".to_owned(),
+            Self::Mended(Mended { change, .. }) => match change {
+                Change::Reversed(sensor) => format!("reversed-{}", sensor + 1),
+                Change::Exchanged([a, b]) => format!("exchanged-{}-{}", a + 1, b + 1),
+                Change::Reordered(_) => "reordered".to_owned(),
+                Change::Transposed => "transposed".to_owned(),
+                Change::Columns(_) => "columns".to_owned(),
+            },
+            Self::FrequenciesExchanged(FrequenciesExchanged { modes: [a, b], .. }) => {
+                format!("frequencies-exchanged-{}-{}", a + 1, b + 1)
+            }
+            Self::NearlySame { modes: [a, b], .. } => format!("same-{}-{}", a + 1, b + 1),
+            Self::LowPair { test, .. } => format!("low-pair-{}", test + 1),
+            Self::TooManyModes { .. } => "too-many-modes".to_owned(),
+            Self::Percent { setting, .. } => format!("percent-{setting}"),
+            Self::ExcludesStart { parameter, .. } => format!("excludes-start-{}", parameter + 1),
+            Self::Unbounded(_) => return Concern::remark("unbounded", self.to_string()),
+        };
+        Concern::doubt(identifier, self.to_string())
     }
 }
 

@@ -5,15 +5,12 @@ use crate::files::error::FileError;
 use crate::files::test_data::DIRECTIONS;
 use crate::job::localization::{by_factor, by_single_fit};
 use crate::job::metrics::coordinate_assurance;
-use crate::job::preflight::{Finding, preflight};
 use crate::job::{JobResult, LoadedJob, PlacedSensor, Study, Summary, Vary};
-use crate::method::model::{Bounds, DynamicModel};
+use crate::method::model::Bounds;
 use crate::present::table::{Cell, Digits, Table, counted, numbers, percents};
 use crate::weighted::identifiability::Identifiability;
 use crate::weighted::residuals::residuals;
 
-/// Modal phase collinearity below which a complex test mode is doubtful as a real one.
-const COLLINEAR: f64 = 0.95;
 /// Most parameters in the table of suspects.
 pub const MOST_SUSPECTS: usize = 20;
 
@@ -79,72 +76,18 @@ pub fn places_table(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Ta
     Ok(table)
 }
 
-/// Everything doubtful of a job before its first step: what the pre-flight finds, test modes that are left out, and what the
-/// readers left aside.
+/// Everything doubtful of a job before its first step.
 ///
 /// # Errors
-/// Those of [`preflight`] and of the analyses it needs; a structure without supports has no condensed model to check, and a
-/// sentence says so.
+/// Those of [`LoadedJob::concerns`].
 pub fn doubts_table(loaded: &LoadedJob) -> Result<Table, FileError> {
-    let whole = &loaded.source.whole;
-    let ones = vec![1.0; whole.parameters().len()];
-    let mut sentences: Vec<String> = Vec::new();
-    match whole.condensed(&ones, &loaded.sensors) {
-        Ok((condensed, mass)) => {
-            let model = DynamicModel {
-                stiffness: condensed.stiffness,
-                mass,
-                shares: Vec::new(),
-            };
-            let findings = preflight(
-                &model,
-                &loaded.test,
-                &loaded.job.correlation,
-                &whole.ranges(),
-            )?;
-            sentences.extend(findings.iter().map(Finding::to_string));
-        }
-        Err(error) => sentences.push(format!(
-            "the pre-flight needs condensed matrices, which this model does not have: {error}"
-        )),
-    }
-    let mut of_mode =
-        |mode: usize, words: String| sentences.push(format!("test mode {}: {words}", mode + 1));
-    for (mode, assurance) in &loaded.unpaired {
-        let most = format!("modal assurance {assurance:.2} at most");
-        of_mode(
-            *mode,
-            format!("it resembles no mode of the first model ({most}) and is left out"),
-        );
-    }
-    for (mode, phase) in loaded
-        .data
-        .phase_collinearity
-        .iter()
-        .enumerate()
-        .filter(|(_, phase)| **phase < COLLINEAR)
-    {
-        of_mode(
-            mode,
-            format!("complex, with a phase collinearity of {phase:.2}"),
-        );
-    }
-    if !loaded.data.skipped.is_empty() {
-        let numbers: Vec<String> = loaded.data.skipped.iter().map(usize::to_string).collect();
-        sentences.push(format!(
-            "datasets of the Universal File that are not read: {}",
-            numbers.join(", ")
-        ));
-    }
-    let units =
-        |units: &String| format!("the test's file is in units of {units}; nothing is converted");
-    sentences.extend(loaded.data.units.iter().map(units));
-    let labels = (1..=sentences.len())
+    let concerns = loaded.concerns()?;
+    let labels = (1..=concerns.len())
         .map(|number| number.to_string())
-        .chain(sentences.is_empty().then(String::new));
-    let cells = sentences
+        .chain(concerns.is_empty().then(String::new));
+    let cells = concerns
         .iter()
-        .map(Cell::text)
+        .map(|concern| Cell::text(&concern.words))
         .chain([Cell::text("nothing doubtful")]);
     Ok(Table::new("doubts", "Before the first step", "Number")
         .labels(labels)
