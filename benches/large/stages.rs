@@ -14,7 +14,7 @@ use corfem::method::modes::solve;
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::state::ModalState;
 use corfem::method::structure::Material;
-use corfem::sparse::factorization::{FactorizationPlan, FactorizedStiffness};
+use corfem::sparse::factorization::{Factor, FactorizationPlan};
 use corfem::sparse::{SparseMatrix, WholeModel};
 use nalgebra::DMatrix;
 use std::hint::black_box;
@@ -131,7 +131,7 @@ pub fn of(wing: &Wing) -> (Stages, Known, ModalModel) {
     let plan = Arc::new(stages.time("ordering and pattern (once)", plan));
     (stages.factor_entries, stages.factor_operations) = fill::of_factor(&plan, elements);
     let factorize =
-        || FactorizedStiffness::planned(&plan, elements, &sizes, free).expect("it is held");
+        || Factor::of_planned_stiffness(&plan, elements, &sizes, free).expect("it is held");
     let structural = stages.time("assembly and factorization", factorize);
     let flexibility = || {
         structural
@@ -195,7 +195,7 @@ pub fn papers_costs(known: &Known, stages: &Stages) -> Vec<(&'static str, f64, f
     let model = &known.model;
     let ones = vec![1.0; model.parameters().len()];
     let sizes = model.at(&ones).expect("sizes").sizes;
-    let structural = FactorizedStiffness::new(
+    let structural = Factor::of_stiffness(
         model.element_matrices(),
         &sizes,
         model.structure().free_dof(),

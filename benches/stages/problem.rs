@@ -9,7 +9,7 @@ use corfem::method::inner_loop::{InnerSettings, run};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::method::state::ModalState;
 use corfem::sparse::LargeModel;
-use corfem::sparse::factorization::{FactorizationPlan, FactorizedStiffness};
+use corfem::sparse::factorization::{Factor, FactorizationPlan};
 use corfem::torque_box::Case;
 use std::hint::black_box;
 use std::sync::Arc;
@@ -59,7 +59,7 @@ pub fn stages(structure: &str) -> Vec<Stage> {
     let plan = move || FactorizationPlan::new(model.structure(), elements).expect("a plan");
     let shared = Arc::new(plan());
     let factorize =
-        move || FactorizedStiffness::planned(&shared, elements, &sizes, free).expect("it is held");
+        move || Factor::of_planned_stiffness(&shared, elements, &sizes, free).expect("it is held");
     let structural = factorize();
     let condensed = model.condense(ones).expect("it condenses");
     let analyze = move || model.analyze(ones, test, Some(modes)).expect("analyzed");

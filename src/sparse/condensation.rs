@@ -13,7 +13,7 @@ use crate::method::modes::{ModeSet, Modes, solve};
 use crate::method::structure::Structure;
 use crate::sparse::SparseMatrix;
 use crate::sparse::add_squares;
-use crate::sparse::factorization::{FactorizationPlan, FactorizedStiffness};
+use crate::sparse::factorization::{Factor, FactorizationPlan};
 use nalgebra::{DMatrix, DVector};
 use std::ops::Deref;
 use std::sync::Arc;
@@ -101,7 +101,7 @@ impl LargeModel {
     fn condense_at(&self, at: &ScaledSizes) -> Result<LargeCondensation, Error> {
         let (elements, loads) = (self.element_matrices(), self.load_distribution.clone());
         let free = self.structure().free_dof();
-        let structural = FactorizedStiffness::planned(&self.plan, elements, &at.sizes, free)?;
+        let structural = Factor::of_planned_stiffness(&self.plan, elements, &at.sizes, free)?;
         let stiffness = dynamic_stiffness(&structural.flexibility(&loads)?)?;
         let mut mass = at.point_masses.clone();
         if elements
@@ -191,7 +191,7 @@ pub struct LargeCondensation {
     pub stiffness: DMatrix<f64>,
     /// Dynamic mass $M$, lbf·s²/in (d × d).
     pub mass: DMatrix<f64>,
-    structural: FactorizedStiffness,
+    structural: Factor,
     loads: SparseMatrix,
 }
 

@@ -6,7 +6,7 @@ use corfem::method::assembly::{ElementMatrix, dense_stiffness, element_matrices}
 use corfem::method::error::Error;
 use corfem::method::model::{Bounds, FiniteElementModel, Parameter};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, StructuralDof, Structure};
-use corfem::sparse::factorization::FactorizedStiffness;
+use corfem::sparse::factorization::Factor;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
@@ -109,9 +109,9 @@ pub fn dense(structure: &Structure) -> DMatrix<f64> {
 }
 
 /// The stiffness of a structure, factorized.
-pub fn factorized(structure: &Structure) -> Result<FactorizedStiffness, Error> {
+pub fn factorized(structure: &Structure) -> Result<Factor, Error> {
     let matrices = element_matrices(structure);
-    FactorizedStiffness::new(&matrices, &sizes(structure), structure.free_dof())
+    Factor::of_stiffness(&matrices, &sizes(structure), structure.free_dof())
 }
 
 /// A stiffness matrix as a structure of one element, with as many free DOF as rows.

@@ -2,7 +2,7 @@
 
 use corfem::method::assembly::dense_stiffness;
 use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::sparse::factorization::FactorizedStiffness;
+use corfem::sparse::factorization::Factor;
 use corfem::torque_box::Case;
 use corfem::torque_box::wing_box::{Reconstruction, load_distribution, structure};
 use nalgebra::DMatrix;
@@ -70,11 +70,11 @@ pub fn reconstruction() -> impl Strategy<Value = Reconstruction> {
 }
 
 /// The structural stiffness of a model at given sizes, dense and factorized.
-pub fn stiffness(model: &FiniteElementModel, sizes: &[f64]) -> (DMatrix<f64>, FactorizedStiffness) {
+pub fn stiffness(model: &FiniteElementModel, sizes: &[f64]) -> (DMatrix<f64>, Factor) {
     let free = model.structure().free_dof();
     let matrices = model.element_matrices();
     (
         dense_stiffness(matrices, sizes, free.len()).expect("a size each"),
-        FactorizedStiffness::new(matrices, sizes, free).expect("nothing free"),
+        Factor::of_stiffness(matrices, sizes, free).expect("nothing free"),
     )
 }

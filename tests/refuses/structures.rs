@@ -7,7 +7,7 @@ use crate::common::structures::{
 use crate::common::tolerances::{MATRIX_ROUND_OFF, SAME_MOTION, SMALLEST_EIGENVALUE, TAKES_PART};
 use corfem::method::error::Error;
 use corfem::method::structure::{DIRECTIONS, Structure};
-use corfem::sparse::factorization::FactorizedStiffness;
+use corfem::sparse::factorization::Factor;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 
@@ -118,7 +118,7 @@ fn a_stiffness_within_round_off_of_singular_is_refused() {
         stiffness[(0, 1)] = delta - 1.0;
         stiffness[(1, 0)] = delta - 1.0;
         let (elements, free) = as_element(&stiffness);
-        FactorizedStiffness::new(&elements, &[1.0], &free)
+        Factor::of_stiffness(&elements, &[1.0], &free)
     };
     assert!(coupled(2, 3e-14).is_ok());
     assert!(coupled(100, 3e-13).is_ok());
@@ -135,7 +135,7 @@ fn a_stiffness_within_round_off_of_singular_is_refused() {
 fn an_indefinite_element_matrix_is_refused() {
     let stiffness = DMatrix::from_row_slice(3, 3, &[1.0, 0.0, 0.0, 0.0, 1.0, 2.0, 0.0, 2.0, 1.0]);
     let (elements, free) = as_element(&stiffness);
-    let refused = FactorizedStiffness::new(&elements, &[1.0], &free);
+    let refused = Factor::of_stiffness(&elements, &[1.0], &free);
     assert!(
         matches!(
             refused,

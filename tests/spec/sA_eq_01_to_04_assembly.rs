@@ -11,7 +11,7 @@ use corfem::method::elements::unit_stiffness;
 use corfem::method::error::Error;
 use corfem::method::geometry::Geometry;
 use corfem::method::structure::{Element, ElementKind, Structure};
-use corfem::sparse::factorization::FactorizedStiffness;
+use corfem::sparse::factorization::Factor;
 use corfem::torque_box::Case;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
@@ -102,7 +102,7 @@ proptest! {
     fn sparse_and_dense_deflections_agree(number in 1..=4_usize, sizes in sizes_of(39), loads in loads(36)) {
         let model = Case::new(number).unwrap().model().unwrap();
         let matrices = model.element_matrices();
-        let factor = FactorizedStiffness::new(matrices, &sizes, model.structure().free_dof()).unwrap();
+        let factor = Factor::of_stiffness(matrices, &sizes, model.structure().free_dof()).unwrap();
         let found = factor.solve(&loads).unwrap();
         let stiffness = dense_stiffness(matrices, &sizes, 36).unwrap();
         let expected = stiffness.clone().cholesky().unwrap().solve(&loads);
@@ -129,7 +129,7 @@ proptest! {
     #[test]
     fn a_positive_definite_matrix_of_condition_1e10_is_solved((stiffness, _) in positive_definite(9, 10.0), loads in loads(9)) {
         let (elements, free) = as_element(&stiffness);
-        let found = FactorizedStiffness::new(&elements, &[1.0], &free).unwrap().solve(&loads).unwrap();
+        let found = Factor::of_stiffness(&elements, &[1.0], &free).unwrap().solve(&loads).unwrap();
         // What a backward stable solution leaves, whatever the condition.
         let residual = (&stiffness * &found - &loads).amax();
         prop_assert!(residual <= MATRIX_ROUND_OFF * stiffness.amax() * found.amax());
@@ -148,7 +148,7 @@ fn wrong_sizes_and_loads_are_refused_by_name() {
     let free = structure.free_dof();
     for sizes in [vec![1.0; 2], vec![1.0; 4]] {
         for refused in [
-            FactorizedStiffness::new(&matrices, &sizes, free).unwrap_err(),
+            Factor::of_stiffness(&matrices, &sizes, free).unwrap_err(),
             dense_stiffness(&matrices, &sizes, 3).unwrap_err(),
         ] {
             assert!(
@@ -160,13 +160,13 @@ fn wrong_sizes_and_loads_are_refused_by_name() {
         }
     }
     for value in [0.0, -2.0, f64::NAN, f64::INFINITY] {
-        let refused = FactorizedStiffness::new(&matrices, &[1.0, value, 3.0], free).unwrap_err();
+        let refused = Factor::of_stiffness(&matrices, &[1.0, value, 3.0], free).unwrap_err();
         assert!(
             matches!(&refused, Error::NotPositive { what: "size", owner, .. } if owner == "element 2"),
             "{refused:?}"
         );
     }
-    let nothing = FactorizedStiffness::new(&matrices, &[1.0, 2.0, 3.0], &[]);
+    let nothing = Factor::of_stiffness(&matrices, &[1.0, 2.0, 3.0], &[]);
     assert!(
         matches!(
             nothing,

@@ -8,7 +8,7 @@ use crate::method::error::Error;
 use crate::method::linear_algebra::symmetric_eigen;
 use crate::method::structure::{DIRECTIONS, Structure};
 use crate::sparse::SparseMatrix;
-use crate::sparse::factorization::FactorizedStiffness;
+use crate::sparse::factorization::Factor;
 use crate::sparse::whole_modes::{MassDof, WholeModes, whole_modes};
 
 /// Largest ratio of the stiffness of two elements. An assembled entry holds 16 digits of the stiffer one; at a ratio of
@@ -36,7 +36,7 @@ pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
     let stiffness = SparseMatrix::new("stiffness", free.len(), free.len(), entries.collect())?;
     let found = whole_modes(&stiffness, at, most).map_err(|error| match error {
         // What has neither stiffness nor mass has a grid.
-        Error::NotPositiveDefinite { .. } => FactorizedStiffness::new(&elements, &sizes, free)
+        Error::NotPositiveDefinite { .. } => Factor::of_stiffness(&elements, &sizes, free)
             .err()
             .unwrap_or(error),
         other => other,

@@ -5,7 +5,6 @@ mod plan;
 mod stiffness;
 
 pub use plan::FactorizationPlan;
-pub use stiffness::FactorizedStiffness;
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_finite, check_length, check_shape, finite};

@@ -52,7 +52,7 @@ impl FactorizationPlan {
     /// The plan for a structure's elements: nested dissection by its grids' positions.
     ///
     /// # Errors
-    /// Those of [`super::FactorizedStiffness::new`] for elements that do not fit the DOF, or none; [`Error::TooMany`] for more entries than are
+    /// Those of [`super::Factor::of_stiffness`] for elements that do not fit the DOF, or none; [`Error::TooMany`] for more entries than are
     /// counted here; [`Error::NoConvergence`] when there is no memory for it.
     pub fn new(structure: &Structure, elements: &[ElementMatrix]) -> Result<Self, Error> {
         Self::of(elements, structure.free_dof(), |grid| {

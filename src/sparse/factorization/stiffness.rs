@@ -6,26 +6,13 @@ use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::structure::{DIRECTIONS, StructuralDof, positive};
 use nalgebra::Vector3;
-use std::ops::Deref;
 use std::sync::Arc;
 
 /// Shift of the unit-diagonal stiffness that makes a singular one factorizable to find its free motion.
 const SINGULAR_SHIFT: f64 = 1e-10;
 
-/// The factor of a structural stiffness $K_S$ that nothing leaves free to move.
-#[derive(Debug, Clone)]
-pub struct FactorizedStiffness(Factor);
-
-impl Deref for FactorizedStiffness {
-    type Target = Factor;
-
-    fn deref(&self) -> &Factor {
-        &self.0
-    }
-}
-
-impl FactorizedStiffness {
-    /// Assembles and factorizes $K_S = \sum_e s_e K_e$.
+impl Factor {
+    /// Assembles and factorizes the structural stiffness $K_S = \sum_e s_e K_e$, which must leave nothing free to move.
     ///
     /// `sizes` are gages (in) and areas (in²), one per element; `free` the free DOF of the structure.
     ///
@@ -42,28 +29,28 @@ impl FactorizedStiffness {
     /// use corfem::chain::rods;
     /// use corfem::method::assembly::element_matrices;
     /// use corfem::method::error::Error;
-    /// use corfem::sparse::factorization::FactorizedStiffness;
+    /// use corfem::sparse::factorization::Factor;
     ///
     /// // Held nowhere, the chain can move along x.
     /// let free = rods(&[100.0, 50.0], [false, false])?;
-    /// let found = FactorizedStiffness::new(&element_matrices(&free), &[100.0, 50.0], free.free_dof());
+    /// let found = Factor::of_stiffness(&element_matrices(&free), &[100.0, 50.0], free.free_dof());
     /// assert!(matches!(found, Err(Error::SingularStiffness { direction: 'x', .. })));
     /// # Ok::<(), corfem::method::error::Error>(())
     /// ```
-    pub fn new(
+    pub fn of_stiffness(
         elements: &[ElementMatrix],
         sizes: &[f64],
         free: &[StructuralDof],
     ) -> Result<Self, Error> {
         let plan = FactorizationPlan::of(elements, free, |_| Vector3::zeros())?;
-        Self::planned(&Arc::new(plan), elements, sizes, free)
+        Self::of_planned_stiffness(&Arc::new(plan), elements, sizes, free)
     }
 
     /// The same by a plan that was made for these elements.
     ///
     /// # Errors
-    /// Those of [`Self::new`]; [`Error::WrongShape`] for a plan of other elements.
-    pub fn planned(
+    /// Those of [`Self::of_stiffness`]; [`Error::WrongShape`] for a plan of other elements.
+    pub fn of_planned_stiffness(
         plan: &Arc<FactorizationPlan>,
         elements: &[ElementMatrix],
         sizes: &[f64],
@@ -97,7 +84,7 @@ impl FactorizedStiffness {
             && factor.is_above(round_off(count))
         {
             factor.check(what, &entries)?;
-            return Ok(Self(factor));
+            return Ok(factor);
         }
         // Shifted a little, a singular stiffness has the motion that is free as its weakest.
         diagonal

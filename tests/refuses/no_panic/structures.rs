@@ -11,7 +11,7 @@ use corfem::method::geometry::{Geometry, mean_plane};
 use corfem::method::model::{Bounds, FiniteElementModel, ScaledStructure};
 use corfem::method::structure::{ElementKind, Material, Structure};
 use corfem::sparse::LargeModel;
-use corfem::sparse::factorization::{Factor, FactorizationPlan, FactorizedStiffness};
+use corfem::sparse::factorization::{Factor, FactorizationPlan};
 use std::sync::Arc;
 
 pub const STRUCTURES: &[Entry] = &[
@@ -149,14 +149,14 @@ pub const STRUCTURES: &[Entry] = &[
         let (elements, sizes, free) = d.elements()?;
         lumped_mass(&elements, &sizes, free.len()).map(|_| Vec::new())
     }),
-    ("FactorizedStiffness::new", |d| {
+    ("Factor::of_stiffness", |d| {
         let (elements, sizes, free) = d.elements()?;
-        FactorizedStiffness::new(&elements, &sizes, &free).map(|_| Vec::new())
+        Factor::of_stiffness(&elements, &sizes, &free).map(|_| Vec::new())
     }),
     ("Factor::solve", |d| {
         let (elements, sizes, free) = d.elements()?;
         let (rows, columns) = (d.about(free.len()), d.size());
-        FactorizedStiffness::new(&elements, &sizes, &free)?
+        Factor::of_stiffness(&elements, &sizes, &free)?
             .solve(&d.matrix(rows, columns))
             .map(|found| entries(&found))
     }),
@@ -166,19 +166,19 @@ pub const STRUCTURES: &[Entry] = &[
         FactorizationPlan::new(&structure, &elements)
             .map(|plan| plan.order.iter().map(|&dof| dof as f64).collect())
     }),
-    ("FactorizedStiffness::planned", |d| {
+    ("Factor::of_planned_stiffness", |d| {
         let structure = d.structure()?;
         let plan = Arc::new(FactorizationPlan::new(
             &structure,
             &element_matrices(&structure),
         )?);
         let (elements, sizes, free) = d.elements()?;
-        FactorizedStiffness::planned(&plan, &elements, &sizes, &free).map(|_| Vec::new())
+        Factor::of_planned_stiffness(&plan, &elements, &sizes, &free).map(|_| Vec::new())
     }),
     ("Factor::flexibility", |d| {
         let (elements, sizes, free) = d.elements()?;
         let loads = sparse(&d.load_distribution(free.len()))?;
-        FactorizedStiffness::new(&elements, &sizes, &free)?
+        Factor::of_stiffness(&elements, &sizes, &free)?
             .flexibility(&loads)
             .map(|found| entries(&found))
     }),

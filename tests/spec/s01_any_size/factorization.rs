@@ -10,7 +10,7 @@ use corfem::method::assembly::{dense_stiffness, element_matrices};
 use corfem::method::error::Error;
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use corfem::sparse::SparseMatrix;
-use corfem::sparse::factorization::{FactorizationPlan, FactorizedStiffness};
+use corfem::sparse::factorization::{Factor, FactorizationPlan};
 use corfem::torque_box::Case;
 use nalgebra::{DMatrix, Vector3};
 use proptest::prelude::*;
@@ -87,7 +87,7 @@ fn a_plan_of_other_elements_is_refused() {
     let (small, large) = (net(3), net(4));
     let elements = element_matrices(&large);
     let refused =
-        FactorizedStiffness::planned(&plan(&small), &elements, &sizes(&large), large.free_dof());
+        Factor::of_planned_stiffness(&plan(&small), &elements, &sizes(&large), large.free_dof());
     assert!(
         matches!(
             refused,
@@ -101,7 +101,7 @@ fn a_plan_of_other_elements_is_refused() {
     let mut moved = elements.clone();
     moved.swap(0, 1);
     let refused =
-        FactorizedStiffness::planned(&plan(&large), &moved, &sizes(&large), large.free_dof());
+        Factor::of_planned_stiffness(&plan(&large), &moved, &sizes(&large), large.free_dof());
     assert!(
         matches!(
             refused,
@@ -113,7 +113,7 @@ fn a_plan_of_other_elements_is_refused() {
         "{refused:?}"
     );
     assert!(
-        FactorizedStiffness::planned(&plan(&large), &elements, &sizes(&large), large.free_dof())
+        Factor::of_planned_stiffness(&plan(&large), &elements, &sizes(&large), large.free_dof())
             .is_ok()
     );
 }
@@ -159,7 +159,7 @@ proptest! {
         let model = Case::new(2).unwrap().model().unwrap();
         let (structure, elements) = (model.structure(), model.element_matrices());
         let sizes: Vec<f64> = sizes(structure).iter().zip(&factors).map(|(size, factor)| size * factor).collect();
-        let factor = FactorizedStiffness::planned(&plan(structure), elements, &sizes, structure.free_dof()).unwrap();
+        let factor = Factor::of_planned_stiffness(&plan(structure), elements, &sizes, structure.free_dof()).unwrap();
         let loads = SparseMatrix::of_columns("load distribution", 36, &t).unwrap();
         let found = factor.flexibility(&loads).unwrap();
         let stiffness = dense_stiffness(elements, &sizes, 36).unwrap();

@@ -5,7 +5,7 @@ use corfem::method::assembly::{ElementMatrix, dense_stiffness, element_matrices,
 use corfem::method::error::Error;
 use corfem::method::structure::Structure;
 use corfem::sparse::SparseMatrix;
-use corfem::sparse::factorization::FactorizedStiffness;
+use corfem::sparse::factorization::Factor;
 use corfem::sparse::whole_modes::{MassDof, WholeModes, whole_modes};
 use corfem::torque_box::error::CaseError;
 use corfem::torque_box::published::PublishedTable;
@@ -56,13 +56,11 @@ impl DeltaWing {
     }
 
     /// The structure, its unit element matrices, sizes and stiffness.
-    fn parts(
-        &self,
-    ) -> Result<(Structure, Vec<ElementMatrix>, Vec<f64>, FactorizedStiffness), Error> {
+    fn parts(&self) -> Result<(Structure, Vec<ElementMatrix>, Vec<f64>, Factor), Error> {
         let structure = self.structure()?;
         let elements = element_matrices(&structure);
         let sizes: Vec<f64> = structure.elements().iter().map(|e| e.size).collect();
-        let stiffness = FactorizedStiffness::new(&elements, &sizes, structure.free_dof())?;
+        let stiffness = Factor::of_stiffness(&elements, &sizes, structure.free_dof())?;
         Ok((structure, elements, sizes, stiffness))
     }
 
