@@ -9,7 +9,7 @@ use crate::files::test_data::{self, TestData};
 use crate::job::assignment::pair_optimally;
 use crate::job::expansion::mass_by_modes;
 use crate::method::error::Error;
-use crate::method::model::ModalModel;
+use crate::method::model::{ExactResult, ModalModel};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::{Pairing, modal_assurance};
 use crate::sparse::{FINITE, SparseMatrix};
@@ -18,7 +18,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Modal assurance below which a test mode counts as without a partner.
-const FLOOR: f64 = 0.5;
+pub(super) const FLOOR: f64 = 0.5;
 
 /// Largest overlap of the model's own modes by the condensed mass at which that mass still serves for cross-orthogonality: half of
 /// what counts as acceptable.
@@ -45,6 +45,10 @@ pub struct LoadedJob {
     pub modes: Vec<usize>,
     /// Test modes, from zero, that resemble no mode of the first model, with their largest modal assurance.
     pub unpaired: Vec<(usize, f64)>,
+    /// Test modes, from zero, that were left out at first and are compared since.
+    pub joined: Vec<usize>,
+    /// Identifiers of the doubts that the user answers for.
+    pub accepted: Vec<String>,
     /// How many modes of the model are taken.
     pub analysis_modes: usize,
     /// The first model, kept with the settings, the number of modes and the test it was analyzed with.
@@ -114,6 +118,8 @@ impl LoadedJob {
             test,
             modes,
             unpaired: Vec::new(),
+            joined: Vec::new(),
+            accepted: Vec::new(),
             analysis_modes,
             first: None,
         };
@@ -206,6 +212,47 @@ impl LoadedJob {
         self.test = self.test.select(&kept);
         self.modes = kept.into_iter().map(|mode| self.modes[mode]).collect();
         Ok(())
+    }
+
+    /// Selected test modes, from zero, that are not compared, with their largest modal assurance with these shapes.
+    pub(super) fn unlike(&self, shapes: &DMatrix<f64>) -> Result<Vec<(usize, f64)>, FileError> {
+        let left: Vec<usize> = self.unpaired.iter().map(|(mode, _)| *mode).collect();
+        let left = left.into_iter().filter(|mode| !self.modes.contains(mode));
+        let of_mode = |mode: usize| {
+            let test = measured(&self.data, &self.placed, &[mode])?;
+            Ok((mode, modal_assurance(shapes, &test.shapes)?.max()))
+        };
+        left.map(of_mode).collect()
+    }
+
+    /// The same job that also compares the test modes left out so far that resemble a mode of this model, each one of its own.
+    pub(super) fn looked_at_again(&self, exact: &ExactResult) -> Result<Self, FileError> {
+        let mut again = self.clone();
+        let left: Vec<usize> = self
+            .unlike(&exact.modes.shapes)?
+            .into_iter()
+            .map(|(mode, _)| mode)
+            .collect();
+        if left.is_empty() {
+            return Ok(again);
+        }
+        let all: Vec<usize> = self.modes.iter().chain(&left).copied().collect();
+        let test = measured(&self.data, &self.placed, &all)?;
+        let assurance = modal_assurance(&exact.modes.shapes, &test.shapes)?;
+        let partners = pair_optimally(&assurance, FLOOR)?;
+        let joined: Vec<usize> = (self.modes.len()..all.len())
+            .filter(|&place| partners[place].is_some())
+            .map(|place| all[place])
+            .collect();
+        if joined.is_empty() || partners[..self.modes.len()].contains(&None) {
+            return Ok(again);
+        }
+        again.modes.extend(&joined);
+        again.modes.sort_unstable();
+        again.test = measured(&self.data, &self.placed, &again.modes)?;
+        again.joined.extend(joined);
+        again.first = None;
+        Ok(again)
     }
 
     /// The mass at the sensors that cross-orthogonality is to be measured with: the condensed one where the model's own modes are

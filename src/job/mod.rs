@@ -26,7 +26,7 @@ pub use run::{History, JobResult, run};
 pub use samples::{Samples, Spread, Summary};
 pub use sensors::PlacedSensor;
 pub use study::{Study, Vary};
-pub use trust::Concern;
+pub use trust::{Concern, NotCompared, Trust};
 
 use crate::files::error::{FileError, is_not};
 use crate::method::outer_loop::Settings;
@@ -205,6 +205,14 @@ impl Job {
         self.path
             .parent()
             .map_or_else(|| named.to_owned(), |folder| folder.join(named))
+    }
+
+    /// Whether it selects the test mode of this number.
+    fn selects(&self, mode: usize) -> bool {
+        self.test
+            .modes
+            .as_ref()
+            .is_none_or(|modes| modes.contains(&mode))
     }
 
     /// The bytes of a file that an entry names.

@@ -1,12 +1,12 @@
 //! Runs a job: finds the factors, how well the test determines them, and the deck that has them.
 
-use super::{LoadedJob, Method, ParameterRule};
+use super::{LoadedJob, Method, ParameterRule, Trust};
 use crate::files::deck::rewrite;
 use crate::files::error::FileError;
 use crate::method::derivatives::error_changes;
 use crate::method::error_sum::{ModeWeight, mode_errors};
 use crate::method::model::{Bounds, ModalModel};
-use crate::method::outer_loop::{Correlation, Pass, correlate_while, meets};
+use crate::method::outer_loop::{Correlation, Pass, compared_sum, correlate_while, meets};
 use crate::method::structure::{Element, Material};
 use crate::method::verdict::{Outcome, Verdict};
 use crate::sparse::{WholeParameter, WholeShare};
@@ -29,6 +29,10 @@ pub enum History {
 /// The result of a job.
 #[derive(Debug, Clone)]
 pub struct JobResult {
+    /// The job with the test modes that were compared at the end.
+    pub loaded: LoadedJob,
+    /// Everything that may lower the trust in it.
+    pub trust: Trust,
     /// How the factors were found.
     pub history: History,
     /// The best factors.
@@ -177,21 +181,69 @@ impl LoadedJob {
     }
 }
 
-/// Runs a job. `progress` gets a line for every pass or improvement; `go_on` says after each whether to continue.
+/// Runs a job, after a look at what is doubtful of it. `progress` gets a line for every pass or improvement; `go_on` says after each
+/// whether to continue.
 ///
 /// # Errors
-/// Those of the analyses, of the loops and of [`LoadedJob::weights`].
+/// Those of [`Trust::before`], of the analyses, of the loops and of [`LoadedJob::weights`].
 pub fn run(
     loaded: &LoadedJob,
     mut progress: impl FnMut(&str),
     go_on: impl Fn() -> bool,
 ) -> Result<JobResult, FileError> {
-    run_from(loaded, &loaded.ones(), &mut progress, &go_on)
+    let trust = Trust::before(loaded)?;
+    run_from(loaded, trust, &loaded.ones(), &mut progress, &go_on)
 }
 
-/// The same, but starting from other factors than one, and then from these alone.
+/// The same after the look, starting from other factors than one, and then from these alone.
+///
+/// A test mode that is left out is looked at again after every pass of the paper's loops and at the optimum of weighted steps. One that
+/// resembles a mode of the model by then is compared from there on, and the passes before, which did not count it, are not shown.
 pub(super) fn run_from(
     loaded: &LoadedJob,
+    trust: Trust,
+    start: &[f64],
+    progress: &mut dyn FnMut(&str),
+    go_on: &dyn Fn() -> bool,
+) -> Result<JobResult, FileError> {
+    let mut part = run_part(loaded, trust, start, progress, go_on)?;
+    while !part.is_interrupted {
+        let joined = part.loaded.looked_at_again(&part.last.exact)?;
+        if joined.modes.len() == part.loaded.modes.len() {
+            break;
+        }
+        let analyses = part.analyses;
+        progress(&format!("test modes compared: {}", joined.modes.len()));
+        part = run_part(&joined, part.trust, &part.factors, progress, go_on)?;
+        part.analyses += analyses + 1;
+        part.first = joined.analyze(start)?;
+        part.seen[0] = sees(&joined, &part.first)?;
+    }
+    let (loaded, shapes) = (&part.loaded, &part.last.exact.modes.shapes);
+    let unpaired = loaded.unlike(shapes)?;
+    part.trust = part.trust.after(
+        loaded,
+        unpaired,
+        &part.verdict,
+        &part.seen[1],
+        part.is_interrupted,
+    );
+    Ok(part)
+}
+
+/// What the test sees of the parameters at a model.
+fn sees(loaded: &LoadedJob, model: &ModalModel) -> Result<Identifiability, FileError> {
+    let prior = WeightedSettings::default().prior_deviation;
+    Ok(identifiability(
+        &jacobian(model, &loaded.weights()?)?,
+        prior,
+    )?)
+}
+
+/// A run with the test modes that the job compares now.
+fn run_part(
+    loaded: &LoadedJob,
+    trust: Trust,
     start: &[f64],
     progress: &mut dyn FnMut(&str),
     go_on: &dyn Fn() -> bool,
@@ -219,6 +271,7 @@ pub(super) fn run_from(
     };
     let (history, factors) = match compare.method {
         Method::Paper => {
+            let mut has_joined = false;
             let mut report_pass = |number: usize, pass: &Pass| {
                 let errors = &pass.check.errors;
                 let (frequency, shape) =
@@ -226,7 +279,10 @@ pub(super) fn run_from(
                 progress(&format!(
                     "pass {number}: frequencies {frequency:.2} %, shapes {shape:.2} % RMS"
                 ));
-                may_go_on()
+                has_joined = loaded
+                    .looked_at_again(&pass.check)
+                    .is_ok_and(|again| again.modes.len() > loaded.modes.len());
+                may_go_on() && !has_joined
             };
             // The loops count factors from one: the start is their first model.
             let total = |factors: &[f64]| {
@@ -243,14 +299,20 @@ pub(super) fn run_from(
                 })
             };
             let ranges: Vec<_> = ranges.iter().zip(start).map(seen).collect();
-            let run = correlate_while(
+            let mut run = correlate_while(
                 &mut |factors| analyze(&total(factors)),
                 &|model, state| error_changes(model, state, settings.inner.derivatives),
                 &ranges,
                 settings,
                 &mut report_pass,
             )?;
-            let factors = total(&run.best_factors);
+            for pass in &mut run.passes {
+                pass.factors = total(&pass.factors);
+            }
+            run.best_factors = total(&run.best_factors);
+            // A mode that has come in did so after the last pass, which need not be the best of those without it.
+            let last = run.passes.last().filter(|_| has_joined);
+            let factors = last.map_or(&run.best_factors, |pass| &pass.factors).clone();
             (History::Paper(run), factors)
         }
         Method::GaussNewton => {
@@ -301,7 +363,8 @@ pub(super) fn run_from(
             {
                 _ if is_within => Outcome::Tolerance,
                 Some((_, true)) => Outcome::Nothing,
-                None | Some((WeightedStop::Trials, _)) => Outcome::Cap,
+                None => Outcome::Request,
+                Some((WeightedStop::Trials, _)) => Outcome::Cap,
                 _ => Outcome::LocalMinimum,
             };
             let errors = mode_errors(&last.exact.modes, &last.exact.pairing, &last.test)?;
@@ -310,15 +373,15 @@ pub(super) fn run_from(
                 .iter()
                 .map(|share| share.diagonal().amax())
                 .collect();
-            let sum = last.exact.errors.sum();
+            let sum = compared_sum(&last.exact.errors, settings);
             Verdict::new(outcome, (sum, &errors), &factors, &seen, &ranges, is_within)
         }
     };
-    let sees =
-        |model: &ModalModel| identifiability(&jacobian(model, &weights)?, weighted.prior_deviation);
-    let seen = [sees(&first)?, sees(&last)?];
+    let seen = [sees(loaded, &first)?, sees(loaded, &last)?];
     let (analyses, is_interrupted) = (analyses.get(), is_interrupted.get());
     Ok(JobResult {
+        loaded: loaded.clone(),
+        trust,
         history,
         factors,
         verdict,

@@ -1,7 +1,7 @@
 //! Many runs of one job: each sample depends on the study's seed and its own number alone, not on what ran before.
 
 use super::run::run_from;
-use super::{Job, JobResult, LoadedJob};
+use super::{Job, JobResult, LoadedJob, Trust};
 use crate::files::error::FileError;
 use crate::files::test_data::quoted;
 use crate::method::modes::ModeSet;
@@ -28,6 +28,8 @@ pub enum Vary {
 pub struct Study {
     /// The job as it is.
     pub loaded: LoadedJob,
+    /// What may lower the trust in it, before its first step.
+    pub trust: Trust,
     /// The seed.
     pub seed: u64,
     /// What varies, each once, ascending.
@@ -47,8 +49,10 @@ impl Study {
         vary.sort_unstable();
         vary.dedup();
         let identity = loaded.identity(&format!("{seed} {vary:?}"))?;
+        let trust = Trust::before(&loaded)?;
         Ok(Self {
             loaded,
+            trust,
             seed,
             vary,
             identity,
@@ -164,8 +168,9 @@ impl Study {
         sample: u64,
         go_on: impl Fn() -> bool,
     ) -> Result<(String, Option<FileError>), FileError> {
-        let run =
-            |(loaded, start): (LoadedJob, Vec<f64>)| run_from(&loaded, &start, &mut |_| {}, &go_on);
+        let run = |(loaded, start): (LoadedJob, Vec<f64>)| {
+            run_from(&loaded, self.trust.clone(), &start, &mut |_| {}, &go_on)
+        };
         let (numbers, failure) = match self.draw(sample).and_then(run) {
             Ok(JobResult {
                 is_interrupted: true,
@@ -181,6 +186,7 @@ impl Study {
                     Outcome::Tolerance => "tolerance",
                     Outcome::LocalMinimum => "local minimum",
                     Outcome::Cap => "cap",
+                    Outcome::Request => "request",
                     Outcome::Nothing => "nothing",
                 };
                 let factors: String = factors.iter().map(|factor| format!(",{factor}")).collect();

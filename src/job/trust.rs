@@ -1,9 +1,14 @@
 //! What lowers the trust in a job's result, collected in one place.
 
 use super::LoadedJob;
+use super::loaded::FLOOR;
 use super::preflight::{Finding, preflight};
+use crate::files::deck::{BulkData, Reason, Unread};
 use crate::files::error::FileError;
 use crate::method::model::DynamicModel;
+use crate::method::verdict::Verdict;
+use crate::weighted::identifiability::Identifiability;
+use crate::weighted::residuals::DEVIATIONS;
 use serde::Serialize;
 
 /// Modal phase collinearity below which a complex test mode is doubtful as a real one.
@@ -16,8 +21,50 @@ pub struct Concern {
     pub identifier: String,
     /// Whether it names a mistake; a remark only limits what is known.
     pub is_doubt: bool,
+    /// Whether the user answers for it, by its identifier.
+    pub is_accepted: bool,
     /// A sentence.
     pub words: String,
+}
+
+/// A test mode that resembles no mode of the model.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct NotCompared {
+    /// Its number in the test's file.
+    pub mode: usize,
+    /// Its largest modal assurance with any mode of the model.
+    pub assurance: f64,
+}
+
+/// Everything that may lower the trust in a job's result. Every output shows [`Trust::all`] first.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Trust {
+    /// What stands before the first step.
+    pub concerns: Vec<Concern>,
+    /// Selected test modes that resemble no mode of the best model, and so are not compared.
+    pub not_compared: Vec<NotCompared>,
+    /// Test modes, by their numbers in the test's file, that were left out at first and are compared since.
+    pub joined: Vec<usize>,
+    /// Whether the run was stopped by request.
+    pub is_interrupted: bool,
+    /// Test modes of the file that the job does not select.
+    pub not_selected: Vec<usize>,
+    /// Parameters that the test hardly sees.
+    pub blind: Vec<String>,
+    /// Groups of parameters that the test cannot tell apart.
+    pub parallel: Vec<Vec<String>>,
+    /// Parameters at an end of their range.
+    pub at_bound: Vec<String>,
+    /// Standard deviations that neither test nor job gives.
+    pub assumed: Vec<String>,
+    /// What of the inputs is not used.
+    pub ignored: Vec<String>,
+    /// How many modes of the model are taken.
+    pub analysis_modes: usize,
+    /// How many rigid-body modes the first model has, which are not among them.
+    pub rigid_body_modes: usize,
+    /// Total mass of a deck and its center, in the deck's units.
+    pub mass_and_center: Option<(f64, [f64; 3])>,
 }
 
 impl Concern {
@@ -26,6 +73,7 @@ impl Concern {
         Self {
             identifier: identifier.into(),
             is_doubt: true,
+            is_accepted: false,
             words: words.into(),
         }
     }
@@ -37,33 +85,259 @@ impl Concern {
             ..Self::doubt(identifier, words)
         }
     }
+
+    /// Whether it names a mistake that nobody answers for.
+    pub fn stands(&self) -> bool {
+        self.is_doubt && !self.is_accepted
+    }
+}
+
+impl Trust {
+    /// Before the first step: what the job, its test and its model give reason to say.
+    ///
+    /// # Errors
+    /// Those of [`LoadedJob::concerns`]; [`FileError::Refused`] for an accepted identifier that names no doubt of this job.
+    pub fn before(loaded: &LoadedJob) -> Result<Self, FileError> {
+        let mut concerns = loaded.concerns()?;
+        let doubts: Vec<String> = concerns
+            .iter()
+            .filter(|concern| concern.is_doubt)
+            .map(|concern| concern.identifier.clone())
+            .collect();
+        for accepted in &loaded.accepted {
+            let unknown = (!doubts.contains(accepted)).then_some(());
+            loaded.job.refuse_if(unknown, |()| match &doubts[..] {
+                [] => format!("--accept {accepted}: nothing is doubtful"),
+                _ => format!("--accept {accepted}: the doubts are {}", doubts.join(", ")),
+            })?;
+        }
+        for concern in &mut concerns {
+            concern.is_accepted = loaded.accepted.contains(&concern.identifier);
+        }
+        let (data, compare) = (&loaded.data, &loaded.job.compare);
+        let assumed = [
+            (
+                "frequencies",
+                data.frequency_deviation.is_none() && compare.frequency_deviation.is_none(),
+                DEVIATIONS.frequency,
+            ),
+            (
+                "shapes",
+                data.shape_deviation.is_none() && compare.shape_deviation.is_none(),
+                DEVIATIONS.shape,
+            ),
+        ];
+        let deck = loaded.source.deck.as_ref().map(|(_, deck)| &deck.model);
+        let mass_and_center = deck.map(BulkData::mass_and_center).transpose()?.flatten();
+        let cards = loaded.source.deck.iter().flat_map(|(_, deck)| &deck.unread);
+        let cards = cards.filter(|card| card.reason != Reason::WithoutPart);
+        let sensors = loaded.data.sensors.len() - loaded.placed.len();
+        Ok(Self {
+            concerns,
+            not_compared: not_compared(&loaded.unpaired),
+            joined: Vec::new(),
+            is_interrupted: false,
+            not_selected: (1..=data.frequencies_hz.len())
+                .filter(|mode| !loaded.job.selects(*mode))
+                .collect(),
+            blind: Vec::new(),
+            parallel: Vec::new(),
+            at_bound: Vec::new(),
+            assumed: assumed
+                .into_iter()
+                .filter(|(_, is_assumed, _)| *is_assumed)
+                .map(|(what, _, deviation)| format!("{} % of {what}", 100.0 * deviation))
+                .collect(),
+            ignored: cards
+                .map(Unread::place)
+                .chain((sensors > 0).then(|| format!("{sensors} of the test's sensors")))
+                .collect(),
+            analysis_modes: loaded.analysis_modes,
+            rigid_body_modes: loaded
+                .source
+                .whole
+                .modes(&loaded.ones(), 1)?
+                .rigid_body
+                .ncols(),
+            mass_and_center: mass_and_center.map(|(mass, center)| (mass, center.into())),
+        })
+    }
+
+    /// The same after a run.
+    pub(super) fn after(
+        self,
+        loaded: &LoadedJob,
+        unpaired: Vec<(usize, f64)>,
+        verdict: &Verdict,
+        seen: &Identifiability,
+        is_interrupted: bool,
+    ) -> Self {
+        let names: Vec<&str> = loaded.parameter_names().collect();
+        let named = |places: &[usize]| places.iter().map(|&e| names[e].to_owned()).collect();
+        let mut blind = [&seen.blind[..], &verdict.unseen].concat();
+        blind.sort_unstable();
+        blind.dedup();
+        let groups = seen.parallel_groups();
+        Self {
+            blind: named(&blind),
+            parallel: groups.iter().map(|group| named(group)).collect(),
+            at_bound: named(&verdict.at_bound),
+            not_compared: not_compared(&unpaired),
+            joined: from_one(&loaded.joined),
+            is_interrupted,
+            ..self
+        }
+    }
+
+    /// Everything in sentences, what matters most first.
+    pub fn all(&self) -> Vec<Concern> {
+        let join = |names: &[String]| names.join(", ");
+        let numbers = |modes: &[usize]| {
+            let numbers: Vec<String> = modes.iter().map(usize::to_string).collect();
+            numbers.join(", ")
+        };
+        let remark = |is_so: bool, identifier: &str, words: String| {
+            is_so.then(|| Concern::remark(identifier, words))
+        };
+        let (doubts, remarks): (Vec<Concern>, Vec<Concern>) = self
+            .concerns
+            .iter()
+            .cloned()
+            .partition(|concern| concern.is_doubt);
+        let not_compared = self.not_compared.iter().map(|left| {
+            let NotCompared { mode, assurance } = left;
+            let why = if *assurance < FLOOR {
+                "it resembles no mode of the model"
+            } else {
+                "the mode of the model that it resembles belongs to another test mode"
+            };
+            Concern::remark(
+                format!("not-compared-{mode}"),
+                format!("Test mode {mode} is not compared: {why} (modal assurance {assurance:.2} at most)."),
+            )
+        });
+        let parallel = self.parallel.iter().map(|group| {
+            Concern::remark(
+                format!(
+                    "parallel-{}",
+                    group
+                        .join("-")
+                        .to_lowercase()
+                        .replace(char::is_whitespace, "-")
+                ),
+                format!(
+                    "The test cannot tell {} apart; only their combination is known.",
+                    group.join(" and ")
+                ),
+            )
+        });
+        let others = [
+            remark(
+                !self.joined.is_empty(),
+                "joined",
+                format!(
+                    "Test modes left out at first and compared since: {}. The passes shown are those since.",
+                    numbers(&self.joined)
+                ),
+            ),
+            remark(
+                !self.blind.is_empty(),
+                "blind",
+                format!(
+                    "Hardly seen by the test, and so not to be trusted: {}.",
+                    join(&self.blind)
+                ),
+            ),
+            remark(
+                !self.at_bound.is_empty(),
+                "at-bound",
+                format!("At a bound: {}.", join(&self.at_bound)),
+            ),
+            remark(
+                !self.assumed.is_empty(),
+                "assumed-deviations",
+                format!(
+                    "Standard deviations assumed: {}.",
+                    self.assumed.join(" and ")
+                ),
+            ),
+            remark(
+                !self.ignored.is_empty(),
+                "not-used",
+                format!("Not used of the inputs: {}.", join(&self.ignored)),
+            ),
+            remark(
+                !self.not_selected.is_empty(),
+                "not-selected",
+                format!(
+                    "Test modes that the job does not select: {}.",
+                    numbers(&self.not_selected)
+                ),
+            ),
+            Some(Concern::remark(
+                "analysis-modes",
+                format!(
+                    "Modes of the model taken: the lowest {}, beside {} rigid-body modes.",
+                    self.analysis_modes, self.rigid_body_modes
+                ),
+            )),
+            self.mass_and_center.map(|(mass, [x, y, z])| {
+                let words =
+                    format!("Total mass {mass:.6}, center of gravity ({x:.4}, {y:.4}, {z:.4}).");
+                Concern::remark("mass-and-center", words)
+            }),
+        ];
+        remark(
+            self.is_interrupted,
+            "interrupted",
+            "Stopped by request; these are the best factors so far.".to_owned(),
+        )
+        .into_iter()
+        .chain(doubts)
+        .chain(not_compared)
+        .chain(parallel)
+        .chain(others.into_iter().flatten())
+        .chain(remarks)
+        .collect()
+    }
+
+    /// Whether a doubt stands that nobody answers for.
+    pub fn has_doubt(&self) -> bool {
+        self.concerns.iter().any(Concern::stands)
+    }
+
+    /// Whether nothing stands against the result: neither a doubt nor a selected mode that is not compared.
+    pub fn is_clear(&self) -> bool {
+        self.not_compared.is_empty() && !self.has_doubt()
+    }
+}
+
+fn not_compared(unpaired: &[(usize, f64)]) -> Vec<NotCompared> {
+    let of_mode = |&(mode, assurance): &(usize, f64)| NotCompared {
+        mode: mode + 1,
+        assurance,
+    };
+    unpaired.iter().map(of_mode).collect()
+}
+
+fn from_one(places: &[usize]) -> Vec<usize> {
+    places.iter().map(|place| place + 1).collect()
 }
 
 impl LoadedJob {
-    /// Everything doubtful before the first step: what the pre-flight finds, test modes that are left out, and what the readers
-    /// left aside.
+    /// Everything doubtful before the first step: what the pre-flight finds, complex test modes, and what the readers left aside.
     ///
     /// # Errors
     /// Those of [`preflight`] and of the analyses it needs; a structure without supports has no condensed model to check, and a
     /// sentence says so.
     pub fn concerns(&self) -> Result<Vec<Concern>, FileError> {
         let mut all = self.preflight_concerns()?;
-        for (mode, assurance) in &self.unpaired {
-            let mode = mode + 1;
-            all.push(Concern::remark(
-                format!("left-out-{mode}"),
-                format!(
-                    "test mode {mode}: it resembles no mode of the first model (modal assurance {assurance:.2} at most) and is \
-                     left out"
-                ),
-            ));
-        }
         for (mode, phase) in self.data.phase_collinearity.iter().enumerate() {
             if *phase < COLLINEAR {
                 let mode = mode + 1;
                 all.push(Concern::remark(
                     format!("complex-{mode}"),
-                    format!("test mode {mode}: complex, with a phase collinearity of {phase:.2}"),
+                    format!("Test mode {mode} is complex: its phase collinearity is {phase:.2}."),
                 ));
             }
         }
@@ -72,7 +346,7 @@ impl LoadedJob {
             all.push(Concern::remark(
                 "datasets-not-read",
                 format!(
-                    "datasets of the Universal File that are not read: {}",
+                    "Datasets of the Universal File that are not read: {}.",
                     numbers.join(", ")
                 ),
             ));
@@ -80,7 +354,7 @@ impl LoadedJob {
         all.extend(self.data.units.iter().map(|units| {
             Concern::remark(
                 "units-of-test",
-                format!("the test's file is in units of {units}; nothing is converted"),
+                format!("The test's file is in units of {units}; nothing is converted."),
             )
         }));
         Ok(all)
@@ -103,7 +377,7 @@ impl LoadedJob {
             Err(error) => Ok(vec![Concern::remark(
                 "no-preflight",
                 format!(
-                    "the pre-flight needs condensed matrices, which this model does not have: {error}"
+                    "The pre-flight needs condensed matrices, which this model does not have: {error}."
                 ),
             )]),
         }

@@ -151,6 +151,7 @@ pub(crate) fn correlate_while<E: From<Error>>(
     let (first, mut passes) = (model.clone(), Vec::<Pass>::new());
     let mut inner_settings = settings.inner.clone();
     let mut converged = meets(&model.exact.errors, settings);
+    let mut is_stopped = false;
     while passes.len() < settings.most_passes
         && (passes.len() < settings.least_passes || !converged)
     {
@@ -171,9 +172,10 @@ pub(crate) fn correlate_while<E: From<Error>>(
             inner,
         };
         converged = meets(&pass.check.errors, settings);
-        let goes_on = progress(passes.len() + 1, &pass) && !pass.inner.iterations.is_empty();
+        is_stopped = !progress(passes.len() + 1, &pass);
+        let is_at_end = pass.inner.iterations.is_empty();
         passes.push(pass);
-        if !goes_on {
+        if is_stopped || is_at_end {
             break;
         }
         inner_settings.tolerance = settings.later_inner_tolerance;
@@ -183,6 +185,7 @@ pub(crate) fn correlate_while<E: From<Error>>(
         passes,
         total_ranges,
         settings,
+        is_stopped,
     )?)
 }
 
@@ -193,6 +196,7 @@ impl Correlation {
         passes: Vec<Pass>,
         total_ranges: &[Option<Bounds>],
         settings: &Settings,
+        is_stopped: bool,
     ) -> Result<Self, Error> {
         let ones = vec![1.0; total_ranges.len()];
         let start = (None, &first.exact, &ones);
@@ -212,6 +216,7 @@ impl Correlation {
         let converged = meets(&check.errors, settings);
         let has_stepped = passes.iter().any(|pass| !pass.inner.iterations.is_empty());
         let outcome = match passes.last() {
+            _ if is_stopped && !converged => Outcome::Request,
             _ if !has_stepped && !converged => Outcome::Nothing,
             Some(pass) if pass.inner.stop == Stop::LocalMinimum => Outcome::LocalMinimum,
             _ if converged => Outcome::Tolerance,
@@ -221,7 +226,7 @@ impl Correlation {
         let largest_part = |share: &DMatrix<f64>| share.diagonal().amax();
         let verdict = Verdict::new(
             outcome,
-            (check.errors.sum(), &errors),
+            (compared_sum(&check.errors, settings), &errors),
             factors,
             &first
                 .test_shares
@@ -242,10 +247,15 @@ impl Correlation {
     }
 }
 
+/// The error sum in the measure of the settings.
+pub(crate) fn compared_sum(errors: &Errors, settings: &Settings) -> f64 {
+    settings.inner.measure.scale(errors.mode_count) * errors.sum()
+}
+
 /// Whether errors meet the tolerances in the measure of the settings.
 pub(crate) fn meets(errors: &Errors, settings: &Settings) -> bool {
     let scale = settings.inner.measure.scale(errors.mode_count);
-    scale * errors.sum() <= settings.error_sum_tolerance
+    compared_sum(errors, settings) <= settings.error_sum_tolerance
         && scale * errors.frequency <= settings.frequency_tolerance
         && scale * errors.shape <= settings.shape_tolerance
 }

@@ -19,6 +19,8 @@ pub enum Outcome {
     LocalMinimum,
     /// The passes allowed were used up, or the iterations of the only one.
     Cap,
+    /// The caller asked to stop.
+    Request,
     /// Not one step was taken: the first was uphill with all its halvings, or no pass was allowed.
     Nothing,
 }
@@ -30,7 +32,7 @@ pub struct Verdict {
     pub outcome: Outcome,
     /// Whether the exact modes at the best factors meet the tolerances.
     pub is_within: bool,
-    /// Error sum there.
+    /// Error sum there, in the measure of the settings: the number that the tolerance is compared with.
     pub error_sum: f64,
     /// The test mode with the largest errors there, from zero.
     pub worst_mode: usize,

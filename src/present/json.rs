@@ -9,6 +9,7 @@ use super::report::{Report, Stage};
 use super::tables::cases::{outcome, published_iterations};
 use super::tables::deck::{not_read, unit_shapes};
 use crate::files::deck::Deck;
+use crate::job::Trust;
 use crate::job::preflight::Finding;
 use crate::method::inner_loop::Iteration;
 use crate::method::model::{Bounds, ExactResult};
@@ -52,6 +53,7 @@ struct ReportValue<'a> {
     name: &'a str,
     solver: &'a str,
     converged: bool,
+    trust: &'a Option<Trust>,
     verdict: &'a Option<Verdict>,
     verdict_in_words: String,
     parameters: &'a [String],
@@ -60,6 +62,7 @@ struct ReportValue<'a> {
     standard_deviations: &'a Option<Vec<f64>>,
     at_bound: Vec<bool>,
     best_pass: Option<usize>,
+    test_mode_numbers: &'a [usize],
     test_frequencies_hz: Vec<f64>,
     sensors: Vec<&'a str>,
     initial: SolutionValue<'a>,
@@ -124,6 +127,7 @@ pub fn report(report: &Report) -> Result<Value, PresentError> {
         name: &report.title,
         solver: &report.solver,
         converged: report.converged(),
+        trust: &report.trust,
         verdict: &report.verdict,
         verdict_in_words: report.words(),
         parameters: &report.parameters,
@@ -132,6 +136,7 @@ pub fn report(report: &Report) -> Result<Value, PresentError> {
         standard_deviations: &report.deviations,
         at_bound: factors.iter().enumerate().map(at_bound).collect(),
         best_pass: report.best.map(|best| best + 1),
+        test_mode_numbers: &report.mode_numbers,
         test_frequencies_hz: report.test.frequencies_hz(),
         sensors: report
             .sensors

@@ -19,8 +19,13 @@ pub fn text(tables: &[Table]) -> String {
     let head = "Computed values; the paper's are in the rows marked \"published\".";
     paragraphs(tables, head, |table| {
         let notes = table.notes.iter().map(|note| wrapped(note));
+        let body = if table.has_sentences() {
+            vec![list(table)]
+        } else {
+            grids(table)
+        };
         std::iter::once(wrapped(&table.title))
-            .chain(grids(table))
+            .chain(body)
             .chain(notes)
             .collect()
     })
@@ -75,7 +80,7 @@ pub fn csv(tables: &[Table]) -> String {
             for (column, cell) in table.columns.iter().zip(&row.cells) {
                 let (computed, published) = match cell {
                     Cell::Blank => continue,
-                    Cell::Text(words) => (words.clone(), String::new()),
+                    Cell::Text(words) | Cell::Sentence(words) => (words.clone(), String::new()),
                     Cell::Printed(words) => (String::new(), words.clone()),
                     Cell::Number {
                         computed,
@@ -176,6 +181,27 @@ fn grids(table: &Table) -> Vec<String> {
         }
     }
     parts.iter().map(|part| grid(&label, part)).collect()
+}
+
+/// The rows one below the other, for what is too long for a column: label, other cells, sentence.
+fn list(table: &Table) -> String {
+    let of_row = |row: &Row| {
+        let (sentences, others): (Vec<&Cell>, Vec<&Cell>) = row
+            .cells
+            .iter()
+            .partition(|cell| matches!(cell, Cell::Sentence(_)));
+        let join = |cells: Vec<&Cell>, between| {
+            let words: Vec<String> = cells.into_iter().map(Cell::computed).collect();
+            words.join(between)
+        };
+        wrapped(&format!(
+            "{} {}: {}",
+            join(others, ", "),
+            row.label,
+            join(sentences, " ")
+        ))
+    };
+    table.rows.iter().map(of_row).collect::<Vec<_>>().join("\n")
 }
 
 /// One part: headings, rows, and a rule below each.

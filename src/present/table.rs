@@ -21,6 +21,8 @@ pub enum Cell {
     Blank,
     /// Words.
     Text(String),
+    /// A sentence, too long for a column.
+    Sentence(String),
     /// The paper's own text, with nothing computed for it.
     Printed(String),
     /// A number, and the one printed elsewhere for it if there is any.
@@ -115,11 +117,19 @@ impl Cell {
     pub fn computed(&self) -> String {
         match self {
             Self::Blank => String::new(),
-            Self::Text(words) | Self::Printed(words) => words.clone(),
+            Self::Text(words) | Self::Sentence(words) | Self::Printed(words) => words.clone(),
             Self::Number {
                 computed, digits, ..
             } => digits.write(*computed),
         }
+    }
+}
+
+impl Table {
+    /// Whether a column of it has sentences.
+    pub fn has_sentences(&self) -> bool {
+        let mut cells = self.rows.iter().flat_map(|row| &row.cells);
+        cells.any(|cell| matches!(cell, Cell::Sentence(_)))
     }
 }
 

@@ -2,8 +2,9 @@
 
 use crate::method::verdict::{Outcome, Verdict};
 
-/// The verdict in sentences, with the parameters' names; numbers stand for those that have none.
-pub fn verdict_in_words(verdict: &Verdict, names: &[String]) -> String {
+/// The verdict in sentences, with the parameters' names and the numbers of the test modes; places from one stand for those that have
+/// none.
+pub fn verdict_in_words(verdict: &Verdict, names: &[String], mode_numbers: &[usize]) -> String {
     let named = |indices: &[usize]| {
         let name = |&e: &usize| names.get(e).cloned().unwrap_or_else(|| (e + 1).to_string());
         indices.iter().map(name).collect::<Vec<_>>().join(", ")
@@ -12,6 +13,7 @@ pub fn verdict_in_words(verdict: &Verdict, names: &[String]) -> String {
         Outcome::Tolerance => "",
         Outcome::LocalMinimum => " No further step lowered it.",
         Outcome::Cap => " The iterations or passes allowed ran out.",
+        Outcome::Request => " It was stopped by request.",
         Outcome::Nothing => " No step from the first model lowered it, or none was allowed.",
     };
     let mut words = format!(
@@ -22,7 +24,9 @@ pub fn verdict_in_words(verdict: &Verdict, names: &[String]) -> String {
             "Outside"
         },
         100.0 * verdict.error_sum,
-        verdict.worst_mode + 1,
+        mode_numbers
+            .get(verdict.worst_mode)
+            .map_or(verdict.worst_mode + 1, |number| *number),
         // Rounding first keeps a minus sign off zero.
         (1e4 * verdict.worst.frequency).round() / 100.0 + 0.0,
         100.0 * verdict.worst.shape

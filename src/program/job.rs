@@ -7,11 +7,11 @@ use super::{progress, signals};
 use clap::Args;
 use corfem::files::error::FileError;
 use corfem::files::escaped;
-use corfem::job::{LoadedJob, Method, TEMPLATE, TEST_TEMPLATE, run};
+use corfem::job::{LoadedJob, Method, TEMPLATE, TEST_TEMPLATE, Trust, run};
 use corfem::present::page::report_page;
 use corfem::present::report::Report;
 use corfem::present::tables::deck::not_read;
-use corfem::present::tables::job::{doubts_table, places_table, seen_table, suspects_table};
+use corfem::present::tables::job::{places_table, seen_table, suspects_table, trust_table};
 use corfem::present::tables::report::{factor_table, history_table, paired_table};
 use corfem::present::{PresentError, json, render};
 use serde_json::json;
@@ -43,6 +43,9 @@ pub struct CorrelateArguments {
     /// Seed of the starting points
     #[arg(long, value_name = "S", requires = "starts")]
     seed: Option<u64>,
+    /// Answer for the doubt of this identifier, which then no longer makes the status 3; may be repeated
+    #[arg(long, value_name = "IDENTIFIER")]
+    accept: Vec<String>,
     #[command(flatten)]
     output: OutputArguments,
 }
@@ -52,6 +55,9 @@ pub struct CheckArguments {
     /// The job
     #[arg(value_name = "JOB")]
     job: Option<PathBuf>,
+    /// Answer for the doubt of this identifier, which then no longer makes the status 3; may be repeated
+    #[arg(long, value_name = "IDENTIFIER", requires = "job")]
+    accept: Vec<String>,
     #[command(flatten)]
     output: OutputArguments,
 }
@@ -78,26 +84,34 @@ pub fn init(arguments: &InitArguments) -> Result<(), PresentError> {
     )
 }
 
-/// Says everything doubtful of a job and ranks its parameters, without a step.
+/// Says everything doubtful of a job and ranks its parameters, without a step; whether no doubt stands.
 pub fn check_job(
-    CheckArguments { job, output }: &CheckArguments,
+    CheckArguments {
+        job,
+        accept,
+        output,
+    }: &CheckArguments,
     quiet: bool,
-) -> Result<(), PresentError> {
+) -> Result<bool, PresentError> {
     let Some(path) = job else {
-        return super::studies::check(output);
+        return super::studies::check(output).map(|()| true);
     };
-    let tables = progress::during(quiet, "looking at the job", || {
-        let loaded = LoadedJob::new(path)?;
+    let (trust, tables) = progress::during(quiet, "looking at the job", || {
+        let mut loaded = LoadedJob::new(path)?;
+        loaded.accepted.clone_from(accept);
+        let trust = Trust::before(&loaded)?;
         let report = Report::from_job(&loaded, None)?;
-        let [doubts, suspects] = [doubts_table(&loaded)?, suspects_table(&loaded)?];
-        Ok::<_, PresentError>([
-            doubts,
+        let tables = [
+            trust_table(&trust),
             places_table(&loaded, None)?,
             paired_table(&report)?,
-            suspects,
-        ])
+            suspects_table(&loaded)?,
+        ];
+        Ok::<_, PresentError>((trust, tables))
     })?;
-    output.write(&tables, || json::document(json!({ "tables": tables })))
+    let document = || json::document(json!({ "trust": trust, "tables": tables }));
+    output.write(&tables, document)?;
+    Ok(!trust.has_doubt())
 }
 
 /// Corrects the model of a job and writes the report; whether it is within tolerance.
@@ -109,6 +123,7 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
         compare.starts = Some(starts as usize);
         compare.seed = arguments.seed.unwrap_or(compare.seed);
     }
+    loaded.accepted.clone_from(&arguments.accept);
     for card in loaded.source.deck.iter().flat_map(|(_, deck)| &deck.unread) {
         note(format_args!("corfem: {}: {}", loaded.title, not_read(card)));
     }
@@ -128,16 +143,14 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
         factor_table(&report),
         history_table(&report),
     ];
-    let tables = [paired, factors, seen_table(&loaded, &result)?, history];
+    let trust = trust_table(&result.trust);
+    let seen = seen_table(&loaded, &result)?;
+    let tables = [trust, paired, factors, seen, history];
     let document = || json::document(json::report(&report)?);
     arguments.output.write(&tables, document)?;
     if let Some(folder) = &arguments.folder {
-        let [.., seen, _] = &tables;
-        let extra = [
-            seen.clone(),
-            places_table(&loaded, Some(&result))?,
-            doubts_table(&loaded)?,
-        ];
+        let [trust, .., seen, _] = &tables;
+        let extra = [seen.clone(), places_table(&loaded, Some(&result))?];
         let command = format!("corfem correlate {}", arguments.job.display());
         let identity = loaded.identity(&format!("{:?} {:?}", arguments.starts, arguments.seed))?;
         let run = format!(
@@ -151,7 +164,7 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
             ),
             (
                 "factors.csv".to_owned(),
-                render::csv(&[factor_table(&report)]).into_bytes(),
+                render::csv(&[trust.clone(), factor_table(&report)]).into_bytes(),
             ),
             ("correlation.json".to_owned(), document()?.into_bytes()),
         ];
@@ -170,5 +183,5 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
     if result.is_interrupted {
         note("corfem: stopped by request; the best factors so far are given");
     }
-    Ok(result.verdict.is_within && !result.is_interrupted)
+    Ok(result.verdict.is_within && result.trust.is_clear() && !result.is_interrupted)
 }

@@ -125,7 +125,7 @@ pub fn run() -> ExitCode {
         Some(Command::Correlate(arguments)) => job::correlate(&arguments, quiet),
         Some(Command::Study(arguments)) => study::study(&arguments, quiet).map(|()| true),
         Some(Command::Init(arguments)) => job::init(&arguments).map(|()| true),
-        Some(Command::Check(arguments)) => job::check_job(&arguments, quiet).map(|()| true),
+        Some(Command::Check(arguments)) => job::check_job(&arguments, quiet),
         Some(Command::Figures(arguments)) => {
             pictures::pictures(&arguments, false, quiet).map(|()| true)
         }

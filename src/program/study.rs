@@ -9,7 +9,7 @@ use clap::Args;
 use corfem::files::error::FileError;
 use corfem::job::{Samples, Study, Vary};
 use corfem::present::figures::histogram;
-use corfem::present::tables::job::study_table;
+use corfem::present::tables::job::{study_table, trust_table};
 use corfem::present::{PresentError, json, render};
 use serde_json::json;
 use std::fs::{File, OpenOptions};
@@ -109,8 +109,8 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError
         return Ok(());
     }
     let summary = samples.summary(&study, last)?;
-    let tables = [study_table(&study, &summary)];
-    let figure = histogram::draw("histogram", &tables[0].title, &summary)?;
+    let tables = [trust_table(&study.trust), study_table(&study, &summary)];
+    let figure = histogram::draw("histogram", &tables[1].title, &summary)?;
     let files = [
         ("summary.csv", render::csv(&tables)),
         ("histogram.svg", figure),

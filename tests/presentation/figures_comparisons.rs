@@ -18,7 +18,9 @@ fn number(cell: &Cell) -> Option<f64> {
     match cell {
         Cell::Number { computed, .. } => Some(*computed),
         Cell::Blank => None,
-        Cell::Text(text) | Cell::Printed(text) => panic!("no number: {text}"),
+        Cell::Text(text) | Cell::Sentence(text) | Cell::Printed(text) => {
+            panic!("no number: {text}")
+        }
     }
 }
 

@@ -11,12 +11,12 @@ use crate::presentation::figures_made_up::summary;
 use crate::readers::job_errors::{placed, with};
 use crate::readers::job_prepared::prepared;
 use approx::assert_relative_eq;
-use corfem::job::{Study, Summary, Vary, run};
+use corfem::job::{Study, Summary, Trust, Vary, run};
 use corfem::method::error::Error;
 use corfem::method::model::Bounds;
 use corfem::present::render::text;
 use corfem::present::report::{Derivatives, Report};
-use corfem::present::tables::job::{doubts_table, places_table, study_table, suspects_table};
+use corfem::present::tables::job::{places_table, study_table, suspects_table, trust_table};
 use nalgebra::Vector3;
 
 fn at(x: f64) -> Vector3<f64> {
@@ -152,12 +152,12 @@ fn sensors_that_point_the_other_way_askew_or_nowhere_are_told() {
 fn a_mode_is_doubtful_when_it_is_complex_beyond_the_limit() {
     let mut prepared = prepared(&rods());
     prepared.data.phase_collinearity = vec![0.95, 0.94, 0.99];
-    let doubts = text(&[doubts_table(&prepared).expect("a table")]);
+    let doubts = text(&[trust_table(&Trust::before(&prepared).expect("an account"))]);
     assert!(
-        doubts.contains("test mode 2: complex, with a phase collinearity of 0.94"),
+        doubts.contains("Test mode 2 is complex: its phase collinearity is 0.94."),
         "{doubts}"
     );
-    assert_eq!(doubts.matches("complex").count(), 1, "{doubts}");
+    assert_eq!(doubts.matches("is complex").count(), 1, "{doubts}");
 }
 
 /// Samples that failed are counted among all, and the first of them is named.

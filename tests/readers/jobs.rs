@@ -18,7 +18,7 @@ use corfem::method::pairing::Pairing;
 use corfem::method::pairing::paired;
 use corfem::present::render;
 use corfem::present::report::Report;
-use corfem::present::tables::job::{doubts_table, places_table, seen_table};
+use corfem::present::tables::job::{places_table, seen_table, trust_table};
 use corfem::present::tables::report::{factor_table, history_table, paired_table, swaps};
 use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use nalgebra::Vector3;
@@ -65,7 +65,7 @@ fn finished(name: &str) -> (LoadedJob, JobResult) {
     let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
     let subject = Report::from_job(&prepared, Some(&finished)).expect("a subject");
     let mut tables = vec![
-        doubts_table(&prepared).expect("doubts"),
+        trust_table(&finished.trust),
         places_table(&prepared, Some(&finished)).expect("sensors"),
     ];
     tables.extend([

@@ -2,7 +2,9 @@
 
 use crate::files::error::FileError;
 use crate::method::assembly::{ElementMatrix, lumped_mass};
+use crate::method::elements::corner_volumes;
 use crate::method::error::Error;
+use crate::method::geometry::Geometry;
 use crate::method::linear_algebra::check_length;
 use crate::method::model::FiniteElementModel;
 use crate::method::structure::{DIRECTIONS, Element, Grid, StructuralDof, Structure};
@@ -226,6 +228,29 @@ impl BulkData {
                     .collect::<Vec<_>>(),
             )?,
         })
+    }
+
+    /// Total mass and its center, of elements and of the point masses that move in all directions, at free and constrained grids
+    /// alike; none without mass.
+    ///
+    /// # Errors
+    /// Those of [`Self::structure`].
+    pub fn mass_and_center(&self) -> Result<Option<(f64, Vector3<f64>)>, FileError> {
+        let structure = self.structure()?;
+        let of_element = |(element, geometry): (&Element, &Geometry)| {
+            let volumes = corner_volumes(geometry);
+            let density = element.material.density * element.size;
+            let corners = structure.corners(element);
+            let masses = volumes.into_iter().map(move |volume| density * volume);
+            masses.zip(corners).collect::<Vec<_>>()
+        };
+        let elements = self.elements.iter().zip(structure.geometry());
+        let points = self.masses.iter().filter(|point| point.direction.is_none());
+        let points = points.filter_map(|point| Some((point.mass, structure.position(point.grid)?)));
+        let all: Vec<(f64, Vector3<f64>)> = elements.flat_map(of_element).chain(points).collect();
+        let total: f64 = all.iter().map(|(mass, _)| mass).sum();
+        let moment: Vector3<f64> = all.iter().map(|(mass, place)| *mass * place).sum();
+        Ok((total > 0.0).then(|| (total, moment / total)))
     }
 
     /// The same DOF with the free ones that each follows: its column of $T$ by rows and coefficients.

@@ -153,7 +153,7 @@ fn factors(report: &Report) -> Factors {
 pub fn mode_agreement(report: &Report) -> Result<Vec<HeatMap>, Error> {
     let map = |title: String, values: &DMatrix<f64>| {
         let rows = ("analysis mode".to_owned(), numbers(values.nrows()));
-        let columns = ("test mode".to_owned(), numbers(values.ncols()));
+        let columns = ("test mode".to_owned(), mode_labels(report));
         HeatMap {
             title,
             rows,
@@ -179,6 +179,11 @@ pub fn mode_agreement(report: &Report) -> Result<Vec<HeatMap>, Error> {
     Ok(cross.chain(assurance).collect())
 }
 
+/// The numbers of the test modes in the test's file.
+fn mode_labels(report: &Report) -> Vec<String> {
+    report.mode_numbers.iter().map(usize::to_string).collect()
+}
+
 /// Derivatives at the first model, parameters by test modes and by the error sum.
 pub fn derivatives(report: &Report) -> Option<[HeatMap; 2]> {
     let derivatives = report.derivatives.as_ref()?;
@@ -194,7 +199,7 @@ pub fn derivatives(report: &Report) -> Option<[HeatMap; 2]> {
     let error_sum = DMatrix::from_column_slice(error_sum.len(), 1, error_sum);
     let (percent, modes) = (
         "Percent of frequency for one percent of the parameter",
-        numbers(frequency.ncols()),
+        mode_labels(report),
     );
     Some([
         map(percent, "parameter", "test mode", modes, frequency),

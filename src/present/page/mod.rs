@@ -10,6 +10,7 @@ use super::figures::{Figure, report_figures};
 use super::report::Report;
 use super::table::Table;
 use super::tables::cases::{iteration_table, outcome_table, settings_table, summary, tables_of};
+use super::tables::job::trust_table;
 use super::tables::report::{derivative_table, factor_table, history_table, paired_table};
 use super::tables::{fewer_modes, paper_tables, preflight};
 use crate::job::preflight::preflight_of;
@@ -177,7 +178,9 @@ pub fn report_page(
         "finding"
     };
     let words = format!("<p class=\"{class}\">{}</p>\n", escaped(&report.words()));
-    let summary = words + &table(&paired_table(report)?);
+    let trust = report.trust.as_ref().map(trust_table);
+    let trust: String = trust.iter().map(table).collect();
+    let summary = words + &trust + &table(&paired_table(report)?);
     let derivatives: Vec<Table> = derivative_table(report).into_iter().collect();
     let parts = [
         ("summary", "Summary", summary),

@@ -46,7 +46,7 @@ fn outcome(result: &CaseResult) -> String {
     let Some(anomaly) = &result.anomaly else {
         return format!(
             "<p class=\"note\">{}</p>\n",
-            verdict_in_words(&result.correlation.verdict, &result.parameter_names)
+            verdict_in_words(&result.correlation.verdict, &result.parameter_names, &[])
         );
     };
     let (number, element, factor, ratio) = (

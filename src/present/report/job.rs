@@ -14,6 +14,8 @@ impl Report {
     /// # Errors
     /// Those of the first analysis.
     pub fn from_job(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Self, PresentError> {
+        // With the test modes that were compared at the end.
+        let loaded = result.map_or(loaded, |result| &result.loaded);
         let whole = &loaded.source.whole;
         let names: Vec<String> = loaded.parameter_names().map(str::to_owned).collect();
         let ones = vec![1.0; names.len()];
@@ -41,7 +43,7 @@ impl Report {
         };
         let base = match result.map(|result| &result.history) {
             Some(History::Paper(run)) => {
-                Self::from_correlation(&stem, &names, &first.test, &run.initial, Some(run))
+                Self::from_correlation(&stem, &names, &first.test, &first.exact, Some(run))
             }
             Some(History::GaussNewton(Some((run, _)))) => {
                 Self::from_weighted(&stem, &names, &first, run)
@@ -54,6 +56,7 @@ impl Report {
         };
         let report = Self {
             title: loaded.title.clone(),
+            mode_numbers: loaded.modes.iter().map(|mode| mode + 1).collect(),
             ranges: whole.ranges(),
             sensors: loaded.placed.iter().map(sensor_point).collect(),
             frame,
@@ -81,6 +84,7 @@ impl Report {
             deviations: Some(deviations.map(|(factor, log)| factor * log).collect()),
             moved: moved(loaded, result),
             verdict: Some(result.verdict.clone()),
+            trust: Some(result.trust.clone()),
             ..report
         })
     }

@@ -3,6 +3,7 @@
 mod job;
 mod case;
 
+use crate::job::Trust;
 use crate::method::derivatives::{DERIVATIVE_STEP, by_definition};
 use crate::method::error::Error;
 use crate::method::error_sum::Errors;
@@ -69,6 +70,10 @@ pub struct Report {
     pub truth: Vec<f64>,
     /// Test modes, sensors × modes.
     pub test: ModeSet,
+    /// Their numbers in the test's file.
+    pub mode_numbers: Vec<usize>,
+    /// What may lower the trust in it; none of the paper's cases.
+    pub trust: Option<Trust>,
     /// Rows of the shapes; none where nothing is known of them.
     pub sensors: Vec<SensorPoint>,
     /// The structure, or the wire frame of its test: corners of panels, and ends of rods and lines.
@@ -165,6 +170,8 @@ impl Report {
             deviations: None,
             truth: Vec::new(),
             test: test.clone(),
+            mode_numbers: (1..=test.len()).collect(),
+            trust: None,
             sensors: Vec::new(),
             frame: Vec::new(),
             grids: Vec::new(),
@@ -207,11 +214,25 @@ impl Report {
             .is_some_and(|verdict| verdict.is_within)
     }
 
-    /// The verdict in words.
+    /// The verdict in words, after what stands against it.
     pub fn words(&self) -> String {
-        self.verdict.as_ref().map_or_else(String::new, |verdict| {
-            verdict_in_words(verdict, &self.parameters)
-        })
+        let against = self
+            .trust
+            .iter()
+            .filter(|trust| !trust.is_clear())
+            .map(|trust| {
+                let doubts = trust.concerns.iter().filter(|concern| concern.stands());
+                let modes = trust.not_compared.iter().map(|left| left.mode);
+                let names: Vec<String> = doubts
+                    .map(|doubt| format!("doubt {}", doubt.identifier))
+                    .chain(modes.map(|mode| format!("test mode {mode} not compared")))
+                    .collect();
+                format!("Not to be trusted as it stands ({}). ", names.join(", "))
+            });
+        let verdict = self.verdict.iter();
+        let words =
+            verdict.map(|verdict| verdict_in_words(verdict, &self.parameters, &self.mode_numbers));
+        against.chain(words).collect()
     }
 
     fn best_stage(&self) -> Option<&Stage> {

@@ -211,7 +211,7 @@ pub fn outcome_table(results: &[CaseResult]) -> Table {
     let note = "Correlated: the exact error sum is within the tolerance TOLO. Case 4 as published is one iteration that is to \
         detect a modeling error; its gages are not corrected.";
     let verdict = |result: &CaseResult| {
-        let words = verdict_in_words(&result.correlation.verdict, &result.parameter_names);
+        let words = verdict_in_words(&result.correlation.verdict, &result.parameter_names, &[]);
         (!result.is_detection()).then(|| format!("Case {}: {words}", result.case.number))
     };
     let sums = |of: fn(&CaseResult) -> f64| numbers(results.iter().map(of), Digits::Fixed(4));

@@ -5,7 +5,7 @@ use crate::files::error::FileError;
 use crate::files::test_data::DIRECTIONS;
 use crate::job::localization::{by_factor, by_single_fit};
 use crate::job::metrics::coordinate_assurance;
-use crate::job::{JobResult, LoadedJob, PlacedSensor, Study, Summary, Vary};
+use crate::job::{Concern, JobResult, LoadedJob, PlacedSensor, Study, Summary, Trust, Vary};
 use crate::method::model::Bounds;
 use crate::present::table::{Cell, Digits, Table, counted, numbers, percents};
 use crate::weighted::identifiability::Identifiability;
@@ -76,22 +76,33 @@ pub fn places_table(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Ta
     Ok(table)
 }
 
-/// Everything doubtful of a job before its first step.
-///
-/// # Errors
-/// Those of [`LoadedJob::concerns`].
-pub fn doubts_table(loaded: &LoadedJob) -> Result<Table, FileError> {
-    let concerns = loaded.concerns()?;
-    let labels = (1..=concerns.len())
-        .map(|number| number.to_string())
-        .chain(concerns.is_empty().then(String::new));
-    let cells = concerns
-        .iter()
-        .map(|concern| Cell::text(&concern.words))
-        .chain([Cell::text("nothing doubtful")]);
-    Ok(Table::new("doubts", "Before the first step", "Number")
-        .labels(labels)
-        .column("Finding", "", cells))
+/// What may lower the trust in a job or in its result, what matters most first.
+pub fn trust_table(trust: &Trust) -> Table {
+    let all = trust.all();
+    let kind = |concern: &Concern| match concern {
+        concern if concern.stands() => "doubt",
+        Concern { is_doubt: true, .. } => "doubt, accepted",
+        concern if concern.identifier.starts_with("not-compared") => "left out",
+        _ => "remark",
+    };
+    Table::new("trust", "What to know before trusting this", "Identifier")
+        .labels(all.iter().map(|concern| &concern.identifier))
+        .column(
+            "Kind",
+            "",
+            all.iter().map(|concern| Cell::text(kind(concern))),
+        )
+        .column(
+            "Finding",
+            "",
+            all.iter()
+                .map(|concern| Cell::Sentence(concern.words.clone())),
+        )
+        .notes(
+            all.iter()
+                .any(Concern::stands)
+                .then(|| "A doubt names a mistake; --accept IDENTIFIER answers for it.".to_owned()),
+        )
 }
 
 /// Parameters that may be the one that is wrong, by how much of the test's chi-squared each alone can take away, at most
@@ -176,12 +187,6 @@ pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileE
         after.singular_values.first().copied().unwrap_or_default(),
         after.singular_values.last().copied().unwrap_or_default(),
     );
-    let parallel = |&(a, b, cosine): &(usize, usize, f64)| {
-        format!(
-            "The test cannot tell {} and {} apart (cosine {cosine:+.3}); only their combination is known.",
-            names[a], names[b]
-        )
-    };
     let ends = |end: fn(&Bounds) -> f64| numbers(intervals.iter().map(end), Digits::Fixed(4));
     let deviations =
         |seen: &Identifiability| percents(seen.deviations.clone(), Digits::Significant(3));
@@ -197,14 +202,7 @@ pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileE
             .column("most (95 %)", "", ends(|interval| interval.upper))
             .column("deviation", "%", deviations(after))
             .column("deviation before", "%", deviations(before))
-            .notes([apart])
-            .notes(after.parallel.iter().map(parallel))
-            .notes(
-                after
-                    .blind
-                    .iter()
-                    .map(|&e| format!("{} is hardly seen.", names[e])),
-            ),
+            .notes([apart]),
     )
 }
 

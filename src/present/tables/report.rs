@@ -29,7 +29,7 @@ fn table_of(report: &Report, name: &str, title: &str, label: &'static str) -> Ta
 pub fn paired_table(report: &Report) -> Result<Table, Error> {
     let test_hz = report.test.frequencies_hz();
     let mut table = table_of(report, "modes", "test modes and their partners", "Mode")
-        .labels(1..=test_hz.len())
+        .labels(&report.mode_numbers)
         .labels(["frequency RMS", "shape RMS"])
         .column("Test", "Hz", numbers(test_hz.iter().copied(), HERTZ));
     let mut verdict = (String::new(), Vec::new());
@@ -173,6 +173,7 @@ pub fn history_table(report: &Report) -> Table {
         );
     }
     let words = |[pass, test, from, to]: [usize; 4]| {
+        let test = report.mode_numbers[test - 1];
         format!("in pass {pass} test mode {test} from {from} to {to}")
     };
     let words = swaps(report)
@@ -207,7 +208,8 @@ pub fn derivative_table(report: &Report) -> Option<Table> {
     let derivatives = report.derivatives.as_ref()?;
     let title = "derivatives at the first model, for one percent of each parameter";
     let mut table = table_of(report, "derivatives", title, "Parameter").labels(&report.parameters);
-    for (mode, column) in (1..).zip(derivatives.frequency.column_iter()) {
+    let modes = report.mode_numbers.iter();
+    for (mode, column) in modes.zip(derivatives.frequency.column_iter()) {
         table = table.column(
             format!("Mode {mode}"),
             "%",

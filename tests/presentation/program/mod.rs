@@ -11,6 +11,7 @@ pub mod cli_settings;
 pub mod cli_streams;
 pub mod cli_study;
 pub mod cli_tables;
+pub mod cli_trust;
 pub mod deck_cli;
 pub mod dump;
 pub mod stops;

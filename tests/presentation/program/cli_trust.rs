@@ -1,0 +1,307 @@
+//! What may lower the trust in a job's result, in every output and in the exit status.
+
+use crate::common::jobs::{Files, rods};
+use crate::presentation::program::cli::{corfem, text};
+use crate::readers::job_errors::{placed, with};
+use corfem::job::{Concern, LoadedJob, NotCompared, Trust, run};
+use corfem::present::page::report_page;
+use corfem::present::report::Report;
+use corfem::present::tables::job::trust_table;
+use corfem::present::{json, render};
+use nalgebra::DMatrix;
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// An account with something to say in every field.
+fn full() -> Trust {
+    Trust {
+        concerns: vec![Concern::doubt("reversed-s2", "Sensor S2 reversed?")],
+        not_compared: vec![NotCompared {
+            mode: 7,
+            assurance: 0.31,
+        }],
+        joined: vec![5],
+        is_interrupted: true,
+        not_selected: vec![9],
+        blind: vec!["wall".to_owned()],
+        parallel: vec![vec!["spar".to_owned(), "rib".to_owned()]],
+        at_bound: vec!["door".to_owned()],
+        assumed: vec!["2 % of shapes".to_owned()],
+        ignored: vec!["ASET (line 3, 1 card)".to_owned()],
+        analysis_modes: 11,
+        rigid_body_modes: 6,
+        mass_and_center: Some((12.5, [1.0, 2.0, 3.0])),
+    }
+}
+
+/// Without line breaks and what HTML puts between words.
+fn unbroken(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// A new field must be added here, and changes what is said when it is emptied.
+#[test]
+fn every_field_of_the_account_of_trust_is_said() {
+    type Emptied = (&'static str, fn(&mut Trust));
+    let emptied: [Emptied; 13] = [
+        ("concerns", |trust| trust.concerns.clear()),
+        ("not_compared", |trust| trust.not_compared.clear()),
+        ("joined", |trust| trust.joined.clear()),
+        ("is_interrupted", |trust| trust.is_interrupted = false),
+        ("not_selected", |trust| trust.not_selected.clear()),
+        ("blind", |trust| trust.blind.clear()),
+        ("parallel", |trust| trust.parallel.clear()),
+        ("at_bound", |trust| trust.at_bound.clear()),
+        ("assumed", |trust| trust.assumed.clear()),
+        ("ignored", |trust| trust.ignored.clear()),
+        ("analysis_modes", |trust| trust.analysis_modes = 12),
+        ("rigid_body_modes", |trust| trust.rigid_body_modes = 0),
+        ("mass_and_center", |trust| trust.mass_and_center = None),
+    ];
+    let value = serde_json::to_value(full()).expect("JSON");
+    let fields: BTreeSet<&str> = value
+        .as_object()
+        .expect("an object")
+        .keys()
+        .map(String::as_str)
+        .collect();
+    assert_eq!(fields, emptied.iter().map(|(name, _)| *name).collect());
+    for (name, empty) in emptied {
+        let mut less = full();
+        empty(&mut less);
+        assert_ne!(less.all(), full().all(), "{name}");
+    }
+}
+
+#[test]
+fn all_that_is_said_of_trust_stands_first_in_text_csv_json_and_html() {
+    let (_folder, path) = placed(&rods());
+    let loaded = LoadedJob::new(&path).expect("it loads");
+    let mut result = run(&loaded, |_| {}, || true).expect("it runs");
+    result.trust = full();
+    let report = Report::from_job(&loaded, Some(&result)).expect("a report");
+    let table = [trust_table(&result.trust)];
+    let document = json::document(json::report(&report).expect("JSON")).expect("JSON");
+    let page = report_page(&report, &[], "corfem correlate job.toml").expect("a page");
+    let document: Value = serde_json::from_str(&document).expect("JSON");
+    assert_eq!(
+        document["trust"],
+        serde_json::to_value(full()).expect("JSON")
+    );
+    for Concern { words, .. } in full().all() {
+        assert!(unbroken(&render::text(&table)).contains(&words), "{words}");
+        assert!(unbroken(&render::csv(&table)).contains(&words), "{words}");
+        assert!(unbroken(&page).contains(&words), "{words}");
+    }
+    // Before anything else that was computed.
+    let first = page.find("What to know before trusting this").expect("it");
+    assert!(first < page.find("test modes and their partners").expect("it"));
+    assert!(
+        report
+            .words()
+            .starts_with("Not to be trusted as it stands (doubt reversed-s2, test mode 7 not")
+    );
+}
+
+fn status_of(path: &Path, more: &[&str]) -> (Option<i32>, String, String) {
+    let job = path.to_str().expect("UTF-8");
+    let output = corfem(&[&["correlate", "-q", job], more].concat());
+    (
+        output.status.code(),
+        unbroken(&text(&output.stdout)),
+        text(&output.stderr),
+    )
+}
+
+/// The rods' test in rad/s: every frequency 2π times too high.
+fn in_radians() -> Files {
+    let mut files = rods();
+    let csv = &mut files
+        .iter_mut()
+        .find(|(name, _)| name == "test.csv")
+        .expect("a test")
+        .1;
+    let (first, rest) = csv.split_once('\n').expect("lines");
+    let scaled: Vec<String> = first
+        .split(',')
+        .map(|cell| match cell.parse::<f64>() {
+            Ok(hertz) => (std::f64::consts::TAU * hertz).to_string(),
+            Err(_) => cell.to_owned(),
+        })
+        .collect();
+    *csv = format!("{}\n{rest}", scaled.join(","));
+    files
+}
+
+/// The factors take up what the unit is wrong by, so that the errors alone say nothing.
+#[test]
+fn a_test_in_radians_a_second_never_passes_unless_the_doubt_is_accepted() {
+    let (_folder, path) = placed(&in_radians());
+    let (status, words, _) = status_of(&path, &[]);
+    assert_eq!(status, Some(3), "{words}");
+    assert!(
+        words.starts_with("What to know before trusting this doubt common-factor: "),
+        "{words}"
+    );
+    let job = path.to_str().expect("UTF-8");
+    assert_eq!(corfem(&["check", "-q", job]).status.code(), Some(3));
+    let accepted = ["--accept", "common-factor"];
+    let check = corfem(&[&["check", "-q", job][..], &accepted].concat());
+    assert_eq!(check.status.code(), Some(0));
+    let (_, words, _) = status_of(&path, &accepted);
+    assert!(words.contains("doubt, accepted common-factor: "), "{words}");
+    assert!(!words.contains("Not to be trusted as it stands"), "{words}");
+}
+
+#[test]
+fn an_accepted_identifier_must_name_a_doubt() {
+    let (_folder, path) = placed(&in_radians());
+    let (status, _, error) = status_of(&path, &["--accept", "rad-s"]);
+    assert_eq!(status, Some(2));
+    assert!(
+        error.contains("--accept rad-s: the doubts are common-factor"),
+        "{error}"
+    );
+    let (_folder, path) = placed(&rods());
+    let (status, _, error) = status_of(&path, &["--accept", "common-factor"]);
+    assert_eq!(status, Some(2));
+    assert!(
+        error.contains("--accept common-factor: nothing is doubtful"),
+        "{error}"
+    );
+}
+
+/// Three masses, each on a spring to the ground, joined weakly: where their springs are alike they move together.
+fn oscillators(springs: [f64; 3], joint: f64) -> DMatrix<f64> {
+    let [a, b, c] = springs;
+    let j = joint;
+    DMatrix::from_row_slice(3, 3, &[a + j, -j, 0.0, -j, b + 2.0 * j, -j, 0.0, -j, c + j])
+}
+
+fn market(matrix: &DMatrix<f64>) -> String {
+    let values: Vec<String> = matrix.iter().map(f64::to_string).collect();
+    format!(
+        "%%MatrixMarket matrix array real general\n3 3\n{}\n",
+        values.join("\n")
+    )
+}
+
+/// A job whose third test mode resembles no mode of the first model, until the first two have told the springs apart.
+fn mixed(method: &str) -> Files {
+    let truth = oscillators([1000.0, 1040.0, 1085.0], 3.0);
+    let eigen = truth.symmetric_eigen();
+    let mut order = [0, 1, 2];
+    order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
+    let hertz =
+        order.map(|mode| (eigen.eigenvalues[mode].sqrt() / std::f64::consts::TAU).to_string());
+    let row = |row: usize| {
+        let values = order.map(|mode| eigen.eigenvectors[(row, mode)].to_string());
+        format!("{},x,+,{}\n", row + 1, values.join(","))
+    };
+    let csv = format!(
+        "frequency_hz,,,{}\ngrid,direction,sign,mode 1,mode 2,mode 3\n{}{}{}",
+        hertz.join(","),
+        row(0),
+        row(1),
+        row(2)
+    );
+    let mut job = format!(
+        "[model]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\nrows = \"rows.csv\"\n[test]\nfile = \"test.csv\"\n\
+         [compare]\nmethod = \"{method}\"\n"
+    );
+    let first = [1000.0, 1001.0, 999.0];
+    let mut files = vec![
+        ("K.mtx".to_owned(), market(&oscillators(first, 3.0))),
+        ("M.mtx".to_owned(), market(&DMatrix::identity(3, 3))),
+        (
+            "rows.csv".to_owned(),
+            "grid,direction\n1,x\n2,x\n3,x\n".to_owned(),
+        ),
+        ("test.csv".to_owned(), csv),
+    ];
+    for (place, spring) in first.into_iter().enumerate() {
+        let mut springs = [0.0; 3];
+        springs[place] = spring;
+        let name = format!("P{place}.mtx");
+        job += &format!("[[parameter]]\nname = \"p{place}\"\nmatrix = \"{name}\"\n");
+        files.push((name, market(&oscillators(springs, 0.0))));
+    }
+    files.push(("job.toml".to_owned(), job));
+    files
+}
+
+#[test]
+fn a_mode_left_out_is_compared_once_it_resembles_a_mode_of_the_model() {
+    for method in ["paper", "gauss_newton"] {
+        let (_folder, path) = placed(&mixed(method));
+        let loaded = LoadedJob::new(&path).expect("it loads");
+        assert_eq!(loaded.unpaired.len(), 1, "{method}");
+        let left = loaded.unpaired[0].0 + 1;
+        let result = run(&loaded, |_| {}, || true).expect("it runs");
+        assert_eq!(result.trust.joined, [left], "{method}");
+        assert!(result.trust.not_compared.is_empty(), "{method}");
+        let report = Report::from_job(&loaded, Some(&result)).expect("a report");
+        assert_eq!(report.mode_numbers, [1, 2, 3], "{method}");
+        assert_eq!(report.corrected().errors.mode_count, 3, "{method}");
+        assert!(result.verdict.is_within, "{method}: {}", report.words());
+    }
+}
+
+/// A selected mode that is not compared makes the status 3; one that the job does not select does not.
+#[test]
+fn a_selected_mode_that_is_not_compared_is_no_success() {
+    let mut files = rods();
+    let csv = &mut files
+        .iter_mut()
+        .find(|(name, _)| name == "test.csv")
+        .expect("a test")
+        .1;
+    // The third shape again is the first: its mode of the model belongs to the first.
+    let lines = csv.lines().map(|line| {
+        let cells: Vec<&str> = line.split(',').collect();
+        match cells[..] {
+            [.., first, _, _]
+                if line.starts_with(|letter: char| letter.is_ascii_digit() || letter == 'S') =>
+            {
+                format!("{},{first}", cells[..cells.len() - 1].join(","))
+            }
+            _ => line.to_owned(),
+        }
+    });
+    *csv = lines.collect::<Vec<_>>().join("\n") + "\n";
+    let files = with(
+        files,
+        "job.toml",
+        "elements = [\"2-3\"]",
+        "elements = [\"2-3\"]\neach = true",
+    );
+    let (_folder, path) = placed(&files);
+    let (status, words, _) = status_of(&path, &[]);
+    assert_eq!(status, Some(3), "{words}");
+    assert!(words.contains("Test mode 3 is not compared: "), "{words}");
+    let selected = with(
+        files,
+        "job.toml",
+        "file = \"test.csv\"",
+        "file = \"test.csv\"\nmodes = [1, 2]",
+    );
+    let (_folder, path) = placed(&selected);
+    let (status, words, _) = status_of(&path, &[]);
+    assert_eq!(status, Some(0), "{words}");
+    assert!(
+        words.contains("Test modes that the job does not select: 3."),
+        "{words}"
+    );
+}
+
+#[test]
+fn a_stopped_run_says_so_in_words_and_in_its_verdict() {
+    let (_folder, path) = placed(&mixed("paper"));
+    let loaded = LoadedJob::new(&path).expect("it loads");
+    let result = run(&loaded, |_| {}, || false).expect("it stops");
+    let report = Report::from_job(&loaded, Some(&result)).expect("a report");
+    let all = render::text(&[trust_table(&result.trust)]);
+    assert!(all.contains("Stopped by request"), "{all}");
+    assert!(result.verdict.is_within || report.words().contains("It was stopped by request."));
+}
