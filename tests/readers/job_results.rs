@@ -103,7 +103,7 @@ fn a_stopped_correlation_gives_the_best_that_it_has_told() {
     let (count, first) = stopped_after(1);
     assert_eq!(
         (count, &first.factors[..], first.verdict.outcome),
-        (1, &[1.0; 3][..], Outcome::Cap)
+        (1, &[1.0; 3][..], Outcome::Request)
     );
     let (count, third) = stopped_after(3);
     assert!(count > 1 && third.factors != first.factors, "{count} told");

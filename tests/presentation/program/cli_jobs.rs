@@ -224,7 +224,8 @@ fn check_says_what_is_doubtful_without_a_step() {
         );
         let report = text(&output.stdout);
         assert!(
-            report.contains("Before the first step") && report.contains("Sensors on the model"),
+            report.contains("What to know before trusting this")
+                && report.contains("Sensors on the model"),
             "{report}"
         );
         assert!(
