@@ -5,6 +5,7 @@ use super::model::from_deck;
 use super::sensors::{PlacedSensor, place};
 use super::{Compare, Job, Method, ModelSource, read};
 use crate::files::error::FileError;
+use crate::files::read_bytes;
 use crate::files::test_data::{self, TestData};
 use crate::job::assignment::pair_optimally;
 use crate::job::expansion::mass_by_modes;
@@ -144,9 +145,12 @@ impl LoadedJob {
         for file in named.chain([job.path.clone()]) {
             // A # may choose one matrix of the file.
             let text = file.to_string_lossy();
-            let of_matrix =
-                |_| std::fs::read(text.rsplit_once('#').map_or(&*text, |(file, _)| file));
-            let bytes = std::fs::read(&file)
+            let of_matrix = |_| {
+                read_bytes(Path::new(
+                    text.rsplit_once('#').map_or(&*text, |(file, _)| file),
+                ))
+            };
+            let bytes = read_bytes(&file)
                 .or_else(of_matrix)
                 .map_err(FileError::of_file(&file, "read"))?;
             identity = digest(&bytes, identity);

@@ -109,9 +109,19 @@ fn matrix(job: &Job, file: &Path, entry: &str) -> Result<LabeledMatrix, FileErro
     let file = job.beside(Path::new(file));
     let bytes = job.bytes(&file, entry)?;
     let found = matrices::read(&file.display().to_string(), &bytes, wanted)?;
-    let others = (found.columns != found.rows).then_some(text);
+    let others = (found.columns != found.rows).then_some(&text);
     job.refuse_if(others, |text| {
         format!("{text}: rows and columns have different names")
+    })?;
+    // Labels ascend, so that two of one degree of freedom are neighbors.
+    let labels = found.rows.as_deref().unwrap_or_default();
+    let is_one =
+        |pair: &&[(usize, usize)]| degree_of_freedom(&pair[0]) == degree_of_freedom(&pair[1]);
+    job.refuse_if(labels.windows(2).find(is_one), |pair| {
+        format!(
+            "{text}: components 0 and 1 of grid {} are one degree of freedom, and the matrix has both",
+            pair[0].0
+        )
     })?;
     Ok(found)
 }
@@ -160,18 +170,18 @@ fn read_rows(job: &Job, file: &Path) -> Result<Rows, FileError> {
     let (mut labels, mut places) = (Vec::new(), BTreeMap::new());
     for (number, line) in lines {
         let cells = cells(line, separator(line));
-        if labels.is_empty()
-            && cells
-                .first()
-                .is_some_and(|cell| cell.eq_ignore_ascii_case("grid"))
-        {
+        let titles = cells.join(",").to_lowercase();
+        if labels.is_empty() && ["grid,direction", "grid,direction,x,y,z"].contains(&&*titles) {
             continue;
         }
         let what = "a line of grid, direction and perhaps x, y, z";
         let wrong = || FileError::line(&file.display().to_string(), number, is_not(line, what));
         let (label, place) = row(&cells).ok_or_else(wrong)?;
         labels.push(label);
-        places.extend(place.map(|place| (label.0, place)));
+        if place.is_some_and(|place| *places.entry(label.0).or_insert(place) != place) {
+            let reason = format!("grid {} was given at another place before", label.0);
+            return Err(FileError::line(&file.display().to_string(), number, reason));
+        }
     }
     Ok((labels, places))
 }

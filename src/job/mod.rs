@@ -29,6 +29,7 @@ pub use study::{Study, Vary};
 pub use trust::Concern;
 
 use crate::files::error::{FileError, is_not};
+use crate::files::{read_bytes, read_text};
 use crate::method::outer_loop::Settings;
 use entries::{CorrelationEntries, refuse_removed};
 use serde::Deserialize;
@@ -183,7 +184,7 @@ const MOST_LABELS: usize = 10_000_000;
 /// [`FileError::File`] when it cannot be read; [`FileError::Refused`] for an entry that jobs no longer have, and
 /// naming line and entry that are not understood.
 pub fn read(path: &Path) -> Result<Job, FileError> {
-    let text = std::fs::read_to_string(path).map_err(FileError::of_file(path, "read"))?;
+    let text = read_text(path).map_err(FileError::of_file(path, "read"))?;
     refuse_removed(path, &text)?;
     let job = toml::from_str(&text).map(|job| Job {
         path: path.to_owned(),
@@ -210,7 +211,7 @@ impl Job {
     /// The bytes of a file that an entry names.
     fn bytes(&self, file: &Path, entry: &str) -> Result<Vec<u8>, FileError> {
         let job = self.path.file_name().unwrap_or_default();
-        std::fs::read(file).map_err(|source| FileError::File {
+        read_bytes(file).map_err(|source| FileError::File {
             path: file.to_owned(),
             action: "read",
             named: format!(" ({entry} in {})", job.display()),

@@ -15,6 +15,8 @@
 //! - One row, the header, has the titles of the columns, in any order and in capitals or not. `direction` must be there (x, y, z; rx,
 //!   ry, rz for rotations), `name` or `grid` or both, and a column whose title begins with `mode` for every mode. `sign` says which way
 //!   the sensor points along its axis: `+`, `-`, or empty for `+`. `x`, `y`, `z` are its place, all three or none of them.
+//!   Where titles number the modes, the numbers are 1, 2, 3 and so on from left to right, as elsewhere.
+//! - Every row has a cell below each title, and nothing beside the titled columns but blanks.
 //! - Rows whose first cell is `frequency_hz` (Hz, must be there), `frequency_deviation`, `shape_deviation` (standard deviations as
 //!   fractions) or `phase_collinearity` have a number in each column of a mode. Every other row below the header is a sensor.
 
@@ -82,7 +84,10 @@ impl TestRow<'_> {
             let title = cell.to_lowercase();
             match TITLES.iter().position(|name| *name == title) {
                 Some(place) if titles[place].is_none() => titles[place] = Some(column),
-                None if title.starts_with("mode") => modes.push(column),
+                None if title.starts_with("mode") => {
+                    modes.push(column);
+                    self.check_mode(column, &title, modes.len())?;
+                }
                 _ => {
                     return self.is_not(
                         cell,
@@ -101,6 +106,49 @@ impl TestRow<'_> {
             Ok((titles, modes))
         } else {
             self.is_not(&self.cells.join(" "), what)
+        }
+    }
+
+    /// Refuses the title of a mode that is there twice, or whose number is not its place.
+    fn check_mode(&self, column: usize, title: &str, place: usize) -> Result<(), FileError> {
+        let (at, cell) = (column + 1, &self.cells[column]);
+        if self.cells[..column]
+            .iter()
+            .any(|other| other.to_lowercase() == title)
+        {
+            return self.wrong(format!("column {at}: the title {cell} is there twice"));
+        }
+        let number = title["mode".len()..].trim_start_matches(|c: char| !c.is_alphanumeric());
+        let end = number
+            .find(|c: char| !c.is_ascii_digit())
+            .unwrap_or(number.len());
+        if end > 0 && number[..end].parse() != Ok(place) {
+            return self.wrong(format!(
+                "column {at}: {cell} stands in the place of mode {place}; modes are numbered from left to right"
+            ));
+        }
+        Ok(())
+    }
+
+    /// Refuses a row that has no cell below some title, or one that is not blank beside the titles; the first names some rows.
+    fn check_columns(&self, (titles, modes): &Header, is_named: bool) -> Result<(), FileError> {
+        let titled = || titles.iter().flatten().chain(modes);
+        let (found, wanted) = (self.cells.len(), titled().max().map_or(0, |last| last + 1));
+        if found < wanted {
+            return self.wrong(format!(
+                "{found} cells, but the header has {wanted} columns"
+            ));
+        }
+        let is_stray = |column: &usize| {
+            !self.cells[*column].is_empty() && titled().all(|titled| titled != column)
+        };
+        match (usize::from(is_named)..found).find(is_stray) {
+            None => Ok(()),
+            Some(column) => self.wrong(format!(
+                "column {}: \"{}\" has no title in the header; decimal commas need semicolons or tabs between cells",
+                column + 1,
+                self.cells[column]
+            )),
         }
     }
 
@@ -187,7 +235,14 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
         let reason = format!("the file ends without {what}");
         FileError::line(file, text.lines().count(), reason)
     };
-    let (titles, modes) = header.ok_or_else(|| missing("a header"))?;
+    let header = header.ok_or_else(|| missing("a header"))?;
+    by_mode
+        .iter()
+        .flatten()
+        .try_for_each(|row| row.check_columns(&header, true))?;
+    rows.iter()
+        .try_for_each(|row| row.check_columns(&header, false))?;
+    let (titles, modes) = header;
     let list = |place: usize| {
         by_mode[place]
             .as_ref()

@@ -93,7 +93,8 @@ pub fn not_read(unread: &Unread) -> String {
         Reason::Unknown => "not known here",
         Reason::Ignored => "left out by request; these modes lack what they say",
         Reason::WithoutPart => "nothing of stiffness, mass, supports or coordinates",
-        Reason::NotSelected => "of a set that case control does not select",
+        Reason::NotSelected => "of a set that the first subcase does not select",
+        Reason::Torsion => "torsion of rods: grids have no rotations here",
     };
     format!("Not read: {}, {why}.", unread.place())
 }

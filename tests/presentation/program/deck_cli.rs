@@ -315,6 +315,6 @@ fn a_card_of_a_set_that_is_not_selected_is_reported_as_such() {
     };
     assert_eq!(
         corfem::present::tables::deck::not_read(&unread),
-        "Not read: MPC (line 7, 2 cards), of a set that case control does not select."
+        "Not read: MPC (line 7, 2 cards), of a set that the first subcase does not select."
     );
 }
