@@ -38,25 +38,29 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, Error> {
     Ok(bytes)
 }
 
-/// The same as text, which must be UTF-8.
-///
-/// # Errors
-/// Those of [`read_bytes`]; that it is not UTF-8.
-pub fn read_text(path: &Path) -> Result<String, Error> {
-    String::from_utf8(read_bytes(path)?)
-        .map_err(|_| Error::new(ErrorKind::InvalidData, "it is not text in UTF-8"))
-}
-
 /// A text with control characters other than line ends and tabs escaped, because a terminal would obey them.
 pub fn escaped(text: &str) -> String {
-    let shown = |c: char| c.is_control() && c != '\n' && c != '\t';
-    text.chars()
-        .map(|c| {
-            if shown(c) {
-                c.escape_default().to_string()
-            } else {
-                c.to_string()
-            }
-        })
-        .collect()
+    escape(text, |c| c.is_control() && c != '\n' && c != '\t')
+}
+
+/// A text on one line: the same of line ends and tabs, which would leave their row of a table.
+pub fn one_line(text: &str) -> String {
+    escape(text, char::is_control)
+}
+
+/// A text that a spreadsheet takes for one, on one line: one that could be a formula and is no number begins with an apostrophe.
+pub fn inert(text: &str) -> String {
+    let is_formula = text.starts_with(['=', '+', '-', '@']) && text.parse::<f64>().is_err();
+    if is_formula { "'" } else { "" }.to_owned() + &one_line(text)
+}
+
+fn escape(text: &str, is_shown: impl Fn(char) -> bool) -> String {
+    let shown = |c: char| {
+        if is_shown(c) {
+            c.escape_default().to_string()
+        } else {
+            c.to_string()
+        }
+    };
+    text.chars().map(shown).collect()
 }

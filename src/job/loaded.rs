@@ -236,6 +236,14 @@ impl LoadedJob {
         parameters.map(|parameter| &parameter.name[..])
     }
 
+    /// Refuses a job without parameters, which can be looked at but not correlated.
+    pub(super) fn require_parameters(&self) -> Result<(), FileError> {
+        let none = self.source.whole.parameters().is_empty().then_some(());
+        self.job.refuse_if(none, |()| {
+            "a job needs at least one [[parameter]]".to_owned()
+        })
+    }
+
     /// The first factors.
     pub(super) fn ones(&self) -> Vec<f64> {
         vec![1.0; self.source.whole.parameters().len()]
@@ -269,10 +277,6 @@ impl LoadedJob {
 
 /// Reads the model of a job.
 fn load(job: &Job) -> Result<ModelSource, FileError> {
-    let none = job.parameters.is_empty().then_some(());
-    job.refuse_if(none, |()| {
-        "a job needs at least one [[parameter]]".to_owned()
-    })?;
     match (&job.model.deck, &job.model.stiffness, &job.model.mass) {
         (Some(deck), None, None) => from_deck(job, &job.beside(deck)),
         (None, Some(stiffness), Some(mass)) => from_matrices(job, stiffness, mass),

@@ -6,7 +6,11 @@ use crate::files::deck::decoded;
 use crate::files::error::{FileError, is_not};
 use crate::files::matrices::{self, LabeledMatrix};
 use crate::files::test_data::{DIRECTIONS, cells, separator};
-use crate::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
+use crate::method::error::Error;
+use crate::method::modes::{ModeSet, Modes};
+use crate::method::structure::StructuralDof;
+use crate::sparse::whole_modes::WholeModes;
+use crate::sparse::{FINITE, SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -85,13 +89,57 @@ pub(super) fn from_matrices(
         places,
         elements: Vec::new(),
     };
-    let members = vec![Vec::new(); whole.parameters().len()];
+    let members = vec![Default::default(); whole.parameters().len()];
     Ok(ModelSource {
         whole,
         geometry,
         motions,
         members,
         deck: None,
+    })
+}
+
+/// The `most` lowest vibrations of a structure given by its stiffness and mass, or all of finite frequency; `#` in a file's name
+/// chooses one of several matrices.
+///
+/// # Errors
+/// Those of the files and of [`lowest_modes`].
+pub fn matrix_modes(stiffness: &Path, mass: &Path, most: usize) -> Result<WholeModes, FileError> {
+    let job = Job {
+        path: "modes".into(),
+        ..Job::default()
+    };
+    let LabeledMatrix {
+        rows,
+        matrix: stiffness,
+        ..
+    } = matrix(&job, stiffness, "--stiffness")?;
+    let labels: Vec<_> = rows.iter().flatten().map(degree_of_freedom).collect();
+    let row_of = (0..)
+        .zip(&labels)
+        .map(|(row, label)| (*label, row))
+        .collect();
+    let mass = on_rows(&job, (mass, "--mass"), &row_of)?;
+    let most = most.min(stiffness.rows());
+    let found = match lowest_modes(&stiffness, &mass, most) {
+        Err(Error::TooMany {
+            what: FINITE,
+            available,
+            ..
+        }) if available > 0 => lowest_modes(&stiffness, &mass, available)?,
+        found => found?,
+    };
+    let dof = labels
+        .into_iter()
+        .map(|(grid, direction)| StructuralDof { grid, direction });
+    let ModeSet {
+        omega_squared,
+        shapes,
+    } = found.vibrations;
+    Ok(WholeModes {
+        dof: dof.collect(),
+        modes: Modes::ascending(omega_squared, shapes),
+        rigid_body: found.rigid_body.ncols(),
     })
 }
 

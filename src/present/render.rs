@@ -1,6 +1,7 @@
 //! Tables as text for a terminal, as Markdown and as CSV.
 
 use super::table::{Cell, Column, Row, Table};
+use crate::files::{inert, one_line};
 
 /// No line of text is longer, characters.
 pub const WIDTH: usize = 100;
@@ -18,8 +19,8 @@ const PUBLISHED: &str = "  published";
 pub fn text(tables: &[Table]) -> String {
     let head = "Computed values; the paper's are in the rows marked \"published\".";
     paragraphs(tables, head, |table| {
-        let notes = table.notes.iter().map(|note| wrapped(note));
-        std::iter::once(wrapped(&table.title))
+        let notes = table.notes.iter().map(|note| wrapped(&one_line(note)));
+        std::iter::once(wrapped(&one_line(&table.title)))
             .chain(grids(table))
             .chain(notes)
             .collect()
@@ -34,7 +35,11 @@ pub fn markdown(tables: &[Table]) -> String {
             "" => column.name.clone(),
             unit => format!("{}, {unit}", column.name),
         });
-        let line = |label: &str, cells: Vec<String>| format!("| {label} | {} |", cells.join(" | "));
+        let line = |label: &str, cells: Vec<String>| {
+            let cells = [vec![label.to_owned()], cells].concat();
+            let cells = cells.iter().map(|cell| one_line(cell).replace('|', "\\|"));
+            format!("| {} |", cells.collect::<Vec<_>>().join(" | "))
+        };
         let rule = vec!["---:".to_owned(); table.columns.len()];
         let mut lines = vec![
             line(table.label_heading, headings.collect()),
@@ -47,8 +52,8 @@ pub fn markdown(tables: &[Table]) -> String {
             });
             lines.push(line(&row.label, cells.collect()));
         }
-        let notes = table.notes.iter().cloned();
-        [format!("## {}", table.title), lines.join("\n")]
+        let notes = table.notes.iter().map(|note| one_line(note));
+        [format!("## {}", one_line(&table.title)), lines.join("\n")]
             .into_iter()
             .chain(notes)
             .collect()
@@ -101,13 +106,13 @@ pub fn csv(tables: &[Table]) -> String {
     out
 }
 
-/// A field of CSV, in quotes if it contains a separator, quote or line end.
+/// A field of CSV that is no formula, in quotes if it contains a separator or quote.
 fn quoted(field: &str) -> String {
-    let ends = field.contains([',', '"', '\n', '\r']);
-    if ends {
+    let field = inert(field);
+    if field.contains([',', '"']) {
         format!("\"{}\"", field.replace('"', "\"\""))
     } else {
-        field.to_owned()
+        field
     }
 }
 
@@ -125,6 +130,8 @@ struct TextColumn {
 
 impl TextColumn {
     fn new(name: &str, unit: &str, cells: Vec<String>) -> Self {
+        let name = one_line(name);
+        let cells: Vec<String> = cells.iter().map(|cell| one_line(cell)).collect();
         let least = if name.contains(' ') { LEAST } else { 0 };
         let words = cells
             .iter()

@@ -97,7 +97,7 @@ pub fn check_job(
             suspects,
         ])
     })?;
-    output.write(&tables, || json::document(json!({ "tables": tables })))
+    output.write(&tables, || json::own_document(json!({ "tables": tables })))
 }
 
 /// Corrects the model of a job and writes the report; whether it is within tolerance.
@@ -129,7 +129,7 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
         history_table(&report),
     ];
     let tables = [paired, factors, seen_table(&loaded, &result)?, history];
-    let document = || json::document(json::report(&report)?);
+    let document = || json::own_document(json::report(&report)?);
     arguments.output.write(&tables, document)?;
     if let Some(folder) = &arguments.folder {
         let [.., seen, _] = &tables;

@@ -2,7 +2,7 @@
 
 use crate::common::jobs::{Files, building, rods};
 use crate::common::tolerances::{ROUND_OFF, WEIGHTED_FACTOR};
-use corfem::job::{LoadedJob, run};
+use corfem::job::{LoadedJob, Study, Vary, run};
 use corfem::method::outer_loop::Settings;
 use std::path::PathBuf;
 use tempfile::TempDir;
@@ -269,49 +269,94 @@ fn properties_materials_masses_and_each_say_what_they_scale() {
     ] {
         assert_eq!(
             members(b, by),
-            (names(&["a", "b"]), vec![vec![1], vec![2, 3]]),
+            (
+                names(&["a", "b"]),
+                vec![[vec![1], vec![]], [vec![2, 3], vec![]]]
+            ),
             "{by}"
         );
     }
     let each = members(b, "properties = [2]\neach = true");
     assert_eq!(
         each,
-        (names(&["a", "b 2", "b 3"]), vec![vec![1], vec![2], vec![3]])
+        (
+            names(&["a", "b 2", "b 3"]),
+            [1, 2, 3].map(|label| [vec![label], vec![]]).to_vec()
+        )
     );
     let masses = members(b, "masses = [\"13-14\"]\nscales = \"mass\"\neach = true");
     assert_eq!(
         masses,
         (
             names(&["a", "b mass 13", "b mass 14"]),
-            vec![vec![1], vec![], vec![]]
+            vec![[vec![1], vec![]], [vec![], vec![13]], [vec![], vec![14]]]
         )
     );
 }
 
-/// A mass that is named twice counts once, and a deck cannot say what factors of point masses say.
+/// A mass that is named twice counts once.
 #[test]
-fn point_masses_count_once_and_have_no_corrected_deck() {
-    let masses = |list: &str| {
+fn point_masses_count_once_and_are_in_the_corrected_deck() {
+    let masses = |list: &str, deck: &str| {
         let rule = format!("elements = [1]\nmasses = {list}\nscales = \"mass\"");
-        let (folder, path) = placed(&with(rods(), "job.toml", A, &rule));
-        (
-            folder,
-            LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}")),
-        )
+        let files = with(
+            with(rods(), "job.toml", A, &rule),
+            "model.bdf",
+            "CMASS2,12,1.,2,1",
+            deck,
+        );
+        let (_folder, path) = placed(&files);
+        LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"))
     };
-    let (once, twice) = (masses("[12]").1, masses("[12, \"12-12\", 12]").1);
+    let given = "CMASS2,12,1.,2,1";
+    let (once, twice) = (masses("[12]", given), masses("[12, \"12-12\", 12]", given));
     assert_eq!(once.source.whole, twice.source.whole);
-    assert!(once.corrected_deck(&[1.0, 1.2]).expect("a deck").is_some());
-    let refused = once
-        .corrected_deck(&[1.1, 1.0])
-        .expect_err("a factor of point masses")
-        .to_string();
-    assert!(
-        refused.contains(
-            "parameter \"a\" scales point masses by 1.1; a corrected deck can only change elements"
+    for (deck, corrected) in [
+        (given, "CMASS2,12,1.25,2,1"),
+        (
+            "CMASS2  12      1.      2       1",
+            "CMASS2  12      1.25    2       1",
         ),
-        "{refused}"
+        ("CONM2,12,2,,1.", "CONM2,12,2,,1.25"),
+        (
+            "PARAM,WTMASS,.5\nCMASS2,12,2.,2,1",
+            "PARAM,WTMASS,.5\nCMASS2,12,2.5,2,1",
+        ),
+    ] {
+        let job = masses("[12]", deck);
+        let first = &job.source.deck.as_ref().expect("a deck").0;
+        let text = job
+            .corrected_deck(&[1.25, 1.0])
+            .expect("it rewrites")
+            .expect("a deck");
+        let expected = String::from_utf8_lossy(first).replace(deck, corrected);
+        assert_eq!(String::from_utf8_lossy(&text), expected);
+    }
+}
+
+/// There is nothing to correct in such a job, but its test and its model can be looked at.
+#[test]
+fn a_job_without_parameters_is_looked_at_and_not_run() {
+    let mut files = rods();
+    let job = &mut files[0].1;
+    job.truncate(job.find("[[parameter]]").expect("parameters"));
+    let (_folder, path) = placed(&files);
+    let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(
+        (loaded.test.len(), loaded.parameter_names().count()),
+        (3, 0)
     );
+    let none = "a job needs at least one [[parameter]]";
+    let refused = run(&loaded, |_| {}, || true)
+        .map(drop)
+        .expect_err(none)
+        .to_string();
+    assert!(refused.ends_with(none), "{refused}");
+    let refused = Study::new(&path, 1, &[Vary::Noise])
+        .map(drop)
+        .expect_err(none)
+        .to_string();
+    assert!(refused.ends_with(none), "{refused}");
 }
 
 #[test]

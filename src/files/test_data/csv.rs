@@ -22,6 +22,7 @@
 
 use super::{DIRECTIONS, Sensor, TestData, default_name, real};
 use crate::files::error::{FileError, is_not};
+use crate::files::inert;
 use nalgebra::{DMatrix, Vector3};
 
 /// First cells of the rows with a number for every mode.
@@ -289,10 +290,7 @@ pub(crate) fn cells(line: &str, separator: char) -> Vec<String> {
     cells.iter().map(|cell| cell.trim().to_owned()).collect()
 }
 
-/// A name as one cell on one line: line ends become blanks.
+/// A name as one cell that is no formula.
 pub(crate) fn quoted(name: &str) -> String {
-    format!(
-        "\"{}\"",
-        name.replace(['\n', '\r'], " ").replace('"', "\"\"")
-    )
+    format!("\"{}\"", inert(name).replace('"', "\"\""))
 }
