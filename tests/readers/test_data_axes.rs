@@ -191,7 +191,7 @@ fn coordinate_systems_that_are_none_are_refused() {
     );
     let cylinder = system(3, 1, 0, [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
     let cylinder = said(dataset("18", &cylinder) + &dataset("15", &node(12, [0, 3], [0.0; 3])));
-    let expected = "line 10: this node has a cylindrical or spherical coordinate system";
+    let expected = "line 10: node 12 has coordinate system 3, which is no Cartesian one";
     assert!(cylinder.contains(expected), "{cylinder}");
 }
 
@@ -203,7 +203,7 @@ fn a_sensor_whose_coordinate_system_is_not_in_the_file_is_an_error() {
         let error = read("wing.unv", of(systems).as_bytes()).expect_err("no system 7");
         assert_eq!(
             error.to_string(),
-            "wing.unv, line 3: node 12 has coordinate system 7, which no dataset 18 or 2420 of the file defines"
+            "wing.unv, line 3: node 12 has coordinate system 7, which is no Cartesian one of a dataset 18 or 2420 of the file"
         );
     }
     assert_eq!(parsed(&of([1, 1])).sensors[0].axis, None);

@@ -16,7 +16,7 @@
 //!   ry, rz for rotations), `name` or `grid` or both, and a column whose title begins with `mode` for every mode. `sign` says which way
 //!   the sensor points along its axis: `+`, `-`, or empty for `+`. `x`, `y`, `z` are its place, all three or none of them.
 //!   Where titles number the modes, the numbers are 1, 2, 3 and so on from left to right, as elsewhere.
-//! - Every row has a cell below each title, and nothing beside the titled columns but blanks.
+//! - A sensor has a cell below each title, the rows above a number below each mode's, and neither has anything elsewhere but blanks.
 //! - Rows whose first cell is `frequency_hz` (Hz, must be there), `frequency_deviation`, `shape_deviation` (standard deviations as
 //!   fractions) or `phase_collinearity` have a number in each column of a mode. Every other row below the header is a sensor.
 
@@ -112,41 +112,39 @@ impl TestRow<'_> {
 
     /// Refuses the title of a mode that is there twice, or whose number is not its place.
     fn check_mode(&self, column: usize, title: &str, place: usize) -> Result<(), FileError> {
-        let (at, cell) = (column + 1, &self.cells[column]);
-        if self.cells[..column]
-            .iter()
-            .any(|other| other.to_lowercase() == title)
+        let behind = title
+            .chars()
+            .skip("mode".len())
+            .skip_while(|c| !c.is_alphanumeric());
+        let number: String = behind.take_while(char::is_ascii_digit).collect();
+        let is_other = !number.is_empty() && number.parse() != Ok(place);
+        let cell = &self.cells[column];
+        if is_other
+            || self.cells[..column]
+                .iter()
+                .any(|other| other.to_lowercase() == title)
         {
-            return self.wrong(format!("column {at}: the title {cell} is there twice"));
-        }
-        let number = title["mode".len()..].trim_start_matches(|c: char| !c.is_alphanumeric());
-        let end = number
-            .find(|c: char| !c.is_ascii_digit())
-            .unwrap_or(number.len());
-        if end > 0 && number[..end].parse() != Ok(place) {
             return self.wrong(format!(
-                "column {at}: {cell} stands in the place of mode {place}; modes are numbered from left to right"
+                "column {}: {cell} is the title of mode {place}; titles differ, and numbers count modes from left to right",
+                column + 1
             ));
         }
         Ok(())
     }
 
-    /// Refuses a row that has no cell below some title, or one that is not blank beside the titles; the first names some rows.
-    fn check_columns(&self, (titles, modes): &Header, is_named: bool) -> Result<(), FileError> {
-        let titled = || titles.iter().flatten().chain(modes);
-        let (found, wanted) = (self.cells.len(), titled().max().map_or(0, |last| last + 1));
+    /// Refuses a row that ends before its last number, or has something beside the columns of its numbers and, of a sensor, its names.
+    fn check_columns(&self, (titles, modes): &Header, is_sensor: bool) -> Result<(), FileError> {
+        let own = || titles.iter().flatten().filter(|_| is_sensor).chain(modes);
+        let (found, wanted) = (self.cells.len(), own().max().map_or(0, |last| last + 1));
         if found < wanted {
-            return self.wrong(format!(
-                "{found} cells, but the header has {wanted} columns"
-            ));
+            return self.wrong(format!("the row has {found} cells and needs {wanted}"));
         }
-        let is_stray = |column: &usize| {
-            !self.cells[*column].is_empty() && titled().all(|titled| titled != column)
-        };
-        match (usize::from(is_named)..found).find(is_stray) {
+        let is_stray =
+            |&column: &usize| !self.cells[column].is_empty() && own().all(|own| *own != column);
+        match (usize::from(!is_sensor)..found).find(is_stray) {
             None => Ok(()),
             Some(column) => self.wrong(format!(
-                "column {}: \"{}\" has no title in the header; decimal commas need semicolons or tabs between cells",
+                "column {}: \"{}\" has no title for it; decimal commas need semicolons or tabs between cells",
                 column + 1,
                 self.cells[column]
             )),
@@ -240,9 +238,9 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
     by_mode
         .iter()
         .flatten()
-        .try_for_each(|row| row.check_columns(&header, true))?;
-    rows.iter()
         .try_for_each(|row| row.check_columns(&header, false))?;
+    rows.iter()
+        .try_for_each(|row| row.check_columns(&header, true))?;
     let (titles, modes) = header;
     let list = |place: usize| {
         by_mode[place]

@@ -159,12 +159,10 @@ impl FoundModes {
     /// integers, and two of reals: the frequency is the second number of the first, a complex eigenvalue begins the second.
     fn mode(&mut self, block: &mut Block, dataset: usize) -> Result<(), FileError> {
         let is_analysis = dataset == 2414;
-        let is_at_nodes = if is_analysis {
+        let is_at_nodes = !is_analysis || {
             block.line("a label")?;
             block.line("a name")?;
             block.integers("the location of the data", 1)? == [1]
-        } else {
-            true
         };
         (0..5).try_for_each(|_| block.line("all five lines of identification").map(drop))?;
         let codes = block.integers("the six codes of a mode", 6)?;
@@ -197,14 +195,14 @@ impl FoundModes {
         let what = "a frequency, or a complex eigenvalue";
         let root = if is_analysis {
             block.line("the integers that describe a mode")?;
-            let [time_and_frequency, eigenvalue] = [
+            let lines = [
                 block.reals(what, &VALUES[..2])?,
                 block.reals(what, &VALUES[..2])?,
             ];
             if analysis == 2 {
-                time_and_frequency[1..].to_vec()
+                vec![lines[0][1]]
             } else {
-                eigenvalue
+                lines[1].clone()
             }
         } else {
             block.reals(what, &VALUES[..if analysis == 2 { 1 } else { 2 }])?
@@ -280,24 +278,22 @@ impl FoundModes {
         for (node, direction) in keys {
             let at = self.nodes.get(&node);
             let [of_place, of_motion] = [0, 1].map(|which| self.systems.get(&at?.1[which]));
-            let undefined = at.and_then(|(_, systems, line)| {
-                let is_unknown =
-                    |number: &&usize| **number > 1 && !self.systems.contains_key(*number);
-                Some((systems.iter().find(is_unknown)?, line))
-            });
-            if let Some((number, line)) = undefined {
-                let reason = format!(
-                    "node {node} has coordinate system {number}, which no dataset 18 or 2420 of the file defines"
-                );
-                return Err(FileError::line(file, *line, reason));
-            }
-            let is_other = [of_place, of_motion]
+            for (number, line) in at
                 .iter()
-                .flatten()
-                .any(|axes| !axes.is_cartesian);
-            if let (Some((.., line)), true) = (at, is_other) {
-                let reason = "this node has a cylindrical or spherical coordinate system; only Cartesian ones are read";
-                return Err(FileError::line(file, *line, reason));
+                .flat_map(|(_, both, line)| both.map(|number| (number, *line)))
+            {
+                let is_global = number < 2 && !self.systems.contains_key(&number);
+                if !is_global
+                    && self
+                        .systems
+                        .get(&number)
+                        .is_none_or(|axes| !axes.is_cartesian)
+                {
+                    let reason = format!(
+                        "node {node} has coordinate system {number}, which is no Cartesian one of a dataset 18 or 2420 of the file"
+                    );
+                    return Err(FileError::line(file, line, reason));
+                }
             }
             let to_global =
                 |place| of_place.map_or(place, |axes| axes.origin + axes.rotation * place);
