@@ -2,6 +2,7 @@
 
 use super::LoadedJob;
 use super::preflight::{Finding, preflight};
+use crate::files::deck::{Reason, Unread};
 use crate::files::error::FileError;
 use crate::method::model::DynamicModel;
 use serde::Serialize;
@@ -84,6 +85,15 @@ impl LoadedJob {
                     "datasets of the Universal File that are not read: {}",
                     numbers.join(", ")
                 ),
+            ));
+        }
+        let unread = self.source.deck.iter().flat_map(|(_, deck)| &deck.unread);
+        let unread = unread.filter(|card| card.reason != Reason::WithoutPart);
+        let unread: Vec<String> = unread.map(Unread::place).collect();
+        if !unread.is_empty() {
+            all.push(Concern::remark(
+                "cards-not-read",
+                format!("cards of the deck that are left out: {}", unread.join(", ")),
             ));
         }
         all.extend(self.data.units.iter().map(|units| {

@@ -1,6 +1,7 @@
 //! Tables as text for a terminal, as Markdown and as CSV.
 
 use super::table::{Cell, Column, Row, Table};
+use crate::files::test_data::quoted;
 use crate::files::{inert, one_line};
 
 /// No line of text is longer, characters.
@@ -99,7 +100,7 @@ pub fn csv(tables: &[Table]) -> String {
                     &computed,
                     &published,
                 ];
-                out += &(fields.map(quoted).join(",") + "\n");
+                out += &(fields.map(field).join(",") + "\n");
             }
         }
     }
@@ -107,12 +108,11 @@ pub fn csv(tables: &[Table]) -> String {
 }
 
 /// A field of CSV that is no formula, in quotes if it contains a separator or quote.
-fn quoted(field: &str) -> String {
-    let field = inert(field);
-    if field.contains([',', '"']) {
-        format!("\"{}\"", field.replace('"', "\"\""))
+fn field(text: &str) -> String {
+    if text.contains([',', '"']) {
+        quoted(text)
     } else {
-        field
+        inert(text)
     }
 }
 

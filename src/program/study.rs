@@ -97,7 +97,7 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError
     };
     scope(|scope| {
         // Where the system gives no more threads, those there are do the work.
-        let begun = |_: &usize| Builder::new().spawn_scoped(scope, &work).is_ok();
+        let begun = |_: &usize| Builder::new().spawn_scoped(scope, work).is_ok();
         if (0..threads).take_while(begun).count() == 0 {
             work();
         }

@@ -662,3 +662,45 @@ fn the_papers_error_sum_takes_the_weights_of_a_job() {
         "{none}"
     );
 }
+
+/// Of the cards that are not read only loads and the like go without a word: they are no part of any model.
+#[test]
+fn what_a_deck_has_and_its_model_has_not_is_a_remark() {
+    let remarks = |files: &Files| {
+        let (_folder, path) = placed(files);
+        let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+        let all = loaded.concerns().expect("concerns").into_iter();
+        let of_deck = all.filter(|concern| concern.identifier == "cards-not-read");
+        of_deck
+            .map(|concern| (concern.is_doubt, concern.words))
+            .collect::<Vec<_>>()
+    };
+    let loads = with(rods(), "model.bdf", "MAT1,1,", "FORCE,9,4,,1.,1.\nMAT1,1,");
+    assert_eq!(remarks(&loads), []);
+    let torsion = with(loads, "model.bdf", "PROD,1,1,.1", "PROD,1,1,.1,.5");
+    let ignored = with(torsion, "model.bdf", "MAT1,1,", "CBAR,9,1,2,3\nMAT1,1,");
+    let ignored = with(
+        ignored,
+        "job.toml",
+        "deck = ",
+        "ignore = [\"CBAR\"]\ndeck = ",
+    );
+    let words =
+        "cards of the deck that are left out: PROD J (line 8, 1 card), CBAR (line 11, 1 card)";
+    assert_eq!(remarks(&ignored), [(false, words.to_owned())]);
+}
+
+/// A node that one mode leaves out is no sensor of the test, which is said before the first step.
+#[test]
+fn a_sensor_left_out_for_a_mode_without_it_is_a_remark() {
+    let (_folder, path) = placed(&rods());
+    let mut loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    loaded.data.incomplete = vec!["7 y".to_owned(), "9 z".to_owned()];
+    let all = loaded.concerns().expect("concerns");
+    let found = all
+        .iter()
+        .find(|concern| concern.identifier == "not-in-every-mode");
+    let found = found.map(|concern| (concern.is_doubt, &concern.words[..]));
+    let words = "sensors left out because some mode of the file has no value at them: 7 y, 9 z";
+    assert_eq!(found, Some((false, words)));
+}

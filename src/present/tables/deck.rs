@@ -14,7 +14,7 @@ const SHAPE: Digits = Digits::Fixed(5);
 /// Frequencies and shapes of the lowest `count` modes, every shape scaled to a largest component of one, after a table
 /// of what was left out by request.
 ///
-/// Generalized mass, $v^t M v$, is that of the shape so scaled, lbf·s²/in.
+/// Generalized mass, $v^t M v$, is that of the shape so scaled, in the model's own unit.
 pub fn deck_tables(unread: &[Unread], modes: &WholeModes, count: usize) -> Vec<Table> {
     let (masses, shapes) = unit_shapes(modes, count);
     let rows = modes.modes.shapes.nrows();
@@ -37,7 +37,7 @@ pub fn deck_tables(unread: &[Unread], modes: &WholeModes, count: usize) -> Vec<T
             "Hz",
             numbers(modes.modes.frequencies_hz(), FREQUENCY),
         )
-        .column("Generalized mass", "lbf·s²/in", numbers(masses, MASS))
+        .column("Generalized mass", "", numbers(masses, MASS))
         .notes(others.into_iter().map(not_read))
         .notes(rigid);
     let ignored = Table::new(
