@@ -288,6 +288,30 @@ fn of_several_subcases_the_first_selects_the_constraints() {
     assert_eq!(held("SPC = 1\nSUBCASE 1\nSPC = 2\nSUBCASE 2\n"), second);
 }
 
+/// NASTRAN-95 has a second panel's property in field 6, later programs a factor, which must be zero here.
+#[test]
+fn a_property_of_shear_panels_may_end_in_zeros_or_in_another_property() {
+    let read = |card: &str| {
+        let text =
+            format!("{GOOD}{card}\nGRID,3,,10.,10.,0.\nGRID,4,,0.,10.,0.\nCSHEAR,5,2,1,2,3,4\n");
+        deck::read("wing.bdf", text.as_bytes(), &[]).map(|read| read.model.elements[1].size)
+    };
+    for card in [
+        "PSHEAR,2,1,.5",
+        "PSHEAR,2,1,.5,0.",
+        "PSHEAR,2,1,.5,0.,0.,0.",
+        "PSHEAR,2,1,.5,,0,0",
+        "PSHEAR,2,1,.5,,,0.",
+    ] {
+        assert_eq!(read(card).unwrap_or_else(|error| panic!("{error}")), 0.5);
+    }
+    assert_eq!(
+        read("PSHEAR,3,1,.1,,2,1,.25").expect("two properties"),
+        0.25
+    );
+    assert!(read("PSHEAR,2,1,.5,0.,1.,0.").is_err());
+}
+
 #[test]
 fn torsion_of_rods_is_named_and_in_no_stiffness() {
     let text = GOOD.replace("PROD,1,1,.01", "PROD,1,1,.01,.5") + "CONROD,2,1,2,1,.5,.25\n";

@@ -52,7 +52,7 @@ impl ElementCards {
     pub fn take(&mut self, card: &Card) -> Result<(), FileError> {
         let name = card.name.as_str();
         // In field 6 of PSHEAR some programs have a second entry's number, and others a real number.
-        let is_second = name != "PSHEAR" || card.text(6).parse::<usize>().is_ok();
+        let is_second = name != "PSHEAR" || card.label(6).is_ok();
         let is_double = TWO_TO_A_CARD.contains(&name)
             && is_second
             && card.filled().last().is_some_and(|&last| last > 5);
