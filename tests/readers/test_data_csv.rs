@@ -229,7 +229,7 @@ fn a_row_longer_or_shorter_than_the_header_is_an_error_with_its_column() {
     };
     let stray = |line, column, cell| {
         format!(
-            "wing.csv, line {line}: column {column}: \"{cell}\" has no title for it; decimal commas need semicolons or tabs \
+            "wing.csv, line {line}: column {column}: \"{cell}\" stands where nothing belongs; decimal commas need semicolons or tabs \
              between cells"
         )
     };
@@ -275,8 +275,8 @@ fn titles_of_modes_are_in_order_and_none_is_there_twice() {
     };
     let place = |column, title, place| {
         Err(format!(
-            "wing.csv, line 4: column {column}: {title} is the title of mode {place}; titles differ, and numbers count modes from \
-             left to right"
+            "wing.csv, line 4: column {column}: this is mode {place}, but its title is \"{title}\"; titles must differ and number \
+             modes from left to right"
         ))
     };
     assert_eq!(said("mode 7", "mode 2"), place(8, "mode 7", 1));

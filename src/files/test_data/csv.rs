@@ -125,7 +125,7 @@ impl TestRow<'_> {
                 .any(|other| other.to_lowercase() == title)
         {
             return self.wrong(format!(
-                "column {}: {cell} is the title of mode {place}; titles differ, and numbers count modes from left to right",
+                "column {}: this is mode {place}, but its title is \"{cell}\"; titles must differ and number modes from left to right",
                 column + 1
             ));
         }
@@ -144,7 +144,7 @@ impl TestRow<'_> {
         match (usize::from(!is_sensor)..found).find(is_stray) {
             None => Ok(()),
             Some(column) => self.wrong(format!(
-                "column {}: \"{}\" has no title for it; decimal commas need semicolons or tabs between cells",
+                "column {}: \"{}\" stands where nothing belongs; decimal commas need semicolons or tabs between cells",
                 column + 1,
                 self.cells[column]
             )),
