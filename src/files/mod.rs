@@ -6,16 +6,61 @@ pub mod matrices;
 pub mod nastran95;
 pub mod test_data;
 
+use std::fs::File;
+use std::io::{Error, ErrorKind, Read};
+use std::path::Path;
+
+/// Bytes of the longest file that is read, 2 GiB: what a matrix of sixty million entries takes. The text and what is read from it
+/// take some three times as much memory.
+pub const MOST_BYTES: u64 = 1 << 31;
+
+/// The bytes of a regular file of at most [`MOST_BYTES`]. What is none, such as a device or a pipe, is refused before it is opened.
+///
+/// # Errors
+/// Those of the operating system; that it is not such a file.
+pub fn read_bytes(path: &Path) -> Result<Vec<u8>, Error> {
+    let found = std::fs::metadata(path)?;
+    if !found.is_file() {
+        let reason = "it is not a regular file; copy what it gives into one";
+        return Err(Error::new(ErrorKind::InvalidInput, reason));
+    }
+    let (mut bytes, mut length) = (Vec::new(), found.len());
+    if length <= MOST_BYTES {
+        // It may have grown meanwhile.
+        length = File::open(path)?
+            .take(MOST_BYTES + 1)
+            .read_to_end(&mut bytes)? as u64;
+    }
+    if length > MOST_BYTES {
+        let reason = format!("it is longer than {MOST_BYTES} bytes, the most that corfem reads");
+        return Err(Error::new(ErrorKind::FileTooLarge, reason));
+    }
+    Ok(bytes)
+}
+
 /// A text with control characters other than line ends and tabs escaped, because a terminal would obey them.
 pub fn escaped(text: &str) -> String {
-    let shown = |c: char| c.is_control() && c != '\n' && c != '\t';
-    text.chars()
-        .map(|c| {
-            if shown(c) {
-                c.escape_default().to_string()
-            } else {
-                c.to_string()
-            }
-        })
-        .collect()
+    escape(text, |c| c.is_control() && c != '\n' && c != '\t')
+}
+
+/// A text on one line: the same of line ends and tabs, which would leave their row of a table.
+pub fn one_line(text: &str) -> String {
+    escape(text, char::is_control)
+}
+
+/// A text that a spreadsheet takes for one, on one line: one that could be a formula and is no number begins with an apostrophe.
+pub fn inert(text: &str) -> String {
+    let is_formula = text.starts_with(['=', '+', '-', '@']) && text.parse::<f64>().is_err();
+    if is_formula { "'" } else { "" }.to_owned() + &one_line(text)
+}
+
+fn escape(text: &str, is_shown: impl Fn(char) -> bool) -> String {
+    let shown = |c: char| {
+        if is_shown(c) {
+            c.escape_default().to_string()
+        } else {
+            c.to_string()
+        }
+    };
+    text.chars().map(shown).collect()
 }

@@ -5,6 +5,7 @@ use super::model::from_deck;
 use super::sensors::{PlacedSensor, place};
 use super::{Compare, Job, Method, ModelSource, read};
 use crate::files::error::FileError;
+use crate::files::read_bytes;
 use crate::files::test_data::{self, TestData};
 use crate::job::assignment::pair_optimally;
 use crate::job::expansion::mass_by_modes;
@@ -150,9 +151,12 @@ impl LoadedJob {
         for file in named.chain([job.path.clone()]) {
             // A # may choose one matrix of the file.
             let text = file.to_string_lossy();
-            let of_matrix =
-                |_| std::fs::read(text.rsplit_once('#').map_or(&*text, |(file, _)| file));
-            let bytes = std::fs::read(&file)
+            let of_matrix = |_| {
+                read_bytes(Path::new(
+                    text.rsplit_once('#').map_or(&*text, |(file, _)| file),
+                ))
+            };
+            let bytes = read_bytes(&file)
                 .or_else(of_matrix)
                 .map_err(FileError::of_file(&file, "read"))?;
             identity = digest(&bytes, identity);
@@ -279,6 +283,14 @@ impl LoadedJob {
         parameters.map(|parameter| &parameter.name[..])
     }
 
+    /// Refuses a job without parameters, which can be looked at but not correlated.
+    pub(super) fn require_parameters(&self) -> Result<(), FileError> {
+        let none = self.source.whole.parameters().is_empty().then_some(());
+        self.job.refuse_if(none, |()| {
+            "a job needs at least one [[parameter]]".to_owned()
+        })
+    }
+
     /// The first factors.
     pub(super) fn ones(&self) -> Vec<f64> {
         vec![1.0; self.source.whole.parameters().len()]
@@ -312,10 +324,6 @@ impl LoadedJob {
 
 /// Reads the model of a job.
 fn load(job: &Job) -> Result<ModelSource, FileError> {
-    let none = job.parameters.is_empty().then_some(());
-    job.refuse_if(none, |()| {
-        "a job needs at least one [[parameter]]".to_owned()
-    })?;
     match (&job.model.deck, &job.model.stiffness, &job.model.mass) {
         (Some(deck), None, None) => from_deck(job, &job.beside(deck)),
         (None, Some(stiffness), Some(mass)) => from_matrices(job, stiffness, mass),

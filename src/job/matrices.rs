@@ -6,7 +6,11 @@ use crate::files::deck::decoded;
 use crate::files::error::{FileError, is_not};
 use crate::files::matrices::{self, LabeledMatrix};
 use crate::files::test_data::{DIRECTIONS, cells, separator};
-use crate::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
+use crate::method::error::Error;
+use crate::method::modes::{ModeSet, Modes};
+use crate::method::structure::StructuralDof;
+use crate::sparse::whole_modes::WholeModes;
+use crate::sparse::{FINITE, SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -85,13 +89,57 @@ pub(super) fn from_matrices(
         places,
         elements: Vec::new(),
     };
-    let members = vec![Vec::new(); whole.parameters().len()];
+    let members = vec![Default::default(); whole.parameters().len()];
     Ok(ModelSource {
         whole,
         geometry,
         motions,
         members,
         deck: None,
+    })
+}
+
+/// The `most` lowest vibrations of a structure given by its stiffness and mass, or all of finite frequency; `#` in a file's name
+/// chooses one of several matrices.
+///
+/// # Errors
+/// Those of the files and of [`lowest_modes`].
+pub fn matrix_modes(stiffness: &Path, mass: &Path, most: usize) -> Result<WholeModes, FileError> {
+    let job = Job {
+        path: "modes".into(),
+        ..Job::default()
+    };
+    let LabeledMatrix {
+        rows,
+        matrix: stiffness,
+        ..
+    } = matrix(&job, stiffness, "--stiffness")?;
+    let labels: Vec<_> = rows.iter().flatten().map(degree_of_freedom).collect();
+    let row_of = (0..)
+        .zip(&labels)
+        .map(|(row, label)| (*label, row))
+        .collect();
+    let mass = on_rows(&job, (mass, "--mass"), &row_of)?;
+    let most = most.min(stiffness.rows());
+    let found = match lowest_modes(&stiffness, &mass, most) {
+        Err(Error::TooMany {
+            what: FINITE,
+            available,
+            ..
+        }) if available > 0 => lowest_modes(&stiffness, &mass, available)?,
+        found => found?,
+    };
+    let dof = labels
+        .into_iter()
+        .map(|(grid, direction)| StructuralDof { grid, direction });
+    let ModeSet {
+        omega_squared,
+        shapes,
+    } = found.vibrations;
+    Ok(WholeModes {
+        dof: dof.collect(),
+        modes: Modes::ascending(omega_squared, shapes),
+        rigid_body: found.rigid_body.ncols(),
     })
 }
 
@@ -109,9 +157,19 @@ fn matrix(job: &Job, file: &Path, entry: &str) -> Result<LabeledMatrix, FileErro
     let file = job.beside(Path::new(file));
     let bytes = job.bytes(&file, entry)?;
     let found = matrices::read(&file.display().to_string(), &bytes, wanted)?;
-    let others = (found.columns != found.rows).then_some(text);
+    let others = (found.columns != found.rows).then_some(&text);
     job.refuse_if(others, |text| {
         format!("{text}: rows and columns have different names")
+    })?;
+    // Labels ascend, so that two of one degree of freedom are neighbors.
+    let labels = found.rows.as_deref().unwrap_or_default();
+    let is_one =
+        |pair: &&[(usize, usize)]| degree_of_freedom(&pair[0]) == degree_of_freedom(&pair[1]);
+    job.refuse_if(labels.windows(2).find(is_one), |pair| {
+        format!(
+            "{text}: components 0 and 1 of grid {} are one degree of freedom, and the matrix has both",
+            pair[0].0
+        )
     })?;
     Ok(found)
 }
@@ -160,18 +218,18 @@ fn read_rows(job: &Job, file: &Path) -> Result<Rows, FileError> {
     let (mut labels, mut places) = (Vec::new(), BTreeMap::new());
     for (number, line) in lines {
         let cells = cells(line, separator(line));
-        if labels.is_empty()
-            && cells
-                .first()
-                .is_some_and(|cell| cell.eq_ignore_ascii_case("grid"))
-        {
+        let titles = cells.join(",").to_lowercase();
+        if labels.is_empty() && ["grid,direction", "grid,direction,x,y,z"].contains(&&*titles) {
             continue;
         }
         let what = "a line of grid, direction and perhaps x, y, z";
         let wrong = || FileError::line(&file.display().to_string(), number, is_not(line, what));
         let (label, place) = row(&cells).ok_or_else(wrong)?;
         labels.push(label);
-        places.extend(place.map(|place| (label.0, place)));
+        if place.is_some_and(|place| *places.entry(label.0).or_insert(place) != place) {
+            let reason = format!("grid {} was given at another place before", label.0);
+            return Err(FileError::line(&file.display().to_string(), number, reason));
+        }
     }
     Ok((labels, places))
 }

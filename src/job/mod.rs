@@ -21,6 +21,7 @@ mod trust;
 
 pub use entries::removed_step;
 pub use loaded::LoadedJob;
+pub use matrices::matrix_modes;
 pub use model::{GridLayout, ModelSource};
 pub use run::{History, JobResult, run};
 pub use samples::{Samples, Spread, Summary};
@@ -28,7 +29,9 @@ pub use sensors::PlacedSensor;
 pub use study::{Study, Vary};
 pub use trust::{Concern, NotCompared, Trust};
 
+use crate::files::deck::decoded;
 use crate::files::error::{FileError, is_not};
+use crate::files::read_bytes;
 use crate::method::outer_loop::Settings;
 use entries::{CorrelationEntries, refuse_removed};
 use serde::Deserialize;
@@ -43,7 +46,7 @@ pub const TEMPLATE: &str = include_str!("template.toml");
 pub const TEST_TEMPLATE: &str = include_str!("template.csv");
 
 /// What a job file says, of which [`TEMPLATE`] explains every entry.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Job {
     #[serde(skip)]
@@ -74,7 +77,7 @@ struct ModelFiles {
     rows: Option<PathBuf>,
 }
 
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct TestFile {
     file: PathBuf,
@@ -183,7 +186,8 @@ const MOST_LABELS: usize = 10_000_000;
 /// [`FileError::File`] when it cannot be read; [`FileError::Refused`] for an entry that jobs no longer have, and
 /// naming line and entry that are not understood.
 pub fn read(path: &Path) -> Result<Job, FileError> {
-    let text = std::fs::read_to_string(path).map_err(FileError::of_file(path, "read"))?;
+    let bytes = read_bytes(path).map_err(FileError::of_file(path, "read"))?;
+    let text = decoded(&bytes);
     refuse_removed(path, &text)?;
     let job = toml::from_str(&text).map(|job| Job {
         path: path.to_owned(),
@@ -218,7 +222,7 @@ impl Job {
     /// The bytes of a file that an entry names.
     fn bytes(&self, file: &Path, entry: &str) -> Result<Vec<u8>, FileError> {
         let job = self.path.file_name().unwrap_or_default();
-        std::fs::read(file).map_err(|source| FileError::File {
+        read_bytes(file).map_err(|source| FileError::File {
             path: file.to_owned(),
             action: "read",
             named: format!(" ({entry} in {})", job.display()),

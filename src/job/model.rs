@@ -33,8 +33,8 @@ pub struct ModelSource {
     pub motions: BTreeMap<(usize, usize), Vec<(usize, f64)>>,
     /// The deck's bytes and what was read of them, if it is one.
     pub deck: Option<(Vec<u8>, Deck)>,
-    /// Of a deck, the elements that every parameter scales.
-    pub members: Vec<Vec<usize>>,
+    /// Of a deck, the elements and the point masses that every parameter scales, ascending.
+    pub members: Vec<[Vec<usize>; 2]>,
 }
 
 /// The model of the deck in this file.
@@ -128,7 +128,7 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
                 share,
                 range: range(job, rule, &sizes)?,
             });
-            members.push(labels);
+            members.push([labels, masses]);
         }
     }
     let whole = WholeModel::new(stiffness, mass, parameters)?;

@@ -1,6 +1,6 @@
 //! Runs a job: finds the factors, how well the test determines them, and the deck that has them.
 
-use super::{LoadedJob, Method, ParameterRule, Trust};
+use super::{LoadedJob, Method, Trust};
 use crate::files::deck::rewrite;
 use crate::files::error::FileError;
 use crate::method::derivatives::error_changes;
@@ -131,29 +131,26 @@ impl LoadedJob {
         }
     }
 
-    /// The deck with the elements scaled by `factors` and every other byte as it was; none for a model of matrices.
+    /// The deck with elements and point masses scaled by `factors` and every other byte as it was; none for a model of matrices.
     ///
     /// A factor on stiffness changes an element's size and takes its density down by as much; one on mass changes its density.
     ///
     /// # Errors
-    /// Those of [`rewrite`]; [`FileError::Refused`] for factors of point masses, which are not rewritten.
+    /// Those of [`rewrite`].
     pub fn corrected_deck(&self, factors: &[f64]) -> Result<Option<Vec<u8>>, FileError> {
         let Some((bytes, deck)) = &self.source.deck else {
             return Ok(None);
         };
-        let mut elements = deck.model.elements.clone();
-        let parameters = self
-            .source
-            .whole
-            .parameters()
-            .iter()
-            .zip(&self.source.members);
-        for ((WholeParameter { name, share, .. }, members), &factor) in parameters.zip(factors) {
-            let has_masses = |rule: &ParameterRule| rule.name == *name && !rule.masses.is_empty();
-            let is_of_masses = members.is_empty() || self.job.parameters.iter().any(has_masses);
-            self.job.refuse_if((is_of_masses && factor != 1.0).then_some(factor), |factor| {
-                format!("parameter \"{name}\" scales point masses by {factor}; a corrected deck can only change elements")
-            })?;
+        let (mut elements, mut masses) = (deck.model.elements.clone(), deck.model.masses.clone());
+        let parameters = self.source.whole.parameters().iter();
+        let parameters = parameters.zip(&self.source.members).zip(factors);
+        for ((WholeParameter { share, .. }, [members, points]), factor) in parameters {
+            for point in masses
+                .iter_mut()
+                .filter(|point| points.binary_search(&point.label).is_ok())
+            {
+                point.mass *= factor;
+            }
             for element in elements
                 .iter_mut()
                 .filter(|element| members.binary_search(&element.label).is_ok())
@@ -177,7 +174,7 @@ impl LoadedJob {
             .deck
             .as_ref()
             .map_or_else(String::new, |path| path.display().to_string());
-        rewrite(&name, bytes, &elements).map(Some)
+        rewrite(&name, bytes, &elements, &masses).map(Some)
     }
 }
 
@@ -185,12 +182,14 @@ impl LoadedJob {
 /// whether to continue.
 ///
 /// # Errors
-/// Those of [`Trust::before`], of the analyses, of the loops and of [`LoadedJob::weights`].
+/// [`FileError::Refused`] without parameters; those of [`Trust::before`], of the analyses, of the loops and of
+/// [`LoadedJob::weights`].
 pub fn run(
     loaded: &LoadedJob,
     mut progress: impl FnMut(&str),
     go_on: impl Fn() -> bool,
 ) -> Result<JobResult, FileError> {
+    loaded.require_parameters()?;
     let trust = Trust::before(loaded)?;
     run_from(loaded, trust, &loaded.ones(), &mut progress, &go_on)
 }

@@ -42,9 +42,10 @@ impl Study {
     /// Reads a job to be run many times.
     ///
     /// # Errors
-    /// Those of [`LoadedJob::new`].
+    /// Those of [`LoadedJob::new`]; [`FileError::Refused`] without parameters.
     pub fn new(path: &Path, seed: u64, vary: &[Vary]) -> Result<Self, FileError> {
         let loaded = LoadedJob::new(path)?;
+        loaded.require_parameters()?;
         let mut vary = vary.to_vec();
         vary.sort_unstable();
         vary.dedup();

@@ -341,6 +341,15 @@ impl LoadedJob {
                 ));
             }
         }
+        if !self.data.incomplete.is_empty() {
+            all.push(Concern::remark(
+                "not-in-every-mode",
+                format!(
+                    "Sensors left out because some mode of the file has no value at them: {}.",
+                    self.data.incomplete.join(", ")
+                ),
+            ));
+        }
         if !self.data.skipped.is_empty() {
             let numbers: Vec<String> = self.data.skipped.iter().map(usize::to_string).collect();
             all.push(Concern::remark(

@@ -6,7 +6,7 @@
 
 use crate::method::appendix_c::general::{self, ModalChange};
 use crate::method::appendix_c::{SMALLEST_SEPARATION, first_order};
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::error_sum::unit_shape_difference;
 use crate::method::linear_algebra::finite_list;
 use crate::method::model::{ModalModel, ParameterMatrix};
@@ -38,12 +38,13 @@ pub enum DerivativeRule {
 /// $\Delta e_e = e_f + e_v - e_S$ (12) of every parameter at the present state.
 ///
 /// # Errors
-/// Those of [`by_definition`].
+/// [`Error::Empty`] without parameters; those of [`by_definition`].
 pub fn error_changes(
     model: &ModalModel,
     state: &ModalState,
     rule: DerivativeRule,
 ) -> Result<Vec<f64>, Error> {
+    at_least_one("parameters", model.shares.len())?;
     if rule == DerivativeRule::Definition {
         return by_definition(model, state);
     }

@@ -26,9 +26,9 @@ pub enum Error {
         rows: usize,
         columns: usize,
     },
-    /// A matrix that must be symmetric is not; the worst pair, with its difference over the largest entry.
+    /// A matrix that must be symmetric is not; the worst pair, with its difference over the size of such entries.
     #[error(
-        "{what}: entry ({row}, {column}) is off its mirror by {difference:.1e} of the largest; the matrix must be symmetric"
+        "{what}: entry ({row}, {column}) is off its mirror by {difference:.1e} of its size; the matrix must be symmetric"
     )]
     NotSymmetric {
         what: &'static str,

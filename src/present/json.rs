@@ -8,13 +8,13 @@ use super::PresentError;
 use super::report::{Report, Stage};
 use super::tables::cases::{outcome, published_iterations};
 use super::tables::deck::{not_read, unit_shapes};
-use crate::files::deck::Deck;
+use crate::files::deck::Unread;
+use crate::files::test_data::DIRECTIONS;
 use crate::job::Trust;
 use crate::job::preflight::Finding;
 use crate::method::inner_loop::Iteration;
 use crate::method::model::{Bounds, ExactResult};
 use crate::method::step::Limit;
-use crate::method::structure::DIRECTIONS;
 use crate::method::verdict::Verdict;
 use crate::sparse::whole_modes::WholeModes;
 use crate::torque_box::CaseResult;
@@ -33,15 +33,33 @@ struct Document<T> {
     content: T,
 }
 
-/// A document with its heading as pretty-printed JSON and a final newline.
+/// A document of the paper's structure with its heading as pretty-printed JSON and a final newline.
 ///
 /// # Errors
 /// [`PresentError::Json`], which memory alone could cause.
 pub fn document(content: impl Serialize) -> Result<String, PresentError> {
+    in_units(
+        "inch, pound-force, second, hertz; errors are fractions",
+        content,
+    )
+}
+
+/// The same of a user's structure.
+///
+/// # Errors
+/// Those of [`document`].
+pub fn own_document(content: impl Serialize) -> Result<String, PresentError> {
+    in_units(
+        "the model's own units, hertz; errors are fractions",
+        content,
+    )
+}
+
+fn in_units(units: &'static str, content: impl Serialize) -> Result<String, PresentError> {
     let document = Document {
         program: env!("CARGO_PKG_NAME"),
         version: env!("CARGO_PKG_VERSION"),
-        units: "inch, pound-force, second, hertz; errors are fractions",
+        units,
         content,
     };
     Ok(serde_json::to_string_pretty(&document)? + "\n")
@@ -241,20 +259,24 @@ pub fn preflight(found: &[(String, Vec<Finding>)]) -> Result<String, PresentErro
     document(json!({ "structures": found.iter().map(structure).collect::<Value>() }))
 }
 
-/// The lowest `count` modes of a deck, every shape scaled to a largest component of one; components in the order of
-/// `dof`.
-pub fn deck_modes(deck: &Deck, modes: &WholeModes, count: usize) -> Result<String, PresentError> {
+/// The lowest `count` modes of a deck or of matrices, every shape scaled to a largest component of one; components in the order of
+/// `dof`, which is empty for matrices that do not name their rows.
+pub fn deck_modes(
+    unread: &[Unread],
+    modes: &WholeModes,
+    count: usize,
+) -> Result<String, PresentError> {
     let (masses, shapes) = unit_shapes(modes, count);
     let dof = modes
         .dof
         .iter()
         .map(|dof| json!({"grid": dof.grid, "direction": DIRECTIONS[dof.direction]}));
-    document(json!({
+    own_document(json!({
         "dof": dof.collect::<Value>(),
         "rigid_body_modes": modes.rigid_body,
         "frequencies_hz": modes.modes.frequencies_hz().into_iter().take(count).collect::<Value>(),
         "generalized_masses": masses,
         "shapes": shapes,
-        "not_read": deck.unread.iter().map(not_read).collect::<Value>(),
+        "not_read": unread.iter().map(not_read).collect::<Value>(),
     }))
 }

@@ -1,6 +1,8 @@
 //! Tables as text for a terminal, as Markdown and as CSV.
 
 use super::table::{Cell, Column, Row, Table};
+use crate::files::test_data::quoted;
+use crate::files::{inert, one_line};
 
 /// No line of text is longer, characters.
 pub const WIDTH: usize = 100;
@@ -18,13 +20,13 @@ const PUBLISHED: &str = "  published";
 pub fn text(tables: &[Table]) -> String {
     let head = "Computed values; the paper's are in the rows marked \"published\".";
     paragraphs(tables, head, |table| {
-        let notes = table.notes.iter().map(|note| wrapped(note));
+        let notes = table.notes.iter().map(|note| wrapped(&one_line(note)));
         let body = if table.has_sentences() {
             vec![list(table)]
         } else {
             grids(table)
         };
-        std::iter::once(wrapped(&table.title))
+        std::iter::once(wrapped(&one_line(&table.title)))
             .chain(body)
             .chain(notes)
             .collect()
@@ -39,7 +41,11 @@ pub fn markdown(tables: &[Table]) -> String {
             "" => column.name.clone(),
             unit => format!("{}, {unit}", column.name),
         });
-        let line = |label: &str, cells: Vec<String>| format!("| {label} | {} |", cells.join(" | "));
+        let line = |label: &str, cells: Vec<String>| {
+            let cells = [vec![label.to_owned()], cells].concat();
+            let cells = cells.iter().map(|cell| one_line(cell).replace('|', "\\|"));
+            format!("| {} |", cells.collect::<Vec<_>>().join(" | "))
+        };
         let rule = vec!["---:".to_owned(); table.columns.len()];
         let mut lines = vec![
             line(table.label_heading, headings.collect()),
@@ -52,8 +58,8 @@ pub fn markdown(tables: &[Table]) -> String {
             });
             lines.push(line(&row.label, cells.collect()));
         }
-        let notes = table.notes.iter().cloned();
-        [format!("## {}", table.title), lines.join("\n")]
+        let notes = table.notes.iter().map(|note| one_line(note));
+        [format!("## {}", one_line(&table.title)), lines.join("\n")]
             .into_iter()
             .chain(notes)
             .collect()
@@ -99,20 +105,19 @@ pub fn csv(tables: &[Table]) -> String {
                     &computed,
                     &published,
                 ];
-                out += &(fields.map(quoted).join(",") + "\n");
+                out += &(fields.map(field).join(",") + "\n");
             }
         }
     }
     out
 }
 
-/// A field of CSV, in quotes if it contains a separator, quote or line end.
-fn quoted(field: &str) -> String {
-    let ends = field.contains([',', '"', '\n', '\r']);
-    if ends {
-        format!("\"{}\"", field.replace('"', "\"\""))
+/// A field of CSV that is no formula, in quotes if it contains a separator or quote.
+fn field(text: &str) -> String {
+    if text.contains([',', '"']) {
+        quoted(text)
     } else {
-        field.to_owned()
+        inert(text)
     }
 }
 
@@ -130,6 +135,8 @@ struct TextColumn {
 
 impl TextColumn {
     fn new(name: &str, unit: &str, cells: Vec<String>) -> Self {
+        let name = one_line(name);
+        let cells: Vec<String> = cells.iter().map(|cell| one_line(cell)).collect();
         let least = if name.contains(' ') { LEAST } else { 0 };
         let words = cells
             .iter()
@@ -194,12 +201,12 @@ fn list(table: &Table) -> String {
             let words: Vec<String> = cells.into_iter().map(Cell::computed).collect();
             words.join(between)
         };
-        wrapped(&format!(
+        wrapped(&one_line(&format!(
             "{} {}: {}",
             join(others, ", "),
             row.label,
             join(sentences, " ")
-        ))
+        )))
     };
     table.rows.iter().map(of_row).collect::<Vec<_>>().join("\n")
 }

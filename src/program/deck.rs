@@ -5,13 +5,15 @@ use super::place::write_report;
 use clap::Args;
 use corfem::files::deck::{self, BulkData, Task};
 use corfem::files::error::FileError;
+use corfem::files::read_bytes;
+use corfem::job::matrix_modes;
 use corfem::method::error::Error;
 use corfem::present::tables::deck::{deck_tables, not_read};
 use corfem::present::{PresentError, json};
 use corfem::torque_box::wing_box::dynamic_points;
 use corfem::torque_box::{Case, run_case};
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The deck asks for eigenvalues between these multiples of the lowest and the highest frequency.
 const RANGE: [f64; 2] = [0.9, 1.1];
@@ -38,11 +40,17 @@ pub struct DeckArguments {
 #[derive(Debug, Args)]
 pub struct ModesArguments {
     /// The deck: bulk data, with or without executive and case control
-    #[arg(value_name = "DECK")]
-    deck: PathBuf,
+    #[arg(value_name = "DECK", required_unless_present = "stiffness")]
+    deck: Option<PathBuf>,
+    /// Stiffness matrix instead of a deck: Matrix Market, DMIG or OUTPUT4; FILE#NAME takes one of several
+    #[arg(long, value_name = "FILE", requires = "mass", conflicts_with_all = ["deck", "ignore"])]
+    stiffness: Option<PathBuf>,
+    /// Mass matrix in the same rows
+    #[arg(long, value_name = "FILE", requires = "stiffness")]
+    mass: Option<PathBuf>,
     #[command(flatten)]
     output: OutputArguments,
-    /// How many of the lowest modes; 100 if not given, or all with a finite frequency if there are fewer
+    /// How many of the lowest modes, 100 if not given; all with a finite frequency if there are fewer
     #[arg(short, long, value_name = "N")]
     count: Option<NonZeroUsize>,
     /// Leave out cards of these names although corfem does not read them; the report lists them
@@ -83,31 +91,30 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
     )
 }
 
-/// Prints the modes of a deck.
+/// Prints the modes of a deck or of matrices.
 pub fn modes(arguments: &ModesArguments) -> Result<(), PresentError> {
-    let name = arguments.deck.display().to_string();
-    let bytes =
-        std::fs::read(&arguments.deck).map_err(FileError::of_file(&arguments.deck, "read"))?;
-    let deck = deck::read(&name, &bytes, &arguments.ignore)?;
-    for card in &deck.unread {
-        note(format_args!("corfem: {name}: {}", not_read(card)));
-    }
-    let modes = deck::modes(
-        &deck.model,
-        arguments.count.map_or(USUAL_COUNT, NonZeroUsize::get),
-    )?;
-    let found = modes.modes.len();
-    let count = arguments.count.map_or(found, NonZeroUsize::get);
-    if count > found {
-        return Err(Error::TooMany {
-            what: "modes of finite frequency",
-            available: found,
-            requested: count,
+    let most = arguments.count.map_or(USUAL_COUNT, NonZeroUsize::get);
+    let of_matrices = arguments.stiffness.as_ref().zip(arguments.mass.as_ref());
+    let (unread, modes) = if let Some((stiffness, mass)) = of_matrices {
+        (Vec::new(), matrix_modes(stiffness, mass, most)?)
+    } else {
+        let path = arguments.deck.as_deref().unwrap_or(Path::new(""));
+        let name = path.display().to_string();
+        let bytes = read_bytes(path).map_err(FileError::of_file(path, "read"))?;
+        let deck = deck::read(&name, &bytes, &arguments.ignore)?;
+        for card in &deck.unread {
+            note(format_args!("corfem: {name}: {}", not_read(card)));
         }
-        .into());
+        (deck.unread, deck::modes(&deck.model, most)?)
+    };
+    let found = modes.modes.len();
+    if arguments.count.is_some_and(|count| count.get() > found) {
+        note(format_args!(
+            "corfem: {most} modes asked for; all {found} of finite frequency are given"
+        ));
     }
-    let tables = deck_tables(&deck, &modes, count);
+    let tables = deck_tables(&unread, &modes, found);
     arguments
         .output
-        .write(&tables, || json::deck_modes(&deck, &modes, count))
+        .write(&tables, || json::deck_modes(&unread, &modes, found))
 }

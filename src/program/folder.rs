@@ -18,6 +18,12 @@ pub fn check_folder(folder: &Path) -> Result<(), PresentError> {
             "standard output is not a folder",
         )),
         Ok(_) => probe(folder),
+        Err(_) if folder.is_symlink() => Err(Error::new(
+            ErrorKind::InvalidInput,
+            "it is a link to a place that does not exist",
+        )),
+        // Such as an empty name, or the parent of a folder that does not exist.
+        Err(error) if folder.file_name().is_none() => Err(error),
         Err(_) => probe(folder.parent().unwrap_or(folder)),
     };
     Ok(check().map_err(FileError::of_file(folder, "write"))?)

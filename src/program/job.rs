@@ -109,7 +109,7 @@ pub fn check_job(
         ];
         Ok::<_, PresentError>((trust, tables))
     })?;
-    let document = || json::document(json!({ "trust": trust, "tables": tables }));
+    let document = || json::own_document(json!({ "trust": trust, "tables": tables }));
     output.write(&tables, document)?;
     Ok(!trust.has_doubt())
 }
@@ -146,7 +146,7 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
     let trust = trust_table(&result.trust);
     let seen = seen_table(&loaded, &result)?;
     let tables = [trust, paired, factors, seen, history];
-    let document = || json::document(json::report(&report)?);
+    let document = || json::own_document(json::report(&report)?);
     arguments.output.write(&tables, document)?;
     if let Some(folder) = &arguments.folder {
         let [trust, .., seen, _] = &tables;

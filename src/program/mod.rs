@@ -83,7 +83,7 @@ enum Command {
     Deck(DeckArguments),
     /// Write a case's matrices and every iteration, as JSON and Matrix Market, to check another program against
     Dump(DumpArguments),
-    /// Print frequencies and mode shapes of a NASTRAN deck
+    /// Print frequencies and mode shapes of a NASTRAN deck or of matrices
     Modes(ModesArguments),
 }
 

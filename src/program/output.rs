@@ -3,7 +3,7 @@
 use super::place::write_report;
 use clap::{Args, ValueEnum};
 use corfem::files::error::FileError;
-use corfem::files::escaped;
+use corfem::files::{escaped, read_bytes};
 use corfem::present::table::Table;
 use corfem::present::{PresentError, render};
 use corfem::torque_box::wing_box::Reconstruction;
@@ -59,7 +59,8 @@ pub fn reconstruction(box_file: Option<&Path>) -> Result<Reconstruction, Present
     let Some(path) = box_file else {
         return Ok(Reconstruction::embedded()?);
     };
-    let text = std::fs::read_to_string(path).map_err(FileError::of_file(path, "read"))?;
+    let bytes = read_bytes(path).map_err(FileError::of_file(path, "read"))?;
+    let text = String::from_utf8_lossy(&bytes);
     Ok(Reconstruction::parse(&path.display().to_string(), &text)?)
 }
 

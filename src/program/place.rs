@@ -18,7 +18,10 @@ enum OutputPlace {
 /// Refuses a path that could not be written, before there is anything to write. Nothing is changed by it.
 pub fn check(path: &Path) -> Result<(), PresentError> {
     let check = || match place(Some(path))? {
-        OutputPlace::File(path) => probe(path.parent().unwrap_or(&path)),
+        OutputPlace::File(path) => {
+            replaceable(&path)?;
+            probe(path.parent().unwrap_or(&path))
+        }
         // A pipe is not opened yet, because that waits for its reader.
         OutputPlace::StandardOutput | OutputPlace::Device(_) => Ok(()),
     };
@@ -106,8 +109,8 @@ fn write_all_to(mut out: impl Write, text: &str) -> io::Result<()> {
     }
 }
 
-/// Writes a new file completely and syncs it before it takes the place of the old one, if any. It has the rights of any new file.
-pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+/// Refuses to replace what is no regular file, or a file that may not be written.
+fn replaceable(path: &Path) -> io::Result<()> {
     if std::fs::symlink_metadata(path).is_ok_and(|found| !found.is_file()) {
         return Err(io::Error::new(
             ErrorKind::AlreadyExists,
@@ -115,9 +118,14 @@ pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
         ));
     }
     match OpenOptions::new().write(true).open(path) {
-        Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
-        _ => {}
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
     }
+}
+
+/// Writes a new file completely and syncs it before it takes the place of the old one, if any. It has the rights of any new file.
+pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    replaceable(path)?;
     // A bare name has an empty parent, which is the present folder.
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut builder = tempfile::Builder::new();

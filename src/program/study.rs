@@ -17,7 +17,12 @@ use std::io::{Error, ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::thread::{available_parallelism, scope};
+use std::thread::{Builder, available_parallelism, scope};
+
+/// Most samples: where each begins in its file takes some forty bytes, so that all take 400 MB.
+const MOST_SAMPLES: u64 = 10_000_000;
+/// Most samples at a time: more than any machine has cores, and their stacks take at most 2 GB.
+const MOST_THREADS: i64 = 1024;
 
 #[derive(Debug, Args)]
 pub struct StudyArguments {
@@ -25,7 +30,7 @@ pub struct StudyArguments {
     #[arg(value_name = "JOB")]
     job: PathBuf,
     /// How many samples
-    #[arg(long, value_name = "N", required_unless_present = "sample", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", required_unless_present = "sample", value_parser = clap::value_parser!(u64).range(1..=MOST_SAMPLES))]
     samples: Option<u64>,
     /// Seed of the random numbers; each sample depends on it and its own number alone
     #[arg(long, value_name = "S", default_value_t = 1)]
@@ -37,7 +42,7 @@ pub struct StudyArguments {
     #[arg(long, value_name = "DIR", required_unless_present = "sample")]
     folder: Option<PathBuf>,
     /// How many samples to run at a time; the number of cores if not given
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MOST_THREADS))]
     threads: Option<u32>,
     /// Run only this sample and write its line instead of a report
     #[arg(long, value_name = "K", conflicts_with_all = ["samples", "folder", "threads"], value_parser = clap::value_parser!(u64).range(1..))]
@@ -70,28 +75,31 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError
     let missing = (1..=last).filter(|sample| !found.contains(*sample));
     let bar = progress::bar(quiet, missing.clone().count() as u64);
     let (missing, written) = (Mutex::new(missing), Mutex::new((file, Ok(()))));
+    let work = || {
+        let next = || {
+            missing
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .next()
+        };
+        while let Some(sample) = next().filter(|_| !stop.load(SeqCst)) {
+            let Ok((line, _)) = study.run(sample, || !stop.load(SeqCst)) else {
+                return;
+            };
+            let (file, done) = &mut *written.lock().unwrap_or_else(PoisonError::into_inner);
+            // Write nothing after a torn line.
+            if done.is_err() {
+                return;
+            }
+            *done = file.write_all(line.as_bytes());
+            bar.inc(1);
+        }
+    };
     scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                let next = || {
-                    missing
-                        .lock()
-                        .unwrap_or_else(PoisonError::into_inner)
-                        .next()
-                };
-                while let Some(sample) = next().filter(|_| !stop.load(SeqCst)) {
-                    let Ok((line, _)) = study.run(sample, || !stop.load(SeqCst)) else {
-                        return;
-                    };
-                    let (file, done) = &mut *written.lock().unwrap_or_else(PoisonError::into_inner);
-                    // Write nothing after a torn line.
-                    if done.is_err() {
-                        return;
-                    }
-                    *done = file.write_all(line.as_bytes());
-                    bar.inc(1);
-                }
-            });
+        // Where the system gives no more threads, those there are do the work.
+        let begun = |_: &usize| Builder::new().spawn_scoped(scope, work).is_ok();
+        if (0..threads).take_while(begun).count() == 0 {
+            work();
         }
     });
     bar.finish_and_clear();
@@ -126,7 +134,7 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError
     )?;
     arguments
         .output
-        .write(&tables, || json::document(json!({ "tables": tables })))
+        .write(&tables, || json::own_document(json!({ "tables": tables })))
 }
 
 /// The file of samples, to be gone on with behind its last whole line, and what is in it. Nobody else writes it meanwhile.
@@ -139,6 +147,12 @@ fn opened(path: &Path, study: &Study) -> Result<(File, Samples), FileError> {
         .truncate(false)
         .open(path)
         .map_err(&failed)?;
+    if !file.metadata().is_ok_and(|found| found.is_file()) {
+        return Err(failed(Error::new(
+            ErrorKind::InvalidInput,
+            "it is not a regular file",
+        )));
+    }
     if matches!(file.try_lock(), Err(std::fs::TryLockError::WouldBlock)) {
         return Err(failed(Error::new(
             ErrorKind::ResourceBusy,

@@ -176,7 +176,11 @@ impl SparseMatrix {
         Ok(symmetric_part(&sum))
     }
 
-    /// Refuses a matrix that is not square and symmetric to within round-off of its largest entry.
+    /// Refuses a matrix that is not square and symmetric to within round-off, row by row.
+    ///
+    /// Every part of a sum of semidefinite matrices has $|a_{ij}| \le \sqrt{a_{ii} a_{jj}}$, and so has their sum by the
+    /// inequality of Cauchy and Schwarz: $\sqrt{a_{ii} a_{jj}}$ is the scale of an entry's round-off, in any units of the
+    /// degrees of freedom. A larger entry, which a semidefinite matrix does not have, is a scale of its own.
     ///
     /// # Errors
     /// [`Error::WrongShape`]; [`Error::NotSymmetric`].
@@ -187,17 +191,22 @@ impl SparseMatrix {
             .chain(self.transposed().times_number(-1.0))
             .collect();
         let difference = Self::new(what, self.rows, self.columns, entries)?;
-        let largest = self
-            .entries
-            .iter()
-            .fold(0.0_f64, |largest, entry| largest.max(entry.2.abs()));
-        let is_apart = |entry: &&(usize, usize, f64)| entry.2.abs() > GIVEN * largest;
-        match difference.entries.iter().find(is_apart) {
-            Some(&(row, column, difference)) => Err(Error::NotSymmetric {
+        let mut diagonal = vec![0.0; self.rows];
+        for entry in self.entries.iter().filter(|entry| entry.0 == entry.1) {
+            diagonal[entry.0] = entry.2.abs().sqrt();
+        }
+        let apart = |&(row, column, difference): &(usize, usize, f64)| {
+            let entries = self.column(column).iter().filter(|entry| entry.0 == row);
+            let scale = entries.fold(difference.abs(), |scale, entry| scale.max(entry.2.abs()));
+            difference.abs() / scale.max(diagonal[row] * diagonal[column])
+        };
+        let mut differences = difference.entries.iter().filter(|entry| entry.2 != 0.0);
+        match differences.find(|entry| apart(entry) > GIVEN) {
+            Some(entry) => Err(Error::NotSymmetric {
                 what,
-                row,
-                column,
-                difference: difference.abs() / largest,
+                row: entry.0,
+                column: entry.1,
+                difference: apart(entry),
             }),
             None => Ok(()),
         }

@@ -5,7 +5,7 @@ use super::sum_of_stiffness;
 use super::{Factor, SparseMatrix};
 use crate::method::appendix_a::{Condensed, dynamic_stiffness};
 use crate::method::assembly::{ElementMatrix, check_element, stiffness_entries};
-use crate::method::error::{Error, at_least_one};
+use crate::method::error::Error;
 use crate::method::linear_algebra::{check_length, check_symmetric, symmetric_part};
 use crate::method::model::{Bounds, ModalModel, Pair, ParameterMatrix};
 use crate::method::modes::{ModeSet, Modes, check_count};
@@ -50,8 +50,7 @@ impl WholeModel {
     ///
     /// # Errors
     /// Those of [`SparseMatrix::check_symmetric`]; [`Error::WrongShape`] for matrices of other sizes; [`Error::TooMany`] for a row of
-    /// an element beyond them; [`Error::NotPositive`] for its size; [`Error::Empty`] without parameters; [`Error::StartOutside`] for
-    /// a range that excludes one.
+    /// an element beyond them; [`Error::NotPositive`] for its size; [`Error::StartOutside`] for a range that excludes one.
     pub fn new(
         stiffness: SparseMatrix,
         mass: SparseMatrix,
@@ -64,7 +63,6 @@ impl WholeModel {
         };
         check("stiffness", &stiffness)?;
         check("mass", &mass)?;
-        at_least_one("parameters", parameters.len())?;
         for WholeParameter { name, share, range } in &parameters {
             match share {
                 WholeShare::Stiffness(matrix) => check("stiffness of a parameter", matrix)?,

@@ -23,7 +23,7 @@ pub struct MassDof {
 /// Modes at the DOF that have mass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WholeModes {
-    /// Rows of the shapes.
+    /// Rows of the shapes; none where matrices do not name theirs.
     pub dof: Vec<StructuralDof>,
     /// Vibrations with a finite frequency, from the lowest.
     pub modes: Modes,

@@ -12,7 +12,7 @@ fn a_structure_that_hangs_free_says_how_many_modes_are_not_listed() {
     let notes = |text: &str| {
         let deck = deck::read("deck", text.as_bytes(), &[]).expect("a deck");
         let modes = deck::modes(&deck.model, usize::MAX).expect("modes");
-        deck_tables(&deck, &modes, 2)[0].notes.join(" ")
+        deck_tables(&deck.unread, &modes, 2)[0].notes.join(" ")
     };
     assert!(
         notes(&free).contains("The structure hangs free: 1 rigid-body mode is not listed."),

@@ -29,6 +29,54 @@ fn table() -> impl Strategy<Value = Table> {
     )
 }
 
+/// A table with these words in every place where a user's names come.
+fn named(words: &str) -> Table {
+    Table::new("names", words, "Row")
+        .labels([words])
+        .column(words, "", [Cell::text(words)])
+        .notes([words.to_owned()])
+}
+
+/// A terminal would obey an escape sequence, and a line end would leave its row.
+#[test]
+fn control_characters_of_names_are_shown_in_every_format() {
+    let tables = [named("a\u{1b}[2Jb\0c\nd\te")];
+    for shown in [text(&tables), markdown(&tables), csv(&tables)] {
+        assert!(
+            shown.chars().all(|c| c == '\n' || !c.is_control()),
+            "{shown:?}"
+        );
+        assert!(shown.contains("a\\u{1b}[2Jb\\u{0}c\\nd\\te"), "{shown}");
+    }
+}
+
+#[test]
+fn a_bar_in_a_name_does_not_begin_a_cell_of_markdown() {
+    let shown = markdown(&[named("story|3")]);
+    let row = shown
+        .lines()
+        .rfind(|line| line.starts_with("| story"))
+        .expect("a row");
+    assert_eq!(row, "| story\\|3 | story\\|3 |");
+}
+
+/// A spreadsheet would compute it. Numbers are numbers, with a sign too.
+#[test]
+fn a_name_that_is_a_formula_is_words_in_csv() {
+    for formula in ["=cmd|' /C calc'!A0", "+A1", "-A1", "@SUM(A1,2)"] {
+        let shown = csv(&[named(formula)]);
+        let row = shown.lines().nth(1).expect("a row");
+        assert!(row.contains(&format!("'{formula}")), "{row}");
+        assert!(
+            !row.contains(&format!(",{formula}")) && !row.contains(&format!(",\"{formula}")),
+            "{row}"
+        );
+    }
+    for number in ["-1.5", "+2", "-3e-4"] {
+        assert!(csv(&[named(number)]).contains(&format!(",{number},")));
+    }
+}
+
 proptest! {
     #![proptest_config(crate::common::config())]
 

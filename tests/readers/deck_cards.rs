@@ -57,7 +57,7 @@ families! {
     masses: "CMASS1,9,9,1,1" "PMASS,9,1." "CONM1,9,1" "CMASS3,9,9,1,2" "CMASS4,9,1.,1,2" "NSM,1,PROD,1,.1";
     coordinate_systems: "CORD2R,9,,0.,0.,0.,0.,0.,1." "CORD2C,9" "CORD2S,9" "CORD1R,9,1,2,1";
     points_and_reductions: "SPOINT,9" "EPOINT,9" "ASET,1,1" "ASET1,1,1" "OMIT,1,1" "OMIT1,1,1" "SEBSET,1,1,1";
-    supports: "SPC,1,1,1" "SUPORT,1,1" "SUPORT1,1,1,1" "SPCOFF,1,1" "SPCAX,1,1";
+    supports: "SUPORT,1,1" "SUPORT1,1,1,1" "SPCOFF,1,1" "SPCAX,1,1";
     rigid_elements: "RBE2,9,1,1,2" "RBE3,9,,1,1" "RROD,9,1,2,1" "RBAR,9,1,2" "CRIGD1,9,1,2";
     matrices: "DMIG,K2GG,0,6,1,0" "K2GG,9";
     other_files: "INCLUDE 'wing/covers.bdf'" "INCLUDE \"a\"" "READFILE covers";
@@ -101,7 +101,7 @@ fn a_slip_in_any_name_is_refused() {
     let names = [
         "GRID", "GRDSET", "CONROD", "MAT1", "CMASS2", "CONM2", "SPC1", "SPCADD", "MPC", "MPCADD",
         "PARAM", "EIGR", "EIGRL", "CROD", "PROD", "CSHEAR", "PSHEAR", "CQDMEM", "PQDMEM", "CTRMEM",
-        "PTRMEM", "FORCE", "LOAD",
+        "PTRMEM", "FORCE", "LOAD", "SPC", "DESVAR", "PAERO1",
     ];
     for name in names {
         for place in 0..name.len() {

@@ -62,13 +62,16 @@ const BAD_FIELDS: &str = "\
 4 | PROD,1,1,0. | 4 | a positive real number | 0.
 4 | PROD,1,1 | 4 | a positive real number | missing
 4 | PROD,1,1,-.5 | 4 | a positive real number | -.5
-4 | PROD,1,1,.5,.1 | 5 | no torsion of rods | .1
+4 | PROD,1,1,.5,X | 5 | a real number | X
 4 | PROD,1,1,.5,,,.1 | 7 | no nonstructural mass | .1
 - | PSHEAR,2,1,.5,.1 | 5 | no nonstructural mass | .1
+- | PSHEAR,2,1,.5,,1.5 | 6 | no extension of shear panels | 1.5
+- | PSHEAR,2,1,.5,,,.5 | 7 | no extension of shear panels | .5
+- | PSHEAR,2,1,.5,,0.,0.,3 | 8 | no extension of shear panels | 3
 - | PSHEAR,2,1,.5,,3,1,-.5 | 8 | a positive real number | -.5
 - | PTRMEM,2,1,.5,,3,1,.5,2. | 9 | no nonstructural mass | 2.
 - | CONROD,2,1,2,1,-1. | 6 | a positive real number | -1.
-- | CONROD,2,1,2,1,1.,1. | 7 | no torsion of rods | 1.
+- | CONROD,2,1,2,1,1.,1 | 7 | a real number | 1
 - | CONROD,2,1,2,1,1.,,,1. | 9 | no nonstructural mass | 1.
 7 | CMASS2,7,-.4,2,1 | 3 | a positive real number | -.4
 7 | CMASS2,7,.4,2,4 | 5 | component 1, 2 or 3 | 4
@@ -77,6 +80,12 @@ const BAD_FIELDS: &str = "\
 - | CONM2,8,2,,0. | 5 | a positive real number | 0.
 - | CONM2,8,2,,.4,1. | 6 | no offsets of masses | 1.
 - | CONM2,8,2,,.4,,,1. | 8 | no offsets of masses | 1.
+6 | SPC,1,1,1234567 | 4 | a list of components 1 to 6 | 1234567
+6 | SPC,1,1 | 4 | a list of components 1 to 6 | missing
+6 | SPC,1,5,1 | 3 | the number of a GRID card | 5
+6 | SPC,1,1,1,X | 5 | a real number | X
+6 | SPC,1,1,1,,2 | 7 | a list of components 1 to 6 | missing
+6 | SPC,1,1,1,,,1 | 6 | a positive integer | missing
 6 | SPC1,1,1234567,1 | 3 | a list of components 1 to 6 | 1234567
 6 | SPC1,1,,1 | 3 | a list of components 1 to 6 | missing
 6 | SPC1,1,1 | 4 | a grid | missing
@@ -94,7 +103,7 @@ const BAD_FIELDS: &str = "\
 - | MPC,1,2,5,-1.,1,1,1. | 4 | component 1, 2 or 3 | 5
 - | MPC,1,2,1,0.,1,1,1. | 5 | a coefficient other than zero | 0.
 - | MPC,1,2,1,1,1,1,1. | 5 | a real number with a decimal point | 1
-- | MPC,1,1,1,-1.,2,1,1. | 3 | an SPC1 card constrains this | degree
+- | MPC,1,1,1,-1.,2,1,1. | 3 | an SPC or SPC1 card constrains this | degree
 ";
 
 #[test]

@@ -101,7 +101,8 @@ fn a_line_that_is_no_card_is_named() {
 #[test]
 fn case_control_that_selects_two_sets_is_refused() {
     for (control, line) in [
-        ("SPC = 1\nSUBCASE 2\nSPC = 2", 3),
+        ("SPC = 1\nSPC = 2", 2),
+        ("SPC = 1\nSUBCASE 2\nSPC = 1\nSPC = 3", 4),
         ("MPC = NONE", 1),
         ("MPC=3\nMPC=4", 2),
     ] {

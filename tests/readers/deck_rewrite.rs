@@ -32,7 +32,7 @@ fn with(deck: &str, changes: &[(usize, f64, f64)]) -> Vec<Element> {
 }
 
 fn rewritten(deck: &str, changes: &[(usize, f64, f64)]) -> String {
-    let text = rewrite("deck", deck.as_bytes(), &with(deck, changes)).expect("it rewrites");
+    let text = rewrite("deck", deck.as_bytes(), &with(deck, changes), &[]).expect("it rewrites");
     String::from_utf8(text).expect("a text")
 }
 
@@ -195,11 +195,11 @@ fn nothing_to_change_gives_back_the_same_bytes() {
         "\u{feff}CROD,1,1,1,2\r\nPROD,1,1,.5\r\nMAT1,1,1.,,.3\r\nGRID,1\r\nGRID,2\r\nPARAM,WTMASS,.00259",
     ] {
         assert_eq!(
-            rewrite("deck", deck.as_bytes(), &elements(deck.as_bytes())).expect("it rewrites"),
+            rewrite("deck", deck.as_bytes(), &elements(deck.as_bytes()), &[]).expect("it rewrites"),
             deck.as_bytes()
         );
         assert_eq!(
-            rewrite("deck", deck.as_bytes(), &[]).expect("it rewrites"),
+            rewrite("deck", deck.as_bytes(), &[], &[]).expect("it rewrites"),
             deck.as_bytes()
         );
     }
@@ -213,7 +213,7 @@ fn line_ends_encoding_and_trailing_text_stay() {
     let mut wanted = elements(deck);
     wanted[0].size = 0.75;
     wanted[0].material.density *= 0.5;
-    let text = rewrite("deck", deck, &wanted).expect("it rewrites");
+    let text = rewrite("deck", deck, &wanted, &[]).expect("it rewrites");
     let expected = b"$ F\xfcr Fl\xfcgel\r\nGRID,1\r\nGRID,2,,1.\r\nCROD    1       2       1       2\r\nCROD    2       1       1       2\r\n\
         MAT1,1,1.,,.3,.5\r\nMAT1    2       1.              .3      .25\r\nPROD    1       1       .5      $ d\xfcnn\r\n\
         PROD    2       2       .75\r\nPARAM,WTMASS,.25\r\nENDDATA\r\nr\xe9sum\xe9";
@@ -228,7 +228,7 @@ fn line_ends_encoding_and_trailing_text_stay() {
             .concat();
     let mut wanted = elements(&marked);
     wanted[0].size = 0.25;
-    let text = rewrite("deck", &marked, &wanted).expect("it rewrites");
+    let text = rewrite("deck", &marked, &wanted, &[]).expect("it rewrites");
     assert_eq!(
         text,
         b"\xef\xbb\xbfPROD,1,1,.25\nGRID,1\nGRID,2\nMAT1,1,1.,,.3\nCROD,1,1,1,2"
@@ -285,7 +285,7 @@ fn a_property_that_is_divided_keeps_its_other_fields() {
 fn what_no_deck_can_say_is_refused() {
     let mut wanted = elements(ORIGINAL.as_bytes());
     wanted[0].label = 99;
-    let error = rewrite("deck", ORIGINAL.as_bytes(), &wanted).expect_err("no element 99");
+    let error = rewrite("deck", ORIGINAL.as_bytes(), &wanted, &[]).expect_err("no element 99");
     assert!(
         matches!(
             error,
@@ -299,21 +299,26 @@ fn what_no_deck_can_say_is_refused() {
     );
     wanted[0].label = 11;
     wanted[0].size = f64::INFINITY;
-    let error = rewrite("deck", ORIGINAL.as_bytes(), &wanted).expect_err("no number");
+    let error = rewrite("deck", ORIGINAL.as_bytes(), &wanted, &[]).expect_err("no number");
     assert!(
         matches!(error, FileError::Method(Error::NotFinite { .. })),
         "{error}"
     );
     wanted = elements(ORIGINAL.as_bytes());
     wanted[7].size = f64::NAN;
-    let error = rewrite("deck", ORIGINAL.as_bytes(), &wanted).expect_err("no number");
+    let error = rewrite("deck", ORIGINAL.as_bytes(), &wanted, &[]).expect_err("no number");
     assert!(
         matches!(&error, FileError::DeckField { card, field: 6, .. } if card == "CONROD"),
         "{error}"
     );
     let full = ORIGINAL.replace("PROD    7 ", "PROD,99999999,1,.25\nPROD    7 ");
-    let error = rewrite("deck", full.as_bytes(), &with(&full, &[(11, 2.0, 1.0)]))
-        .expect_err("no number is free");
+    let error = rewrite(
+        "deck",
+        full.as_bytes(),
+        &with(&full, &[(11, 2.0, 1.0)]),
+        &[],
+    )
+    .expect_err("no number is free");
     assert!(
         matches!(error, FileError::Method(Error::TooMany { .. })),
         "{error}"

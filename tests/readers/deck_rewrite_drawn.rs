@@ -120,7 +120,7 @@ proptest! {
 
     #[test]
     fn a_rewritten_deck_says_the_new_sizes_and_else_the_same((text, wanted) in decks()) {
-        let result = rewrite("deck", text.as_bytes(), &wanted).expect("it rewrites");
+        let result = rewrite("deck", text.as_bytes(), &wanted, &[]).expect("it rewrites");
         let read = elements(&result);
         let first = elements(text.as_bytes());
         prop_assert_eq!(read.len(), wanted.len());
@@ -164,7 +164,7 @@ proptest! {
         prop_assert_eq!(others(&text), others(&result));
         // Once more with the same wish changes nothing, unless WTMASS rounds.
         if !text.contains("WTMASS") {
-            prop_assert_eq!(rewrite("deck", result.as_bytes(), &wanted).expect("it rewrites"), result.as_bytes());
+            prop_assert_eq!(rewrite("deck", result.as_bytes(), &wanted, &[]).expect("it rewrites"), result.as_bytes());
         }
     }
 
@@ -183,7 +183,7 @@ proptest! {
         let mass = mass.unwrap_or(vec![1.0; 2]);
         let factors = [&stiffness[..], &mass, &[1.0; 2]].concat();
         let wanted = BulkData::from_model(&model, &factors, &places).expect("bulk data").elements;
-        let text = rewrite("box", first.as_bytes(), &wanted).expect("it rewrites");
+        let text = rewrite("box", first.as_bytes(), &wanted, &[]).expect("it rewrites");
         let read = deck::read("box", &text, &[]).expect("it reads").model;
         let found = deck::modes(&read, usize::MAX).expect("modes").modes.omega_squared().clone();
         let dynamic = model.matrices(&factors).expect("an analysis");
@@ -195,6 +195,24 @@ proptest! {
             prop_assert!((own / found - 1.0).abs() < tolerance, "{own} {found} {tolerance}");
         }
         let untouched = BulkData::from_model(&model, &ones, &places).expect("bulk data").elements;
-        prop_assert_eq!(rewrite("box", first.as_bytes(), &untouched).expect("it rewrites"), first.as_bytes());
+        prop_assert_eq!(rewrite("box", first.as_bytes(), &untouched, &[]).expect("it rewrites"), first.as_bytes());
+    }
+
+    /// Other point masses, and nothing else.
+    #[test]
+    fn point_masses_are_rewritten_and_every_other_line_stays(
+        model in crate::common::decks::bulk_data(),
+        factors in prop::collection::vec(prop::option::of(1e-3..1e3_f64), 4),
+    ) {
+        let text = bulk_data(&model).expect("a deck");
+        let mut wanted = model.clone();
+        for (point, factor) in wanted.masses.iter_mut().zip(factors) {
+            point.mass = nearest_in_field(point.mass * factor.unwrap_or(1.0));
+        }
+        let written = rewrite("deck", text.as_bytes(), &[], &wanted.masses).expect("it rewrites");
+        prop_assert_eq!(&deck::read("deck", &written, &[]).expect("it reads").model, &wanted);
+        let is_mass = |line: &&str| line.starts_with("CMASS2") || line.starts_with("CONM2") || line.starts_with('*');
+        let others = |text: &str| text.lines().filter(|line| !is_mass(line)).map(str::to_owned).collect::<Vec<_>>();
+        prop_assert_eq!(others(&String::from_utf8_lossy(&written)), others(&text));
     }
 }

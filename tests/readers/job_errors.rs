@@ -2,7 +2,7 @@
 
 use crate::common::jobs::{Files, building, rods};
 use crate::common::tolerances::{ROUND_OFF, WEIGHTED_FACTOR};
-use corfem::job::{LoadedJob, run};
+use corfem::job::{LoadedJob, Study, Trust, Vary, run};
 use corfem::method::outer_loop::Settings;
 use std::path::PathBuf;
 use tempfile::TempDir;
@@ -269,49 +269,94 @@ fn properties_materials_masses_and_each_say_what_they_scale() {
     ] {
         assert_eq!(
             members(b, by),
-            (names(&["a", "b"]), vec![vec![1], vec![2, 3]]),
+            (
+                names(&["a", "b"]),
+                vec![[vec![1], vec![]], [vec![2, 3], vec![]]]
+            ),
             "{by}"
         );
     }
     let each = members(b, "properties = [2]\neach = true");
     assert_eq!(
         each,
-        (names(&["a", "b 2", "b 3"]), vec![vec![1], vec![2], vec![3]])
+        (
+            names(&["a", "b 2", "b 3"]),
+            [1, 2, 3].map(|label| [vec![label], vec![]]).to_vec()
+        )
     );
     let masses = members(b, "masses = [\"13-14\"]\nscales = \"mass\"\neach = true");
     assert_eq!(
         masses,
         (
             names(&["a", "b mass 13", "b mass 14"]),
-            vec![vec![1], vec![], vec![]]
+            vec![[vec![1], vec![]], [vec![], vec![13]], [vec![], vec![14]]]
         )
     );
 }
 
-/// A mass that is named twice counts once, and a deck cannot say what factors of point masses say.
+/// A mass that is named twice counts once.
 #[test]
-fn point_masses_count_once_and_have_no_corrected_deck() {
-    let masses = |list: &str| {
+fn point_masses_count_once_and_are_in_the_corrected_deck() {
+    let masses = |list: &str, deck: &str| {
         let rule = format!("elements = [1]\nmasses = {list}\nscales = \"mass\"");
-        let (folder, path) = placed(&with(rods(), "job.toml", A, &rule));
-        (
-            folder,
-            LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}")),
-        )
+        let files = with(
+            with(rods(), "job.toml", A, &rule),
+            "model.bdf",
+            "CMASS2,12,1.,2,1",
+            deck,
+        );
+        let (_folder, path) = placed(&files);
+        LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"))
     };
-    let (once, twice) = (masses("[12]").1, masses("[12, \"12-12\", 12]").1);
+    let given = "CMASS2,12,1.,2,1";
+    let (once, twice) = (masses("[12]", given), masses("[12, \"12-12\", 12]", given));
     assert_eq!(once.source.whole, twice.source.whole);
-    assert!(once.corrected_deck(&[1.0, 1.2]).expect("a deck").is_some());
-    let refused = once
-        .corrected_deck(&[1.1, 1.0])
-        .expect_err("a factor of point masses")
-        .to_string();
-    assert!(
-        refused.contains(
-            "parameter \"a\" scales point masses by 1.1; a corrected deck can only change elements"
+    for (deck, corrected) in [
+        (given, "CMASS2,12,1.25,2,1"),
+        (
+            "CMASS2  12      1.      2       1",
+            "CMASS2  12      1.25    2       1",
         ),
-        "{refused}"
+        ("CONM2,12,2,,1.", "CONM2,12,2,,1.25"),
+        (
+            "PARAM,WTMASS,.5\nCMASS2,12,2.,2,1",
+            "PARAM,WTMASS,.5\nCMASS2,12,2.5,2,1",
+        ),
+    ] {
+        let job = masses("[12]", deck);
+        let first = &job.source.deck.as_ref().expect("a deck").0;
+        let text = job
+            .corrected_deck(&[1.25, 1.0])
+            .expect("it rewrites")
+            .expect("a deck");
+        let expected = String::from_utf8_lossy(first).replace(deck, corrected);
+        assert_eq!(String::from_utf8_lossy(&text), expected);
+    }
+}
+
+/// There is nothing to correct in such a job, but its test and its model can be looked at.
+#[test]
+fn a_job_without_parameters_is_looked_at_and_not_run() {
+    let mut files = rods();
+    let job = &mut files[0].1;
+    job.truncate(job.find("[[parameter]]").expect("parameters"));
+    let (_folder, path) = placed(&files);
+    let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(
+        (loaded.test.len(), loaded.parameter_names().count()),
+        (3, 0)
     );
+    let none = "a job needs at least one [[parameter]]";
+    let refused = run(&loaded, |_| {}, || true)
+        .map(drop)
+        .expect_err(none)
+        .to_string();
+    assert!(refused.ends_with(none), "{refused}");
+    let refused = Study::new(&path, 1, &[Vary::Noise])
+        .map(drop)
+        .expect_err(none)
+        .to_string();
+    assert!(refused.ends_with(none), "{refused}");
 }
 
 #[test]
@@ -616,4 +661,43 @@ fn the_papers_error_sum_takes_the_weights_of_a_job() {
         none.contains("weight is 0; it must be a finite number from zero up, one of them positive"),
         "{none}"
     );
+}
+
+/// Of the cards that are not read only loads and the like go without a word: they are no part of any model.
+#[test]
+fn what_a_deck_has_and_its_model_has_not_is_a_remark() {
+    let remarks = |files: &Files| {
+        let (_folder, path) = placed(files);
+        let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+        Trust::before(&loaded).expect("an account").ignored
+    };
+    let loads = with(rods(), "model.bdf", "MAT1,1,", "FORCE,9,4,,1.,1.\nMAT1,1,");
+    assert_eq!(remarks(&loads), [""; 0]);
+    let torsion = with(loads, "model.bdf", "PROD,1,1,.1", "PROD,1,1,.1,.5");
+    let ignored = with(torsion, "model.bdf", "MAT1,1,", "CBAR,9,1,2,3\nMAT1,1,");
+    let ignored = with(
+        ignored,
+        "job.toml",
+        "deck = ",
+        "ignore = [\"CBAR\"]\ndeck = ",
+    );
+    assert_eq!(
+        remarks(&ignored),
+        ["PROD J (line 8, 1 card)", "CBAR (line 11, 1 card)"]
+    );
+}
+
+/// A node that one mode leaves out is no sensor of the test, which is said before the first step.
+#[test]
+fn a_sensor_left_out_for_a_mode_without_it_is_a_remark() {
+    let (_folder, path) = placed(&rods());
+    let mut loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    loaded.data.incomplete = vec!["7 y".to_owned(), "9 z".to_owned()];
+    let all = loaded.concerns().expect("concerns");
+    let found = all
+        .iter()
+        .find(|concern| concern.identifier == "not-in-every-mode");
+    let found = found.map(|concern| (concern.is_doubt, &concern.words[..]));
+    let words = "Sensors left out because some mode of the file has no value at them: 7 y, 9 z.";
+    assert_eq!(found, Some((false, words)));
 }

@@ -50,7 +50,7 @@ fn rows_of_matrices_are_a_table_of_grids_and_directions() {
         building(),
         "rows.csv",
         "2,x,0.,0.,240",
-        "1,x,0.,0.,240",
+        "1,x,0.,0.,120",
     ));
     assert!(
         twice.contains("rows 1 and 2 of the matrices have the same grid and direction"),
@@ -182,5 +182,47 @@ fn a_table_of_rows_orders_matrices_that_name_theirs() {
             .map(|entry| entry.2)
             .collect::<Vec<_>>(),
         [70., 69., 68., 67., 66., 65., 64., 63., 62., 61.]
+    );
+}
+
+/// Both are direction x of their grid here: their entries would add up.
+#[test]
+fn labels_that_fall_on_one_row_are_an_error_in_every_matrix() {
+    let with_scalar = |name: &str| {
+        let more = format!("DMIG,{name},2,0,,2,0,.1\n");
+        let mut files = named_matrices(&[(4, 1.0), (2, 1.0)]);
+        let deck = files
+            .iter_mut()
+            .find(|(name, _)| name == "model.pch")
+            .expect("a deck");
+        deck.1 += &more;
+        said(&files)
+    };
+    for name in ["KAAX", "KONE", "MAAX"] {
+        assert_eq!(
+            with_scalar(name),
+            format!(
+                "job.toml: model.pch#{name}: components 0 and 1 of grid 2 are one degree of freedom, and the matrix has both"
+            )
+        );
+    }
+}
+
+#[test]
+fn the_table_of_rows_has_its_titles_in_order_and_one_place_for_a_grid() {
+    let wrong = "is not a line of grid, direction and perhaps x, y, z";
+    for titles in ["grid,direction,z,y,x", "grid,component", "grid,direction,x"] {
+        let error = said(&with(
+            building(),
+            "rows.csv",
+            "grid,direction,x,y,z",
+            titles,
+        ));
+        assert_eq!(error, format!("rows.csv, line 1: \"{titles}\" {wrong}"));
+    }
+    let moved = with(building(), "rows.csv", "2,x,0.,0.,240", "1,y,0.,0.,240");
+    assert_eq!(
+        said(&moved),
+        "rows.csv, line 3: grid 1 was given at another place before"
     );
 }

@@ -91,7 +91,7 @@ const READERS: &[Reader] = &[
     }),
     ("deck to be rewritten", include_bytes!("../../golden/formats/original.bdf"), |text| {
         let deck = read_deck("deck", include_bytes!("../../golden/formats/rewritten.bdf"), &[]).expect("it reads");
-        rewrite("deck", text, &deck.model.elements).is_ok()
+        rewrite("deck", text, &deck.model.elements, &[]).is_ok()
     }),
     ("Matrix Market", include_bytes!("../../golden/formats/symmetric.mtx"), |text| read_matrix("m", text, None).is_ok()),
     ("array of Matrix Market", include_bytes!("../../golden/formats/skew_array.mtx"), |text| {

@@ -63,7 +63,7 @@ fn sensors_measure_along_the_axes_of_their_nodes() {
         node(2, [0, 3], [1.0, 2.0, 3.0]),
         node(3, [4, 4], [1.0, 2.0, 3.0]),
         node(4, [5, 5], [1.0, 0.0, 0.0]),
-        node(5, [9, 9], [1.0, 2.0, 3.0]),
+        node(5, [1, 1], [1.0, 2.0, 3.0]),
     ];
     // Wherever the systems stand in the file.
     let text = dataset("15", &nodes.concat())
@@ -191,6 +191,23 @@ fn coordinate_systems_that_are_none_are_refused() {
     );
     let cylinder = system(3, 1, 0, [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
     let cylinder = said(dataset("18", &cylinder) + &dataset("15", &node(12, [0, 3], [0.0; 3])));
-    let expected = "line 10: this node has a cylindrical or spherical coordinate system";
+    let expected = "line 10: node 12 has coordinate system 3, which is no Cartesian one";
     assert!(cylinder.contains(expected), "{cylinder}");
+}
+
+/// Reading along global axes would be a guess. 0 is the global system by the format, 1 is SDRC's number for it.
+#[test]
+fn a_sensor_whose_coordinate_system_is_not_in_the_file_is_an_error() {
+    let of = |systems| dataset("15", &node(12, systems, [1.0, 2.0, 3.0])) + &real_mode(TIP);
+    for systems in [[7, 0], [0, 7]] {
+        let error = read("wing.unv", of(systems).as_bytes()).expect_err("no system 7");
+        assert_eq!(
+            error.to_string(),
+            "wing.unv, line 3: node 12 has coordinate system 7, which is no Cartesian one of a dataset 18 or 2420 of the file"
+        );
+    }
+    assert_eq!(parsed(&of([1, 1])).sensors[0].axis, None);
+    // A node without a sensor may have any.
+    let other = dataset("15", &node(13, [7, 7], [0.0; 3]));
+    assert_eq!(parsed(&(other + &of([0, 0]))).sensors.len(), 1);
 }

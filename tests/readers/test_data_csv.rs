@@ -135,8 +135,8 @@ fn faults_are_named_by_line_with_what_is_expected() {
         (
             WING.replace(",-1.0,0.31", ",-1.0"),
             5,
-            "a number",
-            "is missing",
+            "the row has 8 cells",
+            "needs 9",
         ),
         (WING.replace("-1.0", "nan"), 5, "a number", "nan"),
         (WING.replace("-1.0", "\"1,234\""), 5, "a number", "1,234"),
@@ -217,6 +217,84 @@ fn faults_are_named_by_line_with_what_is_expected() {
     let twice =
         read("wing.csv", WING.replace("14,z", "12,z").as_bytes()).expect_err("a sensor twice");
     assert!(twice.to_string().contains("sensor z 12"), "{twice}");
+}
+
+/// Such as decimal commas between commas, which put every number into the next column.
+#[test]
+fn a_row_longer_or_shorter_than_the_header_is_an_error_with_its_column() {
+    let said = |text: &str| {
+        read("wing.csv", text.as_bytes())
+            .expect_err(text)
+            .to_string()
+    };
+    let stray = |line, column, cell| {
+        format!(
+            "wing.csv, line {line}: column {column}: \"{cell}\" stands where nothing belongs; decimal commas need semicolons or tabs \
+             between cells"
+        )
+    };
+    let commas = WING.replace("12.1,17.9", "12,1,17,9");
+    assert_eq!(said(&commas), stray(2, 10, "17"));
+    assert_eq!(said(&WING.replace("-0.55", "-0.55,,7")), stray(6, 11, "7"));
+    let untitled = WING
+        .replace("sign,x", "sign,,x")
+        .replace("z,-", "z,-,soft")
+        .replace("z,+", "z,+,");
+    assert_eq!(
+        said(
+            &untitled
+                .replace("z,,,,,,,", "z,,,,,,,,")
+                .replace("n,,,,,,,", "n,,,,,,,,")
+        ),
+        stray(5, 5, "soft")
+    );
+    assert_eq!(
+        said(&WING.replace("0.87,-0.55", "0.87")),
+        "wing.csv, line 6: the row has 8 cells and needs 9"
+    );
+    assert_eq!(
+        said(&WING.replace("12.1,17.9", "12.1")),
+        "wing.csv, line 2: the row has 8 cells and needs 9"
+    );
+    // A number above a sensor's grid or name belongs to no mode.
+    let shifted = WING.replace("frequency_hz,,,,,,,", "frequency_hz,,,,,,1.5,");
+    assert_eq!(said(&shifted), stray(2, 7, "1.5"));
+    // A spreadsheet fills all rows to one length.
+    let filled = WING
+        .lines()
+        .map(|line| format!("{line},,\n"))
+        .collect::<String>();
+    assert_eq!(wing(&filled), wing(WING));
+}
+
+#[test]
+fn titles_of_modes_are_in_order_and_none_is_there_twice() {
+    let said = |first: &str, second: &str| {
+        let text = WING.replace("mode 1,mode 2", &format!("{first},{second}"));
+        read("wing.csv", text.as_bytes()).map_err(|error| error.to_string())
+    };
+    let place = |column, title, place| {
+        Err(format!(
+            "wing.csv, line 4: column {column}: this is mode {place}, but its title is \"{title}\"; titles must differ and number \
+             modes from left to right"
+        ))
+    };
+    assert_eq!(said("mode 7", "mode 2"), place(8, "mode 7", 1));
+    assert_eq!(said("Mode_2", "Mode_1"), place(8, "Mode_2", 1));
+    assert_eq!(
+        said("mode 1", "mode 3 (torsion)"),
+        place(9, "mode 3 (torsion)", 2)
+    );
+    assert_eq!(said("mode 0", "mode 1"), place(8, "mode 0", 1));
+    assert_eq!(said("Mode A", "mode a"), place(9, "mode a", 2));
+    for titles in [
+        ["mode1", "mode-2"],
+        ["mode bending", "mode torsion 1"],
+        ["Mode 1", "mode: 2, outer"],
+    ] {
+        let titles = titles.map(|title| format!("\"{title}\""));
+        assert_eq!(said(&titles[0], &titles[1]), Ok(wing(WING)));
+    }
 }
 
 #[test]

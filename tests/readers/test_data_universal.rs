@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, Vector3, dmatrix};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 
-const NONE: &str = "NONE\nNONE\nNONE\nNONE\nNONE\n";
+pub const NONE: &str = "NONE\nNONE\nNONE\nNONE\nNONE\n";
 
 pub fn dataset(number: &str, body: &str) -> String {
     format!("    -1\n{number:>6}\n{body}    -1\n")
@@ -100,7 +100,11 @@ fn complex_modes_of_six_components_have_two_lines_a_node() {
         row([1.0, 1.0, 0.0, 0.0, 0.0, 0.0]),
         row([0.0, 0.0, 0.0, 0.0, -2.0, -2.0])
     );
-    let data = parsed(&(mode([1, 2, 3, 8, 5, 6], "  1.25000E+01", &values) + &real_mode(TIP)));
+    let real = format!("        12\n{}", row([0.0, 0.0, 1.0, 0.0, 0.0, 0.0]));
+    let data = parsed(
+        &(mode([1, 2, 3, 8, 5, 6], "  1.25000E+01", &values)
+            + &mode([1, 2, 3, 8, 2, 6], "  1.25000E+01", &real)),
+    );
     let names: Vec<&str> = data
         .sensors
         .iter()
@@ -151,9 +155,11 @@ fn binary_data_are_passed_over_to_their_mark() {
 }
 
 #[test]
-fn directions_that_are_zero_in_all_modes_are_no_sensors_and_nodes_left_out_are_zero() {
-    let one = real_mode("         7\n  0.00000E+00  2.00000E+00  0.00000E+00\n");
-    let data = parsed(&(real_mode(TIP) + &one));
+fn directions_that_are_zero_in_all_modes_are_no_sensors() {
+    let still = "         7\n  0.00000E+00  0.00000E+00  0.00000E+00\n";
+    let moves = "         7\n  0.00000E+00  2.00000E+00  0.00000E+00\n";
+    let root = TIP.replace('1', "0").replace("02\n", "12\n");
+    let data = parsed(&(real_mode(&(TIP.to_owned() + still)) + &real_mode(&(root + moves))));
     let sensors: Vec<_> = data
         .sensors
         .iter()
@@ -328,7 +334,6 @@ fn faults_are_named_by_line_with_what_is_expected() {
         assert!(reason.contains(wanted) && reason.contains(there), "{error}");
     }
     for nothing in [
-        dataset("151", ""),
         real_mode(&TIP.replace('1', "0").replace("02\n", "12\n")),
         real_mode(""),
     ] {
@@ -340,6 +345,40 @@ fn faults_are_named_by_line_with_what_is_expected() {
             "{nothing}"
         );
     }
+}
+
+/// A node that some mode leaves out was not measured there. Zero would be a measurement.
+#[test]
+fn a_sensor_that_some_mode_leaves_out_is_left_out_of_the_test_and_named() {
+    let both = TIP.to_owned() + "         7\n  0.00000E+00  2.00000E+00  0.00000E+00\n";
+    let data = parsed(&(real_mode(&both) + &real_mode(TIP)));
+    assert_eq!(data.incomplete, ["7 y"]);
+    assert_eq!((data.sensors.len(), data.shapes), (1, dmatrix![1.0, 1.0]));
+    assert_eq!(parsed(&real_mode(&both).repeat(2)).incomplete, [""; 0]);
+    // Six values a node in one mode and three in the other.
+    let six = mode(
+        [1, 2, 3, 8, 2, 6],
+        "  1.25000E+01",
+        "        12\n  0.00000E+00  0.00000E+00  1.00000E+00  0.00000E+00  3.00000E+00  0.00000E+00\n",
+    );
+    assert_eq!(parsed(&(six + &real_mode(TIP))).incomplete, ["12 ry"]);
+    let apart = real_mode(TIP) + &real_mode(&TIP.replace("12", " 7"));
+    let error = read("wing.unv", apart.as_bytes()).expect_err("nothing is in both");
+    assert_eq!(
+        error.to_string(),
+        "wing.unv: no node and direction is in every mode; remove the modes with other nodes"
+    );
+}
+
+#[test]
+fn a_file_without_modes_is_told_which_datasets_it_has() {
+    let static_case = mode([1, 1, 2, 8, 2, 3], "  1.25000E+01", TIP);
+    let text = dataset("151", "") + &static_case + &dataset("58", "x\n") + &dataset("58", "x\n");
+    let error = read("wing.unv", text.as_bytes()).expect_err("no modes");
+    assert_eq!(
+        error.to_string(),
+        "wing.unv: no mode shapes; they are in datasets 55 or 2414, and this file has 55, 58, 151"
+    );
 }
 
 /// Place and numbers of a sensor.

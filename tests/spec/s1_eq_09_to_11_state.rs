@@ -6,6 +6,7 @@ use crate::common::boxes::{first_problem, problem_of, uneven_box};
 use crate::common::tolerances::{CONVERGED_STATE, MATRIX_ROUND_OFF, PRINTED_RMS, ROUND_OFF};
 use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
 use corfem::method::appendix_c::recursive_1_converged;
+use corfem::method::derivatives::{DerivativeRule, error_changes};
 use corfem::method::error::Error;
 use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
 use corfem::method::modes::ModeSet;
@@ -169,8 +170,13 @@ fn problems_that_do_not_fit_are_refused() {
         change(&mut model);
         model.analyze(&test, Some(3))
     };
+    let fixed = new(&|model| model.shares.clear()).expect("modes");
     assert!(matches!(
-        new(&|model| model.shares.clear()),
+        error_changes(
+            &fixed,
+            &ModalState::start(&fixed),
+            DerivativeRule::Definition
+        ),
         Err(Error::Empty { what: "parameters" })
     ));
     assert!(matches!(

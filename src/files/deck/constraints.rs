@@ -1,4 +1,4 @@
-//! Cards of constraints: what SPC1 fixes to ground, what MPC ties, and which sets of them count.
+//! Cards of constraints: what SPC and SPC1 fix to ground, what MPC ties, and which sets of them count.
 
 use super::card::Card;
 use super::lines::Selected;
@@ -14,7 +14,7 @@ pub(super) struct Constraints {
     equations: Sets,
 }
 
-/// Cards of one kind with their sets: SPC1 or MPC, and the SPCADD or MPCADD that join sets.
+/// Cards of one kind with their sets: SPC and SPC1, or MPC, and the SPCADD or MPCADD that join sets.
 #[derive(Debug, Default)]
 struct Sets {
     cards: Vec<(usize, Card)>,
@@ -34,7 +34,7 @@ impl Sets {
             card.label(3)?;
             for field in card.filled().into_iter().filter(|&field| field > 2) {
                 let set = card.label(field)?;
-                let what = format!("the set of an {} card", card.name.replace("ADD", "1"));
+                let what = format!("the set of an {} card", card.name.trim_end_matches("ADD"));
                 card.require(known.contains(&set), field, &what)?;
                 sets.insert(set);
             }
@@ -52,7 +52,7 @@ impl Sets {
 }
 
 impl Constraints {
-    /// Takes an SPC1, SPCADD, MPC or MPCADD card.
+    /// Takes an SPC, SPC1, SPCADD, MPC or MPCADD card.
     pub fn take(&mut self, card: Card) -> Result<(), FileError> {
         let sets = if card.name.starts_with("SPC") {
             &mut self.supports
@@ -109,9 +109,29 @@ impl Constraints {
         Ok(left_out)
     }
 
-    /// Marks what is constrained: the grids of every card one by one, or from the first to the last of `G1 THRU G2`.
+    /// Marks what is constrained: of SPC1 the grids of every card one by one, or from the first to the last of `G1 THRU G2`; of SPC one
+    /// or two grids, each with its components and an enforced displacement, which is a load and no part of normal modes.
     pub fn constrain(&self, grids: &mut BTreeMap<usize, Grid>) -> Result<(), FileError> {
+        let add = |grid: &mut Grid, directions: [bool; 3]| {
+            grid.constrained = std::array::from_fn(|d| grid.constrained[d] || directions[d]);
+        };
         for (_, card) in &self.supports.cards {
+            if card.name == "SPC" {
+                let is_double = card.filled().last().is_some_and(|&last| last > 5);
+                for &start in if is_double { &[3, 6][..] } else { &[3] } {
+                    let directions = card.directions(start + 1)?;
+                    card.require(
+                        !card.text(start + 1).is_empty(),
+                        start + 1,
+                        "a list of components 1 to 6",
+                    )?;
+                    card.optional_real(start + 2)?;
+                    let grid = grids.get_mut(&card.label(start)?);
+                    let none = || card.wrong(start, "the number of a GRID card");
+                    add(grid.ok_or_else(none)?, directions);
+                }
+                continue;
+            }
             let directions = card.directions(3)?;
             card.require(!card.text(3).is_empty(), 3, "a list of components 1 to 6")?;
             let mut fields = card.filled().into_iter().skip_while(|&f| f < 4).peekable();
@@ -130,10 +150,7 @@ impl Constraints {
                 }
                 let mut run = grids.range_mut(first..=last).peekable();
                 card.require(run.peek().is_some(), field, "the number of a GRID card")?;
-                for (_, grid) in run {
-                    grid.constrained =
-                        std::array::from_fn(|d| grid.constrained[d] || directions[d]);
-                }
+                run.for_each(|(_, grid)| add(grid, directions));
             }
         }
         Ok(())
@@ -168,7 +185,7 @@ impl Constraints {
             if is_constrained {
                 return Err(card.error(
                     3,
-                    "an SPC1 card constrains this degree of freedom; it cannot also depend on others",
+                    "an SPC or SPC1 card constrains this degree of freedom; it cannot also depend on others",
                 ));
             }
             let tie = Tie {

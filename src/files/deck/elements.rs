@@ -28,6 +28,8 @@ pub(super) struct ElementCards {
     pub connections: Numbered<Option<usize>>,
     pub properties: [Numbered<f64>; 4],
     pub materials: Numbered<Material>,
+    /// The cards with torsion of rods, which no stiffness has: grids have no rotations.
+    pub torsion: Vec<Card>,
 }
 
 /// The card that has the size and the material of an element, and the fields where it has them.
@@ -49,8 +51,14 @@ impl ElementCards {
     /// Takes a card of an element, a property or a material.
     pub fn take(&mut self, card: &Card) -> Result<(), FileError> {
         let name = card.name.as_str();
-        let is_double =
-            TWO_TO_A_CARD.contains(&name) && card.filled().last().is_some_and(|&last| last > 5);
+        // In field 6 of PSHEAR some programs have a second entry's number, and others a real number.
+        let is_second = name != "PSHEAR" || card.label(6).is_ok();
+        let is_double = TWO_TO_A_CARD.contains(&name)
+            && is_second
+            && card.filled().last().is_some_and(|&last| last > 5);
+        if !is_second {
+            (6..=9).try_for_each(|field| card.absent(field, "extension of shear panels"))?;
+        }
         let starts = if is_double { &[2, 6][..] } else { &[2] };
         for (row, &(connection, property, kind)) in ELEMENT_CARDS.iter().enumerate() {
             for &start in starts {
@@ -60,7 +68,7 @@ impl ElementCards {
                     let size = card.positive(start + 2)?;
                     let is_rod = kind == ElementKind::Rod;
                     if is_rod {
-                        card.absent(start + 3, "torsion of rods")?;
+                        self.note_torsion(card, start + 3)?;
                     }
                     card.absent(start + if is_rod { 5 } else { 3 }, "nonstructural mass")?;
                     card.keep(start, size, &mut self.properties[row])?;
@@ -70,12 +78,19 @@ impl ElementCards {
         match name {
             "CONROD" => {
                 card.positive(6)?;
-                card.absent(7, "torsion of rods")?;
+                self.note_torsion(card, 7)?;
                 card.absent(9, "nonstructural mass")?;
                 card.keep(2, None, &mut self.connections)?;
             }
             "MAT1" => card.keep(2, material(card)?, &mut self.materials)?,
             _ => {}
+        }
+        Ok(())
+    }
+
+    fn note_torsion(&mut self, card: &Card, field: usize) -> Result<(), FileError> {
+        if card.real(field)? != 0.0 {
+            self.torsion.push(card.clone());
         }
         Ok(())
     }

@@ -14,7 +14,8 @@ const INCLUDES: [&str; 2] = ["INCLUDE", "READFILE"];
 /// Characters that end the first word of such a statement, or of a parameter.
 const WORD_ENDS: [char; 4] = [' ', ',', '\'', '"'];
 
-/// Sets of constraints that case control selects by `SPC = n` and `MPC = n`, each with the line that does.
+/// Sets of constraints that case control selects by `SPC = n` and `MPC = n`, each with the line that does: those of the first
+/// subcase, or else those above it, which hold for all.
 pub(super) type Selected = [Option<(usize, usize)>; 2];
 
 /// One line of bulk data, cut into fields.
@@ -60,16 +61,28 @@ pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<
         .iter()
         .position(|(_, line)| line.split_whitespace().eq(["BEGIN", "BULK"]));
     let (control, bulk) = lines.split_at(begin.map_or(0, |row| row + 1));
-    let mut selected = Selected::default();
-    control
-        .iter()
-        .try_for_each(|(number, line)| select(file, *number, line, &mut selected))?;
+    let (mut selected, mut levels) = (Selected::default(), [Selected::default(); 2]);
+    let mut subcases = 0;
+    for (number, line) in control {
+        subcases += usize::from(statement(line, &["SUBCASE"]).is_some());
+        if let Some(level) = levels.get_mut(subcases) {
+            select(file, *number, line, level)?;
+        }
+    }
+    for (row, chosen) in selected.iter_mut().enumerate() {
+        *chosen = levels[1][row].or(levels[0][row]);
+    }
     let of_model = |(_, line): &&(usize, String)| {
         statement(line, &["PARAM"])
             .or(statement(line, &INCLUDES))
             .is_some()
     };
-    let bulk = bulk.iter().take_while(|(_, line)| line.trim() != "ENDDATA");
+    // Programs write a checksum or remarks behind the word.
+    let is_end =
+        |line: &str| line.split(WORD_ENDS).find(|word| !word.is_empty()) == Some("ENDDATA");
+    let bulk = bulk
+        .iter()
+        .take_while(|(_, line)| !is_end(&line.replace('\t', " ")));
     let bulk = control
         .iter()
         .filter(of_model)

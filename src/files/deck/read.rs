@@ -24,7 +24,7 @@ pub struct Deck {
 /// Reads a deck in UTF-8 or Latin-1, without cards of the names `ignored` that are not understood; `file` is its name in messages.
 ///
 /// It may have executive and case control in front of `BEGIN BULK`, or be bulk data alone. Read are GRID, GRDSET,
-/// CROD, PROD, CONROD, CSHEAR, PSHEAR, CQDMEM, PQDMEM, CTRMEM, PTRMEM, MAT1, SPC1, SPCADD, MPC, MPCADD, CMASS2, CONM2
+/// CROD, PROD, CONROD, CSHEAR, PSHEAR, CQDMEM, PQDMEM, CTRMEM, PTRMEM, MAT1, SPC, SPC1, SPCADD, MPC, MPCADD, CMASS2, CONM2
 /// and `PARAM,WTMASS`, which multiplies every mass and density, in any order. Cards that say nothing of stiffness, mass,
 /// supports or coordinates, such as loads, are listed in [`Deck::unread`], and so are those ignored, except EIGR and EIGRL:
 /// they say how to look for eigenvalues. Every other card is an error.
@@ -49,7 +49,7 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
         .into_iter()
         .partition(|card| is_read(&name(card)));
     let why = |card: &Card| match name(card) {
-        name if WITHOUT_PART.contains(&name.as_str()) => Reason::WithoutPart,
+        name if WITHOUT_PART.split(' ').any(|known| known == name) => Reason::WithoutPart,
         name if ignored.contains(&name) => Reason::Ignored,
         _ => Reason::Unknown,
     };
@@ -90,7 +90,7 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
                 ));
             }
             "CMASS2" | "CONM2" => card.keep(2, point_mass(&card)?, &mut masses)?,
-            "SPC1" | "SPCADD" | "MPC" | "MPCADD" => constraints.take(card)?,
+            "SPC" | "SPC1" | "SPCADD" | "MPC" | "MPCADD" => constraints.take(card)?,
             _ => elements.take(&card)?,
         }
     }
@@ -101,6 +101,10 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
             .iter()
             .map(|card| one_unread(card, Reason::NotSelected)),
     );
+    unread.extend(elements.torsion.iter().map(|card| Unread {
+        card: format!("{} J", card.name),
+        ..one_unread(card, Reason::Torsion)
+    }));
     let grids = grids
         .iter()
         .map(|(&label, kept)| Ok((label, grid(label, &kept.card, default.as_ref())?)));
@@ -174,20 +178,20 @@ fn grid(label: usize, card: &Card, default: Option<&Card>) -> Result<Grid, FileE
 /// Cards that are read, besides those of elements with their properties. EIGR and EIGRL say how to look for
 /// eigenvalues, which is no part of the model and needs no note.
 #[rustfmt::skip]
-const READ: [&str; 13] = [
-    "GRID", "GRDSET", "CONROD", "MAT1", "CMASS2", "CONM2", "SPC1", "SPCADD", "MPC", "MPCADD", "PARAM WTMASS", "EIGR", "EIGRL",
+const READ: [&str; 14] = [
+    "GRID", "GRDSET", "CONROD", "MAT1", "CMASS2", "CONM2", "SPC", "SPC1", "SPCADD", "MPC", "MPCADD", "PARAM WTMASS", "EIGR", "EIGRL",
 ];
 /// Cards that carry no stiffness, mass, support or coordinates in a search for normal modes: loads, temperatures,
-/// damping, output, the order of equations and other solutions' methods.
-#[rustfmt::skip]
-const WITHOUT_PART: &[&str] = &[
-    "PARAM", "PLOTEL", "SEQGP",
-    "FORCE", "FORCE1", "FORCE2", "MOMENT", "MOMENT1", "MOMENT2", "PLOAD", "PLOAD1", "PLOAD2", "PLOAD3", "PLOAD4",
-    "LOAD", "GRAV", "RFORCE", "SLOAD", "SPCD", "DEFORM", "TEMP", "TEMPD", "TEMPP1", "TEMPP2", "TEMPP3", "TEMPRB",
-    "DLOAD", "RLOAD1", "RLOAD2", "TLOAD1", "TLOAD2", "DAREA", "DELAY", "DPHASE", "RANDPS", "RANDT1", "TIC",
-    "FREQ", "FREQ1", "FREQ2", "TSTEP", "TABDMP1", "TABLED1", "TABLED2", "TABLED3", "TABLED4", "TABRND1",
-    "CVISC", "PVISC", "CDAMP1", "CDAMP2", "CDAMP3", "CDAMP4", "PDAMP", "EIGB", "EIGC", "EIGP",
-];
+/// damping, output, the order of equations, other solutions' methods, optimization, sets and aerodynamics.
+const WITHOUT_PART: &str = "\
+    PARAM PLOTEL SEQGP FORCE FORCE1 FORCE2 MOMENT MOMENT1 MOMENT2 PLOAD PLOAD1 PLOAD2 PLOAD3 PLOAD4 LOAD \
+    GRAV RFORCE SLOAD SPCD DEFORM TEMP TEMPD TEMPP1 TEMPP2 TEMPP3 TEMPRB DLOAD RLOAD1 RLOAD2 TLOAD1 \
+    TLOAD2 DAREA DELAY DPHASE RANDPS RANDT1 TIC FREQ FREQ1 FREQ2 TSTEP TABDMP1 TABLED1 TABLED2 TABLED3 \
+    TABLED4 TABRND1 CVISC PVISC CDAMP1 CDAMP2 CDAMP3 CDAMP4 PDAMP EIGB EIGC EIGP DESVAR DVPREL1 DVPREL2 \
+    DVMREL1 DVMREL2 DVCREL1 DVCREL2 DVGRID DRESP1 DRESP2 DRESP3 DCONSTR DCONADD DLINK DEQATN DTABLE \
+    DDVAL DOPTPRM DSCREEN SET1 SET2 SET3 AERO AEROS AEFACT AELINK AELIST AEPARM AESTAT AESURF AESURFS \
+    CAERO1 CAERO2 CAERO3 CAERO4 CAERO5 PAERO1 PAERO2 PAERO3 PAERO4 PAERO5 SPLINE1 SPLINE2 SPLINE3 \
+    SPLINE4 SPLINE5 MKAERO1 MKAERO2 FLUTTER FLFACT TRIM GUST DIVERG CSSCHD MONPNT1 MONPNT2 MONPNT3";
 /// Parameters that change stiffness or mass; the last only with a positive value.
 const OF_THE_MODEL: [&str; 6] = ["WTMASS", "CK1", "CK2", "CM1", "CM2", "COUPMASS"];
 
@@ -213,8 +217,10 @@ pub enum Reason {
     Ignored,
     /// It says nothing of stiffness, mass, supports or coordinates.
     WithoutPart,
-    /// It belongs to a set of constraints that case control does not select.
+    /// It belongs to a set of constraints that the first subcase of case control does not select.
     NotSelected,
+    /// A field of it, the torsion of rods, is in no stiffness.
+    Torsion,
 }
 
 impl Unread {

@@ -1,8 +1,9 @@
-//! Rewrites a deck with other sizes and densities of its elements; every other byte stays.
+//! Rewrites a deck with other sizes and densities of its elements and other point masses; every other byte stays.
 
 use super::card::{Card, FIELDS_PER_LINE, Kept};
 use super::elements::{ElementCards, Holder};
 use super::lines::{Cut, LARGE_FIELDS_PER_LINE, cards, cut, decoded};
+use super::model::PointMass;
 use super::number::{LARGE_FIELD, SMALL_FIELD, large_real, nearest_in_field};
 use super::read::name;
 use super::write::Cards;
@@ -29,8 +30,8 @@ struct Changes<'a> {
     next_material: usize,
 }
 
-/// The deck `bytes`, `file` in messages, with the sizes and densities of these elements, found by their numbers; those of
-/// [`BulkData::from_model`](super::BulkData::from_model) give the deck a model's modes.
+/// The deck `bytes`, `file` in messages, with the sizes and densities of these elements and these point masses, found by their
+/// numbers; those of [`BulkData::from_model`](super::BulkData::from_model) give the deck a model's modes.
 ///
 /// Where elements of one property need different sizes, the unchanged ones keep the card, or else the largest group does; the
 /// others get new cards after it, and a new density gets a new MAT1 card. A number that does not fit in its field turns its line
@@ -39,7 +40,12 @@ struct Changes<'a> {
 /// # Errors
 /// [`FileError::DeckLine`] and [`FileError::DeckField`] where the deck does not read or would not hold a number,
 /// [`Error::Unknown`] for an element that it does not have, [`Error::TooMany`] without a free number.
-pub fn rewrite(file: &str, bytes: &[u8], elements: &[Element]) -> Result<Vec<u8>, FileError> {
+pub fn rewrite(
+    file: &str,
+    bytes: &[u8],
+    elements: &[Element],
+    masses: &[PointMass],
+) -> Result<Vec<u8>, FileError> {
     let text = decoded(bytes);
     let cards = cards(file, &text)?;
     let (mut known, mut weight) = (ElementCards::default(), 1.0);
@@ -69,6 +75,22 @@ pub fn rewrite(file: &str, bytes: &[u8], elements: &[Element]) -> Result<Vec<u8>
         next_material: next_number(&cards, "MAT"),
     };
     changes.find(file, elements)?;
+    let masses: HashMap<usize, f64> = masses
+        .iter()
+        .map(|point| (point.label, point.mass))
+        .collect();
+    for card in cards
+        .iter()
+        .filter(|card| ["CMASS2", "CONM2"].contains(&card.name.as_str()))
+    {
+        let (label, field) = (card.label(2)?, if card.name == "CMASS2" { 3 } else { 5 });
+        let own = nearest_in_field(weight * card.positive(field)?);
+        if let Some(mass) = masses.get(&label).filter(|mass| **mass != own) {
+            let text = large_real(mass / weight);
+            let none = || card.error(field, "the new mass is not a finite number");
+            changes.set(card, field, text.ok_or_else(none)?)?;
+        }
+    }
     if changes.fields.is_empty() {
         return Ok(bytes.to_vec());
     }

@@ -15,11 +15,14 @@
 //! - One row, the header, has the titles of the columns, in any order and in capitals or not. `direction` must be there (x, y, z; rx,
 //!   ry, rz for rotations), `name` or `grid` or both, and a column whose title begins with `mode` for every mode. `sign` says which way
 //!   the sensor points along its axis: `+`, `-`, or empty for `+`. `x`, `y`, `z` are its place, all three or none of them.
+//!   Where titles number the modes, the numbers are 1, 2, 3 and so on from left to right, as elsewhere.
+//! - A sensor has a cell below each title, the rows above a number below each mode's, and neither has anything elsewhere but blanks.
 //! - Rows whose first cell is `frequency_hz` (Hz, must be there), `frequency_deviation`, `shape_deviation` (standard deviations as
 //!   fractions) or `phase_collinearity` have a number in each column of a mode. Every other row below the header is a sensor.
 
 use super::{DIRECTIONS, Sensor, TestData, default_name, real};
 use crate::files::error::{FileError, is_not};
+use crate::files::inert;
 use nalgebra::{DMatrix, Vector3};
 
 /// First cells of the rows with a number for every mode.
@@ -82,7 +85,10 @@ impl TestRow<'_> {
             let title = cell.to_lowercase();
             match TITLES.iter().position(|name| *name == title) {
                 Some(place) if titles[place].is_none() => titles[place] = Some(column),
-                None if title.starts_with("mode") => modes.push(column),
+                None if title.starts_with("mode") => {
+                    modes.push(column);
+                    self.check_mode(column, &title, modes.len())?;
+                }
                 _ => {
                     return self.is_not(
                         cell,
@@ -101,6 +107,47 @@ impl TestRow<'_> {
             Ok((titles, modes))
         } else {
             self.is_not(&self.cells.join(" "), what)
+        }
+    }
+
+    /// Refuses the title of a mode that is there twice, or whose number is not its place.
+    fn check_mode(&self, column: usize, title: &str, place: usize) -> Result<(), FileError> {
+        let behind = title
+            .chars()
+            .skip("mode".len())
+            .skip_while(|c| !c.is_alphanumeric());
+        let number: String = behind.take_while(char::is_ascii_digit).collect();
+        let is_other = !number.is_empty() && number.parse() != Ok(place);
+        let cell = &self.cells[column];
+        if is_other
+            || self.cells[..column]
+                .iter()
+                .any(|other| other.to_lowercase() == title)
+        {
+            return self.wrong(format!(
+                "column {}: this is mode {place}, but its title is \"{cell}\"; titles must differ and number modes from left to right",
+                column + 1
+            ));
+        }
+        Ok(())
+    }
+
+    /// Refuses a row that ends before its last number, or has something beside the columns of its numbers and, of a sensor, its names.
+    fn check_columns(&self, (titles, modes): &Header, is_sensor: bool) -> Result<(), FileError> {
+        let own = || titles.iter().flatten().filter(|_| is_sensor).chain(modes);
+        let (found, wanted) = (self.cells.len(), own().max().map_or(0, |last| last + 1));
+        if found < wanted {
+            return self.wrong(format!("the row has {found} cells and needs {wanted}"));
+        }
+        let is_stray =
+            |&column: &usize| !self.cells[column].is_empty() && own().all(|own| *own != column);
+        match (usize::from(!is_sensor)..found).find(is_stray) {
+            None => Ok(()),
+            Some(column) => self.wrong(format!(
+                "column {}: \"{}\" stands where nothing belongs; decimal commas need semicolons or tabs between cells",
+                column + 1,
+                self.cells[column]
+            )),
         }
     }
 
@@ -187,7 +234,14 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
         let reason = format!("the file ends without {what}");
         FileError::line(file, text.lines().count(), reason)
     };
-    let (titles, modes) = header.ok_or_else(|| missing("a header"))?;
+    let header = header.ok_or_else(|| missing("a header"))?;
+    by_mode
+        .iter()
+        .flatten()
+        .try_for_each(|row| row.check_columns(&header, false))?;
+    rows.iter()
+        .try_for_each(|row| row.check_columns(&header, true))?;
+    let (titles, modes) = header;
     let list = |place: usize| {
         by_mode[place]
             .as_ref()
@@ -234,10 +288,7 @@ pub(crate) fn cells(line: &str, separator: char) -> Vec<String> {
     cells.iter().map(|cell| cell.trim().to_owned()).collect()
 }
 
-/// A name as one cell on one line: line ends become blanks.
+/// A name as one cell that is no formula.
 pub(crate) fn quoted(name: &str) -> String {
-    format!(
-        "\"{}\"",
-        name.replace(['\n', '\r'], " ").replace('"', "\"\"")
-    )
+    format!("\"{}\"", inert(name).replace('"', "\"\""))
 }

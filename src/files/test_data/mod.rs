@@ -56,6 +56,8 @@ pub struct TestData {
     pub lines: Vec<[usize; 2]>,
     /// The file's units in its own words, if it says; nothing is converted.
     pub units: Option<String>,
+    /// Names of the sensors of a Universal File that are left out because some mode has no value at them.
+    pub incomplete: Vec<String>,
     /// Numbers of the datasets of a Universal File that were not read, ascending.
     pub skipped: Vec<usize>,
 }

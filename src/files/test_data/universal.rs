@@ -1,14 +1,16 @@
 //! The Universal File (UFF, UNV) of SDRC, which test systems write: blocks of fixed columns between lines `    -1`.
 //!
 //! Datasets 15 and 2411 are nodes and their coordinates, 18 and 2420 coordinate systems of these (15) and of what is measured
-//! there (both), 55 a mode at the nodes, 82 a line of the wire frame, 164 the units (nothing is converted), 151 a header. All others,
-//! and a dataset 55 that is no mode, are named in [`TestData::skipped`]. A coordinate system that a node names and no dataset has is taken as global.
+//! there (both), 55 and 2414 a mode at the nodes, 82 a line of the wire frame, 164 the units (nothing is converted), 151 a header. All
+//! others, and datasets 55 and 2414 that are no modes, are named in [`TestData::skipped`]. A sensor's coordinate system must be in
+//! the file; 0 is the global one, and so is 1, SDRC's number for it, unless a dataset defines it otherwise.
 //!
 //! Only a line of these six columns and nothing else ends a block; a data line `        -1` does not. Exponents may be E or D, and
 //! full columns touch; where columns do not hold one number each, blanks separate them.
 //!
 //! A mode has all directions at each of its nodes. Those that are zero in all modes count as not measured and are no sensors; the others
-//! are in ascending order of node and direction. A node that a mode leaves out is zero in it.
+//! are in ascending order of node and direction. What a mode leaves out was not measured in it, which is not zero: such a
+//! sensor is left out of all modes and named in [`TestData::incomplete`].
 //! The frequency of a complex eigenvalue is its magnitude over $2 \pi$, that of the undamped structure; of a conjugate pair the one
 //! with an imaginary part that is not negative is read. Velocities are divided by the circular frequency and accelerations by its
 //! square and minus one. When a shape is complex, all are made real by [`realize`], and how near they were is kept.
@@ -36,6 +38,9 @@ struct FoundModes {
     systems: Systems,
     shapes: Vec<BTreeMap<(usize, usize), Complex<f64>>>,
     complex: bool,
+    /// All datasets of the file, and that of its modes.
+    datasets: BTreeSet<usize>,
+    of_modes: Option<usize>,
 }
 
 fn is_mark(line: &str) -> bool {
@@ -73,10 +78,11 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
                 )
             })?;
         let mut block = Block::new(file, &lines[at + 2..end], at + 3);
+        found.datasets.insert(dataset);
         match dataset {
             15 | 2411 => found.nodes(&mut block, dataset)?,
             18 => by_points(&mut block, &mut found.systems)?,
-            55 => found.mode(&mut block)?,
+            55 | 2414 => found.mode(&mut block, dataset)?,
             82 => found.trace(&mut block)?,
             151 => {}
             164 => found.units(&mut block)?,
@@ -149,18 +155,35 @@ impl FoundModes {
             .map(drop)
     }
 
-    /// Dataset 55, if it is a mode.
-    fn mode(&mut self, block: &mut Block) -> Result<(), FileError> {
+    /// Dataset 55 or 2414, if it is a mode. The latter has a label, a name and a location in front (1, data at nodes), two lines of
+    /// integers, and two of reals: the frequency is the second number of the first, a complex eigenvalue begins the second.
+    fn mode(&mut self, block: &mut Block, dataset: usize) -> Result<(), FileError> {
+        let is_analysis = dataset == 2414;
+        let is_at_nodes = !is_analysis || {
+            block.line("a label")?;
+            block.line("a name")?;
+            block.integers("the location of the data", 1)? == [1]
+        };
         (0..5).try_for_each(|_| block.line("all five lines of identification").map(drop))?;
-        let codes = block.integers("the six codes of a dataset 55", 6)?;
+        let codes = block.integers("the six codes of a mode", 6)?;
         let [analysis, characteristic, specific, data_type, count] =
             [1, 2, 3, 4, 5].map(|place| codes[place]);
         if ![2, 3, 7].contains(&analysis)
             || ![2, 3].contains(&characteristic)
             || !SHAPES.contains(&specific)
+            || !is_at_nodes
         {
-            self.data.skipped.push(55);
+            self.data.skipped.push(dataset);
             return Ok(());
+        }
+        if self
+            .of_modes
+            .replace(dataset)
+            .is_some_and(|other| other != dataset)
+        {
+            return Err(block.wrong(
+                "the file has modes in datasets 55 and 2414, perhaps the same ones; keep those of one",
+            ));
         }
         if count != 3 * (characteristic - 1) || ![2, 5].contains(&data_type) {
             return Err(block.wrong(format!(
@@ -169,10 +192,21 @@ impl FoundModes {
             )));
         }
         block.line("the integers that describe a mode")?;
-        let root = block.reals(
-            "a frequency, or a complex eigenvalue",
-            &VALUES[..if analysis == 2 { 1 } else { 2 }],
-        )?;
+        let what = "a frequency, or a complex eigenvalue";
+        let root = if is_analysis {
+            block.line("the integers that describe a mode")?;
+            let lines = [
+                block.reals(what, &VALUES[..2])?,
+                block.reals(what, &VALUES[..2])?,
+            ];
+            if analysis == 2 {
+                vec![lines[0][1]]
+            } else {
+                lines[1].clone()
+            }
+        } else {
+            block.reals(what, &VALUES[..if analysis == 2 { 1 } else { 2 }])?
+        };
         let frequency = match root[..] {
             [_, imaginary] if imaginary < 0.0 => return Ok(()),
             [real, imaginary] => real.hypot(imaginary) / (2.0 * PI),
@@ -206,22 +240,34 @@ impl FoundModes {
     }
 
     fn into_data(mut self, file: &str) -> Result<TestData, FileError> {
+        if self.shapes.is_empty() {
+            let datasets: Vec<String> = self.datasets.iter().map(usize::to_string).collect();
+            let datasets = datasets.join(", ");
+            return Err(FileError::refused(
+                file,
+                format!(
+                    "no mode shapes; they are in datasets 55 or 2414, and this file has {datasets}"
+                ),
+            ));
+        }
         let values = self
             .shapes
             .iter()
             .flatten()
             .filter(|(_, value)| **value != Complex::default());
-        let keys: Vec<(usize, usize)> = values
-            .map(|(key, _)| *key)
-            .collect::<BTreeSet<_>>()
-            .into_iter()
-            .collect();
-        let value = |row: usize, mode: usize| {
-            self.shapes[mode]
-                .get(&keys[row])
-                .copied()
-                .unwrap_or_default()
-        };
+        let measured: BTreeSet<(usize, usize)> = values.map(|(key, _)| *key).collect();
+        let is_complete =
+            |key: &(usize, usize)| self.shapes.iter().all(|shape| shape.contains_key(key));
+        let (keys, incomplete): (Vec<_>, Vec<_>) = measured.into_iter().partition(is_complete);
+        if keys.is_empty() && !incomplete.is_empty() {
+            return Err(FileError::refused(
+                file,
+                "no node and direction is in every mode; remove the modes with other nodes",
+            ));
+        }
+        let incomplete = incomplete.into_iter();
+        self.data.incomplete = incomplete.map(|(node, d)| default_name(node, d)).collect();
+        let value = |row: usize, mode: usize| self.shapes[mode][&keys[row]];
         let shapes = DMatrix::from_fn(keys.len(), self.shapes.len(), value);
         let data = &mut self.data;
         (data.shapes, data.phase_collinearity) = if self.complex {
@@ -232,13 +278,22 @@ impl FoundModes {
         for (node, direction) in keys {
             let at = self.nodes.get(&node);
             let [of_place, of_motion] = [0, 1].map(|which| self.systems.get(&at?.1[which]));
-            let is_other = [of_place, of_motion]
+            for (number, line) in at
                 .iter()
-                .flatten()
-                .any(|axes| !axes.is_cartesian);
-            if let (Some((.., line)), true) = (at, is_other) {
-                let reason = "this node has a cylindrical or spherical coordinate system; only Cartesian ones are read";
-                return Err(FileError::line(file, *line, reason));
+                .flat_map(|(_, both, line)| both.map(|number| (number, *line)))
+            {
+                let is_global = number < 2 && !self.systems.contains_key(&number);
+                if !is_global
+                    && self
+                        .systems
+                        .get(&number)
+                        .is_none_or(|axes| !axes.is_cartesian)
+                {
+                    let reason = format!(
+                        "node {node} has coordinate system {number}, which is no Cartesian one of a dataset 18 or 2420 of the file"
+                    );
+                    return Err(FileError::line(file, line, reason));
+                }
             }
             let to_global =
                 |place| of_place.map_or(place, |axes| axes.origin + axes.rotation * place);

@@ -17,7 +17,7 @@ pub(super) struct Axes {
     pub rotation: Matrix3<f64>,
 }
 
-/// Coordinate systems by their numbers; one that is not there has the global axes.
+/// Coordinate systems by their numbers; 0, and 1 if it is not there, are the global axes.
 pub(super) type Systems = BTreeMap<usize, Axes>;
 
 /// Dataset 18: origin, a point on the x axis and one in the xz plane, in an earlier system or in the global one, number zero.

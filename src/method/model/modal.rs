@@ -5,7 +5,7 @@
 //! [`ModalModel::new`], so that the loops and the exact check cannot disagree about any of them.
 
 use super::REFERENCE_GAGE;
-use crate::method::error::{Error, at_least_one, setting};
+use crate::method::error::{Error, setting};
 use crate::method::error_sum::{Errors, ModeWeight, errors, weighted_errors};
 use crate::method::linear_algebra::{check_length, check_shape, check_symmetric, symmetric_part};
 use crate::method::modes::{ModeSet, Modes, solve};
@@ -253,7 +253,6 @@ impl ModalModel {
         shares: Vec<ParameterMatrix>,
         on_test: Vec<ParameterMatrix>,
     ) -> Result<Self, Error> {
-        at_least_one("parameters", shares.len())?;
         let omega = test.omega_squared.map(f64::sqrt);
         let relative = |share: ParameterMatrix| match share {
             ParameterMatrix::Stiffness(matrix) => {

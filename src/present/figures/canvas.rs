@@ -163,10 +163,10 @@ pub(super) fn svg(
     }
     let body = drawn.split_once('\n').map_or("", |(_, body)| body);
     let title = title.replace('&', "&amp;").replace('<', "&lt;");
-    Ok(format!(
+    Ok(crate::files::escaped(&format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {across} \
         {down}\" role=\"img\">\n<title>{title}</title>\n{body}"
-    ))
+    )))
 }
 
 pub(super) fn line(area: &Area, points: &[Place], pen: Pen) -> Drawn {

@@ -1,7 +1,7 @@
 //! The modes of a deck as tables.
 
-use crate::files::deck::{Deck, Reason, Unread};
-use crate::method::structure::DIRECTIONS;
+use crate::files::deck::{Reason, Unread};
+use crate::files::test_data::DIRECTIONS;
 use crate::present::table::{Cell, Digits, Table, counted, numbers};
 use crate::sparse::whole_modes::WholeModes;
 
@@ -14,13 +14,13 @@ const SHAPE: Digits = Digits::Fixed(5);
 /// Frequencies and shapes of the lowest `count` modes, every shape scaled to a largest component of one, after a table
 /// of what was left out by request.
 ///
-/// Generalized mass, $v^t M v$, is that of the shape so scaled, lbf·s²/in.
-pub fn deck_tables(deck: &Deck, modes: &WholeModes, count: usize) -> Vec<Table> {
+/// Generalized mass, $v^t M v$, is that of the shape so scaled, in the model's own unit.
+pub fn deck_tables(unread: &[Unread], modes: &WholeModes, count: usize) -> Vec<Table> {
     let (masses, shapes) = unit_shapes(modes, count);
-    let dof = counted(modes.dof.len(), "degree", "degrees");
+    let rows = modes.modes.shapes.nrows();
+    let dof = counted(rows, "degree", "degrees");
     let title = format!("Natural frequencies at {dof} of freedom with mass");
-    let (left_out, others): (Vec<&Unread>, Vec<&Unread>) = deck
-        .unread
+    let (left_out, others): (Vec<&Unread>, Vec<&Unread>) = unread
         .iter()
         .partition(|unread| unread.reason == Reason::Ignored);
     let rigid = counted(
@@ -37,7 +37,7 @@ pub fn deck_tables(deck: &Deck, modes: &WholeModes, count: usize) -> Vec<Table> 
             "Hz",
             numbers(modes.modes.frequencies_hz(), FREQUENCY),
         )
-        .column("Generalized mass", "lbf·s²/in", numbers(masses, MASS))
+        .column("Generalized mass", "", numbers(masses, MASS))
         .notes(others.into_iter().map(not_read))
         .notes(rigid);
     let ignored = Table::new(
@@ -61,12 +61,12 @@ pub fn deck_tables(deck: &Deck, modes: &WholeModes, count: usize) -> Vec<Table> 
     } else {
         vec![ignored, frequencies]
     };
-    let labels = || {
-        modes
-            .dof
-            .iter()
-            .map(|dof| format!("{} {}", dof.grid, DIRECTIONS[dof.direction]))
+    // Matrices that do not name their rows have numbers for them.
+    let label = |row: usize| match modes.dof.get(row) {
+        Some(dof) => format!("{} {}", dof.grid, DIRECTIONS[dof.direction]),
+        None => format!("row {}", row + 1),
     };
+    let labels = || (0..rows).map(label);
     for (part, shapes) in shapes.chunks(MODES_PER_TABLE).enumerate() {
         let (first, last) = (
             MODES_PER_TABLE * part + 1,
@@ -93,7 +93,8 @@ pub fn not_read(unread: &Unread) -> String {
         Reason::Unknown => "not known here",
         Reason::Ignored => "left out by request; these modes lack what they say",
         Reason::WithoutPart => "nothing of stiffness, mass, supports or coordinates",
-        Reason::NotSelected => "of a set that case control does not select",
+        Reason::NotSelected => "of a set that the first subcase does not select",
+        Reason::Torsion => "torsion of rods: grids have no rotations here",
     };
     format!("Not read: {}, {why}.", unread.place())
 }

@@ -112,6 +112,11 @@ pub fn trust_table(trust: &Trust) -> Table {
 /// Those of [`LoadedJob::weights`] and of the rankings.
 pub fn suspects_table(loaded: &LoadedJob) -> Result<Table, FileError> {
     let parameters = loaded.source.whole.parameters();
+    let title = "Suspects: what one parameter alone explains";
+    if parameters.is_empty() {
+        return Ok(Table::new("suspects", title, "Parameter")
+            .notes(["The job has no parameters.".to_owned()]));
+    }
     let (first, weights) = (
         loaded.analyze(&vec![1.0; parameters.len()])?,
         loaded.weights()?,
@@ -140,38 +145,34 @@ pub fn suspects_table(loaded: &LoadedJob) -> Result<Table, FileError> {
             .find(|slope| slope.parameter == parameter)
             .map(|slope| slope.factor)
     };
-    Ok(Table::new(
-        "suspects",
-        "Suspects: what one parameter alone explains",
-        "Parameter",
-    )
-    .labels(shown().map(|suspect| &parameters[suspect.parameter].name))
-    .column(
-        "factor",
-        "",
-        numbers(
-            shown().map(|suspect| suspect.factor),
-            Digits::Significant(3),
-        ),
-    )
-    .column(
-        "evidence",
-        "",
-        numbers(
-            shown().map(|suspect| suspect.evidence),
-            Digits::Significant(3),
-        ),
-    )
-    .column(
-        "paper's factor",
-        "",
-        numbers(
-            shown().map(|suspect| slope(suspect.parameter)),
-            Digits::Fixed(2),
-        ),
-    )
-    .notes([note])
-    .notes((left > 0).then_some(less)))
+    Ok(Table::new("suspects", title, "Parameter")
+        .labels(shown().map(|suspect| &parameters[suspect.parameter].name))
+        .column(
+            "factor",
+            "",
+            numbers(
+                shown().map(|suspect| suspect.factor),
+                Digits::Significant(3),
+            ),
+        )
+        .column(
+            "evidence",
+            "",
+            numbers(
+                shown().map(|suspect| suspect.evidence),
+                Digits::Significant(3),
+            ),
+        )
+        .column(
+            "paper's factor",
+            "",
+            numbers(
+                shown().map(|suspect| slope(suspect.parameter)),
+                Digits::Fixed(2),
+            ),
+        )
+        .notes([note])
+        .notes((left > 0).then_some(less)))
 }
 
 /// What the test sees of the parameters, at the first model and at the best factors: 95 % intervals, and who is blind or parallel.

@@ -302,23 +302,24 @@ fn a_mistake_is_exit_status_2_on_one_line_and_nothing_is_written() {
     assert!(!out.exists());
 }
 
-/// Factors of point masses cannot be written into the deck; the report of the correlation is there all the same.
+/// A new property would need a number above the largest that a deck may have; the report of the correlation is there all the same.
 #[test]
 fn a_report_is_written_although_its_deck_cannot_be() {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, file) in crate::common::jobs::rods() {
-        let masses = "elements = [1]\nmasses = [12]\nscales = \"mass\"";
-        fs::write(
-            folder.path().join(name),
-            file.replacen("elements = [1]", masses, 1),
-        )
-        .expect("written");
+        let text = file
+            .replace("\"2-3\"", "2")
+            .replace(",2,2,3\n", ",99999999,2,3\n");
+        let text = text
+            .replace(",2,3,4\n", ",99999999,3,4\n")
+            .replace("PROD,2,", "PROD,99999999,");
+        fs::write(folder.path().join(name), text).expect("written");
     }
     let out = folder.path().join("out");
     let output = correlate(&folder.path().join("job.toml"), &["--folder", words(&out)]);
     assert_eq!(output.status.code(), Some(2));
     assert!(
-        text(&output.stderr).contains("parameter \"a\" scales point masses"),
+        text(&output.stderr).contains("99999999"),
         "{}",
         text(&output.stderr)
     );
@@ -419,4 +420,83 @@ fn starts_and_seed_are_taken_from_the_command_line() {
         Some(2),
         "a seed without starts"
     );
+}
+
+#[test]
+fn a_factor_of_point_masses_is_in_the_corrected_deck() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, file) in crate::common::jobs::rods() {
+        let masses = "masses = [\"12-14\"]\nscales = \"mass\"";
+        let text = file.replacen("elements = [\"2-3\"]", masses, 1);
+        fs::write(folder.path().join(name), text).expect("written");
+    }
+    let out = folder.path().join("out");
+    let output = correlate(&folder.path().join("job.toml"), &["--folder", words(&out)]);
+    assert_ne!(output.status.code(), Some(2), "{}", text(&output.stderr));
+    let factor = json(&out.join("correlation.json"))["factors"][1]
+        .as_f64()
+        .expect("a factor");
+    let deck = fs::read(out.join("corrected.bdf")).expect("a deck");
+    let masses = corfem::files::deck::read("corrected.bdf", &deck, &[])
+        .expect("it reads")
+        .model
+        .masses;
+    assert!(
+        factor != 1.0
+            && masses
+                .iter()
+                .all(|point| (point.mass - factor).abs() <= FIELD_ROUNDING * factor),
+        "{masses:?}"
+    );
+}
+
+/// A job's numbers are in whatever units its model and its test have.
+#[test]
+fn documents_of_a_job_have_no_units_but_its_own() {
+    let job = folder_of("building").join("job.toml");
+    for command in ["check", "correlate"] {
+        let output = corfem(&[command, words(&job), "-q", "-f", "json"]);
+        let document: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        assert_eq!(
+            document["units"],
+            "the model's own units, hertz; errors are fractions"
+        );
+    }
+}
+
+#[test]
+fn a_job_without_parameters_can_be_checked() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, file) in crate::common::jobs::rods() {
+        let end = file.find("[[parameter]]").unwrap_or(file.len());
+        fs::write(folder.path().join(name), &file[..end]).expect("written");
+    }
+    let job = folder.path().join("job.toml");
+    let checked = corfem(&["check", words(&job), "-q"]);
+    assert_ne!(checked.status.code(), Some(2), "{}", text(&checked.stderr));
+    assert!(text(&checked.stdout).contains("Sensors on the model"));
+    assert_eq!(correlate(&job, &[]).status.code(), Some(2));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_folder_that_is_a_link_to_nothing_is_refused_before_the_run() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let link = folder.path().join("link");
+    std::os::unix::fs::symlink("nowhere", &link).expect("linked");
+    for place in [words(&link), "nowhere/.."] {
+        let job = folder_of("building").join("job.toml");
+        let output = correlate(&job, &["--folder", place]);
+        assert_eq!(
+            (output.status.code(), output.stdout.len()),
+            (Some(2), 0),
+            "{place}"
+        );
+        assert!(
+            text(&output.stderr).starts_with("corfem: cannot write"),
+            "{}",
+            text(&output.stderr)
+        );
+    }
+    assert_eq!(names(folder.path()), ["link"]);
 }

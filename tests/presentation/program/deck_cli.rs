@@ -170,11 +170,12 @@ fn shapes_are_split_into_tables_of_nine_modes() {
         Some(0)
     );
     let more = corfem(&["modes", path, "--count", "12"]);
-    assert_eq!(more.status.code(), Some(2));
+    assert_eq!(more.status.code(), Some(0));
     assert_eq!(
         text(&more.stderr),
-        "corfem: modes of finite frequency: 12 asked for, but there are only 11\n"
+        "corfem: 12 modes asked for; all 11 of finite frequency are given\n"
     );
+    assert_eq!(text(&more.stdout), text(&corfem(&["modes", path]).stdout));
 }
 
 #[test]
@@ -315,6 +316,112 @@ fn a_card_of_a_set_that_is_not_selected_is_reported_as_such() {
     };
     assert_eq!(
         corfem::present::tables::deck::not_read(&unread),
-        "Not read: MPC (line 7, 2 cards), of a set that case control does not select."
+        "Not read: MPC (line 7, 2 cards), of a set that the first subcase does not select."
     );
+}
+
+/// The chain of [`BARS`] and another mass, as a deck, as Matrix Market and as DMIG.
+#[test]
+fn modes_of_matrices_are_those_of_their_deck() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
+    let write = |name: &str, text: &str| std::fs::write(path(name), text).expect("written");
+    write(
+        "chain.dat",
+        "GRID,1,,0.,0.,0.,,123\nGRID,2,,10.,0.,0.,,23\nGRID,3,,20.,0.,0.,,23\nCROD,1,1,1,2\nCROD,2,1,2,3\nPROD,1,1,.01\n\
+         MAT1,1,1.+6,,.3\nCMASS2,7,.4,2,1\nCMASS2,8,.1,3,1\n",
+    );
+    let market = "%%MatrixMarket matrix coordinate real symmetric\n2 2";
+    write(
+        "k.mtx",
+        &format!("{market} 3\n1 1 2000.\n2 1 -1000.\n2 2 1000.\n"),
+    );
+    write("m.mtx", &format!("{market} 2\n1 1 .4\n2 2 .1\n"));
+    write(
+        "both.pch",
+        "DMIG,K,0,6,2,0\nDMIG,K,2,1,,2,1,2000.\nDMIG,K,2,1,,3,1,-1000.\nDMIG,K,3,1,,3,1,1000.\n\
+         DMIG,M,0,6,2,0\nDMIG,M,2,1,,2,1,.4\nDMIG,M,3,1,,3,1,.1\n",
+    );
+    let modes = |arguments: &[&str]| {
+        let output = corfem(&[&["modes", "-f", "json"], arguments].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        serde_json::from_slice::<Value>(&output.stdout).expect("JSON")
+    };
+    let matrices = |stiffness: &str, mass: &str| {
+        modes(&["--stiffness", &path(stiffness), "--mass", &path(mass)])
+    };
+    let deck = modes(&[&path("chain.dat")]);
+    let [plain, named] = [
+        matrices("k.mtx", "m.mtx"),
+        matrices("both.pch#K", "both.pch#M"),
+    ];
+    for found in [&plain, &named] {
+        for (found, expected) in frequencies(found).iter().zip(frequencies(&deck)) {
+            approx::assert_relative_eq!(*found, expected, max_relative = DECK_ROUNDING);
+        }
+        assert_eq!(frequencies(found).len(), 2);
+        assert_eq!(
+            found["units"],
+            "the model's own units, hertz; errors are fractions"
+        );
+    }
+    assert_eq!(
+        (&named["dof"], plain["dof"].as_array().map(Vec::len)),
+        (&deck["dof"], Some(0))
+    );
+    let arguments = [
+        "modes",
+        "--stiffness",
+        &path("k.mtx"),
+        "--mass",
+        &path("m.mtx"),
+        "-c",
+        "5",
+    ];
+    let report = corfem(&arguments);
+    assert!(
+        text(&report.stdout).contains("\nrow 1 "),
+        "{}",
+        text(&report.stdout)
+    );
+    assert_eq!(
+        text(&report.stderr),
+        "corfem: 5 modes asked for; all 2 of finite frequency are given\n"
+    );
+    for (arguments, said) in [
+        (vec!["--stiffness", &path("k.mtx")], "--mass"),
+        (vec!["--mass", &path("m.mtx")], "--stiffness"),
+        (
+            vec![
+                &path("chain.dat")[..],
+                "--stiffness",
+                &path("k.mtx"),
+                "--mass",
+                &path("m.mtx"),
+            ],
+            "cannot be used with",
+        ),
+        (
+            vec!["--stiffness", &path("no.mtx"), "--mass", &path("m.mtx")],
+            "no.mtx (--stiffness",
+        ),
+        (
+            vec![
+                "--stiffness",
+                &path("both.pch#K"),
+                "--mass",
+                &path("both.pch"),
+            ],
+            "the file has K, M",
+        ),
+        (vec![], "DECK"),
+    ] {
+        let refused = corfem(&[&["modes"], &arguments[..]].concat());
+        assert_eq!(refused.status.code(), Some(2), "{arguments:?}");
+        assert!(
+            text(&refused.stderr).contains(said),
+            "{}",
+            text(&refused.stderr)
+        );
+    }
 }

@@ -199,17 +199,39 @@ fn the_more_rows_a_matrix_has_the_larger_its_smallest_eigenvalue_must_be() {
 }
 
 #[test]
-fn a_difference_between_triangles_is_told_relative_to_the_largest_entry() {
-    let lopsided = SparseMatrix::new("m", 2, 2, vec![(0, 0, 8.0), (0, 1, 3.0), (1, 0, 1.0)])
-        .expect("a matrix");
-    let Err(Error::NotSymmetric {
-        row,
-        column,
-        difference,
-        ..
-    }) = lopsided.check_symmetric("m")
-    else {
-        panic!("it is not symmetric")
+fn a_difference_between_triangles_is_told_relative_to_the_rows_it_is_in() {
+    // A soft pair of rows beside a row a million million times as stiff.
+    let soft = |above: f64| {
+        let entries = vec![
+            (0, 0, 1e12),
+            (1, 1, 4.0),
+            (2, 2, 1.0),
+            (1, 2, above),
+            (2, 1, 1.0),
+        ];
+        SparseMatrix::new("m", 3, 3, entries).expect("a matrix")
     };
-    assert_eq!((row, column, difference), (1, 0, 0.25));
+    let found = |above: f64| match soft(above).check_symmetric("m") {
+        Err(Error::NotSymmetric {
+            row,
+            column,
+            difference,
+            ..
+        }) => Some((row, column, difference)),
+        _ => None,
+    };
+    assert_eq!(found(1.5), Some((2, 1, 0.25)), "over the root of 4 times 1");
+    assert_eq!(
+        found(5.0),
+        Some((2, 1, 1.0)),
+        "over the difference, which is larger"
+    );
+    assert_eq!(found(1.0 + 1e-12), None, "round-off");
+    // Without a diagonal an entry is its own scale.
+    let saddle = |above: f64| {
+        SparseMatrix::new("m", 2, 2, vec![(0, 1, above), (1, 0, 2.0)])
+            .expect("a matrix")
+            .check_symmetric("m")
+    };
+    assert!(saddle(2.0 + 1e-12).is_ok() && saddle(2.0 + 1e-9).is_err());
 }
