@@ -70,7 +70,7 @@ impl DrawnModes {
         let [first, corrected] = checks.map(|check| pairing::paired(&check.modes, &check.pairing));
         let states = [test.clone(), first?, corrected?];
         let mode = |mode: usize| DrawnMode {
-            number: report.mode_numbers[mode],
+            number: report.mode_number(mode),
             hertz: states.each_ref().map(|modes| modes.frequencies_hz()[mode]),
             moved: [0, 1, 2].map(|state| {
                 let grids = report

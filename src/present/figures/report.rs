@@ -181,7 +181,10 @@ pub fn mode_agreement(report: &Report) -> Result<Vec<HeatMap>, Error> {
 
 /// The numbers of the test modes in the test's file.
 fn mode_labels(report: &Report) -> Vec<String> {
-    report.mode_numbers.iter().map(usize::to_string).collect()
+    let places = 0..report.test.len();
+    places
+        .map(|place| report.mode_number(place).to_string())
+        .collect()
 }
 
 /// Derivatives at the first model, parameters by test modes and by the error sum.

@@ -214,6 +214,11 @@ impl Report {
             .is_some_and(|verdict| verdict.is_within)
     }
 
+    /// The number of a test mode (its place from zero) in the test's file; its place from one where that is not known.
+    pub fn mode_number(&self, place: usize) -> usize {
+        self.mode_numbers.get(place).copied().unwrap_or(place + 1)
+    }
+
     /// The verdict in words, after what stands against it.
     pub fn words(&self) -> String {
         let against = self

@@ -29,7 +29,7 @@ fn table_of(report: &Report, name: &str, title: &str, label: &'static str) -> Ta
 pub fn paired_table(report: &Report) -> Result<Table, Error> {
     let test_hz = report.test.frequencies_hz();
     let mut table = table_of(report, "modes", "test modes and their partners", "Mode")
-        .labels(&report.mode_numbers)
+        .labels((0..test_hz.len()).map(|mode| report.mode_number(mode)))
         .labels(["frequency RMS", "shape RMS"])
         .column("Test", "Hz", numbers(test_hz.iter().copied(), HERTZ));
     let mut verdict = (String::new(), Vec::new());
@@ -173,7 +173,7 @@ pub fn history_table(report: &Report) -> Table {
         );
     }
     let words = |[pass, test, from, to]: [usize; 4]| {
-        let test = report.mode_numbers[test - 1];
+        let test = report.mode_number(test - 1);
         format!("in pass {pass} test mode {test} from {from} to {to}")
     };
     let words = swaps(report)
@@ -182,7 +182,18 @@ pub fn history_table(report: &Report) -> Table {
         .collect::<Vec<_>>()
         .join("; ");
     let swapped = (!words.is_empty()).then(|| format!("Other modes of the model answer: {words}."));
-    table.notes(swapped).notes([report.words()])
+    let (sum, compared) = (
+        report.corrected().errors.sum(),
+        report.verdict.as_ref().map(|verdict| verdict.error_sum),
+    );
+    let measure = compared.filter(|compared| sum > 0.0 && *compared != sum);
+    let measure = measure.map(|compared| {
+        format!(
+            "Tolerances are those of nine modes: the verdict's error sum is {:.2} times the table's.",
+            compared / sum
+        )
+    });
+    table.notes(swapped).notes(measure).notes([report.words()])
 }
 
 /// Test modes that another mode of the model answers than before: stage, test mode, and the two modes, all from one.
@@ -208,8 +219,8 @@ pub fn derivative_table(report: &Report) -> Option<Table> {
     let derivatives = report.derivatives.as_ref()?;
     let title = "derivatives at the first model, for one percent of each parameter";
     let mut table = table_of(report, "derivatives", title, "Parameter").labels(&report.parameters);
-    let modes = report.mode_numbers.iter();
-    for (mode, column) in modes.zip(derivatives.frequency.column_iter()) {
+    for (place, column) in derivatives.frequency.column_iter().enumerate() {
+        let mode = report.mode_number(place);
         table = table.column(
             format!("Mode {mode}"),
             "%",
