@@ -21,10 +21,6 @@ use std::sync::Arc;
 /// Modal assurance below which a test mode counts as without a partner.
 pub(super) const FLOOR: f64 = 0.5;
 
-/// Largest overlap of the model's own modes by the condensed mass at which that mass still serves for cross-orthogonality: half of
-/// what counts as acceptable.
-const LARGEST_OVERLAP: f64 = 0.05;
-
 /// A job with everything it names read and matched.
 #[derive(Debug, Clone)]
 pub struct LoadedJob {
@@ -42,12 +38,14 @@ pub struct LoadedJob {
     pub sensors: SparseMatrix,
     /// The test modes to compare, at the placed sensors.
     pub test: ModeSet,
-    /// Their places in the test's file, from zero.
+    /// Their places in the test's file, from zero, ascending in frequency.
     pub modes: Vec<usize>,
     /// Test modes, from zero, that resemble no mode of the first model, with their largest modal assurance.
     pub unpaired: Vec<(usize, f64)>,
     /// Test modes, from zero, that were left out at first and are compared since.
     pub joined: Vec<usize>,
+    /// Test modes, from zero, that several modes of the first model resemble equally, and which are paired in the order of frequencies.
+    pub undecided: Vec<usize>,
     /// Identifiers of the doubts that the user answers for.
     pub accepted: Vec<String>,
     /// How many modes of the model are taken.
@@ -104,7 +102,8 @@ impl LoadedJob {
         job.refuse_if(several, |starts| {
             format!("compare.starts is {starts}, but method \"paper\" has one start")
         })?;
-        let modes: Vec<usize> = numbers.iter().map(|mode| mode - 1).collect();
+        let mut modes: Vec<usize> = numbers.iter().map(|mode| mode - 1).collect();
+        modes.sort_by(|&a, &b| data.frequencies_hz[a].total_cmp(&data.frequencies_hz[b]));
         let test = measured(&data, &placed, &modes)?;
         let usual = modes.len() + (modes.len() / 2).max(4);
         let most = source.whole.dof_count();
@@ -120,6 +119,7 @@ impl LoadedJob {
             modes,
             unpaired: Vec::new(),
             joined: Vec::new(),
+            undecided: Vec::new(),
             accepted: Vec::new(),
             analysis_modes,
             first: None,
@@ -194,7 +194,15 @@ impl LoadedJob {
             }
             Err(_) => return first.map(drop).map_err(FileError::from),
         };
-        let assurance = modal_assurance(&shapes, &self.test.shapes)?;
+        let assurance = decided(&modal_assurance(&shapes, &self.test.shapes)?);
+        self.undecided = (0..assurance.ncols())
+            .filter(|&mode| {
+                let column = assurance.column(mode);
+                let most = column.max();
+                column.iter().filter(|close| **close == most).count() > 1
+            })
+            .map(|mode| self.modes[mode])
+            .collect();
         let partners = pair_optimally(&assurance, FLOOR)?;
         let kept: Vec<usize> = (0..partners.len())
             .filter(|&mode| partners[mode].is_some())
@@ -252,29 +260,24 @@ impl LoadedJob {
             return Ok(again);
         }
         again.modes.extend(&joined);
-        again.modes.sort_unstable();
+        let hertz = &self.data.frequencies_hz;
+        again.modes.sort_by(|&a, &b| hertz[a].total_cmp(&hertz[b]));
         again.test = measured(&self.data, &self.placed, &again.modes)?;
         again.joined.extend(joined);
         again.first = None;
         Ok(again)
     }
 
-    /// The mass at the sensors that cross-orthogonality is to be measured with: the condensed one where the model's own modes are
-    /// orthogonal with it, else that of the lowest modes themselves; none where these are too alike at the sensors.
+    /// The mass at the sensors that cross-orthogonality is to be measured with: that of the modes of a model that the test modes are
+    /// paired with, whatever other modes are taken; none where these are too alike at the sensors, or a test shape has no part of them.
     pub fn mass_at_sensors(&self, model: &ModalModel) -> Option<DMatrix<f64>> {
-        let shapes = &model.exact.modes.shapes;
-        let count = shapes.ncols().min(shapes.nrows());
-        let lowest = shapes.columns(0, count.min(self.test.len())).into_owned();
-        let identity = DMatrix::identity(lowest.ncols(), lowest.ncols());
-        let apart = |mass: &DMatrix<f64>| (lowest.tr_mul(&(mass * &lowest)) - &identity).amax();
-        let condensed = self
-            .source
-            .whole
-            .condensed(&self.ones(), &self.sensors)
-            .ok()
-            .map(|(_, mass)| mass);
-        let fitting = condensed.filter(|mass| apart(mass) <= LARGEST_OVERLAP);
-        fitting.or_else(|| mass_by_modes(&shapes.columns(0, count).into_owned()).ok())
+        let exact = &model.exact;
+        let paired = exact
+            .modes
+            .shapes
+            .select_columns(&exact.pairing.analysis_mode);
+        let mass = mass_by_modes(&paired).ok()?;
+        model.test.scaled_with(&mass).ok().map(|_| mass)
     }
 
     /// Names of the parameters.
@@ -352,9 +355,16 @@ fn measured(data: &TestData, placed: &[PlacedSensor], modes: &[usize]) -> Result
     ModeSet::from_measured(&frequencies, &shapes)
 }
 
+/// Squared closeness to the digits that shapes decide: a sum of products of up to four thousand sensors is rounded by less than
+/// $2^{-40}$. Equal ones then tie, and a tie goes by the order of the modes, which ascend in frequency.
+fn decided(closeness: &DMatrix<f64>) -> DMatrix<f64> {
+    let digits = 40.0_f64.exp2();
+    closeness.map(|close| (digits * close).round() / digits)
+}
+
 /// The pairs with the largest sum of squared closeness, every test mode with one.
 fn pair_by_assignment(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
-    let partners = pair_optimally(&cross.component_mul(cross), 0.0)?;
+    let partners = pair_optimally(&decided(&cross.component_mul(cross)), 0.0)?;
     let (available, requested) = cross.shape();
     let analysis_mode: Option<Vec<usize>> = partners.into_iter().collect();
     let analysis_mode = analysis_mode.ok_or(Error::TooMany {

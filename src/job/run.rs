@@ -4,6 +4,7 @@ use super::{LoadedJob, Method, Trust};
 use crate::files::deck::rewrite;
 use crate::files::error::FileError;
 use crate::method::derivatives::error_changes;
+use crate::method::error::Error;
 use crate::method::error_sum::{ModeWeight, mode_errors};
 use crate::method::model::{Bounds, ModalModel};
 use crate::method::outer_loop::{Correlation, Pass, compared_sum, correlate_while, meets};
@@ -304,7 +305,17 @@ fn run_part(
                 &ranges,
                 settings,
                 &mut report_pass,
-            )?;
+            )
+            .map_err(|error: Error| {
+                if error.is_of_close_modes() {
+                    let other = "compare.method = \"gauss_newton\" needs none";
+                    loaded.job.refused(format!(
+                        "the paper's loops need modes that stay apart: {error}; {other}"
+                    ))
+                } else {
+                    error.into()
+                }
+            })?;
             for pass in &mut run.passes {
                 pass.factors = total(&pass.factors);
             }
@@ -318,6 +329,9 @@ fn run_part(
             let starts = compare.starts.unwrap_or(1);
             let mut best: Option<(f64, Vec<f64>)> = None;
             let analyze = |factors: &[f64]| {
+                if is_interrupted.get() {
+                    return Err(FileError::Interrupted);
+                }
                 let model = analyze(factors)?;
                 let objective = residuals(&model, &weights)?.norm_squared();
                 if best.as_ref().is_none_or(|(least, _)| objective < *least) {
@@ -339,11 +353,11 @@ fn run_part(
                 }
             };
             match found {
-                Ok((run, reached)) => {
+                Ok((run, reached)) if !is_interrupted.get() => {
                     let factors = run.factors.clone();
                     (History::GaussNewton(Some((run, reached))), factors)
                 }
-                Err(FileError::Interrupted) => (
+                Ok(_) | Err(FileError::Interrupted) => (
                     History::GaussNewton(None),
                     best.map_or(ones, |(_, factors)| factors),
                 ),

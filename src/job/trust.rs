@@ -43,6 +43,8 @@ pub struct Trust {
     pub concerns: Vec<Concern>,
     /// Selected test modes that resemble no mode of the best model, and so are not compared.
     pub not_compared: Vec<NotCompared>,
+    /// Test modes, by their numbers in the test's file, that several modes of the first model resemble equally.
+    pub undecided: Vec<usize>,
     /// Test modes, by their numbers in the test's file, that were left out at first and are compared since.
     pub joined: Vec<usize>,
     /// Whether the run was stopped by request.
@@ -135,6 +137,7 @@ impl Trust {
         Ok(Self {
             concerns,
             not_compared: not_compared(&loaded.unpaired),
+            undecided: from_one(&loaded.undecided),
             joined: Vec::new(),
             is_interrupted: false,
             not_selected: (1..=data.frequencies_hz.len())
@@ -232,6 +235,15 @@ impl Trust {
             )
         });
         let others = [
+            remark(
+                !self.undecided.is_empty(),
+                "undecided",
+                format!(
+                    "Shapes do not decide which modes of the model are those of test modes {}; they are paired in the order of \
+                     frequencies.",
+                    numbers(&self.undecided)
+                ),
+            ),
             remark(
                 !self.joined.is_empty(),
                 "joined",

@@ -105,14 +105,14 @@ struct Iterate {
 /// for the parameters that the gradient does not press against a bound. Those it takes beyond one stop there and the
 /// others are solved for anew. It is taken if the exact objective falls. With $\rho$, the fall over the one that the
 /// quadratic model promised, $\mu$ is multiplied by $\max(\frac{1}{3}, 1 - (2\rho - 1)^3)$ then, and by 2, 4, 8, ... in
-/// rejections on end. Test modes are paired anew at every place.
+/// rejections on end. A step to where `analyze` fails is rejected as well. Test modes are paired anew at every place.
 ///
 /// `analyze` and `ranges` are those of [`crate::method::outer_loop::correlate`]. Source: Marquardt, *SIAM Journal* 11
 /// (1963), 431; Nielsen, *Damping Parameter in Marquardt's Method*, IMM-REP-1999-05, Technical University of Denmark
 /// (1999).
 ///
 /// # Errors
-/// Those of `analyze`, [`residuals`] and [`identifiability`]; [`Error::Setting`], [`Error::Limits`] and [`Error::WrongShape`] for
+/// Those of `analyze` at the first factors, of [`residuals`] and [`identifiability`]; [`Error::Setting`], [`Error::Limits`] and [`Error::WrongShape`] for
 /// settings and lists out of range.
 pub fn gauss_newton<E: From<Error>>(
     mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
@@ -194,13 +194,15 @@ pub fn gauss_newton<E: From<Error>>(
             break WeightedStop::Step;
         }
         trials += 1;
-        let next = place_at(
-            factors
-                .iter()
-                .zip(&step)
-                .map(|(factor, step)| factor * step.exp())
-                .collect(),
-        )?;
+        let trial = factors
+            .iter()
+            .zip(&step)
+            .map(|(factor, step)| factor * step.exp());
+        // A place without a model is no better than this one.
+        let Ok(next) = place_at(trial.collect()) else {
+            (damping, growth) = (damping * growth, 2.0 * growth);
+            continue;
+        };
         let promised = -gradient.dot(&step) - 0.5 * step.dot(&(curvature * &step));
         let fall = place.objective - next.objective;
         if !(fall > 0.0 && promised > 0.0) {
@@ -271,10 +273,11 @@ fn bounded_step(
 }
 
 /// [`gauss_newton`] from factors of one, and from `starts` − 1 random places: factors from 0.5 to 2, log-uniformly by
-/// [`uniform`] from `seed`, brought within their bounds. Returns the best, and how many reach its objective to a thousandth.
+/// [`uniform`] from `seed`, brought within their bounds. Returns the best, and how many reach its objective to a thousandth. A start
+/// that fails is left out.
 ///
 /// # Errors
-/// Those of [`gauss_newton`]; [`Error::Empty`] without starts.
+/// Those of [`gauss_newton`] of the last start when all fail; [`Error::Empty`] without starts.
 pub fn from_several_starts<E: From<Error>>(
     mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
     ranges: &[Option<Bounds>],
@@ -285,19 +288,28 @@ pub fn from_several_starts<E: From<Error>>(
 ) -> Result<(WeightedCorrelation, usize), E> {
     let (mut state, mut objectives, mut best): (u64, Vec<f64>, Option<WeightedCorrelation>) =
         (seed, Vec::new(), None);
+    let mut failed = Error::Empty { what: "starts" }.into();
     let mut draw = || 0.5 * 4.0_f64.powf(uniform(&mut state));
     for start in 0..starts {
         let first: Vec<f64> = ranges
             .iter()
             .map(|_| if start == 0 { 1.0 } else { draw() })
             .collect();
-        let found = gauss_newton(&mut analyze, &first, ranges, weights, settings)?;
+        let found = match gauss_newton(&mut analyze, &first, ranges, weights, settings) {
+            Ok(found) => found,
+            Err(error) => {
+                failed = error;
+                continue;
+            }
+        };
         objectives.push(found.objective);
         best = best
             .filter(|best| best.objective <= found.objective)
             .or(Some(found));
     }
-    let best = best.ok_or(Error::Empty { what: "starts" })?;
+    let Some(best) = best else {
+        return Err(failed);
+    };
     let reached = objectives
         .iter()
         .filter(|&&objective| objective <= best.objective + SAME_OBJECTIVE)

@@ -296,12 +296,17 @@ impl Report {
         for (&mode, &sign) in check.pairing.analysis_mode.iter().zip(&check.pairing.sign) {
             modes.shapes.column_mut(mode).scale_mut(sign);
         }
-        let orthogonality = |mass| {
-            cross_orthogonality(
-                &modes.scaled_with(mass)?,
-                &self.test.scaled_with(mass)?,
-                mass,
-            )
+        // The paired modes are brought to unit generalized mass as well; the mass need not know of the others.
+        let orthogonality = |mass: &DMatrix<f64>| {
+            let mut unit = modes.clone();
+            for &mode in &check.pairing.analysis_mode {
+                let mut shape = unit.shapes.column_mut(mode);
+                let generalized_mass = shape.dot(&(mass * &shape));
+                if generalized_mass > 0.0 {
+                    shape /= generalized_mass.sqrt();
+                }
+            }
+            cross_orthogonality(&unit, &self.test.scaled_with(mass)?, mass)
         };
         Ok(PairAgreement {
             assurance: modal_assurance(&modes.shapes, &self.test.shapes)?,

@@ -78,9 +78,15 @@ pub fn paired_table(report: &Report) -> Result<Table, Error> {
         Some(_) => "cross-orthogonality",
         None => "modal assurance criterion (no mass is known)",
     };
+    let is_of_job = report.mass.is_some() && report.trust.is_some();
+    let by = if is_of_job {
+        " The mass is that of the paired modes of the corrected model."
+    } else {
+        ""
+    };
     let note = format!(
         "Others: the largest {measure} of either mode with any but its partner. Good: at least 0.95, others at most 0.05; \
-        acceptable: 0.90 and 0.10. MAC is not mass-weighted. Shape RMS: of components, largest one, over all modes."
+        acceptable: 0.90 and 0.10.{by} MAC is not mass-weighted. Shape RMS: of components, largest one, over all modes."
     );
     let solver = solver_note(&report.solver, " of the model", ";");
     Ok(table

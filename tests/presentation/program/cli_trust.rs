@@ -21,6 +21,7 @@ fn full() -> Trust {
             mode: 7,
             assurance: 0.31,
         }],
+        undecided: vec![3, 4],
         joined: vec![5],
         is_interrupted: true,
         not_selected: vec![9],
@@ -44,9 +45,10 @@ fn unbroken(text: &str) -> String {
 #[test]
 fn every_field_of_the_account_of_trust_is_said() {
     type Emptied = (&'static str, fn(&mut Trust));
-    let emptied: [Emptied; 13] = [
+    let emptied: [Emptied; 14] = [
         ("concerns", |trust| trust.concerns.clear()),
         ("not_compared", |trust| trust.not_compared.clear()),
+        ("undecided", |trust| trust.undecided.clear()),
         ("joined", |trust| trust.joined.clear()),
         ("is_interrupted", |trust| trust.is_interrupted = false),
         ("not_selected", |trust| trust.not_selected.clear()),
@@ -304,4 +306,59 @@ fn a_stopped_run_says_so_in_words_and_in_its_verdict() {
     let all = render::text(&[trust_table(&result.trust)]);
     assert!(all.contains("Stopped by request"), "{all}");
     assert!(result.verdict.is_within || report.words().contains("It was stopped by request."));
+}
+
+/// With one sensor all shapes are alike: the order of frequencies decides, and every output says so.
+#[test]
+fn what_shapes_do_not_decide_is_paired_by_frequency_and_said() {
+    let mut files = rods();
+    let csv = &mut files
+        .iter_mut()
+        .find(|(name, _)| name == "test.csv")
+        .expect("a test")
+        .1;
+    *csv = csv
+        .lines()
+        .filter(|line| !line.starts_with("2,") && !line.starts_with("3,"))
+        .map(|line| format!("{line}\n"))
+        .collect();
+    let (_folder, path) = placed(&files);
+    let loaded = LoadedJob::new(&path).expect("it loads");
+    assert_eq!(loaded.placed.len(), 1);
+    assert_eq!(loaded.undecided, [0, 1, 2]);
+    let model = loaded.analyze(&[1.0; 2]).expect("a model");
+    assert_eq!(model.exact().pairing.analysis_mode(), [0, 1, 2]);
+    let trust = Trust::before(&loaded).expect("an account");
+    assert_eq!(trust.undecided, [1, 2, 3]);
+    let all = unbroken(&render::text(&[trust_table(&trust)]));
+    assert!(
+        all.contains("those of test modes 1, 2, 3; they are paired in the order of frequencies."),
+        "{all}"
+    );
+}
+
+/// One root three times, and parts that would split it: no perturbation of single modes can follow.
+#[test]
+fn repeated_roots_in_the_papers_loops_name_the_other_method() {
+    let repeated = |method: &str| {
+        let mut files = mixed(method);
+        let whole = DMatrix::from_diagonal_element(3, 3, 1000.0);
+        let part = oscillators([300.0, 310.0, 320.0], 60.0);
+        for (name, text) in &mut files {
+            match &name[..] {
+                "K.mtx" => *text = market(&whole),
+                "P0.mtx" | "P1.mtx" => *text = market(&(0.5 * &part)),
+                "P2.mtx" => *text = market(&(&whole - &part)),
+                _ => {}
+            }
+        }
+        let (_folder, path) = placed(&files);
+        let loaded = LoadedJob::new(&path).expect("it loads");
+        run(&loaded, |_| {}, || true)
+    };
+    let refused = repeated("paper").expect_err("coalescing").to_string();
+    assert!(
+        refused.contains("compare.method = \"gauss_newton\" needs none"),
+        "{refused}"
+    );
 }
