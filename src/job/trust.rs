@@ -1,13 +1,22 @@
 //! What lowers the trust in a job's result, collected in one place.
 
 use super::LoadedJob;
-use super::preflight::{Finding, preflight};
+use super::loaded::measured;
+use super::preflight::{Finding, LARGEST_TOLERANCE, Names, SeenModes, preflight_at_sensors};
+use super::sensors::{PlacedSensor, motion};
 use crate::files::error::FileError;
-use crate::method::model::DynamicModel;
+use crate::method::modes::ModeSet;
+use crate::sparse::modes_at_most;
+use crate::weighted::noise::Noise;
+use nalgebra::Vector3;
 use serde::Serialize;
 
 /// Modal phase collinearity below which a complex test mode is doubtful as a real one.
 const COLLINEAR: f64 = 0.95;
+
+/// Span of the sensors' places over the model's from which they are in another unit: the least factor between two customary units
+/// of length is 2.54, and sensors sit on the structure.
+const LARGEST_SPAN: f64 = 2.0;
 
 /// Something that a reader must know before trusting a result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -44,8 +53,7 @@ impl LoadedJob {
     /// left aside.
     ///
     /// # Errors
-    /// Those of [`preflight`] and of the analyses it needs; a structure without supports has no condensed model to check, and a
-    /// sentence says so.
+    /// Those of [`preflight_at_sensors`] and of the analysis it needs.
     pub fn concerns(&self) -> Result<Vec<Concern>, FileError> {
         let mut all = self.preflight_concerns()?;
         for (mode, assurance) in &self.unpaired {
@@ -86,26 +94,92 @@ impl LoadedJob {
         Ok(all)
     }
 
-    /// What the pre-flight finds.
+    /// What the pre-flight finds, in all modes of the test.
     fn preflight_concerns(&self) -> Result<Vec<Concern>, FileError> {
         let whole = &self.source.whole;
-        match whole.condensed(&self.ones(), &self.sensors) {
-            Ok((condensed, mass)) => {
-                let model = DynamicModel {
-                    stiffness: condensed.stiffness,
-                    mass,
-                    shares: Vec::new(),
-                };
-                let findings =
-                    preflight(&model, &self.test, &self.job.correlation, &whole.ranges())?;
-                Ok(findings.iter().map(Finding::concern).collect())
-            }
-            Err(error) => Ok(vec![Concern::remark(
-                "no-preflight",
-                format!(
-                    "the pre-flight needs condensed matrices, which this model does not have: {error}"
-                ),
-            )]),
-        }
+        let left_out = self.unpaired.iter().map(|(mode, _)| mode);
+        let mut modes: Vec<usize> = left_out.chain(&self.modes).copied().collect();
+        modes.sort_unstable();
+        modes.dedup();
+        let test = measured(&self.data, &self.placed, &modes)?;
+        let (stiffness, mass) = whole.at(&self.ones())?;
+        let found = modes_at_most(&stiffness, &mass, 2 * self.analysis_modes)?.vibrations;
+        let (squares, shapes) = found.into_parts();
+        let along = |(place, sensor): (usize, &PlacedSensor)| {
+            let own = sensor.direction;
+            let others = (own / 3 * 3..own / 3 * 3 + 3).filter(move |other| *other != own);
+            let read = |other: usize| {
+                let axis = Vector3::ith(other % 3, 1.0);
+                let motion = motion(&self.source, sensor.grid, other, axis);
+                let rows = motion.map(|(row, coefficient)| shapes.row(row) * coefficient);
+                rows.reduce(|sum, row| sum + row)
+                    .map(|readings| (place, other, readings))
+            };
+            others.filter_map(read).collect::<Vec<_>>()
+        };
+        let seen = SeenModes {
+            directions: self.placed.iter().enumerate().flat_map(along).collect(),
+            shares: whole.shares(&self.ones(), &shapes)?,
+            modes: ModeSet::new(squares, self.sensors.times(&shapes)?)?,
+        };
+        let ranges = whole.ranges();
+        let mut found = preflight_at_sensors(&seen, &test, &self.job.correlation, &ranges)?;
+        found.extend(self.percent_deviations(&modes));
+        let names = Names {
+            sensors: self
+                .placed
+                .iter()
+                .map(|sensor| sensor.name.clone())
+                .collect(),
+            parameters: self.parameter_names().map(str::to_owned).collect(),
+            modes,
+        };
+        let concerns = found.iter().map(|finding| finding.concern(&names));
+        Ok(concerns.chain(self.places_concern()).collect())
+    }
+
+    /// Standard deviations that are given in percent.
+    fn percent_deviations(&self, modes: &[usize]) -> Vec<Finding> {
+        let largest = |of: fn(&Noise) -> f64| {
+            let all = modes.iter().map(|&mode| of(&self.deviations(mode)));
+            all.fold(0.0, f64::max)
+        };
+        let both = [
+            ("frequency_deviation", largest(|noise| noise.frequency)),
+            ("shape_deviation", largest(|noise| noise.shape)),
+        ];
+        let large = both
+            .into_iter()
+            .filter(|(_, value)| *value > LARGEST_TOLERANCE);
+        large
+            .map(|(setting, value)| Finding::Percent { setting, value })
+            .collect()
+    }
+
+    /// Sensors placed by where they are cannot span much more than the model does.
+    fn places_concern(&self) -> Option<Concern> {
+        let extent = |places: Vec<Vector3<f64>>| {
+            let first = places.first()?;
+            let (low, high) = places.iter().fold((*first, *first), |(low, high), place| {
+                (low.inf(place), high.sup(place))
+            });
+            Some((high - low).norm())
+        };
+        let measured = self
+            .placed
+            .iter()
+            .filter(|sensor| sensor.distance.is_some());
+        let measured = measured.filter_map(|sensor| self.data.sensors[sensor.row].place);
+        let (test, model) = (
+            extent(measured.collect())?,
+            extent(self.source.geometry.places.values().copied().collect())?,
+        );
+        let ratio = test / model;
+        (ratio > LARGEST_SPAN).then(|| {
+            Concern::doubt(
+                "unit-of-places",
+                format!("The sensors' places span {ratio:.1} times what the model's do: another unit of length?"),
+            )
+        })
     }
 }
