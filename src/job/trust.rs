@@ -6,7 +6,7 @@ use super::preflight::{Finding, LARGEST_TOLERANCE, Names, SeenModes, preflight_a
 use super::sensors::{PlacedSensor, motion};
 use crate::files::error::FileError;
 use crate::method::modes::ModeSet;
-use crate::sparse::modes_at_most;
+use crate::sparse::{Factor, SparseMatrix, WholeShare, modes_at_most};
 use crate::weighted::noise::Noise;
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -56,6 +56,7 @@ impl LoadedJob {
     /// Those of [`preflight_at_sensors`] and of the analysis it needs.
     pub fn concerns(&self) -> Result<Vec<Concern>, FileError> {
         let mut all = self.preflight_concerns()?;
+        all.extend(self.part_concerns()?);
         for (mode, assurance) in &self.unpaired {
             let mode = mode + 1;
             all.push(Concern::remark(
@@ -138,6 +139,51 @@ impl LoadedJob {
         Ok(concerns.chain(self.places_concern()).collect())
     }
 
+    /// Parameters' matrices that are not part of the first stiffness or mass, or given twice.
+    ///
+    /// A part leaves a semidefinite rest, which has no negative pivots (Sylvester's law of inertia). Entries rounded to single
+    /// precision, by at most $\epsilon$ of each, move no eigenvalue below
+    /// $-\epsilon \max_i \sum_j (\lvert K_{ij} \rvert + \lvert K_{e,ij} \rvert)$ (Gershgorin), which is added to the diagonal.
+    fn part_concerns(&self) -> Result<Vec<Concern>, FileError> {
+        let (stiffness, mass) = self.source.whole.at(&self.ones())?;
+        let parts: Vec<(&str, &SparseMatrix, &SparseMatrix)> = self
+            .source
+            .whole
+            .parameters()
+            .iter()
+            .filter_map(|parameter| match &parameter.share {
+                WholeShare::Stiffness(part) => Some((&parameter.name[..], part, &stiffness)),
+                WholeShare::Mass(part) => Some((&parameter.name[..], part, &mass)),
+                WholeShare::Elements(_) => None,
+            })
+            .collect();
+        let mut all = Vec::new();
+        for (place, (name, part, whole)) in parts.iter().enumerate() {
+            let identifier = name.replace(' ', "-");
+            if !is_part(part, whole)? {
+                all.push(Concern::doubt(
+                    format!("not-part-{identifier}"),
+                    format!("parameter \"{name}\": its matrix is not part of the first model's, which without it has negative energy"),
+                ));
+            }
+            for (other, twin, _) in &parts[..place] {
+                let is_same =
+                    |sign: f64| twin.times_number(sign).eq(part.entries().iter().copied());
+                let how = [
+                    (1.0, "the same matrix"),
+                    (-1.0, "matrices of opposite sign"),
+                ];
+                for (_, how) in how.into_iter().filter(|(sign, _)| is_same(*sign)) {
+                    all.push(Concern::doubt(
+                        format!("twin-{}-{identifier}", other.replace(' ', "-")),
+                        format!("parameters \"{other}\" and \"{name}\" have {how}"),
+                    ));
+                }
+            }
+        }
+        Ok(all)
+    }
+
     /// Standard deviations that are given in percent.
     fn percent_deviations(&self, modes: &[usize]) -> Vec<Finding> {
         let largest = |of: fn(&Noise) -> f64| {
@@ -182,4 +228,23 @@ impl LoadedJob {
             )
         })
     }
+}
+
+/// Whether the whole without a part is semidefinite.
+fn is_part(part: &SparseMatrix, whole: &SparseMatrix) -> Result<bool, FileError> {
+    let count = whole.rows();
+    let mut sums = vec![0.0; count];
+    for &(row, _, entry) in whole.entries().iter().chain(part.entries()) {
+        sums[row] += entry.abs();
+    }
+    let shift = f64::from(f32::EPSILON) * sums.iter().copied().fold(0.0, f64::max);
+    let entries = whole
+        .entries()
+        .iter()
+        .copied()
+        .chain(part.times_number(-1.0));
+    let entries = entries.chain((0..count).map(|row| (row, row, shift)));
+    let rest = SparseMatrix::new("rest", count, count, entries.collect())?;
+    // A rest that cannot be factorized accuses nobody.
+    Ok(!Factor::new("rest", &rest).is_ok_and(|factor| factor.negative_count() > 0))
 }

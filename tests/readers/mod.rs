@@ -11,6 +11,7 @@ pub mod deck_numbers;
 pub mod deck_reading;
 pub mod deck_rewrite;
 pub mod deck_rewrite_drawn;
+pub mod job_concerns;
 pub mod job_errors;
 pub mod job_matrices;
 pub mod job_prepared;

@@ -35,7 +35,7 @@ const LEAST_GAIN: f64 = 1.5;
 /// A sensor is dead when its readings are below this part of those expected.
 const DEAD: f64 = 0.1;
 /// Sensors that others predict worst, among which exchanges are tried.
-const MOST_EXCHANGED: usize = 12;
+const MOST_EXCHANGED: usize = 24;
 
 /// Modes of the model at the sensors.
 #[derive(Debug, Clone)]
@@ -47,6 +47,9 @@ pub struct SeenModes {
     /// What a sensor would read if it measured along another direction of its grid: sensor, direction, readings.
     pub directions: Vec<(usize, usize, RowDVector<f64>)>,
 }
+
+/// The mode of the model that every test mode comes from, and its sign.
+type Partners = Vec<Option<(usize, f64)>>;
 
 /// What the readings of a test mode may be if it came from one mode of the model or another.
 struct Likelihood {
@@ -145,7 +148,7 @@ impl Likelihood {
         &self,
         test: &DMatrix<f64>,
         adds: impl Fn(usize, f64, &DVector<f64>) -> f64,
-    ) -> Result<(f64, Vec<Option<(usize, f64)>>), Error> {
+    ) -> Result<(f64, Partners), Error> {
         let found: Vec<Vec<(f64, DVector<f64>)>> = test
             .column_iter()
             .map(|shape| self.of_shape(&shape.into_owned()))

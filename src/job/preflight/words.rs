@@ -68,7 +68,7 @@ impl Change {
 
     /// What names it on the command line.
     fn identifier(&self, names: &Names) -> String {
-        let sensor = |place: &usize| name(&names.sensors, *place);
+        let sensor = |place: &usize| name(&names.sensors, *place).replace(' ', "-");
         match self {
             Self::Reversed(place) => format!("reversed-{}", sensor(place)),
             Self::Exchanged([a, b]) => format!("exchanged-{}-{}", sensor(a), sensor(b)),
@@ -114,7 +114,8 @@ impl Finding {
             Self::TooManyModes { .. } => return Concern::remark("too-many-modes", words),
             Self::Percent { setting, .. } => format!("percent-{setting}"),
             Self::ExcludesStart { parameter, .. } => {
-                format!("excludes-start-{}", name(&names.parameters, *parameter))
+                let parameter = name(&names.parameters, *parameter);
+                format!("excludes-start-{}", parameter.replace(' ', "-"))
             }
             Self::Unbounded(_) => return Concern::remark("unbounded", words),
         };
@@ -215,16 +216,7 @@ impl Finding {
                 )
             }
             Self::Unbounded(parameters) => {
-                let all: Vec<String> = parameters
-                    .iter()
-                    .map(|&place| name(&names.parameters, place))
-                    .collect();
-                let all = if names.parameters.is_empty() {
-                    list(parameters)
-                } else {
-                    all.join(", ")
-                };
-                format!("Parameters without bounds: {all}.")
+                format!("Parameters without bounds: {}.", list(parameters))
             }
         }
     }

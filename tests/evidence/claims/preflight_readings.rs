@@ -16,8 +16,6 @@ fn is_hidden(name: &str, slip: Slip) -> bool {
         (name, Slip::Direction) => name != "Truss",
         // A mirrored ring or net is the same ring or net, so nothing is wrong.
         ("Ring" | "Net", Slip::Backward) => true,
-        // A light oscillator's own mode has any amplitude: it tells no gain, and a thousandfold one looks like it.
-        ("Light oscillators", Slip::Twice | Slip::Thousandfold) => true,
         _ => false,
     }
 }
