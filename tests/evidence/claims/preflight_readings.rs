@@ -20,11 +20,11 @@ fn is_hidden(name: &str, slip: Slip) -> bool {
     }
 }
 
-#[test]
-fn right_tests_raise_no_alarm_and_single_mistakes_are_named_on_five_structures() {
+/// The counts as a table, after the bars of these slips have been checked.
+fn checked(slips: &[Slip]) -> String {
     let (mut alarms, mut table) = (0, String::from("slip,structure,named,other\n"));
     let mut missed = Vec::new();
-    for slip in SLIPS {
+    for &slip in slips {
         for kind in KINDS {
             let Some((right, other)) = named(kind, slip, NOISE) else {
                 assert!(is_hidden(kind.name, slip), "{slip:?} {}", kind.name);
@@ -46,6 +46,18 @@ fn right_tests_raise_no_alarm_and_single_mistakes_are_named_on_five_structures()
     }
     assert_eq!(missed, [""; 0], "{table}");
     assert!(alarms <= MOST_FALSE_OF_THIRTY, "{table}");
+    table
+}
+
+#[test]
+fn right_tests_raise_no_alarm_and_reversed_sensors_are_named_on_five_structures() {
+    checked(&[Slip::None, Slip::Reversed]);
+}
+
+#[test]
+#[ignore = "twenty seconds: every mistake in readings on five structures"]
+fn every_single_mistake_in_readings_is_named_on_five_structures() {
+    let table = checked(&SLIPS);
     assert_golden(
         "preflight_readings",
         &table,
