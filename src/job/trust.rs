@@ -2,7 +2,7 @@
 
 use super::LoadedJob;
 use super::loaded::measured;
-use super::preflight::{Finding, LARGEST_TOLERANCE, Names, SeenModes, preflight_at_sensors};
+use super::preflight::{Finding, FindingNames, LARGEST_TOLERANCE, SeenModes, preflight_at_sensors};
 use super::sensors::{PlacedSensor, motion};
 use crate::files::error::FileError;
 use crate::method::modes::ModeSet;
@@ -126,7 +126,7 @@ impl LoadedJob {
         let ranges = whole.ranges();
         let mut found = preflight_at_sensors(&seen, &test, &self.job.correlation, &ranges)?;
         found.extend(self.percent_deviations(&modes));
-        let names = Names {
+        let names = FindingNames {
             sensors: self
                 .placed
                 .iter()

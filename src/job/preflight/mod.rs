@@ -19,7 +19,7 @@ mod words;
 pub use frequencies::{CommonFactor, FACTORS, FrequenciesExchanged, NamedFactor};
 pub use readings::SeenModes;
 pub use shapes::{Change, LEAST_DIFFERENCE, LEAST_GAIN, LEAST_SHARE, LOW_PAIR, Mended};
-pub use words::Names;
+pub use words::FindingNames;
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};

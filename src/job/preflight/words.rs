@@ -24,7 +24,7 @@ fn list(places: &[usize]) -> String {
 
 /// What sensors and parameters are called: their places from one where they have no names.
 #[derive(Debug, Clone, Default)]
-pub struct Names {
+pub struct FindingNames {
     /// Of the sensors.
     pub sensors: Vec<String>,
     /// Of the parameters.
@@ -38,7 +38,7 @@ fn name(names: &[String], place: usize) -> String {
     names.get(place).cloned().unwrap_or_else(number)
 }
 
-impl Names {
+impl FindingNames {
     /// The number of a test mode.
     fn mode(&self, place: usize) -> usize {
         self.modes.get(place).copied().unwrap_or(place) + 1
@@ -47,7 +47,7 @@ impl Names {
 
 impl Change {
     /// The change in words.
-    fn words(&self, names: &Names) -> String {
+    fn words(&self, names: &FindingNames) -> String {
         let sensor = |place: &usize| name(&names.sensors, *place);
         match self {
             Self::Reversed(place) => format!("sensor {} reversed", sensor(place)),
@@ -67,7 +67,7 @@ impl Change {
     }
 
     /// What names it on the command line.
-    fn identifier(&self, names: &Names) -> String {
+    fn identifier(&self, names: &FindingNames) -> String {
         let sensor = |place: &usize| name(&names.sensors, *place).replace(' ', "-");
         match self {
             Self::Reversed(place) => format!("reversed-{}", sensor(place)),
@@ -84,7 +84,7 @@ impl Change {
 
 impl Finding {
     /// The finding as a concern; parameters without bounds alone are no mistake.
-    pub fn concern(&self, names: &Names) -> Concern {
+    pub fn concern(&self, names: &FindingNames) -> Concern {
         let words = self.words(names);
         let identifier = match self {
             Self::CommonFactor(_) => "common-factor".to_owned(),
@@ -122,7 +122,7 @@ impl Finding {
         Concern::doubt(identifier, words)
     }
 
-    fn words(&self, names: &Names) -> String {
+    fn words(&self, names: &FindingNames) -> String {
         match self {
             Self::CommonFactor(CommonFactor { median, named, .. }) => {
                 let mistake = named.map_or_else(
@@ -224,12 +224,12 @@ impl Finding {
 
 impl Display for Change {
     fn fmt(&self, f: &mut Formatter) -> Result {
-        f.write_str(&self.words(&Names::default()))
+        f.write_str(&self.words(&FindingNames::default()))
     }
 }
 
 impl Display for Finding {
     fn fmt(&self, f: &mut Formatter) -> Result {
-        f.write_str(&self.words(&Names::default()))
+        f.write_str(&self.words(&FindingNames::default()))
     }
 }
