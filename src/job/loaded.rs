@@ -58,8 +58,7 @@ impl LoadedJob {
     /// Reads a job and what it names, places the sensors, and pairs the test modes with those of the first model.
     ///
     /// # Errors
-    /// Those of the files; [`FileError::Refused`] for modes that the test does not have or that are named twice, and when no test mode has
-    /// a partner; those of the first analysis and of [`LoadedJob::weights`].
+    /// Those of the files; [`FileError::Refused`] for modes that the test does not have or that are named twice; those of the first analysis and of [`LoadedJob::weights`].
     pub fn new(path: &Path) -> Result<Self, FileError> {
         let job = read(path)?;
         let file = job.beside(&job.test.file);
@@ -211,18 +210,17 @@ impl LoadedJob {
         self.unpaired = left
             .map(|mode| (self.modes[mode], assurance.column(mode).max()))
             .collect();
-        let best = kept.is_empty().then(|| assurance.max());
-        self.job.refuse_if(best, |best| {
-            format!("no mode of the model is like a test mode: their modal assurance is {best:.3} at most, less than {FLOOR}")
-        })?;
-        if self.unpaired.is_empty() {
+        if kept.is_empty() || self.unpaired.is_empty() {
             let (compare, test) = (self.job.compare.clone(), self.test.clone());
             self.first = first
                 .ok()
                 .map(|first| (compare, self.analysis_modes, test, first));
         }
-        self.test = self.test.select(&kept);
-        self.modes = kept.into_iter().map(|mode| self.modes[mode]).collect();
+        // Without any pair all stay, for the pre-flight to name the mistake.
+        if !kept.is_empty() {
+            self.test = self.test.select(&kept);
+            self.modes = kept.into_iter().map(|mode| self.modes[mode]).collect();
+        }
         Ok(())
     }
 
@@ -266,6 +264,23 @@ impl LoadedJob {
         again.joined.extend(joined);
         again.first = None;
         Ok(again)
+    }
+
+    /// Refuses a correlation in which no test mode has a partner.
+    ///
+    /// # Errors
+    /// [`FileError::Refused`].
+    pub(super) fn check_paired(&self) -> Result<(), FileError> {
+        let best = self.unpaired.iter().map(|(_, best)| *best);
+        let best = best
+            .reduce(f64::max)
+            .filter(|_| self.unpaired.len() == self.modes.len());
+        self.job.refuse_if(best, |best| {
+            format!(
+                "no mode of the model is like a test mode: their modal assurance is {best:.3} at most, less than {FLOOR}; \
+                 corfem check looks for the mistake"
+            )
+        })
     }
 
     /// The mass at the sensors that cross-orthogonality is to be measured with: that of the modes of a model that the test modes are
@@ -341,7 +356,11 @@ pub(super) fn digest(bytes: &[u8], before: u64) -> u64 {
 }
 
 /// The test modes at the sensors placed.
-fn measured(data: &TestData, placed: &[PlacedSensor], modes: &[usize]) -> Result<ModeSet, Error> {
+pub(super) fn measured(
+    data: &TestData,
+    placed: &[PlacedSensor],
+    modes: &[usize],
+) -> Result<ModeSet, Error> {
     let rows: Vec<usize> = placed.iter().map(|sensor| sensor.row).collect();
     let mut shapes = data.shapes.select_rows(&rows).select_columns(modes);
     shapes

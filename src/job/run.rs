@@ -248,6 +248,7 @@ fn run_part(
     progress: &mut dyn FnMut(&str),
     go_on: &dyn Fn() -> bool,
 ) -> Result<JobResult, FileError> {
+    loaded.check_paired()?;
     let (compare, settings) = (&loaded.job.compare, &loaded.job.correlation);
     let (weights, ranges) = (loaded.weights()?, loaded.source.whole.ranges());
     let (ones, weighted) = (vec![1.0; ranges.len()], WeightedSettings::default());

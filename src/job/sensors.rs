@@ -149,7 +149,7 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
 }
 
 /// The motion of a grid along an axis, or about it for directions above 2: rows of the model and coefficients.
-fn motion(
+pub(super) fn motion(
     source: &ModelSource,
     grid: usize,
     direction: usize,

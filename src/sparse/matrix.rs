@@ -150,7 +150,7 @@ impl SparseMatrix {
     }
 
     /// Its entries times a number.
-    pub(super) fn times_number(&self, number: f64) -> impl Iterator<Item = (usize, usize, f64)> {
+    pub(crate) fn times_number(&self, number: f64) -> impl Iterator<Item = (usize, usize, f64)> {
         self.entries
             .iter()
             .map(move |&(row, column, value)| (row, column, number * value))

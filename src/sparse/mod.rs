@@ -19,6 +19,7 @@ pub(crate) use checks::{add_squares, start_vector};
 pub(crate) use condensation::sum_of_stiffness;
 pub use condensation::{LargeCondensation, LargeModel};
 pub use factorization::Factor;
+pub(crate) use lowest_modes::modes_at_most;
 pub use lowest_modes::{CountedModes, FINITE, MOST_DENSE_ROWS, lowest_modes};
 pub use matrix::SparseMatrix;
 pub use whole_model::{WholeModel, WholeParameter, WholeShare};

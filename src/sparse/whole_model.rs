@@ -210,7 +210,7 @@ impl WholeModel {
     }
 
     /// Every parameter's present share in shapes $V$ at all DOF, $c_e V^t K_e V$ or $c_e V^t M_e V$.
-    fn shares(
+    pub(crate) fn shares(
         &self,
         factors: &[f64],
         shapes: &DMatrix<f64>,

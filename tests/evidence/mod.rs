@@ -20,6 +20,7 @@ pub mod predictions;
 pub mod rates;
 pub mod reading_tables;
 pub mod readings;
+pub mod readings_rates;
 pub mod rules;
 pub mod specimen;
 

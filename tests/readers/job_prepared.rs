@@ -20,7 +20,7 @@ pub fn prepared(files: &Files) -> LoadedJob {
 }
 
 /// A building whose stories are scaled as one, with its lowest modes measured at every floor.
-fn measured_building(stories: usize, modes: usize) -> Files {
+pub fn measured_building(stories: usize, modes: usize) -> Files {
     let model = shear_building(&vec![1e5; stories], 60.0, None);
     let ones = vec![1.0; stories];
     let found = model.modes(&ones, modes).expect("modes").vibrations;

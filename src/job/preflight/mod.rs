@@ -12,11 +12,14 @@
 mod frequencies;
 mod comparison;
 mod order;
+mod readings;
 mod shapes;
 mod words;
 
 pub use frequencies::{CommonFactor, FACTORS, FrequenciesExchanged, NamedFactor};
+pub use readings::SeenModes;
 pub use shapes::{Change, LEAST_DIFFERENCE, LEAST_GAIN, LEAST_SHARE, LOW_PAIR, Mended};
+pub use words::FindingNames;
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
@@ -26,6 +29,7 @@ use crate::method::outer_loop::Settings;
 use crate::method::pairing::{modal_assurance, pair_modes};
 use comparison::{Comparison, paired_values, reordered};
 use nalgebra::DMatrix;
+use readings::explain;
 use serde::Serialize;
 use shapes::{changed, mend};
 
@@ -53,6 +57,8 @@ pub enum Finding {
     CommonFactor(CommonFactor),
     /// One change of shapes or model makes them agree.
     Mended(Mended),
+    /// One mistake in the readings explains the shapes; it makes them more likely by ten to the power of `evidence`.
+    Suspected { change: Change, evidence: f64 },
     /// Two frequencies belong to each other's shapes.
     FrequenciesExchanged(FrequenciesExchanged),
     /// Two test modes have nearly the same shape, by their modal assurance. Where the second frequency over the first is close to
@@ -77,7 +83,7 @@ pub enum Finding {
         distinct: usize,
         smallest: f64,
     },
-    /// The value of a tolerance looks like percent.
+    /// The value of a tolerance or of a standard deviation looks like percent.
     Percent { setting: &'static str, value: f64 },
     /// The bounds on a parameter's factor exclude its first value.
     ExcludesStart { parameter: usize, range: Bounds },
@@ -180,23 +186,7 @@ fn compare_with_model(
         .iter()
         .map(|&mode| all[mode])
         .collect();
-    let mut frequencies = test.frequencies_hz();
-    let exchanged = frequencies::exchanged(&frequencies, &analysis);
-    if let Some(FrequenciesExchanged {
-        modes: [a, b],
-        before,
-        after,
-    }) = exchanged
-    {
-        frequencies.swap(a, b);
-        let modes = [places[a], places[b]];
-        findings.push(Finding::FrequenciesExchanged(FrequenciesExchanged {
-            modes,
-            before,
-            after,
-        }));
-    }
-    findings.extend(frequencies::common_factor(&frequencies, &analysis).map(Finding::CommonFactor));
+    judge_frequencies(test.frequencies_hz(), &analysis, places, findings);
     findings.extend(mended.map(Finding::Mended));
     let low = paired_values(&cross, &pairing)
         .into_iter()
@@ -209,6 +199,80 @@ fn compare_with_model(
         cross,
     }));
     Ok(shapes)
+}
+
+/// Adds the findings from the frequencies of test modes and of their partners.
+fn judge_frequencies(
+    mut test: Vec<f64>,
+    analysis: &[f64],
+    places: &[usize],
+    findings: &mut Vec<Finding>,
+) {
+    // Modes are numbered as their frequencies ascend: only where these do not may two be exchanged.
+    let found = frequencies::exchanged(&test, analysis)
+        .filter(|found| test[found.modes[0]] > test[found.modes[1]]);
+    if let Some(found) = found {
+        let [a, b] = found.modes;
+        test.swap(a, b);
+        let modes = [places[a], places[b]];
+        findings.push(Finding::FrequenciesExchanged(FrequenciesExchanged {
+            modes,
+            ..found
+        }));
+    }
+    findings.extend(frequencies::common_factor(&test, analysis).map(Finding::CommonFactor));
+}
+
+/// Checks a test against a model's modes at its sensors; no condensed model is needed, so structures may hang free.
+///
+/// # Errors
+/// Those of the comparison of shapes.
+pub fn preflight_at_sensors(
+    seen: &SeenModes,
+    test: &ModeSet,
+    settings: &Settings,
+    ranges: &[Option<Bounds>],
+) -> Result<Vec<Finding>, Error> {
+    // A mode measured twice has no second partner. A sensor that drowns all others makes shapes alike, but not frequencies.
+    let copies = distinct_shapes(test)?.1;
+    let is_copy = |mode: usize| {
+        let is_of = |finding: &Finding| {
+            matches!(finding, Finding::NearlySame { modes, frequency_ratio, .. }
+                if modes[1] == mode && (frequency_ratio - 1.0).abs() < SAME_FREQUENCY)
+        };
+        copies.iter().any(is_of)
+    };
+    let once: Vec<usize> = (0..test.len()).filter(|mode| !is_copy(*mode)).collect();
+    let suspected = explain(seen, &test.shapes.select_columns(&once))?;
+    let mut test = test.clone();
+    if let Some((change, _)) = &suspected {
+        test.shapes = changed(&test.shapes, change);
+    }
+    let (places, mut findings) = distinct_shapes(&test)?;
+    let test = test.select(&places);
+    // At one sensor all shapes are alike, and say nothing of partners.
+    if test.shapes.nrows() > 1 && test.len() <= seen.modes.len() {
+        let pairing = pair_modes(&modal_assurance(&seen.modes.shapes, &test.shapes)?)?;
+        let all = seen.modes.frequencies_hz();
+        let analysis: Vec<f64> = pairing
+            .analysis_mode
+            .iter()
+            .map(|&mode| all[mode])
+            .collect();
+        judge_frequencies(test.frequencies_hz(), &analysis, &places, &mut findings);
+    }
+    findings.extend(suspected.map(|(change, evidence)| Finding::Suspected { change, evidence }));
+    let points = test.shapes.nrows();
+    if test.len() > points {
+        let mut unit = test;
+        unit.shapes.column_iter_mut().for_each(|mut shape| {
+            shape.normalize_mut();
+        });
+        let metric = DMatrix::identity(points, points);
+        findings.extend(too_many_modes(&unit, &metric)?);
+    }
+    findings.extend(check_settings(settings, ranges));
+    Ok(findings)
 }
 
 /// Reports test modes of unit generalized mass that the points do not distinguish.

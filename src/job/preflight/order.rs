@@ -8,7 +8,7 @@ use crate::method::pairing::{pair_modes, paired};
 use nalgebra::DMatrix;
 
 /// Most rounds of guessing the order from the pairs and the pairs from the order; it settles after two or three.
-const ROUNDS: usize = 10;
+pub(super) const ROUNDS: usize = 10;
 /// Least gain of agreement for one more exchange, above round-off.
 const LEAST_EXCHANGE: f64 = 1e-9;
 
@@ -70,7 +70,7 @@ pub(super) fn best_order(comparison: &Comparison, test: &ModeSet) -> (Vec<usize>
 }
 
 /// Nonzero shapes scaled to unit largest component.
-fn unit(mut shapes: DMatrix<f64>) -> DMatrix<f64> {
+pub(super) fn unit(mut shapes: DMatrix<f64>) -> DMatrix<f64> {
     for mut shape in shapes.column_iter_mut() {
         let largest = shape.amax();
         shape /= largest;
@@ -79,7 +79,7 @@ fn unit(mut shapes: DMatrix<f64>) -> DMatrix<f64> {
 }
 
 /// For every row the nearest row of the other matrix, each taken once, the closest first.
-fn matched(rows: &DMatrix<f64>, others: &DMatrix<f64>) -> Option<Vec<usize>> {
+pub(super) fn matched(rows: &DMatrix<f64>, others: &DMatrix<f64>) -> Option<Vec<usize>> {
     let nearness =
         |other: usize, row: usize| 1.0 / (1.0 + (rows.row(row) - others.row(other)).norm_squared());
     let nearness = DMatrix::from_fn(others.nrows(), rows.nrows(), nearness);

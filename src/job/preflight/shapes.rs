@@ -36,6 +36,12 @@ pub enum Change {
     /// Columns of $T$ in another order, while the masses keep theirs: the places of the columns given, in the test's
     /// order.
     Columns(Vec<usize>),
+    /// A sensor whose readings are so many times too large.
+    Gain(usize, f64),
+    /// A sensor that reads nothing but noise.
+    Dead(usize),
+    /// A sensor that measures along another direction of its grid, 0 to 5.
+    Direction(usize, usize),
 }
 
 /// What a change does to the agreement.
@@ -59,7 +65,8 @@ pub(super) fn changed(shapes: &DMatrix<f64>, change: &Change) -> DMatrix<f64> {
         Change::Exchanged([a, b]) => changed.swap_rows(*a, *b),
         Change::Reordered(order) => return shapes.select_rows(order),
         Change::Transposed => return shapes.transpose(),
-        Change::Columns(_) => {}
+        Change::Gain(sensor, gain) => changed.row_mut(*sensor).unscale_mut(*gain),
+        Change::Columns(_) | Change::Dead(_) | Change::Direction(..) => {}
     }
     changed
 }

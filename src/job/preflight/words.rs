@@ -3,6 +3,7 @@
 use super::frequencies::{CommonFactor, FrequenciesExchanged, NamedFactor};
 use super::shapes::{Change, Mended};
 use super::{Finding, SAME_FREQUENCY};
+use crate::files::test_data::DIRECTIONS;
 use crate::job::Concern;
 use crate::method::model::Bounds;
 use std::fmt::{Display, Formatter, Result};
@@ -21,47 +22,108 @@ fn list(places: &[usize]) -> String {
     }
 }
 
-impl Display for Change {
-    fn fmt(&self, f: &mut Formatter) -> Result {
+/// What sensors and parameters are called: their places from one where they have no names.
+#[derive(Debug, Clone, Default)]
+pub struct FindingNames {
+    /// Of the sensors.
+    pub sensors: Vec<String>,
+    /// Of the parameters.
+    pub parameters: Vec<String>,
+    /// Places of the test modes in the test's file.
+    pub modes: Vec<usize>,
+}
+
+fn name(names: &[String], place: usize) -> String {
+    let number = || (place + 1).to_string();
+    names.get(place).cloned().unwrap_or_else(number)
+}
+
+impl FindingNames {
+    /// The number of a test mode.
+    fn mode(&self, place: usize) -> usize {
+        self.modes.get(place).copied().unwrap_or(place) + 1
+    }
+}
+
+impl Change {
+    /// The change in words.
+    fn words(&self, names: &FindingNames) -> String {
+        let sensor = |place: &usize| name(&names.sensors, *place);
         match self {
-            Self::Reversed(sensor) => write!(f, "sensor {} reversed", sensor + 1),
-            Self::Exchanged([a, b]) => write!(f, "sensors {} and {} exchanged", a + 1, b + 1),
-            Self::Reordered(order) => write!(f, "points in another order ({})", list(order)),
-            Self::Transposed => write!(f, "shapes transposed"),
-            Self::Columns(order) => write!(f, "columns of T in another order ({})", list(order)),
+            Self::Reversed(place) => format!("sensor {} reversed", sensor(place)),
+            Self::Exchanged([a, b]) => format!("sensors {} and {} exchanged", sensor(a), sensor(b)),
+            Self::Reordered(order) => format!("points in another order ({})", list(order)),
+            Self::Transposed => "shapes transposed".to_owned(),
+            Self::Columns(order) => format!("columns of T in another order ({})", list(order)),
+            Self::Gain(place, gain) => {
+                format!("sensor {} reads {gain:.3} times too much", sensor(place))
+            }
+            Self::Dead(place) => format!("sensor {} dead", sensor(place)),
+            Self::Direction(place, along) => {
+                let along = DIRECTIONS[*along];
+                format!("sensor {} measures along {along}", sensor(place))
+            }
+        }
+    }
+
+    /// What names it on the command line.
+    fn identifier(&self, names: &FindingNames) -> String {
+        let sensor = |place: &usize| name(&names.sensors, *place).replace(' ', "-");
+        match self {
+            Self::Reversed(place) => format!("reversed-{}", sensor(place)),
+            Self::Exchanged([a, b]) => format!("exchanged-{}-{}", sensor(a), sensor(b)),
+            Self::Reordered(_) => "reordered".to_owned(),
+            Self::Transposed => "transposed".to_owned(),
+            Self::Columns(_) => "columns".to_owned(),
+            Self::Gain(place, _) => format!("gain-{}", sensor(place)),
+            Self::Dead(place) => format!("dead-{}", sensor(place)),
+            Self::Direction(place, _) => format!("direction-{}", sensor(place)),
         }
     }
 }
 
 impl Finding {
     /// The finding as a concern; parameters without bounds alone are no mistake.
-    pub fn concern(&self) -> Concern {
+    pub fn concern(&self, names: &FindingNames) -> Concern {
+        let words = self.words(names);
         let identifier = match self {
             Self::CommonFactor(_) => "common-factor".to_owned(),
-            Self::Mended(Mended { change, .. }) => match change {
-                Change::Reversed(sensor) => format!("reversed-{}", sensor + 1),
-                Change::Exchanged([a, b]) => format!("exchanged-{}-{}", a + 1, b + 1),
-                Change::Reordered(_) => "reordered".to_owned(),
-                Change::Transposed => "transposed".to_owned(),
-                Change::Columns(_) => "columns".to_owned(),
-            },
-            Self::FrequenciesExchanged(FrequenciesExchanged { modes: [a, b], .. }) => {
-                format!("frequencies-exchanged-{}-{}", a + 1, b + 1)
+            Self::Mended(Mended { change, .. }) | Self::Suspected { change, .. } => {
+                change.identifier(names)
             }
-            Self::NearlySame { modes: [a, b], .. } => format!("same-{}-{}", a + 1, b + 1),
+            Self::FrequenciesExchanged(FrequenciesExchanged { modes: [a, b], .. }) => {
+                format!(
+                    "frequencies-exchanged-{}-{}",
+                    names.mode(*a),
+                    names.mode(*b)
+                )
+            }
+            Self::NearlySame {
+                modes: [a, b],
+                frequency_ratio,
+                ..
+            } => {
+                let identifier = format!("same-{}-{}", names.mode(*a), names.mode(*b));
+                // Few sensors may see two modes alike.
+                if (frequency_ratio - 1.0).abs() >= SAME_FREQUENCY {
+                    return Concern::remark(identifier, words);
+                }
+                identifier
+            }
             Self::LowPair { test, .. } => format!("low-pair-{}", test + 1),
-            Self::TooManyModes { .. } => "too-many-modes".to_owned(),
+            Self::TooManyModes { .. } => return Concern::remark("too-many-modes", words),
             Self::Percent { setting, .. } => format!("percent-{setting}"),
-            Self::ExcludesStart { parameter, .. } => format!("excludes-start-{}", parameter + 1),
-            Self::Unbounded(_) => return Concern::remark("unbounded", self.to_string()),
+            Self::ExcludesStart { parameter, .. } => {
+                let parameter = name(&names.parameters, *parameter);
+                format!("excludes-start-{}", parameter.replace(' ', "-"))
+            }
+            Self::Unbounded(_) => return Concern::remark("unbounded", words),
         };
-        Concern::doubt(identifier, self.to_string())
+        Concern::doubt(identifier, words)
     }
-}
 
-impl Display for Finding {
-    fn fmt(&self, f: &mut Formatter) -> Result {
-        let words = match self {
+    fn words(&self, names: &FindingNames) -> String {
+        match self {
             Self::CommonFactor(CommonFactor { median, named, .. }) => {
                 let mistake = named.map_or_else(
                     || "by no mistake known here.".to_owned(),
@@ -75,14 +137,21 @@ impl Display for Finding {
                 after,
                 next,
             }) => {
-                let words = change.to_string();
+                let words = change.words(names);
                 let (first, rest) = (words[..1].to_uppercase(), &words[1..]);
-                let next = next
-                    .iter()
-                    .map(|(next, agreement)| format!("; the next best, {next}, to {agreement:.3}"));
+                let next = next.iter().map(|(next, agreement)| {
+                    format!("; the next best, {}, to {agreement:.3}", next.words(names))
+                });
                 let next: String = next.collect();
                 format!(
                     "{first}{rest}? It would raise the mean cross-orthogonality from {before:.3} to {after:.3}{next}."
+                )
+            }
+            Self::Suspected { change, evidence } => {
+                let words = change.words(names);
+                let (first, rest) = (words[..1].to_uppercase(), &words[1..]);
+                format!(
+                    "{first}{rest}? The test's shapes would be 10^{evidence:.0} times as likely, with noise of 1 % and a model 30 % wrong."
                 )
             }
             Self::FrequenciesExchanged(FrequenciesExchanged {
@@ -90,7 +159,8 @@ impl Display for Finding {
                 before,
                 after,
             }) => {
-                let (a, b, before, after) = (a + 1, b + 1, 100.0 * before, 100.0 * after);
+                let (a, b) = (names.mode(*a), names.mode(*b));
+                let (before, after) = (100.0 * before, 100.0 * after);
                 format!(
                     "Frequencies of test modes {a} and {b} exchanged? It would lower the mean deviation of the ratios from \
                     {before:.1} to {after:.1} %."
@@ -103,8 +173,8 @@ impl Display for Finding {
             } => {
                 let is_same = (frequency_ratio - 1.0).abs() < SAME_FREQUENCY;
                 let (a, b, end) = (
-                    a + 1,
-                    b + 1,
+                    names.mode(*a),
+                    names.mode(*b),
                     if is_same { "; measured twice?" } else { "." },
                 );
                 format!(
@@ -140,7 +210,7 @@ impl Display for Finding {
                 parameter,
                 range: Bounds { lower, upper },
             } => {
-                let parameter = parameter + 1;
+                let parameter = name(&names.parameters, *parameter);
                 format!(
                     "Bounds on the factor of parameter {parameter}, {lower} to {upper}, exclude its first value."
                 )
@@ -148,7 +218,18 @@ impl Display for Finding {
             Self::Unbounded(parameters) => {
                 format!("Parameters without bounds: {}.", list(parameters))
             }
-        };
-        f.write_str(&words)
+        }
+    }
+}
+
+impl Display for Change {
+    fn fmt(&self, f: &mut Formatter) -> Result {
+        f.write_str(&self.words(&FindingNames::default()))
+    }
+}
+
+impl Display for Finding {
+    fn fmt(&self, f: &mut Formatter) -> Result {
+        f.write_str(&self.words(&FindingNames::default()))
     }
 }

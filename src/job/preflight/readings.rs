@@ -1,0 +1,285 @@
+//! Which single mistake in the readings explains a test, judged against what noise and a wrong model may do to its shapes.
+//!
+//! To first order, a parameter wrong by the fraction $\delta_e$ changes mode i of the model by
+//!
+//! $$ \Delta v_i = \sum_e \delta_e \sum_{l \ne i} \frac{v_l^t K_e v_i}{\lambda_i - \lambda_l} v_l , \qquad \lambda = \omega^2 . $$
+//!
+//! With $\delta_e$ independent, of deviation [`MODEL_ERROR`], and noise of [`NOISE`] on every reading, a test shape that came from
+//! mode i is a sum of modes whose parts q have a known covariance W, and ridge regression finds them and the misfit,
+//!
+//! $$ q = G_i V^t x , \qquad G_i = (V^t V + \sigma^2 W^{-1})^{-1}, \qquad
+//! \rho = \frac{x^t x - x^t V q}{\sigma^2 q_i^2} , $$
+//!
+//! with the part of mode i itself free. Close modes mix freely, so clusters are compared as subspaces. No mass is needed: free
+//! structures and light points are judged like others.
+
+use super::order::{matched, unit};
+use super::shapes::{Change, changed};
+use crate::job::assignment::pair_optimally;
+use crate::method::error::Error;
+use crate::method::model::ParameterMatrix;
+use crate::method::modes::ModeSet;
+use nalgebra::{Cholesky, DMatrix, DVector, RowDVector};
+
+/// Standard deviation of a reading over the largest of its mode.
+const NOISE: f64 = 0.01;
+/// Standard deviation of a parameter's factor in a first model.
+const MODEL_ERROR: f64 = 0.3;
+/// The same of stiffness that no parameter scales; what it does is bounded by
+/// $\lvert v_l^t \Delta K v_i \rvert \le \delta \sqrt{\lambda_l \lambda_i}$ (Cauchy and Schwarz).
+const OTHER_ERROR: f64 = 0.003;
+/// Share of right tests in which a mistake may be named.
+const FALSE_ALARMS: f64 = 1e-3;
+/// A gain closer to one than this factor may be the model's.
+const LEAST_GAIN: f64 = 1.5;
+/// A sensor is dead when its readings are below this part of those expected.
+const DEAD: f64 = 0.1;
+/// Sensors that others predict worst, among which exchanges are tried.
+const MOST_EXCHANGED: usize = 24;
+
+/// Modes of the model at the sensors.
+#[derive(Debug, Clone)]
+pub struct SeenModes {
+    /// $\omega^2$, and shapes of unit generalized mass in the whole model (sensors × n).
+    pub modes: ModeSet,
+    /// $V^t K_e V$ or $V^t M_e V$ of every parameter, with the whole shapes.
+    pub shares: Vec<ParameterMatrix>,
+    /// What a sensor would read if it measured along another direction of its grid: sensor, direction, readings.
+    pub directions: Vec<(usize, usize, RowDVector<f64>)>,
+}
+
+/// The mode of the model that every test mode comes from, and its sign.
+type Partners = Vec<Option<(usize, f64)>>;
+
+/// What the readings of a test mode may be if it came from one mode of the model or another.
+struct Likelihood {
+    shapes: DMatrix<f64>,
+    /// $\sigma^2 W^{-1}$ of every mode.
+    priors: Vec<DMatrix<f64>>,
+    ridges: Vec<DMatrix<f64>>,
+    noise: Vec<f64>,
+}
+
+impl Likelihood {
+    fn new(seen: &SeenModes) -> Option<Self> {
+        let shapes = seen.modes.shapes().clone();
+        let squares = seen.modes.omega_squared();
+        let noise: Vec<f64> = shapes
+            .column_iter()
+            .map(|shape| NOISE * shape.amax())
+            .collect();
+        let prior = |mode: usize| {
+            let own = squares[mode];
+            let column = |share: &ParameterMatrix| match share {
+                ParameterMatrix::Stiffness(share) => share.column(mode).into_owned(),
+                ParameterMatrix::Mass(share) => own * share.column(mode),
+            };
+            // The part of mode l over its deviation, at most one: where first order gives more, modes mix freely.
+            let gap = DVector::from_iterator(
+                squares.len(),
+                squares
+                    .iter()
+                    .map(|other| (own - other).abs().max(f64::EPSILON * own)),
+            );
+            let mut parts: Vec<DVector<f64>> = seen.shares.iter().map(column).collect();
+            for part in &mut parts {
+                part.component_div_assign(&gap);
+                *part *= MODEL_ERROR;
+                part[mode] = 0.0;
+            }
+            let size = |l: usize| parts.iter().map(|part| part[l].powi(2)).sum::<f64>().sqrt();
+            let sizes = DVector::from_fn(squares.len(), |l, _| size(l));
+            let mut covariance = DMatrix::zeros(squares.len(), squares.len());
+            for mut part in parts {
+                for (l, value) in part.iter_mut().enumerate() {
+                    // Below the mode the gap is negative.
+                    *value *= if squares[l] > own { -1.0 } else { 1.0 } / sizes[l].max(1.0);
+                }
+                covariance.ger(1.0, &part, &part, 1.0);
+            }
+            for l in 0..squares.len() {
+                let other = (OTHER_ERROR * (own * squares[l]).sqrt() / gap[l]).min(1.0);
+                // Terms of second order are of the size of the square of those of first.
+                covariance[(l, l)] += sizes[l].min(1.0).powi(4) + other.powi(2);
+            }
+            covariance[(mode, mode)] = 1.0;
+            let mut inverse = Cholesky::new(covariance)?.inverse();
+            inverse[(mode, mode)] = 0.0;
+            Some(inverse * noise[mode].powi(2))
+        };
+        let priors = (0..squares.len()).map(prior).collect::<Option<_>>()?;
+        Self {
+            shapes: DMatrix::zeros(0, 0),
+            priors,
+            ridges: Vec::new(),
+            noise,
+        }
+        .with(shapes)
+    }
+
+    /// The same with other readings of the model's modes, or fewer.
+    fn with(&self, shapes: DMatrix<f64>) -> Option<Self> {
+        let gram = shapes.tr_mul(&shapes);
+        let ridge = |prior: &DMatrix<f64>| Some(Cholesky::new(&gram + prior)?.inverse());
+        Some(Self {
+            ridges: self.priors.iter().map(ridge).collect::<Option<_>>()?,
+            shapes,
+            priors: self.priors.clone(),
+            noise: self.noise.clone(),
+        })
+    }
+
+    /// The negative logarithm of the likelihood of a shape, if it came from each mode, and its parts q. It is Student's, whose
+    /// tails leave room for noise above [`NOISE`] and for modes that the model does not have.
+    fn of_shape(&self, shape: &DVector<f64>) -> Vec<(f64, DVector<f64>)> {
+        let (products, freedom) = (self.shapes.tr_mul(shape), shape.len().max(2) as f64 - 1.0);
+        let of_mode = |(mode, ridge): (usize, &DMatrix<f64>)| {
+            let parts = ridge * &products;
+            let left = (shape.norm_squared() - products.dot(&parts)).max(0.0);
+            let misfit = left / (self.noise[mode] * parts[mode]).powi(2);
+            let misfit = if misfit.is_finite() { misfit } else { f64::MAX };
+            (0.5 * freedom * (misfit / freedom).ln_1p(), parts)
+        };
+        self.ridges.iter().enumerate().map(of_mode).collect()
+    }
+
+    /// The same of all shapes, each from a mode of its own, with what `adds` says of each; and these modes and signs.
+    fn of_test(
+        &self,
+        test: &DMatrix<f64>,
+        adds: impl Fn(usize, f64, &DVector<f64>) -> f64,
+    ) -> Result<(f64, Partners), Error> {
+        let found: Vec<Vec<(f64, DVector<f64>)>> = test
+            .column_iter()
+            .map(|shape| self.of_shape(&shape.into_owned()))
+            .collect();
+        let costs = DMatrix::from_fn(self.noise.len(), test.ncols(), |mode, test| {
+            let (cost, parts) = &found[test][mode];
+            cost + adds(test, self.noise[mode] * parts[mode].abs(), parts)
+        });
+        let dearest = costs.max() + 1.0;
+        let partners = pair_optimally(&costs.map(|cost| dearest - cost), 0.0)?;
+        let of =
+            |(test, mode): (usize, &Option<usize>)| mode.map_or(0.0, |mode| costs[(mode, test)]);
+        let sum = partners.iter().enumerate().map(of).sum();
+        let sign = |(test, mode): (usize, Option<usize>)| {
+            mode.map(|mode| (mode, found[test][mode].1[mode].signum()))
+        };
+        Ok((sum, partners.into_iter().enumerate().map(sign).collect()))
+    }
+
+    fn misfit(&self, test: &DMatrix<f64>) -> Result<f64, Error> {
+        Ok(self.of_test(test, |_, _, _| 0.0)?.0)
+    }
+}
+
+/// The single mistake that explains the test best, if it does so well enough, and by which factor it makes the test more likely, as
+/// a decimal logarithm.
+///
+/// A right test is more than $e^T$ times as likely with a given mistake as without in at most $e^{-T}$ of all tests (Markov's
+/// inequality), so H mistakes tried need $T = \ln(H / \alpha)$ for false alarms in a share $\alpha$.
+///
+/// # Errors
+/// Those of [`pair_optimally`].
+pub(super) fn explain(
+    seen: &SeenModes,
+    test: &DMatrix<f64>,
+) -> Result<Option<(Change, f64)>, Error> {
+    let (sensors, _) = test.shape();
+    let Some(model) = Likelihood::new(seen).filter(|_| sensors > 2) else {
+        return Ok(None);
+    };
+    let before = model.misfit(test)?;
+    let mut tried: Vec<(Change, f64)> = Vec::new();
+    let mut others: Vec<(f64, usize)> = Vec::new();
+    let try_change = |tried: &mut Vec<(Change, f64)>, change: Change, costs: f64| {
+        let misfit = model.misfit(&changed(test, &change))?;
+        tried.push((change, misfit + costs));
+        Ok::<_, Error>(())
+    };
+    for sensor in 0..sensors {
+        try_change(&mut tried, Change::Reversed(sensor), 0.0)?;
+        let Some(without) = model.with(model.shapes.clone().remove_row(sensor)) else {
+            continue;
+        };
+        let rest = test.clone().remove_row(sensor);
+        let (row, readings) = (model.shapes.row(sensor), test.row(sensor));
+        others.push((without.misfit(&rest)?, sensor));
+        let expected: Vec<f64> = rest
+            .column_iter()
+            .map(|shape| {
+                let found = without.of_shape(&shape.into_owned());
+                let best = found.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
+                best.map_or(0.0, |(_, parts)| (row * parts)[0])
+            })
+            .collect();
+        let size = expected.iter().map(|value| value * value).sum::<f64>();
+        if readings.norm_squared() < DEAD * DEAD * size {
+            let noise_alone = |test: usize, noise: f64, _: &DVector<f64>| {
+                0.5 * (readings[test] / noise.max(f64::MIN_POSITIVE))
+                    .powi(2)
+                    .min(1e9)
+            };
+            let (misfit, _) = without.of_test(&rest, noise_alone)?;
+            tried.push((Change::Dead(sensor), misfit));
+        }
+        // Every mode's own ratio is a candidate; choosing among them costs the logarithm of their number.
+        for (reading, expected) in readings.iter().zip(&expected) {
+            let gain = reading / expected;
+            if gain.is_finite() && gain > DEAD && gain.max(1.0 / gain) > LEAST_GAIN {
+                let costs = (test.ncols() as f64).ln();
+                try_change(&mut tried, Change::Gain(sensor, gain), costs)?;
+            }
+        }
+    }
+    for (sensor, direction, readings) in &seen.directions {
+        let mut shapes = model.shapes.clone();
+        shapes.set_row(*sensor, readings);
+        if let Some(turned) = model.with(shapes) {
+            tried.push((Change::Direction(*sensor, *direction), turned.misfit(test)?));
+        }
+    }
+    others.sort_by(|a, b| a.0.total_cmp(&b.0));
+    others.truncate(MOST_EXCHANGED);
+    for (place, &(_, b)) in others.iter().enumerate() {
+        for &(_, a) in &others[..place] {
+            try_change(&mut tried, Change::Exchanged([a.min(b), a.max(b)]), 0.0)?;
+        }
+    }
+    // There are as many orders as the factorial says.
+    let orders: f64 = (2..=sensors).map(|count| (count as f64).ln()).sum();
+    for order in [(0..sensors).rev().collect(), ordered(&model, test)?] {
+        try_change(&mut tried, Change::Reordered(order), orders)?;
+    }
+    let enough = (tried.len() as f64 / FALSE_ALARMS).ln();
+    let best = tried.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
+    Ok(best
+        .map(|(change, after)| (change, before - after))
+        .filter(|(_, gain)| *gain > enough)
+        .map(|(change, gain)| (change, gain / std::f64::consts::LN_10)))
+}
+
+/// The order of the test's points that looks most like the model's: at first by the size of what every point does in the lowest
+/// modes, then by the modes so paired.
+fn ordered(model: &Likelihood, test: &DMatrix<f64>) -> Result<Vec<usize>, Error> {
+    let given: Vec<usize> = (0..test.nrows()).collect();
+    let lowest = test.ncols().min(model.shapes.ncols());
+    let shapes = unit(test.clone());
+    let first = unit(model.shapes.columns(0, lowest).into_owned()).abs();
+    let mut order = matched(&first, &shapes.columns(0, lowest).abs()).unwrap_or(given);
+    for _ in 0..super::order::ROUNDS {
+        let (_, partners) = model.of_test(&test.select_rows(&order), |_, _, _| 0.0)?;
+        let Some(partners) = partners.into_iter().collect::<Option<Vec<_>>>() else {
+            break;
+        };
+        let columns: Vec<DVector<f64>> = partners
+            .iter()
+            .map(|&(mode, sign)| sign * model.shapes.column(mode))
+            .collect();
+        match matched(&unit(DMatrix::from_columns(&columns)), &shapes) {
+            Some(next) if next != order => order = next,
+            _ => break,
+        }
+    }
+    Ok(order)
+}

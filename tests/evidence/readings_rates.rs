@@ -1,0 +1,341 @@
+//! How often mistakes in a test's readings are named on structures unlike the box: a chain, a symmetric ring and net with repeated
+//! modes, a chain with light oscillators, and a truss whose points move in two directions.
+
+use corfem::chain::spring_stiffness;
+use corfem::job::preflight::{Change, Finding, SeenModes, preflight_at_sensors};
+use corfem::method::model::ParameterMatrix;
+use corfem::method::modes::{ModeSet, solve};
+use corfem::method::outer_loop::Settings;
+use corfem::sparse::random::uniform;
+use corfem::weighted::noise::{Noise, with_noise};
+use nalgebra::{DMatrix, DVector};
+
+/// Tests of each mistake.
+pub const TESTS: u64 = 30;
+/// Test modes.
+const MODES: usize = 5;
+/// Standard deviation of the logarithm of the true factors: the first model is that wrong.
+const MODEL: f64 = 0.15;
+
+/// What is wrong with a test.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Slip {
+    /// Nothing.
+    None,
+    /// One sensor reversed.
+    Reversed,
+    /// Two sensors exchanged.
+    Exchanged,
+    /// One sensor reads twice as much.
+    Twice,
+    /// One sensor reads a thousand times as much.
+    Thousandfold,
+    /// One sensor reads noise alone.
+    Dead,
+    /// One sensor measures along the other direction.
+    Direction,
+    /// A mode measured twice.
+    Repeated,
+    /// All points in reverse order.
+    Backward,
+}
+
+/// All of them.
+pub const SLIPS: [Slip; 9] = {
+    use Slip::*;
+    [
+        None,
+        Reversed,
+        Exchanged,
+        Twice,
+        Thousandfold,
+        Dead,
+        Direction,
+        Repeated,
+        Backward,
+    ]
+};
+
+/// Stiffness matrices of the parameters, the mass, and the rows that sensors read.
+type Built = (Vec<DMatrix<f64>>, DMatrix<f64>, Vec<usize>);
+
+/// A structure by a seed.
+#[derive(Clone, Copy)]
+pub struct Kind {
+    /// What it is called.
+    pub name: &'static str,
+    /// Builds it.
+    build: fn(&mut u64) -> Built,
+}
+
+/// The five structures.
+pub const KINDS: [Kind; 5] = [
+    Kind {
+        name: "Chain",
+        build: chain,
+    },
+    Kind {
+        name: "Ring",
+        build: ring,
+    },
+    Kind {
+        name: "Net",
+        build: net,
+    },
+    Kind {
+        name: "Light oscillators",
+        build: oscillators,
+    },
+    Kind {
+        name: "Truss",
+        build: truss,
+    },
+];
+
+/// A normal number (Box and Muller).
+fn normal(state: &mut u64) -> f64 {
+    let radius = (-2.0 * (1.0 - uniform(state)).ln()).sqrt();
+    radius * (std::f64::consts::TAU * uniform(state)).cos()
+}
+
+fn below(state: &mut u64, bound: usize) -> usize {
+    ((uniform(state) * bound as f64) as usize).min(bound - 1)
+}
+
+/// A spring between two rows, or to the ground.
+fn spring(matrix: &mut DMatrix<f64>, from: Option<usize>, to: usize, stiffness: f64) {
+    matrix[(to, to)] += stiffness;
+    if let Some(from) = from {
+        matrix[(from, from)] += stiffness;
+        matrix[(from, to)] -= stiffness;
+        matrix[(to, from)] -= stiffness;
+    }
+}
+
+fn chain(state: &mut u64) -> Built {
+    let parts = (0..10).map(|at| spring_stiffness(10, at, 1e5 * (0.3 * normal(state)).exp()));
+    let parts = parts.collect();
+    let masses = DVector::from_fn(10, |_, _| 60.0 * (0.3 * normal(state)).exp());
+    (parts, DMatrix::from_diagonal(&masses), (0..10).collect())
+}
+
+fn ring(_: &mut u64) -> Built {
+    let one = |from: usize| {
+        let mut part = DMatrix::zeros(12, 12);
+        spring(&mut part, Some(from), (from + 1) % 12, 1e5);
+        part
+    };
+    let ground = DMatrix::identity(12, 12) * 2e4;
+    let parts = (0..12).map(one).chain([ground]).collect();
+    (parts, DMatrix::identity(12, 12) * 60.0, (0..12).collect())
+}
+
+fn net(_: &mut u64) -> Built {
+    let (rows, across) = (5, 4);
+    let one = |row: usize| {
+        let mut part = DMatrix::zeros(rows * across, rows * across);
+        for column in 0..across {
+            let at = row * across + column;
+            if column + 1 < across {
+                spring(&mut part, Some(at), at + 1, 1e5);
+            }
+            if row + 1 < rows {
+                spring(&mut part, Some(at), at + across, 1e5);
+            }
+            if [0, across - 1].contains(&column) {
+                spring(&mut part, None, at, 1e5);
+            }
+            if [0, rows - 1].contains(&row) {
+                spring(&mut part, None, at, 1e5);
+            }
+        }
+        part
+    };
+    (
+        (0..rows).map(one).collect(),
+        DMatrix::identity(20, 20) * 60.0,
+        (0..20).collect(),
+    )
+}
+
+fn oscillators(_: &mut u64) -> Built {
+    let one = |at: usize| {
+        let mut part = DMatrix::zeros(12, 12);
+        match at {
+            0..8 => spring(&mut part, at.checked_sub(1), at, 1e5),
+            _ => spring(&mut part, Some(2 * (at - 8)), at, 300.0),
+        }
+        part
+    };
+    let mass = DVector::from_fn(12, |row, _| if row < 8 { 60.0 } else { 0.5 });
+    (
+        (0..12).map(one).collect(),
+        DMatrix::from_diagonal(&mass),
+        (0..12).collect(),
+    )
+}
+
+/// Six bays of a plane truss, held at one end; sensors measure every point's y and the upper points' x.
+fn truss(_: &mut u64) -> Built {
+    let at = |bay: usize, upper: usize| (bay as f64, 0.7 * upper as f64 + 0.1 * bay as f64);
+    let mut rods = Vec::new();
+    for bay in 1..=6 {
+        rods.extend([
+            ((bay - 1, 0), (bay, 0)),
+            ((bay - 1, 1), (bay, 1)),
+            ((bay, 0), (bay, 1)),
+            ((bay - 1, 0), (bay, 1)),
+        ]);
+    }
+    let one = |&(from, to): &((usize, usize), (usize, usize))| {
+        let (a, b) = (at(from.0, from.1), at(to.0, to.1));
+        let (x, y) = (b.0 - a.0, b.1 - a.1);
+        let length = x.hypot(y);
+        let mut pull = DVector::zeros(24);
+        for (point, sign) in [(from, -1.0), (to, 1.0)] {
+            if point.0 > 0 {
+                let row = 4 * (point.0 - 1) + 2 * point.1;
+                pull[row] = sign * x / length;
+                pull[row + 1] = sign * y / length;
+            }
+        }
+        1e6 / length * &pull * pull.transpose()
+    };
+    let sensors = (0..12).map(|point| 2 * point + 1);
+    let sensors = sensors.chain((0..6).map(|bay| 4 * bay + 2)).collect();
+    (
+        rods.iter().map(one).collect(),
+        DMatrix::identity(24, 24) * 10.0,
+        sensors,
+    )
+}
+
+/// Of how many tests a slip was named with all its places, and in how many anything else was named.
+pub fn named(kind: Kind, slip: Slip, noise: f64) -> Option<(usize, usize)> {
+    let (mut right, mut wrong, mut state) = (0, 0, 11);
+    for test in 0..TESTS {
+        let (found, expected) = findings(kind, slip, noise, test, &mut state)?;
+        let is_expected = |finding: &Finding| match (finding, &expected) {
+            (Finding::Suspected { change, .. }, Some(expected)) => match (change, expected) {
+                (Change::Gain(a, gain), Change::Gain(b, given)) => {
+                    a == b && (gain / given).ln().abs() < 0.5
+                }
+                _ => change == expected,
+            },
+            (Finding::NearlySame { modes, .. }, None) => slip == Slip::Repeated && *modes == [2, 3],
+            _ => false,
+        };
+        right += usize::from(found.iter().any(is_expected));
+        wrong += usize::from(found.iter().any(|finding| !is_expected(finding)));
+    }
+    Some((right, wrong))
+}
+
+/// What is found of one test, and the change that should be.
+fn findings(
+    kind: Kind,
+    slip: Slip,
+    noise: f64,
+    seed: u64,
+    state: &mut u64,
+) -> Option<(Vec<Finding>, Option<Change>)> {
+    let (parts, mass, sensors) = (kind.build)(state);
+    let first: DMatrix<f64> = parts.iter().sum();
+    let mut true_stiffness = DMatrix::zeros(mass.nrows(), mass.nrows());
+    for part in &parts {
+        true_stiffness += part * (MODEL * normal(state)).exp();
+    }
+    let model: ModeSet = solve(&first, &mass, mass.nrows()).expect("modes").into();
+    let modes: ModeSet = solve(&true_stiffness, &mass, MODES).expect("modes").into();
+    let a = below(state, sensors.len());
+    let b = (a + 1 + below(state, sensors.len() - 1)) % sensors.len();
+    let mut read = sensors.clone();
+    // Rows of a point follow one another, x before y.
+    let directions: Vec<_> = (0..sensors.len())
+        .filter(|_| kind.name == "Truss")
+        .filter(|place| !sensors.contains(&(sensors[*place] ^ 1)))
+        .map(|place| {
+            (
+                place,
+                1 - sensors[place] % 2,
+                model.shapes().row(sensors[place] ^ 1).into_owned(),
+            )
+        })
+        .collect();
+    let turned = directions.get(below(state, directions.len().max(1)));
+    if slip == Slip::Direction {
+        read[turned?.0] ^= 1;
+    }
+    let exact = modes
+        .with_shapes(modes.shapes().select_rows(&read))
+        .expect("shapes");
+    let exact = exact
+        .with_shapes(unit(exact.shapes().clone()))
+        .expect("shapes");
+    let usual = Noise {
+        frequency: 0.003,
+        shape: noise,
+    };
+    let noisy = with_noise(&exact, usual, seed).expect("noise");
+    let (mut squares, mut shapes) = noisy.into_parts();
+    let expected = match slip {
+        Slip::None => None,
+        Slip::Reversed => {
+            shapes.row_mut(a).neg_mut();
+            Some(Change::Reversed(a))
+        }
+        Slip::Exchanged => {
+            shapes.swap_rows(a, b);
+            Some(Change::Exchanged([a.min(b), a.max(b)]))
+        }
+        Slip::Twice | Slip::Thousandfold => {
+            let gain = if slip == Slip::Twice { 2.0 } else { 1000.0 };
+            shapes.row_mut(a).scale_mut(gain);
+            Some(Change::Gain(a, gain))
+        }
+        Slip::Dead => {
+            shapes
+                .row_mut(a)
+                .apply(|reading| *reading = 0.001 * normal(state));
+            Some(Change::Dead(a))
+        }
+        Slip::Direction => {
+            turned.map(|(place, direction, _)| Change::Direction(*place, *direction))
+        }
+        Slip::Repeated => {
+            let again = shapes
+                .column(2)
+                .map(|reading| reading + noise * normal(state));
+            shapes.set_column(3, &again);
+            squares[3] = 1.002 * squares[2];
+            None
+        }
+        Slip::Backward => {
+            let order: Vec<usize> = (0..sensors.len()).rev().collect();
+            shapes = shapes.select_rows(&order);
+            Some(Change::Reordered(order))
+        }
+    };
+    let shares = parts
+        .iter()
+        .map(|part| ParameterMatrix::Stiffness(model.shapes().tr_mul(&(part * model.shapes()))));
+    let seen = SeenModes {
+        shares: shares.collect(),
+        modes: model
+            .with_shapes(model.shapes().select_rows(&sensors))
+            .expect("shapes"),
+        directions,
+    };
+    let test = ModeSet::new(squares, shapes).expect("modes");
+    let found = preflight_at_sensors(&seen, &test, &Settings::default(), &[]).expect("findings");
+    Some((found, expected))
+}
+
+/// Shapes of unit largest component, as a test has them.
+fn unit(mut shapes: DMatrix<f64>) -> DMatrix<f64> {
+    for mut shape in shapes.column_iter_mut() {
+        let largest = shape.amax();
+        shape /= largest;
+    }
+    shapes
+}

@@ -1,0 +1,132 @@
+//! What a job's pre-flight says: doubts that name a mistake by sensor, mode or parameter.
+
+use super::job_errors::{placed, with};
+use super::job_prepared::{measured_building, prepared};
+use crate::common::jobs::{Files, torque_box};
+use crate::common::test_files::write_csv;
+use corfem::files::test_data::{self, TestData};
+use corfem::job::{LoadedJob, run};
+
+/// The identifiers of a job's doubts.
+fn doubts(files: &Files) -> Vec<String> {
+    let (_folder, path) = placed(files);
+    let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    let concerns = loaded.concerns().unwrap_or_else(|error| panic!("{error}"));
+    let doubts = concerns.into_iter().filter(|concern| concern.is_doubt);
+    doubts.map(|concern| concern.identifier).collect()
+}
+
+/// A building of ten stories, and its test after an edit.
+fn tested(edit: impl Fn(&mut TestData)) -> Files {
+    let mut files = measured_building(10, 4);
+    let text = &mut files.last_mut().expect("the test").1;
+    let mut data = test_data::read("test.csv", text.as_bytes()).expect("a test");
+    edit(&mut data);
+    *text = write_csv(&data);
+    files
+}
+
+#[test]
+fn a_right_job_has_no_doubt() {
+    assert_eq!(doubts(&tested(|_| {})), [""; 0]);
+}
+
+#[test]
+fn a_mistake_in_a_sensor_is_named_by_the_sensors_name() {
+    let reversed = tested(|data| {
+        data.sensors[4].name = "S505".to_owned();
+        data.shapes.row_mut(4).neg_mut();
+    });
+    assert_eq!(doubts(&reversed), ["reversed-S505"]);
+    let twice = tested(|data| data.shapes.row_mut(4).scale_mut(2.0));
+    assert_eq!(doubts(&twice), ["gain-5"]);
+    let exchanged = tested(|data| data.shapes.swap_rows(2, 6));
+    assert_eq!(doubts(&exchanged), ["exchanged-3-7"]);
+}
+
+#[test]
+fn gross_mistakes_are_named_before_anything_fails() {
+    let thousandfold = tested(|data| data.shapes.row_mut(4).scale_mut(1000.0));
+    assert_eq!(doubts(&thousandfold), ["gain-5"]);
+    let backward = tested(|data| {
+        let order: Vec<usize> = (0..10).rev().collect();
+        data.shapes = data.shapes.select_rows(&order);
+    });
+    assert_eq!(doubts(&backward), ["reordered"]);
+    // Correlated, a test in which no mode has a partner is refused.
+    let (_folder, path) = placed(&tested(|data| {
+        data.shapes
+            .row_iter_mut()
+            .enumerate()
+            .for_each(|(row, mut readings)| readings *= if row == 4 { 1e5 } else { 1.0 });
+    }));
+    let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    let error = run(&loaded, |_| {}, || true)
+        .expect_err("refused")
+        .to_string();
+    assert!(
+        error.contains("no mode of the model is like a test mode"),
+        "{error}"
+    );
+}
+
+#[test]
+fn deviations_in_percent_are_named() {
+    let percent = tested(|data| {
+        data.frequency_deviation = Some(vec![0.3; 4]);
+        data.shape_deviation = Some(vec![1.0; 4]);
+    });
+    assert_eq!(
+        doubts(&percent),
+        ["percent-frequency_deviation", "percent-shape_deviation"]
+    );
+}
+
+#[test]
+fn a_matrix_that_is_no_part_of_the_first_model_is_named() {
+    let files = measured_building(10, 4);
+    let ten_times = with(
+        files.clone(),
+        "job.toml",
+        "matrix = \"stiffness.mtx\"",
+        "matrix = \"more.mtx\"",
+    );
+    let stiffness = files[1].1.clone();
+    let more = |factor: f64| {
+        let mut lines = stiffness.lines();
+        let mut text: Vec<String> = lines.by_ref().take(2).map(str::to_owned).collect();
+        for line in lines {
+            let (place, value) = line.rsplit_once(' ').expect("a value");
+            let value: f64 = value.parse().expect("a number");
+            text.push(format!("{place} {:e}", factor * value));
+        }
+        ("more.mtx".to_owned(), text.join("\n") + "\n")
+    };
+    let job = |factor: f64| [ten_times.clone(), vec![more(factor)]].concat();
+    assert_eq!(doubts(&job(10.0)), ["not-part-all"]);
+    assert_eq!(doubts(&job(1.001)), ["not-part-all"]);
+    // Rounded to single precision it still is a part.
+    assert_eq!(doubts(&job(1.0 + 5e-8)), [""; 0]);
+    assert_eq!(doubts(&job(0.5)), [""; 0]);
+    let twice =
+        "matrix = \"stiffness.mtx\"\n[[parameter]]\nname = \"again\"\nmatrix = \"stiffness.mtx\"";
+    let twice = with(files, "job.toml", "matrix = \"stiffness.mtx\"", twice);
+    assert_eq!(doubts(&twice), ["twin-all-again"]);
+}
+
+#[test]
+fn places_in_another_unit_are_named() {
+    let with_unit = |factor: f64| {
+        let mut loaded = prepared(&torque_box());
+        for sensor in &mut loaded.placed {
+            sensor.distance = Some(0.0);
+            loaded.data.sensors[sensor.row].place = sensor.place.map(|place| factor * place);
+        }
+        let concerns = loaded.concerns().unwrap_or_else(|error| panic!("{error}"));
+        concerns
+            .into_iter()
+            .any(|concern| concern.is_doubt && concern.identifier == "unit-of-places")
+    };
+    assert!(with_unit(25.4));
+    assert!(!with_unit(1.0));
+}
