@@ -14,6 +14,7 @@ pub mod localization;
 pub mod matrix_comparison;
 pub mod matrix_correction;
 pub mod matrix_tables;
+pub mod next_step;
 pub mod noisy_modes;
 pub mod plant;
 pub mod predictions;
