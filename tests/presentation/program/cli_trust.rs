@@ -183,8 +183,9 @@ fn oscillators(springs: [f64; 3], joint: f64) -> DMatrix<f64> {
 
 fn market(matrix: &DMatrix<f64>) -> String {
     let values: Vec<String> = matrix.iter().map(f64::to_string).collect();
+    let count = matrix.nrows();
     format!(
-        "%%MatrixMarket matrix array real general\n3 3\n{}\n",
+        "%%MatrixMarket matrix array real general\n{count} {count}\n{}\n",
         values.join("\n")
     )
 }
@@ -361,4 +362,76 @@ fn repeated_roots_in_the_papers_loops_name_the_other_method() {
         refused.contains("compare.method = \"gauss_newton\" needs none"),
         "{refused}"
     );
+}
+
+/// Six equal masses joined by five equal springs and held nowhere, whose shapes are cosines; the sensor of this place is turned.
+fn free_chain(turned: Option<usize>) -> Files {
+    let chain = |springs: [f64; 5]| {
+        let mut stiffness = DMatrix::zeros(6, 6);
+        for (place, spring) in springs.into_iter().enumerate() {
+            let mut pair = stiffness.view_mut((place, place), (2, 2));
+            pair += DMatrix::from_row_slice(2, 2, &[spring, -spring, -spring, spring]);
+        }
+        stiffness
+    };
+    let angle = |mode: usize| std::f64::consts::PI * mode as f64 / 12.0;
+    let hertz = [1, 2, 3].map(|mode| {
+        // The springs are a tenth softer than the model's.
+        (2.0 * 900.0_f64.sqrt() * angle(mode).sin() / std::f64::consts::TAU).to_string()
+    });
+    let row = |place: usize| {
+        let sign = if turned == Some(place) { -1.0 } else { 1.0 };
+        let shape = |mode| sign * (angle(mode) * (2.0 * place as f64 + 1.0)).cos();
+        let values = [1, 2, 3].map(|mode| shape(mode).to_string());
+        format!("{},x,+,{}\n", place + 1, values.join(","))
+    };
+    let rows: String = (0..6).map(row).collect();
+    let mut job = "[model]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\nrows = \"rows.csv\"\n[test]\nfile = \"test.csv\"\n\
+                   [compare]\nmethod = \"gauss_newton\"\n"
+        .to_owned();
+    let mut files = vec![
+        ("K.mtx".to_owned(), market(&chain([1000.0; 5]))),
+        ("M.mtx".to_owned(), market(&DMatrix::identity(6, 6))),
+        (
+            "rows.csv".to_owned(),
+            "grid,direction\n1,x\n2,x\n3,x\n4,x\n5,x\n6,x\n".to_owned(),
+        ),
+        (
+            "test.csv".to_owned(),
+            format!(
+                "frequency_hz,,,{}\ngrid,direction,sign,mode 1,mode 2,mode 3\n{rows}",
+                hertz.join(",")
+            ),
+        ),
+    ];
+    for place in 0..5 {
+        let mut springs = [0.0; 5];
+        springs[place] = 1000.0;
+        let name = format!("P{place}.mtx");
+        job += &format!("[[parameter]]\nname = \"p{place}\"\nmatrix = \"{name}\"\n");
+        files.push((name, market(&chain(springs))));
+    }
+    files.push(("job.toml".to_owned(), job));
+    files
+}
+
+#[test]
+fn the_pre_flight_sees_a_turned_sensor_of_a_structure_that_hangs_free() {
+    let said = |turned| {
+        let (_folder, path) = placed(&free_chain(turned));
+        let loaded = LoadedJob::new(&path).expect("it loads");
+        Trust::before(&loaded).expect("an account")
+    };
+    let right = said(None);
+    assert_eq!((right.rigid_body_modes, right.has_doubt()), (1, false));
+    for place in 1..5 {
+        let doubts = said(Some(place)).concerns;
+        let named = format!("reversed-{}-x", place + 1);
+        assert!(
+            doubts
+                .iter()
+                .any(|doubt| doubt.stands() && doubt.identifier == named),
+            "{named}: {doubts:?}"
+        );
+    }
 }
