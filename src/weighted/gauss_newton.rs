@@ -238,25 +238,6 @@ pub fn gauss_newton<E: From<Error>>(
     })
 }
 
-/// The step that the test asks for from where a model stands, undamped and without bounds: the changes of the logarithms of its factors,
-///
-/// $$ h = -(J^t J + I/\tau^2)^{-1} J^t r , $$
-///
-/// with a prior about this place, and what the test sees of the parameters there, with whose deviations $h$ is to be compared.
-///
-/// # Errors
-/// Those of [`residuals`], [`jacobian`] and [`identifiability`].
-pub fn one_step(
-    model: &ModalModel,
-    weights: &[ModeWeight],
-    prior_deviation: f64,
-) -> Result<(Vec<f64>, Identifiability), Error> {
-    let (residuals, jacobian) = (residuals(model, weights)?, jacobian(model, weights)?);
-    let seen = identifiability(&jacobian, prior_deviation)?;
-    let step = -(&seen.covariance * jacobian.tr_mul(&residuals));
-    Ok((step.as_slice().to_vec(), seen))
-}
-
 /// The damped step of the `free` parameters within their `room` below and above: one that would leave it stops at its bound.
 fn bounded_step(
     curvature: &DMatrix<f64>,
