@@ -235,35 +235,35 @@ impl LoadedJob {
         left.map(of_mode).collect()
     }
 
-    /// The same job that also compares the test modes left out so far that resemble a mode of this model, each one of its own.
-    pub(super) fn looked_at_again(&self, exact: &ExactResult) -> Result<Self, FileError> {
-        let mut again = self.clone();
-        let left: Vec<usize> = self
-            .unlike(&exact.modes.shapes)?
-            .into_iter()
-            .map(|(mode, _)| mode)
-            .collect();
+    /// The same job that also compares the test modes left out so far that resemble a mode of this model, each one of its own; none
+    /// where none does.
+    pub(super) fn joined_by(&self, exact: &ExactResult) -> Result<Option<Self>, FileError> {
+        let shapes = &exact.modes.shapes;
+        let left = self.unlike(shapes)?;
         if left.is_empty() {
-            return Ok(again);
+            return Ok(None);
         }
-        let all: Vec<usize> = self.modes.iter().chain(&left).copied().collect();
+        let left = left.iter().map(|(mode, _)| mode);
+        let all: Vec<usize> = self.modes.iter().chain(left).copied().collect();
         let test = measured(&self.data, &self.placed, &all)?;
-        let assurance = modal_assurance(&exact.modes.shapes, &test.shapes)?;
-        let partners = pair_optimally(&assurance, FLOOR)?;
-        let joined: Vec<usize> = (self.modes.len()..all.len())
-            .filter(|&place| partners[place].is_some())
-            .map(|place| all[place])
+        let partners = pair_optimally(&modal_assurance(shapes, &test.shapes)?, FLOOR)?;
+        let (compared, left) = partners.split_at(self.modes.len());
+        let left = left.iter().zip(&all[self.modes.len()..]);
+        let joined: Vec<usize> = left
+            .filter(|(partner, _)| partner.is_some())
+            .map(|(_, mode)| *mode)
             .collect();
-        if joined.is_empty() || partners[..self.modes.len()].contains(&None) {
-            return Ok(again);
+        if joined.is_empty() || compared.contains(&None) {
+            return Ok(None);
         }
+        let mut again = self.clone();
         again.modes.extend(&joined);
         let hertz = &self.data.frequencies_hz;
         again.modes.sort_by(|&a, &b| hertz[a].total_cmp(&hertz[b]));
         again.test = measured(&self.data, &self.placed, &again.modes)?;
         again.joined.extend(joined);
         again.first = None;
-        Ok(again)
+        Ok(Some(again))
     }
 
     /// Refuses a correlation in which no test mode has a partner.

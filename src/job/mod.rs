@@ -4,6 +4,7 @@
 //! starts from. [`TEMPLATE`] is a job with every entry explained.
 
 pub mod assignment;
+mod concerns;
 mod entries;
 pub mod expansion;
 pub mod localization;

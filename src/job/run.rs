@@ -48,8 +48,6 @@ pub struct JobResult {
     pub seen: [Identifiability; 2],
     /// Exact analyses made, the first and the last among them.
     pub analyses: usize,
-    /// Whether it was stopped by request.
-    pub is_interrupted: bool,
 }
 
 impl LoadedJob {
@@ -207,11 +205,9 @@ pub(super) fn run_from(
     go_on: &dyn Fn() -> bool,
 ) -> Result<JobResult, FileError> {
     let mut part = run_part(loaded, trust, start, progress, go_on)?;
-    while !part.is_interrupted {
-        let joined = part.loaded.looked_at_again(&part.last.exact)?;
-        if joined.modes.len() == part.loaded.modes.len() {
-            break;
-        }
+    while !part.trust.is_interrupted
+        && let Some(joined) = part.loaded.joined_by(&part.last.exact)?
+    {
         let analyses = part.analyses;
         progress(&format!("test modes compared: {}", joined.modes.len()));
         part = run_part(&joined, part.trust, &part.factors, progress, go_on)?;
@@ -221,13 +217,9 @@ pub(super) fn run_from(
     }
     let (loaded, shapes) = (&part.loaded, &part.last.exact.modes.shapes);
     let unpaired = loaded.unlike(shapes)?;
-    part.trust = part.trust.after(
-        loaded,
-        unpaired,
-        &part.verdict,
-        &part.seen[1],
-        part.is_interrupted,
-    );
+    part.trust = part
+        .trust
+        .after(loaded, &unpaired, &part.verdict, &part.seen[1]);
     Ok(part)
 }
 
@@ -280,9 +272,7 @@ fn run_part(
                 progress(&format!(
                     "pass {number}: frequencies {frequency:.2} %, shapes {shape:.2} % RMS"
                 ));
-                has_joined = loaded
-                    .looked_at_again(&pass.check)
-                    .is_ok_and(|again| again.modes.len() > loaded.modes.len());
+                has_joined = matches!(loaded.joined_by(&pass.check), Ok(Some(_)));
                 may_go_on() && !has_joined
             };
             // The loops count factors from one: the start is their first model.
@@ -395,7 +385,10 @@ fn run_part(
     let (analyses, is_interrupted) = (analyses.get(), is_interrupted.get());
     Ok(JobResult {
         loaded: loaded.clone(),
-        trust,
+        trust: Trust {
+            is_interrupted,
+            ..trust
+        },
         history,
         factors,
         verdict,
@@ -403,6 +396,5 @@ fn run_part(
         first,
         last,
         analyses,
-        is_interrupted,
     })
 }

@@ -173,10 +173,7 @@ impl Study {
             run_from(&loaded, self.trust.clone(), &start, &mut |_| {}, &go_on)
         };
         let (numbers, failure) = match self.draw(sample).and_then(run) {
-            Ok(JobResult {
-                is_interrupted: true,
-                ..
-            }) => return Err(FileError::Interrupted),
+            Ok(found) if found.trust.is_interrupted => return Err(FileError::Interrupted),
             Ok(JobResult {
                 verdict,
                 analyses,

@@ -1,26 +1,13 @@
 //! What lowers the trust in a job's result, collected in one place.
 
 use super::LoadedJob;
-use super::loaded::{FLOOR, measured};
-use super::preflight::{Finding, FindingNames, LARGEST_TOLERANCE, SeenModes, preflight_at_sensors};
-use super::sensors::{PlacedSensor, motion};
+use super::loaded::FLOOR;
 use crate::files::deck::{BulkData, Reason, Unread};
 use crate::files::error::FileError;
-use crate::method::modes::ModeSet;
 use crate::method::verdict::Verdict;
-use crate::sparse::{Factor, SparseMatrix, WholeShare, modes_at_most};
 use crate::weighted::identifiability::Identifiability;
-use crate::weighted::noise::Noise;
 use crate::weighted::residuals::DEVIATIONS;
-use nalgebra::Vector3;
 use serde::Serialize;
-
-/// Modal phase collinearity below which a complex test mode is doubtful as a real one.
-const COLLINEAR: f64 = 0.95;
-
-/// Span of the sensors' places over the model's from which they are in another unit: the least factor between two customary units
-/// of length is 2.54, and sensors sit on the structure.
-const LARGEST_SPAN: f64 = 2.0;
 
 /// Something that a reader must know before trusting a result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -108,7 +95,7 @@ impl Trust {
     /// # Errors
     /// Those of [`LoadedJob::concerns`]; [`FileError::Refused`] for an accepted identifier that names no doubt of this job.
     pub fn before(loaded: &LoadedJob) -> Result<Self, FileError> {
-        let mut concerns = loaded.concerns()?;
+        let (mut concerns, rigid_body_modes) = loaded.concerns_and_rigid_body_modes()?;
         let doubts: Vec<String> = concerns
             .iter()
             .filter(|concern| concern.is_doubt)
@@ -164,12 +151,7 @@ impl Trust {
                 .chain((sensors > 0).then(|| format!("{sensors} of the test's sensors")))
                 .collect(),
             analysis_modes: loaded.analysis_modes,
-            rigid_body_modes: loaded
-                .source
-                .whole
-                .modes(&loaded.ones(), 1)?
-                .rigid_body
-                .ncols(),
+            rigid_body_modes,
             mass_and_center: mass_and_center.map(|(mass, center)| (mass, center.into())),
         })
     }
@@ -178,10 +160,9 @@ impl Trust {
     pub(super) fn after(
         self,
         loaded: &LoadedJob,
-        unpaired: Vec<(usize, f64)>,
+        unpaired: &[(usize, f64)],
         verdict: &Verdict,
         seen: &Identifiability,
-        is_interrupted: bool,
     ) -> Self {
         let names: Vec<&str> = loaded.parameter_names().collect();
         let named = |places: &[usize]| places.iter().map(|&e| names[e].to_owned()).collect();
@@ -193,9 +174,8 @@ impl Trust {
             blind: named(&blind),
             parallel: groups.iter().map(|group| named(group)).collect(),
             at_bound: named(&verdict.at_bound),
-            not_compared: not_compared(&unpaired),
+            not_compared: not_compared(unpaired),
             joined: from_one(&loaded.joined),
-            is_interrupted,
             ..self
         }
     }
@@ -342,203 +322,4 @@ fn not_compared(unpaired: &[(usize, f64)]) -> Vec<NotCompared> {
 
 fn from_one(places: &[usize]) -> Vec<usize> {
     places.iter().map(|place| place + 1).collect()
-}
-
-impl LoadedJob {
-    /// Everything doubtful before the first step: what the pre-flight finds, complex test modes, and what the readers left aside.
-    ///
-    /// # Errors
-    /// Those of [`preflight_at_sensors`] and of the analysis it needs.
-    pub fn concerns(&self) -> Result<Vec<Concern>, FileError> {
-        let mut all = self.preflight_concerns()?;
-        all.extend(self.part_concerns()?);
-        for (mode, phase) in self.data.phase_collinearity.iter().enumerate() {
-            if *phase < COLLINEAR {
-                let mode = mode + 1;
-                all.push(Concern::remark(
-                    format!("complex-{mode}"),
-                    format!("Test mode {mode} is complex: its phase collinearity is {phase:.2}."),
-                ));
-            }
-        }
-        if !self.data.incomplete.is_empty() {
-            all.push(Concern::remark(
-                "not-in-every-mode",
-                format!(
-                    "Sensors left out because some mode of the file has no value at them: {}.",
-                    self.data.incomplete.join(", ")
-                ),
-            ));
-        }
-        if !self.data.skipped.is_empty() {
-            let numbers: Vec<String> = self.data.skipped.iter().map(usize::to_string).collect();
-            all.push(Concern::remark(
-                "datasets-not-read",
-                format!(
-                    "Datasets of the Universal File that are not read: {}.",
-                    numbers.join(", ")
-                ),
-            ));
-        }
-        all.extend(self.data.units.iter().map(|units| {
-            Concern::remark(
-                "units-of-test",
-                format!("The test's file is in units of {units}; nothing is converted."),
-            )
-        }));
-        Ok(all)
-    }
-
-    /// What the pre-flight finds, in all modes of the test.
-    fn preflight_concerns(&self) -> Result<Vec<Concern>, FileError> {
-        let whole = &self.source.whole;
-        let left_out = self.unpaired.iter().map(|(mode, _)| mode);
-        let mut modes: Vec<usize> = left_out.chain(&self.modes).copied().collect();
-        modes.sort_unstable();
-        modes.dedup();
-        let test = measured(&self.data, &self.placed, &modes)?;
-        let (stiffness, mass) = whole.at(&self.ones())?;
-        let found = modes_at_most(&stiffness, &mass, 2 * self.analysis_modes)?.vibrations;
-        let (squares, shapes) = found.into_parts();
-        let along = |(place, sensor): (usize, &PlacedSensor)| {
-            let own = sensor.direction;
-            let others = (own / 3 * 3..own / 3 * 3 + 3).filter(move |other| *other != own);
-            let read = |other: usize| {
-                let axis = Vector3::ith(other % 3, 1.0);
-                let motion = motion(&self.source, sensor.grid, other, axis);
-                let rows = motion.map(|(row, coefficient)| shapes.row(row) * coefficient);
-                rows.reduce(|sum, row| sum + row)
-                    .map(|readings| (place, other, readings))
-            };
-            others.filter_map(read).collect::<Vec<_>>()
-        };
-        let seen = SeenModes {
-            directions: self.placed.iter().enumerate().flat_map(along).collect(),
-            shares: whole.shares(&self.ones(), &shapes)?,
-            modes: ModeSet::new(squares, self.sensors.times(&shapes)?)?,
-        };
-        let ranges = whole.ranges();
-        let mut found = preflight_at_sensors(&seen, &test, &self.job.correlation, &ranges)?;
-        found.extend(self.percent_deviations(&modes));
-        let names = FindingNames {
-            sensors: self
-                .placed
-                .iter()
-                .map(|sensor| sensor.name.clone())
-                .collect(),
-            parameters: self.parameter_names().map(str::to_owned).collect(),
-            modes,
-        };
-        let concerns = found.iter().map(|finding| finding.concern(&names));
-        Ok(concerns.chain(self.places_concern()).collect())
-    }
-
-    /// Parameters' matrices that are not part of the first stiffness or mass, or given twice.
-    ///
-    /// A part leaves a semidefinite rest, which has no negative pivots (Sylvester's law of inertia). Entries rounded to single
-    /// precision, by at most $\epsilon$ of each, move no eigenvalue below
-    /// $-\epsilon \max_i \sum_j (\lvert K_{ij} \rvert + \lvert K_{e,ij} \rvert)$ (Gershgorin), which is added to the diagonal.
-    fn part_concerns(&self) -> Result<Vec<Concern>, FileError> {
-        let (stiffness, mass) = self.source.whole.at(&self.ones())?;
-        let parts: Vec<(&str, &SparseMatrix, &SparseMatrix)> = self
-            .source
-            .whole
-            .parameters()
-            .iter()
-            .filter_map(|parameter| match &parameter.share {
-                WholeShare::Stiffness(part) => Some((&parameter.name[..], part, &stiffness)),
-                WholeShare::Mass(part) => Some((&parameter.name[..], part, &mass)),
-                WholeShare::Elements(_) => None,
-            })
-            .collect();
-        let mut all = Vec::new();
-        for (place, (name, part, whole)) in parts.iter().enumerate() {
-            let identifier = name.replace(' ', "-");
-            if !is_part(part, whole)? {
-                all.push(Concern::doubt(
-                    format!("not-part-{identifier}"),
-                    format!("parameter \"{name}\": its matrix is not part of the first model's, which without it has negative energy"),
-                ));
-            }
-            for (other, twin, _) in &parts[..place] {
-                let is_same =
-                    |sign: f64| twin.times_number(sign).eq(part.entries().iter().copied());
-                let how = [
-                    (1.0, "the same matrix"),
-                    (-1.0, "matrices of opposite sign"),
-                ];
-                for (_, how) in how.into_iter().filter(|(sign, _)| is_same(*sign)) {
-                    all.push(Concern::doubt(
-                        format!("twin-{}-{identifier}", other.replace(' ', "-")),
-                        format!("parameters \"{other}\" and \"{name}\" have {how}"),
-                    ));
-                }
-            }
-        }
-        Ok(all)
-    }
-
-    /// Standard deviations that are given in percent.
-    fn percent_deviations(&self, modes: &[usize]) -> Vec<Finding> {
-        let largest = |of: fn(&Noise) -> f64| {
-            let all = modes.iter().map(|&mode| of(&self.deviations(mode)));
-            all.fold(0.0, f64::max)
-        };
-        let both = [
-            ("frequency_deviation", largest(|noise| noise.frequency)),
-            ("shape_deviation", largest(|noise| noise.shape)),
-        ];
-        let large = both
-            .into_iter()
-            .filter(|(_, value)| *value > LARGEST_TOLERANCE);
-        large
-            .map(|(setting, value)| Finding::Percent { setting, value })
-            .collect()
-    }
-
-    /// Sensors placed by where they are cannot span much more than the model does.
-    fn places_concern(&self) -> Option<Concern> {
-        let extent = |places: Vec<Vector3<f64>>| {
-            let first = places.first()?;
-            let (low, high) = places.iter().fold((*first, *first), |(low, high), place| {
-                (low.inf(place), high.sup(place))
-            });
-            Some((high - low).norm())
-        };
-        let measured = self
-            .placed
-            .iter()
-            .filter(|sensor| sensor.distance.is_some());
-        let measured = measured.filter_map(|sensor| self.data.sensors[sensor.row].place);
-        let (test, model) = (
-            extent(measured.collect())?,
-            extent(self.source.geometry.places.values().copied().collect())?,
-        );
-        let ratio = test / model;
-        (ratio > LARGEST_SPAN).then(|| {
-            Concern::doubt(
-                "unit-of-places",
-                format!("The sensors' places span {ratio:.1} times what the model's do: another unit of length?"),
-            )
-        })
-    }
-}
-
-/// Whether the whole without a part is semidefinite.
-fn is_part(part: &SparseMatrix, whole: &SparseMatrix) -> Result<bool, FileError> {
-    let count = whole.rows();
-    let mut sums = vec![0.0; count];
-    for &(row, _, entry) in whole.entries().iter().chain(part.entries()) {
-        sums[row] += entry.abs();
-    }
-    let shift = f64::from(f32::EPSILON) * sums.iter().copied().fold(0.0, f64::max);
-    let entries = whole
-        .entries()
-        .iter()
-        .copied()
-        .chain(part.times_number(-1.0));
-    let entries = entries.chain((0..count).map(|row| (row, row, shift)));
-    let rest = SparseMatrix::new("rest", count, count, entries.collect())?;
-    // A rest that cannot be factorized accuses nobody.
-    Ok(!Factor::new("rest", &rest).is_ok_and(|factor| factor.negative_count() > 0))
 }

@@ -180,8 +180,8 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
         write_files(folder, &files, &run)?;
         deck?;
     }
-    if result.is_interrupted {
+    if result.trust.is_interrupted {
         note("corfem: stopped by request; the best factors so far are given");
     }
-    Ok(result.verdict.is_within && result.trust.is_clear() && !result.is_interrupted)
+    Ok(result.verdict.is_within && result.trust.is_clear() && !result.trust.is_interrupted)
 }

@@ -1,7 +1,7 @@
 //! Snapshots compared number by number, so that another machine's last digit does not fail them.
 
 use crate::common::tolerances::{
-    GOLDEN_AS_WRITTEN, GOLDEN_FREQUENCY, GOLDEN_GAGE, GOLDEN_PERCENT, GOLDEN_RELATIVE,
+    GOLDEN_AS_WRITTEN, GOLDEN_COUNT, GOLDEN_FREQUENCY, GOLDEN_GAGE, GOLDEN_PERCENT, GOLDEN_RELATIVE,
 };
 use insta::Snapshot;
 use insta::comparator::Comparator;
@@ -41,6 +41,14 @@ impl Numbers {
     /// Tables of numbers: each by its unit.
     pub const BY_UNIT: Self = Self {
         by_unit: true,
+        ..Self::AS_WRITTEN
+    };
+
+    /// Counts of what happened to random tests, whole numbers too.
+    pub const COUNTED: Self = Self {
+        relative: 0.0,
+        absolute: GOLDEN_COUNT,
+        whole: true,
         ..Self::AS_WRITTEN
     };
 

@@ -84,7 +84,7 @@ fn a_stopped_correlation_gives_the_best_that_it_has_told() {
         };
         let found = run(&prepared, |words| told.push(words.to_owned()), go_on)
             .unwrap_or_else(|error| panic!("{error}"));
-        assert!(found.is_interrupted && matches!(found.history, History::GaussNewton(None)));
+        assert!(found.trust.is_interrupted && matches!(found.history, History::GaussNewton(None)));
         let sum = residuals(&found.last, &prepared.weights().expect("weights"))
             .expect("residuals")
             .norm_squared();
@@ -110,7 +110,7 @@ fn a_stopped_correlation_gives_the_best_that_it_has_told() {
     let exact = self::prepared(&exact(rods()));
     let found = run(&exact, |_| {}, || false).expect("it runs");
     assert_eq!(
-        (found.is_interrupted, found.verdict.outcome),
+        (found.trust.is_interrupted, found.verdict.outcome),
         (true, Outcome::Tolerance)
     );
 }

@@ -20,13 +20,14 @@ pub use frequencies::{CommonFactor, FACTORS, FrequenciesExchanged, NamedFactor};
 pub use readings::SeenModes;
 pub use shapes::{Change, LEAST_DIFFERENCE, LEAST_GAIN, LEAST_SHARE, LOW_PAIR, Mended};
 pub use words::FindingNames;
+pub(super) use words::hyphened;
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::model::{Bounds, DynamicModel, FiniteElementModel};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::Settings;
-use crate::method::pairing::{modal_assurance, pair_modes};
+use crate::method::pairing::{Pairing, modal_assurance, pair_modes};
 use comparison::{Comparison, paired_values, reordered};
 use nalgebra::DMatrix;
 use readings::explain;
@@ -180,13 +181,8 @@ fn compare_with_model(
         return Ok(shapes);
     };
     let pairing = pair_modes(&cross)?;
-    let all = comparison.analysis.frequencies_hz();
-    let analysis: Vec<f64> = pairing
-        .analysis_mode
-        .iter()
-        .map(|&mode| all[mode])
-        .collect();
-    judge_frequencies(test.frequencies_hz(), &analysis, places, findings);
+    let analysis = comparison.analysis.frequencies_hz();
+    judge_frequencies(test, &analysis, &pairing, places, findings);
     findings.extend(mended.map(Finding::Mended));
     let low = paired_values(&cross, &pairing)
         .into_iter()
@@ -203,13 +199,17 @@ fn compare_with_model(
 
 /// Adds the findings from the frequencies of test modes and of their partners.
 fn judge_frequencies(
-    mut test: Vec<f64>,
-    analysis: &[f64],
+    test: &ModeSet,
+    analysis_hz: &[f64],
+    pairing: &Pairing,
     places: &[usize],
     findings: &mut Vec<Finding>,
 ) {
+    let mut test = test.frequencies_hz();
+    let partners = pairing.analysis_mode.iter();
+    let analysis: Vec<f64> = partners.map(|&mode| analysis_hz[mode]).collect();
     // Modes are numbered as their frequencies ascend: only where these do not may two be exchanged.
-    let found = frequencies::exchanged(&test, analysis)
+    let found = frequencies::exchanged(&test, &analysis)
         .filter(|found| test[found.modes[0]] > test[found.modes[1]]);
     if let Some(found) = found {
         let [a, b] = found.modes;
@@ -220,7 +220,7 @@ fn judge_frequencies(
             ..found
         }));
     }
-    findings.extend(frequencies::common_factor(&test, analysis).map(Finding::CommonFactor));
+    findings.extend(frequencies::common_factor(&test, &analysis).map(Finding::CommonFactor));
 }
 
 /// Checks a test against a model's modes at its sensors; no condensed model is needed, so structures may hang free.
@@ -253,13 +253,8 @@ pub fn preflight_at_sensors(
     // At one sensor all shapes are alike, and say nothing of partners.
     if test.shapes.nrows() > 1 && test.len() <= seen.modes.len() {
         let pairing = pair_modes(&modal_assurance(&seen.modes.shapes, &test.shapes)?)?;
-        let all = seen.modes.frequencies_hz();
-        let analysis: Vec<f64> = pairing
-            .analysis_mode
-            .iter()
-            .map(|&mode| all[mode])
-            .collect();
-        judge_frequencies(test.frequencies_hz(), &analysis, &places, &mut findings);
+        let analysis = seen.modes.frequencies_hz();
+        judge_frequencies(&test, &analysis, &pairing, &places, &mut findings);
     }
     findings.extend(suspected.map(|(change, evidence)| Finding::Suspected { change, evidence }));
     let points = test.shapes.nrows();

@@ -33,6 +33,11 @@ pub struct FindingNames {
     pub modes: Vec<usize>,
 }
 
+/// A name as a part of an identifier.
+pub(in crate::job) fn hyphened(name: &str) -> String {
+    name.replace(' ', "-")
+}
+
 fn name(names: &[String], place: usize) -> String {
     let number = || (place + 1).to_string();
     names.get(place).cloned().unwrap_or_else(number)
@@ -66,9 +71,15 @@ impl Change {
         }
     }
 
+    /// The change as a question.
+    fn question(&self, names: &FindingNames) -> String {
+        let words = self.words(names);
+        words[..1].to_uppercase() + &words[1..] + "?"
+    }
+
     /// What names it on the command line.
     fn identifier(&self, names: &FindingNames) -> String {
-        let sensor = |place: &usize| name(&names.sensors, *place).replace(' ', "-");
+        let sensor = |place: &usize| hyphened(&name(&names.sensors, *place));
         match self {
             Self::Reversed(place) => format!("reversed-{}", sensor(place)),
             Self::Exchanged([a, b]) => format!("exchanged-{}-{}", sensor(a), sensor(b)),
@@ -115,7 +126,7 @@ impl Finding {
             Self::Percent { setting, .. } => format!("percent-{setting}"),
             Self::ExcludesStart { parameter, .. } => {
                 let parameter = name(&names.parameters, *parameter);
-                format!("excludes-start-{}", parameter.replace(' ', "-"))
+                format!("excludes-start-{}", hyphened(&parameter))
             }
             Self::Unbounded(_) => return Concern::remark("unbounded", words),
         };
@@ -137,21 +148,19 @@ impl Finding {
                 after,
                 next,
             }) => {
-                let words = change.words(names);
-                let (first, rest) = (words[..1].to_uppercase(), &words[1..]);
+                let question = change.question(names);
                 let next = next.iter().map(|(next, agreement)| {
                     format!("; the next best, {}, to {agreement:.3}", next.words(names))
                 });
                 let next: String = next.collect();
                 format!(
-                    "{first}{rest}? It would raise the mean cross-orthogonality from {before:.3} to {after:.3}{next}."
+                    "{question} It would raise the mean cross-orthogonality from {before:.3} to {after:.3}{next}."
                 )
             }
             Self::Suspected { change, evidence } => {
-                let words = change.words(names);
-                let (first, rest) = (words[..1].to_uppercase(), &words[1..]);
+                let question = change.question(names);
                 format!(
-                    "{first}{rest}? The test's shapes would be 10^{evidence:.0} times as likely, with noise of 1 % and a model 30 % wrong."
+                    "{question} The test's shapes would be 10^{evidence:.0} times as likely, with noise of 1 % and a model 30 % wrong."
                 )
             }
             Self::FrequenciesExchanged(FrequenciesExchanged {

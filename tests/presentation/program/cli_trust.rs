@@ -116,14 +116,19 @@ fn status_of(path: &Path, more: &[&str]) -> (Option<i32>, String, String) {
     )
 }
 
+/// The table of a job's test.
+fn table_of(files: &mut Files) -> &mut String {
+    let mut files = files.iter_mut();
+    &mut files
+        .find(|(name, _)| name == "test.csv")
+        .expect("a test")
+        .1
+}
+
 /// The rods' test in rad/s: every frequency 2π times too high.
 fn in_radians() -> Files {
     let mut files = rods();
-    let csv = &mut files
-        .iter_mut()
-        .find(|(name, _)| name == "test.csv")
-        .expect("a test")
-        .1;
+    let csv = table_of(&mut files);
     let (first, rest) = csv.split_once('\n').expect("lines");
     let scaled: Vec<String> = first
         .split(',')
@@ -190,48 +195,73 @@ fn market(matrix: &DMatrix<f64>) -> String {
     )
 }
 
-/// A job one of whose test modes resembles no mode of the first model, until the two others have told the springs apart.
-fn mixed(method: &str) -> Files {
-    let (first, joint) = ([1000.0, 1050.0, 1100.0], 60.0);
-    let truth = oscillators([1000.0, 1300.0, 1650.0], joint);
-    let eigen = truth.symmetric_eigen();
-    let mut order = [0, 1, 2];
-    order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
-    let hertz =
-        order.map(|mode| (eigen.eigenvalues[mode].sqrt() / std::f64::consts::TAU).to_string());
-    let row = |row: usize| {
-        let values = order.map(|mode| eigen.eigenvectors[(row, mode)].to_string());
-        format!("{},x,+,{}\n", row + 1, values.join(","))
-    };
-    let csv = format!(
-        "frequency_hz,,,{}\ngrid,direction,sign,mode 1,mode 2,mode 3\n{}{}{}",
-        hertz.join(","),
-        row(0),
-        row(1),
-        row(2)
+/// The job of unit masses along x with this stiffness, of parameters with these parts of it, and of a test with these modes.
+fn job_of_matrices(
+    method: &str,
+    stiffness: &DMatrix<f64>,
+    parts: &[DMatrix<f64>],
+    (hertz, shapes): (&[f64], &DMatrix<f64>),
+) -> Files {
+    let count = stiffness.nrows();
+    let joined = |cells: Vec<String>| cells.join(",");
+    let titles = (1..=hertz.len()).map(|mode| format!("mode {mode}"));
+    let mut csv = format!(
+        "frequency_hz,,,{}\ngrid,direction,sign,{}\n",
+        joined(hertz.iter().map(f64::to_string).collect()),
+        joined(titles.collect())
     );
+    let mut rows = "grid,direction\n".to_owned();
+    for row in 0..count {
+        let values = joined(shapes.row(row).iter().map(f64::to_string).collect());
+        csv += &format!("{},x,+,{values}\n", row + 1);
+        rows += &format!("{},x\n", row + 1);
+    }
     let mut job = format!(
         "[model]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\nrows = \"rows.csv\"\n[test]\nfile = \"test.csv\"\n\
          [compare]\nmethod = \"{method}\"\n"
     );
     let mut files = vec![
-        ("K.mtx".to_owned(), market(&oscillators(first, joint))),
-        ("M.mtx".to_owned(), market(&DMatrix::identity(3, 3))),
-        (
-            "rows.csv".to_owned(),
-            "grid,direction\n1,x\n2,x\n3,x\n".to_owned(),
-        ),
+        ("K.mtx".to_owned(), market(stiffness)),
+        ("M.mtx".to_owned(), market(&DMatrix::identity(count, count))),
+        ("rows.csv".to_owned(), rows),
         ("test.csv".to_owned(), csv),
     ];
-    for (place, spring) in first.into_iter().enumerate() {
-        let mut springs = [0.0; 3];
-        springs[place] = spring;
+    for (place, part) in parts.iter().enumerate() {
         let name = format!("P{place}.mtx");
         job += &format!("[[parameter]]\nname = \"p{place}\"\nmatrix = \"{name}\"\n");
-        files.push((name, market(&oscillators(springs, 0.0))));
+        files.push((name, market(part)));
     }
     files.push(("job.toml".to_owned(), job));
     files
+}
+
+/// Frequencies (Hz) and shapes of unit masses with this stiffness, ascending.
+fn modes_of(stiffness: DMatrix<f64>) -> (Vec<f64>, DMatrix<f64>) {
+    let eigen = stiffness.symmetric_eigen();
+    let roots = &eigen.eigenvalues;
+    let mut order: Vec<usize> = (0..roots.len()).collect();
+    order.sort_by(|&a, &b| roots[a].total_cmp(&roots[b]));
+    let hertz = order
+        .iter()
+        .map(|&mode| roots[mode].sqrt() / std::f64::consts::TAU);
+    (hertz.collect(), eigen.eigenvectors.select_columns(&order))
+}
+
+/// A job one of whose test modes resembles no mode of the first model, until the two others have told the springs apart.
+fn mixed(method: &str) -> Files {
+    let (first, joint) = ([1000.0, 1050.0, 1100.0], 60.0);
+    let (hertz, shapes) = modes_of(oscillators([1000.0, 1300.0, 1650.0], joint));
+    let parts = [0, 1, 2].map(|place| {
+        let mut springs = [0.0; 3];
+        springs[place] = first[place];
+        oscillators(springs, 0.0)
+    });
+    job_of_matrices(
+        method,
+        &oscillators(first, joint),
+        &parts,
+        (&hertz, &shapes),
+    )
 }
 
 #[test]
@@ -255,11 +285,7 @@ fn a_mode_left_out_is_compared_once_it_resembles_a_mode_of_the_model() {
 #[test]
 fn a_selected_mode_that_is_not_compared_is_no_success() {
     let mut files = rods();
-    let csv = &mut files
-        .iter_mut()
-        .find(|(name, _)| name == "test.csv")
-        .expect("a test")
-        .1;
+    let csv = table_of(&mut files);
     // The third shape again is the first: its mode of the model belongs to the first.
     let lines = csv.lines().map(|line| {
         let cells: Vec<&str> = line.split(',').collect();
@@ -313,11 +339,7 @@ fn a_stopped_run_says_so_in_words_and_in_its_verdict() {
 #[test]
 fn what_shapes_do_not_decide_is_paired_by_frequency_and_said() {
     let mut files = rods();
-    let csv = &mut files
-        .iter_mut()
-        .find(|(name, _)| name == "test.csv")
-        .expect("a test")
-        .1;
+    let csv = table_of(&mut files);
     *csv = csv
         .lines()
         .filter(|line| !line.starts_with("2,") && !line.starts_with("3,"))
@@ -342,17 +364,11 @@ fn what_shapes_do_not_decide_is_paired_by_frequency_and_said() {
 #[test]
 fn repeated_roots_in_the_papers_loops_name_the_other_method() {
     let repeated = |method: &str| {
-        let mut files = mixed(method);
+        let (hertz, shapes) = modes_of(oscillators([1000.0, 1300.0, 1650.0], 60.0));
         let whole = DMatrix::from_diagonal_element(3, 3, 1000.0);
         let part = oscillators([300.0, 310.0, 320.0], 60.0);
-        for (name, text) in &mut files {
-            match &name[..] {
-                "K.mtx" => *text = market(&whole),
-                "P0.mtx" | "P1.mtx" => *text = market(&(0.5 * &part)),
-                "P2.mtx" => *text = market(&(&whole - &part)),
-                _ => {}
-            }
-        }
+        let parts = [0.5 * &part, 0.5 * &part, &whole - &part];
+        let files = job_of_matrices(method, &whole, &parts, (&hertz, &shapes));
         let (_folder, path) = placed(&files);
         let loaded = LoadedJob::new(&path).expect("it loads");
         run(&loaded, |_| {}, || true)
@@ -375,44 +391,24 @@ fn free_chain(turned: Option<usize>) -> Files {
         stiffness
     };
     let angle = |mode: usize| std::f64::consts::PI * mode as f64 / 12.0;
-    let hertz = [1, 2, 3].map(|mode| {
-        // The springs are a tenth softer than the model's.
-        (2.0 * 900.0_f64.sqrt() * angle(mode).sin() / std::f64::consts::TAU).to_string()
-    });
-    let row = |place: usize| {
+    // The springs are a tenth softer than the model's.
+    let hertz =
+        [1, 2, 3].map(|mode| 2.0 * 900.0_f64.sqrt() * angle(mode).sin() / std::f64::consts::TAU);
+    let shapes = DMatrix::from_fn(6, 3, |place, mode| {
         let sign = if turned == Some(place) { -1.0 } else { 1.0 };
-        let shape = |mode| sign * (angle(mode) * (2.0 * place as f64 + 1.0)).cos();
-        let values = [1, 2, 3].map(|mode| shape(mode).to_string());
-        format!("{},x,+,{}\n", place + 1, values.join(","))
-    };
-    let rows: String = (0..6).map(row).collect();
-    let mut job = "[model]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\nrows = \"rows.csv\"\n[test]\nfile = \"test.csv\"\n\
-                   [compare]\nmethod = \"gauss_newton\"\n"
-        .to_owned();
-    let mut files = vec![
-        ("K.mtx".to_owned(), market(&chain([1000.0; 5]))),
-        ("M.mtx".to_owned(), market(&DMatrix::identity(6, 6))),
-        (
-            "rows.csv".to_owned(),
-            "grid,direction\n1,x\n2,x\n3,x\n4,x\n5,x\n6,x\n".to_owned(),
-        ),
-        (
-            "test.csv".to_owned(),
-            format!(
-                "frequency_hz,,,{}\ngrid,direction,sign,mode 1,mode 2,mode 3\n{rows}",
-                hertz.join(",")
-            ),
-        ),
-    ];
-    for place in 0..5 {
+        sign * (angle(mode + 1) * (2.0 * place as f64 + 1.0)).cos()
+    });
+    let parts = [0, 1, 2, 3, 4].map(|place| {
         let mut springs = [0.0; 5];
         springs[place] = 1000.0;
-        let name = format!("P{place}.mtx");
-        job += &format!("[[parameter]]\nname = \"p{place}\"\nmatrix = \"{name}\"\n");
-        files.push((name, market(&chain(springs))));
-    }
-    files.push(("job.toml".to_owned(), job));
-    files
+        chain(springs)
+    });
+    job_of_matrices(
+        "gauss_newton",
+        &chain([1000.0; 5]),
+        &parts,
+        (&hertz, &shapes),
+    )
 }
 
 #[test]

@@ -1,0 +1,226 @@
+//! What is doubtful of a job before its first step.
+
+use super::loaded::measured;
+use super::preflight::{
+    Finding, FindingNames, LARGEST_TOLERANCE, SeenModes, hyphened, preflight_at_sensors,
+};
+use super::sensors::{PlacedSensor, motion};
+use super::{Concern, LoadedJob};
+use crate::files::error::FileError;
+use crate::method::modes::ModeSet;
+use crate::sparse::{Factor, SparseMatrix, WholeShare, modes_at_most};
+use crate::weighted::noise::Noise;
+use nalgebra::Vector3;
+
+/// Modal phase collinearity below which a complex test mode is doubtful as a real one.
+const COLLINEAR: f64 = 0.95;
+
+/// Span of the sensors' places over the model's from which they are in another unit: the least factor between two customary units
+/// of length is 2.54, and sensors sit on the structure.
+const LARGEST_SPAN: f64 = 2.0;
+
+impl LoadedJob {
+    /// Everything doubtful before the first step: what the pre-flight finds, complex test modes, and what the readers left aside.
+    ///
+    /// # Errors
+    /// Those of [`preflight_at_sensors`] and of the analysis it needs.
+    pub fn concerns(&self) -> Result<Vec<Concern>, FileError> {
+        self.concerns_and_rigid_body_modes().map(|(all, _)| all)
+    }
+
+    /// The same, and how many rigid-body modes the analysis for them has found.
+    pub(super) fn concerns_and_rigid_body_modes(&self) -> Result<(Vec<Concern>, usize), FileError> {
+        let (mut all, rigid_body_modes) = self.preflight_concerns()?;
+        all.extend(self.part_concerns()?);
+        for (mode, phase) in self.data.phase_collinearity.iter().enumerate() {
+            if *phase < COLLINEAR {
+                let mode = mode + 1;
+                all.push(Concern::remark(
+                    format!("complex-{mode}"),
+                    format!("Test mode {mode} is complex: its phase collinearity is {phase:.2}."),
+                ));
+            }
+        }
+        if !self.data.incomplete.is_empty() {
+            all.push(Concern::remark(
+                "not-in-every-mode",
+                format!(
+                    "Sensors left out because some mode of the file has no value at them: {}.",
+                    self.data.incomplete.join(", ")
+                ),
+            ));
+        }
+        if !self.data.skipped.is_empty() {
+            let numbers: Vec<String> = self.data.skipped.iter().map(usize::to_string).collect();
+            all.push(Concern::remark(
+                "datasets-not-read",
+                format!(
+                    "Datasets of the Universal File that are not read: {}.",
+                    numbers.join(", ")
+                ),
+            ));
+        }
+        all.extend(self.data.units.iter().map(|units| {
+            Concern::remark(
+                "units-of-test",
+                format!("The test's file is in units of {units}; nothing is converted."),
+            )
+        }));
+        Ok((all, rigid_body_modes))
+    }
+
+    /// What the pre-flight finds, in all modes of the test, and how many rigid-body modes the model has.
+    fn preflight_concerns(&self) -> Result<(Vec<Concern>, usize), FileError> {
+        let whole = &self.source.whole;
+        let left_out = self.unpaired.iter().map(|(mode, _)| mode);
+        let mut modes: Vec<usize> = left_out.chain(&self.modes).copied().collect();
+        modes.sort_unstable();
+        modes.dedup();
+        let test = measured(&self.data, &self.placed, &modes)?;
+        let (stiffness, mass) = whole.at(&self.ones())?;
+        let found = modes_at_most(&stiffness, &mass, 2 * self.analysis_modes)?;
+        let rigid_body_modes = found.rigid_body.ncols();
+        let (squares, shapes) = found.vibrations.into_parts();
+        let along = |(place, sensor): (usize, &PlacedSensor)| {
+            let own = sensor.direction;
+            let others = (own / 3 * 3..own / 3 * 3 + 3).filter(move |other| *other != own);
+            let read = |other: usize| {
+                let axis = Vector3::ith(other % 3, 1.0);
+                let motion = motion(&self.source, sensor.grid, other, axis);
+                let rows = motion.map(|(row, coefficient)| shapes.row(row) * coefficient);
+                rows.reduce(|sum, row| sum + row)
+                    .map(|readings| (place, other, readings))
+            };
+            others.filter_map(read).collect::<Vec<_>>()
+        };
+        let seen = SeenModes {
+            directions: self.placed.iter().enumerate().flat_map(along).collect(),
+            shares: whole.shares(&self.ones(), &shapes)?,
+            modes: ModeSet::new(squares, self.sensors.times(&shapes)?)?,
+        };
+        let ranges = whole.ranges();
+        let mut found = preflight_at_sensors(&seen, &test, &self.job.correlation, &ranges)?;
+        found.extend(self.percent_deviations(&modes));
+        let names = FindingNames {
+            sensors: self
+                .placed
+                .iter()
+                .map(|sensor| sensor.name.clone())
+                .collect(),
+            parameters: self.parameter_names().map(str::to_owned).collect(),
+            modes,
+        };
+        let concerns = found.iter().map(|finding| finding.concern(&names));
+        let concerns = concerns.chain(self.places_concern()).collect();
+        Ok((concerns, rigid_body_modes))
+    }
+
+    /// Parameters' matrices that are not part of the first stiffness or mass, or given twice.
+    ///
+    /// A part leaves a semidefinite rest, which has no negative pivots (Sylvester's law of inertia). Entries rounded to single
+    /// precision, by at most $\epsilon$ of each, move no eigenvalue below
+    /// $-\epsilon \max_i \sum_j (\lvert K_{ij} \rvert + \lvert K_{e,ij} \rvert)$ (Gershgorin), which is added to the diagonal.
+    fn part_concerns(&self) -> Result<Vec<Concern>, FileError> {
+        let (stiffness, mass) = self.source.whole.at(&self.ones())?;
+        let parts: Vec<(&str, &SparseMatrix, &SparseMatrix)> = self
+            .source
+            .whole
+            .parameters()
+            .iter()
+            .filter_map(|parameter| match &parameter.share {
+                WholeShare::Stiffness(part) => Some((&parameter.name[..], part, &stiffness)),
+                WholeShare::Mass(part) => Some((&parameter.name[..], part, &mass)),
+                WholeShare::Elements(_) => None,
+            })
+            .collect();
+        let mut all = Vec::new();
+        for (place, (name, part, whole)) in parts.iter().enumerate() {
+            let identifier = hyphened(name);
+            if !is_part(part, whole)? {
+                all.push(Concern::doubt(
+                    format!("not-part-{identifier}"),
+                    format!("parameter \"{name}\": its matrix is not part of the first model's, which without it has negative energy"),
+                ));
+            }
+            for (other, twin, _) in &parts[..place] {
+                let is_same =
+                    |sign: f64| twin.times_number(sign).eq(part.entries().iter().copied());
+                let how = [
+                    (1.0, "the same matrix"),
+                    (-1.0, "matrices of opposite sign"),
+                ];
+                for (_, how) in how.into_iter().filter(|(sign, _)| is_same(*sign)) {
+                    all.push(Concern::doubt(
+                        format!("twin-{}-{identifier}", hyphened(other)),
+                        format!("parameters \"{other}\" and \"{name}\" have {how}"),
+                    ));
+                }
+            }
+        }
+        Ok(all)
+    }
+
+    /// Standard deviations that are given in percent.
+    fn percent_deviations(&self, modes: &[usize]) -> Vec<Finding> {
+        let largest = |of: fn(&Noise) -> f64| {
+            let all = modes.iter().map(|&mode| of(&self.deviations(mode)));
+            all.fold(0.0, f64::max)
+        };
+        let both = [
+            ("frequency_deviation", largest(|noise| noise.frequency)),
+            ("shape_deviation", largest(|noise| noise.shape)),
+        ];
+        let large = both
+            .into_iter()
+            .filter(|(_, value)| *value > LARGEST_TOLERANCE);
+        large
+            .map(|(setting, value)| Finding::Percent { setting, value })
+            .collect()
+    }
+
+    /// Sensors placed by where they are cannot span much more than the model does.
+    fn places_concern(&self) -> Option<Concern> {
+        let extent = |places: Vec<Vector3<f64>>| {
+            let first = places.first()?;
+            let (low, high) = places.iter().fold((*first, *first), |(low, high), place| {
+                (low.inf(place), high.sup(place))
+            });
+            Some((high - low).norm())
+        };
+        let measured = self
+            .placed
+            .iter()
+            .filter(|sensor| sensor.distance.is_some());
+        let measured = measured.filter_map(|sensor| self.data.sensors[sensor.row].place);
+        let (test, model) = (
+            extent(measured.collect())?,
+            extent(self.source.geometry.places.values().copied().collect())?,
+        );
+        let ratio = test / model;
+        (ratio > LARGEST_SPAN).then(|| {
+            Concern::doubt(
+                "unit-of-places",
+                format!("The sensors' places span {ratio:.1} times what the model's do: another unit of length?"),
+            )
+        })
+    }
+}
+
+/// Whether the whole without a part is semidefinite.
+fn is_part(part: &SparseMatrix, whole: &SparseMatrix) -> Result<bool, FileError> {
+    let count = whole.rows();
+    let mut sums = vec![0.0; count];
+    for &(row, _, entry) in whole.entries().iter().chain(part.entries()) {
+        sums[row] += entry.abs();
+    }
+    let shift = f64::from(f32::EPSILON) * sums.iter().copied().fold(0.0, f64::max);
+    let entries = whole
+        .entries()
+        .iter()
+        .copied()
+        .chain(part.times_number(-1.0));
+    let entries = entries.chain((0..count).map(|row| (row, row, shift)));
+    let rest = SparseMatrix::new("rest", count, count, entries.collect())?;
+    // A rest that cannot be factorized accuses nobody.
+    Ok(!Factor::new("rest", &rest).is_ok_and(|factor| factor.negative_count() > 0))
+}
