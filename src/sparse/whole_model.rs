@@ -10,7 +10,7 @@ use crate::method::linear_algebra::{check_length, check_symmetric, symmetric_par
 use crate::method::model::{Bounds, ModalModel, Pair, ParameterMatrix};
 use crate::method::modes::{ModeSet, Modes, check_count};
 use crate::method::structure::positive;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 /// What one parameter holds of the whole model's matrices.
 #[derive(Debug, Clone, PartialEq)]
@@ -151,7 +151,7 @@ impl WholeModel {
 
     /// What the loops are handed without any condensation: the `count` lowest modes of the whole model as the sensors see them, and
     /// every parameter's share $V^t K_e V$ with the whole shapes, of elements by the function that also serves condensed shapes.
-    /// Rigid-body modes of a free structure stay out.
+    /// Rigid-body modes of a free structure are no modes of it, and in its basis only where a mass is a parameter.
     ///
     /// `sensors` reads the sensors' motions off the model's, $q_G = R q$ (sensors × DOF).
     ///
@@ -164,10 +164,14 @@ impl WholeModel {
         (test, pair): (&ModeSet, Pair),
         count: usize,
     ) -> Result<ModalModel, Error> {
+        let CountedModes {
+            rigid_body,
+            vibrations,
+        } = self.modes(factors, count)?;
         let ModeSet {
             omega_squared,
             mut shapes,
-        } = self.modes(factors, count)?.vibrations;
+        } = vibrations;
         let seen = sensors.times(&shapes)?;
         let modes = Modes::ascending(omega_squared, seen.clone());
         for (mode, mut shape) in shapes.column_iter_mut().enumerate() {
@@ -178,7 +182,23 @@ impl WholeModel {
                 -1.0
             };
         }
-        ModalModel::at_sensors(modes, test, pair, self.shares(factors, &shapes)?)
+        // Only a change of mass couples a vibration with a rigid-body mode.
+        let has_mass = |parameter: &WholeParameter| matches!(parameter.share, WholeShare::Mass(_));
+        let rigid_body = match self.parameters.iter().any(has_mass) {
+            true => rigid_body,
+            false => rigid_body.resize_horizontally(0, 0.0),
+        };
+        let further = ModeSet {
+            omega_squared: DVector::zeros(rigid_body.ncols()),
+            shapes: sensors.times(&rigid_body)?,
+        };
+        let count = shapes.ncols();
+        let mut basis = shapes.resize_horizontally(count + further.len(), 0.0);
+        basis
+            .columns_mut(count, further.len())
+            .copy_from(&rigid_body);
+        let shares = self.shares(factors, &basis)?;
+        ModalModel::at_sensors(modes, &further, test, pair, shares)
     }
 
     /// Stiffness and mass condensed to the sensors with one $B^t$ (Appendix A): $K_D$ (lbf/in), $M_D = B M B^t$ (lbf·s²/in), and

@@ -78,7 +78,8 @@ fn scaled(modes: &ModeSet, i: usize, test: &ModeSet, j: usize) -> (f64, DVector<
 ///
 /// $$ \mathrm d e = a \Big(I - \frac{v v^t}{v^t v}\Big) \mathrm d v - v \frac{e^t \mathrm d v}{v^t v} . $$
 ///
-/// It is exact with all modes, unless a condensation's $B$ moves mass. Modes closer than [`SMALLEST_SEPARATION`] keep their own shapes.
+/// The sum goes over the whole basis, rigid-body modes with $\omega_r^2 = 0$ among it. It is exact with all modes, unless a
+/// condensation's $B$ moves mass. Modes closer than [`SMALLEST_SEPARATION`] keep their own shapes.
 ///
 /// # Errors
 /// Those of [`residuals`].
@@ -86,7 +87,7 @@ fn scaled(modes: &ModeSet, i: usize, test: &ModeSet, j: usize) -> (f64, DVector<
 /// Source: Fox and Kapoor, *AIAA Journal* 6 (1968), 2426.
 pub fn jacobian(model: &ModalModel, weights: &[ModeWeight]) -> Result<DMatrix<f64>, Error> {
     check_weights(weights, model.test.len())?;
-    let (modes, test) = (&model.exact.modes, &model.test);
+    let (modes, test) = (&model.basis, &model.test);
     let (k, rows, count) = (
         &modes.omega_squared,
         1 + test.shapes.nrows(),

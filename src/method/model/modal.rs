@@ -116,13 +116,15 @@ pub struct ModalModel {
     pub(crate) exact: ExactResult,
     /// The test modes, scaled to unit generalized mass with the model's mass.
     pub(crate) test: ModeSet,
-    /// Cross-orthogonality of the exact modes with the test modes (4), or the cosine between them, n × g.
+    /// The shapes that changes are followed in (N): the exact modes, further ones, and last rigid-body modes, with $\omega^2 = 0$.
+    pub(crate) basis: ModeSet,
+    /// Cross-orthogonality of the basis with the test modes (4), or the cosine between them, N × g; zero for further shapes.
     pub(crate) cross: DMatrix<f64>,
     /// The rule that pairs them.
     pub(crate) pair: Pair,
     /// Weights of the test modes in the error sum, ones unless [`Self::weighted`].
     pub(crate) weights: Vec<ModeWeight>,
-    /// Generalized stiffness or mass of every parameter, $V^t K_e V$ (rad²/s²) or $V^t M_e V$ (n × n).
+    /// Generalized stiffness or mass of every parameter, $V^t K_e V$ (rad²/s²) or $V^t M_e V$ (N × N).
     pub(crate) shares: Vec<ParameterMatrix>,
     /// The same on the test shapes, relative to the test's own: $V_{Gi}^t K_e V_{Gj}/(\omega_{Gi} \omega_{Gj})$ or
     /// $V_{Gi}^t M_e V_{Gj}$ (g × g).
@@ -142,7 +144,18 @@ impl ModalModel {
         &self.test
     }
 
-    /// Cross-orthogonality of the exact modes with the test modes (4), or the cosine between them, n × g.
+    /// The shapes that changes are followed in (N): the exact modes, further ones, and last rigid-body modes, with $\omega^2 = 0$.
+    pub fn basis(&self) -> &ModeSet {
+        &self.basis
+    }
+
+    /// How many shapes of the basis are no rigid-body modes.
+    pub(crate) fn vibration_count(&self) -> usize {
+        let k = &self.basis.omega_squared;
+        k.iter().filter(|square| **square > 0.0).count()
+    }
+
+    /// Cross-orthogonality of the basis with the test modes (4), or the cosine between them, N × g; zero for further shapes.
     pub fn cross(&self) -> &DMatrix<f64> {
         &self.cross
     }
@@ -152,7 +165,7 @@ impl ModalModel {
         &self.weights
     }
 
-    /// Generalized stiffness or mass of every parameter, $V^t K_e V$ (rad²/s²) or $V^t M_e V$ (n × n).
+    /// Generalized stiffness or mass of every parameter, $V^t K_e V$ (rad²/s²) or $V^t M_e V$ (N × N).
     pub fn shares(&self) -> &[ParameterMatrix] {
         &self.shares
     }
@@ -202,9 +215,10 @@ impl ModalModel {
             .map(|share| share.map(|matrix| block(matrix, 0, count)))
             .collect();
         let pairing = pair_modes(&cross)?;
+        let basis = modes.clone().into();
         Self::compared(
             (modes, test),
-            cross,
+            (basis, cross),
             (pair_modes, pairing),
             shares,
             test_shares,
@@ -215,9 +229,12 @@ impl ModalModel {
     ///
     /// They are paired by `pair` with the cosine between two shapes in place of their cross-orthogonality; its square is the
     /// modal assurance criterion. Every test mode is scaled by its modal scale factor to the mode it is paired with, whose
-    /// generalized stiffness stands for its own. `shares` are $V^t K_e V$ or $V^t M_e V$ (n × n) with the shapes of the whole model.
+    /// generalized stiffness stands for its own. `further` shapes of the basis, orthonormal to the modes in the whole model's mass and
+    /// diagonal in its stiffness, are paired with none; rigid-body modes are the last of them. `shares` are $V^t K_e V$ or $V^t M_e V$
+    /// (N × N) with the basis at all DOF.
     pub(crate) fn at_sensors(
         modes: Modes,
+        further: &ModeSet,
         test: &ModeSet,
         pair: Pair,
         shares: Vec<ParameterMatrix>,
@@ -241,14 +258,34 @@ impl ModalModel {
             DMatrix::from_fn(sign.len(), sign.len(), entry)
         };
         let test_shares = shares.iter().map(|share| share.map(of_pairs)).collect();
-        Self::compared((modes, scaled), cross, (pair, pairing), shares, test_shares)
+        let (count, all) = (modes.len(), modes.len() + further.len());
+        let mut basis = ModeSet {
+            omega_squared: modes.omega_squared.clone().resize_vertically(all, 0.0),
+            shapes: modes.shapes.clone().resize_horizontally(all, 0.0),
+        };
+        let (squares, mut shapes) = (
+            &mut basis.omega_squared,
+            basis.shapes.columns_mut(count, all - count),
+        );
+        squares
+            .rows_mut(count, all - count)
+            .copy_from(&further.omega_squared);
+        shapes.copy_from(&further.shapes);
+        let cross = cross.resize_vertically(all, 0.0);
+        Self::compared(
+            (modes, scaled),
+            (basis, cross),
+            (pair, pairing),
+            shares,
+            test_shares,
+        )
     }
 
-    /// The modal model of exact modes and test modes paired by a rule: their distance, and the shares in the exact modes and on the
-    /// test shapes.
+    /// The modal model of exact modes and test modes paired by a rule: their distance, and the shares in the basis and on the test
+    /// shapes.
     fn compared(
         (modes, test): (Modes, ModeSet),
-        cross: DMatrix<f64>,
+        (basis, cross): (ModeSet, DMatrix<f64>),
         (pair, pairing): (Pair, Pairing),
         shares: Vec<ParameterMatrix>,
         on_test: Vec<ParameterMatrix>,
@@ -276,6 +313,7 @@ impl ModalModel {
         Ok(Self {
             exact,
             test,
+            basis,
             cross,
             pair,
             weights,
