@@ -9,7 +9,7 @@ use crate::method::linear_algebra::{check_length, check_shape};
 use crate::method::model::{ModalModel, ParameterMatrix};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::Pairing;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 /// Relative change of a root at which Recursive 1 counts as converged: round-off.
@@ -106,22 +106,13 @@ impl ModalState {
     pub fn at(model: &ModalModel, factors: Vec<f64>, rule: UpdateRule) -> Result<Self, Error> {
         check_length("parameter factors", factors.len(), model.shares.len())?;
         let basis = &model.basis;
-        let (count, size) = (model.vibration_count(), basis.len());
-        let (mut beta, mut alpha) = (DMatrix::zeros(size, size), DMatrix::zeros(size, size));
-        for (share, factor) in model.shares.iter().zip(&factors) {
-            match share {
-                ParameterMatrix::Stiffness(matrix) => beta += (factor - 1.0) * matrix,
-                ParameterMatrix::Mass(matrix) => alpha += (factor - 1.0) * matrix,
-            }
-        }
-        let apart = apart_from_rigid_bodies(&alpha, count)?;
-        if let Some(apart) = &apart {
-            (beta, alpha) = (
-                beta.resize(count, count, 0.0),
-                (alpha * apart).resize(count, count, 0.0),
-            );
-        }
-        let k = basis.omega_squared.rows(0, count).into_owned();
+        let Change {
+            k,
+            beta,
+            alpha,
+            apart,
+        } = Change::new(model, &factors)?;
+        let (count, size) = (k.len(), basis.len());
         let has_mass = model
             .shares
             .iter()
@@ -139,11 +130,7 @@ impl ModalState {
         perturbed.check_roots()?;
         let mut shapes = perturbed.shapes;
         normalize_with_mass(&mut shapes, &alpha)?;
-        if let Some(apart) = apart {
-            let mut both = DMatrix::identity(size, size);
-            both.view_mut((0, 0), (count, count)).copy_from(&shapes);
-            shapes = apart * both;
-        }
+        let shapes = with_rigid_bodies(apart, shapes);
         let close = shapes.tr_mul(&model.cross);
         let pairing = (model.pair)(&close.rows(0, model.exact.modes.len()).into_owned())?;
         let all = &basis.shapes * &shapes;
@@ -161,6 +148,42 @@ impl ModalState {
             generalized_shapes: shapes,
             pairing,
             errors,
+        })
+    }
+}
+
+/// The change of all parameters together, seen through the vibrations of the basis.
+pub(crate) struct Change {
+    /// $\omega^2$ of the vibrations before it.
+    pub(crate) k: DVector<f64>,
+    /// $\beta = \sum_{stiffness} (c_e - 1) V^t K_e V$.
+    pub(crate) beta: DMatrix<f64>,
+    /// $\alpha = \sum_{mass} (c_e - 1) V^t M_e V$, less what rigid-body modes carry.
+    pub(crate) alpha: DMatrix<f64>,
+    /// Where there are rigid-body modes, [`apart_from_rigid_bodies`].
+    pub(crate) apart: Option<DMatrix<f64>>,
+}
+
+impl Change {
+    pub(crate) fn new(model: &ModalModel, factors: &[f64]) -> Result<Self, Error> {
+        let (count, size) = (model.vibration_count(), model.basis.len());
+        let (mut beta, mut alpha) = (DMatrix::zeros(size, size), DMatrix::zeros(size, size));
+        for (share, factor) in model.shares.iter().zip(factors) {
+            match share {
+                ParameterMatrix::Stiffness(matrix) => beta += (factor - 1.0) * matrix,
+                ParameterMatrix::Mass(matrix) => alpha += (factor - 1.0) * matrix,
+            }
+        }
+        let apart = apart_from_rigid_bodies(&alpha, count)?;
+        if let Some(apart) = &apart {
+            beta = beta.resize(count, count, 0.0);
+            alpha = (alpha * apart).resize(count, count, 0.0);
+        }
+        Ok(Self {
+            k: model.basis.omega_squared.rows(0, count).into_owned(),
+            beta,
+            alpha,
+            apart,
         })
     }
 }
@@ -200,4 +223,18 @@ fn apart_from_rigid_bodies(
             .copy_from(&orthonormal);
     }
     Ok(Some(apart))
+}
+
+/// Generalized shapes of vibrations and rigid-body modes from those of the vibrations (n × n).
+pub(crate) fn with_rigid_bodies(
+    apart: Option<DMatrix<f64>>,
+    vibrations: DMatrix<f64>,
+) -> DMatrix<f64> {
+    let Some(apart) = apart else {
+        return vibrations;
+    };
+    let mut both = DMatrix::identity(apart.nrows(), apart.nrows());
+    both.view_mut((0, 0), vibrations.shape())
+        .copy_from(&vibrations);
+    apart * both
 }

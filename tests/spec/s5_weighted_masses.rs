@@ -83,7 +83,7 @@ impl Net {
     fn analyze(&self, factors: &[f64]) -> Result<ModalModel, Error> {
         let test = (&self.test, pair_modes as _);
         self.model
-            .analyze(factors, &self.sensors, test, self.vibrations)
+            .analyze(factors, &self.sensors, test, [self.vibrations, 0])
     }
 }
 

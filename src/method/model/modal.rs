@@ -10,6 +10,7 @@ use crate::method::error_sum::{Errors, ModeWeight, errors, weighted_errors};
 use crate::method::linear_algebra::{check_length, check_shape, check_symmetric, symmetric_part};
 use crate::method::modes::{ModeSet, Modes, solve};
 use crate::method::pairing::{Pairing, cross_orthogonality, pair_modes, paired, signed_assurance};
+use crate::method::state::{Change, with_rigid_bodies};
 use nalgebra::DMatrix;
 
 /// What one parameter holds of a matrix: at d DOF (d × d), or in n modes as $V^t K_e V$ or $V^t M_e V$ (n × n).
@@ -279,6 +280,44 @@ impl ModalModel {
             shares,
             test_shares,
         )
+    }
+
+    /// The model that follows from this one at `factors` on its shares, exact in its basis: the modes of $k + \beta$ with $I + \alpha$ in
+    /// place of an analysis, paired anew as [`Self::at_sensors`] does.
+    pub(crate) fn followed(&self, factors: &[f64]) -> Result<Self, Error> {
+        check_length("parameter factors", factors.len(), self.shares.len())?;
+        let Change {
+            k,
+            beta,
+            alpha,
+            apart,
+        } = Change::new(self, factors)?;
+        let identity = DMatrix::identity(k.len(), k.len());
+        let stiffness = symmetric_part(&(DMatrix::from_diagonal(&k) + beta));
+        let vibrations = solve(&stiffness, &symmetric_part(&(identity + alpha)), k.len())?;
+        let mut generalized = with_rigid_bodies(apart, vibrations.shapes.clone());
+        let (count, size) = (self.exact.modes.len(), self.basis.len());
+        let shapes = &self.basis.shapes * &generalized;
+        let squares = vibrations
+            .omega_squared
+            .clone()
+            .resize_vertically(size, 0.0);
+        let further = ModeSet {
+            omega_squared: squares.rows(count, size - count).into_owned(),
+            shapes: shapes.columns(count, size - count).into_owned(),
+        };
+        let seen = shapes.columns(0, count).into_owned();
+        let modes = Modes::ascending(squares.rows(0, count).into_owned(), seen.clone());
+        for mode in (0..count).filter(|&mode| modes.shapes.column(mode) != seen.column(mode)) {
+            generalized.column_mut(mode).neg_mut();
+        }
+        let through = |matrix: &DMatrix<f64>, factor: f64| {
+            symmetric_part(&(factor * generalized.tr_mul(&(matrix * &generalized))))
+        };
+        let shares = self.shares.iter().zip(factors);
+        let shares = shares.map(|(share, &factor)| share.map(|matrix| through(matrix, factor)));
+        let model = Self::at_sensors(modes, &further, &self.test, self.pair, shares.collect())?;
+        Ok(model.with_sizes(self.sizes.clone()))
     }
 
     /// The modal model of exact modes and test modes paired by a rule: their distance, and the shares in the basis and on the test
