@@ -8,7 +8,7 @@ use super::sensors::{PlacedSensor, motion};
 use super::{Concern, LoadedJob};
 use crate::files::error::FileError;
 use crate::method::modes::ModeSet;
-use crate::sparse::{Factor, SparseMatrix, WholeShare, modes_at_most};
+use crate::sparse::{Factor, SparseMatrix, WholeShare};
 use crate::weighted::noise::Noise;
 use nalgebra::Vector3;
 
@@ -78,7 +78,7 @@ impl LoadedJob {
         modes.dedup();
         let test = measured(&self.data, &self.placed, &modes)?;
         let (stiffness, mass) = whole.at(&self.ones())?;
-        let found = modes_at_most(&stiffness, &mass, 2 * self.analysis_modes)?;
+        let found = whole.modes_at_most(&stiffness, &mass, 2 * self.analysis_modes)?;
         let rigid_body_modes = found.rigid_body.ncols();
         let (squares, shapes) = found.vibrations.into_parts();
         let along = |(place, sensor): (usize, &PlacedSensor)| {

@@ -7,7 +7,7 @@ use crate::method::assembly::{element_matrices, stiffness_entries};
 use crate::method::error::Error;
 use crate::method::model::Bounds;
 use crate::method::structure::StructuralDof;
-use crate::sparse::elements::{mass_entries, moving_mass_entries};
+use crate::sparse::elements::{mass_entries, moving_mass_entries, resisting};
 use crate::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
@@ -131,7 +131,8 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
             members.push([labels, masses]);
         }
     }
-    let whole = WholeModel::new(stiffness, mass, parameters)?;
+    let whole = WholeModel::new(stiffness, mass, parameters)?
+        .with_resisting(resisting(&structure, &elements)?)?;
     let grids = bulk.grids.iter();
     let motions = grids
         .clone()

@@ -3,8 +3,10 @@
 use super::LargeModel;
 use super::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
 use crate::method::assembly::{ElementMatrix, stiffness_entries};
+use crate::method::elements::unit_stiffness;
 use crate::method::error::Error;
 use crate::method::model::Scaled;
+use crate::method::structure::Structure;
 
 /// The entries (row, column, value) of an element's lumped mass for its size.
 pub(crate) fn mass_entries(element: &ElementMatrix, size: f64) -> Vec<(usize, usize, f64)> {
@@ -26,6 +28,37 @@ pub(crate) fn moving_mass_entries(
         .iter()
         .flat_map(|a| other.iter().map(move |b| (a, b)));
     pairs.map(|(a, b)| (a.0, b.0, mass * a.1 * b.1)).collect()
+}
+
+/// Each element's stiffness in units of its own largest entry, summed over the structure. Every $K_e$ is semidefinite, so that the null
+/// space is that of any $\sum_e s_e K_e$,
+///
+/// $$ v^t K v = \sum_e s_e v^t K_e v = 0 \quad \text{if and only if} \quad K_e v = 0 \text{ for all } e, $$
+///
+/// and no element is stiffer than another. The largest entry is that of the element free of supports; what round-off leaves of its
+/// direction at the free ones is dropped.
+///
+/// # Errors
+/// Those of [`SparseMatrix::new`].
+pub(crate) fn resisting(
+    structure: &Structure,
+    elements: &[ElementMatrix],
+) -> Result<SparseMatrix, Error> {
+    let count = structure.free_dof().len();
+    let whole = structure.elements().iter().zip(structure.geometry());
+    let parts = elements
+        .iter()
+        .zip(whole)
+        .flat_map(|(matrix, (element, geometry))| {
+            let largest = unit_stiffness(geometry, &element.material)
+                .amax()
+                .max(matrix.unit.amax());
+            let parts = stiffness_entries(matrix, 1.0 / largest);
+            parts
+                .into_iter()
+                .filter(|entry| entry.2.abs() > 4.0 * f64::EPSILON)
+        });
+    SparseMatrix::new("stiffness of the elements", count, count, parts.collect())
 }
 
 impl WholeModel {
@@ -84,7 +117,8 @@ impl WholeModel {
             .collect();
         let stiffness = (0..elements.len()).flat_map(stiffness).collect();
         let (stiffness, mass) = (sparse("stiffness", stiffness)?, sparse("mass", mass)?);
-        let whole = Self::new(stiffness, mass, parameters.collect::<Result<_, Error>>()?)?;
+        let whole = Self::new(stiffness, mass, parameters.collect::<Result<_, Error>>()?)?
+            .with_resisting(resisting(structure, elements)?)?;
         Ok((whole, t.transposed()))
     }
 }

@@ -3,14 +3,14 @@
 
 use super::condensation::take_deformation;
 use super::matrix::GIVEN;
-use super::{Factor, SparseMatrix};
+use super::{Factor, RigidBodies, SparseMatrix};
 use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{
     check_length, cholesky, finite_list, solve_lower, symmetric_eigen, symmetric_part,
 };
 use crate::method::modes::{ModeSet, check_count};
 use crate::sparse::factorization::FactorizationPlan;
-use crate::sparse::random::split_mix_64;
+use crate::sparse::random::random_block;
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
@@ -18,20 +18,19 @@ use std::sync::Arc;
 pub const MOST_DENSE_ROWS: usize = 150;
 /// What there are too few of when more modes are asked for than have a frequency.
 pub const FINITE: &str = "modes of finite frequency";
-/// Directions that are added to the subspace at once: as many repeated roots are found together.
-const BLOCK: usize = 8;
+/// Directions that are added to the subspace at once, unless a root is repeated more often.
+pub(super) const BLOCK: usize = 8;
 /// Modes found beyond those asked for, so that the count can be made where two neighbors are apart.
 const BEYOND: usize = 4;
 /// Most restarts of the subspace.
 const RESTARTS: usize = 200;
-/// Residual of a mode relative to its root at which it counts as found, and that of the estimate which only places a shift.
+/// Residual of a mode relative to its root at which it counts as found.
 const FOUND: f64 = 1e-10;
-const ESTIMATED: f64 = 0.1;
+/// The same where round-off of a softer mode leaves no smaller one: a root errs by the square of it.
+const ROUNDED: f64 = 1e-5;
 /// Root relative to the largest below which it is lost: a decomposition finds each to some tens of roundings of the largest, so that
 /// three digits are left at a frequency three million times the lowest.
 const SMALLEST_ROOT: f64 = 1e-13;
-/// Squared frequency relative to the shift below which a motion that does not strain is a rigid-body mode.
-const RIGID: f64 = 1e-6;
 /// Distance of two neighbors relative to the higher between which modes can be counted.
 const APART: f64 = 1e-5;
 
@@ -49,13 +48,15 @@ pub struct CountedModes {
 ///
 /// They have the largest roots $\mu$ of
 ///
-/// $$ (K + \sigma M)^{-1} M v = \mu v, \qquad \omega^2 = \frac{1}{\mu} - \sigma, $$
+/// $$ K^{-1} M v = \mu v, \qquad \omega^2 = \frac{1}{\mu} . $$
 ///
-/// where the shift $\sigma$ is zero unless the structure hangs free. A block of directions is multiplied by this matrix again and
+/// The rigid-body modes of a structure that hangs free ([`RigidBodies`]) are known first, and the vibrations are sought among the motions
+/// orthogonal to them in $M$, where the inverse exists. A block of directions is multiplied by this matrix again and
 /// again, each new one made orthogonal to those before it in $M$; in the subspace that they span the modes are those of a small
 /// matrix, and the best of them begin the next subspace. Pencils of [`MOST_DENSE_ROWS`], and those of which the subspace would be
 /// the whole, have all their modes found at once. A factorization of $K - b M$ with $b$ just above the modes found must have as many
-/// negative pivots as there are modes below: Sylvester's law of inertia.
+/// negative pivots as there are modes below: Sylvester's law of inertia. Where it counts more, a root is repeated more often than the
+/// block has directions, and a block of as many directions as modes were counted begins anew.
 ///
 /// # Errors
 /// [`Error::Empty`] or [`Error::TooMany`] for a bad `count`; [`Error::Empty`] without mass; [`Error::NotPositiveDefinite`] for a motion
@@ -73,51 +74,64 @@ pub fn lowest_modes(
     mass.check_symmetric("mass")?;
     check_length("mass", mass.rows(), stiffness.rows())?;
     check_count("modes", count, stiffness.rows())?;
-    let found = modes_at_most(stiffness, mass, count)?;
+    let found = modes_at_most(stiffness, mass, count, stiffness)?;
     check_count(FINITE, count, found.vibrations.len())?;
     Ok(found)
 }
 
-/// The same of symmetric matrices of one size, or all modes where they are fewer than `most`.
+/// The same of symmetric matrices of one size, or all modes where they are fewer than `most`. The null space of `resisting` is that of
+/// the stiffness.
 pub(crate) fn modes_at_most(
     stiffness: &SparseMatrix,
     mass: &SparseMatrix,
     most: usize,
+    resisting: &SparseMatrix,
 ) -> Result<CountedModes, Error> {
     let count = most.min(stiffness.rows());
     at_least_one("modes", count)?;
     at_least_one("degrees of freedom with mass", mass.entries().len())?;
     let plan = Arc::new(FactorizationPlan::of_sum(&[stiffness, mass])?);
     let factor_at = |what, shift| Factor::of_sum(&plan, what, &[(1.0, stiffness), (shift, mass)]);
-    let (factor, shift) = shifted(&factor_at, stiffness, mass)?;
-    let sizes = stiffness.entries().iter().map(|entry| entry.2.abs());
-    let (stiffest, mut wanted) = (sizes.fold(0.0, f64::max), count + BEYOND);
+    let held = factor_at("stiffness", 0.0).ok();
+    let flexibility = match held.filter(|factor| factor.is_above(GIVEN)) {
+        Some(factor) => Flexibility::held(factor),
+        None => Flexibility::of(
+            &plan,
+            stiffness,
+            mass,
+            &RigidBodies::of("stiffness", resisting)?,
+        )?,
+    };
+    let rigid = flexibility.rigid.ncols();
+    let (mut wanted, mut block) = (count + BEYOND, BLOCK);
     loop {
-        let found = largest(&factor, mass, wanted, FOUND)?;
+        let found = largest(&flexibility, mass, wanted, block)?;
         let is_all = found.is_all;
-        let (omega_squared, shapes) = frequencies(stiffness, mass, found, shift)?;
-        // The strain energy of a motion of unit generalized mass is within the digits that are given of the largest stiffness.
-        let is_rigid = |&mode: &usize| {
-            let given = GIVEN * stiffest * shapes.column(mode).norm_squared();
-            omega_squared[mode] < given.min(RIGID * shift)
-        };
-        let rigid = (0..omega_squared.len()).take_while(is_rigid).count();
-        if !is_all && wanted < count + rigid + BEYOND {
-            wanted = count + rigid + BEYOND;
-            continue;
-        }
-        let needed = omega_squared.len().min(rigid + count);
+        let (omega_squared, shapes) = frequencies(mass, found)?;
+        let needed = omega_squared.len().min(count);
         if needed > 0 {
-            check_number(&factor_at, &omega_squared, needed, is_all.then_some(shift))?;
+            let (bound, counted, found) = numbers(&factor_at, &omega_squared, needed, is_all)?;
+            // A block as wide as all modes below the bound holds every copy of a repeated root.
+            let is_wide = wanted >= counted && block >= counted;
+            if counted > rigid + found && !is_wide && !is_all {
+                (wanted, block) = (counted + BEYOND, block.max(counted));
+                continue;
+            }
+            if counted != rigid + found {
+                return Err(Error::Miscounted {
+                    bound,
+                    counted,
+                    found: rigid + found,
+                });
+            }
         }
-        let vibrations: Vec<usize> = (rigid..needed).collect();
         return Ok(CountedModes {
-            rigid_body: shapes.columns(0, rigid).into_owned(),
             vibrations: ModeSet {
                 omega_squared,
                 shapes,
             }
-            .select(&vibrations),
+            .select(&(0..needed).collect::<Vec<_>>()),
+            rigid_body: flexibility.rigid,
         });
     }
 }
@@ -125,29 +139,92 @@ pub(crate) fn modes_at_most(
 /// The factor of $K + \sigma M$, named, for $\sigma$.
 type At<'a> = &'a dyn Fn(&'static str, f64) -> Result<Factor, Error>;
 
-/// The factor of $K + \sigma M$ and $\sigma$: zero for a structure on supports, else the size of the lower squared frequencies. A structure
-/// whose smallest eigenvalue the given digits do not tell from zero is shifted too, which does no harm where none is needed.
-fn shifted(
-    factor: At,
-    stiffness: &SparseMatrix,
-    mass: &SparseMatrix,
-) -> Result<(Factor, f64), Error> {
-    if let Ok(factor) = factor("stiffness", 0.0)
-        && factor.is_above(GIVEN)
-    {
-        return Ok((factor, 0.0));
-    }
-    let what = "stiffness shifted by the mass";
-    let factor_at = |shift: f64| factor(what, shift)?.check_positive(what);
-    let first = 1e-4 * stiffness.trace().max(f64::MIN_POSITIVE) / mass.trace();
-    let roots = largest(&factor_at(first)?, mass, BLOCK, ESTIMATED)?.roots;
-    let lower = roots.iter().take(BLOCK).map(|root| 1.0 / root - first);
-    let shift = lower.fold(1e-4 * first, f64::max);
-    Ok((factor_at(shift)?, shift))
+/// $K^{-1}$, or what stands for it where a structure hangs free: the deflections under loads that balance the inertia of its rigid-body
+/// modes $R$, and themselves have none of these,
+///
+/// $$ (I - R R^t M) K_g^{-1} (I - M R R^t) . $$
+///
+/// $K_g$ is the stiffness with one spring to the ground for every rigid-body mode. Balanced loads put no force into these springs, so
+/// that their stiffness does not matter, and no shift takes digits from the frequencies.
+struct Flexibility {
+    factor: Factor,
+    /// $R$, of unit generalized mass (rows × r).
+    rigid: DMatrix<f64>,
+    /// $M R$.
+    momentum: DMatrix<f64>,
 }
 
-/// The largest roots of $(K + \sigma M)^{-1} M$, descending, their shapes (rows × m), the forces $(K + \sigma M) v$ that these were
-/// found from, and whether there are no others.
+impl Flexibility {
+    fn held(factor: Factor) -> Self {
+        let none = DMatrix::zeros(factor.rows(), 0);
+        Self {
+            factor,
+            rigid: none.clone(),
+            momentum: none,
+        }
+    }
+
+    fn of(
+        plan: &Arc<FactorizationPlan>,
+        stiffness: &SparseMatrix,
+        mass: &SparseMatrix,
+        RigidBodies { motions, rows, .. }: &RigidBodies,
+    ) -> Result<Self, Error> {
+        let diagonal = stiffness.diagonal();
+        let spring = |row: usize| {
+            if diagonal[row] > 0.0 {
+                diagonal[row]
+            } else {
+                1.0
+            }
+        };
+        let springs = rows.iter().map(|&row| (row, row, spring(row))).collect();
+        let springs = SparseMatrix::new("springs", mass.rows(), mass.rows(), springs)?;
+        let what = "stiffness";
+        let factor =
+            Factor::of_sum(plan, what, &[(1.0, stiffness), (1.0, &springs)])?.check_signs(what)?;
+        if rows.is_empty() {
+            return Ok(Self::held(factor));
+        }
+        let gram = symmetric_part(&motions.tr_mul(&mass.times(motions)?));
+        let size = gram
+            .diagonal()
+            .map(|mass| mass.max(f64::MIN_POSITIVE).sqrt());
+        let unit = gram.component_div(&(&size * size.transpose()));
+        let what = "mass of rigid-body motions";
+        let lower = cholesky(what, &unit, GIVEN).map_err(|error| match error {
+            Error::NotPositiveDefinite { what, dof } => Error::NotPositiveDefinite {
+                what,
+                dof: rows[dof],
+            },
+            other => other,
+        })?;
+        let scaled = DMatrix::from_diagonal(&size.map(f64::recip)) * motions.transpose();
+        let rigid = solve_lower(&lower, scaled).transpose();
+        let momentum = mass.times(&rigid)?;
+        Ok(Self {
+            factor,
+            rigid,
+            momentum,
+        })
+    }
+
+    fn solve(&self, loads: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+        if self.rigid.is_empty() {
+            return self.factor.solve(loads);
+        }
+        let balanced = loads - &self.momentum * self.rigid.tr_mul(loads);
+        let mut deflections = self.factor.solve(&balanced)?;
+        // Once leaves the round-off of what was taken away, twice is enough.
+        for _ in 0..2 {
+            deflections -= &self.rigid * self.momentum.tr_mul(&deflections);
+        }
+        Ok(deflections)
+    }
+}
+
+/// The largest roots of $K^{-1} M$, descending, their shapes (rows × m), the forces $K v$ that these were found from, and whether there
+/// are no others.
 struct Found {
     roots: DVector<f64>,
     shapes: DMatrix<f64>,
@@ -157,28 +234,30 @@ struct Found {
 
 /// The `wanted` largest roots, or all if there are fewer or all are as easily found.
 fn largest(
-    factor: &Factor,
+    flexibility: &Flexibility,
     mass: &SparseMatrix,
     wanted: usize,
-    tolerance: f64,
+    block: usize,
 ) -> Result<Found, Error> {
-    let keep = wanted + BLOCK;
-    let most = keep + keep.max(4 * BLOCK);
+    let keep = wanted + block;
+    let most = keep + keep.max(4 * block);
     if mass.rows() <= most.max(MOST_DENSE_ROWS) {
-        all(factor, mass)
+        all(flexibility, mass)
     } else {
-        subspace(factor, mass, wanted, [keep, most], tolerance)
+        subspace(flexibility, mass, wanted, [block, keep, most])
     }
 }
 
-/// All roots: with $M = F F^t$ they are those of $F^t (K + \sigma M)^{-1} F y = \mu y$, and $v = (K + \sigma M)^{-1} F y$.
-fn all(factor: &Factor, mass: &SparseMatrix) -> Result<Found, Error> {
+/// All roots: with $M = F F^t$ they are those of $F^t K^{-1} F y = \mu y$, and $v = K^{-1} F y$.
+fn all(flexibility: &Flexibility, mass: &SparseMatrix) -> Result<Found, Error> {
     let f = root(mass)?;
-    let deflections = factor.solve(&f)?;
-    let flexibility = symmetric_part(&f.tr_mul(&deflections));
-    let (roots, vectors) = symmetric_eigen("flexibility weighted by the mass", &flexibility)?;
+    let deflections = flexibility.solve(&f)?;
+    let small = symmetric_part(&f.tr_mul(&deflections));
+    let (roots, vectors) = symmetric_eigen("flexibility weighted by the mass", &small)?;
     let smallest = SMALLEST_ROOT * roots.max();
-    let kept = (0..roots.len()).rev().filter(|&at| roots[at] > smallest);
+    // Rigid-body modes have the lowest roots: zero but for round-off.
+    let vibrations = flexibility.rigid.ncols().min(roots.len())..roots.len();
+    let kept = vibrations.rev().filter(|&at| roots[at] > smallest);
     let kept: Vec<usize> = kept.collect();
     Ok(Found {
         roots: roots.select_rows(&kept),
@@ -215,30 +294,39 @@ fn root(mass: &SparseMatrix) -> Result<DMatrix<f64>, Error> {
     }
 }
 
-/// The `wanted` largest roots by subspaces of at most so many directions, of which so many are kept.
+/// The `wanted` largest roots by blocks of so many directions, in subspaces of at most so many, of which so many are kept.
 fn subspace(
-    factor: &Factor,
+    flexibility: &Flexibility,
     mass: &SparseMatrix,
     wanted: usize,
-    [keep, most]: [usize; 2],
-    tolerance: f64,
+    [block, keep, most]: [usize; 3],
 ) -> Result<Found, Error> {
-    let times = |block: &DMatrix<f64>| factor.solve(&mass.times(block)?);
+    let times = |block: &DMatrix<f64>| flexibility.solve(&mass.times(block)?);
     let (mut basis, mut images) = (
         DMatrix::zeros(mass.rows(), 0),
         DMatrix::zeros(mass.rows(), 0),
     );
     let mut state = 0;
-    let random = DMatrix::from_fn(mass.rows(), BLOCK, |_, _| {
-        split_mix_64(&mut state) as f64 / u64::MAX as f64 - 0.5
-    });
-    let mut next = orthonormal(mass, &basis, times(&random)?)?;
+    let mut fresh = |basis: &DMatrix<f64>| {
+        let mut known = flexibility.rigid.clone();
+        known.extend(basis.column_iter());
+        let random = random_block(mass.rows(), block, &mut state);
+        match orthonormal(mass, &known, random)? {
+            none if none.is_empty() => Ok(none),
+            random => orthonormal(mass, basis, times(&random)?),
+        }
+    };
+    let mut next = fresh(&basis)?;
     for _ in 0..RESTARTS {
         while next.ncols() > 0 && basis.ncols() < most {
             let image = times(&next)?;
             basis.extend(next.column_iter());
             images.extend(image.column_iter());
             next = orthonormal(mass, &basis, image)?;
+            if next.ncols() == 0 {
+                // What the block led to is complete by itself; there may be other copies of its roots.
+                next = fresh(&basis)?;
+            }
         }
         let is_whole = next.ncols() == 0;
         let small = symmetric_part(&basis.tr_mul(&mass.times(&images)?));
@@ -249,7 +337,7 @@ fn subspace(
             vectors.select_columns(&largest),
         );
         (basis, images) = (&basis * &vectors, images * vectors);
-        let residuals = &images - &basis * DMatrix::from_diagonal(&roots);
+        let residuals = &images - &basis * basis.tr_mul(&mass.times(&images)?);
         let weighted = mass.times(&residuals)?;
         let is_found = |mode: usize| {
             let residual = residuals
@@ -257,7 +345,8 @@ fn subspace(
                 .dot(&weighted.column(mode))
                 .max(0.0)
                 .sqrt();
-            residual <= tolerance * roots[mode] + 100.0 * f64::EPSILON * roots[0]
+            let round_off = 100.0 * f64::EPSILON * roots[0];
+            residual <= FOUND * roots[mode] + round_off.min(ROUNDED * roots[mode])
         };
         let is_all = is_whole && values.len() <= keep;
         let count = if is_all { values.len() } else { wanted };
@@ -272,7 +361,7 @@ fn subspace(
         }
         let open: Vec<usize> = (0..roots.len())
             .filter(|&mode| !is_found(mode))
-            .take(BLOCK)
+            .take(block)
             .collect();
         next = orthonormal(mass, &basis, residuals.select_columns(&open))?;
     }
@@ -320,47 +409,39 @@ fn orthonormal(
 }
 
 /// Squared frequencies and shapes of unit generalized mass, each shape made orthogonal to those before it: what round-off leaves of a
-/// lower mode in a higher one goes. Frequencies are Rayleigh's quotients $v^t K v$, from the forces where these are $K v$, or else from
-/// which a shift has taken no digits.
-fn frequencies(
-    stiffness: &SparseMatrix,
-    mass: &SparseMatrix,
-    found: Found,
-    shift: f64,
-) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
+/// lower mode in a higher one goes. Frequencies are Rayleigh's quotients $v^t K v$ from the forces $K v$.
+fn frequencies(mass: &SparseMatrix, found: Found) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
     let unit = found.shapes.column_iter().map(|shape| 1.0 / shape.amax());
     let unit = DMatrix::from_diagonal(&DVector::from_iterator(found.roots.len(), unit));
     let (shapes, forces) = (found.shapes * &unit, found.forces * unit);
     let gram = symmetric_part(&shapes.tr_mul(&mass.times(&shapes)?));
     let lower = cholesky("generalized mass", &gram, 0.0)?;
     let orthogonal = |columns: DMatrix<f64>| solve_lower(&lower, columns.transpose()).transpose();
-    let (shapes, mut forces) = (orthogonal(shapes), orthogonal(forces));
-    if shift > 0.0 {
-        forces = stiffness.times(&shapes)?;
-    }
+    let (shapes, forces) = (orthogonal(shapes), orthogonal(forces));
     let quotient = |mode: usize| shapes.column(mode).dot(&forces.column(mode)).max(0.0);
     let quotients = (0..shapes.ncols()).map(quotient).collect();
     let omega_squared = finite_list("squared frequencies", quotients)?;
     Ok((DVector::from_vec(omega_squared), shapes))
 }
 
-/// Refuses modes whose number differs from the count by inertia at the first place above the `needed` ones where two are apart.
-fn check_number(
+/// A bound at the first place above the `needed` vibrations where two are apart, how many modes the inertia counts below it, and how many
+/// vibrations were found there.
+fn numbers(
     factor: At,
     omega_squared: &DVector<f64>,
     needed: usize,
-    all: Option<f64>,
-) -> Result<(), Error> {
+    is_all: bool,
+) -> Result<(f64, usize, usize), Error> {
     let last = omega_squared.len();
     let gap = |place: &usize| {
         omega_squared[*place] - omega_squared[place - 1] > APART * omega_squared[*place]
     };
     let found = (needed..last).find(gap).unwrap_or(last);
-    let next = match all {
+    let next = match is_all {
         _ if found < last => omega_squared[found],
-        Some(shift) => 3.0 * omega_squared[last - 1].max(shift),
+        true => 3.0 * omega_squared[last - 1],
         // Neighbors so close that none of them can be left out: the bound stands just above the last.
-        None => (1.0 + 2.0 * APART) * omega_squared[last - 1],
+        false => (1.0 + 2.0 * APART) * omega_squared[last - 1],
     };
     let bound = |part: f64| omega_squared[found - 1] + part * (next - omega_squared[found - 1]);
     let factor_at = |bound: f64| {
@@ -370,14 +451,5 @@ fn check_number(
     let (bound, factor) = factor_at(bound(0.5))
         .or_else(|_| factor_at(bound(0.4)))
         .or_else(|_| factor_at(bound(0.6)))?;
-    let counted = factor.negative_count();
-    if counted == found {
-        Ok(())
-    } else {
-        Err(Error::Miscounted {
-            bound,
-            counted,
-            found,
-        })
-    }
+    Ok((bound, factor.negative_count(), found))
 }

@@ -212,13 +212,12 @@ impl SparseMatrix {
         }
     }
 
-    /// The sum of the diagonal.
-    pub fn trace(&self) -> f64 {
-        self.entries
-            .iter()
-            .filter(|entry| entry.0 == entry.1)
-            .map(|entry| entry.2)
-            .sum()
+    /// The diagonal of a square matrix.
+    pub(super) fn diagonal(&self) -> DVector<f64> {
+        let mut diagonal = DVector::zeros(self.rows);
+        let own = self.entries.iter().filter(|entry| entry.0 == entry.1);
+        own.for_each(|&(row, _, value)| diagonal[row] = value);
+        diagonal
     }
 
     /// The same as a dense matrix.

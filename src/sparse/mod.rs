@@ -12,6 +12,7 @@ mod matrix;
 mod ordering;
 pub mod random;
 mod residual_vectors;
+mod rigid_bodies;
 pub mod whole_modes;
 mod whole_model;
 
@@ -20,7 +21,7 @@ pub(crate) use checks::{add_squares, start_vector};
 pub(crate) use condensation::sum_of_stiffness;
 pub use condensation::{LargeCondensation, LargeModel};
 pub use factorization::Factor;
-pub(crate) use lowest_modes::modes_at_most;
 pub use lowest_modes::{CountedModes, FINITE, MOST_DENSE_ROWS, lowest_modes};
 pub use matrix::SparseMatrix;
+pub use rigid_bodies::RigidBodies;
 pub use whole_model::{WholeModel, WholeParameter, WholeShare};

@@ -1,5 +1,14 @@
 //! Reproducible random numbers.
 
+use nalgebra::DMatrix;
+
+/// Columns of numbers from −½ up to ½.
+pub(super) fn random_block(rows: usize, columns: usize, state: &mut u64) -> DMatrix<f64> {
+    DMatrix::from_fn(rows, columns, |_, _| {
+        split_mix_64(state) as f64 / u64::MAX as f64 - 0.5
+    })
+}
+
 /// The next number from zero up to one: of [`split_mix_64`] the 53 bits that a number holds.
 pub fn uniform(state: &mut u64) -> f64 {
     (split_mix_64(state) >> 11) as f64 / (1_u64 << 53) as f64

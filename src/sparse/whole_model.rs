@@ -3,7 +3,7 @@
 use super::lowest_modes::{CountedModes, FINITE, modes_at_most};
 use super::residual_vectors::{leading_loads, residual_vectors};
 use super::sum_of_stiffness;
-use super::{Factor, SparseMatrix};
+use super::{Factor, RigidBodies, SparseMatrix};
 use crate::method::appendix_a::{Condensed, dynamic_stiffness};
 use crate::method::assembly::{ElementMatrix, check_element, stiffness_entries};
 use crate::method::error::Error;
@@ -43,6 +43,8 @@ pub struct WholeModel {
     stiffness: SparseMatrix,
     mass: SparseMatrix,
     parameters: Vec<WholeParameter>,
+    /// A matrix with the null space of $K$ at any factors, if one better than $K$ is known.
+    resisting: Option<SparseMatrix>,
 }
 
 impl WholeModel {
@@ -87,7 +89,35 @@ impl WholeModel {
             stiffness,
             mass,
             parameters,
+            resisting: None,
         })
+    }
+
+    /// The same model with a symmetric matrix whose null space is that of the stiffness at any factors, for rigid-body modes.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] for one of another size.
+    pub(crate) fn with_resisting(self, resisting: SparseMatrix) -> Result<Self, Error> {
+        check_length(
+            "stiffness of the elements",
+            resisting.rows(),
+            self.dof_count(),
+        )?;
+        Ok(Self {
+            resisting: Some(resisting),
+            ..self
+        })
+    }
+
+    /// The rigid-body motions of the first model, as its matrices tell them.
+    ///
+    /// # Errors
+    /// Those of [`RigidBodies::of`].
+    pub fn rigid_bodies(&self) -> Result<RigidBodies, Error> {
+        RigidBodies::of(
+            "stiffness",
+            self.resisting.as_ref().unwrap_or(&self.stiffness),
+        )
     }
 
     /// Number of degrees of freedom.
@@ -154,9 +184,20 @@ impl WholeModel {
         count: usize,
     ) -> Result<CountedModes, Error> {
         check_count("modes", count, self.dof_count())?;
-        let found = modes_at_most(stiffness, mass, count)?;
+        let found = self.modes_at_most(stiffness, mass, count)?;
         check_count(FINITE, count, found.vibrations.len())?;
         Ok(found)
+    }
+
+    /// The same, or all modes where they are fewer than `most`.
+    pub(crate) fn modes_at_most(
+        &self,
+        stiffness: &SparseMatrix,
+        mass: &SparseMatrix,
+        most: usize,
+    ) -> Result<CountedModes, Error> {
+        let resisting = self.resisting.as_ref().unwrap_or(stiffness);
+        modes_at_most(stiffness, mass, most, resisting)
     }
 
     /// What the loops are handed without any condensation: the `count` lowest modes of the whole model as the sensors see them, and

@@ -32,7 +32,7 @@ pub struct WholeModes {
 }
 
 /// The lowest vibrations of finite frequency of $K_S$ (free SDOF × free SDOF, lbf/in) and $T M T^t$ at the DOF that have mass, counted
-/// as by [`lowest_modes`](super::lowest_modes()): `most` of them, or all if there are fewer.
+/// as by [`lowest_modes`](super::lowest_modes()): `most` of them, or all if there are fewer. The null space of `resisting` is that of $K_S$.
 ///
 /// # Errors
 /// [`Error::WrongShape`] for a $T$ or masses that do not fit; those of [`lowest_modes`](super::lowest_modes()).
@@ -40,6 +40,7 @@ pub fn whole_modes(
     stiffness: &SparseMatrix,
     at: MassDof,
     most: usize,
+    resisting: &SparseMatrix,
 ) -> Result<WholeModes, Error> {
     let (t, rows) = (&at.load_distribution, stiffness.rows());
     check_length("load distribution", t.rows(), rows)?;
@@ -52,7 +53,7 @@ pub fn whole_modes(
     let CountedModes {
         rigid_body,
         vibrations,
-    } = modes_at_most(stiffness, &mass, most)?;
+    } = modes_at_most(stiffness, &mass, most, resisting)?;
     let shapes = t.transposed().times(&vibrations.shapes)?;
     Ok(WholeModes {
         dof: at.dof,

@@ -15,4 +15,9 @@ impl Draws {
     pub fn unit(&mut self) -> f64 {
         (split_mix_64(&mut self.0) >> 11) as f64 / (1_u64 << 53) as f64
     }
+
+    /// A number from `low` up to `high`.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
 }

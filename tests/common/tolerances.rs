@@ -280,3 +280,5 @@ pub const SHOWN_UNITS: f64 = 0.6;
 pub const EXPECTED_GRADIENT: f64 = 1e-8;
 /// Units of a drawing by which a rounded place may be off: one, of a tenth of a pixel, for two roundings of a half.
 pub const DRAWN_UNIT: f64 = 1.001;
+/// Roots of a pencil against a dense decomposition, relative to the root; the decomposition itself rounds at a part of the largest.
+pub const CLUSTERED_ROOT: f64 = 1e-7;

@@ -344,3 +344,31 @@ fn a_free_structure_has_its_rigid_body_modes_counted_and_left_out() {
     let ratio = found.modes.shapes()[1] / found.modes.shapes()[0];
     approx::assert_relative_eq!(ratio, -4.0, max_relative = COUNTED_ROOT);
 }
+
+#[test]
+fn a_stiff_link_of_a_free_structure_takes_none_of_its_vibrations() {
+    // Four masses in a row on two springs of 1e4 and a link ten billion times as stiff.
+    let free = "GRID,1,,0.,0.,0.,,23\nGRID,2,,10.,0.,0.,,23\nGRID,3,,20.,0.,0.,,23\nGRID,4,,30.,0.,0.,,23\n\
+                CONROD,1,1,2,1,.01\nCONROD,2,2,3,1,.01\nCONROD,3,3,4,1,1.+8\nMAT1,1,1.+7,,.3\n\
+                CONM2,1,1,,1.\nCONM2,2,2,,1.\nCONM2,3,3,,1.\nCONM2,4,4,,1.";
+    let found = modes(free).expect("modes");
+    assert_eq!((found.rigid_body, found.modes.len()), (1, 3));
+    // The last two masses move as one: a free chain of masses 1, 1 and 2, whose roots have this sum and product.
+    let (k, m): (f64, [f64; 3]) = (1e4, [1.0, 1.0, 2.0]);
+    let sum = k * (1.0 / m[0] + 2.0 / m[1] + 1.0 / m[2]);
+    let product = k * k * (m[0] + m[1] + m[2]) / (m[0] * m[1] * m[2]);
+    let root = (sum * sum / 4.0 - product).sqrt();
+    for (found, expected) in found
+        .modes
+        .omega_squared()
+        .iter()
+        .zip([sum / 2.0 - root, sum / 2.0 + root])
+    {
+        approx::assert_relative_eq!(*found, expected, max_relative = UNLIKE_STIFFNESS);
+    }
+    let frequencies = found.modes.frequencies_hz();
+    assert_eq!(
+        format!("{:.4} {:.4}", frequencies[0], frequencies[1]),
+        "13.4975 26.5401"
+    );
+}

@@ -8,6 +8,7 @@ use crate::method::error::Error;
 use crate::method::linear_algebra::symmetric_eigen;
 use crate::method::structure::{DIRECTIONS, Structure};
 use crate::sparse::SparseMatrix;
+use crate::sparse::elements::resisting;
 use crate::sparse::factorization::Factor;
 use crate::sparse::whole_modes::{MassDof, WholeModes, whole_modes};
 
@@ -34,7 +35,8 @@ pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
     let entries = elements.iter().zip(&sizes);
     let entries = entries.flat_map(|(element, &size)| stiffness_entries(element, size));
     let stiffness = SparseMatrix::new("stiffness", free.len(), free.len(), entries.collect())?;
-    let found = whole_modes(&stiffness, at, most).map_err(|error| match error {
+    let resisting = resisting(&structure, &elements)?;
+    let found = whole_modes(&stiffness, at, most, &resisting).map_err(|error| match error {
         // What has neither stiffness nor mass has a grid.
         Error::NotPositiveDefinite { .. } => Factor::of_stiffness(&elements, &sizes, free)
             .err()

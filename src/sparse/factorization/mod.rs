@@ -240,6 +240,19 @@ impl Factor {
         row
     }
 
+    /// Number of rows.
+    pub(super) fn rows(&self) -> usize {
+        self.pivots.len()
+    }
+
+    /// Refuses a matrix with a negative pivot.
+    pub(super) fn check_signs(self, what: &'static str) -> Result<Self, Error> {
+        match self.negative_count() {
+            0 => Ok(self),
+            _ => Err(self.not_positive(what)),
+        }
+    }
+
     /// The number of negative pivots, which is that of the matrix's negative eigenvalues (Sylvester's law of inertia).
     pub fn negative_count(&self) -> usize {
         self.pivots.iter().filter(|pivot| **pivot < 0.0).count()

@@ -90,10 +90,7 @@ impl Factor {
         diagonal
             .iter()
             .for_each(|&place| entries[place] += SINGULAR_SHIFT);
-        let factor = Factor::of_entries(plan, what, &entries, scale)?;
-        if factor.negative_count() > 0 {
-            return Err(factor.not_positive(what));
-        }
+        let factor = Factor::of_entries(plan, what, &entries, scale)?.check_signs(what)?;
         let (smallest, motion) = factor.weakest_motion(f64::INFINITY);
         let moved = |dof: usize| (motion[plan.turn[dof]] * factor.scale[plan.turn[dof]]).abs();
         // Ties go to the first.

@@ -1,9 +1,11 @@
 //! The text and the machine: fast forms beside plain ones, of any size.
 
+pub mod clusters;
 pub mod condensation;
 pub mod factorization;
 pub mod free_modes;
 pub mod residual_vectors;
+pub mod rigid_bodies;
 pub mod whole_model;
 pub mod whole_model_modes;
 pub mod whole_model_pencils;

@@ -44,14 +44,16 @@ impl DeltaWing {
         let mass = lumped_mass(&elements, &sizes, dof.len())?;
         let dense = dense_stiffness(&elements, &sizes, dof.len())?;
         let t = DMatrix::identity(dof.len(), dof.len());
+        let stiffness = SparseMatrix::of_dense("stiffness", &dense)?;
         whole_modes(
-            &SparseMatrix::of_dense("stiffness", &dense)?,
+            &stiffness,
             MassDof {
                 load_distribution: SparseMatrix::of_dense("load distribution", &t)?,
                 dof,
                 mass,
             },
             usize::MAX,
+            &stiffness,
         )
     }
 

@@ -1,0 +1,169 @@
+//! Rigid-body modes are the null space of the stiffness, whatever its stiffest part.
+
+use crate::common::draws::Draws;
+use crate::common::tolerances::DIFFERENCE_ROUND_OFF;
+use crate::common::whole_models::{masses, springs};
+use corfem::chain::rods;
+use corfem::method::model::Parameter;
+use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
+use corfem::sparse::{LargeModel, RigidBodies, SparseMatrix, WholeModel, lowest_modes};
+use nalgebra::{DMatrix, Vector3};
+
+/// The whole model of a structure with the mass of its elements and a first point.
+fn whole(structure: Structure, point: f64) -> WholeModel {
+    let count = structure.free_dof().len();
+    let t = SparseMatrix::new("T", count, 1, vec![(0, 0, 1.0)]).expect("T");
+    let first = structure.elements()[0].label;
+    let mass = DMatrix::from_element(1, 1, point);
+    let model = LargeModel::new(structure, t, mass, vec![Parameter::element(first, None)]);
+    WholeModel::of(&model.expect("a model"))
+        .expect("a whole model")
+        .0
+}
+
+#[test]
+fn one_stiff_spring_never_changes_the_count_of_a_model_of_elements() {
+    for decades in 0..=16 {
+        for (stiff, held) in (0..5).flat_map(|stiff| [(stiff, true), (stiff, false)]) {
+            let mut sizes = [1e4; 5];
+            sizes[stiff] *= 10_f64.powi(decades);
+            let chain = whole(rods(&sizes, [held, false]).expect("a chain"), 1.0);
+            let found = chain.rigid_bodies().expect("a null space");
+            assert_eq!(
+                found.rows.len(),
+                usize::from(!held),
+                "1e{decades} at {stiff}"
+            );
+            assert!(found.doubtful.is_empty());
+        }
+    }
+}
+
+#[test]
+fn one_stiff_or_soft_spring_of_a_matrix_never_changes_the_count_to_ratios_of_a_trillion() {
+    let mut draws = Draws(7);
+    for decades in -12..=12 {
+        for size in [2, 5, 40, 200] {
+            for is_held in [true, false] {
+                let ground = is_held.then_some((0, None, draws.between(1e4, 9e4)));
+                let tree =
+                    (1..size).map(|row| (draws.below(row), Some(row), draws.between(1e4, 9e4)));
+                let mut all: Vec<_> = tree.collect();
+                all.extend(ground);
+                // Of the network, or of the supports.
+                let odd = if draws.unit() < 0.5 {
+                    all.len() - 1
+                } else {
+                    draws.below(all.len())
+                };
+                all[odd].2 *= 10_f64.powi(decades);
+                let stiffness = springs(size, &all);
+                let found = RigidBodies::of("stiffness", &stiffness).expect("a null space");
+                let expected = usize::from(!is_held);
+                assert_eq!(
+                    found.rows.len(),
+                    expected,
+                    "1e{decades}, {size} rows, held {is_held}, {found:?}"
+                );
+                let modes = lowest_modes(
+                    &stiffness,
+                    &masses(&vec![2.0; size]),
+                    size.min(3) - expected,
+                )
+                .unwrap_or_else(|error| {
+                    panic!("1e{decades}, {size} rows, held {is_held}: {error}")
+                });
+                assert_eq!(modes.rigid_body.ncols(), expected);
+            }
+        }
+    }
+}
+
+/// A truss whose every point is held to six before it, free but for its first `held` points.
+fn truss(
+    draws: &mut Draws,
+    held: usize,
+    points: usize,
+    [length, modulus, density]: [f64; 3],
+) -> Structure {
+    let mut places: Vec<Vector3<f64>> = vec![];
+    while places.len() < points {
+        let place = Vector3::from_fn(|_, _| draws.between(-1.0, 1.0));
+        if places.iter().all(|other| (place - other).norm() > 0.3) {
+            places.push(place);
+        }
+    }
+    let grid = |(at, place): (usize, &Vector3<f64>)| Grid {
+        label: at + 1,
+        position: length * place,
+        constrained: [at < held; 3],
+    };
+    let grids = places.iter().enumerate().map(grid).collect();
+    let material = Material {
+        density,
+        ..Material::isotropic(modulus, 0.3).expect("a material")
+    };
+    let mut rods = Vec::new();
+    for point in 1..points {
+        let mut others: Vec<usize> = (0..point).collect();
+        while others.len() > 6 {
+            others.remove(draws.below(others.len()));
+        }
+        for other in others {
+            rods.push(Element {
+                label: rods.len() + 1,
+                kind: ElementKind::Rod,
+                grids: vec![point + 1, other + 1],
+                size: length * length * 10_f64.powf(draws.between(-5.0, -2.0)),
+                material,
+            });
+        }
+    }
+    Structure::new(grids, rods).expect("a truss")
+}
+
+#[test]
+fn a_thousand_structures_have_neither_one_too_many_nor_one_too_few() {
+    for number in 0..500_u64 {
+        let mut frequencies = Vec::new();
+        let (mut of, held) = (Draws(number), (number % 4) as usize);
+        let points = 4 + of.below(30);
+        // In millimeters and tons, and in meters and kilograms.
+        for units in [[1e3, 2.1e5, 7.8e-9], [1.0, 2.1e11, 7.8e3]] {
+            let structure = truss(&mut Draws(1000 + number), held, points, units);
+            let model = whole(structure, 0.0);
+            let modes = model
+                .modes(&[1.0], 3)
+                .unwrap_or_else(|error| panic!("{number}: {error}"));
+            // Three points hold six motions of a body and more; two let it turn about their line.
+            let expected = [6, 3, 1, 0][held];
+            assert_eq!(modes.rigid_body.ncols(), expected, "truss {number}");
+            frequencies.push(modes.vibrations.frequencies_hz());
+        }
+        for (one, other) in frequencies[0].iter().zip(&frequencies[1]) {
+            assert!(
+                (one / other - 1.0).abs() < DIFFERENCE_ROUND_OFF,
+                "truss {number}: {one} and {other}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_resistance_that_twelve_digits_do_not_tell_from_none_is_doubtful() {
+    // One part in a trillion and a half: sixteen digits tell it, twelve would not.
+    let stiffness = springs(2, &[(0, Some(1), 1.5e4 / 0.7), (0, None, 1e-8 / 0.7)]);
+    let found = RigidBodies::of("stiffness", &stiffness).expect("a null space");
+    assert_eq!((found.rows.len(), found.doubtful.len()), (0, 1));
+    // The same matrix written with eleven digits is free.
+    let written = stiffness.entries().iter().map(|&(row, column, value)| {
+        (
+            row,
+            column,
+            format!("{value:.10e}").parse().expect("a number"),
+        )
+    });
+    let written = SparseMatrix::new("stiffness", 2, 2, written.collect()).expect("a matrix");
+    let found = RigidBodies::of("stiffness", &written).expect("a null space");
+    assert_eq!((found.rows.len(), found.doubtful.len()), (1, 0));
+}
