@@ -19,6 +19,7 @@ pub mod job_matrices;
 pub mod job_prepared;
 pub mod job_results;
 pub mod jobs;
+pub mod lone_frequencies;
 pub mod matrices;
 pub mod matrices_damaged;
 pub mod nastran95_analysis;

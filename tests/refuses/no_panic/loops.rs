@@ -125,7 +125,7 @@ pub const LOOPS: &[Entry] = &[
         let found = mode_errors(&analysis, &pairing, &test)?;
         Ok(found
             .iter()
-            .flat_map(|error| [error.frequency, error.shape])
+            .flat_map(|error| [error.frequency, error.shape.unwrap_or_default()])
             .collect())
     }),
     ("error_sum::errors", |d| {
