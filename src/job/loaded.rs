@@ -413,15 +413,19 @@ fn lone_frequencies(
     )?;
     let mut ascending: Vec<usize> = (0..data.frequencies_hz.len()).collect();
     ascending.sort_by(|&a, &b| data.frequencies_hz[a].total_cmp(&data.frequencies_hz[b]));
-    let of_mode = |(place, &mode): (usize, &usize)| {
+    let of_mode = |(place, mode): (usize, usize)| {
         let named = pairs().find(|(number, _)| **number == mode + 1);
         let lone = LoneFrequency {
             frequency_hz: data.frequencies_hz[mode],
             partner: named.map_or(place, |(_, partner)| partner - 1),
         };
-        alone.contains(&mode).then_some((mode, lone))
+        (mode, lone)
     };
-    Ok(ascending.iter().enumerate().filter_map(of_mode).collect())
+    let ascending = ascending.into_iter().enumerate();
+    Ok(ascending
+        .filter(|(_, mode)| alone.contains(mode))
+        .map(of_mode)
+        .collect())
 }
 
 /// Reads the model of a job.
