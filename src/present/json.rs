@@ -13,7 +13,7 @@ use crate::files::test_data::DIRECTIONS;
 use crate::job::Trust;
 use crate::job::preflight::Finding;
 use crate::method::inner_loop::Iteration;
-use crate::method::model::{Bounds, ExactResult};
+use crate::method::model::{Bounds, ExactResult, LoneFrequency};
 use crate::method::step::Limit;
 use crate::method::verdict::Verdict;
 use crate::sparse::whole_modes::WholeModes;
@@ -82,6 +82,7 @@ struct ReportValue<'a> {
     best_pass: Option<usize>,
     test_mode_numbers: &'a [usize],
     test_frequencies_hz: Vec<f64>,
+    frequencies_alone: Vec<Value>,
     sensors: Vec<&'a str>,
     initial: SolutionValue<'a>,
     corrected_agreement: AgreementValue,
@@ -156,6 +157,10 @@ pub fn report(report: &Report) -> Result<Value, PresentError> {
         best_pass: report.best.map(|best| best + 1),
         test_mode_numbers: &report.mode_numbers,
         test_frequencies_hz: report.test.frequencies_hz(),
+        frequencies_alone: (report.test.len()..)
+            .zip(&report.lone)
+            .map(|(place, lone)| frequency_alone(report, place, lone))
+            .collect(),
         sensors: report
             .sensors
             .iter()
@@ -182,6 +187,18 @@ fn agreement(report: &Report, check: &ExactResult) -> Result<AgreementValue, Pre
         paired_analysis_modes: modes.map(|mode| mode + 1).collect(),
         modal_assurance: matrix_rows(&found.assurance),
         cross_orthogonality: found.orthogonality.as_ref().map(matrix_rows),
+    })
+}
+
+/// A frequency of the test without a shape, and those of its partner, the place of which is given from one.
+fn frequency_alone(report: &Report, place: usize, lone: &LoneFrequency) -> Value {
+    let hertz = |check: &ExactResult| check.modes.frequencies_hz()[lone.partner];
+    json!({
+        "mode": report.mode_number(place),
+        "analysis_mode": lone.partner + 1,
+        "test_hz": lone.frequency_hz,
+        "initial_hz": hertz(&report.initial),
+        "corrected_hz": hertz(report.corrected()),
     })
 }
 

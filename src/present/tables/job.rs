@@ -48,7 +48,8 @@ pub fn places_table(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Ta
         );
     let models = result
         .into_iter()
-        .flat_map(|result| [&result.first, &result.last]);
+        .flat_map(|result| [&result.first, &result.last])
+        .filter(|model| !model.test.is_empty());
     for (name, model) in ["first COMAC", "corrected COMAC"].into_iter().zip(models) {
         let pairs: Vec<Option<usize>> = model
             .exact
