@@ -40,7 +40,7 @@ impl LoadedJob {
             all.push(Concern::remark(
                 "frequencies-alone",
                 format!(
-                    "Test modes without shapes are paired by number, which nothing can check, nor sensors, signs or units: {}.",
+                    "Test modes without shapes are paired by number, which nothing checks: {}. The model's modes are followed by shape from there.",
                     pairs.join(", ")
                 ),
             ));

@@ -40,7 +40,7 @@ pub struct LoadedJob {
     pub test: ModeSet,
     /// Their places in the test's file, from zero, ascending in frequency.
     pub modes: Vec<usize>,
-    /// Test modes, from zero, of which a frequency alone is compared, ascending in frequency.
+    /// Test modes, from zero, of which a frequency alone is compared, ascending, with their partners in the first model.
     pub alone: Vec<(usize, LoneFrequency)>,
     /// Test modes, from zero, that resemble no mode of the first model, with their largest modal assurance.
     pub unpaired: Vec<(usize, f64)>,
@@ -52,6 +52,8 @@ pub struct LoadedJob {
     pub accepted: Vec<String>,
     /// How many modes of the model are taken.
     pub analysis_modes: usize,
+    /// The shapes of these partners as the sensors see them; none before the first analysis.
+    partner_shapes: Option<DMatrix<f64>>,
     /// The first model, kept with the settings, the number of modes and the test it was analyzed with.
     first: Option<(Compare, usize, ModeSet, ModalModel)>,
 }
@@ -138,6 +140,7 @@ impl LoadedJob {
             undecided: Vec::new(),
             accepted: Vec::new(),
             analysis_modes,
+            partner_shapes: None,
             first: None,
         };
         loaded.leave_out_unpaired()?;
@@ -210,6 +213,9 @@ impl LoadedJob {
             }
             Err(_) => return first.map(drop).map_err(FileError::from),
         };
+        let partners = self.alone.iter().map(|(_, lone)| lone.partner);
+        let partners: Vec<usize> = partners.filter(|mode| *mode < shapes.ncols()).collect();
+        self.partner_shapes = Some(shapes.select_columns(&partners));
         let assurance = decided(&modal_assurance(&shapes, &self.test.shapes)?);
         self.undecided = (0..assurance.ncols())
             .filter(|&mode| {
@@ -363,10 +369,30 @@ impl LoadedJob {
         match self.job.compare.method {
             Method::Paper => model.weighted(&self.own_weights()),
             Method::GaussNewton => {
-                let lone: Vec<LoneFrequency> = self.alone.iter().map(|(_, lone)| *lone).collect();
-                model.with_lone_frequencies(&lone)
+                let lone = self.followed(&model.exact)?;
+                model.with_lone_frequencies(lone)
             }
         }
+    }
+
+    /// The frequencies without shapes, each with the mode of this model that its partner in the first has become: those of the largest
+    /// sum of modal assurance with the partners, except modes that a test mode's shape has chosen.
+    fn followed(&self, exact: &ExactResult) -> Result<Vec<LoneFrequency>, Error> {
+        let mut all: Vec<LoneFrequency> = self.alone.iter().map(|(_, lone)| *lone).collect();
+        if let Some(first) = self
+            .partner_shapes
+            .as_ref()
+            .filter(|first| first.ncols() > 0)
+        {
+            let mut assurance = decided(&modal_assurance(&exact.modes.shapes, first)?);
+            for &mode in &exact.pairing.analysis_mode {
+                assurance.row_mut(mode).fill(-1.0);
+            }
+            for (lone, partner) in all.iter_mut().zip(pair_optimally(&assurance, 0.0)?) {
+                lone.partner = partner.unwrap_or(lone.partner);
+            }
+        }
+        Ok(all)
     }
 }
 

@@ -13,7 +13,7 @@ use crate::files::test_data::DIRECTIONS;
 use crate::job::Trust;
 use crate::job::preflight::Finding;
 use crate::method::inner_loop::Iteration;
-use crate::method::model::{Bounds, ExactResult, LoneFrequency};
+use crate::method::model::{Bounds, ExactResult};
 use crate::method::step::Limit;
 use crate::method::verdict::Verdict;
 use crate::sparse::whole_modes::WholeModes;
@@ -157,9 +157,8 @@ pub fn report(report: &Report) -> Result<Value, PresentError> {
         best_pass: report.best.map(|best| best + 1),
         test_mode_numbers: &report.mode_numbers,
         test_frequencies_hz: report.test.frequencies_hz(),
-        frequencies_alone: (report.test.len()..)
-            .zip(&report.lone)
-            .map(|(place, lone)| frequency_alone(report, place, lone))
+        frequencies_alone: (0..report.initial.lone.len())
+            .map(|place| frequency_alone(report, place))
             .collect(),
         sensors: report
             .sensors
@@ -190,15 +189,16 @@ fn agreement(report: &Report, check: &ExactResult) -> Result<AgreementValue, Pre
     })
 }
 
-/// A frequency of the test without a shape, and those of its partner, the place of which is given from one.
-fn frequency_alone(report: &Report, place: usize, lone: &LoneFrequency) -> Value {
-    let hertz = |check: &ExactResult| check.modes.frequencies_hz()[lone.partner];
+/// A frequency of the test without a shape with its partners in the first and the corrected model; places count from one.
+fn frequency_alone(report: &Report, place: usize) -> Value {
+    let lone = |check: &ExactResult| check.lone[place];
+    let hertz = |check: &ExactResult| check.modes.frequencies_hz()[lone(check).partner];
+    let both = [&report.initial, report.corrected()];
     json!({
-        "mode": report.mode_number(place),
-        "analysis_mode": lone.partner + 1,
-        "test_hz": lone.frequency_hz,
-        "initial_hz": hertz(&report.initial),
-        "corrected_hz": hertz(report.corrected()),
+        "mode": report.mode_number(report.test.len() + place),
+        "test_hz": lone(&report.initial).frequency_hz,
+        "analysis_modes": both.map(|check| lone(check).partner + 1),
+        "frequencies_hz": both.map(hertz),
     })
 }
 

@@ -33,7 +33,7 @@ pub const DEVIATIONS: Noise = Noise {
 ///
 /// Source: Golub and Pereyra, *SIAM Journal on Numerical Analysis* 10 (1973), 413.
 pub fn residuals(model: &ModalModel, weights: &[ModeWeight]) -> Result<DVector<f64>, Error> {
-    check_weights(weights, model.test.len() + model.lone.len())?;
+    check_weights(weights, model.test.len() + model.exact.lone.len())?;
     let residuals = residuals_of(&model.exact.modes, &model.exact.pairing, model, weights);
     finite_list("residuals", residuals.data.into()).map(DVector::from_vec)
 }
@@ -42,11 +42,11 @@ pub fn residuals(model: &ModalModel, weights: &[ModeWeight]) -> Result<DVector<f
 pub(crate) fn residuals_of(
     modes: &ModeSet,
     pairing: &Pairing,
-    ModalModel { test, lone, .. }: &ModalModel,
+    ModalModel { test, exact, .. }: &ModalModel,
     weights: &[ModeWeight],
 ) -> DVector<f64> {
     let rows = 1 + test.shapes.nrows();
-    let mut residuals = DVector::zeros(rows * test.len() + lone.len());
+    let mut residuals = DVector::zeros(rows * test.len() + exact.lone.len());
     for (j, &i) in pairing.analysis_mode.iter().enumerate() {
         residuals[rows * j] =
             weights[j].frequency * ((modes.omega_squared[i] / test.omega_squared[j]).sqrt() - 1.0);
@@ -55,7 +55,7 @@ pub(crate) fn residuals_of(
             .rows_mut(rows * j + 1, rows - 1)
             .copy_from(&(weights[j].shape * apart));
     }
-    for (place, (lone, weight)) in lone.iter().zip(&weights[test.len()..]).enumerate() {
+    for (place, (lone, weight)) in exact.lone.iter().zip(&weights[test.len()..]).enumerate() {
         residuals[rows * test.len() + place] = weight.frequency * lone.error(modes);
     }
     residuals
@@ -84,8 +84,8 @@ fn scaled(modes: &ModeSet, i: usize, test: &ModeSet, j: usize) -> (f64, DVector<
 ///
 /// Source: Fox and Kapoor, *AIAA Journal* 6 (1968), 2426.
 pub fn jacobian(model: &ModalModel, weights: &[ModeWeight]) -> Result<DMatrix<f64>, Error> {
-    let (modes, test) = (&model.exact.modes, &model.test);
-    check_weights(weights, test.len() + model.lone.len())?;
+    let (modes, test, lone) = (&model.exact.modes, &model.test, &model.exact.lone);
+    check_weights(weights, test.len() + lone.len())?;
     let (k, rows, count) = (
         &modes.omega_squared,
         1 + test.shapes.nrows(),
@@ -95,7 +95,7 @@ pub fn jacobian(model: &ModalModel, weights: &[ModeWeight]) -> Result<DMatrix<f6
         ParameterMatrix::Stiffness(beta) => beta[(r, i)],
         ParameterMatrix::Mass(alpha) => -k[i] * alpha[(r, i)],
     };
-    let mut jacobian = DMatrix::zeros(rows * test.len() + model.lone.len(), count);
+    let mut jacobian = DMatrix::zeros(rows * test.len() + lone.len(), count);
     for (j, &i) in model.exact.pairing.analysis_mode.iter().enumerate() {
         let ratio = (k[i] / test.omega_squared[j]).sqrt();
         // The share of every other mode that each parameter adds to this one (n × p).
@@ -119,7 +119,7 @@ pub fn jacobian(model: &ModalModel, weights: &[ModeWeight]) -> Result<DMatrix<f6
                 weights[j].frequency * ratio * change(i, i, share) / (2.0 * k[i]);
         }
     }
-    for (place, (lone, weight)) in model.lone.iter().zip(&weights[test.len()..]).enumerate() {
+    for (place, (lone, weight)) in lone.iter().zip(&weights[test.len()..]).enumerate() {
         let (i, ratio) = (lone.partner, 1.0 + lone.error(modes));
         for (e, share) in model.shares.iter().enumerate() {
             jacobian[(rows * test.len() + place, e)] =

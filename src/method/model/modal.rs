@@ -106,6 +106,8 @@ pub struct ExactResult {
     pub pairing: Pairing,
     /// Their frequencies in the order of the test modes, Hz.
     pub frequencies_hz: Vec<f64>,
+    /// Frequencies of the test without shapes, none unless [`ModalModel::with_lone_frequencies`].
+    pub lone: Vec<LoneFrequency>,
     /// Their distance from the test modes.
     pub errors: Errors,
 }
@@ -115,7 +117,7 @@ pub struct ExactResult {
 pub struct LoneFrequency {
     /// Hz.
     pub frequency_hz: f64,
-    /// The place of the mode among the model's elastic modes, which ascend, from zero, whatever the model's factors.
+    /// The place of the mode among the model's elastic modes, which ascend, from zero.
     pub partner: usize,
 }
 
@@ -140,8 +142,6 @@ pub struct ModalModel {
     pub(crate) cross: DMatrix<f64>,
     /// The rule that pairs them.
     pub(crate) pair: Pair,
-    /// Frequencies of the test without shapes, none unless [`Self::with_lone_frequencies`].
-    pub(crate) lone: Vec<LoneFrequency>,
     /// Weights of the test modes in the error sum, ones unless [`Self::weighted`].
     pub(crate) weights: Vec<ModeWeight>,
     /// Generalized stiffness or mass of every parameter, $V^t K_e V$ (rad²/s²) or $V^t M_e V$ (n × n).
@@ -289,6 +289,7 @@ impl ModalModel {
             modes,
             pairing,
             frequencies_hz,
+            lone: Vec::new(),
             errors,
         };
         let (sizes, weights) = (
@@ -300,7 +301,6 @@ impl ModalModel {
             test,
             cross,
             pair,
-            lone: Vec::new(),
             weights,
             shares,
             test_shares,
@@ -325,7 +325,7 @@ impl ModalModel {
     ///
     /// # Errors
     /// [`Error::NotPositive`] for a frequency; [`Error::TooMany`] for a partner that the model has not; [`Error::NotFinite`].
-    pub fn with_lone_frequencies(mut self, lone: &[LoneFrequency]) -> Result<Self, Error> {
+    pub fn with_lone_frequencies(mut self, lone: Vec<LoneFrequency>) -> Result<Self, Error> {
         for (place, frequency) in lone.iter().enumerate() {
             let owner = || format!("frequency {place} without a shape (from zero)");
             positive("frequency", owner, frequency.frequency_hz)?;
@@ -335,16 +335,21 @@ impl ModalModel {
                 self.exact.modes.len(),
             )?;
         }
-        self.lone = lone.to_vec();
+        self.exact.lone = lone;
         self.exact.errors = self.errors_of(&self.exact.modes, &self.exact.pairing)?;
         Ok(self)
     }
 
     /// Errors of every test mode, then of the frequencies without shapes.
     pub(crate) fn mode_errors(&self) -> Result<Vec<ModeError>, Error> {
-        let ExactResult { modes, pairing, .. } = &self.exact;
+        let ExactResult {
+            modes,
+            pairing,
+            lone,
+            ..
+        } = &self.exact;
         let mut all = mode_errors(modes, pairing, &self.test)?;
-        all.extend(self.lone.iter().map(|lone| ModeError {
+        all.extend(lone.iter().map(|lone| ModeError {
             frequency: lone.error(modes),
             shape: None,
         }));
@@ -361,7 +366,7 @@ impl ModalModel {
                 }
                 ParameterMatrix::Mass(alpha) => alpha[(lone.partner, lone.partner)],
             };
-            let lone = self.lone.iter().map(of_lone);
+            let lone = self.exact.lone.iter().map(of_lone);
             lone.fold(on_test.diagonal().amax(), f64::max)
         };
         self.shares
@@ -379,8 +384,8 @@ impl ModalModel {
     /// How far paired modes are from the test modes, with the weights.
     pub(crate) fn errors_of(&self, modes: &ModeSet, pairing: &Pairing) -> Result<Errors, Error> {
         let mut errors = weighted_errors(modes, pairing, &self.test, &self.weights)?;
-        errors.lone_count = self.lone.len();
-        for lone in &self.lone {
+        errors.lone_count = self.exact.lone.len();
+        for lone in &self.exact.lone {
             errors.frequency = errors.frequency.hypot(lone.error(modes));
         }
         check_error_sum(errors.sum()).map(|()| errors)

@@ -56,7 +56,6 @@ impl Report {
         };
         let report = Self {
             title: loaded.title.clone(),
-            lone: loaded.alone.iter().map(|(_, lone)| *lone).collect(),
             mode_numbers: loaded.compared().map(|mode| mode + 1).collect(),
             ranges: whole.ranges(),
             sensors: loaded.placed.iter().map(sensor_point).collect(),

@@ -8,7 +8,7 @@ use crate::method::derivatives::{DERIVATIVE_STEP, by_definition};
 use crate::method::error::Error;
 use crate::method::error_sum::Errors;
 use crate::method::inner_loop::{InnerRun, Stop};
-use crate::method::model::{Bounds, ExactResult, LoneFrequency, ModalModel, ParameterMatrix};
+use crate::method::model::{Bounds, ExactResult, ModalModel, ParameterMatrix};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::{Correlation, Pass};
 use crate::method::pairing::{cross_orthogonality, modal_assurance};
@@ -70,8 +70,6 @@ pub struct Report {
     pub truth: Vec<f64>,
     /// Test modes, sensors × modes.
     pub test: ModeSet,
-    /// Frequencies of the test without shapes.
-    pub lone: Vec<LoneFrequency>,
     /// The numbers in the test's file of the test modes, then of those without shapes.
     pub mode_numbers: Vec<usize>,
     /// What may lower the trust in it; none of the paper's cases.
@@ -119,7 +117,7 @@ impl Derivatives {
     /// Those of [`by_definition`].
     pub fn at(first: &ModalModel) -> Result<Self, Error> {
         let changes = by_definition(first, &ModalState::start(first))?;
-        let lone = first.lone.iter().map(|lone| &lone.partner);
+        let lone = first.exact.lone.iter().map(|lone| &lone.partner);
         let partners: Vec<usize> = first
             .exact
             .pairing
@@ -181,7 +179,6 @@ impl Report {
             deviations: None,
             truth: Vec::new(),
             test: test.clone(),
-            lone: Vec::new(),
             mode_numbers: (1..=test.len()).collect(),
             trust: None,
             sensors: Vec::new(),

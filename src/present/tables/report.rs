@@ -29,8 +29,8 @@ fn table_of(report: &Report, name: &str, title: &str, label: &'static str) -> Ta
 pub fn paired_table(report: &Report) -> Result<Table, Error> {
     let mut test_hz = report.test.frequencies_hz();
     let shaped = test_hz.len();
-    test_hz.extend(report.lone.iter().map(|lone| lone.frequency_hz));
-    let none = || report.lone.iter().map(|_| Cell::text("–"));
+    test_hz.extend(report.initial.lone.iter().map(|lone| lone.frequency_hz));
+    let none = || report.initial.lone.iter().map(|_| Cell::text("–"));
     let mut table = table_of(report, "modes", "test modes and their partners", "Mode")
         .labels((0..test_hz.len()).map(|mode| report.mode_number(mode)))
         .labels(["frequency RMS", "shape RMS"])
@@ -44,7 +44,7 @@ pub fn paired_table(report: &Report) -> Result<Table, Error> {
         let shape_rms = (shaped > 0).then(|| check.errors.shape_rms());
         let rms = [Some(check.errors.frequency_rms()), shape_rms];
         let all_hz = check.modes.frequencies_hz();
-        let lone_hz = report.lone.iter().map(|lone| all_hz[lone.partner]);
+        let lone_hz = check.lone.iter().map(|lone| all_hz[lone.partner]);
         let hertz: Vec<f64> = check
             .frequencies_hz
             .iter()
