@@ -51,17 +51,9 @@ def skew(v):
 grids, links = [], {}  # places; dependent grid -> independent one
 
 
-def grid(*place):
-    grids.append(np.array(place, float))
-    return len(grids) - 1
-
-
 def line(*places):
-    return [grid(*place) for place in places]
-
-
-def rigid(dependent, independent):
-    links[dependent] = independent
+    grids.extend(np.array(place, float) for place in places)
+    return list(range(len(grids) - len(places), len(grids)))
 
 
 elements = []  # (ends, up, section, {parameter: parts}), local x along the bar, z near `up`
@@ -87,23 +79,21 @@ chain(wing[1:-1], (0, 0, 1), layer, {"damping layer": ("y", "z", "axial")})
 masses = []
 for y in (-0.95, 0.95):
     drum = line(*[(x, y, 0.106) for x in (-0.2, -0.1, 0.0, 0.1, 0.2)])
-    rigid(drum[2], wing[1 if y < 0 else -2])
+    links[drum[2]] = wing[1 if y < 0 else -2]
     chain(drum, (0, 0, 1), bar(0.1, 0.01), {"drums": all_parts})
-    point = grid(0.18, np.sign(y) * 0.93, 0.111)
-    rigid(point, drum[4])
+    (point,) = line((0.18, np.sign(y) * 0.93, 0.111))
+    links[point] = drum[4]
     masses.append(point)
 # Fin and tailplane.
-tail = fuselage_x.index(-0.85)
 fin = line(*[(-0.85, 0, z) for z in (0.075, 0.15, 0.225, 0.3, 0.35)])
 chain(fin, (1, 0, 0), bar(0.01, 0.1), {"fin": all_parts})
 plane = line(*[(-0.85, y, 0.355) for y in (-0.2, -0.1, 0.0, 0.1, 0.2)])
 chain(plane, (0, 0, 1), bar(0.1, 0.01), {"tailplane": all_parts})
-rigid(plane[2], fin[-1])
-rigid(fin[0], fuselage[tail])
+links[plane[2]] = fin[-1]
+links[fin[0]] = fuselage[fuselage_x.index(-0.85)]
 # The joint of wing and fuselage: a steel plate, 130 mm by 70 mm and 16 mm high, as a beam along z.
-foot, head = grid(0, 0, 0.075), grid(0, 0, 0.091)
-rigid(foot, fuselage[fuselage_x.index(0.0)])
-rigid(wing[len(half)], head)
+foot, head = line((0, 0, 0.075), (0, 0, 0.091))
+links[foot], links[wing[len(half)]] = fuselage[fuselage_x.index(0.0)], head
 steel = [210e9 / E * part for part in bar(0.07, 0.13)[:4]]
 plate = (*steel, 7850 * 0.07 * 0.13)
 chain([foot, head], (1, 0, 0), plate, {"joint": all_parts})

@@ -9,7 +9,7 @@ use crate::files::read_bytes;
 use crate::files::test_data::{self, TestData};
 use crate::job::assignment::pair_optimally;
 use crate::job::expansion::mass_by_modes;
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::model::{ExactResult, LoneFrequency, ModalModel};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::{Pairing, modal_assurance};
@@ -89,6 +89,7 @@ impl LoadedJob {
         job.refuse_if(unknown, |mode| {
             format!("test.modes: there is no mode {mode}; the test has 1 to {available}")
         })?;
+        at_least_one("test modes", numbers.len())?;
         job.once(numbers.iter(), "test.modes: mode")?;
         job.once(
             source

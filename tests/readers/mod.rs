@@ -13,6 +13,7 @@ pub mod deck_rewrite;
 mod deck_supported;
 pub mod deck_rewrite_drawn;
 mod file_bounds;
+pub mod garteur;
 pub mod job_concerns;
 pub mod job_errors;
 pub mod job_matrices;
