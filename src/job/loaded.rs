@@ -58,6 +58,9 @@ pub struct LoadedJob {
     first: Option<(Compare, usize, ModeSet, ModalModel)>,
 }
 
+/// Residual vectors a parameter, unless the job says how many: more add less than the lowest mode left out.
+const RESIDUAL_VECTORS: usize = 4;
+
 impl LoadedJob {
     /// Reads a job and what it names, places the sensors, and pairs the test modes with those of the first model.
     ///
@@ -364,7 +367,13 @@ impl LoadedJob {
             factors,
             &self.sensors,
             (&self.test, pair_by_assignment),
-            self.analysis_modes,
+            [
+                self.analysis_modes,
+                self.job
+                    .compare
+                    .residual_vectors
+                    .unwrap_or(RESIDUAL_VECTORS),
+            ],
         )?;
         // Gauss-Newton steps have weights of their own.
         match self.job.compare.method {

@@ -156,6 +156,7 @@ enum Scales {
 #[serde(default, deny_unknown_fields)]
 pub struct Compare {
     analysis_modes: Option<usize>,
+    residual_vectors: Option<usize>,
     /// How the factors are found.
     pub method: Method,
     frequency_deviation: Option<f64>,

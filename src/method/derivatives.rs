@@ -84,21 +84,28 @@ pub fn error_changes(
 /// ```
 pub fn by_definition(model: &ModalModel, state: &ModalState) -> Result<Vec<f64>, Error> {
     state.check(model)?;
-    let (k, p) = (&state.modes.omega_squared, &state.generalized_shapes);
+    let (count, p) = (model.vibration_count(), &state.generalized_shapes);
+    let k = state.modes.omega_squared.rows(0, count).into_owned();
     let are_close =
         |i: usize, j: usize| i != j && (k[i] - k[j]).abs() < HELD_SEPARATION * k[i].max(k[j]);
     let of_parameter = |(share, factor): (&ParameterMatrix, &f64)| {
         let change = DERIVATIVE_STEP * *factor * p.tr_mul(&(share.matrix() * p));
-        let change =
-            change.map_with_location(|i, j, entry| if are_close(i, j) { 0.0 } else { entry });
+        let own = change.view((0, 0), (count, count));
+        let own = own.map_with_location(|i, j, entry| if are_close(i, j) { 0.0 } else { entry });
         let perturbed = match share {
-            ParameterMatrix::Stiffness(_) => first_order(k, &change)?,
+            ParameterMatrix::Stiffness(_) => first_order(&k, &own)?,
             ParameterMatrix::Mass(_) => {
-                general::first_order(&ModalChange::of_vibrations(k, 0.0 * &change, change))?
+                general::first_order(&ModalChange::of_vibrations(&k, 0.0 * &own, own))?
             }
         };
         perturbed.check_roots()?;
-        let shapes = &state.modes.shapes * perturbed.shapes;
+        let now = &state.modes.shapes;
+        let mut shapes = now.columns(0, count) * perturbed.shapes;
+        if let ParameterMatrix::Mass(_) = share {
+            // With ω² = 0 the first order of a rigid-body mode in a vibration is -α_Ri.
+            let rigid = p.ncols() - count;
+            shapes -= now.columns(count, rigid) * change.view((count, 0), (rigid, count));
+        }
         let modes = ModeSet {
             omega_squared: perturbed.roots.map(f64::recip),
             shapes,

@@ -266,6 +266,8 @@ fn case(result: &CaseResult) -> Result<Value, PresentError> {
         "first_gages_in": result.case.first_gages(),
         "pass_gages_in": result.pass_gages,
         "anomaly": result.anomaly,
+        "next_step": result.next_step,
+        "gage_errors": result.gage_errors(),
     }))
 }
 

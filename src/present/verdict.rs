@@ -1,6 +1,7 @@
 //! The verdict on a correlation in words.
 
 use crate::method::verdict::{Outcome, Verdict};
+use crate::torque_box::CaseResult;
 
 /// The verdict in sentences, with the parameters' names and the numbers of the test modes; places from one stand for those that have
 /// none.
@@ -56,6 +57,35 @@ pub fn verdict_in_words(verdict: &Verdict, names: &[String], mode_numbers: &[usi
                 " Try other parameters or groups, or look at how the elements of the worst mode are modeled."
             }
         };
+    }
+    words
+}
+
+/// [`verdict_in_words`] on a case, with what its test cannot tell apart, and what a weighted step would still move.
+pub fn case_in_words(result: &CaseResult) -> String {
+    let names = &result.parameter_names;
+    let mut words = verdict_in_words(&result.correlation.verdict, names, &[]);
+    let Some(next) = &result.next_step else {
+        return words;
+    };
+    let pairs = next.seen.parallel.iter();
+    let pairs: Vec<String> = pairs
+        .map(|&(a, b, _)| format!("{} and {}", names[a], names[b]))
+        .collect();
+    let moved = next.moved().into_iter();
+    let moved: Vec<String> = moved
+        .map(|(e, size)| format!("{} by {size:.1}", names[e]))
+        .collect();
+    let step = format!(
+        "In standard deviations of a test with errors of {} % in frequencies and {} % in shapes, one weighted step from here would \
+         still move",
+        100.0 * next.noise.frequency,
+        100.0 * next.noise.shape,
+    );
+    for (start, list) in [("The test cannot tell apart:", pairs), (&step, moved)] {
+        if !list.is_empty() {
+            words += &format!(" {start} {}.", list.join(", "));
+        }
     }
     words
 }

@@ -11,6 +11,7 @@ mod lowest_modes;
 mod matrix;
 mod ordering;
 pub mod random;
+mod residual_vectors;
 pub mod whole_modes;
 mod whole_model;
 

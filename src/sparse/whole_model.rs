@@ -1,6 +1,7 @@
 //! A model given by sparse matrices, whatever made them, and what the loops are handed of it.
 
 use super::lowest_modes::{CountedModes, FINITE, modes_at_most};
+use super::residual_vectors::{leading_loads, residual_vectors};
 use super::sum_of_stiffness;
 use super::{Factor, SparseMatrix};
 use crate::method::appendix_a::{Condensed, dynamic_stiffness};
@@ -143,17 +144,27 @@ impl WholeModel {
     /// Those of [`Self::at`] and [`lowest_modes`](super::lowest_modes()).
     pub fn modes(&self, factors: &[f64], count: usize) -> Result<CountedModes, Error> {
         let (stiffness, mass) = self.at(factors)?;
+        self.modes_of(&stiffness, &mass, count)
+    }
+
+    fn modes_of(
+        &self,
+        stiffness: &SparseMatrix,
+        mass: &SparseMatrix,
+        count: usize,
+    ) -> Result<CountedModes, Error> {
         check_count("modes", count, self.dof_count())?;
-        let found = modes_at_most(&stiffness, &mass, count)?;
+        let found = modes_at_most(stiffness, mass, count)?;
         check_count(FINITE, count, found.vibrations.len())?;
         Ok(found)
     }
 
     /// What the loops are handed without any condensation: the `count` lowest modes of the whole model as the sensors see them, and
     /// every parameter's share $V^t K_e V$ with the whole shapes, of elements by the function that also serves condensed shapes.
-    /// Rigid-body modes of a free structure stay out.
     ///
-    /// `sensors` reads the sensors' motions off the model's, $q_G = R q$ (sensors × DOF).
+    /// The basis in which changes are followed has at most `further` residual vectors a parameter behind the modes, and rigid-body
+    /// modes of a free structure where a mass is a parameter: only a change of mass couples them with vibrations. `sensors` reads the
+    /// sensors' motions off the model's, $q_G = R q$ (sensors × DOF).
     ///
     /// # Errors
     /// Those of [`Self::modes`] and of the pairing.
@@ -162,15 +173,14 @@ impl WholeModel {
         factors: &[f64],
         sensors: &SparseMatrix,
         (test, pair): (&ModeSet, Pair),
-        count: usize,
+        [count, further]: [usize; 2],
     ) -> Result<ModalModel, Error> {
-        let ModeSet {
-            omega_squared,
-            mut shapes,
-        } = self.modes(factors, count)?.vibrations;
-        let seen = sensors.times(&shapes)?;
-        let modes = Modes::ascending(omega_squared, seen.clone());
-        for (mode, mut shape) in shapes.column_iter_mut().enumerate() {
+        let (stiffness, mass) = self.at(factors)?;
+        let mut found = self.modes_of(&stiffness, &mass, count)?;
+        let vibrations = &mut found.vibrations;
+        let seen = sensors.times(&vibrations.shapes)?;
+        let modes = Modes::ascending(vibrations.omega_squared.clone(), seen.clone());
+        for (mode, mut shape) in vibrations.shapes.column_iter_mut().enumerate() {
             // Turned with what the sensors see of it.
             shape *= if modes.shapes.column(mode) == seen.column(mode) {
                 1.0
@@ -178,7 +188,53 @@ impl WholeModel {
                 -1.0
             };
         }
-        ModalModel::at_sensors(modes, test, pair, self.shares(factors, &shapes)?)
+        let further = self.further(&stiffness, &mass, &found, further)?;
+        let (count, all) = (modes.len(), modes.len() + further.len());
+        let mut basis = found.vibrations.shapes.resize_horizontally(all, 0.0);
+        basis
+            .columns_mut(count, all - count)
+            .copy_from(&further.shapes);
+        let shares = self.shares(factors, &basis)?;
+        let further = ModeSet {
+            shapes: sensors.times(&further.shapes)?,
+            ..further
+        };
+        ModalModel::at_sensors(modes, &further, test, pair, shares)
+    }
+
+    /// The shapes of the basis that are no modes of it: at most `most` residual vectors a parameter, then rigid-body modes.
+    fn further(
+        &self,
+        stiffness: &SparseMatrix,
+        mass: &SparseMatrix,
+        found: &CountedModes,
+        most: usize,
+    ) -> Result<ModeSet, Error> {
+        let is_mass = |parameter: &WholeParameter| matches!(parameter.share, WholeShare::Mass(_));
+        let mut loads = DMatrix::zeros(self.dof_count(), 0);
+        for parameter in self.parameters.iter().filter(|_| most > 0) {
+            let elements;
+            let part = match &parameter.share {
+                WholeShare::Stiffness(matrix) | WholeShare::Mass(matrix) => matrix,
+                WholeShare::Elements(members) => {
+                    let entries = members.iter();
+                    let entries =
+                        entries.flat_map(|(element, size)| stiffness_entries(element, *size));
+                    let (what, count) = ("stiffness of a parameter", self.dof_count());
+                    elements = SparseMatrix::new(what, count, count, entries.collect())?;
+                    &elements
+                }
+            };
+            let leading = leading_loads(part, &found.vibrations, is_mass(parameter), most)?;
+            loads.extend(leading.column_iter());
+        }
+        let mut further = residual_vectors(stiffness, mass, found, &loads)?;
+        if self.parameters.iter().any(is_mass) {
+            further.shapes.extend(found.rigid_body.column_iter());
+            let all = further.shapes.ncols();
+            further.omega_squared = further.omega_squared.resize_vertically(all, 0.0);
+        }
+        Ok(further)
     }
 
     /// Stiffness and mass condensed to the sensors with one $B^t$ (Appendix A): $K_D$ (lbf/in), $M_D = B M B^t$ (lbf·s²/in), and

@@ -1,12 +1,15 @@
 //! A case from its first gages to its last exact check.
 
-use super::Case;
+use super::{Case, Grouping};
 use crate::method::error::Error;
 use crate::method::model::{FiniteElementModel, ModalModel};
 use crate::method::modes::ModeSet;
 use crate::method::outer_loop::{Correlation, Pass, correlate};
 use crate::torque_box::error::CaseError;
-use crate::torque_box::wing_box::PANEL_COUNT;
+use crate::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
+use crate::weighted::gauss_newton::WeightedSettings;
+use crate::weighted::next_step::NextStep;
+use crate::weighted::noise::Noise;
 use serde::Serialize;
 
 /// How many times the next largest unlimited factor the largest must be to be reported as an anomaly.
@@ -46,9 +49,23 @@ pub struct CaseResult {
     pub pass_gages: Vec<Vec<f64>>,
     /// The parameter reported as a modeling error after the first iteration, if one is.
     pub anomaly: Option<Anomaly>,
+    /// One weighted step from its best factors, by a good test ([`Noise::USUAL`]) and the usual prior, if it correlated: a linear
+    /// step from where modes are far apart says nothing.
+    pub next_step: Option<NextStep>,
 }
 
 impl CaseResult {
+    /// Error of every panel's gage, as a fraction, at the best factors and after [`Self::next_step`]; none by substructures.
+    pub fn gage_errors(&self) -> Option<Vec<[f64; 2]>> {
+        let next = self.next_step.as_ref()?;
+        let gages = self.case.first_gages().into_iter();
+        let ends = gages.zip(&self.correlation.best_factors).zip(&next.step);
+        let errors = ends.map(|((gage, factor), step)| {
+            [1.0, step.exp()].map(|change| gage * factor * change / TEST_GAGE - 1.0)
+        });
+        (self.case.grouping == Grouping::Elements).then(|| errors.collect())
+    }
+
     /// Unlimited factors of the first iteration, one per parameter.
     pub fn unlimited_factors(&self) -> &[f64] {
         self.correlation
@@ -74,7 +91,7 @@ impl CaseResult {
     }
 }
 
-/// Correlates a case; `progress` is called after every pass.
+/// Correlates a case and looks where a weighted step would go from there; `progress` is called after every pass.
 ///
 /// # Errors
 /// Those of the model, the analysis and the loops.
@@ -115,7 +132,14 @@ pub fn run_case_with<E: From<CaseError> + From<Error>>(
     let first = correlation.passes.first();
     let anomaly =
         first.and_then(|pass| anomaly(&parameter_names, &pass.inner.first_unlimited_factors));
+    let best = &correlation.best_factors;
+    let next_step = correlation.converged.then(|| -> Result<NextStep, E> {
+        let there = elements(&model, best)?.analyze(best, &test, None)?;
+        let prior = WeightedSettings::default().prior_deviation;
+        Ok(NextStep::at(&there, Noise::USUAL, prior)?)
+    });
     Ok(CaseResult {
+        next_step: next_step.transpose()?,
         case: case.clone(),
         solver,
         test,

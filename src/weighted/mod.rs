@@ -4,5 +4,6 @@
 
 pub mod gauss_newton;
 pub mod identifiability;
+pub mod next_step;
 pub mod noise;
 pub mod residuals;

@@ -4,10 +4,11 @@ use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::modes::ModeSet;
 use crate::sparse::random::uniform;
+use serde::Serialize;
 use std::f64::consts::PI;
 
 /// Standard deviations of the errors of a measurement, as fractions.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Noise {
     /// Of every component of a shape, relative to the shape's largest.
     pub shape: f64,

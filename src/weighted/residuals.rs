@@ -77,14 +77,15 @@ fn scaled(modes: &ModeSet, i: usize, test: &ModeSet, j: usize) -> (f64, DVector<
 ///
 /// $$ \mathrm d e = a \Big(I - \frac{v v^t}{v^t v}\Big) \mathrm d v - v \frac{e^t \mathrm d v}{v^t v} . $$
 ///
-/// It is exact with all modes, unless a condensation's $B$ moves mass. Modes closer than [`SMALLEST_SEPARATION`] keep their own shapes.
+/// The sum goes over the whole basis, rigid-body modes with $\omega_r^2 = 0$ among it. It is exact with all modes, unless a
+/// condensation's $B$ moves mass. Modes closer than [`SMALLEST_SEPARATION`] keep their own shapes.
 ///
 /// # Errors
 /// Those of [`residuals`].
 ///
 /// Source: Fox and Kapoor, *AIAA Journal* 6 (1968), 2426.
 pub fn jacobian(model: &ModalModel, weights: &[ModeWeight]) -> Result<DMatrix<f64>, Error> {
-    let (modes, test, lone) = (&model.exact.modes, &model.test, &model.exact.lone);
+    let (modes, test, lone) = (&model.basis, &model.test, &model.exact.lone);
     check_weights(weights, test.len() + lone.len())?;
     let (k, rows, count) = (
         &modes.omega_squared,

@@ -346,11 +346,8 @@ fn upper_and_lower_cover_of_a_bay_cannot_be_told_apart_in_case_2() {
 }
 
 #[test]
-fn several_starts_lead_to_one_place_on_the_box_and_not_all_of_them_on_the_wing() {
-    for (known, all) in [
-        (Known::of_case(2).unwrap(), true),
-        (Known::delta_wing().unwrap(), false),
-    ] {
+fn several_starts_lead_to_one_place_on_the_box_and_on_the_wing() {
+    for known in [Known::of_case(2).unwrap(), Known::delta_wing().unwrap()] {
         let analyze = |factors: &[f64]| known.model.analyze(factors, &known.test, None);
         let run = |starts| {
             let ranges = vec![None; known.truth.len()];
@@ -366,7 +363,7 @@ fn several_starts_lead_to_one_place_on_the_box_and_not_all_of_them_on_the_wing()
         };
         let (best, reached) = run(5).unwrap();
         assert!(best.objective <= run(1).unwrap().0.objective);
-        assert!(reached >= 3 && (reached == 5) == all, "{reached}");
+        assert_eq!(reached, 5);
         let again = run(5).unwrap();
         assert_eq!((again.0.factors, again.1), (best.factors, reached));
         assert!(matches!(run(0), Err(Error::Empty { .. })));

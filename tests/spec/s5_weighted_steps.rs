@@ -2,13 +2,17 @@
 
 use crate::common::known::Known;
 use crate::common::measured::equal_weights;
-use crate::common::tolerances::{ROUND_OFF, STANDARD_ERRORS};
+use crate::common::tolerances::{ORDER_SLACK, ROUND_OFF, STANDARD_ERRORS};
 use corfem::method::appendix_c::SMALLEST_SEPARATION;
+use corfem::method::error::Error;
 use corfem::method::error_sum::ModeWeight;
 use corfem::method::model::{DynamicModel, ParameterMatrix};
 use corfem::method::modes::{ModeSet, solve};
+use corfem::torque_box::{Case, Grouping};
 use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop, from_several_starts};
 use corfem::weighted::identifiability::identifiability;
+use corfem::weighted::next_step::NextStep;
+use corfem::weighted::noise::Noise;
 use corfem::weighted::residuals::{DEVIATIONS, jacobian};
 use nalgebra::{DMatrix, DVector, dmatrix};
 
@@ -86,5 +90,66 @@ fn a_column_of_less_than_a_hundredth_of_the_longest_is_blind() {
         let columns =
             unit * DMatrix::from_diagonal(&DVector::from_vec(vec![10.0, 0.11, 0.09, 1.0]));
         assert_eq!(identifiability(&columns, 1.0).unwrap().blind, [2], "{unit}");
+    }
+}
+
+/// It is a Gauss–Newton step: what it leaves of the error of the factors falls as that error's square.
+#[test]
+fn one_step_from_near_the_truth_leaves_an_error_of_second_order() {
+    let case = Case {
+        grouping: Grouping::Substructures,
+        ..Case::new(2).unwrap()
+    };
+    let (model, test) = (case.model().unwrap(), case.test_modes().unwrap().into());
+    let off = [0.4, -1.0, 0.8];
+    let left = |size: f64| {
+        // All first gages are half too thick.
+        let factors = off.map(|off: f64| (size * off).exp() / 1.5);
+        let there = model.analyze(&factors, &test, None).unwrap();
+        let next = NextStep::at(&there, Noise::USUAL, 1e6).unwrap();
+        let errors = off.iter().zip(&next.step);
+        errors.fold(0.0_f64, |most, (off, step)| {
+            most.max((size * off + step).abs())
+        })
+    };
+    let order = (left(0.02) / left(0.01)).log2();
+    assert!((order - 2.0).abs() < ORDER_SLACK, "{order}");
+}
+
+/// At the truth nothing is left to move; far from it everything that is not moved is hardly seen.
+#[test]
+fn what_a_step_moves_is_more_than_its_deviation() {
+    let known = Known::of_case(2).unwrap();
+    let next = |factors: &[f64]| {
+        let there = known.model.analyze(factors, &known.test, None).unwrap();
+        NextStep::at(&there, Noise::USUAL, 1.0).unwrap()
+    };
+    assert_eq!(next(&known.truth).moved(), []);
+    let next = next(&[1.0; 15]);
+    let moved = next.moved();
+    assert!(!moved.is_empty());
+    for e in 0..15 {
+        let size = (next.step[e] / next.seen.deviations[e]).abs();
+        let found = moved.iter().find(|(moved, _)| *moved == e);
+        assert_eq!(found, (size > 1.0).then_some(&(e, size)));
+    }
+}
+
+#[test]
+fn a_step_by_a_test_without_errors_is_refused() {
+    let known = Known::of_case(2).unwrap();
+    let there = known
+        .model
+        .analyze(&known.truth, &known.test, None)
+        .unwrap();
+    for noise in [
+        Noise::NONE,
+        Noise {
+            shape: -0.01,
+            ..Noise::USUAL
+        },
+    ] {
+        let found = NextStep::at(&there, noise, 1.0);
+        assert!(matches!(found, Err(Error::Setting { .. })), "{found:?}");
     }
 }

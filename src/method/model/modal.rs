@@ -12,6 +12,7 @@ use crate::method::error_sum::{
 use crate::method::linear_algebra::{check_length, check_shape, check_symmetric, symmetric_part};
 use crate::method::modes::{ModeSet, Modes, check_count, solve};
 use crate::method::pairing::{Pairing, cross_orthogonality, pair_modes, paired, signed_assurance};
+use crate::method::state::{Change, with_rigid_bodies};
 use crate::method::structure::positive;
 use nalgebra::DMatrix;
 use std::f64::consts::PI;
@@ -138,13 +139,15 @@ pub struct ModalModel {
     pub(crate) exact: ExactResult,
     /// The test modes, scaled to unit generalized mass with the model's mass.
     pub(crate) test: ModeSet,
-    /// Cross-orthogonality of the exact modes with the test modes (4), or the cosine between them, n × g.
+    /// The shapes that changes are followed in (N): the exact modes, further ones, and last rigid-body modes, with $\omega^2 = 0$.
+    pub(crate) basis: ModeSet,
+    /// Cross-orthogonality of the basis with the test modes (4), or the cosine between them, N × g; zero for further shapes.
     pub(crate) cross: DMatrix<f64>,
     /// The rule that pairs them.
     pub(crate) pair: Pair,
     /// Weights of the test modes in the error sum, ones unless [`Self::weighted`].
     pub(crate) weights: Vec<ModeWeight>,
-    /// Generalized stiffness or mass of every parameter, $V^t K_e V$ (rad²/s²) or $V^t M_e V$ (n × n).
+    /// Generalized stiffness or mass of every parameter, $V^t K_e V$ (rad²/s²) or $V^t M_e V$ (N × N).
     pub(crate) shares: Vec<ParameterMatrix>,
     /// The same on the test shapes, relative to the test's own: $V_{Gi}^t K_e V_{Gj}/(\omega_{Gi} \omega_{Gj})$ or
     /// $V_{Gi}^t M_e V_{Gj}$ (g × g).
@@ -164,7 +167,18 @@ impl ModalModel {
         &self.test
     }
 
-    /// Cross-orthogonality of the exact modes with the test modes (4), or the cosine between them, n × g.
+    /// The shapes that changes are followed in (N): the exact modes, further ones, and last rigid-body modes, with $\omega^2 = 0$.
+    pub fn basis(&self) -> &ModeSet {
+        &self.basis
+    }
+
+    /// How many shapes of the basis are no rigid-body modes.
+    pub(crate) fn vibration_count(&self) -> usize {
+        let k = &self.basis.omega_squared;
+        k.iter().filter(|square| **square > 0.0).count()
+    }
+
+    /// Cross-orthogonality of the basis with the test modes (4), or the cosine between them, N × g; zero for further shapes.
     pub fn cross(&self) -> &DMatrix<f64> {
         &self.cross
     }
@@ -174,7 +188,7 @@ impl ModalModel {
         &self.weights
     }
 
-    /// Generalized stiffness or mass of every parameter, $V^t K_e V$ (rad²/s²) or $V^t M_e V$ (n × n).
+    /// Generalized stiffness or mass of every parameter, $V^t K_e V$ (rad²/s²) or $V^t M_e V$ (N × N).
     pub fn shares(&self) -> &[ParameterMatrix] {
         &self.shares
     }
@@ -224,9 +238,10 @@ impl ModalModel {
             .map(|share| share.map(|matrix| block(matrix, 0, count)))
             .collect();
         let pairing = pair_modes(&cross)?;
+        let basis = modes.clone().into();
         Self::compared(
             (modes, test),
-            cross,
+            (basis, cross),
             (pair_modes, pairing),
             shares,
             test_shares,
@@ -237,9 +252,12 @@ impl ModalModel {
     ///
     /// They are paired by `pair` with the cosine between two shapes in place of their cross-orthogonality; its square is the
     /// modal assurance criterion. Every test mode is scaled by its modal scale factor to the mode it is paired with, whose
-    /// generalized stiffness stands for its own. `shares` are $V^t K_e V$ or $V^t M_e V$ (n × n) with the shapes of the whole model.
+    /// generalized stiffness stands for its own. `further` shapes of the basis, orthonormal to the modes in the whole model's mass and
+    /// diagonal in its stiffness, are paired with none; rigid-body modes are the last of them. `shares` are $V^t K_e V$ or $V^t M_e V$
+    /// (N × N) with the basis at all DOF.
     pub(crate) fn at_sensors(
         modes: Modes,
+        further: &ModeSet,
         test: &ModeSet,
         pair: Pair,
         shares: Vec<ParameterMatrix>,
@@ -263,14 +281,87 @@ impl ModalModel {
             DMatrix::from_fn(sign.len(), sign.len(), entry)
         };
         let test_shares = shares.iter().map(|share| share.map(of_pairs)).collect();
-        Self::compared((modes, scaled), cross, (pair, pairing), shares, test_shares)
+        let (count, all) = (modes.len(), modes.len() + further.len());
+        let mut basis = ModeSet {
+            omega_squared: modes.omega_squared.clone().resize_vertically(all, 0.0),
+            shapes: modes.shapes.clone().resize_horizontally(all, 0.0),
+        };
+        let (squares, mut shapes) = (
+            &mut basis.omega_squared,
+            basis.shapes.columns_mut(count, all - count),
+        );
+        squares
+            .rows_mut(count, all - count)
+            .copy_from(&further.omega_squared);
+        shapes.copy_from(&further.shapes);
+        let cross = cross.resize_vertically(all, 0.0);
+        Self::compared(
+            (modes, scaled),
+            (basis, cross),
+            (pair, pairing),
+            shares,
+            test_shares,
+        )
     }
 
-    /// The modal model of exact modes and test modes paired by a rule: their distance, and the shares in the exact modes and on the
-    /// test shapes.
+    /// The model that follows from this one at `factors` on its shares, exact in its basis: the modes of $k + \beta$ with $I + \alpha$ in
+    /// place of an analysis, paired anew as [`Self::at_sensors`] does.
+    pub(crate) fn followed(&self, factors: &[f64]) -> Result<Self, Error> {
+        check_length("parameter factors", factors.len(), self.shares.len())?;
+        let Change {
+            k,
+            beta,
+            alpha,
+            apart,
+        } = Change::new(self, factors)?;
+        let identity = DMatrix::identity(k.len(), k.len());
+        let stiffness = symmetric_part(&(DMatrix::from_diagonal(&k) + beta));
+        let vibrations = solve(&stiffness, &symmetric_part(&(identity + alpha)), k.len())?;
+        let mut generalized = with_rigid_bodies(apart, vibrations.shapes.clone());
+        let (count, size) = (self.exact.modes.len(), self.basis.len());
+        let shapes = &self.basis.shapes * &generalized;
+        let squares = vibrations
+            .omega_squared
+            .clone()
+            .resize_vertically(size, 0.0);
+        let further = ModeSet {
+            omega_squared: squares.rows(count, size - count).into_owned(),
+            shapes: shapes.columns(count, size - count).into_owned(),
+        };
+        let seen = shapes.columns(0, count).into_owned();
+        let modes = Modes::ascending(squares.rows(0, count).into_owned(), seen.clone());
+        for mode in (0..count).filter(|&mode| modes.shapes.column(mode) != seen.column(mode)) {
+            generalized.column_mut(mode).neg_mut();
+        }
+        let through = |matrix: &DMatrix<f64>, factor: f64| {
+            symmetric_part(&(factor * generalized.tr_mul(&(matrix * &generalized))))
+        };
+        let shares = self.shares.iter().zip(factors);
+        let shares = shares.map(|(share, &factor)| share.map(|matrix| through(matrix, factor)));
+        let model = Self::at_sensors(modes, &further, &self.test, self.pair, shares.collect())?;
+        let mut lone = self.exact.lone.clone();
+        if !lone.is_empty() {
+            // What a partner has become is most of it in the coordinates of the modes, in which the mass is one.
+            let partners: Vec<usize> = lone.iter().map(|lone| lone.partner).collect();
+            let became = generalized
+                .columns(0, count)
+                .select_rows(&partners)
+                .transpose();
+            let became = pair_modes(&became)?.analysis_mode;
+            lone.iter_mut()
+                .zip(became)
+                .for_each(|(lone, mode)| lone.partner = mode);
+        }
+        model
+            .with_sizes(self.sizes.clone())
+            .with_lone_frequencies(lone)
+    }
+
+    /// The modal model of exact modes and test modes paired by a rule: their distance, and the shares in the basis and on the test
+    /// shapes.
     fn compared(
         (modes, test): (Modes, ModeSet),
-        cross: DMatrix<f64>,
+        (basis, cross): (ModeSet, DMatrix<f64>),
         (pair, pairing): (Pair, Pairing),
         shares: Vec<ParameterMatrix>,
         on_test: Vec<ParameterMatrix>,
@@ -299,6 +390,7 @@ impl ModalModel {
         Ok(Self {
             exact,
             test,
+            basis,
             cross,
             pair,
             weights,

@@ -2,7 +2,7 @@
 
 use super::html::{figure, figures, prose};
 use super::{Contents, Part, named};
-use crate::present::verdict::verdict_in_words;
+use crate::present::verdict::case_in_words;
 use crate::torque_box::CaseResult;
 
 /// A part for every section of the words whose case there is.
@@ -44,10 +44,7 @@ fn part(text: &str, contents: &Contents) -> Option<Part> {
 /// The outcome of a case: its modeling error, or its verdict.
 fn outcome(result: &CaseResult) -> String {
     let Some(anomaly) = &result.anomaly else {
-        return format!(
-            "<p class=\"note\">{}</p>\n",
-            verdict_in_words(&result.correlation.verdict, &result.parameter_names, &[])
-        );
+        return format!("<p class=\"note\">{}</p>\n", case_in_words(result));
     };
     let (number, element, factor, ratio) = (
         result.case.number,

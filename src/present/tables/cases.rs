@@ -9,8 +9,8 @@ use crate::method::model::ExactResult;
 use crate::method::step::Accumulation;
 use crate::method::structure::ElementKind;
 use crate::present::PresentError;
-use crate::present::table::{Cell, Digits, Table, numbers};
-use crate::present::verdict::verdict_in_words;
+use crate::present::table::{Cell, Digits, Table, numbers, percents};
+use crate::present::verdict::case_in_words;
 use crate::torque_box::published::PublishedTable;
 use crate::torque_box::wing_box::gage_rms;
 use crate::torque_box::{CASES, CaseResult, Grouping};
@@ -211,8 +211,8 @@ pub fn outcome_table(results: &[CaseResult]) -> Table {
     let note = "Correlated: the exact error sum is within the tolerance TOLO. Case 4 as published is one iteration that is to \
         detect a modeling error; its gages are not corrected.";
     let verdict = |result: &CaseResult| {
-        let words = verdict_in_words(&result.correlation.verdict, &result.parameter_names, &[]);
-        (!result.is_detection()).then(|| format!("Case {}: {words}", result.case.number))
+        (!result.is_detection())
+            .then(|| format!("Case {}: {}", result.case.number, case_in_words(result)))
     };
     let sums = |of: fn(&CaseResult) -> f64| numbers(results.iter().map(of), Digits::Fixed(4));
     Table::new("outcome", "What became of every case", "Case")
@@ -239,6 +239,27 @@ pub fn outcome_table(results: &[CaseResult]) -> Table {
         .notes(results.iter().filter_map(verdict))
 }
 
+/// Errors of the fifteen gages where the loop of a correlated case ended, and after one weighted step from there; none by
+/// substructures.
+pub fn next_step_table(result: &CaseResult) -> Option<Table> {
+    let (next, errors) = (result.next_step.as_ref()?, result.gage_errors()?);
+    let case = result.case.number;
+    let title = format!("Case {case}: gage errors at the end, and after one weighted step");
+    let column = |stage: usize| percents(errors.iter().map(move |error| error[stage]), PERCENT);
+    Some(
+        Table::new(format!("case_{case}_next_step"), title, "Element")
+            .labels(&result.parameter_names)
+            .column("Error at the end", "%", column(0))
+            .column("Error after the step", "%", column(1))
+            .column(
+                "Deviation",
+                "%",
+                percents(next.seen.deviations.iter().copied(), PERCENT),
+            )
+            .notes(["The step is linear and keeps no bounds. Deviations are those of the gages' logarithms, before the test 100 %."]),
+    )
+}
+
 /// Every table of a run, in the order of the report.
 pub fn all_tables(results: &[CaseResult]) -> Result<Vec<Table>, PresentError> {
     let mut tables = vec![outcome_table(results)];
@@ -249,9 +270,10 @@ pub fn all_tables(results: &[CaseResult]) -> Result<Vec<Table>, PresentError> {
     Ok(tables)
 }
 
-/// The tables of one case: frequencies and gages; in Case 4 also what its single iteration asks for.
+/// The tables of one case: frequencies, gages, and these after one weighted step; in Case 4 also what its single iteration asks for.
 pub fn tables_of(result: &CaseResult) -> Result<Vec<Table>, PresentError> {
     let mut tables = vec![frequency_table(result)?, gage_table(result)?];
+    tables.extend(next_step_table(result));
     if result.case.number == CASES[3] {
         tables.push(unlimited_table(result));
     }

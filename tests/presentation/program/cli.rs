@@ -62,8 +62,8 @@ fn json_has_the_promised_keys() {
     let document = parsed(&["cases", "--format", "json", "--quiet"]);
     let cases = document["cases"].as_array().expect("a list");
     assert_eq!(cases.len(), 4);
+    let length = |value: &Value| value.as_array().map(Vec::len);
     for (row, case) in cases.iter().enumerate() {
-        let length = |value: &Value| value.as_array().map(Vec::len);
         assert_eq!(case["case"], row + 1);
         let run = &case["correlation"];
         let rms = |check: &Value| check["frequency_rms"].is_f64() && check["shape_rms"].is_f64();
@@ -93,6 +93,17 @@ fn json_has_the_promised_keys() {
         Some(3)
     );
     assert_eq!(cases[3]["anomaly"]["parameter"], "8");
+    let pairs = cases[1]["next_step"]["seen"]["parallel"]
+        .as_array()
+        .expect("a list");
+    let pairs: Vec<_> = pairs
+        .iter()
+        .map(|pair| [pair[0].as_u64(), pair[1].as_u64()])
+        .collect();
+    assert_eq!(pairs, [[1, 14], [3, 7], [8, 10]].map(|pair| pair.map(Some)));
+    assert_eq!(length(&cases[2]["next_step"]["step"]), Some(15));
+    assert_eq!(length(&cases[2]["gage_errors"]), Some(15));
+    assert!(cases[3]["next_step"].is_null() && cases[3]["gage_errors"].is_null());
     // Gages at the bound of 0.013 in were held there by the total limit in Case 3's history.
     let history = cases[2]["correlation"]["passes"][0]["history"]
         .as_array()

@@ -3,6 +3,7 @@
 pub mod condensation;
 pub mod factorization;
 pub mod free_modes;
+pub mod residual_vectors;
 pub mod whole_model;
 pub mod whole_model_modes;
 pub mod whole_model_pencils;

@@ -35,7 +35,7 @@ fn five_of_ten_floors_recover_every_story_without_condensation() {
     let test = whole
         .with_shapes(sensors.times(whole.shapes()).expect("fits"))
         .expect("shapes that fit");
-    let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, pair_modes), 10);
+    let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, pair_modes), [10, 0]);
     let found =
         correlate(analyze, &model.ranges(), &fine_settings(), |_, _| {}).expect("a correlation");
     for (story, (found, truth)) in found.best_factors.iter().zip(&truth).enumerate() {
@@ -90,7 +90,7 @@ fn test_shapes_at_sensors_are_scaled_to_their_modes() {
     let other = ModeSet::new(test.omega_squared().clone(), shapes).expect("modes");
     let [first, other] = [&test, &other].map(|test| {
         model
-            .analyze(&[1.0; 10], &sensors, (test, pair_modes), 10)
+            .analyze(&[1.0; 10], &sensors, (test, pair_modes), [10, 0])
             .expect("an analysis")
     });
     for (j, scale) in scales.iter().enumerate() {
@@ -176,7 +176,7 @@ fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
     }
     // Its mass is at the sensors alone, so that nothing is condensed and the whole model has the same modes.
     let at_sensors = whole
-        .analyze(&factors, &sensors, (&test, pair_modes), 9)
+        .analyze(&factors, &sensors, (&test, pair_modes), [9, 0])
         .expect("an analysis");
     let assurance = modal_assurance(
         at_sensors.exact().modes.shapes(),
@@ -230,7 +230,7 @@ fn a_free_chain_is_corrected_without_its_rigid_body_mode() {
             factors,
             &sensors,
             (&modes.vibrations, pair_modes),
-            count - 1,
+            [count - 1, 0],
         )
     };
     let found =
@@ -301,7 +301,7 @@ fn a_free_delta_wing_is_corrected_without_its_rigid_body_modes() {
     let test = vibrations
         .with_shapes(sensors.times(vibrations.shapes()).expect("fits"))
         .expect("shapes that fit");
-    let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, pair_modes), 20);
+    let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, pair_modes), [20, 0]);
     let weights = equal_weights(
         Noise {
             frequency: 1e-3,

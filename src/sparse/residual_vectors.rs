@@ -1,0 +1,119 @@
+//! Residual vectors: static deflections that the lowest modes lack, as further shapes in which changes are followed.
+
+use super::lowest_modes::CountedModes;
+use super::matrix::GIVEN;
+use super::{Factor, SparseMatrix};
+use crate::method::error::Error;
+use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
+use crate::method::modes::ModeSet;
+use nalgebra::{DMatrix, DVector};
+
+/// The loads (DOF × at most `most`) of a parameter's part $P$ of stiffness or mass in the modes, by which it couples them most with
+/// what is not among them.
+///
+/// A change of the part loads mode $i$ by $P v_i$; over $\omega_i$, or times $\omega_i$ for a mass, so that modes count alike. Of the
+/// columns $L$ these are the combinations $L y$ of largest $y^t V^t L y$, one a deformation for a part that has fewer.
+pub(super) fn leading_loads(
+    part: &SparseMatrix,
+    modes: &ModeSet,
+    is_mass: bool,
+    most: usize,
+) -> Result<DMatrix<f64>, Error> {
+    let power = if is_mass { 0.5 } else { -0.5 };
+    let scale = DMatrix::from_diagonal(&modes.omega_squared.map(|square| square.powf(power)));
+    let shapes = &modes.shapes * scale;
+    let loads = part.times(&shapes)?;
+    let (energies, vectors) = symmetric_eigen(
+        "energy of a parameter in the modes",
+        &symmetric_part(&shapes.tr_mul(&loads)),
+    )?;
+    let digits = GIVEN * energies.amax();
+    let leading = (0..energies.len()).rev().take(most);
+    let leading: Vec<usize> = leading.filter(|&place| energies[place] > digits).collect();
+    Ok(loads * vectors.select_columns(&leading))
+}
+
+/// Shapes of unit generalized mass, orthogonal to `modes` and each other in mass and in stiffness, that span the static deflections
+/// under `loads` (DOF × m) with them, and their squared frequencies, ascending.
+///
+/// $$ W = (I - V V^t M)(K + \sigma M)^{-1} L, \qquad W^t K W z = \omega^2 W^t M W z $$
+///
+/// with rigid-body modes among the $V$, and then $\sigma = \omega_1^2$, else zero. No $\omega^2$ is below those of all modes left out. A
+/// deflection that has less of anything new than given digits tell is left out, as is a motion without mass.
+///
+/// Source: Coppolino, *SAE Technical Paper* 891082 (1989); Rose, *A Residual Vector Approach*, MSC World Users' Conference (1991).
+///
+/// # Errors
+/// Those of [`Factor::new`] and [`symmetric_eigen`].
+pub(super) fn residual_vectors(
+    stiffness: &SparseMatrix,
+    mass: &SparseMatrix,
+    modes: &CountedModes,
+    loads: &DMatrix<f64>,
+) -> Result<ModeSet, Error> {
+    let CountedModes {
+        rigid_body,
+        vibrations,
+    } = modes;
+    let none = ModeSet {
+        omega_squared: DVector::zeros(0),
+        shapes: DMatrix::zeros(stiffness.rows(), 0),
+    };
+    if loads.ncols() == 0 {
+        return Ok(none);
+    }
+    let lowest = vibrations.omega_squared[0];
+    let mut entries = stiffness.entries().to_vec();
+    if rigid_body.ncols() > 0 {
+        entries.extend(mass.times_number(lowest));
+    }
+    let what = "stiffness shifted by the mass";
+    let resisted = SparseMatrix::new(what, stiffness.rows(), stiffness.rows(), entries)?;
+    let mut deflections = Factor::new(what, &resisted)?.solve(loads)?;
+    let energies = |shapes: &DMatrix<f64>| -> Result<DMatrix<f64>, Error> {
+        Ok(symmetric_part(&shapes.tr_mul(&resisted.times(shapes)?)))
+    };
+    let first = energies(&deflections)?.diagonal();
+    for known in [
+        rigid_body,
+        &vibrations.shapes,
+        rigid_body,
+        &vibrations.shapes,
+    ] {
+        let shares = known.tr_mul(&mass.times(&deflections)?);
+        deflections -= known * shares;
+    }
+    let rest = energies(&deflections)?.diagonal();
+    let new: Vec<usize> = (0..rest.len())
+        .filter(|&column| rest[column] > GIVEN * first[column])
+        .collect();
+    if new.is_empty() {
+        return Ok(none);
+    }
+    // Of unit energy each, then free of what others have already.
+    let unit = new.iter().map(|&column| 1.0 / rest[column].sqrt());
+    let unit = DMatrix::from_diagonal(&DVector::from_iterator(new.len(), unit));
+    let deflections = deflections.select_columns(&new) * unit;
+    let (sizes, vectors) = symmetric_eigen("energy of deflections", &energies(&deflections)?)?;
+    let own: Vec<usize> = (0..sizes.len())
+        .filter(|&place| sizes[place] > GIVEN * sizes.amax())
+        .collect();
+    let scale = DMatrix::from_diagonal(&sizes.select_rows(&own).map(|size| 1.0 / size.sqrt()));
+    let deflections = deflections * vectors.select_columns(&own) * scale;
+    let inertia = symmetric_part(&deflections.tr_mul(&mass.times(&deflections)?));
+    let (roots, vectors) = symmetric_eigen("mass of deflections", &inertia)?;
+    let moving: Vec<usize> = (0..roots.len())
+        .rev()
+        .filter(|&place| roots[place] * lowest > GIVEN)
+        .collect();
+    if moving.is_empty() {
+        return Ok(none);
+    }
+    let roots = roots.select_rows(&moving);
+    let scale = DMatrix::from_diagonal(&roots.map(|root| 1.0 / root.sqrt()));
+    let shift = if rigid_body.ncols() > 0 { lowest } else { 0.0 };
+    Ok(ModeSet {
+        omega_squared: roots.map(|root| 1.0 / root - shift),
+        shapes: deflections * vectors.select_columns(&moving) * scale,
+    })
+}

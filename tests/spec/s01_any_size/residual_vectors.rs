@@ -1,0 +1,173 @@
+//! Residual vectors: further shapes of the basis in which changes of a whole model are followed.
+
+use crate::common::measured::equal_weights;
+use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
+use crate::common::whole_models::{masses, sensors_at, springs};
+use corfem::method::model::ModalModel;
+use corfem::method::modes::ModeSet;
+use corfem::method::pairing::pair_modes;
+use corfem::method::state::{ModalState, UpdateRule};
+use corfem::nalgebra::DMatrix;
+use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
+use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop, gauss_newton};
+use corfem::weighted::residuals::DEVIATIONS;
+
+/// A net of springs between masses that move out of its plane, held at one edge; every column of it is a parameter. Springs and masses
+/// vary from place to place by a rule, so that `golden/residual_vectors.py` has the same.
+pub struct Net {
+    model: WholeModel,
+    sensors: SparseMatrix,
+    test: ModeSet,
+    truth: Vec<f64>,
+}
+
+/// Test modes, and the number of analysis modes that a job takes for them.
+const MODES: [usize; 2] = [8, 12];
+
+impl Net {
+    pub fn new(rows: usize, columns: usize) -> Self {
+        let count = rows * columns;
+        let vary = |place: usize| 1.0 + 0.3 * (7.0 * place as f64).sin();
+        let mut parts = vec![Vec::new(); columns];
+        for row in 0..rows {
+            for (column, part) in parts.iter_mut().enumerate() {
+                let here = row * columns + column;
+                if column + 1 < columns {
+                    part.push((here, Some(here + 1), 1e5 * vary(2 * here)));
+                }
+                if row + 1 < rows {
+                    part.push((here, Some(here + columns), 8e4 * vary(2 * here + 1)));
+                }
+                if row == 0 {
+                    part.push((here, None, 1e5));
+                }
+            }
+        }
+        let parameters = parts
+            .iter()
+            .enumerate()
+            .map(|(column, part)| WholeParameter {
+                name: format!("column {column}"),
+                share: WholeShare::Stiffness(springs(count, part)),
+                range: None,
+            });
+        let mass: Vec<f64> = (0..count).map(|place| 60.0 * vary(3 * place)).collect();
+        let model = WholeModel::new(
+            springs(count, &parts.concat()),
+            masses(&mass),
+            parameters.collect(),
+        )
+        .unwrap();
+        let truth: Vec<f64> = (0..columns)
+            .map(|e| (0.4 * (3.0 * e as f64).cos()).exp())
+            .collect();
+        let places: Vec<usize> = (0..count).filter(|place| place % 3 == 1).collect();
+        let sensors = sensors_at(&places, count);
+        let found = model.modes(&truth, MODES[0]).unwrap().vibrations;
+        let seen = sensors.times(found.shapes()).unwrap();
+        let test = found.with_shapes(seen).unwrap();
+        Self {
+            model,
+            sensors,
+            test,
+            truth,
+        }
+    }
+
+    fn analyze(&self, factors: &[f64], further: usize) -> ModalModel {
+        let test = (&self.test, pair_modes as _);
+        self.model
+            .analyze(factors, &self.sensors, test, [MODES[1], further])
+            .unwrap()
+    }
+}
+
+#[test]
+fn residual_vectors_are_orthogonal_to_the_modes_and_to_each_other() {
+    let net = Net::new(12, 9);
+    let model = net.analyze(&[1.0; 9], 4);
+    let k = model.basis().omega_squared();
+    assert_eq!(k.len(), MODES[1] + 4 * 9);
+    // All stiffness belongs to parameters, so their shares add to that of the basis.
+    let sum: DMatrix<f64> = model.shares().iter().map(|share| share.matrix()).sum();
+    let scale = k.map(f64::sqrt);
+    for (i, j) in (0..k.len()).flat_map(|i| (0..k.len()).map(move |j| (i, j))) {
+        let expected = if i == j { k[i] } else { 0.0 };
+        let off = (sum[(i, j)] - expected).abs() / (scale[i] * scale[j]);
+        assert!(off < 100.0 * MATRIX_ROUND_OFF, "{i} {j} {off:e}");
+    }
+    // And none lies below the first mode left out.
+    let left_out = net.model.modes(&[1.0; 9], MODES[1] + 1).unwrap().vibrations;
+    let first = left_out.omega_squared()[MODES[1]];
+    assert!(
+        k.iter()
+            .skip(MODES[1])
+            .all(|square| *square > first * (1.0 - EIGEN_ROUND_OFF))
+    );
+}
+
+/// Largest relative error of the eight lowest frequencies that a basis predicts, the median over changes within e^±0.3.
+fn predicted(net: &Net, further: usize) -> f64 {
+    let first = net.analyze(&[1.0; 9], further);
+    let mut errors: Vec<f64> = (1..=25)
+        .map(|draw| {
+            let factor = |e: usize| (0.3 * (f64::from(draw) * (1.7 + e as f64)).sin()).exp();
+            let factors: Vec<f64> = (0..9).map(factor).collect();
+            let state = ModalState::at(&first, factors.clone(), UpdateRule::Eigensolution).unwrap();
+            let mut found = state.modes().frequencies_hz();
+            found.sort_by(f64::total_cmp);
+            let exact = net.model.modes(&factors, MODES[0]).unwrap().vibrations;
+            let off = found.iter().zip(exact.frequencies_hz());
+            off.map(|(found, exact)| (found / exact - 1.0).abs())
+                .fold(0.0, f64::max)
+        })
+        .collect();
+    errors.sort_by(f64::total_cmp);
+    errors[errors.len() / 2]
+}
+
+#[test]
+fn four_residual_vectors_a_parameter_predict_frequencies_twenty_times_better() {
+    let net = Net::new(12, 9);
+    let [none, four] = [0, 4].map(|further| predicted(&net, further));
+    assert!(four < none / 20.0, "{none:e} to {four:e}");
+}
+
+/// `golden/residual_vectors.py` has the same net and test, and exact derivatives.
+const SCIPY_ANALYSES: usize = 12;
+
+#[test]
+fn a_net_of_300_degrees_of_freedom_comes_back_at_the_usual_number_of_modes() {
+    let net = Net::new(20, 15);
+    let settings = WeightedSettings {
+        prior_deviation: 1e3,
+        ..WeightedSettings::default()
+    };
+    let weights = equal_weights(DEVIATIONS, MODES[0]);
+    let run = |further| {
+        let analyze =
+            |factors: &[f64]| Ok::<_, corfem::method::error::Error>(net.analyze(factors, further));
+        gauss_newton(analyze, &[1.0; 15], &[None; 15], &weights, &settings).unwrap()
+    };
+    let found = run(4);
+    let worst = |factors: &[f64]| {
+        let off = factors
+            .iter()
+            .zip(&net.truth)
+            .map(|(found, truth)| (found / truth - 1.0).abs());
+        off.fold(0.0, f64::max)
+    };
+    println!(
+        "{} {:?} {:e}",
+        found.analyses,
+        found.stop,
+        worst(&found.factors)
+    );
+    assert_eq!(found.stop, WeightedStop::Gradient);
+    assert!(worst(&found.factors) < 1e-5);
+    assert!(4 * found.analyses <= 5 * SCIPY_ANALYSES);
+    // The modes alone stop short, by length, and far from the truth.
+    let without = run(0);
+    assert_eq!(without.stop, WeightedStop::Step);
+    assert!(worst(&without.factors) > 0.1);
+}
