@@ -241,25 +241,21 @@ impl Correlation {
     }
 }
 
-/// The error sum in the measure of the settings.
+/// The error sum in the measure of the settings, frequencies and shapes each by their number.
 pub(crate) fn compared_sum(errors: &Errors, settings: &Settings) -> f64 {
-    let (frequency, shape) = compared_parts(errors, settings);
-    frequency + shape
+    let [frequencies, shapes] = scales(errors, settings);
+    frequencies * (errors.frequency + shapes / frequencies * errors.shape)
 }
 
 /// Whether errors meet the tolerances in the measure of the settings.
 pub(crate) fn meets(errors: &Errors, settings: &Settings) -> bool {
-    let (frequency, shape) = compared_parts(errors, settings);
-    frequency + shape <= settings.error_sum_tolerance
-        && frequency <= settings.frequency_tolerance
-        && shape <= settings.shape_tolerance
+    let [frequencies, shapes] = scales(errors, settings);
+    compared_sum(errors, settings) <= settings.error_sum_tolerance
+        && frequencies * errors.frequency <= settings.frequency_tolerance
+        && shapes * errors.shape <= settings.shape_tolerance
 }
 
-/// Errors of frequencies and of shapes, each by its number, in the measure of the settings.
-fn compared_parts(errors: &Errors, settings: &Settings) -> (f64, f64) {
-    let scale = |count| settings.inner.measure.scale(count);
-    (
-        scale(errors.mode_count + errors.lone_count) * errors.frequency,
-        scale(errors.mode_count) * errors.shape,
-    )
+fn scales(errors: &Errors, settings: &Settings) -> [f64; 2] {
+    let measure = settings.inner.measure;
+    [errors.mode_count + errors.lone_count, errors.mode_count].map(|count| measure.scale(count))
 }
