@@ -7,6 +7,7 @@ use super::preflight::{
 use super::sensors::{PlacedSensor, motion};
 use super::{Concern, LoadedJob};
 use crate::files::error::FileError;
+use crate::method::model::LoneFrequency;
 use crate::method::modes::ModeSet;
 use crate::sparse::{Factor, SparseMatrix, WholeShare};
 use crate::weighted::noise::Noise;
@@ -31,6 +32,19 @@ impl LoadedJob {
     /// The same, and how many rigid-body modes the analysis for them has found.
     pub(super) fn concerns_and_rigid_body_modes(&self) -> Result<(Vec<Concern>, usize), FileError> {
         let (mut all, rigid_body_modes) = self.preflight_concerns()?;
+        if !self.alone.is_empty() {
+            let pair = |(mode, lone): &(usize, LoneFrequency)| {
+                format!("{} with the model's {}", mode + 1, lone.partner + 1)
+            };
+            let pairs: Vec<String> = self.alone.iter().map(pair).collect();
+            all.push(Concern::remark(
+                "frequencies-alone",
+                format!(
+                    "Test modes without shapes are paired by number, which nothing checks: {}. The model's modes are followed by shape from there.",
+                    pairs.join(", ")
+                ),
+            ));
+        }
         all.extend(self.part_concerns()?);
         for (mode, phase) in self.data.phase_collinearity.iter().enumerate() {
             if *phase < COLLINEAR {
@@ -76,10 +90,13 @@ impl LoadedJob {
         let mut modes: Vec<usize> = left_out.chain(&self.modes).copied().collect();
         modes.sort_unstable();
         modes.dedup();
-        let test = measured(&self.data, &self.placed, &modes)?;
         let (stiffness, mass) = whole.at(&self.ones())?;
         let found = whole.modes_at_most(&stiffness, &mass, 2 * self.analysis_modes)?;
         let rigid_body_modes = found.rigid_body.ncols();
+        if modes.is_empty() {
+            return Ok((Vec::new(), rigid_body_modes));
+        }
+        let test = measured(&self.data, &self.placed, &modes)?;
         let (squares, shapes) = found.vibrations.into_parts();
         let along = |(place, sensor): (usize, &PlacedSensor)| {
             let own = sensor.direction;

@@ -9,8 +9,8 @@ use crate::files::read_bytes;
 use crate::files::test_data::{self, TestData};
 use crate::job::assignment::pair_optimally;
 use crate::job::expansion::mass_by_modes;
-use crate::method::error::Error;
-use crate::method::model::{ExactResult, ModalModel};
+use crate::method::error::{Error, at_least_one};
+use crate::method::model::{ExactResult, LoneFrequency, ModalModel};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::{Pairing, modal_assurance};
 use crate::sparse::{FINITE, SparseMatrix};
@@ -40,6 +40,8 @@ pub struct LoadedJob {
     pub test: ModeSet,
     /// Their places in the test's file, from zero, ascending in frequency.
     pub modes: Vec<usize>,
+    /// Test modes, from zero, of which a frequency alone is compared, ascending, with their partners in the first model.
+    pub alone: Vec<(usize, LoneFrequency)>,
     /// Test modes, from zero, that resemble no mode of the first model, with their largest modal assurance.
     pub unpaired: Vec<(usize, f64)>,
     /// Test modes, from zero, that were left out at first and are compared since.
@@ -50,6 +52,8 @@ pub struct LoadedJob {
     pub accepted: Vec<String>,
     /// How many modes of the model are taken.
     pub analysis_modes: usize,
+    /// The shapes of these partners as the sensors see them; none before the first analysis.
+    partner_shapes: Option<DMatrix<f64>>,
     /// The first model, kept with the settings, the number of modes and the test it was analyzed with.
     first: Option<(Compare, usize, ModeSet, ModalModel)>,
 }
@@ -88,6 +92,7 @@ impl LoadedJob {
         job.refuse_if(unknown, |mode| {
             format!("test.modes: there is no mode {mode}; the test has 1 to {available}")
         })?;
+        at_least_one("test modes", numbers.len())?;
         job.once(numbers.iter(), "test.modes: mode")?;
         job.once(
             source
@@ -106,10 +111,24 @@ impl LoadedJob {
         })?;
         let mut modes: Vec<usize> = numbers.iter().map(|mode| mode - 1).collect();
         modes.sort_by(|&a, &b| data.frequencies_hz[a].total_cmp(&data.frequencies_hz[b]));
-        let test = measured(&data, &placed, &modes)?;
-        let usual = modes.len() + (modes.len() / 2).max(4);
+        let alone = lone_frequencies(&job, &data, &numbers)?;
+        modes.retain(|mode| !data.alone.contains(mode));
+        let test = match &modes[..] {
+            [] => ModeSet::none(sensors.rows()),
+            modes => measured(&data, &placed, modes)?,
+        };
+        let partners = alone.iter().map(|(_, lone)| lone.partner + 1);
+        let highest = partners.max().unwrap_or(0);
+        let usual = numbers.len().max(highest);
+        let usual = usual + (usual / 2).max(4);
         let most = source.whole.dof_count();
         let analysis_modes = job.compare.analysis_modes.unwrap_or(usual.min(most));
+        let beyond = (highest > analysis_modes).then_some(highest);
+        job.refuse_if(beyond, |highest| {
+            format!(
+                "test.partners: mode {highest} of the model is not among the {analysis_modes} taken; see compare.analysis_modes"
+            )
+        })?;
         let mut loaded = Self {
             title: job.title.clone().unwrap_or_else(|| job.stem()),
             job,
@@ -119,11 +138,13 @@ impl LoadedJob {
             sensors,
             test,
             modes,
+            alone,
             unpaired: Vec::new(),
             joined: Vec::new(),
             undecided: Vec::new(),
             accepted: Vec::new(),
             analysis_modes,
+            partner_shapes: None,
             first: None,
         };
         loaded.leave_out_unpaired()?;
@@ -196,6 +217,9 @@ impl LoadedJob {
             }
             Err(_) => return first.map(drop).map_err(FileError::from),
         };
+        let partners = self.alone.iter().map(|(_, lone)| lone.partner);
+        let partners: Vec<usize> = partners.filter(|mode| *mode < shapes.ncols()).collect();
+        self.partner_shapes = Some(shapes.select_columns(&partners));
         let assurance = decided(&modal_assurance(&shapes, &self.test.shapes)?);
         self.undecided = (0..assurance.ncols())
             .filter(|&mode| {
@@ -219,6 +243,16 @@ impl LoadedJob {
                 .ok()
                 .map(|first| (compare, self.analysis_modes, test, first));
         }
+        let twice = self.alone.iter().find_map(|(mode, lone)| {
+            let other = partners.iter().position(|own| *own == Some(lone.partner))?;
+            Some((mode + 1, self.modes[other] + 1, lone.partner + 1))
+        });
+        self.job.refuse_if(twice, |(mode, other, partner)| {
+            format!(
+                "test.partners: mode {partner} of the model is the partner of test mode {mode}, which has a frequency alone, and by its \
+                 shape of test mode {other}"
+            )
+        })?;
         // Without any pair all stay, for the pre-flight to name the mistake.
         if !kept.is_empty() {
             self.test = self.test.select(&kept);
@@ -344,9 +378,90 @@ impl LoadedJob {
         // Gauss-Newton steps have weights of their own.
         match self.job.compare.method {
             Method::Paper => model.weighted(&self.own_weights()),
-            Method::GaussNewton => Ok(model),
+            Method::GaussNewton => {
+                let lone = self.followed(&model.exact)?;
+                model.with_lone_frequencies(lone)
+            }
         }
     }
+
+    /// The frequencies without shapes, each with the mode of this model that its partner in the first has become: those of the largest
+    /// sum of modal assurance with the partners, except modes that a test mode's shape has chosen.
+    fn followed(&self, exact: &ExactResult) -> Result<Vec<LoneFrequency>, Error> {
+        let mut all: Vec<LoneFrequency> = self.alone.iter().map(|(_, lone)| *lone).collect();
+        if let Some(first) = self
+            .partner_shapes
+            .as_ref()
+            .filter(|first| first.ncols() > 0)
+        {
+            let mut assurance = decided(&modal_assurance(&exact.modes.shapes, first)?);
+            for &mode in &exact.pairing.analysis_mode {
+                assurance.row_mut(mode).fill(-1.0);
+            }
+            for (lone, partner) in all.iter_mut().zip(pair_optimally(&assurance, 0.0)?) {
+                lone.partner = partner.unwrap_or(lone.partner);
+            }
+        }
+        Ok(all)
+    }
+}
+
+/// The selected test modes without shapes with their partners: those that the job names, else of the same place in ascending order.
+fn lone_frequencies(
+    job: &Job,
+    data: &TestData,
+    numbers: &[usize],
+) -> Result<Vec<(usize, LoneFrequency)>, FileError> {
+    let alone: Vec<usize> = data
+        .alone
+        .iter()
+        .copied()
+        .filter(|mode| job.selects(mode + 1))
+        .collect();
+    let of_paper = alone
+        .first()
+        .filter(|_| job.compare.method == Method::Paper);
+    job.refuse_if(of_paper, |mode| {
+        format!(
+            "test mode {} has a frequency alone, and compare.method \"paper\" compares shapes; \"gauss_newton\" needs none",
+            mode + 1
+        )
+    })?;
+    let named = job.test.partners.as_deref();
+    let other = named
+        .map(<[usize]>::len)
+        .filter(|&count| count != numbers.len());
+    job.refuse_if(other, |count| {
+        let all = numbers.len();
+        format!("test.partners: {count} given for {all} test modes")
+    })?;
+    let pairs = || numbers.iter().zip(named.into_iter().flatten());
+    let wrong = pairs().find(|&(mode, &partner)| alone.contains(&(mode - 1)) != (partner > 0));
+    job.refuse_if(wrong, |(mode, partner)| match partner {
+        0 => format!("test.partners: test mode {mode} has a frequency alone; name its mode of the model, from 1"),
+        _ => format!("test.partners: test mode {mode} is paired by its shape; 0 stands for it"),
+    })?;
+    job.once(
+        pairs()
+            .map(|(_, partner)| partner)
+            .filter(|partner| **partner > 0),
+        "test.partners: mode",
+    )?;
+    let mut ascending: Vec<usize> = (0..data.frequencies_hz.len()).collect();
+    ascending.sort_by(|&a, &b| data.frequencies_hz[a].total_cmp(&data.frequencies_hz[b]));
+    let of_mode = |(place, mode): (usize, usize)| {
+        let named = pairs().find(|(number, _)| **number == mode + 1);
+        let lone = LoneFrequency {
+            frequency_hz: data.frequencies_hz[mode],
+            partner: named.map_or(place, |(_, partner)| partner - 1),
+        };
+        (mode, lone)
+    };
+    let ascending = ascending.into_iter().enumerate();
+    Ok(ascending
+        .filter(|(_, mode)| alone.contains(mode))
+        .map(of_mode)
+        .collect())
 }
 
 /// Reads the model of a job.

@@ -56,7 +56,7 @@ pub fn by_single_fit(model: &ModalModel, weights: &[ModeWeight]) -> Result<Vec<S
         factors[parameter] = 10.0_f64.powf(log);
         // A factor that leaves no modes of vibration cannot fit.
         ModalState::at(model, factors, UpdateRule::Eigensolution).map_or(f64::INFINITY, |state| {
-            0.5 * residuals_of(&state.modes, &state.pairing, &model.test, weights).norm_squared()
+            0.5 * residuals_of(&state.modes, &state.pairing, model, weights).norm_squared()
         })
     };
     let best = |parameter: usize| {

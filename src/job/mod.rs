@@ -83,6 +83,7 @@ struct ModelFiles {
 struct TestFile {
     file: PathBuf,
     modes: Option<Vec<usize>>,
+    partners: Option<Vec<usize>>,
 }
 
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]

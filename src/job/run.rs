@@ -5,7 +5,7 @@ use crate::files::deck::rewrite;
 use crate::files::error::FileError;
 use crate::method::derivatives::error_changes;
 use crate::method::error::Error;
-use crate::method::error_sum::{ModeWeight, mode_errors};
+use crate::method::error_sum::ModeWeight;
 use crate::method::model::{Bounds, ModalModel};
 use crate::method::outer_loop::{Correlation, Pass, compared_sum, correlate_while, meets};
 use crate::method::structure::{Element, Material};
@@ -51,7 +51,13 @@ pub struct JobResult {
 }
 
 impl LoadedJob {
-    /// The weight of every test mode: one over its standard deviation, times the job's weight.
+    /// Test modes that are compared, from zero: those with shapes, then those without.
+    pub fn compared(&self) -> impl Iterator<Item = usize> {
+        let alone = self.alone.iter().map(|(mode, _)| *mode);
+        self.modes.iter().copied().chain(alone)
+    }
+
+    /// The weight of every test mode, of those without shapes last: one over its standard deviation, times the job's weight.
     ///
     /// # Errors
     /// [`FileError::Refused`] for weights that are not one a test mode.
@@ -73,7 +79,7 @@ impl LoadedJob {
                 format!("compare.{what}: {count} given for {named} test modes")
             })?;
         }
-        let weight = |(own, &mode): (ModeWeight, &usize)| {
+        let weight = |(own, mode): (ModeWeight, usize)| {
             let noise = self.deviations(mode);
             ModeWeight {
                 frequency: own.frequency / noise.frequency,
@@ -83,7 +89,7 @@ impl LoadedJob {
         Ok(self
             .own_weights()
             .into_iter()
-            .zip(&self.modes)
+            .zip(self.compared())
             .map(weight)
             .collect())
     }
@@ -100,11 +106,11 @@ impl LoadedJob {
                 .and_then(|(list, place)| list.get(place).copied())
                 .unwrap_or(1.0)
         };
-        let weight = |&mode: &usize| ModeWeight {
+        let weight = |mode: usize| ModeWeight {
             frequency: of(&compare.frequency_weights, mode),
             shape: of(&compare.shape_weights, mode),
         };
-        self.modes.iter().map(weight).collect()
+        self.compared().map(weight).collect()
     }
 
     /// Standard deviations of a mode of the test's file, from zero: the test's own, else the job's, else 0.5 % and 2 %.
@@ -371,12 +377,7 @@ fn run_part(
                 Some((WeightedStop::Trials, _)) => Outcome::Cap,
                 _ => Outcome::LocalMinimum,
             };
-            let errors = mode_errors(&last.exact.modes, &last.exact.pairing, &last.test)?;
-            let seen: Vec<f64> = first
-                .test_shares
-                .iter()
-                .map(|share| share.diagonal().amax())
-                .collect();
+            let (errors, seen) = (last.mode_errors()?, first.largest_parts());
             let sum = compared_sum(&last.exact.errors, settings);
             Verdict::new(outcome, (sum, &errors), &factors, &seen, &ranges, is_within)
         }

@@ -131,20 +131,25 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
             format!("sensors {other} and {name} are both at grid {grid}, direction {direction}")
         })?;
     }
-    let none = placed.is_empty().then_some(());
+    let shaped = data.shaped();
+    let none = (placed.is_empty() && shaped.iter().any(|mode| job.selects(mode + 1))).then_some(());
     job.refuse_if(none, |()| {
         "no sensor of the test is on the model; see [sensors]".to_owned()
     })?;
+    let dof_count = source.whole.dof_count();
+    if placed.is_empty() {
+        // Frequencies alone are compared, for which the model keeps its shapes whole.
+        let all = (0..dof_count).map(|dof| (dof, dof, 1.0)).collect();
+        return Ok((
+            placed,
+            SparseMatrix::new("sensors", dof_count, dof_count, all)?,
+        ));
+    }
     let entries = placed.iter().enumerate().flat_map(|(row, sensor)| {
         let motion = motion(source, sensor.grid, sensor.direction, sensor.axis);
         motion.map(move |(dof, coefficient)| (row, dof, coefficient))
     });
-    let reading = SparseMatrix::new(
-        "sensors",
-        placed.len(),
-        source.whole.dof_count(),
-        entries.collect(),
-    )?;
+    let reading = SparseMatrix::new("sensors", placed.len(), dof_count, entries.collect())?;
     Ok((placed, reading))
 }
 

@@ -95,12 +95,18 @@ impl Study {
             let noise: Vec<Noise> = (0..data.frequencies_hz.len())
                 .map(|mode| self.loaded.deviations(mode))
                 .collect();
-            let noisy = with_noise_by_mode(
-                &ModeSet::from_measured(&data.frequencies_hz, &data.shapes)?,
-                &noise,
-                seed,
-            )?;
-            (data.frequencies_hz, data.shapes) = (noisy.frequencies_hz(), noisy.shapes);
+            // Frequencies without shapes draw as if they had one.
+            let rows = data.shapes.nrows();
+            let mut shapes = data.shapes.clone().resize_vertically(rows.max(1), 1.0);
+            for &mode in &data.alone {
+                shapes.fill_column(mode, 1.0);
+            }
+            let exact = ModeSet::from_measured(&data.frequencies_hz, &shapes)?;
+            let noisy = with_noise_by_mode(&exact, &noise, seed)?;
+            data.frequencies_hz = noisy.frequencies_hz();
+            for mode in data.shaped() {
+                data.shapes.set_column(mode, &noisy.shapes.column(mode));
+            }
         }
         generator(Vary::Subset)
             .into_iter()
@@ -145,6 +151,9 @@ impl Study {
             return;
         }
         job.test.modes = Some(kept.iter().map(|&place| numbers[place]).collect());
+        if let Some(partners) = &mut job.test.partners {
+            *partners = kept.iter().map(|&place| partners[place]).collect();
+        }
         for weights in [
             &mut job.compare.frequency_weights,
             &mut job.compare.shape_weights,

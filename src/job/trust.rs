@@ -120,7 +120,9 @@ impl Trust {
             ),
             (
                 "shapes",
-                data.shape_deviation.is_none() && compare.shape_deviation.is_none(),
+                data.shape_deviation.is_none()
+                    && compare.shape_deviation.is_none()
+                    && !loaded.modes.is_empty(),
                 DEVIATIONS.shape,
             ),
         ];

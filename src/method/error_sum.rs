@@ -17,6 +17,8 @@ pub struct Errors {
     pub shape: f64,
     /// Number of test modes.
     pub mode_count: usize,
+    /// Number of further frequencies of the test without a shape, which are in the first.
+    pub lone_count: usize,
 }
 
 impl Errors {
@@ -27,7 +29,7 @@ impl Errors {
 
     /// Root mean square frequency error, $e_f/\sqrt n$.
     pub fn frequency_rms(&self) -> f64 {
-        self.frequency / (self.mode_count.max(1) as f64).sqrt()
+        self.frequency / ((self.mode_count + self.lone_count).max(1) as f64).sqrt()
     }
 
     /// Root mean square shape error, $e_v/\sqrt n$.
@@ -63,8 +65,15 @@ impl ErrorMeasure {
 pub struct ModeError {
     /// Relative difference of its frequency, with its sign.
     pub frequency: f64,
-    /// Root mean square difference of its shape over the DOF, both of unit largest component.
-    pub shape: f64,
+    /// Root mean square difference of its shape over the DOF, both of unit largest component; none where the test has no shape.
+    pub shape: Option<f64>,
+}
+
+impl ModeError {
+    /// What it adds to the squares of (5) and (6).
+    pub(crate) fn square(&self) -> f64 {
+        self.frequency.powi(2) + self.shape.unwrap_or_default().powi(2)
+    }
 }
 
 /// The errors of every test mode, whose squares (5) and (6) add up.
@@ -93,7 +102,7 @@ pub fn mode_errors(
         let mean_square = difference.norm_squared() / difference.len() as f64;
         ModeError {
             frequency: ratio - 1.0,
-            shape: mean_square.sqrt(),
+            shape: Some(mean_square.sqrt()),
         }
     };
     let errors: Vec<ModeError> = pairing
@@ -102,10 +111,7 @@ pub fn mode_errors(
         .enumerate()
         .map(of_mode)
         .collect();
-    let sum = errors
-        .iter()
-        .map(|error| error.frequency.powi(2) + error.shape.powi(2))
-        .sum();
+    let sum = errors.iter().map(ModeError::square).sum();
     let is_still = |mode: &&usize| analysis.shapes.column(**mode).amax() == 0.0;
     check_error_sum(sum).map_err(|error| match pairing.analysis_mode.iter().find(is_still) {
         Some(mode) => {
@@ -202,8 +208,9 @@ pub(crate) fn weighted_errors(
     let frequency = srss(|error, weight| weight.frequency * error.frequency);
     let errors = Errors {
         frequency,
-        shape: srss(|error, weight| weight.shape * error.shape),
+        shape: srss(|error, weight| weight.shape * error.shape.unwrap_or_default()),
         mode_count: each.len(),
+        lone_count: 0,
     };
     check_error_sum(errors.sum()).map(|()| errors)
 }

@@ -104,6 +104,14 @@ impl ModeSet {
             .collect()
     }
 
+    /// No modes, of a test that has frequencies alone.
+    pub(crate) fn none(dof_count: usize) -> Self {
+        Self {
+            omega_squared: DVector::zeros(0),
+            shapes: DMatrix::zeros(dof_count, 0),
+        }
+    }
+
     /// The modes of the given places, in that order; a place may not exceed [`Self::len`].
     pub(crate) fn select(&self, places: &[usize]) -> Self {
         Self {

@@ -8,7 +8,6 @@ use crate::method::inner_loop::{Derivative, InnerLoop, InnerRun, InnerSettings, 
 use crate::method::linear_algebra::check_length;
 use crate::method::model::{Bounds, ExactResult, ModalModel};
 use crate::method::verdict::{Outcome, Verdict};
-use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 /// When analysis and test count as correlated, and how long to try.
@@ -223,16 +222,11 @@ impl Correlation {
             _ => Outcome::Cap,
         };
         let errors = mode_errors(&check.modes, &check.pairing, &first.test)?;
-        let largest_part = |share: &DMatrix<f64>| share.diagonal().amax();
         let verdict = Verdict::new(
             outcome,
             (compared_sum(&check.errors, settings), &errors),
             factors,
-            &first
-                .test_shares
-                .iter()
-                .map(largest_part)
-                .collect::<Vec<_>>(),
+            &first.largest_parts(),
             total_ranges,
             converged,
         );
@@ -247,15 +241,21 @@ impl Correlation {
     }
 }
 
-/// The error sum in the measure of the settings.
+/// The error sum in the measure of the settings, frequencies and shapes each by their number.
 pub(crate) fn compared_sum(errors: &Errors, settings: &Settings) -> f64 {
-    settings.inner.measure.scale(errors.mode_count) * errors.sum()
+    let [frequencies, shapes] = scales(errors, settings);
+    frequencies * (errors.frequency + shapes / frequencies * errors.shape)
 }
 
 /// Whether errors meet the tolerances in the measure of the settings.
 pub(crate) fn meets(errors: &Errors, settings: &Settings) -> bool {
-    let scale = settings.inner.measure.scale(errors.mode_count);
+    let [frequencies, shapes] = scales(errors, settings);
     compared_sum(errors, settings) <= settings.error_sum_tolerance
-        && scale * errors.frequency <= settings.frequency_tolerance
-        && scale * errors.shape <= settings.shape_tolerance
+        && frequencies * errors.frequency <= settings.frequency_tolerance
+        && shapes * errors.shape <= settings.shape_tolerance
+}
+
+fn scales(errors: &Errors, settings: &Settings) -> [f64; 2] {
+    let measure = settings.inner.measure;
+    [errors.mode_count + errors.lone_count, errors.mode_count].map(|count| measure.scale(count))
 }

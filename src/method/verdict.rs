@@ -55,9 +55,8 @@ impl Verdict {
         ranges: &[Option<Bounds>],
         is_within: bool,
     ) -> Self {
-        let size = |mode: &usize| errors[*mode].frequency.powi(2) + errors[*mode].shape.powi(2);
         let worst_mode = (0..errors.len())
-            .max_by(|a, b| size(a).total_cmp(&size(b)))
+            .max_by(|&a, &b| errors[a].square().total_cmp(&errors[b].square()))
             .unwrap_or(0);
         let at_end = |e: &usize| ranges[*e].is_some_and(|range| range.has_end_at(factors[*e]));
         let is_unseen = |e: &usize| factors[*e] * seen[*e] < UNSEEN_SHARE;

@@ -82,6 +82,7 @@ struct ReportValue<'a> {
     best_pass: Option<usize>,
     test_mode_numbers: &'a [usize],
     test_frequencies_hz: Vec<f64>,
+    frequencies_alone: Vec<Value>,
     sensors: Vec<&'a str>,
     initial: SolutionValue<'a>,
     corrected_agreement: AgreementValue,
@@ -156,6 +157,9 @@ pub fn report(report: &Report) -> Result<Value, PresentError> {
         best_pass: report.best.map(|best| best + 1),
         test_mode_numbers: &report.mode_numbers,
         test_frequencies_hz: report.test.frequencies_hz(),
+        frequencies_alone: (0..report.initial.lone.len())
+            .map(|place| frequency_alone(report, place))
+            .collect(),
         sensors: report
             .sensors
             .iter()
@@ -182,6 +186,19 @@ fn agreement(report: &Report, check: &ExactResult) -> Result<AgreementValue, Pre
         paired_analysis_modes: modes.map(|mode| mode + 1).collect(),
         modal_assurance: matrix_rows(&found.assurance),
         cross_orthogonality: found.orthogonality.as_ref().map(matrix_rows),
+    })
+}
+
+/// A frequency of the test without a shape with its partners in the first and the corrected model; places count from one.
+fn frequency_alone(report: &Report, place: usize) -> Value {
+    let lone = |check: &ExactResult| check.lone[place];
+    let hertz = |check: &ExactResult| check.modes.frequencies_hz()[lone(check).partner];
+    let both = [&report.initial, report.corrected()];
+    json!({
+        "mode": report.mode_number(report.test.len() + place),
+        "test_hz": lone(&report.initial).frequency_hz,
+        "analysis_modes": both.map(|check| lone(check).partner + 1),
+        "frequencies_hz": both.map(hertz),
     })
 }
 

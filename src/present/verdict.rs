@@ -18,7 +18,7 @@ pub fn verdict_in_words(verdict: &Verdict, names: &[String], mode_numbers: &[usi
         Outcome::Nothing => " No step from the first model lowered it, or none was allowed.",
     };
     let mut words = format!(
-        "{} tolerance: error sum {:.2} %.{end} Worst is mode {}: frequency {:+.2} %, shape {:.2} % RMS.",
+        "{} tolerance: error sum {:.2} %.{end} Worst is mode {}: frequency {:+.2} %, shape {}.",
         if verdict.is_within {
             "Within"
         } else {
@@ -30,7 +30,10 @@ pub fn verdict_in_words(verdict: &Verdict, names: &[String], mode_numbers: &[usi
             .map_or(verdict.worst_mode + 1, |number| *number),
         // Rounding first keeps a minus sign off zero.
         (1e4 * verdict.worst.frequency).round() / 100.0 + 0.0,
-        100.0 * verdict.worst.shape
+        verdict.worst.shape.map_or_else(
+            || "–".to_owned(),
+            |shape| format!("{:.2} % RMS", 100.0 * shape)
+        )
     );
     if !verdict.at_bound.is_empty() {
         words += &format!(" At a bound: {}.", named(&verdict.at_bound));

@@ -17,7 +17,8 @@ pub const DEVIATIONS: Noise = Noise {
     frequency: 0.005,
 };
 
-/// Weighted residuals of an exact analysis, $(1 + d)$ for each test mode: its frequency, then its $d$ sensors.
+/// Weighted residuals of an exact analysis, $(1 + d)$ for each test mode: its frequency, then its $d$ sensors. Frequencies without
+/// shapes follow, one each; so do their weights those of the test modes.
 ///
 /// $$ r_{fj} = w_{fj} \Big(\frac{f_{Fi}}{f_{Gj}} - 1\Big), \qquad r_{vj} = w_{vj} (a_j v_i - u_j), \qquad
 ///    a_j = \frac{v_i^t u_j}{v_i^t v_i} $$
@@ -32,25 +33,20 @@ pub const DEVIATIONS: Noise = Noise {
 ///
 /// Source: Golub and Pereyra, *SIAM Journal on Numerical Analysis* 10 (1973), 413.
 pub fn residuals(model: &ModalModel, weights: &[ModeWeight]) -> Result<DVector<f64>, Error> {
-    check_weights(weights, model.test.len())?;
-    let residuals = residuals_of(
-        &model.exact.modes,
-        &model.exact.pairing,
-        &model.test,
-        weights,
-    );
+    check_weights(weights, model.test.len() + model.exact.lone.len())?;
+    let residuals = residuals_of(&model.exact.modes, &model.exact.pairing, model, weights);
     finite_list("residuals", residuals.data.into()).map(DVector::from_vec)
 }
 
-/// The residuals of any modes, of weights that fit.
+/// The residuals of any modes beside a model's test, of weights that fit.
 pub(crate) fn residuals_of(
     modes: &ModeSet,
     pairing: &Pairing,
-    test: &ModeSet,
+    ModalModel { test, exact, .. }: &ModalModel,
     weights: &[ModeWeight],
 ) -> DVector<f64> {
     let rows = 1 + test.shapes.nrows();
-    let mut residuals = DVector::zeros(rows * test.len());
+    let mut residuals = DVector::zeros(rows * test.len() + exact.lone.len());
     for (j, &i) in pairing.analysis_mode.iter().enumerate() {
         residuals[rows * j] =
             weights[j].frequency * ((modes.omega_squared[i] / test.omega_squared[j]).sqrt() - 1.0);
@@ -58,6 +54,9 @@ pub(crate) fn residuals_of(
         residuals
             .rows_mut(rows * j + 1, rows - 1)
             .copy_from(&(weights[j].shape * apart));
+    }
+    for (place, (lone, weight)) in exact.lone.iter().zip(&weights[test.len()..]).enumerate() {
+        residuals[rows * test.len() + place] = weight.frequency * lone.error(modes);
     }
     residuals
 }
@@ -86,25 +85,25 @@ fn scaled(modes: &ModeSet, i: usize, test: &ModeSet, j: usize) -> (f64, DVector<
 ///
 /// Source: Fox and Kapoor, *AIAA Journal* 6 (1968), 2426.
 pub fn jacobian(model: &ModalModel, weights: &[ModeWeight]) -> Result<DMatrix<f64>, Error> {
-    check_weights(weights, model.test.len())?;
-    let (modes, test) = (&model.basis, &model.test);
+    let (modes, test, lone) = (&model.basis, &model.test, &model.exact.lone);
+    check_weights(weights, test.len() + lone.len())?;
     let (k, rows, count) = (
         &modes.omega_squared,
         1 + test.shapes.nrows(),
         model.shares.len(),
     );
-    let mut jacobian = DMatrix::zeros(rows * test.len(), count);
+    let change = |r: usize, i: usize, share: &ParameterMatrix| match share {
+        ParameterMatrix::Stiffness(beta) => beta[(r, i)],
+        ParameterMatrix::Mass(alpha) => -k[i] * alpha[(r, i)],
+    };
+    let mut jacobian = DMatrix::zeros(rows * test.len() + lone.len(), count);
     for (j, &i) in model.exact.pairing.analysis_mode.iter().enumerate() {
-        let change = |r: usize, share: &ParameterMatrix| match share {
-            ParameterMatrix::Stiffness(beta) => beta[(r, i)],
-            ParameterMatrix::Mass(alpha) => -k[i] * alpha[(r, i)],
-        };
         let ratio = (k[i] / test.omega_squared[j]).sqrt();
         // The share of every other mode that each parameter adds to this one (n × p).
         let added = DMatrix::from_fn(k.len(), count, |r, e| {
             let (apart, held) = (k[i] - k[r], SMALLEST_SEPARATION * k[i].max(k[r]));
             if apart.abs() > held {
-                change(r, &model.shares[e]) / apart
+                change(r, i, &model.shares[e]) / apart
             } else {
                 0.0
             }
@@ -118,7 +117,14 @@ pub fn jacobian(model: &ModalModel, weights: &[ModeWeight]) -> Result<DMatrix<f6
             .copy_from(&shape);
         for (e, share) in model.shares.iter().enumerate() {
             jacobian[(rows * j, e)] =
-                weights[j].frequency * ratio * change(i, share) / (2.0 * k[i]);
+                weights[j].frequency * ratio * change(i, i, share) / (2.0 * k[i]);
+        }
+    }
+    for (place, (lone, weight)) in lone.iter().zip(&weights[test.len()..]).enumerate() {
+        let (i, ratio) = (lone.partner, 1.0 + lone.error(modes));
+        for (e, share) in model.shares.iter().enumerate() {
+            jacobian[(rows * test.len() + place, e)] =
+                weight.frequency * ratio * change(i, i, share) / (2.0 * k[i]);
         }
     }
     finite("Jacobian", jacobian)

@@ -200,6 +200,7 @@ impl Draws {
             frequency: self.unit(),
             shape: self.unit(),
             mode_count: self.size(),
+            lone_count: self.size(),
         }
     }
 

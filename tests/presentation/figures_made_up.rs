@@ -163,6 +163,7 @@ fn pass(
             frequency: 0.25 * sum,
             shape: 0.75 * sum,
             mode_count: 9,
+            lone_count: 0,
         }
     };
     let inner = (0..if is_inner { iterations + 1 } else { 1 })

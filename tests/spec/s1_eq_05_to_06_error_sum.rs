@@ -134,6 +134,7 @@ fn sums_and_root_mean_squares_by_hand() {
         frequency: 0.3,
         shape: 0.6,
         mode_count: 9,
+        lone_count: 0,
     };
     assert!((errors.sum() - 0.9).abs() <= ROUND_OFF);
     assert!((errors.frequency_rms() - 0.1).abs() <= ROUND_OFF);

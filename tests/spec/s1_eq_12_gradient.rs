@@ -72,7 +72,7 @@ fn the_gradient_of_weighted_errors_is_their_central_difference() {
             .map(|(error, weight)| (weight.frequency * error.frequency).powi(2))
             .sum();
         let shape: f64 = both
-            .map(|(error, weight)| (weight.shape * error.shape).powi(2))
+            .map(|(error, weight)| (weight.shape * error.shape.expect("a shape")).powi(2))
             .sum();
         let weighted = problem.clone().weighted(&weights).unwrap();
         assert_near(

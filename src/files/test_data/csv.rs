@@ -16,6 +16,8 @@
 //!   ry, rz for rotations), `name` or `grid` or both, and a column whose title begins with `mode` for every mode. `sign` says which way
 //!   the sensor points along its axis: `+`, `-`, or empty for `+`. `x`, `y`, `z` are its place, all three or none of them.
 //!   Where titles number the modes, the numbers are 1, 2, 3 and so on from left to right, as elsewhere.
+//! - A mode whose column has no number but its frequency has no shape. A table of frequencies alone needs no sensors, and of titles only
+//!   those of the modes.
 //! - A sensor has a cell below each title, the rows above a number below each mode's, and neither has anything elsewhere but blanks.
 //! - Rows whose first cell is `frequency_hz` (Hz, must be there), `frequency_deviation`, `shape_deviation` (standard deviations as
 //!   fractions) or `phase_collinearity` have a number in each column of a mode. Every other row below the header is a sensor.
@@ -98,10 +100,9 @@ impl TestRow<'_> {
             }
         }
         let axes = titles[4..].iter().flatten().count();
-        let complete = titles[2].is_some()
-            && titles[..2] != [None; 2]
-            && [0, 3].contains(&axes)
-            && !modes.is_empty();
+        let names_sensors =
+            titles[2].is_some() && titles[..2] != [None; 2] && [0, 3].contains(&axes);
+        let complete = (names_sensors || titles == [None; 7]) && !modes.is_empty();
         let what = "a header with direction, name or grid, a column for every mode, and all of x, y, z or none";
         if complete {
             Ok((titles, modes))
@@ -254,13 +255,19 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
     };
     (data.frequency_deviation, data.shape_deviation) = (list(1)?, list(2)?);
     data.phase_collinearity = list(3)?.unwrap_or_default();
-    let mut shapes = Vec::new();
-    for row in &rows {
+    let is_empty = |row: &TestRow, column: usize| row.cell(Some(column)).is_empty();
+    let (alone, shaped): (Vec<usize>, Vec<usize>) =
+        (0..modes.len()).partition(|&mode| rows.iter().all(|row| is_empty(row, modes[mode])));
+    let columns: Vec<usize> = shaped.iter().map(|&mode| modes[mode]).collect();
+    data.shapes = DMatrix::zeros(rows.len(), modes.len());
+    for (place, row) in rows.iter().enumerate() {
         let (sensor, sign) = row.sensor(&titles)?;
         data.sensors.push(sensor);
-        shapes.extend(row.numbers(&modes)?.into_iter().map(|value| sign * value));
+        for (&mode, value) in shaped.iter().zip(row.numbers(&columns)?) {
+            data.shapes[(place, mode)] = sign * value;
+        }
     }
-    data.shapes = DMatrix::from_row_slice(rows.len(), modes.len(), &shapes);
+    data.alone = alone;
     Ok(data)
 }
 

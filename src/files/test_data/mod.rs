@@ -12,7 +12,7 @@ pub(crate) use csv::{cells, quoted, separator};
 
 use crate::files::deck::{decoded, number::parse_real};
 use crate::files::error::FileError;
-use crate::method::error::Error;
+use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_length, check_shape};
 use crate::method::modes::ModeSet;
 use crate::method::structure::positive;
@@ -46,6 +46,8 @@ pub struct TestData {
     pub sensors: Vec<Sensor>,
     /// Real mode shapes in the positive sense of each sensor's axis, of any scale, one per column (sensors × modes).
     pub shapes: DMatrix<f64>,
+    /// Modes, from zero, of which the test has a frequency alone; nothing is said by their columns of the shapes.
+    pub alone: Vec<usize>,
     /// Standard deviation of every frequency, a fraction of it, if known.
     pub frequency_deviation: Option<Vec<f64>>,
     /// Standard deviation of every mode's shape, a fraction of its largest component, if known.
@@ -72,7 +74,22 @@ impl TestData {
     pub fn check(&self) -> Result<(), Error> {
         let count = self.frequencies_hz.len();
         check_shape("test mode shapes", &self.shapes, self.sensors.len(), count)?;
-        ModeSet::from_measured(&self.frequencies_hz, &self.shapes)?;
+        for (mode, &value) in self.frequencies_hz.iter().enumerate() {
+            positive(
+                "frequency",
+                || format!("test mode {mode} (from zero)"),
+                value,
+            )?;
+        }
+        let shaped = self.shaped();
+        if let (Some(_), shapes) = (shaped.first(), self.shapes.select_columns(&shaped)) {
+            let hertz: Vec<f64> = shaped
+                .iter()
+                .map(|&mode| self.frequencies_hz[mode])
+                .collect();
+            ModeSet::from_measured(&hertz, &shapes)?;
+        }
+        at_least_one("test modes", count)?;
         let mut seen = HashSet::new();
         for (row, sensor) in self.sensors.iter().enumerate() {
             let numbers = sensor.place.iter().chain(&sensor.axis).flatten();
@@ -126,6 +143,12 @@ impl TestData {
             phases,
             if phases == 0 { 0 } else { count },
         )
+    }
+
+    /// Places of the modes that have shapes.
+    pub(crate) fn shaped(&self) -> Vec<usize> {
+        let all = 0..self.frequencies_hz.len();
+        all.filter(|mode| !self.alone.contains(mode)).collect()
     }
 }
 

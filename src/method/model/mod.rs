@@ -7,7 +7,7 @@ mod parameters;
 
 pub use analysis::CondensedModel;
 pub(crate) use modal::check_weights;
-pub use modal::{DynamicModel, ExactResult, ModalModel, Pair, ParameterMatrix};
+pub use modal::{DynamicModel, ExactResult, LoneFrequency, ModalModel, Pair, ParameterMatrix};
 pub use parameters::{Bounds, Parameter, Scaled};
 
 use crate::method::assembly::{ElementMatrix, element_matrices};

@@ -6,12 +6,16 @@
 
 use super::REFERENCE_GAGE;
 use crate::method::error::{Error, setting};
-use crate::method::error_sum::{Errors, ModeWeight, errors, weighted_errors};
+use crate::method::error_sum::{
+    Errors, ModeError, ModeWeight, check_error_sum, errors, mode_errors, weighted_errors,
+};
 use crate::method::linear_algebra::{check_length, check_shape, check_symmetric, symmetric_part};
-use crate::method::modes::{ModeSet, Modes, solve};
+use crate::method::modes::{ModeSet, Modes, check_count, solve};
 use crate::method::pairing::{Pairing, cross_orthogonality, pair_modes, paired, signed_assurance};
 use crate::method::state::{Change, with_rigid_bodies};
+use crate::method::structure::positive;
 use nalgebra::DMatrix;
+use std::f64::consts::PI;
 
 /// What one parameter holds of a matrix: at d DOF (d × d), or in n modes as $V^t K_e V$ or $V^t M_e V$ (n × n).
 #[derive(Debug, Clone, PartialEq)]
@@ -103,8 +107,26 @@ pub struct ExactResult {
     pub pairing: Pairing,
     /// Their frequencies in the order of the test modes, Hz.
     pub frequencies_hz: Vec<f64>,
+    /// Frequencies of the test without shapes, none unless [`ModalModel::with_lone_frequencies`].
+    pub lone: Vec<LoneFrequency>,
     /// Their distance from the test modes.
     pub errors: Errors,
+}
+
+/// A frequency of the test without a shape, and the mode of the model that it is compared with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoneFrequency {
+    /// Hz.
+    pub frequency_hz: f64,
+    /// The place of the mode among the model's elastic modes, which ascend, from zero.
+    pub partner: usize,
+}
+
+impl LoneFrequency {
+    /// The partner's frequency over the test's, less one.
+    pub(crate) fn error(&self, modes: &ModeSet) -> f64 {
+        modes.omega_squared[self.partner].sqrt() / (2.0 * PI * self.frequency_hz) - 1.0
+    }
 }
 
 /// How test modes are paired with analysis modes by their closeness (n × g), such as [`pair_modes`].
@@ -317,7 +339,22 @@ impl ModalModel {
         let shares = self.shares.iter().zip(factors);
         let shares = shares.map(|(share, &factor)| share.map(|matrix| through(matrix, factor)));
         let model = Self::at_sensors(modes, &further, &self.test, self.pair, shares.collect())?;
-        Ok(model.with_sizes(self.sizes.clone()))
+        let mut lone = self.exact.lone.clone();
+        if !lone.is_empty() {
+            // What a partner has become is most of it in the coordinates of the modes, in which the mass is one.
+            let partners: Vec<usize> = lone.iter().map(|lone| lone.partner).collect();
+            let became = generalized
+                .columns(0, count)
+                .select_rows(&partners)
+                .transpose();
+            let became = pair_modes(&became)?.analysis_mode;
+            lone.iter_mut()
+                .zip(became)
+                .for_each(|(lone, mode)| lone.partner = mode);
+        }
+        model
+            .with_sizes(self.sizes.clone())
+            .with_lone_frequencies(lone)
     }
 
     /// The modal model of exact modes and test modes paired by a rule: their distance, and the shares in the basis and on the test
@@ -343,6 +380,7 @@ impl ModalModel {
             modes,
             pairing,
             frequencies_hz,
+            lone: Vec::new(),
             errors,
         };
         let (sizes, weights) = (
@@ -374,6 +412,62 @@ impl ModalModel {
         Ok(self)
     }
 
+    /// The same model that is also compared with frequencies of the test that have no shapes. They count among the frequencies of the
+    /// error sum and of the residuals, and nowhere else.
+    ///
+    /// # Errors
+    /// [`Error::NotPositive`] for a frequency; [`Error::TooMany`] for a partner that the model has not; [`Error::NotFinite`].
+    pub fn with_lone_frequencies(mut self, lone: Vec<LoneFrequency>) -> Result<Self, Error> {
+        for (place, frequency) in lone.iter().enumerate() {
+            let owner = || format!("frequency {place} without a shape (from zero)");
+            positive("frequency", owner, frequency.frequency_hz)?;
+            check_count(
+                "modes",
+                frequency.partner.saturating_add(1),
+                self.exact.modes.len(),
+            )?;
+        }
+        self.exact.lone = lone;
+        self.exact.errors = self.errors_of(&self.exact.modes, &self.exact.pairing)?;
+        Ok(self)
+    }
+
+    /// Errors of every test mode, then of the frequencies without shapes.
+    pub(crate) fn mode_errors(&self) -> Result<Vec<ModeError>, Error> {
+        let ExactResult {
+            modes,
+            pairing,
+            lone,
+            ..
+        } = &self.exact;
+        let mut all = mode_errors(modes, pairing, &self.test)?;
+        all.extend(lone.iter().map(|lone| ModeError {
+            frequency: lone.error(modes),
+            shape: None,
+        }));
+        Ok(all)
+    }
+
+    /// The largest part of a test mode's stiffness or mass that each parameter has.
+    pub(crate) fn largest_parts(&self) -> Vec<f64> {
+        let part = |(share, on_test): (&ParameterMatrix, &DMatrix<f64>)| {
+            let of_lone = |lone: &LoneFrequency| match share {
+                ParameterMatrix::Stiffness(beta) => {
+                    beta[(lone.partner, lone.partner)]
+                        / self.exact.modes.omega_squared[lone.partner]
+                }
+                ParameterMatrix::Mass(alpha) => alpha[(lone.partner, lone.partner)],
+            };
+            let lone = self.exact.lone.iter().map(of_lone);
+            lone.fold(on_test.diagonal().amax(), f64::max)
+        };
+        self.shares
+            .iter()
+            .zip(&self.test_shares)
+            .map(part)
+            .collect()
+    }
+
     /// The same model with the mean gage or area of every parameter's elements.
     pub(crate) fn with_sizes(self, sizes: Vec<f64>) -> Self {
         Self { sizes, ..self }
@@ -381,6 +475,11 @@ impl ModalModel {
 
     /// How far paired modes are from the test modes, with the weights.
     pub(crate) fn errors_of(&self, modes: &ModeSet, pairing: &Pairing) -> Result<Errors, Error> {
-        weighted_errors(modes, pairing, &self.test, &self.weights)
+        let mut errors = weighted_errors(modes, pairing, &self.test, &self.weights)?;
+        errors.lone_count = self.exact.lone.len();
+        for lone in &self.exact.lone {
+            errors.frequency = errors.frequency.hypot(lone.error(modes));
+        }
+        check_error_sum(errors.sum()).map(|()| errors)
     }
 }

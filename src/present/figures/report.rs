@@ -153,7 +153,10 @@ fn factors(report: &Report) -> Factors {
 pub fn mode_agreement(report: &Report) -> Result<Vec<HeatMap>, Error> {
     let map = |title: String, values: &DMatrix<f64>| {
         let rows = ("analysis mode".to_owned(), numbers(values.nrows()));
-        let columns = ("test mode".to_owned(), mode_labels(report));
+        let columns = (
+            "test mode".to_owned(),
+            mode_labels(report, report.test.len()),
+        );
         HeatMap {
             title,
             rows,
@@ -180,9 +183,8 @@ pub fn mode_agreement(report: &Report) -> Result<Vec<HeatMap>, Error> {
 }
 
 /// The numbers of the test modes in the test's file.
-fn mode_labels(report: &Report) -> Vec<String> {
-    let places = 0..report.test.len();
-    places
+fn mode_labels(report: &Report, count: usize) -> Vec<String> {
+    (0..count)
         .map(|place| report.mode_number(place).to_string())
         .collect()
 }
@@ -202,7 +204,7 @@ pub fn derivatives(report: &Report) -> Option<[HeatMap; 2]> {
     let error_sum = DMatrix::from_column_slice(error_sum.len(), 1, error_sum);
     let (percent, modes) = (
         "Percent of frequency for one percent of the parameter",
-        mode_labels(report),
+        mode_labels(report, frequency.ncols()),
     );
     Some([
         map(percent, "parameter", "test mode", modes, frequency),

@@ -56,7 +56,7 @@ impl Report {
         };
         let report = Self {
             title: loaded.title.clone(),
-            mode_numbers: loaded.modes.iter().map(|mode| mode + 1).collect(),
+            mode_numbers: loaded.compared().map(|mode| mode + 1).collect(),
             ranges: whole.ranges(),
             sensors: loaded.placed.iter().map(sensor_point).collect(),
             frame,

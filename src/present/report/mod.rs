@@ -45,7 +45,7 @@ pub struct Stage {
 /// Derivatives at the first model by the relative stiffness or mass of each parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Derivatives {
-    /// $\partial \ln f_i/\partial \ln c_e$ of the mode paired with test mode $i$ (parameters × test modes).
+    /// $\partial \ln f_i/\partial \ln c_e$ of the mode paired with test mode $i$ (parameters × test modes, those without shapes last).
     pub frequency: DMatrix<f64>,
     /// $\partial e_S/\partial \ln c_e$ of the error sum, by (12).
     pub error_sum: Vec<f64>,
@@ -70,7 +70,7 @@ pub struct Report {
     pub truth: Vec<f64>,
     /// Test modes, sensors × modes.
     pub test: ModeSet,
-    /// Their numbers in the test's file.
+    /// The numbers in the test's file of the test modes, then of those without shapes.
     pub mode_numbers: Vec<usize>,
     /// What may lower the trust in it; none of the paper's cases.
     pub trust: Option<Trust>,
@@ -117,8 +117,17 @@ impl Derivatives {
     /// Those of [`by_definition`].
     pub fn at(first: &ModalModel) -> Result<Self, Error> {
         let changes = by_definition(first, &ModalState::start(first))?;
-        let frequency = DMatrix::from_fn(first.shares.len(), first.test.len(), |e, j| {
-            let i = first.exact.pairing.analysis_mode[j];
+        let lone = first.exact.lone.iter().map(|lone| &lone.partner);
+        let partners: Vec<usize> = first
+            .exact
+            .pairing
+            .analysis_mode
+            .iter()
+            .chain(lone)
+            .copied()
+            .collect();
+        let frequency = DMatrix::from_fn(first.shares.len(), partners.len(), |e, j| {
+            let i = partners[j];
             match &first.shares[e] {
                 ParameterMatrix::Stiffness(share) => {
                     share[(i, i)] / (2.0 * first.exact.modes.omega_squared[i])
@@ -281,18 +290,18 @@ impl Report {
             .collect()
     }
 
-    /// How the modes of an exact solution, up to the highest that is paired, agree with the test's; paired ones are signed like them.
+    /// How the modes of an exact solution, up to the highest that is paired by shape, agree with the test's; paired ones are signed like them.
     ///
     /// # Errors
     /// [`Error::WrongShape`] when shapes and mass do not fit; [`Error::NotPositive`] for a shape that is zero or has no mass.
     pub fn agreement(&self, check: &ExactResult) -> Result<PairAgreement, Error> {
-        let highest = check
-            .pairing
-            .analysis_mode
-            .iter()
-            .max()
-            .map_or(0, |mode| mode + 1);
-        let mut modes: ModeSet = check.modes.lowest(highest)?.into();
+        let Some(highest) = check.pairing.analysis_mode.iter().max() else {
+            return Ok(PairAgreement {
+                assurance: DMatrix::zeros(0, 0),
+                orthogonality: None,
+            });
+        };
+        let mut modes: ModeSet = check.modes.lowest(highest + 1)?.into();
         for (&mode, &sign) in check.pairing.analysis_mode.iter().zip(&check.pairing.sign) {
             modes.shapes.column_mut(mode).scale_mut(sign);
         }

@@ -48,7 +48,8 @@ pub fn places_table(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Ta
         );
     let models = result
         .into_iter()
-        .flat_map(|result| [&result.first, &result.last]);
+        .flat_map(|result| [&result.first, &result.last])
+        .filter(|model| !model.test.is_empty());
     for (name, model) in ["first COMAC", "corrected COMAC"].into_iter().zip(models) {
         let pairs: Vec<Option<usize>> = model
             .exact
@@ -122,7 +123,11 @@ pub fn suspects_table(loaded: &LoadedJob) -> Result<Table, FileError> {
         loaded.weights()?,
     );
     let suspects = by_single_fit(&first, &weights)?;
-    let slopes = by_factor(&first, &loaded.job.correlation.inner)?;
+    // The paper's step needs shapes.
+    let slopes = match &loaded.alone[..] {
+        [] => by_factor(&first, &loaded.job.correlation.inner)?,
+        _ => Vec::new(),
+    };
     let residuals = residuals(&first, &weights)?;
     let note = format!(
         "Evidence: how far half the weighted squared error, {:.3e} from {} measured numbers, falls when this parameter alone has \

@@ -27,7 +27,10 @@ fn table_of(report: &Report, name: &str, title: &str, label: &'static str) -> Ta
 /// # Errors
 /// Those of [`Report::agreement`].
 pub fn paired_table(report: &Report) -> Result<Table, Error> {
-    let test_hz = report.test.frequencies_hz();
+    let mut test_hz = report.test.frequencies_hz();
+    let shaped = test_hz.len();
+    test_hz.extend(report.initial.lone.iter().map(|lone| lone.frequency_hz));
+    let none = || report.initial.lone.iter().map(|_| Cell::text("–"));
     let mut table = table_of(report, "modes", "test modes and their partners", "Mode")
         .labels((0..test_hz.len()).map(|mode| report.mode_number(mode)))
         .labels(["frequency RMS", "shape RMS"])
@@ -36,15 +39,20 @@ pub fn paired_table(report: &Report) -> Result<Table, Error> {
     let corrected = (!report.stages.is_empty()).then(|| ("Corrected", report.corrected()));
     for (name, check) in [("First", &report.initial)].into_iter().chain(corrected) {
         let agreement = report.agreement(check)?;
-        let (own, others): (Vec<f64>, Vec<f64>) = (0..test_hz.len())
-            .map(|mode| agreement.pair(check, mode))
-            .unzip();
-        let rms = [check.errors.frequency_rms(), check.errors.shape_rms()];
-        let differences = check
+        let (own, others): (Vec<f64>, Vec<f64>) =
+            (0..shaped).map(|mode| agreement.pair(check, mode)).unzip();
+        let shape_rms = (shaped > 0).then(|| check.errors.shape_rms());
+        let rms = [Some(check.errors.frequency_rms()), shape_rms];
+        let all_hz = check.modes.frequencies_hz();
+        let lone_hz = check.lone.iter().map(|lone| all_hz[lone.partner]);
+        let hertz: Vec<f64> = check
             .frequencies_hz
             .iter()
-            .zip(&test_hz)
-            .map(|(hertz, test)| hertz / test - 1.0);
+            .copied()
+            .chain(lone_hz)
+            .collect();
+        let differences = hertz.iter().zip(&test_hz);
+        let differences = differences.map(|(hertz, test)| Some(hertz / test - 1.0));
         let partners = check.pairing.analysis_mode.iter().enumerate();
         let assurance = partners.map(|(mode, &partner)| agreement.assurance[(partner, mode)]);
         let words = |(own, others): (&f64, &f64)| {
@@ -55,24 +63,32 @@ pub fn paired_table(report: &Report) -> Result<Table, Error> {
         };
         verdict = (
             format!("{name} is"),
-            own.iter().zip(&others).map(words).collect(),
+            own.iter().zip(&others).map(words).chain(none()).collect(),
         );
         table = table
-            .column(
-                name,
-                "Hz",
-                numbers(check.frequencies_hz.iter().copied(), HERTZ),
-            )
+            .column(name, "Hz", numbers(hertz.iter().copied(), HERTZ))
             .column(
                 format!("{name} error"),
                 "%",
                 percents(differences.chain(rms), RMS_PERCENT),
             )
-            .column(format!("{name} MAC"), "", numbers(assurance, THREE));
+            .column(
+                format!("{name} MAC"),
+                "",
+                numbers(assurance, THREE).chain(none()),
+            );
         if report.mass.is_some() {
-            table = table.column(format!("{name} cross"), "", numbers(own, THREE));
+            table = table.column(
+                format!("{name} cross"),
+                "",
+                numbers(own, THREE).chain(none()),
+            );
         }
-        table = table.column(format!("{name} others"), "", numbers(others, THREE));
+        table = table.column(
+            format!("{name} others"),
+            "",
+            numbers(others, THREE).chain(none()),
+        );
     }
     let measure = match report.mass {
         Some(_) => "cross-orthogonality",

@@ -6,7 +6,7 @@ use corfem::method::derivatives::{DerivativeRule, by_definition, error_changes, 
 use corfem::method::error::Error;
 use corfem::method::error_sum::{ErrorMeasure, ModeWeight, errors, mode_errors};
 use corfem::method::inner_loop::{InnerSettings, run};
-use corfem::method::model::Bounds;
+use corfem::method::model::{Bounds, LoneFrequency};
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::step::{
@@ -125,12 +125,23 @@ pub const LOOPS: &[Entry] = &[
         let found = mode_errors(&analysis, &pairing, &test)?;
         Ok(found
             .iter()
-            .flat_map(|error| [error.frequency, error.shape])
+            .flat_map(|error| [error.frequency, error.shape.unwrap_or_default()])
             .collect())
     }),
     ("error_sum::errors", |d| {
         let (analysis, pairing, test) = d.compared()?;
         errors(&analysis, &pairing, &test).map(|found| vec![found.frequency, found.shape])
+    }),
+    ("ModalModel::with_lone_frequencies", |d| {
+        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
+        let lone = (0..d.size()).map(|_| LoneFrequency {
+            frequency_hz: d.number(),
+            partner: d.size(),
+        });
+        let lone = lone.collect();
+        model
+            .with_lone_frequencies(lone)
+            .map(|model| vec![model.exact().errors.sum()])
     }),
     ("ModalModel::weighted", |d| {
         let model = d.chain().ok_or(Error::Empty { what: "chains" })?;

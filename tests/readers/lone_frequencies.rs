@@ -1,0 +1,183 @@
+//! Tests that know of some modes, or of all, the frequency alone.
+
+use super::job_errors::{placed, said, with};
+use crate::common::jobs::{Files, STORIES, building};
+use crate::common::tolerances::{ROUND_OFF, WEIGHTED_FACTOR};
+use corfem::files::test_data;
+use corfem::job::{JobResult, LoadedJob, Trust, run};
+
+/// The building by weighted steps, whose test lacks the shapes of these modes (from one).
+fn without_shapes(modes: &[usize]) -> Files {
+    let mut files = with(
+        building(),
+        "job.toml",
+        "[compare]",
+        "[compare]\nmethod = \"gauss_newton\"",
+    );
+    let test = files.iter_mut().find(|(name, _)| name == "test.csv");
+    let text = &mut test.expect("a test").1;
+    let mut columns: Vec<usize> = Vec::new();
+    let lines = text.lines().map(|line| {
+        let mut cells: Vec<&str> = line.split(',').collect();
+        let is_sensor = !columns.is_empty() && line.contains("floor");
+        if let Some(first) = cells.iter().position(|cell| *cell == "mode 1") {
+            columns = modes.iter().map(|mode| first + mode - 1).collect();
+        }
+        if is_sensor {
+            columns.iter().for_each(|&column| cells[column] = "");
+        }
+        cells.join(",") + "\n"
+    });
+    *text = lines.collect();
+    files
+}
+
+fn result(files: &Files) -> JobResult {
+    let (_folder, path) = placed(files);
+    LoadedJob::new(&path)
+        .and_then(|loaded| run(&loaded, |_| {}, || true))
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn a_mode_with_empty_cells_has_a_frequency_alone() {
+    let table = "frequency_hz,,,1.5,2.5,3.5\nname,direction,grid,mode 1,mode 2,mode 3\na,x,1,1.0,,0\nb,x,2,-1.0,,0.5\n";
+    let data = test_data::read("test.csv", table.as_bytes()).expect("a test");
+    assert_eq!((&data.alone[..], data.frequencies_hz[1]), (&[1][..], 2.5));
+    assert_eq!(data.shapes.column(2).as_slice(), [0.0, 0.5]);
+    // A cell that is empty beside one that is not is a mistake, and a shape of measured zeros is no shape.
+    let half = table.replace("b,x,2,-1.0,,", "b,x,2,-1.0,0.3,");
+    let error = test_data::read("test.csv", half.as_bytes()).expect_err("half a shape");
+    assert!(error.to_string().contains("line 3"), "{error}");
+    let zeros = table
+        .replace("1.0,,0", "1.0,0,0")
+        .replace("-1.0,,", "-1.0,0,");
+    assert!(test_data::read("test.csv", zeros.as_bytes()).is_err());
+}
+
+#[test]
+fn a_table_may_be_frequencies_alone() {
+    let table = "frequency_hz,1.5,2.5\n,mode 1,mode 2\n";
+    let data = test_data::read("test.csv", table.as_bytes()).expect("a test");
+    assert_eq!(data.alone, [0, 1]);
+    assert!(data.sensors.is_empty());
+    let negative = table.replace("2.5", "-2.5");
+    assert!(test_data::read("test.csv", negative.as_bytes()).is_err());
+    let sensor = format!("{table}tip,1.0,2.0\n");
+    assert!(test_data::read("test.csv", sensor.as_bytes()).is_err());
+}
+
+#[test]
+fn frequencies_without_shapes_count_as_frequencies_and_nowhere_else() {
+    let found = result(&without_shapes(&[2, 4]));
+    let (exact, loaded) = (found.first.exact(), &found.loaded);
+    assert_eq!(loaded.modes, [0, 2, 4]);
+    let partners = loaded
+        .alone
+        .iter()
+        .map(|(mode, lone)| (*mode, lone.partner));
+    assert_eq!(partners.collect::<Vec<_>>(), [(1, 1), (3, 3)]);
+    // By hand: the frequencies of all five modes, the shapes of three.
+    let hertz = exact.modes.frequencies_hz();
+    let squares = (0..5).map(|mode| (hertz[mode] / loaded.data.frequencies_hz[mode] - 1.0).powi(2));
+    let frequency = squares.sum::<f64>().sqrt();
+    assert!((exact.errors.frequency - frequency).abs() <= ROUND_OFF * frequency);
+    let with_all = result(&without_shapes(&[]));
+    assert!(exact.errors.shape < with_all.first.exact().errors.shape);
+    assert_eq!((exact.errors.mode_count, exact.errors.lone_count), (3, 2));
+    let residuals =
+        corfem::weighted::residuals::residuals(&found.first, &loaded.weights().expect("weights"));
+    assert_eq!(residuals.expect("residuals").len(), 3 * (1 + 5) + 2);
+    // What is left of the test still finds every story.
+    for (factor, story) in found.factors.iter().zip(STORIES) {
+        assert!(
+            (factor / story - 1.0).abs() <= WEIGHTED_FACTOR,
+            "{factor} {story}"
+        );
+    }
+    let trust = Trust::before(loaded).expect("trust");
+    let said = trust.all();
+    let alone = said
+        .iter()
+        .find(|concern| concern.identifier == "frequencies-alone");
+    assert!(
+        alone
+            .expect("said")
+            .words
+            .contains("2 with the model's 2, 4 with the model's 4")
+    );
+}
+
+#[test]
+fn a_whole_test_may_be_frequencies() {
+    let mut files = without_shapes(&[]);
+    let test = files
+        .iter_mut()
+        .find(|(name, _)| name == "test.csv")
+        .expect("a test");
+    let (_folder, path) = placed(&without_shapes(&[]));
+    let hertz = LoadedJob::new(&path).expect("a job").data.frequencies_hz;
+    let cells: Vec<String> = hertz.iter().map(f64::to_string).collect();
+    test.1 = format!(
+        "frequency_hz,{}\n,mode 1,mode 2,mode 3,mode 4,mode 5\n",
+        cells.join(",")
+    );
+    let found = result(&files);
+    assert!(found.loaded.placed.is_empty() && found.loaded.modes.is_empty());
+    assert!(found.verdict.is_within && found.verdict.worst.shape.is_none());
+    let [before, after] = [&found.first, &found.last].map(|model| model.exact().errors);
+    assert!(
+        after.frequency < 0.01 * before.frequency,
+        "{after:?} {before:?}"
+    );
+    assert_eq!(
+        (after.shape, after.mode_count, after.lone_count),
+        (0.0, 0, 5)
+    );
+}
+
+#[test]
+fn the_job_may_name_the_partners_of_frequencies() {
+    let files = without_shapes(&[2, 4]);
+    let named = |partners: &str| {
+        let entry = format!("file = \"test.csv\"\npartners = {partners}");
+        with(files.clone(), "job.toml", "file = \"test.csv\"", &entry)
+    };
+    let (_folder, path) = placed(&named("[0, 6, 0, 4, 0]"));
+    let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(
+        loaded
+            .alone
+            .iter()
+            .map(|(_, lone)| lone.partner)
+            .collect::<Vec<_>>(),
+        [5, 3]
+    );
+    for (partners, expected) in [
+        ("[2, 4]", "test.partners: 2 given for 5 test modes"),
+        (
+            "[0, 0, 0, 4, 0]",
+            "test.partners: test mode 2 has a frequency alone; name its mode of the model, from 1",
+        ),
+        (
+            "[1, 2, 0, 4, 0]",
+            "test.partners: test mode 1 is paired by its shape; 0 stands for it",
+        ),
+        ("[0, 4, 0, 4, 0]", "test.partners: mode 4 is named twice"),
+        (
+            "[0, 2, 0, 11, 0]",
+            "test.partners: mode 11 of the model is not among the 10 taken",
+        ),
+        (
+            "[0, 3, 0, 4, 0]",
+            "mode 3 of the model is the partner of test mode 2, which has a frequency alone, and by its shape of test mode 3",
+        ),
+    ] {
+        let error = said(&named(partners));
+        assert!(error.contains(expected), "{partners}: {error}");
+    }
+    let paper = with(files, "job.toml", "\"gauss_newton\"", "\"paper\"");
+    assert!(said(&paper).contains(
+        "test mode 2 has a frequency alone, and compare.method \"paper\" compares shapes"
+    ));
+}
