@@ -24,7 +24,7 @@ pub use entries::removed_step;
 pub use loaded::LoadedJob;
 pub use matrices::matrix_modes;
 pub use model::{GridLayout, ModelSource};
-pub use run::{History, JobResult, run};
+pub use run::{History, JobResult, Misfit, run};
 pub use samples::{Samples, Spread, Summary};
 pub use sensors::PlacedSensor;
 pub use study::{Study, Vary};

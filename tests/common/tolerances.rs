@@ -238,6 +238,9 @@ pub const UNIVERSAL_ROUNDING: f64 = 5e-6;
 /// Factors by Gauss–Newton where the gradient is a ten-thousandth of a standard deviation of up to a half, and the prior a
 /// millionth of the least that data say.
 pub const WEIGHTED_FACTOR: f64 = 1e-3;
+/// How far the mean of chi-squared over its degrees of freedom may be from one over three hundred tests of some fifteen degrees
+/// each: their sum has a standard deviation of 2.1 %, and 3 % is what is asked of it.
+pub const MEAN_MISFIT: f64 = 0.03;
 /// How far the coverage of 95 % intervals over a thousand tests may be from 95 %: 93 to 97 % is what is asked of it.
 pub const COVERAGE: f64 = 0.02;
 /// The same for one parameter: four standard errors of a thousand tests, 0.7 % each.
