@@ -24,7 +24,7 @@ pub use entries::removed_step;
 pub use loaded::LoadedJob;
 pub use matrices::matrix_modes;
 pub use model::{GridLayout, ModelSource};
-pub use run::{History, JobResult, run};
+pub use run::{History, JobResult, Misfit, run};
 pub use samples::{Samples, Spread, Summary};
 pub use sensors::PlacedSensor;
 pub use study::{Study, Vary};
@@ -174,9 +174,9 @@ pub struct Compare {
 #[serde(rename_all = "snake_case")]
 pub enum Method {
     /// The paper's two loops.
-    #[default]
     Paper,
     /// Bounded Gauss–Newton steps on residuals weighted by their standard deviations.
+    #[default]
     GaussNewton,
 }
 

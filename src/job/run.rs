@@ -50,6 +50,82 @@ pub struct JobResult {
     pub analyses: usize,
 }
 
+/// How far the best model is from the test, in the standard deviations that test or job gives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Misfit {
+    /// $\sum r^2$ over the weighted [`residuals`], without the prior.
+    pub chi_squared: f64,
+    /// Degrees of freedom $\nu$: what a right model's chi-squared is in the mean.
+    pub degrees_of_freedom: f64,
+}
+
+impl Misfit {
+    /// How many times the noise the residuals are, the root of chi-squared over $\nu$; none where no degree of freedom is left.
+    pub fn times_the_noise(&self) -> Option<f64> {
+        (self.degrees_of_freedom > 0.0).then(|| (self.chi_squared / self.degrees_of_freedom).sqrt())
+    }
+}
+
+impl JobResult {
+    /// Chi-squared at the best factors and its degrees of freedom.
+    ///
+    /// A test mode gives its frequency and, of $d$ sensors, $d - 1$ numbers, because a shape's scale is free; a weight of zero
+    /// takes its numbers out. The fit takes away the trace of $J (J^t J + I/\tau^2)^{-1} J^t$, which is the sum of
+    /// [`learned`](Identifiability::learned), over the parameters that are not at a bound.
+    ///
+    /// # Errors
+    /// Those of [`residuals`], [`jacobian`] and [`identifiability`].
+    pub fn misfit(&self) -> Result<Misfit, FileError> {
+        let weights = self.loaded.weights()?;
+        let free: Vec<usize> = (0..self.factors.len())
+            .filter(|e| !self.verdict.at_bound.contains(e))
+            .collect();
+        let jacobian = jacobian(&self.last, &weights)?.select_columns(&free);
+        let fitted = if free.is_empty() {
+            0.0
+        } else {
+            let prior = WeightedSettings::default().prior_deviation;
+            identifiability(&jacobian, prior)?.learned.iter().sum()
+        };
+        let of_shape = self.last.test.shapes.nrows().saturating_sub(1);
+        let with_shapes = self.loaded.modes.len();
+        let compared = |(mode, weight): (usize, &ModeWeight)| {
+            let has_shape = weight.shape > 0.0 && mode < with_shapes;
+            usize::from(weight.frequency > 0.0) + usize::from(has_shape) * of_shape
+        };
+        Ok(Misfit {
+            chi_squared: residuals(&self.last, &weights)?.norm_squared(),
+            degrees_of_freedom: weights.iter().enumerate().map(compared).sum::<usize>() as f64
+                - fitted,
+        })
+    }
+
+    /// 95 % intervals about the factors, where they are true.
+    ///
+    /// They hold at the optimum of weighted steps, so there is none elsewhere: not around the stop of the paper's rule, of a step
+    /// too short or of too many trials. A parameter at a bound has none. Residuals larger than the noise, [`Misfit`], widen
+    /// all deviations by as much.
+    ///
+    /// # Errors
+    /// Those of [`JobResult::misfit`] and [`Identifiability::intervals`].
+    pub fn intervals(&self) -> Result<Vec<Option<Bounds>>, FileError> {
+        let is_optimum = matches!(
+            &self.history,
+            History::GaussNewton(Some((run, _))) if run.stop == WeightedStop::Gradient
+        );
+        let widening = self.misfit()?.times_the_noise().unwrap_or(1.0).max(1.0);
+        let intervals = self.seen[1].intervals(&self.factors)?;
+        let widened = |(e, interval): (usize, Bounds)| {
+            let factor = self.factors[e];
+            (is_optimum && !self.verdict.at_bound.contains(&e)).then(|| Bounds {
+                lower: factor * (interval.lower / factor).powf(widening),
+                upper: factor * (interval.upper / factor).powf(widening),
+            })
+        };
+        Ok(intervals.into_iter().enumerate().map(widened).collect())
+    }
+}
+
 impl LoadedJob {
     /// Test modes that are compared, from zero: those with shapes, then those without.
     pub fn compared(&self) -> impl Iterator<Item = usize> {

@@ -18,7 +18,7 @@ const FIRST_DAMPING: f64 = 1e-3;
 /// Longest step in the logarithm of any factor: $e$ times as soft or stiff.
 const LONGEST_STEP: f64 = 1.0;
 /// A step that moves no logarithm by more is none.
-const SHORTEST_STEP: f64 = 1e-6;
+const SHORTEST_STEP: f64 = 1e-9;
 
 /// What a weighted correlation assumes and when it stops.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -228,9 +228,11 @@ pub const DEPENDENT_SHAPES: f64 = 1e-5;
 pub const FIRST_FREQUENCY_RATIO: f64 = 0.2;
 /// Shapes of a subspace whose residual is 1e-10 of its root, divided by the distance of neighboring roots.
 pub const WHOLE_SHAPE: f64 = 1e-6;
-/// Stories of an exact building that five of ten floors recover without condensation, where the loop stops at an error sum of a
+/// Stories of an exact building that five of ten floors recover without condensation, where the paper's loop stops at an error sum of a
 /// tenth of a percent.
 pub const RECOVERED_STORY: f64 = 0.01;
+/// The same by weighted steps: what the prior's pull toward one leaves.
+pub const WEIGHTED_STORY: f64 = 1e-3;
 /// Two routes to one condensed analysis of the box, relative: its condition number times round-off.
 pub const SAME_ANALYSIS: f64 = 1e-8;
 /// A number with six digits, in the format E13.5: half a unit of the sixth, relative to a first digit of one.
@@ -238,6 +240,9 @@ pub const UNIVERSAL_ROUNDING: f64 = 5e-6;
 /// Factors by Gauss–Newton where the gradient is a ten-thousandth of a standard deviation of up to a half, and the prior a
 /// millionth of the least that data say.
 pub const WEIGHTED_FACTOR: f64 = 1e-3;
+/// How far the mean of chi-squared over its degrees of freedom may be from one over three hundred tests of some fifteen degrees
+/// each: their sum has a standard deviation of 2.1 %, and 3 % is what is asked of it.
+pub const MEAN_MISFIT: f64 = 0.03;
 /// How far the coverage of 95 % intervals over a thousand tests may be from 95 %: 93 to 97 % is what is asked of it.
 pub const COVERAGE: f64 = 0.02;
 /// The same for one parameter: four standard errors of a thousand tests, 0.7 % each.

@@ -478,7 +478,7 @@ fn test_modes_are_there_and_named_once() {
         ),
         (
             "method = \"gauss_newton\"",
-            "starts = 2",
+            "method = \"paper\"\nstarts = 2",
             "compare.starts is 2, but method \"paper\" has one start",
         ),
     ]);
@@ -610,7 +610,10 @@ fn weights_are_one_a_test_mode_and_some_may_be_zero() {
 /// By the paper's rule: ones change nothing, and what a mode of weight zero is measured as is in no error.
 #[test]
 fn the_papers_error_sum_takes_the_weights_of_a_job() {
-    let paper = |weights: &str| with(rods(), "job.toml", "method = \"gauss_newton\"", weights);
+    let paper = |weights: &str| {
+        let own = format!("method = \"paper\"\n{weights}");
+        with(rods(), "job.toml", "method = \"gauss_newton\"", &own)
+    };
     let ran = |files: &Files| {
         let (_folder, path) = placed(files);
         let prepared = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));

@@ -2,11 +2,15 @@
 
 use super::job_errors::{placed, with};
 use super::job_prepared::prepared;
-use crate::common::jobs::{Files, rods};
-use crate::common::tolerances::{PRINTED_RMS, ROUND_OFF, WEIGHTED_FACTOR};
+use crate::common::jobs::{Files, building, rods};
+use crate::common::test_files::write_csv;
+use crate::common::tolerances::{MEAN_MISFIT, PRINTED_RMS, ROUND_OFF, WEIGHTED_FACTOR};
 use corfem::files::deck;
 use corfem::job::{History, JobResult, Study, Vary, run};
+use corfem::method::modes::ModeSet;
 use corfem::method::verdict::Outcome;
+use corfem::weighted::identifiability::NORMAL_95;
+use corfem::weighted::noise::with_noise_by_mode;
 use corfem::weighted::residuals::residuals;
 use std::cell::Cell;
 
@@ -72,6 +76,63 @@ fn a_verdict_tells_what_is_good_from_what_cannot_be_better() {
     assert_eq!(outcome(&alone(B)), (Outcome::LocalMinimum, false));
 }
 
+#[test]
+fn no_interval_stands_where_the_papers_rule_stops() {
+    let paper = with(rods(), "job.toml", "gauss_newton", "paper");
+    let found = ran(&paper);
+    assert!(matches!(found.history, History::Paper(_)));
+    assert!(found.intervals().unwrap().iter().all(Option::is_none));
+}
+
+#[test]
+fn no_interval_stands_at_a_bound() {
+    let found = ran(&alone("elements = [1]\nlower = 1.0\nupper = 2.0"));
+    assert_eq!(found.verdict.at_bound, [0]);
+    assert_eq!(found.intervals().unwrap(), [None]);
+}
+
+/// One factor for rods that are 0.8 and 1.1 of the model's: no factor explains the test.
+#[test]
+fn an_interval_is_as_much_wider_as_the_residuals_exceed_the_noise() {
+    let found = ran(&alone(B));
+    let times = found.misfit().unwrap().times_the_noise().unwrap();
+    assert!(times > 1.0, "{times}");
+    let interval = found.intervals().unwrap()[0].expect("an optimum");
+    let wide = 2.0 * NORMAL_95 * found.seen[1].deviations[0] * times;
+    let found = (interval.upper / interval.lower).ln();
+    assert!((found - wide).abs() < ROUND_OFF * wide, "{found} {wide}");
+}
+
+/// Ten stories from five floors and five modes, with the noise that the weights assume.
+#[test]
+fn the_chi_squared_of_a_right_model_is_its_degrees_of_freedom_in_the_mean() {
+    let files = with(
+        building(),
+        "job.toml",
+        "[compare]\n",
+        "[compare]\nmethod = \"gauss_newton\"\n",
+    );
+    let loaded = prepared(&files);
+    let exact = ModeSet::from_measured(&loaded.data.frequencies_hz, &loaded.data.shapes).unwrap();
+    let noise: Vec<_> = (0..exact.len())
+        .map(|mode| loaded.deviations(mode))
+        .collect();
+    let [mut chi_squared, mut degrees] = [0.0; 2];
+    for seed in 0..300 {
+        let noisy = with_noise_by_mode(&exact, &noise, seed).unwrap();
+        let mut data = loaded.data.clone();
+        (data.frequencies_hz, data.shapes) = (noisy.frequencies_hz(), noisy.shapes().clone());
+        let mut files = files.clone();
+        let test = files.iter_mut().find(|(name, _)| name == "test.csv");
+        test.expect("a test").1 = write_csv(&data);
+        let misfit = ran(&files).misfit().unwrap();
+        chi_squared += misfit.chi_squared;
+        degrees += misfit.degrees_of_freedom;
+    }
+    let mean = chi_squared / degrees;
+    assert!((mean - 1.0).abs() < MEAN_MISFIT, "{mean}");
+}
+
 /// Told are falling sums alone, and when it is stopped, the last of them is that of the factors it gives.
 #[test]
 fn a_stopped_correlation_gives_the_best_that_it_has_told() {
@@ -118,7 +179,12 @@ fn a_stopped_correlation_gives_the_best_that_it_has_told() {
 #[test]
 fn a_pass_of_the_papers_loop_is_told_by_its_errors_in_percent() {
     let mut told = Vec::new();
-    let prepared = prepared(&with(rods(), "job.toml", "method = \"gauss_newton\"", ""));
+    let prepared = prepared(&with(
+        rods(),
+        "job.toml",
+        "method = \"gauss_newton\"",
+        "method = \"paper\"",
+    ));
     let found = run(&prepared, |words| told.push(words.to_owned()), || true)
         .unwrap_or_else(|error| panic!("{error}"));
     let History::Paper(run) = found.history else {

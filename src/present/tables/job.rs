@@ -184,7 +184,8 @@ pub fn suspects_table(loaded: &LoadedJob) -> Result<Table, FileError> {
 pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileError> {
     let names: Vec<&str> = loaded.parameter_names().collect();
     let [before, after] = &result.seen;
-    let intervals = after.intervals(&result.factors)?;
+    let intervals = result.intervals()?;
+    let misfit = result.misfit()?;
     let apart = format!(
         "Of {}, the test tells {} apart (singular values {:.3e} to {:.3e}). Deviations are those of the logarithm of the factor, \
          from the standard deviations of the measurement.",
@@ -193,7 +194,23 @@ pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileE
         after.singular_values.first().copied().unwrap_or_default(),
         after.singular_values.last().copied().unwrap_or_default(),
     );
-    let ends = |end: fn(&Bounds) -> f64| numbers(intervals.iter().map(end), Digits::Fixed(4));
+    let ends = |end: fn(&Bounds) -> f64| {
+        let ends = intervals
+            .iter()
+            .map(move |interval| interval.as_ref().map(end));
+        numbers(ends, Digits::Fixed(4))
+    };
+    let noise = misfit.times_the_noise().map_or_else(
+        || "the test leaves no number over to judge the model by".to_owned(),
+        |times| format!("residuals are {times:.3} times the noise"),
+    );
+    let fit = format!(
+        "Chi-squared {:.1} for {:.1} degrees of freedom: {noise}.",
+        misfit.chi_squared, misfit.degrees_of_freedom
+    );
+    let withheld = "Without an interval: factors at a bound, and all that are not at the optimum of weighted steps.";
+    let is_withheld = intervals.iter().any(Option::is_none);
+    let learned = after.learned.iter().map(|learned| 1.0 - learned);
     let deviations =
         |seen: &Identifiability| percents(seen.deviations.clone(), Digits::Significant(3));
     Ok(
@@ -208,7 +225,9 @@ pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileE
             .column("most (95 %)", "", ends(|interval| interval.upper))
             .column("deviation", "%", deviations(after))
             .column("deviation before", "%", deviations(before))
-            .notes([apart]),
+            .column("prior's share", "%", percents(learned, Digits::Fixed(1)))
+            .notes([apart, fit])
+            .notes(is_withheld.then(|| withheld.to_owned())),
     )
 }
 

@@ -362,7 +362,7 @@ fn a_signal_keeps_the_best_so_far() {
             break;
         }
     }
-    std::thread::sleep(Duration::from_secs(3));
+    std::thread::sleep(Duration::from_secs(6));
     assert!(child.try_wait().expect("a state").is_none(), "it lasts");
     send(&child, Signal::INT);
     let output = child.wait_with_output().expect("an end");
@@ -393,16 +393,18 @@ fn a_signal_keeps_the_best_so_far() {
 /// Starts and seed of the command line stand for those of the job.
 #[test]
 fn starts_and_seed_are_taken_from_the_command_line() {
+    let (folder, by_paper) = changed("building", "[compare]", "[compare]\nmethod = \"paper\"");
     let job = folder_of("building").join("job.toml");
-    let report = |more: &[&str]| {
-        let output = correlate(&job, &[&["--format", "json"], more].concat());
+    let report = |job: &Path, more: &[&str]| {
+        let output = correlate(job, &[&["--format", "json"], more].concat());
         serde_json::from_slice::<Value>(&output.stdout).expect("JSON")
     };
     let (paper, once, twice) = (
-        report(&[]),
-        report(&["--starts", "1"]),
-        report(&["--starts", "2", "--seed", "5"]),
+        report(&by_paper, &[]),
+        report(&job, &[]),
+        report(&by_paper, &["--starts", "2", "--seed", "5"]),
     );
+    drop(folder);
     assert!(
         paper["passes"][0]["iterations"]
             .as_u64()
