@@ -51,7 +51,7 @@ pub struct JobResult {
 }
 
 /// How far the best model is from the test, in the standard deviations that test or job gives.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Misfit {
     /// $\sum r^2$ over the weighted [`residuals`], without the prior.
     pub chi_squared: f64,

@@ -10,8 +10,8 @@ use super::tables::cases::{outcome, published_iterations};
 use super::tables::deck::{not_read, unit_shapes};
 use crate::files::deck::Unread;
 use crate::files::test_data::DIRECTIONS;
-use crate::job::Trust;
 use crate::job::preflight::Finding;
+use crate::job::{Misfit, Trust};
 use crate::method::inner_loop::Iteration;
 use crate::method::model::{Bounds, ExactResult};
 use crate::method::step::Limit;
@@ -77,7 +77,8 @@ struct ReportValue<'a> {
     parameters: &'a [String],
     ranges: &'a [Option<Bounds>],
     factors: &'a [f64],
-    standard_deviations: &'a Option<Vec<f64>>,
+    standard_deviations: &'a Option<Vec<Option<f64>>>,
+    misfit: &'a Option<Misfit>,
     at_bound: Vec<bool>,
     best_pass: Option<usize>,
     test_mode_numbers: &'a [usize],
@@ -153,6 +154,7 @@ pub fn report(report: &Report) -> Result<Value, PresentError> {
         ranges: &report.ranges,
         factors: &factors,
         standard_deviations: &report.deviations,
+        misfit: &report.misfit,
         at_bound: factors.iter().enumerate().map(at_bound).collect(),
         best_pass: report.best.map(|best| best + 1),
         test_mode_numbers: &report.mode_numbers,

@@ -87,7 +87,7 @@ pub fn chain(
     Report {
         title: name.to_owned(),
         ranges,
-        deviations: Some((0..count).map(|e| 0.01 * e as f64).collect()),
+        deviations: Some((0..count).map(|e| Some(0.01 * e as f64)).collect()),
         sensors,
         frame,
         mass: Some(mass.clone()),

@@ -73,7 +73,8 @@ pub fn report_figures(report: &Report) -> Result<Vec<Figure>, PresentError> {
         )?;
     }
     let factors = factors(report);
-    let bars = if report.deviations.is_some() {
+    let has_bars = report.deviations.iter().flatten().any(Option::is_some);
+    let bars = if has_bars {
         "; bars are one standard deviation to either side"
     } else {
         ""
@@ -125,7 +126,7 @@ fn factors(report: &Report) -> Factors {
         deviation: report
             .deviations
             .as_ref()
-            .and_then(|deviations| deviations.get(e).copied()),
+            .and_then(|deviations| *deviations.get(e)?),
         published: report.truth.get(e).copied(),
         bounds: report.ranges.get(e).copied().flatten(),
         remark: report.is_at_bound(e, value).then_some("at bound"),

@@ -3,9 +3,10 @@
 use super::{Derivatives, Report, SensorPoint, Stage};
 use crate::job::expansion::expand;
 use crate::job::{History, JobResult, LoadedJob, PlacedSensor};
-use crate::method::model::ModalModel;
+use crate::method::model::{Bounds, ModalModel};
 use crate::present::PresentError;
 use crate::weighted::gauss_newton::{WeightedCorrelation, WeightedStop};
+use crate::weighted::identifiability::NORMAL_95;
 use nalgebra::{DMatrix, DVectorView, Vector3};
 
 impl Report {
@@ -78,10 +79,14 @@ impl Report {
         let Some(result) = result else {
             return Ok(report);
         };
-        let deviations = result.factors.iter().zip(&result.seen[1].deviations);
+        // The deviation of the factor itself, from that of its logarithm, where there is an interval.
+        let deviation = |(interval, factor): (Option<Bounds>, &f64)| {
+            interval.map(|interval| factor * (interval.upper / factor).ln() / NORMAL_95)
+        };
+        let intervals = result.intervals()?.into_iter();
         Ok(Self {
-            // The deviation of the factor itself, from that of its logarithm.
-            deviations: Some(deviations.map(|(factor, log)| factor * log).collect()),
+            deviations: Some(intervals.zip(&result.factors).map(deviation).collect()),
+            misfit: Some(result.misfit()?),
             moved: moved(loaded, result),
             verdict: Some(result.verdict.clone()),
             trust: Some(result.trust.clone()),

@@ -3,7 +3,7 @@
 mod job;
 mod case;
 
-use crate::job::Trust;
+use crate::job::{Misfit, Trust};
 use crate::method::derivatives::{DERIVATIVE_STEP, by_definition};
 use crate::method::error::Error;
 use crate::method::error_sum::Errors;
@@ -64,8 +64,10 @@ pub struct Report {
     pub parameters: Vec<String>,
     /// Bounds on their factors, if any.
     pub ranges: Vec<Option<Bounds>>,
-    /// Standard deviation of every factor of the best stage, if known.
-    pub deviations: Option<Vec<f64>>,
+    /// Standard deviation of every factor of the best stage, where an interval holds.
+    pub deviations: Option<Vec<Option<f64>>>,
+    /// How a job's residuals at its end are to the noise.
+    pub misfit: Option<Misfit>,
     /// Factors that make the model right, where they are known.
     pub truth: Vec<f64>,
     /// Test modes, sensors × modes.
@@ -177,6 +179,7 @@ impl Report {
             parameters: parameters.to_vec(),
             ranges: vec![None; parameters.len()],
             deviations: None,
+            misfit: None,
             truth: Vec::new(),
             test: test.clone(),
             mode_numbers: (1..=test.len()).collect(),

@@ -77,6 +77,10 @@ fn a_worked_job_has_its_report_its_factors_and_its_deck() {
             numbers(&found["factors"]),
             numbers(&found["standard_deviations"]),
         );
+        assert!(
+            found["misfit"]["degrees_of_freedom"].as_f64() > Some(0.0),
+            "{name}"
+        );
         let parameters = found["parameters"].as_array().expect("a list");
         assert_eq!(
             (factors.len(), deviations.len()),
