@@ -451,6 +451,7 @@ fn run_part(
                 Some((_, true)) => Outcome::Nothing,
                 None => Outcome::Request,
                 Some((WeightedStop::Trials, _)) => Outcome::Cap,
+                Some((WeightedStop::Step, _)) => Outcome::ShortSteps,
                 _ => Outcome::LocalMinimum,
             };
             let (errors, seen) = (last.mode_errors()?, first.largest_parts());

@@ -192,6 +192,7 @@ impl Study {
                 let outcome = match verdict.outcome {
                     Outcome::Tolerance => "tolerance",
                     Outcome::LocalMinimum => "local minimum",
+                    Outcome::ShortSteps => "short steps",
                     Outcome::Cap => "cap",
                     Outcome::Request => "request",
                     Outcome::Nothing => "nothing",

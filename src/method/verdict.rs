@@ -17,6 +17,8 @@ pub enum Outcome {
     Tolerance,
     /// No step lowered the error sum any more.
     LocalMinimum,
+    /// Steps became too short to tell whether one lowers it, which is no proof of a minimum.
+    ShortSteps,
     /// The passes allowed were used up, or the iterations of the only one.
     Cap,
     /// The caller asked to stop.

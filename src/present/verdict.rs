@@ -13,6 +13,7 @@ pub fn verdict_in_words(verdict: &Verdict, names: &[String], mode_numbers: &[usi
     let end = match verdict.outcome {
         Outcome::Tolerance => "",
         Outcome::LocalMinimum => " No further step lowered it.",
+        Outcome::ShortSteps => " Steps became too short to lower it, which need not be a minimum.",
         Outcome::Cap => " The iterations or passes allowed ran out.",
         Outcome::Request => " It was stopped by request.",
         Outcome::Nothing => " No step from the first model lowered it, or none was allowed.",

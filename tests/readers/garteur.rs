@@ -2,12 +2,14 @@
 
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::tolerances::JOB_RESULTS;
-use corfem::job::{JobResult, LoadedJob, run};
+use corfem::job::{History, JobResult, LoadedJob, run};
+use corfem::method::verdict::Outcome;
 use corfem::present::render::csv;
 use corfem::present::report::Report;
 use corfem::present::table::{Cell, Digits, Table, numbers};
 use corfem::present::tables::job::seen_table;
 use corfem::present::tables::report::paired_table;
+use corfem::weighted::gauss_newton::WeightedStop;
 use corfem::weighted::residuals::residuals;
 use std::path::Path;
 use std::sync::LazyLock;
@@ -50,6 +52,15 @@ fn the_corrected_airplane_is_nearer_and_still_not_explained() {
     assert!(corrected < 0.2 * first);
     // Far beyond what eight numbers right but for their deviations make.
     assert!(corrected > 10.0 * 8.0 && !RESULT.verdict.is_within);
+    // A stop by the length of the step is not called a minimum.
+    let History::GaussNewton(Some((run, _))) = &RESULT.history else {
+        panic!("by weighted steps")
+    };
+    assert_eq!(
+        run.stop == WeightedStop::Step,
+        RESULT.verdict.outcome == Outcome::ShortSteps
+    );
+    println!("{:?}", run.stop);
     let named = |name: &str| RESULT.trust.blind.iter().any(|blind| blind == name);
     assert!(
         named("tailplane") && named("joint"),
