@@ -140,10 +140,10 @@ pub fn run() -> ExitCode {
 
 /// Refuses a file or folder that could not be written, before the work is done.
 fn check_places(matches: &ArgMatches) -> Result<(), PresentError> {
-    let own = matches.subcommand().map_or(matches, |(_, own)| own);
+    let (command, own) = matches.subcommand().unwrap_or(("cases", matches));
     let path = |name| own.try_get_one::<PathBuf>(name).ok().flatten();
     path("output").map_or(Ok(()), |file| check(file))?;
-    path("folder").map_or(Ok(()), |folder| check_folder(folder))
+    path("folder").map_or(Ok(()), |folder| check_folder(folder, command))
 }
 
 fn status(done: Result<bool, PresentError>) -> ExitCode {
