@@ -123,7 +123,7 @@ pub fn run() -> ExitCode {
             studies::fewer_modes(&arguments, quiet).map(|()| true)
         }
         Some(Command::Correlate(arguments)) => job::correlate(&arguments, quiet),
-        Some(Command::Study(arguments)) => study::study(&arguments, quiet).map(|()| true),
+        Some(Command::Study(arguments)) => study::study(&arguments, quiet),
         Some(Command::Init(arguments)) => job::init(&arguments).map(|()| true),
         Some(Command::Check(arguments)) => job::check_job(&arguments, quiet),
         Some(Command::Figures(arguments)) => {

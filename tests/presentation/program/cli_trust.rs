@@ -161,6 +161,41 @@ fn a_test_in_radians_a_second_never_passes_unless_the_doubt_is_accepted() {
     assert!(!words.contains("Not to be trusted as it stands"), "{words}");
 }
 
+/// A study of a job into a folder, or one sample of it, with more arguments.
+fn study_of(path: &Path, more: &[&str]) -> (Option<i32>, String, String) {
+    let job = path.to_str().expect("UTF-8");
+    let output = corfem(&[&["study", "-q", job], more].concat());
+    (
+        output.status.code(),
+        unbroken(&text(&output.stdout)),
+        text(&output.stderr),
+    )
+}
+
+#[test]
+fn a_study_ends_with_status_3_while_a_doubt_stands_that_nobody_accepts() {
+    let (folder, path) = placed(&in_radians());
+    let out = folder.path().join("out");
+    let whole = ["--samples", "2", "--folder", out.to_str().expect("UTF-8")];
+    let accepted = ["--accept", "common-factor"];
+    let (status, _, error) = study_of(&path, &[&whole[..], &["--accept", "rad-s"]].concat());
+    assert_eq!(status, Some(2));
+    assert!(
+        error.contains("--accept rad-s: the doubts are common-factor"),
+        "{error}"
+    );
+    assert!(!out.exists(), "refused before the first sample");
+    let (status, words, error) = study_of(&path, &whole);
+    assert_eq!((status, &error[..]), (Some(3), ""), "{words}");
+    assert!(words.contains("doubt common-factor: "), "{words}");
+    let (status, words, _) = study_of(&path, &[&whole[..], &accepted].concat());
+    assert_eq!(status, Some(0), "{words}");
+    assert!(words.contains("doubt, accepted common-factor: "), "{words}");
+    let one = ["--sample", "1"];
+    assert_eq!(study_of(&path, &one).0, Some(3));
+    assert_eq!(study_of(&path, &[one, accepted].concat()).0, Some(0));
+}
+
 #[test]
 fn an_accepted_identifier_must_name_a_doubt() {
     let (_folder, path) = placed(&in_radians());
