@@ -115,25 +115,21 @@ impl LoadedJob {
 
     /// Standard deviations of a mode of the test's file, from zero: the test's own, else the job's, else 0.5 % and 2 %.
     pub fn deviations(&self, mode: usize) -> Noise {
-        let of = |own: &Option<Vec<f64>>, given: Option<f64>, usual: f64| {
-            own.as_ref()
-                .and_then(|own| own.get(mode).copied())
-                .or(given)
-                .unwrap_or(usual)
-        };
-        let (data, compare) = (&self.data, &self.job.compare);
+        let [frequency, shape] = self.given_deviations(mode);
         Noise {
-            frequency: of(
-                &data.frequency_deviation,
-                compare.frequency_deviation,
-                DEVIATIONS.frequency,
-            ),
-            shape: of(
-                &data.shape_deviation,
-                compare.shape_deviation,
-                DEVIATIONS.shape,
-            ),
+            frequency: frequency.unwrap_or(DEVIATIONS.frequency),
+            shape: shape.unwrap_or(DEVIATIONS.shape),
         }
+    }
+
+    /// Those of its frequency and of its shape that the test or the job gives.
+    pub(super) fn given_deviations(&self, mode: usize) -> [Option<f64>; 2] {
+        let (data, compare) = (&self.data, &self.job.compare);
+        let own = |own: &Option<Vec<f64>>| own.as_ref().and_then(|own| own.get(mode).copied());
+        [
+            own(&data.frequency_deviation).or(compare.frequency_deviation),
+            own(&data.shape_deviation).or(compare.shape_deviation),
+        ]
     }
 
     /// The deck with elements and point masses scaled by `factors` and every other byte as it was; none for a model of matrices.

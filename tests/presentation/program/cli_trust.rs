@@ -466,3 +466,65 @@ fn the_pre_flight_sees_a_turned_sensor_of_a_structure_that_hangs_free() {
         );
     }
 }
+
+/// The words of a concern stand alone, in a table or a sentence of their own.
+#[test]
+fn every_concern_of_the_test_jobs_begins_with_a_capital_letter_and_ends_as_a_sentence() {
+    let (hertz, shapes) = modes_of(oscillators([1000.0, 1300.0, 1650.0], 60.0));
+    let part = oscillators([300.0, 310.0, 320.0], 60.0);
+    let parts = [part.clone(), part.clone(), -&part, 10.0 * part];
+    let whole = oscillators([1000.0, 1050.0, 1100.0], 60.0);
+    let matrices = job_of_matrices("gauss_newton", &whole, &parts, (&hertz, &shapes));
+    let percent = with(
+        rods(),
+        "job.toml",
+        "[compare]",
+        "[compare]\nfrequency_deviation = 0.5",
+    );
+    let made = [rods(), in_radians(), percent, matrices].map(|files| placed(&files));
+    let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/jobs");
+    let kept = ["box", "building", "garteur", "wing"].map(|job| kept.join(job).join("job.toml"));
+    let paths = made.iter().map(|(_, path)| path).chain(&kept);
+    let mut identifiers = BTreeSet::new();
+    for path in paths {
+        let loaded = LoadedJob::new(path).expect("it loads");
+        let all = Trust::before(&loaded).expect("an account").all();
+        for Concern {
+            identifier, words, ..
+        } in all
+        {
+            assert!(words.starts_with(char::is_uppercase), "{words}");
+            assert!(words.ends_with(['.', '?']), "{words}");
+            identifiers.insert(identifier);
+        }
+    }
+    for expected in [
+        "common-factor",
+        "not-part-p3",
+        "percent-frequency_deviation",
+        "twin-p0-p1",
+        "twin-p0-p2",
+    ] {
+        assert!(identifiers.contains(expected), "{identifiers:?}");
+    }
+}
+
+/// Whatever a concern is called, only test modes that are not compared are left out.
+#[test]
+fn a_remark_is_not_left_out_because_of_the_beginning_of_its_identifier() {
+    let mut trust = full();
+    let other = Concern::remark("not-compared-with-care", "Something else.");
+    trust.concerns.push(other);
+    let table = render::csv(&[trust_table(&trust)]);
+    let kind_of = |identifier: &str| {
+        let line = table
+            .lines()
+            .find(|line| line.contains(identifier) && line.contains("Kind"));
+        line.map(str::to_owned).unwrap_or_default()
+    };
+    assert!(kind_of("not-compared-7").contains("left out"), "{table}");
+    assert!(
+        kind_of("not-compared-with-care").contains("remark"),
+        "{table}"
+    );
+}
