@@ -156,7 +156,7 @@ impl LoadedJob {
             if !is_part(part, whole)? {
                 all.push(Concern::doubt(
                     format!("not-part-{identifier}"),
-                    format!("parameter \"{name}\": its matrix is not part of the first model's, which without it has negative energy"),
+                    format!("The matrix of parameter \"{name}\" is not part of the first model's, which without it has negative energy."),
                 ));
             }
             for (other, twin, _) in &parts[..place] {
@@ -169,7 +169,7 @@ impl LoadedJob {
                 for (_, how) in how.into_iter().filter(|(sign, _)| is_same(*sign)) {
                     all.push(Concern::doubt(
                         format!("twin-{}-{identifier}", hyphened(other)),
-                        format!("parameters \"{other}\" and \"{name}\" have {how}"),
+                        format!("Parameters \"{other}\" and \"{name}\" have {how}."),
                     ));
                 }
             }

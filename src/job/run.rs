@@ -191,25 +191,21 @@ impl LoadedJob {
 
     /// Standard deviations of a mode of the test's file, from zero: the test's own, else the job's, else 0.5 % and 2 %.
     pub fn deviations(&self, mode: usize) -> Noise {
-        let of = |own: &Option<Vec<f64>>, given: Option<f64>, usual: f64| {
-            own.as_ref()
-                .and_then(|own| own.get(mode).copied())
-                .or(given)
-                .unwrap_or(usual)
-        };
-        let (data, compare) = (&self.data, &self.job.compare);
+        let [frequency, shape] = self.given_deviations(mode);
         Noise {
-            frequency: of(
-                &data.frequency_deviation,
-                compare.frequency_deviation,
-                DEVIATIONS.frequency,
-            ),
-            shape: of(
-                &data.shape_deviation,
-                compare.shape_deviation,
-                DEVIATIONS.shape,
-            ),
+            frequency: frequency.unwrap_or(DEVIATIONS.frequency),
+            shape: shape.unwrap_or(DEVIATIONS.shape),
         }
+    }
+
+    /// Those of its frequency and of its shape that the test or the job gives.
+    pub(super) fn given_deviations(&self, mode: usize) -> [Option<f64>; 2] {
+        let (data, compare) = (&self.data, &self.job.compare);
+        let own = |own: &Option<Vec<f64>>| own.as_ref().and_then(|own| own.get(mode).copied());
+        [
+            own(&data.frequency_deviation).or(compare.frequency_deviation),
+            own(&data.shape_deviation).or(compare.shape_deviation),
+        ]
     }
 
     /// The deck with elements and point masses scaled by `factors` and every other byte as it was; none for a model of matrices.
@@ -277,8 +273,9 @@ pub fn run(
 
 /// The same after the look, starting from other factors than one, and then from these alone.
 ///
-/// A test mode that is left out is looked at again after every pass of the paper's loops and at the optimum of weighted steps. One that
-/// resembles a mode of the model by then is compared from there on, and the passes before, which did not count it, are not shown.
+/// A test mode that is left out is looked at again after every pass of the paper's loops and every weighted step, of several starts at
+/// their best. One that resembles a mode of the model by then is compared from there on, and the passes before, which did not count it,
+/// are not shown.
 pub(super) fn run_from(
     loaded: &LoadedJob,
     trust: Trust,
@@ -399,10 +396,11 @@ fn run_part(
             (History::Paper(run), factors)
         }
         Method::GaussNewton => {
-            let starts = compare.starts.unwrap_or(1);
-            let mut best: Option<(f64, Vec<f64>)> = None;
+            let is_first = start == ones;
+            let starts = compare.starts.filter(|_| is_first).unwrap_or(1);
+            let (mut best, mut has_joined): (Option<(f64, Vec<f64>)>, bool) = (None, false);
             let analyze = |factors: &[f64]| {
-                if is_interrupted.get() {
+                if has_joined || is_interrupted.get() {
                     return Err(FileError::Interrupted);
                 }
                 let model = analyze(factors)?;
@@ -410,23 +408,23 @@ fn run_part(
                 if best.as_ref().is_none_or(|(least, _)| objective < *least) {
                     best = Some((objective, factors.to_vec()));
                     progress(&format!("sum of squares {objective:.4e}"));
+                    // Other starts may lead elsewhere: their best is looked at.
+                    has_joined = starts == 1 && loaded.joined_by(&model.exact)?.is_some();
                 }
-                if may_go_on() {
+                if !has_joined && may_go_on() {
                     Ok(model)
                 } else {
                     Err(FileError::Interrupted)
                 }
             };
-            let found = match start == ones {
-                true => {
+            let found = match starts {
+                1 => gauss_newton(analyze, start, &ranges, &weights, &weighted).map(|run| (run, 1)),
+                _ => {
                     from_several_starts(analyze, &ranges, &weights, &weighted, starts, compare.seed)
-                }
-                false => {
-                    gauss_newton(analyze, start, &ranges, &weights, &weighted).map(|run| (run, 1))
                 }
             };
             match found {
-                Ok((run, reached)) if !is_interrupted.get() => {
+                Ok((run, reached)) if !has_joined && !is_interrupted.get() => {
                     let factors = run.factors.clone();
                     (History::GaussNewton(Some((run, reached))), factors)
                 }

@@ -39,12 +39,18 @@ pub struct Study {
 }
 
 impl Study {
-    /// Reads a job to be run many times.
+    /// Reads a job to be run many times, and looks at what is doubtful of it; `accepted` are the doubts that the user answers for.
     ///
     /// # Errors
-    /// Those of [`LoadedJob::new`]; [`FileError::Refused`] without parameters.
-    pub fn new(path: &Path, seed: u64, vary: &[Vary]) -> Result<Self, FileError> {
-        let loaded = LoadedJob::new(path)?;
+    /// Those of [`LoadedJob::new`] and [`Trust::before`]; [`FileError::Refused`] without parameters.
+    pub fn new(
+        path: &Path,
+        seed: u64,
+        vary: &[Vary],
+        accepted: &[String],
+    ) -> Result<Self, FileError> {
+        let mut loaded = LoadedJob::new(path)?;
+        loaded.accepted = accepted.to_vec();
         loaded.require_parameters()?;
         let mut vary = vary.to_vec();
         vary.sort_unstable();

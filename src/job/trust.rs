@@ -31,6 +31,13 @@ pub struct NotCompared {
     pub assurance: f64,
 }
 
+impl NotCompared {
+    /// What names it among the concerns.
+    pub fn identifier(&self) -> String {
+        format!("not-compared-{}", self.mode)
+    }
+}
+
 /// Everything that may lower the trust in a job's result. Every output shows [`Trust::all`] first.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Trust {
@@ -111,18 +118,22 @@ impl Trust {
         for concern in &mut concerns {
             concern.is_accepted = loaded.accepted.contains(&concern.identifier);
         }
-        let (data, compare) = (&loaded.data, &loaded.job.compare);
+        let data = &loaded.data;
+        let lacks = |of: fn(&[Option<f64>; 2]) -> Option<f64>, mode: usize| {
+            of(&loaded.given_deviations(mode)).is_none()
+        };
         let assumed = [
             (
                 "frequencies",
-                data.frequency_deviation.is_none() && compare.frequency_deviation.is_none(),
+                loaded.compared().any(|mode| lacks(|given| given[0], mode)),
                 DEVIATIONS.frequency,
             ),
             (
                 "shapes",
-                data.shape_deviation.is_none()
-                    && compare.shape_deviation.is_none()
-                    && !loaded.modes.is_empty(),
+                loaded
+                    .modes
+                    .iter()
+                    .any(|&mode| lacks(|given| given[1], mode)),
                 DEVIATIONS.shape,
             ),
         ];
@@ -205,7 +216,7 @@ impl Trust {
                 "the mode of the model that it resembles belongs to another test mode"
             };
             Concern::remark(
-                format!("not-compared-{mode}"),
+                left.identifier(),
                 format!("Test mode {mode} is not compared: {why} (modal assurance {assurance:.2} at most)."),
             )
         });

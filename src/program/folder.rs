@@ -3,15 +3,32 @@
 //! Each file is replaced by itself: after a stop some may be of the new run and others of the one before. Other files
 //! and folders are not touched.
 
-use super::place::{probe, replace};
+use super::place::{probe, replace, replaceable};
 use corfem::files::error::FileError;
 use corfem::present::PresentError;
 use std::fs;
 use std::io::{Error, ErrorKind};
 use std::path::Path;
 
-/// Refuses a folder that files could not be written into, before there are any.
-pub fn check_folder(folder: &Path) -> Result<(), PresentError> {
+/// Files that a command replaces in its folder, by name or, from a dot on, by how they end.
+const REPLACED: [(&str, &[&str]); 5] = [
+    (
+        "correlate",
+        &[
+            "report.html",
+            "factors.csv",
+            "correlation.json",
+            "corrected.bdf",
+        ],
+    ),
+    ("study", &["summary.csv", "histogram.svg"]),
+    ("report", &["report.html"]),
+    ("figures", &[".svg"]),
+    ("dump", &["dump.json", ".mtx"]),
+];
+
+/// Refuses a folder that the files of a command could not be written into, before there are any.
+pub fn check_folder(folder: &Path, command: &str) -> Result<(), PresentError> {
     let check = || match fs::metadata(folder) {
         _ if folder.as_os_str() == "-" => Err(Error::new(
             ErrorKind::InvalidInput,
@@ -26,7 +43,21 @@ pub fn check_folder(folder: &Path) -> Result<(), PresentError> {
         Err(error) if folder.file_name().is_none() => Err(error),
         Err(_) => probe(folder.parent().unwrap_or(folder)),
     };
-    Ok(check().map_err(FileError::of_file(folder, "write"))?)
+    check().map_err(FileError::of_file(folder, "write"))?;
+    let of_command = REPLACED.iter().filter(|(of, _)| *of == command);
+    let replaced: Vec<&str> = of_command.flat_map(|(_, names)| *names).copied().collect();
+    let is_replaced = |name: &str| {
+        let is_of = |end: &&str| name == *end || end.starts_with('.') && name.ends_with(end);
+        replaced.iter().any(is_of)
+    };
+    // A folder that is new or may not be listed holds no known file.
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        if entry.file_name().to_str().is_some_and(is_replaced) {
+            let path = entry.path();
+            replaceable(&path).map_err(FileError::of_file(&path, "write"))?;
+        }
+    }
+    Ok(())
 }
 
 /// Writes the files of a run, by name and text, into a folder, made if it is new. `run` is the command with what it

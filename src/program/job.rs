@@ -16,8 +16,7 @@ use corfem::present::tables::report::{factor_table, history_table, paired_table}
 use corfem::present::{PresentError, json, render};
 use serde_json::json;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 
 #[derive(Debug, Args)]
 pub struct InitArguments {
@@ -128,10 +127,8 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
         note(format_args!("corfem: {}: {}", loaded.title, not_read(card)));
     }
     let bar = progress::spinner(quiet);
-    let stop = Arc::new(AtomicBool::new(false));
-    signals::set_on_signal(&stop);
     // Postponed until the report is written, so that a request to stop ends the program with the best so far.
-    let _postponed = signals::postpone();
+    let (stop, _postponed) = signals::postpone_first();
     let go_on = || !stop.load(Ordering::SeqCst);
     let result = run(&loaded, |words| bar.set_message(words.to_owned()), go_on);
     bar.finish_and_clear();

@@ -123,7 +123,7 @@ pub fn run() -> ExitCode {
             studies::fewer_modes(&arguments, quiet).map(|()| true)
         }
         Some(Command::Correlate(arguments)) => job::correlate(&arguments, quiet),
-        Some(Command::Study(arguments)) => study::study(&arguments, quiet).map(|()| true),
+        Some(Command::Study(arguments)) => study::study(&arguments, quiet),
         Some(Command::Init(arguments)) => job::init(&arguments).map(|()| true),
         Some(Command::Check(arguments)) => job::check_job(&arguments, quiet),
         Some(Command::Figures(arguments)) => {
@@ -140,10 +140,10 @@ pub fn run() -> ExitCode {
 
 /// Refuses a file or folder that could not be written, before the work is done.
 fn check_places(matches: &ArgMatches) -> Result<(), PresentError> {
-    let own = matches.subcommand().map_or(matches, |(_, own)| own);
+    let (command, own) = matches.subcommand().unwrap_or(("cases", matches));
     let path = |name| own.try_get_one::<PathBuf>(name).ok().flatten();
     path("output").map_or(Ok(()), |file| check(file))?;
-    path("folder").map_or(Ok(()), |folder| check_folder(folder))
+    path("folder").map_or(Ok(()), |folder| check_folder(folder, command))
 }
 
 fn status(done: Result<bool, PresentError>) -> ExitCode {

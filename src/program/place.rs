@@ -110,7 +110,7 @@ fn write_all_to(mut out: impl Write, text: &str) -> io::Result<()> {
 }
 
 /// Refuses to replace what is no regular file, or a file that may not be written.
-fn replaceable(path: &Path) -> io::Result<()> {
+pub fn replaceable(path: &Path) -> io::Result<()> {
     if std::fs::symlink_metadata(path).is_ok_and(|found| !found.is_file()) {
         return Err(io::Error::new(
             ErrorKind::AlreadyExists,

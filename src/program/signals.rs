@@ -28,6 +28,17 @@ pub fn postpone() -> PostponedSignals {
     PostponedSignals(())
 }
 
+/// Postpones the first signal, which sets the flag; a second one ends the program at once.
+pub fn postpone_first() -> (Arc<AtomicBool>, PostponedSignals) {
+    let stop = Arc::new(AtomicBool::new(false));
+    set_on_signal(&stop);
+    for signal in asked_for() {
+        // Behind the handler that looks at it, so that it stands for the next signal.
+        let _ = flag::register(signal, &FREE);
+    }
+    (stop, postpone())
+}
+
 /// Takes the signals over from the operating system, once.
 fn take_over() {
     static ONCE: Once = Once::new();

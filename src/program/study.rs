@@ -15,8 +15,8 @@ use serde_json::json;
 use std::fs::{File, OpenOptions};
 use std::io::{Error, ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::atomic::Ordering::SeqCst;
+use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, available_parallelism, scope};
 
 /// Most samples: where each begins in its file takes some forty bytes, so that all take 400 MB.
@@ -47,23 +47,31 @@ pub struct StudyArguments {
     /// Run only this sample and write its line instead of a report
     #[arg(long, value_name = "K", conflicts_with_all = ["samples", "folder", "threads"], value_parser = clap::value_parser!(u64).range(1..))]
     sample: Option<u64>,
+    /// Answer for the doubt of this identifier, which then no longer makes the status 3; may be repeated
+    #[arg(long, value_name = "IDENTIFIER")]
+    accept: Vec<String>,
     #[command(flatten)]
     output: OutputArguments,
 }
 
-/// Runs the samples that a folder does not have yet, and says what all come to; or one sample alone.
-pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError> {
-    let study = Study::new(&arguments.job, arguments.seed, &arguments.vary)?;
-    let stop = Arc::new(AtomicBool::new(false));
-    signals::set_on_signal(&stop);
+/// Runs the samples that a folder does not have yet, and says what all come to; or one sample alone. Whether no doubt stands.
+pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<bool, PresentError> {
+    let study = Study::new(
+        &arguments.job,
+        arguments.seed,
+        &arguments.vary,
+        &arguments.accept,
+    )?;
+    let is_clear = !study.trust.has_doubt();
     // Postponed until what is done is written, so that a request to stop ends the program then.
-    let _postponed = signals::postpone();
+    let (stop, _postponed) = signals::postpone_first();
     let (Some(folder), Some(last)) = (&arguments.folder, arguments.samples) else {
         let (line, failure) = study.run(arguments.sample.unwrap_or(1), || !stop.load(SeqCst))?;
         failure
             .into_iter()
             .for_each(|failure| note(format_args!("corfem: {failure}")));
-        return arguments.output.write_text(&line);
+        arguments.output.write_text(&line)?;
+        return Ok(is_clear);
     };
     if !folder.is_dir() {
         std::fs::create_dir(folder).map_err(FileError::of_file(folder, "write"))?;
@@ -114,7 +122,7 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError
             "corfem: stopped by request; {} of {last} samples are done; the same command resumes",
             last - left as u64
         ));
-        return Ok(());
+        return Ok(is_clear);
     }
     let summary = samples.summary(&study, last)?;
     let tables = [trust_table(&study.trust), study_table(&study, &summary)];
@@ -134,7 +142,8 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<(), PresentError
     )?;
     arguments
         .output
-        .write(&tables, || json::own_document(json!({ "tables": tables })))
+        .write(&tables, || json::own_document(json!({ "tables": tables })))?;
+    Ok(is_clear)
 }
 
 /// The file of samples, to be gone on with behind its last whole line, and what is in it. Nobody else writes it meanwhile.

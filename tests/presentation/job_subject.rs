@@ -164,7 +164,7 @@ fn a_mode_is_doubtful_when_it_is_complex_beyond_the_limit() {
 #[test]
 fn a_study_counts_what_failed_among_its_samples() {
     let (_folder, path) = placed(&rods());
-    let study = Study::new(&path, 3, &[Vary::Noise]).expect("a study");
+    let study = Study::new(&path, 3, &[Vary::Noise], &[]).expect("a study");
     let summary = Summary {
         within: 4,
         outside: 1,

@@ -352,7 +352,7 @@ fn a_job_without_parameters_is_looked_at_and_not_run() {
         .expect_err(none)
         .to_string();
     assert!(refused.ends_with(none), "{refused}");
-    let refused = Study::new(&path, 1, &[Vary::Noise])
+    let refused = Study::new(&path, 1, &[Vary::Noise], &[])
         .map(drop)
         .expect_err(none)
         .to_string();

@@ -222,7 +222,7 @@ fn bounds_hold_from_wherever_the_papers_loop_starts() {
         "elements = [2]\nlower = 0.8\nupper = 1.02\n[[parameter]]\nname = \"c\"\nelements = [3]";
     let files = with(with(rods(), "job.toml", A, bounds), "job.toml", B, each);
     let (_folder, path) = placed(&with(files, "job.toml", "method = \"gauss_newton\"", ""));
-    let study = Study::new(&path, 5, &[Vary::Start]).unwrap_or_else(|error| panic!("{error}"));
+    let study = Study::new(&path, 5, &[Vary::Start], &[]).unwrap_or_else(|error| panic!("{error}"));
     for sample in 1..=6 {
         let (line, failure) = study.run(sample, || true).expect("a sample");
         assert!(failure.is_none(), "{line}");

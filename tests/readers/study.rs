@@ -27,7 +27,7 @@ impl Place {
     }
 
     fn study(&self, seed: u64, vary: &[Vary]) -> Study {
-        Study::new(&self.job, seed, vary).unwrap_or_else(|error| panic!("{error}"))
+        Study::new(&self.job, seed, vary, &[]).unwrap_or_else(|error| panic!("{error}"))
     }
 
     fn read(&self, study: &Study, text: &[u8]) -> Result<Samples, FileError> {

@@ -27,8 +27,8 @@ fn a_study_is_known_by_the_digest_of_its_files_seed_and_choice() {
         assert_eq!(fnv_1a(word.as_bytes(), OFFSET), published, "{word}");
     }
     let (folder, path) = placed(&rods());
-    let study =
-        Study::new(&path, 7, &[Vary::Start, Vary::Noise]).unwrap_or_else(|error| panic!("{error}"));
+    let study = Study::new(&path, 7, &[Vary::Start, Vary::Noise], &[])
+        .unwrap_or_else(|error| panic!("{error}"));
     let head = format!("{} 7 [Noise, Start]", env!("CARGO_PKG_VERSION"));
     let digest = ["model.bdf", "test.csv", "job.toml"].iter().fold(
         fnv_1a(head.as_bytes(), OFFSET),
@@ -46,7 +46,8 @@ fn a_study_is_known_by_the_digest_of_its_files_seed_and_choice() {
 #[test]
 fn any_sensor_and_any_mode_may_be_left_out() {
     let (_folder, path) = placed(&building());
-    let study = Study::new(&path, 3, &[Vary::Subset]).unwrap_or_else(|error| panic!("{error}"));
+    let study =
+        Study::new(&path, 3, &[Vary::Subset], &[]).unwrap_or_else(|error| panic!("{error}"));
     let (mut left, mut counts) = ([[[0; 2]; 5]; 2], [[0; 5]; 2]);
     for sample in 1..=60 {
         let (prepared, _) = study.draw(sample).expect("a draw");
@@ -80,7 +81,7 @@ fn a_sample_that_is_neither_within_nor_outside_is_refused() {
         "[compare]",
         "[compare]\nanalysis_modes = 3",
     ));
-    let study = Study::new(&path, 7, &[Vary::Noise]).unwrap_or_else(|error| panic!("{error}"));
+    let study = Study::new(&path, 7, &[Vary::Noise], &[]).unwrap_or_else(|error| panic!("{error}"));
     let samples = folder.path().join("samples.csv");
     let read = |within: &str| {
         std::fs::write(

@@ -238,7 +238,7 @@ fn findings_are_said_with_places_from_one() {
         "Sensor 4 reversed? It would raise the mean cross-orthogonality from 0.9",
         "the next best, ",
         "Frequencies of test modes 1 and 2 exchanged? It would lower the mean deviation of the ratios from ",
-        "shape_tolerance is 4, that is 400 %: a percentage where a fraction is meant?",
+        "Setting shape_tolerance is 4, that is 400 %: a percentage where a fraction is meant?",
         "Bounds on the factor of parameter 3, 55 to 150, exclude its first value.",
         "Parameters without bounds: 1, 2, 4, 5, ",
     ] {

@@ -212,7 +212,7 @@ impl Finding {
             Self::Percent { setting, value } => {
                 let percent = 100.0 * value;
                 format!(
-                    "{setting} is {value}, that is {percent} %: a percentage where a fraction is meant?"
+                    "Setting {setting} is {value}, that is {percent} %: a percentage where a fraction is meant?"
                 )
             }
             Self::ExcludesStart {

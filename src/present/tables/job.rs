@@ -5,7 +5,9 @@ use crate::files::error::FileError;
 use crate::files::test_data::DIRECTIONS;
 use crate::job::localization::{by_factor, by_single_fit};
 use crate::job::metrics::coordinate_assurance;
-use crate::job::{Concern, JobResult, LoadedJob, PlacedSensor, Study, Summary, Trust, Vary};
+use crate::job::{
+    Concern, JobResult, LoadedJob, NotCompared, PlacedSensor, Study, Summary, Trust, Vary,
+};
 use crate::method::model::Bounds;
 use crate::present::table::{Cell, Digits, Table, counted, numbers, percents};
 use crate::weighted::identifiability::Identifiability;
@@ -80,10 +82,15 @@ pub fn places_table(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Ta
 /// What may lower the trust in a job or in its result, what matters most first.
 pub fn trust_table(trust: &Trust) -> Table {
     let all = trust.all();
+    let left_out: Vec<String> = trust
+        .not_compared
+        .iter()
+        .map(NotCompared::identifier)
+        .collect();
     let kind = |concern: &Concern| match concern {
         concern if concern.stands() => "doubt",
         Concern { is_doubt: true, .. } => "doubt, accepted",
-        concern if concern.identifier.starts_with("not-compared") => "left out",
+        concern if left_out.contains(&concern.identifier) => "left out",
         _ => "remark",
     };
     Table::new("trust", "What to know before trusting this", "Identifier")

@@ -333,6 +333,62 @@ fn a_report_is_written_although_its_deck_cannot_be() {
     );
 }
 
+/// Waits until a program has taken the signal of Ctrl-C over.
+#[cfg(unix)]
+fn await_taken(child: &std::process::Child) {
+    let takes_it = || {
+        let status =
+            std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
+        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
+        caught
+            .and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())
+            .is_none_or(|mask| mask & 2 != 0)
+    };
+    for _ in 0..600 {
+        std::thread::sleep(std::time::Duration::from_millis(100));
+        if takes_it() {
+            break;
+        }
+    }
+}
+
+/// A pipe that nobody reads holds the program while it writes the best so far.
+#[cfg(unix)]
+#[test]
+fn a_second_signal_ends_the_program_at_once() {
+    use crate::common::signals::{corfem_run_by, send, undisturbed};
+    use rustix::process::Signal;
+    use std::os::unix::process::ExitStatusExt;
+    use std::process::{Child, Command, Stdio};
+    use std::time::Duration;
+    let (folder, job) = changed("building", "", "");
+    let pipe = folder.path().join("pipe");
+    let made = Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.is_ok_and(|status| status.success()), "mkfifo");
+    let mut child = corfem_run_by(undisturbed())
+        .args(["correlate", words(&job), "-q", "-o", words(&pipe)])
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("it starts");
+    await_taken(&child);
+    let ends_within = |child: &mut Child, seconds: u64| {
+        (0..10 * seconds).find_map(|_| {
+            std::thread::sleep(Duration::from_millis(100));
+            child.try_wait().expect("a state")
+        })
+    };
+    assert!(ends_within(&mut child, 1).is_none(), "nobody reads");
+    send(&child, Signal::INT);
+    assert!(ends_within(&mut child, 1).is_none(), "it is postponed");
+    send(&child, Signal::INT);
+    let ended = ends_within(&mut child, 10);
+    let _ = child.kill();
+    let _ = child.wait();
+    let signal = ended.and_then(|status| status.signal());
+    assert_eq!(signal, Some(Signal::INT.as_raw()));
+}
+
 /// A correlation that would last is stopped: the best so far is written whole, and standard error says so.
 #[cfg(unix)]
 #[test]
@@ -351,21 +407,8 @@ fn a_signal_keeps_the_best_so_far() {
         .stderr(Stdio::piped())
         .spawn()
         .expect("it starts");
-    // Until it has taken the signal over, and then for some analyses.
-    let takes_it = || {
-        let status =
-            std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
-        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
-        caught
-            .and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())
-            .is_none_or(|mask| mask & 2 != 0)
-    };
-    for _ in 0..600 {
-        std::thread::sleep(Duration::from_millis(100));
-        if takes_it() {
-            break;
-        }
-    }
+    await_taken(&child);
+    // For some analyses.
     std::thread::sleep(Duration::from_secs(6));
     assert!(child.try_wait().expect("a state").is_none(), "it lasts");
     send(&child, Signal::INT);

@@ -8,7 +8,7 @@ use corfem::present::page::report_page;
 use corfem::present::report::Report;
 use corfem::present::tables::job::trust_table;
 use corfem::present::{json, render};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -161,6 +161,41 @@ fn a_test_in_radians_a_second_never_passes_unless_the_doubt_is_accepted() {
     assert!(!words.contains("Not to be trusted as it stands"), "{words}");
 }
 
+/// A study of a job into a folder, or one sample of it, with more arguments.
+fn study_of(path: &Path, more: &[&str]) -> (Option<i32>, String, String) {
+    let job = path.to_str().expect("UTF-8");
+    let output = corfem(&[&["study", "-q", job], more].concat());
+    (
+        output.status.code(),
+        unbroken(&text(&output.stdout)),
+        text(&output.stderr),
+    )
+}
+
+#[test]
+fn a_study_ends_with_status_3_while_a_doubt_stands_that_nobody_accepts() {
+    let (folder, path) = placed(&in_radians());
+    let out = folder.path().join("out");
+    let whole = ["--samples", "2", "--folder", out.to_str().expect("UTF-8")];
+    let accepted = ["--accept", "common-factor"];
+    let (status, _, error) = study_of(&path, &[&whole[..], &["--accept", "rad-s"]].concat());
+    assert_eq!(status, Some(2));
+    assert!(
+        error.contains("--accept rad-s: the doubts are common-factor"),
+        "{error}"
+    );
+    assert!(!out.exists(), "refused before the first sample");
+    let (status, words, error) = study_of(&path, &whole);
+    assert_eq!((status, &error[..]), (Some(3), ""), "{words}");
+    assert!(words.contains("doubt common-factor: "), "{words}");
+    let (status, words, _) = study_of(&path, &[&whole[..], &accepted].concat());
+    assert_eq!(status, Some(0), "{words}");
+    assert!(words.contains("doubt, accepted common-factor: "), "{words}");
+    let one = ["--sample", "1"];
+    assert_eq!(study_of(&path, &one).0, Some(3));
+    assert_eq!(study_of(&path, &[one, accepted].concat()).0, Some(0));
+}
+
 #[test]
 fn an_accepted_identifier_must_name_a_doubt() {
     let (_folder, path) = placed(&in_radians());
@@ -179,11 +214,14 @@ fn an_accepted_identifier_must_name_a_doubt() {
     );
 }
 
-/// Three masses, each on a spring to the ground, joined weakly: where their springs are alike they move together.
-fn oscillators(springs: [f64; 3], joint: f64) -> DMatrix<f64> {
-    let [a, b, c] = springs;
-    let j = joint;
-    DMatrix::from_row_slice(3, 3, &[a + j, -j, 0.0, -j, b + 2.0 * j, -j, 0.0, -j, c + j])
+/// Masses, each on a spring to the ground, joined weakly in a row: where their springs are alike they move together.
+fn oscillators<const COUNT: usize>(springs: [f64; COUNT], joint: f64) -> DMatrix<f64> {
+    let mut stiffness = DMatrix::from_diagonal(&DVector::from_row_slice(&springs));
+    for place in 1..COUNT {
+        let mut pair = stiffness.view_mut((place - 1, place - 1), (2, 2));
+        pair += DMatrix::from_row_slice(2, 2, &[joint, -joint, -joint, joint]);
+    }
+    stiffness
 }
 
 fn market(matrix: &DMatrix<f64>) -> String {
@@ -247,21 +285,24 @@ fn modes_of(stiffness: DMatrix<f64>) -> (Vec<f64>, DMatrix<f64>) {
     (hertz.collect(), eigen.eigenvectors.select_columns(&order))
 }
 
+/// A job of joined masses, with a factor on every spring and the three lowest modes of other springs.
+fn joined<const COUNT: usize>(method: &str, [first, real]: [[f64; COUNT]; 2], joint: f64) -> Files {
+    let (hertz, shapes) = modes_of(oscillators(real, joint));
+    let parts: Vec<DMatrix<f64>> = (0..COUNT)
+        .map(|place| {
+            let mut springs = [0.0; COUNT];
+            springs[place] = first[place];
+            oscillators(springs, 0.0)
+        })
+        .collect();
+    let measured = (&hertz[..3], &shapes.columns(0, 3).into_owned());
+    job_of_matrices(method, &oscillators(first, joint), &parts, measured)
+}
+
 /// A job one of whose test modes resembles no mode of the first model, until the two others have told the springs apart.
 fn mixed(method: &str) -> Files {
-    let (first, joint) = ([1000.0, 1050.0, 1100.0], 60.0);
-    let (hertz, shapes) = modes_of(oscillators([1000.0, 1300.0, 1650.0], joint));
-    let parts = [0, 1, 2].map(|place| {
-        let mut springs = [0.0; 3];
-        springs[place] = first[place];
-        oscillators(springs, 0.0)
-    });
-    job_of_matrices(
-        method,
-        &oscillators(first, joint),
-        &parts,
-        (&hertz, &shapes),
-    )
+    let springs = [[1000.0, 1050.0, 1100.0], [1000.0, 1300.0, 1650.0]];
+    joined(method, springs, 60.0)
 }
 
 #[test]
@@ -279,6 +320,40 @@ fn a_mode_left_out_is_compared_once_it_resembles_a_mode_of_the_model() {
         assert_eq!(report.corrected().errors.mode_count, 3, "{method}");
         assert!(result.verdict.is_within, "{method}: {}", report.words());
     }
+}
+
+/// In a basis of few modes weighted steps take long to the optimum of the modes compared at first, and the other is like one of the
+/// model before.
+#[test]
+fn weighted_steps_look_at_a_mode_left_out_before_their_optimum() {
+    let first = [1000.0, 1050.0, 1100.0, 3000.0, 3200.0, 2000.0];
+    let real = [1000.0, 1300.0, 2400.0, 4800.0, 4160.0, 2600.0];
+    let files = with(
+        joined("gauss_newton", [first, real], 150.0),
+        "job.toml",
+        "[compare]",
+        "[compare]\nanalysis_modes = 3\nresidual_vectors = 0",
+    );
+    let steps_of = |files: &Files| {
+        let (_folder, path) = placed(files);
+        let loaded = LoadedJob::new(&path).expect("it loads");
+        let mut lines = Vec::new();
+        let result = run(&loaded, |words| lines.push(words.to_owned()), || true);
+        let steps = lines
+            .iter()
+            .take_while(|line| line.starts_with("sum of squares"));
+        (steps.count(), result.expect("it runs"))
+    };
+    let (to_optimum, _) = steps_of(&with(
+        files.clone(),
+        "job.toml",
+        "[test]",
+        "[test]\nmodes = [1, 3]",
+    ));
+    let (to_join, result) = steps_of(&files);
+    assert_eq!(result.trust.joined, [2]);
+    assert!(to_join < to_optimum, "{to_join} of {to_optimum}");
+    assert!(result.verdict.is_within);
 }
 
 /// A selected mode that is not compared makes the status 3; one that the job does not select does not.
@@ -430,4 +505,66 @@ fn the_pre_flight_sees_a_turned_sensor_of_a_structure_that_hangs_free() {
             "{named}: {doubts:?}"
         );
     }
+}
+
+/// The words of a concern stand alone, in a table or a sentence of their own.
+#[test]
+fn every_concern_of_the_test_jobs_begins_with_a_capital_letter_and_ends_as_a_sentence() {
+    let (hertz, shapes) = modes_of(oscillators([1000.0, 1300.0, 1650.0], 60.0));
+    let part = oscillators([300.0, 310.0, 320.0], 60.0);
+    let parts = [part.clone(), part.clone(), -&part, 10.0 * part];
+    let whole = oscillators([1000.0, 1050.0, 1100.0], 60.0);
+    let matrices = job_of_matrices("gauss_newton", &whole, &parts, (&hertz, &shapes));
+    let percent = with(
+        rods(),
+        "job.toml",
+        "[compare]",
+        "[compare]\nfrequency_deviation = 0.5",
+    );
+    let made = [rods(), in_radians(), percent, matrices].map(|files| placed(&files));
+    let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/jobs");
+    let kept = ["box", "building", "garteur", "wing"].map(|job| kept.join(job).join("job.toml"));
+    let paths = made.iter().map(|(_, path)| path).chain(&kept);
+    let mut identifiers = BTreeSet::new();
+    for path in paths {
+        let loaded = LoadedJob::new(path).expect("it loads");
+        let all = Trust::before(&loaded).expect("an account").all();
+        for Concern {
+            identifier, words, ..
+        } in all
+        {
+            assert!(words.starts_with(char::is_uppercase), "{words}");
+            assert!(words.ends_with(['.', '?']), "{words}");
+            identifiers.insert(identifier);
+        }
+    }
+    for expected in [
+        "common-factor",
+        "not-part-p3",
+        "percent-frequency_deviation",
+        "twin-p0-p1",
+        "twin-p0-p2",
+    ] {
+        assert!(identifiers.contains(expected), "{identifiers:?}");
+    }
+}
+
+/// Whatever a concern is called, only test modes that are not compared are left out.
+#[test]
+fn a_remark_is_not_left_out_because_of_the_beginning_of_its_identifier() {
+    let mut trust = full();
+    let other = Concern::remark("not-compared-with-care", "Something else.");
+    trust.concerns.push(other);
+    let table = render::csv(&[trust_table(&trust)]);
+    let kind_of = |identifier: &str| {
+        let line = table
+            .lines()
+            .find(|line| line.contains(identifier) && line.contains("Kind"));
+        line.map(str::to_owned).unwrap_or_default()
+    };
+    assert!(kind_of("not-compared-7").contains("left out"), "{table}");
+    assert!(
+        kind_of("not-compared-with-care").contains("remark"),
+        "{table}"
+    );
 }
