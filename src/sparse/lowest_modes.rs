@@ -271,14 +271,7 @@ fn all(flexibility: &Flexibility, mass: &SparseMatrix) -> Result<Found, Error> {
 /// may be as small as it likes beside others; what is left must be within the digits that are given.
 fn root(mass: &SparseMatrix) -> Result<DMatrix<f64>, Error> {
     let dense = mass.dense();
-    let size = |entry: f64| {
-        if entry == 0.0 {
-            1.0
-        } else {
-            entry.abs().sqrt()
-        }
-    };
-    let (scale, rows) = (dense.diagonal().map(size), mass.rows());
+    let (scale, rows) = (SparseMatrix::unit_scale(&dense.diagonal()), mass.rows());
     let mut rest = dense.component_div(&(&scale * scale.transpose()));
     let (mut columns, mut column) = (Vec::new(), Vec::new());
     while let Some(pivot) = take_deformation(rest.as_mut_slice(), rows, GIVEN, &mut column) {

@@ -220,6 +220,18 @@ impl SparseMatrix {
         diagonal
     }
 
+    /// Sizes $s_i$ by which rows and columns are divided to give a semidefinite matrix a unit diagonal, of one that has this diagonal; one
+    /// where it is zero.
+    pub(super) fn unit_scale(diagonal: &DVector<f64>) -> DVector<f64> {
+        diagonal.map(|entry| {
+            if entry == 0.0 {
+                1.0
+            } else {
+                entry.abs().sqrt()
+            }
+        })
+    }
+
     /// The same as a dense matrix.
     pub fn dense(&self) -> DMatrix<f64> {
         let mut dense = DMatrix::zeros(self.rows, self.columns);

@@ -48,14 +48,7 @@ impl RigidBodies {
     /// [`Error::NotPositiveDefinite`] for a matrix that is not semidefinite; those of the factorization.
     pub fn of(what: &'static str, matrix: &SparseMatrix) -> Result<Self, Error> {
         let (count, entries) = (matrix.rows(), matrix.entries());
-        let size = |entry: f64| {
-            if entry == 0.0 {
-                1.0
-            } else {
-                entry.abs().sqrt()
-            }
-        };
-        let size = matrix.diagonal().map(size);
+        let size = SparseMatrix::unit_scale(&matrix.diagonal());
         let unit = entries
             .iter()
             .map(|&(row, column, value)| (row, column, value / size[row] / size[column]));
@@ -66,6 +59,11 @@ impl RigidBodies {
         let shifted =
             |shift| Factor::of_sum(&plan, what, &[(1.0, &unit), (shift, &ones)])?.check_signs(what);
         let factor = shifted(round_off(count)).or_else(|_| shifted(GIVEN))?;
+        let written = if entries.iter().all(|entry| digits(entry.2) <= DIGITS) {
+            WRITTEN
+        } else {
+            ROUNDED
+        };
         let (mut block, mut state) = (BLOCK.min(count), 0);
         loop {
             let mut weakest = random_block(count, block, &mut state);
@@ -85,11 +83,6 @@ impl RigidBodies {
                     motion.dot(&forces.column(at)) / parts.sqrt().max(f64::MIN_POSITIVE)
                 })
                 .collect();
-            let written = if entries.iter().all(|entry| digits(entry.2) <= DIGITS) {
-                WRITTEN
-            } else {
-                ROUNDED
-            };
             let negative = resisted.iter().fold(0.0_f64, |most, part| most.max(-part));
             let limit = written.max(4.0 * negative);
             let (free, held): (Vec<usize>, Vec<usize>) =
@@ -98,7 +91,6 @@ impl RigidBodies {
                 block = (2 * block).min(count);
                 continue;
             }
-            let displaced = DMatrix::from_diagonal(&size.map(f64::recip));
             let doubtful = held.into_iter().filter(|&at| resisted[at] <= GIVEN);
             let doubtful = doubtful
                 .map(|at| {
@@ -133,7 +125,10 @@ impl RigidBodies {
             rows.iter()
                 .enumerate()
                 .for_each(|(at, &row)| displacements[(row, at)] = 1.0);
-            let motions = displaced * held.solve(&displacements)?;
+            let mut motions = held.solve(&displacements)?;
+            for mut motion in motions.column_iter_mut() {
+                motion.component_div_assign(&size);
+            }
             let own = motions.select_rows(&rows).try_inverse();
             let own = own.ok_or(Error::NoConvergence("rigid-body modes"))?;
             return Ok(Self {
