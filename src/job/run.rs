@@ -17,6 +17,7 @@ use crate::weighted::gauss_newton::{
 use crate::weighted::identifiability::{Identifiability, identifiability};
 use crate::weighted::noise::Noise;
 use crate::weighted::residuals::{DEVIATIONS, jacobian, residuals};
+use serde::Serialize;
 
 /// How the factors were found.
 #[derive(Debug, Clone)]
@@ -51,7 +52,7 @@ pub struct JobResult {
 }
 
 /// How far the best model is from the test, in the standard deviations that test or job gives.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Misfit {
     /// $\sum r^2$ over the weighted [`residuals`], without the prior.
     pub chi_squared: f64,
@@ -103,17 +104,17 @@ impl JobResult {
     /// 95 % intervals about the factors, where they are true.
     ///
     /// They hold at the optimum of weighted steps, so there is none elsewhere: not around the stop of the paper's rule, of a step
-    /// too short or of too many trials. A parameter at a bound has none. Residuals larger than the noise, [`Misfit`], widen
-    /// all deviations by as much.
+    /// too short or of too many trials. A parameter at a bound has none. Residuals larger than the noise, by [`JobResult::misfit`],
+    /// widen all deviations by as much.
     ///
     /// # Errors
-    /// Those of [`JobResult::misfit`] and [`Identifiability::intervals`].
-    pub fn intervals(&self) -> Result<Vec<Option<Bounds>>, FileError> {
+    /// Those of [`Identifiability::intervals`].
+    pub fn intervals(&self, misfit: &Misfit) -> Result<Vec<Option<Bounds>>, FileError> {
         let is_optimum = matches!(
             &self.history,
             History::GaussNewton(Some((run, _))) if run.stop == WeightedStop::Gradient
         );
-        let widening = self.misfit()?.times_the_noise().unwrap_or(1.0).max(1.0);
+        let widening = misfit.times_the_noise().unwrap_or(1.0).max(1.0);
         let intervals = self.seen[1].intervals(&self.factors)?;
         let widened = |(e, interval): (usize, Bounds)| {
             let factor = self.factors[e];

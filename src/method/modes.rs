@@ -104,7 +104,7 @@ impl ModeSet {
             .collect()
     }
 
-    /// No modes, of a test that has frequencies alone.
+    /// No modes, as of a test that has frequencies alone.
     pub(crate) fn none(dof_count: usize) -> Self {
         Self {
             omega_squared: DVector::zeros(0),
@@ -194,6 +194,20 @@ impl Modes {
             omega_squared,
             shapes,
         })
+    }
+
+    /// The same of the shapes that sensors see, with the columns of `whole` turned like them.
+    pub(crate) fn seen(
+        omega_squared: DVector<f64>,
+        seen: &DMatrix<f64>,
+        whole: &mut DMatrix<f64>,
+    ) -> Self {
+        let modes = Self::ascending(omega_squared, seen.clone());
+        for mode in (0..seen.ncols()).filter(|&mode| modes.shapes.column(mode) != seen.column(mode))
+        {
+            whole.column_mut(mode).neg_mut();
+        }
+        modes
     }
 
     /// The lowest `count` modes.

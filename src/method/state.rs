@@ -106,12 +106,12 @@ impl ModalState {
     pub fn at(model: &ModalModel, factors: Vec<f64>, rule: UpdateRule) -> Result<Self, Error> {
         check_length("parameter factors", factors.len(), model.shares.len())?;
         let basis = &model.basis;
-        let Change {
+        let SummedChange {
             k,
             beta,
             alpha,
             apart,
-        } = Change::new(model, &factors)?;
+        } = SummedChange::new(model, &factors)?;
         let (count, size) = (k.len(), basis.len());
         let has_mass = model
             .shares
@@ -153,7 +153,7 @@ impl ModalState {
 }
 
 /// The change of all parameters together, seen through the vibrations of the basis.
-pub(crate) struct Change {
+pub(crate) struct SummedChange {
     /// $\omega^2$ of the vibrations before it.
     pub(crate) k: DVector<f64>,
     /// $\beta = \sum_{stiffness} (c_e - 1) V^t K_e V$.
@@ -164,7 +164,7 @@ pub(crate) struct Change {
     pub(crate) apart: Option<DMatrix<f64>>,
 }
 
-impl Change {
+impl SummedChange {
     pub(crate) fn new(model: &ModalModel, factors: &[f64]) -> Result<Self, Error> {
         let (count, size) = (model.vibration_count(), model.basis.len());
         let (mut beta, mut alpha) = (DMatrix::zeros(size, size), DMatrix::zeros(size, size));

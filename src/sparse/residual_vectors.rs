@@ -55,10 +55,7 @@ pub(super) fn residual_vectors(
         rigid_body,
         vibrations,
     } = modes;
-    let none = ModeSet {
-        omega_squared: DVector::zeros(0),
-        shapes: DMatrix::zeros(stiffness.rows(), 0),
-    };
+    let none = ModeSet::none(stiffness.rows());
     if loads.ncols() == 0 {
         return Ok(none);
     }

@@ -220,21 +220,11 @@ impl WholeModel {
         let mut found = self.modes_of(&stiffness, &mass, count)?;
         let vibrations = &mut found.vibrations;
         let seen = sensors.times(&vibrations.shapes)?;
-        let modes = Modes::ascending(vibrations.omega_squared.clone(), seen.clone());
-        for (mode, mut shape) in vibrations.shapes.column_iter_mut().enumerate() {
-            // Turned with what the sensors see of it.
-            shape *= if modes.shapes.column(mode) == seen.column(mode) {
-                1.0
-            } else {
-                -1.0
-            };
-        }
+        let squares = vibrations.omega_squared.clone();
+        let modes = Modes::seen(squares, &seen, &mut vibrations.shapes);
         let further = self.further(&stiffness, &mass, &found, further)?;
-        let (count, all) = (modes.len(), modes.len() + further.len());
-        let mut basis = found.vibrations.shapes.resize_horizontally(all, 0.0);
-        basis
-            .columns_mut(count, all - count)
-            .copy_from(&further.shapes);
+        let mut basis = found.vibrations.shapes;
+        basis.extend(further.shapes.column_iter());
         let shares = self.shares(factors, &basis)?;
         let further = ModeSet {
             shapes: sensors.times(&further.shapes)?,

@@ -4,7 +4,6 @@ use super::identifiability::{Identifiability, identifiability};
 use super::noise::Noise;
 use super::residuals::{jacobian, residuals};
 use crate::method::error::Error;
-use crate::method::error_sum::ModeWeight;
 use crate::method::model::ModalModel;
 use serde::Serialize;
 
@@ -30,11 +29,7 @@ impl NextStep {
     /// # Errors
     /// Those of [`residuals`] and [`identifiability`]: [`Error::Setting`] for deviations that are not positive.
     pub fn at(model: &ModalModel, noise: Noise, prior_deviation: f64) -> Result<Self, Error> {
-        let weight = ModeWeight {
-            frequency: 1.0 / noise.frequency,
-            shape: 1.0 / noise.shape,
-        };
-        let weights = vec![weight; model.test().len()];
+        let weights = vec![noise.weight(); model.test().len()];
         let jacobian = jacobian(model, &weights)?;
         let seen = identifiability(&jacobian, prior_deviation)?;
         let step = -(&seen.covariance * jacobian.tr_mul(&residuals(model, &weights)?));

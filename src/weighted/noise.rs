@@ -1,6 +1,7 @@
 //! Test modes with reproducible errors of measurement, and the numbers that they are drawn from.
 
 use crate::method::error::Error;
+use crate::method::error_sum::ModeWeight;
 use crate::method::linear_algebra::check_length;
 use crate::method::modes::ModeSet;
 use crate::sparse::random::uniform;
@@ -22,6 +23,14 @@ impl Noise {
         shape: 0.01,
         frequency: 0.003,
     };
+    /// One over the deviations: the weights that residuals have by them.
+    pub fn weight(&self) -> ModeWeight {
+        ModeWeight {
+            frequency: 1.0 / self.frequency,
+            shape: 1.0 / self.shape,
+        }
+    }
+
     /// A perfect one.
     pub const NONE: Self = Self {
         shape: 0.0,

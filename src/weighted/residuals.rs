@@ -8,7 +8,7 @@ use crate::method::model::{ModalModel, ParameterMatrix, check_weights};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::Pairing;
 use crate::weighted::noise::Noise;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, RowDVector};
 
 /// Standard deviations unless others are known: 0.5 % of a frequency, 2 % of a shape's largest component. They are about twice
 /// [`Noise::USUAL`], for what repeats in a test and is wrong all the same: supports, the place of a sensor.
@@ -96,6 +96,11 @@ pub fn jacobian(model: &ModalModel, weights: &[ModeWeight]) -> Result<DMatrix<f6
         ParameterMatrix::Stiffness(beta) => beta[(r, i)],
         ParameterMatrix::Mass(alpha) => -k[i] * alpha[(r, i)],
     };
+    // Of the frequency of mode i, which is so many times the test's (1 × p).
+    let of_frequency = |weight: &ModeWeight, ratio: f64, i: usize| {
+        let slope = |share| weight.frequency * ratio * change(i, i, share) / (2.0 * k[i]);
+        RowDVector::from_iterator(count, model.shares.iter().map(slope))
+    };
     let mut jacobian = DMatrix::zeros(rows * test.len() + lone.len(), count);
     for (j, &i) in model.exact.pairing.analysis_mode.iter().enumerate() {
         let ratio = (k[i] / test.omega_squared[j]).sqrt();
@@ -115,17 +120,11 @@ pub fn jacobian(model: &ModalModel, weights: &[ModeWeight]) -> Result<DMatrix<f6
         jacobian
             .view_mut((rows * j + 1, 0), (rows - 1, count))
             .copy_from(&shape);
-        for (e, share) in model.shares.iter().enumerate() {
-            jacobian[(rows * j, e)] =
-                weights[j].frequency * ratio * change(i, i, share) / (2.0 * k[i]);
-        }
+        jacobian.set_row(rows * j, &of_frequency(&weights[j], ratio, i));
     }
     for (place, (lone, weight)) in lone.iter().zip(&weights[test.len()..]).enumerate() {
-        let (i, ratio) = (lone.partner, 1.0 + lone.error(modes));
-        for (e, share) in model.shares.iter().enumerate() {
-            jacobian[(rows * test.len() + place, e)] =
-                weight.frequency * ratio * change(i, i, share) / (2.0 * k[i]);
-        }
+        let row = of_frequency(weight, 1.0 + lone.error(modes), lone.partner);
+        jacobian.set_row(rows * test.len() + place, &row);
     }
     finite("Jacobian", jacobian)
 }

@@ -13,7 +13,7 @@ use corfem::torque_box::wing_box::{TEST_GAGE, dynamic_points};
 use corfem::weighted::noise::{Noise, with_noise};
 use nalgebra::Vector3;
 
-use super::whole_models::{sensors_at, shear_building};
+use super::whole_models::{seen_by, sensors_at, shear_building};
 
 /// Stiffness of every story of the real building over that of the model, from the ground up.
 pub const STORIES: [f64; 10] = [0.70, 1.0, 1.2, 0.9, 1.0, 0.8, 1.1, 1.0, 0.85, 1.0];
@@ -112,9 +112,7 @@ pub fn building() -> Files {
     let measured = [1, 3, 5, 7, 9];
     let sensors = sensors_at(&measured, 10);
     let modes = real.modes(&[1.0; 10], 5).expect("modes").vibrations;
-    let seen = modes
-        .with_shapes(sensors.times(modes.shapes()).expect("it fits"))
-        .expect("shapes that fit");
+    let seen = seen_by(&sensors, &modes);
     let places =
         measured.map(|row| sensor(format!("floor {}", row + 1), row + 1, 0, Some(floor(row))));
     let mut job = "title = \"ten-story building\"\n\n[model]\nstiffness = \"stiffness.mtx\"\nmass = \"mass.mtx\"\n\

@@ -268,9 +268,5 @@ pub fn mixture(modes: usize) -> impl Strategy<Value = Mixture> {
 
 /// The same weights for every one of `modes` test modes: one over the standard deviations.
 pub fn equal_weights(deviations: Noise, modes: usize) -> Vec<ModeWeight> {
-    let weight = ModeWeight {
-        frequency: 1.0 / deviations.frequency,
-        shape: 1.0 / deviations.shape,
-    };
-    vec![weight; modes]
+    vec![deviations.weight(); modes]
 }

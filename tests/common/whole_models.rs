@@ -3,6 +3,7 @@
 use crate::common::closed_forms::analytical::ChainEnds;
 use corfem::method::error::Error;
 use corfem::method::model::Bounds;
+use corfem::method::modes::ModeSet;
 use corfem::sparse::{
     CountedModes, FINITE, SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes,
 };
@@ -77,6 +78,12 @@ pub fn shear_building(stories: &[f64], mass: f64, range: Option<Bounds>) -> Whol
         parameters.collect(),
     )
     .expect("a building")
+}
+
+/// Modes of a whole model as sensors see them.
+pub fn seen_by(sensors: &SparseMatrix, modes: &ModeSet) -> ModeSet {
+    let shapes = sensors.times(modes.shapes()).expect("they fit");
+    modes.with_shapes(shapes).expect("shapes that fit")
 }
 
 /// Sensors that read single degrees of freedom.

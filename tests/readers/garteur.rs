@@ -57,10 +57,9 @@ fn the_corrected_airplane_is_nearer_and_still_not_explained() {
         panic!("by weighted steps")
     };
     assert_eq!(
-        run.stop == WeightedStop::Step,
-        RESULT.verdict.outcome == Outcome::ShortSteps
+        (run.stop, RESULT.verdict.outcome),
+        (WeightedStop::Step, Outcome::ShortSteps)
     );
-    println!("{:?}", run.stop);
     let named = |name: &str| RESULT.trust.blind.iter().any(|blind| blind == name);
     assert!(
         named("tailplane") && named("joint"),

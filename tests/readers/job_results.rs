@@ -7,6 +7,7 @@ use crate::common::test_files::write_csv;
 use crate::common::tolerances::{MEAN_MISFIT, PRINTED_RMS, ROUND_OFF, WEIGHTED_FACTOR};
 use corfem::files::deck;
 use corfem::job::{History, JobResult, Study, Vary, run};
+use corfem::method::model::Bounds;
 use corfem::method::modes::ModeSet;
 use corfem::method::verdict::Outcome;
 use corfem::weighted::identifiability::NORMAL_95;
@@ -76,19 +77,23 @@ fn a_verdict_tells_what_is_good_from_what_cannot_be_better() {
     assert_eq!(outcome(&alone(B)), (Outcome::LocalMinimum, false));
 }
 
+fn intervals(found: &JobResult) -> Vec<Option<Bounds>> {
+    found.intervals(&found.misfit().unwrap()).unwrap()
+}
+
 #[test]
 fn no_interval_stands_where_the_papers_rule_stops() {
     let paper = with(rods(), "job.toml", "gauss_newton", "paper");
     let found = ran(&paper);
     assert!(matches!(found.history, History::Paper(_)));
-    assert!(found.intervals().unwrap().iter().all(Option::is_none));
+    assert!(intervals(&found).iter().all(Option::is_none));
 }
 
 #[test]
 fn no_interval_stands_at_a_bound() {
     let found = ran(&alone("elements = [1]\nlower = 1.0\nupper = 2.0"));
     assert_eq!(found.verdict.at_bound, [0]);
-    assert_eq!(found.intervals().unwrap(), [None]);
+    assert_eq!(intervals(&found), [None]);
 }
 
 /// One factor for rods that are 0.8 and 1.1 of the model's: no factor explains the test.
@@ -97,7 +102,7 @@ fn an_interval_is_as_much_wider_as_the_residuals_exceed_the_noise() {
     let found = ran(&alone(B));
     let times = found.misfit().unwrap().times_the_noise().unwrap();
     assert!(times > 1.0, "{times}");
-    let interval = found.intervals().unwrap()[0].expect("an optimum");
+    let interval = intervals(&found)[0].expect("an optimum");
     let wide = 2.0 * NORMAL_95 * found.seen[1].deviations[0] * times;
     let found = (interval.upper / interval.lower).ln();
     assert!((found - wide).abs() < ROUND_OFF * wide, "{found} {wide}");

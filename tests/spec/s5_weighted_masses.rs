@@ -4,7 +4,7 @@
 use crate::common::draws::Draws;
 use crate::common::measured::equal_weights;
 use crate::common::tolerances::{CENTRAL_DIFFERENCE_GRADIENT, CONVERGED_STATE, FORWARD_DIFFERENCE};
-use crate::common::whole_models::{masses, sensors_at, springs};
+use crate::common::whole_models::{masses, seen_by, sensors_at, springs};
 use corfem::method::derivatives::{DERIVATIVE_STEP, by_definition, gradient};
 use corfem::method::error::Error;
 use corfem::method::model::ModalModel;
@@ -70,8 +70,7 @@ impl Net {
         let sensors = sensors_at(&(0..count - 1).collect::<Vec<_>>(), count);
         let truth: Vec<f64> = (0..7).map(|_| uniform(0.9, 1.1)).collect();
         let found = model.modes(&truth, 4.min(vibrations)).unwrap().vibrations;
-        let seen = sensors.times(found.shapes()).unwrap();
-        let test = found.with_shapes(seen).unwrap();
+        let test = seen_by(&sensors, &found);
         Self {
             model,
             sensors,

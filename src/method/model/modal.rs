@@ -12,7 +12,7 @@ use crate::method::error_sum::{
 use crate::method::linear_algebra::{check_length, check_shape, check_symmetric, symmetric_part};
 use crate::method::modes::{ModeSet, Modes, check_count, solve};
 use crate::method::pairing::{Pairing, cross_orthogonality, pair_modes, paired, signed_assurance};
-use crate::method::state::{Change, with_rigid_bodies};
+use crate::method::state::{SummedChange, with_rigid_bodies};
 use crate::method::structure::positive;
 use nalgebra::DMatrix;
 use std::f64::consts::PI;
@@ -281,20 +281,12 @@ impl ModalModel {
             DMatrix::from_fn(sign.len(), sign.len(), entry)
         };
         let test_shares = shares.iter().map(|share| share.map(of_pairs)).collect();
-        let (count, all) = (modes.len(), modes.len() + further.len());
-        let mut basis = ModeSet {
-            omega_squared: modes.omega_squared.clone().resize_vertically(all, 0.0),
-            shapes: modes.shapes.clone().resize_horizontally(all, 0.0),
-        };
-        let (squares, mut shapes) = (
-            &mut basis.omega_squared,
-            basis.shapes.columns_mut(count, all - count),
-        );
-        squares
-            .rows_mut(count, all - count)
-            .copy_from(&further.omega_squared);
-        shapes.copy_from(&further.shapes);
-        let cross = cross.resize_vertically(all, 0.0);
+        let mut basis: ModeSet = modes.clone().into();
+        basis
+            .omega_squared
+            .extend(further.omega_squared.iter().copied());
+        basis.shapes.extend(further.shapes.column_iter());
+        let cross = cross.resize_vertically(basis.len(), 0.0);
         Self::compared(
             (modes, scaled),
             (basis, cross),
@@ -308,12 +300,12 @@ impl ModalModel {
     /// place of an analysis, paired anew as [`Self::at_sensors`] does.
     pub(crate) fn followed(&self, factors: &[f64]) -> Result<Self, Error> {
         check_length("parameter factors", factors.len(), self.shares.len())?;
-        let Change {
+        let SummedChange {
             k,
             beta,
             alpha,
             apart,
-        } = Change::new(self, factors)?;
+        } = SummedChange::new(self, factors)?;
         let identity = DMatrix::identity(k.len(), k.len());
         let stiffness = symmetric_part(&(DMatrix::from_diagonal(&k) + beta));
         let vibrations = solve(&stiffness, &symmetric_part(&(identity + alpha)), k.len())?;
@@ -329,10 +321,8 @@ impl ModalModel {
             shapes: shapes.columns(count, size - count).into_owned(),
         };
         let seen = shapes.columns(0, count).into_owned();
-        let modes = Modes::ascending(squares.rows(0, count).into_owned(), seen.clone());
-        for mode in (0..count).filter(|&mode| modes.shapes.column(mode) != seen.column(mode)) {
-            generalized.column_mut(mode).neg_mut();
-        }
+        let squares = squares.rows(0, count).into_owned();
+        let modes = Modes::seen(squares, &seen, &mut generalized);
         let through = |matrix: &DMatrix<f64>, factor: f64| {
             symmetric_part(&(factor * generalized.tr_mul(&(matrix * &generalized))))
         };

@@ -83,10 +83,11 @@ impl Report {
         let deviation = |(interval, factor): (Option<Bounds>, &f64)| {
             interval.map(|interval| factor * (interval.upper / factor).ln() / NORMAL_95)
         };
-        let intervals = result.intervals()?.into_iter();
+        let misfit = result.misfit()?;
+        let intervals = result.intervals(&misfit)?.into_iter();
         Ok(Self {
             deviations: Some(intervals.zip(&result.factors).map(deviation).collect()),
-            misfit: Some(result.misfit()?),
+            misfit: Some(misfit),
             moved: moved(loaded, result),
             verdict: Some(result.verdict.clone()),
             trust: Some(result.trust.clone()),

@@ -191,8 +191,8 @@ pub fn suspects_table(loaded: &LoadedJob) -> Result<Table, FileError> {
 pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileError> {
     let names: Vec<&str> = loaded.parameter_names().collect();
     let [before, after] = &result.seen;
-    let intervals = result.intervals()?;
     let misfit = result.misfit()?;
+    let intervals = result.intervals(&misfit)?;
     let apart = format!(
         "Of {}, the test tells {} apart (singular values {:.3e} to {:.3e}). Deviations are those of the logarithm of the factor, \
          from the standard deviations of the measurement.",

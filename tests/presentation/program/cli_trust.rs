@@ -106,14 +106,19 @@ fn all_that_is_said_of_trust_stands_first_in_text_csv_json_and_html() {
     );
 }
 
-fn status_of(path: &Path, more: &[&str]) -> (Option<i32>, String, String) {
+/// Status and streams of a command on a job.
+fn ran(command: &str, path: &Path, more: &[&str]) -> (Option<i32>, String, String) {
     let job = path.to_str().expect("UTF-8");
-    let output = corfem(&[&["correlate", "-q", job], more].concat());
+    let output = corfem(&[&[command, "-q", job], more].concat());
     (
         output.status.code(),
         unbroken(&text(&output.stdout)),
         text(&output.stderr),
     )
+}
+
+fn status_of(path: &Path, more: &[&str]) -> (Option<i32>, String, String) {
+    ran("correlate", path, more)
 }
 
 /// The table of a job's test.
@@ -163,13 +168,7 @@ fn a_test_in_radians_a_second_never_passes_unless_the_doubt_is_accepted() {
 
 /// A study of a job into a folder, or one sample of it, with more arguments.
 fn study_of(path: &Path, more: &[&str]) -> (Option<i32>, String, String) {
-    let job = path.to_str().expect("UTF-8");
-    let output = corfem(&[&["study", "-q", job], more].concat());
-    (
-        output.status.code(),
-        unbroken(&text(&output.stdout)),
-        text(&output.stderr),
-    )
+    ran("study", path, more)
 }
 
 #[test]

@@ -5,7 +5,9 @@ use crate::common::known::delta_wing::DeltaWing;
 use crate::common::known::delta_wing::correlation::GROUPS;
 use crate::common::measured::equal_weights;
 use crate::common::tolerances::{RECOVERED_STORY, ROUND_OFF, SAME_ANALYSIS};
-use crate::common::whole_models::{counted_modes, masses, sensors_at, shear_building, springs};
+use crate::common::whole_models::{
+    counted_modes, masses, seen_by, sensors_at, shear_building, springs,
+};
 use corfem::method::assembly::ElementMatrix;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::InnerSettings;
@@ -32,9 +34,7 @@ fn five_of_ten_floors_recover_every_story_without_condensation() {
     let model = shear_building(&[1.0e5; 10], 1.0, range);
     let sensors = sensors_at(&[1, 3, 5, 7, 9], 10);
     let whole = real.modes(&[1.0; 10], 5).expect("modes").vibrations;
-    let test = whole
-        .with_shapes(sensors.times(whole.shapes()).expect("fits"))
-        .expect("shapes that fit");
+    let test = seen_by(&sensors, &whole);
     let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, pair_modes), [10, 0]);
     let found =
         correlate(analyze, &model.ranges(), &fine_settings(), |_, _| {}).expect("a correlation");
@@ -82,9 +82,7 @@ fn test_shapes_at_sensors_are_scaled_to_their_modes() {
     let model = shear_building(&[1.0e5; 10], 1.0, None);
     let sensors = sensors_at(&[1, 3, 5, 7, 9], 10);
     let whole = real.modes(&[1.0; 10], 5).expect("modes").vibrations;
-    let test = whole
-        .with_shapes(sensors.times(whole.shapes()).expect("fits"))
-        .expect("shapes that fit");
+    let test = seen_by(&sensors, &whole);
     let scales = [3.0, -0.2, 1.0e3, -1.0, 0.01];
     let shapes = test.shapes() * DMatrix::from_diagonal(&scales.to_vec().into());
     let other = ModeSet::new(test.omega_squared().clone(), shapes).expect("modes");
@@ -298,9 +296,7 @@ fn a_free_delta_wing_is_corrected_without_its_rigid_body_modes() {
     let dense = counted_modes(&stiffness.dense(), &mass.dense()).expect("modes");
     assert!(rigid_body.ncols() >= 6);
     assert_eq!(rigid_body.ncols(), dense.rigid_body.ncols());
-    let test = vibrations
-        .with_shapes(sensors.times(vibrations.shapes()).expect("fits"))
-        .expect("shapes that fit");
+    let test = seen_by(&sensors, &vibrations);
     let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, pair_modes), [20, 0]);
     let weights = equal_weights(
         Noise {
