@@ -74,19 +74,19 @@ pub fn lowest_modes(
     mass.check_symmetric("mass")?;
     check_length("mass", mass.rows(), stiffness.rows())?;
     check_count("modes", count, stiffness.rows())?;
-    let found = modes_at_most(stiffness, mass, count, stiffness)?;
+    let (found, _) = modes_at_most(stiffness, mass, count, stiffness)?;
     check_count(FINITE, count, found.vibrations.len())?;
     Ok(found)
 }
 
 /// The same of symmetric matrices of one size, or all modes where they are fewer than `most`. The null space of `resisting` is that of
-/// the stiffness.
-pub(crate) fn modes_at_most(
+/// the stiffness. The flexibility that they were found by serves other loads.
+pub(super) fn modes_at_most(
     stiffness: &SparseMatrix,
     mass: &SparseMatrix,
     most: usize,
     resisting: &SparseMatrix,
-) -> Result<CountedModes, Error> {
+) -> Result<(CountedModes, Flexibility), Error> {
     let count = most.min(stiffness.rows());
     at_least_one("modes", count)?;
     at_least_one("degrees of freedom with mass", mass.entries().len())?;
@@ -125,14 +125,15 @@ pub(crate) fn modes_at_most(
                 });
             }
         }
-        return Ok(CountedModes {
+        let found = CountedModes {
             vibrations: ModeSet {
                 omega_squared,
                 shapes,
             }
             .select(&(0..needed).collect::<Vec<_>>()),
-            rigid_body: flexibility.rigid,
-        });
+            rigid_body: flexibility.rigid.clone(),
+        };
+        return Ok((found, flexibility));
     }
 }
 
@@ -146,7 +147,7 @@ type At<'a> = &'a dyn Fn(&'static str, f64) -> Result<Factor, Error>;
 ///
 /// $K_g$ is the stiffness with one spring to the ground for every rigid-body mode. Balanced loads put no force into these springs, so
 /// that their stiffness does not matter, and no shift takes digits from the frequencies.
-struct Flexibility {
+pub(super) struct Flexibility {
     factor: Factor,
     /// $R$, of unit generalized mass (rows × r).
     rigid: DMatrix<f64>,
@@ -209,7 +210,8 @@ impl Flexibility {
         })
     }
 
-    fn solve(&self, loads: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+    /// Deflections under loads (rows × m).
+    pub(super) fn solve(&self, loads: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         if self.rigid.is_empty() {
             return self.factor.solve(loads);
         }

@@ -1,8 +1,7 @@
 //! Residual vectors: static deflections that the lowest modes lack, as further shapes in which changes are followed.
 
-use super::lowest_modes::CountedModes;
+use super::SparseMatrix;
 use super::matrix::GIVEN;
-use super::{Factor, SparseMatrix};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::ModeSet;
@@ -33,52 +32,37 @@ pub(super) fn leading_loads(
     Ok(loads * vectors.select_columns(&leading))
 }
 
-/// Shapes of unit generalized mass, orthogonal to `modes` and each other in mass and in stiffness, that span the static deflections
-/// under `loads` (DOF × m) with them, and their squared frequencies, ascending.
+/// Shapes of unit generalized mass, orthogonal to `vibrations` $V$ and each other in mass and in stiffness, that span static
+/// `deflections` $D$ (DOF × m) with them, and their squared frequencies, ascending.
 ///
-/// $$ W = (I - V V^t M)(K + \sigma M)^{-1} L, \qquad W^t K W z = \omega^2 W^t M W z $$
+/// $$ W = (I - V V^t M) D, \qquad W^t K W z = \omega^2 W^t M W z $$
 ///
-/// with rigid-body modes among the $V$, and then $\sigma = \omega_1^2$, else zero. No $\omega^2$ is below those of all modes left out. A
-/// deflection that has less of anything new than given digits tell is left out, as is a motion without mass.
+/// Of a structure that hangs free the deflections are those under balanced loads, orthogonal to its rigid-body modes. No $\omega^2$ is
+/// below those of all modes left out. A deflection that has less of anything new than given digits tell is left out, as is a motion
+/// without mass.
 ///
 /// Source: Coppolino, *SAE Technical Paper* 891082 (1989); Rose, *A Residual Vector Approach*, MSC World Users' Conference (1991).
 ///
 /// # Errors
-/// Those of [`Factor::new`] and [`symmetric_eigen`].
+/// Those of [`symmetric_eigen`].
 pub(super) fn residual_vectors(
     stiffness: &SparseMatrix,
     mass: &SparseMatrix,
-    modes: &CountedModes,
-    loads: &DMatrix<f64>,
+    vibrations: &ModeSet,
+    mut deflections: DMatrix<f64>,
 ) -> Result<ModeSet, Error> {
-    let CountedModes {
-        rigid_body,
-        vibrations,
-    } = modes;
     let none = ModeSet::none(stiffness.rows());
-    if loads.ncols() == 0 {
+    if deflections.ncols() == 0 {
         return Ok(none);
     }
-    let lowest = vibrations.omega_squared[0];
-    let mut entries = stiffness.entries().to_vec();
-    if rigid_body.ncols() > 0 {
-        entries.extend(mass.times_number(lowest));
-    }
-    let what = "stiffness shifted by the mass";
-    let resisted = SparseMatrix::new(what, stiffness.rows(), stiffness.rows(), entries)?;
-    let mut deflections = Factor::new(what, &resisted)?.solve(loads)?;
     let energies = |shapes: &DMatrix<f64>| -> Result<DMatrix<f64>, Error> {
-        Ok(symmetric_part(&shapes.tr_mul(&resisted.times(shapes)?)))
+        Ok(symmetric_part(&shapes.tr_mul(&stiffness.times(shapes)?)))
     };
     let first = energies(&deflections)?.diagonal();
-    for known in [
-        rigid_body,
-        &vibrations.shapes,
-        rigid_body,
-        &vibrations.shapes,
-    ] {
-        let shares = known.tr_mul(&mass.times(&deflections)?);
-        deflections -= known * shares;
+    // Once leaves the round-off of what was taken away, twice is enough.
+    for _ in 0..2 {
+        let shares = vibrations.shapes.tr_mul(&mass.times(&deflections)?);
+        deflections -= &vibrations.shapes * shares;
     }
     let rest = energies(&deflections)?.diagonal();
     let new: Vec<usize> = (0..rest.len())
@@ -101,16 +85,15 @@ pub(super) fn residual_vectors(
     let (roots, vectors) = symmetric_eigen("mass of deflections", &inertia)?;
     let moving: Vec<usize> = (0..roots.len())
         .rev()
-        .filter(|&place| roots[place] * lowest > GIVEN)
+        .filter(|&place| roots[place] * vibrations.omega_squared[0] > GIVEN)
         .collect();
     if moving.is_empty() {
         return Ok(none);
     }
     let roots = roots.select_rows(&moving);
     let scale = DMatrix::from_diagonal(&roots.map(|root| 1.0 / root.sqrt()));
-    let shift = if rigid_body.ncols() > 0 { lowest } else { 0.0 };
     Ok(ModeSet {
-        omega_squared: roots.map(|root| 1.0 / root - shift),
+        omega_squared: roots.map(f64::recip),
         shapes: deflections * vectors.select_columns(&moving) * scale,
     })
 }

@@ -1,6 +1,6 @@
 //! A model given by sparse matrices, whatever made them, and what the loops are handed of it.
 
-use super::lowest_modes::{CountedModes, FINITE, modes_at_most};
+use super::lowest_modes::{CountedModes, FINITE, Flexibility, modes_at_most};
 use super::residual_vectors::{leading_loads, residual_vectors};
 use super::sum_of_stiffness;
 use super::{Factor, RigidBodies, SparseMatrix};
@@ -174,7 +174,7 @@ impl WholeModel {
     /// Those of [`Self::at`] and [`lowest_modes`](super::lowest_modes()).
     pub fn modes(&self, factors: &[f64], count: usize) -> Result<CountedModes, Error> {
         let (stiffness, mass) = self.at(factors)?;
-        self.modes_of(&stiffness, &mass, count)
+        Ok(self.modes_of(&stiffness, &mass, count)?.0)
     }
 
     fn modes_of(
@@ -182,10 +182,11 @@ impl WholeModel {
         stiffness: &SparseMatrix,
         mass: &SparseMatrix,
         count: usize,
-    ) -> Result<CountedModes, Error> {
+    ) -> Result<(CountedModes, Flexibility), Error> {
         check_count("modes", count, self.dof_count())?;
-        let found = self.modes_at_most(stiffness, mass, count)?;
-        check_count(FINITE, count, found.vibrations.len())?;
+        let resisting = self.resisting.as_ref().unwrap_or(stiffness);
+        let found = modes_at_most(stiffness, mass, count, resisting)?;
+        check_count(FINITE, count, found.0.vibrations.len())?;
         Ok(found)
     }
 
@@ -197,7 +198,7 @@ impl WholeModel {
         most: usize,
     ) -> Result<CountedModes, Error> {
         let resisting = self.resisting.as_ref().unwrap_or(stiffness);
-        modes_at_most(stiffness, mass, most, resisting)
+        Ok(modes_at_most(stiffness, mass, most, resisting)?.0)
     }
 
     /// What the loops are handed without any condensation: the `count` lowest modes of the whole model as the sensors see them, and
@@ -217,12 +218,12 @@ impl WholeModel {
         [count, further]: [usize; 2],
     ) -> Result<ModalModel, Error> {
         let (stiffness, mass) = self.at(factors)?;
-        let mut found = self.modes_of(&stiffness, &mass, count)?;
+        let (mut found, flexibility) = self.modes_of(&stiffness, &mass, count)?;
         let vibrations = &mut found.vibrations;
         let seen = sensors.times(&vibrations.shapes)?;
         let squares = vibrations.omega_squared.clone();
         let modes = Modes::seen(squares, &seen, &mut vibrations.shapes);
-        let further = self.further(&stiffness, &mass, &found, further)?;
+        let further = self.further(&stiffness, &mass, (&found, &flexibility), further)?;
         let mut basis = found.vibrations.shapes;
         basis.extend(further.shapes.column_iter());
         let shares = self.shares(factors, &basis)?;
@@ -238,7 +239,7 @@ impl WholeModel {
         &self,
         stiffness: &SparseMatrix,
         mass: &SparseMatrix,
-        found: &CountedModes,
+        (found, flexibility): (&CountedModes, &Flexibility),
         most: usize,
     ) -> Result<ModeSet, Error> {
         let is_mass = |parameter: &WholeParameter| matches!(parameter.share, WholeShare::Mass(_));
@@ -259,7 +260,12 @@ impl WholeModel {
             let leading = leading_loads(part, &found.vibrations, is_mass(parameter), most)?;
             loads.extend(leading.column_iter());
         }
-        let mut further = residual_vectors(stiffness, mass, found, &loads)?;
+        let mut further = residual_vectors(
+            stiffness,
+            mass,
+            &found.vibrations,
+            flexibility.solve(&loads)?,
+        )?;
         if self.parameters.iter().any(is_mass) {
             further.shapes.extend(found.rigid_body.column_iter());
             let all = further.shapes.ncols();

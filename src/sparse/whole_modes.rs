@@ -50,10 +50,11 @@ pub fn whole_modes(
         moving_mass_entries(&motion, &motion, mass)
     });
     let mass = SparseMatrix::new("mass", rows, rows, entries.collect())?;
+    let (found, _) = modes_at_most(stiffness, &mass, most, resisting)?;
     let CountedModes {
         rigid_body,
         vibrations,
-    } = modes_at_most(stiffness, &mass, most, resisting)?;
+    } = found;
     let shapes = t.transposed().times(&vibrations.shapes)?;
     Ok(WholeModes {
         dof: at.dof,
