@@ -9,6 +9,7 @@ use super::{Concern, LoadedJob};
 use crate::files::error::FileError;
 use crate::method::model::LoneFrequency;
 use crate::method::modes::ModeSet;
+use crate::sparse::rigid_bodies::is_rounded;
 use crate::sparse::{Factor, SparseMatrix, WholeShare};
 use crate::weighted::noise::Noise;
 use nalgebra::Vector3;
@@ -93,8 +94,16 @@ impl LoadedJob {
         let (stiffness, mass) = whole.at(&self.ones())?;
         let found = whole.modes_at_most(&stiffness, &mass, 2 * self.analysis_modes)?;
         let rigid_body_modes = found.rigid_body.ncols();
+        let weak = found.doubtful.iter().map(|&(row, held)| {
+            let name = self.source.row_name(row);
+            Concern::doubt(
+                format!("weak-{}", hyphened(&name)),
+                hardly_held(&name, held),
+            )
+        });
+        let mut concerns: Vec<Concern> = weak.collect();
         if modes.is_empty() {
-            return Ok((Vec::new(), rigid_body_modes));
+            return Ok((concerns, rigid_body_modes));
         }
         let test = measured(&self.data, &self.placed, &modes)?;
         let (squares, shapes) = found.vibrations.into_parts();
@@ -127,8 +136,8 @@ impl LoadedJob {
             parameters: self.parameter_names().map(str::to_owned).collect(),
             modes,
         };
-        let concerns = found.iter().map(|finding| finding.concern(&names));
-        let concerns = concerns.chain(self.places_concern()).collect();
+        concerns.extend(found.iter().map(|finding| finding.concern(&names)));
+        concerns.extend(self.places_concern());
         Ok((concerns, rigid_body_modes))
     }
 
@@ -221,6 +230,18 @@ impl LoadedJob {
             )
         })
     }
+}
+
+/// One sentence about a motion that is hardly told from a rigid-body mode.
+pub(crate) fn hardly_held(name: &str, resistance: f64) -> String {
+    let kind = if is_rounded(resistance) {
+        "rigid-body mode"
+    } else {
+        "vibration"
+    };
+    format!(
+        "A motion of {name} is resisted by {resistance:.0e} of the stiffness there, which the digits of the matrix hardly tell from nothing: it counts as a {kind}."
+    )
 }
 
 /// Whether the whole without a part is semidefinite.

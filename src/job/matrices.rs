@@ -5,11 +5,11 @@ use super::{Job, Scales};
 use crate::files::deck::decoded;
 use crate::files::error::{FileError, is_not};
 use crate::files::matrices::{self, LabeledMatrix};
-use crate::files::test_data::{DIRECTIONS, cells, separator};
+use crate::files::test_data::{DIRECTIONS, cells, row_name, separator};
 use crate::method::error::Error;
 use crate::method::modes::{ModeSet, Modes};
 use crate::method::structure::StructuralDof;
-use crate::sparse::whole_modes::WholeModes;
+use crate::sparse::whole_modes::{WholeModes, named};
 use crate::sparse::{FINITE, SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
@@ -132,12 +132,14 @@ pub fn matrix_modes(stiffness: &Path, mass: &Path, most: usize) -> Result<WholeM
     let dof = labels
         .into_iter()
         .map(|(grid, direction)| StructuralDof { grid, direction });
+    let dof: Vec<_> = dof.collect();
     let ModeSet {
         omega_squared,
         shapes,
     } = found.vibrations;
     Ok(WholeModes {
-        dof: dof.collect(),
+        doubtful: named(&found.doubtful, |row| row_name(row, &dof)),
+        dof,
         modes: Modes::ascending(omega_squared, shapes),
         rigid_body: found.rigid_body.ncols(),
     })

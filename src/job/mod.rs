@@ -20,6 +20,7 @@ mod sensors;
 mod study;
 mod trust;
 
+pub(crate) use concerns::hardly_held;
 pub use entries::removed_step;
 pub use loaded::LoadedJob;
 pub use matrices::matrix_modes;

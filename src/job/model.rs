@@ -3,6 +3,7 @@
 use super::{Job, ParameterRule, Scales};
 use crate::files::deck::{self, Deck, Membership};
 use crate::files::error::FileError;
+use crate::files::test_data::DIRECTIONS;
 use crate::method::assembly::{element_matrices, stiffness_entries};
 use crate::method::error::Error;
 use crate::method::model::Bounds;
@@ -35,6 +36,23 @@ pub struct ModelSource {
     pub deck: Option<(Vec<u8>, Deck)>,
     /// Of a deck, the elements and the point masses that every parameter scales, ascending.
     pub members: Vec<[Vec<usize>; 2]>,
+}
+
+impl ModelSource {
+    /// What a row of the matrices is called: the grid and direction that it moves.
+    pub(super) fn row_name(&self, row: usize) -> String {
+        let moves = |(_, rows): &(&(usize, usize), &Vec<(usize, f64)>)| {
+            rows.iter()
+                .any(|&(other, coefficient)| other == row && coefficient != 0.0)
+        };
+        let name = |(&(grid, direction), _): (&(usize, usize), &Vec<(usize, f64)>)| {
+            format!("{grid} {}", DIRECTIONS[direction])
+        };
+        self.motions
+            .iter()
+            .find(moves)
+            .map_or_else(|| format!("row {}", row + 1), name)
+    }
 }
 
 /// The model of the deck in this file.

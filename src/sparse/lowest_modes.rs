@@ -41,6 +41,8 @@ pub struct CountedModes {
     pub rigid_body: DMatrix<f64>,
     /// Vibrations of finite frequency, ascending, of unit generalized mass.
     pub vibrations: ModeSet,
+    /// Motions that are hardly told from rigid-body modes ([`RigidBodies::doubtful`]).
+    pub doubtful: Vec<(usize, f64)>,
 }
 
 /// The `count` lowest vibrations of $K v = \omega^2 M v$ for semidefinite `stiffness` (lbf/in) and `mass` (lbf·s²/in), with all
@@ -93,14 +95,13 @@ pub(super) fn modes_at_most(
     let plan = Arc::new(FactorizationPlan::of_sum(&[stiffness, mass])?);
     let factor_at = |what, shift| Factor::of_sum(&plan, what, &[(1.0, stiffness), (shift, mass)]);
     let held = factor_at("stiffness", 0.0).ok();
-    let flexibility = match held.filter(|factor| factor.is_above(GIVEN)) {
-        Some(factor) => Flexibility::held(factor),
-        None => Flexibility::of(
-            &plan,
-            stiffness,
-            mass,
-            &RigidBodies::of("stiffness", resisting)?,
-        )?,
+    let (flexibility, doubtful) = match held.filter(|factor| factor.is_above(GIVEN)) {
+        Some(factor) => (Flexibility::held(factor), Vec::new()),
+        None => {
+            let bodies = RigidBodies::of("stiffness", resisting)?;
+            let flexibility = Flexibility::of(&plan, stiffness, mass, &bodies)?;
+            (flexibility, bodies.doubtful)
+        }
     };
     let rigid = flexibility.rigid.ncols();
     let (mut wanted, mut block) = (count + BEYOND, BLOCK);
@@ -132,6 +133,7 @@ pub(super) fn modes_at_most(
             }
             .select(&(0..needed).collect::<Vec<_>>()),
             rigid_body: flexibility.rigid.clone(),
+            doubtful,
         };
         return Ok((found, flexibility));
     }

@@ -12,7 +12,7 @@ mod matrix;
 mod ordering;
 pub mod random;
 mod residual_vectors;
-mod rigid_bodies;
+pub(crate) mod rigid_bodies;
 pub mod whole_modes;
 mod whole_model;
 

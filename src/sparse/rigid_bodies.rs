@@ -9,16 +9,18 @@ use super::{Factor, SparseMatrix};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use nalgebra::DMatrix;
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 /// Standard deviations of an energy's round-off within which it counts as zero, times a double's relative rounding: an entry is the sum
 /// of some thirty parts, each rounded, then scaled and multiplied.
 const ROUNDED: f64 = 32.0 * f64::EPSILON;
-/// The same of numbers written with twelve digits: half a unit of the twelfth, as evenly distributed (over the root of three).
-const WRITTEN: f64 = 0.5e-11 / 1.732_050_807_568_877_2;
-/// Digits of such numbers.
-const DIGITS: usize = 12;
-/// Steps of inverse iteration: a shift of round-off damps the motions that strain by ten and more in each.
+/// The root of thirty such roundings is a quarter of that, and leaves more resistance only where there is some.
+const DOUBTFUL: f64 = 8.0 * f64::EPSILON;
+/// Digits of numbers that a program has written shorter than a double's: fewer are those of somebody's own numbers, and exact.
+const DIGITS: RangeInclusive<usize> = 6..=12;
+/// Steps of inverse iteration. In each a motion whose resistance is $k$ shifts loses a factor of $1 + k$ beside those that nothing
+/// resists, and its energy counts by the square: of ten shifts six leave less than $10 \cdot 11^{-12}$ shifts.
 const STEPS: usize = 6;
 
 /// The null space of a semidefinite stiffness.
@@ -28,9 +30,14 @@ pub struct RigidBodies {
     pub motions: DMatrix<f64>,
     /// These rows.
     pub rows: Vec<usize>,
-    /// Motions that the matrix resists by less than twelve digits tell from nothing, and which count as vibrations: the row that moves
-    /// most, and the resistance relative to the entries that it is left of.
+    /// Motions whose resistance the digits hardly tell from none: the row that moves most, and the resistance relative to the entries
+    /// that it is left of. They count as vibrations, but for those so little resisted that it may be the rounding of doubles.
     pub doubtful: Vec<(usize, f64)>,
+}
+
+/// Whether so little resistance, relative to the entries that it is left of, is round-off.
+pub(crate) fn is_rounded(resistance: f64) -> bool {
+    resistance <= ROUNDED
 }
 
 impl RigidBodies {
@@ -41,8 +48,9 @@ impl RigidBodies {
     ///
     /// $$ u \sqrt{\sum_{ij} K_{ij}^2 y_i^2 y_j^2}, $$
     ///
-    /// and a motion whose energy $y^t K y$ is within it counts as free. A matrix whose numbers all have twelve digits or fewer may be
-    /// rounded to as many, and one with a negative energy shows its own rounding.
+    /// and a motion whose energy $y^t K y$ is within it counts as free. Numbers that were written with $n$ digits, six to twelve, as at
+    /// least half of them then show, have $u \le 10^{1 - n} / \sqrt{12}$: at twelve digits so much is round-off, at fewer up to three times
+    /// as much is doubtful. A negative energy is itself a draw of the round-off, which is taken to be within four of the largest such draw.
     ///
     /// # Errors
     /// [`Error::NotPositiveDefinite`] for a matrix that is not semidefinite; those of the factorization.
@@ -59,10 +67,19 @@ impl RigidBodies {
         let shifted =
             |shift| Factor::of_sum(&plan, what, &[(1.0, &unit), (shift, &ones)])?.check_signs(what);
         let factor = shifted(round_off(count)).or_else(|_| shifted(GIVEN))?;
-        let written = if entries.iter().all(|entry| digits(entry.2) <= DIGITS) {
-            WRITTEN
+        let numbers: Vec<usize> = entries.iter().map(|entry| digits(entry.2)).collect();
+        let longest = numbers.iter().copied().max().unwrap_or(0);
+        let as_long = numbers.iter().filter(|&&digits| digits + 1 >= longest);
+        let is_written = DIGITS.contains(&longest) && 2 * as_long.count() >= numbers.len();
+        let part_of = |digits: usize| 10_f64.powf(1.0 - digits as f64) / 12_f64.sqrt();
+        let [least, told, most] = if is_written {
+            [
+                part_of(*DIGITS.end()),
+                part_of(*DIGITS.end()),
+                (3.0 * part_of(longest)).max(GIVEN),
+            ]
         } else {
-            ROUNDED
+            [ROUNDED, DOUBTFUL, GIVEN]
         };
         let (mut block, mut state) = (BLOCK.min(count), 0);
         loop {
@@ -84,14 +101,14 @@ impl RigidBodies {
                 })
                 .collect();
             let negative = resisted.iter().fold(0.0_f64, |most, part| most.max(-part));
-            let limit = written.max(4.0 * negative);
-            let (free, held): (Vec<usize>, Vec<usize>) =
-                (0..block).partition(|&at| resisted[at] <= limit);
-            if held.is_empty() && block < count {
+            let limit = least.max(4.0 * negative);
+            let free: Vec<usize> = (0..block).filter(|&at| resisted[at] <= limit).collect();
+            if free.len() == block && block < count {
                 block = (2 * block).min(count);
                 continue;
             }
-            let doubtful = held.into_iter().filter(|&at| resisted[at] <= GIVEN);
+            let told = if limit > least { limit } else { told };
+            let doubtful = (0..block).filter(|&at| resisted[at] > told && resisted[at] <= most);
             let doubtful = doubtful
                 .map(|at| {
                     (

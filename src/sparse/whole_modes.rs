@@ -29,10 +29,14 @@ pub struct WholeModes {
     pub modes: Modes,
     /// How many rigid-body modes there are beside them.
     pub rigid_body: usize,
+    /// Where motions are hardly told from these, and the resistance to each
+    /// ([`RigidBodies::doubtful`](super::RigidBodies::doubtful)).
+    pub doubtful: Vec<(String, f64)>,
 }
 
 /// The lowest vibrations of finite frequency of $K_S$ (free SDOF × free SDOF, lbf/in) and $T M T^t$ at the DOF that have mass, counted
-/// as by [`lowest_modes`](super::lowest_modes()): `most` of them, or all if there are fewer. The null space of `resisting` is that of $K_S$.
+/// as by [`lowest_modes`](super::lowest_modes()): `most` of them, or all if there are fewer. The null space of `resisting` is that of $K_S$,
+/// whose rows are called `name`.
 ///
 /// # Errors
 /// [`Error::WrongShape`] for a $T$ or masses that do not fit; those of [`lowest_modes`](super::lowest_modes()).
@@ -41,6 +45,7 @@ pub fn whole_modes(
     at: MassDof,
     most: usize,
     resisting: &SparseMatrix,
+    name: impl Fn(usize) -> String,
 ) -> Result<WholeModes, Error> {
     let (t, rows) = (&at.load_distribution, stiffness.rows());
     check_length("load distribution", t.rows(), rows)?;
@@ -54,11 +59,20 @@ pub fn whole_modes(
     let CountedModes {
         rigid_body,
         vibrations,
+        doubtful,
     } = found;
     let shapes = t.transposed().times(&vibrations.shapes)?;
     Ok(WholeModes {
         dof: at.dof,
         modes: Modes::ascending(vibrations.omega_squared, shapes),
         rigid_body: rigid_body.ncols(),
+        doubtful: named(&doubtful, name),
     })
+}
+
+/// Rows' names in place of their numbers.
+pub(crate) fn named(rows: &[(usize, f64)], name: impl Fn(usize) -> String) -> Vec<(String, f64)> {
+    rows.iter()
+        .map(|&(row, value)| (name(row), value))
+        .collect()
 }

@@ -5,7 +5,7 @@ use super::job_prepared::{measured_building, prepared};
 use crate::common::jobs::{Files, torque_box};
 use crate::common::test_files::write_csv;
 use corfem::files::test_data::{self, TestData};
-use corfem::job::{LoadedJob, run};
+use corfem::job::{LoadedJob, Trust, run};
 
 /// The identifiers of a job's doubts.
 fn doubts(files: &Files) -> Vec<String> {
@@ -108,10 +108,31 @@ fn a_matrix_that_is_no_part_of_the_first_model_is_named() {
     // Rounded to single precision it still is a part.
     assert_eq!(doubts(&job(1.0 + 5e-8)), [""; 0]);
     assert_eq!(doubts(&job(0.5)), [""; 0]);
-    let twice =
-        "matrix = \"stiffness.mtx\"\n[[parameter]]\nname = \"again\"\nmatrix = \"stiffness.mtx\"";
-    let twice = with(files, "job.toml", "matrix = \"stiffness.mtx\"", twice);
-    assert_eq!(doubts(&twice), ["twin-all-again"]);
+    let again = |matrix: &str| {
+        let all = "matrix = \"stiffness.mtx\"";
+        let twice = format!("{all}\n[[parameter]]\nname = \"again\"\nmatrix = \"{matrix}\"");
+        with(files.clone(), "job.toml", all, &twice)
+    };
+    assert_eq!(doubts(&again("stiffness.mtx")), ["twin-all-again"]);
+    let of_opposite_sign = [again("more.mtx"), vec![more(-1.0)]].concat();
+    assert_eq!(doubts(&of_opposite_sign), ["twin-all-again"]);
+}
+
+/// Two floors on a ground so soft that sixteen digits of the matrix tell it from none, and twelve would not.
+pub const HARDLY_HELD: &str = "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 100000.0000005\n2 1 -1e5\n2 2 1e5\n";
+
+#[test]
+fn a_motion_hardly_told_from_a_rigid_body_mode_is_named_by_its_row() {
+    let mut files = measured_building(2, 1);
+    files[1].1 = HARDLY_HELD.to_owned();
+    let found = doubts(&files);
+    assert!(found.contains(&"weak-2-x".to_owned()), "{found:?}");
+    // Two such floors on nothing are told from it.
+    files[1].1 = HARDLY_HELD.replace(".0000005", "");
+    let (_folder, path) = placed(&files);
+    let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    let trust = Trust::before(&loaded).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(trust.rigid_body_modes, 1);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use super::model::BulkData;
 use crate::files::error::FileError;
+use crate::files::test_data::row_name;
 use crate::method::assembly::{ElementMatrix, element_matrices, stiffness_entries};
 use crate::method::elements::unit_stiffness;
 use crate::method::error::Error;
@@ -36,13 +37,15 @@ pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
     let entries = entries.flat_map(|(element, &size)| stiffness_entries(element, size));
     let stiffness = SparseMatrix::new("stiffness", free.len(), free.len(), entries.collect())?;
     let resisting = resisting(&structure, &elements)?;
-    let found = whole_modes(&stiffness, at, most, &resisting).map_err(|error| match error {
-        // What has neither stiffness nor mass has a grid.
-        Error::NotPositiveDefinite { .. } => Factor::of_stiffness(&elements, &sizes, free)
-            .err()
-            .unwrap_or(error),
-        other => other,
-    })?;
+    let found = whole_modes(&stiffness, at, most, &resisting, |row| row_name(row, free)).map_err(
+        |error| match error {
+            // What has neither stiffness nor mass has a grid.
+            Error::NotPositiveDefinite { .. } => Factor::of_stiffness(&elements, &sizes, free)
+                .err()
+                .unwrap_or(error),
+            other => other,
+        },
+    )?;
     if found.rigid_body == 0 && found.modes.len() < most.min(found.dof.len()) {
         check_count(found.modes.len(), model.mass_dof(&structure, &elements)?)?;
     }

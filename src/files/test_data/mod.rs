@@ -15,12 +15,20 @@ use crate::files::error::FileError;
 use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_length, check_shape};
 use crate::method::modes::ModeSet;
-use crate::method::structure::positive;
+use crate::method::structure::{StructuralDof, positive};
 use nalgebra::{DMatrix, Vector3};
 use std::collections::HashSet;
 
 /// What directions 0 to 5 are called.
 pub const DIRECTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
+/// What a row of a matrix is called: its number where rows have no names.
+pub fn row_name(row: usize, dof: &[StructuralDof]) -> String {
+    dof.get(row).map_or_else(
+        || format!("row {}", row + 1),
+        |dof| format!("{} {}", dof.grid, DIRECTIONS[dof.direction]),
+    )
+}
 
 /// One sensor: it measures a displacement along an axis at a grid or point of the test.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,8 @@
 //! The modes of a deck as tables.
 
 use crate::files::deck::{Reason, Unread};
-use crate::files::test_data::DIRECTIONS;
+use crate::files::test_data::row_name;
+use crate::job::hardly_held;
 use crate::present::table::{Cell, Digits, Table, counted, numbers};
 use crate::sparse::whole_modes::WholeModes;
 
@@ -39,7 +40,13 @@ pub fn deck_tables(unread: &[Unread], modes: &WholeModes, count: usize) -> Vec<T
         )
         .column("Generalized mass", "", numbers(masses, MASS))
         .notes(others.into_iter().map(not_read))
-        .notes(rigid);
+        .notes(rigid)
+        .notes(
+            modes
+                .doubtful
+                .iter()
+                .map(|(name, held)| hardly_held(name, *held)),
+        );
     let ignored = Table::new(
         "ignored",
         "Cards left out by request: these modes lack what they say",
@@ -62,10 +69,7 @@ pub fn deck_tables(unread: &[Unread], modes: &WholeModes, count: usize) -> Vec<T
         vec![ignored, frequencies]
     };
     // Matrices that do not name their rows have numbers for them.
-    let label = |row: usize| match modes.dof.get(row) {
-        Some(dof) => format!("{} {}", dof.grid, DIRECTIONS[dof.direction]),
-        None => format!("row {}", row + 1),
-    };
+    let label = |row| row_name(row, &modes.dof);
     let labels = || (0..rows).map(label);
     for (part, shapes) in shapes.chunks(MODES_PER_TABLE).enumerate() {
         let (first, last) = (

@@ -2,6 +2,7 @@
 
 use crate::common::tolerances::DECK_ROUNDING;
 use crate::presentation::program::cli::{corfem, numbers, text};
+use crate::readers::job_concerns::HARDLY_HELD;
 use corfem::sparse::{LargeModel, WholeModel};
 use corfem::torque_box::{Case, run_case};
 use serde_json::Value;
@@ -365,6 +366,22 @@ fn modes_of_matrices_are_those_of_their_deck() {
             "the model's own units, hertz; errors are fractions"
         );
     }
+    write("k.mtx", HARDLY_HELD);
+    let weak = matrices("k.mtx", "m.mtx");
+    let doubtful = weak["doubtful"][0].as_str().expect("a sentence");
+    assert!(
+        doubtful.starts_with("A motion of row 2 is resisted by "),
+        "{doubtful}"
+    );
+    let in_words = corfem(&[
+        "modes",
+        "--stiffness",
+        &path("k.mtx"),
+        "--mass",
+        &path("m.mtx"),
+    ]);
+    assert!(text(&in_words.stdout).contains("A motion of row 2 is resisted by "));
+    assert_eq!(plain["doubtful"], serde_json::json!([]));
     assert_eq!(
         (&named["dof"], plain["dof"].as_array().map(Vec::len)),
         (&deck["dof"], Some(0))

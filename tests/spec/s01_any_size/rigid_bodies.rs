@@ -167,3 +167,56 @@ fn a_resistance_that_twelve_digits_do_not_tell_from_none_is_doubtful() {
     let found = RigidBodies::of("stiffness", &written).expect("a null space");
     assert_eq!((found.rows.len(), found.doubtful.len()), (1, 0));
 }
+
+#[test]
+fn a_few_digits_of_exact_numbers_are_not_taken_for_rounding() {
+    // Twelve digits in one entry alone: the ground's spring beside links a hundred billion times as stiff.
+    for size in [2, 10, 40] {
+        let links = (1..size).map(|row| (row - 1, Some(row), 1e11));
+        let all: Vec<_> = links.chain([(0, None, 1.0)]).collect();
+        let found = RigidBodies::of("stiffness", &springs(size, &all)).expect("a null space");
+        assert_eq!((found.rows.len(), found.doubtful.len()), (0, 1), "{size}");
+    }
+}
+
+#[test]
+fn beyond_ratios_of_a_trillion_a_doubt_names_the_row() {
+    // To the ratio at which the sum of both has no digit of the soft one that rounding would leave.
+    for ratio in [1e12, 1e13, 1e14] {
+        let stiffness = springs(
+            3,
+            &[
+                (0, Some(1), 1e4),
+                (1, Some(2), 1e4 / 3.0),
+                (0, None, 1e4 / ratio),
+            ],
+        );
+        let found = RigidBodies::of("stiffness", &stiffness).expect("a null space");
+        assert_eq!(found.doubtful.len(), 1, "{ratio}: {found:?}");
+    }
+}
+
+#[test]
+fn resistance_that_may_be_the_rounding_of_a_file_is_doubtful() {
+    let mut draws = Draws(3);
+    let (mut held, mut doubtful) = (0, 0);
+    for _ in 0..40 {
+        let tree = (1..20).map(|row| (draws.below(row), Some(row), draws.between(1e4, 9e4)));
+        let free = springs(20, &tree.collect::<Vec<_>>());
+        // Single precision: seven digits.
+        let written = free.entries().iter().map(|&(row, column, value)| {
+            (
+                row,
+                column,
+                format!("{value:.6e}").parse().expect("a number"),
+            )
+        });
+        let written = SparseMatrix::new("stiffness", 20, 20, written.collect()).expect("a matrix");
+        if let Ok(found) = RigidBodies::of("stiffness", &written) {
+            held += usize::from(found.rows.is_empty());
+            doubtful += usize::from(found.rows.is_empty() && found.doubtful.len() == 1);
+        }
+    }
+    assert!(held > 5, "{held}");
+    assert_eq!(doubtful, held);
+}

@@ -1,6 +1,7 @@
 //! What the wing does under load and in vibration, and what others found.
 
 use super::{DeltaWing, STATIONS, upper_grid};
+use corfem::files::test_data::row_name;
 use corfem::method::assembly::{ElementMatrix, dense_stiffness, element_matrices, lumped_mass};
 use corfem::method::error::Error;
 use corfem::method::structure::Structure;
@@ -54,6 +55,7 @@ impl DeltaWing {
             },
             usize::MAX,
             &stiffness,
+            |row| row_name(row, &[]),
         )
     }
 
