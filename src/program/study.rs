@@ -142,7 +142,7 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<bool, PresentErr
     )?;
     arguments
         .output
-        .write(&tables, || json::own_document(json!({ "tables": tables })))?;
+        .write(&tables, || json::own_document(json!({ "trust": study.trust, "tables": tables })))?;
     Ok(is_clear)
 }
 

@@ -20,6 +20,7 @@ pub mod job_matrices;
 pub mod job_prepared;
 pub mod job_results;
 pub mod jobs;
+mod jobs_survive;
 pub mod lone_frequencies;
 pub mod matrices;
 pub mod matrices_damaged;

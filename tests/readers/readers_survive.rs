@@ -30,7 +30,7 @@ const WORDS: [&[u8]; 8] = [
 
 impl Draws {
     /// One to four changes anywhere.
-    fn damaged(&mut self, valid: &[u8]) -> Vec<u8> {
+    pub fn damaged(&mut self, valid: &[u8]) -> Vec<u8> {
         let mut text = valid.to_vec();
         for _ in 0..1 + self.below(4) {
             let at = self.below(text.len() + 1);
@@ -127,20 +127,20 @@ const READERS: &[Reader] = &[
     }),
 ];
 
+/// A number that the environment asks for.
+pub fn asked(name: &str, otherwise: u64) -> u64 {
+    let number = std::env::var(name).ok();
+    number
+        .and_then(|number| number.parse().ok())
+        .unwrap_or(otherwise)
+}
+
 #[test]
 fn no_reader_panics_on_a_damaged_file() {
-    let number = |name: &str| {
-        std::env::var(name)
-            .ok()
-            .and_then(|number| number.parse::<u64>().ok())
-    };
-    let (calls, from) = (
-        number("CORFEM_CALLS").unwrap_or(500),
-        number("CORFEM_SEED").unwrap_or(0),
-    );
-    let asked = std::env::var("CORFEM_READER").unwrap_or_default();
+    let (calls, from) = (asked("CORFEM_CALLS", 500), asked("CORFEM_SEED", 0));
+    let reader = std::env::var("CORFEM_READER").unwrap_or_default();
     let mut faults = Vec::new();
-    for (name, valid, read) in READERS.iter().filter(|(name, ..)| name.contains(&asked)) {
+    for (name, valid, read) in READERS.iter().filter(|(name, ..)| name.contains(&reader)) {
         let start = std::time::Instant::now();
         assert!(read(valid), "{name}: the file without damage reads");
         let mut refused = 0;
