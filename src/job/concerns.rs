@@ -5,7 +5,7 @@ use super::preflight::{
     Finding, FindingNames, LARGEST_TOLERANCE, SeenModes, hyphened, preflight_at_sensors,
 };
 use super::sensors::{PlacedSensor, motion};
-use super::{Concern, LoadedJob};
+use super::{Concern, LoadedJob, Method};
 use crate::files::error::FileError;
 use crate::method::model::LoneFrequency;
 use crate::method::modes::ModeSet;
@@ -43,6 +43,20 @@ impl LoadedJob {
                 format!(
                     "Test modes without shapes are paired by number, which nothing checks: {}. The model's modes are followed by shape from there.",
                     pairs.join(", ")
+                ),
+            ));
+        }
+        let together = self.together().into_iter().filter(|group| group.len() > 1);
+        for group in together.filter(|_| self.job.compare.method == Method::GaussNewton) {
+            let numbers: Vec<String> = group
+                .iter()
+                .map(|&place| (self.modes[place] + 1).to_string())
+                .collect();
+            all.push(Concern::remark(
+                format!("close-modes-{}", numbers.join("-")),
+                format!(
+                    "The frequencies of test modes {} are no further apart than their deviations tell: their shapes are compared as one subspace.",
+                    numbers.join(" and ")
                 ),
             ));
         }
@@ -205,7 +219,7 @@ impl LoadedJob {
     }
 
     /// Sensors placed by where they are cannot span much more than the model does.
-    fn places_concern(&self) -> Option<Concern> {
+    pub fn places_concern(&self) -> Option<Concern> {
         let extent = |places: Vec<Vector3<f64>>| {
             let first = places.first()?;
             let (low, high) = places.iter().fold((*first, *first), |(low, high), place| {

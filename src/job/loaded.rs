@@ -14,6 +14,7 @@ use crate::method::model::{ExactResult, LoneFrequency, ModalModel};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::{Pairing, modal_assurance};
 use crate::sparse::{FINITE, SparseMatrix};
+use crate::weighted::close_modes::{assurance_of_roots, told_apart, turned};
 use nalgebra::DMatrix;
 use std::path::Path;
 use std::sync::Arc;
@@ -202,25 +203,26 @@ impl LoadedJob {
             self.analysis_modes = available;
             first = self.analyze(&self.ones());
         }
-        let shapes = match &first {
-            Ok(first) => first.exact.modes.shapes.clone(),
+        let modes = match &first {
+            Ok(first) => first.exact.modes.clone().into(),
             // Even with more test modes than the model has modes, the pairs can be judged.
             Err(Error::TooMany {
                 what: "test modes", ..
             }) => {
-                let modes = self
+                let mut modes = self
                     .source
                     .whole
                     .modes(&self.ones(), self.analysis_modes)?
                     .vibrations;
-                self.sensors.times(&modes.shapes)?
+                modes.shapes = self.sensors.times(&modes.shapes)?;
+                modes
             }
             Err(_) => return first.map(drop).map_err(FileError::from),
         };
         let partners = self.alone.iter().map(|(_, lone)| lone.partner);
-        let partners: Vec<usize> = partners.filter(|mode| *mode < shapes.ncols()).collect();
-        self.partner_shapes = Some(shapes.select_columns(&partners));
-        let assurance = decided(&modal_assurance(&shapes, &self.test.shapes)?);
+        let partners: Vec<usize> = partners.filter(|mode| *mode < modes.len()).collect();
+        self.partner_shapes = Some(modes.shapes.select_columns(&partners));
+        let assurance = decided(&assurance_of_roots(&modes, &self.test.shapes)?);
         self.undecided = (0..assurance.ncols())
             .filter(|&mode| {
                 let column = assurance.column(mode);
@@ -261,13 +263,13 @@ impl LoadedJob {
         Ok(())
     }
 
-    /// Selected test modes, from zero, that are not compared, with their largest modal assurance with these shapes.
-    pub(super) fn unlike(&self, shapes: &DMatrix<f64>) -> Result<Vec<(usize, f64)>, FileError> {
+    /// Selected test modes, from zero, that are not compared, with their largest modal assurance with these modes.
+    pub(super) fn unlike(&self, modes: &ModeSet) -> Result<Vec<(usize, f64)>, FileError> {
         let left: Vec<usize> = self.unpaired.iter().map(|(mode, _)| *mode).collect();
         let left = left.into_iter().filter(|mode| !self.modes.contains(mode));
         let of_mode = |mode: usize| {
             let test = measured(&self.data, &self.placed, &[mode])?;
-            Ok((mode, modal_assurance(shapes, &test.shapes)?.max()))
+            Ok((mode, assurance_of_roots(modes, &test.shapes)?.max()))
         };
         left.map(of_mode).collect()
     }
@@ -275,15 +277,14 @@ impl LoadedJob {
     /// The same job that also compares the test modes left out so far that resemble a mode of this model, each one of its own; none
     /// where none does.
     pub(super) fn joined_by(&self, exact: &ExactResult) -> Result<Option<Self>, FileError> {
-        let shapes = &exact.modes.shapes;
-        let left = self.unlike(shapes)?;
+        let left = self.unlike(&exact.modes)?;
         if left.is_empty() {
             return Ok(None);
         }
         let left = left.iter().map(|(mode, _)| mode);
         let all: Vec<usize> = self.modes.iter().chain(left).copied().collect();
         let test = measured(&self.data, &self.placed, &all)?;
-        let partners = pair_optimally(&modal_assurance(shapes, &test.shapes)?, FLOOR)?;
+        let partners = pair_optimally(&assurance_of_roots(&exact.modes, &test.shapes)?, FLOOR)?;
         let (compared, left) = partners.split_at(self.modes.len());
         let left = left.iter().zip(&all[self.modes.len()..]);
         let joined: Vec<usize> = left
@@ -380,9 +381,27 @@ impl LoadedJob {
             Method::Paper => model.weighted(&self.own_weights()),
             Method::GaussNewton => {
                 let lone = self.followed(&model.exact)?;
-                model.with_lone_frequencies(lone)
+                let mut model = model
+                    .with_groups(self.together())?
+                    .with_lone_frequencies(lone)?;
+                let turned = turned(&model.exact.modes, &model.exact, &model.test)?;
+                model.exact.errors = model.errors_of(&turned, &model.exact.pairing)?;
+                Ok(model)
             }
         }
+    }
+
+    /// Groups of the test modes with shapes that their frequencies' deviations do not tell apart ([`told_apart`]), by place.
+    pub fn together(&self) -> Vec<Vec<usize>> {
+        let hertz = self
+            .modes
+            .iter()
+            .map(|&mode| self.data.frequencies_hz[mode]);
+        let deviations = self
+            .modes
+            .iter()
+            .map(|&mode| self.deviations(mode).frequency);
+        told_apart(&hertz.collect::<Vec<_>>(), &deviations.collect::<Vec<_>>())
     }
 
     /// The frequencies without shapes, each with the mode of this model that its partner in the first has become: those of the largest

@@ -11,6 +11,7 @@ use crate::method::outer_loop::{Correlation, Pass, compared_sum, correlate_while
 use crate::method::structure::{Element, Material};
 use crate::method::verdict::{Outcome, Verdict};
 use crate::sparse::{WholeParameter, WholeShare};
+use crate::weighted::close_modes::turned;
 use crate::weighted::gauss_newton::{
     WeightedCorrelation, WeightedSettings, WeightedStop, from_several_starts, gauss_newton,
 };
@@ -70,8 +71,8 @@ impl Misfit {
 impl JobResult {
     /// Chi-squared at the best factors and its degrees of freedom.
     ///
-    /// A test mode gives its frequency and, of $d$ sensors, $d - 1$ numbers, because a shape's scale is free; a weight of zero
-    /// takes its numbers out. The fit takes away the trace of $J (J^t J + I/\tau^2)^{-1} J^t$, which is the sum of
+    /// A test mode gives its frequency and, of $d$ sensors, $d - 1$ numbers, because a shape's scale is free, or $d - m$ where $m$ modes
+    /// are compared together; a weight of zero takes its numbers out. The fit takes away the trace of $J (J^t J + I/\tau^2)^{-1} J^t$, which is the sum of
     /// [`learned`](Identifiability::learned), over the parameters that are not at a bound.
     ///
     /// # Errors
@@ -88,11 +89,11 @@ impl JobResult {
             let prior = WeightedSettings::default().prior_deviation;
             identifiability(&jacobian, prior)?.learned.iter().sum()
         };
-        let of_shape = self.last.test.shapes.nrows().saturating_sub(1);
-        let with_shapes = self.loaded.modes.len();
+        let (together, sensors) = (self.loaded.together(), self.last.test.shapes.nrows());
         let compared = |(mode, weight): (usize, &ModeWeight)| {
-            let has_shape = weight.shape > 0.0 && mode < with_shapes;
-            usize::from(weight.frequency > 0.0) + usize::from(has_shape) * of_shape
+            let group = together.iter().find(|group| group.contains(&mode));
+            let of_shape = group.map_or(0, |group| sensors.saturating_sub(group.len()));
+            usize::from(weight.frequency > 0.0) + usize::from(weight.shape > 0.0) * of_shape
         };
         Ok(Misfit {
             chi_squared: residuals(&self.last, &weights)?.norm_squared(),
@@ -295,8 +296,8 @@ pub(super) fn run_from(
         part.first = joined.analyze(start)?;
         part.seen[0] = sees(&joined, &part.first)?;
     }
-    let (loaded, shapes) = (&part.loaded, &part.last.exact.modes.shapes);
-    let unpaired = loaded.unlike(shapes)?;
+    let loaded = &part.loaded;
+    let unpaired = loaded.unlike(&part.last.exact.modes)?;
     part.trust = part
         .trust
         .after(loaded, &unpaired, &part.verdict, &part.seen[1]);
@@ -453,7 +454,8 @@ fn run_part(
                 Some((WeightedStop::Step, _)) => Outcome::ShortSteps,
                 _ => Outcome::LocalMinimum,
             };
-            let (errors, seen) = (last.mode_errors()?, first.largest_parts());
+            let turned = turned(&last.exact.modes, &last.exact, &last.test)?;
+            let (errors, seen) = (last.mode_errors(&turned)?, first.largest_parts());
             let sum = compared_sum(&last.exact.errors, settings);
             Verdict::new(outcome, (sum, &errors), &factors, &seen, &ranges, is_within)
         }

@@ -140,9 +140,9 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<bool, PresentErr
             study.identity
         ),
     )?;
-    arguments
-        .output
-        .write(&tables, || json::own_document(json!({ "trust": study.trust, "tables": tables })))?;
+    arguments.output.write(&tables, || {
+        json::own_document(json!({ "trust": study.trust, "tables": tables }))
+    })?;
     Ok(is_clear)
 }
 

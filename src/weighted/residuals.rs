@@ -7,6 +7,7 @@ use crate::method::linear_algebra::{finite, finite_list};
 use crate::method::model::{ModalModel, ParameterMatrix, check_weights};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::Pairing;
+use crate::weighted::close_modes::{Nearest, members, nearest};
 use crate::weighted::noise::Noise;
 use nalgebra::{DMatrix, DVector, RowDVector};
 
@@ -23,7 +24,8 @@ pub const DEVIATIONS: Noise = Noise {
 /// $$ r_{fj} = w_{fj} \Big(\frac{f_{Fi}}{f_{Gj}} - 1\Big), \qquad r_{vj} = w_{vj} (a_j v_i - u_j), \qquad
 ///    a_j = \frac{v_i^t u_j}{v_i^t v_i} $$
 ///
-/// with $v_i$ the paired analysis shape and $u_j$ the test shape of unit largest component. The analysis shape's scale is that
+/// with $v_i$ the paired analysis shape and $u_j$ the test shape of unit largest component. Of test modes that are compared
+/// together ([`ModalModel::with_groups`]) $V V^+ u_j$ stands for $a_j v_i$, with the shapes of all their partners in $V$. The analysis shape's scale is that
 /// of least squares (the modal scale factor) instead of the paper's: it gives the sign, has no kink where the largest component
 /// changes its place, and the noise of one component does not enter all others. Eliminating a linear unknown in this way
 /// leaves the covariance of the others as it is with the scale among the unknowns, on which intervals depend.
@@ -50,7 +52,8 @@ pub(crate) fn residuals_of(
     for (j, &i) in pairing.analysis_mode.iter().enumerate() {
         residuals[rows * j] =
             weights[j].frequency * ((modes.omega_squared[i] / test.omega_squared[j]).sqrt() - 1.0);
-        let (_, apart) = scaled(modes, i, test, j);
+        let members = members(pairing, &exact.together, j);
+        let apart = nearest(&modes.shapes, &members, &unit_shape(test, j)).apart;
         residuals
             .rows_mut(rows * j + 1, rows - 1)
             .copy_from(&(weights[j].shape * apart));
@@ -61,12 +64,10 @@ pub(crate) fn residuals_of(
     residuals
 }
 
-/// The scale $a$ of analysis mode `i` beside test mode `j`, and $a v - u$.
-fn scaled(modes: &ModeSet, i: usize, test: &ModeSet, j: usize) -> (f64, DVector<f64>) {
-    let (v, tested) = (modes.shapes.column(i), test.shapes.column(j));
-    let unit = tested / tested.amax();
-    let scale = v.dot(&unit) / v.norm_squared();
-    (scale, scale * v - unit)
+/// A test shape of unit largest component.
+fn unit_shape(test: &ModeSet, j: usize) -> DVector<f64> {
+    let tested = test.shapes.column(j);
+    tested / tested.amax()
 }
 
 /// Derivatives of [`residuals`] with respect to the logarithm of every parameter's factor, one column a parameter.
@@ -75,7 +76,10 @@ fn scaled(modes: &ModeSet, i: usize, test: &ModeSet, j: usize) -> (f64, DVector<
 /// $\mathrm d v_i = \sum_{r \ne i} v_r \beta_{ri}/(\omega_i^2 - \omega_r^2)$. A mass enters as $\beta_{ri} = -\omega_i^2 \alpha_{ri}$. With
 /// $e = a v - u$, which is orthogonal to $v$,
 ///
-/// $$ \mathrm d e = a \Big(I - \frac{v v^t}{v^t v}\Big) \mathrm d v - v \frac{e^t \mathrm d v}{v^t v} . $$
+/// $$ \mathrm d e = a \Big(I - \frac{v v^t}{v^t v}\Big) \mathrm d v - v \frac{e^t \mathrm d v}{v^t v}, \qquad
+///    \mathrm d e = (I - V V^+) \mathrm d V V^+ u - (V^+)^t \mathrm d V^t e , $$
+///
+/// the second of modes compared together.
 ///
 /// The sum goes over the whole basis, rigid-body modes with $\omega_r^2 = 0$ among it. It is exact with all modes, unless a
 /// condensation's $B$ moves mass. Modes closer than [`SMALLEST_SEPARATION`] keep their own shapes.
@@ -104,19 +108,30 @@ pub fn jacobian(model: &ModalModel, weights: &[ModeWeight]) -> Result<DMatrix<f6
     let mut jacobian = DMatrix::zeros(rows * test.len() + lone.len(), count);
     for (j, &i) in model.exact.pairing.analysis_mode.iter().enumerate() {
         let ratio = (k[i] / test.omega_squared[j]).sqrt();
-        // The share of every other mode that each parameter adds to this one (n × p).
-        let added = DMatrix::from_fn(k.len(), count, |r, e| {
-            let (apart, held) = (k[i] - k[r], SMALLEST_SEPARATION * k[i].max(k[r]));
-            if apart.abs() > held {
-                change(r, i, &model.shares[e]) / apart
-            } else {
-                0.0
-            }
-        });
-        let (v, (scale, apart)) = (modes.shapes.column(i), scaled(modes, i, test, j));
-        let moved = &modes.shapes * added;
-        let along = (scale * v + &apart).transpose() * &moved / v.norm_squared();
-        let shape = weights[j].shape * (scale * moved - v * along);
+        let members = members(&model.exact.pairing, &model.exact.together, j);
+        let Nearest {
+            inverse,
+            shares,
+            apart,
+        } = nearest(&modes.shapes, &members, &unit_shape(test, j));
+        let v = modes.shapes.select_columns(&members);
+        let mut shape = DMatrix::zeros(rows - 1, count);
+        for (place, &i) in members.iter().enumerate() {
+            // The share of every other mode that each parameter adds to this one (n × p).
+            let added = DMatrix::from_fn(k.len(), count, |r, e| {
+                let (apart, held) = (k[i] - k[r], SMALLEST_SEPARATION * k[i].max(k[r]));
+                if apart.abs() > held && !members.contains(&r) {
+                    change(r, i, &model.shares[e]) / apart
+                } else {
+                    0.0
+                }
+            });
+            let moved = &modes.shapes * added;
+            let out = &moved - &v * (&inverse * &moved);
+            shape +=
+                shares[place] * out - inverse.row(place).transpose() * (apart.transpose() * moved);
+        }
+        let shape = weights[j].shape * shape;
         jacobian
             .view_mut((rows * j + 1, 0), (rows - 1, count))
             .copy_from(&shape);

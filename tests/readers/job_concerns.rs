@@ -2,6 +2,7 @@
 
 use super::job_errors::{placed, with};
 use super::job_prepared::{measured_building, prepared};
+use crate::common::draws::Draws;
 use crate::common::jobs::{Files, torque_box};
 use crate::common::test_files::write_csv;
 use corfem::files::test_data::{self, TestData};
@@ -133,6 +134,50 @@ fn a_motion_hardly_told_from_a_rigid_body_mode_is_named_by_its_row() {
     let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
     let trust = Trust::before(&loaded).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(trust.rigid_body_modes, 1);
+}
+
+/// Of thirty tests whose deviations were written in percent, half a percent or less of a frequency and up to five of a shape, all.
+#[test]
+fn deviations_in_percent_are_named_in_every_test() {
+    let mut draws = Draws(5);
+    for test in 0..30 {
+        let [frequency, shape] = [draws.between(0.05, 0.5), draws.between(0.5, 5.0)];
+        let with = |unit: f64| {
+            tested(|data| {
+                data.frequency_deviation = Some(vec![unit * frequency; 4]);
+                data.shape_deviation = Some(vec![unit * shape; 4]);
+            })
+        };
+        let named = doubts(&with(1.0));
+        assert!(
+            named.contains(&"percent-shape_deviation".to_owned()),
+            "test {test}: {named:?}"
+        );
+        assert_eq!(doubts(&with(0.01)), [""; 0], "test {test}");
+    }
+}
+
+/// Of thirty choices of at least three of the nine sensors, all with coordinates 25.4 times too large, and none that is right.
+#[test]
+fn places_in_another_unit_are_named_wherever_the_sensors_are() {
+    let mut draws = Draws(6);
+    let loaded = prepared(&torque_box());
+    for test in 0..30 {
+        let mut few = loaded.clone();
+        while few.placed.len() > 3 && draws.unit() < 0.8 {
+            few.placed.remove(draws.below(few.placed.len()));
+        }
+        let mut named = [false; 2];
+        for (named, unit) in named.iter_mut().zip([25.4, 1.0]) {
+            let mut other = few.clone();
+            for sensor in &mut other.placed {
+                sensor.distance = Some(0.0);
+                other.data.sensors[sensor.row].place = sensor.place.map(|place| unit * place);
+            }
+            *named = other.places_concern().is_some();
+        }
+        assert_eq!(named, [true, false], "test {test}");
+    }
 }
 
 #[test]

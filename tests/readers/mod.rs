@@ -1,5 +1,6 @@
 //! A user's files: decks, matrices, tests, NASTRAN-95's formats, jobs.
 
+mod close_modes;
 pub mod complex_modes;
 pub mod deck;
 pub mod deck_cards;

@@ -14,6 +14,7 @@ use corfem::method::model::{Bounds, DynamicModel, ModalModel, ParameterMatrix};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::nalgebra::{DMatrix, DVector};
 use corfem::torque_box::Case;
+use corfem::weighted::close_modes::{told_apart, turned};
 use corfem::weighted::gauss_newton::{
     WeightedCorrelation, WeightedSettings, WeightedStop, from_several_starts, gauss_newton,
 };
@@ -74,14 +75,24 @@ fn the_jacobian_is_the_derivative_of_exact_analyses() {
             shape: 30.0 + 70.0 * draws.unit(),
         };
         let weights: Vec<ModeWeight> = (0..9).map(weight).collect();
-        let here = at(&first, &factors).analyze(&test, None).unwrap();
+        // Every mode by itself, or some as subspaces.
+        let groups = if seed % 2 == 0 {
+            vec![vec![0, 1], vec![2, 5, 3], vec![4]]
+        } else {
+            Vec::new()
+        };
+        let analyzed = |factors: &[f64]| {
+            let model = at(&first, factors).analyze(&test, None).unwrap();
+            model.with_groups(groups.clone()).unwrap()
+        };
+        let here = analyzed(&factors);
         let slopes = jacobian(&here, &weights).unwrap();
         assert_eq!(slopes.shape(), (90, 24));
         for e in 0..24 {
             let beside = |log: f64| {
                 let mut factors = factors.clone();
                 factors[e] *= log.exp();
-                let model = at(&first, &factors).analyze(&test, None).unwrap();
+                let model = analyzed(&factors);
                 assert_eq!(
                     model.exact().pairing.analysis_mode(),
                     here.exact().pairing.analysis_mode()
@@ -96,6 +107,78 @@ fn the_jacobian_is_the_derivative_of_exact_analyses() {
             );
         }
     }
+}
+
+#[test]
+fn of_modes_compared_together_the_subspace_alone_counts() {
+    let first = by_matrices();
+    let exact = modes(&first);
+    for seed in 1..=20 {
+        let mut draws = Draws(seed);
+        // Any three independent combinations of three shapes, in a test that has six others too.
+        let mut test = exact.clone();
+        let mixed = exact.shapes().columns(2, 3)
+            * DMatrix::from_fn(3, 3, |i, j| {
+                draws.between(-0.4, 0.4) + f64::from(u8::from(i == j))
+            });
+        alter(&mut test, |_, shapes| {
+            shapes.columns_mut(2, 3).copy_from(&mixed)
+        });
+        let model = first.analyze(&test, None).unwrap();
+        let alone = residuals(&model, &weights(9)).unwrap();
+        assert!(alone.amax() > 1.0, "{}", alone.amax());
+        let model = model.with_groups(vec![vec![0], vec![3, 2, 4]]).unwrap();
+        let together = residuals(&model, &weights(9)).unwrap();
+        assert!(
+            together.amax() < MATRIX_ROUND_OFF,
+            "seed {seed}: {}",
+            together.amax()
+        );
+    }
+}
+
+#[test]
+fn shapes_turned_to_the_test_are_modes_of_the_same_subspace() {
+    let first = by_matrices();
+    let exact = modes(&first);
+    for seed in 1..=20 {
+        let mut draws = Draws(seed);
+        let turn = DMatrix::from_fn(3, 3, |_, _| draws.between(-1.0, 1.0))
+            .qr()
+            .q();
+        let mut test = exact.clone();
+        let mixed = exact.shapes().columns(4, 3) * turn;
+        alter(&mut test, |_, shapes| {
+            shapes.columns_mut(4, 3).copy_from(&mixed)
+        });
+        let model = first
+            .analyze(&test, None)
+            .unwrap()
+            .with_groups(vec![vec![4, 5, 6]])
+            .unwrap();
+        let found = turned(&model.exact().modes, model.exact(), &test).unwrap();
+        for (j, &i) in model.exact().pairing.analysis_mode().iter().enumerate() {
+            let sign = model.exact().pairing.sign()[j];
+            let off = (found.shapes().column(i) * sign - test.shapes().column(j)).amax();
+            assert!(
+                off < MATRIX_ROUND_OFF * test.shapes().amax(),
+                "seed {seed}, mode {j}: {off}"
+            );
+        }
+        let generalized = found.shapes().tr_mul(&(&first.mass * found.shapes()));
+        assert!((generalized - DMatrix::identity(9, 9)).amax() < MATRIX_ROUND_OFF);
+    }
+}
+
+#[test]
+fn modes_are_told_apart_by_twice_the_deviation_of_their_difference() {
+    // Of one percent each: 100 and 102.8 are within 2.84, and 107 is not.
+    let groups = |hertz: &[f64]| told_apart(hertz, &vec![0.01; hertz.len()]);
+    assert_eq!(groups(&[100.0, 102.8, 107.0]), [vec![0, 1], vec![2]]);
+    assert_eq!(groups(&[100.0, 102.9, 107.0]), [vec![0], vec![1], vec![2]]);
+    // A chain of neighbors is one group, in any order.
+    assert_eq!(groups(&[104.0, 100.0, 102.0]), [vec![1, 2, 0]]);
+    assert_eq!(groups(&[]), [[0; 0]; 0]);
 }
 
 #[test]

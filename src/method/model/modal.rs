@@ -109,6 +109,8 @@ pub struct ExactResult {
     pub frequencies_hz: Vec<f64>,
     /// Frequencies of the test without shapes, none unless [`ModalModel::with_lone_frequencies`].
     pub lone: Vec<LoneFrequency>,
+    /// Groups of test modes whose shapes are compared as subspaces, none unless [`ModalModel::with_groups`].
+    pub together: Vec<Vec<usize>>,
     /// Their distance from the test modes.
     pub errors: Errors,
 }
@@ -344,6 +346,7 @@ impl ModalModel {
         }
         model
             .with_sizes(self.sizes.clone())
+            .with_groups(self.exact.together.clone())?
             .with_lone_frequencies(lone)
     }
 
@@ -371,6 +374,7 @@ impl ModalModel {
             pairing,
             frequencies_hz,
             lone: Vec::new(),
+            together: Vec::new(),
             errors,
         };
         let (sizes, weights) = (
@@ -422,14 +426,21 @@ impl ModalModel {
         Ok(self)
     }
 
+    /// The same model with groups of test modes (from zero) whose shapes are compared as subspaces: weighted residuals alone do so.
+    ///
+    /// # Errors
+    /// [`Error::TooMany`] for a test mode that there is not.
+    pub fn with_groups(mut self, together: Vec<Vec<usize>>) -> Result<Self, Error> {
+        for mode in together.iter().flatten() {
+            check_count("test modes", mode.saturating_add(1), self.test.len())?;
+        }
+        self.exact.together = together;
+        Ok(self)
+    }
+
     /// Errors of every test mode, then of the frequencies without shapes.
-    pub(crate) fn mode_errors(&self) -> Result<Vec<ModeError>, Error> {
-        let ExactResult {
-            modes,
-            pairing,
-            lone,
-            ..
-        } = &self.exact;
+    pub(crate) fn mode_errors(&self, modes: &ModeSet) -> Result<Vec<ModeError>, Error> {
+        let ExactResult { pairing, lone, .. } = &self.exact;
         let mut all = mode_errors(modes, pairing, &self.test)?;
         all.extend(lone.iter().map(|lone| ModeError {
             frequency: lone.error(modes),

@@ -16,6 +16,7 @@ use crate::method::state::ModalState;
 use crate::method::structure::Structure;
 use crate::method::verdict::Verdict;
 use crate::present::verdict::verdict_in_words;
+use crate::weighted::close_modes::turned;
 use nalgebra::{DMatrix, Vector3};
 
 /// A row of the shapes.
@@ -304,7 +305,7 @@ impl Report {
                 orthogonality: None,
             });
         };
-        let mut modes: ModeSet = check.modes.lowest(highest + 1)?.into();
+        let mut modes = turned(&check.modes.lowest(highest + 1)?.into(), check, &self.test)?;
         for (&mode, &sign) in check.pairing.analysis_mode.iter().zip(&check.pairing.sign) {
             modes.shapes.column_mut(mode).scale_mut(sign);
         }

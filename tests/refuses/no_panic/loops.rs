@@ -12,6 +12,7 @@ use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::step::{
     Accumulation, StepRule, limited_factor, stiffness_changes, unlimited_factors,
 };
+use corfem::weighted::close_modes::turned;
 
 pub const LOOPS: &[Entry] = &[
     ("ModalState::at", |d| {
@@ -142,6 +143,19 @@ pub const LOOPS: &[Entry] = &[
         model
             .with_lone_frequencies(lone)
             .map(|model| vec![model.exact().errors.sum()])
+    }),
+    ("ModalModel::with_groups", |d| {
+        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
+        let most = model.test().len() + 1;
+        let group = |_| {
+            (0..d.size() % 3)
+                .map(|_| d.size().saturating_sub(1) % most)
+                .collect()
+        };
+        let groups = (0..3).map(group).collect();
+        let model = model.with_groups(groups)?;
+        let found = turned(&model.exact().modes, model.exact(), model.test())?;
+        Ok(found.shapes().iter().copied().collect())
     }),
     ("ModalModel::weighted", |d| {
         let model = d.chain().ok_or(Error::Empty { what: "chains" })?;

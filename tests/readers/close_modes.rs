@@ -1,0 +1,161 @@
+//! Test modes closer than their deviations tell: what is compared is the subspace of their shapes.
+
+use super::job_errors::placed;
+use crate::common::jobs::Files;
+use crate::common::test_files::write_csv;
+use corfem::files::test_data::{Sensor, TestData};
+use corfem::job::{JobResult, LoadedJob, run};
+use corfem::method::verdict::Outcome;
+use corfem::present::report::Report;
+use corfem::present::tables::report::paired_table;
+use nalgebra::DMatrix;
+
+/// Two towers of three floors side by side, one stiffer than the other by `split`, and a test of both in which every pair of modes is
+/// turned by an angle (radians) and its stiffer tower is stiffer by `truth`.
+fn towers([split, truth, angle]: [f64; 3]) -> Files {
+    let tower = |stiffness: f64, first: usize, text: &mut String| {
+        for floor in 0..3 {
+            let (row, below) = (first + floor + 1, first + floor);
+            let diagonal = if floor == 2 {
+                stiffness
+            } else {
+                2.0 * stiffness
+            };
+            *text += &format!("{row} {row} {diagonal:e}\n");
+            if floor > 0 {
+                *text += &format!("{row} {below} {:e}\n", -stiffness);
+            }
+        }
+    };
+    let market = "%%MatrixMarket matrix coordinate real symmetric\n6 6 ";
+    let (mut all, mut left, mut right) = (
+        format!("{market}10\n"),
+        format!("{market}5\n"),
+        format!("{market}5\n"),
+    );
+    for text in [&mut all, &mut left] {
+        tower(1e5, 0, text);
+    }
+    for text in [&mut all, &mut right] {
+        tower(1e5 * split, 3, text);
+    }
+    let mass = format!(
+        "{market}6\n{}",
+        (1..=6)
+            .map(|row| format!("{row} {row} 50\n"))
+            .collect::<String>()
+    );
+    // Roots and shapes of a fixed and free chain of three.
+    let (mut hertz, mut shapes) = (Vec::new(), DMatrix::zeros(6, 6));
+    for mode in 0..3 {
+        let phase = std::f64::consts::PI * (2 * mode + 1) as f64 / 7.0;
+        let frequency = (2e3_f64 * (2.0 - 2.0 * phase.cos())).sqrt() / std::f64::consts::TAU;
+        hertz.extend([frequency, frequency * truth.sqrt()]);
+        for floor in 0..3 {
+            let moved = (phase * (floor + 1) as f64).sin();
+            let (sine, cosine) = angle.sin_cos();
+            shapes[(floor, 2 * mode)] = cosine * moved;
+            shapes[(floor + 3, 2 * mode)] = sine * moved;
+            shapes[(floor, 2 * mode + 1)] = -sine * moved;
+            shapes[(floor + 3, 2 * mode + 1)] = cosine * moved;
+        }
+    }
+    let sensors = (1..=6).map(|grid| Sensor {
+        name: grid.to_string(),
+        grid: Some(grid),
+        direction: 0,
+        axis: None,
+        place: None,
+    });
+    let data = TestData {
+        frequencies_hz: hertz,
+        sensors: sensors.collect(),
+        shapes,
+        ..TestData::default()
+    };
+    let parameter =
+        |name: &str| format!("[[parameter]]\nname = \"{name}\"\nmatrix = \"{name}.mtx\"\n");
+    let job = "[model]\nstiffness = \"all.mtx\"\nmass = \"mass.mtx\"\nrows = \"rows.csv\"\n[test]\nfile = \"test.csv\"\n";
+    let files = [
+        (
+            "job.toml",
+            [job, &parameter("left"), &parameter("right")].concat(),
+        ),
+        ("all.mtx", all),
+        ("mass.mtx", mass),
+        ("left.mtx", left),
+        ("right.mtx", right),
+        (
+            "rows.csv",
+            (1..=6).map(|row| format!("{row},x\n")).collect(),
+        ),
+        ("test.csv", write_csv(&data)),
+    ];
+    files.map(|(name, text)| (name.to_owned(), text)).to_vec()
+}
+
+fn corrected(files: &Files) -> (LoadedJob, JobResult) {
+    let (_folder, path) = placed(files);
+    let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    let result = run(&loaded, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
+    (loaded, result)
+}
+
+#[test]
+fn turned_shapes_of_close_modes_are_no_error() {
+    // Equal in the model or a little apart; in the test apart by half the least that it tells.
+    for (split, angle) in [(1.0, 0.6), (1.0, 0.785), (1.002, -0.4)] {
+        let (loaded, result) = corrected(&towers([split, 1.014, angle]));
+        assert_eq!(loaded.together(), [vec![0, 1], vec![2, 3], vec![4, 5]]);
+        let doubts: Vec<_> = result
+            .trust
+            .concerns
+            .iter()
+            .filter(|concern| concern.is_doubt)
+            .collect();
+        assert!(doubts.is_empty(), "{doubts:?}");
+        let named = result
+            .trust
+            .concerns
+            .iter()
+            .any(|concern| concern.identifier == "close-modes-3-4");
+        assert!(named && result.trust.is_clear());
+        assert_eq!(result.verdict.outcome, Outcome::Tolerance);
+        // Turned shapes leave nothing: every factor follows the frequencies of both towers.
+        assert!(
+            result
+                .factors
+                .iter()
+                .all(|factor| (factor - 1.007).abs() < 0.01),
+            "{:?}",
+            result.factors
+        );
+        let report = Report::from_job(&loaded, Some(&result)).expect("a report");
+        let agreement = report.agreement(report.corrected()).expect("agreement");
+        for (mode, &partner) in report
+            .corrected()
+            .pairing
+            .analysis_mode()
+            .iter()
+            .enumerate()
+        {
+            assert!(
+                agreement.assurance[(partner, mode)] > 1.0 - 1e-9,
+                "mode {mode}"
+            );
+        }
+        assert!(paired_table(&report).is_ok());
+        assert!(result.misfit().expect("a misfit").chi_squared < 1.0);
+    }
+}
+
+#[test]
+fn modes_that_the_test_tells_apart_are_compared_alone() {
+    let (loaded, result) = corrected(&towers([1.0, 1.2, 0.0]));
+    assert_eq!(
+        loaded.together(),
+        (0..6).map(|mode| vec![mode]).collect::<Vec<_>>()
+    );
+    let factors = &result.factors;
+    assert!((factors[1] / factors[0] - 1.2).abs() < 1e-3, "{factors:?}");
+}
