@@ -150,10 +150,7 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
         let extra = [seen.clone(), places_table(&loaded, Some(&result))?];
         let command = format!("corfem correlate {}", arguments.job.display());
         let identity = loaded.identity(&format!("{:?} {:?}", arguments.starts, arguments.seed))?;
-        let run = format!(
-            "correlate {}, inputs {identity:016x}",
-            file_name(&arguments.job)
-        );
+        let run = format!("correlate {}, inputs {identity}", file_name(&arguments.job));
         let mut files = vec![
             (
                 "report.html".to_owned(),
