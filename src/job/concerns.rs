@@ -153,7 +153,7 @@ impl LoadedJob {
         concerns.extend(found.iter().map(|finding| finding.concern(&names)));
         concerns.extend(self.places_concern());
         let has_doubt = concerns.iter().any(|concern| concern.is_doubt);
-        if self.unpaired.len() == self.modes.len() && !has_doubt {
+        if self.is_without_pairs() && !has_doubt {
             concerns.push(Concern::doubt(
                 "no-pair",
                 "No test mode resembles a mode of the model: another structure, other sensors, or several mistakes at once?",

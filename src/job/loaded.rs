@@ -316,15 +316,19 @@ impl LoadedJob {
         Ok(Some(again))
     }
 
+    /// Whether no test mode with a shape has a partner.
+    pub(super) fn is_without_pairs(&self) -> bool {
+        let is_unpaired = |mode: &usize| self.unpaired.iter().any(|(other, _)| other == mode);
+        !self.modes.is_empty() && self.modes.iter().all(is_unpaired)
+    }
+
     /// Refuses a correlation in which no test mode has a partner.
     ///
     /// # Errors
     /// [`FileError::Refused`].
     pub(super) fn check_paired(&self) -> Result<(), FileError> {
         let best = self.unpaired.iter().map(|(_, best)| *best);
-        let best = best
-            .reduce(f64::max)
-            .filter(|_| self.unpaired.len() == self.modes.len());
+        let best = best.reduce(f64::max).filter(|_| self.is_without_pairs());
         self.job.refuse_if(best, |best| {
             format!(
                 "no mode of the model is like a test mode: their modal assurance is {best:.3} at most, less than {FLOOR}; \

@@ -99,7 +99,10 @@ pub fn check_job(
         let mut loaded = LoadedJob::new(path)?;
         loaded.accepted.clone_from(accept);
         let trust = Trust::before(&loaded)?;
-        let report = Report::from_job(&loaded, None)?;
+        let report = Report {
+            trust: Some(trust.clone()),
+            ..Report::from_job(&loaded, None)?
+        };
         let tables = [
             trust_table(&trust),
             places_table(&loaded, None)?,

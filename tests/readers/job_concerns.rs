@@ -83,7 +83,7 @@ fn a_test_of_which_no_mode_resembles_one_of_the_model_is_doubtful() {
         });
         let (_folder, path) = placed(&unlike);
         let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
-        if loaded.unpaired.len() < loaded.modes.len() {
+        if loaded.modes.len() < loaded.data.frequencies_hz.len() {
             continue;
         }
         let found = doubts(&unlike);
@@ -91,6 +91,24 @@ fn a_test_of_which_no_mode_resembles_one_of_the_model_is_doubtful() {
         left += usize::from(found == ["no-pair"]);
     }
     assert!(left > 0);
+}
+
+/// Of four test modes two resemble none of the model: as many as are compared.
+#[test]
+fn a_test_half_of_whose_modes_have_partners_is_correlated_with_these() {
+    let mut draws = Draws(4);
+    let half = tested(|data| {
+        for mode in [2, 3] {
+            let mut shape = data.shapes.column_mut(mode);
+            shape.apply(|reading| *reading = draws.between(-1.0, 1.0));
+        }
+    });
+    let (_folder, path) = placed(&half);
+    let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!((loaded.modes.len(), loaded.unpaired.len()), (2, 2));
+    let result = run(&loaded, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
+    let left = result.trust.not_compared.iter().map(|left| left.mode);
+    assert_eq!(left.collect::<Vec<_>>(), [3, 4]);
 }
 
 #[test]

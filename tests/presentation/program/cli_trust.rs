@@ -385,6 +385,9 @@ fn a_selected_mode_that_is_not_compared_is_no_success() {
     let (status, words, _) = status_of(&path, &[]);
     assert_eq!(status, Some(3), "{words}");
     assert!(words.contains("Test mode 3 is not compared: "), "{words}");
+    // Nor is a sample of a study: its third cell says whether it is within tolerance.
+    let (_, sample, _) = study_of(&path, &["--sample", "1", "--vary", "start"]);
+    assert_eq!(sample.split(',').nth(2), Some("false"), "{sample}");
     let selected = with(
         files,
         "job.toml",
