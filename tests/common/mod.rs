@@ -35,6 +35,7 @@ pub mod rational_series;
 #[cfg(unix)]
 pub mod signals;
 pub mod strategies;
+pub mod sketch;
 pub mod structures;
 pub mod test_files;
 pub mod tolerances;
