@@ -3,9 +3,9 @@
 use super::Study;
 use super::loaded::digest;
 use super::study::FAILED;
+use crate::files::disk;
 use crate::files::error::{FileError, is_not};
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
@@ -64,7 +64,7 @@ impl Samples {
             whole: 0,
         };
         let failed = FileError::of_file(path, "read");
-        let mut reader = BufReader::new(File::open(path).map_err(&failed)?);
+        let mut reader = BufReader::new(disk::open(path).map_err(&failed)?);
         let (header, count, mut bytes) = (study.header(), study.parameters().count(), Vec::new());
         for number in 1.. {
             bytes.clear();
@@ -148,7 +148,7 @@ impl Samples {
     /// Calls with every sample up to `last`, ascending, and the cells of its line.
     fn each(&self, last: u64, mut with: impl FnMut(u64, &[&str])) -> Result<(), FileError> {
         let failed = FileError::of_file(&self.path, "read");
-        let mut reader = BufReader::new(File::open(&self.path).map_err(&failed)?);
+        let mut reader = BufReader::new(disk::open(&self.path).map_err(&failed)?);
         let (mut now, mut line) = (0, String::new());
         for (&sample, &(at, _)) in self.places.range(..=last) {
             // A seek within the buffer reads nothing again.
