@@ -9,6 +9,7 @@ pub mod formulas;
 pub mod package;
 pub mod rooms;
 pub mod routes;
+pub mod suite;
 pub mod tables;
 pub mod tour;
 pub mod tour_figures;
