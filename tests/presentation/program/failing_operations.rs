@@ -201,7 +201,7 @@ fn a_study_in_which_any_operation_fails_loses_nothing_and_is_resumed() {
 
 #[test]
 fn a_report_in_which_any_operation_fails_leaves_the_old_one_or_the_new_one() {
-    let run = Run::of(&["report", "-q", "-o"]);
+    let run = Run::of(&["report", "-q", "--folder"]);
     assert_eq!(run.new.len(), 1);
     assert_replaced(&run.fail_each(Some(&run.old())), 1, 1);
 }
@@ -209,7 +209,7 @@ fn a_report_in_which_any_operation_fails_leaves_the_old_one_or_the_new_one() {
 /// One operation of every kind, each on another figure and the last on the last: all of them take minutes.
 #[test]
 fn figures_of_which_one_fails_leave_each_old_or_new() {
-    let run = Run::of(&["figures", "-q", "-o"]);
+    let run = Run::of(&["figures", "-q", "--folder"]);
     let (old, count) = (run.old(), run.new.len());
     let steps = ["open", "create", "write", "sync", "rename", "sync"];
     for (step, kind) in steps.into_iter().enumerate() {
@@ -223,7 +223,7 @@ fn figures_of_which_one_fails_leave_each_old_or_new() {
 #[test]
 #[ignore = "minutes: every operation on some twenty figures"]
 fn figures_in_which_any_operation_fails_are_each_old_or_new() {
-    let run = Run::of(&["figures", "-q", "-o"]);
+    let run = Run::of(&["figures", "-q", "--folder"]);
     let count = run.new.len();
     assert_replaced(&run.fail_each(Some(&run.old())), count, 1);
     assert_replaced(&run.fail_each(None), count, 2);
