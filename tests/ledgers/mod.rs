@@ -11,6 +11,7 @@ pub mod package;
 pub mod readme;
 pub mod rooms;
 pub mod routes;
+pub mod suite;
 pub mod tables;
 pub mod tour;
 pub mod tour_figures;
