@@ -159,17 +159,7 @@ impl LoadedJob {
     /// [`FileError::File`] when one of them cannot be read any more.
     pub fn identity(&self, adds: &str) -> Result<u64, FileError> {
         let job = &self.job;
-        let model = [
-            &job.model.deck,
-            &job.model.stiffness,
-            &job.model.mass,
-            &job.model.rows,
-        ];
-        let named = model
-            .into_iter()
-            .chain(job.parameters.iter().map(|rule| &rule.matrix))
-            .flatten();
-        let named = named.chain([&job.test.file]).map(|file| job.beside(file));
+        let named = job.files().map(|file| job.beside(file));
         let program = format!("{} {adds}", env!("CARGO_PKG_VERSION"));
         let mut identity = digest(program.as_bytes(), 0);
         for file in named.chain([job.path.clone()]) {

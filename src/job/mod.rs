@@ -53,6 +53,9 @@ pub const TEST_TEMPLATE: &str = include_str!("template.csv");
 pub struct Job {
     #[serde(skip)]
     path: PathBuf,
+    /// Its file's own text.
+    #[serde(skip)]
+    pub text: String,
     /// What reports call the structure; the file's name if not given.
     pub title: Option<String>,
     model: ModelFiles,
@@ -181,6 +184,16 @@ pub enum Method {
     GaussNewton,
 }
 
+impl Method {
+    /// What a job calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Paper => "paper",
+            Self::GaussNewton => "gauss_newton",
+        }
+    }
+}
+
 /// Most numbers in one list, against a slip of the finger that fills the memory.
 const MOST_LABELS: usize = 10_000_000;
 
@@ -195,6 +208,7 @@ pub fn read(path: &Path) -> Result<Job, FileError> {
     refuse_removed(path, &text)?;
     let job = toml::from_str(&text).map(|job| Job {
         path: path.to_owned(),
+        text: text.clone().into_owned(),
         ..job
     });
     job.map_err(|error| {
@@ -213,6 +227,19 @@ impl Job {
         self.path
             .parent()
             .map_or_else(|| named.to_owned(), |folder| folder.join(named))
+    }
+
+    /// The files it names: those of the model, then the test's.
+    pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        let model = [
+            &self.model.deck,
+            &self.model.stiffness,
+            &self.model.mass,
+            &self.model.rows,
+        ];
+        let matrices = self.parameters.iter().map(|rule| &rule.matrix);
+        let named = model.into_iter().chain(matrices).flatten();
+        named.chain([&self.test.file])
     }
 
     /// Whether it selects the test mode of this number.

@@ -11,7 +11,9 @@ use corfem::job::{LoadedJob, Method, TEMPLATE, TEST_TEMPLATE, Trust, run};
 use corfem::present::page::report_page;
 use corfem::present::report::Report;
 use corfem::present::tables::deck::not_read;
-use corfem::present::tables::job::{places_table, seen_table, suspects_table, trust_table};
+use corfem::present::tables::job::{
+    inputs_table, places_table, seen_table, suspects_table, trust_table,
+};
 use corfem::present::tables::report::{factor_table, history_table, paired_table};
 use corfem::present::{PresentError, json, render};
 use serde_json::json;
@@ -147,8 +149,17 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
     arguments.output.write(&tables, document)?;
     if let Some(folder) = &arguments.folder {
         let [trust, .., seen, _] = &tables;
-        let extra = [seen.clone(), places_table(&loaded, Some(&result))?];
-        let command = format!("corfem correlate {}", arguments.job.display());
+        let sensors = places_table(&loaded, Some(&result))?;
+        let extra = [seen.clone(), sensors, inputs_table(&loaded)?];
+        let mut command = format!("corfem correlate {}", arguments.job.display());
+        let starts = arguments.starts.map(|starts| format!(" --starts {starts}"));
+        let seed = arguments.seed.map(|seed| format!(" --seed {seed}"));
+        let accepted = arguments
+            .accept
+            .iter()
+            .map(|doubt| format!(" --accept {doubt}"));
+        command.extend(starts.into_iter().chain(seed).chain(accepted));
+        command += &format!(" --folder {}", folder.display());
         let identity = loaded.identity(&format!("{:?} {:?}", arguments.starts, arguments.seed))?;
         let run = format!(
             "correlate {}, inputs {identity:016x}",
@@ -157,7 +168,7 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
         let mut files = vec![
             (
                 "report.html".to_owned(),
-                report_page(&report, &extra, &command)?.into_bytes(),
+                report_page(&report, &extra, &command, &loaded.job.text)?.into_bytes(),
             ),
             (
                 "factors.csv".to_owned(),

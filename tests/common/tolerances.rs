@@ -57,6 +57,9 @@ pub const GOLDEN_GAGE: f64 = 1e-5;
 pub const GOLDEN_PERCENT: f64 = 1e-4;
 /// Numbers written for a reader: none has more than six digits, so that any other digit is another number.
 pub const GOLDEN_AS_WRITTEN: f64 = 1e-7;
+/// Numbers that the figure to play with solves in the page by Jacobi rotations beside the program's, of their size or of one: roots
+/// that span 4e4 keep eleven digits of the smallest, and errors are differences of those.
+pub const PLAYED: f64 = 1e-9;
 /// The fast forms beside the plain ones, relative to the norm of a matrix, a frequency or a shape: round-off of a structural
 /// stiffness whose condition is a million at most.
 pub const TWO_PROGRAMS: f64 = 1e-9;
@@ -121,9 +124,8 @@ pub const GOLDEN_ABSOLUTE_ROOT_PERCENT: f64 = 1e-12;
 /// Two update rules exact to 1e-13 in roots through the same two dozen iterations, each of which multiplies what
 /// differs; the same reason as `GOLDEN_RELATIVE`, on one machine.
 pub const SAME_HISTORY: f64 = 1e-6;
-/// A node line is a zero of displacements whose largest is one, linear on triangles: some ten roundings, times the length over
-/// which the smallest slope in the test passes from one corner to the next.
-pub const NODE_LINE: f64 = 1e-9;
+/// Displacements between sensors, of a largest of one: some ten roundings of bilinear or weighted means.
+pub const INTERPOLATED: f64 = 1e-12;
 /// Roots of a recursion that is accepted as settled: the largest change of its last order, 1e-6, a hundred times over.
 pub const SETTLED_ROOTS: f64 = 1e-4;
 /// Exponent of the entries of a factor by nested dissection, where cells are not powers of two and small parts are not cut: a

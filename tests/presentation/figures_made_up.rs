@@ -125,6 +125,8 @@ fn factors_with_bounds_deviations_and_remarks() {
         rows,
         limits,
         across: "factor".into(),
+        down: "parameter",
+        origin: 1.0,
         decimals: 2,
         published: "right",
     };

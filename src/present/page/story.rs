@@ -1,4 +1,4 @@
-//! What the page tells before its tables, in the words of `paper/report.md`: the method, every case in three figures.
+//! What the page tells before its tables, in the words of `paper/report.md`: every case with its figure, then the method.
 
 use super::html::{figure, figures, prose};
 use super::{Contents, Part, named};
@@ -32,7 +32,7 @@ fn part(text: &str, contents: &Contents) -> Option<Part> {
         let drawn = contents.figures.iter().find(|figure| figure.name == name)?;
         Some(figure(drawn, words.trim()))
     });
-    body += &figures("figures three", seen);
+    body += &figures("told", seen);
     Some(named(
         &format!("story-{}", short.to_lowercase().replace(' ', "-")),
         short,
