@@ -35,8 +35,6 @@ pub struct Contents<'a> {
     pub command: &'a str,
 }
 
-/// The case whose first pass can be played with.
-const PLAYED: usize = 2;
 const TITLE: &str = "The wing torque box, correlated";
 const LEAD: &str = "Element stiffnesses of a finite element model, corrected until its natural frequencies and mode shapes agree with \
     those of a ground vibration test.";
@@ -49,19 +47,11 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 pub fn page(contents: &Contents) -> Result<String, PresentError> {
     let answer = answer(contents)?;
     let mut parts = story(contents);
-<<<<<<< HEAD
     if let Some(shown) = contents.results.iter().find(|it| it.case.number == SHOWN) {
         let heading = format!("Case {SHOWN}, by hand");
         parts.insert(0, named("try", "Try it", &heading, play(shown)?));
     }
     let (mut story_html, appendix): (String, usize) = (
-=======
-    if let Some(played) = contents.results.iter().find(|it| it.case.number == PLAYED) {
-        let heading = format!("Case {PLAYED}, by hand");
-        parts.insert(0, named("try", "Try it", &heading, play(played)?));
-    }
-    let (story_html, appendix): (String, usize) = (
->>>>>>> next
         parts.iter().map(|(.., body)| body.as_str()).collect(),
         parts.len(),
     );
@@ -224,11 +214,11 @@ pub fn report_page(
         )
     };
     let class = if report.converged() {
-        "note"
+        ""
     } else {
-        "finding"
+        " class=\"finding\""
     };
-    let words = format!("<p class=\"{class}\">{}</p>\n", escaped(&report.words()));
+    let words = format!("<p{class}>{}</p>\n", escaped(&report.words()));
     let shown = ["frequencies", "factors"].map(|what| of(&[], &[what]));
     let answer = words + &format!("<div class=\"answer\">\n{}</div>\n", shown.concat());
     let trust = report.trust.as_ref().map(trust_table);
