@@ -92,17 +92,13 @@ fn letters_stay_on_the_page_off_each_other_and_legible() {
             .into_iter()
             .filter(|word| !word.text.is_empty())
             .collect();
-        // The large wing has a title, one kind of support and its axes, and no numbers.
-        assert!(
-            words.len()
-                > if figure.name == "wing_structure" {
-                    2
-                } else {
-                    10
-                },
-            "{}",
-            figure.name
-        );
+        // The large wing has a title, one kind of support and its axes, and no numbers; one mode may be all that differs.
+        let least = match &figure.name {
+            name if name == "wing_structure" => 2,
+            name if name.contains("mode_shapes") => 5,
+            _ => 10,
+        };
+        assert!(words.len() > least, "{}", figure.name);
         for (row, one) in words.iter().enumerate() {
             let [left, top, right, bottom] = one.bounds;
             // At 1280 px the page shows a figure as wide as it is, at the head of a report 592 px wide.

@@ -357,7 +357,8 @@ fn more_than_twelve_modes_are_drawn_in_several_figures() {
     let mut subject = chain("rod", &[0.9, 1.1, 0.95, 1.0], |row| {
         (Vector3::new(row as f64, 0.0, 0.0), Vector3::z())
     });
-    let places: Vec<usize> = (0..14).map(|mode| mode % 3).collect();
+    // Of three shapes at least one is farther off than their mean.
+    let places: Vec<usize> = (0..45).map(|mode| mode % 3).collect();
     subject.test = ModeSet::new(
         subject.test.omega_squared().select_rows(&places),
         subject.test.shapes().select_columns(&places),

@@ -36,7 +36,10 @@ pub fn report_figures(report: &Report) -> Result<Vec<Figure>, PresentError> {
     if !report.frame.is_empty() || report.sensors.iter().any(|sensor| sensor.place.is_some()) {
         let mut caption = "the structure".to_owned();
         for (is_drawn, words) in [
-            (!report.sensors.is_empty(), ", its sensors named"),
+            (
+                report.sensors.iter().any(|sensor| sensor.place.is_some()),
+                ", its sensors named",
+            ),
             (!report.supports.is_empty(), ", its supports black"),
             (
                 (1..=MOST_NUMBERS).contains(&report.grids.len()),
