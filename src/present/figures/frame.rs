@@ -167,7 +167,7 @@ impl Frame {
         moved: &[Vector3<f64>],
     ) -> Vec<(Vec<Vector3<f64>>, f64)> {
         // As many as a figure has room for.
-        let parts = (200.0 / self.panels.len() as f64)
+        let parts = (300.0 / self.panels.len() as f64)
             .sqrt()
             .round()
             .clamp(1.0, 6.0) as usize;
