@@ -2,7 +2,7 @@
 
 use crate::common::drawings::{size, written};
 use crate::common::golden::Numbers;
-use crate::presentation::figures::{all_figures, draw_all, figures};
+use crate::presentation::figures::{all_figures, draw_all, figures, job_figures};
 
 #[test]
 fn figures_of_a_run_in_the_order_of_the_report() {
@@ -85,7 +85,7 @@ fn figures_are_the_same_bytes_every_time() {
 #[test]
 fn letters_stay_on_the_page_off_each_other_and_legible() {
     let mut faults = Vec::new();
-    for figure in all_figures() {
+    for figure in all_figures().iter().chain(job_figures()) {
         let (width, height) = size(&figure.svg);
         assert_eq!(width, 760.0);
         let words: Vec<_> = written(&figure.svg)
@@ -95,7 +95,7 @@ fn letters_stay_on_the_page_off_each_other_and_legible() {
         // The large wing has a title, one kind of support and its axes, and no numbers; one mode may be all that differs.
         let least = match &figure.name {
             name if name == "wing_structure" => 2,
-            name if name.contains("mode_shapes") => 5,
+            name if name.contains("mode_shapes") || name.starts_with("job_") => 5,
             _ => 10,
         };
         assert!(words.len() > least, "{}", figure.name);
