@@ -114,7 +114,10 @@ pub fn check_job(
         let mut loaded = LoadedJob::new(path)?;
         loaded.accepted.clone_from(accept);
         let trust = Trust::before(&loaded)?;
-        let report = Report::from_job(&loaded, None)?;
+        let report = Report {
+            trust: Some(trust.clone()),
+            ..Report::from_job(&loaded, None)?
+        };
         let tables = [
             trust_table(&trust),
             places_table(&loaded, None)?,
@@ -172,12 +175,10 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
             .iter()
             .map(|doubt| format!(" --accept {doubt}"));
         command.extend(starts.into_iter().chain(seed).chain(accepted));
-        command += &format!(" --folder {}", folder.display());
+        // Any folder gets the same page.
+        command += " --folder FOLDER";
         let identity = loaded.identity(&format!("{:?} {:?}", arguments.starts, arguments.seed))?;
-        let run = format!(
-            "correlate {}, inputs {identity:016x}",
-            file_name(&arguments.job)
-        );
+        let run = format!("correlate {}, inputs {identity}", file_name(&arguments.job));
         let mut files = vec![
             (
                 "report.html".to_owned(),

@@ -58,6 +58,10 @@ case).
 
 Results go to standard output, progress to standard error. A signal that ends the program leaves no half-written file.";
 
+const JOB_HELP: &str = "\
+Ctrl-C lets the analysis under way end, which may take a minute in a large model, and keeps the best so far or the samples done; \
+a second one ends the program at once and leaves no half-written file.";
+
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Correlate the paper's cases: what became of all four, or every table of those that are named (3 to 8 and 13)
@@ -67,8 +71,10 @@ enum Command {
     /// Correlate Case 2 with fewer test and analysis modes (Tables 9 to 12), and show what truncation costs
     FewerModes(FewerModesArguments),
     /// Correct the model of your own structure: a job file names its deck or matrices and its ground vibration test
+    #[command(after_help = JOB_HELP)]
     Correlate(CorrelateArguments),
     /// Run a job many times with its test varied, and report how its factors scatter
+    #[command(after_help = JOB_HELP)]
     Study(StudyArguments),
     /// Write a job file or the table of a test that explains its entries, or a whole example that runs
     Init(InitArguments),

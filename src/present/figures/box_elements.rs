@@ -1,7 +1,6 @@
 //! The box taken apart, its elements numbered (Figure 3).
 
 use super::canvas::*;
-use super::cover_gages::shade;
 use super::view::{DEPTH_DRAWN, View};
 use crate::method::structure::{Element, ElementKind, Structure};
 use crate::present::table::Digits;

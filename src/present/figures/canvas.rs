@@ -5,7 +5,7 @@
 
 pub(super) use super::chart::{axes, chart, placed};
 pub(super) use super::colors::{
-    BLUE, GRAY, INK, ORANGE, PALE, SILVER, SKY, VERMILION, between, legible_on,
+    BLUE, GRAY, INK, ORANGE, PALE, SILVER, SKY, VERMILION, between, legible_on, shade,
 };
 pub(super) use crate::present::PresentError;
 use plotters::coord::Shift;

@@ -286,6 +286,14 @@ fn help_says_what_it_does_and_what_the_exit_status_means() {
         assert!(cases.contains(words), "{words}");
     }
     assert!(help.contains("Case 4 detected a modeling error"), "{help}");
+    for command in ["correlate", "study"] {
+        let help = text(&corfem(&[command, "--help"]).stdout);
+        let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            help.contains("a second one ends the program at once"),
+            "{help}"
+        );
+    }
 }
 
 #[test]
