@@ -14,6 +14,7 @@ mod model;
 pub mod nastran95;
 pub mod preflight;
 mod loaded;
+mod repeats;
 mod run;
 mod samples;
 mod sensors;
@@ -86,9 +87,10 @@ struct ModelFiles {
 }
 
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 struct TestFile {
-    file: PathBuf,
+    file: Option<PathBuf>,
+    repeats: Vec<PathBuf>,
     modes: Option<Vec<usize>>,
     partners: Option<Vec<usize>>,
 }
@@ -245,7 +247,7 @@ impl Job {
         ];
         let matrices = self.parameters.iter().map(|rule| &rule.matrix);
         let named = model.into_iter().chain(matrices).flatten();
-        named.chain([&self.test.file])
+        named.chain(&self.test.file).chain(&self.test.repeats)
     }
 
     /// Whether its file has this entry, such as `compare.seed`.

@@ -59,7 +59,7 @@ fn formulas_have_the_fonts_of_the_documentation() {
             .expect("a rule");
         rule.split([';', '}']).next().map(|it| it.trim().to_owned())
     };
-    let documentation = of(include_str!("../../katex-header.html"));
+    let documentation = of(include_str!("../../formulas-as-mathml.html"));
     assert_eq!(of(&html()), documentation);
     assert!(documentation.is_some_and(|fonts| fonts.contains("math")));
 }

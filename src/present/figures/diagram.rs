@@ -98,17 +98,19 @@ impl Diagram {
     {
         // Without the round-off of sums of decimal steps.
         let tick = |value: &f64| {
-            format!("{:.3e}", value)
-                .parse::<f64>()
-                .unwrap_or(*value)
-                .to_string()
+            let text = format!("{value:.3e}");
+            text.parse::<f64>().unwrap_or(*value).to_string()
+        };
+        let upright = |value: &f64| match value.abs().log10().round() as i32 {
+            power @ ..-3 if self.is_logarithmic => format!("10{}", raised(power)),
+            _ => tick(value),
         };
         axes(&mut chart)
             .disable_x_mesh()
             .x_labels(7)
             .y_labels(6)
             .x_label_formatter(&tick)
-            .y_label_formatter(&tick)
+            .y_label_formatter(&upright)
             .x_desc(self.labels[0])
             .draw()?;
         name_upright(
@@ -178,4 +180,15 @@ impl Diagram {
             Pen::solid(INK, 1.0),
         )
     }
+}
+
+/// A negative number as an exponent.
+fn raised(power: i32) -> String {
+    let digits = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let raise = |digit: char| {
+        digit
+            .to_digit(10)
+            .map_or('⁻', |digit| digits[digit as usize])
+    };
+    power.to_string().chars().map(raise).collect()
 }
