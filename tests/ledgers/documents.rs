@@ -7,7 +7,7 @@
 
 use crate::common::golden::Numbers;
 use crate::ledgers::tour_figures::figures;
-use crate::ledgers::{files_below, tables};
+use crate::ledgers::{files_below, specification, tables};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
@@ -35,6 +35,7 @@ const FIGURE: &str = "figure_";
 fn computed_blocks_are_what_the_program_computes() {
     let (start, end) = ("<!-- computed: ", "<!-- end -->");
     let mut blocks = tables::tables();
+    blocks.insert("specification".to_owned(), specification::page());
     blocks.extend(figures().map(|(number, sketch)| (format!("{FIGURE}{number}"), sketch.svg())));
     let (mut seen, mut wrong) = (BTreeSet::new(), Vec::new());
     for (document, text) in documents() {

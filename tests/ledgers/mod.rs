@@ -10,11 +10,13 @@ pub mod library;
 pub mod package;
 pub mod rooms;
 pub mod routes;
+pub mod specification;
 pub mod tables;
 pub mod tour;
 pub mod tour_figures;
 pub mod tour_figures_box;
 pub mod tour_program;
+pub mod wrong_forms;
 
 use std::fs;
 use std::path::{Path, PathBuf};
