@@ -181,14 +181,9 @@ impl LoadedJob {
         for file in named.chain([job.path.clone()]) {
             // A # may choose one matrix of the file.
             let text = file.to_string_lossy();
-            let of_matrix = |_| {
-                read_bytes(Path::new(
-                    text.rsplit_once('#').map_or(&*text, |(file, _)| file),
-                ))
-            };
-            let bytes = read_bytes(&file)
-                .or_else(of_matrix)
-                .map_err(FileError::of_file(&file, "read"))?;
+            let chosen = text.rsplit_once('#').filter(|_| !file.exists());
+            let path = chosen.map_or(&*file, |(file, _)| Path::new(file));
+            let bytes = read_bytes(path).map_err(FileError::of_file(path, "read"))?;
             add(&bytes);
         }
         let bytes = digest.finalize();

@@ -12,6 +12,7 @@ pub mod readme;
 pub mod rooms;
 pub mod routes;
 pub mod specification;
+pub mod suite;
 pub mod tables;
 pub mod tour;
 pub mod tour_figures;

@@ -1,9 +1,10 @@
 //! Many runs of a job: what is drawn, what a file of samples must be, and what its numbers come to.
 
+use crate::common::costly_config;
 use crate::common::jobs::{Files, STORIES, building, rods};
 use crate::common::tolerances::STANDARD_ERRORS;
 use corfem::files::error::FileError;
-use corfem::job::{Samples, Study, Vary};
+use corfem::job::{Samples, Study, Summary, Vary};
 use proptest::prelude::*;
 use std::fs;
 use std::io::Write;
@@ -29,15 +30,13 @@ impl Place {
     fn study(&self, seed: u64, vary: &[Vary]) -> Study {
         Study::new(&self.job, seed, vary, &[]).unwrap_or_else(|error| panic!("{error}"))
     }
+}
 
-    fn read(&self, study: &Study, text: &[u8]) -> Result<Samples, FileError> {
-        let (mut file, path) = tempfile::NamedTempFile::new_in(&self.folder)
-            .expect("a file")
-            .keep()
-            .expect("kept");
-        file.write_all(text).expect("written");
-        Samples::read(&path, study)
-    }
+/// The statistics of the samples of a text up to number `last`.
+fn summary(study: &Study, text: &str, last: u64) -> Result<Summary, FileError> {
+    let mut file = tempfile::NamedTempFile::new().expect("a file");
+    file.write_all(text.as_bytes()).expect("written");
+    Samples::read(file.path(), study)?.summary(study, last)
 }
 
 /// The lines of the first samples.
@@ -55,20 +54,19 @@ fn factors(line: &str) -> Vec<f64> {
         .collect()
 }
 
-/// The rods with their own job of Gauss-Newton steps, and six samples of it.
-fn rod_study() -> &'static (Place, Study, Vec<String>) {
-    static STUDY: OnceLock<(Place, Study, Vec<String>)> = OnceLock::new();
+/// A study of the rods with their own job of Gauss-Newton steps, and six samples of it.
+fn rod_study() -> &'static (Study, Vec<String>) {
+    static STUDY: OnceLock<(Study, Vec<String>)> = OnceLock::new();
     STUDY.get_or_init(|| {
-        let place = Place::of(rods());
-        let study = place.study(7, &[Vary::Noise]);
+        let study = Place::of(rods()).study(7, &[Vary::Noise]);
         let lines = lines(&study, 6);
-        (place, study, lines)
+        (study, lines)
     })
 }
 
 #[test]
 fn a_sample_is_the_same_whatever_ran_before_and_another_than_its_neighbor() {
-    let (place, study, lines) = rod_study();
+    let (place, (study, lines)) = (Place::of(rods()), rod_study());
     let again = place.study(7, &[Vary::Noise, Vary::Noise]);
     for sample in [5, 2, 6] {
         assert_eq!(
@@ -209,11 +207,7 @@ fn factors_scatter_as_one_correlation_says_they_do() {
     let study = place.study(3, &[Vary::Noise]);
     let found = corfem::job::run(&study.loaded, |_| {}, || true).expect("it runs");
     let text = lines(&study, COUNT).concat();
-    let summary = place
-        .read(&study, text.as_bytes())
-        .expect("it reads")
-        .summary(&study, COUNT)
-        .expect("a summary");
+    let summary = summary(&study, &text, COUNT).expect("a summary");
     assert_eq!(
         (summary.within + summary.outside, summary.failed.len()),
         (COUNT as usize, 0)
@@ -234,7 +228,7 @@ fn factors_scatter_as_one_correlation_says_they_do() {
 /// Quantiles and bars of a few numbers, by hand.
 #[test]
 fn a_summary_counts_what_its_file_has_up_to_the_last_sample() {
-    let (place, study, _) = rod_study();
+    let (study, _) = rod_study();
     let line = |sample: u64, is_within: bool, factor: f64| {
         format!(
             "{sample},cap,{is_within},0.5,3,{factor},1,{}\n",
@@ -250,17 +244,13 @@ fn a_summary_counts_what_its_file_has_up_to_the_last_sample() {
         line(2, true, 4.0),
         line(9, true, 99.0),
     ];
-    let samples = place
-        .read(study, text.concat().as_bytes())
-        .expect("it reads");
-    assert!(samples.contains(9) && !samples.contains(6));
-    let summary = samples.summary(study, 8).expect("a summary");
+    let found = summary(study, &text.concat(), 8).expect("a summary");
     assert_eq!(
-        (summary.within, summary.outside, &summary.failed[..]),
+        (found.within, found.outside, &found.failed[..]),
         (3, 1, &[4][..])
     );
-    let [(a, Some(first)), (b, Some(second))] = &summary.spreads[..] else {
-        panic!("{summary:?}")
+    let [(a, Some(first)), (b, Some(second))] = &found.spreads[..] else {
+        panic!("{found:?}")
     };
     assert_eq!((&a[..], &b[..]), ("a", "b"));
     assert_eq!(
@@ -278,11 +268,7 @@ fn a_summary_counts_what_its_file_has_up_to_the_last_sample() {
         (second.deviation, second.bars[0], second.quantiles),
         (0.0, 4, [1.0; 3])
     );
-    let none = place
-        .read(study, b"")
-        .expect("it reads")
-        .summary(study, 8)
-        .expect("a summary");
+    let none = summary(study, "", 8).expect("a summary");
     assert_eq!(none.spreads[0].1, None);
 }
 
@@ -293,8 +279,7 @@ fn what_does_not_belong_to_a_study_is_refused_by_its_line() {
     let lines = lines(study, 2);
     let good = study.header() + &lines[0];
     let refused = |text: String, expected: &str| {
-        let error = place
-            .read(study, (good.clone() + &text).as_bytes())
+        let error = summary(study, &(good.clone() + &text), 2)
             .expect_err(&text)
             .to_string();
         assert!(
@@ -375,16 +360,13 @@ fn a_sample_that_fails_says_why_and_counts_as_done() {
         );
     }
     let text: String = failed.iter().map(|(line, _)| line.as_str()).collect();
-    let samples = place.read(&study, text.as_bytes()).expect("it reads");
-    assert_eq!(
-        samples.summary(&study, 10).expect("a summary").failed.len(),
-        failed.len()
-    );
+    let summary = summary(&study, &text, 10).expect("a summary");
+    assert_eq!(summary.failed.len(), failed.len());
 }
 
 #[test]
 fn a_request_to_stop_leaves_no_line() {
-    let (_, study, _) = rod_study();
+    let (study, _) = rod_study();
     assert!(matches!(
         study.run(1, || false),
         Err(FileError::Interrupted)
@@ -414,12 +396,12 @@ fn no_noisy_test_of_the_building_is_stuck_at_the_start() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(costly_config())]
 
     /// Cut anywhere and gone on with, a file has every sample once, and the same summary.
     #[test]
     fn a_file_cut_at_any_byte_is_gone_on_with(share in 0.0..1.0_f64, order in Just((0..6).collect::<Vec<usize>>()).prop_shuffle()) {
-        let (place, study, lines) = rod_study();
+        let (study, lines) = rod_study();
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("samples.csv");
         let whole = study.header() + &order.iter().map(|&row| lines[row].as_str()).collect::<String>();
@@ -436,6 +418,5 @@ proptest! {
         fs::write(&path, text).expect("written");
         let samples = Samples::read(&path, study).expect("it reads");
         prop_assert_eq!(samples.summary(study, 6).expect("a summary"), expected);
-        prop_assert!(place.job.exists());
     }
 }

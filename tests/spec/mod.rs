@@ -77,6 +77,7 @@ pub mod s5_weighted;
 pub mod s5_weighted_components;
 pub mod s5_weighted_coverage;
 pub mod s5_weighted_masses;
+pub mod s5_weighted_metamorphic;
 pub mod s5_weighted_steps;
 pub mod sA_eq_01_to_04_assembly;
 pub mod sA_eq_05_to_08_condensation;

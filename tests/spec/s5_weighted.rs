@@ -414,6 +414,16 @@ fn modes_that_change_places_are_followed_and_recorded() {
     assert!(iteration == 1 || !order(&found.iterations[iteration - 2].factors));
 }
 
+/// No effect at all is no condition of a million, and a column exactly as long as one over the prior's deviation says no more than
+/// the prior.
+#[test]
+fn data_that_say_nothing_or_as_much_as_the_prior_are_told_so() {
+    let nothing = identifiability(&DMatrix::zeros(3, 2), 1.0).unwrap();
+    assert_eq!((nothing.condition, nothing.subset), (f64::INFINITY, vec![]));
+    let as_much = identifiability(&DMatrix::from_diagonal_element(2, 2, 2.0), 0.5).unwrap();
+    assert_eq!((as_much.condition, as_much.subset), (1.0, vec![]));
+}
+
 #[test]
 fn the_data_see_what_the_columns_say() {
     // Two separate parameters, one parallel to the first, one without effect.
