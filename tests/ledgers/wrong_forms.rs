@@ -341,14 +341,7 @@ fn copy(forms: &[Form], folder: &Path) {
         write(&folder.join(path), text.as_bytes());
     }
     let mut files = vec![root().join("README.md")];
-    for part in [
-        "src",
-        "tests/common",
-        "tests/spec",
-        "golden",
-        "paper",
-        "proptest-regressions",
-    ] {
+    for part in ["src", "tests/common", "tests/spec", "golden", "paper"] {
         files.extend(files_below(&root().join(part)));
     }
     // Failures that properties of an earlier run have kept are those of its wrong forms.
