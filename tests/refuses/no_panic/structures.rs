@@ -1,6 +1,7 @@
 //! Elements, structures and models.
 
 use super::{Entry, entries, modes};
+use crate::common::draws::Draws;
 use crate::common::whole_models::sparse;
 use corfem::method::appendix_a;
 use corfem::method::assembly::{dense_stiffness, element_matrices, lumped_mass};
@@ -126,6 +127,13 @@ pub const STRUCTURES: &[Entry] = &[
         let (structure, grid, direction) = (d.structure()?, d.size(), d.size());
         structure.free_dof_index(grid, direction);
         Ok(Vec::new())
+    }),
+    // A weight that is no number is refused by the model that T becomes part of.
+    ("Structure::load_distribution", |d| {
+        let (structure, count) = (d.structure()?, d.size());
+        let row = |d: &mut Draws| (d.size(), ['x', 'y', 'z', 'w'][d.below(4)], d.number());
+        let points: Vec<_> = (0..count).map(|_| vec![row(d), row(d)]).collect();
+        structure.load_distribution(&points).map(|_| Vec::new())
     }),
     ("Structure::corners", |d| {
         let (structure, other) = (d.structure()?, d.structure()?);
