@@ -19,6 +19,7 @@ use crate::method::verdict::Verdict;
 use crate::sparse::whole_modes::WholeModes;
 use crate::torque_box::CaseResult;
 use crate::torque_box::wing_box::TEST_GAGE;
+use crate::weighted::starts::Minimum;
 use nalgebra::DMatrix;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -79,6 +80,7 @@ struct ReportValue<'a> {
     factors: &'a [f64],
     standard_deviations: &'a Option<Vec<Option<f64>>>,
     misfit: &'a Option<Misfit>,
+    minima: &'a [Minimum],
     at_bound: Vec<bool>,
     best_pass: Option<usize>,
     test_mode_numbers: &'a [usize],
@@ -155,6 +157,7 @@ pub fn report(report: &Report) -> Result<Value, PresentError> {
         factors: &factors,
         standard_deviations: &report.deviations,
         misfit: &report.misfit,
+        minima: &report.minima,
         at_bound: factors.iter().enumerate().map(at_bound).collect(),
         best_pass: report.best.map(|best| best + 1),
         test_mode_numbers: &report.mode_numbers,

@@ -8,3 +8,4 @@ pub mod identifiability;
 pub mod next_step;
 pub mod noise;
 pub mod residuals;
+pub mod starts;

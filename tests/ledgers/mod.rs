@@ -8,6 +8,7 @@ pub mod errata;
 pub mod formulas;
 pub mod library;
 pub mod package;
+pub mod readme;
 pub mod rooms;
 pub mod routes;
 pub mod suite;

@@ -273,6 +273,7 @@ fn the_building_is_found_story_by_story_from_five_floors() {
 fn the_wing_is_found_from_ten_modes_at_its_upper_grids() {
     check_files("wing", &delta_wing());
     let (prepared, found) = finished("wing");
+    assert!(found.analyses <= 4, "{}", found.analyses);
     assert!(prepared.placed.iter().all(|sensor| {
         sensor
             .distance

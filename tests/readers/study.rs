@@ -373,6 +373,28 @@ fn a_request_to_stop_leaves_no_line() {
     ));
 }
 
+/// None of 200 noisy tests of the building leaves the factors where they began.
+#[test]
+fn no_noisy_test_of_the_building_is_stuck_at_the_start() {
+    let path =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/jobs/building/job.toml");
+    let study = Study::new(&path, 27, &[Vary::Noise], &[]).expect("a study");
+    for sample in 0..200 {
+        let (line, error) = study.run(sample, || true).expect("it goes on");
+        assert!(error.is_none(), "{line} {error:?}");
+        let cells: Vec<&str> = line.split(',').collect();
+        assert_ne!(cells[1], "nothing", "{line}");
+        let analyses: usize = cells[4].parse().expect("a count");
+        let factors = cells[5..15]
+            .iter()
+            .map(|cell| cell.parse::<f64>().expect("a factor"));
+        assert!(
+            analyses > 2 && factors.clone().all(|factor| factor != 1.0),
+            "{line}"
+        );
+    }
+}
+
 proptest! {
     #![proptest_config(costly_config())]
 

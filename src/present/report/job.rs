@@ -88,6 +88,10 @@ impl Report {
         Ok(Self {
             deviations: Some(intervals.zip(&result.factors).map(deviation).collect()),
             misfit: Some(misfit),
+            minima: match &result.history {
+                History::GaussNewton(Some((_, minima))) => minima.clone(),
+                _ => Vec::new(),
+            },
             moved: moved(loaded, result),
             verdict: Some(result.verdict.clone()),
             trust: Some(result.trust.clone()),

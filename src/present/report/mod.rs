@@ -17,6 +17,7 @@ use crate::method::structure::Structure;
 use crate::method::verdict::Verdict;
 use crate::present::verdict::verdict_in_words;
 use crate::weighted::close_modes::turned;
+use crate::weighted::starts::Minimum;
 use nalgebra::{DMatrix, Vector3};
 
 /// A row of the shapes.
@@ -69,6 +70,8 @@ pub struct Report {
     pub deviations: Option<Vec<Option<f64>>>,
     /// How a job's residuals at its end are to the noise.
     pub misfit: Option<Misfit>,
+    /// The minima that noise allows, of several starts.
+    pub minima: Vec<Minimum>,
     /// Factors that make the model right, where they are known.
     pub truth: Vec<f64>,
     /// Test modes, sensors × modes.
@@ -181,6 +184,7 @@ impl Report {
             ranges: vec![None; parameters.len()],
             deviations: None,
             misfit: None,
+            minima: Vec::new(),
             truth: Vec::new(),
             test: test.clone(),
             mode_numbers: (1..=test.len()).collect(),
