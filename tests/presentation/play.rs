@@ -8,7 +8,7 @@ use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::step::Accumulation;
 use corfem::present::page::play;
 use serde_json::{Value, json};
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 fn html() -> String {
     play(&results()[1]).expect("a figure")
