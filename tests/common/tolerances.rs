@@ -312,3 +312,10 @@ pub const EXPECTED_GRADIENT: f64 = 1e-8;
 pub const DRAWN_UNIT: f64 = 1.001;
 /// Roots of a pencil against a dense decomposition, relative to the root; the decomposition itself rounds at a part of the largest.
 pub const CLUSTERED_ROOT: f64 = 1e-7;
+/// The least part of a strategy's draws that reach what its law is about.
+pub const LEAST_REACHED: f64 = 0.2;
+/// A change of the error sum by 0.1 % of a parameter to first order, beside that of exact modes and over 0.001, where roots are 9 % apart
+/// and more: 0.005 at worst. With the pairs of another state it is off by hundreds.
+pub const SECOND_ORDER_CHANGE: f64 = 0.02;
+/// Where Recursive 1 is far from its start and has settled to a millionth of its roots, which err by the square of what shapes do.
+pub const FAR_RECURSION: f64 = 1e-3;

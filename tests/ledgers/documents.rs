@@ -8,7 +8,7 @@
 use crate::common::golden::Numbers;
 use crate::ledgers::counted_figures::counted_figures;
 use crate::ledgers::tour_figures::{figures, pictures};
-use crate::ledgers::{files_below, tables};
+use crate::ledgers::{files_below, specification, tables};
 use corfem::present::figures::diagram::Diagram;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -38,6 +38,7 @@ const PICTURE: &str = "picture_";
 fn computed_blocks_are_what_the_program_computes() {
     let (start, end) = ("<!-- computed: ", "<!-- end -->");
     let mut blocks = tables::tables();
+    blocks.insert("specification".to_owned(), specification::page());
     let svg = |diagram: Diagram| diagram.svg().expect("it can be drawn");
     let drawn = figures().into_iter().chain(counted_figures());
     blocks.extend(drawn.map(|(name, diagram)| (format!("{FIGURE}{name}"), svg(diagram))));
