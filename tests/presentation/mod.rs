@@ -3,6 +3,7 @@
 pub mod cost_tables;
 pub mod deck_tables;
 pub mod delta_wing_report;
+pub mod diagram;
 pub mod figures;
 pub mod figures_axes;
 pub mod figures_box;
