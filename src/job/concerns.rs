@@ -60,6 +60,18 @@ impl LoadedJob {
                 ),
             ));
         }
+        let own = self.own_weights();
+        let divides = |weight: f64| ![0.0, 1.0].contains(&weight);
+        if self.job.compare.method == Method::GaussNewton
+            && own
+                .iter()
+                .any(|own| divides(own.frequency) || divides(own.shape))
+        {
+            all.push(Concern::remark(
+                "own-weights",
+                "The job's weights count as dividing the standard deviations: chi-squared and intervals hold for deviations so divided.",
+            ));
+        }
         all.extend(self.part_concerns()?);
         for (mode, phase) in self.data.phase_collinearity.iter().enumerate() {
             if *phase < COLLINEAR {

@@ -1,11 +1,13 @@
 //! What lowers the trust in a job's result, collected in one place.
 
-use super::LoadedJob;
 use super::loaded::FLOOR;
+use super::{LoadedJob, Method};
 use crate::files::deck::{BulkData, Reason, Unread};
 use crate::files::error::FileError;
+use crate::method::outer_loop::Settings;
 use crate::method::verdict::Verdict;
 use crate::weighted::identifiability::Identifiability;
+use crate::weighted::misfit::Misfit;
 use crate::weighted::residuals::DEVIATIONS;
 use serde::Serialize;
 
@@ -55,6 +57,8 @@ pub struct Trust {
     pub not_selected: Vec<usize>,
     /// Parameters that the test hardly sees.
     pub blind: Vec<String>,
+    /// Parameters of which the prior says more than the test.
+    pub mostly_prior: Vec<String>,
     /// Groups of parameters that the test cannot tell apart.
     pub parallel: Vec<Vec<String>>,
     /// Parameters at an end of their range.
@@ -142,6 +146,9 @@ impl Trust {
         let cards = loaded.source.deck.iter().flat_map(|(_, deck)| &deck.unread);
         let cards = cards.filter(|card| card.reason != Reason::WithoutPart);
         let sensors = loaded.data.sensors.len() - loaded.placed.len();
+        let job = &loaded.job;
+        let is_papers =
+            job.compare.method == Method::GaussNewton && job.correlation != Settings::default();
         Ok(Self {
             concerns,
             not_compared: not_compared(&loaded.unpaired),
@@ -152,6 +159,7 @@ impl Trust {
                 .filter(|mode| !loaded.job.selects(*mode))
                 .collect(),
             blind: Vec::new(),
+            mostly_prior: Vec::new(),
             parallel: Vec::new(),
             at_bound: Vec::new(),
             assumed: assumed
@@ -162,6 +170,7 @@ impl Trust {
             ignored: cards
                 .map(Unread::place)
                 .chain((sensors > 0).then(|| format!("{sensors} of the test's sensors")))
+                .chain(is_papers.then(|| "[correlation], which is of method \"paper\"".to_owned()))
                 .collect(),
             analysis_modes: loaded.analysis_modes,
             rigid_body_modes,
@@ -176,15 +185,21 @@ impl Trust {
         unpaired: &[(usize, f64)],
         verdict: &Verdict,
         seen: &Identifiability,
+        misfit: &Misfit,
     ) -> Self {
+        let chi_squared = Concern::remark("chi-squared", misfit.in_numbers());
         let names: Vec<&str> = loaded.parameter_names().collect();
         let named = |places: &[usize]| places.iter().map(|&e| names[e].to_owned()).collect();
         let mut blind = [&seen.blind[..], &verdict.unseen].concat();
         blind.sort_unstable();
         blind.dedup();
+        let all = 0..names.len();
+        let mostly_prior: Vec<usize> = all.filter(|&e| seen.is_mostly_prior(e)).collect();
         let groups = seen.parallel_groups();
         Self {
+            concerns: [vec![chi_squared], self.concerns].concat(),
             blind: named(&blind),
+            mostly_prior: named(&mostly_prior),
             parallel: groups.iter().map(|group| named(group)).collect(),
             at_bound: named(&verdict.at_bound),
             not_compared: not_compared(unpaired),
@@ -259,6 +274,14 @@ impl Trust {
                 format!(
                     "Hardly seen by the test, and so not to be trusted: {}.",
                     join(&self.blind)
+                ),
+            ),
+            remark(
+                !self.mostly_prior.is_empty(),
+                "mostly-prior",
+                format!(
+                    "Known more from the prior than from the test: {}.",
+                    join(&self.mostly_prior)
                 ),
             ),
             remark(

@@ -272,20 +272,30 @@ fn changed(name: &str, old: &str, new: &str) -> (tempfile::TempDir, PathBuf) {
     (folder, path)
 }
 
+/// The paper's rule by the tolerance, weighted steps by the noise: a building whose first story may not change explains nothing.
 #[test]
-fn a_job_outside_tolerance_is_exit_status_3_with_its_verdict() {
-    let (_folder, job) = changed(
-        "building",
-        "error_sum_tolerance = 0.002",
-        "error_sum_tolerance = 1e-9",
-    );
-    let output = correlate(&job, &[]);
-    assert_eq!(output.status.code(), Some(3));
-    assert!(
-        unbroken(&text(&output.stdout)).contains("Outside tolerance: error sum"),
-        "{}",
-        text(&output.stdout)
-    );
+fn a_job_outside_what_judges_it_is_exit_status_3_with_its_verdict() {
+    let first = "[[parameter]]\nname = \"story 1\"\nmatrix = \"story_1.mtx\"\n";
+    let paper =
+        "analysis_modes = 10\nmethod = \"paper\"\n[correlation]\nerror_sum_tolerance = 1e-9\n";
+    for (old, new, says) in [
+        (
+            "analysis_modes = 10\n",
+            paper,
+            "Outside tolerance: error sum",
+        ),
+        (
+            first,
+            "",
+            "The model cannot explain this test: residuals are ",
+        ),
+    ] {
+        let (_folder, job) = changed("building", old, new);
+        let output = correlate(&job, &[]);
+        assert_eq!(output.status.code(), Some(3));
+        let words = unbroken(&text(&output.stdout));
+        assert!(words.contains(says), "{words}");
+    }
 }
 
 #[test]

@@ -28,6 +28,7 @@ fn full() -> Trust {
         blind: vec!["wall".to_owned()],
         parallel: vec![vec!["spar".to_owned(), "rib".to_owned()]],
         at_bound: vec!["door".to_owned()],
+        mostly_prior: vec!["rib".to_owned()],
         assumed: vec!["2 % of shapes".to_owned()],
         ignored: vec!["ASET (line 3, 1 card)".to_owned()],
         analysis_modes: 11,
@@ -45,7 +46,7 @@ fn unbroken(text: &str) -> String {
 #[test]
 fn every_field_of_the_account_of_trust_is_said() {
     type Emptied = (&'static str, fn(&mut Trust));
-    let emptied: [Emptied; 14] = [
+    let emptied: [Emptied; 15] = [
         ("concerns", |trust| trust.concerns.clear()),
         ("not_compared", |trust| trust.not_compared.clear()),
         ("undecided", |trust| trust.undecided.clear()),
@@ -57,6 +58,7 @@ fn every_field_of_the_account_of_trust_is_said() {
         ("at_bound", |trust| trust.at_bound.clear()),
         ("assumed", |trust| trust.assumed.clear()),
         ("ignored", |trust| trust.ignored.clear()),
+        ("mostly_prior", |trust| trust.mostly_prior = Vec::new()),
         ("analysis_modes", |trust| trust.analysis_modes = 12),
         ("rigid_body_modes", |trust| trust.rigid_body_modes = 0),
         ("mass_and_center", |trust| trust.mass_and_center = None),
