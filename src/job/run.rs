@@ -217,7 +217,11 @@ pub fn run(
         let (model, factors) = (&result.last, &result.factors);
         let settings = loaded.weighted_settings();
         let widening = result.misfit.widening();
-        result.intervals = intervals(model, factors, &ranges, &weights, &settings, widening)?;
+        let follow = |at: &[f64]| {
+            let change: Vec<f64> = at.iter().zip(factors).map(|(at, from)| at / from).collect();
+            model.followed(&change)
+        };
+        result.intervals = intervals(&follow, factors, &ranges, &weights, &settings, widening)?;
     }
     Ok(result)
 }

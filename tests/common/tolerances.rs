@@ -249,6 +249,9 @@ pub const COVERAGE: f64 = 0.02;
 pub const LEAST_PARAMETER_COVERAGE: f64 = 0.90;
 /// Coverage over three hundred tests in a golden, in percent: one at an interval's end may fall on its other side elsewhere.
 pub const GOLDEN_COVERAGE: f64 = 0.34;
+/// Root of twice the rise of the objective at the end of an interval: within two percent of 1.96 by a lowest objective that is itself within
+/// half the square of a hundredth, beside one found ten times closer.
+pub const END_OF_INTERVAL: f64 = 0.03;
 /// Coverage in four tests, over a dozen parameters: their errors are correlated, so that it scatters by many percent.
 pub const FEW_COVERAGE: f64 = 0.75;
 /// A factor found on a grid refined to 1 %: a step of it, and the evidence that it leaves.

@@ -174,9 +174,10 @@ fn of_known(known: Known) -> Subject {
             let misfit = Misfit::of(&last, &weights, &vec![1.0; count], &[])?;
             let widening = misfit.widening();
             let is_optimum = found.stop == WeightedStop::Gradient;
+            // Condensed, so that no basis of another model tells enough.
             let intervals = match is_optimum && times == 1.0 {
                 true => intervals(
-                    &last,
+                    &analyze,
                     &found.factors,
                     &ranges,
                     &weights,
@@ -376,9 +377,12 @@ fn subjects() -> Result<Vec<Subject>, Box<dyn Error>> {
 /// Those of the structures and their correlations.
 pub fn all_coverages(seeds: RangeInclusive<u64>) -> Result<Vec<Coverage>, Box<dyn Error>> {
     let all = subjects()?;
-    all.iter()
-        .map(|subject| coverage(subject, seeds.clone()))
-        .collect()
+    let counted = |subject: &Subject| {
+        let of = coverage(subject, seeds.clone())?;
+        eprintln!("{of:?}");
+        Ok(of)
+    };
+    all.iter().map(counted).collect()
 }
 
 /// How often 95 % intervals hold the truth: a line for each structure, then a table of each one's parameters.

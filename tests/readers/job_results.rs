@@ -96,6 +96,59 @@ fn no_interval_stands_at_a_bound() {
     assert_eq!(intervals(&found), [None]);
 }
 
+/// A prior of a millionth leaves its factor at one and keeps all of its variance; the others have the job's, and these the test decides.
+#[test]
+fn a_prior_is_the_parameters_own_or_that_of_all() {
+    let files = with(rods(), "job.toml", B, EACH);
+    let of_all = "[compare]\nprior_deviation = 0.5";
+    let files = with(files, "job.toml", "[compare]", of_all);
+    let found = ran(&with(
+        files,
+        "job.toml",
+        A,
+        "elements = [1]\nprior_deviation = 1e-6",
+    ));
+    assert_eq!(found.loaded.source.priors, [1e-6, 0.5, 0.5]);
+    let seen = &found.seen[1];
+    assert!((found.factors[0] - 1.0).abs() < 1e-6 && seen.learned[0] < 1e-3);
+    for e in [1, 2] {
+        let kept = (seen.deviations[e] / 0.5).powi(2);
+        assert!((seen.learned[e] - (1.0 - kept)).abs() < ROUND_OFF && seen.learned[e] > 0.9);
+    }
+    let remarks = found.trust.all().into_iter().map(|concern| concern.words);
+    let said = "Known more from the prior than from the test: a.";
+    assert!(remarks.into_iter().any(|words| words == said));
+    assert!(found.intervals[0].is_none());
+}
+
+/// What is weighed otherwise than by its deviation is said, and an entry that only the other method reads is not passed over.
+#[test]
+fn own_weights_and_the_papers_settings_are_said() {
+    let words = |entries: &str| -> String {
+        let files = with(rods(), "job.toml", "[compare]", entries);
+        let all = ran(&files).trust.all().into_iter();
+        all.map(|concern| concern.words).collect()
+    };
+    for (entries, divides, unused) in [
+        ("[compare]", false, false),
+        ("[compare]\nshape_weights = [1, 0, 1]", false, false),
+        ("[compare]\nshape_weights = [1, 2, 1]", true, false),
+        ("[correlation]\nmost_passes = 3\n[compare]", false, true),
+    ] {
+        let words = words(entries);
+        assert_eq!(
+            words.contains("weights count as dividing"),
+            divides,
+            "{words}"
+        );
+        assert_eq!(
+            words.contains("[correlation], which is of"),
+            unused,
+            "{words}"
+        );
+    }
+}
+
 /// One factor for rods that are 0.8 and 1.1 of the model's: no factor explains the test.
 #[test]
 fn an_interval_is_as_much_wider_as_the_residuals_exceed_the_noise() {
