@@ -59,7 +59,8 @@
 //! Numbers in parentheses such as (13) or (C.22) are the paper's equations. $K$ is stiffness, $M$ mass, $V$ mode
 //! shapes with $V^t M V = I$, $\lambda = 1/\omega^2$ the root of Appendix C, $\beta = V^t \Delta K V$.
 //! `paper/errata.md` lists where print or scan is wrong, `paper/interpretation.md` where the text leaves a choice.
-
+//!
+#![doc = include_str!("../paper/library.md")]
 #![deny(missing_docs)]
 #![forbid(unsafe_code)]
 
@@ -74,7 +75,8 @@ pub mod job;
 pub mod present;
 pub mod tour;
 
-/// The matrices and vectors of this crate's interface, so that a user needs no version of their own.
+/// The matrices and vectors of this crate's interface, so that a user needs no version of their own. `use corfem::nalgebra;` makes
+/// the paths resolve that macros such as `dvector!` expand to.
 pub use nalgebra;
 
 /// The README's code, compiled and run with the documentation tests.

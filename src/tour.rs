@@ -32,6 +32,7 @@ pub mod chapter_04_step {
 
 pub mod chapter_05_inner_loop {
     #![doc = include_str!("../paper/tour/05_inner_loop.md")]
+    #![doc = include_str!("../paper/tour/05_play.html")]
 }
 
 pub mod chapter_06_condensation {

@@ -164,6 +164,13 @@ impl LoadedJob {
         };
         concerns.extend(found.iter().map(|finding| finding.concern(&names)));
         concerns.extend(self.places_concern());
+        let has_doubt = concerns.iter().any(|concern| concern.is_doubt);
+        if self.is_without_pairs() && !has_doubt {
+            concerns.push(Concern::doubt(
+                "no-pair",
+                "No test mode resembles a mode of the model: another structure, other sensors, or several mistakes at once?",
+            ));
+        }
         Ok((concerns, rigid_body_modes))
     }
 

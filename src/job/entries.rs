@@ -122,17 +122,19 @@ pub fn removed_step(name: &str) -> Option<String> {
         .then(|| format!("the step rule {name} is gone; choose matrix, own, relative or gage"))
 }
 
+/// The value of an entry in a table within the file, such as `compare.seed`.
+pub(super) fn entry_of<'a>(file: &'a Table, entry: &str) -> Option<&'a Value> {
+    let (first, rest) = entry.split_once('.')?;
+    rest.split('.')
+        .try_fold(file.get(first)?, |value, key| value.get(key))
+}
+
 /// Refuses a job that names an entry or a rule that jobs no longer have.
 ///
 /// # Errors
-/// [`FileError::Refused`]. Text that is not TOML passes; its reader says where it goes wrong.
-pub(super) fn refuse_removed(path: &Path, text: &str) -> Result<(), FileError> {
-    let table: Table = toml::from_str(text).unwrap_or_default();
-    let at = |entry: &str| -> Option<&Value> {
-        let (first, rest) = entry.split_once('.')?;
-        rest.split('.')
-            .try_fold(table.get(first)?, |value, key| value.get(key))
-    };
+/// [`FileError::Refused`].
+pub(super) fn refuse_removed(path: &Path, file: &Table) -> Result<(), FileError> {
+    let at = |entry: &str| entry_of(file, entry);
     let removed = REMOVED.iter().find(|(entry, _)| at(entry).is_some());
     let removed =
         removed.map(|(entry, instead)| format!("{entry} is no longer an entry: {instead}"));

@@ -16,6 +16,7 @@ use crate::method::pairing::{Pairing, modal_assurance};
 use crate::sparse::{FINITE, SparseMatrix};
 use crate::weighted::close_modes::{assurance_of_roots, told_apart, turned};
 use nalgebra::DMatrix;
+use sha2::{Digest, Sha256};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -153,11 +154,12 @@ impl LoadedJob {
         Ok(loaded)
     }
 
-    /// A digest of the job's file, of the files it names and of what the command line `adds`.
+    /// The first 128 bits, in hexadecimal, of the SHA-256 digest (FIPS 180-4) of the program's version with what the command line
+    /// `adds`, of the files that the job names and of its own, each after the number of its bytes.
     ///
     /// # Errors
     /// [`FileError::File`] when one of them cannot be read any more.
-    pub fn identity(&self, adds: &str) -> Result<u64, FileError> {
+    pub fn identity(&self, adds: &str) -> Result<String, FileError> {
         let job = &self.job;
         let model = [
             &job.model.deck,
@@ -171,7 +173,12 @@ impl LoadedJob {
             .flatten();
         let named = named.chain([&job.test.file]).map(|file| job.beside(file));
         let program = format!("{} {adds}", env!("CARGO_PKG_VERSION"));
-        let mut identity = digest(program.as_bytes(), 0);
+        let mut digest = Sha256::new();
+        let mut add = |bytes: &[u8]| {
+            digest.update((bytes.len() as u64).to_be_bytes());
+            digest.update(bytes);
+        };
+        add(program.as_bytes());
         for file in named.chain([job.path.clone()]) {
             // A # may choose one matrix of the file.
             let text = file.to_string_lossy();
@@ -183,9 +190,14 @@ impl LoadedJob {
             let bytes = read_bytes(&file)
                 .or_else(of_matrix)
                 .map_err(FileError::of_file(&file, "read"))?;
-            identity = digest(&bytes, identity);
+            add(&bytes);
         }
-        Ok(identity)
+        let bytes = digest.finalize();
+        Ok(bytes
+            .iter()
+            .take(16)
+            .map(|byte| format!("{byte:02x}"))
+            .collect())
     }
 
     /// Leaves out the test modes that resemble no mode of the first model.
@@ -304,15 +316,19 @@ impl LoadedJob {
         Ok(Some(again))
     }
 
+    /// Whether no test mode with a shape has a partner.
+    pub(super) fn is_without_pairs(&self) -> bool {
+        let is_unpaired = |mode: &usize| self.unpaired.iter().any(|(other, _)| other == mode);
+        !self.modes.is_empty() && self.modes.iter().all(is_unpaired)
+    }
+
     /// Refuses a correlation in which no test mode has a partner.
     ///
     /// # Errors
     /// [`FileError::Refused`].
     pub(super) fn check_paired(&self) -> Result<(), FileError> {
         let best = self.unpaired.iter().map(|(_, best)| *best);
-        let best = best
-            .reduce(f64::max)
-            .filter(|_| self.unpaired.len() == self.modes.len());
+        let best = best.reduce(f64::max).filter(|_| self.is_without_pairs());
         self.job.refuse_if(best, |best| {
             format!(
                 "no mode of the model is like a test mode: their modal assurance is {best:.3} at most, less than {FLOOR}; \
@@ -490,12 +506,6 @@ fn load(job: &Job) -> Result<ModelSource, FileError> {
         (None, Some(stiffness), Some(mass)) => from_matrices(job, stiffness, mass),
         _ => Err(job.refused("[model] must name either a deck, or both stiffness and mass")),
     }
-}
-
-/// Continues the 64-bit digest FNV-1a of Fowler, Noll and Vo (RFC 9923) from `before` over more bytes.
-pub(super) fn digest(bytes: &[u8], before: u64) -> u64 {
-    let add = |state: u64, &byte: &u8| (state ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-    bytes.iter().fold(before ^ 0xcbf2_9ce4_8422_2325, add)
 }
 
 /// The test modes at the sensors placed.

@@ -35,7 +35,7 @@ use crate::files::deck::decoded;
 use crate::files::error::{FileError, is_not};
 use crate::files::read_bytes;
 use crate::method::outer_loop::Settings;
-use entries::{CorrelationEntries, refuse_removed};
+use entries::{CorrelationEntries, entry_of, refuse_removed};
 use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::fmt::Display;
@@ -53,6 +53,9 @@ pub const TEST_TEMPLATE: &str = include_str!("template.csv");
 pub struct Job {
     #[serde(skip)]
     path: PathBuf,
+    /// The entries that it gives.
+    #[serde(skip)]
+    given: toml::Table,
     /// What reports call the structure; the file's name if not given.
     pub title: Option<String>,
     model: ModelFiles,
@@ -194,9 +197,12 @@ const MOST_LABELS: usize = 10_000_000;
 pub fn read(path: &Path) -> Result<Job, FileError> {
     let bytes = read_bytes(path).map_err(FileError::of_file(path, "read"))?;
     let text = decoded(&bytes);
-    refuse_removed(path, &text)?;
+    // Text that is not TOML is refused below, by its line.
+    let given = toml::from_str(&text).unwrap_or_default();
+    refuse_removed(path, &given)?;
     let job = toml::from_str(&text).map(|job| Job {
         path: path.to_owned(),
+        given,
         ..job
     });
     job.map_err(|error| {
@@ -215,6 +221,11 @@ impl Job {
         self.path
             .parent()
             .map_or_else(|| named.to_owned(), |folder| folder.join(named))
+    }
+
+    /// Whether its file has this entry, such as `compare.seed`.
+    fn gives(&self, entry: &str) -> bool {
+        entry_of(&self.given, entry).is_some()
     }
 
     /// Whether it selects the test mode of this number.

@@ -56,6 +56,40 @@ impl ModelSource {
             .find(moves)
             .map_or_else(|| format!("row {}", row + 1), name)
     }
+
+    /// How much mass moves along x, y and z, and its center, if all of it has a place.
+    ///
+    /// Of matrices a row has the part that it takes of the momentum $M r$ of all rows of its direction at unit speed.
+    pub(super) fn mass_and_center(
+        &self,
+    ) -> Result<(Vector3<f64>, Option<Vector3<f64>>), FileError> {
+        let placed: Vec<(Option<Vector3<f64>>, Vector3<f64>)> = match &self.deck {
+            Some((_, deck)) => {
+                let placed = deck.model.placed_masses()?.into_iter();
+                placed.map(|(place, mass)| (Some(place), mass)).collect()
+            }
+            None => {
+                let own = |(&at, rows): (&(usize, usize), &Vec<(usize, f64)>)| (rows[0].0, at);
+                let label_of: BTreeMap<usize, (usize, usize)> =
+                    self.motions.iter().map(own).collect();
+                let (_, mass) = self.whole.at(&vec![1.0; self.whole.parameters().len()])?;
+                let of_entry = |&(row, column, value): &(usize, usize, f64)| {
+                    let (grid, direction) = label_of[&row];
+                    let is_along = direction < 3 && label_of[&column].1 == direction;
+                    let place = self.geometry.places.get(&grid).copied();
+                    is_along.then(|| (place, Vector3::ith(direction, value)))
+                };
+                mass.entries().iter().filter_map(of_entry).collect()
+            }
+        };
+        let total: Vector3<f64> = placed.iter().map(|(_, mass)| mass).sum();
+        let moments: Option<Vec<Vector3<f64>>> = placed
+            .iter()
+            .map(|(place, mass)| Some((*place)? * mass.sum()))
+            .collect();
+        let center = moments.map(|moments| moments.iter().sum::<Vector3<f64>>() / total.sum());
+        Ok((total, center.filter(|_| total.sum() > 0.0)))
+    }
 }
 
 /// The model of the deck in this file.

@@ -1,13 +1,12 @@
 //! The samples of a study in their file, one per line, and their statistics.
 
 use super::Study;
-use super::loaded::digest;
 use super::study::FAILED;
 use crate::files::error::{FileError, is_not};
 use crate::method::model::Bounds;
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 /// Bars of a histogram.
@@ -19,8 +18,8 @@ const PARTS: [f64; 3] = [0.025, 0.5, 0.975];
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Samples {
     path: PathBuf,
-    /// By number, where its line begins, and a digest of it.
-    places: BTreeMap<u64, (u64, u64)>,
+    /// By number, where its line begins.
+    places: BTreeMap<u64, u64>,
     /// Bytes of whole lines; anything after them is a torn line.
     pub whole: u64,
 }
@@ -49,9 +48,9 @@ pub struct Spread {
 pub struct Summary {
     /// By parameter; none without a sample that did not fail.
     pub spreads: Vec<(String, Option<Spread>)>,
-    /// Samples within tolerance.
+    /// Samples within tolerance with every test mode compared that they select.
     pub within: usize,
-    /// Samples outside.
+    /// The others that ran.
     pub outside: usize,
     /// Numbers of those that failed.
     pub failed: Vec<u64>,
@@ -94,7 +93,7 @@ impl Samples {
             let (Some(sample), true) = (cells[0].parse().ok(), cells.len() == count + 6) else {
                 return wrong("a line of a sample of this study");
             };
-            if cells[count + 5] != format!("{:016x}", study.identity) {
+            if cells[count + 5] != study.identity {
                 return wrong("a sample of this job, seed and choice of what varies");
             }
             let is_number = |cell: &&str| cell.parse::<f64>().is_ok_and(f64::is_finite);
@@ -105,13 +104,15 @@ impl Samples {
                     "a sample with true or false, and error sum, analyses and factors as numbers",
                 );
             }
-            let digest = digest(text.trim_end().as_bytes(), 0);
-            if samples
-                .places
-                .insert(sample, (at, digest))
-                .is_some_and(|(_, before)| before != digest)
-            {
-                return wrong("what another line says of this sample");
+            if let Some(before) = samples.places.insert(sample, at) {
+                // Rare enough to read that line again.
+                let mut other = BufReader::new(File::open(path).map_err(&failed)?);
+                other.seek(SeekFrom::Start(before)).map_err(&failed)?;
+                let mut line = String::new();
+                other.read_line(&mut line).map_err(&failed)?;
+                if line.trim_end() != text.trim_end() {
+                    return wrong("what another line says of this sample");
+                }
             }
         }
         Ok(samples)
@@ -158,7 +159,7 @@ impl Samples {
         let failed = FileError::of_file(&self.path, "read");
         let mut reader = BufReader::new(File::open(&self.path).map_err(&failed)?);
         let (mut now, mut line) = (0, String::new());
-        for (&sample, &(at, _)) in self.places.range(..=last) {
+        for (&sample, &at) in self.places.range(..=last) {
             // A seek within the buffer reads nothing again.
             reader
                 .seek_relative(at as i64 - now as i64)

@@ -35,7 +35,7 @@ pub struct Study {
     /// What varies, each once, ascending.
     pub vary: Vec<Vary>,
     /// A digest of the job's file, of the files it names, of seed and of what varies: samples with another do not belong to it.
-    pub identity: u64,
+    pub identity: String,
 }
 
 impl Study {
@@ -190,6 +190,7 @@ impl Study {
         let (numbers, failure) = match self.draw(sample).and_then(run) {
             Ok(found) if found.trust.is_interrupted => return Err(FileError::Interrupted),
             Ok(JobResult {
+                trust,
                 verdict,
                 analyses,
                 factors,
@@ -207,7 +208,8 @@ impl Study {
                 (
                     format!(
                         "{outcome},{},{},{analyses}{factors}",
-                        verdict.is_within, verdict.error_sum
+                        verdict.is_within && trust.not_compared.is_empty(),
+                        verdict.error_sum
                     ),
                     None,
                 )
@@ -217,10 +219,7 @@ impl Study {
                 Some(error),
             ),
         };
-        Ok((
-            format!("{sample},{numbers},{:016x}\n", self.identity),
-            failure,
-        ))
+        Ok((format!("{sample},{numbers},{}\n", self.identity), failure))
     }
 }
 

@@ -2,9 +2,8 @@
 
 use super::loaded::FLOOR;
 use super::{LoadedJob, Method};
-use crate::files::deck::{BulkData, Reason, Unread};
+use crate::files::deck::{Reason, Unread};
 use crate::files::error::FileError;
-use crate::method::outer_loop::Settings;
 use crate::method::verdict::Verdict;
 use crate::weighted::identifiability::Identifiability;
 use crate::weighted::misfit::Misfit;
@@ -71,8 +70,10 @@ pub struct Trust {
     pub analysis_modes: usize,
     /// How many rigid-body modes the first model has, which are not among them.
     pub rigid_body_modes: usize,
-    /// Total mass of a deck and its center, in the deck's units.
-    pub mass_and_center: Option<(f64, [f64; 3])>,
+    /// How much mass moves along x, y and z, in the model's units.
+    pub mass: [f64; 3],
+    /// Its center, if all of it has a place.
+    pub center: Option<[f64; 3]>,
 }
 
 impl Concern {
@@ -141,14 +142,10 @@ impl Trust {
                 DEVIATIONS.shape,
             ),
         ];
-        let deck = loaded.source.deck.as_ref().map(|(_, deck)| &deck.model);
-        let mass_and_center = deck.map(BulkData::mass_and_center).transpose()?.flatten();
+        let (mass, center) = loaded.source.mass_and_center()?;
         let cards = loaded.source.deck.iter().flat_map(|(_, deck)| &deck.unread);
         let cards = cards.filter(|card| card.reason != Reason::WithoutPart);
         let sensors = loaded.data.sensors.len() - loaded.placed.len();
-        let job = &loaded.job;
-        let is_papers =
-            job.compare.method == Method::GaussNewton && job.correlation != Settings::default();
         Ok(Self {
             concerns,
             not_compared: not_compared(&loaded.unpaired),
@@ -170,11 +167,12 @@ impl Trust {
             ignored: cards
                 .map(Unread::place)
                 .chain((sensors > 0).then(|| format!("{sensors} of the test's sensors")))
-                .chain(is_papers.then(|| "[correlation], which is of method \"paper\"".to_owned()))
+                .chain(loaded.unused_entries())
                 .collect(),
             analysis_modes: loaded.analysis_modes,
             rigid_body_modes,
-            mass_and_center: mass_and_center.map(|(mass, center)| (mass, center.into())),
+            mass: mass.into(),
+            center: center.map(Into::into),
         })
     }
 
@@ -317,11 +315,7 @@ impl Trust {
                     self.analysis_modes, self.rigid_body_modes
                 ),
             )),
-            self.mass_and_center.map(|(mass, [x, y, z])| {
-                let words =
-                    format!("Total mass {mass:.6}, center of gravity ({x:.4}, {y:.4}, {z:.4}).");
-                Concern::remark("mass-and-center", words)
-            }),
+            remark(self.mass != [0.0; 3], "mass", self.mass_in_words()),
         ];
         remark(
             self.is_interrupted,
@@ -337,6 +331,20 @@ impl Trust {
         .collect()
     }
 
+    fn mass_in_words(&self) -> String {
+        let [x, y, z] = self.mass.map(six_digits);
+        let mass = if x == y && y == z {
+            format!("Total mass {x}")
+        } else {
+            format!("Mass that moves along x {x}, along y {y}, along z {z}")
+        };
+        let center = self.center.map(|center| {
+            let center = center.map(six_digits);
+            format!(", center of gravity ({})", center.join(", "))
+        });
+        mass + &center.unwrap_or_default() + "."
+    }
+
     /// Whether a doubt stands that nobody answers for.
     pub fn has_doubt(&self) -> bool {
         self.concerns.iter().any(Concern::stands)
@@ -347,6 +355,58 @@ impl Trust {
         self.not_compared.is_empty() && !self.has_doubt()
     }
 }
+
+impl LoadedJob {
+    /// Entries that the job's file gives and that nothing uses, each with what it is of.
+    fn unused_entries(&self) -> Vec<String> {
+        let (job, data) = (&self.job, &self.data);
+        let is_deck = self.source.deck.is_some();
+        let is_weighted = job.compare.method == Method::GaussNewton;
+        let far = self.placed.iter().all(|sensor| sensor.distance.is_none());
+        let unused = [
+            ("model.ignore", !is_deck, "of decks"),
+            ("model.rows", is_deck, "of matrices"),
+            ("sensors.distance", far, "of sensors whose place is known"),
+            (
+                "compare.seed",
+                job.compare.starts.is_none_or(|starts| starts == 1),
+                "of several starts",
+            ),
+            (
+                "compare.frequency_deviation",
+                data.frequency_deviation.is_some(),
+                "of a test without its own",
+            ),
+            (
+                "compare.shape_deviation",
+                data.shape_deviation.is_some(),
+                "of a test without its own",
+            ),
+            ("correlation.error_sum_tolerance", is_weighted, PAPER),
+            ("correlation.frequency_tolerance", is_weighted, PAPER),
+            ("correlation.shape_tolerance", is_weighted, PAPER),
+            ("correlation.later_inner_tolerance", is_weighted, PAPER),
+            ("correlation.most_passes", is_weighted, PAPER),
+            ("correlation.inner.step", is_weighted, PAPER),
+            ("correlation.inner.factor_range", is_weighted, PAPER),
+            ("correlation.inner.tolerance", is_weighted, PAPER),
+        ];
+        let given = |(entry, is_unused, _): &(&str, bool, &str)| *is_unused && job.gives(entry);
+        unused
+            .into_iter()
+            .filter(given)
+            .map(|(entry, _, of)| format!("{entry} ({of})"))
+            .collect()
+    }
+}
+
+/// Six significant digits in the shortest form that keeps them.
+fn six_digits(value: f64) -> String {
+    format!("{value:.5e}").parse().unwrap_or(value).to_string()
+}
+
+/// What takes the entries of `[correlation]`.
+const PAPER: &str = "of the paper's loops";
 
 fn not_compared(unpaired: &[(usize, f64)]) -> Vec<NotCompared> {
     let of_mode = |&(mode, assurance): &(usize, f64)| NotCompared {

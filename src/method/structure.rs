@@ -4,7 +4,7 @@
 use crate::method::error::{Error, at_least_one, setting};
 pub use crate::method::geometry::ElementKind;
 use crate::method::geometry::Geometry;
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, Vector3};
 use std::collections::{HashMap, HashSet};
 
 /// Names of the three directions of a grid point's motion, in the order of its DOF.
@@ -250,6 +250,31 @@ impl Structure {
     /// Row of a grid's direction among the free DOF; `None` if it is constrained or the grid does not exist.
     pub fn free_dof_index(&self, grid: usize, direction: usize) -> Option<usize> {
         self.free_index.get(&(grid, direction)).copied()
+    }
+
+    /// The load distribution $T$ (A.3), free SDOF × d: a dynamic DOF for every list of `points`, each of whose rows, (grid, `'x'`,
+    /// `'y'` or `'z'`, weight), takes that part of its load, and gives it that part of its motion: $q_D = T^t q_S$.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] for a grid that does not exist or is not free to move so.
+    pub fn load_distribution(
+        &self,
+        points: &[Vec<(usize, char, f64)>],
+    ) -> Result<DMatrix<f64>, Error> {
+        let mut t = DMatrix::zeros(self.free.len(), points.len());
+        for (column, rows) in points.iter().enumerate() {
+            for &(grid, direction, weight) in rows {
+                let direction_index = DIRECTIONS.iter().position(|name| *name == direction);
+                let row = direction_index.and_then(|index| self.free_dof_index(grid, index));
+                let row = row.ok_or_else(|| Error::Unknown {
+                    owner: format!("dynamic DOF {column}, direction {direction}"),
+                    what: "free grid",
+                    label: grid,
+                })?;
+                t[(row, column)] += weight;
+            }
+        }
+        Ok(t)
     }
 
     /// Positions of an element's grids, in.

@@ -6,6 +6,7 @@
 pub mod dump;
 pub mod figures;
 pub mod json;
+pub mod overview;
 pub mod page;
 pub mod render;
 pub mod report;

@@ -16,7 +16,7 @@ const PUBLISHED: &str = "  published";
 /// Tables as text, no line of it longer than [`WIDTH`].
 ///
 /// Published numbers stand in a row of their own below the computed ones. A table that is too wide continues below
-/// itself with the columns that are left. (One label or cell wider than the page alone is left whole.)
+/// itself with the columns that are left, and what is too wide for its column continues on the next line.
 pub fn text(tables: &[Table]) -> String {
     let head = "Computed values; the paper's are in the rows marked \"published\".";
     paragraphs(tables, head, |table| {
@@ -126,15 +126,16 @@ fn ten_digits(value: f64) -> String {
     format!("{value:.9e}").parse().unwrap_or(value).to_string()
 }
 
-/// A column of text: lines of its heading, and its cells with the published ones between them where a row has any.
+/// A column of text: lines of its heading, and of its cells with the published ones between them where a row has any.
 struct TextColumn {
     heading: Vec<String>,
-    cells: Vec<String>,
+    cells: Vec<Vec<String>>,
     width: usize,
 }
 
 impl TextColumn {
-    fn new(name: &str, unit: &str, cells: Vec<String>) -> Self {
+    /// A column no wider than `most`.
+    fn new(name: &str, unit: &str, cells: Vec<String>, most: usize) -> Self {
         let name = one_line(name);
         let cells: Vec<String> = cells.iter().map(|cell| one_line(cell)).collect();
         let least = if name.contains(' ') { LEAST } else { 0 };
@@ -145,12 +146,14 @@ impl TextColumn {
             .chain([unit]);
         let width = words
             .map(|word| word.chars().count())
-            .fold(least, usize::max);
+            .fold(least, usize::max)
+            .min(most);
         let mut heading = lines(name.split(' '), width);
         heading.extend((!unit.is_empty()).then(|| unit.to_owned()));
+        let cells = cells.iter().map(|cell| lines(cell.split(' '), width));
         Self {
             heading,
-            cells,
+            cells: cells.collect(),
             width,
         }
     }
@@ -158,17 +161,18 @@ impl TextColumn {
 
 /// The table, in as many parts side by side as its width asks for.
 fn grids(table: &Table) -> Vec<String> {
-    let column = |name: &str, unit: &str, both: &dyn Fn(&Row) -> [String; 2]| {
+    let column = |name: &str, unit: &str, most: usize, both: &dyn Fn(&Row) -> [String; 2]| {
         let cells = table.rows.iter().flat_map(|row| {
             both(row)
                 .into_iter()
                 .take(1 + usize::from(row.is_published()))
         });
-        TextColumn::new(name, unit, cells.collect())
+        TextColumn::new(name, unit, cells.collect(), most)
     };
-    let label = column(table.label_heading, "", &|row| {
+    let label = column(table.label_heading, "", WIDTH / 2, &|row| {
         [row.label.clone(), PUBLISHED.to_owned()]
     });
+    let width = WIDTH - label.width;
     let (mut parts, mut room): (Vec<Vec<TextColumn>>, _) = (Vec::new(), 0);
     for (at, Column { name, unit }) in table.columns.iter().enumerate() {
         let both = |row: &Row| {
@@ -177,12 +181,12 @@ fn grids(table: &Table) -> Vec<String> {
                 .map(|cell| [cell.computed(), cell.published().unwrap_or_default()])
                 .unwrap_or_default()
         };
-        let column = column(name, unit, &both);
+        let column = column(name, unit, width - GAP, &both);
         if GAP + column.width > room {
             parts.push(Vec::new());
-            room = WIDTH.saturating_sub(label.width);
+            room = width;
         }
-        room = room.saturating_sub(GAP + column.width);
+        room -= GAP + column.width;
         if let Some(part) = parts.last_mut() {
             part.push(column);
         }
@@ -241,7 +245,15 @@ fn grid(label: &TextColumn, columns: &[TextColumn]) -> String {
                 .sum::<usize>(),
     );
     let headings = (0..high).map(|at| line(&|column| heading(column, at)));
-    let rows = (0..label.cells.len()).map(|row| line(&|column| column.cells[row].clone()));
+    let rows = (0..label.cells.len()).flat_map(|row| {
+        let cells = columns
+            .iter()
+            .chain([label])
+            .map(|column| column.cells[row].len());
+        let line = &line;
+        (0..cells.max().unwrap_or(0))
+            .map(move |at| line(&|column| column.cells[row].get(at).cloned().unwrap_or_default()))
+    });
     headings
         .chain([rule.clone()])
         .chain(rows)
@@ -255,15 +267,25 @@ fn wrapped(paragraph: &str) -> String {
     lines(paragraph.split(' '), WIDTH).join("\n")
 }
 
-/// Words in lines of at most a width, but for a single word that is longer.
+/// Words in lines of at most a width; a word that is longer continues on the next line.
 pub(super) fn lines<'a>(words: impl IntoIterator<Item = &'a str>, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in words {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
-                *line += &format!(" {word}")
+        let letters: Vec<char> = word.chars().collect();
+        let mut pieces: Vec<String> = letters
+            .chunks(width.max(1))
+            .map(String::from_iter)
+            .collect();
+        if pieces.is_empty() {
+            pieces.push(String::new());
+        }
+        for piece in pieces {
+            match lines.last_mut() {
+                Some(line) if line.chars().count() + 1 + piece.chars().count() <= width => {
+                    *line += &format!(" {piece}")
+                }
+                _ => lines.push(piece),
             }
-            _ => lines.push(word.to_owned()),
         }
     }
     lines

@@ -1,23 +1,26 @@
 //! `corfem cases`: the paper's cases, by the built-in elements or by NASTRAN-95.
 
-use super::command_meant;
 use super::output::{OutputArguments, note, reconstruction};
+use super::progress;
 use super::settings::SettingsArguments;
 use super::solver::{Solver, SolverArguments};
 use clap::Args;
 use corfem::method::error::Error;
 use corfem::present::table::counted;
-use corfem::present::{PresentError, json, tables};
+use corfem::present::{PresentError, json, overview::overview, tables};
 use corfem::torque_box::wing_box::Reconstruction;
 use corfem::torque_box::{CASES, Case, CaseResult, Grouping, run_case_with};
 use std::path::PathBuf;
 
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub struct CasesArguments {
-    /// Which cases to run, 1 to 4; all four if none is named. Cases 1 to 3 are correlated; Case 4 detects a modeling
-    /// error in one iteration and corrects no gage
-    #[arg(value_name = "CASE", value_parser = case_number)]
+    /// Cases to run, 1 to 4, and to print in full; without any all four in brief. Cases 1 to 3 are correlated; Case 4
+    /// detects a modeling error in one iteration and corrects no gage
+    #[arg(value_name = "CASE")]
     cases: Vec<usize>,
+    /// Print all four cases in full
+    #[arg(long, conflicts_with = "cases")]
+    all: bool,
     #[command(flatten)]
     output: OutputArguments,
     /// Torque box to use instead of the built-in one (a file like paper/reconstruction.toml)
@@ -27,20 +30,9 @@ pub struct CasesArguments {
     #[arg(long)]
     groups: bool,
     #[command(flatten)]
-    settings: SettingsArguments,
-    #[command(flatten)]
     solver: SolverArguments,
-}
-
-/// The number of a case; for a word that is none, the command that may have been meant.
-fn case_number(word: &str) -> Result<usize, String> {
-    let meant = || match command_meant(word) {
-        Some(command) if command == word => format!("; a command comes first: corfem {command}"),
-        Some(command) => format!("; did you mean corfem {command}?"),
-        None => String::new(),
-    };
-    word.parse()
-        .map_err(|_| format!("{word} is not the number of a case, 1 to 4{}", meant()))
+    #[command(flatten)]
+    settings: SettingsArguments,
 }
 
 /// The cases asked for, each once.
@@ -75,29 +67,41 @@ fn chosen(
 pub fn cases(arguments: &CasesArguments, quiet: bool) -> Result<bool, PresentError> {
     let reconstruction = reconstruction(arguments.box_file.as_deref())?;
     let solver = Solver::from_arguments(&arguments.solver)?;
+    let is_brief = arguments.cases.is_empty() && !arguments.all && arguments.output.is_text();
+    let bar = progress::spinner(quiet || !is_brief);
     let mut results = Vec::new();
     for case in chosen(arguments, &reconstruction)? {
         let number = case.number;
         let elements = |model: &_, factors: &[f64]| solver.elements(model, factors);
-        results.push(run_case_with(&case, solver.name(), elements, |pass, done| {
-            if !quiet {
-                note(format_args!(
+        results.push(run_case_with(
+            &case,
+            solver.name(),
+            elements,
+            |pass, done| {
+                let words = format!(
                     "case {number}, pass {pass}: {}, error sum {:.4} by perturbation, {:.4} exact",
                     counted(done.inner.iterations.len(), "iteration", "iterations"),
                     done.inner.last.errors().sum(),
                     done.check.errors.sum(),
-                ));
-            }
-        })?);
+                );
+                match is_brief {
+                    true => bar.set_message(words),
+                    false if quiet => (),
+                    false => note(words),
+                }
+            },
+        )?);
     }
-    let mut tables = tables::cases::all_tables(&results)?;
-    if arguments.cases.is_empty() {
-        tables.push(tables::published::root_error_table()?);
+    bar.finish_and_clear();
+    if is_brief {
+        arguments.output.write_text(&overview(&results)?)?;
+    } else {
+        let mut tables = tables::cases::all_tables(&results)?;
+        let here = tables::paper_tables(tables.iter().map(|table| table.name.as_str()));
+        if let Some(last) = tables.last_mut() {
+            last.notes.push(here);
+        }
+        arguments.output.write(&tables, || json::cases(&results))?;
     }
-    let here = tables::paper_tables(tables.iter().map(|table| table.name.as_str()));
-    if let Some(last) = tables.last_mut() {
-        last.notes.push(here);
-    }
-    arguments.output.write(&tables, || json::cases(&results))?;
     Ok(results.iter().all(CaseResult::succeeded))
 }

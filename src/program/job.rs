@@ -1,5 +1,6 @@
 //! `corfem correlate`, `corfem check JOB` and `corfem init`: the user's own structure.
 
+use super::example::Example;
 use super::folder::write_files;
 use super::output::{OutputArguments, note};
 use super::place::write_report;
@@ -23,9 +24,17 @@ pub struct InitArguments {
     /// Write an example of a test's table instead of a job
     #[arg(long)]
     test: bool,
+    /// Write a whole job that runs, with its files, into the folder PATH, created if new
+    #[arg(
+        long,
+        value_enum,
+        value_name = "NAME",
+        conflicts_with = "test",
+        requires = "path"
+    )]
+    example: Option<Example>,
     /// Write to this new file instead of standard output
-    #[arg(value_name = "FILE")]
-    output: Option<PathBuf>,
+    path: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -67,20 +76,24 @@ pub fn file_name(job: &Path) -> String {
         .map_or_else(String::new, |name| escaped(&name.to_string_lossy()))
 }
 
-/// Writes a job, or a test's table, that explains itself.
-pub fn init(arguments: &InitArguments) -> Result<(), PresentError> {
-    if let Some(path) = arguments.output.as_deref().filter(|path| path.exists()) {
+/// Writes a job, or a test's table, that explains itself, or a whole example.
+pub fn init(
+    InitArguments {
+        test,
+        example,
+        path,
+    }: &InitArguments,
+    quiet: bool,
+) -> Result<(), PresentError> {
+    let path = path.as_deref();
+    if let (Some(example), Some(folder)) = (example, path) {
+        return example.write(folder, quiet);
+    }
+    if let Some(path) = path.filter(|path| path.exists()) {
         let found = std::io::Error::from(std::io::ErrorKind::AlreadyExists);
         return Err(FileError::of_file(path, "write")(found).into());
     }
-    write_report(
-        arguments.output.as_deref(),
-        if arguments.test {
-            TEST_TEMPLATE
-        } else {
-            TEMPLATE
-        },
-    )
+    write_report(path, if *test { TEST_TEMPLATE } else { TEMPLATE })
 }
 
 /// Says everything doubtful of a job and ranks its parameters, without a step; whether no doubt stands.
@@ -99,7 +112,10 @@ pub fn check_job(
         let mut loaded = LoadedJob::new(path)?;
         loaded.accepted.clone_from(accept);
         let trust = Trust::before(&loaded)?;
-        let report = Report::from_job(&loaded, None)?;
+        let report = Report {
+            trust: Some(trust.clone()),
+            ..Report::from_job(&loaded, None)?
+        };
         let tables = [
             trust_table(&trust),
             places_table(&loaded, None)?,
@@ -150,10 +166,7 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
         let extra = [seen.clone(), places_table(&loaded, Some(&result))?];
         let command = format!("corfem correlate {}", arguments.job.display());
         let identity = loaded.identity(&format!("{:?} {:?}", arguments.starts, arguments.seed))?;
-        let run = format!(
-            "correlate {}, inputs {identity:016x}",
-            file_name(&arguments.job)
-        );
+        let run = format!("correlate {}, inputs {identity}", file_name(&arguments.job));
         let mut files = vec![
             (
                 "report.html".to_owned(),

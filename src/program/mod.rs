@@ -2,6 +2,7 @@
 
 mod cases;
 mod deck;
+mod example;
 mod folder;
 mod job;
 mod output;
@@ -15,16 +16,18 @@ mod studies;
 mod study;
 
 use cases::CasesArguments;
-use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::error::ErrorKind;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
+use corfem::files::error::FileError;
 use corfem::present::PresentError;
 use deck::{DeckArguments, ModesArguments};
 use folder::check_folder;
 use job::{CheckArguments, CorrelateArguments, InitArguments};
 use output::note;
-use pictures::{DumpArguments, FolderArguments};
+use pictures::{DumpArguments, FiguresArguments, ReportArguments};
 use place::{check, write_report};
-use std::path::PathBuf;
+use std::io;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use studies::{FewerModesArguments, TablesArguments};
 use study::StudyArguments;
@@ -34,19 +37,15 @@ const NOT_CONVERGED: u8 = 3;
 
 /// Corrects a finite element model until its frequencies and mode shapes agree with a ground vibration test.
 ///
-/// Without a command it does what `corfem cases` does: it correlates the paper's four cases on its wing torque box
-/// and prints their frequencies, gages and iterations (Tables 3 to 8 and 13) with the published ones, and Table 1.
+/// Without a command it correlates the paper's four cases on its wing torque box and prints what became of them.
 #[derive(Debug, Parser)]
 #[command(version, propagate_version = true, max_term_width = 100, after_help = AFTER_HELP)]
-#[command(args_conflicts_with_subcommands = true)]
 struct Arguments {
-    #[command(subcommand)]
-    command: Option<Command>,
-    #[command(flatten)]
-    cases: CasesArguments,
     /// Show no progress
     #[arg(short, long, global = true)]
     quiet: bool,
+    #[command(subcommand)]
+    command: Option<Command>,
 }
 
 const AFTER_HELP: &str = "\
@@ -59,26 +58,32 @@ case).
 
 Results go to standard output, progress to standard error. A signal that ends the program leaves no half-written file.";
 
+const JOB_HELP: &str = "\
+Ctrl-C lets the analysis under way end, which may take a minute in a large model, and keeps the best so far or the samples done; \
+a second one ends the program at once and leaves no half-written file.";
+
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Correlate the paper's cases and print Tables 3 to 8 and 13 with the published numbers, and Table 1
+    /// Correlate the paper's cases: what became of all four, or every table of those that are named (3 to 8 and 13)
     Cases(CasesArguments),
     /// Print Table 1, computed anew, and Tables 2 to 13 as published; CPU seconds are in Table 13
     Tables(TablesArguments),
     /// Correlate Case 2 with fewer test and analysis modes (Tables 9 to 12), and show what truncation costs
     FewerModes(FewerModesArguments),
     /// Correct the model of your own structure: a job file names its deck or matrices and its ground vibration test
+    #[command(after_help = JOB_HELP)]
     Correlate(CorrelateArguments),
     /// Run a job many times with its test varied, and report how its factors scatter
+    #[command(after_help = JOB_HELP)]
     Study(StudyArguments),
-    /// Write a job file, or the table of a test, that explains its entries
+    /// Write a job file or the table of a test that explains its entries, or a whole example that runs
     Init(InitArguments),
     /// Look at a job before the first step; without one, at the paper's cases
     Check(CheckArguments),
     /// Write the figures of the cases and of fewer modes as SVG
-    Figures(FolderArguments),
+    Figures(FiguresArguments),
     /// Write one web page with the tables and figures of cases and fewer modes, and the assumptions
-    Report(FolderArguments),
+    Report(ReportArguments),
     /// Write the torque box of a case as a NASTRAN deck
     Deck(DeckArguments),
     /// Write a case's matrices and every iteration, as JSON and Matrix Market, to check another program against
@@ -91,14 +96,7 @@ enum Command {
 pub fn run() -> ExitCode {
     let matches = Arguments::command().try_get_matches();
     let parsed = matches.and_then(|matches| Ok((Arguments::from_arg_matches(&matches)?, matches)));
-    let (
-        Arguments {
-            command,
-            cases,
-            quiet,
-        },
-        matches,
-    ) = match parsed {
+    let (Arguments { command, quiet }, matches) = match parsed {
         Ok(parsed) => parsed,
         Err(error) if error.use_stderr() => {
             let _ = error.print();
@@ -116,7 +114,7 @@ pub fn run() -> ExitCode {
         }
     };
     status(check_places(&matches).and_then(|()| match command {
-        None => cases::cases(&cases, quiet),
+        None => cases::cases(&CasesArguments::default(), quiet),
         Some(Command::Cases(arguments)) => cases::cases(&arguments, quiet),
         Some(Command::Tables(arguments)) => studies::tables(&arguments).map(|()| true),
         Some(Command::FewerModes(arguments)) => {
@@ -124,26 +122,49 @@ pub fn run() -> ExitCode {
         }
         Some(Command::Correlate(arguments)) => job::correlate(&arguments, quiet),
         Some(Command::Study(arguments)) => study::study(&arguments, quiet),
-        Some(Command::Init(arguments)) => job::init(&arguments).map(|()| true),
+        Some(Command::Init(arguments)) => job::init(&arguments, quiet).map(|()| true),
         Some(Command::Check(arguments)) => job::check_job(&arguments, quiet),
-        Some(Command::Figures(arguments)) => {
-            pictures::pictures(&arguments, false, quiet).map(|()| true)
-        }
-        Some(Command::Report(arguments)) => {
-            pictures::pictures(&arguments, true, quiet).map(|()| true)
-        }
+        Some(Command::Figures(arguments)) => pictures::figures(&arguments, quiet).map(|()| true),
+        Some(Command::Report(arguments)) => pictures::report(&arguments, quiet).map(|()| true),
         Some(Command::Deck(arguments)) => deck::deck(&arguments).map(|()| true),
         Some(Command::Dump(arguments)) => pictures::dump(&arguments, quiet).map(|()| true),
         Some(Command::Modes(arguments)) => deck::modes(&arguments).map(|()| true),
     }))
 }
 
-/// Refuses a file or folder that could not be written, before the work is done.
+/// Refuses a file or folder that could not be written, or whose name promises another kind, before the work is done.
 fn check_places(matches: &ArgMatches) -> Result<(), PresentError> {
-    let (command, own) = matches.subcommand().unwrap_or(("cases", matches));
+    let Some((command, own)) = matches.subcommand() else {
+        return Ok(());
+    };
     let path = |name| own.try_get_one::<PathBuf>(name).ok().flatten();
-    path("output").map_or(Ok(()), |file| check(file))?;
-    path("folder").map_or(Ok(()), |folder| check_folder(folder, command))
+    let refuse_page = |path: &Path, words: String| match path.extension() {
+        Some(kind) if kind.eq_ignore_ascii_case("html") => {
+            let found = io::Error::new(io::ErrorKind::InvalidInput, words);
+            Err(FileError::of_file(path, "write")(found))
+        }
+        _ => Ok(()),
+    };
+    if let Some(file) = path("output") {
+        if command != "report" {
+            let page = match command {
+                "correlate" => "--folder writes the page of a job",
+                _ => "corfem report -o writes a page",
+            };
+            refuse_page(file, format!("corfem {command} -o writes no HTML; {page}"))?;
+        }
+        check(file)?;
+    }
+    if let Some(folder) = path("folder") {
+        if !folder.is_dir() {
+            refuse_page(
+                folder,
+                "--folder takes a folder, and this names a page".to_owned(),
+            )?;
+        }
+        check_folder(folder, command)?;
+    }
+    Ok(())
 }
 
 fn status(done: Result<bool, PresentError>) -> ExitCode {
@@ -154,19 +175,5 @@ fn status(done: Result<bool, PresentError>) -> ExitCode {
             note(format_args!("corfem: {error}"));
             ExitCode::from(BAD_INPUT)
         }
-    }
-}
-
-/// The command that a word was meant for, if it is or nearly is one.
-fn command_meant(word: &str) -> Option<String> {
-    let commands =
-        Command::augment_subcommands(clap::Command::new("corfem")).subcommand_required(true);
-    if commands.find_subcommand(word).is_some() {
-        return Some(word.to_owned());
-    }
-    let error = commands.try_get_matches_from(["corfem", word]).err()?;
-    match error.get(ContextKind::SuggestedSubcommand)? {
-        ContextValue::Strings(near) => near.first().cloned(),
-        _ => None,
     }
 }

@@ -10,7 +10,7 @@ use corfem::torque_box::wing_box::Reconstruction;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub struct OutputArguments {
     /// Format of the report
     #[arg(short, long, value_enum, default_value = "text")]
@@ -20,9 +20,10 @@ pub struct OutputArguments {
     output: Option<PathBuf>,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, ValueEnum)]
 enum FormatArgument {
     /// Tables for a terminal, 100 columns wide
+    #[default]
     Text,
     /// Tables in Markdown
     Markdown,
@@ -33,6 +34,11 @@ enum FormatArgument {
 }
 
 impl OutputArguments {
+    /// Whether the report is text.
+    pub fn is_text(&self) -> bool {
+        self.format == FormatArgument::Text
+    }
+
     /// Writes tables as they are asked for; `json` makes the whole of what they show.
     pub fn write(
         &self,

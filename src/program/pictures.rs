@@ -6,62 +6,92 @@ use super::place::write_report;
 use clap::Args;
 use corfem::present::PresentError;
 use corfem::present::dump::dump as open;
-use corfem::present::figures::{case_figures, comparison_figures};
+use corfem::present::figures::{Figure, case_figures, comparison_figures};
 use corfem::present::page::{Contents, page};
 use corfem::present::table::counted;
-use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, all_runs};
-use corfem::torque_box::{CASES, Case, run_case};
-use std::path::PathBuf;
+use corfem::torque_box::fewer_modes::{FewerModesRun, PUBLISHED_CASE, all_runs};
+use corfem::torque_box::{CASES, Case, CaseResult, run_case};
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
-pub struct FolderArguments {
-    /// Write into this folder, created if new (also --out)
-    #[arg(short = 'o', long = "output", alias = "out", value_name = "DIR")]
+pub struct FiguresArguments {
+    /// Write into this folder, created if new
+    #[arg(long, value_name = "DIR")]
     folder: PathBuf,
 }
 
-/// Runs the four cases, and Case 2 with fewer modes, and writes the figures, or the page that has them and the
-/// tables.
-pub fn pictures(
-    FolderArguments { folder }: &FolderArguments,
-    as_page: bool,
-    quiet: bool,
-) -> Result<(), PresentError> {
-    let say = |words: String| (!quiet).then(|| note(words));
+#[derive(Debug, Args)]
+#[group(required = true, multiple = false)]
+pub struct ReportArguments {
+    /// Write the page to this file, or to standard output (-)
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Write the page as report.html into this folder, created if new
+    #[arg(long, value_name = "DIR")]
+    folder: Option<PathBuf>,
+}
+
+/// Runs the four cases, and Case 2 with fewer modes, and draws them.
+fn drawn(quiet: bool) -> Result<(Vec<CaseResult>, Vec<FewerModesRun>, Vec<Figure>), PresentError> {
     let mut results = Vec::new();
     for number in CASES {
         let result = run_case(&Case::new(number)?, |_, _| {})?;
-        say(format!(
-            "case {number}: {}",
-            counted(result.correlation.passes.len(), "pass", "passes")
-        ));
+        let passes = counted(result.correlation.passes.len(), "pass", "passes");
+        if !quiet {
+            note(format_args!("case {number}: {passes}"));
+        }
         results.push(result);
     }
     let fewer_modes = all_runs(&Case::new(PUBLISHED_CASE)?)?;
     let mut figures = case_figures(&results)?;
     figures.extend(comparison_figures(PUBLISHED_CASE, &fewer_modes)?);
-    if as_page {
-        let html = page(&Contents {
-            results: &results,
-            fewer_modes: &fewer_modes,
-            figures: &figures,
-            command: &format!("corfem report --output {}", folder.display()),
-        })?;
+    Ok((results, fewer_modes, figures))
+}
+
+/// Writes the figures.
+pub fn figures(
+    FiguresArguments { folder }: &FiguresArguments,
+    quiet: bool,
+) -> Result<(), PresentError> {
+    let (_, _, figures) = drawn(quiet)?;
+    let file = |figure: Figure| (figure.name + ".svg", figure.svg.into_bytes());
+    let files: Vec<_> = figures.into_iter().map(file).collect();
+    write_files(folder, &files, "figures")?;
+    if !quiet {
+        note(format_args!(
+            "{} files in {}",
+            files.len(),
+            folder.display()
+        ));
+    }
+    Ok(())
+}
+
+/// Writes the page that has the figures and the tables.
+pub fn report(arguments: &ReportArguments, quiet: bool) -> Result<(), PresentError> {
+    let (results, fewer_modes, figures) = drawn(quiet)?;
+    let place = match (&arguments.output, &arguments.folder) {
+        (Some(file), _) => format!("--output {}", file.display()),
+        (None, folder) => format!(
+            "--folder {}",
+            folder.as_deref().unwrap_or(Path::new("")).display()
+        ),
+    };
+    let html = page(&Contents {
+        results: &results,
+        fewer_modes: &fewer_modes,
+        figures: &figures,
+        command: &format!("corfem report {place}"),
+    })?;
+    if let Some(folder) = &arguments.folder {
         write_files(
             folder,
             &[("report.html".to_owned(), html.into_bytes())],
             "report",
-        )?;
-        say(folder.join("report.html").display().to_string());
+        )
     } else {
-        let files: Vec<_> = figures
-            .into_iter()
-            .map(|figure| (figure.name + ".svg", figure.svg.into_bytes()))
-            .collect();
-        write_files(folder, &files, "figures")?;
-        say(format!("{} files in {}", files.len(), folder.display()));
+        write_report(arguments.output.as_deref(), &html)
     }
-    Ok(())
 }
 
 #[derive(Debug, Args)]

@@ -11,14 +11,20 @@ use serde::Deserialize;
 use serde::de::value::{Error, StrDeserializer};
 use serde::de::{Error as _, IntoDeserializer};
 
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 #[command(next_help_heading = "Settings of the loops")]
 pub struct SettingsArguments {
-    /// How the step measures a change of stiffness: matrix, own, relative or gage
-    #[arg(long, value_name = "RULE", value_parser = rule)]
+    /// How the step (13) measures the change of stiffness of an element:
+    ///   own       by its stiffness in each test mode
+    ///   matrix    by that and what it couples between test modes
+    ///   relative  by the relative change alone, so that every element counts the same
+    ///   gage      by the change of its gage, so that thin panels change more
+    #[arg(long, value_name = "RULE", value_parser = rule, verbatim_doc_comment)]
     rule: Option<StepRule>,
-    /// How changes of several iterations combine: sum or product
-    #[arg(long, value_name = "HOW", value_parser = named::<Accumulation>)]
+    /// How the changes of several iterations combine:
+    ///   sum       each changes the stiffness that the pass began with, as the paper prints
+    ///   product   each changes the present stiffness
+    #[arg(long, value_name = "HOW", value_parser = named::<Accumulation>, verbatim_doc_comment)]
     accumulation: Option<Accumulation>,
     /// Relaxation R of a pass's first iteration, and of the others
     #[arg(long, value_name = "FIRST,OTHERS", value_delimiter = ',')]

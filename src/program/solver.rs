@@ -9,7 +9,7 @@ use corfem::torque_box::BUILT_IN;
 use std::path::PathBuf;
 use std::time::Duration;
 
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub struct SolverArguments {
     /// Which program does the finite element analyses of the outer loop
     #[arg(long, value_enum, default_value = "built-in")]
@@ -23,9 +23,10 @@ pub struct SolverArguments {
     time_limit: u32,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
 enum SolverArgument {
     /// The elements of this program
+    #[default]
     BuiltIn,
     /// NASTRAN-95, run once for every analysis
     #[value(name = "nastran95")]

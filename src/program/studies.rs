@@ -22,9 +22,9 @@ pub struct TablesArguments {
 #[derive(Debug, Args)]
 pub struct FewerModesArguments {
     #[command(flatten)]
-    settings: SettingsArguments,
-    #[command(flatten)]
     output: OutputArguments,
+    #[command(flatten)]
+    settings: SettingsArguments,
 }
 
 /// Writes Table 1, computed anew, and the paper's other tables as printed.

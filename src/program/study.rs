@@ -70,6 +70,13 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<bool, PresentErr
         failure
             .into_iter()
             .for_each(|failure| note(format_args!("corfem: {failure}")));
+        // The line belongs to a file of samples: what is doubtful of all of them stands elsewhere.
+        for doubt in study.trust.concerns.iter().filter(|doubt| doubt.stands()) {
+            note(format_args!(
+                "corfem: doubt {}: {}",
+                doubt.identifier, doubt.words
+            ));
+        }
         arguments.output.write_text(&line)?;
         return Ok(is_clear);
     };
@@ -135,7 +142,7 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<bool, PresentErr
         folder,
         &files.map(|(name, text)| (name.to_owned(), text.into_bytes())),
         &format!(
-            "study {}, inputs {:016x}",
+            "study {}, inputs {}",
             file_name(&arguments.job),
             study.identity
         ),

@@ -57,6 +57,9 @@ pub const GOLDEN_GAGE: f64 = 1e-5;
 pub const GOLDEN_PERCENT: f64 = 1e-4;
 /// Numbers written for a reader: none has more than six digits, so that any other digit is another number.
 pub const GOLDEN_AS_WRITTEN: f64 = 1e-7;
+/// Numbers that the figure to play with solves in the page by Jacobi rotations beside the program's, of their size or of one: roots
+/// that span 4e4 keep eleven digits of the smallest, and errors are differences of those.
+pub const PLAYED: f64 = 1e-9;
 /// The fast forms beside the plain ones, relative to the norm of a matrix, a frequency or a shape: round-off of a structural
 /// stiffness whose condition is a million at most.
 pub const TWO_PROGRAMS: f64 = 1e-9;

@@ -6,6 +6,7 @@ pub mod documents;
 pub mod equations;
 pub mod errata;
 pub mod formulas;
+pub mod library;
 pub mod package;
 pub mod rooms;
 pub mod routes;
@@ -13,6 +14,7 @@ pub mod tables;
 pub mod tour;
 pub mod tour_figures;
 pub mod tour_figures_box;
+pub mod tour_program;
 
 use std::fs;
 use std::path::{Path, PathBuf};

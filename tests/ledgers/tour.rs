@@ -119,6 +119,99 @@ fn every_chapter_has_its_parts() {
     }
 }
 
+/// Lines without what their place adds in front of all of them.
+fn dedented(text: &str) -> Vec<String> {
+    let margin = |line: &&str| line.len() - line.trim_start().len();
+    let lines: Vec<&str> = text.lines().collect();
+    let least = lines
+        .iter()
+        .filter(|line| !line.trim().is_empty())
+        .map(margin)
+        .min();
+    let cut = |line: &&str| {
+        line.get(least.unwrap_or(0)..)
+            .unwrap_or_default()
+            .to_owned()
+    };
+    lines.iter().map(cut).collect()
+}
+
+#[test]
+fn what_the_tour_quotes_are_the_lines_of_the_method() {
+    let mut quotes = 0;
+    for (number, (_, text)) in chapters() {
+        for quote in text.split("<!-- from ").skip(1) {
+            let (file, rest) = quote
+                .split_once(" -->\n```text\n")
+                .expect("a fence below its source");
+            let lines = dedented(rest.split("```").next().expect("an end"));
+            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+            let source = fs::read_to_string(&path).expect("it reads");
+            let source: Vec<&str> = source.lines().collect();
+            let is_there = |window: &[&str]| dedented(&window.join("\n")) == lines;
+            let found = source
+                .windows(lines.len())
+                .filter(|window| is_there(window))
+                .count();
+            assert!(
+                found > 0,
+                "chapter {number}: {file} has no such lines:\n{}",
+                lines.join("\n")
+            );
+            assert!(file.starts_with("src/method/"), "{file}");
+            quotes += 1;
+        }
+    }
+    assert!(quotes >= 6, "{quotes}");
+}
+
+#[test]
+fn every_chapter_leads_to_its_neighbors_and_the_last_to_the_plain_program() {
+    let chapters = chapters();
+    let tour = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/tour.rs"))
+        .expect("it reads");
+    let links: Vec<(String, String)> = chapters
+        .values()
+        .map(|(path, text)| {
+            let name = path.file_stem().expect("a name").to_string_lossy();
+            let title = text
+                .lines()
+                .next()
+                .expect("a title")
+                .trim_start_matches("# ");
+            (
+                format!("[{title}](crate::tour::chapter_{name})"),
+                format!("pub mod chapter_{name} {{"),
+            )
+        })
+        .collect();
+    for (at, (_, text)) in chapters.values().enumerate() {
+        let end = text.rsplit("</details>").next().expect("an end");
+        for (word, other) in [("Previous", at.checked_sub(1)), ("Next", Some(at + 1))] {
+            let link = other.and_then(|other| links.get(other));
+            assert_eq!(
+                end.contains(word),
+                link.is_some(),
+                "{word} in chapter {}",
+                at + 1
+            );
+            if let Some((link, module)) = link {
+                assert!(
+                    end.contains(&format!("{word}: {link}")) && tour.contains(module),
+                    "{link}"
+                );
+            }
+        }
+    }
+    let (_, last) = chapters.values().last().expect("a chapter");
+    assert!(
+        last.rsplit("</details>")
+            .next()
+            .expect("an end")
+            .contains("`paper/plain.rs`")
+    );
+}
+
 /// What serves all modules alike, and is the subject of no chapter.
 const OF_NO_CHAPTER: [&str; 2] = ["error", "linear_algebra"];
 

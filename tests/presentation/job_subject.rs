@@ -174,7 +174,7 @@ fn a_study_counts_what_failed_among_its_samples() {
     let notes = study_table(&study, &summary).notes;
     assert_eq!(
         notes[0],
-        "7 samples, seed 3, with noise on the test: 4 within tolerance, 1 outside, 2 failed."
+        "7 samples, seed 3, with noise on the test: 4 within tolerance, 1 not, 2 failed."
     );
     assert!(notes[1].contains("--sample 2 says"), "{}", notes[1]);
 }

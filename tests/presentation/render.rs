@@ -101,6 +101,18 @@ proptest! {
     }
 
     #[test]
+    fn no_name_is_too_long_for_a_page(words in prop::collection::vec("x{1,250}( x{1,120}){0,3}", 4)) {
+        let [label, column, cell, note] = &words[..] else { unreachable!("four") };
+        let table = Table::new("t", "A title", "Mode").labels([label]).column(column, "Hz", [Cell::text(cell)]).notes([note]);
+        let shown = text(&[table]);
+        for line in shown.lines() {
+            prop_assert!(line.chars().count() <= WIDTH, "{line}");
+        }
+        let letters = words.iter().map(|words| words.matches('x').count()).sum::<usize>();
+        prop_assert_eq!(shown.matches('x').count(), letters);
+    }
+
+    #[test]
     fn every_number_is_one_line_of_csv(table in table()) {
         let filled = table.rows.iter().flat_map(|row| &row.cells);
         let count = filled.filter(|cell| **cell != Cell::Blank).count();

@@ -16,7 +16,8 @@ fn method_comes_first_then_cases_then_the_appendix() {
     let html = html();
     let found: Vec<&str> = sections(&html).into_iter().map(|(id, _)| id).collect();
     let story = ["method", "case-1", "case-2", "case-3", "case-4"];
-    let mut expected: Vec<String> = story.iter().map(|part| format!("story-{part}")).collect();
+    let mut expected = vec!["try".to_owned()];
+    expected.extend(story.iter().map(|part| format!("story-{part}")));
     expected.extend(["appendix", "summary-section", "box", "preflight"].map(String::from));
     expected.extend((1..=4).map(|case| format!("case-{case}")));
     expected.extend(["fewer-modes", "cost", "differences", "made"].map(String::from));
@@ -24,7 +25,6 @@ fn method_comes_first_then_cases_then_the_appendix() {
     // No table of numbers stands before the appendix.
     let appendix = html.find("<section id=\"appendix\"").expect("an appendix");
     assert!(html.find("<table id=").expect("tables") > appendix);
-    assert!(html.find("<h2>Method").expect("the method") < html.find("<figure").expect("figures"));
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn every_case_has_its_figures_with_a_sentence_on_each() {
 #[test]
 fn the_method_has_its_flow_five_equations_and_the_words_it_uses() {
     let html = html();
-    let (id, method) = sections(&html)[0];
+    let (id, method) = sections(&html)[1];
     assert_eq!((id, method.matches("<li>").count()), ("story-method", 6));
     for number in ["(1, 2)", "(4)", "(5, 6)", "(7, 8)", "(12, 13)"] {
         let row = method

@@ -18,7 +18,7 @@ fn doubts(files: &Files) -> Vec<String> {
 }
 
 /// A building of ten stories, and its test after an edit.
-fn tested(edit: impl Fn(&mut TestData)) -> Files {
+fn tested(edit: impl FnOnce(&mut TestData)) -> Files {
     let mut files = measured_building(10, 4);
     let text = &mut files.last_mut().expect("the test").1;
     let mut data = test_data::read("test.csv", text.as_bytes()).expect("a test");
@@ -69,6 +69,46 @@ fn gross_mistakes_are_named_before_anything_fails() {
         error.contains("no mode of the model is like a test mode"),
         "{error}"
     );
+}
+
+/// Shapes of no structure: whatever else is found, something is, and a correlation is refused.
+#[test]
+fn a_test_of_which_no_mode_resembles_one_of_the_model_is_doubtful() {
+    let mut draws = Draws(26);
+    let mut left = 0;
+    for _ in 0..20 {
+        let unlike = tested(|data| {
+            data.shapes
+                .apply(|reading| *reading = draws.between(-1.0, 1.0))
+        });
+        let (_folder, path) = placed(&unlike);
+        let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+        if loaded.modes.len() < loaded.data.frequencies_hz.len() {
+            continue;
+        }
+        let found = doubts(&unlike);
+        assert!(!found.is_empty());
+        left += usize::from(found == ["no-pair"]);
+    }
+    assert!(left > 0);
+}
+
+/// Of four test modes two resemble none of the model: as many as are compared. A single floor moves in no mode of ten by more than
+/// a fifth of the square of its shape.
+#[test]
+fn a_test_half_of_whose_modes_have_partners_is_correlated_with_these() {
+    let half = tested(|data| {
+        for (mode, floor) in [(2, 0), (3, 5)] {
+            data.shapes.column_mut(mode).fill(0.0);
+            data.shapes[(floor, mode)] = 1.0;
+        }
+    });
+    let (_folder, path) = placed(&half);
+    let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!((loaded.modes.len(), loaded.unpaired.len()), (2, 2));
+    let result = run(&loaded, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
+    let left = result.trust.not_compared.iter().map(|left| left.mode);
+    assert_eq!(left.collect::<Vec<_>>(), [3, 4]);
 }
 
 #[test]

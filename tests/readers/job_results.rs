@@ -142,7 +142,7 @@ fn own_weights_and_the_papers_settings_are_said() {
             "{words}"
         );
         assert_eq!(
-            words.contains("[correlation], which is of"),
+            words.contains("correlation.most_passes (of the paper"),
             unused,
             "{words}"
         );

@@ -238,11 +238,11 @@ fn a_summary_counts_what_its_file_has_up_to_the_last_sample() {
     let (place, study, _) = rod_study();
     let line = |sample: u64, is_within: bool, factor: f64| {
         format!(
-            "{sample},cap,{is_within},0.5,3,{factor},1,{:016x}\n",
+            "{sample},cap,{is_within},0.5,3,{factor},1,{}\n",
             study.identity
         )
     };
-    let failed = format!("4,failed,,,,,,{:016x}\n", study.identity);
+    let failed = format!("4,failed,,,,,,{}\n", study.identity);
     let text = [
         line(5, true, 3.0),
         line(1, true, 1.0),

@@ -3,43 +3,45 @@
 use super::job_errors::{placed, with};
 use crate::common::jobs::{building, rods};
 use corfem::job::{Study, Vary};
+use sha2::{Digest, Sha256};
+use std::path::PathBuf;
 
-/// The digest FNV-1a of 64 bits (RFC 9923) of bytes, from this first state.
-fn fnv_1a(bytes: &[u8], first: u64) -> u64 {
-    let mut state = first;
-    for byte in bytes {
-        state ^= u64::from(*byte);
-        state = state.wrapping_mul(1_099_511_628_211);
-    }
-    state
+/// Bytes in hexadecimal.
+fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-const OFFSET: u64 = 14_695_981_039_346_656_037;
-
-/// The published digests of a few words are those of the function above, and a study's is its chain over what the study is made of.
+/// The digest is the published one of "abc" (FIPS 180-4), and a study's is over what the study is made of, each part after its length.
 #[test]
 fn a_study_is_known_by_the_digest_of_its_files_seed_and_choice() {
-    for (word, published) in [
-        ("", OFFSET),
-        ("a", 0xaf63_dc4c_8601_ec8c),
-        ("foobar", 0x8594_4171_f739_67e8),
-    ] {
-        assert_eq!(fnv_1a(word.as_bytes(), OFFSET), published, "{word}");
-    }
+    let published = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+    assert_eq!(hexadecimal(&Sha256::digest(b"abc")), published);
     let (folder, path) = placed(&rods());
-    let study = Study::new(&path, 7, &[Vary::Start, Vary::Noise], &[])
-        .unwrap_or_else(|error| panic!("{error}"));
+    let identity = || {
+        Study::new(&path, 7, &[Vary::Start, Vary::Noise], &[])
+            .unwrap_or_else(|error| panic!("{error}"))
+            .identity
+    };
     let head = format!("{} 7 [Noise, Start]", env!("CARGO_PKG_VERSION"));
-    let digest = ["model.bdf", "test.csv", "job.toml"].iter().fold(
-        fnv_1a(head.as_bytes(), OFFSET),
-        |before, name| {
-            fnv_1a(
-                &std::fs::read(folder.path().join(name)).expect("it reads"),
-                before ^ OFFSET,
-            )
-        },
-    );
-    assert_eq!(study.identity, digest);
+    let names = ["model.bdf", "test.csv", "job.toml"].map(|name| folder.path().join(name));
+    let file = |path: &PathBuf| std::fs::read(path).expect("it reads");
+    let mut all = Vec::new();
+    for part in std::iter::once(head.into_bytes()).chain(names.iter().map(file)) {
+        all.extend((part.len() as u64).to_be_bytes());
+        all.extend(part);
+    }
+    assert_eq!(identity(), hexadecimal(&Sha256::digest(&all)[..16]));
+    // An empty line at the end of one file, or at the beginning of the next.
+    let texts = names.each_ref().map(file);
+    let with_line = |at: usize, place: usize| {
+        let mut text = texts[at].clone();
+        text.insert(place, b'\n');
+        std::fs::write(&names[at], text).expect("written");
+        let identity = identity();
+        std::fs::write(&names[at], &texts[at]).expect("written");
+        identity
+    };
+    assert_ne!(with_line(1, texts[1].len()), with_line(2, 0));
 }
 
 /// Of five sensors one to three are left out, and each of them sometimes is and sometimes is not; so of five modes.
@@ -86,7 +88,7 @@ fn a_sample_that_is_neither_within_nor_outside_is_refused() {
     let read = |within: &str| {
         std::fs::write(
             &samples,
-            format!("1,cap,{within},0.5,3,1.0,1.0,{:016x}\n", study.identity),
+            format!("1,cap,{within},0.5,3,1.0,1.0,{}\n", study.identity),
         )
         .expect("written");
         corfem::job::Samples::read(&samples, &study)

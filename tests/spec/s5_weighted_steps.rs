@@ -2,7 +2,8 @@
 
 use crate::common::known::Known;
 use crate::common::measured::equal_weights;
-use crate::common::tolerances::{ORDER_SLACK, ROUND_OFF, STANDARD_ERRORS};
+use crate::common::tolerances::{ORDER_SLACK, ROUND_OFF, STANDARD_ERRORS, WEIGHTED_FACTOR};
+use approx::assert_relative_eq;
 use corfem::method::appendix_c::SMALLEST_SEPARATION;
 use corfem::method::error::Error;
 use corfem::method::error_sum::ModeWeight;
@@ -53,6 +54,53 @@ fn random_starts_are_log_uniform_from_half_to_twice_the_first_factors() {
             "{found}"
         );
     }
+}
+
+/// Of three starts the second has no model, and later a trial has none: the others end where all of them do.
+#[test]
+fn a_start_or_a_trial_without_a_model_is_rejected_and_the_others_stand() {
+    let known = Known::of_case(2).unwrap();
+    let weights = equal_weights(DEVIATIONS, known.test.len());
+    let settings = WeightedSettings::default();
+    let starts = |count: usize, fails: &dyn Fn(usize, &[f64]) -> bool| {
+        let (mut calls, mut failed) = (0, 0);
+        let analyze = |factors: &[f64]| {
+            calls += 1;
+            if fails(calls, factors) {
+                failed += 1;
+                return Err(Error::Empty { what: "modes" });
+            }
+            known.model.analyze(factors, &known.test, None)
+        };
+        let found = from_several_starts(analyze, &[None; 15], &weights, &settings, count, 7);
+        (found, failed)
+    };
+    let (all, _) = starts(3, &|_, _| false);
+    let (all, reached) = all.unwrap();
+    assert_eq!(reached, 3);
+    // The second start comes after all analyses of the first.
+    let of_one = starts(1, &|_, _| false).0.unwrap().0;
+    let (without, failed) = starts(3, &|call, _| call == of_one.analyses + 1);
+    let (without, reached) = without.unwrap();
+    assert_eq!((failed, reached), (1, 2));
+    assert_relative_eq!(
+        &without.factors[..],
+        &all.factors[..],
+        max_relative = WEIGHTED_FACTOR
+    );
+    // The first trial fails.
+    let (trial, failed) = starts(1, &|call, _| call == 2);
+    let trial = trial.unwrap().0;
+    assert_eq!((failed, trial.stop), (1, WeightedStop::Gradient));
+    assert_relative_eq!(
+        &trial.factors[..],
+        &of_one.factors[..],
+        max_relative = WEIGHTED_FACTOR
+    );
+    // All of them fail.
+    let (none, failed) = starts(3, &|_, _| true);
+    assert!(none.is_err());
+    assert_eq!(failed, 3);
 }
 
 #[test]

@@ -230,27 +230,30 @@ impl BulkData {
         })
     }
 
-    /// Total mass and its center, of elements and of the point masses that move in all directions, at free and constrained grids
-    /// alike; none without mass.
+    /// Every mass of elements and points, at free and constrained grids alike: where it is, and how much of it moves along x, y and z.
     ///
     /// # Errors
     /// Those of [`Self::structure`].
-    pub fn mass_and_center(&self) -> Result<Option<(f64, Vector3<f64>)>, FileError> {
+    pub fn placed_masses(&self) -> Result<Vec<(Vector3<f64>, Vector3<f64>)>, FileError> {
         let structure = self.structure()?;
         let of_element = |(element, geometry): (&Element, &Geometry)| {
             let volumes = corner_volumes(geometry);
             let density = element.material.density * element.size;
             let corners = structure.corners(element);
             let masses = volumes.into_iter().map(move |volume| density * volume);
-            masses.zip(corners).collect::<Vec<_>>()
+            let placed = corners.into_iter().zip(masses.map(Vector3::repeat));
+            placed.collect::<Vec<_>>()
         };
         let elements = self.elements.iter().zip(structure.geometry());
-        let points = self.masses.iter().filter(|point| point.direction.is_none());
-        let points = points.filter_map(|point| Some((point.mass, structure.position(point.grid)?)));
-        let all: Vec<(f64, Vector3<f64>)> = elements.flat_map(of_element).chain(points).collect();
-        let total: f64 = all.iter().map(|(mass, _)| mass).sum();
-        let moment: Vector3<f64> = all.iter().map(|(mass, place)| *mass * place).sum();
-        Ok((total > 0.0).then(|| (total, moment / total)))
+        let of_point = |point: &PointMass| {
+            let along = |dof: StructuralDof| Vector3::ith(dof.direction, point.mass);
+            Some((
+                structure.position(point.grid)?,
+                point.dof().map(along).sum(),
+            ))
+        };
+        let points = self.masses.iter().filter_map(of_point);
+        Ok(elements.flat_map(of_element).chain(points).collect())
     }
 
     /// The same DOF with the free ones that each follows: its column of $T$ by rows and coefficients.

@@ -4,6 +4,7 @@
 //! once.
 
 mod html;
+mod play;
 mod story;
 
 use super::figures::{Figure, report_figures};
@@ -18,6 +19,7 @@ use crate::present::PresentError;
 use crate::torque_box::fewer_modes::{FewerModesRun, PUBLISHED_CASE, PUBLISHED_RUNS};
 use crate::torque_box::{Case, CaseResult};
 use html::{escaped, figure, figures, prose, section, section_of, table};
+pub use play::play;
 use story::story;
 
 /// The content of the page.
@@ -33,6 +35,8 @@ pub struct Contents<'a> {
     pub command: &'a str,
 }
 
+/// The case whose first pass can be played with.
+const PLAYED: usize = 2;
 const TITLE: &str = "The wing torque box, correlated";
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -42,6 +46,10 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// [`PresentError::Case`] for damaged published tables.
 pub fn page(contents: &Contents) -> Result<String, PresentError> {
     let mut parts = story(contents);
+    if let Some(played) = contents.results.iter().find(|it| it.case.number == PLAYED) {
+        let heading = format!("Case {PLAYED}, by hand");
+        parts.insert(0, named("try", "Try it", &heading, play(played)?));
+    }
     let (story_html, appendix): (String, usize) = (
         parts.iter().map(|(.., body)| body.as_str()).collect(),
         parts.len(),

@@ -226,7 +226,7 @@ pub fn outcome_table(results: &[CaseResult]) -> Table {
         )
         .column("Error sum", "", sums(|result| last(result).errors.sum()))
         .column(
-            "TOLO",
+            "Tolerance",
             "",
             sums(|result| result.case.settings.error_sum_tolerance),
         )

@@ -252,7 +252,7 @@ pub fn study_table(study: &Study, summary: &Summary) -> Table {
     ) = (summary, study.vary.iter().map(name));
     let count = within + outside + failed.len();
     let note = format!(
-        "{}, seed {}, with {}: {within} within tolerance, {outside} outside, {} failed.",
+        "{}, seed {}, with {}: {within} within tolerance, {outside} not, {} failed.",
         counted(count, "sample", "samples"),
         study.seed,
         vary.collect::<Vec<_>>().join(" and "),

@@ -96,10 +96,10 @@ pub fn paired_table(report: &Report) -> Result<Table, Error> {
         None => "modal assurance criterion (no mass is known)",
     };
     let is_of_job = report.mass.is_some() && report.trust.is_some();
-    let by = if is_of_job {
-        " The mass is that of the paired modes of the corrected model."
-    } else {
-        ""
+    let by = match &report.verdict {
+        _ if !is_of_job => "",
+        Some(_) => " The mass is that of the paired modes of the corrected model.",
+        None => " The mass is that of the paired modes of the first model.",
     };
     let note = format!(
         "Others: the largest {measure} of either mode with any but its partner. Good: at least 0.95, others at most 0.05; \

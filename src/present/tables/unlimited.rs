@@ -40,14 +40,21 @@ pub fn unlimited_table(result: &CaseResult) -> Table {
         "group"
     };
     let anomalies = factors.iter().filter(|factor| factor.remark.is_some()).map(
-        |DrawnFactor { name, value, .. }| {
+        |DrawnFactor {
+             name,
+             value,
+             published,
+             ..
+         }| {
+            let published =
+                published.map_or_else(String::new, |about| format!(" (published: {about})"));
             let next = factors
                 .iter()
                 .filter(|other| other.name != *name)
                 .map(|other| other.value)
                 .fold(f64::MIN, f64::max);
             let asks = format!(
-                "{kind} {name} asks for {value:.1} times its stiffness, the next for {next:.1}"
+                "{kind} {name} asks for {value:.1} times its stiffness{published}, the next for {next:.1}"
             );
             format!("Anomaly: {asks}: look for a modeling error there.")
         },

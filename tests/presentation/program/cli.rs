@@ -42,19 +42,140 @@ pub fn parsed(arguments: &[&str]) -> Value {
 }
 
 #[test]
-fn without_a_command_it_runs_the_four_cases() {
-    let plain = corfem(&[]);
-    let named = corfem(&["cases"]);
-    assert_eq!(plain.status.code(), Some(0));
-    assert_eq!(plain.stdout, named.stdout);
-    let report = text(&plain.stdout);
+fn every_case_in_full_has_the_papers_tables_and_a_line_a_pass() {
+    let all = corfem(&["cases", "--all"]);
+    assert_eq!(all.status.code(), Some(0));
+    let report = text(&all.stdout);
     for table in [3, 4, 5, 6, 7, 8, 13] {
         assert!(report.contains(&format!("Table {table})")), "Table {table}");
     }
-    assert!(report.contains("Anomaly: element 8"));
-    let progress = text(&plain.stderr);
+    assert!(report.contains("Anomaly: element 8") && !report.contains("(Table 1, "));
+    let progress = text(&all.stderr);
     assert_eq!(progress.lines().count(), 8, "one line a pass: {progress}");
     assert!(progress.starts_with("case 1, pass 1: 12 iterations"));
+    assert_eq!(corfem(&["cases", "1", "2", "3", "4"]).stdout, all.stdout);
+}
+
+/// The head of README's table has the same numbers from the goldens.
+#[test]
+fn without_a_command_it_prints_less_than_a_page_of_a_terminal() {
+    let plain = printed(&[]);
+    assert_eq!(plain, printed(&["cases"]));
+    assert_eq!(plain, printed(&["-q", "cases"]));
+    let lines: Vec<&str> = plain.lines().collect();
+    assert!(lines.len() <= 45, "{} lines", lines.len());
+    assert!(
+        lines.iter().all(|line| line.chars().count() <= 80),
+        "{plain}"
+    );
+    let cells = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+    let readme = include_str!("../../../README.md");
+    let rows = readme
+        .split("<!-- computed: cases -->")
+        .nth(1)
+        .expect("the table");
+    let rows = rows.split("<!-- end -->").next().expect("its end").trim();
+    let mut count = 0;
+    for row in rows.lines().skip(2) {
+        let row = cells(&row.replace('|', " "));
+        assert!(lines.iter().any(|line| cells(line) == row), "{row}");
+        count += 1;
+    }
+    assert_eq!(count, 7);
+    let words = cells(&plain);
+    assert!(
+        words.contains(
+            "Case 4: element 8 asks for 58.4 times its stiffness (published: 60), the next"
+        )
+    );
+    let json = parsed(&["cases", "-q", "-f", "json"]);
+    for (row, case) in json["cases"].as_array().expect("four").iter().enumerate() {
+        let line = lines
+            .iter()
+            .find(|line| line.starts_with(&format!("{} ", row + 1)));
+        let line = line.unwrap_or_else(|| panic!("case {}", row + 1));
+        assert!(
+            line.ends_with(case["outcome"].as_str().expect("words")),
+            "{line}"
+        );
+    }
+    // A bar is as long as its error, in tenths of the largest, and a thin panel's goes the other way.
+    for (panel, gage) in numbers(&json["cases"][1]["pass_gages_in"][1])
+        .iter()
+        .enumerate()
+    {
+        let (error, start) = (100.0 * (gage / 0.01 - 1.0), format!("{:>2}", panel + 1));
+        let begun = format!("{start} {error:>+6.1} ");
+        let line = lines
+            .iter()
+            .find_map(|line| line.split(&begun).nth(1))
+            .expect("its line");
+        let bar: String = line.chars().take(21).collect();
+        let (left, right) = bar.split_once('│').expect("zero");
+        let side = if error < 0.0 { left } else { right };
+        let length = (error.abs() / 5.0).round() as usize;
+        assert_eq!(side.matches('█').count(), length, "panel {start}: {line}");
+        assert_eq!(bar.matches('█').count(), length, "panel {start}: {line}");
+        assert_eq!(right.matches('░').count() + right.matches('█').count(), 10);
+    }
+    for command in ["cases --all", "tables", "report -o", "init --example"] {
+        assert!(plain.contains(&format!("corfem {command}")), "{command}");
+    }
+}
+
+#[test]
+fn quiet_is_taken_before_and_after_the_command() {
+    for arguments in [
+        ["-q", "cases", "4"],
+        ["cases", "-q", "4"],
+        ["cases", "4", "--quiet"],
+    ] {
+        assert!(printed(&arguments).contains("Case 4"));
+    }
+}
+
+#[test]
+fn help_puts_every_option_below_its_own_heading() {
+    let help = text(&corfem(&["cases", "--help"]).stdout);
+    let (before, settings) = help
+        .split_once("Settings of the loops:")
+        .expect("the heading");
+    for option in [
+        "--all",
+        "--quiet",
+        "--format",
+        "--output",
+        "--box",
+        "--groups",
+        "--solver",
+        "--nastran",
+        "--time-limit",
+    ] {
+        assert!(
+            before.contains(option) && !settings.contains(option),
+            "{option}"
+        );
+    }
+    for option in [
+        "--rule",
+        "--accumulation",
+        "--relaxation",
+        "--tolerance",
+        "--limits",
+        "--iterations",
+        "--passes",
+    ] {
+        assert!(settings.contains(option), "{option}");
+    }
+    for reading in ["matrix", "own", "relative", "gage", "sum", "product"] {
+        let line = |line: &&str| line.trim_start().starts_with(&format!("{reading} "));
+        let line = settings
+            .lines()
+            .find(line)
+            .unwrap_or_else(|| panic!("{reading}"));
+        assert!(line.split_whitespace().count() > 4, "{line}");
+    }
+    assert!(!text(&corfem(&["--help"]).stdout).contains("Settings"));
 }
 
 #[test]
@@ -165,6 +286,14 @@ fn help_says_what_it_does_and_what_the_exit_status_means() {
         assert!(cases.contains(words), "{words}");
     }
     assert!(help.contains("Case 4 detected a modeling error"), "{help}");
+    for command in ["correlate", "study"] {
+        let help = text(&corfem(&[command, "--help"]).stdout);
+        let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            help.contains("a second one ends the program at once"),
+            "{help}"
+        );
+    }
 }
 
 #[test]
@@ -288,7 +417,8 @@ fn no_command_prints_a_line_that_is_too_long_by_default() {
     assert!(corfem(&["deck", "3", "-o", deck]).status.success());
     for arguments in [
         &["cases"][..],
-        &["cases", "--groups"],
+        &["cases", "--all"],
+        &["cases", "--all", "--groups"],
         &["tables"],
         &["fewer-modes"],
         &["deck", "4"],

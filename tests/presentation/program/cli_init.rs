@@ -110,3 +110,63 @@ fn the_example_of_a_test_reads() {
         .unwrap_or_else(|error| panic!("{error}"));
     assert_eq!((data.sensors.len(), data.frequencies_hz.len()), (2, 2));
 }
+
+/// Two commands from nothing to a corrected structure and its report.
+#[test]
+fn every_example_runs_as_it_is_written() {
+    for (name, status) in [("building", 0), ("wing", 0), ("garteur", 3)] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        let (job, results) = (at("mine").join("job.toml"), at("results"));
+        let written = corfem(&["init", "--example", name, words(&at("mine"))]);
+        assert_eq!(
+            (written.status.code(), written.stdout.len()),
+            (Some(0), 0),
+            "{name}"
+        );
+        let next = format!(
+            "next: corfem correlate {} --folder results\n",
+            job.display()
+        );
+        assert_eq!(text(&written.stderr), next);
+        let done = corfem(&["correlate", "-q", words(&job), "--folder", words(&results)]);
+        assert_eq!(
+            done.status.code(),
+            Some(status),
+            "{name}: {}",
+            text(&done.stderr)
+        );
+        assert!(results.join("report.html").exists());
+        // It is the job of the tests, whole.
+        let own = folder_of(name);
+        let files = fs::read_dir(&own)
+            .expect("it reads")
+            .map(|file| file.expect("a file").file_name());
+        let files: Vec<_> = files.collect();
+        assert_eq!(
+            files.len(),
+            fs::read_dir(at("mine")).expect("it reads").count()
+        );
+        for file in files {
+            let [mine, own] = [at("mine"), own.clone()]
+                .map(|folder| fs::read(folder.join(&file)).expect("it reads"));
+            assert_eq!(mine, own, "{name}: {}", file.display());
+        }
+        // And never over a file that is there.
+        let again = corfem(&["init", "--example", name, words(&at("mine"))]);
+        assert_eq!(again.status.code(), Some(2));
+        assert!(
+            text(&again.stderr).contains("already exists"),
+            "{}",
+            text(&again.stderr)
+        );
+    }
+    assert_eq!(
+        corfem(&["init", "--example", "wing"]).status.code(),
+        Some(2)
+    );
+    assert_eq!(
+        corfem(&["init", "--example", "bridge", "x"]).status.code(),
+        Some(2)
+    );
+}

@@ -363,6 +363,27 @@ fn await_taken(child: &std::process::Child) {
     }
 }
 
+/// Waits until a program has computed for three seconds of its own, enough for some analyses, however busy the machine; for six
+/// seconds where that is not known.
+#[cfg(unix)]
+fn await_work(child: &std::process::Child) {
+    let has_worked = || {
+        std::thread::sleep(std::time::Duration::from_millis(100));
+        let stat = std::fs::read_to_string(format!("/proc/{}/stat", child.id())).ok()?;
+        // The fourteenth number of the line, in hundredths of a second.
+        let after = stat.rsplit_once(')')?.1;
+        let ticks: u32 = after.split_whitespace().nth(11)?.parse().ok()?;
+        Some(ticks >= 300)
+    };
+    for round in 0..3000 {
+        match has_worked() {
+            Some(true) => break,
+            None if round >= 60 => break,
+            _ => (),
+        }
+    }
+}
+
 /// A pipe that nobody reads holds the program while it writes the best so far.
 #[cfg(unix)]
 #[test]
@@ -408,7 +429,6 @@ fn a_signal_keeps_the_best_so_far() {
     use rustix::process::Signal;
     use std::os::unix::process::ExitStatusExt;
     use std::process::Stdio;
-    use std::time::Duration;
     let endless = "method = \"gauss_newton\"\nstarts = 1000000";
     let (folder, job) = changed("wing", "method = \"gauss_newton\"", endless);
     let out = folder.path().join("out");
@@ -419,8 +439,7 @@ fn a_signal_keeps_the_best_so_far() {
         .spawn()
         .expect("it starts");
     await_taken(&child);
-    // For some analyses.
-    std::thread::sleep(Duration::from_secs(6));
+    await_work(&child);
     assert!(child.try_wait().expect("a state").is_none(), "it lasts");
     send(&child, Signal::INT);
     let output = child.wait_with_output().expect("an end");

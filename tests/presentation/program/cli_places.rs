@@ -156,7 +156,7 @@ fn new_files_are_on_the_disk_before_they_take_a_name() {
         .collect();
     assert_eq!(kinds, ["sync", "rename", "sync"], "{calls:?}");
     let out = tempfile::tempdir().expect("a folder");
-    let Some(calls) = self::calls(&["figures", "-q", "-o", "figures"], out.path()) else {
+    let Some(calls) = self::calls(&["figures", "-q", "--folder", "figures"], out.path()) else {
         return;
     };
     // Every file before its name, and its name before the next file.
@@ -188,8 +188,8 @@ fn a_directory_in_the_place_of_a_file_of_the_run_is_refused_before_the_run() {
             &["study", "-q", job, "--samples", "2", "--folder"],
             fixed(&["samples.csv", "summary.csv", "histogram.svg"]),
         ),
-        (&["report", "-q", "-o"], fixed(&["report.html"])),
-        (&["figures", "-q", "-o"], drawn),
+        (&["report", "-q", "--folder"], fixed(&["report.html"])),
+        (&["figures", "-q", "--folder"], drawn),
         (&["dump", "-q", "1", "--folder"], fixed(&["dump.json"])),
     ];
     for (run, names) in runs {

@@ -49,7 +49,7 @@ fn other_numbers_are_bad_input() {
 fn a_report_says_which_tables_it_holds() {
     let words = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");
     for (arguments, numbers) in [
-        (&["cases", "-q"][..], "1, 3, 4, 5, 6, 7, 8, 13"),
+        (&["cases", "--all", "-q"][..], "3, 4, 5, 6, 7, 8, 13"),
         (&["cases", "2", "-q"], "5, 6, 13"),
         (&["cases", "3", "-q", "-f", "markdown"], "7, 8, 13"),
     ] {

@@ -33,7 +33,8 @@ fn full() -> Trust {
         ignored: vec!["ASET (line 3, 1 card)".to_owned()],
         analysis_modes: 11,
         rigid_body_modes: 6,
-        mass_and_center: Some((12.5, [1.0, 2.0, 3.0])),
+        mass: [12.5; 3],
+        center: Some([1.0, 2.0, 3.0]),
     }
 }
 
@@ -61,7 +62,8 @@ fn every_field_of_the_account_of_trust_is_said() {
         ("mostly_prior", |trust| trust.mostly_prior = Vec::new()),
         ("analysis_modes", |trust| trust.analysis_modes = 12),
         ("rigid_body_modes", |trust| trust.rigid_body_modes = 0),
-        ("mass_and_center", |trust| trust.mass_and_center = None),
+        ("mass", |trust| trust.mass = [0.0; 3]),
+        ("center", |trust| trust.center = None),
     ];
     let value = serde_json::to_value(full()).expect("JSON");
     let fields: BTreeSet<&str> = value
@@ -385,6 +387,9 @@ fn a_selected_mode_that_is_not_compared_is_no_success() {
     let (status, words, _) = status_of(&path, &[]);
     assert_eq!(status, Some(3), "{words}");
     assert!(words.contains("Test mode 3 is not compared: "), "{words}");
+    // Nor is a sample of a study: its third cell says whether it is within tolerance.
+    let (_, sample, _) = study_of(&path, &["--sample", "1", "--vary", "start"]);
+    assert_eq!(sample.split(',').nth(2), Some("false"), "{sample}");
     let selected = with(
         files,
         "job.toml",
@@ -548,6 +553,153 @@ fn every_concern_of_the_test_jobs_begins_with_a_capital_letter_and_ends_as_a_sen
     ] {
         assert!(identifiers.contains(expected), "{identifiers:?}");
     }
+}
+
+/// An entry that is read, checked and then used by nothing would be taken for one that counts.
+#[test]
+fn entries_of_a_job_that_nothing_uses_are_said() {
+    let said = |files: &Files| {
+        let (_folder, path) = placed(files);
+        let loaded = LoadedJob::new(&path).expect("it loads");
+        Trust::before(&loaded).expect("an account").ignored
+    };
+    let of_loops = "\n[correlation]\nlater_inner_tolerance = 0.01\nerror_sum_tolerance = 0.05\nmost_passes = 9\n\
+                    [correlation.inner]\nstep = \"own\"\ntolerance = 0.02\nfactor_range = { lower = 0.5, upper = 2 }\n";
+    let mut weighted = with(rods(), "job.toml", "[compare]", "[compare]\nseed = 7");
+    weighted = with(
+        weighted,
+        "job.toml",
+        "[model]",
+        "[model]\nrows = \"rows.csv\"",
+    );
+    weighted = with(weighted, "job.toml", "[sensors]", "[sensors]\ndistance = 1");
+    let job = |files: &mut Files, of_loops: &str| {
+        files
+            .iter_mut()
+            .find(|(name, _)| name == "job.toml")
+            .expect("a job")
+            .1 += of_loops;
+    };
+    job(&mut weighted, of_loops);
+    assert_eq!(
+        said(&weighted),
+        [
+            "model.rows (of matrices)",
+            "compare.seed (of several starts)",
+            "correlation.later_inner_tolerance (of the paper's loops)",
+            "correlation.most_passes (of the paper's loops)",
+            "correlation.inner.step (of the paper's loops)",
+            "correlation.inner.factor_range (of the paper's loops)",
+            "correlation.inner.tolerance (of the paper's loops)",
+        ]
+    );
+    let mut paper = with(rods(), "job.toml", "gauss_newton", "paper");
+    job(&mut paper, of_loops);
+    assert_eq!(said(&paper), [""; 0]);
+    let springs = [[1000.0, 1050.0, 1100.0], [1000.0, 1100.0, 1150.0]];
+    let matrices = joined("gauss_newton", springs, 60.0);
+    let matrices = with(
+        matrices,
+        "job.toml",
+        "[model]",
+        "[sensors]\ndistance = 1\n[model]\nignore = [\"CBAR\"]",
+    );
+    let given = "[compare]\nshape_deviation = 0.01\nfrequency_deviation = 0.01";
+    let mut matrices = with(matrices, "job.toml", "[compare]", given);
+    assert_eq!(
+        said(&matrices),
+        [
+            "model.ignore (of decks)",
+            "sensors.distance (of sensors whose place is known)",
+        ]
+    );
+    let csv = table_of(&mut matrices);
+    *csv = csv.replacen("grid,", "shape_deviation,,,0.02,0.02,0.02\ngrid,", 1);
+    assert_eq!(
+        said(&matrices)[2..],
+        ["compare.shape_deviation (of a test without its own)"]
+    );
+}
+
+/// The line of one sample is for a file of samples; the doubt that makes the status is said beside it.
+#[test]
+fn one_sample_of_a_doubtful_job_says_why_its_status_is_3() {
+    let (_folder, path) = placed(&in_radians());
+    let (status, line, error) = study_of(&path, &["--sample", "1"]);
+    assert_eq!((status, line.split(',').count()), (Some(3), 8));
+    assert!(
+        error.starts_with("corfem: doubt common-factor: "),
+        "{error}"
+    );
+    let (status, _, error) = study_of(&path, &["--sample", "1", "--accept", "common-factor"]);
+    assert_eq!((status, &error[..]), (Some(0), ""));
+}
+
+/// Cross-orthogonality has the mass of some modes' model, and the note under the table says which.
+#[test]
+fn the_mass_of_cross_orthogonality_is_named_before_and_after() {
+    let (_folder, path) = placed(&rods());
+    for (command, model) in [("check", "first"), ("correlate", "corrected")] {
+        let (_, words, _) = ran(command, &path, &[]);
+        let source = format!("The mass is that of the paired modes of the {model} model.");
+        assert!(words.contains(&source), "{words}");
+    }
+}
+
+/// Rods, masses along one direction and in all, at free and held grids; and matrices whose rows couple.
+#[test]
+fn the_mass_of_a_job_is_that_of_all_that_moves_along_each_axis() {
+    let said = |files: &Files| {
+        let (_folder, path) = placed(files);
+        let loaded = LoadedJob::new(&path).expect("it loads");
+        let trust = Trust::before(&loaded).expect("an account");
+        let all = trust.all().into_iter();
+        let mass = all.filter(|concern| concern.identifier == "mass");
+        mass.map(|concern| concern.words).collect::<Vec<_>>()
+    };
+    // Three unit masses along x at 10, 20 and 30.
+    assert_eq!(
+        said(&rods()),
+        ["Mass that moves along x 3, along y 0, along z 0, center of gravity (20, 0, 0)."]
+    );
+    // Rods of 1 · 0.1 · 10 each from 0 to 30 and a mass of 2 at the wall.
+    let heavy = with(rods(), "model.bdf", "MAT1,1,1.+6,,.3", "MAT1,1,1.+6,,.3,1.");
+    let heavy = with(heavy, "model.bdf", "MAT1,2,1.+6,,.3", "MAT1,2,1.+6,,.3,1.");
+    let heavy = with(heavy, "model.bdf", "CMASS2,12", "CONM2,11,1,,2.\nCMASS2,12");
+    // Of x 3 + 3 + 2, of y and z 3 + 2: the center is that of the sum, (60 + 3 · 45) / 18.
+    assert_eq!(
+        said(&heavy),
+        ["Mass that moves along x 8, along y 5, along z 5, center of gravity (10.8333, 0, 0)."]
+    );
+    let all = with(
+        heavy,
+        "model.bdf",
+        "CMASS2,12,1.,2,1\nCMASS2,13,1.,3,1\nCMASS2,14,1.,4,1\n",
+        "",
+    );
+    assert_eq!(said(&all), ["Total mass 5, center of gravity (9, 0, 0)."]);
+    let springs = [[1000.0, 1050.0, 1100.0], [1000.0, 1100.0, 1150.0]];
+    let mut matrices = joined("gauss_newton", springs, 60.0);
+    for (name, text) in &mut matrices {
+        if name == "M.mtx" {
+            let mass =
+                DMatrix::from_row_slice(3, 3, &[2.0, 1.0, 0.0, 1.0, 2.0, 0.0, 0.0, 0.0, 3.0]);
+            *text = market(&mass);
+        }
+    }
+    assert_eq!(
+        said(&matrices),
+        ["Mass that moves along x 9, along y 0, along z 0."]
+    );
+    for (name, text) in &mut matrices {
+        if name == "rows.csv" {
+            *text = "grid,direction,x,y,z\n1,x,0,0,4\n2,x,0,6,4\n3,x,3,0,4\n".to_owned();
+        }
+    }
+    assert_eq!(
+        said(&matrices),
+        ["Mass that moves along x 9, along y 0, along z 0, center of gravity (1, 2, 4)."]
+    );
 }
 
 /// Whatever a concern is called, only test modes that are not compared are left out.

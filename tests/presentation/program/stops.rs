@@ -62,7 +62,7 @@ fn old_set(folder: &Path) {
 /// The program writing figures into a folder, perhaps run by another one.
 fn start(run_by: &[&str], folder: &Path) -> Child {
     corfem_run_by(run_by)
-        .args(["figures", "-q", "-o"])
+        .args(["figures", "-q", "--folder"])
         .arg(folder)
         .stdout(Stdio::null())
         .stderr(Stdio::null())

@@ -1,0 +1,70 @@
+//! `corfem init --example`: the jobs of `tests/jobs`, with all their files.
+
+use super::output::note;
+use super::place::write_report;
+use clap::ValueEnum;
+use corfem::files::error::FileError;
+use corfem::present::PresentError;
+use std::io::{Error, ErrorKind};
+use std::path::Path;
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum Example {
+    /// Ten stories of a building as matrices, five sensors in a table: every story comes back
+    Building,
+    /// A delta wing of 113 elements as a NASTRAN deck, its test as a Universal File: Gauss-Newton steps
+    Wing,
+    /// A real test: an airplane of aluminum bars, eight frequencies, and a model that its parameters cannot make right
+    Garteur,
+}
+
+macro_rules! files {
+    ($folder:literal: $($name:literal)*) => {
+        &[$(($name, include_str!(concat!("../../tests/jobs/", $folder, "/", $name)))),*]
+    };
+}
+
+impl Example {
+    fn files(self) -> &'static [(&'static str, &'static str)] {
+        match self {
+            Self::Building => {
+                files!("building": "job.toml" "rows.csv" "test.csv" "mass.mtx" "stiffness.mtx" "story_1.mtx"
+                "story_2.mtx" "story_3.mtx" "story_4.mtx" "story_5.mtx" "story_6.mtx" "story_7.mtx" "story_8.mtx"
+                "story_9.mtx" "story_10.mtx")
+            }
+            Self::Wing => files!("wing": "job.toml" "model.bdf" "test.unv"),
+            Self::Garteur => {
+                files!("garteur": "job.toml" "rows.csv" "test.csv" "mass.mtx" "stiffness.mtx" "damping_layer.mtx"
+                "drums_mass.mtx" "fin.mtx" "fuselage.mtx" "joint.mtx" "tailplane.mtx" "wing_bending.mtx" "wing_torsion.mtx")
+            }
+        }
+    }
+
+    /// Writes the job and its files into a folder, made if it is new, and over none that is there.
+    pub fn write(self, folder: &Path, quiet: bool) -> Result<(), PresentError> {
+        let paths = self
+            .files()
+            .iter()
+            .map(|(name, text)| (folder.join(name), text));
+        let paths: Vec<_> = paths.collect();
+        if let Some((path, _)) = paths.iter().find(|(path, _)| path.exists()) {
+            return Err(
+                FileError::of_file(path, "write")(Error::from(ErrorKind::AlreadyExists)).into(),
+            );
+        }
+        if !folder.is_dir() {
+            std::fs::create_dir(folder).map_err(FileError::of_file(folder, "write"))?;
+        }
+        for (path, text) in &paths {
+            write_report(Some(path), text)?;
+        }
+        if !quiet {
+            let job = folder.join("job.toml");
+            note(format_args!(
+                "next: corfem correlate {} --folder results",
+                job.display()
+            ));
+        }
+        Ok(())
+    }
+}

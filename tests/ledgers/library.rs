@@ -1,0 +1,81 @@
+//! What a user of the library needs: this crate and nothing beside it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The folder of everything this test program was compiled from, and the newest build of the library in it.
+fn built() -> (PathBuf, PathBuf) {
+    let folder = std::env::current_exe().expect("a path");
+    let folder = folder.parent().expect("a folder").to_owned();
+    let is_library = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        name.starts_with("libcorfem-") && name.ends_with(".rlib")
+    };
+    let files = fs::read_dir(&folder).expect("it reads");
+    let files = files.map(|entry| entry.expect("an entry").path());
+    let newest = |path: &PathBuf| fs::metadata(path).and_then(|found| found.modified()).ok();
+    let library = files.filter(is_library).max_by_key(newest);
+    (folder, library.expect("the library is built"))
+}
+
+/// What the compiler says of a program that has no dependency but this crate; nothing if it compiles.
+fn refused(program: &str) -> Option<String> {
+    let (folder, library) = built();
+    let scratch = tempfile::tempdir().expect("a folder");
+    let source = scratch.path().join("user.rs");
+    fs::write(&source, program).expect("written");
+    let compiler = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let done = Command::new(compiler)
+        .args(["--edition", "2024", "--emit", "metadata", "--extern"])
+        .arg(format!("corfem={}", library.display()))
+        .arg("-L")
+        .arg(format!("dependency={}", folder.display()))
+        .arg("--out-dir")
+        .arg(scratch.path())
+        .arg(&source)
+        .output()
+        .expect("the compiler starts");
+    (!done.status.success()).then(|| String::from_utf8_lossy(&done.stderr).into_owned())
+}
+
+/// The code of a document, as the body of a program's main function.
+fn program_of(document: &str) -> String {
+    let code = document.split("```rust\n").nth(1).expect("code");
+    let code = code.split("```").next().expect("its end");
+    let lines = code
+        .lines()
+        .map(|line| line.strip_prefix("# ").unwrap_or(line));
+    let body = lines.collect::<Vec<_>>().join("\n");
+    format!("fn main() -> Result<(), Box<dyn std::error::Error>> {{\n{body}\n}}")
+}
+
+fn document(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
+    fs::read_to_string(path).expect("it reads")
+}
+
+#[test]
+fn the_wing_box_needs_no_dependency_but_this_crate_and_65_lines() {
+    let program = program_of(&document("paper/library.md"));
+    assert!(
+        program.lines().count() <= 65,
+        "{} lines",
+        program.lines().count()
+    );
+    assert_eq!(refused(&program), None);
+    // Without the crate's own, the macros find no nalgebra: there is none beside it.
+    let without = program.replace("nalgebra::{self, ", "nalgebra::{");
+    assert_ne!(without, program);
+    let said = refused(&without).expect("it does not compile");
+    assert!(said.contains("nalgebra"), "{said}");
+}
+
+#[test]
+fn every_macro_of_nalgebra_is_served() {
+    let program = "use corfem::nalgebra::{self, dmatrix, dvector, matrix, point, vector};
+        fn main() {
+            let _ = (dmatrix![1.0, 2.0; 3.0, 4.0], dvector![1.0], matrix![1.0; 2.0], vector![1.0, 2.0], point![1.0, 2.0]);
+        }";
+    assert_eq!(refused(program), None);
+}

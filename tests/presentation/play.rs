@@ -1,0 +1,164 @@
+//! The figure to play with: its script is short and needs nothing, and what it solves in the page is what the program solves.
+
+use crate::common::draws::Draws;
+use crate::common::golden::Numbers;
+use crate::common::tolerances::PLAYED;
+use crate::presentation::figures::results;
+use corfem::method::state::{ModalState, UpdateRule};
+use corfem::method::step::Accumulation;
+use corfem::present::page::play;
+use serde_json::{Value, json};
+use std::process::{Command, Stdio};
+
+fn html() -> String {
+    play(&results()[1]).expect("a figure")
+}
+
+fn script(html: &str) -> &str {
+    let (_, rest) = html.split_once("<script>").expect("a script");
+    rest.split_once("</script>").expect("its end").0
+}
+
+#[test]
+fn figure_to_play_with_is_short_and_needs_nothing_beside_it() {
+    let html = html();
+    assert!(html.len() < 60_000, "{} bytes", html.len());
+    let lines = script(&html).trim().lines().count();
+    assert!(lines <= 150, "{lines} lines of script");
+    for outside in ["http", "src=", "url(", "import", "fetch", "eval"] {
+        assert!(!html.contains(outside), "{outside}");
+    }
+    // Markdown ends an HTML block at a blank line.
+    assert!(!html.trim().contains("\n\n"));
+    assert!(
+        html.contains("believe 3.4 % where an exact analysis of the same gages finds 9.3 %")
+            && html.contains("the error sum is 9.5 %")
+    );
+}
+
+/// Chapter 5 of the tour has the same figure.
+#[test]
+fn figure_of_the_tour_is_that_of_the_report() {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("paper/tour/05_play.html");
+    let html = html();
+    if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "1") {
+        std::fs::write(&path, &html).expect("it can be written");
+    }
+    let stored = std::fs::read_to_string(&path).expect("it reads");
+    assert!(
+        Numbers::DRAWN.agree(&stored, &html),
+        "CORFEM_WRITE=1 writes it anew"
+    );
+}
+
+/// Node runs the script as it stands in the page; every number that a reader can see along the thirty steps, and at gages dragged by
+/// hand, is the program's.
+#[test]
+fn node_solves_the_pages_modes_as_the_program_does() {
+    let has_node = Command::new("node")
+        .arg("--version")
+        .stdout(Stdio::null())
+        .status()
+        .is_ok_and(|status| status.success());
+    if !has_node {
+        println!("NOT RUN: the script of the figure to play with. It needs node.");
+        return;
+    }
+    let result = &results()[1];
+    let modal = result
+        .case
+        .model()
+        .expect("a model")
+        .analyze(&[1.0; 15], &result.test, None)
+        .expect("analyzed");
+    let steps = &result.correlation.passes[0].inner.iterations;
+    let mut draws = Draws(30);
+    let dragged: Vec<Vec<f64>> = (0..40)
+        .map(|_| (0..15).map(|_| draws.between(0.27, 1.2)).collect())
+        .collect();
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("play.js");
+    std::fs::write(&path, script(&html())).expect("written");
+    let program = format!(
+        "const page = require({}), dragged = {};\
+         console.log(JSON.stringify({{ ...page.histories, dragged: dragged.map((gages, at) => page.at(at % 31, gages, at % 2 === 0)) }}))",
+        json!(path),
+        json!(dragged)
+    );
+    let output = Command::new("node")
+        .args(["-e", &program])
+        .output()
+        .expect("it runs");
+    let words = String::from_utf8_lossy(&output.stderr);
+    let found: Value =
+        serde_json::from_slice(&output.stdout).unwrap_or_else(|error| panic!("{error}: {words}"));
+    let mut compared = 0;
+    let mut compare = |found: &Value, state: &ModalState, what: &str| {
+        let errors = state.errors();
+        let hertz = state.modes().frequencies_hz();
+        let paired = state
+            .pairing()
+            .analysis_mode()
+            .iter()
+            .map(|&mode| hertz[mode]);
+        let expected = paired.chain([errors.frequency, errors.shape]);
+        let read = found["hertz"].as_array().expect("frequencies").iter();
+        let read: Vec<f64> = read
+            .chain([&found["frequency"], &found["shape"]])
+            .map(|number| number.as_f64().expect("a number"))
+            .collect();
+        assert_eq!(read.len(), 11);
+        for (number, (read, expected)) in read.into_iter().zip(expected).enumerate() {
+            let off = (read - expected).abs() / expected.abs().max(1.0);
+            assert!(
+                off < PLAYED,
+                "{what}, number {number}: {read} for {expected}"
+            );
+            compared += 1;
+        }
+    };
+    let by_gages = |gages: &[f64]| {
+        ModalState::at(&modal, gages.to_vec(), UpdateRule::Eigensolution).expect("modes")
+    };
+    // The stiffness on which the loop stands after every step, and that of its gages.
+    let ones = vec![1.0; 15];
+    let (mut stiffness, mut before) = (vec![ones.clone()], &ones);
+    let add = |shares: &[f64], from: &[f64], to: &[f64]| -> Vec<f64> {
+        let ends = shares.iter().zip(from).zip(to);
+        ends.map(|((share, from), to)| Accumulation::Sum.next_share_factor(*share, *from, *to))
+            .collect()
+    };
+    assert_eq!(found["adds"].as_array().map(Vec::len), Some(31));
+    for (at, step) in steps.iter().enumerate() {
+        let last = add(&stiffness[at], before, &step.factors);
+        let state = by_gages(&last);
+        assert!(
+            (state.errors().sum() - step.errors.sum()).abs() < PLAYED,
+            "the loop's own"
+        );
+        compare(&found["adds"][at + 1], &state, &format!("step {}", at + 1));
+        let follows = by_gages(&step.factors);
+        compare(
+            &found["follows"][at + 1],
+            &follows,
+            &format!("gages of step {}", at + 1),
+        );
+        stiffness.push(last);
+        before = &step.factors;
+    }
+    let at_step = |step: usize| step.checked_sub(1).map_or(&ones, |row| &steps[row].factors);
+    for (at, gages) in dragged.iter().enumerate() {
+        let step = at % 31;
+        let shares = if at % 2 == 0 {
+            add(&stiffness[step], at_step(step), gages)
+        } else {
+            gages.clone()
+        };
+        compare(
+            &found["dragged"][at],
+            &by_gages(&shares),
+            &format!("dragged {at}"),
+        );
+    }
+    assert_eq!(compared, 11 * (60 + dragged.len()));
+}
