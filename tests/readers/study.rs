@@ -293,10 +293,7 @@ fn a_summary_counts_the_samples_at_an_end_of_a_factors_range() {
     let place = Place::of(with(rods(), "job.toml", "elements = [1]", bounded));
     let study = &place.study(7, &[Vary::Noise]);
     let line = |(sample, factor): (usize, f64)| {
-        format!(
-            "{sample},cap,true,0.5,3,{factor},2,{:016x}\n",
-            study.identity
-        )
+        format!("{sample},cap,true,0.5,3,{factor},2,{}\n", study.identity)
     };
     let text: String = [(1, 0.5), (2, 1.9), (3, 2.0)].map(line).concat();
     let samples = place.read(study, text.as_bytes()).expect("it reads");
