@@ -32,20 +32,27 @@
 //! - `present` and the program `corfem`, with the feature `program`: tables, figures, a page, commands.
 //!
 //! ```text
-//!  structure ──► element stiffness ──► assembly K_S ──► condensation ──► modes ─┐
-//!  grids, gages   rod, shear panel,     sparse           K_D, and each           │
-//!       ▲         membrane              Cholesky         element's share         ▼
-//!       │                                                (Appendix A)       pairing (4)     ◄── test modes
-//!       │                                                                        │             (Appendix B)
-//!       │ outer loop: new gages,                                                 ▼
-//!       │ exact check                 inner loop                            error sum e_S (5, 6)
-//!       │                       ┌──────────────────────────────────────────────┤
-//!       │                       ▼                                              ▲
-//!       │        derivatives (12) ──► factors (13) ──► new modes by            │
-//!       │        first-order          limited          perturbation ───────────┘
-//!       │        perturbation                          (Appendix C)
-//!       │                                                   │ e_S small, or a local minimum
-//!       └───────────────────────────────────────────────────┘
+//!  structure           grids, gages                     ◄─────────────────┐
+//!      │                                                                  │
+//!      ▼                                                                  │
+//!  element stiffness   rod, shear panel, membrane                         │
+//!      │                                                                  │
+//!      ▼                                                                  │
+//!  condensation        K_S, then K_D and every share (A)                  │
+//!      │                                                       outer loop:│
+//!      ▼                                                        new gages,│
+//!  exact modes (3)                                             exact check│
+//!      │                                                                  │
+//!      ▼                                                                  │
+//!  pairing (4)         with the test modes (B)                            │
+//!      │                                                                  │
+//!      ▼                                                                  │
+//!  error sum (5, 6) ◄────────────────────────┐                            │
+//!      │                          inner loop │                            │
+//!      ▼                                     │                            │
+//!  derivatives (12) ──► factors (13) ──► new modes (C)                    │
+//!                                            │ e_S small, or a minimum    │
+//!                                            └────────────────────────────┘
 //! ```
 //!
 //! # Units

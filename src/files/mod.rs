@@ -1,12 +1,12 @@
 //! Files of other programs: bytes to data and back.
 
 pub mod deck;
+pub mod disk;
 pub mod error;
 pub mod matrices;
 pub mod nastran95;
 pub mod test_data;
 
-use std::fs::File;
 use std::io::{Error, ErrorKind, Read};
 use std::path::Path;
 
@@ -19,7 +19,7 @@ pub const MOST_BYTES: u64 = 1 << 31;
 /// # Errors
 /// Those of the operating system; that it is not such a file.
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, Error> {
-    let found = std::fs::metadata(path)?;
+    let found = disk::metadata(path)?;
     if !found.is_file() {
         let reason = "it is not a regular file; copy what it gives into one";
         return Err(Error::new(ErrorKind::InvalidInput, reason));
@@ -27,7 +27,7 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, Error> {
     let (mut bytes, mut length) = (Vec::new(), found.len());
     if length <= MOST_BYTES {
         // It may have grown meanwhile.
-        length = File::open(path)?
+        length = disk::open(path)?
             .take(MOST_BYTES + 1)
             .read_to_end(&mut bytes)? as u64;
     }

@@ -72,6 +72,21 @@ impl LoadedJob {
                 "The job's weights count as dividing the standard deviations: chi-squared and intervals hold for deviations so divided.",
             ));
         }
+        let tests = self.data.scatter.ncols();
+        if tests > 0 {
+            let used = match self.covariance() {
+                Some(_) => "their covariance counts".to_owned(),
+                None => format!(
+                    "their variances alone count, for a covariance of {} numbers needs {} tests and no weights of the job's own",
+                    self.free_numbers(),
+                    self.free_numbers() + 3
+                ),
+            };
+            all.push(Concern::remark(
+                "repeats",
+                format!("The test is the mean of {tests}; {used}. What all of them have wrong does not scatter."),
+            ));
+        }
         all.extend(self.part_concerns()?);
         for (mode, phase) in self.data.phase_collinearity.iter().enumerate() {
             if *phase < COLLINEAR {

@@ -6,7 +6,7 @@ use super::sensors::{PlacedSensor, place};
 use super::{Compare, Job, Method, ModelSource, read};
 use crate::files::error::FileError;
 use crate::files::read_bytes;
-use crate::files::test_data::{self, TestData};
+use crate::files::test_data::TestData;
 use crate::job::assignment::pair_optimally;
 use crate::job::expansion::mass_by_modes;
 use crate::method::error::{Error, at_least_one};
@@ -70,9 +70,7 @@ impl LoadedJob {
     /// Those of the files; [`FileError::Refused`] for modes that the test does not have or that are named twice; those of the first analysis and of [`LoadedJob::weights`].
     pub fn new(path: &Path) -> Result<Self, FileError> {
         let job = read(path)?;
-        let file = job.beside(&job.test.file);
-        let bytes = job.bytes(&file, "test.file")?;
-        let data = test_data::read(&file.display().to_string(), &bytes)?;
+        let data = job.measured()?;
         let source = Arc::new(load(&job)?);
         Self::with(job, data, source)
     }
@@ -171,7 +169,8 @@ impl LoadedJob {
             .into_iter()
             .chain(job.parameters.iter().map(|rule| &rule.matrix))
             .flatten();
-        let named = named.chain([&job.test.file]).map(|file| job.beside(file));
+        let named = named.chain(&job.test.file).chain(&job.test.repeats);
+        let named = named.map(|file| job.beside(file));
         let program = format!("{} {adds}", env!("CARGO_PKG_VERSION"));
         let mut digest = Sha256::new();
         let mut add = |bytes: &[u8]| {
@@ -182,14 +181,9 @@ impl LoadedJob {
         for file in named.chain([job.path.clone()]) {
             // A # may choose one matrix of the file.
             let text = file.to_string_lossy();
-            let of_matrix = |_| {
-                read_bytes(Path::new(
-                    text.rsplit_once('#').map_or(&*text, |(file, _)| file),
-                ))
-            };
-            let bytes = read_bytes(&file)
-                .or_else(of_matrix)
-                .map_err(FileError::of_file(&file, "read"))?;
+            let chosen = text.rsplit_once('#').filter(|_| !file.exists());
+            let path = chosen.map_or(&*file, |(file, _)| Path::new(file));
+            let bytes = read_bytes(path).map_err(FileError::of_file(path, "read"))?;
             add(&bytes);
         }
         let bytes = digest.finalize();
@@ -399,12 +393,32 @@ impl LoadedJob {
                 let lone = self.followed(&model.exact)?;
                 let mut model = model
                     .with_groups(self.together())?
+                    .with_component_weights(self.component_weights())?
                     .with_lone_frequencies(lone)?;
+                if let Some(covariance) = self.covariance() {
+                    model = model.with_covariance(&covariance)?;
+                }
                 let turned = turned(&model.exact.modes, &model.exact, &model.test)?;
                 model.exact.errors = model.errors_of(&turned, &model.exact.pairing)?;
                 Ok(model)
             }
         }
+    }
+
+    /// One over the deviations of components where the test gives them, times the mode's ([`LoadedJob::deviations`]), else one. They are
+    /// fractions of the largest component of all sensors, which need not be among those placed.
+    fn component_weights(&self) -> DMatrix<f64> {
+        let rows: Vec<usize> = self.placed.iter().map(|sensor| sensor.row).collect();
+        let mut weights = DMatrix::from_element(self.sensors.rows(), self.modes.len(), 1.0);
+        for (mut weights, mode) in weights.column_iter_mut().zip(&self.modes) {
+            if let Some(deviations) = self.data.component_deviation.get(mode) {
+                let shape = self.data.shapes.column(*mode);
+                let largest = shape.select_rows(&rows).amax() / shape.amax();
+                let scale = self.deviations(*mode).shape * largest;
+                weights.copy_from(&deviations.select_rows(&rows).map(|own| scale / own));
+            }
+        }
+        weights
     }
 
     /// Groups of the test modes with shapes that their frequencies' deviations do not tell apart ([`told_apart`]), by place.

@@ -14,6 +14,7 @@ mod model;
 pub mod nastran95;
 pub mod preflight;
 mod loaded;
+mod repeats;
 mod run;
 mod samples;
 mod sensors;
@@ -83,9 +84,10 @@ struct ModelFiles {
 }
 
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 struct TestFile {
-    file: PathBuf,
+    file: Option<PathBuf>,
+    repeats: Vec<PathBuf>,
     modes: Option<Vec<usize>>,
     partners: Option<Vec<usize>>,
 }

@@ -13,21 +13,22 @@ use crate::method::verdict::{Outcome, Verdict};
 use crate::sparse::{WholeParameter, WholeShare};
 use crate::weighted::close_modes::turned;
 use crate::weighted::gauss_newton::{
-    WeightedCorrelation, WeightedSettings, WeightedStop, from_several_starts, gauss_newton,
+    WeightedCorrelation, WeightedSettings, WeightedStop, gauss_newton,
 };
 use crate::weighted::identifiability::{Identifiability, identifiability};
 use crate::weighted::intervals::intervals;
 use crate::weighted::misfit::Misfit;
 use crate::weighted::noise::Noise;
 use crate::weighted::residuals::{DEVIATIONS, jacobian, residuals};
+use crate::weighted::starts::{Minimum, from_several_starts};
 
 /// How the factors were found.
 #[derive(Debug, Clone)]
 pub enum History {
     /// By the paper's loops.
     Paper(Correlation),
-    /// By Gauss–Newton steps, and how many of the starts reach the best; none when it was stopped by request.
-    GaussNewton(Option<(WeightedCorrelation, usize)>),
+    /// By Gauss–Newton steps, with the minima that noise allows of several starts; none when it was stopped by request.
+    GaussNewton(Option<(WeightedCorrelation, Vec<Minimum>)>),
 }
 
 /// The result of a job.
@@ -138,13 +139,16 @@ impl LoadedJob {
         }
     }
 
-    /// Those of its frequency and of its shape that the test or the job gives.
+    /// Those of its frequency and of its shape that the test or the job gives; of components' own the root of their mean square.
     pub(super) fn given_deviations(&self, mode: usize) -> [Option<f64>; 2] {
         let (data, compare) = (&self.data, &self.job.compare);
         let own = |own: &Option<Vec<f64>>| own.as_ref().and_then(|own| own.get(mode).copied());
+        let components = data.component_deviation.get(&mode);
+        let mean = components.map(|all| (all.norm_squared() / all.len() as f64).sqrt());
         [
             own(&data.frequency_deviation).or(compare.frequency_deviation),
-            own(&data.shape_deviation).or(compare.shape_deviation),
+            mean.or(own(&data.shape_deviation))
+                .or(compare.shape_deviation),
         ]
     }
 
@@ -377,15 +381,16 @@ fn run_part(
                 }
             };
             let found = match starts {
-                1 => gauss_newton(analyze, start, &ranges, &weights, &weighted).map(|run| (run, 1)),
+                1 => gauss_newton(analyze, start, &ranges, &weights, &weighted)
+                    .map(|run| (run, Vec::new())),
                 _ => {
                     from_several_starts(analyze, &ranges, &weights, &weighted, starts, compare.seed)
                 }
             };
             match found {
-                Ok((run, reached)) if !has_joined && !is_interrupted.get() => {
+                Ok((run, minima)) if !has_joined && !is_interrupted.get() => {
                     let factors = run.factors.clone();
-                    (History::GaussNewton(Some((run, reached))), factors)
+                    (History::GaussNewton(Some((run, minima))), factors)
                 }
                 Ok(_) | Err(FileError::Interrupted) => (
                     History::GaussNewton(None),
@@ -415,7 +420,8 @@ fn run_part(
             Verdict::new(outcome, (sum, &errors), &factors, &seen, &ranges, false)
         }
     };
-    let misfit = Misfit::of(&last, &weights, &loaded.source.priors, &verdict.at_bound)?;
+    let mut misfit = Misfit::of(&last, &weights, &loaded.source.priors, &verdict.at_bound)?;
+    misfit.chi_squared *= loaded.estimate_scale(misfit.degrees_of_freedom);
     // Weighted steps are judged by the noise that weighs them.
     if compare.method == Method::GaussNewton && misfit.is_by_noise() {
         (verdict.outcome, verdict.is_within) = (Outcome::Tolerance, true);

@@ -2,10 +2,10 @@
 
 use super::Study;
 use super::study::FAILED;
+use crate::files::disk;
 use crate::files::error::{FileError, is_not};
 use crate::method::model::Bounds;
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::io::{BufRead, BufReader, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
@@ -68,7 +68,7 @@ impl Samples {
             whole: 0,
         };
         let failed = FileError::of_file(path, "read");
-        let mut reader = BufReader::new(File::open(path).map_err(&failed)?);
+        let mut reader = BufReader::new(disk::open(path).map_err(&failed)?);
         let (header, count, mut bytes) = (study.header(), study.parameters().count(), Vec::new());
         for number in 1.. {
             bytes.clear();
@@ -106,7 +106,7 @@ impl Samples {
             }
             if let Some(before) = samples.places.insert(sample, at) {
                 // Rare enough to read that line again.
-                let mut other = BufReader::new(File::open(path).map_err(&failed)?);
+                let mut other = BufReader::new(disk::open(path).map_err(&failed)?);
                 other.seek(SeekFrom::Start(before)).map_err(&failed)?;
                 let mut line = String::new();
                 other.read_line(&mut line).map_err(&failed)?;
@@ -157,7 +157,7 @@ impl Samples {
     /// Calls with every sample up to `last`, ascending, and the cells of its line.
     fn each(&self, last: u64, mut with: impl FnMut(u64, &[&str])) -> Result<(), FileError> {
         let failed = FileError::of_file(&self.path, "read");
-        let mut reader = BufReader::new(File::open(&self.path).map_err(&failed)?);
+        let mut reader = BufReader::new(disk::open(&self.path).map_err(&failed)?);
         let (mut now, mut line) = (0, String::new());
         for (&sample, &at) in self.places.range(..=last) {
             // A seek within the buffer reads nothing again.

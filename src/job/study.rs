@@ -111,7 +111,13 @@ impl Study {
             let noisy = with_noise_by_mode(&exact, &noise, seed)?;
             data.frequencies_hz = noisy.frequencies_hz();
             for mode in data.shaped() {
-                data.shapes.set_column(mode, &noisy.shapes.column(mode));
+                let mut shape = noisy.shapes.column(mode).into_owned();
+                // Components' own deviations instead of their mean.
+                if let Some(own) = data.component_deviation.get(&mode) {
+                    let drawn = &shape - exact.shapes.column(mode);
+                    shape += drawn.component_mul(&own.map(|own| own / noise[mode].shape - 1.0));
+                }
+                data.shapes.set_column(mode, &shape);
             }
         }
         generator(Vary::Subset)

@@ -20,6 +20,7 @@ use crate::sparse::whole_modes::WholeModes;
 use crate::torque_box::CaseResult;
 use crate::torque_box::wing_box::TEST_GAGE;
 use crate::weighted::misfit::Misfit;
+use crate::weighted::starts::Minimum;
 use nalgebra::DMatrix;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -81,6 +82,7 @@ struct ReportValue<'a> {
     standard_deviations: &'a Option<Vec<Option<f64>>>,
     prior_shares: &'a Option<Vec<f64>>,
     misfit: &'a Option<Misfit>,
+    minima: &'a [Minimum],
     at_bound: Vec<bool>,
     best_pass: Option<usize>,
     test_mode_numbers: &'a [usize],
@@ -158,6 +160,7 @@ pub fn report(report: &Report) -> Result<Value, PresentError> {
         standard_deviations: &report.deviations,
         prior_shares: &report.prior_shares,
         misfit: &report.misfit,
+        minima: &report.minima,
         at_bound: factors.iter().enumerate().map(at_bound).collect(),
         best_pass: report.best.map(|best| best + 1),
         test_mode_numbers: &report.mode_numbers,

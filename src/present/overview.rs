@@ -136,7 +136,7 @@ pub fn overview(results: &[CaseResult]) -> Result<String, PresentError> {
         out += &format!("\n{title}\n{}\n", bars(result).join("\n"));
     }
     let rest = "
-corfem cases --all               every frequency, gage and setting of these cases
+corfem cases --all               every frequency, gage and setting of the cases
 corfem tables                    Table 1 computed anew, and the paper's others
 corfem report -o report.html     the page with all of it, and figures
 corfem init --example wing DIR   a structure of your own to begin with

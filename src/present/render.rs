@@ -78,7 +78,7 @@ fn paragraphs(tables: &[Table], head: &str, of: impl Fn(&Table) -> Vec<String>) 
 }
 
 /// Tables as CSV, one number a line: `table,row,column,unit,computed,published`; ten significant digits computed,
-/// and the published one as printed.
+/// and the published one with the digits that a reader sees.
 pub fn csv(tables: &[Table]) -> String {
     let mut out = "table,row,column,unit,computed,published\n".to_owned();
     for table in tables {
@@ -88,14 +88,9 @@ pub fn csv(tables: &[Table]) -> String {
                     Cell::Blank => continue,
                     Cell::Text(words) | Cell::Sentence(words) => (words.clone(), String::new()),
                     Cell::Printed(words) => (String::new(), words.clone()),
-                    Cell::Number {
-                        computed,
-                        published,
-                        ..
-                    } => (
-                        ten_digits(*computed),
-                        published.map_or_else(String::new, |value| value.to_string()),
-                    ),
+                    Cell::Number { computed, .. } => {
+                        (ten_digits(*computed), cell.published().unwrap_or_default())
+                    }
                 };
                 let fields = [
                     &table.name,

@@ -3,10 +3,9 @@
 //! Each file is replaced by itself: after a stop some may be of the new run and others of the one before. Other files
 //! and folders are not touched.
 
-use super::place::{probe, replace, replaceable};
+use corfem::files::disk::{make_folder, metadata, probe, read_dir, replace, replaceable};
 use corfem::files::error::FileError;
 use corfem::present::PresentError;
-use std::fs;
 use std::io::{Error, ErrorKind};
 use std::path::Path;
 
@@ -29,7 +28,7 @@ const REPLACED: [(&str, &[&str]); 5] = [
 
 /// Refuses a folder that the files of a command could not be written into, before there are any.
 pub fn check_folder(folder: &Path, command: &str) -> Result<(), PresentError> {
-    let check = || match fs::metadata(folder) {
+    let check = || match metadata(folder) {
         _ if folder.as_os_str() == "-" => Err(Error::new(
             ErrorKind::InvalidInput,
             "standard output is not a folder",
@@ -51,7 +50,7 @@ pub fn check_folder(folder: &Path, command: &str) -> Result<(), PresentError> {
         replaced.iter().any(is_of)
     };
     // A folder that is new or may not be listed holds no known file.
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+    for entry in read_dir(folder).into_iter().flatten().flatten() {
         if entry.file_name().to_str().is_some_and(is_replaced) {
             let path = entry.path();
             replaceable(&path).map_err(FileError::of_file(&path, "write"))?;
@@ -68,7 +67,7 @@ pub fn write_files(
     run: &str,
 ) -> Result<(), PresentError> {
     if !folder.is_dir() {
-        fs::create_dir(folder).map_err(FileError::of_file(folder, "write"))?;
+        make_folder(folder).map_err(FileError::of_file(folder, "write"))?;
     }
     for (name, bytes) in files {
         let path = folder.join(name);

@@ -11,8 +11,11 @@ use corfem::files::escaped;
 use corfem::job::{LoadedJob, Method, TEMPLATE, TEST_TEMPLATE, Trust, run};
 use corfem::present::page::report_page;
 use corfem::present::report::Report;
+use corfem::present::table::Table;
 use corfem::present::tables::deck::not_read;
-use corfem::present::tables::job::{places_table, seen_table, suspects_table, trust_table};
+use corfem::present::tables::job::{
+    minima_table, places_table, seen_table, suspects_table, trust_table,
+};
 use corfem::present::tables::report::{factor_table, history_table, paired_table};
 use corfem::present::{PresentError, json, render};
 use serde_json::json;
@@ -158,12 +161,14 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
     ];
     let trust = trust_table(&result.trust);
     let seen = seen_table(&loaded, &result)?;
-    let tables = [trust, paired, factors, seen, history];
+    let minima = minima_table(&report);
+    let head = [trust, paired, factors, seen.clone()].into_iter();
+    let tables: Vec<Table> = head.chain(minima.clone()).chain([history]).collect();
     let document = || json::own_document(json::report(&report)?);
     arguments.output.write(&tables, document)?;
     if let Some(folder) = &arguments.folder {
-        let [trust, .., seen, _] = &tables;
-        let extra = [seen.clone(), places_table(&loaded, Some(&result))?];
+        let places = places_table(&loaded, Some(&result))?;
+        let extra: Vec<Table> = [seen].into_iter().chain(minima).chain([places]).collect();
         let command = format!("corfem correlate {}", arguments.job.display());
         let identity = loaded.identity(&format!("{:?} {:?}", arguments.starts, arguments.seed))?;
         let run = format!("correlate {}, inputs {identity}", file_name(&arguments.job));
@@ -174,7 +179,7 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
             ),
             (
                 "factors.csv".to_owned(),
-                render::csv(&[trust.clone(), factor_table(&report)]).into_bytes(),
+                render::csv(&[tables[0].clone(), factor_table(&report)]).into_bytes(),
             ),
             ("correlation.json".to_owned(), document()?.into_bytes()),
         ];

@@ -1,5 +1,6 @@
 //! The signals that ask a program to stop: postponed while files are written or another program runs, then obeyed.
 
+use corfem::files::disk::process_status;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::SeqCst};
@@ -75,7 +76,7 @@ pub fn set_on_signal(stop: &Arc<AtomicBool>) {
 
 /// The signals, but for those the program was started to ignore, as `nohup` starts it.
 fn asked_for() -> impl Iterator<Item = i32> {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let status = process_status();
     let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
     let ignored = ignored
         .and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())

@@ -6,14 +6,14 @@ use super::output::{OutputArguments, note};
 use super::settings::named;
 use super::{progress, signals};
 use clap::Args;
+use corfem::files::disk::{OpenFile, TryLockError, make_folder, open_or_create};
 use corfem::files::error::FileError;
 use corfem::job::{Samples, Study, Vary};
 use corfem::present::figures::histogram;
 use corfem::present::tables::job::{study_table, trust_table};
 use corfem::present::{PresentError, json, render};
 use serde_json::json;
-use std::fs::{File, OpenOptions};
-use std::io::{Error, ErrorKind, Seek, SeekFrom, Write};
+use std::io::{Error, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering::SeqCst;
 use std::sync::{Mutex, PoisonError};
@@ -81,7 +81,7 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<bool, PresentErr
         return Ok(is_clear);
     };
     if !folder.is_dir() {
-        std::fs::create_dir(folder).map_err(FileError::of_file(folder, "write"))?;
+        make_folder(folder).map_err(FileError::of_file(folder, "write"))?;
     }
     let path = folder.join("samples.csv");
     let (file, found) = opened(&path, &study)?;
@@ -154,31 +154,24 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<bool, PresentErr
 }
 
 /// The file of samples, to be gone on with behind its last whole line, and what is in it. Nobody else writes it meanwhile.
-fn opened(path: &Path, study: &Study) -> Result<(File, Samples), FileError> {
+fn opened(path: &Path, study: &Study) -> Result<(OpenFile, Samples), FileError> {
     let failed = FileError::of_file(path, "write");
-    let mut file = OpenOptions::new()
-        .create(true)
-        .read(true)
-        .write(true)
-        .truncate(false)
-        .open(path)
-        .map_err(&failed)?;
+    let mut file = open_or_create(path).map_err(&failed)?;
     if !file.metadata().is_ok_and(|found| found.is_file()) {
         return Err(failed(Error::new(
             ErrorKind::InvalidInput,
             "it is not a regular file",
         )));
     }
-    if matches!(file.try_lock(), Err(std::fs::TryLockError::WouldBlock)) {
+    if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
         return Err(failed(Error::new(
             ErrorKind::ResourceBusy,
             "another study is writing it",
         )));
     }
     let samples = Samples::read(path, study)?;
-    let begin = |file: &mut File| {
-        file.set_len(samples.whole)?;
-        file.seek(SeekFrom::End(0))?;
+    let begin = |file: &mut OpenFile| {
+        file.go_on_from(samples.whole)?;
         if samples.whole == 0 {
             file.write_all(study.header().as_bytes())
         } else {

@@ -6,12 +6,8 @@ use crate::method::error::{Error, positive_setting};
 use crate::method::error_sum::ModeWeight;
 use crate::method::linear_algebra::check_length;
 use crate::method::model::{Bounds, ExactResult, ModalModel};
-use crate::sparse::random::uniform;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
-
-/// Objectives this near count as the same: a chi-squared of two thousandths, which no test can tell.
-const SAME_OBJECTIVE: f64 = 1e-3;
 
 /// Damping of the first step, relative to the curvature of each parameter.
 const FIRST_DAMPING: f64 = 1e-3;
@@ -340,49 +336,4 @@ fn bounded_step(
             .for_each(|place| step[free[place]] = room[free[place]].clamp(solved[place]));
         free = inside.into_iter().map(|place| free[place]).collect();
     }
-}
-
-/// [`gauss_newton`] from factors of one, and from `starts` − 1 random places: factors from 0.5 to 2, log-uniformly by
-/// [`uniform`] from `seed`, brought within their bounds. Returns the best, and how many reach its objective to a thousandth. A start
-/// that fails is left out.
-///
-/// # Errors
-/// Those of [`gauss_newton`] of the last start when all fail; [`Error::Empty`] without starts.
-pub fn from_several_starts<E: From<Error>>(
-    mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
-    ranges: &[Option<Bounds>],
-    weights: &[ModeWeight],
-    settings: &WeightedSettings,
-    starts: usize,
-    seed: u64,
-) -> Result<(WeightedCorrelation, usize), E> {
-    let (mut state, mut objectives, mut best): (u64, Vec<f64>, Option<WeightedCorrelation>) =
-        (seed, Vec::new(), None);
-    let mut failed = Error::Empty { what: "starts" }.into();
-    let mut draw = || 0.5 * 4.0_f64.powf(uniform(&mut state));
-    for start in 0..starts {
-        let first: Vec<f64> = ranges
-            .iter()
-            .map(|_| if start == 0 { 1.0 } else { draw() })
-            .collect();
-        let found = match gauss_newton(&mut analyze, &first, ranges, weights, settings) {
-            Ok(found) => found,
-            Err(error) => {
-                failed = error;
-                continue;
-            }
-        };
-        objectives.push(found.objective);
-        best = best
-            .filter(|best| best.objective <= found.objective)
-            .or(Some(found));
-    }
-    let Some(best) = best else {
-        return Err(failed);
-    };
-    let reached = objectives
-        .iter()
-        .filter(|&&objective| objective <= best.objective + SAME_OBJECTIVE)
-        .count();
-    Ok((best, reached))
 }

@@ -10,3 +10,4 @@ pub mod misfit;
 pub mod next_step;
 pub mod noise;
 pub mod residuals;
+pub mod starts;

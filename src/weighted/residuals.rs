@@ -3,13 +3,13 @@
 use crate::method::appendix_c::SMALLEST_SEPARATION;
 use crate::method::error::Error;
 use crate::method::error_sum::ModeWeight;
-use crate::method::linear_algebra::{finite, finite_list};
-use crate::method::model::{ModalModel, ParameterMatrix, check_weights};
+use crate::method::linear_algebra::{finite, finite_list, solve_lower};
+use crate::method::model::{ExactResult, ModalModel, ParameterMatrix, check_weights};
 use crate::method::modes::ModeSet;
 use crate::method::pairing::Pairing;
 use crate::weighted::close_modes::{Nearest, members, nearest};
 use crate::weighted::noise::Noise;
-use nalgebra::{DMatrix, DVector, RowDVector};
+use nalgebra::{DMatrix, DVector, Dyn, QR, RowDVector};
 
 /// Standard deviations unless others are known: 0.5 % of a frequency, 2 % of a shape's largest component. They are about twice
 /// [`Noise::USUAL`], for what repeats in a test and is wrong all the same: supports, the place of a sensor.
@@ -25,8 +25,10 @@ pub const DEVIATIONS: Noise = Noise {
 ///    a_j = \frac{v_i^t u_j}{v_i^t v_i} $$
 ///
 /// with $v_i$ the paired analysis shape and $u_j$ the test shape of unit largest component. Of test modes that are compared
-/// together ([`ModalModel::with_groups`]) $V V^+ u_j$ stands for $a_j v_i$, with the shapes of all their partners in $V$. The analysis shape's scale is that
-/// of least squares (the modal scale factor) instead of the paper's: it gives the sign, has no kink where the largest component
+/// together ([`ModalModel::with_groups`]) $V V^+ u_j$ stands for $a_j v_i$, with the shapes of all their partners in $V$. Components with
+/// weights of their own ([`ModalModel::with_component_weights`]) are multiplied by these in $v_i$, $V$ and $u_j$ first. Residuals with a
+/// covariance ([`ModalModel::with_covariance`]) are made independent. The analysis shape's scale is that of least squares (the modal
+/// scale factor) instead of the paper's: it gives the sign, has no kink where the largest component
 /// changes its place, and the noise of one component does not enter all others. Eliminating a linear unknown in this way
 /// leaves the covariance of the others as it is with the scale among the unknowns, on which intervals depend.
 ///
@@ -44,16 +46,30 @@ pub fn residuals(model: &ModalModel, weights: &[ModeWeight]) -> Result<DVector<f
 pub(crate) fn residuals_of(
     modes: &ModeSet,
     pairing: &Pairing,
-    ModalModel { test, exact, .. }: &ModalModel,
+    model: &ModalModel,
     weights: &[ModeWeight],
 ) -> DVector<f64> {
+    let residuals = correlated(modes, pairing, model, weights);
+    match Whitening::of((&modes.shapes, pairing), &model.exact, &model.test) {
+        Some(of) => of.independent(&residuals).column(0).into_owned(),
+        None => residuals.column(0).into_owned(),
+    }
+}
+
+/// The same in one column, before a covariance is taken out.
+fn correlated(
+    modes: &ModeSet,
+    pairing: &Pairing,
+    ModalModel { test, exact, .. }: &ModalModel,
+    weights: &[ModeWeight],
+) -> DMatrix<f64> {
     let rows = 1 + test.shapes.nrows();
-    let mut residuals = DVector::zeros(rows * test.len() + exact.lone.len());
+    let mut residuals = DMatrix::zeros(rows * test.len() + exact.lone.len(), 1);
     for (j, &i) in pairing.analysis_mode.iter().enumerate() {
         residuals[rows * j] =
             weights[j].frequency * ((modes.omega_squared[i] / test.omega_squared[j]).sqrt() - 1.0);
         let members = members(pairing, &exact.together, j);
-        let apart = nearest(&modes.shapes, &members, &unit_shape(test, j)).apart;
+        let apart = compared(&modes.shapes, exact, &members, test, j).1.apart;
         residuals
             .rows_mut(rows * j + 1, rows - 1)
             .copy_from(&(weights[j].shape * apart));
@@ -64,10 +80,70 @@ pub(crate) fn residuals_of(
     residuals
 }
 
-/// A test shape of unit largest component.
-fn unit_shape(test: &ModeSet, j: usize) -> DVector<f64> {
-    let tested = test.shapes.column(j);
-    tested / tested.amax()
+/// What makes weighted residuals of a covariance $L L^t$ independent and of unit variance:
+///
+/// $$ (I - Q Q^t) L^{-1} r, \qquad Q R = L^{-1} \Phi $$
+///
+/// The residuals are $\Phi a - u$ with the compared shapes in $\Phi$, every test mode's in its rows and in columns of their own, and
+/// zeros in the rows of frequencies. This takes them to the scales $a$ that are least squares with the covariance.
+struct Whitening<'a> {
+    factor: &'a DMatrix<f64>,
+    shapes: QR<f64, Dyn, Dyn>,
+}
+
+impl<'a> Whitening<'a> {
+    /// None where residuals are independent as they are.
+    fn of(
+        (shapes, pairing): (&DMatrix<f64>, &Pairing),
+        exact: &'a ExactResult,
+        test: &ModeSet,
+    ) -> Option<Self> {
+        let factor = exact.covariance.as_ref()?;
+        let (rows, mut all) = (1 + shapes.nrows(), DMatrix::zeros(factor.nrows(), 0));
+        for j in 0..test.len() {
+            let members = members(pairing, &exact.together, j);
+            let (shapes, _) = compared(shapes, exact, &members, test, j);
+            let first = all.ncols();
+            all = all.resize_horizontally(first + members.len(), 0.0);
+            all.view_mut((rows * j + 1, first), (rows - 1, members.len()))
+                .copy_from(&shapes.select_columns(&members));
+        }
+        let shapes = solve_lower(factor, all).qr();
+        Some(Self { factor, shapes })
+    }
+
+    /// Of residuals, or of derivatives at the right scales, one column each.
+    fn independent(&self, residuals: &DMatrix<f64>) -> DMatrix<f64> {
+        let residuals = solve_lower(self.factor, residuals.clone());
+        let q = self.shapes.q();
+        &residuals - &q * q.tr_mul(&residuals)
+    }
+
+    /// By how much the scales of residuals are above those of least squares with the covariance.
+    fn excess(&self, residuals: &DMatrix<f64>) -> DMatrix<f64> {
+        let residuals = solve_lower(self.factor, residuals.clone());
+        let along = self.shapes.q().tr_mul(&residuals);
+        self.shapes.r().solve_upper_triangular_unchecked(&along)
+    }
+}
+
+/// Shapes as test mode `j` is compared with them, every component over its deviation, and the combination of the `members` nearest to
+/// the test shape of unit largest component.
+fn compared(
+    shapes: &DMatrix<f64>,
+    exact: &ExactResult,
+    members: &[usize],
+    test: &ModeSet,
+    j: usize,
+) -> (DMatrix<f64>, Nearest) {
+    let (weights, tested) = (exact.component_weights.column(j), test.shapes.column(j));
+    let mut shapes = shapes.clone();
+    for mut shape in shapes.column_iter_mut() {
+        shape.component_mul_assign(&weights);
+    }
+    let unit = tested.component_mul(&weights) / tested.amax();
+    let nearest = nearest(&shapes, members, &unit);
+    (shapes, nearest)
 }
 
 /// Derivatives of [`residuals`] with respect to the logarithm of every parameter's factor, one column a parameter.
@@ -79,10 +155,11 @@ fn unit_shape(test: &ModeSet, j: usize) -> DVector<f64> {
 /// $$ \mathrm d e = a \Big(I - \frac{v v^t}{v^t v}\Big) \mathrm d v - v \frac{e^t \mathrm d v}{v^t v}, \qquad
 ///    \mathrm d e = (I - V V^+) \mathrm d V V^+ u - (V^+)^t \mathrm d V^t e , $$
 ///
-/// the second of modes compared together.
+/// the second of modes compared together. Weights of components multiply $v$, $\mathrm d v$ and $u$ alike, so nothing else changes.
 ///
 /// The sum goes over the whole basis, rigid-body modes with $\omega_r^2 = 0$ among it. It is exact with all modes, unless a
-/// condensation's $B$ moves mass. Modes closer than [`SMALLEST_SEPARATION`] keep their own shapes.
+/// condensation's $B$ moves mass. Of residuals with a covariance ([`ModalModel::with_covariance`]) it leaves out what turns them within
+/// themselves (Kaufman, *BIT* 15 (1975), 49), which is orthogonal to them: the gradient $J^t r$ is exact. Modes closer than [`SMALLEST_SEPARATION`] keep their own shapes.
 ///
 /// # Errors
 /// Those of [`residuals`].
@@ -105,16 +182,24 @@ pub fn jacobian(model: &ModalModel, weights: &[ModeWeight]) -> Result<DMatrix<f6
         let slope = |share| weight.frequency * ratio * change(i, i, share) / (2.0 * k[i]);
         RowDVector::from_iterator(count, model.shares.iter().map(slope))
     };
-    let mut jacobian = DMatrix::zeros(rows * test.len() + lone.len(), count);
+    let pairing = &model.exact.pairing;
+    let whitening = Whitening::of((&modes.shapes, pairing), &model.exact, test);
+    let excess = whitening
+        .as_ref()
+        .map(|of| of.excess(&correlated(&model.exact.modes, pairing, model, weights)));
+    let (mut jacobian, mut column) = (DMatrix::zeros(rows * test.len() + lone.len(), count), 0..);
     for (j, &i) in model.exact.pairing.analysis_mode.iter().enumerate() {
         let ratio = (k[i] / test.omega_squared[j]).sqrt();
         let members = members(&model.exact.pairing, &model.exact.together, j);
-        let Nearest {
-            inverse,
-            shares,
-            apart,
-        } = nearest(&modes.shapes, &members, &unit_shape(test, j));
-        let v = modes.shapes.select_columns(&members);
+        let (
+            shapes,
+            Nearest {
+                inverse,
+                shares,
+                apart,
+            },
+        ) = compared(&modes.shapes, &model.exact, &members, test, j);
+        let v = shapes.select_columns(&members);
         let mut shape = DMatrix::zeros(rows - 1, count);
         for (place, &i) in members.iter().enumerate() {
             // The share of every other mode that each parameter adds to this one (n × p).
@@ -126,12 +211,13 @@ pub fn jacobian(model: &ModalModel, weights: &[ModeWeight]) -> Result<DMatrix<f6
                     0.0
                 }
             });
-            let moved = &modes.shapes * added;
+            let moved = &shapes * added;
             let out = &moved - &v * (&inverse * &moved);
-            shape +=
-                shares[place] * out - inverse.row(place).transpose() * (apart.transpose() * moved);
+            let turned = inverse.row(place).transpose() * (apart.transpose() * moved);
+            let (weight, column) = (weights[j].shape, column.next().unwrap_or_default());
+            let excess = excess.as_ref().map_or(0.0, |excess| excess[column]);
+            shape += (weight * shares[place] - excess) * out - weight * turned;
         }
-        let shape = weights[j].shape * shape;
         jacobian
             .view_mut((rows * j + 1, 0), (rows - 1, count))
             .copy_from(&shape);
@@ -141,5 +227,9 @@ pub fn jacobian(model: &ModalModel, weights: &[ModeWeight]) -> Result<DMatrix<f6
         let row = of_frequency(weight, 1.0 + lone.error(modes), lone.partner);
         jacobian.set_row(rows * test.len() + place, &row);
     }
+    let jacobian = match whitening {
+        Some(of) => of.independent(&jacobian),
+        None => jacobian,
+    };
     finite("Jacobian", jacobian)
 }

@@ -3,6 +3,8 @@
 use crate::common::tolerances::{
     GOLDEN_AS_WRITTEN, GOLDEN_COUNT, GOLDEN_FREQUENCY, GOLDEN_GAGE, GOLDEN_PERCENT, GOLDEN_RELATIVE,
 };
+use corfem::present::render::{csv, text};
+use corfem::present::table::Table;
 use insta::Snapshot;
 use insta::comparator::Comparator;
 use insta::internals::SnapshotContents;
@@ -136,6 +138,13 @@ pub fn assert_golden(name: &str, text: &str, numbers: Numbers) {
     settings.set_omit_expression(true);
     settings.set_comparator(Box::new(numbers));
     settings.bind(|| insta::assert_snapshot!(name, text));
+}
+
+/// Asserts the golden of a table: as a reader sees it, with the paper's numbers below, and behind it every number with ten digits.
+pub fn assert_table(table: &Table) {
+    let one = std::slice::from_ref(table);
+    let golden = format!("{}\n{}", text(one), csv(one));
+    assert_golden(&table.name, &golden, Numbers::BY_UNIT);
 }
 
 /// Splits a text into numbers and the single characters between them.

@@ -1,7 +1,7 @@
 //! Ground vibration tests, drawn and written by hand.
 
 use corfem::files::test_data::{Sensor, TestData};
-use nalgebra::{DMatrix, Vector3, dmatrix};
+use nalgebra::{DMatrix, DVector, Vector3, dmatrix};
 use proptest::prelude::*;
 
 /// A wing test with everything that a test may have: rotations, a sensor without grid, places and a wire frame.
@@ -54,9 +54,17 @@ pub fn ground_test() -> impl Strategy<Value = TestData> {
             prop::collection::vec(sensor, sensors),
             prop::collection::vec(number(), modes * sensors),
             (sometimes(positive(modes)), sometimes(positive(modes))),
+            prop::collection::btree_map(0..modes, positive(sensors), 0..=modes),
         )
             .prop_map(
-                move |(frequencies_hz, rows, values, (frequency_deviation, shape_deviation))| {
+                move |(
+                    frequencies_hz,
+                    rows,
+                    values,
+                    (frequency_deviation, shape_deviation),
+                    own,
+                )| {
+                    let own = own.into_iter();
                     let mut seen = std::collections::HashSet::new();
                     let sensors = rows
                         .into_iter()
@@ -78,6 +86,9 @@ pub fn ground_test() -> impl Strategy<Value = TestData> {
                         shapes,
                         frequency_deviation,
                         shape_deviation,
+                        component_deviation: own
+                            .map(|(mode, own)| (mode, DVector::from_vec(own)))
+                            .collect(),
                         ..TestData::default()
                     }
                 },

@@ -35,7 +35,6 @@ pub mod rational_series;
 #[cfg(unix)]
 pub mod signals;
 pub mod strategies;
-pub mod sketch;
 pub mod structures;
 pub mod test_files;
 pub mod tolerances;

@@ -38,10 +38,15 @@ pub fn write_csv(data: &TestData) -> String {
     let modes: String = (1..=data.frequencies_hz.len())
         .map(|mode| format!(",mode {mode}"))
         .collect();
-    text += &format!("grid,name,direction,sign,x,y,z{modes}\n");
-    for (sensor, row) in data.sensors.iter().zip(data.shapes.row_iter()) {
+    let own = &data.component_deviation;
+    let deviations: String = own
+        .keys()
+        .map(|mode| format!(",deviation {}", mode + 1))
+        .collect();
+    text += &format!("grid,name,direction,sign,x,y,z{modes}{deviations}\n");
+    for (place, (sensor, row)) in data.sensors.iter().zip(data.shapes.row_iter()).enumerate() {
         let grid = sensor.grid.map(|grid| grid.to_string()).unwrap_or_default();
-        let place = sensor
+        let at = sensor
             .place
             .map_or(",,,".to_owned(), |place| joined(&mut place.iter()));
         let direction = DIRECTIONS.get(sensor.direction).unwrap_or(&"?");
@@ -50,9 +55,9 @@ pub fn write_csv(data: &TestData) -> String {
             sensor.name.replace(['\n', '\r'], " ").replace('"', "\"\"")
         );
         text += &format!(
-            "{grid},{},{direction},+{place}{}\n",
+            "{grid},{},{direction},+{at}{}\n",
             quoted,
-            joined(&mut row.iter())
+            joined(&mut row.iter().chain(own.values().map(|own| &own[place])))
         );
     }
     text

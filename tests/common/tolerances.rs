@@ -74,6 +74,18 @@ pub const CORRECTION_ROUND_OFF: f64 = 1e-9;
 pub const DERIVATIVE_ROUND_OFF: f64 = 1e-13;
 /// A measured order of convergence falls short of the theoretical one by this much where the next order still shows.
 pub const ORDER_SLACK: f64 = 0.15;
+/// Cosine of a left and a right shape at which a pencil is called defective: a root of round-off, 1.5e-8, with some room.
+pub const DEFECTIVE_COSINE: f64 = 1e-7;
+/// Singular value below which rigid-body motions would depend on each other, in units of inches: the truss is tens of inches large.
+pub const RIGID_BODY_RANK: f64 = 1e-6;
+/// An axis a ten-thousandth beside a global one, of unit length: half the square of that, and its rounding to five decimals.
+pub const BESIDE_AN_AXIS: f64 = 1e-8;
+/// What round-off may take of roots of a deck and still tell a mass of another size: a percent of the least change drawn.
+pub const DECK_ROOTS: f64 = 1e-4;
+/// How far the wing's sensors are from grids of its deck, in: what `distance` in its job allows.
+pub const PLACED_WITHIN: f64 = 1e-2;
+/// RMS errors of final gages, in percent: half a unit of the one decimal that the paper prints.
+pub const FINAL_GAGE_ERROR: f64 = 0.05;
 /// Complex eigensolutions of pencils of six DOF, conditions of stiffness and shapes a few hundred together.
 pub const COMPLEX_EIGEN_ROUND_OFF: f64 = 1e-10;
 /// A derivative of the error sum by a 0.1 % change and first order, beside exact differences with the same step: what is

@@ -7,7 +7,7 @@ use crate::common::known::Known;
 use crate::common::measured::equal_weights;
 use crate::common::test_files::write_csv;
 use crate::common::whole_models::{masses, shear_building, springs};
-use crate::readers::job_errors::placed;
+use crate::readers::job_errors::{placed, with};
 use corfem::files::error::FileError;
 use corfem::job::{JobResult, LoadedJob, run};
 use corfem::method::model::{Bounds, Parameter};
@@ -343,7 +343,11 @@ fn subjects() -> Result<Vec<Subject>, Box<dyn Error>> {
     let equal = shear_building(&[SPRING; 8], MASS, None);
     for (sensors, rows) in [(8, vec![0, 1, 2, 3, 4, 5, 6, 7]), (4, vec![1, 3, 5, 7])] {
         for (words, noise) in [("0.1/0.3 %", fine), ("0.5/2 %", coarse)] {
-            let files = of_matrices(&equal, &eight, &rows, 6, noise);
+            let mut files = of_matrices(&equal, &eight, &rows, 6, noise);
+            if sensors == 4 {
+                // From the first model alone some tests end in another minimum.
+                files = with(files, "job.toml", "[test]", "[compare]\nstarts = 5\n[test]");
+            }
             let name = format!("Chain of 8, {sensors} sensors, {words}");
             all.push(of_job(&name, files, &eight)?);
         }

@@ -6,8 +6,9 @@
 //! (with machine and date) or `stored:` (with the file).
 
 use crate::common::golden::Numbers;
-use crate::ledgers::tour_figures::figures;
+use crate::ledgers::tour_figures::{figures, pictures};
 use crate::ledgers::{files_below, tables};
+use corfem::present::figures::diagram::Diagram;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
@@ -28,14 +29,17 @@ fn documents() -> BTreeMap<String, String> {
         .collect()
 }
 
-/// How the name of a figure begins.
+/// How the names of diagrams and of other drawings begin.
 const FIGURE: &str = "figure_";
+const PICTURE: &str = "picture_";
 
 #[test]
 fn computed_blocks_are_what_the_program_computes() {
     let (start, end) = ("<!-- computed: ", "<!-- end -->");
     let mut blocks = tables::tables();
-    blocks.extend(figures().map(|(number, sketch)| (format!("{FIGURE}{number}"), sketch.svg())));
+    let svg = |diagram: Diagram| diagram.svg().expect("it can be drawn");
+    blocks.extend(figures().map(|(number, diagram)| (format!("{FIGURE}{number}"), svg(diagram))));
+    blocks.extend(pictures());
     let (mut seen, mut wrong) = (BTreeSet::new(), Vec::new());
     for (document, text) in documents() {
         let mut pieces = text.split(start);
@@ -48,7 +52,8 @@ fn computed_blocks_are_what_the_program_computes() {
                 .unwrap_or_else(|| panic!("{document}: {name}"));
             let new = format!("{}\n", block.trim());
             // Places in a figure to a tenth of a pixel: another machine's last digit may round them the other way.
-            let is_drawn = name.starts_with(FIGURE) && Numbers::DRAWN.agree(old, &new);
+            let is_drawn = [FIGURE, PICTURE].iter().any(|kind| name.starts_with(kind))
+                && Numbers::DRAWN.agree(old, &new);
             if old != new && !is_drawn {
                 wrong.push(format!("{document}: {name}"));
             }

@@ -1,5 +1,5 @@
 //! The formulas of the documentation: what is typeset between two `$` is what the source says, and nothing that
-//! Markdown has made of it; and every command in them is one that `katex-header.html` knows.
+//! Markdown has made of it; and every command in them is one that `formulas-as-mathml.html` knows.
 //!
 //! Markdown knows nothing of formulas. In `(p_{ij})_r ... (p_{ji})_r` it reads the two outer underscores as emphasis,
 //! `[K](V)` as a link, `\,` as a comma and `'` as a quotation mark.
@@ -164,9 +164,9 @@ fn commands(formula: &str) -> BTreeSet<&str> {
         .collect()
 }
 
-/// Whether the script in `katex-header.html` has the command: as a key of one of its tables or by name.
+/// Whether the script in `formulas-as-mathml.html` has the command: as a key of one of its tables or by name.
 fn is_typeset(command: &str) -> bool {
-    let script = include_str!("../../katex-header.html");
+    let script = include_str!("../../formulas-as-mathml.html");
     ["begin", "end", "text", "mathrm", "newline"].contains(&command)
         || script.contains(&format!("name === \"{command}\""))
         || [" ", "{"]

@@ -79,7 +79,7 @@ fn the_package_has_what_a_user_needs() {
         "README.md",
         "LICENSE-APACHE",
         "LICENSE-MIT",
-        "katex-header.html",
+        "formulas-as-mathml.html",
         "src/main.rs",
     ];
     needed.extend(others.map(str::to_owned));

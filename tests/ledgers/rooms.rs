@@ -173,3 +173,22 @@ fn the_check_finds_every_import() {
         ]
     );
 }
+
+/// Whatever touches a file goes through one module, so that a test can make it fail.
+#[test]
+fn one_module_alone_calls_the_operating_system_for_files() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let alone = source.join("files/disk.rs");
+    let calls = ["std::fs", "fs::", "tempfile::", "File::", "OpenOptions"];
+    for file in files_below(&source) {
+        let text = fs::read_to_string(&file).expect("it reads");
+        let has = |call: &&&str| text.contains(**call);
+        let found: Vec<&&str> = calls.iter().filter(has).collect();
+        assert_eq!(
+            found.is_empty(),
+            file != alone,
+            "{}: {found:?}",
+            file.display()
+        );
+    }
+}

@@ -931,7 +931,7 @@ pub fn sentences() -> Vec<(&'static str, String)> {
         (
             readme,
             format!(
-                "SciPy takes {:.1} to {:.1} times as long (`paper/cost.md`)",
+                "SciPy takes {:.1} to {:.1} times as long",
                 slower(0),
                 slower(2)
             ),

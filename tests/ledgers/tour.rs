@@ -23,7 +23,8 @@ fn chapters() -> BTreeMap<String, (PathBuf, String)> {
         let text = fs::read_to_string(&path).expect("it reads");
         (name[..2].to_owned(), (path, text))
     };
-    files.map(chapter).collect()
+    let is_text = |path: &PathBuf| path.extension().is_some_and(|kind| kind == "md");
+    files.filter(is_text).map(chapter).collect()
 }
 
 /// Numbers with a decimal point in a text, without their signs.

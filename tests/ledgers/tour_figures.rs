@@ -1,6 +1,5 @@
 //! The figures of the tour, by the number of their chapter: what is drawn is computed here. Those of the box stand beside.
 
-use crate::common::sketch::{Mark, Series, Sketch};
 use crate::ledgers::tour_figures_box::{bounds, demands, deviations, gages, history, orders};
 use corfem::chain::spring_stiffness;
 use corfem::method::derivatives::{DerivativeRule, error_changes};
@@ -10,11 +9,14 @@ use corfem::method::modes::solve;
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::step::{StepRule, stiffness_changes, unlimited_factors};
+use corfem::present::figures::case_figures;
+use corfem::present::figures::diagram::{Diagram, Series, SeriesMark};
 use corfem::torque_box::table_1::TwoMasses;
+use corfem::torque_box::{Case, run_case};
 use nalgebra::DMatrix;
 
 /// Every chapter's figure.
-pub fn figures() -> [(&'static str, Sketch); 10] {
+pub fn figures() -> [(&'static str, Diagram); 10] {
     [
         ("01", two_springs()),
         ("02", orders()),
@@ -29,12 +31,43 @@ pub fn figures() -> [(&'static str, Sketch); 10] {
     ]
 }
 
+/// What is drawn beside the diagrams: the two springs of chapter 1, and the box and two of its modes, from the report.
+pub fn pictures() -> Vec<(String, String)> {
+    let result = run_case(&Case::new(1).expect("a case"), |_, _| {}).expect("a run");
+    let drawn = case_figures(std::slice::from_ref(&result)).expect("figures");
+    let of = |name: &str| {
+        let figure = drawn.iter().find(|figure| figure.name == name);
+        figure.unwrap_or_else(|| panic!("no {name}")).svg.clone()
+    };
+    vec![
+        ("picture_springs".to_owned(), SPRINGS.to_owned()),
+        ("picture_box".to_owned(), of("box_points")),
+        ("picture_modes".to_owned(), of("case_1_mode_shapes")),
+    ]
+}
+
+/// Two masses between a wall on either side, with the springs between: plain lines.
+const SPRINGS: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 520 110" width="520" style="max-width: 100%; height: auto" role="img" font-size="14" fill="none" stroke="currentColor" stroke-width="2">
+<title>Two masses, each on a spring to the ground, and a third spring between them</title>
+<path d="M20 20v60M500 20v60" stroke-width="4"/>
+<path d="M20 50h20l8 -12l14 24l14 -24l14 24l14 -24l14 24l8 -12h14M200 50h24l8 -12l14 24l14 -24l14 24l14 -24l14 24l8 -12h10M380 50h14l8 -12l14 24l14 -24l14 24l14 -24l14 24l8 -12h20"/>
+<rect x="140" y="28" width="60" height="44"/>
+<rect x="320" y="28" width="60" height="44"/>
+<g stroke="none" fill="currentColor" text-anchor="middle">
+<text x="170" y="55">1</text>
+<text x="350" y="55">1</text>
+<text x="80" y="95">1 + ε</text>
+<text x="260" y="95">1</text>
+<text x="440" y="95">1</text>
+</g>
+</svg>"#;
+
 /// Numbers from one to another in equal steps.
 fn range(low: f64, high: f64, steps: usize) -> impl Iterator<Item = f64> {
     (0..=steps).map(move |step| low + (high - low) * step as f64 / steps as f64)
 }
 
-fn two_springs() -> Sketch {
+fn two_springs() -> Diagram {
     let exact = |mode: usize| {
         let root = move |change: f64| {
             (
@@ -61,17 +94,17 @@ fn two_springs() -> Sketch {
         };
         range(-0.9, 2.0, 1).map(of)
     };
-    Sketch {
+    Diagram {
         title: "Two masses: squared frequencies against the change of a spring",
         labels: ["change of the first spring", "squared frequency"],
         x: (-1.0, 2.0),
         y: (0.0, 8.0),
         is_logarithmic: false,
         series: vec![
-            Series::new("mode 1, exact", Mark::Line, exact(0)),
-            Series::new("mode 1, first order", Mark::Dashed, first_order(0)),
-            Series::new("mode 2, exact", Mark::Line, exact(1)),
-            Series::new("mode 2, first order", Mark::Dashed, first_order(1)),
+            Series::new("mode 1, exact", SeriesMark::Line, exact(0)),
+            Series::new("mode 1, first order", SeriesMark::Dashed, first_order(0)),
+            Series::new("mode 2, exact", SeriesMark::Line, exact(1)),
+            Series::new("mode 2, first order", SeriesMark::Dashed, first_order(1)),
         ],
     }
 }
@@ -92,7 +125,7 @@ fn too_stiff(shares: Vec<DMatrix<f64>>, too_stiff: f64) -> ModalModel {
     .expect("a model")
 }
 
-fn crease() -> Sketch {
+fn crease() -> Diagram {
     let modal = too_stiff(
         vec![spring_stiffness(2, 0, 1.5), spring_stiffness(2, 1, 1.5)],
         1.5,
@@ -111,21 +144,23 @@ fn crease() -> Sketch {
                 .collect::<Vec<_>>(),
         )
     };
-    Sketch {
+    Diagram {
         title: "The crease of the error sum",
         labels: ["factor on the first spring", "error"],
         x: (0.5, 1.5),
         y: (0.0, 1.0),
         is_logarithmic: false,
         series: vec![
-            series("error sum", Mark::Line, Errors::sum),
-            series("frequency error", Mark::Dashed, |errors| errors.frequency),
-            series("shape error", Mark::Line, |errors| errors.shape),
+            series("error sum", SeriesMark::Line, Errors::sum),
+            series("frequency error", SeriesMark::Dashed, |errors| {
+                errors.frequency
+            }),
+            series("shape error", SeriesMark::Line, |errors| errors.shape),
         ],
     }
 }
 
-fn first_step() -> Sketch {
+fn first_step() -> Diagram {
     let ratio = |n: usize, rule, measure: ErrorMeasure| {
         let whole = (0..n).map(|spring| spring_stiffness(n, spring, 1.0)).sum();
         let modal = too_stiff(vec![whole], 1.001);
@@ -148,7 +183,7 @@ fn first_step() -> Sketch {
                 .collect::<Vec<_>>(),
         )
     };
-    Sketch {
+    Diagram {
         title: "The first step beside Newton's",
         labels: ["number of modes", "step in units of Newton's"],
         x: (0.0, 30.0),
@@ -157,15 +192,21 @@ fn first_step() -> Sketch {
         series: vec![
             series(
                 "relative",
-                Mark::Line,
+                SeriesMark::Line,
                 12,
                 StepRule::Relative,
                 ErrorMeasure::Sum,
             ),
-            series("matrix", Mark::Line, 30, StepRule::Norm, ErrorMeasure::Sum),
+            series(
+                "matrix",
+                SeriesMark::Line,
+                30,
+                StepRule::Norm,
+                ErrorMeasure::Sum,
+            ),
             series(
                 "matrix, as nine modes",
-                Mark::Dashed,
+                SeriesMark::Dashed,
                 30,
                 StepRule::Norm,
                 ErrorMeasure::NineModes,
@@ -174,7 +215,7 @@ fn first_step() -> Sketch {
     }
 }
 
-fn stories() -> Sketch {
+fn stories() -> Diagram {
     let analyze = |factors: &[f64]| {
         let share = |(story, factor): (usize, &f64)| {
             ParameterMatrix::Stiffness(spring_stiffness(4, story, 4000.0 * factor))
@@ -225,7 +266,7 @@ fn stories() -> Sketch {
             .enumerate()
             .map(move |(n, factors)| (n as f64, factors[story]))
     };
-    Sketch {
+    Diagram {
         title: "The factors of four stories",
         labels: ["iteration", "factor"],
         x: (0.0, 20.0),
@@ -234,7 +275,7 @@ fn stories() -> Sketch {
         series: names
             .into_iter()
             .zip(0..)
-            .map(|(name, story)| Series::new(name, Mark::Line, of(story)))
+            .map(|(name, story)| Series::new(name, SeriesMark::Line, of(story)))
             .collect(),
     }
 }

@@ -1,12 +1,12 @@
 //! The figures of the tour that show the paper's box.
 
 use crate::common::measured::equal_weights;
-use crate::common::sketch::{Mark, Series, Sketch};
 use corfem::method::appendix_c::general::{ModalChange, recursive_2};
 use corfem::method::appendix_c::{Perturbed, eigensolution, recursive_1};
 use corfem::method::error_sum::Errors;
 use corfem::method::model::ModalModel;
 use corfem::method::modes::solve;
+use corfem::present::figures::diagram::{Diagram, Series, SeriesMark};
 use corfem::torque_box::published::PublishedTable;
 use corfem::torque_box::wing_box::TEST_GAGE;
 use corfem::torque_box::{Case, run_case};
@@ -34,7 +34,7 @@ fn first_pass(number: usize) -> (ModalModel, DMatrix<f64>) {
     (modal, beta)
 }
 
-pub fn orders() -> Sketch {
+pub fn orders() -> Diagram {
     let error = |found: &Perturbed, exact: &Perturbed| {
         100.0
             * found
@@ -57,64 +57,72 @@ pub fn orders() -> Sketch {
         let point = |order| (order as f64, error(&by(order).expect("an order"), &exact));
         Series::new(name, mark, (1..=6).map(point).collect::<Vec<_>>())
     };
-    Sketch {
+    Diagram {
         title: "Frequency errors of the recursions against their order",
         labels: ["order", "largest error of a frequency, %"],
         x: (1.0, 6.0),
         y: (1e-10, 1e2),
         is_logarithmic: true,
         series: vec![
-            of_case("Case 1, Recursive 1", 1, Mark::Line, true),
-            of_case("Case 2, Recursive 1", 2, Mark::Line, true),
-            of_case("Case 3, Recursive 1", 3, Mark::Line, true),
-            of_case("Case 3, Recursive 2", 3, Mark::Dashed, false),
+            of_case("Case 1, Recursive 1", 1, SeriesMark::Line, true),
+            of_case("Case 2, Recursive 1", 2, SeriesMark::Line, true),
+            of_case("Case 3, Recursive 1", 3, SeriesMark::Line, true),
+            of_case("Case 3, Recursive 2", 3, SeriesMark::Dashed, false),
         ],
     }
 }
 
-pub fn history() -> Sketch {
+pub fn history() -> Diagram {
     let result = Case::new(2)
         .and_then(|case| run_case(&case, |_, _| {}))
         .expect("a run");
-    let passes = &result.correlation.passes;
-    let mut errors = vec![(0.0, result.correlation.initial.errors)];
-    let mut checks = Vec::new();
-    for pass in passes {
-        let before = errors.len();
-        errors.extend(
-            (before..)
-                .map(|n| n as f64)
-                .zip(pass.inner.iterations.iter().map(|step| step.errors)),
+    let run = &result.correlation;
+    // Every pass begins where the exact check of the one before it ends, and ends where its own perturbation does.
+    let (mut passes, mut checks, mut begin, mut start) =
+        (Vec::new(), Vec::new(), 0, run.initial.errors);
+    for pass in &run.passes {
+        let errors = pass.inner.iterations.iter().map(|step| step.errors);
+        passes.push(
+            (begin..)
+                .zip(std::iter::once(start).chain(errors))
+                .collect::<Vec<_>>(),
         );
-        checks.push((errors.len() as f64 - 1.0, 100.0 * pass.check.errors.sum()));
+        begin += pass.inner.iterations.len();
+        start = pass.check.errors;
+        checks.push((begin as f64, 100.0 * start.sum()));
     }
     let series = |name, mark, of: fn(&Errors) -> f64| {
-        Series::new(
-            name,
-            mark,
-            errors
+        passes.iter().enumerate().map(move |(row, errors)| {
+            let points = errors
                 .iter()
-                .map(|(n, errors)| (*n, 100.0 * of(errors)))
-                .collect::<Vec<_>>(),
-        )
+                .map(|(n, errors)| (*n as f64, 100.0 * of(errors)));
+            Series::new(
+                if row == 0 { name } else { "" },
+                mark,
+                points.collect::<Vec<_>>(),
+            )
+        })
     };
-    Sketch {
+    Diagram {
         title: "Case 2 through both passes",
         labels: ["iteration", "error, %"],
         x: (0.0, 65.0),
         y: (0.1, 1e3),
         is_logarithmic: true,
-        series: vec![
-            series("error sum", Mark::Line, Errors::sum),
-            series("frequency error", Mark::Dashed, |errors| errors.frequency),
-            series("shape error", Mark::Dashed, |errors| errors.shape),
-            Series::new("exact error sum", Mark::Dots, checks),
-        ],
+        series: series("error sum", SeriesMark::Line, Errors::sum)
+            .chain(series("frequency error", SeriesMark::Dashed, |errors| {
+                errors.frequency
+            }))
+            .chain(series("shape error", SeriesMark::Dashed, |errors| {
+                errors.shape
+            }))
+            .chain([Series::new("exact error sum", SeriesMark::Dots, checks)])
+            .collect(),
     }
 }
 
 /// Frequencies of Case 2 at its published gages, by shapes and by loads of the first model, beside the exact ones.
-pub fn bounds() -> Sketch {
+pub fn bounds() -> Diagram {
     let model = Case::new(2).and_then(|case| case.model()).expect("a model");
     let table = PublishedTable::number(6).expect("Table 6");
     let gage = |panel: usize| {
@@ -145,17 +153,17 @@ pub fn bounds() -> Sketch {
             .map(|(found, exact)| 100.0 * (found / exact - 1.0));
         Series::new(name, mark, (1..).map(f64::from).zip(ratios))
     };
-    Sketch {
+    Diagram {
         title: "Two bounds on the frequencies of Case 2",
         labels: ["mode", "difference from the exact frequency, %"],
         x: (0.0, 10.0),
         y: (-1.0, 1.5),
         is_logarithmic: false,
         series: vec![
-            series("shapes frozen (above)", Mark::Bars, above),
+            series("shapes frozen (above)", SeriesMark::Bars, above),
             series(
                 "loads frozen (below)",
-                Mark::Bars,
+                SeriesMark::Bars,
                 below.try_inverse().expect("regular"),
             ),
         ],
@@ -179,35 +187,35 @@ fn by_panel(values: Vec<f64>) -> Vec<(f64, f64)> {
     (1..).map(f64::from).zip(values).collect()
 }
 
-pub fn gages() -> Sketch {
+pub fn gages() -> Diagram {
     let table = PublishedTable::number(6).expect("Table 6");
     let published = |panel: usize| {
         table
             .required(&panel.to_string(), "pass_2_percent")
             .expect("an error")
     };
-    Sketch {
+    Diagram {
         title: "Case 2: gage errors at the end",
         labels: ["panel", "gage error, %"],
         x: (0.0, 16.0),
         y: (-20.0, 70.0),
         is_logarithmic: false,
         series: vec![
-            Series::new("computed", Mark::Bars, by_panel(final_gage_errors())),
+            Series::new("computed", SeriesMark::Bars, by_panel(final_gage_errors())),
             Series::new(
                 "published",
-                Mark::Dots,
+                SeriesMark::Dots,
                 by_panel((1..=15).map(published).collect()),
             ),
         ],
     }
 }
 
-pub fn demands() -> Sketch {
+pub fn demands() -> Diagram {
     let result = Case::new(4)
         .and_then(|case| run_case(&case, |_, _| {}))
         .expect("a run");
-    Sketch {
+    Diagram {
         title: "Case 4: unlimited factors of the first iteration",
         labels: ["panel", "unlimited factor"],
         x: (0.0, 16.0),
@@ -215,13 +223,13 @@ pub fn demands() -> Sketch {
         is_logarithmic: false,
         series: vec![Series::new(
             "factor asked for",
-            Mark::Bars,
+            SeriesMark::Bars,
             by_panel(result.unlimited_factors().to_vec()),
         )],
     }
 }
 
-pub fn deviations() -> Sketch {
+pub fn deviations() -> Diagram {
     let case = Case::new(2).expect("a case");
     let test = case.test_modes().expect("modes");
     let model = case
@@ -239,7 +247,7 @@ pub fn deviations() -> Sketch {
         .map(|deviation| 100.0 * deviation)
         .collect();
     let errors = final_gage_errors().into_iter().map(f64::abs).collect();
-    Sketch {
+    Diagram {
         title: "What nine noisy modes know of the panels of Case 2",
         labels: ["panel", "%"],
         x: (0.0, 16.0),
@@ -248,10 +256,14 @@ pub fn deviations() -> Sketch {
         series: vec![
             Series::new(
                 "standard deviation of the factor",
-                Mark::Bars,
+                SeriesMark::Bars,
                 by_panel(percents),
             ),
-            Series::new("gage error left in Case 2", Mark::Dots, by_panel(errors)),
+            Series::new(
+                "gage error left in Case 2",
+                SeriesMark::Dots,
+                by_panel(errors),
+            ),
         ],
     }
 }

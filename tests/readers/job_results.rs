@@ -4,12 +4,18 @@ use super::job_errors::{placed, with};
 use super::job_prepared::prepared;
 use crate::common::jobs::{Files, building, rods};
 use crate::common::test_files::write_csv;
-use crate::common::tolerances::{MEAN_MISFIT, PRINTED_RMS, ROUND_OFF, WEIGHTED_FACTOR};
+use crate::common::tolerances::{
+    MATRIX_ROUND_OFF, MEAN_MISFIT, PRINTED_RMS, ROUND_OFF, WEIGHTED_FACTOR,
+};
 use corfem::files::deck;
 use corfem::job::{History, JobResult, Study, Vary, run};
 use corfem::method::model::Bounds;
 use corfem::method::modes::ModeSet;
 use corfem::method::verdict::Outcome;
+use corfem::present::page::report_page;
+use corfem::present::report::Report;
+use corfem::present::tables::job::minima_table;
+use corfem::present::{json, render};
 use corfem::weighted::identifiability::NORMAL_95;
 use corfem::weighted::noise::with_noise_by_mode;
 use corfem::weighted::residuals::residuals;
@@ -53,6 +59,33 @@ fn every_rod_is_found_within_tolerance() {
         (found.verdict.outcome, found.verdict.is_within),
         (Outcome::Tolerance, true)
     );
+}
+
+#[test]
+fn several_starts_name_their_minima_in_every_output() {
+    let files = with(rods(), "job.toml", "[compare]", "[compare]\nstarts = 4");
+    let found = ran(&files);
+    let report = Report::from_job(&found.loaded, Some(&found)).expect("a report");
+    let table = minima_table(&report).expect("minima");
+    let labels: Vec<&str> = table.rows.iter().map(|row| &row.label[..]).collect();
+    assert_eq!(labels, ["chi-squared", "starts", "a", "b"]);
+    let text = render::text(std::slice::from_ref(&table));
+    assert!(text.contains("Minima that noise allows"), "{text}");
+    let document = json::report(&report).expect("a document");
+    let minima = document["minima"].as_array().expect("minima");
+    let starts = minima
+        .iter()
+        .map(|of| of["starts"].as_u64().expect("a count"));
+    assert_eq!((minima.len(), starts.sum::<u64>()), (1, 4));
+    assert_eq!(minima[0]["factors"][0].as_f64(), Some(found.factors[0]));
+    let misfit = found.misfit.chi_squared;
+    let chi_squared = minima[0]["chi_squared"].as_f64().expect("a number");
+    assert!((chi_squared / misfit - 1.0).abs() < MATRIX_ROUND_OFF);
+    let page = report_page(&report, &[table], "corfem correlate job.toml").expect("a page");
+    assert!(page.contains("Minima that noise allows"));
+    let one = ran(&rods());
+    let report = Report::from_job(&one.loaded, Some(&one)).expect("a report");
+    assert!(minima_table(&report).is_none());
 }
 
 /// Without a step because none is needed, without a step because none is possible, and after the best that one factor can do.

@@ -34,6 +34,7 @@ pub mod nastran95_output5;
 pub mod nastran95_process;
 pub mod nastran95_program;
 pub mod readers_survive;
+pub mod repeats;
 pub mod study;
 pub mod study_draws;
 pub mod test_data;

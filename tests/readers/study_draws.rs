@@ -2,7 +2,9 @@
 
 use super::job_errors::{placed, with};
 use crate::common::jobs::{building, rods};
+use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use corfem::job::{Study, Vary};
+use corfem::sparse::random::split_mix_64;
 use sha2::{Digest, Sha256};
 use std::path::PathBuf;
 
@@ -101,4 +103,85 @@ fn a_sample_that_is_neither_within_nor_outside_is_refused() {
         ),
         "{error}"
     );
+}
+
+/// The first numbers of SplitMix64 from the state 1234567, as other programs have them.
+#[test]
+fn the_generator_is_the_published_one() {
+    let mut state = 1_234_567;
+    let first: [u64; 5] = std::array::from_fn(|_| split_mix_64(&mut state));
+    assert_eq!(
+        first,
+        [
+            6_457_827_717_110_365_317,
+            3_203_168_211_198_807_973,
+            9_817_491_932_198_370_423,
+            4_593_380_528_125_082_431,
+            16_408_922_859_458_223_821,
+        ]
+    );
+}
+
+/// What a seed draws never changes, so that a study can be made again years later. The numbers are those of another program
+/// (Python), by the same formulas: SplitMix64 from the chain over seed, sample and purpose, Box and Muller's variates of it.
+#[test]
+fn a_seed_draws_the_same_numbers_for_ever() {
+    let deviations = "[compare]\nfrequency_deviation = 0.004\nshape_deviation = 0.02";
+    let files = with(rods(), "job.toml", "[compare]", deviations);
+    let (_folder, path) = placed(&files);
+    let study = Study::new(&path, 7, &[Vary::Noise, Vary::Start], &[])
+        .unwrap_or_else(|error| panic!("{error}"));
+    for (sample, starts, noise) in [
+        (
+            1,
+            [0.578_517_841_861_954_4, 1.215_369_512_003_140_7],
+            [
+                1.145_340_083_225_18,
+                -1.203_320_818_533_592,
+                -0.130_233_393_019_648,
+            ],
+        ),
+        (
+            2,
+            [0.595_383_019_058_052_9, 1.563_193_270_121_229_7],
+            [
+                1.020_072_602_348_639_7,
+                -1.197_088_354_473_382_4,
+                -1.807_835_125_549_679_2,
+            ],
+        ),
+    ] {
+        let (drawn, start) = study.draw(sample).expect("a draw");
+        for (found, expected) in start.iter().zip(starts) {
+            assert!((found - expected).abs() <= ROUND_OFF, "{sample}: {start:?}");
+        }
+        let exact = &study.loaded.data.frequencies_hz;
+        for ((drawn, exact), variate) in drawn.data.frequencies_hz.iter().zip(exact).zip(noise) {
+            let found = (drawn / exact - 1.0) / 0.004;
+            assert!(
+                (found - variate).abs() <= MATRIX_ROUND_OFF,
+                "{sample}: {found}"
+            );
+        }
+    }
+    let (_folder, path) = placed(&building());
+    let study =
+        Study::new(&path, 3, &[Vary::Subset], &[]).unwrap_or_else(|error| panic!("{error}"));
+    for (sample, is_sensors, kept) in [
+        (1, true, &[0, 1, 3, 4][..]),
+        (2, true, &[0, 1, 2, 3]),
+        (3, true, &[1, 3]),
+        (4, false, &[0, 3, 4]),
+        (5, true, &[1, 2, 3, 4]),
+        (6, false, &[0, 1, 4]),
+    ] {
+        let (drawn, _) = study.draw(sample).expect("a draw");
+        let sensors: Vec<usize> = drawn.placed.iter().map(|sensor| sensor.row).collect();
+        let found = if is_sensors { &sensors } else { &drawn.modes };
+        assert_eq!(
+            (&found[..], sensors.len() < 5),
+            (kept, is_sensors),
+            "{sample}"
+        );
+    }
 }

@@ -1,7 +1,7 @@
 //! Coordinate systems of a Universal File: along which axes its nodes are placed and its sensors measure.
 
 use super::test_data_universal::{TIP, dataset, parsed, real_mode};
-use crate::common::tolerances::ROUND_OFF;
+use crate::common::tolerances::{BESIDE_AN_AXIS, ROUND_OFF};
 use corfem::files::test_data::read;
 use nalgebra::Vector3;
 
@@ -143,7 +143,7 @@ fn axes_a_hair_from_the_global_ones_are_the_global_ones() {
             .expect("an axis")
     };
     assert_eq!(axis(9e-5), Vector3::x());
-    assert!((axis(1e-4) - Vector3::new(1.0, 1e-4, 0.0)).amax() < 1e-8);
+    assert!((axis(1e-4) - Vector3::new(1.0, 1e-4, 0.0)).amax() < BESIDE_AN_AXIS);
 }
 
 #[test]

@@ -268,6 +268,37 @@ fn a_row_longer_or_shorter_than_the_header_is_an_error_with_its_column() {
 }
 
 #[test]
+fn a_column_of_deviations_belongs_to_the_mode_of_its_number() {
+    let text = "deviation 2,direction,mode 1,grid,mode 2,mode 3\nfrequency_hz,,8.5,,9.5,10.5\n0.01,z,2,12,-3,\n0.5,z,1,13,1,\n";
+    let data = wing(text);
+    assert_eq!(data.shapes.column(1).as_slice(), [-3.0, 1.0]);
+    let own: Vec<(usize, &[f64])> = data
+        .component_deviation
+        .iter()
+        .map(|(mode, own)| (*mode, own.as_slice()))
+        .collect();
+    assert_eq!(own, [(1, &[0.01, 0.5][..])]);
+    // Of a mode without a shape it is not read.
+    let alone = wing(&text.replace("deviation 2", "Deviation 3"));
+    assert!(alone.component_deviation.is_empty());
+    let said = |old: &str, new: &str| {
+        let text = text.replace(old, new);
+        read("wing.csv", text.as_bytes())
+            .expect_err(&text)
+            .to_string()
+    };
+    for wrong in ["deviation", "deviation 0", "deviation two"] {
+        assert!(said("deviation 2", wrong).contains("a title deviation with the number of a mode"));
+    }
+    assert!(said("grid,mode 2", "deviation 2,mode 2").contains("once each"));
+    assert!(said("deviation 2", "deviation 4").contains("a column deviation 4, but no mode 4"));
+    assert!(said("0.01", "").contains("line 3"));
+    assert!(said("0.01", "0").contains("component deviation"));
+    assert!(said("0.01", "-1").contains("component deviation"));
+    assert!(said("hz,,8.5,,9.5", "hz,7,8.5,1,9.5").contains("where nothing belongs"));
+}
+
+#[test]
 fn titles_of_modes_are_in_order_and_none_is_there_twice() {
     let said = |first: &str, second: &str| {
         let text = WING.replace("mode 1,mode 2", &format!("{first},{second}"));

@@ -31,7 +31,6 @@ proptest! {
     fn generalized_shares_sum_to_the_generalized_stiffness((chain, truth) in chain_and_truth()) {
         let problem = problem(&chain, &truth);
         prop_assert_eq!(problem.shares().len(), truth.len());
-        prop_assert_eq!(problem.shares().len(), truth.len());
         let sum: DMatrix<f64> = problem.shares().iter().map(ParameterMatrix::matrix).sum();
         let expected = DMatrix::from_diagonal(problem.exact().modes.omega_squared());
         let error = (sum - &expected).amax();

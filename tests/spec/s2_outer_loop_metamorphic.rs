@@ -1,96 +1,236 @@
 //! Metamorphic relations of whole correlations: what must not change when the same problem is put in another way.
 //!
-//! Every relation is asked of all four cases. A correlation of what was put differently must take as many iterations in every
-//! pass and end at the same factors and the same error sum.
+//! Every relation is asked of all four cases, and those that any structure has of random frames too. A correlation of what was put
+//! differently must take as many iterations in every pass and end at the same factors and the same error sum.
+//!
+//! The error sum is a root over all modes and all DOF, so that the steps of two structures that nothing couples depend on each
+//! other: that each then comes out as alone is a law of weighted correlations (`s5_weighted_metamorphic.rs`).
 
+use crate::common::costly_config;
+use crate::common::structures::{linkage, linkage_data};
 use crate::common::tolerances::SAME_CORRELATION;
-use corfem::method::model::{Bounds, FiniteElementModel, Parameter};
+use corfem::method::assembly::dense_stiffness;
+use corfem::method::error::Error;
+use corfem::method::model::{Bounds, DynamicModel, FiniteElementModel, Parameter, ParameterMatrix};
 use corfem::method::modes::ModeSet;
-use corfem::method::outer_loop::{Correlation, correlate};
-use corfem::method::structure::{Element, ElementKind, Grid, Structure};
+use corfem::method::outer_loop::{Correlation, Settings, correlate};
+use corfem::method::structure::{Element, ElementKind, Grid, StructuralDof, Structure};
 use corfem::torque_box::{CASES, Case};
-use nalgebra::{DMatrix, Rotation3, Vector3};
+use nalgebra::{DMatrix, DVector, Rotation3, Vector3};
+use proptest::prelude::*;
+use proptest::test_runner::TestRunner;
 
 /// What a correlation is given.
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 struct Given {
+    name: String,
     grids: Vec<Grid>,
     elements: Vec<Element>,
     load_distribution: DMatrix<f64>,
     mass: DMatrix<f64>,
     parameters: Vec<Parameter>,
     test: ModeSet,
+    analysis_modes: Option<usize>,
+    settings: Settings,
 }
 
-fn given(case: &Case) -> Given {
+fn given(number: usize) -> Given {
+    let case = Case::new(number).expect("a case");
     let model = case.model().expect("a model");
-    Given {
-        grids: model.structure().grids().to_vec(),
-        elements: model.structure().elements().to_vec(),
-        load_distribution: model.load_distribution().clone(),
-        mass: model.mass().clone(),
-        parameters: model.parameters().to_vec(),
-        test: case.test_modes().expect("test modes").into(),
+    let test = case.test_modes().expect("test modes").into();
+    Given::of(format!("case {number}"), &model, test, case.settings)
+}
+
+/// A braced linkage with masses at its two upper corners, and its modes with other areas, from which it can be corrected.
+fn frame() -> impl Strategy<Value = Given> {
+    let factor = (1.1..1.4_f64, any::<bool>());
+    let factor = factor.prop_map(|(factor, is_less)| if is_less { 1.0 / factor } else { factor });
+    let masses = prop::collection::vec(1.0..4.0_f64, 4);
+    (linkage_data(), masses, prop::collection::vec(factor, 4)).prop_filter_map(
+        "modes that stay apart",
+        |((apex, areas), masses, truth)| {
+            // Areas within a factor of three, so that no rod is beyond what the test sees.
+            let structure = linkage(apex, areas.map(|area| area.powf(0.25)), true);
+            let mass = DMatrix::from_diagonal(&DVector::from_vec(masses));
+            let rods = (1..=4).map(|rod| Parameter::element(rod, None)).collect();
+            let model = FiniteElementModel::new(structure, DMatrix::identity(4, 4), mass, rods)
+                .expect("a model");
+            let test = model.modes(&truth).expect("modes").into();
+            let settings = Settings {
+                error_sum_tolerance: 0.01,
+                later_inner_tolerance: 0.005,
+                ..Settings::default()
+            };
+            let given = Given::of(
+                format!("frame {apex:?} {areas:?} {truth:?}"),
+                &model,
+                test,
+                settings,
+            );
+            given.try_correlated().is_ok().then_some(given)
+        },
+    )
+}
+
+impl Given {
+    fn of(name: String, model: &FiniteElementModel, test: ModeSet, settings: Settings) -> Self {
+        Self {
+            name,
+            grids: model.structure().grids().to_vec(),
+            elements: model.structure().elements().to_vec(),
+            load_distribution: model.load_distribution().clone(),
+            mass: model.mass().clone(),
+            parameters: model.parameters().to_vec(),
+            test,
+            analysis_modes: None,
+            settings,
+        }
+    }
+
+    fn structure(&self) -> Structure {
+        Structure::new(self.grids.clone(), self.elements.clone()).expect("a structure")
+    }
+
+    fn model(&self) -> FiniteElementModel {
+        FiniteElementModel::new(
+            self.structure(),
+            self.load_distribution.clone(),
+            self.mass.clone(),
+            self.parameters.clone(),
+        )
+        .expect("a model")
+    }
+
+    fn correlated(&self) -> Correlation {
+        let found = self.try_correlated();
+        found.unwrap_or_else(|error| panic!("{}: {error}", self.name))
+    }
+
+    fn try_correlated(&self) -> Result<Correlation, Error> {
+        let model = self.model();
+        let ranges = model.factor_ranges().expect("ranges");
+        let analyze = |factors: &[f64]| model.analyze(factors, &self.test, self.analysis_modes);
+        correlate(analyze, &ranges, &self.settings, |_, _| {})
+    }
+
+    /// Loads the DOF of the structure as it is now as those of before were loaded; others not at all. `from` is what a DOF was
+    /// before, if it was there.
+    fn loaded_as(
+        &mut self,
+        before: &[StructuralDof],
+        from: impl Fn(StructuralDof) -> Option<StructuralDof>,
+    ) {
+        let now = self.structure();
+        let mut t = DMatrix::zeros(now.free_dof().len(), self.load_distribution.ncols());
+        for (row, dof) in now.free_dof().iter().enumerate() {
+            let old = from(*dof).and_then(|old| before.iter().position(|dof| *dof == old));
+            if let Some(old) = old {
+                t.row_mut(row).copy_from(&self.load_distribution.row(old));
+            }
+        }
+        self.load_distribution = t;
+    }
+
+    /// Adds a grid that moves along one direction alone, beyond a grid, on a rod of the last one's kind.
+    fn add_on_rod(&mut self, beyond: usize, direction: usize) {
+        let at = self
+            .grids
+            .iter()
+            .find(|grid| grid.label == beyond)
+            .expect("a grid");
+        let mut offset = Vector3::zeros();
+        offset[direction] = 7.0;
+        let mut constrained = [true; 3];
+        constrained[direction] = false;
+        self.grids.push(Grid {
+            label: ADDED,
+            position: at.position + offset,
+            constrained,
+        });
+        let rod = self.elements.last().expect("a rod").clone();
+        assert_eq!(rod.kind, ElementKind::Rod);
+        self.elements.push(Element {
+            label: ADDED,
+            grids: vec![beyond, ADDED],
+            ..rod
+        });
     }
 }
 
-fn correlated(case: &Case, given: Given) -> Correlation {
-    let Given {
-        grids,
-        elements,
-        load_distribution,
-        mass,
-        parameters,
-        test,
-    } = given;
-    let structure = Structure::new(grids, elements).expect("a structure");
-    let model =
-        FiniteElementModel::new(structure, load_distribution, mass, parameters).expect("a model");
-    let ranges = model.factor_ranges().expect("ranges");
-    let analyze = |factors: &[f64]| model.analyze(factors, &test, None);
-    correlate(analyze, &ranges, &case.settings, |_, _| {}).expect("a correlation")
+/// Label of what a relation adds.
+const ADDED: usize = 900;
+
+/// Asserts that two correlations are the same; `place` is where a parameter's factor stands in the other, of so many.
+fn assert_same(
+    name: &str,
+    first: &Correlation,
+    other: &Correlation,
+    place: impl Fn(usize, usize) -> usize,
+) {
+    let iterations = |run: &Correlation| -> Vec<usize> {
+        let passes = run.passes.iter();
+        passes.map(|pass| pass.inner.iterations.len()).collect()
+    };
+    assert_eq!(iterations(first), iterations(other), "{name}");
+    let error_sums = |run: &Correlation| -> Vec<f64> {
+        let passes = run.passes.iter();
+        passes.map(|pass| pass.check.errors.sum()).collect()
+    };
+    for (a, b) in error_sums(first).iter().zip(error_sums(other)) {
+        assert!((a - b).abs() <= SAME_CORRELATION, "{name}: {a} {b}");
+    }
+    let count = first.best_factors.len();
+    for (e, a) in first.best_factors.iter().enumerate() {
+        let b = other.best_factors[place(e, count)];
+        assert!(
+            (a / b - 1.0).abs() <= SAME_CORRELATION,
+            "{name}, {e}: {a} {b}"
+        );
+    }
+    // What was added has no effect, and so keeps its stiffness.
+    for factor in &other.best_factors[count..] {
+        assert!((factor - 1.0).abs() <= SAME_CORRELATION, "{name}: {factor}");
+    }
 }
 
-/// Asks of every case that putting it in another way changes nothing; `place` is where a parameter's factor then stands, of so many.
+/// Asks of every case that putting it in another way changes nothing.
 fn nothing_changes(put: impl Fn(&mut Given), place: impl Fn(usize, usize) -> usize) {
     for number in CASES {
-        let case = Case::new(number).expect("a case");
-        let first = given(&case);
-        let count = first.parameters.len();
+        let first = given(number);
         let mut other = first.clone();
         put(&mut other);
-        let (first, other) = (correlated(&case, first), correlated(&case, other));
-        let iterations = |run: &Correlation| -> Vec<usize> {
-            run.passes
-                .iter()
-                .map(|pass| pass.inner.iterations.len())
-                .collect()
-        };
-        assert_eq!(iterations(&first), iterations(&other), "case {number}");
-        let error_sums = |run: &Correlation| -> Vec<f64> {
-            run.passes
-                .iter()
-                .map(|pass| pass.check.errors.sum())
-                .collect()
-        };
-        for (a, b) in error_sums(&first).iter().zip(error_sums(&other)) {
-            assert!((a - b).abs() <= SAME_CORRELATION, "case {number}: {a} {b}");
-        }
-        for (e, a) in first.best_factors.iter().enumerate() {
-            let b = other.best_factors[place(e, count)];
-            assert!(
-                (a / b - 1.0).abs() <= SAME_CORRELATION,
-                "case {number}, {e}: {a} {b}"
-            );
-        }
-        // What was added has no effect, and so keeps its stiffness.
-        for factor in &other.best_factors[count..] {
-            assert!(
-                (factor - 1.0).abs() <= SAME_CORRELATION,
-                "case {number}: {factor}"
-            );
-        }
+        assert_same(
+            &first.name,
+            &first.correlated(),
+            &other.correlated(),
+            &place,
+        );
     }
+}
+
+/// Asks something of random frames.
+fn of_frames(ask: impl Fn(&Given)) {
+    let mut runner = TestRunner::new(costly_config());
+    let asked = runner.run(&frame(), |frame| {
+        ask(&frame);
+        Ok(())
+    });
+    asked.unwrap_or_else(|error| panic!("{error}"));
+}
+
+/// Asks of every case and of random frames that putting it in another way changes nothing.
+fn nothing_changes_anywhere(put: impl Fn(&mut Given), place: impl Fn(usize, usize) -> usize) {
+    nothing_changes(&put, &place);
+    of_frames(|first| {
+        let mut other = first.clone();
+        put(&mut other);
+        assert_same(
+            &first.name,
+            &first.correlated(),
+            &other.correlated(),
+            &place,
+        );
+    });
 }
 
 fn in_place(e: usize, _: usize) -> usize {
@@ -103,7 +243,7 @@ fn reversed(count: usize) -> Vec<usize> {
 
 #[test]
 fn the_order_of_test_modes_does_not_matter() {
-    nothing_changes(
+    nothing_changes_anywhere(
         |given| {
             let order = reversed(given.test.len());
             let (squares, shapes) = given.test.clone().into_parts();
@@ -116,12 +256,12 @@ fn the_order_of_test_modes_does_not_matter() {
 
 #[test]
 fn the_order_of_parameters_does_not_matter() {
-    nothing_changes(|given| given.parameters.reverse(), |e, count| count - 1 - e);
+    nothing_changes_anywhere(|given| given.parameters.reverse(), |e, count| count - 1 - e);
 }
 
 #[test]
 fn the_order_of_sensors_does_not_matter() {
-    nothing_changes(
+    nothing_changes_anywhere(
         |given| {
             let order = reversed(given.mass.nrows());
             let shapes = given.test.shapes().select_rows(&order);
@@ -135,7 +275,7 @@ fn the_order_of_sensors_does_not_matter() {
 
 #[test]
 fn the_direction_in_which_a_sensor_counts_does_not_matter() {
-    nothing_changes(
+    nothing_changes_anywhere(
         |given| {
             let mut shapes = given.test.shapes().clone();
             shapes.row_mut(2).neg_mut();
@@ -153,8 +293,7 @@ fn numbers_of_grids_and_elements_do_not_matter() {
     nothing_changes(
         |given| {
             let grid = |label: usize| 1000 - 7 * label;
-            let old = Structure::new(given.grids.clone(), given.elements.clone());
-            let old = old.expect("a structure").free_dof().to_vec();
+            let before = given.structure().free_dof().to_vec();
             given.grids.reverse();
             given
                 .grids
@@ -171,16 +310,10 @@ fn numbers_of_grids_and_elements_do_not_matter() {
             for member in given.parameters.iter_mut().flat_map(|of| &mut of.members) {
                 *member = 500 - *member;
             }
-            let new = Structure::new(given.grids.clone(), given.elements.clone());
-            let new = new.expect("a structure");
-            let mut t = DMatrix::zeros(old.len(), given.load_distribution.ncols());
-            for (row, dof) in old.iter().enumerate() {
-                let to = new
-                    .free_dof_index(grid(dof.grid), dof.direction)
-                    .expect("a free DOF");
-                t.row_mut(to).copy_from(&given.load_distribution.row(row));
-            }
-            given.load_distribution = t;
+            given.loaded_as(&before, |dof| {
+                let grid = before.iter().find(|old| grid(old.grid) == dof.grid)?.grid;
+                Some(StructuralDof { grid, ..dof })
+            });
         },
         in_place,
     );
@@ -272,11 +405,11 @@ fn a_parameter_without_effect_changes_nothing() {
             // A rod between two fixed grids.
             let rod = given.elements.last().expect("a rod").clone();
             given.elements.push(Element {
-                label: 900,
+                label: ADDED,
                 grids: vec![13, 14],
                 ..rod
             });
-            given.parameters.push(Parameter::element(900, None));
+            given.parameters.push(Parameter::element(ADDED, None));
         },
         in_place,
     );
@@ -285,7 +418,7 @@ fn a_parameter_without_effect_changes_nothing() {
 #[test]
 fn the_unit_of_time_does_not_matter() {
     // Four times the mass, half the frequencies.
-    nothing_changes(
+    nothing_changes_anywhere(
         |given| {
             let (squares, shapes) = given.test.clone().into_parts();
             given.test = ModeSet::new(0.25 * squares, shapes).expect("modes");
@@ -297,7 +430,7 @@ fn the_unit_of_time_does_not_matter() {
 
 #[test]
 fn a_modulus_common_to_model_and_test_does_not_matter() {
-    nothing_changes(
+    nothing_changes_anywhere(
         |given| {
             for element in &mut given.elements {
                 element.material.youngs_modulus *= 4.0;
@@ -308,4 +441,214 @@ fn a_modulus_common_to_model_and_test_does_not_matter() {
         },
         in_place,
     );
+}
+
+#[test]
+fn the_mirror_image_is_corrected_alike() {
+    nothing_changes_anywhere(
+        |given| {
+            let (structure, x) = (given.structure(), 0);
+            for grid in &mut given.grids {
+                grid.position[x] = 40.0 - grid.position[x];
+            }
+            for (row, dof) in structure.free_dof().iter().enumerate() {
+                if dof.direction == x {
+                    given.load_distribution.row_mut(row).neg_mut();
+                }
+            }
+        },
+        in_place,
+    );
+}
+
+/// A grid at the free end of a rod, without mass: no force reaches it.
+#[test]
+fn a_dof_without_load_changes_nothing() {
+    nothing_changes_anywhere(
+        |given| {
+            let before = given.structure().free_dof().to_vec();
+            let StructuralDof { grid, direction } = before[0];
+            given.add_on_rod(grid, direction);
+            given.loaded_as(&before, Some);
+        },
+        in_place,
+    );
+}
+
+/// A mass on a rod from the ground has a mode of its own, the highest: with it among the analysis modes or without.
+#[test]
+fn an_analysis_mode_that_nothing_couples_changes_nothing() {
+    let with_a_mode_apart = |given: &Given| {
+        let mut given = given.clone();
+        let before = given.structure().free_dof().to_vec();
+        let fixed = given
+            .grids
+            .iter()
+            .find(|grid| grid.constrained == [true; 3]);
+        given.add_on_rod(fixed.expect("a fixed grid").label, 0);
+        given.loaded_as(&before, Some);
+        let count = given.mass.nrows();
+        let t = std::mem::replace(&mut given.load_distribution, DMatrix::zeros(0, 0));
+        let mut t = t.insert_column(count, 0.0);
+        let added = StructuralDof {
+            grid: ADDED,
+            direction: 0,
+        };
+        let row = given
+            .structure()
+            .free_dof()
+            .iter()
+            .position(|dof| *dof == added);
+        t[(row.expect("it is free"), count)] = 1.0;
+        given.load_distribution = t;
+        let highest = given.test.omega_squared().max();
+        let rod = given.elements.last().expect("a rod");
+        let stiffness = rod.material.youngs_modulus * rod.size / 7.0;
+        let mut mass = given
+            .mass
+            .clone()
+            .insert_row(count, 0.0)
+            .insert_column(count, 0.0);
+        mass[(count, count)] = stiffness / (25.0 * highest);
+        given.mass = mass;
+        let shapes = given.test.shapes().clone().insert_row(count, 0.0);
+        given.test = given.test.with_shapes(shapes).expect("modes");
+        given
+    };
+    let same = |given: &Given| {
+        let mut all = with_a_mode_apart(given);
+        let count = all.mass.nrows();
+        let highest = all
+            .model()
+            .modes(&vec![1.0; all.parameters.len()])
+            .expect("modes");
+        let highest = highest.shapes().column(count - 1);
+        assert_eq!(highest.icamax(), count - 1, "{}", given.name);
+        let all_modes = all.correlated();
+        all.analysis_modes = Some(count - 1);
+        assert_same(&given.name, &all_modes, &all.correlated(), in_place);
+    };
+    CASES.map(given).iter().for_each(same);
+    of_frames(same);
+}
+
+/// The first pass's tolerance is another, so a new start takes that of the later passes.
+#[test]
+fn stopping_after_a_pass_and_starting_anew_gives_the_next_passes() {
+    let same = |given: &Given| {
+        let (model, count) = (given.model(), given.parameters.len());
+        let ranges = model.factor_ranges().expect("ranges");
+        let run = |base: &[f64], settings: &Settings| {
+            let product = |factors: &[f64]| -> Vec<f64> {
+                base.iter()
+                    .zip(factors)
+                    .map(|(base, factor)| base * factor)
+                    .collect()
+            };
+            let analyze = |factors: &[f64]| model.analyze(&product(factors), &given.test, None);
+            let range = |(range, base): (&Option<Bounds>, &f64)| {
+                range.map(|Bounds { lower, upper }| Bounds {
+                    lower: lower / base,
+                    upper: upper / base,
+                })
+            };
+            let ranges: Vec<_> = ranges.iter().zip(base).map(range).collect();
+            let found = correlate(analyze, &ranges, settings, |_, _| {}).expect("a correlation");
+            let pass = |pass: &corfem::method::outer_loop::Pass| {
+                (pass.inner.iterations.len(), product(&pass.factors))
+            };
+            found.passes.iter().map(pass).collect::<Vec<_>>()
+        };
+        let passes = |count: usize| Settings {
+            least_passes: count,
+            most_passes: count,
+            ..given.settings.clone()
+        };
+        let whole = run(&vec![1.0; count], &passes(3));
+        let mut parts = run(&vec![1.0; count], &passes(1));
+        while parts.len() < whole.len() {
+            let mut anew = passes(1);
+            anew.inner.tolerance = anew.later_inner_tolerance;
+            let base = parts.last().expect("a pass").1.clone();
+            parts.extend(run(&base, &anew));
+        }
+        for ((iterations, factors), (steps, parts)) in whole.iter().zip(&parts) {
+            assert_eq!(iterations, steps, "{}", given.name);
+            for (a, b) in factors.iter().zip(parts) {
+                assert!(
+                    (a / b - 1.0).abs() <= SAME_CORRELATION,
+                    "{}: {a} {b}",
+                    given.name
+                );
+            }
+        }
+        whole.len()
+    };
+    let passes: usize = CASES.map(given).iter().map(same).sum();
+    assert!(passes > CASES.len(), "some have a second pass");
+    of_frames(|frame| {
+        same(frame);
+    });
+}
+
+/// With T the identity B is one too, and the analysis is that of the structure's own matrices.
+#[test]
+fn condensing_to_all_dof_is_not_condensing() {
+    let same = |given: &Given, mass: DMatrix<f64>, truth: &[f64]| {
+        let mut given = given.clone();
+        let free = given.structure().free_dof().len();
+        given.load_distribution = DMatrix::identity(free, free);
+        given.mass = mass;
+        let model = given.model();
+        given.test = model
+            .modes(truth)
+            .expect("modes")
+            .lowest(9.min(free))
+            .expect("modes")
+            .into();
+        let whole = |factors: &[f64]| {
+            let at = model.at(factors).expect("sizes");
+            let matrix = |rows: &[usize]| {
+                let mut sizes = vec![0.0; at.sizes.len()];
+                rows.iter().for_each(|&row| sizes[row] = at.sizes[row]);
+                dense_stiffness(model.element_matrices(), &sizes, free).expect("a size each")
+            };
+            let row = |label: &usize| {
+                let elements = model.structure().elements().iter();
+                elements
+                    .clone()
+                    .position(|element| element.label == *label)
+                    .expect("it is there")
+            };
+            let share = |parameter: &Parameter| {
+                let rows: Vec<usize> = parameter.members.iter().map(row).collect();
+                ParameterMatrix::Stiffness(matrix(&rows))
+            };
+            let dynamic = DynamicModel {
+                stiffness: matrix(&(0..at.sizes.len()).collect::<Vec<_>>()),
+                mass: given.mass.clone(),
+                shares: given.parameters.iter().map(share).collect(),
+            };
+            dynamic.analyze(&given.test, given.analysis_modes)
+        };
+        let ranges = model.factor_ranges().expect("ranges");
+        let whole = correlate(whole, &ranges, &given.settings, |_, _| {}).expect("a correlation");
+        assert_same(&given.name, &given.correlated(), &whole, in_place);
+    };
+    for number in CASES {
+        let mut given = given(number);
+        // The step by gage knows the sizes of elements, which the matrices do not tell.
+        assert_ne!(
+            given.settings.inner.step,
+            corfem::method::step::StepRule::Gage
+        );
+        let free = given.structure().free_dof().len();
+        given.analysis_modes = Some(free);
+        let truth: Vec<f64> = (0..given.parameters.len())
+            .map(|e| if e % 2 == 0 { 0.8 } else { 1.2 })
+            .collect();
+        let mass = DVector::from_fn(free, |row, _| 0.01 + 0.001 * row as f64);
+        same(&given, DMatrix::from_diagonal(&mass), &truth);
+    }
+    of_frames(|frame| same(frame, frame.mass.clone(), &[0.8, 1.2, 0.8, 1.2]));
 }

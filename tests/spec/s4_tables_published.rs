@@ -1,6 +1,8 @@
 //! The report against the published tables: how near they are, and that what was promised is kept.
 
-use crate::common::tolerances::{FITTED_FREQUENCY_ERROR, FITTED_SHAPE_ERROR, ROUND_OFF};
+use crate::common::tolerances::{
+    FINAL_GAGE_ERROR, FITTED_FREQUENCY_ERROR, FITTED_SHAPE_ERROR, ROUND_OFF,
+};
 use crate::evidence::fit::fit;
 use corfem::method::structure::ElementKind;
 use corfem::torque_box::published::PublishedTable;
@@ -122,12 +124,20 @@ fn final_gage_errors_are_no_worse_than_published_except_case_1() {
                 continue;
             };
             let computed = 100.0 * gage_rms(&result.case.panels, gages, kind);
-            if number == 1 {
-                // The one exception: the box gives 5.0 where the paper has 3.9 (paper/results.md says why).
-                assert!((4.9..5.1).contains(&computed), "{computed}");
-            } else {
-                assert!(computed <= printed, "{computed} for {printed}");
-            }
+            // How far below: each is what this box gives, and another number is another correction.
+            let expected = match (number, row) {
+                (1, _) => 5.0,
+                (2, "shear_rms") => 23.8,
+                (2, _) => 2.5,
+                (_, "shear_rms") => 16.35,
+                _ => 14.3,
+            };
+            assert!(
+                (computed - expected).abs() <= FINAL_GAGE_ERROR,
+                "{computed} for {expected}"
+            );
+            // The one exception: the box gives 5.0 where the paper has 3.9 (paper/results.md says why).
+            assert_eq!(computed <= printed, number != 1, "{computed} for {printed}");
         }
     }
 }

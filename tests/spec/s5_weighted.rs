@@ -16,11 +16,12 @@ use corfem::nalgebra::{DMatrix, DVector};
 use corfem::torque_box::Case;
 use corfem::weighted::close_modes::{told_apart, turned};
 use corfem::weighted::gauss_newton::{
-    WeightedCorrelation, WeightedSettings, WeightedStop, from_several_starts, gauss_newton,
+    WeightedCorrelation, WeightedSettings, WeightedStop, gauss_newton,
 };
 use corfem::weighted::identifiability::identifiability;
 use corfem::weighted::noise::{Noise, with_noise};
 use corfem::weighted::residuals::{DEVIATIONS, jacobian, residuals};
+use corfem::weighted::starts::from_several_starts;
 
 /// The box of Case 2 by its matrices, with a stiffness parameter for every panel and a mass parameter for every point.
 fn by_matrices() -> DynamicModel {
@@ -81,9 +82,18 @@ fn the_jacobian_is_the_derivative_of_exact_analyses() {
         } else {
             Vec::new()
         };
+        // And components alike, or each with a weight of its own.
+        let own = DMatrix::from_fn(9, 9, |_, _| {
+            if seed % 3 == 0 {
+                1.0
+            } else {
+                draws.between(0.2, 5.0)
+            }
+        });
         let analyzed = |factors: &[f64]| {
             let model = at(&first, factors).analyze(&test, None).unwrap();
-            model.with_groups(groups.clone()).unwrap()
+            let model = model.with_groups(groups.clone()).unwrap();
+            model.with_component_weights(own.clone()).unwrap()
         };
         let here = analyzed(&factors);
         let slopes = jacobian(&here, &weights).unwrap();
@@ -213,6 +223,56 @@ fn shapes_are_scaled_by_least_squares_and_the_tests_scale_and_sign_do_not_matter
             (one[10 * j] - (ratio - 1.0) * weights[j].frequency).abs()
                 < ROUND_OFF * weights[j].frequency
         );
+    }
+}
+
+#[test]
+fn of_components_with_deviations_of_their_own_the_scale_is_that_of_weighted_least_squares() {
+    let first = by_matrices();
+    let test = with_noise(&modes(&first), Noise::USUAL, 3).unwrap();
+    for seed in 1..=5 {
+        let mut draws = Draws(seed);
+        let own = DMatrix::from_fn(9, 9, |_, _| draws.between(0.2, 5.0));
+        let model = first.analyze(&test, None).unwrap();
+        let model = model.with_component_weights(own.clone()).unwrap();
+        let found = residuals(&model, &weights(9)).unwrap();
+        for (j, &i) in model.exact().pairing.analysis_mode().iter().enumerate() {
+            let v = model.exact().modes.shapes().column(i);
+            let unit = test.shapes().column(j) / test.shapes().column(j).amax();
+            let squares = own.column(j).map(|weight| weight * weight);
+            let scale = v.component_mul(&squares).dot(&unit) / v.component_mul(&squares).dot(&v);
+            let expected = (scale * v - unit).component_mul(&own.column(j)) / DEVIATIONS.shape;
+            let off = (found.rows(10 * j + 1, 9) - expected).amax();
+            assert!(off < MATRIX_ROUND_OFF / DEVIATIONS.shape, "{j}: {off:e}");
+        }
+    }
+}
+
+#[test]
+fn components_of_one_weight_are_as_a_mode_of_that_weight() {
+    let first = by_matrices();
+    let test = with_noise(&modes(&first), Noise::USUAL, 3).unwrap();
+    let model = first.analyze(&test, None).unwrap();
+    let own = DMatrix::from_fn(9, 9, |_, j| 0.5 + j as f64);
+    let all = weights(9);
+    let of_modes: Vec<ModeWeight> = (0..9)
+        .map(|j| ModeWeight {
+            shape: own[(0, j)] * all[j].shape,
+            ..all[j]
+        })
+        .collect();
+    let of_components = model.clone().with_component_weights(own).unwrap();
+    let off = residuals(&of_components, &all).unwrap() - residuals(&model, &of_modes).unwrap();
+    assert!(off.amax() < MATRIX_ROUND_OFF * of_modes[8].shape);
+    let [one, two] = [(&of_components, &all), (&model, &of_modes)]
+        .map(|(model, weights)| jacobian(model, weights).unwrap());
+    assert!((&one - &two).amax() < MATRIX_ROUND_OFF * two.amax());
+    for wrong in [
+        DMatrix::from_element(9, 8, 1.0),
+        DMatrix::zeros(9, 9),
+        DMatrix::from_element(9, 9, f64::NAN),
+    ] {
+        assert!(model.clone().with_component_weights(wrong).is_err());
     }
 }
 
@@ -354,6 +414,16 @@ fn modes_that_change_places_are_followed_and_recorded() {
     assert!(iteration == 1 || !order(&found.iterations[iteration - 2].factors));
 }
 
+/// No effect at all is no condition of a million, and a column exactly as long as one over the prior's deviation says no more than
+/// the prior.
+#[test]
+fn data_that_say_nothing_or_as_much_as_the_prior_are_told_so() {
+    let nothing = identifiability(&DMatrix::zeros(3, 2), &[1.0; 2]).unwrap();
+    assert_eq!((nothing.condition, nothing.subset), (f64::INFINITY, vec![]));
+    let as_much = identifiability(&DMatrix::from_diagonal_element(2, 2, 2.0), &[0.5; 2]).unwrap();
+    assert_eq!((as_much.condition, as_much.subset), (1.0, vec![]));
+}
+
 #[test]
 fn the_data_see_what_the_columns_say() {
     // Two separate parameters, one parallel to the first, one without effect.
@@ -438,11 +508,14 @@ fn several_starts_lead_to_one_place_on_the_box_and_on_the_wing() {
                 1,
             )
         };
-        let (best, reached) = run(5).unwrap();
+        let (best, minima) = run(5).unwrap();
         assert!(best.objective <= run(1).unwrap().0.objective);
-        assert_eq!(reached, 5);
+        let [minimum] = &minima[..] else {
+            panic!("{minima:?}")
+        };
+        assert_eq!((minimum.starts, &minimum.factors), (5, &best.factors));
         let again = run(5).unwrap();
-        assert_eq!((again.0.factors, again.1), (best.factors, reached));
+        assert_eq!((again.0.factors, again.1), (best.factors, minima));
         assert!(matches!(run(0), Err(Error::Empty { .. })));
     }
 }

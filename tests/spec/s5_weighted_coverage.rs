@@ -43,12 +43,8 @@ fn intervals_hold_the_truth_in_most_of_a_few_tests() {
 }
 
 #[test]
+#[ignore = "minutes: three hundred tests of each structure"]
 fn intervals_hold_the_truth_in_93_to_97_of_100_tests() {
-    if std::env::var_os("CORFEM_SLOW").is_none() {
-        return eprintln!(
-            "SKIPPED: three hundred tests of each structure; set CORFEM_SLOW=1 to run them"
-        );
-    }
     let all = all_coverages(SEEDS).unwrap();
     let numbers = Numbers {
         relative: GOLDEN_RELATIVE,
@@ -134,12 +130,8 @@ fn a_panel_too_thin_is_the_first_suspect() {
 }
 
 #[test]
+#[ignore = "minutes: a hundred seeds for every panel"]
 fn a_panel_too_thin_is_the_first_suspect_in_noise() {
-    if std::env::var_os("CORFEM_SLOW").is_none() {
-        return eprintln!(
-            "SKIPPED: a hundred seeds for every panel; set CORFEM_SLOW=1 to run them"
-        );
-    }
     let located = localization(localization::SEEDS).unwrap();
     let numbers = Numbers {
         relative: 0.0,

@@ -3,6 +3,7 @@
 use crate::common::known::Known;
 use crate::common::measured::equal_weights;
 use crate::common::tolerances::{ORDER_SLACK, ROUND_OFF, STANDARD_ERRORS, WEIGHTED_FACTOR};
+use crate::spec::s5_weighted::at;
 use approx::assert_relative_eq;
 use corfem::method::appendix_c::SMALLEST_SEPARATION;
 use corfem::method::error::Error;
@@ -10,11 +11,12 @@ use corfem::method::error_sum::ModeWeight;
 use corfem::method::model::{DynamicModel, ParameterMatrix};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::torque_box::{Case, Grouping};
-use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop, from_several_starts};
+use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop};
 use corfem::weighted::identifiability::identifiability;
 use corfem::weighted::next_step::NextStep;
 use corfem::weighted::noise::Noise;
 use corfem::weighted::residuals::{DEVIATIONS, jacobian};
+use corfem::weighted::starts::{Minimum, from_several_starts};
 use nalgebra::{DMatrix, DVector, dmatrix};
 
 #[test]
@@ -56,6 +58,70 @@ fn random_starts_are_log_uniform_from_half_to_twice_the_first_factors() {
     }
 }
 
+/// Two masses on two springs in a row, by their frequencies: with $k_1 k_2$ and $k_1 + 2 k_2$ known, springs $(2 k_2, k_1/2)$ have the same.
+#[test]
+fn all_minima_that_noise_allows_are_named_with_their_starts() {
+    let spring = |matrix| ParameterMatrix::Stiffness(matrix);
+    let first = DynamicModel {
+        stiffness: dmatrix![2.0, -1.0; -1.0, 1.0],
+        mass: DMatrix::identity(2, 2),
+        shares: vec![
+            spring(dmatrix![1.0, 0.0; 0.0, 0.0]),
+            spring(dmatrix![1.0, -1.0; -1.0, 1.0]),
+        ],
+    };
+    let truth = [1.4, 1.0];
+    let real = at(&first, &truth);
+    let test: ModeSet = solve(&real.stiffness, &real.mass, 2).unwrap().into();
+    let analyze = |factors: &[f64]| at(&first, factors).analyze(&test, None);
+    let settings = WeightedSettings {
+        prior_deviations: vec![100.0],
+        ..WeightedSettings::default()
+    };
+    let found = |shape: f64| {
+        let weight = ModeWeight {
+            frequency: 1e3,
+            shape,
+        };
+        let ranges = [None; 2];
+        from_several_starts(analyze, &ranges, &[weight; 2], &settings, 40, 3)
+    };
+    let (best, minima) = found(0.0).unwrap();
+    assert_eq!(minima.len(), 2, "{minima:?}");
+    assert_eq!(minima.iter().map(|of| of.starts).sum::<usize>(), 40);
+    // The two basins meet where the springs are as two to one: beyond that are an eighth of the starts.
+    assert!(
+        minima
+            .iter()
+            .all(|of| of.starts > 1 && of.chi_squared < 1e-3),
+        "{minima:?}"
+    );
+
+    assert_eq!(minima[0].factors, best.factors);
+    for springs in [truth, [2.0 * truth[1], 0.5 * truth[0]]] {
+        let is_there = |of: &Minimum| {
+            let both = of.factors.iter().zip(springs);
+            both.map(|(found, spring)| (found / spring - 1.0).abs())
+                .all(|off| off < WEIGHTED_FACTOR)
+        };
+        assert!(minima.iter().any(is_there), "{springs:?} {minima:?}");
+    }
+    // Shapes tell the two apart: chi-squared of the other is above the 5.99 that two parameters allow, or still below.
+    let (_, minima) = found(60.0).unwrap();
+    let [only] = &minima[..] else {
+        panic!("{minima:?}")
+    };
+    assert!(only.starts < 40);
+    let (_, minima) = found(2.0).unwrap();
+    let [_, other] = &minima[..] else {
+        panic!("{minima:?}")
+    };
+    assert!(
+        other.chi_squared > 0.01 && other.chi_squared < 5.99,
+        "{other:?}"
+    );
+}
+
 /// Of three starts the second has no model, and later a trial has none: the others end where all of them do.
 #[test]
 fn a_start_or_a_trial_without_a_model_is_rejected_and_the_others_stand() {
@@ -76,13 +142,14 @@ fn a_start_or_a_trial_without_a_model_is_rejected_and_the_others_stand() {
         (found, failed)
     };
     let (all, _) = starts(3, &|_, _| false);
-    let (all, reached) = all.unwrap();
-    assert_eq!(reached, 3);
+    let (all, minima) = all.unwrap();
+    let reached = |minima: &[Minimum]| minima.iter().map(|of| of.starts).collect::<Vec<_>>();
+    assert_eq!(reached(&minima), [3]);
     // The second start comes after all analyses of the first.
     let of_one = starts(1, &|_, _| false).0.unwrap().0;
     let (without, failed) = starts(3, &|call, _| call == of_one.analyses + 1);
-    let (without, reached) = without.unwrap();
-    assert_eq!((failed, reached), (1, 2));
+    let (without, minima) = without.unwrap();
+    assert_eq!((failed, reached(&minima)), (1, vec![2]));
     assert_relative_eq!(
         &without.factors[..],
         &all.factors[..],

@@ -1,7 +1,7 @@
 //! Rigid-body vectors: what each motion shows at a measuring point.
 
 use crate::common::measured::free_truss;
-use crate::common::tolerances::MATRIX_ROUND_OFF;
+use crate::common::tolerances::{MATRIX_ROUND_OFF, RIGID_BODY_RANK};
 use corfem::method::appendix_b::{
     ANTISYMMETRIC, MeasuringPoint, Motion, SYMMETRIC, rigid_body_vectors,
 };
@@ -119,6 +119,6 @@ proptest! {
             let scale = truss.stiffness.amax() * vectors.column(motion).amax();
             prop_assert!(forces.column(motion).amax() <= MATRIX_ROUND_OFF * scale);
         }
-        prop_assert_eq!(vectors.rank(1e-6), 6);
+        prop_assert_eq!(vectors.rank(RIGID_BODY_RANK), 6);
     }
 }

@@ -7,7 +7,7 @@ use crate::common::complex_pencils::{
 };
 use crate::common::strategies;
 use crate::common::tolerances::{
-    COMPLEX_EIGEN_ROUND_OFF, EIGEN_ROUND_OFF, EQUALLY_LARGE, ROUND_OFF,
+    COMPLEX_EIGEN_ROUND_OFF, DEFECTIVE_COSINE, EIGEN_ROUND_OFF, EQUALLY_LARGE, ROUND_OFF,
 };
 use corfem::method::appendix_c::general::complex_modes::{LeftRightModes, solve};
 use corfem::method::appendix_c::general::{self, ModalChange};
@@ -79,7 +79,7 @@ proptest! {
                 // Columns of V are of size one over the root of the smallest stiffness, 1.
                 prop_assert!(amax(&residual) < COMPLEX_EIGEN_ROUND_OFF * amax(&k) * amax(&modes.right));
             }
-            Err(Error::Defective { mode, cosine }) => prop_assert!(mode < 4 && cosine <= 1e-7),
+            Err(Error::Defective { mode, cosine }) => prop_assert!(mode < 4 && cosine <= DEFECTIVE_COSINE),
             Err(other) => prop_assert!(false, "{other}"),
         }
     }
@@ -203,7 +203,7 @@ fn defective_pencil_is_refused_and_its_mode_named() {
     let g = complex(&dmatrix![1.0, 1.0, 0.0; 0.0, 1.0, 0.0; 0.0, 0.0, 2.0]);
     assert!(matches!(
         solve(&DMatrix::identity(3, 3), &g),
-        Err(Error::Defective { mode: 1, cosine }) if cosine < 1e-7
+        Err(Error::Defective { mode: 1, cosine }) if cosine < DEFECTIVE_COSINE
     ));
     // Nearly defective is told from defective: shapes a millionth apart are kept.
     let near = complex(&dmatrix![1.0, 1.0, 0.0; 0.0, 1.0 + 1e-6, 0.0; 0.0, 0.0, 2.0]);

@@ -16,6 +16,8 @@
 //!   ry, rz for rotations), `name` or `grid` or both, and a column whose title begins with `mode` for every mode. `sign` says which way
 //!   the sensor points along its axis: `+`, `-`, or empty for `+`. `x`, `y`, `z` are its place, all three or none of them.
 //!   Where titles number the modes, the numbers are 1, 2, 3 and so on from left to right, as elsewhere.
+//! - A column `deviation 1` has the standard deviation of every component of mode 1, a fraction of the shape's largest component; it
+//!   takes the place of that mode's `shape_deviation`.
 //! - A mode whose column has no number but its frequency has no shape. A table of frequencies alone needs no sensors, and of titles only
 //!   those of the modes.
 //! - A sensor has a cell below each title, the rows above a number below each mode's, and neither has anything elsewhere but blanks.
@@ -25,7 +27,8 @@
 use super::{DIRECTIONS, Sensor, TestData, default_name, real};
 use crate::files::error::{FileError, is_not};
 use crate::files::inert;
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::{DMatrix, DVector, Vector3};
+use std::collections::BTreeMap;
 
 /// First cells of the rows with a number for every mode.
 const ROWS: [&str; 4] = [
@@ -37,8 +40,8 @@ const ROWS: [&str; 4] = [
 /// Titles of columns that are no modes.
 const TITLES: [&str; 7] = ["name", "grid", "direction", "sign", "x", "y", "z"];
 
-/// Where the header has [`TITLES`], and its modes.
-type Header = ([Option<usize>; 7], Vec<usize>);
+/// Where the header has [`TITLES`], its modes, and by mode the deviations of their components.
+type Header = ([Option<usize>; 7], Vec<usize>, BTreeMap<usize, usize>);
 
 /// One row, cut into cells.
 struct TestRow<'a> {
@@ -77,7 +80,7 @@ impl TestRow<'_> {
     }
 
     fn header(&self) -> Result<Header, FileError> {
-        let (mut titles, mut modes) = ([None; 7], Vec::new());
+        let (mut titles, mut modes, mut deviations) = ([None; 7], Vec::new(), BTreeMap::new());
         for (column, cell) in self
             .cells
             .iter()
@@ -91,10 +94,20 @@ impl TestRow<'_> {
                     modes.push(column);
                     self.check_mode(column, &title, modes.len())?;
                 }
+                None if title.starts_with("deviation") => {
+                    let number = title["deviation".len()..].trim().parse::<usize>().ok();
+                    let mode = number.and_then(|number| number.checked_sub(1));
+                    if mode.is_none_or(|mode| deviations.insert(mode, column).is_some()) {
+                        return self.is_not(
+                            cell,
+                            "a title deviation with the number of a mode, once each",
+                        );
+                    }
+                }
                 _ => {
                     return self.is_not(
                         cell,
-                        "a title: name, grid, direction, sign, x, y and z once each, and modes",
+                        "a title: name, grid, direction, sign, x, y and z once each, modes and deviations",
                     );
                 }
             }
@@ -104,8 +117,14 @@ impl TestRow<'_> {
             titles[2].is_some() && titles[..2] != [None; 2] && [0, 3].contains(&axes);
         let complete = (names_sensors || titles == [None; 7]) && !modes.is_empty();
         let what = "a header with direction, name or grid, a column for every mode, and all of x, y, z or none";
+        if let Some(mode) = deviations.keys().find(|mode| **mode >= modes.len()) {
+            let mode = mode + 1;
+            return self.wrong(format!(
+                "there is a column deviation {mode}, but no mode {mode}"
+            ));
+        }
         if complete {
-            Ok((titles, modes))
+            Ok((titles, modes, deviations))
         } else {
             self.is_not(&self.cells.join(" "), what)
         }
@@ -134,8 +153,10 @@ impl TestRow<'_> {
     }
 
     /// Refuses a row that ends before its last number, or has something beside the columns of its numbers and, of a sensor, its names.
-    fn check_columns(&self, (titles, modes): &Header, is_sensor: bool) -> Result<(), FileError> {
-        let own = || titles.iter().flatten().filter(|_| is_sensor).chain(modes);
+    fn check_columns(&self, header: &Header, is_sensor: bool) -> Result<(), FileError> {
+        let (titles, modes, deviations) = header;
+        let of_sensor = || titles.iter().flatten().chain(deviations.values());
+        let own = || of_sensor().filter(|_| is_sensor).chain(modes);
         let (found, wanted) = (self.cells.len(), own().max().map_or(0, |last| last + 1));
         if found < wanted {
             return self.wrong(format!("the row has {found} cells and needs {wanted}"));
@@ -242,7 +263,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
         .try_for_each(|row| row.check_columns(&header, false))?;
     rows.iter()
         .try_for_each(|row| row.check_columns(&header, true))?;
-    let (titles, modes) = header;
+    let (titles, modes, deviations) = header;
     let list = |place: usize| {
         by_mode[place]
             .as_ref()
@@ -266,6 +287,15 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
         for (&mode, value) in shaped.iter().zip(row.numbers(&columns)?) {
             data.shapes[(place, mode)] = sign * value;
         }
+    }
+    for (mode, column) in deviations
+        .into_iter()
+        .filter(|(mode, _)| !alone.contains(mode))
+    {
+        let values = rows.iter().map(|row| Ok(row.numbers(&[column])?[0]));
+        let values: Vec<f64> = values.collect::<Result<_, FileError>>()?;
+        data.component_deviation
+            .insert(mode, DVector::from_vec(values));
     }
     data.alone = alone;
     Ok(data)

@@ -16,8 +16,8 @@ use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_length, check_shape};
 use crate::method::modes::ModeSet;
 use crate::method::structure::{StructuralDof, positive};
-use nalgebra::{DMatrix, Vector3};
-use std::collections::HashSet;
+use nalgebra::{DMatrix, DVector, Vector3};
+use std::collections::{BTreeMap, HashSet};
 
 /// What directions 0 to 5 are called.
 pub const DIRECTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
@@ -60,6 +60,11 @@ pub struct TestData {
     pub frequency_deviation: Option<Vec<f64>>,
     /// Standard deviation of every mode's shape, a fraction of its largest component, if known.
     pub shape_deviation: Option<Vec<f64>>,
+    /// Standard deviation of every component of a shape, a fraction of its largest, by modes from zero that have them.
+    pub component_deviation: BTreeMap<usize, DVector<f64>>,
+    /// Of repeated tests their deviations from the mean, one column a test: of every mode its frequency, a fraction of it, then its
+    /// components, fractions of the largest; empty of one test.
+    pub scatter: DMatrix<f64>,
     /// Modal phase collinearity of every mode that was complex before it was made real; empty when all were real.
     pub phase_collinearity: Vec<f64>,
     /// Lines of the wire frame of the test, as pairs of grid numbers.
@@ -143,6 +148,13 @@ impl TestData {
             check_length(what, list.len(), count)?;
             for (mode, &value) in list.iter().enumerate() {
                 positive(what, || format!("test mode {mode} (from zero)"), value)?;
+            }
+        }
+        for (mode, deviations) in &self.component_deviation {
+            check_length("component deviation", deviations.len(), self.sensors.len())?;
+            for (sensor, &value) in deviations.iter().enumerate() {
+                let owner = || format!("test mode {mode} at sensor {sensor} (from zero)");
+                positive("component deviation", owner, value)?;
             }
         }
         let phases = self.phase_collinearity.len();

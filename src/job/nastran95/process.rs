@@ -1,12 +1,12 @@
 //! One run of the program: its files in a temporary folder, its time limited.
 
 use super::{Answer, Nastran95};
+use crate::files::disk;
 use crate::files::error::FileError;
 use crate::files::nastran95::shown;
 #[cfg(unix)]
 use rustix::process::{Pid, WaitId, WaitIdOptions, waitid};
-use std::fs::File;
-use std::io::{ErrorKind, Read};
+use std::io::{ErrorKind, Read, Write};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::Ordering;
@@ -34,11 +34,8 @@ impl Nastran95 {
     /// # Errors
     /// The variants of [`FileError`] about the solver, also when it writes too much or no files; [`FileError::File`].
     pub fn run(&self, deck: &str) -> Result<Answer, FileError> {
-        let mut builder = tempfile::Builder::new();
         // The model may be confidential.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
-        let scratch = builder.prefix("corfem-nastran95-").tempdir();
+        let scratch = disk::scratch_folder("corfem-nastran95-");
         let scratch = scratch.map_err(FileError::of_file(&std::env::temp_dir(), "write"))?;
         let answer = in_scratch(self, deck, scratch.path());
         let failed = FileError::of_file(scratch.path(), "remove");
@@ -50,10 +47,13 @@ impl Nastran95 {
 
 fn in_scratch(solver: &Nastran95, deck: &str, scratch: &Path) -> Result<Answer, FileError> {
     let path = |name: &str| scratch.join(name);
-    std::fs::write(path("deck"), deck).map_err(FileError::of_file(&path("deck"), "write"))?;
-    let open = |name: &str| File::open(path(name)).map_err(FileError::of_file(&path(name), "read"));
+    let open =
+        |name: &str| disk::open(&path(name)).map_err(FileError::of_file(&path(name), "read"));
     let create =
-        |name: &str| File::create(path(name)).map_err(FileError::of_file(&path(name), "write"));
+        |name: &str| disk::create(&path(name)).map_err(FileError::of_file(&path(name), "write"));
+    create("deck")?
+        .write_all(deck.as_bytes())
+        .map_err(FileError::of_file(&path("deck"), "write"))?;
     let program = solver.home.join(PROGRAM);
     let mut command = Command::new(&program);
     command
@@ -134,8 +134,7 @@ fn watch(
             });
         }
         for name in [PRINTED, ERRORS, ANSWER] {
-            let bytes =
-                std::fs::symlink_metadata(scratch.join(name)).map_or(0, |found| found.len());
+            let bytes = disk::symlink_metadata(scratch.join(name)).map_or(0, |found| found.len());
             within_limit(name, bytes, solver.output_limit)?;
         }
         std::thread::sleep(POLL);
@@ -191,7 +190,7 @@ pub(super) fn last_lines(text: &str) -> String {
 fn read(scratch: &Path, name: &str, limit: u64) -> Result<Option<String>, FileError> {
     let path = scratch.join(name);
     // Only a regular file is opened, since opening a pipe would block. The program has ended and cannot swap it.
-    let found = match std::fs::symlink_metadata(&path) {
+    let found = match disk::symlink_metadata(&path) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         found => found.map_err(FileError::of_file(&path, "read"))?,
     };
@@ -202,7 +201,7 @@ fn read(scratch: &Path, name: &str, limit: u64) -> Result<Option<String>, FileEr
     }
     within_limit(name, found.len(), limit)?;
     let mut bytes = Vec::new();
-    let read = File::open(&path).and_then(|file| file.take(limit).read_to_end(&mut bytes));
+    let read = disk::open(&path).and_then(|file| file.take(limit).read_to_end(&mut bytes));
     read.map_err(FileError::of_file(&path, "read"))?;
     Ok(Some(String::from_utf8_lossy(&bytes).into_owned()))
 }

@@ -6,8 +6,8 @@ mod modal;
 mod parameters;
 
 pub use analysis::CondensedModel;
-pub(crate) use modal::check_weights;
 pub use modal::{DynamicModel, ExactResult, LoneFrequency, ModalModel, Pair, ParameterMatrix};
+pub(crate) use modal::{HALF_THE_DIGITS, check_weights};
 pub use parameters::{Bounds, Parameter, Scaled};
 
 use crate::method::assembly::{ElementMatrix, element_matrices};

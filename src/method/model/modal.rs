@@ -5,17 +5,22 @@
 //! [`ModalModel::new`], so that the loops and the exact check cannot disagree about any of them.
 
 use super::REFERENCE_GAGE;
-use crate::method::error::{Error, setting};
+use crate::method::error::{Error, positive_setting, setting};
 use crate::method::error_sum::{
     Errors, ModeError, ModeWeight, check_error_sum, errors, mode_errors, weighted_errors,
 };
-use crate::method::linear_algebra::{check_length, check_shape, check_symmetric, symmetric_part};
+use crate::method::linear_algebra::{
+    check_length, check_shape, check_symmetric, cholesky, symmetric_part,
+};
 use crate::method::modes::{ModeSet, Modes, check_count, solve};
 use crate::method::pairing::{Pairing, cross_orthogonality, pair_modes, paired, signed_assurance};
 use crate::method::state::{SummedChange, with_rigid_bodies};
 use crate::method::structure::positive;
 use nalgebra::DMatrix;
 use std::f64::consts::PI;
+
+/// Part of a variance that must be left when those before have explained what they can of it.
+pub(crate) const HALF_THE_DIGITS: f64 = 1e-8;
 
 /// What one parameter holds of a matrix: at d DOF (d × d), or in n modes as $V^t K_e V$ or $V^t M_e V$ (n × n).
 #[derive(Debug, Clone, PartialEq)]
@@ -111,6 +116,10 @@ pub struct ExactResult {
     pub lone: Vec<LoneFrequency>,
     /// Groups of test modes whose shapes are compared as subspaces, none unless [`ModalModel::with_groups`].
     pub together: Vec<Vec<usize>>,
+    /// Weights of the components of every test shape beside that of the mode (d × g), ones unless [`ModalModel::with_component_weights`].
+    pub component_weights: DMatrix<f64>,
+    /// Cholesky factor of the covariance of the weighted residuals; none where they are independent, see [`ModalModel::with_covariance`].
+    pub covariance: Option<DMatrix<f64>>,
     /// Their distance from the test modes.
     pub errors: Errors,
 }
@@ -344,10 +353,13 @@ impl ModalModel {
                 .zip(became)
                 .for_each(|(lone, mode)| lone.partner = mode);
         }
-        model
+        let mut model = model
             .with_sizes(self.sizes.clone())
             .with_groups(self.exact.together.clone())?
-            .with_lone_frequencies(lone)
+            .with_component_weights(self.exact.component_weights.clone())?
+            .with_lone_frequencies(lone)?;
+        model.exact.covariance.clone_from(&self.exact.covariance);
+        Ok(model)
     }
 
     /// The modal model of exact modes and test modes paired by a rule: their distance, and the shares in the basis and on the test
@@ -375,6 +387,8 @@ impl ModalModel {
             frequencies_hz,
             lone: Vec::new(),
             together: Vec::new(),
+            component_weights: DMatrix::from_element(test.shapes.nrows(), test.len(), 1.0),
+            covariance: None,
             errors,
         };
         let (sizes, weights) = (
@@ -435,6 +449,34 @@ impl ModalModel {
             check_count("test modes", mode.saturating_add(1), self.test.len())?;
         }
         self.exact.together = together;
+        Ok(self)
+    }
+
+    /// The same model with weights of the components of every test shape (d × g), which multiply those of the modes: weighted residuals
+    /// alone have them.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] unless there is one a component and test mode; [`Error::Setting`] for one that is not positive and finite.
+    pub fn with_component_weights(mut self, weights: DMatrix<f64>) -> Result<Self, Error> {
+        let (dof, modes) = self.test.shapes.shape();
+        check_shape("component weights", &weights, dof, modes)?;
+        weights
+            .iter()
+            .try_for_each(|&weight| positive_setting("component weight", weight))?;
+        self.exact.component_weights = weights;
+        Ok(self)
+    }
+
+    /// The same model with the covariance of its weighted residuals (N × N, in their order), which then are not independent.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] and those of [`cholesky`], also where less than half the digits of a variance are its own.
+    pub fn with_covariance(mut self, covariance: &DMatrix<f64>) -> Result<Self, Error> {
+        let (dof, modes) = self.test.shapes.shape();
+        let numbers = (1 + dof) * modes + self.exact.lone.len();
+        check_shape("covariance of residuals", covariance, numbers, numbers)?;
+        let factor = cholesky("covariance of residuals", covariance, HALF_THE_DIGITS)?;
+        self.exact.covariance = Some(factor);
         Ok(self)
     }
 

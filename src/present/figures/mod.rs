@@ -10,6 +10,7 @@ mod colors;
 pub mod cases;
 pub mod comparisons;
 pub mod cover_gages;
+pub mod diagram;
 pub mod error_history;
 pub mod factors;
 pub mod matrices;

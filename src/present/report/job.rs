@@ -95,6 +95,10 @@ impl Report {
             ),
             misfit: Some(result.misfit),
             is_judged_by_noise: loaded.job.compare.method == Method::GaussNewton,
+            minima: match &result.history {
+                History::GaussNewton(Some((_, minima))) => minima.clone(),
+                _ => Vec::new(),
+            },
             moved: moved(loaded, result),
             verdict: Some(result.verdict.clone()),
             trust: Some(result.trust.clone()),

@@ -18,6 +18,7 @@ use crate::method::verdict::Verdict;
 use crate::present::verdict::verdict_in_words;
 use crate::weighted::close_modes::turned;
 use crate::weighted::misfit::Misfit;
+use crate::weighted::starts::Minimum;
 use nalgebra::{DMatrix, Vector3};
 
 /// A row of the shapes.
@@ -74,6 +75,8 @@ pub struct Report {
     pub misfit: Option<Misfit>,
     /// Whether that decides the verdict, and not the tolerances.
     pub is_judged_by_noise: bool,
+    /// The minima that noise allows, of several starts.
+    pub minima: Vec<Minimum>,
     /// Factors that make the model right, where they are known.
     pub truth: Vec<f64>,
     /// Test modes, sensors × modes.
@@ -188,6 +191,7 @@ impl Report {
             prior_shares: None,
             misfit: None,
             is_judged_by_noise: false,
+            minima: Vec::new(),
             truth: Vec::new(),
             test: test.clone(),
             mode_numbers: (1..=test.len()).collect(),

@@ -9,6 +9,7 @@ use crate::job::{
     Concern, JobResult, LoadedJob, NotCompared, PlacedSensor, Study, Summary, Trust, Vary,
 };
 use crate::method::model::Bounds;
+use crate::present::report::Report;
 use crate::present::table::{Cell, Digits, Table, counted, numbers, percents};
 use crate::weighted::identifiability::Identifiability;
 use crate::weighted::residuals::residuals;
@@ -232,6 +233,25 @@ pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileE
             .notes([apart])
             .notes(is_withheld.then(|| withheld.to_owned())),
     )
+}
+
+/// The minima that noise allows, one column each, with their chi-squared, how many starts end there, and their factors; none of one start.
+pub fn minima_table(report: &Report) -> Option<Table> {
+    let minima = || report.minima.iter();
+    let mut table = Table::new("minima", "Minima that noise allows", "Minimum")
+        .headings((1..=minima().count()).map(|place| place.to_string()), "")
+        .notes([
+            "A start that ends in none of them failed, or came to no minimum, or to one that this test excludes.",
+        ]);
+    let chi_squared = minima().map(|minimum| minimum.chi_squared);
+    table.row("chi-squared", numbers(chi_squared, Digits::Fixed(2)));
+    let starts = minima().map(|minimum| Cell::count(minimum.starts));
+    table.row("starts", starts);
+    for (e, name) in report.parameters.iter().enumerate() {
+        let factors = minima().map(|minimum| minimum.factors[e]);
+        table.row(name, numbers(factors, Digits::Fixed(4)));
+    }
+    minima().next().map(|_| table)
 }
 
 /// Mean, standard deviation and quantiles of every factor over the samples that did not fail.

@@ -3,6 +3,7 @@
 pub mod cli;
 pub mod cli_check;
 pub mod cli_comparisons;
+pub mod cli_environment;
 pub mod cli_init;
 pub mod cli_jobs;
 pub mod cli_pictures;
@@ -14,4 +15,5 @@ pub mod cli_tables;
 pub mod cli_trust;
 pub mod deck_cli;
 pub mod dump;
+pub mod failing_operations;
 pub mod stops;

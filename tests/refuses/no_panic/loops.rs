@@ -13,6 +13,8 @@ use corfem::method::step::{
     Accumulation, StepRule, limited_factor, stiffness_changes, unlimited_factors,
 };
 use corfem::weighted::close_modes::turned;
+use corfem::weighted::residuals::residuals;
+use nalgebra::DMatrix;
 
 pub const LOOPS: &[Entry] = &[
     ("ModalState::at", |d| {
@@ -156,6 +158,24 @@ pub const LOOPS: &[Entry] = &[
         let model = model.with_groups(groups)?;
         let found = turned(&model.exact().modes, model.exact(), model.test())?;
         Ok(found.shapes().iter().copied().collect())
+    }),
+    ("ModalModel::with_component_weights", |d| {
+        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
+        let (dof, modes) = model.test().shapes().shape();
+        let own = DMatrix::from_fn(d.about(dof), d.about(modes), |_, _| d.number().abs());
+        let model = model.with_component_weights(own)?;
+        let weights = vec![ModeWeight::ONE; model.test().len()];
+        residuals(&model, &weights).map(|found| found.data.into())
+    }),
+    ("ModalModel::with_covariance", |d| {
+        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
+        let (dof, modes) = model.test().shapes().shape();
+        let count = d.about((1 + dof) * modes);
+        let (size, root) = (d.number(), DMatrix::identity(count, count));
+        let covariance = root * size;
+        let model = model.with_covariance(&covariance)?;
+        let weights = vec![ModeWeight::ONE; model.test().len()];
+        residuals(&model, &weights).map(|found| found.data.into())
     }),
     ("ModalModel::weighted", |d| {
         let model = d.chain().ok_or(Error::Empty { what: "chains" })?;

@@ -25,6 +25,31 @@ use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use corfem::weighted::noise::Noise;
 use nalgebra::{DMatrix, DVector};
 
+/// A mode that moves no sensor resembles no test mode; that is no reason to refuse the analysis.
+#[test]
+fn a_mode_that_no_sensor_sees_is_like_no_test_mode() {
+    let apart = [(0, None, 1.0), (1, None, 4.0)];
+    let parameter = WholeParameter {
+        name: "first".to_owned(),
+        share: WholeShare::Stiffness(springs(2, &apart[..1])),
+        range: None,
+    };
+    let model = WholeModel::new(springs(2, &apart), masses(&[1.0, 1.0]), vec![parameter]);
+    let test = ModeSet::new(DVector::from_element(1, 1.2), DMatrix::identity(1, 1));
+    let found = model
+        .and_then(|model| {
+            let sensors = sensors_at(&[0], 2);
+            model.analyze(&[1.0], &sensors, (&test?, pair_modes), [2, 0])
+        })
+        .expect("an analysis");
+    assert_eq!(
+        found.exact().modes.shapes()[(0, 1)],
+        0.0,
+        "it is seen by none"
+    );
+    assert_eq!(found.cross().as_slice(), [1.0, 0.0]);
+}
+
 /// Five of ten floors measured on an exact building: condensation alone would raise its frequencies by percents.
 #[test]
 fn five_of_ten_floors_recover_every_story_without_condensation() {

@@ -1,0 +1,259 @@
+//! Every operation on a file: no other module of the crate calls the operating system for one.
+//!
+//! In a build with debug assertions the environment variable `CORFEM_FAILING_OPERATION` makes one of them fail: that of this number,
+//! counting from one every creation, opening, read, write, sync and rename of the process. What only asks about a file, and may
+//! fail without harm, is not counted.
+
+pub use std::fs::{Metadata, TryLockError, metadata, read_dir, read_link, symlink_metadata};
+
+use std::fs::{File, OpenOptions, create_dir};
+use std::io::{self, Error, ErrorKind, Read, Seek, SeekFrom, Write};
+use std::ops::Deref;
+use std::path::{Path, PathBuf};
+use std::process::Stdio;
+
+/// Counts an operation, and fails in its place when the environment asks for that.
+fn begin(operation: &str, path: &Path) -> io::Result<()> {
+    #[cfg(debug_assertions)]
+    {
+        use std::sync::LazyLock;
+        use std::sync::atomic::{AtomicU64, Ordering::SeqCst};
+        const VARIABLE: &str = "CORFEM_FAILING_OPERATION";
+        static FAILING: LazyLock<Option<u64>> =
+            LazyLock::new(|| std::env::var(VARIABLE).ok()?.parse().ok());
+        static COUNT: AtomicU64 = AtomicU64::new(0);
+        if *FAILING == Some(COUNT.fetch_add(1, SeqCst) + 1) {
+            let path = path.display();
+            return Err(Error::other(format!(
+                "{VARIABLE} made it fail to {operation} {path}"
+            )));
+        }
+    }
+    let _ = (operation, path);
+    Ok(())
+}
+
+/// An open file or standard output, and its name.
+#[derive(Debug)]
+pub struct Opened<F> {
+    file: F,
+    path: PathBuf,
+}
+
+/// An open file.
+pub type OpenFile = Opened<File>;
+
+impl<F> Opened<F> {
+    fn new(operation: &str, path: &Path, open: impl FnOnce() -> io::Result<F>) -> io::Result<Self> {
+        begin(operation, path)?;
+        let path = path.to_owned();
+        Ok(Self {
+            file: open()?,
+            path,
+        })
+    }
+}
+
+impl OpenFile {
+    /// Cuts off what stands behind a length, and goes on writing there.
+    ///
+    /// # Errors
+    /// Those of the operating system.
+    pub fn go_on_from(&mut self, length: u64) -> io::Result<()> {
+        begin("write", &self.path)?;
+        self.file.set_len(length)?;
+        self.file.seek(SeekFrom::Start(length)).map(drop)
+    }
+}
+
+impl<F> Deref for Opened<F> {
+    type Target = F;
+    fn deref(&self) -> &F {
+        &self.file
+    }
+}
+
+impl<F: Read> Read for Opened<F> {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        begin("read", &self.path)?;
+        self.file.read(bytes)
+    }
+}
+
+impl<F: Seek> Seek for Opened<F> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.file.seek(to)
+    }
+}
+
+impl<F: Write> Write for Opened<F> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        begin("write", &self.path)?;
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl From<OpenFile> for Stdio {
+    fn from(opened: OpenFile) -> Self {
+        opened.file.into()
+    }
+}
+
+/// A file to read.
+///
+/// # Errors
+/// Those of the operating system.
+pub fn open(path: &Path) -> io::Result<OpenFile> {
+    Opened::new("open", path, || File::open(path))
+}
+
+/// A new and empty file to write, in the place of one that is there.
+///
+/// # Errors
+/// Those of the operating system.
+pub fn create(path: &Path) -> io::Result<OpenFile> {
+    Opened::new("create", path, || File::create(path))
+}
+
+/// A device or pipe to write to.
+///
+/// # Errors
+/// Those of the operating system.
+pub fn append(path: &Path) -> io::Result<OpenFile> {
+    Opened::new("open", path, || OpenOptions::new().append(true).open(path))
+}
+
+/// A file to read and go on with, as it is, or a new one.
+///
+/// # Errors
+/// Those of the operating system.
+pub fn open_or_create(path: &Path) -> io::Result<OpenFile> {
+    let mut options = OpenOptions::new();
+    options.create(true).read(true).write(true).truncate(false);
+    Opened::new("open", path, || options.open(path))
+}
+
+/// Standard output.
+pub fn standard_output() -> Opened<io::StdoutLock<'static>> {
+    Opened {
+        file: io::stdout().lock(),
+        path: "standard output".into(),
+    }
+}
+
+/// Whether it is what standard output goes to.
+#[cfg(unix)]
+pub fn is_standard_output(found: &Metadata) -> bool {
+    use std::os::{fd::AsFd, unix::fs::MetadataExt};
+    let own = io::stdout()
+        .as_fd()
+        .try_clone_to_owned()
+        .and_then(|own| File::from(own).metadata());
+    own.is_ok_and(|own| (own.dev(), own.ino()) == (found.dev(), found.ino()))
+}
+
+/// Whether it is what standard output goes to; not told here.
+#[cfg(not(unix))]
+pub fn is_standard_output(_: &Metadata) -> bool {
+    false
+}
+
+/// What the system says of this process, where it does.
+pub fn process_status() -> String {
+    std::fs::read_to_string("/proc/self/status").unwrap_or_default()
+}
+
+/// Makes a folder.
+///
+/// # Errors
+/// Those of the operating system.
+pub fn make_folder(path: &Path) -> io::Result<()> {
+    begin("create", path)?;
+    create_dir(path)
+}
+
+/// A new folder for nobody else's eyes among the system's temporary files; it is removed with what is in it.
+///
+/// # Errors
+/// Those of the operating system.
+pub fn scratch_folder(prefix: &str) -> io::Result<tempfile::TempDir> {
+    begin("create", &std::env::temp_dir())?;
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
+    builder.prefix(prefix).tempdir()
+}
+
+/// Whether files can be made in a folder: one without a name is, for a moment.
+///
+/// # Errors
+/// Those of the operating system.
+pub fn probe(folder: &Path) -> io::Result<()> {
+    let folder = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    };
+    begin("create a file in", folder)?;
+    tempfile::tempfile_in(folder).map(drop)
+}
+
+/// Refuses to replace what is no regular file, or a file that may not be written.
+///
+/// # Errors
+/// That it is one of these.
+pub fn replaceable(path: &Path) -> io::Result<()> {
+    if symlink_metadata(path).is_ok_and(|found| !found.is_file()) {
+        return Err(Error::new(
+            ErrorKind::AlreadyExists,
+            "it exists and is not a regular file",
+        ));
+    }
+    begin("open", path)?;
+    match OpenOptions::new().write(true).open(path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
+}
+
+/// Writes a new file completely and syncs it before it takes the place of the old one, if any. It has the rights of any new file.
+///
+/// # Errors
+/// Those of the operating system; the old file is then as it was, unless only the sync of its folder fails: then the new one is
+/// there, whole.
+pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    replaceable(path)?;
+    // A bare name has an empty parent, which is the present folder.
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let stage = || builder.prefix(".corfem-").tempfile_in(folder);
+    let mut staged = Opened::new("create", path, stage)?;
+    staged.write_all(bytes)?;
+    begin("sync", path)?;
+    staged.as_file().sync_all()?;
+    begin("rename", path)?;
+    staged.file.persist(path)?;
+    sync_folder(&folder.join("."))
+}
+
+/// Sees to it that a new name is on the disk too, where the folder may be read and its file system can.
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    let Ok(opened) = File::open(folder) else {
+        return Ok(());
+    };
+    begin("sync", folder)?;
+    match opened.sync_all() {
+        Err(error)
+            if ![ErrorKind::InvalidInput, ErrorKind::Unsupported].contains(&error.kind()) =>
+        {
+            Err(error)
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,239 @@
+//! Repeated tests: their mean, and what their scatter says of its standard deviations and of its covariance.
+
+use super::loaded::FLOOR;
+use super::{Job, LoadedJob};
+use crate::files::error::FileError;
+use crate::files::test_data::{self, Sensor, TestData};
+use crate::method::error_sum::ModeWeight;
+use crate::method::linear_algebra::{cholesky, symmetric_eigen, symmetric_part};
+use crate::method::model::HALF_THE_DIGITS;
+use nalgebra::{DMatrix, DVector};
+use std::path::PathBuf;
+
+/// Fewest repeats that give every number a variance of its own: the mean of one over a variance estimated from $R$ of them is
+/// $(R - 1)/(R - 3)$ over the true one, and not finite before.
+const OWN_VARIANCES: usize = 4;
+
+impl Job {
+    /// The test, or the mean of its repeats ([`mean_of`]).
+    ///
+    /// # Errors
+    /// Those of the files; [`FileError::Refused`] unless the job names one test or several repeats.
+    pub(super) fn measured(&self) -> Result<TestData, FileError> {
+        let read = |file: &PathBuf, entry: &str| {
+            let file = self.beside(file);
+            test_data::read(&file.display().to_string(), &self.bytes(&file, entry)?)
+        };
+        match (&self.test.file, &self.test.repeats[..]) {
+            (Some(file), []) => read(file, "test.file"),
+            (None, repeats @ [_, _, ..]) => {
+                let tests = repeats.iter().map(|file| read(file, "test.repeats"));
+                mean_of(self, &tests.collect::<Result<Vec<_>, _>>()?)
+            }
+            _ => Err(self.refused("[test] must name either a file, or two or more repeats")),
+        }
+    }
+}
+
+/// The mean of repeated tests with the deviations of its numbers.
+///
+/// Sensors go by name, grid and direction in whatever order, modes by their order. A shape has any scale and sign in each test. The
+/// common shape $m$ is the one nearest to all of them at unit length, their leading singular vector, and each counts as $a u$ with
+/// $m^t a u = m^t m$: one sum for all orders of the tests, and nothing is left of the scale, which is free in the residuals too.
+///
+/// Of $R$ tests the squares $q$ of a number's deviations from the mean give it the variance $q/(R (R - 3))$. One over it is right in the
+/// mean; $q/(R - 1)$ would make chi-squared too large by $(R - 1)/(R - 3)$. A shape of $d$ components has $d - 1$ free numbers, so
+/// theirs are larger by $d/(d - 1)$. Where fewer than [`OWN_VARIANCES`] tests or a number that is always the same leave none, all
+/// components of a shape, or all frequencies, have one variance.
+///
+/// # Errors
+/// [`FileError::Refused`] naming the file for sensors or modes that the first has not, for shapes of modal assurance below [`FLOOR`] with
+/// the common one, and for numbers that never differ.
+///
+/// Source: Anderson, *An Introduction to Multivariate Statistical Analysis*, 3rd ed. (2003), section 7.7.
+fn mean_of(job: &Job, tests: &[TestData]) -> Result<TestData, FileError> {
+    let repeats = &job.test.repeats;
+    let first = &tests[0];
+    let (modes, sensors) = (first.frequencies_hz.len(), first.sensors.len());
+    let mut rows = Vec::new();
+    for (test, file) in tests.iter().zip(repeats) {
+        let place = |wanted| {
+            let known = |sensor| key(sensor) == key(wanted);
+            test.sensors.iter().position(known)
+        };
+        let found: Option<Vec<usize>> = first.sensors.iter().map(place).collect();
+        let fits = (test.frequencies_hz.len(), &test.alone, test.sensors.len())
+            == (modes, &first.alone, sensors);
+        match found.filter(|_| fits) {
+            Some(found) => rows.push(found),
+            None => {
+                let (file, first) = (file.display(), repeats[0].display());
+                return Err(job.refused(format!(
+                    "test.repeats: {file} has not the sensors, modes and shapes of {first}"
+                )));
+            }
+        }
+    }
+    let mut data = TestData {
+        frequency_deviation: None,
+        shape_deviation: None,
+        scatter: DMatrix::zeros(modes * (1 + sensors), tests.len()),
+        ..first.clone()
+    };
+    for mode in 0..modes {
+        let hertz = DVector::from_iterator(
+            tests.len(),
+            tests.iter().map(|test| test.frequencies_hz[mode]),
+        );
+        data.frequencies_hz[mode] = hertz.mean();
+        let relative = hertz / data.frequencies_hz[mode];
+        let row = mode * (1 + sensors);
+        data.scatter
+            .set_row(row, &relative.add_scalar(-1.0).transpose());
+        if data.alone.contains(&mode) {
+            continue;
+        }
+        let shapes = tests.iter().zip(&rows);
+        let shapes = shapes.map(|(test, rows)| test.shapes.column(mode).select_rows(rows));
+        let mut shapes = DMatrix::from_columns(&shapes.collect::<Vec<_>>());
+        shapes
+            .column_iter_mut()
+            .for_each(|mut shape| shape /= shape.norm());
+        let (_, vectors) = symmetric_eigen("closeness of repeats", &shapes.tr_mul(&shapes))?;
+        let common = (&shapes * vectors.column(tests.len() - 1)).normalize();
+        let along = shapes.tr_mul(&common);
+        let unlike = (0..tests.len()).find(|&test| along[test].powi(2) < FLOOR);
+        job.refuse_if(unlike, |test| {
+            let file = repeats[test].display();
+            format!(
+                "test.repeats: mode {} of {file} is unlike the others: modal assurance {:.2} with their common shape",
+                mode + 1,
+                along[test].powi(2)
+            )
+        })?;
+        let sign = along[0].signum();
+        for (mut shape, along) in shapes.column_iter_mut().zip(&along) {
+            shape *= sign / along;
+        }
+        let mean = shapes.column_mean();
+        let largest = mean.amax();
+        for (test, shape) in shapes.column_iter().enumerate() {
+            let apart = (shape - &mean) / largest;
+            data.scatter
+                .view_mut((row + 1, test), (sensors, 1))
+                .copy_from(&apart);
+        }
+        data.shapes.set_column(mode, &(mean / largest));
+        if sensors > 1 {
+            let apart = data.scatter.rows(row + 1, sensors).into_owned();
+            let what = format!("the shape of mode {}", mode + 1);
+            let own = deviations(job, &apart, sensors - 1, &what)?;
+            data.component_deviation.insert(mode, own);
+        }
+    }
+    let frequencies: Vec<usize> = (0..modes).map(|mode| mode * (1 + sensors)).collect();
+    let apart = data.scatter.select_rows(&frequencies);
+    let own = deviations(job, &apart, modes, "frequencies")?;
+    data.frequency_deviation = Some(own.data.into());
+    Ok(data)
+}
+
+fn key(sensor: &Sensor) -> (&str, Option<usize>, usize) {
+    (&sensor.name, sensor.grid, sensor.direction)
+}
+
+/// Standard deviations of the means of some numbers that are `apart` from these (numbers × tests), `free` of them independent.
+fn deviations(
+    job: &Job,
+    apart: &DMatrix<f64>,
+    free: usize,
+    what: &str,
+) -> Result<DVector<f64>, FileError> {
+    let (numbers, tests) = apart.shape();
+    let squares = apart.map(|apart| apart * apart).column_sum();
+    let (count, free) = (tests as f64, free as f64);
+    let variances = if tests >= OWN_VARIANCES && squares.min() > 0.0 {
+        squares * (numbers as f64 / free / (count - 3.0))
+    } else {
+        let common = squares.sum() / (free * (count - 1.0) - 2.0);
+        DVector::from_element(numbers, common)
+    };
+    let untold = (!(variances.min() > 0.0 && variances.max() < f64::INFINITY)).then_some(());
+    job.refuse_if(untold, |()| {
+        format!("test.repeats: {tests} tests do not tell the deviations of {what}; name more, or one as test.file with deviations")
+    })?;
+    Ok(variances.map(|variance| (variance / count).sqrt()))
+}
+
+impl LoadedJob {
+    /// Covariance of the weighted residuals of repeated tests, where there are enough of them; none where variances are all that is
+    /// known, and the residuals count as independent.
+    ///
+    /// Of $p$ numbers that $R$ tests have beside the scales of shapes, with the deviations $X$ ($p \times R$) over the standard
+    /// deviations, it is $X X^t/(R (R - p - 2))$: its inverse is right in the mean, and there is none without at least $p + 3$ tests. A
+    /// shape's own direction, in which nothing is left, gets the variance one, which the free scale takes away again. Weights of the job's
+    /// own leave the residuals independent.
+    pub(super) fn covariance(&self) -> Option<DMatrix<f64>> {
+        let (sensors, tests) = (self.data.sensors.len(), self.data.scatter.ncols());
+        let numbers = self.free_numbers();
+        let is_own = self.own_weights().iter().any(|own| *own != ModeWeight::ONE);
+        if is_own || tests < numbers + 3 {
+            return None;
+        }
+        // Of every residual its row of the scatter, one over its deviation, and the component of the shape that it measures.
+        let mut rows: Vec<(usize, f64, Option<(usize, f64)>)> = Vec::new();
+        for (place, mode) in self.compared().enumerate() {
+            let (row, noise) = (mode * (1 + sensors), self.deviations(mode));
+            rows.push((row, 1.0 / noise.frequency, None));
+            let own = self.data.component_deviation.get(&mode);
+            for sensor in self.placed.iter().filter(|_| place < self.modes.len()) {
+                let deviation = own.map_or(noise.shape, |own| own[sensor.row]);
+                let component = self.data.shapes[(sensor.row, mode)];
+                let of_shape = Some((place, component));
+                rows.push((row + 1 + sensor.row, sensor.sign / deviation, of_shape));
+            }
+        }
+        let apart = DMatrix::from_fn(rows.len(), tests, |number, test| {
+            let (row, scale, _) = rows[number];
+            scale * self.data.scatter[(row, test)]
+        });
+        let mut along = DMatrix::from_fn(rows.len(), self.modes.len(), |number, mode| {
+            let (_, scale, of_shape) = rows[number];
+            of_shape.map_or(0.0, |(place, component)| {
+                if place == mode {
+                    scale * component
+                } else {
+                    0.0
+                }
+            })
+        });
+        for mut along in along.column_iter_mut() {
+            along /= along.norm();
+        }
+        let sizes = (tests * (tests - numbers - 2)) as f64;
+        let covariance = &apart * apart.transpose() / sizes + &along * along.transpose();
+        let covariance = symmetric_part(&covariance);
+        // Files that are there twice leave it singular.
+        let is_whole = cholesky("covariance", &covariance, HALF_THE_DIGITS).is_ok();
+        is_whole.then_some(covariance)
+    }
+
+    /// What chi-squared by an estimated covariance is multiplied with after a fit that leaves these degrees of freedom.
+    ///
+    /// The least over the fitted parameters is chi-squared by the covariance of what is left, $\nu$ of the $p$ numbers, and one over
+    /// that of $R$ tests is right in the mean with $R - \nu - 2$ for $R - p - 2$. The parameters' own deviations need the latter.
+    pub(super) fn estimate_scale(&self, freedom: f64) -> f64 {
+        let room = self.data.scatter.ncols() as f64 - 2.0;
+        let all = self.free_numbers() as f64;
+        match self.covariance() {
+            Some(_) => (room - freedom) / (room - all),
+            None => 1.0,
+        }
+    }
+
+    /// How many numbers the test has for a covariance: those compared, less a scale a shape.
+    pub(super) fn free_numbers(&self) -> usize {
+        let of_shape = self.placed.len().saturating_sub(1);
+        self.modes.len() * (1 + of_shape) + self.alone.len()
+    }
+}

@@ -1,0 +1,98 @@
+//! Weighted correlations from several first points, and the different minima that they end in.
+
+use super::gauss_newton::{WeightedCorrelation, WeightedSettings, WeightedStop, gauss_newton};
+use crate::method::error::Error;
+use crate::method::error_sum::ModeWeight;
+use crate::method::model::{Bounds, ModalModel};
+use crate::sparse::random::uniform;
+use nalgebra::DVector;
+use serde::Serialize;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+/// Places between which the quadratic model of the objective rises by less count as the same: a chi-squared of two thousandths, which
+/// no test can tell.
+const SAME_OBJECTIVE: f64 = 1e-3;
+
+/// A minimum that noise allows.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Minimum {
+    /// Factor of each parameter on its first value.
+    pub factors: Vec<f64>,
+    /// Sum of the squared residuals, without the prior.
+    pub chi_squared: f64,
+    /// How many starts end there.
+    pub starts: usize,
+}
+
+/// [`gauss_newton`] from factors of one, and from `starts` − 1 random places: factors from 0.5 to 2, log-uniformly by
+/// [`uniform`] from `seed`, brought within their bounds. Returns the best, and the minima that noise allows, the best first. A start
+/// that fails is left out, and one that stops short of a gradient within tolerance makes no minimum of its own, unless it is the best.
+///
+/// Two ends are one minimum where $h^t A h/2$ is at most a thousandth, $h$ being the difference of their logarithms and $A$ the curvature
+/// at the better one. Noise allows a minimum if twice its objective is above twice the least by at most the 95 % quantile of chi-squared
+/// of as many degrees of freedom as parameters: what likelihood ratios exclude beyond that has no part in the region that holds the truth
+/// in 95 of 100 tests (Wilks, *Annals of Mathematical Statistics* 9 (1938), 60–62). The prior counts as measurements of the parameters.
+///
+/// # Errors
+/// Those of [`gauss_newton`] of the last start when all fail; [`Error::Empty`] without starts.
+pub fn from_several_starts<E: From<Error>>(
+    mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
+    ranges: &[Option<Bounds>],
+    weights: &[ModeWeight],
+    settings: &WeightedSettings,
+    starts: usize,
+    seed: u64,
+) -> Result<(WeightedCorrelation, Vec<Minimum>), E> {
+    let (mut state, mut ends, mut failed) =
+        (seed, Vec::new(), Error::Empty { what: "starts" }.into());
+    let mut draw = || 0.5 * 4.0_f64.powf(uniform(&mut state));
+    for start in 0..starts {
+        let first: Vec<f64> = ranges
+            .iter()
+            .map(|_| if start == 0 { 1.0 } else { draw() })
+            .collect();
+        match gauss_newton(&mut analyze, &first, ranges, weights, settings) {
+            Ok(found) => ends.push(found),
+            Err(error) => failed = error,
+        }
+    }
+    ends.sort_by(|a, b| a.objective.total_cmp(&b.objective));
+    let Some(best) = ends.first().cloned() else {
+        return Err(failed);
+    };
+    let allowed = ChiSquared::new(ranges.len() as f64)
+        .map_or(0.0, |chi_squared| 0.5 * chi_squared.inverse_cdf(0.95));
+    let mut minima: Vec<(&WeightedCorrelation, usize)> = Vec::new();
+    for end in &ends {
+        let is_new = minima.is_empty()
+            || end.stop == WeightedStop::Gradient && end.objective <= best.objective + allowed;
+        match minima.iter_mut().find(|(minimum, _)| is_same(minimum, end)) {
+            Some((_, starts)) => *starts += 1,
+            None if is_new => minima.push((end, 1)),
+            None => (),
+        }
+    }
+    let minimum = |(end, starts): (&WeightedCorrelation, usize)| {
+        let priors = settings.priors(end.factors.len());
+        let pulls = end.factors.iter().zip(priors);
+        let pull: f64 = pulls
+            .map(|(factor, prior)| (factor.ln() / prior).powi(2))
+            .sum();
+        Minimum {
+            factors: end.factors.clone(),
+            chi_squared: 2.0 * end.objective - pull,
+            starts,
+        }
+    };
+    let minima = minima.into_iter().map(minimum).collect();
+    Ok((best, minima))
+}
+
+/// Whether steps have ended in a minimum again.
+fn is_same(minimum: &WeightedCorrelation, end: &WeightedCorrelation) -> bool {
+    let both = minimum.factors.iter().zip(&end.factors);
+    let apart = both.map(|(a, b)| (a / b).ln());
+    let apart = DVector::from_iterator(end.factors.len(), apart);
+    let curvature = minimum.identifiability.covariance.clone().cholesky();
+    curvature.is_some_and(|factor| 0.5 * apart.dot(&factor.solve(&apart)) <= SAME_OBJECTIVE)
+}

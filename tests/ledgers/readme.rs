@@ -1,0 +1,107 @@
+//! The front page: its length, its links, and that what it prints is what the program prints.
+
+use crate::presentation::program::cli::{corfem, text};
+use pulldown_cmark::{Event, Parser, Tag, TagEnd};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+const README: &str = include_str!("../../README.md");
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+fn the_front_page_has_120_lines_at_most() {
+    assert!(README.lines().count() <= 120, "{}", README.lines().count());
+}
+
+/// Where links lead, and files and folders that are named outside of one.
+fn links_and_names(markdown: &str) -> (BTreeSet<String>, Vec<String>) {
+    let (mut links, mut names) = (BTreeSet::new(), Vec::new());
+    let (mut in_link, mut in_block) = (false, false);
+    for event in Parser::new(markdown) {
+        match event {
+            Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }) => {
+                in_link = true;
+                links.insert(dest_url.into_string());
+            }
+            Event::End(TagEnd::Link | TagEnd::Image) => in_link = false,
+            Event::Start(Tag::CodeBlock(_)) => in_block = true,
+            Event::End(TagEnd::CodeBlock) => in_block = false,
+            Event::Text(text) | Event::Code(text) if !in_link && !in_block => {
+                let words = text.split(|c: char| c.is_whitespace() || "()`,;".contains(c));
+                let is_file = |word: &&str| {
+                    word.contains(['/', '.']) && root().join(word.trim_end_matches('.')).exists()
+                };
+                let is_path =
+                    |word: &&str| !word.trim_matches(['.', '/']).is_empty() && is_file(word);
+                names.extend(words.filter(is_path).map(str::to_owned));
+            }
+            _ => (),
+        }
+    }
+    (links, names)
+}
+
+#[test]
+fn every_path_of_the_front_page_is_a_link_that_leads_somewhere() {
+    let (links, names) = links_and_names(README);
+    assert!(links.len() > 15, "{links:?}");
+    let nowhere: Vec<&String> = links
+        .iter()
+        .filter(|link| !root().join(link).is_file())
+        .collect();
+    assert!(nowhere.is_empty(), "{nowhere:?}");
+    assert!(names.is_empty(), "not links: {names:?}");
+    let (links, names) = links_and_names("See `src/lib.rs`, [here](src/main.rs) and README.md.");
+    assert_eq!(
+        (links.len(), names),
+        (1, vec!["src/lib.rs".to_owned(), "README.md.".to_owned()])
+    );
+}
+
+#[test]
+fn what_the_front_page_shows_is_what_the_program_prints() {
+    let cells = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+    let scratch = tempfile::tempdir().expect("a folder");
+    let mine = scratch.path().join("mine");
+    let path = |name: &str| mine.join(name).to_str().expect("UTF-8").to_owned();
+    assert!(
+        corfem(&["init", "-q", "--example", "building", &path("")])
+            .status
+            .success()
+    );
+    let printed = [
+        corfem(&["-q"]),
+        corfem(&["correlate", "-q", &path("job.toml")]),
+    ];
+    let printed = printed.map(|output| text(&output.stdout));
+    let blocks: Vec<&str> = README.split("```text\n").skip(1).collect();
+    assert_eq!(blocks.len(), printed.len());
+    for (block, printed) in blocks.into_iter().zip(&printed) {
+        let shown: Vec<String> = printed.lines().map(cells).collect();
+        for line in block.split("```").next().expect("its end").lines() {
+            assert!(shown.contains(&cells(line)), "{line}\n{printed}");
+        }
+    }
+}
+
+#[test]
+fn times_beside_the_papers_claim_are_the_measured_ones() {
+    let cost = include_str!("../../paper/cost.md");
+    let times = |row: &str| {
+        let row = cost
+            .lines()
+            .find(|line| line.starts_with(&format!("| {row} |")))
+            .expect("a row");
+        row.split('|').nth(3).expect("a column").trim().to_owned()
+    };
+    let sentence = format!(
+        "Jacobi's eigensolution takes {} times as long as the paper's definition and {} times as long as the gradient",
+        times("by definition"),
+        times("gradient")
+    );
+    let words = README.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains(&sentence), "{sentence}");
+}

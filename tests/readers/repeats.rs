@@ -1,0 +1,273 @@
+//! Repeated tests: their mean, what their scatter says, and what a job makes of it.
+
+use super::job_errors::{placed, said, with};
+use crate::common::draws::Draws;
+use crate::common::jobs::{Files, building};
+use crate::common::test_files::write_csv;
+use crate::common::tolerances::{MATRIX_ROUND_OFF, STANDARD_ERRORS};
+use corfem::files::test_data::TestData;
+use corfem::job::{LoadedJob, Trust, run};
+use corfem::method::modes::ModeSet;
+use corfem::weighted::noise::{Noise, with_noise};
+use nalgebra::DMatrix;
+
+/// The building's exact test.
+fn exact() -> TestData {
+    let (_folder, path) = placed(&building());
+    LoadedJob::new(&path).unwrap().data
+}
+
+/// The same with noise, scaled and signed anyhow as an identification leaves it.
+fn noisy(exact: &TestData, seed: u64) -> TestData {
+    let modes = ModeSet::from_measured(&exact.frequencies_hz, &exact.shapes).unwrap();
+    let test = with_noise(&modes, Noise::USUAL, seed).unwrap();
+    let (mut shapes, mut draws) = (test.shapes().clone(), Draws(seed));
+    for mut shape in shapes.column_iter_mut() {
+        shape *= draws.between(-3.0, 3.0);
+    }
+    TestData {
+        frequencies_hz: test.frequencies_hz(),
+        shapes,
+        ..exact.clone()
+    }
+}
+
+/// The building's job with these tests as repeats, and these modes of them (from one).
+fn repeated(tests: &[TestData], modes: &str) -> Files {
+    let names: Vec<String> = (1..=tests.len())
+        .map(|number| format!("{number}.csv"))
+        .collect();
+    let entry = format!("repeats = {names:?}\nmodes = {modes}");
+    let mut files = with(building(), "job.toml", "file = \"test.csv\"", &entry);
+    files.extend(
+        names
+            .into_iter()
+            .zip(tests)
+            .map(|(name, test)| (name, write_csv(test))),
+    );
+    files
+}
+
+fn loaded(files: &Files) -> LoadedJob {
+    let (_folder, path) = placed(files);
+    LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+const ALL: &str = "[1, 2, 3, 4, 5]";
+
+#[test]
+fn neither_scale_nor_sign_nor_order_of_repeats_matters() {
+    let exact = exact();
+    let tests: Vec<TestData> = (1..=6).map(|seed| noisy(&exact, seed)).collect();
+    let one = loaded(&repeated(&tests, ALL)).data;
+    let mut others: Vec<TestData> = tests.into_iter().rev().collect();
+    for (place, test) in others.iter_mut().enumerate() {
+        test.shapes *= [-0.3, 12.0][place % 2];
+        // Sensors in another order too.
+        test.sensors.swap(place % 5, 4);
+        test.shapes.swap_rows(place % 5, 4);
+    }
+    let two = loaded(&repeated(&others, ALL)).data;
+    let row = |name: &str| {
+        one.sensors
+            .iter()
+            .position(|sensor| sensor.name == name)
+            .unwrap()
+    };
+    for (place, sensor) in two.sensors.iter().enumerate() {
+        let same = row(&sensor.name);
+        for mode in 0..5 {
+            let signs = one.shapes.column(mode).dot(&{
+                let mut there = two.shapes.column(mode).into_owned();
+                for (place, sensor) in two.sensors.iter().enumerate() {
+                    there[row(&sensor.name)] = two.shapes[(place, mode)];
+                }
+                there
+            });
+            let off = one.shapes[(same, mode)] - signs.signum() * two.shapes[(place, mode)];
+            assert!(off.abs() < MATRIX_ROUND_OFF, "{mode} {}", sensor.name);
+            let [own, other] = [(&one, same), (&two, place)]
+                .map(|(data, row)| data.component_deviation[&mode][row]);
+            assert!((own / other - 1.0).abs() < MATRIX_ROUND_OFF);
+        }
+    }
+    for (own, other) in one.frequencies_hz.iter().zip(&two.frequencies_hz) {
+        assert!((own / other - 1.0).abs() < MATRIX_ROUND_OFF);
+    }
+}
+
+/// Mean over many jobs of chi-squared over its degrees of freedom, with its standard error, by so many repeats of `test`.
+fn chi_squared(jobs: u64, repeats: u64, modes: &str, test: impl Fn(u64) -> TestData) -> (f64, f64) {
+    let ratios: Vec<f64> = (0..jobs)
+        .map(|job| {
+            let tests: Vec<TestData> = (1..=repeats)
+                .map(|seed| test(repeats * job + seed))
+                .collect();
+            let misfit = run(&loaded(&repeated(&tests, modes)), |_| {}, || true)
+                .unwrap()
+                .misfit;
+            misfit.chi_squared / misfit.degrees_of_freedom
+        })
+        .collect();
+    let (count, mean) = (jobs as f64, ratios.iter().sum::<f64>() / jobs as f64);
+    let squares: f64 = ratios.iter().map(|ratio| (ratio - mean).powi(2)).sum();
+    (mean, (squares / (count - 1.0) / count).sqrt())
+}
+
+/// By variances estimated from eight tests, from two and three in common, and by covariances: chi-squared is right in the mean.
+#[test]
+fn chi_squared_by_estimated_deviations_is_right_in_the_mean() {
+    let exact = exact();
+    for (jobs, repeats) in [(60, 8), (60, 3), (60, 2)] {
+        let (mean, error) = chi_squared(jobs, repeats, ALL, |seed| noisy(&exact, seed));
+        assert!(
+            (mean - 1.0).abs() < STANDARD_ERRORS * error,
+            "{repeats}: {mean} by {error}"
+        );
+        assert!(error < 0.1, "{repeats}: {error}");
+    }
+}
+
+/// Frequencies that rise and fall together, and sensors that do.
+fn correlated(exact: &TestData, seed: u64) -> TestData {
+    let mut test = noisy(exact, seed);
+    let mut draws = Draws(seed ^ 0xc0);
+    let warm = 1.0 + 0.02 * (draws.unit() + draws.unit() + draws.unit() - 1.5);
+    test.frequencies_hz
+        .iter_mut()
+        .for_each(|hertz| *hertz *= warm);
+    for mut shape in test.shapes.column_iter_mut() {
+        let turn = 0.05 * shape.amax() * (draws.unit() + draws.unit() + draws.unit() - 1.5);
+        for row in [0, 2] {
+            shape[row] += turn;
+        }
+    }
+    test
+}
+
+#[test]
+fn with_enough_repeats_their_covariance_counts() {
+    let exact = exact();
+    // Two modes of five sensors have ten numbers beside their scales.
+    let tests: Vec<TestData> = (1..=13).map(|seed| correlated(&exact, seed)).collect();
+    for (tests, counts) in [(&tests[..12], false), (&tests[..], true)] {
+        let files = repeated(tests, "[1, 2]");
+        let loaded = loaded(&files);
+        let trust = Trust::before(&loaded).unwrap();
+        let of = |concern: &&corfem::job::Concern| concern.identifier == "repeats";
+        let words = trust.all().iter().find(of).unwrap().words.clone();
+        let expected = if counts {
+            "their covariance counts"
+        } else {
+            "their variances alone count, for a covariance of 10 numbers needs 13 tests"
+        };
+        assert!(words.contains(expected), "{words}");
+        assert_eq!(
+            loaded
+                .analyze(&[1.0; 10])
+                .unwrap()
+                .exact()
+                .covariance
+                .is_some(),
+            counts
+        );
+        assert!(trust.assumed.is_empty(), "{:?}", trust.assumed);
+        // Weights of the job's own leave variances.
+        let own = with(
+            files,
+            "job.toml",
+            "[compare]",
+            "[compare]\nshape_weights = [2, 1]",
+        );
+        let model = self::loaded(&own).analyze(&[1.0; 10]).unwrap();
+        assert!(model.exact().covariance.is_none());
+    }
+    let (mean, error) = chi_squared(40, 40, ALL, |seed| correlated(&exact, seed));
+
+    assert!(
+        (mean - 1.0).abs() < STANDARD_ERRORS * error,
+        "{mean} by {error}"
+    );
+    assert!(error < 0.15, "{error}");
+}
+
+#[test]
+fn repeats_that_do_not_go_together_are_refused() {
+    let exact = exact();
+    let tests: Vec<TestData> = (1..=4).map(|seed| noisy(&exact, seed)).collect();
+    let changed = |change: fn(&mut TestData)| {
+        let mut tests = tests.clone();
+        change(&mut tests[2]);
+        said(&repeated(&tests, ALL))
+    };
+    let other = "test.repeats: 3.csv has not the sensors, modes and shapes of 1.csv";
+    assert!(changed(|test| test.sensors[1].name = "roof".to_owned()).contains(other));
+    assert!(
+        changed(|test| {
+            test.frequencies_hz.pop();
+            test.shapes = test.shapes.columns(0, 4).into_owned();
+        })
+        .contains(other)
+    );
+    let unlike = changed(|test| test.shapes.swap_columns(1, 2));
+    assert!(
+        unlike.contains("test.repeats: mode 2 of 3.csv is unlike the others"),
+        "{unlike}"
+    );
+    let same = said(&repeated(&vec![tests[0].clone(); 4], ALL));
+    assert!(
+        same.contains("test.repeats: 4 tests do not tell the deviations of"),
+        "{same}"
+    );
+    let one = said(&repeated(&tests[..1], ALL));
+    assert!(
+        one.contains("[test] must name either a file, or two or more repeats"),
+        "{one}"
+    );
+    let both = with(
+        repeated(&tests, ALL),
+        "job.toml",
+        "[test]",
+        "[test]\nfile = \"1.csv\"",
+    );
+    assert!(said(&both).contains("[test] must name either a file"));
+    let mut missing = repeated(&tests, ALL);
+    missing.retain(|(name, _)| name != "2.csv");
+    assert!(said(&missing).contains("2.csv (test.repeats in job.toml): no such file"));
+}
+
+/// Sensors that are left out, and modes: the covariance is that of the numbers compared.
+#[test]
+fn a_covariance_is_that_of_what_is_compared() {
+    let exact = exact();
+    let tests: Vec<TestData> = (1..=13).map(|seed| correlated(&exact, seed)).collect();
+    let files = with(
+        repeated(&tests, "[2, 4]"),
+        "job.toml",
+        "[compare]",
+        "[sensors]\nleave_out = [\"floor 6\"]\n[compare]",
+    );
+    let model = loaded(&files).analyze(&[1.0; 10]).unwrap();
+    let factor = model.exact().covariance.as_ref().unwrap();
+    assert_eq!(factor.shape(), (10, 10));
+    // Of frequencies it is computed by hand: both over their deviations, and R (R − p − 2) with eight numbers.
+    let hertz = |mode: usize| DMatrix::from_fn(1, 13, |_, test| tests[test].frequencies_hz[mode]);
+    let apart = |mode: usize| {
+        let hertz = hertz(mode);
+        let relative = &hertz / hertz.mean();
+        relative.add_scalar(-1.0)
+    };
+    let covariance = factor * factor.transpose();
+    for (i, first) in [1, 3].into_iter().enumerate() {
+        for (j, second) in [1, 3].into_iter().enumerate() {
+            let deviation = |mode: usize| (apart(mode).norm_squared() / (13.0 * 10.0)).sqrt();
+            let expected = apart(first).dot(&apart(second))
+                / (13.0 * 3.0 * deviation(first) * deviation(second));
+            let found = covariance[(5 * i, 5 * j)];
+            assert!(
+                (found - expected).abs() < MATRIX_ROUND_OFF,
+                "{found} {expected}"
+            );
+        }
+    }
+}

@@ -1,0 +1,278 @@
+//! Standard deviations of components and covariances of all numbers: what residuals and jobs make of them, and whether intervals hold
+//! the truth.
+
+use crate::common::draws::Draws;
+use crate::common::jobs::{Files, building};
+use crate::common::measured::equal_weights;
+use crate::common::test_files::write_csv;
+use crate::common::tolerances::{
+    CENTRAL_DIFFERENCE_GRADIENT, CORRECTION_ROUND_OFF, MATRIX_ROUND_OFF, STANDARD_ERRORS,
+    WEIGHTED_FACTOR,
+};
+use crate::common::whole_models::shear_building;
+use crate::readers::job_errors::placed;
+use crate::spec::s5_weighted::at;
+use corfem::files::test_data::TestData;
+use corfem::job::{JobResult, LoadedJob, run};
+use corfem::method::linear_algebra::symmetric_part;
+use corfem::method::model::{DynamicModel, ParameterMatrix};
+use corfem::method::modes::{ModeSet, solve};
+use corfem::nalgebra::{DMatrix, DVector};
+use corfem::sparse::WholeShare;
+use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
+use corfem::weighted::identifiability::NORMAL_95;
+use corfem::weighted::noise::{Noise, with_noise};
+use corfem::weighted::residuals::{jacobian, residuals};
+use std::collections::BTreeMap;
+
+/// A chain of six masses by its matrices, every spring a parameter.
+fn chain() -> DynamicModel {
+    let whole = shear_building(&[1e5, 8e4, 1.2e5, 9e4, 1.1e5, 1e5], 60.0, None);
+    let (stiffness, mass) = whole.at(&[1.0; 6]).unwrap();
+    let share = |share: &WholeShare| match share {
+        WholeShare::Stiffness(matrix) => ParameterMatrix::Stiffness(matrix.dense()),
+        _ => unreachable!("stories are stiffness"),
+    };
+    DynamicModel {
+        stiffness: stiffness.dense(),
+        mass: mass.dense(),
+        shares: whole
+            .parameters()
+            .iter()
+            .map(|parameter| share(&parameter.share))
+            .collect(),
+    }
+}
+
+/// Of 300 tests with deviations from 0.3 to 6 % at the six sensors. The deviation of a share of 300 is 1.3 %.
+#[test]
+fn intervals_hold_the_truth_where_every_component_has_its_own_deviation() {
+    let first = chain();
+    let truth = [1.3, 0.8, 1.1, 0.9, 1.2, 0.7_f64];
+    let real = at(&first, &truth);
+    let exact: ModeSet = solve(&real.stiffness, &real.mass, 4).unwrap().into();
+    let own = DVector::from_vec(vec![0.3, 1.0, 6.0, 0.5, 3.0, 1.5]);
+    let noise = Noise {
+        shape: 0.01,
+        frequency: 0.003,
+    };
+    let weights = equal_weights(noise, 4);
+    let of_components = DMatrix::from_fn(6, 4, |row, _| 1.0 / own[row]);
+    let tests = 300;
+    // By the right deviations, and by their root mean square for all.
+    let [own_held, alike_held] = [true, false].map(|is_own| {
+        let mut held = [0; 6];
+        for seed in 1..=tests {
+            let mut test = with_noise(&exact, noise, seed).unwrap();
+            crate::common::alter(&mut test, |_, shapes| {
+                let drawn = &*shapes - exact.shapes();
+                for (row, own) in own.iter().enumerate() {
+                    let mut there = shapes.row_mut(row);
+                    there += (own - 1.0) * drawn.row(row);
+                }
+            });
+            let mean = (own.norm_squared() / 6.0).sqrt().recip();
+            let of_components = if is_own {
+                of_components.clone()
+            } else {
+                DMatrix::from_element(6, 4, mean)
+            };
+            let analyze = |factors: &[f64]| {
+                let model = at(&first, factors).analyze(&test, Some(6))?;
+                model.with_component_weights(of_components.clone())
+            };
+            let settings = WeightedSettings::default();
+            let found = gauss_newton(analyze, &[1.0; 6], &[None; 6], &weights, &settings).unwrap();
+            for (e, deviation) in found.identifiability.deviations.iter().enumerate() {
+                let apart = (found.factors[e] / truth[e]).ln().abs();
+                held[e] += usize::from(apart <= NORMAL_95 * deviation);
+            }
+        }
+        held
+    });
+    let deviation = (0.95 * 0.05 / tests as f64).sqrt();
+    for held in own_held {
+        let share = held as f64 / tests as f64;
+        assert!(
+            (share - 0.95).abs() < STANDARD_ERRORS * deviation,
+            "{own_held:?}"
+        );
+    }
+    // One deviation for all is not what such a test has.
+    let worst = alike_held
+        .into_iter()
+        .map(|held| (held as f64 / tests as f64 - 0.95).abs());
+    assert!(
+        worst.fold(0.0, f64::max) > STANDARD_ERRORS * deviation,
+        "{alike_held:?}"
+    );
+}
+
+/// The building's test with other deviations.
+fn job(change: impl FnOnce(&mut TestData)) -> JobResult {
+    let (_folder, path) = placed(&building());
+    let mut data = LoadedJob::new(&path).unwrap().data;
+    change(&mut data);
+    corrected(data)
+}
+
+fn corrected(data: TestData) -> JobResult {
+    let mut files: Files = building();
+    let test = files.iter_mut().find(|(name, _)| name == "test.csv");
+    test.unwrap().1 = write_csv(&data);
+    let (_folder, path) = placed(&files);
+    let loaded = LoadedJob::new(&path).unwrap();
+    run(&loaded, |_| {}, || true).unwrap()
+}
+
+/// The noise of a job's test, so that weights matter.
+fn noisy(data: &mut TestData) {
+    let exact = ModeSet::from_measured(&data.frequencies_hz, &data.shapes).unwrap();
+    let test = with_noise(&exact, Noise::USUAL, 11).unwrap();
+    (data.frequencies_hz, data.shapes) = (test.frequencies_hz(), test.shapes().clone());
+}
+
+#[test]
+fn equal_deviations_of_components_are_the_deviation_of_the_shape() {
+    let of_shapes = job(|data| {
+        noisy(data);
+        data.shape_deviation = Some(vec![0.013; 5]);
+    });
+    let of_components = job(|data| {
+        noisy(data);
+        let own = DVector::from_element(5, 0.013);
+        data.component_deviation = (0..5).map(|mode| (mode, own.clone())).collect();
+        // A column takes the place of the row's number.
+        data.shape_deviation = Some(vec![0.4; 5]);
+    });
+    for (one, two) in of_shapes.factors.iter().zip(&of_components.factors) {
+        assert!((one / two - 1.0).abs() < WEIGHTED_FACTOR, "{one} {two}");
+    }
+    let [one, two] = [&of_shapes, &of_components].map(|of| of.misfit.chi_squared);
+    assert!((one / two - 1.0).abs() < WEIGHTED_FACTOR, "{one} {two}");
+    let others = of_components.trust.assumed;
+    assert_eq!(others.len(), 1, "frequencies alone are assumed: {others:?}");
+}
+
+/// As the deviation of a component grows, the test becomes one without its sensor.
+#[test]
+fn a_component_of_boundless_deviation_is_as_one_without_a_sensor() {
+    let largest = |data: &TestData| data.shapes.column(0).iamax();
+    let vague = job(|data| {
+        noisy(data);
+        let row = largest(data);
+        let own = DVector::from_fn(5, |sensor, _| if sensor == row { 1e5 } else { 0.01 });
+        data.component_deviation = (0..5).map(|mode| (mode, own.clone())).collect();
+    });
+    let without = job(|data| {
+        noisy(data);
+        let row = largest(data);
+        // Deviations are fractions of the largest component of all, which the others then lack.
+        let scale = |mode: usize| {
+            let shape = data.shapes.column(mode);
+            shape.amax() / shape.into_owned().remove_row(row).amax()
+        };
+        let own = |mode: usize| (mode, DVector::from_element(4, 0.01 * scale(mode)));
+        let own: BTreeMap<usize, DVector<f64>> = (0..5).map(own).collect();
+        data.component_deviation = own;
+        data.shapes = data.shapes.clone().remove_row(row);
+        data.sensors.remove(row);
+    });
+    for (one, two) in vague.factors.iter().zip(&without.factors) {
+        assert!((one / two - 1.0).abs() < WEIGHTED_FACTOR, "{one} {two}");
+    }
+}
+
+/// Residuals of any covariance by their definition: the least of all scales of the shapes, by normal equations.
+#[test]
+fn residuals_with_a_covariance_are_those_of_generalized_least_squares() {
+    let first = chain();
+    let exact: ModeSet = solve(&first.stiffness, &first.mass, 4).unwrap().into();
+    for seed in 1..=6 {
+        let mut draws = Draws(seed);
+        let test = with_noise(&exact, Noise::USUAL, seed).unwrap();
+        let weights = equal_weights(Noise::USUAL, 4);
+        let root = DMatrix::from_fn(28, 28, |i, j| {
+            draws.between(-0.3, 0.3) + f64::from(u8::from(i == j))
+        });
+        let covariance = symmetric_part(&(&root * root.transpose()));
+        let groups = if seed % 2 == 0 {
+            vec![vec![1, 2]]
+        } else {
+            Vec::new()
+        };
+        let analyzed = |factors: &[f64]| {
+            let model = at(&first, factors).analyze(&test, None).unwrap();
+            let model = model.with_groups(groups.clone()).unwrap();
+            model.with_covariance(&covariance).unwrap()
+        };
+        let factors: Vec<f64> = (0..6).map(|_| draws.between(0.8, 1.2)).collect();
+        let (model, inverse) = (
+            analyzed(&factors),
+            covariance.clone().try_inverse().unwrap(),
+        );
+        let found = residuals(&model, &weights).unwrap();
+        // Free columns: the shapes that a test mode is compared with, in its rows.
+        let (mut plain, mut free) = (DVector::zeros(28), Vec::new());
+        for (j, &i) in model.exact().pairing.analysis_mode().iter().enumerate() {
+            let ratio = model.exact().modes.omega_squared()[i] / test.omega_squared()[j];
+            plain[7 * j] = weights[j].frequency * (ratio.sqrt() - 1.0);
+            let tested = test.shapes().column(j);
+            plain
+                .rows_mut(7 * j + 1, 6)
+                .copy_from(&(-weights[j].shape / tested.amax() * tested));
+            let together = groups.iter().find(|group: &&Vec<usize>| group.contains(&j));
+            for test in together.cloned().unwrap_or(vec![j]) {
+                let partner = model.exact().pairing.analysis_mode()[test];
+                let mut column = DVector::zeros(28);
+                let shape = model.exact().modes.shapes().column(partner);
+                column.rows_mut(7 * j + 1, 6).copy_from(&shape);
+                free.push(column);
+            }
+        }
+        let free = DMatrix::from_columns(&free);
+        let normal = free.transpose() * &inverse * &free;
+        let scales = normal
+            .cholesky()
+            .unwrap()
+            .solve(&(free.transpose() * &inverse * &plain));
+        let least = &plain - free * scales;
+        let expected = (least.transpose() * &inverse * &least)[(0, 0)];
+        let off = (found.norm_squared() / expected - 1.0).abs();
+        assert!(off < CORRECTION_ROUND_OFF, "seed {seed}: {off:e}");
+        // The gradient of half of it.
+        let gradient = jacobian(&model, &weights).unwrap().tr_mul(&found);
+        let step = 1e-5_f64;
+        for e in 0..6 {
+            let half = |log: f64| {
+                let mut factors = factors.clone();
+                factors[e] *= log.exp();
+                0.5 * residuals(&analyzed(&factors), &weights)
+                    .unwrap()
+                    .norm_squared()
+            };
+            let difference = (half(step) - half(-step)) / (2.0 * step);
+            let off = (difference - gradient[e]).abs();
+            assert!(
+                off < CENTRAL_DIFFERENCE_GRADIENT * gradient.amax(),
+                "{seed} {e}: {off:e}"
+            );
+        }
+        // Independent ones of unit variance are what they were, and so is the gradient.
+        let plain = at(&first, &factors).analyze(&test, None).unwrap();
+        let unit = plain
+            .clone()
+            .with_covariance(&DMatrix::identity(28, 28))
+            .unwrap();
+        let [one, two] = [&plain, &unit].map(|model| {
+            let residuals = residuals(model, &weights).unwrap();
+            let gradient = jacobian(model, &weights).unwrap().tr_mul(&residuals);
+            (residuals, gradient)
+        });
+        assert!((&one.0 - &two.0).amax() < MATRIX_ROUND_OFF * one.0.amax());
+        assert!((&one.1 - &two.1).amax() < MATRIX_ROUND_OFF * one.1.amax());
+        let singular = DMatrix::from_element(28, 28, 1.0);
+        assert!(plain.clone().with_covariance(&singular).is_err());
+        assert!(plain.with_covariance(&DMatrix::identity(27, 27)).is_err());
+    }
+}
