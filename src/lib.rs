@@ -29,6 +29,7 @@
 //! - [`job`]: a user's structure, from its files to the corrected model, with a pre-flight that names mistakes in model and test
 //!   before the first step.
 //! - [`tour`]: ten chapters that teach the method, with code that runs. Read this first if the paper is new to you.
+//! - [`specification`]: every equation on one page, with its tests and the wrong forms that they notice.
 //! - `present` and the program `corfem`, with the feature `program`: tables, figures, a page, commands.
 //!
 //! ```text
@@ -81,6 +82,10 @@ pub mod job;
 #[cfg(feature = "program")]
 pub mod present;
 pub mod tour;
+
+pub mod specification {
+    #![doc = include_str!("../paper/specification.md")]
+}
 
 /// The matrices and vectors of this crate's interface, so that a user needs no version of their own. `use corfem::nalgebra;` makes
 /// the paths resolve that macros such as `dvector!` expand to.

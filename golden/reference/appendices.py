@@ -1,10 +1,12 @@
 """Appendix B, changes of mass, gradients and truncated sets by numpy: writes expected_appendices.toml beside it.
 
-    python3 golden/reference/appendices.py           (needs numpy; reference.py and elements.py beside it)
+    python3 golden/reference/appendices.py           (numpy as in requirements.txt; reference.py and elements.py beside it)
+    python3 golden/reference/appendices.py --check   (writes nothing, and refuses a file that is farther off than round-off)
 
 It shares no code with the crate and goes other ways where there are any: balance by its own linear equations, the general formulae
 as matrices, gradients forward, parameter by parameter. What numbers it works on stands in the file with what it makes of them.
 """
+import sys
 import tomllib
 
 import numpy as np
@@ -12,6 +14,7 @@ import reference
 from reference import GAGES, GVT, HERE
 
 RNG = np.random.default_rng(1947)
+SAME = 1e-10  # what another processor's rounding changes of a list, relative to its largest number: 3e-11 at worst
 
 
 def listed(matrix):
@@ -186,7 +189,19 @@ def main():
     box = reference.Box(tomllib.loads((HERE.parent.parent / "paper" / "reconstruction.toml").read_text()))
     lines = ["# written by appendices.py; rows of matrices, units as in the crate"]
     lines += balance_and_orthogonalize() + changes_of_mass() + gradients(box) + truncated(box)
-    (HERE / "expected_appendices.toml").write_text("\n".join(lines) + "\n")
+    written = HERE / "expected_appendices.toml"
+    if "--check" in sys.argv:
+        return check(tomllib.loads(written.read_text()), tomllib.loads("\n".join(lines)))
+    written.write_text("\n".join(lines) + "\n")
+
+
+def check(written, again):
+    """Says by how much the file is off what the program writes now, and refuses more than round-off."""
+    assert {name: set(table) for name, table in written.items()} == {name: set(table) for name, table in again.items()}
+    lists = [(np.array(table[key], float), np.array(again[name][key], float)) for name, table in written.items() for key in table]
+    apart = max(np.abs(old - new).max() / np.abs(old).max() for old, new in lists)
+    print("off by at most %.1e of the largest number of a list" % apart)
+    sys.exit(None if apart < SAME else 1)
 
 
 if __name__ == "__main__":

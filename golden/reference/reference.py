@@ -1,6 +1,6 @@
 """Independent numpy program for the torque box: reads paper/reconstruction.toml, writes expected_*.toml beside it.
 
-    python3 golden/reference/reference.py            (needs numpy; elements.py beside it)
+    python3 golden/reference/reference.py            (numpy as in requirements.txt; elements.py beside it)
 
 Plain and slow on purpose. It shares no code with the crate; the crate must agree with what it writes.
 

@@ -1,6 +1,8 @@
-//! Reproducible draws for tests that make more calls than a property would.
+//! Reproducible draws for tests that make more calls than a property would, and how often a strategy's draws reach something.
 
 use corfem::sparse::random::split_mix_64;
+use proptest::strategy::{Strategy, ValueTree};
+use proptest::test_runner::TestRunner;
 
 /// A stream of draws from a seed.
 pub struct Draws(pub u64);
@@ -20,4 +22,24 @@ impl Draws {
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
+}
+
+/// Draws of a strategy that are looked at for how often they reach something.
+const LOOKED_AT: usize = 200;
+
+/// The part of a strategy's draws that reaches what a law is about, printed; a test demands how large it is.
+pub fn reached<S: Strategy>(
+    what: &str,
+    strategy: &S,
+    is_reached: impl Fn(S::Value) -> bool,
+) -> f64 {
+    let mut runner = TestRunner::new(super::config());
+    let draw = |_| strategy.new_tree(&mut runner).expect("a draw").current();
+    let count = (0..LOOKED_AT)
+        .map(draw)
+        .map(is_reached)
+        .filter(|is| *is)
+        .count();
+    println!("{what}: in {count} of {LOOKED_AT} draws");
+    count as f64 / LOOKED_AT as f64
 }

@@ -42,6 +42,8 @@ pub const NASTRAN_EIGENVALUE: f64 = 1e-6;
 pub const NASTRAN_PRINTED_EIGENVALUE: f64 = 5e-6;
 /// The independent program writes ten digits and steps through some thirty finite-difference iterations.
 pub const EXPECTED_HISTORY: f64 = 1e-5;
+/// The same over the published numbers of iterations, thirty at most and without a tolerance in between.
+pub const EXPECTED_COUNTED: f64 = 1e-6;
 /// The independent program's exact frequencies, ten digits written, another quadrature order of summation.
 pub const EXPECTED_FREQUENCY: f64 = 1e-6;
 /// Twelve-point quadrature of a strongly distorted panel against its closed form.
@@ -139,6 +141,8 @@ pub const SAME_HISTORY: f64 = 1e-6;
 /// A node line is a zero of displacements whose largest is one, linear on triangles: some ten roundings, times the length over
 /// which the smallest slope in the test passes from one corner to the next.
 pub const NODE_LINE: f64 = 1e-9;
+/// Generalized stiffness of two covers that are mirror images, relative to its norm: condensation's condition number times round-off.
+pub const MIRRORED_COVERS: f64 = 1e-8;
 /// Roots of a recursion that is accepted as settled: the largest change of its last order, 1e-6, a hundred times over.
 pub const SETTLED_ROOTS: f64 = 1e-4;
 /// Exponent of the entries of a factor by nested dissection, where cells are not powers of two and small parts are not cut: a
@@ -234,6 +238,12 @@ pub const LEAST_OF_THIRTY: usize = 27;
 pub const LEAST_DETECTIONS: usize = 95;
 /// The same for two columns of T named before two sensors: 61 on a chain whose masses are nearly alike.
 pub const LEAST_COLUMNS: usize = 50;
+/// Least boxes of a hundred, unlike the reconstructed one, on which Case 4 names its faulty element: 67 to 73 when first counted.
+pub const LEAST_DETECTED_BOXES: usize = 65;
+/// Least jobs of thirty whose first suspect is the one parameter that is a hundred times too thin: four of five.
+pub const LEAST_FIRST_SUSPECTS: usize = 24;
+/// The same of ten jobs.
+pub const LEAST_FIRST_SUSPECTS_OF_TEN: usize = 8;
 /// Most seeds of a hundred in which 1 % of noise makes a pair of the box low: six, all of the mode that moves a light point
 /// alone, whose errors at heavy ones count most.
 pub const MOST_LOW_PAIRS: usize = 10;
@@ -305,3 +315,10 @@ pub const EXPECTED_GRADIENT: f64 = 1e-8;
 pub const DRAWN_UNIT: f64 = 1.001;
 /// Roots of a pencil against a dense decomposition, relative to the root; the decomposition itself rounds at a part of the largest.
 pub const CLUSTERED_ROOT: f64 = 1e-7;
+/// The least part of a strategy's draws that reach what its law is about.
+pub const LEAST_REACHED: f64 = 0.2;
+/// A change of the error sum by 0.1 % of a parameter to first order, beside that of exact modes and over 0.001, where roots are 9 % apart
+/// and more: 0.005 at worst. With the pairs of another state it is off by hundreds.
+pub const SECOND_ORDER_CHANGE: f64 = 0.02;
+/// Where Recursive 1 is far from its start and has settled to a millionth of its roots, which err by the square of what shapes do.
+pub const FAR_RECURSION: f64 = 1e-3;

@@ -2,7 +2,7 @@
 //! models, and how often a test is called explained.
 
 use super::PERCENT;
-use crate::common::jobs::{Files, building, of_matrices};
+use crate::common::jobs::{Files, building, of_whole};
 use crate::common::known::Known;
 use crate::common::measured::equal_weights;
 use crate::common::test_files::write_csv;
@@ -344,7 +344,7 @@ fn subjects() -> Result<Vec<Subject>, Box<dyn Error>> {
     let equal = shear_building(&[SPRING; 8], MASS, None);
     for (sensors, rows) in [(8, vec![0, 1, 2, 3, 4, 5, 6, 7]), (4, vec![1, 3, 5, 7])] {
         for (words, noise) in [("0.1/0.3 %", fine), ("0.5/2 %", coarse)] {
-            let mut files = of_matrices(&equal, &eight, &rows, 6, noise);
+            let mut files = of_whole(&equal, &eight, &rows, 6, noise);
             if sensors == 4 {
                 // From the first model alone some tests end in another minimum.
                 files = with(files, "job.toml", "[test]", "[compare]\nstarts = 5\n[test]");
@@ -356,16 +356,16 @@ fn subjects() -> Result<Vec<Subject>, Box<dyn Error>> {
     let long = chain(&[SPRING; 60], true, 6, &[]);
     let ten = [0.8, 1.0, 1.2, 0.9, 1.0, 0.75, 1.1, 1.0, 0.85, 1.25];
     let every_fourth: Vec<usize> = (3..60).step_by(4).collect();
-    let files = of_matrices(&long, &ten, &every_fourth, 8, Noise::USUAL);
+    let files = of_whole(&long, &ten, &every_fourth, 8, Noise::USUAL);
     all.push(of_job("60 DOF, truncated", files, &ten)?);
     let free = chain(&[SPRING; 9], false, 3, &[2, 7]);
     let five = [0.8, 1.2, 0.9, 1.3, 0.8];
-    let files = of_matrices(&free, &five, &(0..10).collect::<Vec<_>>(), 6, Noise::USUAL);
+    let files = of_whole(&free, &five, &(0..10).collect::<Vec<_>>(), 6, Noise::USUAL);
     all.push(of_job("Free chain with masses", files, &five)?);
     let decades: Vec<f64> = (0..8)
         .map(|place| 1e7 * 10.0_f64.powf(-f64::from(place) * 4.0 / 7.0))
         .collect();
-    let files = of_matrices(
+    let files = of_whole(
         &chain(&decades, true, 1, &[]),
         &eight,
         &(0..8).collect::<Vec<_>>(),

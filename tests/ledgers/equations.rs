@@ -1,4 +1,5 @@
-//! `paper/equations.toml` against the code: every equation is listed, every function and test named there exists.
+//! `paper/equations.toml` against the code: every equation is listed, every function and test named there exists, and every equation and
+//! sentence has a wrong form. `wrong_forms.rs` has what is done with these.
 
 use crate::ledgers::files_below;
 use std::collections::BTreeSet;
@@ -7,7 +8,7 @@ use std::path::Path;
 use toml::{Table, Value};
 
 /// Every equation number the paper has: 1 to 13, A.1 to A.9, B.1 to B.7, C.1 to C.24.
-fn numbers() -> Vec<String> {
+pub fn numbers() -> Vec<String> {
     let plain = (1..=13).map(|n| n.to_string());
     let appendix = |letter: char, last: usize| (1..=last).map(move |n| format!("{letter}.{n}"));
     plain
@@ -17,12 +18,19 @@ fn numbers() -> Vec<String> {
         .collect()
 }
 
-fn entries() -> Vec<Table> {
+/// Every equation and then every sentence, by its number or name.
+pub fn entries() -> Vec<(String, Table)> {
     let text = include_str!("../../paper/equations.toml");
     let document: Table = text.parse().expect("it reads");
-    let list = document["equation"].as_array().expect("a list");
-    list.iter()
-        .map(|entry| entry.as_table().expect("a table").clone())
+    let list = |kind: &str, key: &'static str| {
+        let list = document[kind].as_array().expect("a list").clone();
+        list.into_iter().map(move |entry| {
+            let entry = entry.as_table().expect("a table").clone();
+            (entry[key].as_str().expect("a string").to_owned(), entry)
+        })
+    };
+    list("equation", "number")
+        .chain(list("sentence", "name"))
         .collect()
 }
 
@@ -61,18 +69,17 @@ pub fn defines(folder: &str, full_name: &str, keywords: &[&str]) -> bool {
 
 #[test]
 fn every_equation_is_listed_once_and_in_order() {
-    let listed: Vec<String> = entries()
-        .iter()
-        .map(|entry| entry["number"].as_str().expect("a string").to_owned())
-        .collect();
-    assert_eq!(listed, numbers());
+    let listed: Vec<String> = entries().into_iter().map(|(owner, _)| owner).collect();
+    let (equations, sentences) = listed.split_at(numbers().len());
+    assert_eq!(equations, numbers());
+    let different: BTreeSet<&String> = sentences.iter().collect();
+    assert_eq!(different.len(), sentences.len());
 }
 
 #[test]
 fn every_function_named_exists() {
-    for entry in entries() {
+    for (number, entry) in entries() {
         let functions = strings(&entry, "functions");
-        let number = &entry["number"];
         assert!(
             !functions.is_empty() || entry.contains_key("remark"),
             "{number} has neither function nor remark"
@@ -140,54 +147,56 @@ fn the_specification_sorts_in_the_papers_order_and_has_every_equation() {
 }
 
 #[test]
-fn every_equation_with_a_function_has_a_law_in_the_specification() {
-    for entry in entries() {
+fn every_equation_and_sentence_has_a_law_in_the_specification() {
+    for (number, entry) in entries() {
         let tests = strings(&entry, "tests");
         let has_law = tests.iter().any(|test| test.starts_with("spec::s"));
-        let is_definition = strings(&entry, "functions").is_empty();
-        assert!(has_law || is_definition, "{}", entry["number"]);
+        assert!(has_law, "{number}");
     }
 }
 
 #[test]
 fn every_test_named_exists_and_is_a_test() {
-    for entry in entries() {
-        let tests = strings(&entry, "tests");
-        assert!(
-            !tests.is_empty() || strings(&entry, "functions").is_empty(),
-            "{} has no test",
-            entry["number"]
-        );
-        for test in tests {
+    for (number, entry) in entries() {
+        for test in strings(&entry, "tests") {
             assert!(
                 defines("tests", &test, &["#[test]\nfn ", "#[test]\n    fn "]),
-                "{}: {test}",
-                entry["number"]
+                "{number}: {test}"
             );
         }
     }
 }
 
 #[test]
-fn every_entry_says_what_it_is() {
-    for entry in entries() {
+fn every_entry_says_what_it_is_and_has_a_wrong_form() {
+    for (number, entry) in entries() {
         assert!(
             entry["what"].as_str().is_some_and(|what| what.len() > 10),
-            "{entry}"
+            "{number}"
         );
+        let own = if entry.contains_key("number") {
+            ["number", "formula"]
+        } else {
+            ["name", "what"]
+        };
+        assert!(own.iter().all(|key| entry.contains_key(*key)), "{number}");
         let known: BTreeSet<&str> = [
-            "number",
             "what",
             "functions",
             "tests",
+            "wrong",
             "correction",
             "remark",
         ]
-        .into();
+        .into_iter()
+        .chain(own)
+        .collect();
         assert!(
             entry.keys().all(|key| known.contains(key.as_str())),
-            "{entry}"
+            "{number}"
         );
+        let forms = entry.get("wrong").and_then(Value::as_array);
+        assert!(forms.is_some_and(|forms| !forms.is_empty()), "{number}");
     }
 }
 

@@ -1,7 +1,9 @@
 //! The lists of equations, errata and routes, the rooms, the formulas of the documentation and the numbers in it, held
 //! against the code.
 
+pub mod claims;
 pub mod costs;
+pub mod counted_figures;
 pub mod documents;
 pub mod equations;
 pub mod errata;
@@ -11,12 +13,14 @@ pub mod package;
 pub mod readme;
 pub mod rooms;
 pub mod routes;
+pub mod specification;
 pub mod suite;
 pub mod tables;
 pub mod tour;
 pub mod tour_figures;
 pub mod tour_figures_box;
 pub mod tour_program;
+pub mod wrong_forms;
 
 use std::fs;
 use std::path::{Path, PathBuf};

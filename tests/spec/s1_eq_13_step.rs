@@ -191,6 +191,8 @@ fn gage_is_in_hundredths_of_an_inch_by_hand() {
 fn changes_of_stiffness_follow_the_shares_and_changes_of_gage_the_gages() {
     let (model, _) = by_hand();
     let by = |rule| stiffness_changes(&model, &[2.0, 0.5, 1.0], &[3.0, 3.0, 3.0], rule);
+    let norm = 0.001 * 27_f64.sqrt();
+    assert_close(&by(StepRule::Norm), [2.0 * norm, norm, 0.0]);
     assert_close(&by(StepRule::Diagonal), [0.010, 0.005, 0.0]);
     assert_close(&by(StepRule::Gage), [0.003, 0.003, 0.003]);
     assert_close(&by(StepRule::Relative), [0.001, 0.001, 0.001]);

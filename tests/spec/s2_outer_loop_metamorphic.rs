@@ -47,7 +47,7 @@ fn frame() -> impl Strategy<Value = Given> {
     let factor = factor.prop_map(|(factor, is_less)| if is_less { 1.0 / factor } else { factor });
     let masses = prop::collection::vec(1.0..4.0_f64, 4);
     (linkage_data(), masses, prop::collection::vec(factor, 4)).prop_filter_map(
-        "modes that stay apart",
+        "modes that stay apart, and a correlation that comes to its end",
         |((apex, areas), masses, truth)| {
             // Areas within a factor of three, so that no rod is beyond what the test sees.
             let structure = linkage(apex, areas.map(|area| area.powf(0.25)), true);
@@ -59,6 +59,7 @@ fn frame() -> impl Strategy<Value = Given> {
             let settings = Settings {
                 error_sum_tolerance: 0.01,
                 later_inner_tolerance: 0.005,
+                most_passes: 3,
                 ..Settings::default()
             };
             let given = Given::of(
@@ -67,7 +68,9 @@ fn frame() -> impl Strategy<Value = Given> {
                 test,
                 settings,
             );
-            given.try_correlated().is_ok().then_some(given)
+            // Round-off grows with every step: a loop that wanders for hundreds of them ends elsewhere in the seventh digit.
+            let found = given.try_correlated();
+            found.is_ok_and(|found| found.converged).then_some(given)
         },
     )
 }

@@ -4,6 +4,7 @@ use crate::common::alter;
 use crate::common::loops::{chain_problem, correlate_chain};
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::vibrations::Chain;
+use corfem::method::error_sum::ErrorMeasure;
 use corfem::method::inner_loop::{InnerSettings, Stop, run};
 use corfem::method::modes::ModeSet;
 use corfem::method::outer_loop::{Settings, correlate};
@@ -66,6 +67,29 @@ fn every_tolerance_counts() {
     assert!(!within(0.99, 1.0, 1.0));
     assert!(!within(1.0, 0.99, 1.0));
     assert!(!within(1.0, 1.0, 0.99));
+}
+
+/// A tolerance is the largest error that is accepted; the next smaller number is one that is not met.
+#[test]
+fn a_tolerance_met_exactly_is_met() {
+    let (chain, truth) = (Chain::uniform(3), [1.3, 0.8, 1.1]);
+    let converged = |sum: f64, frequency: f64, shape: f64| {
+        let mut settings = Settings {
+            error_sum_tolerance: sum,
+            frequency_tolerance: frequency,
+            shape_tolerance: shape,
+            most_passes: 0,
+            ..Settings::default()
+        };
+        settings.inner.measure = ErrorMeasure::Sum;
+        correlate_chain(&chain, &truth, &settings)
+    };
+    let errors = converged(1.0, 1.0, 1.0).initial.errors;
+    let (sum, frequency, shape) = (errors.sum(), errors.frequency, errors.shape);
+    assert!(converged(sum, frequency, shape).converged);
+    assert!(!converged(sum.next_down(), frequency, shape).converged);
+    assert!(!converged(sum, frequency.next_down(), shape).converged);
+    assert!(!converged(sum, frequency, shape.next_down()).converged);
 }
 
 #[test]

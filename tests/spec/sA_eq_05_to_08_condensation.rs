@@ -1,8 +1,9 @@
 //! Appendix A: from structural to dynamic DOF, by more than one route.
 
+use crate::common::draws::reached;
 use crate::common::matrices::relative_distance;
 use crate::common::strategies::{orthogonal, positive_definite};
-use crate::common::tolerances::{CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF};
+use crate::common::tolerances::{CONDITIONED_ROUND_OFF, LEAST_REACHED, MATRIX_ROUND_OFF};
 use corfem::method::appendix_a::{Condensed, condense};
 use corfem::method::error::Error;
 use nalgebra::{DMatrix, DVector};
@@ -40,6 +41,40 @@ fn stiffness_and_distribution() -> impl Strategy<Value = (DMatrix<f64>, f64, DMa
         })
 }
 
+/// A random structural stiffness with its condition number, and as many dynamic DOF as structural ones: T is square, and as
+/// Q₁·diag(0.5 to 2)·Q₂ unsymmetric.
+fn stiffness_and_square_distribution() -> impl Strategy<Value = (DMatrix<f64>, f64, DMatrix<f64>)> {
+    (2..7_usize)
+        .prop_flat_map(|n| {
+            let stretch = prop::collection::vec(0.5..2.0_f64, n);
+            (
+                positive_definite(n, DECADES),
+                orthogonal(n),
+                stretch,
+                orthogonal(n),
+            )
+        })
+        .prop_map(|((stiffness, exponents), left, stretch, right)| {
+            let least = exponents.iter().copied().fold(f64::INFINITY, f64::min);
+            let most = exponents.iter().copied().fold(0.0, f64::max);
+            let t = left * DMatrix::from_diagonal(&DVector::from_vec(stretch)) * right;
+            (stiffness, 10f64.powf(most - least), t)
+        })
+}
+
+fn is_unsymmetric(t: &DMatrix<f64>) -> bool {
+    (t - t.transpose()).amax() > 0.1 * t.amax()
+}
+
+#[test]
+fn square_load_distributions_are_unsymmetric() {
+    let strategy = stiffness_and_square_distribution();
+    let share = reached("an unsymmetric square T", &strategy, |(_, _, t)| {
+        is_unsymmetric(&t)
+    });
+    assert!(share > LEAST_REACHED, "{share}");
+}
+
 fn condensed(stiffness: &DMatrix<f64>, t: &DMatrix<f64>) -> Result<Condensed, Error> {
     condense(stiffness, t)
 }
@@ -68,6 +103,20 @@ proptest! {
         prop_assert!((through_b - &found.stiffness).amax() <= bar * stiffness.amax());
         // What Bᵗ leaves of the loads is what T put there.
         prop_assert!((&stiffness * bt - &t * &found.stiffness).amax() <= bar * stiffness.amax());
+    }
+
+    /// Where T is square nothing is condensed: (A.4) is q_S = T⁻ᵗq_D, which is Bᵗ whatever the stiffness, and K_D = T⁻¹K_ST⁻ᵗ.
+    #[test]
+    fn a_square_load_distribution_is_inverted_and_not_transposed(
+        (stiffness, condition, t) in stiffness_and_square_distribution(),
+    ) {
+        let found = condensed(&stiffness, &t).unwrap();
+        let inverse = t.clone().try_inverse().unwrap();
+        // As above: the flexibility's spread is the stiffness's, and up to 16 times as much by T.
+        let bar = CONDITIONED_ROUND_OFF * condition * 16.0 * condition;
+        prop_assert!(relative_distance(&found.transformation, &inverse.transpose()) <= bar);
+        let expected = &inverse * &stiffness * inverse.transpose();
+        prop_assert!(relative_distance(&found.stiffness, &expected) <= bar);
     }
 
     /// Of all structural motions with given dynamic ones, q_D = Tᵗq_S, that of Bᵗ has the least energy: K_D's.

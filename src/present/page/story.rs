@@ -53,7 +53,7 @@ fn outcome(result: &CaseResult) -> String {
         anomaly.ratio,
     );
     format!(
-        "<p class=\"finding\">Case {number}: element {element} asks for {factor:.1} times its stiffness in the first iteration, \
-        {ratio:.1} times as much as any other. Look for a modeling error there.</p>\n"
+        "<p class=\"finding\">Case {number}: element {element} asks for {factor:.1} times its stiffness in the first iteration. \
+        By change of error per change of gage it asks for {ratio:.0} times as much as any other. Look for a modeling error there.</p>\n"
     )
 }

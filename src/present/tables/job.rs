@@ -126,10 +126,8 @@ pub fn suspects_table(loaded: &LoadedJob) -> Result<Table, FileError> {
         return Ok(Table::new("suspects", title, "Parameter")
             .notes(["The job has no parameters.".to_owned()]));
     }
-    let (first, weights) = (
-        loaded.analyze(&vec![1.0; parameters.len()])?,
-        loaded.weights()?,
-    );
+    let (far, first) = loaded.far_from_first()?;
+    let weights = far.weights()?;
     let suspects = by_single_fit(&first, &weights)?;
     // The paper's step needs shapes.
     let slopes = match &loaded.alone[..] {

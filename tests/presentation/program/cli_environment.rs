@@ -13,11 +13,7 @@ const OTHERS: [&[(&str, Option<&str>)]; 4] = [
         ("LANG", None),
         ("LC_ALL", None),
     ],
-    &[
-        ("TERM", Some("dumb")),
-        ("HOME", Some("/nowhere")),
-        ("COLUMNS", Some("40")),
-    ],
+    &[("TERM", Some("dumb")), ("HOME", Some("/nowhere"))],
     &[
         ("TERM", Some("xterm-256color")),
         ("TZ", Some("Asia/Kathmandu")),

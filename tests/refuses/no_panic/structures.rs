@@ -204,6 +204,16 @@ pub const STRUCTURES: &[Entry] = &[
         let mass = d.symmetric(size);
         ScaledStructure::new(structure, mass, d.parameters()).map(|_| Vec::new())
     }),
+    ("Structure::load_distribution", |d| {
+        let structure = d.structure()?;
+        let grids: Vec<usize> = (0..d.size()).map(|_| d.about(20)).collect();
+        let weights = d.vector(grids.len());
+        let rows = grids.iter().zip(weights.iter());
+        let points =
+            rows.map(|(&grid, &weight)| vec![(grid, ['x', 'y', 'z', 'w'][grid % 4], weight)]);
+        let found = structure.load_distribution(&points.collect::<Vec<_>>())?;
+        Ok(entries(&found))
+    }),
     ("FiniteElementModel::new", |d| {
         let structure = d.structure()?;
         let load_distribution = d.load_distribution(structure.free_dof().len());

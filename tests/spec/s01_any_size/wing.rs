@@ -195,6 +195,7 @@ fn lowest_modes_hardly_depend_on_the_mesh() {
 }
 
 proptest! {
+    #![proptest_config(crate::common::config())]
     #[test]
     fn every_wing_is_held_and_counted(wing in wings()) {
         let model = wing.model().expect("a wing");

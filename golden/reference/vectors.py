@@ -1,0 +1,417 @@
+"""Known answers for any implementation: writes ../vectors.json, an input and its answer for every equation, and 50 random structures.
+
+    python3 golden/reference/vectors.py              (numpy as in requirements.txt; appendices.py, reference.py and elements.py beside it)
+
+It shares no code with the crate. `../mark.py` compares the answers of an implementation in any language, and says how to hand them in.
+Matrices are lists of rows, complex numbers are parts `..._imaginary` of their own, units are inch, pound-force and second.
+Numbers are written with twelve digits, and inputs are rounded before anything is computed from them.
+"""
+import json
+import tomllib
+
+import appendices
+import numpy as np
+import reference
+from elements import qdmem, rod
+from reference import HERE, shear_panel
+
+RNG = np.random.default_rng(1986)
+STRUCTURES = 50
+SAME, HISTORY = 1e-9, 1e-6  # tolerances, relative to the largest number of an answer: of one formula, and of an inner loop
+
+
+def rounded(x, digits=4):
+    """To so many digits: an input that is written whole."""
+    return np.vectorize(lambda number: float(f"%.{digits}g" % number))(np.asarray(x, float))
+
+
+def drawn(low, high, size=None, digits=4):
+    return rounded(RNG.uniform(low, high, size), digits)
+
+
+def plain(value):
+    """Arrays as lists of numbers with twelve digits."""
+    if isinstance(value, dict):
+        return {key: plain(part) for key, part in value.items()}
+    if isinstance(value, (list, tuple)) or getattr(value, "ndim", 0):
+        return [plain(part) for part in value]
+    if isinstance(value, (float, np.floating)):
+        return float("%.12g" % value)
+    return int(value) if isinstance(value, np.integer) else value
+
+
+def with_parts(**values):
+    """Complex arrays as real parts and imaginary ones."""
+    out = {}
+    for name, value in values.items():
+        out[name] = np.real(value)
+        if np.iscomplexobj(value):
+            out[f"{name}_imaginary"] = np.imag(value)
+    return out
+
+
+# Structures: grids with what holds them, elements with their gages or areas, T and M at the dynamic DOF.
+
+def unit_element(element, structure):
+    """Stiffness and lumped mass for unit size at the free DOF, and which of these they are."""
+    kind, grids, _ = element
+    x = np.array([structure["grids"][g] for g in grids])
+    e, nu, density = structure["youngs_modulus"], structure["poissons_ratio"], structure["density"]
+    half = lambda a, b, c: 0.5 * np.linalg.norm(np.cross(b - a, c - a))
+    if kind == "rod":
+        k, volume = rod(x[0], x[1], 1.0, e), np.full(2, 0.5 * np.linalg.norm(x[1] - x[0]))
+    else:
+        k = shear_panel(x, e / (2 * (1 + nu)), nu) if kind == "shear" else qdmem(x, 1.0, e, nu)
+        area = 0.5 * np.linalg.norm(np.cross(x[2] - x[0], x[3] - x[1]))
+        volume = np.array([area + half(x[i - 1], x[i], x[(i + 1) % 4]) for i in range(4)]) / 6
+    free = free_dof(structure)
+    local = [(3 * i + a, free[g, a]) for i, g in enumerate(grids) for a in range(3) if (g, a) in free]
+    rows = [i for i, _ in local]
+    return [j for _, j in local], k[np.ix_(rows, rows)], np.diag(density * np.repeat(volume, 3)[rows])
+
+
+def free_dof(structure):
+    free = [(g, a) for g, held in enumerate(structure["held"]) for a in range(3) if not held]
+    return {dof: i for i, dof in enumerate(free)}
+
+
+def load_distribution(structure):
+    t = np.zeros((len(free_dof(structure)), structure["dynamic_dof"]))
+    for row, column, share in structure["load_distribution"]:
+        t[row, column] = share
+    return t
+
+
+def analysis(structure, factors):
+    """K_S, K_D, B^t, and the shares of K_D of the parameters, which are the first elements; M with that of all elements."""
+    size = len(free_dof(structure))
+    sizes = [element[2] for element in structure["elements"]]
+    units = [unit_element(element, structure) for element in structure["elements"]]
+    whole = np.zeros((len(units), size, size))
+    mass = np.zeros((size, size))
+    for e, (dof, k, m) in enumerate(units):
+        whole[e][np.ix_(dof, dof)] = k * sizes[e] * (factors[e] if e < len(factors) else 1.0)
+        mass[np.ix_(dof, dof)] += m * sizes[e]
+    ks, t = whole.sum(0), load_distribution(structure)
+    flexible = np.linalg.solve(ks, t)
+    kd = np.linalg.inv(t.T @ flexible)
+    kd = 0.5 * (kd + kd.T)
+    bt = flexible @ kd
+    m = np.array(structure["mass"]) + bt.T @ mass @ bt
+    return ks, kd, bt, np.array([bt.T @ whole[e] @ bt for e in range(len(factors))]), m
+
+
+def truss(free_count):
+    """Free grids above three held ones, each joined to all of them and to each other; the first rods are parameters."""
+    base = [[0.0, 0.0, 0.0], [20.0, 0.0, 0.0], [5.0, 15.0, 0.0]]
+    grids = [list(rounded(np.array(point) + RNG.uniform(-2, 2, 3) * [1, 1, 0], 3)) for point in base]
+    grids += [list(rounded(RNG.uniform([2, 2, 8 + 6 * i], [15, 10, 12 + 6 * i]), 3)) for i in range(free_count)]
+    pairs = [(a, b) for b in range(3, 3 + free_count) for a in range(b)]
+    order = RNG.permutation(len(pairs))
+    return grids, [1, 1, 1] + [0] * free_count, [["rod", list(pairs[i]), float(drawn(0.05, 0.2, digits=3))] for i in order], min(7, len(pairs))
+
+
+def cells(bays):
+    """A tapered, swept and twisted box of one or two bays, held at its root: covers, spars and ribs, and rods along its edges."""
+    chord, depth, grids = 10.0, 3.0, []
+    sweep, taper = RNG.uniform(-0.4, 0.4), RNG.uniform(0.5, 1.0)
+    for rib in range(bays + 1):
+        scale = taper + (1 - taper) * rib / bays
+        for front in (0, 1):
+            for upper in (1, 0):
+                x = (0.5 if front else -0.5) * chord * scale + sweep * 12.0 * (bays - rib)
+                z = (0.5 if upper else -0.5) * depth * scale
+                grids.append(list(rounded([x, 12.0 * (bays - rib), z] + RNG.uniform(-0.3, 0.3, 3), 3)))
+    panels, rods = [], []
+    for bay in range(bays):
+        a = 4 * bay  # rear upper, rear lower, front upper, front lower; four more is the next rib inboard
+        kinds = RNG.choice(["membrane", "shear"], 2)
+        panels += [[str(kinds[0]), [a, a + 2, a + 6, a + 4]], [str(kinds[1]), [a + 1, a + 3, a + 7, a + 5]]]
+        panels += [["shear", [a, a + 1, a + 5, a + 4]], ["shear", [a + 2, a + 3, a + 7, a + 6]], ["shear", [a, a + 1, a + 3, a + 2]]]
+        rods += [[a + i, a + 4 + i] for i in range(4)] + [[a, a + 1], [a + 2, a + 3], [a, a + 2], [a + 1, a + 3]]
+    elements = [[kind, grids_, float(drawn(0.008, 0.02, digits=3))] for kind, grids_ in panels]
+    elements += [["rod", ends, float(drawn(0.02, 0.1, digits=3))] for ends in rods]
+    return grids, [0] * 4 * bays + [1] * 4, elements, len(panels)
+
+
+def structure(number):
+    grids, held, elements, parameters = truss(2 + number % 3) if number % 2 else cells(1 + number % 4 // 2)
+    out = dict(youngs_modulus=1.0e7, poissons_ratio=0.3, density=0.00025 if number % 5 == 0 else 0.0, grids=grids, held=held,
+               elements=elements, parameters=parameters)
+    size = len(free_dof(out))
+    count = int(RNG.integers(3, min(6, size) + 1))
+    rows = RNG.permutation(size)
+    # Every dynamic DOF has a structural DOF of its own, and half of them shares in another's.
+    loads = [[int(rows[j]), j, 1.0] for j in range(count)]
+    loads += [[int(rows[(j + 1) % count]), j, float(drawn(0.1, 0.5, digits=2))] for j in range(0, count, 2)]
+    diagonal = drawn(0.01, 0.05, count, 3)
+    mass = np.diag(diagonal)
+    mass[0, 1] = mass[1, 0] = 0.1 * rounded(min(diagonal[:2]), 2)
+    return out | dict(dynamic_dof=count, load_distribution=loads, mass=rounded(mass))
+
+
+# The method, with numbers in place of formulas.
+
+def modes(k, m):
+    w, v = appendices.pencil_modes(k, m)
+    for column in v.T:
+        size = np.abs(column)
+        column *= np.sign(column[np.argmax(size >= (1 - 1e-6) * size.max())])
+    return w, v
+
+
+def pairing(cross):
+    """Pairs by how near |m| is to one, the nearest first."""
+    pairs, distance = {}, np.abs(1 - np.abs(cross))
+    for i, j in sorted(np.ndindex(cross.shape), key=lambda pair: (distance[pair], pair[1], pair[0])):
+        if j not in pairs and i not in pairs.values():
+            pairs[j] = i
+    order = np.array([pairs[j] for j in range(cross.shape[1])])
+    return order, np.where(cross[order, range(len(order))] < 0, -1.0, 1.0)
+
+
+def errors(w, v, test_w, test_v, order, sign):
+    a, b = v[:, order] * sign, test_v
+    a, b = a / np.abs(a).max(0), b / np.abs(b).max(0)
+    return np.sqrt(np.sum((np.sqrt(w[order] / test_w) - 1) ** 2)), np.sqrt(np.sum((a - b) ** 2) / len(v))
+
+
+def recursive_1(k, beta, order):
+    lam, d = 1 / k, np.diag(beta)
+    off = beta - np.diag(d)
+    roots, p = 1 / (k + d), np.eye(len(k))
+
+    def shapes(sums, roots):
+        denominator = (k + d)[:, None] - 1 / roots
+        np.fill_diagonal(denominator, 1.0)
+        q = -sums / denominator
+        np.fill_diagonal(q, 1.0)
+        return q
+    p = shapes(off, roots)
+    for _ in range(order - 1):
+        new = lam - (d * lam + roots * np.einsum("ij,ji->i", off, p)) / (k + d)
+        p, roots = shapes(off @ p, roots), new
+    return roots, p
+
+
+def exact_state(w, v, shares, factors):
+    """Modes of the changed structure in the basis of the ones before, each in the place of the one it continues."""
+    beta = np.tensordot(np.asarray(factors) - 1, v.T @ shares @ v, 1)
+    squares, p = np.linalg.eigh(np.diag(w) + beta)
+    order, _ = pairing(p.T)
+    p, squares = p[:, order], squares[order]
+    return squares, p * np.sign(np.diag(p))
+
+
+class Problem:
+    """Modes of an analysis beside test modes, and the shares of parameters."""
+
+    def __init__(self, kd, shares, mass, test_w, test_v):
+        self.w, self.v = modes(kd, mass)
+        self.mass, self.shares, self.test_w = mass, shares, test_w
+        self.test_v = test_v / np.sqrt(np.sum(test_v * (mass @ test_v), 0))
+        self.scale = 3 / len(test_w) ** 0.5
+
+    def at(self, factors):
+        w, p = exact_state(self.w, self.v, self.shares, factors)
+        return w, self.v @ p, pairing((self.v @ p).T @ self.mass @ self.test_v)
+
+    def sum(self, w, v, pairs):
+        return sum(errors(w, v, self.test_w, self.test_v, *pairs))
+
+    def error_changes(self, state, factors):
+        """First order; modes within 1 % of each other are not mixed."""
+        w, v, pairs = state
+        now, out = self.sum(*state), []
+        held = (np.abs(w[:, None] - w) < 0.01 * np.maximum(w[:, None], w)) & ~np.eye(len(w), dtype=bool)
+        for share, factor in zip(self.shares, factors):
+            roots, p = recursive_1(w, np.where(held, 0.0, 0.001 * factor * v.T @ share @ v), 1)
+            out.append(self.sum(1 / roots, v @ p, pairs) - now)
+        return np.array(out)
+
+    def stiffness_changes(self, factors, diagonal=False):
+        omega = np.sqrt(self.test_w)
+        relative = self.test_v.T @ self.shares @ self.test_v / np.outer(omega, omega)
+        entries = np.einsum("eii->ei", relative) if diagonal else relative.reshape(len(relative), -1)
+        return 0.001 * np.asarray(factors) * np.linalg.norm(entries, axis=1)
+
+    def unlimited(self, state, factors, relaxation):
+        de, dk = self.error_changes(state, factors), self.stiffness_changes(factors)
+        return 1 - relaxation * self.scale * self.sum(*state) * de / dk
+
+    def inner_loop(self, tolerance=0.025, most=30):
+        """With the modes of an eigensolution after every step, which is what Recursive 1 approaches."""
+        share, gage = np.ones(len(self.shares)), np.ones(len(self.shares))
+        state, sums = self.at(share), []
+        while len(sums) < most:
+            unlimited = self.unlimited(state, share, 1.0 if sums else 0.8)
+            for halving in range(6):
+                next_gage = gage * (1 + 0.5**halving * (np.clip(unlimited, 0.55, 1.5) - 1))
+                next_share = np.maximum(share + next_gage / gage - 1, 1e-3)
+                there = self.at(next_share)
+                if self.sum(*there) < self.sum(*state):
+                    break
+            else:
+                break
+            share, gage, state = next_share, next_gage, there
+            sums.append(self.sum(*state))
+            if self.scale * sums[-1] < tolerance:
+                break
+        return gage, sums
+
+
+# The vectors.
+
+VECTORS = []
+
+
+def vector(name, function, equations, given, answer, tolerance=SAME):
+    VECTORS.append(plain(dict(name=name, function=function, equations=equations, tolerance=tolerance, input=given, answer=answer)))
+
+
+def condensation():
+    given = structure(2)
+    factors = drawn(0.7, 1.3, given["parameters"])
+    ks, kd, bt, shares, m = analysis(given, factors)
+    loads = drawn(-10, 10, (len(ks), 2))
+    t = load_distribution(given)
+    deflections = np.linalg.solve(ks, loads)
+    vector("assembly and condensation", "analysis", ["1", "2"] + [f"A.{n}" for n in (1, 2, 4, 5, 6, 7, 8, 9)], dict(structure=given, factors=factors, loads=loads), dict(
+        structural_stiffness=ks, deflections=deflections, dynamic_deflections=t.T @ deflections, dynamic_flexibility=np.linalg.inv(kd),
+        dynamic_stiffness=kd, transformation=bt, shares=shares, mass=m))
+
+
+def box_loads():
+    data = tomllib.loads((HERE.parent.parent / "paper" / "reconstruction.toml").read_text())
+    loads = drawn(-10, 10, 9)
+    vector("loads of the torque box", "box_loads", ["A.3"], dict(dynamic_loads=loads), dict(structural_loads=reference.Box(data).t @ loads))
+
+
+def eigensolution():
+    given = structure(4)
+    _, kd, _, _, m = analysis(given, np.ones(given["parameters"]))
+    kd, m = rounded(kd, 6), rounded(m, 6)
+    w, v = modes(kd, m)
+    test_v = drawn(-1, 1, (len(m), 3))
+    vector("modes and measured modes", "modes", ["3", "10", "C.1"], dict(stiffness=kd, mass=m, frequencies_hz=[10.5, 31.25, 80.0], shapes=test_v), dict(
+        omega_squared=w, shapes=v, analysis_hz=np.sqrt(w) / (2 * np.pi), test_omega_squared=(2 * np.pi * np.array([10.5, 31.25, 80.0])) ** 2,
+        test_shapes=test_v / np.sqrt(np.sum(test_v * (m @ test_v), 0))))
+
+
+def comparison():
+    m = np.array([[2.0, 0.3, 0.0, 0.0], [0.3, 1.5, 0.2, 0.0], [0.0, 0.2, 1.0, 0.0], [0.0, 0.0, 0.0, 3.0]])
+    v, _ = np.linalg.qr(RNG.standard_normal((4, 4)))
+    v = rounded(np.linalg.inv(np.linalg.cholesky(m)).T @ v)
+    # Two test modes most like one analysis mode, one of them upside down.
+    test = rounded(v @ np.array([[0.8, -0.9, 0.0], [0.55, 0.3, 0.1], [0.1, 0.2, -1.05], [-0.2, 0.2, 0.3]]))
+    w, test_w = np.array([100.0, 250.0, 640.0, 1500.0]), np.array([120.0, 90.0, 700.0])
+    cross = v.T @ m @ test
+    order, sign = pairing(cross)
+    e_f, e_v = errors(w, v, test_w, test, order, sign)
+    vector("sorting and error sum", "comparison", ["4", "5", "6"], dict(mass=m, omega_squared=w, shapes=v, test_omega_squared=test_w, test_shapes=test), dict(
+        cross_orthogonality=cross, analysis_mode=order, sign=sign, frequency_error=e_f, shape_error=e_v))
+
+
+def recursions():
+    k = np.array([1.0, 2.3, 4.9, 9.0])
+    beta = drawn(-0.08, 0.08, (4, 4))
+    beta = (beta + beta.T) * np.sqrt(np.outer(k, k))
+    beta = rounded(beta)
+    answer = {}
+    for order in (1, 2, 3, 6):
+        answer[f"roots_{order}"], answer[f"shapes_{order}"] = recursive_1(k, beta, order)
+    vector("Recursive 1 for stiffness alone", "recursive_1", ["7", "8", "C.20", "C.21", "C.22", "C.23"], dict(k=k, beta=beta), answer)
+    for name, size, parts in (("three modes", 3, 1), ("four modes, complex", 4, 1j)):
+        k = k[:size] if size == 3 else np.array([1.0, 2.3, 4.9, 9.0])
+        noise = lambda scale: drawn(-scale, scale, (size, size)) + (1j * drawn(-scale, scale, (size, size)) if parts == 1j else 0)
+        beta, alpha = noise(0.05) * np.sqrt(np.outer(k, k)), noise(0.05)
+        beta = rounded(beta.real) + (1j * rounded(beta.imag) if parts == 1j else 0)
+        answer = {}
+        for order in (1, 2, 4):
+            r1, r2 = (rule(k, beta, alpha, order) for rule in (appendices.general_recursive_1, appendices.general_recursive_2))
+            answer |= with_parts(**{f"recursive_1_{order}_roots": r1[0], f"recursive_1_{order}_shapes": r1[1], f"recursive_2_{order}_roots": r2[0], f"recursive_2_{order}_shapes": r2[1]})
+        first = appendices.general_recursive_1(k, beta, alpha, 1)[1]
+        roots, shapes = appendices.exact(k, beta, alpha)
+        answer |= with_parts(original_roots=appendices.explicit_roots(k, beta, alpha, first), exact_roots=roots, exact_shapes=shapes)
+        vector(f"changes of mass, {name}", "general", ["C.13", "C.14", "C.15", "C.16", "C.17", "C.18", "C.19", "C.22", "C.23", "C.24"], with_parts(k=k, beta=beta, alpha=alpha), answer)
+
+
+def left_and_right():
+    k = np.array([[4.0, -1.0, 0.0], [-1.0, 3.0, -0.5], [0.0, -0.5, 2.0]])
+    g = drawn(-0.5, 0.5, (3, 3)) + 1j * drawn(-0.5, 0.5, (3, 3)) + np.diag([2.0, 1.0, 0.4])
+    roots, v = np.linalg.eig(np.linalg.solve(k, g))
+    order = np.argsort(-np.abs(roots))
+    roots, v = roots[order], v[:, order]
+    v = v / np.sqrt(np.einsum("ij,ij->j", v.conj(), k @ v).real)
+    for column in v.T:
+        first = column[np.argmax(np.abs(column) >= (1 - 1e-6) * np.abs(column).max())]
+        column /= first / abs(first)
+    u = np.linalg.inv(k @ v).T
+    dk, dg = drawn(-0.2, 0.2, (3, 3)), drawn(-0.2, 0.2, (3, 3))
+    vector("left and right modes", "left_and_right", [f"C.{n}" for n in range(1, 13)], with_parts(stiffness=k, g=g, stiffness_change=dk, g_change=dg), with_parts(
+        roots=roots, right=v, left=u, k=np.diag(u.T @ k @ v).real, beta=u.T @ dk @ v, alpha=u.T @ dg @ v))
+
+
+def state_and_step():
+    given = structure(9)
+    count = given["parameters"]
+    truth = drawn(0.8, 1.25, count)
+    _, kd, _, _, m = analysis(given, truth)
+    test_w, test_v = modes(kd, m)
+    test_w, test_v = rounded(test_w, 8), rounded(test_v, 8)
+    _, kd, _, shares, m = analysis(given, np.ones(count))
+    problem = Problem(kd, shares, m, test_w, test_v)
+    factors = drawn(0.95, 1.08, count)
+    state = problem.at(factors)
+    ones = np.ones(count)
+    vector("state, derivatives and step", "state_and_step", ["9", "10", "11", "12", "13"], dict(structure=given, test_omega_squared=test_w, test_shapes=test_v, factors=factors), dict(
+        omega_squared=state[0], shapes=state[1], frequencies_hz=np.sqrt(state[0]) / (2 * np.pi), error_sum=problem.sum(*state),
+        error_changes=problem.error_changes(state, factors), stiffness_changes=problem.stiffness_changes(factors),
+        diagonal_stiffness_changes=problem.stiffness_changes(factors, True), unlimited_factors=problem.unlimited(state, factors, 1.0),
+        start_error_changes=problem.error_changes(problem.at(ones), ones)), 1e-7)
+
+
+def appendix_b():
+    beam = tomllib.loads("\n".join(appendices.balance_and_orthogonalize()))["appendix_b"]
+    given = {key: rounded(beam[key], 8) for key in ("stiffness", "mass", "rigid_body", "omega_squared", "raw")}
+    k, mass, phi, w, raw = given.values()
+    coefficients = np.column_stack([np.linalg.solve(phi.T @ (w[i] * mass - k) @ phi, -phi.T @ (w[i] * mass - k) @ raw[:, i]) for i in range(len(w))])
+    balanced = raw + phi @ coefficients
+    unit = balanced / np.sqrt(np.sum(balanced * (mass @ balanced), 0))
+    m1 = unit.T @ mass @ unit
+    squares, q = appendices.pencil_modes(np.diag(w), m1)
+    order, sign = pairing((unit @ q).T @ mass @ unit)
+    vector("balance and orthogonality", "appendix_b", [f"B.{n}" for n in range(1, 8)], given, dict(
+        coefficients=coefficients, balanced=balanced, generalized_mass=m1, omega_squared=squares[order], orthogonal=(unit @ q)[:, order] * sign))
+
+
+def random_structures():
+    for number in range(STRUCTURES):
+        given = structure(number)
+        count = given["parameters"]
+        given["truth"] = drawn(0.75, 1.3, count, 3)
+        _, kd, _, _, m = analysis(given, given["truth"])
+        test_w, test_v = modes(kd, m)
+        _, kd, _, shares, m = analysis(given, np.ones(count))
+        problem = Problem(kd, shares, m, test_w, test_v)
+        start = problem.at(np.ones(count))
+        gages, sums = problem.inner_loop()
+        _, kd, _, shares, m = analysis(given, gages)
+        check = Problem(kd, shares, m, test_w, test_v)
+        there = check.at(np.ones(count))
+        e_f, e_v = errors(start[0], start[1], test_w, problem.test_v, *start[2])
+        vector(f"structure {number + 1}", "one_pass", ["12", "13"], given, dict(
+            test_hz=np.sqrt(test_w) / (2 * np.pi), start_hz=np.sqrt(problem.w) / (2 * np.pi), frequency_error=e_f, shape_error=e_v,
+            unlimited_factors=problem.unlimited(start, np.ones(count), 0.8), inner_error_sums=sums, factors=gages,
+            exact_hz=np.sqrt(check.w) / (2 * np.pi), exact_error_sum=check.sum(*there)), HISTORY)
+
+
+def main():
+    for write in (condensation, box_loads, eigensolution, comparison, recursions, left_and_right, state_and_step, appendix_b, random_structures):
+        write()
+    lines = ",\n".join(json.dumps(entry, separators=(",", ":")) for entry in VECTORS)
+    (HERE.parent / "vectors.json").write_text(f'{{"written_by":"golden/reference/vectors.py","vectors":[\n{lines}\n]}}\n')
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,414 @@
+//! The known answers of `golden/vectors.json`, written by numpy: an input and its answer for every equation, and fifty random structures.
+//!
+//! This program's answers are left beside its own files for `golden/mark.py`, which marks any implementation's.
+
+use corfem::method::appendix_b::{balance, generalized_mass, orthogonalize};
+use corfem::method::appendix_c::general::complex_modes::{self, LeftRightModes};
+use corfem::method::appendix_c::general::{self, ModalChange, original, recursive_2};
+use corfem::method::appendix_c::{Perturbed, recursive_1};
+use corfem::method::assembly::dense_stiffness;
+use corfem::method::derivatives::by_definition;
+use corfem::method::error_sum::errors;
+use corfem::method::inner_loop::{InnerSettings, run};
+use corfem::method::model::{DynamicModel, FiniteElementModel, Parameter};
+use corfem::method::modes::{ModeSet, solve};
+use corfem::method::pairing::{cross_orthogonality, pair_modes};
+use corfem::method::state::{ModalState, UpdateRule};
+use corfem::method::step::{StepRule, stiffness_changes, unlimited_factors};
+use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
+use corfem::sparse::SparseMatrix;
+use corfem::sparse::factorization::Factor;
+use corfem::torque_box::Case;
+use nalgebra::{Complex, DMatrix, DVector, Vector3};
+use serde_json::{Map, Value, json};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+/// Bytes of the file at most: a program in another language has it beside itself.
+const LARGEST: usize = 150_000;
+/// Random structures among the vectors.
+const STRUCTURES: usize = 50;
+
+fn vectors() -> Vec<Value> {
+    let text = include_str!("../../golden/vectors.json");
+    let document: Value = serde_json::from_str(text).expect("it reads");
+    document["vectors"].as_array().expect("a list").clone()
+}
+
+/// Numbers of a list, of rows one after the other.
+fn flat(value: &Value) -> Vec<f64> {
+    match value {
+        Value::Array(parts) => parts.iter().flat_map(flat).collect(),
+        number => vec![number.as_f64().expect("a number")],
+    }
+}
+
+fn matrix(value: &Value) -> DMatrix<f64> {
+    let rows = value.as_array().expect("rows");
+    DMatrix::from_row_slice(rows.len(), flat(&rows[0]).len(), &flat(value))
+}
+
+fn list(value: &Value) -> DVector<f64> {
+    DVector::from_vec(flat(value))
+}
+
+/// A matrix (a list is a column) with its imaginary part, if there is one.
+fn complex(given: &Value, key: &str) -> DMatrix<Complex<f64>> {
+    let part = |value: &Value| match value[0] {
+        Value::Array(_) => matrix(value),
+        _ => DMatrix::from_column_slice(flat(value).len(), 1, &flat(value)),
+    };
+    let real = part(&given[key]);
+    let imaginary = given.get(format!("{key}_imaginary"));
+    real.zip_map(&imaginary.map_or(0.0 * &real, part), Complex::new)
+}
+
+fn rows(matrix: &DMatrix<f64>) -> Value {
+    let row = |i| matrix.row(i).iter().copied().collect::<Vec<f64>>();
+    json!((0..matrix.nrows()).map(row).collect::<Vec<_>>())
+}
+
+/// Puts down a matrix, or a column as a list, with its imaginary part if the known answer has one.
+fn put(answer: &mut Map<String, Value>, key: &str, found: &DMatrix<Complex<f64>>) {
+    for (key, part) in [
+        (key.to_owned(), found.map(|z| z.re)),
+        (format!("{key}_imaginary"), found.map(|z| z.im)),
+    ] {
+        let value = if part.ncols() == 1 {
+            json!(part.as_slice())
+        } else {
+            rows(&part)
+        };
+        answer.insert(key, value);
+    }
+}
+
+/// The finite element model of a structure, whose first elements are its parameters.
+fn model(given: &Value) -> FiniteElementModel {
+    let number = |key: &str| given[key].as_f64().expect("a number");
+    let count = |value: &Value| value.as_u64().expect("a whole number") as usize;
+    let entries = |key: &str| given[key].as_array().expect("a list").clone();
+    let mut material = Material::isotropic(number("youngs_modulus"), number("poissons_ratio"))
+        .expect("a material");
+    if number("density") > 0.0 {
+        material = material
+            .with_density(number("density"))
+            .expect("a material");
+    }
+    let held = entries("held");
+    let grids = entries("grids")
+        .iter()
+        .zip(&held)
+        .enumerate()
+        .map(|(label, (position, held))| Grid {
+            label,
+            position: Vector3::from_row_slice(&flat(position)),
+            constrained: [count(held) == 1; 3],
+        })
+        .collect();
+    let elements = entries("elements")
+        .iter()
+        .enumerate()
+        .map(|(label, element)| Element {
+            label,
+            kind: match element[0].as_str() {
+                Some("rod") => ElementKind::Rod,
+                Some("shear") => ElementKind::ShearPanel,
+                _ => ElementKind::Membrane,
+            },
+            grids: element[1]
+                .as_array()
+                .expect("a list")
+                .iter()
+                .map(count)
+                .collect(),
+            size: element[2].as_f64().expect("a number"),
+            material,
+        })
+        .collect();
+    let structure = Structure::new(grids, elements).expect("a structure");
+    let mut t = DMatrix::zeros(structure.free_dof().len(), count(&given["dynamic_dof"]));
+    for entry in entries("load_distribution") {
+        t[(count(&entry[0]), count(&entry[1]))] = entry[2].as_f64().expect("a number");
+    }
+    let parameters = (0..count(&given["parameters"])).map(|label| Parameter::element(label, None));
+    FiniteElementModel::new(structure, t, matrix(&given["mass"]), parameters.collect())
+        .expect("a model")
+}
+
+fn analysis(given: &Value) -> Value {
+    let (model, factors, loads) = (
+        model(&given["structure"]),
+        flat(&given["factors"]),
+        matrix(&given["loads"]),
+    );
+    let (elements, free) = (model.element_matrices(), model.structure().free_dof());
+    let sizes = model.at(&factors).expect("sizes").sizes;
+    let factor = Factor::of_stiffness(elements, &sizes, free).expect("held");
+    let deflections = factor.solve(&loads).expect("loads");
+    let t = SparseMatrix::of_dense("load distribution", model.load_distribution()).expect("finite");
+    let condensed = model.condense(&factors).expect("held");
+    let DynamicModel { mass, shares, .. } = model.matrices(&factors).expect("held");
+    json!({
+        "structural_stiffness": rows(&dense_stiffness(elements, &sizes, free.len()).expect("sizes")),
+        "deflections": rows(&deflections),
+        "dynamic_deflections": rows(&model.load_distribution().tr_mul(&deflections)),
+        "dynamic_flexibility": rows(&factor.flexibility(&t).expect("fits")),
+        "dynamic_stiffness": rows(&condensed.stiffness),
+        "transformation": rows(&condensed.transformation),
+        "shares": shares.iter().map(|share| rows(share.matrix())).collect::<Vec<_>>(),
+        "mass": rows(&mass),
+    })
+}
+
+fn box_loads(given: &Value) -> Value {
+    let model = Case::new(1).expect("a case").model().expect("a model");
+    let loads = model.load_distribution() * list(&given["dynamic_loads"]);
+    json!({ "structural_loads": loads.as_slice() })
+}
+
+fn modes(given: &Value) -> Value {
+    let (stiffness, mass) = (matrix(&given["stiffness"]), matrix(&given["mass"]));
+    let modes = solve(&stiffness, &mass, mass.nrows()).expect("solved");
+    let test = ModeSet::from_measured(&flat(&given["frequencies_hz"]), &matrix(&given["shapes"]));
+    let test = test
+        .and_then(|test| test.scaled_with(&mass))
+        .expect("modes");
+    json!({
+        "omega_squared": modes.omega_squared().as_slice(),
+        "shapes": rows(modes.shapes()),
+        "analysis_hz": modes.frequencies_hz(),
+        "test_omega_squared": test.omega_squared().as_slice(),
+        "test_shapes": rows(test.shapes()),
+    })
+}
+
+fn comparison(given: &Value) -> Value {
+    let set = |squares: &str, shapes: &str| {
+        ModeSet::new(list(&given[squares]), matrix(&given[shapes])).expect("modes")
+    };
+    let (analysis, test) = (
+        set("omega_squared", "shapes"),
+        set("test_omega_squared", "test_shapes"),
+    );
+    let cross = cross_orthogonality(&analysis, &test, &matrix(&given["mass"])).expect("fits");
+    let pairing = pair_modes(&cross).expect("pairs");
+    let errors = errors(&analysis, &pairing, &test).expect("errors");
+    json!({
+        "cross_orthogonality": rows(&cross),
+        "analysis_mode": pairing.analysis_mode(),
+        "sign": pairing.sign(),
+        "frequency_error": errors.frequency,
+        "shape_error": errors.shape,
+    })
+}
+
+fn stiffness_alone(given: &Value) -> Value {
+    let (k, beta) = (list(&given["k"]), matrix(&given["beta"]));
+    let mut answer = Map::new();
+    for order in [1, 2, 3, 6] {
+        let Perturbed { roots, shapes } = recursive_1(&k, &beta, order).expect("apart");
+        answer.insert(format!("roots_{order}"), json!(roots.as_slice()));
+        answer.insert(format!("shapes_{order}"), rows(&shapes));
+    }
+    answer.into()
+}
+
+fn with_mass(given: &Value) -> Value {
+    let k = list(&given["k"]);
+    let change = ModalChange {
+        generalized_stiffness: k.map(Complex::from),
+        roots: k.map(|k| Complex::from(1.0 / k)),
+        beta: complex(given, "beta"),
+        alpha: complex(given, "alpha"),
+    };
+    let mut answer = Map::new();
+    let column = |roots: &DVector<Complex<f64>>| {
+        DMatrix::from_column_slice(roots.len(), 1, roots.as_slice())
+    };
+    let mut both = |rule: String, found: Perturbed<Complex<f64>>| {
+        put(&mut answer, &format!("{rule}_roots"), &column(&found.roots));
+        put(&mut answer, &format!("{rule}_shapes"), &found.shapes);
+    };
+    for order in [1, 2, 4] {
+        both(
+            format!("recursive_1_{order}"),
+            general::recursive_1(&change, order).expect("apart"),
+        );
+        both(
+            format!("recursive_2_{order}"),
+            recursive_2(&change, order).expect("apart"),
+        );
+    }
+    both("original".into(), original(&change).expect("apart"));
+    let settled = general::recursive_1_converged(&change, 1e-15, 200).expect("it settles");
+    both("exact".into(), settled.perturbed);
+    answer.into()
+}
+
+fn left_and_right(given: &Value) -> Value {
+    let real = |key: &str| matrix(&given[key]);
+    let modes = complex_modes::solve(&real("stiffness"), &complex(given, "g")).expect("solved");
+    let changes = ["stiffness", "stiffness_change", "g_change"].map(|key| complex(given, key));
+    let change =
+        ModalChange::new(&changes[0], &modes, &changes[1], &changes[2]).expect("biorthogonal");
+    let LeftRightModes { roots, right, left } = &modes;
+    let mut answer = Map::new();
+    let column =
+        |list: &DVector<Complex<f64>>| DMatrix::from_column_slice(list.len(), 1, list.as_slice());
+    for (key, found) in [
+        ("roots", &column(roots)),
+        ("right", right),
+        ("left", left),
+        ("k", &column(&change.generalized_stiffness)),
+        ("beta", &change.beta),
+        ("alpha", &change.alpha),
+    ] {
+        put(&mut answer, key, found);
+    }
+    answer.into()
+}
+
+fn state_and_step(given: &Value) -> Value {
+    let (model, factors) = (model(&given["structure"]), flat(&given["factors"]));
+    let test = ModeSet::new(
+        list(&given["test_omega_squared"]),
+        matrix(&given["test_shapes"]),
+    )
+    .expect("modes");
+    let modal = model
+        .analyze(&vec![1.0; factors.len()], &test, None)
+        .expect("solved");
+    let state = ModalState::at(&modal, factors.clone(), UpdateRule::default()).expect("it settles");
+    let by = |rule| stiffness_changes(&modal, &factors, &factors, rule);
+    let changes = by_definition(&modal, &state).expect("apart");
+    let measured = 3.0 / (test.len() as f64).sqrt() * state.errors().sum();
+    json!({
+        "omega_squared": state.modes().omega_squared().as_slice(),
+        "shapes": rows(state.modes().shapes()),
+        "frequencies_hz": state.modes().frequencies_hz(),
+        "error_sum": state.errors().sum(),
+        "unlimited_factors": unlimited_factors(&changes, &by(StepRule::Norm), measured, 1.0),
+        "error_changes": changes,
+        "stiffness_changes": by(StepRule::Norm),
+        "diagonal_stiffness_changes": by(StepRule::Diagonal),
+        "start_error_changes": by_definition(&modal, &ModalState::start(&modal)).expect("apart"),
+    })
+}
+
+fn appendix_b(given: &Value) -> Value {
+    let [stiffness, mass, rigid_body, shapes] =
+        ["stiffness", "mass", "rigid_body", "raw"].map(|key| matrix(&given[key]));
+    let raw = ModeSet::new(list(&given["omega_squared"]), shapes).expect("modes");
+    let balanced = balance(&raw, &stiffness, &mass, &rigid_body).expect("free");
+    let test = raw.with_shapes(balanced.shapes.clone()).expect("modes");
+    let found = orthogonalize(&test, &mass).expect("independent").modes;
+    let unit = test.scaled_with(&mass).expect("modes");
+    json!({
+        "coefficients": rows(&balanced.coefficients),
+        "balanced": rows(&balanced.shapes),
+        "generalized_mass": rows(&generalized_mass(unit.shapes(), &mass).expect("fits")),
+        "omega_squared": found.omega_squared().as_slice(),
+        "orthogonal": rows(found.shapes()),
+    })
+}
+
+/// One pass from first sizes that a test of the structure with others (`truth`) shows to be wrong.
+fn one_pass(given: &Value) -> Value {
+    let (model, truth) = (model(given), flat(&given["truth"]));
+    let test = model.modes(&truth).expect("held").into();
+    let ones = vec![1.0; truth.len()];
+    let start = model.analyze(&ones, &test, None).expect("solved");
+    let settings = InnerSettings {
+        update: UpdateRule::Eigensolution,
+        ..InnerSettings::default()
+    };
+    let inner = run(&start, &ones, &vec![None; ones.len()], &settings).expect("a loop");
+    let check = model.analyze(&inner.factors, &test, None).expect("solved");
+    let sums = inner
+        .iterations
+        .iter()
+        .map(|iteration| iteration.errors.sum());
+    json!({
+        "test_hz": test.frequencies_hz(),
+        "start_hz": start.exact().modes.frequencies_hz(),
+        "frequency_error": start.exact().errors.frequency,
+        "shape_error": start.exact().errors.shape,
+        "unlimited_factors": inner.first_unlimited_factors,
+        "inner_error_sums": sums.collect::<Vec<f64>>(),
+        "factors": inner.factors,
+        "exact_hz": check.exact().modes.frequencies_hz(),
+        "exact_error_sum": check.exact().errors.sum(),
+    })
+}
+
+fn answer(vector: &Value) -> Value {
+    let function = match vector["function"].as_str().expect("a name") {
+        "analysis" => analysis,
+        "box_loads" => box_loads,
+        "modes" => modes,
+        "comparison" => comparison,
+        "recursive_1" => stiffness_alone,
+        "general" => with_mass,
+        "left_and_right" => left_and_right,
+        "state_and_step" => state_and_step,
+        "appendix_b" => appendix_b,
+        "one_pass" => one_pass,
+        other => panic!("no function {other}"),
+    };
+    function(&vector["input"])
+}
+
+#[test]
+fn every_vector_is_answered_as_numpy_answers_it() {
+    let (mut answers, mut wrong) = (Map::new(), Vec::new());
+    for vector in vectors() {
+        let name = vector["name"].as_str().expect("a name");
+        let found = answer(&vector);
+        for (key, expected) in vector["answer"].as_object().expect("an object") {
+            let (found, expected) = (flat(&found[key]), flat(expected));
+            let largest = expected
+                .iter()
+                .fold(0.0, |largest: f64, number| largest.max(number.abs()));
+            let bar = vector["tolerance"].as_f64().expect("a number") * largest;
+            let apart = found
+                .iter()
+                .zip(&expected)
+                .map(|(a, b)| (a - b).abs())
+                .fold(0.0, f64::max);
+            if found.len() != expected.len() || apart.is_nan() || apart > bar {
+                wrong.push(format!(
+                    "{name}: {key}: {:e} of the largest\n{found:?}\n{expected:?}",
+                    apart / largest
+                ));
+            }
+        }
+        answers.insert(name.to_owned(), found);
+    }
+    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("vectors_answers.json");
+    fs::write(file, Value::from(answers).to_string()).expect("it can be written");
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_equation_has_a_vector() {
+    assert!(include_str!("../../golden/vectors.json").len() <= LARGEST);
+    let (mut names, mut equations, mut structures) = (BTreeSet::new(), BTreeSet::new(), 0);
+    for vector in vectors() {
+        assert!(
+            names.insert(vector["name"].to_string()),
+            "{} twice",
+            vector["name"]
+        );
+        structures += usize::from(vector["function"] == "one_pass");
+        for equation in vector["equations"].as_array().expect("a list") {
+            equations.insert(equation.as_str().expect("a number").to_owned());
+        }
+    }
+    assert_eq!(structures, STRUCTURES);
+    assert_eq!(
+        equations,
+        crate::ledgers::equations::numbers().into_iter().collect()
+    );
+}

@@ -1,0 +1,48 @@
+//! The one page of the specification, `paper/specification.md`, made from `paper/equations.toml`: `documents.rs` holds them equal.
+
+use crate::ledgers::equations::{entries, strings};
+use std::fmt::Write;
+use toml::{Table, Value};
+
+/// Every equation and sentence in the paper's order: what it is, what is it in the crate, what checks it, and how it could be wrong.
+pub fn page() -> String {
+    let entries = entries();
+    let wrong = |entry: &Table| entry["wrong"].as_array().expect("a list").clone();
+    let count: usize = entries.iter().map(|(_, entry)| wrong(entry).len()).sum();
+    let is_equation = |(_, entry): &&(String, Table)| entry.contains_key("number");
+    let equations = entries.iter().filter(is_equation).count();
+    let sentences = entries.len() - equations;
+    let mut page = format!("{equations} equations, {sentences} sentences, {count} wrong forms.\n");
+    for (owner, entry) in &entries {
+        let text = |key: &str| entry.get(key).and_then(Value::as_str);
+        let what = text("what").expect("words");
+        match text("formula") {
+            Some(formula) => page += &format!("\n### ({owner}) {what}\n\n$$ {formula} $$\n"),
+            None => page += &format!("\n### Sentence: {owner}\n\n{what}.\n"),
+        }
+        let code = |key: &str| {
+            let names = strings(entry, key);
+            let names = names
+                .iter()
+                .map(|name| format!("`{}`", name.trim_start_matches("spec::")));
+            names.collect::<Vec<_>>().join(", ")
+        };
+        for (key, title) in [("correction", "Correction"), ("remark", "Remark")] {
+            page += &text(key).map_or(String::new(), |words| format!("\n{title}: {words}.\n"));
+        }
+        if !code("functions").is_empty() {
+            page += &format!("\nIn the crate: {}.\n", code("functions"));
+        }
+        page += &format!("\nTests: {}.\n\n", code("tests"));
+        for form in wrong(entry) {
+            let text = |key: &str| form[key].as_str().expect("a string");
+            let to = match text("new") {
+                "" => "left out".to_owned(),
+                new => format!("for it `{new}`"),
+            };
+            let (what, file, old) = (text("what"), text("file"), text("old"));
+            writeln!(page, "- Wrong: {what}. In `{file}` `{old}`, {to}.").expect("it is a string");
+        }
+    }
+    page
+}

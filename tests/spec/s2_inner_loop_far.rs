@@ -1,0 +1,226 @@
+//! The inner loop far from its start: the least share of a stiffness, factors beyond a half and two, and roots that cross.
+
+use crate::common::draws::reached;
+use crate::common::pairings::pairs_by_sorting;
+use crate::common::tolerances::{CONVERGED_STATE, FAR_RECURSION, LEAST_REACHED, ROUND_OFF};
+use crate::common::vibrations::{Chain, chain, error_sum_by_definition, modes_by_nalgebra};
+use corfem::method::inner_loop::{InnerRun, InnerSettings, run};
+use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
+use corfem::method::modes::{ModeSet, solve};
+use corfem::method::state::{ModalState, UpdateRule};
+use corfem::method::step::LEAST_SHARE;
+use nalgebra::{DMatrix, DVector, dmatrix, dvector};
+use proptest::prelude::*;
+
+/// A mass on a spring that is a hundred to a thousand times too stiff: three steps to nearly a half each take more than all of it.
+fn much_too_stiff() -> impl Strategy<Value = (f64, f64)> {
+    (1000.0..2000.0_f64, 0.001..0.01_f64)
+}
+
+fn run_down(stiffness: f64, truth: f64) -> InnerRun {
+    let stiffness = dmatrix![stiffness];
+    let test = ModeSet::new(dvector![truth * stiffness[0]], dmatrix![1.0]).expect("a mode");
+    let model = DynamicModel {
+        shares: vec![ParameterMatrix::Stiffness(stiffness.clone())],
+        stiffness,
+        mass: dmatrix![1.0],
+    };
+    let model = model.analyze(&test, None).expect("solved");
+    run(&model, &[1.0], &[None], &InnerSettings::default()).expect("a loop")
+}
+
+/// The share factors on the way: each step adds to the one before what it takes of the gage.
+fn share_factors(inner: &InnerRun) -> Vec<f64> {
+    let (mut share, mut gage) = (1.0_f64, 1.0);
+    let next = |factor: f64| {
+        share = (share + factor / gage - 1.0).max(LEAST_SHARE);
+        gage = factor;
+        share
+    };
+    let factors = inner
+        .iterations
+        .iter()
+        .map(|iteration| iteration.factors[0]);
+    factors.map(next).collect()
+}
+
+#[test]
+fn draws_reach_the_least_share() {
+    let share = reached(
+        "the least share of a stiffness",
+        &much_too_stiff(),
+        |draw| share_factors(&run_down(draw.0, draw.1)).contains(&LEAST_SHARE),
+    );
+    assert!(share > LEAST_REACHED, "{share}");
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    #[test]
+    fn stiffness_never_falls_below_its_least_share((stiffness, truth) in much_too_stiff()) {
+        let inner = run_down(stiffness, truth);
+        let shares = share_factors(&inner);
+        let (first, last) = (inner.iterations[0].factors[0], inner.last.factors()[0]);
+        prop_assert!((first - 0.55).abs() <= ROUND_OFF && inner.iterations.len() > 2);
+        prop_assert!((last - shares[shares.len() - 1]).abs() <= ROUND_OFF);
+        prop_assert!(last >= LEAST_SHARE);
+        // A gage of which 0.55 is left three times is none that has no stiffness.
+        prop_assert_eq!(shares[2], LEAST_SHARE);
+        prop_assert!(inner.iterations[2].factors[0] > 0.1);
+        let ratio = (LEAST_SHARE / truth).sqrt();
+        prop_assert!((inner.iterations[2].errors.frequency - (ratio - 1.0).abs()).abs() <= ROUND_OFF);
+    }
+}
+
+/// Factors of a third to three, and one of a half to a fifth or of two to five.
+fn far_chain() -> impl Strategy<Value = (Chain, Vec<f64>)> {
+    (3..=5_usize).prop_flat_map(|count| {
+        let anything = (-1.0..1.0_f64).prop_map(f64::exp);
+        let far = (2.0..5.0_f64, any::<bool>())
+            .prop_map(|(factor, soft)| if soft { 1.0 / factor } else { factor });
+        (
+            chain(count),
+            prop::collection::vec(anything, count),
+            far,
+            0..count,
+        )
+            .prop_map(|(chain, mut factors, far, place)| {
+                factors[place] = far;
+                (chain, factors)
+            })
+    })
+}
+
+fn start(chain: &Chain) -> ModalModel {
+    let count = chain.masses.len();
+    let (test, ones) = (chain.modes(&vec![1.1; count]), vec![1.0; count]);
+    chain.model(&ones).analyze(&test, None).expect("solved")
+}
+
+#[test]
+fn draws_reach_beyond_a_half_and_two() {
+    let beyond = reached("a factor beyond 0.5 to 2", &far_chain(), |(_, factors)| {
+        factors.iter().any(|factor| !(0.5..=2.0).contains(factor))
+    });
+    let settled = reached(
+        "Recursive 1 beyond 0.5 to 2",
+        &far_chain(),
+        |(chain, factors)| ModalState::at(&start(&chain), factors, UpdateRule::Recursive1).is_ok(),
+    );
+    assert!(
+        beyond > LEAST_REACHED && settled > LEAST_REACHED,
+        "{beyond} {settled}"
+    );
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    #[test]
+    fn the_state_is_the_exact_solution_far_from_its_start((chain, factors) in far_chain()) {
+        let model = start(&chain);
+        let there = chain.model(&factors);
+        let expected = error_sum_by_definition(&there.stiffness, &there.mass, model.test());
+        let exact = ModalState::at(&model, factors.clone(), UpdateRule::Eigensolution).unwrap();
+        prop_assert!((exact.errors().sum() - expected).abs() <= CONVERGED_STATE * expected);
+        // So far off the recursion may not settle; where it has settled, on roots to a millionth, it is at the same place.
+        if let Ok(state) = ModalState::at(&model, factors, UpdateRule::Recursive1) {
+            prop_assert!((state.errors().sum() - expected).abs() <= FAR_RECURSION * expected);
+        }
+    }
+}
+
+/// Three unit masses on springs of their own in this order, softly coupled: factors on the first two that bring the first past the second.
+#[derive(Debug, Clone)]
+struct Crossing {
+    grounds: [f64; 3],
+    coupling: [f64; 2],
+    factors: [f64; 3],
+}
+
+impl Crossing {
+    fn model(&self, factors: &[f64]) -> DynamicModel {
+        let ground = |mass: usize| {
+            let mut stiffness = DMatrix::zeros(3, 3);
+            stiffness[(mass, mass)] = factors[mass] * self.grounds[mass];
+            stiffness
+        };
+        let shares: Vec<DMatrix<f64>> = (0..3).map(ground).collect();
+        let mut stiffness: DMatrix<f64> = shares.iter().sum();
+        for (spring, coupling) in self.coupling.iter().enumerate() {
+            stiffness[(spring, spring + 1)] = *coupling;
+            stiffness[(spring + 1, spring)] = *coupling;
+        }
+        DynamicModel {
+            stiffness,
+            mass: DMatrix::identity(3, 3),
+            shares: shares.into_iter().map(ParameterMatrix::Stiffness).collect(),
+        }
+    }
+
+    fn state(&self, rule: UpdateRule) -> Option<(ModalModel, ModalState)> {
+        let model = self.model(&[1.0; 3]);
+        let test = solve(&model.stiffness, &model.mass, 3)
+            .expect("held")
+            .into();
+        let model = model.analyze(&test, None).expect("solved");
+        let state = ModalState::at(&model, self.factors.to_vec(), rule).ok()?;
+        Some((model, state))
+    }
+}
+
+fn crossing() -> impl Strategy<Value = Crossing> {
+    (
+        (1.0..1.2_f64, 1.3..1.6_f64, 4.0..6.0_f64),
+        (-0.05..0.05_f64, -0.05..0.05_f64),
+        (1.3..2.0_f64, 0.7..1.0_f64, 0.8..1.2_f64),
+    )
+        .prop_map(|(grounds, coupling, factors)| Crossing {
+            grounds: grounds.into(),
+            coupling: coupling.into(),
+            factors: factors.into(),
+        })
+}
+
+#[test]
+fn draws_cross_roots() {
+    for rule in [UpdateRule::Recursive1, UpdateRule::Eigensolution] {
+        let share = reached("roots that cross", &crossing(), |draw| {
+            draw.state(rule).is_some_and(|(_, state)| {
+                let squares = state.modes().omega_squared();
+                squares[0] > squares[1]
+            })
+        });
+        assert!(share > LEAST_REACHED, "{rule:?}: {share}");
+    }
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    /// A mode that overtakes another keeps its place, its test mode, and the exact root and shape.
+    #[test]
+    fn modes_whose_roots_cross_keep_their_places(draw in crossing()) {
+        let there = draw.model(&draw.factors);
+        let (squares, shapes) = modes_by_nalgebra(&there.stiffness, &there.mass);
+        for rule in [UpdateRule::Recursive1, UpdateRule::Eigensolution] {
+            let Some((model, state)) = draw.state(rule) else {
+                prop_assert_eq!(rule, UpdateRule::Recursive1);
+                continue;
+            };
+            let alike = shapes.tr_mul(model.exact().modes.shapes());
+            let places = pairs_by_sorting(&alike);
+            // Where two modes are half and half of each other, either continues either.
+            prop_assume!((0..3).all(|mode| alike[(places[mode], mode)].abs() > 0.8));
+            prop_assert_eq!(state.pairing().analysis_mode(), [0, 1, 2]);
+            for (mode, &place) in places.iter().enumerate() {
+                let ratio = state.modes().omega_squared()[mode] / squares[place];
+                let bar = if rule == UpdateRule::Recursive1 { FAR_RECURSION } else { CONVERGED_STATE };
+                prop_assert!((ratio - 1.0).abs() <= bar, "{rule:?} {mode}: {ratio}");
+                let same: DVector<f64> = shapes.column(place) * alike[(place, mode)].signum();
+                prop_assert!((state.modes().shapes().column(mode) - same).amax() <= 10.0 * bar);
+            }
+        }
+    }
+}
