@@ -159,18 +159,7 @@ impl LoadedJob {
     /// [`FileError::File`] when one of them cannot be read any more.
     pub fn identity(&self, adds: &str) -> Result<String, FileError> {
         let job = &self.job;
-        let model = [
-            &job.model.deck,
-            &job.model.stiffness,
-            &job.model.mass,
-            &job.model.rows,
-        ];
-        let named = model
-            .into_iter()
-            .chain(job.parameters.iter().map(|rule| &rule.matrix))
-            .flatten();
-        let named = named.chain(&job.test.file).chain(&job.test.repeats);
-        let named = named.map(|file| job.beside(file));
+        let named = job.files().map(|file| job.beside(file));
         let program = format!("{} {adds}", env!("CARGO_PKG_VERSION"));
         let mut digest = Sha256::new();
         let mut add = |bytes: &[u8]| {
@@ -300,14 +289,46 @@ impl LoadedJob {
         if joined.is_empty() || compared.contains(&None) {
             return Ok(None);
         }
+        let mut again = self.comparing_too(&joined)?;
+        again.joined.extend(joined);
+        Ok(Some(again))
+    }
+
+    /// The same job that also compares these test modes.
+    fn comparing_too(&self, left: &[usize]) -> Result<Self, FileError> {
         let mut again = self.clone();
-        again.modes.extend(&joined);
+        again.modes.extend(left);
         let hertz = &self.data.frequencies_hz;
         again.modes.sort_by(|&a, &b| hertz[a].total_cmp(&hertz[b]));
         again.test = measured(&self.data, &self.placed, &again.modes)?;
-        again.joined.extend(joined);
         again.first = None;
-        Ok(Some(again))
+        Ok(again)
+    }
+
+    /// The same job for a look far from the first model, with that model: it compares every selected test mode, those too that resemble no
+    /// mode of it, and takes twice as many modes unless the job says how many. Where one parameter is grossly wrong, the modes that
+    /// tell of it are neither like those of the model nor made of its lowest.
+    ///
+    /// A model that has fewer modes is looked at as the job has it.
+    ///
+    /// # Errors
+    /// Those of the test's shapes and of [`LoadedJob::analyze`].
+    pub fn far_from_first(&self) -> Result<(Self, ModalModel), FileError> {
+        let left = self.unpaired.iter().map(|(mode, _)| *mode);
+        let left: Vec<usize> = left.filter(|mode| !self.modes.contains(mode)).collect();
+        let mut far = match left.is_empty() {
+            true => self.clone(),
+            false => self.comparing_too(&left)?,
+        };
+        if self.job.compare.analysis_modes.is_none() {
+            let most = self.source.whole.dof_count();
+            far.analysis_modes = (2 * self.analysis_modes).min(most);
+        }
+        match far.analyze(&far.ones()) {
+            Ok(first) => Ok((far, first)),
+            Err(Error::TooMany { .. }) => Ok((self.clone(), self.analyze(&self.ones())?)),
+            Err(other) => Err(other.into()),
+        }
     }
 
     /// Whether no test mode with a shape has a partner.

@@ -1,12 +1,11 @@
 //! Which parameter is wrong: by the paper's unlimited factor, a slope that tells little about gross errors, and by single fits.
 
-use crate::method::derivatives::error_changes;
 use crate::method::error::Error;
 use crate::method::error_sum::ModeWeight;
-use crate::method::inner_loop::InnerSettings;
+use crate::method::inner_loop::{InnerSettings, first_factors};
 use crate::method::model::ModalModel;
+use crate::method::pairing::{Pairing, signed_assurance};
 use crate::method::state::{ModalState, UpdateRule};
-use crate::method::step::{stiffness_changes, unlimited_factors};
 use crate::weighted::residuals::{residuals, residuals_of};
 use serde::Serialize;
 
@@ -27,18 +26,14 @@ pub struct Suspect {
 /// By the change $|c - 1|$ that the unlimited factors (13) of the first iteration ask for, the largest first.
 ///
 /// # Errors
-/// Those of [`error_changes`].
+/// Those of [`first_factors`].
 pub fn by_factor(model: &ModalModel, settings: &InnerSettings) -> Result<Vec<Suspect>, Error> {
-    let state = ModalState::start(model);
-    let changes = error_changes(model, &state, settings.derivatives)?;
-    let stiffnesses = stiffness_changes(model, &state.factors, &state.factors, settings.step);
-    let error_sum = settings.measure.scale(model.test.len()) * state.errors.sum();
-    let factors = unlimited_factors(&changes, &stiffnesses, error_sum, settings.first_relaxation);
     let suspect = |(parameter, factor): (usize, f64)| Suspect {
         parameter,
         factor,
         evidence: (factor - 1.0).abs(),
     };
+    let factors = first_factors(model, settings)?;
     Ok(ranked(factors.into_iter().enumerate().map(suspect)))
 }
 
@@ -50,14 +45,23 @@ pub fn by_factor(model: &ModalModel, settings: &InnerSettings) -> Result<Vec<Sus
 /// # Errors
 /// Those of [`residuals`].
 pub fn by_single_fit(model: &ModalModel, weights: &[ModeWeight]) -> Result<Vec<Suspect>, Error> {
-    let start = 0.5 * residuals(model, weights)?.norm_squared();
+    let first = 0.5 * residuals(model, weights)?.norm_squared();
     let objective = |parameter: usize, log: f64| {
         let mut factors = vec![1.0; model.shares.len()];
         factors[parameter] = 10.0_f64.powf(log);
+        let squares = || {
+            let state = ModalState::at(model, factors, UpdateRule::Eigensolution)?;
+            let pairing = pairing(model, &state)?;
+            let residuals = residuals_of(&state.modes, &pairing, model, weights);
+            Ok::<_, Error>(0.5 * residuals.norm_squared())
+        };
         // A factor that leaves no modes of vibration cannot fit.
-        ModalState::at(model, factors, UpdateRule::Eigensolution).map_or(f64::INFINITY, |state| {
-            0.5 * residuals_of(&state.modes, &state.pairing, model, weights).norm_squared()
-        })
+        squares().unwrap_or(f64::INFINITY)
+    };
+    // Other pairs alone are no evidence against a parameter.
+    let start = match model.shares.is_empty() {
+        true => first,
+        false => first.min(objective(0, 0.0)),
     };
     let best = |parameter: usize| {
         let (mut lowest, mut log) = (f64::INFINITY, 0.0);
@@ -76,6 +80,18 @@ pub fn by_single_fit(model: &ModalModel, weights: &[ModeWeight]) -> Result<Vec<S
         }
     };
     Ok(ranked((0..model.shares.len()).map(best)))
+}
+
+/// Pairs at a state far from the exact modes: there a mode of the test may continue none of them but a residual vector, of which
+/// `cross` knows nothing.
+fn pairing(model: &ModalModel, state: &ModalState) -> Result<Pairing, Error> {
+    let count = model.vibration_count();
+    if count == model.exact.modes.len() {
+        return Ok(state.pairing.clone());
+    }
+    let vibrations = state.modes.shapes.columns(0, count).into_owned();
+    let assurance = signed_assurance(&vibrations, &model.test.shapes)?;
+    (model.pair)(&assurance.map(|close| close.signum() * close.abs().sqrt()))
 }
 
 fn ranked(suspects: impl Iterator<Item = Suspect>) -> Vec<Suspect> {

@@ -54,6 +54,9 @@ pub const TEST_TEMPLATE: &str = include_str!("template.csv");
 pub struct Job {
     #[serde(skip)]
     path: PathBuf,
+    /// Its file's own text.
+    #[serde(skip)]
+    pub text: String,
     /// The entries that it gives.
     #[serde(skip)]
     given: toml::Table,
@@ -186,6 +189,16 @@ pub enum Method {
     GaussNewton,
 }
 
+impl Method {
+    /// What a job calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Paper => "paper",
+            Self::GaussNewton => "gauss_newton",
+        }
+    }
+}
+
 /// Most numbers in one list, against a slip of the finger that fills the memory.
 const MOST_LABELS: usize = 10_000_000;
 
@@ -202,6 +215,7 @@ pub fn read(path: &Path) -> Result<Job, FileError> {
     refuse_removed(path, &given)?;
     let job = toml::from_str(&text).map(|job| Job {
         path: path.to_owned(),
+        text: text.clone().into_owned(),
         given,
         ..job
     });
@@ -221,6 +235,19 @@ impl Job {
         self.path
             .parent()
             .map_or_else(|| named.to_owned(), |folder| folder.join(named))
+    }
+
+    /// The files it names: those of the model, then the test's.
+    pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        let model = [
+            &self.model.deck,
+            &self.model.stiffness,
+            &self.model.mass,
+            &self.model.rows,
+        ];
+        let matrices = self.parameters.iter().map(|rule| &rule.matrix);
+        let named = model.into_iter().chain(matrices).flatten();
+        named.chain(&self.test.file).chain(&self.test.repeats)
     }
 
     /// Whether its file has this entry, such as `compare.seed`.

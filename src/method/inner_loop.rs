@@ -162,6 +162,23 @@ pub fn run(
     .run()
 }
 
+/// Factors of (13) before any bound that the first iteration from the last exact modes asks for.
+///
+/// # Errors
+/// Those of [`run`] for settings; those of [`error_changes`].
+pub fn first_factors(model: &ModalModel, settings: &InnerSettings) -> Result<Vec<f64>, Error> {
+    settings.check()?;
+    let (ones, free) = (
+        vec![1.0; model.shares.len()],
+        vec![None; model.shares.len()],
+    );
+    let derivative =
+        |model: &ModalModel, state: &ModalState| error_changes(model, state, settings.derivatives);
+    let first = InnerLoop::new(model, &ones, &free, settings, &derivative)?;
+    let direction = first.direction(&ModalState::start(model), &ones, true)?;
+    Ok(direction.unlimited_factors)
+}
+
 /// The function that gives the change of the error sum by every parameter (12): [`error_changes`] or a faster form of it.
 pub type Derivative<'a> = &'a dyn Fn(&ModalModel, &ModalState) -> Result<Vec<f64>, Error>;
 

@@ -11,13 +11,13 @@ pub const LEAST_SHARE: f64 = 1e-3;
 
 /// How the change in generalized stiffness $\Delta k_e$ of (12) and (13) is measured for a change of 0.1 %.
 ///
-/// The paper's sentence can be read in several ways, and its own tables decide between them (`paper/interpretation.md`). With
+/// The paper's sentence can be read in several ways, and its tables do not decide between them (`paper/interpretation.md`). With
 /// $\kappa_{ij} = c_e V_{Gi}^t K_e V_{Gj}/(\omega_{Gi} \omega_{Gj})$, the element's stiffness on the test modes relative to the
 /// test's own:
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StepRule {
-    /// $0.001 \lVert \kappa \rVert_F$, the coupling of modes included: one rule for every case and the library's own. With all
+    /// $0.001 \lVert \kappa \rVert_F$, the coupling of modes included: the library's own. With all
     /// modes it is $\lVert K_G^{-1/2} \Delta K K_G^{-1/2} \rVert_F$ with the test's stiffness $K_G$, whatever the basis.
     #[default]
     #[serde(rename = "matrix")]

@@ -7,7 +7,7 @@ use serde::Serialize;
 pub enum Digits {
     /// This many digits after the point.
     Fixed(usize),
-    /// This many significant digits, without an exponent.
+    /// This many significant digits, without an exponent unless more than four zeros would stand before or behind them.
     Significant(usize),
     /// This many digits after the point of the mantissa, with an exponent.
     Scientific(usize),
@@ -217,6 +217,9 @@ impl Digits {
                 let rounded = format!("{value:.*e}", digits.saturating_sub(1));
                 let magnitude = rounded.split_once('e').and_then(|(_, e)| e.parse().ok());
                 let decimals = digits as i64 - 1 - magnitude.unwrap_or(0);
+                if value != 0.0 && !(-4..digits as i64 + 5).contains(&decimals) {
+                    return rounded;
+                }
                 format!("{value:.*}", usize::try_from(decimals).unwrap_or(0))
             }
         };

@@ -14,7 +14,7 @@ use corfem::present::report::Report;
 use corfem::present::table::Table;
 use corfem::present::tables::deck::not_read;
 use corfem::present::tables::job::{
-    minima_table, places_table, seen_table, suspects_table, trust_table,
+    inputs_table, minima_table, places_table, seen_table, suspects_table, trust_table,
 };
 use corfem::present::tables::report::{factor_table, history_table, paired_table};
 use corfem::present::{PresentError, json, render};
@@ -167,15 +167,27 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
     let document = || json::own_document(json::report(&report)?);
     arguments.output.write(&tables, document)?;
     if let Some(folder) = &arguments.folder {
-        let places = places_table(&loaded, Some(&result))?;
-        let extra: Vec<Table> = [seen].into_iter().chain(minima).chain([places]).collect();
-        let command = format!("corfem correlate {}", arguments.job.display());
+        let places = [
+            places_table(&loaded, Some(&result))?,
+            inputs_table(&loaded)?,
+        ];
+        let extra: Vec<Table> = [seen].into_iter().chain(minima).chain(places).collect();
+        let mut command = format!("corfem correlate {}", arguments.job.display());
+        let starts = arguments.starts.map(|starts| format!(" --starts {starts}"));
+        let seed = arguments.seed.map(|seed| format!(" --seed {seed}"));
+        let accepted = arguments
+            .accept
+            .iter()
+            .map(|doubt| format!(" --accept {doubt}"));
+        command.extend(starts.into_iter().chain(seed).chain(accepted));
+        // Any folder gets the same page.
+        command += " --folder FOLDER";
         let identity = loaded.identity(&format!("{:?} {:?}", arguments.starts, arguments.seed))?;
         let run = format!("correlate {}, inputs {identity}", file_name(&arguments.job));
         let mut files = vec![
             (
                 "report.html".to_owned(),
-                report_page(&report, &extra, &command)?.into_bytes(),
+                report_page(&report, &extra, &command, &loaded.job.text)?.into_bytes(),
             ),
             (
                 "factors.csv".to_owned(),

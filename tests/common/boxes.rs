@@ -2,8 +2,10 @@
 
 use corfem::method::model::ModalModel;
 use corfem::torque_box::Case;
-use corfem::torque_box::wing_box::PANEL_COUNT;
+use corfem::torque_box::wing_box::{PANEL_COUNT, Reconstruction};
 use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::{Config, RngAlgorithm, RngSeed, TestRunner};
 
 /// The problem of a case's first pass: its first gages, its test modes, all nine analysis modes.
 pub fn first_problem(number: usize) -> ModalModel {
@@ -29,5 +31,40 @@ pub fn uneven_box() -> impl Strategy<Value = Case> {
             panel.gage = gage;
         }
         case
+    })
+}
+
+/// A box unlike the reconstructed one: every coordinate and every mass off by up to these parts of it. Upper and lower grids move
+/// alike, so that no panel is turned over, and the mid-plane stays one of symmetry.
+pub fn other_box(coordinates: f64, masses: f64) -> impl Strategy<Value = Reconstruction> {
+    let drawn = (
+        prop::collection::vec(-coordinates..coordinates, 8 * 3),
+        prop::collection::vec(-masses..masses, 9),
+    );
+    drawn.prop_map(|(places, masses)| {
+        let mut other = Reconstruction::embedded().expect("the box");
+        for (grid, position) in &mut other.grids {
+            for (axis, value) in position.iter_mut().enumerate() {
+                *value *= 1.0 + places[3 * ((grid - 1) / 2) + axis];
+            }
+        }
+        let off = other.masses.iter_mut().zip(masses);
+        off.for_each(|(mass, off)| *mass *= 1.0 + off);
+        other
+    })
+}
+
+/// Such boxes one after the other, the same in every run, without those whose panels are not convex.
+pub fn other_boxes(coordinates: f64, masses: f64) -> impl Iterator<Item = Reconstruction> {
+    let boxes = other_box(coordinates, masses);
+    let mut runner = TestRunner::new(Config {
+        rng_algorithm: RngAlgorithm::ChaCha,
+        rng_seed: RngSeed::Fixed(12),
+        ..Config::default()
+    });
+    let all = std::iter::repeat_with(move || boxes.new_tree(&mut runner).expect("a box").current());
+    all.filter(|other| {
+        let case = Case::from_reconstruction(2, other.clone()).expect("a case");
+        case.model().is_ok()
     })
 }

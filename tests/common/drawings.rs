@@ -1,12 +1,14 @@
 //! What is written on a figure, read back from its SVG.
 
-/// Letters on a figure, with the box they fill in Noto Sans (regular digits and letters are 0.57 em wide on average).
+/// Letters on a figure, with the box they fill: 0.6 em a letter, as wide as digits and most words are in any of the faces asked for.
 #[derive(Debug, Clone)]
 pub struct Written {
     /// The words.
     pub text: String,
     /// Left, top, right, bottom, px.
     pub bounds: [f64; 4],
+    /// Height of an em, px.
+    pub em: f64,
 }
 
 /// Width and height of a figure, px.
@@ -42,7 +44,7 @@ fn one(element: &str) -> Written {
         });
     let em = attribute(tag, "font-size") / UNITS;
     let (x, y) = (attribute(tag, "x") / UNITS, attribute(tag, "y") / UNITS);
-    let width = 0.57 * em * text.chars().count() as f64;
+    let width = 0.6 * em * text.chars().count() as f64;
     let before = match word(tag, "text-anchor") {
         "start" => 0.0,
         "middle" => 0.5 * width,
@@ -61,7 +63,7 @@ fn one(element: &str) -> Written {
     } else {
         [x - before, y + high, x - before + width, y + low]
     };
-    Written { text, bounds }
+    Written { text, bounds, em }
 }
 
 fn word<'a>(tag: &'a str, name: &str) -> &'a str {

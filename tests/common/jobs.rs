@@ -7,11 +7,11 @@ use corfem::files::deck::{self, BulkData, Task};
 use corfem::files::matrices::write_matrix_market;
 use corfem::files::test_data::{Sensor, TestData};
 use corfem::method::modes::ModeSet;
-use corfem::sparse::WholeShare;
+use corfem::sparse::{SparseMatrix, WholeShare};
 use corfem::torque_box::Case;
 use corfem::torque_box::wing_box::{TEST_GAGE, dynamic_points};
 use corfem::weighted::noise::{Noise, with_noise};
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, Vector3};
 
 use super::whole_models::{seen_by, sensors_at, shear_building};
 
@@ -145,6 +145,35 @@ pub fn building() -> Files {
             unreachable!("stories are stiffness")
         };
         files.push((file, write_matrix_market(share)));
+    }
+    files.push(("job.toml".to_owned(), job));
+    files
+}
+
+/// A structure of one matrix a parameter, p1, p2 …, with a sensor at every row and some modes as its test.
+pub fn of_matrices(parts: &[DMatrix<f64>], mass: &DMatrix<f64>, modes: &ModeSet) -> Files {
+    let text = |matrix: &DMatrix<f64>| {
+        write_matrix_market(&SparseMatrix::of_dense("matrix", matrix).expect("a matrix"))
+    };
+    let rows = 1..=mass.nrows();
+    let sensors = rows
+        .clone()
+        .map(|row| sensor(format!("S{row}"), row, 0, None));
+    let listed: String = rows.map(|row| format!("{row},x\n")).collect();
+    let mut files = vec![
+        ("stiffness.mtx".to_owned(), text(&parts.iter().sum())),
+        ("mass.mtx".to_owned(), text(mass)),
+        ("rows.csv".to_owned(), format!("grid,direction\n{listed}")),
+        (
+            "test.csv".to_owned(),
+            write_csv(&test_data(modes, sensors.collect())),
+        ),
+    ];
+    let mut job = "[model]\nstiffness = \"stiffness.mtx\"\nmass = \"mass.mtx\"\nrows = \"rows.csv\"\n[test]\nfile = \"test.csv\"\n"
+        .to_owned();
+    for (number, part) in (1..).zip(parts) {
+        job += &format!("[[parameter]]\nname = \"p{number}\"\nmatrix = \"p{number}.mtx\"\n");
+        files.push((format!("p{number}.mtx"), text(part)));
     }
     files.push(("job.toml".to_owned(), job));
     files

@@ -42,6 +42,8 @@ pub const NASTRAN_EIGENVALUE: f64 = 1e-6;
 pub const NASTRAN_PRINTED_EIGENVALUE: f64 = 5e-6;
 /// The independent program writes ten digits and steps through some thirty finite-difference iterations.
 pub const EXPECTED_HISTORY: f64 = 1e-5;
+/// The same over the published numbers of iterations, thirty at most and without a tolerance in between.
+pub const EXPECTED_COUNTED: f64 = 1e-6;
 /// The independent program's exact frequencies, ten digits written, another quadrature order of summation.
 pub const EXPECTED_FREQUENCY: f64 = 1e-6;
 /// Twelve-point quadrature of a strongly distorted panel against its closed form.
@@ -136,9 +138,10 @@ pub const GOLDEN_ABSOLUTE_ROOT_PERCENT: f64 = 1e-12;
 /// Two update rules exact to 1e-13 in roots through the same two dozen iterations, each of which multiplies what
 /// differs; the same reason as `GOLDEN_RELATIVE`, on one machine.
 pub const SAME_HISTORY: f64 = 1e-6;
-/// A node line is a zero of displacements whose largest is one, linear on triangles: some ten roundings, times the length over
-/// which the smallest slope in the test passes from one corner to the next.
-pub const NODE_LINE: f64 = 1e-9;
+/// Displacements between sensors, of a largest of one: some ten roundings of bilinear or weighted means.
+pub const INTERPOLATED: f64 = 1e-12;
+/// Generalized stiffness of two covers that are mirror images, relative to its norm: condensation's condition number times round-off.
+pub const MIRRORED_COVERS: f64 = 1e-8;
 /// Roots of a recursion that is accepted as settled: the largest change of its last order, 1e-6, a hundred times over.
 pub const SETTLED_ROOTS: f64 = 1e-4;
 /// Exponent of the entries of a factor by nested dissection, where cells are not powers of two and small parts are not cut: a
@@ -234,6 +237,12 @@ pub const LEAST_OF_THIRTY: usize = 27;
 pub const LEAST_DETECTIONS: usize = 95;
 /// The same for two columns of T named before two sensors: 61 on a chain whose masses are nearly alike.
 pub const LEAST_COLUMNS: usize = 50;
+/// Least boxes of a hundred, unlike the reconstructed one, on which Case 4 names its faulty element: 67 to 73 when first counted.
+pub const LEAST_DETECTED_BOXES: usize = 65;
+/// Least jobs of thirty whose first suspect is the one parameter that is a hundred times too thin: four of five.
+pub const LEAST_FIRST_SUSPECTS: usize = 24;
+/// The same of ten jobs.
+pub const LEAST_FIRST_SUSPECTS_OF_TEN: usize = 8;
 /// Most seeds of a hundred in which 1 % of noise makes a pair of the box low: six, all of the mode that moves a light point
 /// alone, whose errors at heavy ones count most.
 pub const MOST_LOW_PAIRS: usize = 10;

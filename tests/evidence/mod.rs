@@ -1,11 +1,13 @@
 //! The studies behind what `paper/*.md` claims of the method: made-up structures, made-up noise, and the tables that the documents
 //! quote. Nothing here runs a user's structure; the tests beside each room hold the numbers against the goldens.
 
+pub mod accumulation;
 pub mod appendices_expected;
 pub mod certified;
 pub mod claims;
 pub mod coverage;
 pub mod delta_wing_tables;
+pub mod detection;
 pub mod double_double;
 pub mod eigensolutions;
 pub mod fit;
@@ -18,6 +20,7 @@ pub mod next_step;
 pub mod noisy_modes;
 pub mod plant;
 pub mod predictions;
+pub mod published_counts;
 pub mod rates;
 pub mod reading_tables;
 pub mod readings;

@@ -1,7 +1,5 @@
-//! What each reading of the step (12, 13) makes of the paper's own tables.
-//!
-//! The paper's sentence about $\Delta k$ does not decide how it is measured. Its printed gages do: every reading is run on the
-//! same box, as many passes as the paper prints, and compared with the print gage by gage.
+//! What each reading of the step (12, 13) makes of the paper's own tables: every reading is run on the same box, as many passes as the
+//! paper prints, and compared with the print gage by gage. That tells which lies nearest, not which it was.
 
 use corfem::method::outer_loop::{Pass, Settings};
 use corfem::method::step::StepRule;
@@ -77,15 +75,7 @@ impl ReadingColumn {
 
     /// Correlation coefficient of the gage errors with the printed ones.
     pub fn correlation(&self) -> f64 {
-        let about_mean = |errors: Vec<f64>| {
-            let errors = DVector::from_vec(errors);
-            errors.add_scalar(-errors.mean())
-        };
-        let (found, printed) = (
-            about_mean(self.errors().collect()),
-            about_mean(self.published_errors.clone()),
-        );
-        found.dot(&printed) / (found.norm() * printed.norm())
+        correlation(self.errors().collect(), self.published_errors.clone())
     }
 
     /// Root mean square difference of the gage errors from the printed ones, a fraction.
@@ -95,6 +85,16 @@ impl ReadingColumn {
             .map(|(error, printed)| error - printed)
             .collect::<Vec<_>>())
     }
+}
+
+/// Correlation coefficient of two lists.
+pub fn correlation(one: Vec<f64>, other: Vec<f64>) -> f64 {
+    let about_mean = |list: Vec<f64>| {
+        let list = DVector::from_vec(list);
+        list.add_scalar(-list.mean())
+    };
+    let (one, other) = (about_mean(one), about_mean(other));
+    one.dot(&other) / (one.norm() * other.norm())
 }
 
 /// A case by one reading, as many passes as the paper prints.
@@ -158,12 +158,10 @@ pub struct Detection {
     pub factor: f64,
     /// The largest of the others.
     pub next: f64,
-    /// Whether the faulty element is reported.
-    pub is_reported: bool,
 }
 
 /// The element that Case 4 has a hundred times too thin.
-const FAULTY_ELEMENT: usize = 8;
+pub const FAULTY_ELEMENT: usize = 8;
 
 /// Case 4 by one reading.
 ///
@@ -188,9 +186,6 @@ pub fn detection(
         reading,
         factor: factors[faulty],
         next: others.fold(f64::MIN, f64::max),
-        is_reported: result
-            .anomaly
-            .is_some_and(|anomaly| anomaly.parameter == FAULTY_ELEMENT.to_string()),
     })
 }
 

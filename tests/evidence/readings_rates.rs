@@ -57,7 +57,7 @@ pub const SLIPS: [Slip; 9] = {
 };
 
 /// Stiffness matrices of the parameters, the mass, and the rows that sensors read.
-type Built = (Vec<DMatrix<f64>>, DMatrix<f64>, Vec<usize>);
+pub type Built = (Vec<DMatrix<f64>>, DMatrix<f64>, Vec<usize>);
 
 /// A structure by a seed.
 #[derive(Clone, Copy)]
@@ -65,7 +65,7 @@ pub struct Kind {
     /// What it is called.
     pub name: &'static str,
     /// Builds it.
-    build: fn(&mut u64) -> Built,
+    pub build: fn(&mut u64) -> Built,
 }
 
 /// The five structures.
@@ -98,7 +98,8 @@ fn normal(state: &mut u64) -> f64 {
     radius * (std::f64::consts::TAU * uniform(state)).cos()
 }
 
-fn below(state: &mut u64, bound: usize) -> usize {
+/// A whole number below another.
+pub fn below(state: &mut u64, bound: usize) -> usize {
     ((uniform(state) * bound as f64) as usize).min(bound - 1)
 }
 
@@ -332,7 +333,7 @@ fn findings(
 }
 
 /// Shapes of unit largest component, as a test has them.
-fn unit(mut shapes: DMatrix<f64>) -> DMatrix<f64> {
+pub fn unit(mut shapes: DMatrix<f64>) -> DMatrix<f64> {
     for mut shape in shapes.column_iter_mut() {
         let largest = shape.amax();
         shape /= largest;

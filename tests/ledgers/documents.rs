@@ -6,6 +6,7 @@
 //! (with machine and date) or `stored:` (with the file).
 
 use crate::common::golden::Numbers;
+use crate::ledgers::counted_figures::counted_figures;
 use crate::ledgers::tour_figures::{figures, pictures};
 use crate::ledgers::{files_below, specification, tables};
 use corfem::present::figures::diagram::Diagram;
@@ -14,7 +15,7 @@ use std::fs;
 use std::path::Path;
 
 /// README.md, the texts in `paper/` and the tour, by their path.
-fn documents() -> BTreeMap<String, String> {
+pub fn documents() -> BTreeMap<String, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut files = vec![root.join("README.md")];
     files.extend(files_below(&root.join("paper")));
@@ -39,7 +40,8 @@ fn computed_blocks_are_what_the_program_computes() {
     let mut blocks = tables::tables();
     blocks.insert("specification".to_owned(), specification::page());
     let svg = |diagram: Diagram| diagram.svg().expect("it can be drawn");
-    blocks.extend(figures().map(|(number, diagram)| (format!("{FIGURE}{number}"), svg(diagram))));
+    let drawn = figures().into_iter().chain(counted_figures());
+    blocks.extend(drawn.map(|(name, diagram)| (format!("{FIGURE}{name}"), svg(diagram))));
     blocks.extend(pictures());
     let (mut seen, mut wrong) = (BTreeSet::new(), Vec::new());
     for (document, text) in documents() {

@@ -1,7 +1,9 @@
 //! The lists of equations, errata and routes, the rooms, the formulas of the documentation and the numbers in it, held
 //! against the code.
 
+pub mod claims;
 pub mod costs;
+pub mod counted_figures;
 pub mod documents;
 pub mod equations;
 pub mod errata;

@@ -532,6 +532,97 @@ fn readings() -> [(&'static str, String); 5] {
     ]
 }
 
+/// The tables at the published counts and of changes that add in `paper/interpretation.md`, and both rates of detection in
+/// `paper/localization.md`.
+fn step() -> [(&'static str, String); 4] {
+    const RULES: [&str; 5] = ["relative", "own", "matrix", "gage", "half"];
+    let passes = [(1, 1), (1, 2), (2, 1), (2, 2), (3, 1), (3, 2), (3, 3)];
+    let passes = passes.map(|(case, pass)| format!("Case {case} pass {pass}"));
+    let fewer = [
+        (10, 7),
+        (10, 9),
+        (11, 5),
+        (11, 7),
+        (11, 9),
+        (12, 5),
+        (12, 7),
+        (12, 9),
+    ];
+    let fewer = fewer.map(|(table, modes)| format!("Table {table} FEM {modes}"));
+    let columns: Vec<String> = passes.into_iter().chain(fewer).collect();
+    let runs = || columns.iter().map(|name| (name.clone(), name.clone()));
+    let added = (1..=10).map(|number| format!("box {number}"));
+    let added = ["this box".to_owned()].into_iter().chain(added);
+    let ends = ["2 %, masses 5 %", "5 %, masses 10 %", "12 %, masses 30 %"]
+        .into_iter()
+        .flat_map(|size| ["least", "largest"].map(|end| format!("{size}: {end}")));
+    let mut named: Vec<(String, [String; 6])> = Vec::new();
+    for size in ["2 %, masses 5 %", "5 %, masses 10 %", "12 %, masses 30 %"] {
+        let count = |reading| computed("detection_boxes", &format!("{size}, of 300"), reading, 0);
+        let counts = ["gage", "own", "matrix"].map(count);
+        let [gage, own, matrix] = counts;
+        let blank = String::new;
+        named.push((
+            format!("boxes off by {size}"),
+            ["300".to_owned(), gage, own, matrix, blank(), blank()],
+        ));
+    }
+    for structure in ["Chain", "Ring", "Net", "Light oscillators"] {
+        let count = |column| computed("detection_jobs", structure, column, 0);
+        let blank = String::new;
+        let (fit, factor) = (count("Fit first"), count("Factor first"));
+        named.push((
+            structure.to_lowercase(),
+            ["30".to_owned(), blank(), blank(), blank(), fit, factor],
+        ));
+    }
+    [
+        (
+            "counted_gages",
+            table(
+                "difference, points | relative | own | matrix | gage | half",
+                runs().chain([("all".to_owned(), "all".to_owned())]),
+                |run| cells("counted_gages", &run, RULES, 1),
+            ),
+        ),
+        (
+            "counted_sums",
+            table(
+                "error sum, % | printed | relative | own | matrix | gage | half",
+                runs(),
+                |run| {
+                    let printed = match &run[..] {
+                        run if run.starts_with("Table") => {
+                            published("counted_sums", run, "half", 1)
+                        }
+                        run if run.ends_with("pass 1") => "2.5 at most".to_owned(),
+                        _ => "1.5 at most".to_owned(),
+                    };
+                    let mut row = vec![printed];
+                    row.extend(cells("counted_sums", &run, RULES, 1));
+                    row
+                },
+            ),
+        ),
+        (
+            "accumulation",
+            table(
+                "mean difference of 21 frequencies, % | changes add | they multiply",
+                added.chain(ends).map(|row| (row.clone(), row)),
+                |row| cells("accumulation", &row, ["changes add", "they multiply"], 2),
+            ),
+        ),
+        (
+            "detection",
+            table(
+                "a hundred times too thin | of | named by gage | by own | by matrix | first by single fit | first by the paper's factor",
+                named,
+                |counts| counts.to_vec(),
+            ),
+        ),
+    ]
+}
+
 /// The tables of `paper/noise.md`, `preflight.md`, `localization.md` and `weighted.md`.
 fn noise() -> [(&'static str, String); 6] {
     let noise = [
@@ -831,6 +922,7 @@ pub fn tables() -> BTreeMap<String, String> {
     tables.extend(delta_wing());
     tables.extend(fewer_modes());
     tables.extend(readings());
+    tables.extend(step());
     tables.extend(noise());
     tables.extend(analyses());
     tables.extend(real_test());

@@ -80,6 +80,8 @@ fn factor_axis_leaves_room_for_the_numbers() {
             rows,
             limits: Some(limits),
             across,
+            down: "parameter",
+            origin: 1.0,
             decimals: 3,
             published: "",
         };

@@ -1,14 +1,17 @@
-//! What the figures show can be told apart and read: digits on their cells, panels by their kind, three states that coincide, and
-//! node lines only where something is measured.
+//! What the figures show can be told apart and read: digits on their cells, panels by their kind, three states that coincide, colors
+//! only where something is measured, and captions that promise nothing else.
 
-use crate::common::drawings::written;
-use crate::common::tolerances::NODE_LINE;
-use crate::presentation::figures::{all_figures, results};
-use corfem::present::figures::Figure;
+use crate::common::drawings::{words, written};
+use crate::common::jobs::building;
+use crate::presentation::figures::{all_figures, job_figures, results};
+use crate::presentation::subject::chain;
+use crate::readers::job_prepared::prepared;
 use corfem::present::figures::matrices::{HeatMap, draw_by_twos};
 use corfem::present::figures::mode_shapes::DrawnModes;
+use corfem::present::figures::{Figure, report_figures};
 use corfem::present::report::Report;
 use nalgebra::{DMatrix, Vector3};
+use std::collections::BTreeSet;
 
 fn of_kind(what: &str) -> impl Iterator<Item = &'static Figure> {
     all_figures()
@@ -85,51 +88,18 @@ fn digits_have_a_contrast_of_four_and_a_half_on_every_color_of_a_cell() {
 }
 
 #[test]
-fn node_lines_stay_out_of_the_strip_between_root_and_first_rib() {
+fn colors_of_a_shape_stay_out_of_the_strip_between_root_and_first_rib() {
     for result in &results()[..3] {
         let subject = Report::from_case(result).expect("a subject");
         let modes = DrawnModes::from_report(&subject)
             .expect("nine points")
             .expect("places");
-        let normal = modes.normal().expect("a plane");
-        // The first rib has the last three of the nine points.
-        let [rear, _, front] =
-            [6, 7, 8].map(|row: usize| subject.sensors[row].place.expect("a place"));
-        let side = |at: &Vector3<f64>| {
-            (front - rear).cross(&(at - rear)).dot(&normal) / (front - rear).norm()
-        };
-        let outboard = side(&subject.sensors[0].place.expect("a place")).signum();
-        let (mut lines, mut panels) = (0, 0);
-        for mode in &modes.modes {
-            for moved in &mode.moved {
-                let segments = modes.frame.node_lines(&normal, moved);
-                lines += segments.len();
-                assert!(
-                    segments
-                        .as_flattened()
-                        .iter()
-                        .all(|at| outboard * side(at) > -NODE_LINE)
-                );
-            }
-        }
-        for held in &subject.supports {
-            assert!(outboard * side(held) < 0.0);
-            panels += subject
-                .frame
-                .iter()
-                .filter(|panel| panel.contains(held))
-                .count();
-        }
-        assert!(
-            lines > 100 && panels > 0,
-            "there are lines, and panels that have none"
-        );
-    }
-    for figure in of_kind("node_lines") {
-        assert!(
-            figure.caption.contains("left out beside supports"),
-            "{}",
-            figure.caption
+        let is_held =
+            |panel: &&Vec<Vector3<f64>>| panel.iter().any(|at| subject.supports.contains(at));
+        let held = subject.frame.iter().filter(is_held).count();
+        assert_eq!(
+            (held, modes.frame.panels.len()),
+            (2, subject.frame.len() - 2)
         );
     }
 }
@@ -164,26 +134,43 @@ fn membranes_and_shear_panels_differ_in_the_box_taken_apart() {
     assert_eq!(fills.len(), 15);
 }
 
+/// Where three shapes coincide, each of the lines is wider than that above it; colors stand side by side.
 #[test]
 fn each_state_is_seen_where_all_three_lie_on_each_other() {
-    for figure in of_kind("mode_shapes").chain(of_kind("node_lines")) {
-        // Lines of the legend, from the one below to the one above.
-        let lines = figure
-            .svg
-            .split("<polyline")
-            .skip(1)
-            .map(|tag| (attribute(tag, "stroke"), attribute(tag, "stroke-width")));
-        let legend: Vec<(&str, f64)> = lines
-            .take(3)
-            .map(|(color, wide)| (color, wide.parse().expect("a width")))
-            .collect();
-        for pair in legend.windows(2) {
-            assert!(
-                pair[0].0 != pair[1].0 && pair[0].1 >= pair[1].1 + 30.0,
-                "{}: {legend:?}",
-                figure.name
-            );
+    let chain = chain("rod", &[0.9, 1.1, 0.95, 1.0], |row| {
+        (Vector3::new(row as f64, 0.0, 0.0), Vector3::z())
+    });
+    let modes = DrawnModes::from_report(&chain)
+        .expect("fits")
+        .expect("places");
+    let svg = modes.draw("modes", "Modes").expect("drawn");
+    // Lines of the legend, from the one below to the one above.
+    let lines = svg
+        .split("<polyline")
+        .skip(1)
+        .map(|tag| (attribute(tag, "stroke"), attribute(tag, "stroke-width")));
+    let legend: Vec<(&str, f64)> = lines
+        .take(3)
+        .map(|(color, wide)| (color, wide.parse().expect("a width")))
+        .collect();
+    for pair in legend.windows(2) {
+        assert!(
+            pair[0].0 != pair[1].0 && pair[0].1 >= pair[1].1 + 30.0,
+            "{legend:?}"
+        );
+    }
+    for figure in of_kind("mode_shapes").filter(|figure| figure.name.starts_with("case")) {
+        let said = words(&figure.svg);
+        let count = |start: &str| said.iter().filter(|word| word.starts_with(start)).count();
+        let modes = count("Mode ");
+        assert!((1..9).contains(&modes), "{}: {modes} differ", figure.name);
+        for state in ["test: ", "first: ", "corrected: "] {
+            assert_eq!(count(state), modes);
         }
+        assert!(
+            said.iter()
+                .any(|word| word.contains("Blue moves along +z, red along −z"))
+        );
     }
 }
 
@@ -215,4 +202,43 @@ fn criteria_without_mass_say_so_beside_those_with_it() {
             "its mass stands in no subject"
         );
     }
+}
+
+/// What a caption says of a drawing, and what in the drawing keeps the word: a color, or words.
+const PROMISES: [(&str, &str); 11] = [
+    ("bounds in blue", "stroke=\"#0072B2\""),
+    ("bars are one standard deviation", "stroke=\"#E69F00\""),
+    (
+        "an inner loop steps",
+        "accepted iterations of the inner loop",
+    ),
+    ("every one solved exactly", "\niterations\n"),
+    ("its sensors named", "fill=\"#D55E00\""),
+    ("its supports black", "\nheld\n"),
+    ("its grids numbered", "\ngrid\n"),
+    ("cross-orthogonality", "Cross-orthogonality before"),
+    ("and of the error sum", "\nError sum\n"),
+    ("mode shapes of the test", "Mode "),
+    ("its elements numbered", "\n1 S"),
+];
+
+#[test]
+fn captions_promise_nothing_that_is_not_drawn() {
+    // Sensors of matrices are joined by lines.
+    let report = Report::from_job(&prepared(&building()), None).expect("a report");
+    assert_eq!(report.frame.len() + 1, report.sensors.len());
+    let chain = chain("rod", &[0.9, 1.1, 0.95, 1.0], |row| {
+        (Vector3::new(row as f64, 0.0, 0.0), Vector3::z())
+    });
+    let others = report_figures(&chain).expect("drawn");
+    let mut kept = BTreeSet::new();
+    for Figure { name, caption, svg } in all_figures().iter().chain(job_figures()).chain(&others) {
+        for (words, drawn) in PROMISES {
+            if caption.contains(words) {
+                assert!(svg.contains(drawn), "{name} promises {words:?}: {caption}");
+                kept.insert(words);
+            }
+        }
+    }
+    assert_eq!(kept.len(), PROMISES.len(), "{kept:?}");
 }

@@ -125,6 +125,8 @@ fn factors_with_bounds_deviations_and_remarks() {
         rows,
         limits,
         across: "factor".into(),
+        down: "parameter",
+        origin: 1.0,
         decimals: 2,
         published: "right",
     };
@@ -200,6 +202,11 @@ fn histories_with_long_and_short_passes() {
         pass(4, 2, [1e-3, 1e-12], Some(1e-6), true),
     ];
     assert_golden("drawing_errors_far", &draw(&far), Numbers::DRAWN);
+    // What is less than a thousandth of a percent stands on the foot of the axis, which says so.
+    let said = words(&draw(&far));
+    assert!(said.iter().any(|word| word == "≤ 0.001"), "{said:?}");
+    let is_long = |word: &&String| word.contains("0.000") || word.contains("e-");
+    assert_eq!(said.iter().find(is_long), None);
     assert_golden(
         "drawing_errors_short",
         &draw(&[pass(0, 1, [0.2, 0.1], None, true)]),

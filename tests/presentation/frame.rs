@@ -1,7 +1,7 @@
-//! A wire frame: how it moves between its sensors, and where it does not move at all.
+//! A wire frame: how it moves between its sensors, and the parts of its panels.
 
 use super::subject::chain;
-use crate::common::tolerances::NODE_LINE;
+use crate::common::tolerances::INTERPOLATED;
 use corfem::present::figures::frame::Frame;
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -30,29 +30,30 @@ proptest! {
                 Some(row) => prop_assert_eq!(motion.z, unit[row]),
                 None => {
                     let (low, high) = unit.iter().fold((f64::MAX, f64::MIN), |(l, h), &u| (l.min(u), h.max(u)));
-                    prop_assert!((low - NODE_LINE..=high + NODE_LINE).contains(&motion.z));
+                    prop_assert!((low - INTERPOLATED..=high + INTERPOLATED).contains(&motion.z));
                 }
             }
         }
     }
 
-    /// A plane that rises along a line of panels has its node line where it passes zero, and a held edge ends one.
+    /// Parts fill their panels, and each has the displacement of its middle: a plane's own.
     #[test]
-    fn node_lines_lie_where_the_displacement_vanishes(zero in 0.1..2.9_f64, tilt in -0.05..0.05_f64) {
+    fn parts_fill_the_panels_and_move_as_a_plane_does(zero in 0.1..2.9_f64, tilt in -0.05..0.05_f64) {
         let mut subject = chain("rod", &[1.0; 8], |row| (Vector3::new((row / 2) as f64, (row % 2) as f64, 0.0), Vector3::z()));
         let at = |x: f64, y: f64| Vector3::new(x, y, 0.0);
         subject.frame = (0..3).map(f64::from).map(|x| vec![at(x, 0.0), at(x, 1.0), at(x + 1.0, 1.0), at(x + 1.0, 0.0)]).collect();
         let frame = Frame::from_report(&subject);
-        let plane = |x: f64, y: f64| x - zero + tilt * (y - 0.5);
-        let shape: Vec<f64> = (0..8).map(|row| plane((row / 2) as f64, (row % 2) as f64)).collect();
-        prop_assume!(shape.iter().all(|w| w.abs() > 1e-6));
-        let lines = frame.node_lines(&Vector3::z(), &frame.moved(&shape, None));
-        prop_assert!(!lines.is_empty());
-        let long: f64 = lines.iter().map(|[a, b]| (a - b).norm()).sum();
-        prop_assert!((long - (1.0 + tilt * tilt).sqrt()).abs() < NODE_LINE, "{long}");
-        for end in lines.as_flattened() {
-            prop_assert!(plane(end.x, end.y).abs() < NODE_LINE);
+        let plane = |at: Vector3<f64>| at.x - zero + tilt * (at.y - 0.5);
+        let shape: Vec<f64> = (0..8).map(|row| plane(at((row / 2) as f64, (row % 2) as f64))).collect();
+        let largest = shape.iter().fold(0.0, |most: f64, w| most.max(w.abs()));
+        let parts = frame.parts(&Vector3::z(), &frame.moved(&shape, None));
+        let mut area = 0.0;
+        for (corners, motion) in &parts {
+            let middle = corners.iter().sum::<Vector3<f64>>() / corners.len() as f64;
+            prop_assert!((motion - plane(middle) / largest).abs() < INTERPOLATED);
+            area += 0.5 * (corners[2] - corners[0]).cross(&(corners[3] - corners[1])).norm();
         }
+        prop_assert!((area - 3.0).abs() < INTERPOLATED, "{area}");
     }
 }
 
@@ -82,15 +83,15 @@ fn a_place_near_a_sensor_moves_as_it_does_and_one_twice_as_far_has_a_sixteenth_o
     );
     let moved = frame.moved(&[2.0, -1.0], None);
     // At one and at two lengths from one and minus one half: 16 to 1.
-    assert!((moved[2].z - (16.0 - 0.5) / 17.0).abs() < NODE_LINE);
-    assert!((moved[3].z - 1.0).abs() < NODE_LINE);
+    assert!((moved[2].z - (16.0 - 0.5) / 17.0).abs() < INTERPOLATED);
+    assert!((moved[3].z - 1.0).abs() < INTERPOLATED);
     // The farthest that a place can be, too.
     let far = of_places(
         vec![at(1.0), at(3.0), at(0.0)],
         &[Vector3::z(), Vector3::z()],
         Vec::new(),
     );
-    assert!((far.moved(&[2.0, -1.0], None)[2].z - (81.0 - 0.5) / 82.0).abs() < NODE_LINE);
+    assert!((far.moved(&[2.0, -1.0], None)[2].z - (81.0 - 0.5) / 82.0).abs() < INTERPOLATED);
     let unknown = of_places(vec![at(0.0), at(1.0)], &[], Vec::new());
     assert_eq!(unknown.moved(&[1.0], None), [Vector3::zeros(); 2]);
 }
@@ -109,35 +110,6 @@ fn a_grid_moves_as_the_whole_model_says_but_along_its_sensor_as_measured() {
         -Vector3::z(),
         "as the sensor, which is the only one"
     );
-}
-
-/// However the corners are numbered, and on either side.
-#[test]
-fn a_node_line_runs_from_a_corner_at_rest_to_the_edge_across() {
-    let corners = [
-        Vector3::new(0.0, 0.0, 0.0),
-        Vector3::new(2.0, 0.0, 0.0),
-        Vector3::new(0.0, 2.0, 0.0),
-    ];
-    for first in 0..3 {
-        for sign in [1.0, -1.0] {
-            // Zero at the origin; the edge across from it has its zero at a third of its length.
-            let heights = [0.0, sign, -2.0 * sign].map(|height| Vector3::new(0.0, 0.0, height));
-            let panel: Vec<Vec<usize>> = vec![(0..3).map(|row| (first + row) % 3).collect()];
-            let frame = of_places(corners.to_vec(), &[], panel);
-            let lines = frame.node_lines(&Vector3::z(), &heights);
-            let long: f64 = lines.iter().map(|[a, b]| (a - b).norm()).sum();
-            let zero: Vector3<f64> = Vector3::new(4.0, 2.0, 0.0) / 3.0;
-            assert!((long - zero.norm()).abs() < NODE_LINE, "{lines:?}");
-            assert!(
-                lines
-                    .as_flattened()
-                    .iter()
-                    .all(|end| end.cross(&zero).norm() < NODE_LINE),
-                "{lines:?}"
-            );
-        }
-    }
 }
 
 #[test]

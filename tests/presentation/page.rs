@@ -82,9 +82,8 @@ fn page_holds_every_table_number_by_number() {
             for cell in &row.cells {
                 let expected = match cell {
                     Cell::Blank => "<td>".to_owned(),
-                    Cell::Text(text) | Cell::Sentence(text) | Cell::Printed(text) => {
-                        format!("<td>{text}")
-                    }
+                    Cell::Text(text) | Cell::Printed(text) => format!("<td>{text}"),
+                    Cell::Sentence(text) => format!("<td class=\"sentence\">{text}"),
                     Cell::Number {
                         computed,
                         published,

@@ -201,6 +201,10 @@ fn numbers_are_written_with_their_digits_and_never_as_minus_zero() {
         (Digits::Significant(4), 99.996, "100.0"),
         (Digits::Significant(4), 2658.4, "2658"),
         (Digits::Significant(3), 0.0, "0.00"),
+        (Digits::Significant(3), 1.5e-5, "0.0000150"),
+        (Digits::Significant(3), 7.3e-19, "7.30e-19"),
+        (Digits::Significant(3), 2.5e6, "2500000"),
+        (Digits::Significant(3), 2.5e7, "2.50e7"),
         (Digits::Scientific(1), -0.00123, "-1.2e-3"),
     ] {
         assert_eq!(digits.write(value), written);

@@ -195,6 +195,7 @@ fn a_chain_has_all_its_figures_with_names_from_a_users_file() {
         names(&figures),
         [
             "structure",
+            "frequencies",
             "mode_shapes",
             "errors",
             "factors",
@@ -203,7 +204,8 @@ fn a_chain_has_all_its_figures_with_names_from_a_users_file() {
         ]
         .map(|what| format!("chain_{what}"))
     );
-    let page = report_page(&subject, &[], "corfem correlate <job>").expect("a page");
+    let page =
+        report_page(&subject, &[], "corfem correlate <job>", "[model] # <&>\n").expect("a page");
     assert!(is_well_formed(&page));
     for parameter in &subject.parameters {
         assert!(
@@ -213,6 +215,7 @@ fn a_chain_has_all_its_figures_with_names_from_a_users_file() {
     }
     assert!(
         page.contains("<code>corfem correlate &lt;job&gt;</code>")
+            && page.contains("<code>[model] # &lt;&amp;&gt;\n</code>")
             && page.contains("<h1>rod &lt;&quot;&amp;")
     );
 }
@@ -221,12 +224,6 @@ fn a_chain_has_all_its_figures_with_names_from_a_users_file() {
 fn the_wing_is_a_spatial_frame_with_its_grids_sensors_and_modes() {
     let figures = report_figures(&WING).expect("drawn");
     check_figures(&WING, &figures);
-    assert!(
-        !names(&figures)
-            .iter()
-            .any(|name| name.contains("node_lines")),
-        "it lies in no plane"
-    );
     let words: Vec<String> = written(&figures[0].svg)
         .into_iter()
         .map(|word| word.text)
@@ -235,7 +232,7 @@ fn the_wing_is_a_spatial_frame_with_its_grids_sensors_and_modes() {
         assert!(words.contains(&label.to_string()), "{label}");
     }
     assert!(words.iter().any(|word| word.contains("depth drawn")));
-    let page = report_page(&WING, &[], "corfem").expect("a page");
+    let page = report_page(&WING, &[], "corfem", "").expect("a page");
     assert!(is_well_formed(&page) && page.contains("MAC is not mass-weighted"));
 }
 
@@ -360,7 +357,8 @@ fn more_than_twelve_modes_are_drawn_in_several_figures() {
     let mut subject = chain("rod", &[0.9, 1.1, 0.95, 1.0], |row| {
         (Vector3::new(row as f64, 0.0, 0.0), Vector3::z())
     });
-    let places: Vec<usize> = (0..14).map(|mode| mode % 3).collect();
+    // Of three shapes at least one is farther off than their mean.
+    let places: Vec<usize> = (0..45).map(|mode| mode % 3).collect();
     subject.test = ModeSet::new(
         subject.test.omega_squared().select_rows(&places),
         subject.test.shapes().select_columns(&places),
@@ -410,7 +408,7 @@ proptest! {
         let figures = report_figures(&subject).expect("drawn");
         check_figures(&subject, &figures);
         prop_assert_eq!(names(&figures).contains(&"chain_mode_shapes"), !is_rotation);
-        prop_assert!(is_well_formed(&report_page(&subject, &[], &name).expect("a page")));
+        prop_assert!(is_well_formed(&report_page(&subject, &[], &name, &name).expect("a page")));
         prop_assert!(text(&subject_tables(&subject)).lines().all(|line| line.chars().count() <= WIDTH));
     }
 }

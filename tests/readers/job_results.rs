@@ -81,7 +81,7 @@ fn several_starts_name_their_minima_in_every_output() {
     let misfit = found.misfit().expect("a misfit").chi_squared;
     let chi_squared = minima[0]["chi_squared"].as_f64().expect("a number");
     assert!((chi_squared / misfit - 1.0).abs() < MATRIX_ROUND_OFF);
-    let page = report_page(&report, &[table], "corfem correlate job.toml").expect("a page");
+    let page = report_page(&report, &[table], "corfem correlate job.toml", "").expect("a page");
     assert!(page.contains("Minima that noise allows"));
     let one = ran(&rods());
     let report = Report::from_job(&one.loaded, Some(&one)).expect("a report");

@@ -146,7 +146,7 @@ fn corrected(path: &std::path::Path) -> Result<bool, PresentError> {
     ];
     assert!(!render::csv(&tables).is_empty() && !render::text(&tables).is_empty());
     json::own_document(json::report(&report)?)?;
-    report_page(&report, &tables[4..], "corfem")?;
+    report_page(&report, &tables[4..], "corfem", "")?;
     loaded.corrected_deck(&result.factors)?;
     Ok(result
         .factors

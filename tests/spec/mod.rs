@@ -61,6 +61,7 @@ pub mod s3_torque_box;
 pub mod s3_torque_box_data;
 pub mod s3_torque_box_nastran95;
 pub mod s4_cases_expected;
+pub mod s4_covers;
 pub mod s4_errata_tables;
 pub mod s4_fewer_modes;
 pub mod s4_readings;

@@ -61,7 +61,7 @@ fn random_starts_are_log_uniform_from_half_to_twice_the_first_factors() {
 /// Two masses on two springs in a row, by their frequencies: with $k_1 k_2$ and $k_1 + 2 k_2$ known, springs $(2 k_2, k_1/2)$ have the same.
 #[test]
 fn all_minima_that_noise_allows_are_named_with_their_starts() {
-    let spring = |matrix| ParameterMatrix::Stiffness(matrix);
+    let spring = ParameterMatrix::Stiffness;
     let first = DynamicModel {
         stiffness: dmatrix![2.0, -1.0; -1.0, 1.0],
         mass: DMatrix::identity(2, 2),

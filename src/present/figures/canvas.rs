@@ -5,7 +5,7 @@
 
 pub(super) use super::chart::{axes, chart, placed};
 pub(super) use super::colors::{
-    BLUE, GRAY, INK, ORANGE, PALE, SILVER, SKY, VERMILION, between, legible_on,
+    BLUE, GRAY, INK, ORANGE, PALE, SILVER, SKY, VERMILION, between, legible_on, shade,
 };
 pub(super) use crate::present::PresentError;
 use plotters::coord::Shift;
@@ -26,7 +26,7 @@ const FACE: &str = "Noto Sans, Arial, Helvetica, sans-serif";
 const LETTER_SCALE: f64 = 1.24;
 
 pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-pub(super) type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
+pub(super) type Drawn<T = ()> = Result<T, DrawingAreaErrorKind<std::io::Error>>;
 /// A place on a figure: right, down, px.
 pub(super) type Place = (f64, f64);
 
@@ -261,7 +261,7 @@ pub(super) fn name_room<'a>(names: impl Iterator<Item = &'a String>, least: f64)
         .map(|name| shortened(name).chars().count())
         .max()
         .unwrap_or(0);
-    least.max(34.0 + 6.8 * longest as f64)
+    least.max(34.0 + 7.8 * longest as f64)
 }
 
 /// A name as long as a figure has room for.

@@ -9,6 +9,9 @@ use crate::present::report::Report;
 use crate::present::tables::unlimited::unlimited_factors;
 use crate::torque_box::{CASES, Case, CaseResult};
 
+/// The case that the box is shown with before and after its correlation, and whose first pass can be played with.
+pub(in crate::present) const SHOWN: usize = 2;
+
 /// Every figure of the cases, in the order of the report: the box, then each case.
 ///
 /// # Errors
@@ -34,6 +37,13 @@ pub fn case_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError>
             caption,
             box_elements::draw(case)?,
         ));
+    }
+    if let Some(shown) = results.iter().find(|result| result.case.number == SHOWN) {
+        let caption = format!(
+            "Case {SHOWN}: how far every gage is off before and after, the box taken apart."
+        );
+        let svg = box_elements::draw_gages(shown)?;
+        figures.push(Figure::new("box_gages", caption, svg));
     }
     let cases: Vec<Case> = results.iter().map(|result| result.case.clone()).collect();
     let caption = "Cases 1 to 4: cover gages of the test configuration (GVT) and of each first model (the paper's Figure 4); root at \
@@ -61,7 +71,7 @@ fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), 
             .clone();
         let number = match (what, case) {
             ("errors", 1) => 5,
-            ("node_lines", 1) => 6,
+            ("mode_shapes", 1) => 6,
             ("errors", 2) => 7,
             ("errors", 3) => 8,
             _ => return Some(figure),
@@ -77,6 +87,8 @@ fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), 
             rows: unlimited_factors(result),
             limits: Some(result.case.settings.inner.factor_range),
             across: "unlimited stiffness change factor, first iteration".to_owned(),
+            down: "element",
+            origin: 1.0,
             decimals: 1,
             published: "published (“about 60”)",
         };
@@ -89,11 +101,13 @@ fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), 
         figures.extend(kept("derivatives"));
         return Ok(());
     }
-    figures.extend(kept("errors"));
-    figures.extend(
-        ["node_lines", "mode_shapes", "agreement", "derivatives"]
-            .into_iter()
-            .filter_map(kept),
-    );
+    let whats = [
+        "frequencies",
+        "errors",
+        "mode_shapes",
+        "agreement",
+        "derivatives",
+    ];
+    figures.extend(whats.into_iter().filter_map(kept));
     Ok(())
 }

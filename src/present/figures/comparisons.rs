@@ -16,7 +16,8 @@ pub fn comparison_figures(
     runs: &[FewerModesRun],
 ) -> Result<Vec<Figure>, PresentError> {
     let title = format!("Case {case}: errors with fewer modes");
-    let note = "RMS error in percent after one pass, by exact solution; each matrix has a scale of its own.";
+    let note =
+        "RMS error in percent after one pass, solved exactly; every matrix has its own scale.";
     let truncated = draw_by_twos("truncation", &title, &truncation(runs), &[note])?;
     let caption = format!(
         "Case {case} with fewer modes: what is left of the errors after the first pass, for every number of test modes and of \

@@ -1,7 +1,7 @@
 //! Diagrams: a few series over two axes.
 
 use super::canvas::{
-    Area, BLUE, Dash, Drawn, END, Form, GRAY, INK, Mark, ORANGE, Pen, PresentError, VERMILION,
+    Area, BLUE, Dash, Drawn, END, Form, GRAY, INK, Mark, ORANGE, Pen, PresentError, SKY, VERMILION,
     axes, chart, line, mark, name_upright, placed, rectangle, svg, write,
 };
 use super::chart::Chart;
@@ -64,7 +64,7 @@ pub struct Diagram {
 const HEIGHT: f64 = 340.0;
 /// Left, right, top and bottom, px.
 const MARGINS: [f64; 4] = [72.0, 20.0, 10.0, 48.0];
-const COLORS: [RGBColor; 4] = [BLUE, VERMILION, ORANGE, GRAY];
+const COLORS: [RGBColor; 6] = [BLUE, VERMILION, ORANGE, GRAY, SKY, INK];
 /// Half the width of a bar, px.
 const HALF_BAR: f64 = 9.0;
 

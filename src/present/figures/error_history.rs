@@ -67,10 +67,10 @@ const SERIES: [Series; 3] = [
     ("shape error", |e| e.shape, BLUE, Form::Circle, Dash::Dotted),
 ];
 
-/// Most labels of the iterations: more would touch one another.
-const MOST_LABELS: usize = 32;
 /// Powers of ten that the error axis begins and ends with at most, percent.
-const DECADES: (i32, i32) = (-6, 4);
+const DECADES: (i32, i32) = (-3, 4);
+/// The foot of the longest axis, percent: what is less is drawn on it.
+const FOOT: f64 = 1e-3;
 /// Decades up to which an axis has ticks at two and five times their powers of ten.
 const FEW_DECADES: f64 = 3.1;
 /// Margins of the plot: left, right, top, bottom, px.
@@ -120,13 +120,15 @@ fn ticks(passes: &[PassHistory]) -> (f64, f64, Vec<f64>) {
 fn draw_on(area: &Area, passes: &[PassHistory]) -> Drawn {
     let last = passes.last().map_or(0, PassHistory::to);
     let (low, high, ticks) = ticks(passes);
+    // As many as there is room for.
+    let most_labels = (660.0 / (10.0 + 7.8 * last.to_string().len() as f64)) as usize;
     let range = (low..high).log_scale().with_key_points(ticks);
     let mut chart = chart(area, MARGINS).build_cartesian_2d(-0.4..last as f64 + 0.4, range)?;
     axes(&mut chart)
         .disable_x_mesh()
-        .x_labels((last + 1).min(MOST_LABELS))
+        .x_labels((last + 1).min(most_labels))
         .x_label_formatter(&|x| format!("{x:.0}"))
-        .y_label_formatter(&|y| format!("{y}"))
+        .y_label_formatter(&|y| format!("{}{y}", if *y == FOOT { "≤ " } else { "" }))
         .x_desc(if passes.iter().any(|pass| pass.is_inner) {
             "accepted iterations of the inner loop"
         } else {

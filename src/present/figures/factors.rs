@@ -10,6 +10,9 @@ const ROW: f64 = 24.0;
 /// Most steps of the axis.
 const STEPS: f64 = 7.0;
 
+/// Where a row began.
+const OPEN: Mark = Mark(Form::Circle, 4.0, Some(WHITE), Pen(INK, 1.4, Dash::Solid));
+
 /// A parameter's factor.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct DrawnFactor {
@@ -17,6 +20,8 @@ pub struct DrawnFactor {
     pub name: String,
     /// Its factor.
     pub value: f64,
+    /// Where it began, if that is not the origin.
+    pub from: Option<f64>,
     /// Standard deviation of it.
     pub deviation: Option<f64>,
     /// The published factor.
@@ -36,6 +41,10 @@ pub struct Factors {
     pub limits: Option<Bounds>,
     /// Name of the horizontal axis.
     pub across: String,
+    /// What the rows are.
+    pub down: &'static str,
+    /// What every row is compared with.
+    pub origin: f64,
     /// Decimals of the numbers.
     pub decimals: usize,
     /// What the published ones are.
@@ -49,6 +58,15 @@ impl Factors {
         svg(name, title, height, |area| self.draw_on(area))
     }
 
+    /// Whether a bound of a row lies on the axis.
+    pub(super) fn draws_bounds(&self) -> bool {
+        let [low, high, _] = self.bounds();
+        let bounds = self.rows.iter().filter_map(|row| row.bounds);
+        bounds
+            .flat_map(|range| [range.lower, range.upper])
+            .any(|end| (low..=high).contains(&end))
+    }
+
     /// Steps of one, two or five times a power of ten that hold everything with room for its number: lower end, upper end, step.
     fn bounds(&self) -> [f64; 3] {
         let each = |row: &DrawnFactor| {
@@ -57,6 +75,7 @@ impl Factors {
                 row.value - deviation,
                 row.value + deviation,
                 row.published.unwrap_or(row.value),
+                row.from.unwrap_or(row.value),
             ]
         };
         let values = || {
@@ -65,12 +84,17 @@ impl Factors {
                 .flat_map(each)
                 .filter(|value| value.is_finite())
         };
-        let least = values().fold(if self.limits.is_some() { 0.0 } else { 1.0 }, f64::min);
-        let most = values().fold(self.limits.map_or(1.0, |limits| limits.upper), f64::max);
+        let least = values().fold(self.limits.map_or(self.origin, |_| 0.0), f64::min);
+        let most = values().fold(
+            self.limits.map_or(self.origin, |limits| limits.upper),
+            f64::max,
+        );
         let rough = (most - least).max(0.02) / STEPS;
-        // A remark stands behind its number.
-        let has_remark = self.limits.is_none() && self.rows.iter().any(|row| row.remark.is_some());
-        let room = if has_remark { 1.4 } else { 0.4 };
+        // A deviation and a remark stand behind their number.
+        let has = |what: fn(&DrawnFactor) -> bool| f64::from(self.rows.iter().any(what));
+        let words =
+            0.9 + 1.5 * has(|row| row.deviation.is_some()) + 1.2 * has(|row| row.remark.is_some());
+        let room = self.limits.map_or(words, |_| 0.4);
         let ten = 10f64.powf(rough.log10().floor());
         let step = [1.0, 2.0, 5.0]
             .into_iter()
@@ -104,8 +128,8 @@ impl Factors {
             .x_desc(&self.across)
             .draw()?;
         let place = |factor: f64, row: f64| placed(&chart, factor, row);
-        name_upright(area, "parameter", top + 0.5 * ROW * count)?;
-        let mut beyond = place(1.0, 0.0).0;
+        name_upright(area, self.down, top + 0.5 * ROW * count)?;
+        let mut beyond = 0.0;
         if let Some(limits) = self.limits {
             let (upper, lower) = (place(limits.lower, 0.0), place(limits.upper, count));
             rectangle(area, upper, lower, between(WHITE, SKY, 0.6))?;
@@ -122,11 +146,8 @@ impl Factors {
             )?;
             beyond = lower.0;
         } else {
-            line(
-                area,
-                &[place(1.0, 0.0), place(1.0, count)],
-                Pen::solid(GRAY, 1.0),
-            )?;
+            let origin = [place(self.origin, 0.0), place(self.origin, count)];
+            line(area, &origin, Pen::solid(GRAY, 1.0))?;
         }
         let diamond = Mark(Form::Diamond, 5.0, Some(ORANGE), Pen::solid(INK, 0.9));
         for (row, factor) in self.rows.iter().enumerate() {
@@ -142,39 +163,43 @@ impl Factors {
                 INK
             };
             let tip = place(factor.value, row);
-            for end in factor
+            let ends = factor
                 .bounds
                 .iter()
-                .flat_map(|range| [range.lower, range.upper])
-            {
-                let (x, y) = place(end.min(high), row);
-                line(
-                    area,
-                    &[(x, y - 7.0), (x, y + 7.0)],
-                    Pen::solid(BLUE, if end > high { 0.0 } else { 1.6 }),
-                )?;
+                .flat_map(|range| [range.lower, range.upper]);
+            for end in ends.filter(|end| (low..=high).contains(end)) {
+                let (x, y) = place(end, row);
+                line(area, &[(x, y - 7.0), (x, y + 7.0)], Pen::solid(BLUE, 1.6))?;
             }
-            line(area, &[place(1.0, row), tip], Pen::solid(color, 2.0))?;
+            let from = place(factor.from.unwrap_or(self.origin), row);
+            line(area, &[from, tip], Pen::solid(color, 2.0))?;
+            if factor.from.is_some() {
+                mark(area, from, OPEN)?;
+            }
             if let Some(published) = factor.published {
                 mark(area, place(published, row), diamond)?;
             }
-            mark(
-                area,
-                tip,
-                Mark(Form::Circle, 4.0, Some(color), Pen::solid(color, 1.0)),
-            )?;
-            let right = place(factor.published.unwrap_or(factor.value), row).0;
-            let mut ends = [tip.0.min(right), tip.0.max(right)];
-            if let Some(deviation) = factor.deviation.filter(|deviation| deviation.is_finite()) {
+            let mut ends = [tip.0, tip.0];
+            let deviation = factor.deviation.filter(|deviation| deviation.is_finite());
+            if let Some(deviation) = deviation {
                 let bar = [-deviation, deviation].map(|part| place(factor.value + part, row));
-                ends = [ends[0].min(bar[0].0), ends[1].max(bar[1].0)];
+                ends = bar.map(|(x, _)| x);
                 line(area, &bar, Pen::solid(ORANGE, 2.4))?;
                 for (x, y) in bar {
                     line(area, &[(x, y - 5.0), (x, y + 5.0)], Pen::solid(ORANGE, 2.0))?;
                 }
             }
-            // The number is next to its mark, away from the limits; a remark names what stands out.
-            let number = signed(Digits::Fixed(self.decimals).write(factor.value));
+            // The estimate lies over its bar.
+            mark(
+                area,
+                tip,
+                Mark(Form::Circle, 4.0, Some(color), Pen::solid(color, 1.0)),
+            )?;
+            // The number is next to its mark, on the side that the right factor is not on; a remark names what stands out.
+            let written = |value: f64| signed(Digits::Fixed(self.decimals).write(value));
+            let around = deviation.map(|deviation| format!(" ± {}", written(deviation)));
+            let number = written(factor.value) + &around.unwrap_or_default();
+            let other = factor.published.or(factor.from).unwrap_or(self.origin);
             let (text, at, letters) = match factor.remark {
                 Some(remark) if self.limits.is_some() => (
                     format!("{remark}: {number}"),
@@ -185,13 +210,29 @@ impl Factors {
                     let text = format!("{number} {}", remark.unwrap_or_default())
                         .trim_end()
                         .to_owned();
-                    match factor.value < 1.0 {
+                    match factor.value < other {
                         true => (text, (ends[0] - 10.0, tip.1), END),
                         false => (text, (ends[1].max(beyond) + 10.0, tip.1), START),
                     }
                 }
             };
+            // The line to the origin may pass behind it.
+            if self.limits.is_none() {
+                let wide = 0.6 * letters.height * text.chars().count() as f64;
+                let right = if factor.value < other {
+                    at.0
+                } else {
+                    at.0 + wide
+                };
+                rectangle(area, (right - wide, at.1 - 7.0), (right, at.1 + 7.0), WHITE)?;
+            }
             write(area, &text, at, Letters { color, ..letters })?;
+        }
+        if self.rows.iter().any(|factor| factor.from.is_some()) {
+            let (x, y) = place(high, 0.0);
+            marked(area, (x - 230.0, y - 13.0), OPEN, "first model")?;
+            let closed = Mark(Form::Circle, 4.0, Some(INK), Pen::solid(INK, 1.0));
+            marked(area, (x - 120.0, y - 13.0), closed, "corrected")?;
         }
         if self.rows.iter().any(|factor| factor.published.is_some()) {
             let (x, y) = place(high, 0.0);

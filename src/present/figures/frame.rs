@@ -5,9 +5,6 @@ use crate::present::report::Report;
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// A line from one place to another.
-pub type Segment = [Vector3<f64>; 2];
-
 /// Sensors of one place: rows of the shapes with their directions.
 type Sensors = Vec<(usize, Vector3<f64>)>;
 
@@ -163,14 +160,40 @@ impl Frame {
             .collect()
     }
 
-    /// Where the displacement along an axis vanishes on the panels: bilinear between four corners, drawn by triangles.
-    pub fn node_lines(&self, along: &Vector3<f64>, moved: &[Vector3<f64>]) -> Vec<Segment> {
+    /// The panels in parts, each with its mean displacement along an axis; those above and before others last.
+    pub fn parts(
+        &self,
+        along: &Vector3<f64>,
+        moved: &[Vector3<f64>],
+    ) -> Vec<(Vec<Vector3<f64>>, f64)> {
+        // As many as a figure has room for.
+        let parts = (300.0 / self.panels.len() as f64)
+            .sqrt()
+            .round()
+            .clamp(1.0, 6.0) as usize;
         let corner = |&node: &usize| (self.nodes[node], moved[node].dot(along));
-        let cells = self
+        let panels = self
             .panels
             .iter()
-            .flat_map(|panel| cells(panel.iter().map(corner).collect()));
-        cells.flat_map(|cell| zero_lines(&cell)).collect()
+            .map(|panel| panel.iter().map(corner).collect());
+        let mut panels: Vec<(f64, Vec<Corner>)> = panels
+            .map(|corners: Vec<Corner>| {
+                let middle = middle(&corners).0;
+                (10.0 * middle.z + middle.x - middle.y, corners)
+            })
+            .collect();
+        panels.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+        let cells = panels
+            .into_iter()
+            .flat_map(|(_, corners)| cells(corners, parts));
+        cells
+            .map(|cell| {
+                (
+                    cell.iter().map(|corner| corner.0).collect(),
+                    middle(&cell).1,
+                )
+            })
+            .collect()
     }
 }
 
@@ -185,14 +208,19 @@ fn mean(corners: &[(f64, Corner)]) -> Corner {
         })
 }
 
-/// A panel of four corners in parts, by its bilinear map; any other whole.
-fn cells(corners: Vec<Corner>) -> Vec<Vec<Corner>> {
-    const PARTS: usize = 12;
+fn middle(corners: &[Corner]) -> Corner {
+    let share = 1.0 / corners.len() as f64;
+    let all: Vec<(f64, Corner)> = corners.iter().map(|&corner| (share, corner)).collect();
+    mean(&all)
+}
+
+/// A panel of four corners in so many parts a side, by its bilinear map; any other whole.
+fn cells(corners: Vec<Corner>, parts: usize) -> Vec<Vec<Corner>> {
     let [a, b, c, d] = corners[..] else {
         return vec![corners];
     };
     let at = |i: usize, j: usize| {
-        let (s, t) = (i as f64 / PARTS as f64, j as f64 / PARTS as f64);
+        let (s, t) = (i as f64 / parts as f64, j as f64 / parts as f64);
         mean(&[
             ((1.0 - s) * (1.0 - t), a),
             (s * (1.0 - t), b),
@@ -200,40 +228,9 @@ fn cells(corners: Vec<Corner>) -> Vec<Vec<Corner>> {
             ((1.0 - s) * t, d),
         ])
     };
-    let places = (0..PARTS).flat_map(|i| (0..PARTS).map(move |j| (i, j)));
+    let places = (0..parts).flat_map(|i| (0..parts).map(move |j| (i, j)));
     places
         .map(|(i, j)| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)])
-        .collect()
-}
-
-/// The zero lines of a displacement that is linear on triangles about the middle of a cell.
-fn zero_lines(corners: &[Corner]) -> Vec<Segment> {
-    let share = 1.0 / corners.len() as f64;
-    let middle = mean(
-        &corners
-            .iter()
-            .map(|&corner| (share, corner))
-            .collect::<Vec<_>>(),
-    );
-    let line = |(&a, &b): (&Corner, &Corner)| {
-        let sides = [(a, b), (b, middle), (middle, a)]
-            .into_iter()
-            .filter(|(p, q)| p.1 * q.1 < 0.0);
-        let mut points: Vec<_> = sides
-            .map(|(p, q)| p.0 + p.1 / (p.1 - q.1) * (q.0 - p.0))
-            .collect();
-        // A fixed corner ends the line that comes from the other side.
-        let ends = [a, b, middle].into_iter().filter(|corner| corner.1 == 0.0);
-        points.extend(
-            ends.map(|corner| corner.0)
-                .take(usize::from(points.len() == 1)),
-        );
-        Segment::try_from(points).ok()
-    };
-    corners
-        .iter()
-        .zip(corners.iter().cycle().skip(1))
-        .filter_map(line)
         .collect()
 }
 

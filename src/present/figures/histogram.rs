@@ -46,9 +46,9 @@ pub fn draw(name: &str, title: &str, summary: &Summary) -> Result<String, Presen
 }
 
 fn draw_on(area: &Area, spread: &Spread, margins: [f64; 4]) -> Drawn {
-    // Equal numbers need room on either side too.
+    // Numbers that are equal to four digits need room on either side too.
     let [least, most] = spread.ends;
-    let room = if most > least {
+    let room = if most - least > 5e-4 * least.abs() {
         0.0
     } else {
         0.01 * least.abs().max(f64::MIN_POSITIVE)

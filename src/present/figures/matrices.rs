@@ -121,7 +121,10 @@ impl HeatMap {
         write(
             area,
             &self.rows.0,
-            (left - beside, middle.1),
+            (
+                left - beside,
+                middle.1.max(top + 3.3 * self.rows.0.len() as f64),
+            ),
             Letters {
                 upward: true,
                 ..small

@@ -21,6 +21,7 @@ pub mod structure;
 pub mod report;
 mod view;
 
+pub(in crate::present) use cases::SHOWN;
 pub use cases::case_figures;
 pub use comparisons::comparison_figures;
 pub use report::report_figures;

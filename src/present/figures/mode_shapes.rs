@@ -1,4 +1,4 @@
-//! Mode shapes and node lines of the test, the first and the corrected model over each other (Figure 6).
+//! Mode shapes of the test, the first and the corrected model (Figure 6): as color on panels, or as lines over each other.
 
 use super::canvas::*;
 use super::frame::Frame;
@@ -54,7 +54,7 @@ impl DrawnModes {
         if frame.known.values().all(Vec::is_empty) {
             return Ok(None);
         }
-        // Nothing is measured near a support: a node line there would come from the interpolation.
+        // Nothing is measured near a support: a color there would come from the interpolation.
         if report.moved.is_none() {
             let is_held = |node: &usize| frame.known.get(node).is_some_and(Vec::is_empty);
             frame.panels.retain(|panel| !panel.iter().any(is_held));
@@ -89,15 +89,6 @@ impl DrawnModes {
         }))
     }
 
-    /// The normal of the plane that all places lie in, if all move along it alone and there are panels for node lines.
-    pub fn normal(&self) -> Option<Vector3<f64>> {
-        let (normal, _) = View::flat(&self.frame.nodes)?;
-        let is_normal = self
-            .motions()
-            .all(|motion| motion.cross(&normal) == Vector3::zeros());
-        (is_normal && !self.frame.panels.is_empty()).then_some(normal)
-    }
-
     fn motions(&self) -> impl Iterator<Item = &Vector3<f64>> {
         self.modes
             .iter()
@@ -126,19 +117,49 @@ impl DrawnModes {
             .collect()
     }
 
-    /// The shapes as SVG.
+    /// Those whose shape in the first model is at least as far from the test's as the mean over all: all where all are alike.
+    pub fn differing(&self) -> Self {
+        let far = |mode: &DrawnMode| -> f64 {
+            let known = self.frame.known.keys();
+            known
+                .map(|&node| (mode.moved[1][node] - mode.moved[0][node]).norm_squared())
+                .sum()
+        };
+        let all: Vec<f64> = self.modes.iter().map(far).collect();
+        let mean = all.iter().sum::<f64>() / all.len() as f64;
+        // Rounding may lift the mean of equal numbers above them.
+        let least = all.iter().copied().fold(0.0, f64::max).min(mean);
+        let differs = |mode: &&DrawnMode| far(mode) >= least;
+        Self {
+            frame: self.frame.clone(),
+            modes: self.modes.iter().filter(differs).cloned().collect(),
+        }
+    }
+
+    /// The axis along which all modes move most.
+    fn main_axis(&self) -> Vector3<f64> {
+        let squares = self.motions().map(|motion| motion.component_mul(motion));
+        let most = squares.sum::<Vector3<f64>>().imax();
+        Vector3::from_fn(|axis, _| f64::from(axis == most))
+    }
+
+    /// The shapes as SVG: as color on the panels by the motion along the main axis, as displaced lines where there are no panels or
+    /// all moves within a plane.
     pub fn draw(&self, name: &str, title: &str) -> Result<String, PresentError> {
         let nodes = &self.frame.nodes;
-        // The largest displacement is drawn as long as a sixth of the structure.
-        let far = extents(nodes).max() / 6.0;
         let in_plane = View::flat(nodes)
             .filter(|(normal, _)| self.motions().all(|motion| motion.dot(normal) == 0.0));
+        if in_plane.is_none() && !self.frame.panels.is_empty() {
+            return self.draw_colors(name, title);
+        }
+        // The largest displacement is drawn as long as a sixth of the structure.
+        let far = extents(nodes).max() / 6.0;
         let (view, heights) = in_plane.map_or_else(|| View::solid(nodes), |(_, view)| (view, 1.0));
         // Depths are exaggerated, displacements are not.
         let displaced = |at: &Vector3<f64>, motion: &Vector3<f64>| {
             at + far * Vector3::new(motion.x, motion.y, motion.z / heights)
         };
-        self.each(name, title, "shapes:", |area, mode, room| {
+        self.each(name, title, |area, mode, room| {
             let moved = mode.moved.each_ref().map(|motions| {
                 nodes
                     .iter()
@@ -174,49 +195,70 @@ impl DrawnModes {
         })
     }
 
-    /// The node lines in plan as SVG, for displacements along a normal.
-    pub fn draw_node_lines(
-        &self,
-        name: &str,
-        title: &str,
-        normal: Vector3<f64>,
-    ) -> Result<String, PresentError> {
-        let nodes = &self.frame.nodes;
-        let view = View::flat(nodes).map_or_else(|| View::plan(nodes), |(_, view)| view);
-        self.each(name, title, "node lines:", |area, mode, room| {
-            let view = view.fitted(nodes, room);
-            view.lines(area, &self.frame.lines, nodes, Pen::solid(SILVER, 0.8))?;
-            for (moved, (_, pen)) in mode.moved.iter().zip(pens()) {
-                for segment in self.frame.node_lines(&normal, moved) {
-                    line(area, &segment.map(|at| view.place(at)), pen)?;
+    /// One row a mode: test, first and corrected model.
+    fn draw_colors(&self, name: &str, title: &str) -> Result<String, PresentError> {
+        let (frame, axis) = (&self.frame, self.main_axis());
+        let nodes = &frame.nodes;
+        let view = View::flat(nodes).map_or_else(|| View::solid(nodes).0, |(_, view)| view);
+        let closed = |panel: &Vec<usize>| panel.iter().chain(panel.first()).copied().collect();
+        let outlines: Vec<Vec<usize>> = frame.panels.iter().map(closed).collect();
+        let shown: Vec<Vector3<f64>> = frame
+            .panels
+            .iter()
+            .flatten()
+            .map(|&node| nodes[node])
+            .collect();
+        let letter = ["x", "y", "z"][axis.imax()];
+        let words = format!("Blue moves along +{letter}, red along −{letter}, white not at all.");
+        svg(
+            name,
+            title,
+            HEAD + CELL.1 * self.modes.len() as f64,
+            |area| {
+                write(area, &words, (14.0, 20.0), START)?;
+                for (row, mode) in self.modes.iter().enumerate() {
+                    let top = HEAD + CELL.1 * row as f64;
+                    write(
+                        area,
+                        &format!("Mode {}", mode.number),
+                        (14.0, top - 8.0),
+                        START.bold(),
+                    )?;
+                    for (column, (name, _)) in pens().iter().enumerate() {
+                        let left = CELL.0 * column as f64 + 14.0;
+                        let room = [left, top + 26.0, CELL.0 - 34.0, CELL.1 - 48.0];
+                        let view = view.fitted(&shown, room);
+                        let hertz = Digits::Significant(4).write(mode.hertz[column]);
+                        write(
+                            area,
+                            &format!("{name}: {hertz} Hz"),
+                            (left, top + 12.0),
+                            START,
+                        )?;
+                        for (corners, motion) in frame.parts(&axis, &mode.moved[column]) {
+                            let strong = if motion < 0.0 { VERMILION } else { BLUE };
+                            let fill = between(WHITE, strong, motion.abs().min(1.0));
+                            let corners: Vec<Place> =
+                                corners.iter().map(|&at| view.place(at)).collect();
+                            polygon(area, &corners, Some(fill), Pen::solid(fill, 0.4))?;
+                        }
+                        view.lines(area, &outlines, nodes, Pen::solid(SILVER, 0.8))?;
+                    }
                 }
-            }
-            for &node in self.frame.known.keys() {
-                let up = mode.moved[0][node].dot(&normal);
-                let fill = if up > 0.0 { GRAY } else { WHITE };
-                let dot = Mark(
-                    Form::Circle,
-                    1.5 + 3.0 * up.abs().sqrt(),
-                    Some(fill),
-                    Pen::solid(GRAY, 1.2),
-                );
-                mark(area, view.place(nodes[node]), dot)?;
-            }
-            Ok(())
-        })
+                Ok(())
+            },
+        )
     }
 
     fn each(
         &self,
         name: &str,
         title: &str,
-        what: &str,
         draw: impl Fn(&Area, &DrawnMode, Room) -> Drawn,
     ) -> Result<String, PresentError> {
         let height = HEAD + CELL.1 * self.modes.len().div_ceil(ACROSS) as f64;
         svg(name, title, height, |area| {
-            write(area, what, (14.0, 20.0), START)?;
-            let mut x = 24.0 + 6.8 * what.len() as f64;
+            let mut x = 14.0;
             for (name, pen) in pens() {
                 line(area, &[(x, 20.0), (x + 36.0, 20.0)], pen)?;
                 write(area, name, (x + 43.0, 20.0), START)?;
@@ -233,19 +275,11 @@ impl DrawnModes {
                     CELL.0 * (row % ACROSS) as f64 + 14.0,
                     HEAD + CELL.1 * (row / ACROSS) as f64,
                 );
-                write(
-                    area,
-                    &format!("Mode {}", mode.number),
-                    (x, y + 14.0),
-                    START.bold(),
-                )?;
+                let name = format!("Mode {}", mode.number);
+                write(area, &name, (x, y + 14.0), START.bold())?;
                 let hertz = mode.hertz.map(|hertz| Digits::Significant(4).write(hertz));
-                write(
-                    area,
-                    &hertz.join(" | "),
-                    (x + 62.0, y + 14.0),
-                    START.small(),
-                )?;
+                let beside = (x + 8.0 + 7.8 * name.len() as f64, y + 14.0);
+                write(area, &hertz.join(" | "), beside, START.small())?;
                 draw(area, mode, [x, y + 30.0, CELL.0 - 34.0, CELL.1 - 48.0])?;
             }
             Ok(())

@@ -4,14 +4,16 @@ use super::error_history::{self, error_history};
 use super::factors::{DrawnFactor, Factors};
 use super::matrices::{HeatMap, draw_by_twos, draw_derivatives};
 use super::mode_shapes::DrawnModes;
-use super::structure::draw_structure;
+use super::structure::{MOST_NUMBERS, draw_structure};
 use super::{Figure, numbers};
 use crate::method::error::Error;
+use crate::method::model::ExactResult;
 use crate::present::PresentError;
 use crate::present::report::Report;
+use crate::present::table::Digits;
 use nalgebra::DMatrix;
 
-/// Every figure of a report: structure, mode shapes and node lines where sensors have places, errors against iteration, factors,
+/// Every figure of a report: structure, frequencies, mode shapes where sensors have places, errors against iteration, factors,
 /// agreement of the modes before and after, and derivatives where there are any.
 ///
 /// # Errors
@@ -32,39 +34,61 @@ pub fn report_figures(report: &Report) -> Result<Vec<Figure>, PresentError> {
         Ok::<_, PresentError>(())
     };
     if !report.frame.is_empty() || report.sensors.iter().any(|sensor| sensor.place.is_some()) {
-        let caption = "the structure, with what is known of its sensors, grids and supports";
-        add("structure", "structure", caption, &|name, title| {
+        let mut caption = "the structure".to_owned();
+        for (is_drawn, words) in [
+            (
+                report.sensors.iter().any(|sensor| sensor.place.is_some()),
+                ", its sensors named",
+            ),
+            (!report.supports.is_empty(), ", its supports black"),
+            (
+                (1..=MOST_NUMBERS).contains(&report.grids.len()),
+                ", its grids numbered",
+            ),
+        ] {
+            caption += if is_drawn { words } else { "" };
+        }
+        add("structure", "structure", &caption, &|name, title| {
             draw_structure(name, title, report)
         })?;
     }
+    let frequencies = frequencies(report);
+    if !frequencies.rows.is_empty() {
+        let caption = "how far every frequency is from the test's before and after";
+        add(
+            "frequencies",
+            "frequencies against the test's",
+            caption,
+            &|name, title| frequencies.draw(name, title),
+        )?;
+    }
     if let Some(modes) = DrawnModes::from_report(report)? {
-        for (part, modes) in modes.parts() {
+        for (part, modes) in modes.differing().parts() {
             let between = match report.moved {
                 Some(_) => "the test is expanded by modes of the corrected model",
                 None => "what lies between sensors is interpolated from those near it",
             };
             let caption = format!(
-                "mode shapes of the test, of the first and of the corrected model, the largest measured displacement of each the \
-                 same; {between}"
+                "mode shapes of the test, of the first and of the corrected model, where the first model's are farther from the test's \
+                 than on average; {between}"
             );
             add(
                 &format!("mode_shapes{part}"),
-                "mode shapes",
+                "mode shapes that differ",
                 &caption,
                 &|name, title| modes.draw(name, title),
             )?;
-            if let Some(normal) = modes.normal() {
-                let caption = "node lines in plan, interpolated between the sensors and left out beside supports, where nothing is \
-                    measured; at a sensor, gray is up in the test and larger is farther";
-                let draw = |name: &str, title: &str| modes.draw_node_lines(name, title, normal);
-                add(&format!("node_lines{part}"), "node lines", caption, &draw)?;
-            }
         }
     }
     if !report.stages.is_empty() {
         let history = error_history(report);
-        let caption = "errors against iteration. Between exact solutions an inner loop steps by perturbation; the gap at the end \
-            of a pass is what freezing the transformation cost";
+        let caption = match history.iter().any(|pass| pass.is_inner) {
+            true => {
+                "errors against iteration. Between exact solutions an inner loop steps by perturbation; at the end of a pass \
+                the exact solution says what that was worth"
+            }
+            false => "errors against iteration, every one solved exactly",
+        };
         add(
             "errors",
             "errors against iteration",
@@ -73,39 +97,48 @@ pub fn report_figures(report: &Report) -> Result<Vec<Figure>, PresentError> {
         )?;
     }
     let factors = factors(report);
-    let has_bars = report.deviations.iter().flatten().any(Option::is_some);
-    let bars = if has_bars {
-        "; bars are one standard deviation to either side"
-    } else {
-        ""
-    };
-    let caption = format!("factors on the first model, with the bounds of each in blue{bars}");
+    let mut caption = "factors on the first model".to_owned();
+    for (is_drawn, words) in [
+        (
+            factors.draws_bounds(),
+            "; bounds in blue where the axis reaches them",
+        ),
+        (
+            report.deviations.iter().flatten().any(Option::is_some),
+            "; bars are one standard deviation to either side",
+        ),
+    ] {
+        caption += if is_drawn { words } else { "" };
+    }
     add("factors", "factors", &caption, &|name, title| {
         factors.draw(name, title)
     })?;
-    let maps = mode_agreement(report)?;
-    let cross = if report.mass.is_some() {
-        "cross-orthogonality and "
-    } else {
-        ""
-    };
-    let caption = format!(
-        "{cross}modal assurance criterion (MAC, not mass-weighted) of analysis and test modes, before and after"
-    );
-    add(
-        "agreement",
-        "analysis against test modes before and after",
-        &caption,
-        &|name, title| {
-            let note = "Hundredths; an empty cell rounds to zero. Blue is positive, red negative.";
-            draw_by_twos(
-                name,
-                title,
-                &maps,
-                &[note, "MAC: modal assurance criterion, which knows no mass."],
-            )
-        },
-    )?;
+    if !report.test.is_empty() {
+        let maps = mode_agreement(report)?;
+        let cross = if report.mass.is_some() {
+            "cross-orthogonality and "
+        } else {
+            ""
+        };
+        let caption = format!(
+            "{cross}modal assurance criterion (MAC, not mass-weighted) of analysis and test modes, before and after"
+        );
+        add(
+            "agreement",
+            "analysis against test modes before and after",
+            &caption,
+            &|name, title| {
+                let note =
+                    "Hundredths; an empty cell rounds to zero. Blue is positive, red negative.";
+                draw_by_twos(
+                    name,
+                    title,
+                    &maps,
+                    &[note, "MAC: modal assurance criterion, which knows no mass."],
+                )
+            },
+        )?;
+    }
     if let Some(maps) = derivatives(report) {
         let caption = "derivatives of the frequencies and of the error sum at the first model";
         add(
@@ -123,6 +156,7 @@ fn factors(report: &Report) -> Factors {
     let row = |(e, (name, value)): (usize, (&String, f64))| DrawnFactor {
         name: name.clone(),
         value,
+        from: None,
         deviation: report
             .deviations
             .as_ref()
@@ -141,8 +175,47 @@ fn factors(report: &Report) -> Factors {
             .collect(),
         limits: None,
         across: "factor on the first model".to_owned(),
+        down: "parameter",
+        origin: 1.0,
         decimals: 3,
         published: "right",
+    }
+}
+
+/// How far the frequencies of the first and of the corrected model are from the test's, percent.
+fn frequencies(report: &Report) -> Factors {
+    // Frequencies without shapes stand last.
+    let of = |check: &ExactResult| {
+        let all = check.modes.frequencies_hz();
+        let lone = check.lone.iter().map(|lone| all[lone.partner]);
+        check
+            .frequencies_hz
+            .iter()
+            .copied()
+            .chain(lone)
+            .collect::<Vec<_>>()
+    };
+    let lone = report.initial.lone.iter().map(|lone| lone.frequency_hz);
+    let tested = report.test.frequencies_hz().into_iter().chain(lone);
+    let ends = of(&report.initial).into_iter().zip(of(report.corrected()));
+    let row = |(mode, (hertz, (first, last))): (usize, (f64, (f64, f64)))| DrawnFactor {
+        name: format!(
+            "{}: {} Hz",
+            report.mode_number(mode),
+            Digits::Significant(4).write(hertz)
+        ),
+        value: 100.0 * (last / hertz - 1.0),
+        from: Some(100.0 * (first / hertz - 1.0)),
+        ..DrawnFactor::default()
+    };
+    Factors {
+        rows: tested.zip(ends).enumerate().map(row).collect(),
+        limits: None,
+        across: "frequency against the test's, percent".to_owned(),
+        down: "test mode",
+        origin: 0.0,
+        decimals: 2,
+        published: "",
     }
 }
 

@@ -16,7 +16,7 @@ const SENSOR: Mark = Mark(
     Pen(VERMILION, 1.2, Dash::Solid),
 );
 /// Numbers of more grids than these would hide the structure.
-const MOST_NUMBERS: usize = 60;
+pub(super) const MOST_NUMBERS: usize = 60;
 /// Longest name written next to its place; longer ones go into a list.
 const LONGEST_NAME: usize = 9;
 /// Height of the structure, and of a line of the list below it, px.
@@ -180,7 +180,7 @@ pub fn draw_structure(name: &str, title: &str, report: &Report) -> Result<String
 
 /// Names in lines that a figure has room for, after what they have in common.
 fn folded(first: &str, names: &[&str]) -> Vec<String> {
-    const MOST: usize = 97;
+    const MOST: usize = 95;
     let names: Vec<String> = names.iter().map(|name| format!("{name},")).collect();
     let lines = lines(once(first).chain(names.iter().map(String::as_str)), MOST);
     lines

@@ -79,7 +79,11 @@ fn cell(cell: &Cell) -> String {
         .published()
         .map(|it| format!(" <span class=\"published\">({it})</span>"))
         .unwrap_or_default();
-    format!("<td>{}{published}</td>", escaped(&cell.computed()))
+    let class = match cell {
+        Cell::Sentence(_) => " class=\"sentence\"",
+        _ => "",
+    };
+    format!("<td{class}>{}{published}</td>", escaped(&cell.computed()))
 }
 
 /// A section of a Markdown document without its heading, as HTML.

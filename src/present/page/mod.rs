@@ -7,9 +7,9 @@ mod html;
 mod play;
 mod story;
 
-use super::figures::{Figure, report_figures};
+use super::figures::{Figure, SHOWN, report_figures};
 use super::report::Report;
-use super::table::Table;
+use super::table::{Cell, Table};
 use super::tables::cases::{iteration_table, outcome_table, settings_table, summary, tables_of};
 use super::tables::job::trust_table;
 use super::tables::report::{derivative_table, factor_table, history_table, paired_table};
@@ -35,9 +35,9 @@ pub struct Contents<'a> {
     pub command: &'a str,
 }
 
-/// The case whose first pass can be played with.
-const PLAYED: usize = 2;
 const TITLE: &str = "The wing torque box, correlated";
+const LEAD: &str = "Element stiffnesses of a finite element model, corrected until its natural frequencies and mode shapes agree with \
+    those of a ground vibration test.";
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// The page.
@@ -45,15 +45,17 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// # Errors
 /// [`PresentError::Case`] for damaged published tables.
 pub fn page(contents: &Contents) -> Result<String, PresentError> {
+    let answer = answer(contents)?;
     let mut parts = story(contents);
-    if let Some(played) = contents.results.iter().find(|it| it.case.number == PLAYED) {
-        let heading = format!("Case {PLAYED}, by hand");
-        parts.insert(0, named("try", "Try it", &heading, play(played)?));
+    if let Some(shown) = contents.results.iter().find(|it| it.case.number == SHOWN) {
+        let heading = format!("Case {SHOWN}, by hand");
+        parts.insert(0, named("try", "Try it", &heading, play(shown)?));
     }
-    let (story_html, appendix): (String, usize) = (
+    let (mut story_html, appendix): (String, usize) = (
         parts.iter().map(|(.., body)| body.as_str()).collect(),
         parts.len(),
     );
+    story_html += &answer;
     let is_left =
         |figure: &&Figure| !story_html.contains(&format!("<figure id=\"{}\">", figure.name));
     let left: Vec<Figure> = contents.figures.iter().filter(is_left).cloned().collect();
@@ -62,12 +64,6 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
         ..*contents
     };
     parts.extend([
-        named(
-            "summary-section",
-            "Summary",
-            "Summary",
-            summary_section(contents)?,
-        ),
         named("box", "The box", "The box", box_section(contents)),
         named(
             "preflight",
@@ -90,8 +86,9 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
         include_str!("../../../paper/results.md").trim_start_matches(|letter| letter != '\n'),
     );
     let why = "Where the results differ from the published ones, and why";
-    let cost =
-        table(&iteration_table(contents.results)?) + &table(&settings_table(contents.results));
+    let cost = table(&outcome_table(contents.results))
+        + &table(&iteration_table(contents.results)?)
+        + &table(&settings_table(contents.results));
     parts.extend([
         named(
             "fewer-modes",
@@ -99,7 +96,7 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
             "With fewer modes",
             fewer_modes_section(contents)?,
         ),
-        named("cost", "Iterations", "Iterations", cost),
+        named("cost", "Outcomes", "Outcomes and iterations", cost),
         named("differences", "Differences", why, differences),
         named(
             "made",
@@ -109,7 +106,8 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
         ),
     ]);
     let bodies = parts.iter().map(|(.., body)| body.as_str());
-    let tables = bodies
+    let tables = std::iter::once(answer.as_str())
+        .chain(bodies)
         .flat_map(|body| body.split("<table id=\"").skip(1))
         .filter_map(|rest| rest.split('"').next());
     let note = format!(
@@ -125,9 +123,43 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
             note,
         ),
     );
-    let lead = "Element stiffnesses of a finite element model, corrected until its natural frequencies and mode shapes agree with \
-         those of a ground vibration test.";
-    Ok(document(TITLE, lead, &parts))
+    Ok(document(TITLE, LEAD, &answer, &parts))
+}
+
+/// What became of all cases, before anything else: a sentence, the summary, and one case's gages and frequencies before and after.
+fn answer(contents: &Contents) -> Result<String, PresentError> {
+    let results = contents.results;
+    let summary = summary(results)?;
+    let corrected = || {
+        let rows = results.iter().zip(&summary.rows);
+        rows.filter(|(result, _)| !result.is_detection())
+            .map(|(_, row)| row)
+    };
+    let all = |cell: usize| {
+        let numbers = corrected().filter_map(|row| row.cells.get(cell));
+        numbers.map(Cell::computed).collect::<Vec<_>>().join(", ")
+    };
+    let mut body = format!(
+        "<p>Frequency errors of {} % RMS fall to {} % in the cases that are corrected.{}</p>\n",
+        all(0),
+        all(1),
+        if results.iter().all(CaseResult::succeeded) {
+            " Every case did what was asked of it: correlated within the tolerances, or named its modeling error."
+        } else {
+            " <strong>At least one case did not converge within its limits; the best found is shown.</strong>"
+        }
+    );
+    let shown = |what: &str| {
+        let drawn = contents.figures.iter().find(|figure| figure.name == what);
+        drawn.map_or_else(String::new, |drawn| figure(drawn, ""))
+    };
+    let frequencies = shown(&format!("case_{SHOWN}_frequencies"));
+    body += &format!(
+        "<div class=\"answer\">\n<div>\n{}{frequencies}</div>\n{}</div>\n",
+        table(&summary),
+        shown("box_gages")
+    );
+    Ok(body)
 }
 
 /// A section: its id, what a link to it says, its heading, its HTML.
@@ -137,8 +169,8 @@ fn named(id: &str, link: &str, heading: &str, body: String) -> Part {
     (id.to_owned(), link.to_owned(), heading.to_owned(), body)
 }
 
-/// A whole page of sections.
-fn document(title: &str, lead: &str, parts: &[Part]) -> String {
+/// A whole page: what came of it, then sections.
+fn document(title: &str, lead: &str, answer: &str, parts: &[Part]) -> String {
     let links: String = parts
         .iter()
         .map(|(id, link, ..)| format!("<a href=\"#{id}\">{link}</a>\n"))
@@ -152,7 +184,7 @@ fn document(title: &str, lead: &str, parts: &[Part]) -> String {
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta name=\"generator\" content=\"corfem {VERSION}\">\n<title>corfem: {title}</title>\n\
-         <style>\n{}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n<p>{}</p>\n</header>\n\
+         <style>\n{}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n<p>{}</p>\n{answer}</header>\n\
          <nav aria-label=\"Contents\">\n{links}</nav>\n<main>\n{sections}</main>\n</body>\n</html>\n",
         include_str!("report.css"),
         escaped(lead),
@@ -160,7 +192,7 @@ fn document(title: &str, lead: &str, parts: &[Part]) -> String {
 }
 
 /// The report on one correlation: what it came to, modes, factors, structure and history, with other tables at its end;
-/// `command` makes it again.
+/// `command` makes it again from the job's `text`.
 ///
 /// # Errors
 /// Those of [`report_figures`] and [`Report::agreement`].
@@ -168,6 +200,7 @@ pub fn report_page(
     report: &Report,
     extra: &[Table],
     command: &str,
+    text: &str,
 ) -> Result<String, PresentError> {
     let figures = report_figures(report)?;
     let of = |tables: &[Table], whats: &[&str]| {
@@ -181,27 +214,25 @@ pub fn report_page(
         )
     };
     let class = if report.converged() {
-        "note"
+        ""
     } else {
-        "finding"
+        " class=\"finding\""
     };
-    let words = format!("<p class=\"{class}\">{}</p>\n", escaped(&report.words()));
+    let words = format!("<p{class}>{}</p>\n", escaped(&report.words()));
+    let shown = ["frequencies", "factors"].map(|what| of(&[], &[what]));
+    let answer = words + &format!("<div class=\"answer\">\n{}</div>\n", shown.concat());
     let trust = report.trust.as_ref().map(trust_table);
     let trust: String = trust.iter().map(table).collect();
-    let summary = words + &trust + &table(&paired_table(report)?);
+    let summary = trust + &table(&paired_table(report)?);
     let derivatives: Vec<Table> = derivative_table(report).into_iter().collect();
     let parts = [
         ("summary", "Summary", summary),
-        (
-            "factors",
-            "Factors",
-            of(&[factor_table(report)], &["factors"]),
-        ),
+        ("factors", "Factors", of(&[factor_table(report)], &[])),
         ("structure", "Structure", of(&[], &["structure"])),
         (
             "modes",
             "Mode shapes",
-            of(&[], &["mode_shapes", "node_lines", "agreement"]),
+            of(&[], &["mode_shapes", "agreement"]),
         ),
         (
             "history",
@@ -217,14 +248,23 @@ pub fn report_page(
         (
             "made",
             "How it was made",
-            made("Units are the model's own", command),
+            made("Units are the model's own", command)
+                + &format!(
+                    "<p>The job:</p>\n<pre><code>{}</code></pre>\n",
+                    escaped(text)
+                ),
         ),
     ];
     let parts = parts.into_iter().filter(|(.., body)| !body.is_empty());
     let parts =
         parts.map(|(id, heading, body)| named(&format!("{id}-section"), heading, heading, body));
     let lead = "A finite element model, corrected until its natural frequencies and mode shapes agree with measured ones.";
-    Ok(document(&report.title, lead, &parts.collect::<Vec<_>>()))
+    Ok(document(
+        &report.title,
+        lead,
+        &answer,
+        &parts.collect::<Vec<_>>(),
+    ))
 }
 
 /// Tables, then the figures whose names begin with one of the prefixes.
@@ -236,17 +276,6 @@ fn part(tables: &[Table], drawn: &[Figure], prefixes: &[impl AsRef<str>]) -> Str
     };
     let drawn = drawn.iter().filter(starts).map(|drawn| figure(drawn, ""));
     tables.iter().map(table).collect::<String>() + &figures("figures", drawn)
-}
-
-fn summary_section(contents: &Contents) -> Result<String, PresentError> {
-    let results = contents.results;
-    let mut body = table(&summary(results)?) + &table(&outcome_table(results));
-    body += if results.iter().all(CaseResult::succeeded) {
-        "<p>Every case did what was asked of it: correlated within the tolerances, or named its modeling error.</p>\n"
-    } else {
-        "<p><strong>At least one case did not converge within its limits; the best found is shown.</strong></p>\n"
-    };
-    Ok(body)
 }
 
 fn box_section(contents: &Contents) -> String {

@@ -53,10 +53,10 @@ const show = () => {
   let gages = DATA.steps[0].slice(), isMoved = false;
   const tag = (name, attributes, text = "") =>
     `<${name} ${Object.entries(attributes).map(([key, value]) => `${key}="${value}"`).join(" ")}>${text}</${name}>`;
-  const percent = (x, digits = 1) => (100 * x).toFixed(digits).replace("-", "−");
+  const percent = x => (100 * x).toFixed(1).replace(/^-0\.0$/, "0.0").replace("-", "−");
   const bars = DATA.steps[0].map((_, e) => {
     const label = document.createElement("label");
-    label.innerHTML = `<input type="range" min="${LEAST}" max="${MOST}" step="0.05" aria-label="gage of panel ${e + 1}">${e + 1}`;
+    label.innerHTML = `<input type="range" min="${LEAST}" max="${MOST}" step="0.05" aria-label="gage of panel ${e + 1}"><b>${e + 1}</b><span></span>`;
     const bar = get("gages").appendChild(label).firstChild;
     bar.oninput = () => { gages[e] = bar.value / FIRST; isMoved = true; draw(); };
     return bar;
@@ -102,6 +102,7 @@ const show = () => {
     bars.forEach((bar, e) => {
       if (bar !== document.activeElement || !isMoved) bar.value = FIRST * gages[e];
       bar.style.setProperty("--high", high(FIRST * gages[e]) + "%");
+      bar.parentNode.lastChild.textContent = (FIRST * gages[e]).toFixed(1);
       bar.setAttribute("aria-valuetext", (FIRST * gages[e]).toFixed(2) + " thousandths of an inch");
     });
     get("step").textContent = (step ? `After step ${step}` : "First model") + (isMoved ? ", then by hand" : "");

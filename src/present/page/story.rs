@@ -1,4 +1,4 @@
-//! What the page tells before its tables, in the words of `paper/report.md`: the method, every case in three figures.
+//! What the page tells before its tables, in the words of `paper/report.md`: every case with its figure, then the method.
 
 use super::html::{figure, figures, prose};
 use super::{Contents, Part, named};
@@ -32,7 +32,7 @@ fn part(text: &str, contents: &Contents) -> Option<Part> {
         let drawn = contents.figures.iter().find(|figure| figure.name == name)?;
         Some(figure(drawn, words.trim()))
     });
-    body += &figures("figures three", seen);
+    body += &figures("told", seen);
     Some(named(
         &format!("story-{}", short.to_lowercase().replace(' ', "-")),
         short,
@@ -53,7 +53,7 @@ fn outcome(result: &CaseResult) -> String {
         anomaly.ratio,
     );
     format!(
-        "<p class=\"finding\">Case {number}: element {element} asks for {factor:.1} times its stiffness in the first iteration, \
-        {ratio:.1} times as much as any other. Look for a modeling error there.</p>\n"
+        "<p class=\"finding\">Case {number}: element {element} asks for {factor:.1} times its stiffness in the first iteration. \
+        By change of error per change of gage it asks for {ratio:.0} times as much as any other. Look for a modeling error there.</p>\n"
     )
 }

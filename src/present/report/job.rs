@@ -39,6 +39,15 @@ impl Report {
         let mut frame: Vec<Vec<Vector3<f64>>> =
             geometry.elements.iter().map(corners).chain(lines).collect();
         frame.retain(|corners| corners.len() > 1);
+        if frame.is_empty() {
+            frame = joined(
+                loaded
+                    .placed
+                    .iter()
+                    .filter_map(|sensor| sensor.place)
+                    .collect(),
+            );
+        }
         let still = |grid: &&usize| {
             (0..3).all(|direction| !loaded.source.motions.contains_key(&(**grid, direction)))
         };
@@ -177,6 +186,26 @@ fn moved(loaded: &LoadedJob, result: &JobResult) -> Option<[Vec<Vec<Vector3<f64>
             .collect()
     };
     Some([of(test), of(first), of(last)])
+}
+
+/// Lines that join all places, each to the nearest one that is joined already.
+fn joined(mut places: Vec<Vector3<f64>>) -> Vec<Vec<Vector3<f64>>> {
+    let mut done: Vec<Vector3<f64>> = places.pop().into_iter().collect();
+    let mut lines = Vec::new();
+    while !places.is_empty() {
+        let pairs =
+            (0..places.len()).flat_map(|next| (0..done.len()).map(move |from| (next, from)));
+        let far = |&(next, from): &(usize, usize)| (places[next] - done[from]).norm_squared();
+        let Some((next, from)) = pairs.min_by(|one, other| far(one).total_cmp(&far(other))) else {
+            break;
+        };
+        let place = places.swap_remove(next);
+        if place != done[from] {
+            lines.push(vec![done[from], place]);
+        }
+        done.push(place);
+    }
+    lines
 }
 
 /// The best stage of a stopped run.

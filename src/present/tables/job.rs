@@ -6,7 +6,7 @@ use crate::files::test_data::DIRECTIONS;
 use crate::job::localization::{by_factor, by_single_fit};
 use crate::job::metrics::coordinate_assurance;
 use crate::job::{
-    Concern, JobResult, LoadedJob, NotCompared, PlacedSensor, Study, Summary, Trust, Vary,
+    Concern, JobResult, LoadedJob, Method, NotCompared, PlacedSensor, Study, Summary, Trust, Vary,
 };
 use crate::method::model::Bounds;
 use crate::present::report::Report;
@@ -80,6 +80,40 @@ pub fn places_table(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Ta
     Ok(table)
 }
 
+/// What a job was run with: its files, how factors were found, and the weights of the compared test modes.
+///
+/// # Errors
+/// Those of [`LoadedJob::weights`].
+pub fn inputs_table(loaded: &LoadedJob) -> Result<Table, FileError> {
+    let compare = &loaded.job.compare;
+    let files: Vec<String> = loaded
+        .job
+        .files()
+        .map(|file| file.display().to_string())
+        .collect();
+    let mut rows = vec![
+        ("files".to_owned(), files.join(", ")),
+        ("method".to_owned(), compare.method.name().to_owned()),
+    ];
+    if compare.method == Method::GaussNewton {
+        rows.push(("starts".to_owned(), compare.starts.unwrap_or(1).to_string()));
+        rows.push(("seed".to_owned(), compare.seed.to_string()));
+    }
+    let weights = loaded.weights()?;
+    let digits = Digits::Significant(4);
+    rows.extend(loaded.compared().zip(&weights).map(|(mode, weight)| {
+        let [frequency, shape] = [weight.frequency, weight.shape].map(|it| digits.write(it));
+        (
+            format!("weights of test mode {}", mode + 1),
+            format!("frequency {frequency}, shape {shape}"),
+        )
+    }));
+    let (labels, words): (Vec<String>, Vec<String>) = rows.into_iter().unzip();
+    Ok(Table::new("inputs", "What it was run with", "Input")
+        .labels(labels)
+        .column("Value", "", words.into_iter().map(Cell::Sentence)))
+}
+
 /// What may lower the trust in a job or in its result, what matters most first.
 pub fn trust_table(trust: &Trust) -> Table {
     let all = trust.all();
@@ -126,10 +160,8 @@ pub fn suspects_table(loaded: &LoadedJob) -> Result<Table, FileError> {
         return Ok(Table::new("suspects", title, "Parameter")
             .notes(["The job has no parameters.".to_owned()]));
     }
-    let (first, weights) = (
-        loaded.analyze(&vec![1.0; parameters.len()])?,
-        loaded.weights()?,
-    );
+    let (far, first) = loaded.far_from_first()?;
+    let weights = far.weights()?;
     let suspects = by_single_fit(&first, &weights)?;
     // The paper's step needs shapes.
     let slopes = match &loaded.alone[..] {

@@ -127,6 +127,23 @@ fn a_worked_job_has_its_report_its_factors_and_its_deck() {
             page.starts_with("<!DOCTYPE html>")
                 && page.contains(found["name"].as_str().expect("a name"))
         );
+        // It ends with what makes it again: version, command, job, and above them how the job was run.
+        let job = fs::read_to_string(folder_of(name).join("job.toml")).expect("it reads");
+        let text = job
+            .replace('&', "&amp;")
+            .replace('<', "&lt;")
+            .replace('>', "&gt;")
+            .replace('"', "&quot;");
+        assert!(page.contains(&text), "{name}");
+        for words in [
+            "<table id=\"inputs\">",
+            ">method<",
+            ">weights of test mode ",
+            "by the command",
+            " --folder ",
+        ] {
+            assert!(page.contains(words), "{name}: {words}");
+        }
     }
 }
 

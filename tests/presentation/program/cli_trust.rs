@@ -87,7 +87,7 @@ fn all_that_is_said_of_trust_stands_first_in_text_csv_json_and_html() {
     let report = Report::from_job(&loaded, Some(&result)).expect("a report");
     let table = [trust_table(&result.trust)];
     let document = json::document(json::report(&report).expect("JSON")).expect("JSON");
-    let page = report_page(&report, &[], "corfem correlate job.toml").expect("a page");
+    let page = report_page(&report, &[], "corfem correlate job.toml", "").expect("a page");
     let document: Value = serde_json::from_str(&document).expect("JSON");
     assert_eq!(
         document["trust"],

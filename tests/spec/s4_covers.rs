@@ -1,0 +1,96 @@
+//! Upper and lower covers of a box that is symmetric about its mid-plane: no rule of the step tells them apart, while the print does.
+
+use crate::common::boxes::other_box;
+use crate::common::costly_config;
+use crate::common::tolerances::{MIRRORED_COVERS, SAME_HISTORY};
+use crate::evidence::claims::published_counts::COUNTED;
+use crate::evidence::published_counts::run_by;
+use crate::evidence::readings::correlation;
+use corfem::method::derivatives::error_changes;
+use corfem::method::inner_loop::InnerSettings;
+use corfem::method::state::ModalState;
+use corfem::torque_box::Case;
+use corfem::torque_box::published::PublishedTable;
+use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE, rms};
+use proptest::prelude::*;
+
+/// The covers of the root, tip and middle bays, elements from zero.
+const BAYS: [[usize; 2]; 3] = [[1, 14], [3, 7], [8, 10]];
+
+proptest! {
+    #![proptest_config(costly_config())]
+
+    /// Any rule that knows $\Delta e$, the element's generalized stiffness and its gage.
+    #[test]
+    fn covers_of_a_bay_that_begin_alike_stay_alike_under_any_rule(
+        reconstruction in other_box(0.12, 0.30),
+        kind in 1..=2_usize,
+        gages in prop::collection::vec(0.008..0.015_f64, PANEL_COUNT),
+        (of_stiffness, of_gage, step) in (0.0..1.5_f64, 0.0..1.5_f64, 0.2..2.0_f64),
+    ) {
+        let mut case = Case::from_reconstruction(kind, reconstruction).expect("a case");
+        for (panel, gage) in case.panels.iter_mut().zip(&gages) {
+            panel.gage = *gage;
+        }
+        for [one, other] in BAYS {
+            case.panels[other].gage = case.panels[one].gage;
+        }
+        let model = case.model();
+        // Panels must be convex.
+        prop_assume!(model.is_ok());
+        let (model, test) = (model.expect("a model"), case.test_modes().expect("modes"));
+        let modal = model.analyze(&[1.0; PANEL_COUNT], &test.into(), None).expect("modes");
+        let shares = modal.shares();
+        for [one, other] in BAYS {
+            let apart = (shares[one].matrix() - shares[other].matrix()).norm();
+            prop_assert!(apart < MIRRORED_COVERS * shares[one].matrix().norm());
+        }
+        let settings = InnerSettings { iterations: 3, ..case.settings.inner.clone() };
+        let changes = error_changes(&modal, &ModalState::start(&modal), settings.derivatives);
+        let largest = changes.expect("derivatives").iter().fold(0.0_f64, |most, e| most.max(e.abs()));
+        let rule = |_: &[f64], kappa: &[f64], factors: &[f64]| {
+            let divisor = |e: usize| {
+                let gage = case.panels[e].gage * factors[e] / TEST_GAGE;
+                largest * kappa[e].powf(of_stiffness) * gage.powf(of_gage) / step
+            };
+            (0..PANEL_COUNT).map(divisor).collect()
+        };
+        let (factors, _) = run_by(&modal, &[None; PANEL_COUNT], &settings, &rule).expect("it runs");
+        for [one, other] in BAYS {
+            prop_assert!((factors[one] / factors[other] - 1.0).abs() < SAME_HISTORY);
+        }
+    }
+}
+
+/// Case 1 begins with equal covers, and prints unlike ones after its first pass. Equal covers can come no nearer than their means do.
+#[test]
+fn the_print_of_case_1_bounds_what_any_rule_can_reach_on_a_symmetric_box() {
+    let table = PublishedTable::number(4).expect("Table 4");
+    let error = |panel: usize| {
+        table
+            .required(&panel.to_string(), "pass_1_in")
+            .expect("printed")
+            / TEST_GAGE
+            - 1.0
+    };
+    let printed: Vec<f64> = (1..=PANEL_COUNT).map(error).collect();
+    let mut nearest = printed.clone();
+    for [one, other] in BAYS {
+        let mean = 0.5 * (printed[one] + printed[other]);
+        (nearest[one], nearest[other]) = (mean, mean);
+    }
+    let apart: Vec<f64> = nearest.iter().zip(&printed).map(|(a, b)| a - b).collect();
+    let (most, least) = (correlation(nearest, printed.clone()), rms(&apart));
+    assert_eq!(format!("{most:.2} {:.1}", 100.0 * least), "0.68 5.0");
+    let of_column = COUNTED
+        .iter()
+        .filter(|column| column.name == "Case 1 pass 1");
+    for column in of_column {
+        let errors = column
+            .gages_in
+            .iter()
+            .map(|gage| gage / TEST_GAGE - 1.0)
+            .collect();
+        assert!(column.difference >= least && correlation(errors, printed.clone()) <= most);
+    }
+}
