@@ -60,6 +60,18 @@ impl LoadedJob {
                 ),
             ));
         }
+        let own = self.own_weights();
+        let divides = |weight: f64| ![0.0, 1.0].contains(&weight);
+        if self.job.compare.method == Method::GaussNewton
+            && own
+                .iter()
+                .any(|own| divides(own.frequency) || divides(own.shape))
+        {
+            all.push(Concern::remark(
+                "own-weights",
+                "The job's weights count as dividing the standard deviations: chi-squared and intervals hold for deviations so divided.",
+            ));
+        }
         let tests = self.data.scatter.ncols();
         if tests > 0 {
             let used = match self.covariance() {

@@ -1,6 +1,6 @@
 //! A model given by matrices: its files, and which row is which degree of freedom.
 
-use super::model::{GridLayout, ModelSource, range};
+use super::model::{GridLayout, ModelSource, prior, range};
 use super::{Job, Scales};
 use crate::files::deck::decoded;
 use crate::files::error::{FileError, is_not};
@@ -53,7 +53,7 @@ pub(super) fn from_matrices(
         })?;
     }
     let mass = on_rows(job, (mass, "model.mass"), &row_of)?;
-    let mut parameters = Vec::new();
+    let (mut parameters, mut priors) = (Vec::new(), Vec::new());
     for rule in &job.parameters {
         let name = &rule.name;
         let named_of_deck =
@@ -78,6 +78,7 @@ pub(super) fn from_matrices(
             share,
             range: range(job, rule, &[])?,
         });
+        priors.push(prior(job, rule)?);
     }
     let whole = WholeModel::new(stiffness.matrix, mass, parameters)?;
     let motions = labels
@@ -95,6 +96,7 @@ pub(super) fn from_matrices(
         geometry,
         motions,
         members,
+        priors,
         deck: None,
     })
 }

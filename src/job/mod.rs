@@ -26,7 +26,7 @@ pub use entries::removed_step;
 pub use loaded::LoadedJob;
 pub use matrices::matrix_modes;
 pub use model::{GridLayout, ModelSource};
-pub use run::{History, JobResult, Misfit, run};
+pub use run::{History, JobResult, run};
 pub use samples::{Samples, Spread, Summary};
 pub use sensors::PlacedSensor;
 pub use study::{Study, Vary};
@@ -142,6 +142,7 @@ struct ParameterRule {
     upper: Option<f64>,
     lower_size: Option<f64>,
     upper_size: Option<f64>,
+    prior_deviation: Option<f64>,
 }
 
 /// One number, or a range such as `10-19`.
@@ -170,6 +171,7 @@ pub struct Compare {
     pub method: Method,
     frequency_deviation: Option<f64>,
     shape_deviation: Option<f64>,
+    prior_deviation: Option<f64>,
     frequency_weights: Option<Vec<f64>>,
     shape_weights: Option<Vec<f64>>,
     /// How many first points are tried by Gauss–Newton steps; one if not given.

@@ -10,6 +10,7 @@ use crate::method::model::Bounds;
 use crate::method::structure::StructuralDof;
 use crate::sparse::elements::{mass_entries, moving_mass_entries, resisting};
 use crate::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
+use crate::weighted::identifiability::PRIOR_DEVIATION;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -36,6 +37,8 @@ pub struct ModelSource {
     pub deck: Option<(Vec<u8>, Deck)>,
     /// Of a deck, the elements and the point masses that every parameter scales, ascending.
     pub members: Vec<[Vec<usize>; 2]>,
+    /// Standard deviation of the logarithm of every parameter's factor before the test.
+    pub priors: Vec<f64>,
 }
 
 impl ModelSource {
@@ -113,7 +116,8 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
             .flat_map(|point| moving_mass_entries(&point.motion, &point.motion, point.mass)),
     )?;
     let motion_of = bulk.motions(&structure);
-    let (mut parameters, mut members, mut owner) = (Vec::new(), Vec::new(), BTreeMap::new());
+    let (mut parameters, mut members, mut owner, mut priors) =
+        (Vec::new(), Vec::new(), BTreeMap::new(), Vec::new());
     for rule in &job.parameters {
         job.refuse_if(rule.matrix.as_ref(), |_| {
             let name = &rule.name;
@@ -181,6 +185,7 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
                 range: range(job, rule, &sizes)?,
             });
             members.push([labels, masses]);
+            priors.push(prior(job, rule)?);
         }
     }
     let whole = WholeModel::new(stiffness, mass, parameters)?
@@ -213,6 +218,7 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
         geometry,
         motions,
         members,
+        priors,
         deck: Some((bytes, deck)),
     })
 }
@@ -325,6 +331,19 @@ pub(super) fn range(
         lower,
         upper,
     )?))
+}
+
+/// The prior deviation of a parameter: its own, or that of all.
+pub(super) fn prior(job: &Job, rule: &ParameterRule) -> Result<f64, FileError> {
+    let given = rule.prior_deviation.or(job.compare.prior_deviation);
+    let prior = given.unwrap_or(PRIOR_DEVIATION);
+    let is_positive = prior > 0.0 && prior.is_finite();
+    let wrong = (!is_positive).then_some(prior);
+    job.refuse_if(wrong, |prior| {
+        let name = &rule.name;
+        format!("parameter \"{name}\": prior_deviation is {prior}; it must be positive and finite")
+    })?;
+    Ok(prior)
 }
 
 fn sum_of(

@@ -7,7 +7,7 @@ use crate::method::derivatives::error_changes;
 use crate::method::error::Error;
 use crate::method::error_sum::ModeWeight;
 use crate::method::model::{Bounds, ModalModel};
-use crate::method::outer_loop::{Correlation, Pass, compared_sum, correlate_while, meets};
+use crate::method::outer_loop::{Correlation, Pass, compared_sum, correlate_while};
 use crate::method::structure::{Element, Material};
 use crate::method::verdict::{Outcome, Verdict};
 use crate::sparse::{WholeParameter, WholeShare};
@@ -16,10 +16,11 @@ use crate::weighted::gauss_newton::{
     WeightedCorrelation, WeightedSettings, WeightedStop, gauss_newton,
 };
 use crate::weighted::identifiability::{Identifiability, identifiability};
+use crate::weighted::intervals::intervals;
+use crate::weighted::misfit::Misfit;
 use crate::weighted::noise::Noise;
 use crate::weighted::residuals::{DEVIATIONS, jacobian, residuals};
 use crate::weighted::starts::{Minimum, from_several_starts};
-use serde::Serialize;
 
 /// How the factors were found.
 #[derive(Debug, Clone)]
@@ -49,86 +50,13 @@ pub struct JobResult {
     pub verdict: Verdict,
     /// What the test sees of the parameters, at the first model and at the best factors.
     pub seen: [Identifiability; 2],
+    /// How the residuals at the best factors are to the noise.
+    pub misfit: Misfit,
+    /// 95 % intervals about the factors, where they are true: around the optimum of weighted steps alone, not around the stop of the
+    /// paper's rule, of steps too short or of too many trials. Residuals that are too large for the noise widen them by as much.
+    pub intervals: Vec<Option<Bounds>>,
     /// Exact analyses made, the first and the last among them.
     pub analyses: usize,
-}
-
-/// How far the best model is from the test, in the standard deviations that test or job gives.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Misfit {
-    /// $\sum r^2$ over the weighted [`residuals`], without the prior.
-    pub chi_squared: f64,
-    /// Degrees of freedom $\nu$: what a right model's chi-squared is in the mean.
-    pub degrees_of_freedom: f64,
-}
-
-impl Misfit {
-    /// How many times the noise the residuals are, the root of chi-squared over $\nu$; none where no degree of freedom is left.
-    pub fn times_the_noise(&self) -> Option<f64> {
-        (self.degrees_of_freedom > 0.0).then(|| (self.chi_squared / self.degrees_of_freedom).sqrt())
-    }
-}
-
-impl JobResult {
-    /// Chi-squared at the best factors and its degrees of freedom.
-    ///
-    /// A test mode gives its frequency and, of $d$ sensors, $d - 1$ numbers, because a shape's scale is free, or $d - m$ where $m$ modes
-    /// are compared together; a weight of zero takes its numbers out. The fit takes away the trace of $J (J^t J + I/\tau^2)^{-1} J^t$, which is the sum of
-    /// [`learned`](Identifiability::learned), over the parameters that are not at a bound.
-    ///
-    /// # Errors
-    /// Those of [`residuals`], [`jacobian`] and [`identifiability`].
-    pub fn misfit(&self) -> Result<Misfit, FileError> {
-        let weights = self.loaded.weights()?;
-        let free: Vec<usize> = (0..self.factors.len())
-            .filter(|e| !self.verdict.at_bound.contains(e))
-            .collect();
-        let jacobian = jacobian(&self.last, &weights)?.select_columns(&free);
-        let fitted = if free.is_empty() {
-            0.0
-        } else {
-            let prior = WeightedSettings::default().prior_deviation;
-            identifiability(&jacobian, prior)?.learned.iter().sum()
-        };
-        let (together, sensors) = (self.loaded.together(), self.last.test.shapes.nrows());
-        let compared = |(mode, weight): (usize, &ModeWeight)| {
-            let group = together.iter().find(|group| group.contains(&mode));
-            let of_shape = group.map_or(0, |group| sensors.saturating_sub(group.len()));
-            usize::from(weight.frequency > 0.0) + usize::from(weight.shape > 0.0) * of_shape
-        };
-        let numbers: usize = weights.iter().enumerate().map(compared).sum();
-        let degrees_of_freedom = numbers as f64 - fitted;
-        let scale = self.loaded.estimate_scale(degrees_of_freedom);
-        Ok(Misfit {
-            chi_squared: scale * residuals(&self.last, &weights)?.norm_squared(),
-            degrees_of_freedom,
-        })
-    }
-
-    /// 95 % intervals about the factors, where they are true.
-    ///
-    /// They hold at the optimum of weighted steps, so there is none elsewhere: not around the stop of the paper's rule, of a step
-    /// too short or of too many trials. A parameter at a bound has none. Residuals larger than the noise, by [`JobResult::misfit`],
-    /// widen all deviations by as much.
-    ///
-    /// # Errors
-    /// Those of [`Identifiability::intervals`].
-    pub fn intervals(&self, misfit: &Misfit) -> Result<Vec<Option<Bounds>>, FileError> {
-        let is_optimum = matches!(
-            &self.history,
-            History::GaussNewton(Some((run, _))) if run.stop == WeightedStop::Gradient
-        );
-        let widening = misfit.times_the_noise().unwrap_or(1.0).max(1.0);
-        let intervals = self.seen[1].intervals(&self.factors)?;
-        let widened = |(e, interval): (usize, Bounds)| {
-            let factor = self.factors[e];
-            (is_optimum && !self.verdict.at_bound.contains(&e)).then(|| Bounds {
-                lower: factor * (interval.lower / factor).powf(widening),
-                upper: factor * (interval.upper / factor).powf(widening),
-            })
-        };
-        Ok(intervals.into_iter().enumerate().map(widened).collect())
-    }
 }
 
 impl LoadedJob {
@@ -136,6 +64,14 @@ impl LoadedJob {
     pub fn compared(&self) -> impl Iterator<Item = usize> {
         let alone = self.alone.iter().map(|(mode, _)| *mode);
         self.modes.iter().copied().chain(alone)
+    }
+
+    /// Settings of weighted steps with the job's priors.
+    fn weighted_settings(&self) -> WeightedSettings {
+        WeightedSettings {
+            prior_deviations: self.source.priors.clone(),
+            ..WeightedSettings::default()
+        }
     }
 
     /// The weight of every test mode, of those without shapes last: one over its standard deviation, times the job's weight.
@@ -276,7 +212,22 @@ pub fn run(
 ) -> Result<JobResult, FileError> {
     loaded.require_parameters()?;
     let trust = Trust::before(loaded)?;
-    run_from(loaded, trust, &loaded.ones(), &mut progress, &go_on)
+    let mut result = run_from(loaded, trust, &loaded.ones(), &mut progress, &go_on)?;
+    if let History::GaussNewton(Some((run, _))) = &result.history
+        && run.stop == WeightedStop::Gradient
+    {
+        let loaded = &result.loaded;
+        let (ranges, weights) = (loaded.source.whole.ranges(), loaded.weights()?);
+        let (model, factors) = (&result.last, &result.factors);
+        let settings = loaded.weighted_settings();
+        let widening = result.misfit.widening();
+        let follow = |at: &[f64]| {
+            let change: Vec<f64> = at.iter().zip(factors).map(|(at, from)| at / from).collect();
+            model.followed(&change)
+        };
+        result.intervals = intervals(&follow, factors, &ranges, &weights, &settings, widening)?;
+    }
+    Ok(result)
 }
 
 /// The same after the look, starting from other factors than one, and then from these alone.
@@ -304,18 +255,21 @@ pub(super) fn run_from(
     }
     let loaded = &part.loaded;
     let unpaired = loaded.unlike(&part.last.exact.modes)?;
-    part.trust = part
-        .trust
-        .after(loaded, &unpaired, &part.verdict, &part.seen[1]);
+    part.trust = part.trust.after(
+        loaded,
+        &unpaired,
+        &part.verdict,
+        &part.seen[1],
+        &part.misfit,
+    );
     Ok(part)
 }
 
 /// What the test sees of the parameters at a model.
 fn sees(loaded: &LoadedJob, model: &ModalModel) -> Result<Identifiability, FileError> {
-    let prior = WeightedSettings::default().prior_deviation;
     Ok(identifiability(
         &jacobian(model, &loaded.weights()?)?,
-        prior,
+        &loaded.source.priors,
     )?)
 }
 
@@ -330,7 +284,8 @@ fn run_part(
     loaded.check_paired()?;
     let (compare, settings) = (&loaded.job.compare, &loaded.job.correlation);
     let (weights, ranges) = (loaded.weights()?, loaded.source.whole.ranges());
-    let (ones, weighted) = (vec![1.0; ranges.len()], WeightedSettings::default());
+    let ones = vec![1.0; ranges.len()];
+    let weighted = loaded.weighted_settings();
     let analyses = std::cell::Cell::new(0);
     let analyze = |factors: &[f64]| {
         analyses.set(analyses.get() + 1);
@@ -446,15 +401,13 @@ fn run_part(
         }
     };
     let last = analyze(&factors)?;
-    let verdict = match &history {
+    let mut verdict = match &history {
         History::Paper(run) => run.verdict.clone(),
         History::GaussNewton(run) => {
-            let is_within = meets(&last.exact.errors, settings);
             let outcome = match run
                 .as_ref()
                 .map(|(run, _)| (run.stop, run.iterations.is_empty()))
             {
-                _ if is_within => Outcome::Tolerance,
                 Some((_, true)) => Outcome::Nothing,
                 None => Outcome::Request,
                 Some((WeightedStop::Trials, _)) => Outcome::Cap,
@@ -464,9 +417,15 @@ fn run_part(
             let turned = turned(&last.exact.modes, &last.exact, &last.test)?;
             let (errors, seen) = (last.mode_errors(&turned)?, first.largest_parts());
             let sum = compared_sum(&last.exact.errors, settings);
-            Verdict::new(outcome, (sum, &errors), &factors, &seen, &ranges, is_within)
+            Verdict::new(outcome, (sum, &errors), &factors, &seen, &ranges, false)
         }
     };
+    let mut misfit = Misfit::of(&last, &weights, &loaded.source.priors, &verdict.at_bound)?;
+    misfit.chi_squared *= loaded.estimate_scale(misfit.degrees_of_freedom);
+    // Weighted steps are judged by the noise that weighs them.
+    if compare.method == Method::GaussNewton && misfit.is_by_noise() {
+        (verdict.outcome, verdict.is_within) = (Outcome::Tolerance, true);
+    }
     let seen = [sees(loaded, &first)?, sees(loaded, &last)?];
     let (analyses, is_interrupted) = (analyses.get(), is_interrupted.get());
     Ok(JobResult {
@@ -479,6 +438,8 @@ fn run_part(
         factors,
         verdict,
         seen,
+        misfit,
+        intervals: vec![None; ranges.len()],
         first,
         last,
         analyses,

@@ -4,6 +4,7 @@ use super::Study;
 use super::study::FAILED;
 use crate::files::disk;
 use crate::files::error::{FileError, is_not};
+use crate::method::model::Bounds;
 use std::collections::BTreeMap;
 use std::io::{BufRead, BufReader, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -26,6 +27,10 @@ pub struct Samples {
 /// The factor of one parameter over the samples.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spread {
+    /// How many samples it is of.
+    pub count: usize,
+    /// In how many of them it is at a bound.
+    pub at_bound: usize,
     /// Mean.
     pub mean: f64,
     /// Standard deviation; zero of one sample.
@@ -135,13 +140,16 @@ impl Samples {
             [_, "true"] => summary.within += 1,
             _ => summary.outside += 1,
         })?;
+        let ranges = study.loaded.source.whole.ranges();
         for (place, name) in study.parameters().enumerate() {
             let mut values = Vec::new();
             // A failed sample has no number.
             self.each(last, |_, cells| {
                 values.extend(cells[place + 5].parse::<f64>().ok())
             })?;
-            summary.spreads.push((name.to_owned(), spread(values)));
+            summary
+                .spreads
+                .push((name.to_owned(), spread(values, ranges[place])));
         }
         Ok(summary)
     }
@@ -164,8 +172,8 @@ impl Samples {
     }
 }
 
-/// The statistics of one parameter; none without values.
-fn spread(mut values: Vec<f64>) -> Option<Spread> {
+/// The statistics of one parameter within its range; none without values.
+fn spread(mut values: Vec<f64>, range: Option<Bounds>) -> Option<Spread> {
     let count = values.len();
     let mean = values.iter().sum::<f64>() / count as f64;
     let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
@@ -182,7 +190,10 @@ fn spread(mut values: Vec<f64>) -> Option<Spread> {
         bars[((BARS as f64 * (value - ends[0]) / (ends[1] - ends[0])) as usize).min(BARS - 1)] += 1;
     }
     let deviation = (squares / count.saturating_sub(1).max(1) as f64).sqrt();
+    let at_end = |value: &&f64| range.is_some_and(|range| range.has_end_at(**value));
     Some(Spread {
+        count,
+        at_bound: values.iter().filter(at_end).count(),
         mean,
         deviation,
         quantiles: PARTS.map(quantile),

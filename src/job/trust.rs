@@ -6,6 +6,7 @@ use crate::files::deck::{Reason, Unread};
 use crate::files::error::FileError;
 use crate::method::verdict::Verdict;
 use crate::weighted::identifiability::Identifiability;
+use crate::weighted::misfit::Misfit;
 use crate::weighted::residuals::DEVIATIONS;
 use serde::Serialize;
 
@@ -55,6 +56,8 @@ pub struct Trust {
     pub not_selected: Vec<usize>,
     /// Parameters that the test hardly sees.
     pub blind: Vec<String>,
+    /// Parameters of which the prior says more than the test.
+    pub mostly_prior: Vec<String>,
     /// Groups of parameters that the test cannot tell apart.
     pub parallel: Vec<Vec<String>>,
     /// Parameters at an end of their range.
@@ -153,6 +156,7 @@ impl Trust {
                 .filter(|mode| !loaded.job.selects(*mode))
                 .collect(),
             blind: Vec::new(),
+            mostly_prior: Vec::new(),
             parallel: Vec::new(),
             at_bound: Vec::new(),
             assumed: assumed
@@ -179,15 +183,21 @@ impl Trust {
         unpaired: &[(usize, f64)],
         verdict: &Verdict,
         seen: &Identifiability,
+        misfit: &Misfit,
     ) -> Self {
+        let chi_squared = Concern::remark("chi-squared", misfit.in_numbers());
         let names: Vec<&str> = loaded.parameter_names().collect();
         let named = |places: &[usize]| places.iter().map(|&e| names[e].to_owned()).collect();
         let mut blind = [&seen.blind[..], &verdict.unseen].concat();
         blind.sort_unstable();
         blind.dedup();
+        let all = 0..names.len();
+        let mostly_prior: Vec<usize> = all.filter(|&e| seen.is_mostly_prior(e)).collect();
         let groups = seen.parallel_groups();
         Self {
+            concerns: [vec![chi_squared], self.concerns].concat(),
             blind: named(&blind),
+            mostly_prior: named(&mostly_prior),
             parallel: groups.iter().map(|group| named(group)).collect(),
             at_bound: named(&verdict.at_bound),
             not_compared: not_compared(unpaired),
@@ -262,6 +272,14 @@ impl Trust {
                 format!(
                     "Hardly seen by the test, and so not to be trusted: {}.",
                     join(&self.blind)
+                ),
+            ),
+            remark(
+                !self.mostly_prior.is_empty(),
+                "mostly-prior",
+                format!(
+                    "Known more from the prior than from the test: {}.",
+                    join(&self.mostly_prior)
                 ),
             ),
             remark(
@@ -364,6 +382,9 @@ impl LoadedJob {
                 data.shape_deviation.is_some(),
                 "of a test without its own",
             ),
+            ("correlation.error_sum_tolerance", is_weighted, PAPER),
+            ("correlation.frequency_tolerance", is_weighted, PAPER),
+            ("correlation.shape_tolerance", is_weighted, PAPER),
             ("correlation.later_inner_tolerance", is_weighted, PAPER),
             ("correlation.most_passes", is_weighted, PAPER),
             ("correlation.inner.step", is_weighted, PAPER),
@@ -384,7 +405,7 @@ fn six_digits(value: f64) -> String {
     format!("{value:.5e}").parse().unwrap_or(value).to_string()
 }
 
-/// What takes the entries of `[correlation]` that are no tolerance of the result.
+/// What takes the entries of `[correlation]`.
 const PAPER: &str = "of the paper's loops";
 
 fn not_compared(unpaired: &[(usize, f64)]) -> Vec<NotCompared> {

@@ -11,7 +11,7 @@ use super::tables::deck::{not_read, unit_shapes};
 use crate::files::deck::Unread;
 use crate::files::test_data::DIRECTIONS;
 use crate::job::preflight::Finding;
-use crate::job::{Misfit, Trust, hardly_held};
+use crate::job::{Trust, hardly_held};
 use crate::method::inner_loop::Iteration;
 use crate::method::model::{Bounds, ExactResult};
 use crate::method::step::Limit;
@@ -19,6 +19,7 @@ use crate::method::verdict::Verdict;
 use crate::sparse::whole_modes::WholeModes;
 use crate::torque_box::CaseResult;
 use crate::torque_box::wing_box::TEST_GAGE;
+use crate::weighted::misfit::Misfit;
 use crate::weighted::starts::Minimum;
 use nalgebra::DMatrix;
 use serde::Serialize;
@@ -79,6 +80,7 @@ struct ReportValue<'a> {
     ranges: &'a [Option<Bounds>],
     factors: &'a [f64],
     standard_deviations: &'a Option<Vec<Option<f64>>>,
+    prior_shares: &'a Option<Vec<f64>>,
     misfit: &'a Option<Misfit>,
     minima: &'a [Minimum],
     at_bound: Vec<bool>,
@@ -156,6 +158,7 @@ pub fn report(report: &Report) -> Result<Value, PresentError> {
         ranges: &report.ranges,
         factors: &factors,
         standard_deviations: &report.deviations,
+        prior_shares: &report.prior_shares,
         misfit: &report.misfit,
         minima: &report.minima,
         at_bound: factors.iter().enumerate().map(at_bound).collect(),

@@ -4,8 +4,13 @@ use crate::method::verdict::{Outcome, Verdict};
 use crate::torque_box::CaseResult;
 
 /// The verdict in sentences, with the parameters' names and the numbers of the test modes; places from one stand for those that have
-/// none.
-pub fn verdict_in_words(verdict: &Verdict, names: &[String], mode_numbers: &[usize]) -> String {
+/// none. What it is `judged` by stands first, the tolerance where that is nothing else.
+pub fn verdict_in_words(
+    verdict: &Verdict,
+    judged: Option<&str>,
+    names: &[String],
+    mode_numbers: &[usize],
+) -> String {
     let named = |indices: &[usize]| {
         let name = |&e: &usize| names.get(e).cloned().unwrap_or_else(|| (e + 1).to_string());
         indices.iter().map(name).collect::<Vec<_>>().join(", ")
@@ -18,14 +23,22 @@ pub fn verdict_in_words(verdict: &Verdict, names: &[String], mode_numbers: &[usi
         Outcome::Request => " It was stopped by request.",
         Outcome::Nothing => " No step from the first model lowered it, or none was allowed.",
     };
-    let mut words = format!(
-        "{} tolerance: error sum {:.2} %.{end} Worst is mode {}: frequency {:+.2} %, shape {}.",
-        if verdict.is_within {
-            "Within"
-        } else {
-            "Outside"
+    let within = if verdict.is_within {
+        "Within"
+    } else {
+        "Outside"
+    };
+    let judged = judged.map_or_else(
+        || {
+            format!(
+                "{within} tolerance: error sum {:.2} %.",
+                100.0 * verdict.error_sum
+            )
         },
-        100.0 * verdict.error_sum,
+        str::to_owned,
+    );
+    let mut words = format!(
+        "{judged}{end} Worst is mode {}: frequency {:+.2} %, shape {}.",
         mode_numbers
             .get(verdict.worst_mode)
             .map_or(verdict.worst_mode + 1, |number| *number),
@@ -65,7 +78,7 @@ pub fn verdict_in_words(verdict: &Verdict, names: &[String], mode_numbers: &[usi
 /// [`verdict_in_words`] on a case, with what its test cannot tell apart, and what a weighted step would still move.
 pub fn case_in_words(result: &CaseResult) -> String {
     let names = &result.parameter_names;
-    let mut words = verdict_in_words(&result.correlation.verdict, names, &[]);
+    let mut words = verdict_in_words(&result.correlation.verdict, None, names, &[]);
     let Some(next) = &result.next_step else {
         return words;
     };

@@ -9,7 +9,7 @@ use crate::method::outer_loop::{Correlation, Pass, correlate};
 use crate::method::step::StepRule;
 use crate::torque_box::error::CaseError;
 use crate::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
-use crate::weighted::gauss_newton::WeightedSettings;
+use crate::weighted::identifiability::PRIOR_DEVIATION;
 use crate::weighted::next_step::NextStep;
 use crate::weighted::noise::Noise;
 use serde::Serialize;
@@ -151,8 +151,7 @@ pub fn run_case_with<E: From<CaseError> + From<Error>>(
     let best = &correlation.best_factors;
     let next_step = correlation.converged.then(|| -> Result<NextStep, E> {
         let there = elements(&model, best)?.analyze(best, &test, None)?;
-        let prior = WeightedSettings::default().prior_deviation;
-        Ok(NextStep::at(&there, Noise::USUAL, prior)?)
+        Ok(NextStep::at(&there, Noise::USUAL, PRIOR_DEVIATION)?)
     });
     Ok(CaseResult {
         next_step: next_step.transpose()?,

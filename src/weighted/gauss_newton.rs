@@ -1,6 +1,6 @@
 //! Bounded Gauss–Newton steps with Levenberg and Marquardt's damping, one exact analysis each.
 
-use super::identifiability::{Identifiability, identifiability};
+use super::identifiability::{Identifiability, PRIOR_DEVIATION, identifiability};
 use super::residuals::{jacobian, residuals};
 use crate::method::error::{Error, positive_setting};
 use crate::method::error_sum::ModeWeight;
@@ -20,8 +20,9 @@ const SHORTEST_STEP: f64 = 1e-9;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct WeightedSettings {
-    /// Standard deviation $\tau$ of the factors' logarithms before the test; its inverse is Tikhonov's weight toward one.
-    pub prior_deviation: f64,
+    /// Standard deviations $\tau$ of the factors' logarithms before the test, one a parameter or one for all; their inverses are Tikhonov's
+    /// weights toward one.
+    pub prior_deviations: Vec<f64>,
     /// Stop when no parameter alone would move by more than this part of its standard deviation.
     pub tolerance: f64,
     /// Most trial steps, taken or not: one exact analysis each.
@@ -29,12 +30,22 @@ pub struct WeightedSettings {
 }
 
 impl Default for WeightedSettings {
-    /// A prior of $\tau$ = 1, a factor of $e$, which decides where the test is silent alone; 1e-5 and a hundred trials.
+    /// [`PRIOR_DEVIATION`] for all; 1e-5 and a hundred trials.
     fn default() -> Self {
         Self {
-            prior_deviation: 1.0,
+            prior_deviations: vec![PRIOR_DEVIATION],
             tolerance: 1e-5,
             trials: 100,
+        }
+    }
+}
+
+impl WeightedSettings {
+    /// The prior deviation of each of so many parameters.
+    pub(crate) fn priors(&self, count: usize) -> Vec<f64> {
+        match self.prior_deviations[..] {
+            [one] => vec![one; count],
+            _ => self.prior_deviations.clone(),
         }
     }
 }
@@ -91,10 +102,10 @@ struct Iterate {
     curvature: DMatrix<f64>,
 }
 
-/// Lowers $\frac{1}{2} \sum r^2 + \frac{1}{2} \sum (\ln c_e)^2/\tau^2$ over the factors $c_e$ within their bounds, from `first`.
+/// Lowers $\frac{1}{2} \sum r^2 + \frac{1}{2} \sum (\ln c_e/\tau_e)^2$ over the factors $c_e$ within their bounds, from `first`.
 ///
 /// The unknowns are logarithms: factors stay positive, and twice and half as stiff are equally far. With the
-/// [`jacobian`] $J$, $A = J^t J + I/\tau^2$ and the gradient $g$, a step solves
+/// [`jacobian`] $J$, $A = J^t J + \mathrm{diag}(\tau^{-2})$ and the gradient $g$, a step solves
 ///
 /// $$ (A + \mu \mathrm{diag} A) h = -g $$
 ///
@@ -123,7 +134,7 @@ pub fn gauss_newton<E: From<Error>>(
     steps(&mut analyze, true, first, ranges, weights, settings)
 }
 
-fn steps<E: From<Error>>(
+pub(super) fn steps<E: From<Error>>(
     analyze: &mut dyn FnMut(&[f64]) -> Result<ModalModel, E>,
     is_exact: bool,
     first: &[f64],
@@ -131,14 +142,18 @@ fn steps<E: From<Error>>(
     weights: &[ModeWeight],
     settings: &WeightedSettings,
 ) -> Result<WeightedCorrelation, E> {
-    positive_setting("prior_deviation", settings.prior_deviation)?;
+    let priors = settings.priors(first.len());
+    check_length("prior deviations", priors.len(), first.len())?;
+    for prior in &priors {
+        positive_setting("prior_deviation", *prior)?;
+    }
     positive_setting("tolerance", settings.tolerance)?;
     check_length("parameter limits", ranges.len(), first.len())?;
     ranges
         .iter()
         .flatten()
         .try_for_each(|r| Bounds::positive("parameter limits", r.lower, r.upper).map(drop))?;
-    let prior = settings.prior_deviation.powi(-2);
+    let tikhonov = DVector::from_iterator(priors.len(), priors.iter().map(|prior| prior.powi(-2)));
     let mut place_at = |factors: Vec<f64>| -> Result<Iterate, E> {
         let within = |(&factor, range): (&f64, &Option<Bounds>)| {
             range.map_or(factor, |range| range.clamp(factor))
@@ -148,10 +163,10 @@ fn steps<E: From<Error>>(
         check_length("parameter factors", factors.len(), model.shares.len())?;
         let logs = DVector::from_iterator(factors.len(), factors.iter().map(|factor| factor.ln()));
         let (residuals, jacobian) = (residuals(&model, weights)?, jacobian(&model, weights)?);
-        let objective = 0.5 * (residuals.norm_squared() + prior * logs.norm_squared());
-        let gradient = jacobian.tr_mul(&residuals) + prior * &logs;
-        let curvature =
-            jacobian.tr_mul(&jacobian) + prior * DMatrix::identity(logs.len(), logs.len());
+        let pull = tikhonov.component_mul(&logs);
+        let objective = 0.5 * (residuals.norm_squared() + pull.dot(&logs));
+        let gradient = jacobian.tr_mul(&residuals) + pull;
+        let curvature = jacobian.tr_mul(&jacobian) + DMatrix::from_diagonal(&tikhonov);
         Ok(Iterate {
             factors,
             model,
@@ -237,7 +252,7 @@ fn steps<E: From<Error>>(
         damping *= (1.0 - (2.0 * fall / promised - 1.0).powi(3)).max(1.0 / 3.0);
         growth = 2.0;
     };
-    let identifiability = identifiability(&place.jacobian, settings.prior_deviation)?;
+    let identifiability = identifiability(&place.jacobian, &priors)?;
     let (
         Iterate {
             factors, objective, ..

@@ -2,8 +2,7 @@
 
 use crate::method::error::{Error, at_least_one, positive_setting};
 use crate::method::linear_algebra::{as_faer, check_finite, check_length};
-use crate::method::model::Bounds;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
 /// Cosine of two parameters' columns above which they are nearly parallel: a fifth of one is what the other cannot imitate.
@@ -12,6 +11,10 @@ pub const PARALLEL_COSINE: f64 = 0.98;
 pub const BLIND_FRACTION: f64 = 0.01;
 /// Standard deviations on either side that hold 95 % of a normal distribution.
 pub const NORMAL_95: f64 = 1.959_963_984_540_054;
+
+/// Standard deviation of the logarithm of a factor before the test unless another is given: a factor of $e$, so that it decides alone where
+/// the test is silent.
+pub const PRIOR_DEVIATION: f64 = 1.0;
 
 /// What a weighted Jacobian $J$ (residuals × p parameters) says of the logarithms of the factors.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -26,7 +29,7 @@ pub struct Identifiability {
     pub blind: Vec<usize>,
     /// Those that say more than the prior beyond what the ones before can imitate, by QR with column pivoting.
     pub subset: Vec<usize>,
-    /// Covariance of the logarithms, $(J^t J + I/\tau^2)^{-1}$ (p × p).
+    /// Covariance of the logarithms, $(J^t J + \mathrm{diag}(\tau^{-2}))^{-1}$ (p × p).
     #[serde(skip)]
     pub covariance: DMatrix<f64>,
     /// Standard deviations of the logarithms.
@@ -35,7 +38,11 @@ pub struct Identifiability {
     pub learned: Vec<f64>,
 }
 
-/// Singular values, blind and parallel parameters, a subset, and covariance with a prior of standard deviation $\tau$.
+/// Part of the prior variance that a parameter known mostly from the prior keeps at least: the prior then says more of it than the test.
+pub const MOSTLY_PRIOR: f64 = 0.5;
+
+/// Singular values, blind and parallel parameters, a subset, and covariance with priors of standard deviations $\tau$, one a
+/// parameter.
 ///
 /// The covariance is that of a linear model with normal errors as the weights say, and of logarithms normal about zero
 /// with $\tau$ before the test. Where `learned` is near one it is, as closely, that of the estimate over repeated
@@ -44,13 +51,13 @@ pub struct Identifiability {
 ///
 /// # Errors
 /// [`Error::Setting`] for $\tau$ that is not positive; [`Error::NotFinite`]; [`Error::Empty`] without parameters or residuals.
-pub fn identifiability(
-    jacobian: &DMatrix<f64>,
-    prior_deviation: f64,
-) -> Result<Identifiability, Error> {
-    positive_setting("prior_deviation", prior_deviation)?;
-    check_finite("Jacobian", jacobian)?;
+pub fn identifiability(jacobian: &DMatrix<f64>, priors: &[f64]) -> Result<Identifiability, Error> {
     let count = jacobian.ncols();
+    check_length("prior deviations", priors.len(), count)?;
+    for prior in priors {
+        positive_setting("prior_deviation", *prior)?;
+    }
+    check_finite("Jacobian", jacobian)?;
     at_least_one("parameters or residuals", jacobian.len())?;
     let mut singular_values = jacobian
         .clone()
@@ -68,8 +75,9 @@ pub fn identifiability(
     let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b)));
     let cosine = |(a, b)| jacobian.column(a).dot(&jacobian.column(b)) / (lengths[a] * lengths[b]);
     let parallel = pairs.map(|(a, b)| (a, b, cosine((a, b))));
+    let priors = DVector::from_column_slice(priors);
     let information =
-        jacobian.tr_mul(jacobian) + DMatrix::identity(count, count) / prior_deviation.powi(2);
+        jacobian.tr_mul(jacobian) + DMatrix::from_diagonal(&priors.map(|prior| prior.powi(-2)));
     let factor = information.cholesky().ok_or(Error::NotPositiveDefinite {
         what: "information",
         dof: 0,
@@ -89,10 +97,11 @@ pub fn identifiability(
         parallel: parallel
             .filter(|(_, _, cosine)| cosine.abs() > PARALLEL_COSINE)
             .collect(),
-        subset: subset(jacobian, 1.0 / prior_deviation),
+        subset: subset(&(jacobian * DMatrix::from_diagonal(&priors))),
         learned: deviations
             .iter()
-            .map(|deviation| 1.0 - (deviation / prior_deviation).powi(2))
+            .zip(&priors)
+            .map(|(deviation, prior)| 1.0 - (deviation / prior).powi(2))
             .collect(),
         singular_values,
         blind,
@@ -101,18 +110,23 @@ pub fn identifiability(
     })
 }
 
-/// Columns in the order of QR with column pivoting, while what those before cannot imitate is longer than `least`.
-fn subset(jacobian: &DMatrix<f64>, least: f64) -> Vec<usize> {
+/// Columns, in prior deviations, in the order of QR with column pivoting, while what those before cannot imitate is longer than one.
+fn subset(jacobian: &DMatrix<f64>) -> Vec<usize> {
     let factors = as_faer(jacobian).col_piv_qr();
     let (order, r) = (factors.P().arrays().0, factors.R());
     let count = r.nrows().min(r.ncols());
     (0..count)
-        .take_while(|&e| r[(e, e)].abs() > least)
+        .take_while(|&e| r[(e, e)].abs() > 1.0)
         .map(|e| order[e])
         .collect()
 }
 
 impl Identifiability {
+    /// Whether the prior says more of a parameter than the test.
+    pub fn is_mostly_prior(&self, e: usize) -> bool {
+        1.0 - self.learned[e] > MOSTLY_PRIOR
+    }
+
     /// Parameters that are parallel to one another, directly or through others, in groups.
     pub fn parallel_groups(&self) -> Vec<Vec<usize>> {
         let mut groups: Vec<Vec<usize>> = Vec::new();
@@ -130,24 +144,5 @@ impl Identifiability {
         }
         groups.sort();
         groups
-    }
-
-    /// 95 % intervals about the factors, $c e^{\pm 1.96 s}$.
-    ///
-    /// Where `learned` is near one they hold the true factor in 95 of 100 tests, if the model is right but for its factors and
-    /// nearly linear within them. Elsewhere they say as much of the prior. They know nothing of bounds.
-    ///
-    /// # Errors
-    /// [`Error::WrongShape`] unless there is one factor per parameter.
-    pub fn intervals(&self, factors: &[f64]) -> Result<Vec<Bounds>, Error> {
-        check_length("parameter factors", factors.len(), self.deviations.len())?;
-        let interval = |(&factor, &deviation): (&f64, &f64)| {
-            let ratio = (NORMAL_95 * deviation).exp();
-            Bounds {
-                lower: factor / ratio,
-                upper: factor * ratio,
-            }
-        };
-        Ok(factors.iter().zip(&self.deviations).map(interval).collect())
     }
 }

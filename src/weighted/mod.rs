@@ -5,6 +5,8 @@
 pub mod close_modes;
 pub mod gauss_newton;
 pub mod identifiability;
+pub mod intervals;
+pub mod misfit;
 pub mod next_step;
 pub mod noise;
 pub mod residuals;

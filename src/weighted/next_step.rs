@@ -31,7 +31,7 @@ impl NextStep {
     pub fn at(model: &ModalModel, noise: Noise, prior_deviation: f64) -> Result<Self, Error> {
         let weights = vec![noise.weight(); model.test().len()];
         let jacobian = jacobian(model, &weights)?;
-        let seen = identifiability(&jacobian, prior_deviation)?;
+        let seen = identifiability(&jacobian, &vec![prior_deviation; jacobian.ncols()])?;
         let step = -(&seen.covariance * jacobian.tr_mul(&residuals(model, &weights)?));
         Ok(Self {
             noise,

@@ -73,10 +73,14 @@ pub fn from_several_starts<E: From<Error>>(
         }
     }
     let minimum = |(end, starts): (&WeightedCorrelation, usize)| {
-        let logs: f64 = end.factors.iter().map(|factor| factor.ln().powi(2)).sum();
+        let priors = settings.priors(end.factors.len());
+        let pulls = end.factors.iter().zip(priors);
+        let pull: f64 = pulls
+            .map(|(factor, prior)| (factor.ln() / prior).powi(2))
+            .sum();
         Minimum {
             factors: end.factors.clone(),
-            chi_squared: 2.0 * end.objective - logs / settings.prior_deviation.powi(2),
+            chi_squared: 2.0 * end.objective - pull,
             starts,
         }
     };

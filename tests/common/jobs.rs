@@ -7,7 +7,7 @@ use corfem::files::deck::{self, BulkData, Task};
 use corfem::files::matrices::write_matrix_market;
 use corfem::files::test_data::{Sensor, TestData};
 use corfem::method::modes::ModeSet;
-use corfem::sparse::{SparseMatrix, WholeShare};
+use corfem::sparse::{SparseMatrix, WholeModel, WholeShare};
 use corfem::torque_box::Case;
 use corfem::torque_box::wing_box::{TEST_GAGE, dynamic_points};
 use corfem::weighted::noise::{Noise, with_noise};
@@ -116,8 +116,7 @@ pub fn building() -> Files {
     let places =
         measured.map(|row| sensor(format!("floor {}", row + 1), row + 1, 0, Some(floor(row))));
     let mut job = "title = \"ten-story building\"\n\n[model]\nstiffness = \"stiffness.mtx\"\nmass = \"mass.mtx\"\n\
-                   rows = \"rows.csv\"\n\n[test]\nfile = \"test.csv\"\n\n[compare]\nanalysis_modes = 10\n\n\
-                   [correlation]\nerror_sum_tolerance = 0.0025\n"
+                   rows = \"rows.csv\"\n\n[test]\nfile = \"test.csv\"\n\n[compare]\nanalysis_modes = 10\n"
         .to_owned();
     let (stiffness, mass) = model.at(&[1.0; 10]).expect("matrices");
     let rows = (0..10)
@@ -145,6 +144,52 @@ pub fn building() -> Files {
             unreachable!("stories are stiffness")
         };
         files.push((file, write_matrix_market(share)));
+    }
+    files.push(("job.toml".to_owned(), job));
+    files
+}
+
+/// A model of springs and masses as matrices, and the lowest modes of the right one, as `sensors` at some of its rows see them, with
+/// deviations of `noise`.
+pub fn of_whole(
+    model: &WholeModel,
+    truth: &[f64],
+    sensors: &[usize],
+    modes: usize,
+    noise: Noise,
+) -> Files {
+    let count = model.dof_count();
+    let real = model.modes(truth, modes).expect("modes").vibrations;
+    let seen = seen_by(&sensors_at(sensors, count), &real);
+    let sensors = sensors
+        .iter()
+        .map(|row| sensor(format!("{}", row + 1), row + 1, 0, Some(floor(*row))));
+    let mut data = test_data(&seen, sensors.collect());
+    data.frequency_deviation = Some(vec![noise.frequency; modes]);
+    data.shape_deviation = Some(vec![noise.shape; modes]);
+    let (stiffness, mass) = model.at(&vec![1.0; truth.len()]).expect("matrices");
+    let rows = (0..count).map(|row| format!("{},x,0.,0.,{}\n", row + 1, floor(row).z));
+    let mut job = "[model]\nstiffness = \"stiffness.mtx\"\nmass = \"mass.mtx\"\nrows = \"rows.csv\"\n[test]\n\
+                   file = \"test.csv\"\n"
+        .to_owned();
+    let mut files = vec![
+        ("stiffness.mtx".to_owned(), write_matrix_market(&stiffness)),
+        ("mass.mtx".to_owned(), write_matrix_market(&mass)),
+        ("rows.csv".to_owned(), rows.collect()),
+        ("test.csv".to_owned(), write_csv(&data)),
+    ];
+    for (number, parameter) in (1..).zip(model.parameters()) {
+        let (scales, matrix) = match &parameter.share {
+            WholeShare::Stiffness(matrix) => ("stiffness", matrix),
+            WholeShare::Mass(matrix) => ("mass", matrix),
+            WholeShare::Elements(_) => unreachable!("springs and masses"),
+        };
+        let file = format!("part_{number}.mtx");
+        job += &format!(
+            "[[parameter]]\nname = \"{}\"\nmatrix = \"{file}\"\nscales = \"{scales}\"\n",
+            parameter.name
+        );
+        files.push((file, write_matrix_market(matrix)));
     }
     files.push(("job.toml".to_owned(), job));
     files

@@ -239,7 +239,7 @@ pub fn deviations() -> Diagram {
         .expect("a model");
     let weights = equal_weights(Noise::USUAL, 9);
     let seen = jacobian(&model, &weights)
-        .and_then(|jacobian| identifiability(&jacobian, 1.0))
+        .and_then(|jacobian| identifiability(&jacobian, &[1.0; 15]))
         .expect("what is seen");
     let percents = seen
         .deviations

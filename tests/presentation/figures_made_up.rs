@@ -15,6 +15,8 @@ use nalgebra::DMatrix;
 /// A spread between two ends; what the figure does not draw is left at zero.
 pub fn spread(ends: [f64; 2], quantiles: [f64; 3], bars: &[usize]) -> Spread {
     Spread {
+        count: 0,
+        at_bound: 0,
         mean: 0.0,
         deviation: 0.0,
         quantiles,

@@ -7,11 +7,11 @@ use crate::common::known::planted;
 use crate::common::known::wing::Wing;
 use crate::common::tolerances::{CENTRAL_DIFFERENCE_GRADIENT, ROUND_OFF};
 use crate::presentation::figures::{results, wings};
-use crate::presentation::figures_made_up::summary;
+use crate::presentation::figures_made_up::{spread, summary};
 use crate::readers::job_errors::{placed, with};
 use crate::readers::job_prepared::prepared;
 use approx::assert_relative_eq;
-use corfem::job::{Study, Summary, Trust, Vary, run};
+use corfem::job::{Spread, Study, Summary, Trust, Vary, run};
 use corfem::method::error::Error;
 use corfem::method::model::Bounds;
 use corfem::present::render::text;
@@ -110,7 +110,9 @@ fn a_job_has_converged_when_its_verdict_says_so_and_has_one_stage_when_it_was_st
         "elements = [\"2-3\"]",
         "elements = [\"2-3\"]\neach = true",
     );
-    for (files, is_within) in [(&each, true), (&rods(), false)] {
+    let precise = "[compare]\nfrequency_deviation = 1e-4\nshape_deviation = 1e-4";
+    let two = with(rods(), "job.toml", "[compare]", precise);
+    for (files, is_within) in [(&each, true), (&two, false)] {
         let prepared = prepared(files);
         let finished = run(&prepared, |_| {}, || true).expect("it runs");
         let subject = Report::from_job(&prepared, Some(&finished)).expect("a subject");
@@ -177,6 +179,32 @@ fn a_study_counts_what_failed_among_its_samples() {
         "7 samples, seed 3, with noise on the test: 4 within tolerance, 1 not, 2 failed."
     );
     assert!(notes[1].contains("--sample 2 says"), "{}", notes[1]);
+}
+
+/// A factor that a bound holds in every sample has no scatter of its own; one that it holds in some has.
+#[test]
+fn a_study_counts_the_samples_at_a_bound() {
+    let (_folder, path) = placed(&rods());
+    let study = Study::new(&path, 3, &[Vary::Noise], &[]).expect("a study");
+    let of = |at_bound| {
+        let spread = spread([0.8, 0.8], [0.8; 3], &[7]);
+        Some(Spread {
+            count: 7,
+            at_bound,
+            ..spread
+        })
+    };
+    let summary = summary(vec![("all", of(7)), ("some", of(2))]);
+    let table = study_table(&study, &summary);
+    let cells = |row: usize| -> Vec<String> {
+        table.rows[row]
+            .cells
+            .iter()
+            .map(|cell| cell.computed())
+            .collect()
+    };
+    assert_eq!(cells(0)[1..], ["", "0.8000", "0.8000", "0.8000", "7"]);
+    assert_eq!(cells(1)[1..], ["0.0000", "0.8000", "0.8000", "0.8000", "2"]);
 }
 
 /// Each suspect stands beside the slope of its own.

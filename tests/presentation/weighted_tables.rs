@@ -2,11 +2,12 @@
 
 use crate::common::alter;
 use crate::common::golden::{Numbers, assert_golden};
+use crate::common::tolerances::MEAN_MISFIT;
 use crate::common::tolerances::{JOB_RESULTS, SINGLE_FIT_FACTOR};
-use crate::evidence::coverage::{Coverage, Held, all_coverages, coverage_tables};
+use crate::evidence::coverage::{Coverage, ENOUGH, Held, coverage_tables};
 use crate::evidence::localization::{localization, localization_tables};
 use crate::evidence::rules::{compare_all, rules_table};
-use crate::ledgers::tables::computed;
+use crate::ledgers::tables::{COVERED, computed};
 use corfem::job::LoadedJob;
 use corfem::present::render::{WIDTH, csv, markdown, text};
 use corfem::present::table::{Cell, Table};
@@ -86,50 +87,79 @@ fn culprits_without_noise_are_those_of_the_golden() {
 
 #[test]
 fn intervals_are_counted_by_what_the_test_says_of_a_parameter() {
-    let held = |parameter: &str, tests, learned| Held {
+    let held = |parameter: &str, given, tests, learned| Held {
         parameter: parameter.to_owned(),
+        given,
         tests,
         learned,
     };
-    let parameters = vec![held("a", 9, 0.99), held("b", 8, 0.95), held("c", 1, 0.5)];
-    let tables = coverage_tables(&[Coverage {
+    let of = |parameters| Coverage {
         name: "A box".to_owned(),
         tests: 10,
         parameters,
-    }]);
+        chi_squared: 99.0,
+        degrees_of_freedom: 100.0,
+        explained: 9,
+        flagged: 8,
+    };
+    let parameters = vec![
+        held("a", 10, 9, 0.99),
+        held("b", 5, 4, 0.95),
+        held("c", 1, 1, 0.5),
+    ];
+    let tables = coverage_tables(&[of(parameters)]);
     fits(&tables);
     assert_eq!(
         written(&tables[0], "A box"),
-        ["3", "2", "85.0", "80.0", "60.0"]
+        [
+            "3", "2", "85.0", "80.0", "25.0", "10.0", "0.990", "90.0", "80.0"
+        ]
     );
     assert_eq!(
         (tables[1].name.as_str(), written(&tables[1], "c")),
-        ("coverage_a_box", vec!["10.0".into(), "50.0".into()])
+        (
+            "coverage_a_box",
+            ["100.0", "10.0", "50.0"].map(str::to_owned).to_vec()
+        )
     );
-    let blind = Coverage {
-        name: "Blind".to_owned(),
-        tests: 10,
-        parameters: vec![held("c", 10, 0.1)],
-    };
     assert_eq!(
-        written(&coverage_tables(&[blind])[0], "Blind"),
-        ["1", "0", "", "", "100.0"]
+        written(
+            &coverage_tables(&[of(vec![held("c", 0, 0, 0.1)])])[0],
+            "A box"
+        )[..5],
+        ["1", "0", "", "", ""]
     );
 }
 
+/// What three hundred tests came to, on file, is what is asked.
 #[test]
-fn a_few_tests_see_the_parameters_that_a_thousand_see() {
-    let tables = coverage_tables(&all_coverages(1..=3).expect("they run"));
-    fits(&tables);
-    assert!(tables[0].title.ends_with("over 3 noisy tests") && tables[1].rows.len() == 15);
-    assert!(csv(&tables).contains("\ncoverage,Delta wing,Parameters,,21,\n"));
-    for structure in &tables[0].rows {
-        for (cell, column) in structure.cells.iter().zip(["Parameters", "Seen"]) {
-            assert_eq!(
-                cell.computed(),
-                computed("coverage", &structure.label, column, 0)
-            );
-        }
+fn the_structures_on_file_keep_what_is_asked() {
+    let number = |structure: &str, column, decimals| -> f64 {
+        computed("coverage", structure, column, decimals)
+            .parse()
+            .expect("a number")
+    };
+    for structure in COVERED {
+        let of = |column| number(structure, column, 3);
+        assert!(
+            (93.0..=97.0).contains(&of("Held")),
+            "{structure}: {}",
+            of("Held")
+        );
+        assert!(
+            of("Least held") >= 90.0,
+            "{structure}: {}",
+            of("Least held")
+        );
+        let misfit = of("Chi-squared");
+        assert!((misfit - 1.0).abs() <= MEAN_MISFIT, "{structure}: {misfit}");
+        assert!(of("Explained") >= 95.0, "{structure}: {}", of("Explained"));
+        let is_enough = of("Degrees of freedom") >= ENOUGH;
+        assert!(
+            !is_enough || of("Flagged") >= 99.0,
+            "{structure}: {}",
+            of("Flagged")
+        );
     }
 }
 

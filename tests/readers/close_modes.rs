@@ -145,7 +145,7 @@ fn turned_shapes_of_close_modes_are_no_error() {
             );
         }
         assert!(paired_table(&report).is_ok());
-        assert!(result.misfit().expect("a misfit").chi_squared < 1.0);
+        assert!(result.misfit.chi_squared < 1.0);
     }
 }
 

@@ -179,6 +179,16 @@ fn a_parameter_names_what_the_deck_has() {
         ),
         (
             A,
+            "elements = [1]\nprior_deviation = 0.0",
+            "parameter \"a\": prior_deviation is 0; it must be positive and finite",
+        ),
+        (
+            COMPARE,
+            "[compare]\nprior_deviation = inf",
+            "parameter \"a\": prior_deviation is inf; it must be positive and finite",
+        ),
+        (
+            A,
             "elements = [1]\nlower_size = 0.5",
             "parameter \"a\" needs both lower_size and upper_size, or neither",
         ),

@@ -78,7 +78,7 @@ fn several_starts_name_their_minima_in_every_output() {
         .map(|of| of["starts"].as_u64().expect("a count"));
     assert_eq!((minima.len(), starts.sum::<u64>()), (1, 4));
     assert_eq!(minima[0]["factors"][0].as_f64(), Some(found.factors[0]));
-    let misfit = found.misfit().expect("a misfit").chi_squared;
+    let misfit = found.misfit.chi_squared;
     let chi_squared = minima[0]["chi_squared"].as_f64().expect("a number");
     assert!((chi_squared / misfit - 1.0).abs() < MATRIX_ROUND_OFF);
     let page = report_page(&report, &[table], "corfem correlate job.toml", "").expect("a page");
@@ -111,7 +111,7 @@ fn a_verdict_tells_what_is_good_from_what_cannot_be_better() {
 }
 
 fn intervals(found: &JobResult) -> Vec<Option<Bounds>> {
-    found.intervals(&found.misfit().unwrap()).unwrap()
+    found.intervals.clone()
 }
 
 #[test]
@@ -129,12 +129,65 @@ fn no_interval_stands_at_a_bound() {
     assert_eq!(intervals(&found), [None]);
 }
 
+/// A prior of a millionth leaves its factor at one and keeps all of its variance; the others have the job's, and these the test decides.
+#[test]
+fn a_prior_is_the_parameters_own_or_that_of_all() {
+    let files = with(rods(), "job.toml", B, EACH);
+    let of_all = "[compare]\nprior_deviation = 0.5";
+    let files = with(files, "job.toml", "[compare]", of_all);
+    let found = ran(&with(
+        files,
+        "job.toml",
+        A,
+        "elements = [1]\nprior_deviation = 1e-6",
+    ));
+    assert_eq!(found.loaded.source.priors, [1e-6, 0.5, 0.5]);
+    let seen = &found.seen[1];
+    assert!((found.factors[0] - 1.0).abs() < 1e-6 && seen.learned[0] < 1e-3);
+    for e in [1, 2] {
+        let kept = (seen.deviations[e] / 0.5).powi(2);
+        assert!((seen.learned[e] - (1.0 - kept)).abs() < ROUND_OFF && seen.learned[e] > 0.9);
+    }
+    let remarks = found.trust.all().into_iter().map(|concern| concern.words);
+    let said = "Known more from the prior than from the test: a.";
+    assert!(remarks.into_iter().any(|words| words == said));
+    assert!(found.intervals[0].is_none());
+}
+
+/// What is weighed otherwise than by its deviation is said, and an entry that only the other method reads is not passed over.
+#[test]
+fn own_weights_and_the_papers_settings_are_said() {
+    let words = |entries: &str| -> String {
+        let files = with(rods(), "job.toml", "[compare]", entries);
+        let all = ran(&files).trust.all().into_iter();
+        all.map(|concern| concern.words).collect()
+    };
+    for (entries, divides, unused) in [
+        ("[compare]", false, false),
+        ("[compare]\nshape_weights = [1, 0, 1]", false, false),
+        ("[compare]\nshape_weights = [1, 2, 1]", true, false),
+        ("[correlation]\nmost_passes = 3\n[compare]", false, true),
+    ] {
+        let words = words(entries);
+        assert_eq!(
+            words.contains("weights count as dividing"),
+            divides,
+            "{words}"
+        );
+        assert_eq!(
+            words.contains("correlation.most_passes (of the paper"),
+            unused,
+            "{words}"
+        );
+    }
+}
+
 /// One factor for rods that are 0.8 and 1.1 of the model's: no factor explains the test.
 #[test]
 fn an_interval_is_as_much_wider_as_the_residuals_exceed_the_noise() {
     let found = ran(&alone(B));
-    let times = found.misfit().unwrap().times_the_noise().unwrap();
-    assert!(times > 1.0, "{times}");
+    let times = found.misfit.times_the_noise().unwrap();
+    assert!(times > 1.0 && !found.misfit.is_by_noise(), "{times}");
     let interval = intervals(&found)[0].expect("an optimum");
     let wide = 2.0 * NORMAL_95 * found.seen[1].deviations[0] * times;
     let found = (interval.upper / interval.lower).ln();
@@ -163,7 +216,7 @@ fn the_chi_squared_of_a_right_model_is_its_degrees_of_freedom_in_the_mean() {
         let mut files = files.clone();
         let test = files.iter_mut().find(|(name, _)| name == "test.csv");
         test.expect("a test").1 = write_csv(&data);
-        let misfit = ran(&files).misfit().unwrap();
+        let misfit = ran(&files).misfit;
         chi_squared += misfit.chi_squared;
         degrees += misfit.degrees_of_freedom;
     }

@@ -105,8 +105,7 @@ fn chi_squared(jobs: u64, repeats: u64, modes: &str, test: impl Fn(u64) -> TestD
                 .collect();
             let misfit = run(&loaded(&repeated(&tests, modes)), |_| {}, || true)
                 .unwrap()
-                .misfit()
-                .unwrap();
+                .misfit;
             misfit.chi_squared / misfit.degrees_of_freedom
         })
         .collect();

@@ -3,6 +3,7 @@
 use crate::common::costly_config;
 use crate::common::jobs::{Files, STORIES, building, rods};
 use crate::common::tolerances::STANDARD_ERRORS;
+use crate::readers::job_errors::with;
 use corfem::files::error::FileError;
 use corfem::job::{Samples, Study, Summary, Vary};
 use proptest::prelude::*;
@@ -270,6 +271,23 @@ fn a_summary_counts_what_its_file_has_up_to_the_last_sample() {
     );
     let none = summary(study, "", 8).expect("a summary");
     assert_eq!(none.spreads[0].1, None);
+}
+
+#[test]
+fn a_summary_counts_the_samples_at_an_end_of_a_factors_range() {
+    let bounded = "elements = [1]\nlower = 0.5\nupper = 2.0";
+    let place = Place::of(with(rods(), "job.toml", "elements = [1]", bounded));
+    let study = &place.study(7, &[Vary::Noise]);
+    let line = |(sample, factor): (usize, f64)| {
+        format!("{sample},cap,true,0.5,3,{factor},2,{}\n", study.identity)
+    };
+    let text: String = [(1, 0.5), (2, 1.9), (3, 2.0)].map(line).concat();
+    let found = summary(study, &text, 3).expect("a summary");
+    let counts = found.spreads.iter().map(|(_, spread)| {
+        let spread = spread.as_ref().expect("samples");
+        (spread.count, spread.at_bound)
+    });
+    assert_eq!(counts.collect::<Vec<_>>(), [(3, 2), (3, 0)]);
 }
 
 #[test]

@@ -25,7 +25,7 @@ fn every_outcome_is_said_as_what_it_is() {
         (within.outcome, within.is_within),
         (Outcome::Tolerance, true)
     );
-    assert!(verdict_in_words(&within, &[], &[]).starts_with("Within tolerance: error sum "));
+    assert!(verdict_in_words(&within, None, &[], &[]).starts_with("Within tolerance: error sum "));
     let capped = chain_with(|settings| {
         settings.most_passes = 1;
         settings.inner.iterations = 1;
@@ -34,14 +34,17 @@ fn every_outcome_is_said_as_what_it_is() {
         (capped.verdict.outcome, capped.verdict.is_within),
         (Outcome::Cap, false)
     );
-    assert!(verdict_in_words(&capped.verdict, &[], &[]).contains("Try more iterations or passes."));
+    assert!(
+        verdict_in_words(&capped.verdict, None, &[], &[])
+            .contains("Try more iterations or passes.")
+    );
     let none = chain_with(|settings| settings.most_passes = 0);
     assert_eq!(
         (none.verdict.outcome, none.verdict.is_within),
         (Outcome::Nothing, false)
     );
     assert!(
-        verdict_in_words(&none.verdict, &[], &[])
+        verdict_in_words(&none.verdict, None, &[], &[])
             .contains("No step from the first model lowered it")
     );
     // Bounds that hold the truth out end in a local minimum at the bound.
@@ -75,6 +78,7 @@ fn every_outcome_is_said_as_what_it_is() {
     assert_eq!(held.verdict.at_bound, [0]);
     let words = verdict_in_words(
         &held.verdict,
+        None,
         &["wall".to_owned(), "b".to_owned(), "c".to_owned()],
         &[],
     );
@@ -140,7 +144,7 @@ fn an_element_in_no_test_mode_is_named_as_unseen() {
     let found = correlate(analyze, &[None; 4], &Settings::default(), |_, _| {}).unwrap();
     assert_eq!(found.verdict.unseen, [3]);
     assert!(
-        verdict_in_words(&found.verdict, &[], &[])
+        verdict_in_words(&found.verdict, None, &[], &[])
             .contains("Hardly seen by the test modes, and so not to be trusted: 4.")
     );
 }
@@ -176,6 +180,7 @@ fn advice_goes_by_the_outcome() {
                 at_bound,
                 unseen: Vec::new(),
             },
+            None,
             &[],
             &[],
         )

@@ -15,7 +15,7 @@ use proptest::prelude::*;
 /// Steps until nothing moves by more than a ten-billionth of its standard deviation.
 fn settings(unit: f64) -> WeightedSettings {
     WeightedSettings {
-        prior_deviation: unit,
+        prior_deviations: vec![unit],
         tolerance: 1e-10 / unit,
         ..WeightedSettings::default()
     }

@@ -75,7 +75,7 @@ fn all_minima_that_noise_allows_are_named_with_their_starts() {
     let test: ModeSet = solve(&real.stiffness, &real.mass, 2).unwrap().into();
     let analyze = |factors: &[f64]| at(&first, factors).analyze(&test, None);
     let settings = WeightedSettings {
-        prior_deviation: 100.0,
+        prior_deviations: vec![100.0],
         ..WeightedSettings::default()
     };
     let found = |shape: f64| {
@@ -204,7 +204,11 @@ fn a_column_of_less_than_a_hundredth_of_the_longest_is_blind() {
     for unit in [1e-3, 1.0, 1e3] {
         let columns =
             unit * DMatrix::from_diagonal(&DVector::from_vec(vec![10.0, 0.11, 0.09, 1.0]));
-        assert_eq!(identifiability(&columns, 1.0).unwrap().blind, [2], "{unit}");
+        assert_eq!(
+            identifiability(&columns, &[1.0; 4]).unwrap().blind,
+            [2],
+            "{unit}"
+        );
     }
 }
 

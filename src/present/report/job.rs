@@ -2,7 +2,7 @@
 
 use super::{Derivatives, Report, SensorPoint, Stage};
 use crate::job::expansion::expand;
-use crate::job::{History, JobResult, LoadedJob, PlacedSensor};
+use crate::job::{History, JobResult, LoadedJob, Method, PlacedSensor};
 use crate::method::model::{Bounds, ModalModel};
 use crate::present::PresentError;
 use crate::weighted::gauss_newton::{WeightedCorrelation, WeightedStop};
@@ -90,13 +90,20 @@ impl Report {
         };
         // The deviation of the factor itself, from that of its logarithm, where there is an interval.
         let deviation = |(interval, factor): (Option<Bounds>, &f64)| {
-            interval.map(|interval| factor * (interval.upper / factor).ln() / NORMAL_95)
+            interval.map(|of| factor * (of.upper / of.lower).ln() / (2.0 * NORMAL_95))
         };
-        let misfit = result.misfit()?;
-        let intervals = result.intervals(&misfit)?.into_iter();
+        let intervals = result.intervals.iter().copied();
         Ok(Self {
             deviations: Some(intervals.zip(&result.factors).map(deviation).collect()),
-            misfit: Some(misfit),
+            prior_shares: Some(
+                result.seen[1]
+                    .learned
+                    .iter()
+                    .map(|learned| 1.0 - learned)
+                    .collect(),
+            ),
+            misfit: Some(result.misfit),
+            is_judged_by_noise: loaded.job.compare.method == Method::GaussNewton,
             minima: match &result.history {
                 History::GaussNewton(Some((_, minima))) => minima.clone(),
                 _ => Vec::new(),

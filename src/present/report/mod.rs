@@ -3,7 +3,7 @@
 mod job;
 mod case;
 
-use crate::job::{Misfit, Trust};
+use crate::job::Trust;
 use crate::method::derivatives::{DERIVATIVE_STEP, by_definition};
 use crate::method::error::Error;
 use crate::method::error_sum::Errors;
@@ -17,6 +17,7 @@ use crate::method::structure::Structure;
 use crate::method::verdict::Verdict;
 use crate::present::verdict::verdict_in_words;
 use crate::weighted::close_modes::turned;
+use crate::weighted::misfit::Misfit;
 use crate::weighted::starts::Minimum;
 use nalgebra::{DMatrix, Vector3};
 
@@ -68,8 +69,12 @@ pub struct Report {
     pub ranges: Vec<Option<Bounds>>,
     /// Standard deviation of every factor of the best stage, where an interval holds.
     pub deviations: Option<Vec<Option<f64>>>,
+    /// The part of every parameter's prior variance that is left, where it is known.
+    pub prior_shares: Option<Vec<f64>>,
     /// How a job's residuals at its end are to the noise.
     pub misfit: Option<Misfit>,
+    /// Whether that decides the verdict, and not the tolerances.
+    pub is_judged_by_noise: bool,
     /// The minima that noise allows, of several starts.
     pub minima: Vec<Minimum>,
     /// Factors that make the model right, where they are known.
@@ -183,7 +188,9 @@ impl Report {
             parameters: parameters.to_vec(),
             ranges: vec![None; parameters.len()],
             deviations: None,
+            prior_shares: None,
             misfit: None,
+            is_judged_by_noise: false,
             minima: Vec::new(),
             truth: Vec::new(),
             test: test.clone(),
@@ -251,9 +258,18 @@ impl Report {
                     .collect();
                 format!("Not to be trusted as it stands ({}). ", names.join(", "))
             });
+        let judged = self.misfit.as_ref().filter(|_| self.is_judged_by_noise);
+        let judged = judged.zip(self.trust.as_ref());
+        let judged = judged.map(|(misfit, trust)| misfit.in_words(&trust.assumed));
         let verdict = self.verdict.iter();
-        let words =
-            verdict.map(|verdict| verdict_in_words(verdict, &self.parameters, &self.mode_numbers));
+        let words = verdict.map(|verdict| {
+            verdict_in_words(
+                verdict,
+                judged.as_deref(),
+                &self.parameters,
+                &self.mode_numbers,
+            )
+        });
         against.chain(words).collect()
     }
 

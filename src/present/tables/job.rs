@@ -224,15 +224,18 @@ pub fn suspects_table(loaded: &LoadedJob) -> Result<Table, FileError> {
 pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileError> {
     let names: Vec<&str> = loaded.parameter_names().collect();
     let [before, after] = &result.seen;
-    let misfit = result.misfit()?;
-    let intervals = result.intervals(&misfit)?;
+    let intervals = &result.intervals;
     let apart = format!(
         "Of {}, the test tells {} apart (singular values {:.3e} to {:.3e}). Deviations are those of the logarithm of the factor, \
-         from the standard deviations of the measurement.",
+         from the standard deviations of the measurement{}.",
         counted(names.len(), "parameter", "parameters"),
         after.subset.len(),
         after.singular_values.first().copied().unwrap_or_default(),
         after.singular_values.last().copied().unwrap_or_default(),
+        match &result.trust.assumed[..] {
+            [] => String::new(),
+            assumed => format!(", assumed: {}", assumed.join(" and ")),
+        },
     );
     let ends = |end: fn(&Bounds) -> f64| {
         let ends = intervals
@@ -240,15 +243,8 @@ pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileE
             .map(move |interval| interval.as_ref().map(end));
         numbers(ends, Digits::Fixed(4))
     };
-    let noise = misfit.times_the_noise().map_or_else(
-        || "the test leaves no number over to judge the model by".to_owned(),
-        |times| format!("residuals are {times:.3} times the noise"),
-    );
-    let fit = format!(
-        "Chi-squared {:.1} for {:.1} degrees of freedom: {noise}.",
-        misfit.chi_squared, misfit.degrees_of_freedom
-    );
-    let withheld = "Without an interval: factors at a bound, and all that are not at the optimum of weighted steps.";
+    let withheld = "Without an interval: factors at a bound or known mostly from the prior, and all that are not at the optimum of \
+                    weighted steps.";
     let is_withheld = intervals.iter().any(Option::is_none);
     let learned = after.learned.iter().map(|learned| 1.0 - learned);
     let deviations =
@@ -266,7 +262,7 @@ pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileE
             .column("deviation", "%", deviations(after))
             .column("deviation before", "%", deviations(before))
             .column("prior's share", "%", percents(learned, Digits::Fixed(1)))
-            .notes([apart, fit])
+            .notes([apart])
             .notes(is_withheld.then(|| withheld.to_owned())),
     )
 }
@@ -323,16 +319,18 @@ pub fn study_table(study: &Study, summary: &Summary) -> Table {
         "Parameter",
     )
     .headings(["mean", "deviation", "2.5 %", "median", "97.5 %"], "")
+    .headings(["at a bound"], "samples")
     .notes([note])
     .notes(failed.first().map(why));
     for (name, spread) in spreads {
         let spread = spread.iter().flat_map(|spread| {
-            [
-                vec![spread.mean, spread.deviation],
-                spread.quantiles.to_vec(),
-            ]
+            // Factors that a bound holds have no scatter of their own.
+            let deviation = (spread.at_bound < spread.count).then_some(spread.deviation);
+            let [low, median, high] = spread.quantiles.map(Some);
+            let all = [Some(spread.mean), deviation, low, median, high];
+            numbers(all, Digits::Fixed(4)).chain([Cell::count(spread.at_bound)])
         });
-        table.row(name, numbers(spread.flatten(), Digits::Fixed(4)));
+        table.row(name, spread);
     }
     table
 }

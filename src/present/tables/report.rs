@@ -6,6 +6,7 @@ use crate::method::model::{Bounds, ExactResult};
 use crate::present::report::{PairAgreement, Report};
 use crate::present::table::{Cell, Digits, Table, numbers, percents};
 use crate::torque_box::BUILT_IN;
+use crate::weighted::identifiability::MOSTLY_PRIOR;
 
 /// Three decimals, of criteria between zero and one and of factors.
 const THREE: Digits = Digits::Fixed(3);
@@ -143,9 +144,12 @@ pub fn factor_table(report: &Report) -> Table {
             .verdict
             .as_ref()
             .is_some_and(|verdict| verdict.unseen.contains(&e));
+        let share = report.prior_shares.as_ref().map(|shares| shares[e]);
+        let is_mostly_prior = share.is_some_and(|share| share > MOSTLY_PRIOR);
         let remarks = [
             (report.is_at_bound(e, *factor), "at bound"),
             (is_unseen, "hardly seen"),
+            (is_mostly_prior, "mostly prior"),
         ];
         let remarks: Vec<&str> = remarks
             .into_iter()
@@ -206,7 +210,11 @@ pub fn history_table(report: &Report) -> Table {
     let swapped = (!words.is_empty()).then(|| format!("Other modes of the model answer: {words}."));
     let (sum, compared) = (
         report.corrected().errors.sum(),
-        report.verdict.as_ref().map(|verdict| verdict.error_sum),
+        report
+            .verdict
+            .as_ref()
+            .filter(|_| !report.is_judged_by_noise)
+            .map(|verdict| verdict.error_sum),
     );
     let measure = compared.filter(|compared| sum > 0.0 && *compared != sum);
     let measure = measure.map(|compared| {

@@ -77,7 +77,7 @@ fn threads_and_stops_change_nothing() {
     assert_eq!(fs::read(two.join("samples.csv")).expect("it reads"), before);
     let summary = text(&output.stdout);
     assert!(summary.contains(
-        "6 samples, seed 5, with noise on the test: 0 within tolerance, 6 not, 0 failed."
+        "6 samples, seed 5, with noise on the test: 6 within tolerance, 0 not, 0 failed."
     ));
     assert!(
         summary.lines().all(|line| line.chars().count() <= 100),

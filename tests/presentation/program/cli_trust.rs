@@ -28,6 +28,7 @@ fn full() -> Trust {
         blind: vec!["wall".to_owned()],
         parallel: vec![vec!["spar".to_owned(), "rib".to_owned()]],
         at_bound: vec!["door".to_owned()],
+        mostly_prior: vec!["rib".to_owned()],
         assumed: vec!["2 % of shapes".to_owned()],
         ignored: vec!["ASET (line 3, 1 card)".to_owned()],
         analysis_modes: 11,
@@ -46,7 +47,7 @@ fn unbroken(text: &str) -> String {
 #[test]
 fn every_field_of_the_account_of_trust_is_said() {
     type Emptied = (&'static str, fn(&mut Trust));
-    let emptied: [Emptied; 15] = [
+    let emptied: [Emptied; 16] = [
         ("concerns", |trust| trust.concerns.clear()),
         ("not_compared", |trust| trust.not_compared.clear()),
         ("undecided", |trust| trust.undecided.clear()),
@@ -58,6 +59,7 @@ fn every_field_of_the_account_of_trust_is_said() {
         ("at_bound", |trust| trust.at_bound.clear()),
         ("assumed", |trust| trust.assumed.clear()),
         ("ignored", |trust| trust.ignored.clear()),
+        ("mostly_prior", |trust| trust.mostly_prior = Vec::new()),
         ("analysis_modes", |trust| trust.analysis_modes = 12),
         ("rigid_body_modes", |trust| trust.rigid_body_modes = 0),
         ("mass", |trust| trust.mass = [0.0; 3]),
@@ -584,6 +586,7 @@ fn entries_of_a_job_that_nothing_uses_are_said() {
         [
             "model.rows (of matrices)",
             "compare.seed (of several starts)",
+            "correlation.error_sum_tolerance (of the paper's loops)",
             "correlation.later_inner_tolerance (of the paper's loops)",
             "correlation.most_passes (of the paper's loops)",
             "correlation.inner.step (of the paper's loops)",

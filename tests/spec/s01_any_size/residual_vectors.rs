@@ -163,7 +163,7 @@ const SCIPY_ANALYSES: usize = 12;
 fn a_net_of_300_degrees_of_freedom_comes_back_at_the_usual_number_of_modes() {
     let net = Net::new(20, 15);
     let settings = WeightedSettings {
-        prior_deviation: 1e3,
+        prior_deviations: vec![1e3],
         ..WeightedSettings::default()
     };
     let weights = equal_weights(DEVIATIONS, MODES[0]);

@@ -1,0 +1,140 @@
+//! How far a model is from its test at the best factors, beside what noise alone would leave.
+
+use super::identifiability::identifiability;
+use super::residuals::{jacobian, residuals};
+use crate::method::error::Error;
+use crate::method::error_sum::ModeWeight;
+use crate::method::model::ModalModel;
+use serde::Serialize;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+/// Part of the tests of a right model that are called those of a wrong one.
+const FALSE_ALARMS: f64 = 1e-3;
+/// Errors so many times as large as declared are what few numbers are asked to show,
+const TOO_LARGE: f64 = 3.0;
+/// in all but this part of the tests.
+const MISSED: f64 = 0.01;
+
+/// How far the best model is from the test, in the standard deviations that test or job gives.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Misfit {
+    /// $\chi^2 = \sum r^2$ over the weighted [`residuals`], without the prior.
+    pub chi_squared: f64,
+    /// Degrees of freedom $\nu$: what a right model's chi-squared is in the mean.
+    pub degrees_of_freedom: f64,
+    /// The 99.9 % quantile of chi-squared of $\nu$ degrees of freedom, or of one where less than one is left.
+    pub largest_by_noise: f64,
+    /// Part of the tests with three times the noise whose chi-squared is larger.
+    pub power: f64,
+}
+
+impl Misfit {
+    /// Of a model at its best factors, with the priors of all parameters but those at a bound.
+    ///
+    /// A test mode gives its frequency and, of $d$ sensors, $d - 1$ numbers, because a shape's scale is free, or $d - m$ where $m$ modes
+    /// are compared together; a weight of zero takes its numbers out. The fit takes away the trace of
+    /// $H = J (J^t J + \mathrm{diag}(\tau^{-2}))^{-1} J^t$, which is the sum of [`learned`](super::identifiability::Identifiability::learned), over the
+    /// parameters that are not at a bound. With the eigenvalues $h$ of $H$ the residuals of a right model have variances $1 - h$ in the
+    /// mean over its prior: $\nu$ is the mean of chi-squared, and $2 \nu$ no less than its variance, $2 \sum (1 - h)^2$.
+    ///
+    /// # Errors
+    /// Those of [`residuals`], [`jacobian`] and [`identifiability`].
+    pub fn of(
+        model: &ModalModel,
+        weights: &[ModeWeight],
+        priors: &[f64],
+        at_bound: &[usize],
+    ) -> Result<Self, Error> {
+        let chi_squared = residuals(model, weights)?.norm_squared();
+        let free: Vec<usize> = (0..model.shares.len())
+            .filter(|e| !at_bound.contains(e))
+            .collect();
+        let jacobian = jacobian(model, weights)?.select_columns(&free);
+        let priors: Vec<f64> = free.iter().map(|&e| priors[e]).collect();
+        let fitted: f64 = if free.is_empty() {
+            0.0
+        } else {
+            identifiability(&jacobian, &priors)?.learned.iter().sum()
+        };
+        let sensors = model.test.shapes.nrows();
+        let compared = |(mode, weight): (usize, &ModeWeight)| {
+            let groups = &model.exact.together;
+            let size = groups
+                .iter()
+                .find(|group| group.contains(&mode))
+                .map_or(1, Vec::len);
+            let is_shape = weight.shape > 0.0 && mode < model.test.len();
+            usize::from(weight.frequency > 0.0)
+                + usize::from(is_shape) * sensors.saturating_sub(size)
+        };
+        let numbers: usize = weights.iter().enumerate().map(compared).sum();
+        let degrees_of_freedom = numbers as f64 - fitted;
+        let law = ChiSquared::new(degrees_of_freedom.max(1.0)).map_err(|_| Error::NotFinite {
+            what: "degrees of freedom",
+            value: degrees_of_freedom,
+            row: 0,
+            column: 0,
+        })?;
+        let largest_by_noise = law.inverse_cdf(1.0 - FALSE_ALARMS);
+        Ok(Self {
+            chi_squared,
+            degrees_of_freedom,
+            largest_by_noise,
+            power: law.sf(largest_by_noise / TOO_LARGE.powi(2)),
+        })
+    }
+
+    /// How many times the noise the residuals are, the root of chi-squared over $\nu$; none where less than one degree of freedom is left.
+    pub fn times_the_noise(&self) -> Option<f64> {
+        (self.degrees_of_freedom >= 1.0)
+            .then(|| (self.chi_squared / self.degrees_of_freedom).sqrt())
+    }
+
+    /// How much wider than by the given deviations intervals are: by [`Self::times_the_noise`] where noise cannot have left as much.
+    pub fn widening(&self) -> f64 {
+        if self.is_by_noise() {
+            1.0
+        } else {
+            (self.chi_squared / self.degrees_of_freedom.max(1.0)).sqrt()
+        }
+    }
+
+    /// Whether noise may have left as much.
+    pub fn is_by_noise(&self) -> bool {
+        self.chi_squared <= self.largest_by_noise
+    }
+
+    /// Chi-squared and its degrees of freedom in a sentence.
+    pub fn in_numbers(&self) -> String {
+        format!(
+            "Chi-squared is {:.1} for {:.1} degrees of freedom; noise alone leaves at most {:.1} in 999 of 1000 tests.",
+            self.chi_squared, self.degrees_of_freedom, self.largest_by_noise
+        )
+    }
+
+    /// The same after what it means, in noise of which `assumed` is supposed.
+    pub fn in_words(&self, assumed: &[String]) -> String {
+        let is_few = self.power < 1.0 - MISSED;
+        let mut words = match self.times_the_noise() {
+            _ if !self.is_by_noise() => format!(
+                "The model cannot explain this test: residuals are {:.1} times the noise.",
+                self.widening()
+            ),
+            Some(times) => {
+                format!("As good as the noise allows: residuals are {times:.2} times the noise.")
+            }
+            None => "Nothing to judge by: the fit leaves less than one number over.".to_owned(),
+        };
+        if !assumed.is_empty() {
+            words += &format!(" The noise is assumed: {}.", assumed.join(" and "));
+        }
+        words += &format!(" {}", self.in_numbers());
+        if is_few && self.is_by_noise() {
+            words += &format!(
+                " Of tests with three times this noise, so few numbers would show {:.0} %.",
+                100.0 * self.power
+            );
+        }
+        words
+    }
+}
