@@ -162,9 +162,11 @@ fn with_forms(source: &str, forms: &[&Form]) -> Result<String, String> {
 }
 
 type Placed<'a> = (Range<usize>, &'a Form);
+/// A place and the forms in it.
+type Group<'a> = (Range<usize>, &'a [Placed<'a>]);
 
 /// Forms that share a place, each group with the place that contains all of it.
-fn groups<'a>(placed: &'a [Placed<'a>]) -> Result<Vec<(Range<usize>, &'a [Placed<'a>])>, String> {
+fn groups<'a>(placed: &'a [Placed<'a>]) -> Result<Vec<Group<'a>>, String> {
     let (mut groups, mut start) = (Vec::new(), 0);
     while let Some((outer, first)) = placed.get(start) {
         let rest = &placed[start..];
