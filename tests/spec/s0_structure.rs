@@ -279,3 +279,47 @@ proptest! {
         prop_assert!((found / modulus - 1.0).abs() <= ROUND_OFF);
     }
 }
+
+/// (A.3): a dynamic DOF moves by the weighted motion of its rows, and loads them by the same weights.
+#[test]
+fn a_load_distribution_takes_every_row_and_refuses_what_does_not_move() {
+    let (grids, elements) = square();
+    let structure = Structure::new(grids, elements).unwrap();
+    let points = [
+        vec![(3, 'x', 0.25), (5, 'y', -2.0)],
+        vec![(2, 'y', 0.5), (2, 'y', 0.75)],
+    ];
+    let t = structure.load_distribution(&points).unwrap();
+    // Free are 3x, 3z, 5x, 5y, 5z and 2y.
+    let expected =
+        nalgebra::dmatrix![0.25, 0.0; 0.0, 0.0; 0.0, 0.0; -2.0, 0.0; 0.0, 0.0; 0.0, 1.25];
+    assert_eq!(t, expected);
+    for (grid, direction) in [(3, 'y'), (7, 'x'), (4, 'z'), (5, 'w')] {
+        let refused =
+            structure.load_distribution(&[vec![(5, 'x', 1.0)], vec![(grid, direction, 1.0)]]);
+        let said = refused.expect_err("no such motion").to_string();
+        assert_eq!(
+            said,
+            format!("dynamic DOF 1, direction {direction}: there is no free grid {grid}")
+        );
+    }
+}
+
+/// The rows of the paper's box, read off its T, make it again.
+#[test]
+fn rows_of_the_torque_box_make_its_load_distribution() {
+    let model = corfem::torque_box::Case::new(1)
+        .and_then(|case| case.model())
+        .unwrap();
+    let (structure, t) = (model.structure(), model.load_distribution());
+    let row =
+        |(dof, weight): (&StructuralDof, &f64)| (dof.grid, DIRECTIONS[dof.direction], *weight);
+    let rows = |column: usize| {
+        let column = t.column(column);
+        let rows = structure.free_dof().iter().zip(column.iter()).map(row);
+        rows.filter(|(_, _, weight)| *weight != 0.0)
+            .collect::<Vec<_>>()
+    };
+    let points: Vec<_> = (0..t.ncols()).map(rows).collect();
+    assert_eq!(structure.load_distribution(&points).unwrap(), *t);
+}

@@ -10,6 +10,7 @@ use corfem::method::error_sum::errors;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, run};
 use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
 use corfem::method::modes::{ModeSet, solve};
+use corfem::method::pairing::Pairing;
 use corfem::method::state::{ModalState, UpdateRule};
 use nalgebra::DMatrix;
 use proptest::prelude::*;
@@ -107,7 +108,20 @@ proptest! {
             let mut factors = inner.last.factors().to_vec();
             factors[parameter] *= 1.0 + DERIVATIVE_STEP;
             let there = ModalState::at(&model, factors, UpdateRule::Eigensolution).unwrap();
-            errors(there.modes(), inner.last.pairing(), model.test()).unwrap().sum() - found
+            // An eigensolution's shapes have places and signs of their own: the same modes are those most alike.
+            let alike = inner.last.modes().shapes().tr_mul(there.modes().shapes());
+            let now = inner.last.pairing();
+            let (partners, signs) = now
+                .analysis_mode()
+                .iter()
+                .zip(now.sign())
+                .map(|(&i, sign)| {
+                    let same = alike.row(i).transpose().iamax();
+                    (same, sign * alike[(i, same)].signum())
+                })
+                .unzip();
+            let pairing = Pairing::new(partners, signs).unwrap();
+            errors(there.modes(), &pairing, model.test()).unwrap().sum() - found
         };
         for (parameter, change) in by_definition(&model, &inner.last).unwrap().into_iter().enumerate() {
             let apart = (change - changed(parameter)).abs() / DERIVATIVE_STEP;

@@ -339,7 +339,7 @@ fn every_format_says_what_became_of_every_case() {
             .filter(|line| line.starts_with(case) && line.ends_with(words))
             .count()
     };
-    let (first, last) = ("not converged", "no modeling error detected");
+    let (first, last) = ("not converged", "modeling error detected in covers");
     let (plain, markdown) = (outcome("text"), outcome("markdown"));
     assert_eq!(
         (

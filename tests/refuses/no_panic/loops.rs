@@ -5,7 +5,7 @@ use crate::common::draws::Draws;
 use corfem::method::derivatives::{DerivativeRule, by_definition, error_changes, gradient};
 use corfem::method::error::Error;
 use corfem::method::error_sum::{ErrorMeasure, ModeWeight, errors, mode_errors};
-use corfem::method::inner_loop::{InnerSettings, run};
+use corfem::method::inner_loop::{InnerSettings, first_factors, run};
 use corfem::method::model::{Bounds, LoneFrequency};
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::state::{ModalState, UpdateRule};
@@ -26,6 +26,14 @@ pub const LOOPS: &[Entry] = &[
             UpdateRule::Eigensolution
         };
         ModalState::at(&model, d.list(count), rule).map(|state| vec![state.errors().sum()])
+    }),
+    ("inner_loop::first_factors", |d| {
+        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
+        let settings = InnerSettings {
+            first_relaxation: d.number(),
+            ..InnerSettings::default()
+        };
+        first_factors(&model, &settings)
     }),
     ("inner_loop::run", |d| {
         let model = d.chain().ok_or(Error::Empty { what: "chains" })?;

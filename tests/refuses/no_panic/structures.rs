@@ -1,6 +1,7 @@
 //! Elements, structures and models.
 
 use super::{Entry, entries, modes};
+use crate::common::draws::Draws;
 use crate::common::whole_models::sparse;
 use corfem::method::appendix_a;
 use corfem::method::assembly::{dense_stiffness, element_matrices, lumped_mass};
@@ -127,6 +128,13 @@ pub const STRUCTURES: &[Entry] = &[
         structure.free_dof_index(grid, direction);
         Ok(Vec::new())
     }),
+    // A weight that is no number is refused by the model that T becomes part of.
+    ("Structure::load_distribution", |d| {
+        let (structure, count) = (d.structure()?, d.size());
+        let row = |d: &mut Draws| (d.size(), ['x', 'y', 'z', 'w'][d.below(4)], d.number());
+        let points: Vec<_> = (0..count).map(|_| vec![row(d), row(d)]).collect();
+        structure.load_distribution(&points).map(|_| Vec::new())
+    }),
     ("Structure::corners", |d| {
         let (structure, other) = (d.structure()?, d.structure()?);
         let found = other
@@ -203,17 +211,6 @@ pub const STRUCTURES: &[Entry] = &[
         let (structure, size) = (d.structure()?, d.size());
         let mass = d.symmetric(size);
         ScaledStructure::new(structure, mass, d.parameters()).map(|_| Vec::new())
-    }),
-    ("Structure::load_distribution", |d| {
-        let structure = d.structure()?;
-        let grids: Vec<usize> = (0..d.size()).map(|_| d.about(20)).collect();
-        let weights = d.vector(grids.len());
-        let rows = grids.iter().zip(weights.iter());
-        let points =
-            rows.map(|(&grid, &weight)| vec![(grid, ['x', 'y', 'z', 'w'][grid % 4], weight)]);
-        // A weight that is no number is refused by the model that T becomes part of.
-        let points: Vec<_> = points.collect();
-        structure.load_distribution(&points).map(|_| Vec::new())
     }),
     ("FiniteElementModel::new", |d| {
         let structure = d.structure()?;
