@@ -181,7 +181,8 @@ impl LoadedJob {
             return None;
         }
         // Of every residual its row of the scatter, one over its deviation, and the component of the shape that it measures.
-        let mut rows: Vec<(usize, f64, Option<(usize, f64)>)> = Vec::new();
+        type Row = (usize, f64, Option<(usize, f64)>);
+        let mut rows: Vec<Row> = Vec::new();
         for (place, mode) in self.compared().enumerate() {
             let (row, noise) = (mode * (1 + sensors), self.deviations(mode));
             rows.push((row, 1.0 / noise.frequency, None));

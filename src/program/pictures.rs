@@ -31,8 +31,11 @@ pub struct ReportArguments {
     folder: Option<PathBuf>,
 }
 
+/// The four cases, Case 2 with fewer modes, and the figures of both.
+type Drawn = (Vec<CaseResult>, Vec<FewerModesRun>, Vec<Figure>);
+
 /// Runs the four cases, and Case 2 with fewer modes, and draws them.
-fn drawn(quiet: bool) -> Result<(Vec<CaseResult>, Vec<FewerModesRun>, Vec<Figure>), PresentError> {
+fn drawn(quiet: bool) -> Result<Drawn, PresentError> {
     let mut results = Vec::new();
     for number in CASES {
         let result = run_case(&Case::new(number)?, |_, _| {})?;

@@ -112,12 +112,15 @@ struct Found {
     is_explained: bool,
 }
 
-/// Tests of a structure whose truth is known, by the factor on its declared noise and a seed.
+/// What becomes of one test, by the factor on its declared noise and a seed.
+type Outcome = Box<dyn Fn(f64, u64) -> Result<Found, Box<dyn Error>>>;
+
+/// Tests of a structure whose truth is known.
 struct Subject {
     name: String,
     parameters: Vec<String>,
     truth: Vec<f64>,
-    test: Box<dyn Fn(f64, u64) -> Result<Found, Box<dyn Error>>>,
+    test: Outcome,
 }
 
 /// Counts over the tests of a structure.

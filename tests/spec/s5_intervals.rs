@@ -107,9 +107,10 @@ fn intervals_widen_with_the_noise_and_are_withheld_where_none_is_true() {
     };
     let best = noisy.optimum(&[1.0; 15], &free);
     let all = noisy.intervals(&best.factors, &free, 1.0);
-    for e in 0..15 {
+    assert_eq!(all.len(), 15);
+    for (e, interval) in all.iter().enumerate() {
         assert_eq!(
-            all[e].is_none(),
+            interval.is_none(),
             best.identifiability.is_mostly_prior(e),
             "{e}"
         );

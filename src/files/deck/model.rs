@@ -80,6 +80,9 @@ pub struct BulkData {
     pub masses: Vec<PointMass>,
 }
 
+/// Where a mass is, and how much of it moves along x, y and z.
+pub type PlacedMass = (Vector3<f64>, Vector3<f64>);
+
 impl BulkData {
     /// A structure alone, without ties and point masses.
     pub fn from_structure(structure: &Structure) -> Self {
@@ -234,7 +237,7 @@ impl BulkData {
     ///
     /// # Errors
     /// Those of [`Self::structure`].
-    pub fn placed_masses(&self) -> Result<Vec<(Vector3<f64>, Vector3<f64>)>, FileError> {
+    pub fn placed_masses(&self) -> Result<Vec<PlacedMass>, FileError> {
         let structure = self.structure()?;
         let of_element = |(element, geometry): (&Element, &Geometry)| {
             let volumes = corner_volumes(geometry);
