@@ -23,20 +23,15 @@ pub fn verdict_in_words(
         Outcome::Request => " It was stopped by request.",
         Outcome::Nothing => " No step from the first model lowered it, or none was allowed.",
     };
-    let within = if verdict.is_within {
-        "Within"
-    } else {
-        "Outside"
+    let by_tolerance = || {
+        let error_sum = format!("error sum {:.2} %", 100.0 * verdict.error_sum);
+        if verdict.is_within {
+            format!("Correlated: {error_sum}, within tolerance.")
+        } else {
+            format!("Outside tolerance: {error_sum}.")
+        }
     };
-    let judged = judged.map_or_else(
-        || {
-            format!(
-                "{within} tolerance: error sum {:.2} %.",
-                100.0 * verdict.error_sum
-            )
-        },
-        str::to_owned,
-    );
+    let judged = judged.map_or_else(by_tolerance, str::to_owned);
     let mut words = format!(
         "{judged}{end} Worst is mode {}: frequency {:+.2} %, shape {}.",
         mode_numbers

@@ -26,7 +26,7 @@ const GRADIENT: f64 = 1e-2;
 /// parts together exceed 7 %, the ends are where the objective itself, the lowest that the other parameters allow, is higher by
 /// $\frac12 1.96^2$ (the profile likelihood). An end that is not found withholds the interval.
 ///
-/// `analyze` need be no other analysis: a job follows the modes in the basis of its best model ([`ModalModel::followed`]).
+/// `analyze` need be no other analysis: a job follows the modes in the basis of its best model.
 ///
 /// # Errors
 /// Those of [`residuals`], [`jacobian`] and [`identifiability`].

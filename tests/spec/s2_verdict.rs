@@ -25,7 +25,7 @@ fn every_outcome_is_said_as_what_it_is() {
         (within.outcome, within.is_within),
         (Outcome::Tolerance, true)
     );
-    assert!(verdict_in_words(&within, None, &[], &[]).starts_with("Within tolerance: error sum "));
+    assert!(verdict_in_words(&within, None, &[], &[]).starts_with("Correlated: error sum "));
     let capped = chain_with(|settings| {
         settings.most_passes = 1;
         settings.inner.iterations = 1;
