@@ -30,11 +30,8 @@ pub mod chapter_04_step {
     #![doc = include_str!("../paper/tour/04_step.md")]
 }
 
-#[allow(
-    rustdoc::invalid_html_tags,
-    reason = "the figure's script writes tags of its own"
-)]
 pub mod chapter_05_inner_loop {
+    #![allow(rustdoc::invalid_html_tags, reason = "the figure's script writes tags")]
     #![doc = include_str!("../paper/tour/05_inner_loop.md")]
     #![doc = include_str!("../paper/tour/05_play.html")]
 }

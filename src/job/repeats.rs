@@ -181,8 +181,8 @@ impl LoadedJob {
             return None;
         }
         // Of every residual its row of the scatter, one over its deviation, and the component of the shape that it measures.
-        type Row = (usize, f64, Option<(usize, f64)>);
-        let mut rows: Vec<Row> = Vec::new();
+        type MeasuredNumber = (usize, f64, Option<(usize, f64)>);
+        let mut rows: Vec<MeasuredNumber> = Vec::new();
         for (place, mode) in self.compared().enumerate() {
             let (row, noise) = (mode * (1 + sensors), self.deviations(mode));
             rows.push((row, 1.0 / noise.frequency, None));

@@ -32,10 +32,10 @@ pub struct ReportArguments {
 }
 
 /// The four cases, Case 2 with fewer modes, and the figures of both.
-type Drawn = (Vec<CaseResult>, Vec<FewerModesRun>, Vec<Figure>);
+type CasesAndFigures = (Vec<CaseResult>, Vec<FewerModesRun>, Vec<Figure>);
 
 /// Runs the four cases, and Case 2 with fewer modes, and draws them.
-fn drawn(quiet: bool) -> Result<Drawn, PresentError> {
+fn drawn(quiet: bool) -> Result<CasesAndFigures, PresentError> {
     let mut results = Vec::new();
     for number in CASES {
         let result = run_case(&Case::new(number)?, |_, _| {})?;

@@ -54,8 +54,8 @@ impl PassHistory {
 }
 
 /// The three errors as drawn: name, value, color, form and dash.
-type Series = (&'static str, fn(&Errors) -> f64, RGBColor, Form, Dash);
-const SERIES: [Series; 3] = [
+type Measure = (&'static str, fn(&Errors) -> f64, RGBColor, Form, Dash);
+const SERIES: [Measure; 3] = [
     ("sum of both", Errors::sum, INK, Form::Diamond, Dash::Solid),
     (
         "frequency error",
