@@ -21,6 +21,7 @@ mod sensors;
 mod study;
 mod trust;
 
+#[cfg(feature = "program")]
 pub(crate) use concerns::hardly_held;
 pub use entries::removed_step;
 pub use loaded::LoadedJob;
