@@ -51,15 +51,14 @@ fn drawn(quiet: bool) -> Result<CasesAndFigures, PresentError> {
     Ok((results, fewer_modes, figures))
 }
 
-/// Writes the figures.
-pub fn figures(
-    FiguresArguments { folder }: &FiguresArguments,
+/// Writes the files of a run and says how many.
+fn write_counted(
+    folder: &Path,
+    files: &[(String, Vec<u8>)],
+    run: &str,
     quiet: bool,
 ) -> Result<(), PresentError> {
-    let (_, _, figures) = drawn(quiet)?;
-    let file = |figure: Figure| (figure.name + ".svg", figure.svg.into_bytes());
-    let files: Vec<_> = figures.into_iter().map(file).collect();
-    write_files(folder, &files, "figures")?;
+    write_files(folder, files, run)?;
     if !quiet {
         note(format_args!(
             "{} files in {}",
@@ -68,6 +67,17 @@ pub fn figures(
         ));
     }
     Ok(())
+}
+
+/// Writes the figures.
+pub fn figures(
+    FiguresArguments { folder }: &FiguresArguments,
+    quiet: bool,
+) -> Result<(), PresentError> {
+    let (_, _, figures) = drawn(quiet)?;
+    let file = |figure: Figure| (figure.name + ".svg", figure.svg.into_bytes());
+    let files: Vec<_> = figures.into_iter().map(file).collect();
+    write_counted(folder, &files, "figures", quiet)
 }
 
 /// Writes the page that has the figures and the tables.
@@ -120,13 +130,5 @@ pub fn dump(arguments: &DumpArguments, quiet: bool) -> Result<(), PresentError> 
             .into_iter()
             .map(|(name, text)| (name, text.into_bytes())),
     );
-    write_files(folder, &files, &format!("dump {}", arguments.case))?;
-    if !quiet {
-        note(format_args!(
-            "{} files in {}",
-            files.len(),
-            folder.display()
-        ));
-    }
-    Ok(())
+    write_counted(folder, &files, &format!("dump {}", arguments.case), quiet)
 }
