@@ -2,7 +2,9 @@
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
-use faer::linalg::matmul::triangular::{BlockStructure, matmul};
+use faer::linalg::matmul::matmul;
+use faer::linalg::matmul::triangular;
+use faer::linalg::matmul::triangular::BlockStructure;
 use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::{DMatrix, DVector};
 
@@ -50,7 +52,7 @@ pub(crate) fn add_squares(sum: &mut DMatrix<f64>, columns: &[f64]) {
     let columns = MatRef::from_column_major_slice(columns, count, columns.len() / count.max(1));
     let sum = MatMut::from_column_major_slice_mut(sum.as_mut_slice(), count, count);
     let (lower, full) = (BlockStructure::TriangularLower, BlockStructure::Rectangular);
-    matmul(
+    triangular::matmul(
         sum,
         lower,
         Accum::Add,
@@ -61,4 +63,31 @@ pub(crate) fn add_squares(sum: &mut DMatrix<f64>, columns: &[f64]) {
         1.0,
         Par::Seq,
     );
+}
+
+/// $A^t B$ of matrices of many rows.
+pub(crate) fn transposed_product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut product = DMatrix::zeros(a.ncols(), b.ncols());
+    let (rows, columns) = product.shape();
+    let into = MatMut::from_column_major_slice_mut(product.as_mut_slice(), rows, columns);
+    matmul(
+        into,
+        Accum::Replace,
+        view(a).transpose(),
+        view(b),
+        1.0,
+        Par::Seq,
+    );
+    product
+}
+
+/// Takes $A B$ away from a matrix of many rows.
+pub(crate) fn take_product(from: &mut DMatrix<f64>, a: &DMatrix<f64>, b: &DMatrix<f64>) {
+    let (rows, columns) = from.shape();
+    let into = MatMut::from_column_major_slice_mut(from.as_mut_slice(), rows, columns);
+    matmul(into, Accum::Add, view(a), view(b), -1.0, Par::Seq);
+}
+
+fn view(matrix: &DMatrix<f64>) -> MatRef<'_, f64> {
+    MatRef::from_column_major_slice(matrix.as_slice(), matrix.nrows(), matrix.ncols())
 }

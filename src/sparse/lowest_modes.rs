@@ -3,6 +3,7 @@
 
 use super::condensation::take_deformation;
 use super::matrix::GIVEN;
+use super::subspace::{Directions, Found, subspace};
 use super::{Factor, RigidBodies, SparseMatrix};
 use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{
@@ -10,7 +11,6 @@ use crate::method::linear_algebra::{
 };
 use crate::method::modes::{ModeSet, check_count};
 use crate::sparse::factorization::FactorizationPlan;
-use crate::sparse::random::random_block;
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
@@ -19,15 +19,9 @@ pub const MOST_DENSE_ROWS: usize = 150;
 /// What there are too few of when more modes are asked for than have a frequency.
 pub const FINITE: &str = "modes of finite frequency";
 /// Directions that are added to the subspace at once, unless a root is repeated more often.
-pub(super) const BLOCK: usize = 8;
+const BLOCK: usize = 4;
 /// Modes found beyond those asked for, so that the count can be made where two neighbors are apart.
 const BEYOND: usize = 4;
-/// Most restarts of the subspace.
-const RESTARTS: usize = 200;
-/// Residual of a mode relative to its root at which it counts as found.
-const FOUND: f64 = 1e-10;
-/// The same where round-off of a softer mode leaves no smaller one: a root errs by the square of it.
-const ROUNDED: f64 = 1e-5;
 /// Root relative to the largest below which it is lost: a decomposition finds each to some tens of roundings of the largest, so that
 /// three digits are left at a frequency three million times the lowest.
 const SMALLEST_ROOT: f64 = 1e-13;
@@ -103,7 +97,7 @@ pub(super) fn modes_at_most(
             (flexibility, bodies.doubtful)
         }
     };
-    let rigid = flexibility.rigid.ncols();
+    let rigid = flexibility.rigid.len();
     let (mut wanted, mut block) = (count + BEYOND, BLOCK);
     loop {
         let found = largest(&flexibility, mass, wanted, block)?;
@@ -132,7 +126,7 @@ pub(super) fn modes_at_most(
                 shapes,
             }
             .select(&(0..needed).collect::<Vec<_>>()),
-            rigid_body: flexibility.rigid.clone(),
+            rigid_body: flexibility.rigid.shapes.clone(),
             doubtful,
         };
         return Ok((found, flexibility));
@@ -151,20 +145,14 @@ type At<'a> = &'a dyn Fn(&'static str, f64) -> Result<Factor, Error>;
 /// that their stiffness does not matter, and no shift takes digits from the frequencies.
 pub(super) struct Flexibility {
     factor: Factor,
-    /// $R$, of unit generalized mass (rows × r).
-    rigid: DMatrix<f64>,
-    /// $M R$.
-    momentum: DMatrix<f64>,
+    /// $R$, of unit generalized mass, with $M R$ (rows × r).
+    pub(super) rigid: Directions,
 }
 
 impl Flexibility {
     fn held(factor: Factor) -> Self {
-        let none = DMatrix::zeros(factor.rows(), 0);
-        Self {
-            factor,
-            rigid: none.clone(),
-            momentum: none,
-        }
+        let rigid = Directions::none(factor.rows());
+        Self { factor, rigid }
     }
 
     fn of(
@@ -203,37 +191,26 @@ impl Flexibility {
             other => other,
         })?;
         let scaled = DMatrix::from_diagonal(&size.map(f64::recip)) * motions.transpose();
-        let rigid = solve_lower(&lower, scaled).transpose();
-        let momentum = mass.times(&rigid)?;
-        Ok(Self {
-            factor,
-            rigid,
-            momentum,
-        })
+        let shapes = solve_lower(&lower, scaled).transpose();
+        let weighted = mass.times(&shapes)?;
+        let rigid = Directions { shapes, weighted };
+        Ok(Self { factor, rigid })
     }
 
     /// Deflections under loads (rows × m).
     pub(super) fn solve(&self, loads: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-        if self.rigid.is_empty() {
+        let Directions { shapes, weighted } = &self.rigid;
+        if self.rigid.len() == 0 {
             return self.factor.solve(loads);
         }
-        let balanced = loads - &self.momentum * self.rigid.tr_mul(loads);
+        let balanced = loads - weighted * shapes.tr_mul(loads);
         let mut deflections = self.factor.solve(&balanced)?;
         // Once leaves the round-off of what was taken away, twice is enough.
         for _ in 0..2 {
-            deflections -= &self.rigid * self.momentum.tr_mul(&deflections);
+            self.rigid.take_from(&mut deflections);
         }
         Ok(deflections)
     }
-}
-
-/// The largest roots of $K^{-1} M$, descending, their shapes (rows × m), the forces $K v$ that these were found from, and whether there
-/// are no others.
-struct Found {
-    roots: DVector<f64>,
-    shapes: DMatrix<f64>,
-    forces: DMatrix<f64>,
-    is_all: bool,
 }
 
 /// The `wanted` largest roots, or all if there are fewer or all are as easily found.
@@ -244,11 +221,18 @@ fn largest(
     block: usize,
 ) -> Result<Found, Error> {
     let keep = wanted + block;
-    let most = keep + keep.max(4 * block);
+    let most = keep + keep.max(8 * block);
     if mass.rows() <= most.max(MOST_DENSE_ROWS) {
         all(flexibility, mass)
     } else {
-        subspace(flexibility, mass, wanted, [block, keep, most])
+        let solve = |loads: &DMatrix<f64>| flexibility.solve(loads);
+        subspace(
+            &solve,
+            &flexibility.rigid,
+            mass,
+            wanted,
+            [block, keep, most],
+        )
     }
 }
 
@@ -260,7 +244,7 @@ fn all(flexibility: &Flexibility, mass: &SparseMatrix) -> Result<Found, Error> {
     let (roots, vectors) = symmetric_eigen("flexibility weighted by the mass", &small)?;
     let smallest = SMALLEST_ROOT * roots.max();
     // Rigid-body modes have the lowest roots: zero but for round-off.
-    let vibrations = flexibility.rigid.ncols().min(roots.len())..roots.len();
+    let vibrations = flexibility.rigid.len().min(roots.len())..roots.len();
     let kept = vibrations.rev().filter(|&at| roots[at] > smallest);
     let kept: Vec<usize> = kept.collect();
     Ok(Found {
@@ -289,120 +273,6 @@ fn root(mass: &SparseMatrix) -> Result<DMatrix<f64>, Error> {
             dof: at % rows,
         }),
     }
-}
-
-/// The `wanted` largest roots by blocks of so many directions, in subspaces of at most so many, of which so many are kept.
-fn subspace(
-    flexibility: &Flexibility,
-    mass: &SparseMatrix,
-    wanted: usize,
-    [block, keep, most]: [usize; 3],
-) -> Result<Found, Error> {
-    let times = |block: &DMatrix<f64>| flexibility.solve(&mass.times(block)?);
-    let (mut basis, mut images) = (
-        DMatrix::zeros(mass.rows(), 0),
-        DMatrix::zeros(mass.rows(), 0),
-    );
-    let mut state = 0;
-    let mut fresh = |basis: &DMatrix<f64>| {
-        let mut known = flexibility.rigid.clone();
-        known.extend(basis.column_iter());
-        let random = random_block(mass.rows(), block, &mut state);
-        match orthonormal(mass, &known, random)? {
-            none if none.is_empty() => Ok(none),
-            random => orthonormal(mass, basis, times(&random)?),
-        }
-    };
-    let mut next = fresh(&basis)?;
-    for _ in 0..RESTARTS {
-        while next.ncols() > 0 && basis.ncols() < most {
-            let image = times(&next)?;
-            basis.extend(next.column_iter());
-            images.extend(image.column_iter());
-            next = orthonormal(mass, &basis, image)?;
-            if next.ncols() == 0 {
-                // What the block led to is complete by itself; there may be other copies of its roots.
-                next = fresh(&basis)?;
-            }
-        }
-        let is_whole = next.ncols() == 0;
-        let small = symmetric_part(&basis.tr_mul(&mass.times(&images)?));
-        let (values, vectors) = symmetric_eigen("subspace", &small)?;
-        let largest: Vec<usize> = (0..values.len()).rev().take(keep).collect();
-        let (roots, vectors) = (
-            values.select_rows(&largest),
-            vectors.select_columns(&largest),
-        );
-        (basis, images) = (&basis * &vectors, images * vectors);
-        let residuals = &images - &basis * basis.tr_mul(&mass.times(&images)?);
-        let weighted = mass.times(&residuals)?;
-        let is_found = |mode: usize| {
-            let residual = residuals
-                .column(mode)
-                .dot(&weighted.column(mode))
-                .max(0.0)
-                .sqrt();
-            let round_off = 100.0 * f64::EPSILON * roots[0];
-            residual <= FOUND * roots[mode] + round_off.min(ROUNDED * roots[mode])
-        };
-        let is_all = is_whole && values.len() <= keep;
-        let count = if is_all { values.len() } else { wanted };
-        if is_whole || (0..count).all(is_found) {
-            // The image has the massless motions right too.
-            return Ok(Found {
-                roots: roots.rows(0, count).into_owned(),
-                shapes: images.columns(0, count).into_owned(),
-                forces: mass.times(&basis.columns(0, count).into_owned())?,
-                is_all,
-            });
-        }
-        let open: Vec<usize> = (0..roots.len())
-            .filter(|&mode| !is_found(mode))
-            .take(block)
-            .collect();
-        next = orthonormal(mass, &basis, residuals.select_columns(&open))?;
-    }
-    Err(Error::NoConvergence("modes of a sparse pencil"))
-}
-
-/// The columns of `block` made orthonormal in the mass, to `basis` and to each other; those that are combinations are left out.
-fn orthonormal(
-    mass: &SparseMatrix,
-    basis: &DMatrix<f64>,
-    mut block: DMatrix<f64>,
-) -> Result<DMatrix<f64>, Error> {
-    // Once leaves the round-off of what was taken away, twice is enough.
-    for round in 0..3 {
-        if round > 0 {
-            let shares = basis.tr_mul(&mass.times(&block)?);
-            block -= basis * shares;
-        }
-        let gram = symmetric_part(&block.tr_mul(&mass.times(&block)?));
-        // The first time each column is brought to unit size alone.
-        let gram = if round == 0 {
-            DMatrix::from_diagonal(&gram.diagonal())
-        } else {
-            gram
-        };
-        let (values, vectors) = symmetric_eigen("block", &gram)?;
-        // Round-off is relative to the largest: of as few masses as there are columns, some are combinations of the others.
-        let least = if round == 0 {
-            0.0
-        } else {
-            (1e-14 * values[values.len() - 1]).max(1e-20)
-        };
-        let independent: Vec<usize> = (0..values.len())
-            .filter(|&column| values[column] > least)
-            .collect();
-        if independent.is_empty() {
-            return Ok(DMatrix::zeros(mass.rows(), 0));
-        }
-        let scale = values
-            .select_rows(&independent)
-            .map(|value| 1.0 / value.sqrt());
-        block *= vectors.select_columns(&independent) * DMatrix::from_diagonal(&scale);
-    }
-    Ok(block)
 }
 
 /// Squared frequencies and shapes of unit generalized mass, each shape made orthogonal to those before it: what round-off leaves of a

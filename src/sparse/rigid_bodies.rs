@@ -2,7 +2,6 @@
 
 use super::factorization::FactorizationPlan;
 use super::factorization::round_off;
-use super::lowest_modes::BLOCK;
 use super::matrix::GIVEN;
 use super::random::random_block;
 use super::{Factor, SparseMatrix};
@@ -22,6 +21,8 @@ const DIGITS: RangeInclusive<usize> = 6..=12;
 /// Steps of inverse iteration. In each a motion whose resistance is $k$ shifts loses a factor of $1 + k$ beside those that nothing
 /// resists, and its energy counts by the square: of ten shifts six leave less than $10 \cdot 11^{-12}$ shifts.
 const STEPS: usize = 6;
+/// Motions sought at first: more than one body has.
+const BLOCK: usize = 8;
 
 /// The null space of a semidefinite stiffness.
 #[derive(Debug, Clone, PartialEq)]

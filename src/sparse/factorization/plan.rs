@@ -253,12 +253,21 @@ impl FactorizationPlan {
     /// Those of a sum of symmetric matrices, each times its number, for which it was made.
     pub(super) fn entries_of(&self, terms: &[(f64, &SparseMatrix)]) -> Vec<f64> {
         let mut values = vec![0.0; self.pattern.row_idx().len()];
-        let all = terms
-            .iter()
-            .flat_map(|(number, matrix)| matrix.times_number(*number));
-        for (row, column, value) in all {
-            let place = self.place(self.turn[row], self.turn[column]);
-            place.into_iter().for_each(|place| values[place] += value);
+        // Of the rows that the present column has, their places.
+        let mut places = vec![0; self.turn.len()];
+        for (column, &dof) in self.order.iter().enumerate() {
+            let (rows, range) = self.column(column);
+            rows.iter()
+                .zip(range)
+                .for_each(|(&row, place)| places[row] = place);
+            for (number, matrix) in terms {
+                let entries = matrix
+                    .column(dof)
+                    .iter()
+                    .map(|entry| (self.turn[entry.0], entry.2));
+                let below = entries.filter(|(row, _)| *row >= column);
+                below.for_each(|(row, value)| values[places[row]] += number * value);
+            }
         }
         values
     }
