@@ -123,13 +123,13 @@ impl Factor {
     /// The same transposed (m × rows), so that the deflections of one DOF lie together.
     pub(crate) fn solve_transposed(&self, loads: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         let (count, turn) = (loads.ncols(), &self.plan.turn);
-        let (mut rows, mut is_reached) = (vec![0.0; loads.len()], vec![false; loads.nrows()]);
+        let (mut rows, mut is_loaded) = (vec![0.0; loads.len()], vec![false; loads.nrows()]);
         for (&turn, loads) in turn.iter().zip(loads.row_iter()) {
-            is_reached[turn] = loads.iter().any(|&load| load != 0.0);
+            is_loaded[turn] = loads.iter().any(|&load| load != 0.0);
             let row = rows[turn * count..].iter_mut().zip(loads.iter());
             row.for_each(|(value, load)| *value = load * self.scale[turn]);
         }
-        self.forward(&mut rows, &mut is_reached);
+        self.forward(&mut rows, count, &self.reach(is_loaded).with_all_rows());
         self.backward(&mut rows, count);
         let at =
             |column: usize, dof: usize| self.scale[turn[dof]] * rows[turn[dof] * count + column];
@@ -148,17 +148,20 @@ impl Factor {
         let size = self.scale.len();
         check_length("load distribution", load_distribution.rows(), size)?;
         let count = load_distribution.columns();
-        let (mut rows, mut is_reached) = (vec![0.0; size * count], vec![false; size]);
-        for &(dof, column, coefficient) in load_distribution.entries() {
-            let turn = self.plan.turn[dof];
-            is_reached[turn] = true;
-            rows[turn * count + column] = coefficient * self.scale[turn];
+        let loads = load_distribution.entries().iter();
+        let loads = loads.map(|&(dof, column, value)| (self.plan.turn[dof], column, value));
+        let mut is_loaded = vec![false; size];
+        loads.clone().for_each(|(turn, ..)| is_loaded[turn] = true);
+        let reach = self.reach(is_loaded);
+        let mut rows = vec![0.0; reach.place[size] * count];
+        for (turn, column, coefficient) in loads {
+            rows[reach.place[turn] * count + column] = coefficient * self.scale[turn];
         }
-        self.forward(&mut rows, &mut is_reached);
+        self.forward(&mut rows, count, &reach);
+        let pivots = self.pivots.iter().zip(&reach.is_reached);
+        let pivots: Vec<f64> = pivots.filter(|at| *at.1).map(|at| *at.0).collect();
         let mut sum = DMatrix::zeros(count, count);
-        let panels = rows.chunks_mut(PANEL * count);
-        let reached = is_reached.chunks(PANEL).zip(self.pivots.chunks(PANEL));
-        for (rows, (_, pivots)) in panels.zip(reached).filter(|(_, at)| at.0.contains(&true)) {
+        for (rows, pivots) in rows.chunks_mut(PANEL * count).zip(pivots.chunks(PANEL)) {
             for (row, pivot) in rows.chunks_mut(count).zip(pivots) {
                 let weight = 1.0 / pivot.sqrt();
                 row.iter_mut().for_each(|value| *value *= weight);
@@ -169,17 +172,41 @@ impl Factor {
         finite("dynamic flexibility", sum)
     }
 
-    /// $L^{-1}$ times right-hand sides in place, a DOF's values together in the order of elimination; blocks of DOF that are not
-    /// reached are left alone.
-    fn forward(&self, rows: &mut [f64], is_reached: &mut [bool]) {
-        let (count, mut scratch) = (rows.len() / is_reached.len(), Vec::new());
+    /// The rows to which loads on some lead in forward substitution, and no others to be kept.
+    fn reach(&self, mut is_reached: Vec<bool>) -> Reach {
+        for block in self.plan.blocks(&self.values) {
+            let own = block.start()..block.start() + block.val().ncols();
+            if is_reached[own.clone()].contains(&true) {
+                is_reached[own].fill(true);
+                block
+                    .pattern()
+                    .iter()
+                    .for_each(|&row| is_reached[row] = true);
+            }
+        }
+        let count = |kept: &mut usize, is_reached: &bool| {
+            *kept += usize::from(*is_reached);
+            Some(*kept)
+        };
+        let kept = is_reached.iter().scan(0, count);
+        Reach {
+            place: [0].into_iter().chain(kept).collect(),
+            is_reached,
+        }
+    }
+
+    /// $L^{-1}$ times right-hand sides in place, `count` values for each DOF that is kept in the order of elimination; blocks of DOF that
+    /// are not reached are left alone.
+    fn forward(&self, rows: &mut [f64], count: usize, reach: &Reach) {
+        let mut scratch = Vec::new();
         for block in self.plan.blocks(&self.values) {
             let end = block.start() + block.val().ncols();
-            if !is_reached[block.start()..end].contains(&true) {
+            if !reach.is_reached[block.start()] {
                 continue;
             }
+            let (first, end) = (reach.place[block.start()], reach.place[end]);
             let (done, later) = rows.split_at_mut(end * count);
-            let own = &mut done[block.start() * count..];
+            let own = &mut done[first * count..];
             let mut own = MatMut::from_column_major_slice_mut(own, count, block.val().ncols());
             let (diagonal, below) = block.val().split_at_row(block.val().ncols());
             solve_unit_lower_triangular_in_place(diagonal, own.as_mut().transpose_mut(), Par::Seq);
@@ -199,8 +226,8 @@ impl Factor {
                 .iter()
                 .zip(scratch.chunks_exact(count.max(1)))
             {
-                is_reached[row] = true;
-                let values = later[(row - end) * count..].iter_mut().zip(change);
+                let row = reach.place[row] - end;
+                let values = later[row * count..].iter_mut().zip(change);
                 values.for_each(|(value, change)| *value -= change);
             }
         }
@@ -235,7 +262,8 @@ impl Factor {
 
     /// The solution of the scaled problem for a row of loads, both in the order of elimination.
     fn solved(&self, mut row: RowDVector<f64>) -> RowDVector<f64> {
-        self.forward(row.as_mut_slice(), &mut vec![true; self.scale.len()]);
+        let all = self.reach(vec![true; self.scale.len()]);
+        self.forward(row.as_mut_slice(), 1, &all);
         self.backward(row.as_mut_slice(), 1);
         row
     }
@@ -300,6 +328,21 @@ impl Factor {
             }
         }
         (smallest, motion)
+    }
+}
+
+/// Rows that forward substitution reaches, in the order of elimination.
+struct Reach {
+    is_reached: Vec<bool>,
+    /// How many rows are kept before each, and at the end how many in all.
+    place: Vec<usize>,
+}
+
+impl Reach {
+    /// The same with every row kept.
+    fn with_all_rows(self) -> Self {
+        let place = (0..self.place.len()).collect();
+        Self { place, ..self }
     }
 }
 
