@@ -7,7 +7,7 @@ use crate::known::{Known, planted};
 use crate::machine::Machine;
 use crate::memory::peak;
 use corfem::method::assembly::element_matrices;
-use corfem::method::derivatives::{by_definition, gradient};
+use corfem::method::derivatives::by_definition;
 use corfem::method::inner_loop::{InnerSettings, run};
 use corfem::method::model::ModalModel;
 use corfem::method::modes::solve;
@@ -15,7 +15,7 @@ use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::state::ModalState;
 use corfem::method::structure::Material;
 use corfem::sparse::factorization::{Factor, FactorizationPlan};
-use corfem::sparse::{SparseMatrix, WholeModel};
+use corfem::sparse::{PackedModel, SparseMatrix, WholeModel};
 use nalgebra::DMatrix;
 use std::hint::black_box;
 use std::sync::Arc;
@@ -151,7 +151,8 @@ pub fn of(wing: &Wing) -> (Stages, Known, ModalModel) {
     let analyze = |factors: &[f64]| model.analyze(factors, test, Some(MODES));
     let modal = stages.time(ANALYSIS, || analyze(&ones).expect("analyzed"));
     let start = ModalState::start(&modal);
-    stages.time("gradient", || gradient(&modal, &start).expect("a gradient"));
+    let packed = PackedModel::new(&modal);
+    stages.time("gradient", || packed.gradient(&start).expect("a gradient"));
     stages.time("derivatives by definition", || {
         by_definition(&modal, &start).expect("derivatives")
     });

@@ -9,6 +9,7 @@ use corfem::method::appendix_c::recursive_1_converged;
 use corfem::method::derivatives::{by_definition, gradient};
 use corfem::method::inner_loop::run;
 use corfem::method::state::{MOST_ORDERS, ROOT_TOLERANCE};
+use corfem::sparse::PackedModel;
 use corfem::torque_box::run_case;
 use criterion::{BenchmarkGroup, Criterion, measurement::WallTime};
 use nalgebra::DMatrix;
@@ -42,7 +43,15 @@ fn eigensolutions(group: &mut BenchmarkGroup<WallTime>, prefix: &str, matrices: 
 fn derivatives(criterion: &mut Criterion, setting: &Setting) {
     let mut group = criterion.benchmark_group(summary::DERIVATIVES);
     let (problem, state) = (&setting.problem, &setting.state);
+    let packed = PackedModel::new(problem);
     group.bench_function(summary::GRADIENT, |bencher| {
+        bencher.iter(|| {
+            black_box(&packed)
+                .gradient(black_box(state))
+                .expect("a state of the model")
+        });
+    });
+    group.bench_function(summary::PLAIN, |bencher| {
         bencher
             .iter(|| gradient(black_box(problem), black_box(state)).expect("a state of the model"));
     });

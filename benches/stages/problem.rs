@@ -4,12 +4,12 @@ use crate::known::delta_wing::correlation;
 use crate::known::planted;
 use crate::known::wing::Wing;
 use corfem::method::assembly::element_matrices;
-use corfem::method::derivatives::{by_definition, gradient};
+use corfem::method::derivatives::by_definition;
 use corfem::method::inner_loop::{InnerSettings, run};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::method::state::ModalState;
-use corfem::sparse::LargeModel;
 use corfem::sparse::factorization::{Factor, FactorizationPlan};
+use corfem::sparse::{LargeModel, PackedModel};
 use corfem::torque_box::Case;
 use std::hint::black_box;
 use std::sync::Arc;
@@ -65,6 +65,7 @@ pub fn stages(structure: &str) -> Vec<Stage> {
     let analyze = move || model.analyze(ones, test, Some(modes)).expect("analyzed");
     let modal = &*Box::leak(Box::new(analyze()));
     let start = &*Box::leak(Box::new(ModalState::start(modal)));
+    let packed = PackedModel::new(modal);
     let ranges = model.factor_ranges().expect("bounds");
     let inner = move || run(modal, ones, &ranges, &settings).expect("it runs");
     let factors = inner().factors;
@@ -88,7 +89,7 @@ pub fn stages(structure: &str) -> Vec<Stage> {
         }),
         stage("analysis with all shares", analyze),
         stage("gradient", move || {
-            gradient(modal, start).expect("a gradient")
+            packed.gradient(start).expect("a gradient")
         }),
         stage("derivatives by definition", move || {
             by_definition(modal, start).expect("derivatives")

@@ -3,14 +3,13 @@
 use super::{LoadedJob, Method, Trust};
 use crate::files::deck::rewrite;
 use crate::files::error::FileError;
-use crate::method::derivatives::error_changes;
 use crate::method::error::Error;
 use crate::method::error_sum::ModeWeight;
 use crate::method::model::{Bounds, ModalModel};
 use crate::method::outer_loop::{Correlation, Pass, compared_sum, correlate_while};
 use crate::method::structure::{Element, Material};
 use crate::method::verdict::{Outcome, Verdict};
-use crate::sparse::{WholeParameter, WholeShare};
+use crate::sparse::{WholeParameter, WholeShare, derivative};
 use crate::weighted::close_modes::turned;
 use crate::weighted::gauss_newton::{
     WeightedCorrelation, WeightedSettings, WeightedStop, gauss_newton,
@@ -334,7 +333,7 @@ fn run_part(
             let ranges: Vec<_> = ranges.iter().zip(start).map(seen).collect();
             let mut run = correlate_while(
                 &mut |factors| analyze(&total(factors)),
-                &|model, state| error_changes(model, state, settings.inner.derivatives),
+                &|model| derivative(model, settings.inner.derivatives),
                 &ranges,
                 settings,
                 &mut report_pass,

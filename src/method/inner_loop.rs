@@ -156,7 +156,7 @@ pub fn run(
     settings: &InnerSettings,
 ) -> Result<InnerRun, Error> {
     settings.check()?;
-    InnerLoop::new(model, base, total_ranges, settings, &|model, state| {
+    InnerLoop::new(model, base, total_ranges, settings, &|state| {
         error_changes(model, state, settings.derivatives)
     })?
     .run()
@@ -172,15 +172,15 @@ pub fn first_factors(model: &ModalModel, settings: &InnerSettings) -> Result<Vec
         vec![1.0; model.shares.len()],
         vec![None; model.shares.len()],
     );
-    let derivative =
-        |model: &ModalModel, state: &ModalState| error_changes(model, state, settings.derivatives);
+    let derivative = |state: &_| error_changes(model, state, settings.derivatives);
     let first = InnerLoop::new(model, &ones, &free, settings, &derivative)?;
     let direction = first.direction(&ModalState::start(model), &ones, true)?;
     Ok(direction.unlimited_factors)
 }
 
-/// The function that gives the change of the error sum by every parameter (12): [`error_changes`] or a faster form of it.
-pub type Derivative<'a> = &'a dyn Fn(&ModalModel, &ModalState) -> Result<Vec<f64>, Error>;
+/// The function that gives the change of the error sum by every parameter (12) at a state of one model: [`error_changes`] or a faster
+/// form of it.
+pub type Derivative<'a> = dyn Fn(&ModalState) -> Result<Vec<f64>, Error> + 'a;
 
 /// What one inner loop works on.
 pub(crate) struct InnerLoop<'a> {
@@ -188,7 +188,7 @@ pub(crate) struct InnerLoop<'a> {
     base: &'a [f64],
     total_ranges: &'a [Option<Bounds>],
     settings: &'a InnerSettings,
-    derivative: Derivative<'a>,
+    derivative: &'a Derivative<'a>,
 }
 
 /// A step that lowers the error sum, and where it leads.
@@ -205,7 +205,7 @@ impl<'a> InnerLoop<'a> {
         base: &'a [f64],
         total_ranges: &'a [Option<Bounds>],
         settings: &'a InnerSettings,
-        derivative: Derivative<'a>,
+        derivative: &'a Derivative<'a>,
     ) -> Result<Self, Error> {
         check_length("parameter factors", base.len(), model.shares.len())?;
         check_length("parameter limits", total_ranges.len(), model.shares.len())?;
@@ -276,7 +276,7 @@ impl<'a> InnerLoop<'a> {
         is_first: bool,
     ) -> Result<Iteration, Error> {
         let settings = self.settings;
-        let error_changes = (self.derivative)(self.model, state)?;
+        let error_changes = (self.derivative)(state)?;
         let stiffness_changes =
             stiffness_changes(self.model, &state.factors, factors, settings.step);
         let relaxation = if is_first {

@@ -121,10 +121,10 @@ pub fn correlate<E: From<Error>>(
     settings: &Settings,
     mut progress: impl FnMut(usize, &Pass),
 ) -> Result<Correlation, E> {
-    let derivative = |model: &_, state: &_| error_changes(model, state, settings.inner.derivatives);
+    let rule = settings.inner.derivatives;
     correlate_while(
         &mut analyze,
-        &derivative,
+        &|model| Box::new(move |state| error_changes(model, state, rule)),
         total_ranges,
         settings,
         &mut |number, pass| {
@@ -138,7 +138,7 @@ pub fn correlate<E: From<Error>>(
 /// then is kept. It is compiled once per type of error, and not once per caller.
 pub(crate) fn correlate_while<E: From<Error>>(
     analyze: &mut dyn FnMut(&[f64]) -> Result<ModalModel, E>,
-    derivative: Derivative,
+    derivative: &dyn for<'m> Fn(&'m ModalModel) -> Box<Derivative<'m>>,
     total_ranges: &[Option<Bounds>],
     settings: &Settings,
     progress: &mut dyn FnMut(usize, &Pass) -> bool,
@@ -154,8 +154,17 @@ pub(crate) fn correlate_while<E: From<Error>>(
     while passes.len() < settings.most_passes
         && (passes.len() < settings.least_passes || !converged)
     {
-        let inner = InnerLoop::new(&model, &factors, total_ranges, &inner_settings, derivative)?;
-        let inner = match inner.run() {
+        let run = |derivative: Box<Derivative>| {
+            InnerLoop::new(
+                &model,
+                &factors,
+                total_ranges,
+                &inner_settings,
+                &*derivative,
+            )?
+            .run()
+        };
+        let inner = match run(derivative(&model)) {
             Ok(inner) => inner,
             // Nowhere to go from here, as in a local minimum: what the passes before have reached is kept.
             Err(error) if error.is_of_close_modes() && !passes.is_empty() => break,
