@@ -1,9 +1,10 @@
 //! The cost of every stage on wings from 1.4 thousand to a million structural DOF: time, peak memory, and how both grow.
 //!
 //! `cargo bench --bench large` measures the two smallest of the wings, `cargo bench --bench large -- 1k 10k 100k 1M` those
-//! named. With `--write FOLDER` the problems are written there for `benches/scipy_wing.py`, which does the same with SciPy, and with
-//! `--scipy python3` that is done in the same run, in a process for each wing. With `--store paper/costs.csv` what was measured replaces
-//! what stands there, and the tables of `paper/cost.md` follow by `CORFEM_WRITE=1 cargo test`.
+//! named. With `--write FOLDER` the problems are written there for other programs, which do the same in the same run: `--scipy python3`
+//! starts `benches/scipy_wing.py` with SciPy's SuperLU and with MKL's PARDISO, `--cholmod cc` compiles and starts
+//! `benches/cholmod_wing.c`. With `--store paper/costs.csv` what was measured replaces the wing's whole column there, and the tables of
+//! `paper/cost.md` follow by `CORFEM_WRITE=1 cargo test`.
 
 #[path = "../../tests/common/known/mod.rs"]
 #[allow(dead_code, unused_imports, reason = "the tests use the rest")]
@@ -13,37 +14,38 @@ mod fill;
 mod machine;
 mod memory;
 mod numpy;
+mod rivals;
 mod stages;
 
 use known::wing::{MESHES, Wing};
+use rivals::{Cost, Rivals};
 use stages::Stages;
-use std::path::Path;
-use std::process::Command;
+use std::path::{Path, PathBuf};
 
 fn main() {
     let mut arguments = std::env::args()
         .skip(1)
         .filter(|argument| argument != "--bench")
         .peekable();
-    let (mut names, mut folder, mut costs, mut scipy) = (Vec::new(), None, None, None);
+    let (mut names, mut folder, mut costs) = (Vec::new(), None, None);
+    let (mut python, mut compiler) = (None, None);
     while let Some(argument) = arguments.next() {
+        let mut value = || arguments.next();
         match argument.as_str() {
-            "--write" => folder = Some(arguments.next().expect("--write wants a folder")),
-            "--store" => costs = Some(arguments.next().expect("--store wants a file")),
-            "--scipy" => {
-                scipy = Some(
-                    arguments
-                        .next()
-                        .expect("--scipy wants the name of a Python with SciPy"),
-                )
-            }
+            "--write" => folder = Some(PathBuf::from(value().expect("--write takes a folder"))),
+            "--store" => costs = Some(value().expect("--store takes a file")),
+            "--scipy" => python = Some(value().expect("--scipy takes a Python that has SciPy")),
+            "--cholmod" => compiler = Some(value().expect("--cholmod takes a C compiler")),
             _ => names.push(argument),
         }
     }
     assert!(
-        scipy.is_none() || folder.is_some(),
-        "--scipy wants --write too: what it reads is written there"
+        (python.is_none() && compiler.is_none()) || folder.is_some(),
+        "--scipy and --cholmod read what --write FOLDER writes"
     );
+    let rivals = folder
+        .as_ref()
+        .map(|folder| Rivals::found(python, compiler, folder));
     if names.is_empty() {
         names = MESHES[..2]
             .iter()
@@ -68,60 +70,80 @@ fn main() {
         if let Some(folder) = &folder {
             numpy::write_whole(folder, &mass, &frequencies).expect("the folder can be written");
         }
+        let mut rows = rows_of(&stages);
+        if let (Some(rivals), Some(folder)) = (&rivals, &folder) {
+            rows.extend(rivals.measured(folder, stages.dof));
+        }
         if let Some(costs) = &costs {
-            store(Path::new(costs), &stages).expect("the file can be written");
+            store(Path::new(costs), stages.dof, &rows).expect("the file can be written");
         }
         measured.push(stages);
-        if let (Some(python), Some(folder)) = (&scipy, &folder) {
-            let mut command = Command::new(python);
-            command
-                .arg("benches/scipy_wing.py")
-                .args(costs.iter().flat_map(|costs| ["--store", costs]))
-                .arg(folder);
-            assert!(
-                command.status().expect("Python starts").success(),
-                "SciPy found something else"
-            );
-        }
     }
     print(&measured);
 }
 
-/// Writes what was measured of one wing over what stands in the file of costs; rows and columns have to be there.
-fn store(file: &Path, stages: &Stages) -> std::io::Result<()> {
+/// What was measured of one wing, as rows of the file of costs.
+fn rows_of(stages: &Stages) -> Vec<Cost> {
+    let row = |name: &str, unit: &str, value: String| Cost {
+        name: name.to_owned(),
+        unit: unit.to_owned(),
+        value,
+    };
+    let timed = stages.all.iter().flat_map(|stage| {
+        [
+            row(stage.name, "ms", format!("{:.5}", 1e3 * stage.seconds)),
+            row(stage.name, "MB", format!("{:.1}", stage.bytes as f64 / 1e6)),
+        ]
+    });
+    let million = |count: f64, digits| format!("{:.digits$}", count / 1e6);
+    let (fill, machine) = (&stages.fill, &stages.machine);
+    timed
+        .chain([
+            row(
+                "entries of the factor",
+                "million",
+                million(fill.entries as f64, 3),
+            ),
+            row(
+                "entries of the factor without padding",
+                "million",
+                million(fill.needed as f64, 3),
+            ),
+            row(
+                "operations of the factorization",
+                "million",
+                million(fill.operations, 4),
+            ),
+            row(
+                "product of dense matrices",
+                "GFLOP/s",
+                format!("{:.2}", machine.operations / 1e9),
+            ),
+            row(
+                "reading of memory",
+                "GB/s",
+                format!("{:.2}", machine.bytes / 1e9),
+            ),
+        ])
+        .collect()
+}
+
+/// Writes what was measured of one wing over its column in the file of costs, so that all of it is of one run: a row that was not measured
+/// is empty then. Rows and column have to be there.
+fn store(file: &Path, dof: usize, measured: &[Cost]) -> std::io::Result<()> {
     let text = std::fs::read_to_string(file)?;
-    let mut rows: Vec<Vec<String>> = text
-        .lines()
-        .map(|line| line.split(',').map(str::to_owned).collect())
-        .collect();
-    let column = rows[0]
-        .iter()
-        .position(|name| *name == stages.dof.to_string())
-        .expect("a column of this wing");
-    for row in &mut rows {
-        let stage = stages.all.iter().find(|stage| stage.name == row[0]);
-        match (stage, row[1].as_str(), row[0].as_str()) {
-            (Some(stage), "ms", _) => row[column] = format!("{:.5}", 1e3 * stage.seconds),
-            (Some(stage), "MB", _) => row[column] = format!("{:.1}", stage.bytes as f64 / 1e6),
-            (.., "entries of the factor") => {
-                row[column] = format!("{:.3}", stages.factor_entries as f64 / 1e6)
-            }
-            (.., "operations of the factorization") => {
-                row[column] = format!("{:.4}", stages.factor_operations / 1e6)
-            }
-            (.., "product of dense matrices") => {
-                row[column] = format!("{:.2}", stages.machine.operations / 1e9)
-            }
-            (.., "reading of memory") => row[column] = format!("{:.2}", stages.machine.bytes / 1e9),
-            _ => {}
-        }
+    let mut rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    let size = dof.to_string();
+    let column = rows[0].iter().position(|&name| name == size);
+    let column = column.expect("a column of this wing");
+    for row in &mut rows[1..] {
+        let cost = measured
+            .iter()
+            .find(|cost| (cost.name.as_str(), cost.unit.as_str()) == (row[0], row[1]));
+        row[column] = cost.map_or("", |cost| &cost.value);
     }
-    std::fs::write(
-        file,
-        rows.iter()
-            .map(|row| row.join(",") + "\n")
-            .collect::<String>(),
-    )
+    let lines = rows.iter().map(|row| row.join(",") + "\n");
+    std::fs::write(file, lines.collect::<String>())
 }
 
 /// The paper's seconds and today's milliseconds.

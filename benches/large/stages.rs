@@ -1,6 +1,6 @@
 //! What is timed: a correlation's stages one by one, each through the library's own functions.
 
-use crate::fill;
+use crate::fill::{self, Fill};
 use crate::known::delta_wing::correlation;
 use crate::known::wing::Wing;
 use crate::known::{Known, planted};
@@ -47,10 +47,8 @@ pub struct Stage {
 /// All stages of one wing.
 pub struct Stages {
     pub dof: usize,
-    /// How many numbers the factor of the stiffness has.
-    pub factor_entries: usize,
-    /// How many multiplications and additions make it.
-    pub factor_operations: f64,
+    /// What the factor of the stiffness takes.
+    pub fill: Fill,
     /// What the machine does at most in one thread.
     pub machine: Machine,
     pub all: Vec<Stage>,
@@ -110,8 +108,7 @@ pub fn of(wing: &Wing) -> (Stages, Known, ModalModel) {
     let machine = Machine::measured();
     let mut stages = Stages {
         dof: 0,
-        factor_entries: 0,
-        factor_operations: 0.0,
+        fill: Fill::default(),
         machine,
         all: Vec::new(),
     };
@@ -129,7 +126,7 @@ pub fn of(wing: &Wing) -> (Stages, Known, ModalModel) {
     let free = model.structure().free_dof();
     let plan = || FactorizationPlan::new(model.structure(), elements).expect("a plan");
     let plan = Arc::new(stages.time("ordering and pattern (once)", plan));
-    (stages.factor_entries, stages.factor_operations) = fill::of_factor(&plan, elements);
+    stages.fill = fill::of_factor(&plan, elements);
     let factorize =
         || Factor::of_planned_stiffness(&plan, elements, &sizes, free).expect("it is held");
     let structural = stages.time("assembly and factorization", factorize);

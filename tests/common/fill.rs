@@ -9,9 +9,19 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{SparseColMat, Triplet};
 
-/// How many numbers the factor holds, and how many multiplications and additions it takes in its leading order: the squares of the lengths
-/// of its columns.
-pub fn of_factor(plan: &FactorizationPlan, elements: &[ElementMatrix]) -> (usize, f64) {
+/// What a factor takes.
+#[derive(Clone, Copy, Default)]
+pub struct Fill {
+    /// How many numbers it stores, with the zeros of its dense blocks.
+    pub entries: usize,
+    /// How many of them can be other than zero.
+    pub needed: usize,
+    /// Multiplications and additions that make it, in their leading order: the squares of the lengths of its columns.
+    pub operations: f64,
+}
+
+/// The fill by the plan's order of elimination.
+pub fn of_factor(plan: &FactorizationPlan, elements: &[ElementMatrix]) -> Fill {
     let count = plan.order.len();
     let mut turn = vec![0; count];
     (plan.order.iter().enumerate()).for_each(|(place, &dof)| turn[dof] = place);
@@ -31,16 +41,18 @@ pub fn of_factor(plan: &FactorizationPlan, elements: &[ElementMatrix]) -> (usize
         .map(|(row, column)| Triplet::new(row, column, 1.0))
         .collect();
     let upper = SparseColMat::<usize, f64>::try_new_from_triplets(count, count, &entries);
-    let symbolic = factorize_symbolic_cholesky(
-        upper.expect("a matrix").symbolic(),
-        Side::Upper,
-        SymmetricOrdering::Identity,
-        CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+    let upper = upper.expect("a matrix");
+    let symbolic = |threshold| {
+        let parameters = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: threshold,
             ..CholeskySymbolicParams::default()
-        },
-    );
-    let symbolic = symbolic.expect("a factor");
+        };
+        let identity = SymmetricOrdering::Identity;
+        factorize_symbolic_cholesky(upper.symbolic(), Side::Upper, identity, parameters)
+            .expect("a factor")
+    };
+    let needed = symbolic(SupernodalThreshold::FORCE_SIMPLICIAL).len_val();
+    let symbolic = symbolic(SupernodalThreshold::FORCE_SUPERNODAL);
     let SymbolicCholeskyRaw::Supernodal(blocks) = symbolic.raw() else {
         panic!("supernodes are forced")
     };
@@ -51,8 +63,9 @@ pub fn of_factor(plan: &FactorizationPlan, elements: &[ElementMatrix]) -> (usize
         let length = (at[1] - at[0]) / width;
         (0..width).map(move |column| (length - column) as f64)
     });
-    (
-        symbolic.len_val(),
-        lengths.map(|length| length.powi(2)).sum(),
-    )
+    Fill {
+        entries: symbolic.len_val(),
+        needed,
+        operations: lengths.map(|length| length.powi(2)).sum(),
+    }
 }

@@ -8,8 +8,14 @@ use std::sync::LazyLock;
 pub const ANALYSIS: &str = "analysis with all shares";
 const CONDENSED: &str = "condensed model: these two and $K_D$";
 const FACTOR: &str = "assembly and factorization";
+const FLEXIBILITY: &str = "flexibility by forward substitution";
 const MODES: &str = "modes: 10 of 108";
 const SHAPES: &str = "shapes of the structure: 10 solutions";
+const WHOLE_MODES: &str = "20 modes of the whole model (counted)";
+const NEEDED: &str = "entries of the factor without padding";
+const BY_METIS: &str = "entries of the factor by METIS through CHOLMOD";
+/// The programs beside this one.
+const RIVALS: [&str; 3] = ["SciPy", "CHOLMOD", "PARDISO"];
 
 /// The lines of the file as text: a head of sizes, then stages with their unit and a cost for each size, or nothing.
 static LINES: LazyLock<Vec<Vec<String>>> = LazyLock::new(|| {
@@ -40,7 +46,7 @@ pub fn cost(stage: &str, size: usize) -> Option<f64> {
 /// Three digits, or nothing.
 fn written(value: Option<f64>) -> String {
     let digits = |value: f64| {
-        let decimals = (2.0 - value.log10().floor()).clamp(0.0, 3.0) as usize;
+        let decimals = (2.0 - value.abs().log10().floor()).clamp(0.0, 3.0) as usize;
         format!("{value:.decimals$}")
     };
     value.map(digits).unwrap_or_default()
@@ -66,14 +72,19 @@ fn head(what: &str) -> String {
     what.to_owned() + &sizes.collect::<String>()
 }
 
-/// What was measured, with exponents of growth: all but memory, or memory alone.
-fn growth(what: &str, usual: &str, is_memory: bool) -> String {
-    // Without the sign of a zero.
-    let exponent =
-        |points: &[(f64, f64)]| format!("{:.2}", log_log_slope(points)).replace("-0.00", "0.00");
-    let wanted = LINES[1..]
-        .iter()
-        .filter(|line| (line[1] == "MB") == is_memory);
+/// Whether a line is of another program.
+fn is_rival(line: &[String]) -> bool {
+    RIVALS.iter().any(|rival| line[0].contains(rival))
+}
+
+/// The lines that are wanted, with exponents of growth; `usual` is the unit that the head names.
+fn growth(what: &str, usual: &str, is_wanted: fn(&[String]) -> bool) -> String {
+    // Without the sign of a zero. One size has no growth.
+    let exponent = |points: &[(f64, f64)]| match points.len() {
+        0 | 1 => String::new(),
+        _ => format!("{:.2}", log_log_slope(points)).replace("-0.00", "0.00"),
+    };
+    let wanted = LINES[1..].iter().filter(|line| is_wanted(line));
     let rows = wanted.map(|line| match line[1] == usual {
         true => (line[0].clone(), line),
         false => (format!("{}, {}", line[0], line[1]), line),
@@ -111,7 +122,7 @@ fn bounds() -> String {
         let others = [CONDENSED, MODES, SHAPES].map(|stage| each(stage)(size));
         Some(each(ANALYSIS)(size)? - others.into_iter().sum::<Option<f64>>()?)
     };
-    let rows: [(&str, Bound<'_>); 13] = [
+    let rows: [(&str, Bound<'_>); 11] = [
         ("entries of the factor for every DOF", &|size| {
             Some(1e6 * entries(size)? / sizes()[size])
         }),
@@ -144,31 +155,56 @@ fn bounds() -> String {
             &each("ordering and pattern (once)"),
         ),
         ("shares, the rest of an analysis, µs for every DOF", &rest),
-        (
-            "analysis by SciPy, times as long",
-            &ratio("analysis by SciPy", ANALYSIS),
-        ),
-        (
-            "20 modes by SciPy, times as long",
-            &ratio(
-                "20 modes by SciPy (not counted)",
-                "20 modes of the whole model (counted)",
-            ),
-        ),
     ];
-    table(&head("what bounds a stage"), rows, |value| {
-        (0..sizes().len())
-            .map(|size| written(value(size)))
-            .collect()
+    at_sizes(
+        "what bounds a stage",
+        rows.map(|(name, bound)| (name.to_owned(), at_each(bound))),
+    )
+}
+
+/// How many times as long other programs take for the same, and how much more the factor stores than by their order of elimination.
+fn beside_others() -> String {
+    let stages = [
+        (FACTOR, FACTOR, ""),
+        (FLEXIBILITY, "flexibility", ""),
+        (ANALYSIS, "analysis", ""),
+        (WHOLE_MODES, "20 modes", " (not counted)"),
+    ];
+    let mut rows = Vec::new();
+    for (stage, what, end) in stages {
+        for rival in RIVALS {
+            let theirs = format!("{what} by {rival}{end}");
+            let ratio = at_each(&|size| Some(cost(&theirs, size)? / cost(stage, size)?));
+            rows.push((format!("{what} by {rival}"), ratio));
+        }
+    }
+    let more = at_each(&|size| Some(100.0 * (cost(NEEDED, size)? / cost(BY_METIS, size)? - 1.0)));
+    rows.push((format!("{NEEDED}, % above METIS through CHOLMOD"), more));
+    at_sizes("times as long as here", rows)
+}
+
+/// A number at every size, where it was measured.
+fn at_each(bound: Bound<'_>) -> Vec<Option<f64>> {
+    (0..sizes().len()).map(bound).collect()
+}
+
+/// A table of numbers at every size.
+fn at_sizes(what: &str, rows: impl IntoIterator<Item = (String, Vec<Option<f64>>)>) -> String {
+    table(&head(what), rows, |values| {
+        values.into_iter().map(written).collect()
     })
 }
 
 /// The tables of `paper/cost.md`.
 pub fn costs() -> String {
     let blocks = [
-        growth("stage, ms", "ms", false),
-        growth("most memory held, MB", "MB", true),
+        growth("stage, ms", "ms", |line| !is_rival(line) && line[1] != "MB"),
+        growth("most memory held, MB", "MB", |line| {
+            !is_rival(line) && line[1] == "MB"
+        }),
         bounds(),
+        growth("other programs, ms", "ms", is_rival),
+        beside_others(),
     ];
     blocks.join("\n")
 }
