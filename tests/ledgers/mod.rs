@@ -1,6 +1,7 @@
 //! The lists of equations, errata and routes, the rooms, the formulas of the documentation and the numbers in it, held
 //! against the code.
 
+pub mod alternative;
 pub mod claims;
 pub mod costs;
 pub mod counted_figures;

@@ -2,7 +2,7 @@
 
 use crate::evidence::coverage::SEEDS;
 use crate::ledgers::costs::{ANALYSIS, cost};
-use crate::ledgers::{costs, files_below};
+use crate::ledgers::{alternative, costs, files_below};
 use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::fs;
@@ -947,6 +947,7 @@ pub fn tables() -> BTreeMap<String, String> {
         ("cases", cases()),
         ("panels", panels()),
         ("costs", costs::costs()),
+        ("least_squares", alternative::least_squares()),
     ];
     tables.extend(matrices());
     tables.extend(delta_wing());
@@ -1020,6 +1021,8 @@ pub fn sentences() -> Vec<(&'static str, String)> {
         cost("analysis by SciPy", size).expect("measured") / cost(ANALYSIS, size).expect("measured")
     };
     vec![
+        (readme, alternative::sentence()),
+        ("paper/cost.md", alternative::tailplane()),
         (
             readme,
             format!(

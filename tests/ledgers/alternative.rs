@@ -1,0 +1,149 @@
+//! What a user of SciPy would do instead: the table of `paper/cost.md` is made from `golden/least_squares.json`, which
+//! `benches/least_squares.py` writes, and from the golden of the two rules.
+
+use crate::ledgers::tables::{computed, table};
+use serde_json::{Value, json};
+use std::sync::LazyLock;
+
+const SUBJECTS: [&str; 5] = ["Case 1", "Case 2", "Case 3", "building", "GARTEUR"];
+const FIRST: &str = "first model";
+const WEIGHTED: &str = "weighted";
+const ANALYTIC: &str = "analytic";
+/// The ways by their name in the file and by what they are.
+const WAYS: [(&str, &str); 5] = [
+    (ANALYTIC, "`least_squares`, analytic"),
+    ("analytic, lsmr", "the same, `tr_solver=\"lsmr\"`"),
+    ("finite differences", "the same, finite differences"),
+    ("paper's rule", "the paper's rule"),
+    (WEIGHTED, "weighted steps"),
+];
+
+static ANSWERS: LazyLock<Value> = LazyLock::new(|| {
+    serde_json::from_str(include_str!("../../golden/least_squares.json")).expect("JSON")
+});
+
+fn answer(subject: &str, way: &str, key: &str) -> Option<f64> {
+    ANSWERS[subject][way][key].as_f64()
+}
+
+/// Exact analyses; weighted steps on the cases are in the golden of the two rules.
+fn analyses(subject: &str, way: &str) -> Option<String> {
+    if way == WEIGHTED && subject.starts_with("Case") {
+        return Some(computed(
+            "rules",
+            &format!("{subject}, {way}"),
+            "Analyses",
+            0,
+        ));
+    }
+    answer(subject, way, "analyses").map(|count| format!("{count:.0}"))
+}
+
+/// What is left of the errors of gages or factors, or where these are not known of those of frequencies, %.
+fn left(subject: &str, way: &str) -> Option<String> {
+    if way == WEIGHTED && subject.starts_with("Case") {
+        return Some(computed(
+            "rules",
+            &format!("{subject}, {way}"),
+            "Factor RMS",
+            1,
+        ));
+    }
+    let left = answer(subject, way, "factors").or_else(|| answer(subject, way, "frequencies"));
+    left.map(|error| format!("{error:.1}"))
+}
+
+fn milliseconds(subject: &str, way: &str) -> Option<String> {
+    answer(subject, way, "seconds").map(|seconds| format!("{:.0}", 1e3 * seconds))
+}
+
+/// The table of `paper/cost.md`.
+pub fn least_squares() -> String {
+    type Cell = fn(&str, &str) -> Option<String>;
+    let parts: [(&str, Cell); 3] = [
+        ("analyses", analyses),
+        ("left, %", left),
+        ("ms", milliseconds),
+    ];
+    let mut rows = vec![("left, %: first model".to_owned(), (FIRST, left as Cell))];
+    for (what, cell) in parts {
+        rows.extend(WAYS.map(|(way, name)| (format!("{what}: {name}"), (way, cell))));
+    }
+    table(
+        &format!("what and by which way | {}", SUBJECTS.join(" | ")),
+        rows,
+        |(way, cell)| {
+            SUBJECTS
+                .map(|subject| cell(subject, way).unwrap_or_default())
+                .to_vec()
+        },
+    )
+}
+
+/// What becomes of the tailplane, GARTEUR's sixth parameter, of which the test says nothing.
+pub fn tailplane() -> String {
+    let values = ANSWERS["GARTEUR"][ANALYTIC]["values"]
+        .as_str()
+        .expect("factors");
+    let factor: f64 = values
+        .split(' ')
+        .nth(5)
+        .expect("a sixth")
+        .parse()
+        .expect("a factor");
+    format!("on GARTEUR it makes the tailplane {factor:.0} times as stiff")
+}
+
+/// The sentence of README.md on Cases 1 to 3.
+pub fn sentence() -> String {
+    let range = |of: &dyn Fn(&str) -> Option<f64>| {
+        let found: Vec<f64> = SUBJECTS[..3]
+            .iter()
+            .filter_map(|subject| of(subject))
+            .collect();
+        (
+            found.iter().copied().fold(f64::INFINITY, f64::min),
+            found.iter().copied().fold(0.0, f64::max),
+        )
+    };
+    let analyses = |way| range(&move |subject| answer(subject, way, "analyses"));
+    let left = |way| range(&move |subject| answer(subject, way, "factors"));
+    let (theirs, ours) = (analyses(ANALYTIC), analyses("paper's rule"));
+    format!(
+        "SciPy's `least_squares` with analytic derivatives takes {} to {} analyses and leaves gages at most {:.1} % wrong (RMS), the \
+         paper's rule {} to {} analyses and {:.0} to {:.0} %.",
+        theirs.0,
+        theirs.1,
+        left(ANALYTIC).1,
+        ours.0,
+        ours.1,
+        left("paper's rule").0,
+        left("paper's rule").1
+    )
+}
+
+/// What `paper/cost.md` says: three combinations of gages are open where the gages are right, and in Case 1 everywhere.
+#[test]
+fn three_combinations_of_gages_are_open() {
+    let open = |case: &&str| ANSWERS[*case][FIRST]["open"].clone();
+    let found: Vec<Value> = SUBJECTS[..3].iter().map(open).collect();
+    assert_eq!(found, [json!([3, 3]), json!([3, 0]), json!([3, 0])]);
+}
+
+/// The paper's rule does the same here and in the golden of the two rules, which another program made.
+#[test]
+fn the_papers_rule_is_that_of_the_golden() {
+    for subject in &SUBJECTS[..3] {
+        let row = format!("{subject}, paper's rule");
+        let [analyses, left] =
+            ["Analyses", "Factor RMS"].map(|column| computed("rules", &row, column, 4));
+        let [found, error] =
+            ["analyses", "factors"].map(|key| answer(subject, "paper's rule", key));
+        assert_eq!(
+            analyses,
+            format!("{:.4}", found.expect("counted")),
+            "{subject}"
+        );
+        assert_eq!(left, format!("{:.4}", error.expect("known")), "{subject}");
+    }
+}
