@@ -66,6 +66,9 @@ impl Mesh {
         mark: &mut [usize],
         last: &mut usize,
     ) -> Option<(Vec<u8>, usize)> {
+        if keys.iter().all(|&key| key == keys[0]) {
+            return None;
+        }
         let mut sorted = keys.to_vec();
         let place = part.len() * tenths / 10;
         let (below, &mut middle, _) = sorted.select_nth_unstable_by(place, f64::total_cmp);
@@ -75,9 +78,6 @@ impl Mesh {
             .iter()
             .map(|&key| u8::from(key > middle || key == middle && !is_lowest))
             .collect();
-        if sides.iter().all(|&side| side == sides[0]) {
-            return None;
-        }
         let marks = [*last + 1, *last + 2];
         *last += 2;
         part.iter()
