@@ -167,6 +167,7 @@ fn why(action: &str, source: &std::io::Error) -> String {
     match (source.kind(), action) {
         (std::io::ErrorKind::NotFound, "write") => "no such folder".to_owned(),
         (std::io::ErrorKind::NotFound, _) => "no such file".to_owned(),
+        (std::io::ErrorKind::AlreadyExists, _) => "it is there already".to_owned(),
         _ => source.to_string(),
     }
 }

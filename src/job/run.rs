@@ -26,8 +26,8 @@ use crate::weighted::starts::{Minimum, from_several_starts};
 pub enum History {
     /// By the paper's loops.
     Paper(Correlation),
-    /// By Gauss–Newton steps, with the minima that noise allows of several starts; none when it was stopped by request.
-    GaussNewton(Option<(WeightedCorrelation, Vec<Minimum>)>),
+    /// By Gauss–Newton steps, with the minima that noise allows of several starts and how many failed; none when it was stopped by request.
+    GaussNewton(Option<(WeightedCorrelation, Vec<Minimum>, usize)>),
 }
 
 /// The result of a job.
@@ -212,7 +212,7 @@ pub fn run(
     loaded.require_parameters()?;
     let trust = Trust::before(loaded)?;
     let mut result = run_from(loaded, trust, &loaded.ones(), &mut progress, &go_on)?;
-    if let History::GaussNewton(Some((run, _))) = &result.history
+    if let History::GaussNewton(Some((run, ..))) = &result.history
         && run.stop == WeightedStop::Gradient
     {
         let loaded = &result.loaded;
@@ -381,15 +381,15 @@ fn run_part(
             };
             let found = match starts {
                 1 => gauss_newton(analyze, start, &ranges, &weights, &weighted)
-                    .map(|run| (run, Vec::new())),
+                    .map(|run| (run, Vec::new(), 0)),
                 _ => {
                     from_several_starts(analyze, &ranges, &weights, &weighted, starts, compare.seed)
                 }
             };
             match found {
-                Ok((run, minima)) if !has_joined && !is_interrupted.get() => {
+                Ok((run, minima, failed)) if !has_joined && !is_interrupted.get() => {
                     let factors = run.factors.clone();
-                    (History::GaussNewton(Some((run, minima))), factors)
+                    (History::GaussNewton(Some((run, minima, failed))), factors)
                 }
                 Ok(_) | Err(FileError::Interrupted) => (
                     History::GaussNewton(None),
@@ -405,7 +405,7 @@ fn run_part(
         History::GaussNewton(run) => {
             let outcome = match run
                 .as_ref()
-                .map(|(run, _)| (run.stop, run.iterations.is_empty()))
+                .map(|(run, ..)| (run.stop, run.iterations.is_empty()))
             {
                 Some((_, true)) => Outcome::Nothing,
                 None => Outcome::Request,

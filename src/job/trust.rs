@@ -339,7 +339,10 @@ impl Trust {
             format!("Mass that moves along x {x}, along y {y}, along z {z}")
         };
         let center = self.center.map(|center| {
-            let center = center.map(six_digits);
+            let far = center.map(f64::abs).into_iter().fold(0.0, f64::max);
+            // What is left of sums that cancel is no distance.
+            let rounded = |part: f64| if part.abs() < 1e-9 * far { 0.0 } else { part };
+            let center = center.map(|part| six_digits(rounded(part)));
             format!(", center of gravity ({})", center.join(", "))
         });
         mass + &center.unwrap_or_default() + "."

@@ -73,7 +73,8 @@ fn paragraphs(tables: &[Table], head: &str, of: impl Fn(&Table) -> Vec<String>) 
         .flat_map(|table| &table.rows)
         .any(Row::is_published)
         .then(|| head.to_owned());
-    let paragraphs: Vec<String> = head.into_iter().chain(tables.iter().flat_map(of)).collect();
+    let shown = tables.iter().filter(|table| !table.is_empty());
+    let paragraphs: Vec<String> = head.into_iter().chain(shown.flat_map(of)).collect();
     paragraphs.join("\n\n") + "\n"
 }
 

@@ -126,6 +126,11 @@ impl Cell {
 }
 
 impl Table {
+    /// Whether there is nothing in it to show.
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty() && self.notes.is_empty()
+    }
+
     /// Whether a column of it has sentences.
     pub fn has_sentences(&self) -> bool {
         let mut cells = self.rows.iter().flat_map(|row| &row.cells);
@@ -195,6 +200,20 @@ impl Table {
             label: label.to_string(),
             cells,
         });
+    }
+
+    /// The table without the columns in which nothing stands.
+    pub fn filled(mut self) -> Self {
+        for at in (0..self.columns.len()).rev() {
+            let is_blank = |row: &Row| row.cells[at].computed().is_empty();
+            if !self.rows.is_empty() && self.rows.iter().all(is_blank) {
+                self.columns.remove(at);
+                self.rows
+                    .iter_mut()
+                    .for_each(|row| drop(row.cells.remove(at)));
+            }
+        }
+        self
     }
 
     /// The table with more sentences under it.

@@ -33,16 +33,19 @@ pub fn verdict_in_words(
     };
     let judged = judged.map_or_else(by_tolerance, str::to_owned);
     let mut words = format!(
-        "{judged}{end} Worst is mode {}: frequency {:+.2} %, shape {}.",
+        "{judged}{end} Worst is mode {}: frequency {:+.2} %{}.",
         mode_numbers
             .get(verdict.worst_mode)
             .map_or(verdict.worst_mode + 1, |number| *number),
         // Rounding first keeps a minus sign off zero.
         (1e4 * verdict.worst.frequency).round() / 100.0 + 0.0,
-        verdict.worst.shape.map_or_else(
-            || "–".to_owned(),
-            |shape| format!("{:.2} % RMS", 100.0 * shape)
-        )
+        verdict
+            .worst
+            .shape
+            .map_or_else(String::new, |shape| format!(
+                ", shape {:.2} % RMS",
+                100.0 * shape
+            ))
     );
     if !verdict.at_bound.is_empty() {
         words += &format!(" At a bound: {}.", named(&verdict.at_bound));

@@ -25,8 +25,8 @@ pub struct Minimum {
 }
 
 /// [`gauss_newton`] from factors of one, and from `starts` − 1 random places: factors from 0.5 to 2, log-uniformly by
-/// [`uniform`] from `seed`, brought within their bounds. Returns the best, and the minima that noise allows, the best first. A start
-/// that fails is left out, and one that stops short of a gradient within tolerance makes no minimum of its own, unless it is the best.
+/// [`uniform`] from `seed`, brought within their bounds. Returns the best, the minima that noise allows, the best first, and how many
+/// starts failed. One that stops short of a gradient within tolerance makes no minimum of its own, unless it is the best.
 ///
 /// Two ends are one minimum where $h^t A h/2$ is at most a thousandth, $h$ being the difference of their logarithms and $A$ the curvature
 /// at the better one. Noise allows a minimum if twice its objective is above twice the least by at most the 95 % quantile of chi-squared
@@ -42,7 +42,7 @@ pub fn from_several_starts<E: From<Error>>(
     settings: &WeightedSettings,
     starts: usize,
     seed: u64,
-) -> Result<(WeightedCorrelation, Vec<Minimum>), E> {
+) -> Result<(WeightedCorrelation, Vec<Minimum>, usize), E> {
     let (mut state, mut ends, mut failed) =
         (seed, Vec::new(), Error::Empty { what: "starts" }.into());
     let mut draw = || 0.5 * 4.0_f64.powf(uniform(&mut state));
@@ -85,7 +85,7 @@ pub fn from_several_starts<E: From<Error>>(
         }
     };
     let minima = minima.into_iter().map(minimum).collect();
-    Ok((best, minima))
+    Ok((best, minima, starts - ends.len()))
 }
 
 /// Whether steps have ended in a minimum again.

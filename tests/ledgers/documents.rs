@@ -39,10 +39,18 @@ fn computed_blocks_are_what_the_program_computes() {
     let (start, end) = ("<!-- computed: ", "<!-- end -->");
     let mut blocks = tables::tables();
     blocks.insert("specification".to_owned(), specification::page());
-    let svg = |diagram: Diagram| diagram.svg().expect("it can be drawn");
-    let drawn = figures().into_iter().chain(counted_figures());
-    blocks.extend(drawn.map(|(name, diagram)| (format!("{FIGURE}{name}"), svg(diagram))));
-    blocks.extend(pictures());
+    let svg = |(name, diagram): (&str, Diagram)| {
+        let svg = diagram.svg().expect("it can be drawn");
+        (format!("{FIGURE}{name}"), svg)
+    };
+    // The documentation's header lets them scroll, and turns them over on a dark page.
+    let drawing = |(name, svg): (String, String)| {
+        let svg = format!("<div class=\"drawing\">\n{}\n</div>", svg.trim());
+        (name, svg)
+    };
+    let of_tour = figures().into_iter().map(svg).chain(pictures());
+    blocks.extend(of_tour.map(drawing));
+    blocks.extend(counted_figures().into_iter().map(svg));
     let (mut seen, mut wrong) = (BTreeSet::new(), Vec::new());
     for (document, text) in documents() {
         let mut pieces = text.split(start);

@@ -166,6 +166,21 @@ fn what_the_tour_quotes_are_the_lines_of_the_method() {
     assert!(quotes >= 6, "{quotes}");
 }
 
+/// The loop fits on a screen, and a reader sees all of a line.
+#[test]
+fn the_whole_loop_has_fifteen_lines_at_most() {
+    let (_, text) = &chapters()["05"];
+    let (_, rest) = text
+        .split_once("## The whole loop\n\n```text\n")
+        .expect("the loop");
+    let lines: Vec<&str> = rest.split("```").next().expect("an end").lines().collect();
+    assert!((10..=15).contains(&lines.len()), "{} lines", lines.len());
+    assert!(
+        lines.iter().all(|line| line.chars().count() <= 100),
+        "{lines:#?}"
+    );
+}
+
 #[test]
 fn every_chapter_leads_to_its_neighbors_and_the_last_to_the_plain_program() {
     let chapters = chapters();

@@ -47,13 +47,13 @@ pub fn pictures() -> Vec<(String, String)> {
 }
 
 /// Two masses between a wall on either side, with the springs between: plain lines.
-const SPRINGS: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 520 110" width="520" style="max-width: 100%; height: auto" role="img" font-size="14" fill="none" stroke="currentColor" stroke-width="2">
+const SPRINGS: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 520 110" width="520" height="110" role="img" font-size="14" fill="none" stroke="black" stroke-width="2">
 <title>Two masses, each on a spring to the ground, and a third spring between them</title>
 <path d="M20 20v60M500 20v60" stroke-width="4"/>
 <path d="M20 50h20l8 -12l14 24l14 -24l14 24l14 -24l14 24l8 -12h14M200 50h24l8 -12l14 24l14 -24l14 24l14 -24l14 24l8 -12h10M380 50h14l8 -12l14 24l14 -24l14 24l14 -24l14 24l8 -12h20"/>
 <rect x="140" y="28" width="60" height="44"/>
 <rect x="320" y="28" width="60" height="44"/>
-<g stroke="none" fill="currentColor" text-anchor="middle">
+<g stroke="none" fill="black" text-anchor="middle">
 <text x="170" y="55">1</text>
 <text x="350" y="55">1</text>
 <text x="80" y="95">1 + ε</text>

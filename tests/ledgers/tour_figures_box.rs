@@ -106,7 +106,7 @@ pub fn history() -> Diagram {
     Diagram {
         title: "Case 2 through both passes",
         labels: ["iteration", "error, %"],
-        x: (0.0, 65.0),
+        x: (0.0, 60.0),
         y: (0.1, 1e3),
         is_logarithmic: true,
         series: series("error sum", SeriesMark::Line, Errors::sum)

@@ -2,7 +2,11 @@
 
 use crate::common::drawings::{size, written};
 use crate::common::golden::Numbers;
+use crate::ledgers::counted_figures::counted_figures;
+use crate::ledgers::tour_figures;
 use crate::presentation::figures::{all_figures, draw_all, figures, job_figures};
+use corfem::present::figures::Figure;
+use corfem::present::figures::diagram::Diagram;
 
 #[test]
 fn figures_of_a_run_in_the_order_of_the_report() {
@@ -85,7 +89,14 @@ fn figures_are_the_same_bytes_every_time() {
 #[test]
 fn letters_stay_on_the_page_off_each_other_and_legible() {
     let mut faults = Vec::new();
-    for figure in all_figures().iter().chain(job_figures()) {
+    let diagram = |(name, diagram): (&str, Diagram)| Figure {
+        name: format!("tour {name}"),
+        caption: String::new(),
+        svg: diagram.svg().expect("drawn"),
+    };
+    let of_texts = tour_figures::figures().into_iter().chain(counted_figures());
+    let of_texts: Vec<Figure> = of_texts.map(diagram).collect();
+    for figure in all_figures().iter().chain(job_figures()).chain(&of_texts) {
         let (width, height) = size(&figure.svg);
         assert_eq!(width, 760.0);
         let words: Vec<_> = written(&figure.svg)

@@ -53,7 +53,7 @@ fn the_corrected_airplane_is_nearer_and_still_not_explained() {
     // Far beyond what eight numbers right but for their deviations make.
     assert!(corrected > 10.0 * 8.0 && !RESULT.verdict.is_within);
     // A stop by the length of the step is not called a minimum.
-    let History::GaussNewton(Some((run, _))) = &RESULT.history else {
+    let History::GaussNewton(Some((run, ..))) = &RESULT.history else {
         panic!("by weighted steps")
     };
     assert_eq!(

@@ -83,6 +83,20 @@ fn several_starts_name_their_minima_in_every_output() {
     assert!((chi_squared / misfit - 1.0).abs() < MATRIX_ROUND_OFF);
     let page = report_page(&report, &[table], "corfem correlate job.toml", "").expect("a page");
     assert!(page.contains("Minima that noise allows"));
+    assert!(text.contains("0 starts failed.") && document["failed_starts"] == 0);
+    let mut failing = found;
+    if let History::GaussNewton(Some((_, _, failed))) = &mut failing.history {
+        *failed = 2;
+    }
+    let report = Report::from_job(&failing.loaded, Some(&failing)).expect("a report");
+    let table = minima_table(&report).expect("minima");
+    assert!(render::text(std::slice::from_ref(&table)).contains("2 starts failed."));
+    assert_eq!(
+        json::report(&report).expect("a document")["failed_starts"],
+        2
+    );
+    let page = report_page(&report, &[table], "corfem correlate job.toml", "").expect("a page");
+    assert!(page.contains("2 starts failed."));
     let one = ran(&rods());
     let report = Report::from_job(&one.loaded, Some(&one)).expect("a report");
     assert!(minima_table(&report).is_none());
@@ -93,7 +107,7 @@ fn several_starts_name_their_minima_in_every_output() {
 fn a_verdict_tells_what_is_good_from_what_cannot_be_better() {
     let outcome = |files: &Files| {
         let found = ran(files);
-        let History::GaussNewton(Some((run, _))) = found.history else {
+        let History::GaussNewton(Some((run, ..))) = found.history else {
             panic!("by steps")
         };
         assert_eq!(

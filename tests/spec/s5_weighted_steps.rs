@@ -33,7 +33,7 @@ fn random_starts_are_log_uniform_from_half_to_twice_the_first_factors() {
         firsts.push(factors.to_vec());
         known.model.analyze(factors, &known.test, None)
     };
-    let (best, _) = from_several_starts(analyze, &[None; 15], &weights, &settings, 41, 7).unwrap();
+    let (best, ..) = from_several_starts(analyze, &[None; 15], &weights, &settings, 41, 7).unwrap();
     assert_eq!(
         (best.stop, firsts.len(), &firsts[0]),
         (WeightedStop::Trials, 41, &vec![1.0; 15])
@@ -86,7 +86,7 @@ fn all_minima_that_noise_allows_are_named_with_their_starts() {
         let ranges = [None; 2];
         from_several_starts(analyze, &ranges, &[weight; 2], &settings, 40, 3)
     };
-    let (best, minima) = found(0.0).unwrap();
+    let (best, minima, _) = found(0.0).unwrap();
     assert_eq!(minima.len(), 2, "{minima:?}");
     assert_eq!(minima.iter().map(|of| of.starts).sum::<usize>(), 40);
     // The two basins meet where the springs are as two to one: beyond that are an eighth of the starts.
@@ -107,12 +107,12 @@ fn all_minima_that_noise_allows_are_named_with_their_starts() {
         assert!(minima.iter().any(is_there), "{springs:?} {minima:?}");
     }
     // Shapes tell the two apart: chi-squared of the other is above the 5.99 that two parameters allow, or still below.
-    let (_, minima) = found(60.0).unwrap();
+    let (_, minima, _) = found(60.0).unwrap();
     let [only] = &minima[..] else {
         panic!("{minima:?}")
     };
     assert!(only.starts < 40);
-    let (_, minima) = found(2.0).unwrap();
+    let (_, minima, _) = found(2.0).unwrap();
     let [_, other] = &minima[..] else {
         panic!("{minima:?}")
     };
@@ -142,14 +142,14 @@ fn a_start_or_a_trial_without_a_model_is_rejected_and_the_others_stand() {
         (found, failed)
     };
     let (all, _) = starts(3, &|_, _| false);
-    let (all, minima) = all.unwrap();
+    let (all, minima, none) = all.unwrap();
     let reached = |minima: &[Minimum]| minima.iter().map(|of| of.starts).collect::<Vec<_>>();
-    assert_eq!(reached(&minima), [3]);
+    assert_eq!((reached(&minima), none), (vec![3], 0));
     // The second start comes after all analyses of the first.
     let of_one = starts(1, &|_, _| false).0.unwrap().0;
     let (without, failed) = starts(3, &|call, _| call == of_one.analyses + 1);
-    let (without, minima) = without.unwrap();
-    assert_eq!((failed, reached(&minima)), (1, vec![2]));
+    let (without, minima, counted) = without.unwrap();
+    assert_eq!((failed, counted, reached(&minima)), (1, 1, vec![2]));
     assert_relative_eq!(
         &without.factors[..],
         &all.factors[..],

@@ -237,6 +237,41 @@ pub(super) fn marked(area: &Area, at: Place, form: Mark, words: &str) -> Drawn {
     write(area, words, (at.0 + 12.0, at.1), START)
 }
 
+/// What a line or a mark is called, from where it ends, with the pen and the mark that stand before the name.
+#[derive(Clone, Copy)]
+pub(super) struct Named<'a>(pub Place, pub &'a str, pub Option<Pen>, pub Option<Mark>);
+
+/// From the end of a line to its name, px.
+const KEY: f64 = 32.0;
+
+/// Room for names behind the ends of their lines, px.
+pub(super) fn name_margin(names: &[Named]) -> f64 {
+    let longest = names.iter().map(|named| named.1.chars().count()).max();
+    KEY + 7.8 * longest.unwrap_or(0) as f64
+}
+
+/// Names behind the ends of their lines, pushed apart where two would meet.
+pub(super) fn name_ends(area: &Area, mut ends: Vec<Named>) -> Drawn {
+    ends.sort_by(|one, other| one.0.1.total_cmp(&other.0.1));
+    for _ in 0..100 {
+        for next in 1..ends.len() {
+            let lacking = (17.0 - (ends[next].0.1 - ends[next - 1].0.1)).max(0.0);
+            ends[next - 1].0.1 -= 0.5 * lacking;
+            ends[next].0.1 += 0.5 * lacking;
+        }
+    }
+    for Named((x, y), name, pen, form) in ends {
+        if let Some(pen) = pen {
+            line(area, &[(x + 9.0, y), (x + KEY - 6.0, y)], pen)?;
+        }
+        if let Some(form) = form {
+            mark(area, (x + 0.5 * (KEY + 3.0), y), form)?;
+        }
+        write(area, name, (x + KEY, y), START)?;
+    }
+    Ok(())
+}
+
 /// The name of a vertical axis, along the left edge.
 pub(super) fn name_upright(area: &Area, text: &str, middle: f64) -> Drawn {
     write(

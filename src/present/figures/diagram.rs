@@ -1,8 +1,9 @@
 //! Diagrams: a few series over two axes.
 
 use super::canvas::{
-    Area, BLUE, Dash, Drawn, END, Form, GRAY, INK, Mark, ORANGE, Pen, PresentError, SKY, VERMILION,
-    axes, chart, line, mark, name_upright, placed, rectangle, svg, write,
+    Area, BLUE, Dash, Drawn, Form, GRAY, INK, Mark, Named, ORANGE, Pen, PresentError, SKY,
+    VERMILION, axes, chart, line, mark, name_ends, name_margin, name_upright, placed, rectangle,
+    svg,
 };
 use super::chart::Chart;
 use plotters::coord::ranged1d::ValueFormatter;
@@ -24,7 +25,7 @@ pub enum SeriesMark {
 /// Points drawn together, with what they are called.
 #[derive(Debug, Clone)]
 pub struct Series {
-    /// Its name in the legend; none for what goes on with the series before.
+    /// Its name; none for what goes on with the series before.
     pub name: &'static str,
     /// How it is drawn.
     pub mark: SeriesMark,
@@ -62,7 +63,7 @@ pub struct Diagram {
 }
 
 const HEIGHT: f64 = 340.0;
-/// Left, right, top and bottom, px.
+/// Left, right without names, top and bottom, px.
 const MARGINS: [f64; 4] = [72.0, 20.0, 10.0, 48.0];
 const COLORS: [RGBColor; 6] = [BLUE, VERMILION, ORANGE, GRAY, SKY, INK];
 /// Half the width of a bar, px.
@@ -76,7 +77,15 @@ impl Diagram {
     pub fn svg(&self) -> Result<String, PresentError> {
         svg(self.title, self.title, HEIGHT, |area| {
             let (x, y) = (self.x.0..self.x.1, self.y.0..self.y.1);
-            let mut builder = chart(area, MARGINS);
+            let mut margins = MARGINS;
+            if self.has_lines() {
+                let names = self
+                    .series
+                    .iter()
+                    .map(|series| Named((0.0, 0.0), series.name, None, None));
+                margins[1] = name_margin(&names.collect::<Vec<_>>());
+            }
+            let mut builder = chart(area, margins);
             if !self.is_logarithmic {
                 return self.draw_on(area, builder.build_cartesian_2d(x, y)?);
             }
@@ -86,6 +95,13 @@ impl Diagram {
             let y = y.log_scale().with_key_points(powers);
             self.draw_on(area, builder.build_cartesian_2d(x, y)?)
         })
+    }
+
+    /// Whether names stand at the ends of lines; bars and dots have a legend instead.
+    fn has_lines(&self) -> bool {
+        let is_line =
+            |series: &Series| matches!(series.mark, SeriesMark::Line | SeriesMark::Dashed);
+        self.series.iter().any(is_line)
     }
 
     fn draw_on<Y>(
@@ -120,15 +136,15 @@ impl Diagram {
         )?;
         let ground = if self.is_logarithmic { self.y.0 } else { 0.0 };
         let right = placed(&chart, self.x.1, self.y.1);
-        let mut row = 0;
+        let mut ends: Vec<Named> = Vec::new();
         for Series {
             name,
             mark: form,
             points,
         } in &self.series
         {
-            row += usize::from(!name.is_empty());
-            let color = COLORS[(row.max(1) - 1) % COLORS.len()];
+            let row = ends.len() - usize::from(name.is_empty() && !ends.is_empty());
+            let color = COLORS[row % COLORS.len()];
             let dash = if *form == SeriesMark::Dashed {
                 Dash::Dashed
             } else {
@@ -154,22 +170,27 @@ impl Diagram {
                     )
                 })?,
             }
-            if !name.is_empty() {
-                let at = (right.0 - 36.0, right.1 + 18.0 * row as f64 - 4.0);
-                write(area, name, (at.0 - 6.0, at.1), END)?;
-                match form {
-                    SeriesMark::Dots => mark(area, (at.0 + 14.0, at.1), dot)?,
-                    _ => line(
-                        area,
-                        &[at, (at.0 + 28.0, at.1)],
-                        Pen(
-                            color,
-                            if *form == SeriesMark::Bars { 8.0 } else { 2.4 },
-                            dash,
-                        ),
-                    )?,
-                }
+            let pen = match form {
+                SeriesMark::Dots => None,
+                SeriesMark::Bars => Some(Pen(color, 8.0, dash)),
+                _ => Some(Pen(color, 2.4, dash)),
+            };
+            let key = (*form == SeriesMark::Dots).then_some(dot);
+            let end = places.last().map_or(right, |(at, _)| *at);
+            match ends.last_mut() {
+                Some(last) if name.is_empty() => last.0 = end,
+                _ => ends.push(Named(end, name, pen, key)),
             }
+        }
+        if !self.has_lines() {
+            let left = right.0 - name_margin(&ends) - 6.0;
+            let rows = ends
+                .iter_mut()
+                .zip((0..).map(|row| right.1 + 14.0 + 18.0 * f64::from(row)));
+            rows.for_each(|(end, down)| end.0 = (left, down));
+        }
+        if ends.len() > 1 {
+            name_ends(area, ends)?;
         }
         line(
             area,

@@ -74,8 +74,8 @@ const FOOT: f64 = 1e-3;
 /// Decades up to which an axis has ticks at two and five times their powers of ten.
 const FEW_DECADES: f64 = 3.1;
 /// Margins of the plot: left, right, top, bottom, px.
-const MARGINS: [f64; 4] = [72.0, 16.0, 88.0, 48.0];
-const HEIGHT: f64 = 450.0;
+const MARGINS: [f64; 4] = [72.0, 150.0, 64.0, 48.0];
+const HEIGHT: f64 = 426.0;
 
 /// The history as SVG: errors on a logarithmic scale, passes side by side.
 pub fn draw(name: &str, title: &str, passes: &[PassHistory]) -> Result<String, PresentError> {
@@ -87,12 +87,28 @@ fn percent(error: f64) -> f64 {
     (100.0 * error).clamp(1.2 * 10f64.powi(DECADES.0), 0.8 * 10f64.powi(DECADES.1))
 }
 
+/// What is drawn: all three, or the one part that is not zero throughout, as shapes are where none is measured.
+fn measures(passes: &[PassHistory]) -> Vec<Measure> {
+    let errors = || {
+        passes
+            .iter()
+            .flat_map(|pass| pass.inner.iter().chain([&pass.check]))
+    };
+    let [sum, parts @ ..] = SERIES;
+    let is_there = |part: &Measure| errors().any(|errors| part.1(errors) != 0.0);
+    match parts.into_iter().filter(is_there).collect::<Vec<_>>() {
+        one if one.len() == 1 => one,
+        both => [vec![sum], both].concat(),
+    }
+}
+
 /// Ends of the axis that just hold every error, and its ticks, percent.
 fn ticks(passes: &[PassHistory]) -> (f64, f64, Vec<f64>) {
     let errors = passes
         .iter()
         .flat_map(|pass| pass.inner.iter().chain([&pass.check]));
-    let values = errors.flat_map(|errors| SERIES.map(|(_, value, ..)| percent(value(errors))));
+    let measures = measures(passes);
+    let values = errors.flat_map(|errors| measures.iter().map(|it| percent(it.1(errors))));
     let (least, most) = values.fold((f64::INFINITY, 0.0), |(low, high), value| {
         (value.min(low), value.max(high))
     });
@@ -121,7 +137,7 @@ fn draw_on(area: &Area, passes: &[PassHistory]) -> Drawn {
     let last = passes.last().map_or(0, PassHistory::to);
     let (low, high, ticks) = ticks(passes);
     // As many as there is room for.
-    let most_labels = (660.0 / (10.0 + 7.8 * last.to_string().len() as f64)) as usize;
+    let most_labels = (526.0 / (10.0 + 7.8 * last.to_string().len() as f64)) as usize;
     let range = (low..high).log_scale().with_key_points(ticks);
     let mut chart = chart(area, MARGINS).build_cartesian_2d(-0.4..last as f64 + 0.4, range)?;
     axes(&mut chart)
@@ -170,60 +186,44 @@ fn draw_on(area: &Area, passes: &[PassHistory]) -> Drawn {
         0.5 * (HEIGHT + MARGINS[2] - MARGINS[3]),
     )?;
     // Lines first, so that no line crosses the open marks of exact solutions.
-    for (_, value, color, form, dash) in SERIES {
+    let mut ends = Vec::new();
+    for (name, value, color, form, dash) in measures(passes) {
         let at = |iteration: usize, errors: &Errors| place(iteration, percent(value(errors)));
+        let pen = Pen(color, 1.8, dash);
+        let dot = Mark(form, 2.6, Some(color), Pen::solid(color, 1.0));
         for pass in passes {
             let exact = (!pass.is_inner).then_some(&pass.check);
             let points = (pass.from..)
                 .zip(pass.inner.iter().chain(exact))
                 .map(|(row, errors)| at(row, errors));
             let points: Vec<Place> = points.collect();
-            line(area, &points, Pen(color, 1.8, dash))?;
+            line(area, &points, pen)?;
             for &point in &points[1..pass.inner.len()] {
-                mark(
-                    area,
-                    point,
-                    Mark(form, 2.6, Some(color), Pen::solid(color, 1.0)),
-                )?;
+                mark(area, point, dot)?;
             }
         }
         let start = passes.first().map(|pass| at(pass.from, &pass.inner[0]));
-        for exact in start
-            .into_iter()
-            .chain(passes.iter().map(|pass| at(pass.to(), &pass.check)))
-        {
+        let checks = passes.iter().map(|pass| at(pass.to(), &pass.check));
+        let exact: Vec<Place> = start.into_iter().chain(checks).collect();
+        for &exact in &exact {
             mark(area, exact, Mark(form, 5.5, None, Pen::solid(color, 1.8)))?;
         }
+        let end = exact.last();
+        ends.extend(end.map(|&end| Named(end, name, Some(pen), Some(dot))));
     }
-    legend(area, passes.iter().any(|pass| pass.tolerance.is_some()))
-}
-
-fn legend(area: &Area, has_tolerance: bool) -> Drawn {
-    let (left, mut x) = (MARGINS[0], MARGINS[0]);
-    for (name, _, color, form, dash) in SERIES {
-        line(area, &[(x, 18.0), (x + 34.0, 18.0)], Pen(color, 1.8, dash))?;
-        mark(
-            area,
-            (x + 17.0, 18.0),
-            Mark(form, 2.6, Some(color), Pen::solid(color, 1.0)),
-        )?;
-        write(area, name, (x + 41.0, 18.0), START)?;
-        x += 58.0 + 7.2 * name.len() as f64;
-    }
+    name_ends(area, ends)?;
     let open = Mark(Form::Circle, 5.5, Some(WHITE), Pen::solid(INK, 1.8));
-    marked(area, (x + 8.0, 18.0), open, "large, open: exact solution")?;
-    if !has_tolerance {
-        return Ok(());
-    }
-    line(
+    marked(
         area,
-        &[(left, 42.0), (left + 34.0, 42.0)],
-        Pen::solid(GRAY, 1.4),
+        (MARGINS[0] + 8.0, 18.0),
+        open,
+        "large, open: exact solution",
     )?;
-    write(
-        area,
-        "tolerance of the pass on the sum",
-        (left + 41.0, 42.0),
-        START,
-    )
+    if passes.iter().any(|pass| pass.tolerance.is_some()) {
+        let (left, right) = (MARGINS[0] + 250.0, MARGINS[0] + 284.0);
+        line(area, &[(left, 18.0), (right, 18.0)], Pen::solid(GRAY, 1.4))?;
+        let words = "tolerance of the pass on the sum";
+        write(area, words, (right + 7.0, 18.0), START)?;
+    }
+    Ok(())
 }

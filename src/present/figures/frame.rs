@@ -183,17 +183,18 @@ impl Frame {
             })
             .collect();
         panels.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-        let cells = panels
-            .into_iter()
-            .flat_map(|(_, corners)| cells(corners, parts));
-        cells
-            .map(|cell| {
-                (
-                    cell.iter().map(|corner| corner.0).collect(),
-                    middle(&cell).1,
-                )
-            })
-            .collect()
+        let colored = |cell: Vec<Corner>| {
+            let corners = cell.iter().map(|corner| corner.0).collect();
+            (corners, middle(&cell).1)
+        };
+        // Cells of a panel do not cover each other: those of one color stand together.
+        let of_panel = |(_, corners): (f64, Vec<Corner>)| {
+            let mut cells: Vec<(Vec<Vector3<f64>>, f64)> =
+                cells(corners, parts).into_iter().map(colored).collect();
+            cells.sort_by(|(_, one), (_, other)| one.total_cmp(other));
+            cells
+        };
+        panels.into_iter().flat_map(of_panel).collect()
     }
 }
 

@@ -28,7 +28,9 @@ pub fn draw_by_twos(
     notes: &[&str],
 ) -> Result<String, PresentError> {
     const ROOM: (f64, f64) = (297.0, 270.0);
-    let down = 360.0 * maps.len().div_ceil(2) as f64;
+    let most = maps.iter().map(|map| map.values.nrows()).max().unwrap_or(0);
+    let pitch = 90.0 + ROOM.1 * most.min(9) as f64 / 9.0;
+    let down = pitch * maps.len().div_ceil(2) as f64;
     svg(
         name,
         title,
@@ -38,7 +40,7 @@ pub fn draw_by_twos(
                 let (rows, columns) = map.values.shape();
                 let cell = (ROOM.0 / columns.max(9) as f64, ROOM.1 / rows.max(9) as f64);
                 let left = [66.0, 446.0][at % 2];
-                map.draw(area, (left, 64.0 + 360.0 * (at / 2) as f64), cell)?;
+                map.draw(area, (left, 64.0 + pitch * (at / 2) as f64), cell)?;
             }
             for (row, note) in notes.iter().enumerate() {
                 write(area, note, (66.0, down + 8.0 + 20.0 * row as f64), START)?;

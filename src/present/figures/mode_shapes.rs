@@ -1,6 +1,6 @@
 //! Mode shapes of the test, the first and the corrected model (Figure 6): as color on panels, or as lines over each other.
 
-use super::canvas::*;
+use super::canvas::{HEAD as TITLE, *};
 use super::frame::Frame;
 use super::view::{Room, View, extents};
 use crate::method::linear_algebra::check_shape;
@@ -23,6 +23,10 @@ const MOST_MODES: usize = 12;
 const ACROSS: usize = 3;
 const CELL: (f64, f64) = (WIDTH / ACROSS as f64, 178.0);
 const HEAD: f64 = 62.0;
+/// Shades between white and a full color: neighbors of one shade are one path, which the plotting library does not know.
+const SHADES: f64 = 20.0;
+/// The end of such a path.
+const CLOSED: &str = "\"/>\n";
 
 /// A test mode and its partners as drawn: of test, first and corrected model.
 #[derive(Debug, Clone, PartialEq)]
@@ -209,8 +213,9 @@ impl DrawnModes {
             .map(|&node| nodes[node])
             .collect();
         let letter = ["x", "y", "z"][axis.imax()];
+        let mut cells = String::new();
         let words = format!("Blue moves along +{letter}, red along −{letter}, white not at all.");
-        svg(
+        let svg = svg(
             name,
             title,
             HEAD + CELL.1 * self.modes.len() as f64,
@@ -235,19 +240,35 @@ impl DrawnModes {
                             (left, top + 12.0),
                             START,
                         )?;
+                        let mut last = None;
                         for (corners, motion) in frame.parts(&axis, &mode.moved[column]) {
                             let strong = if motion < 0.0 { VERMILION } else { BLUE };
-                            let fill = between(WHITE, strong, motion.abs().min(1.0));
-                            let corners: Vec<Place> =
-                                corners.iter().map(|&at| view.place(at)).collect();
-                            polygon(area, &corners, Some(fill), Pen::solid(fill, 0.4))?;
+                            let strength = (SHADES * motion.abs().min(1.0)).round() / SHADES;
+                            let fill = between(WHITE, strong, strength);
+                            if last.replace(fill).is_none_or(|last| last != fill) {
+                                let color = format!("#{:02X}{:02X}{:02X}", fill.0, fill.1, fill.2);
+                                cells += &format!(
+                                    "{CLOSED}<path fill=\"{color}\" stroke=\"{color}\" stroke-width=\"4\" d=\""
+                                );
+                            }
+                            let corner = |&at: &Vector3<f64>| {
+                                let (x, y) = view.place(at);
+                                format!("{} {}", units(x), units(y + TITLE))
+                            };
+                            let corners: Vec<String> = corners.iter().map(corner).collect();
+                            cells += &format!("M{}z", corners.join(" "));
                         }
                         view.lines(area, &outlines, nodes, Pen::solid(SILVER, 0.8))?;
                     }
                 }
                 Ok(())
             },
-        )
+        )?;
+        // Behind the page and before all else; the first has none before it to close.
+        let cells = cells
+            .strip_prefix(CLOSED)
+            .map(|cells| format!("{cells}{CLOSED}"));
+        Ok(svg.replacen("<text ", &(cells.unwrap_or_default() + "<text "), 1))
     }
 
     fn each(

@@ -46,6 +46,9 @@ pub(super) fn figures(class: &str, figures: impl Iterator<Item = String>) -> Str
 }
 
 pub(super) fn table(table: &Table) -> String {
+    if table.is_empty() {
+        return String::new();
+    }
     let title = escaped(&table.title);
     let mut body = format!(
         "<table id=\"{}\">\n<caption>{title}</caption>\n",

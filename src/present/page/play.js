@@ -48,6 +48,8 @@ const added = DATA.steps.slice(1).reduce((list, gages, at) => [...list, next(lis
 const histories = { adds: added.map(solved), follows: DATA.steps.map(solved) };
 const at = (step, gages, adds) => solved(adds ? next(added[step], DATA.steps[step], gages) : gages);
 const show = () => {
+  // Where a chapter has kept a place for it.
+  document.getElementById("play-place")?.replaceWith(document.getElementById("play"));
   const get = name => document.getElementById("play-" + name), slider = get("slider"), adds = get("adds");
   const FIRST = DATA.mils, LEAST = 4, MOST = 18, high = mils => 100 * (mils - LEAST) / (MOST - LEAST);
   let gages = DATA.steps[0].slice(), isMoved = false;
@@ -94,7 +96,7 @@ const show = () => {
       + path(histories.follows, { stroke: "var(--other)", "stroke-dasharray": "6 3", "stroke-opacity": chosen ? 0.35 : 1 })
       + tag("circle", { cx: x(step), cy: y(now), r: 5, fill: chosen ? "var(--bar)" : "var(--other)" })
       + tag("text", { x: x(28.5), y: y(ends[0].frequency + ends[0].shape) - 10, "text-anchor": "end" }, "adds")
-      + tag("text", { x: x(21), y: y(ends[1].frequency + ends[1].shape) - 14, "text-anchor": "end" }, "follows the gage; ◇ exact")
+      + tag("text", { x: x(27), y: y(ends[1].frequency + ends[1].shape) - 24, "text-anchor": "end" }, "follows the gage; ◇ exact")
       + tag("path", { d: `M${x(30)},${y(DATA.exact) - 6}l6,6l-6,6l-6,-6z`, fill: "none", stroke: "currentColor", "stroke-width": 1.6 });
   };
   const draw = () => {

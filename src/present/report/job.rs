@@ -55,7 +55,7 @@ impl Report {
             Some(History::Paper(run)) => {
                 Self::from_correlation(&stem, &names, &first.test, &first.exact, Some(run))
             }
-            Some(History::GaussNewton(Some((run, _)))) => {
+            Some(History::GaussNewton(Some((run, ..)))) => {
                 Self::from_weighted(&stem, &names, &first, run)
             }
             history => Self {
@@ -93,6 +93,10 @@ impl Report {
             interval.map(|of| factor * (of.upper / of.lower).ln() / (2.0 * NORMAL_95))
         };
         let intervals = result.intervals.iter().copied();
+        let (minima, failed_starts) = match &result.history {
+            History::GaussNewton(Some((_, minima, failed))) => (minima.clone(), *failed),
+            _ => Default::default(),
+        };
         Ok(Self {
             deviations: Some(intervals.zip(&result.factors).map(deviation).collect()),
             prior_shares: Some(
@@ -104,10 +108,8 @@ impl Report {
             ),
             misfit: Some(result.misfit),
             is_judged_by_noise: loaded.job.compare.method == Method::GaussNewton,
-            minima: match &result.history {
-                History::GaussNewton(Some((_, minima))) => minima.clone(),
-                _ => Vec::new(),
-            },
+            minima,
+            failed_starts,
             moved: moved(loaded, result),
             verdict: Some(result.verdict.clone()),
             trust: Some(result.trust.clone()),

@@ -77,6 +77,8 @@ pub struct Report {
     pub is_judged_by_noise: bool,
     /// The minima that noise allows, of several starts.
     pub minima: Vec<Minimum>,
+    /// How many of the starts failed.
+    pub failed_starts: usize,
     /// Factors that make the model right, where they are known.
     pub truth: Vec<f64>,
     /// Test modes, sensors × modes.
@@ -192,6 +194,7 @@ impl Report {
             misfit: None,
             is_judged_by_noise: false,
             minima: Vec::new(),
+            failed_starts: 0,
             truth: Vec::new(),
             test: test.clone(),
             mode_numbers: (1..=test.len()).collect(),

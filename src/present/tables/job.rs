@@ -263,7 +263,8 @@ pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileE
             .column("deviation before", "%", deviations(before))
             .column("prior's share", "%", percents(learned, Digits::Fixed(1)))
             .notes([apart])
-            .notes(is_withheld.then(|| withheld.to_owned())),
+            .notes(is_withheld.then(|| withheld.to_owned()))
+            .filled(),
     )
 }
 
@@ -272,9 +273,10 @@ pub fn minima_table(report: &Report) -> Option<Table> {
     let minima = || report.minima.iter();
     let mut table = Table::new("minima", "Minima that noise allows", "Minimum")
         .headings((1..=minima().count()).map(|place| place.to_string()), "")
-        .notes([
-            "A start that ends in none of them failed, or came to no minimum, or to one that this test excludes.",
-        ]);
+        .notes([format!(
+            "{} failed. Any other that ends in none of them came to no minimum, or to one that this test excludes.",
+            counted(report.failed_starts, "start", "starts")
+        )]);
     let chi_squared = minima().map(|minimum| minimum.chi_squared);
     table.row("chi-squared", numbers(chi_squared, Digits::Fixed(2)));
     let starts = minima().map(|minimum| Cell::count(minimum.starts));

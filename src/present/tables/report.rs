@@ -31,10 +31,17 @@ pub fn paired_table(report: &Report) -> Result<Table, Error> {
     let mut test_hz = report.test.frequencies_hz();
     let shaped = test_hz.len();
     test_hz.extend(report.initial.lone.iter().map(|lone| lone.frequency_hz));
-    let none = || report.initial.lone.iter().map(|_| Cell::text("–"));
+    let is_shaped = shaped > 0;
+    // Where no mode has a shape, a column of dashes says nothing.
+    let dash = if is_shaped { "–" } else { "" };
+    let none = || report.initial.lone.iter().map(|_| Cell::text(dash));
     let mut table = table_of(report, "modes", "test modes and their partners", "Mode")
         .labels((0..test_hz.len()).map(|mode| report.mode_number(mode)))
-        .labels(["frequency RMS", "shape RMS"])
+        .labels(
+            ["frequency RMS"]
+                .into_iter()
+                .chain(is_shaped.then_some("shape RMS")),
+        )
         .column("Test", "Hz", numbers(test_hz.iter().copied(), HERTZ));
     let mut verdict = (String::new(), Vec::new());
     let corrected = (!report.stages.is_empty()).then(|| ("Corrected", report.corrected()));
@@ -42,7 +49,7 @@ pub fn paired_table(report: &Report) -> Result<Table, Error> {
         let agreement = report.agreement(check)?;
         let (own, others): (Vec<f64>, Vec<f64>) =
             (0..shaped).map(|mode| agreement.pair(check, mode)).unzip();
-        let shape_rms = (shaped > 0).then(|| check.errors.shape_rms());
+        let shape_rms = is_shaped.then(|| check.errors.shape_rms());
         let rms = [Some(check.errors.frequency_rms()), shape_rms];
         let all_hz = check.modes.frequencies_hz();
         let lone_hz = check.lone.iter().map(|lone| all_hz[lone.partner]);
@@ -109,7 +116,8 @@ pub fn paired_table(report: &Report) -> Result<Table, Error> {
     Ok(table
         .column(verdict.0, "", verdict.1)
         .notes(solver)
-        .notes([note]))
+        .notes(is_shaped.then_some(note))
+        .filled())
 }
 
 impl PairAgreement {
@@ -172,6 +180,7 @@ pub fn factor_table(report: &Report) -> Table {
         .column("Lower bound", "", bounds(|range| range.lower))
         .column("Upper bound", "", bounds(|range| range.upper))
         .column("Remark", "", factors.iter().enumerate().map(remark))
+        .filled()
 }
 
 /// Stages of a correlation: iterations, why they ended, and the error sum by the inner loop and exactly.
@@ -223,7 +232,11 @@ pub fn history_table(report: &Report) -> Table {
             compared / sum
         )
     });
-    table.notes(swapped).notes(measure).notes([report.words()])
+    table
+        .filled()
+        .notes(swapped)
+        .notes(measure)
+        .notes([report.words()])
 }
 
 /// Test modes that another mode of the model answers than before: stage, test mode, and the two modes, all from one.

@@ -15,7 +15,7 @@ fn init_writes_a_job_that_reads_and_nothing_over_another() {
     let refused = corfem(&["init", words(&path)]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(
-        text(&refused.stderr).contains("job.toml: entity already exists"),
+        text(&refused.stderr).contains("job.toml: it is there already"),
         "{}",
         text(&refused.stderr)
     );
@@ -156,7 +156,7 @@ fn every_example_runs_as_it_is_written() {
         let again = corfem(&["init", "--example", name, words(&at("mine"))]);
         assert_eq!(again.status.code(), Some(2));
         assert!(
-            text(&again.stderr).contains("already exists"),
+            text(&again.stderr).contains("it is there already"),
             "{}",
             text(&again.stderr)
         );
