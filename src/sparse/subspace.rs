@@ -6,8 +6,8 @@ use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use nalgebra::{DMatrix, DVector};
 
-/// Most restarts of the subspace.
-const RESTARTS: usize = 200;
+/// How often a subspace is looked at before it is given up: some two hundred times from one that is full to the next.
+const LOOKS: usize = 800;
 /// Residual of a mode relative to its root at which it counts as found.
 const FOUND: f64 = 1e-10;
 /// The same where round-off of a softer mode leaves no smaller one: a root errs by the square of it.
@@ -161,9 +161,10 @@ pub(super) fn subspace(
     let mut basis = Directions::none(rows);
     let mut small = DMatrix::zeros(0, 0);
     let mut next = fresh(&basis)?;
-    for _ in 0..RESTARTS {
+    let mut goal = most;
+    for _ in 0..LOOKS {
         let mut rest = DMatrix::zeros(0, 0);
-        while next.len() > 0 && basis.len() < most {
+        while next.len() > 0 && basis.len() < goal {
             let (begin, image) = (basis.len(), solve(&next.weighted)?);
             basis.extend(&next);
             let split = basis.split(mass, image)?;
@@ -204,8 +205,11 @@ pub(super) fn subspace(
                 is_all,
             });
         }
-        basis = basis.combined(&vectors);
-        small = DMatrix::from_diagonal(&roots);
+        if basis.len() >= most {
+            basis = basis.combined(&vectors);
+            small = DMatrix::from_diagonal(&roots);
+        }
+        goal = most.min(basis.len() + 2 * block);
     }
     Err(Error::NoConvergence("modes of a sparse pencil"))
 }
