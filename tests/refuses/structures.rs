@@ -244,3 +244,22 @@ fn a_dense_mechanism_is_refused_by_the_dof_that_moves_most_in_it() {
         assert!(ratio.abs() <= MATRIX_ROUND_OFF, "{ratio:e}");
     }
 }
+
+/// Its ratio is the smallest eigenvalue with a diagonal of ones, in any unit of stiffness.
+#[test]
+fn a_dense_motion_has_the_same_ratio_in_any_unit() {
+    let (structure, delta) = (spring_chain(&[1.0, 1.0], [true, false]), 3e-15);
+    let coupled = DMatrix::from_row_slice(2, 2, &[1.0, delta - 1.0, delta - 1.0, 1.0]);
+    for power in [-20, 0, 20] {
+        let unit = 2.0_f64.powi(power) * &coupled;
+        let (_, direction, ratio) = named(dense_error(
+            &structure,
+            Some(vec![DMatrix::zeros(1, 1), unit]),
+        ));
+        assert_eq!(direction, 'x');
+        assert!(
+            (ratio / delta - 1.0).abs() <= SMALLEST_EIGENVALUE,
+            "{ratio:e}"
+        );
+    }
+}

@@ -305,15 +305,16 @@ fn roots_apart_by_round_off_count_as_equal() {
     assert!(gradient_at(2.0 * SMALLEST_SEPARATION)[1].abs() > 1e3 * equal[1].abs());
 }
 
-/// One DOF has one shape. The error is that of the frequency, 1 - (2/3)√c, whose derivative at c = 1 is -1/3.
+/// Two DOF apart have the shapes of the test exactly. The error is that of the first frequency, 1 - (2/3)√c, whose derivative at c = 1
+/// is -1/3.
 #[test]
 fn where_shapes_are_equal_the_gradient_is_that_of_frequencies() {
     let model = DynamicModel {
-        stiffness: dmatrix![4.0],
-        mass: dmatrix![1.0],
-        shares: vec![ParameterMatrix::Stiffness(dmatrix![4.0])],
+        stiffness: dmatrix![4.0, 0.0; 0.0, 16.0],
+        mass: DMatrix::identity(2, 2),
+        shares: vec![ParameterMatrix::Stiffness(dmatrix![4.0, 1.0; 1.0, 0.0])],
     };
-    let test = ModeSet::new(vec![9.0].into(), dmatrix![1.0]).expect("a mode");
+    let test = ModeSet::new(vec![9.0, 16.0].into(), DMatrix::identity(2, 2)).expect("modes");
     let problem = model.analyze(&test, None).expect("a problem");
     assert_eq!(problem.exact().errors.shape, 0.0);
     let found = gradient(&problem, &ModalState::start(&problem)).expect("a gradient");
