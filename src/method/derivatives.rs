@@ -199,12 +199,8 @@ fn shape_pull(model: &ModalModel, state: &ModalState) -> DMatrix<f64> {
             model.test.shapes.column(j),
             slope.as_mut_slice(),
         );
-        if let Some(m) = shape
-            .iter()
-            .position(|component| component.abs() == largest)
-        {
-            slope[m] -= slope.dot(&shape) / shape[m];
-        }
+        let m = shape.iamax();
+        slope[m] -= slope.dot(&shape) / shape[m];
         slope *= model.weights[j].shape.powi(2) * sign
             / (dof_count as f64 * state.errors.shape * largest);
     }

@@ -214,14 +214,10 @@ fn apart_from_rigid_bodies(
     apart
         .view_mut((count, 0), (rigid, count))
         .copy_from(&-along);
-    let orthonormal = factor
+    let mut orthonormal = apart.view_mut((count, count), (rigid, rigid));
+    factor
         .l()
-        .tr_solve_lower_triangular(&DMatrix::identity(rigid, rigid));
-    if let Some(orthonormal) = orthonormal {
-        apart
-            .view_mut((count, count), (rigid, rigid))
-            .copy_from(&orthonormal);
-    }
+        .tr_solve_lower_triangular_unchecked_mut(&mut orthonormal);
     Ok(Some(apart))
 }
 

@@ -319,6 +319,23 @@ fn a_pass_of_the_papers_loop_is_told_by_its_errors_in_percent() {
     }
 }
 
+#[test]
+fn the_papers_loop_says_that_it_was_stopped_by_request() {
+    let files = with(
+        rods(),
+        "job.toml",
+        "method = \"gauss_newton\"",
+        "method = \"paper\"",
+    );
+    let outcome = |files: &Files| {
+        let found = run(&prepared(files), |_| {}, || false).expect("it runs");
+        found.verdict.outcome
+    };
+    assert_eq!(outcome(&files), Outcome::Request);
+    // A result within tolerance needed no more passes.
+    assert_ne!(outcome(&exact(files)), Outcome::Request);
+}
+
 /// The paper's loop counts factors from its start; the bounds are those of the first model all the same.
 #[test]
 fn bounds_hold_from_wherever_the_papers_loop_starts() {

@@ -245,3 +245,26 @@ fn roots_that_do_not_settle_are_refused_with_their_last_change() {
     let settled = recursive_1_converged(&k, &beta, 1e-13, 60).unwrap();
     assert!(settled.last_change < 1e-13);
 }
+
+/// Mode 0 comes down to mode 1 at the second order: with mode 2 its root is 1 + 1/2, with mode 1 it changes by 0.01/(k₁ - 1), and k₁ is
+/// chosen so that the two together are 1/k₁.
+#[test]
+fn modes_that_an_order_after_the_first_brings_together_are_refused() {
+    let k1 = (2.49 - (2.49_f64.powi(2) - 6.0).sqrt()) / 3.0;
+    let k = dvector![1.0, k1, 3.0];
+    let beta = dmatrix![0.0, 0.1, 1.0; 0.1, 0.0, 0.0; 1.0, 0.0, 0.0];
+    let second = recursive_1(&k, &beta, 2).expect("two orders");
+    assert!((second.roots[0] * k1 - 1.0).abs() < ROUND_OFF);
+    let refused = recursive_1(&k, &beta, 3);
+    assert!(
+        matches!(
+            refused,
+            Err(Error::CoalescingModes {
+                first: 1,
+                second: 0,
+                ..
+            })
+        ),
+        "{refused:?}"
+    );
+}

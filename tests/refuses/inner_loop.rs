@@ -3,9 +3,13 @@
 use crate::common::assert_refused;
 use crate::common::loops::chain_problem;
 use crate::common::vibrations::Chain;
+use corfem::method::derivatives::{DerivativeRule, by_definition, gradient};
 use corfem::method::error::Error;
-use corfem::method::inner_loop::{InnerRun, InnerSettings, run};
-use corfem::method::model::Bounds;
+use corfem::method::inner_loop::{InnerRun, InnerSettings, first_factors, run};
+use corfem::method::model::{Bounds, DynamicModel, ParameterMatrix};
+use corfem::method::modes::ModeSet;
+use corfem::method::state::{ModalState, UpdateRule};
+use nalgebra::{dmatrix, dvector};
 
 /// Two springs, the given lists, and the default settings with one change.
 fn run_with(
@@ -118,4 +122,100 @@ fn a_factor_of_an_earlier_pass_that_is_no_number_is_an_error() {
         run_with(&[1.0, f64::NAN], &[None, range], |_| {}),
         Err(Error::NotFinite { .. })
     ));
+}
+
+/// A thousandth of what a parameter has takes all stiffness, or more than all, from the mode.
+#[test]
+fn a_share_so_negative_that_no_difference_can_be_taken_is_refused() {
+    let settings = InnerSettings {
+        derivatives: DerivativeRule::Definition,
+        ..InnerSettings::default()
+    };
+    for share in [
+        ParameterMatrix::Stiffness(dmatrix![-4000.0]),
+        ParameterMatrix::Stiffness(dmatrix![-8000.0]),
+        ParameterMatrix::Mass(dmatrix![-2000.0]),
+    ] {
+        let model = DynamicModel {
+            stiffness: dmatrix![4.0],
+            mass: dmatrix![1.0],
+            shares: vec![share],
+        };
+        let test = ModeSet::new(dvector![9.0], dmatrix![1.0]).expect("a mode");
+        let problem = model.analyze(&test, None).expect("a problem");
+        let refusals = [
+            by_definition(&problem, &ModalState::start(&problem)).map(drop),
+            first_factors(&problem, &settings).map(drop),
+            run(&problem, &[1.0], &[None], &settings).map(drop),
+        ];
+        for refused in refusals {
+            assert!(
+                matches!(refused, Err(Error::LostRoot { mode: 0, .. })),
+                "{refused:?}"
+            );
+        }
+    }
+}
+
+/// A thousandth of what a parameter has brings one mode to another that it is coupled with.
+#[test]
+fn a_share_that_brings_modes_together_has_no_difference() {
+    let stiffness = ParameterMatrix::Stiffness(dmatrix![500.0, 1.0; 1.0, 0.0]);
+    let mass = ParameterMatrix::Mass(dmatrix![-1000.0 / 3.0, 1.0; 1.0, 0.0]);
+    for share in [stiffness, mass] {
+        let model = DynamicModel {
+            stiffness: dmatrix![1.0, 0.0; 0.0, 1.5],
+            mass: dmatrix![1.0, 0.0; 0.0, 1.0],
+            shares: vec![share],
+        };
+        let test = ModeSet::new(dvector![1.0, 1.5], dmatrix![1.0, 0.0; 0.0, 1.0]).expect("modes");
+        let problem = model.analyze(&test, None).expect("a problem");
+        let refused = by_definition(&problem, &ModalState::start(&problem));
+        assert!(
+            matches!(refused, Err(Error::CoalescingModes { .. })),
+            "{refused:?}"
+        );
+    }
+}
+
+#[test]
+fn a_state_of_another_model_has_no_derivatives() {
+    let three = chain_problem(&Chain::uniform(3), &[1.2, 0.8, 1.1]);
+    let two = chain_problem(&Chain::uniform(2), &[1.2, 0.8]);
+    for derivatives in [by_definition, gradient] {
+        assert!(derivatives(&two, &ModalState::start(&two)).is_ok());
+        let refused = derivatives(&two, &ModalState::start(&three));
+        assert!(
+            matches!(
+                refused,
+                Err(Error::WrongShape {
+                    what: "parameter factors",
+                    ..
+                })
+            ),
+            "{refused:?}"
+        );
+    }
+}
+
+/// Two neighbors that a change of mass couples more than they are apart: the recursion has no end, the eigensolution follows.
+#[test]
+fn a_change_of_mass_that_the_recursion_does_not_settle_on_is_refused() {
+    let model = DynamicModel {
+        stiffness: dmatrix![1.0, 0.0; 0.0, 1.1],
+        mass: dmatrix![1.0, 0.0; 0.0, 1.0],
+        shares: vec![ParameterMatrix::Mass(dmatrix![1.0, 0.9; 0.9, 1.0])],
+    };
+    let test = ModeSet::new(dvector![1.0, 1.1], dmatrix![1.0, 0.0; 0.0, 1.0]).expect("modes");
+    let problem = model.analyze(&test, None).expect("a problem");
+    let at = |rule| ModalState::at(&problem, vec![3.0], rule);
+    assert!(at(UpdateRule::Eigensolution).is_ok());
+    let refused = at(UpdateRule::Recursive1);
+    assert!(
+        matches!(
+            refused,
+            Err(Error::UnsettledRoots { .. } | Error::CoalescingModes { .. })
+        ),
+        "{refused:?}"
+    );
 }

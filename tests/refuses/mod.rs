@@ -3,6 +3,7 @@
 pub mod appendix_c;
 pub mod appendix_c_general;
 pub mod inner_loop;
+pub mod limits_of_numbers;
 pub mod mass_parameters;
 pub mod model;
 pub mod modes;

@@ -2,8 +2,9 @@
 
 use crate::common::assert_refused;
 use corfem::method::error::Error;
+use corfem::method::error_sum::mode_errors;
 use corfem::method::modes::ModeSet;
-use corfem::method::pairing::{cross_orthogonality, modal_assurance, pair_modes};
+use corfem::method::pairing::{Pairing, cross_orthogonality, modal_assurance, pair_modes};
 use nalgebra::{DMatrix, DVector, dmatrix};
 
 #[test]
@@ -101,4 +102,45 @@ fn a_zero_shape_has_no_assurance() {
             },
         );
     }
+}
+
+#[test]
+fn pairs_that_are_not_those_of_the_modes_have_no_error() {
+    let modes = |dof: usize, count: usize| {
+        let shapes = DMatrix::from_element(dof, count, 1.0);
+        ModeSet::new(DVector::from_element(count, 1.0), shapes).expect("modes")
+    };
+    let pairs = |analysis_mode: Vec<usize>| {
+        let signs = vec![1.0; analysis_mode.len()];
+        Pairing::new(analysis_mode, signs).expect("pairs")
+    };
+    let errors = |test: &ModeSet, pairing: Vec<usize>| {
+        mode_errors(&modes(3, 2), &pairs(pairing), test).map(|errors| errors.len())
+    };
+    let test = modes(3, 2);
+    assert_eq!(errors(&test, vec![0, 1]).ok(), Some(2));
+    assert!(matches!(
+        errors(&modes(4, 2), vec![0, 1]),
+        Err(Error::WrongShape {
+            what: "test mode shapes",
+            expected_rows: 3,
+            rows: 4,
+            ..
+        })
+    ));
+    for pairing in [vec![0], vec![0, 1, 1]] {
+        let count = pairing.len();
+        assert!(matches!(
+            errors(&test, pairing),
+            Err(Error::WrongShape { what: "paired modes", expected_rows: 2, rows, .. }) if rows == count
+        ));
+    }
+    assert!(matches!(
+        errors(&test, vec![0, 2]),
+        Err(Error::TooMany {
+            what: "paired analysis modes",
+            available: 2,
+            requested: 3,
+        })
+    ));
 }

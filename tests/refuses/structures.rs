@@ -2,10 +2,12 @@
 
 use crate::common::nastran95::boxes;
 use crate::common::structures::{
-    as_element, dense, factorized, free_motions, grid, linkage, linkage_data, rod,
+    as_element, dense, factorized, free_motions, grid, linkage, linkage_data, rod, spring_chain,
 };
 use crate::common::tolerances::{MATRIX_ROUND_OFF, SAME_MOTION, SMALLEST_EIGENVALUE, TAKES_PART};
+use corfem::method::appendix_a::condense;
 use corfem::method::error::Error;
+use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::method::structure::{DIRECTIONS, Structure};
 use corfem::sparse::factorization::Factor;
 use nalgebra::DMatrix;
@@ -13,14 +15,39 @@ use proptest::prelude::*;
 
 /// What a singular structure is refused with: its grid, direction and ratio.
 fn refusal(structure: &Structure) -> (usize, char, f64) {
-    match factorized(structure) {
-        Err(Error::SingularStiffness {
+    named(factorized(structure).expect_err("it is singular"))
+}
+
+/// The same where the stiffness is dense.
+fn dense_refusal(structure: &Structure) -> (usize, char, f64) {
+    named(dense_error(structure, None))
+}
+
+fn named(error: Error) -> (usize, char, f64) {
+    match error {
+        Error::SingularStiffness {
             grid,
             direction,
             ratio,
-        }) => (grid, direction, ratio),
+        } => (grid, direction, ratio),
         other => panic!("expected a singular stiffness, found {other:?}"),
     }
+}
+
+/// Why a model of the structure has no matrices, with another stiffness of its elements if one is given.
+fn dense_error(structure: &Structure, units: Option<Vec<DMatrix<f64>>>) -> Error {
+    let (one, count) = (DMatrix::identity(1, 1), structure.free_dof().len());
+    let parameters = vec![Parameter::element(1, None)];
+    let t = DMatrix::identity(count, 1);
+    let model = FiniteElementModel::new(structure.clone(), t, one, parameters).expect("a model");
+    let model = match units {
+        Some(units) => model.with_unit_stiffness(units).expect("they fit"),
+        None => model,
+    };
+    model
+        .matrices(&[1.0])
+        .map(drop)
+        .expect_err("it is singular")
 }
 
 fn row_of(structure: &Structure, grid: usize, direction: char) -> usize {
@@ -38,11 +65,11 @@ proptest! {
     #[test]
     fn a_mechanism_is_refused_by_the_dof_that_moves_most_in_it((apex, areas) in linkage_data()) {
         let structure = linkage(apex, areas, false);
-        let (grid, direction, ratio) = refusal(&structure);
         let stiffness = dense(&structure);
         let motions = free_motions(&stiffness);
         prop_assert_eq!(motions.ncols(), 1);
         let motion = motions.column(0);
+        let (grid, direction, ratio) = refusal(&structure);
         let named = motion[row_of(&structure, grid, direction)].abs();
         prop_assert!(named >= (1.0 - SAME_MOTION) * motion.amax(), "{grid}{direction} in {motion}");
         prop_assert!(ratio.abs() <= MATRIX_ROUND_OFF, "{ratio:e}");
@@ -82,8 +109,10 @@ fn a_dof_without_stiffness_is_refused_by_name() {
         Structure::new(grids, vec![rod(1, [11, 12], 1.0)]).unwrap()
     };
     // A rod along x leaves y and z alone, the first of which is named; one along z leaves x and y.
-    assert_eq!(refusal(&free_end([0.0, 1.0, 1.0])), (12, 'y', 0.0));
-    assert_eq!(refusal(&free_end([1.0, 1.0, 0.0])), (12, 'x', 0.0));
+    for refusal in [refusal, dense_refusal] {
+        assert_eq!(refusal(&free_end([0.0, 1.0, 1.0])), (12, 'y', 0.0));
+        assert_eq!(refusal(&free_end([1.0, 1.0, 0.0])), (12, 'x', 0.0));
+    }
     assert_eq!(
         factorized(&free_end([0.0, 1.0, 1.0]))
             .unwrap_err()
@@ -130,6 +159,32 @@ fn a_stiffness_within_round_off_of_singular_is_refused() {
     }
 }
 
+/// The same where the stiffness is dense and its last pivot, twice δ, is what is compared.
+#[test]
+fn a_dense_stiffness_within_round_off_of_singular_is_refused() {
+    let coupled = |count: usize, delta: f64| {
+        let mut stiffness = DMatrix::identity(count, count);
+        stiffness[(0, 1)] = delta - 1.0;
+        stiffness[(1, 0)] = delta - 1.0;
+        condense(&stiffness, &DMatrix::identity(count, 1)).map(drop)
+    };
+    assert!(coupled(2, 3e-14).is_ok());
+    assert!(coupled(100, 3e-13).is_ok());
+    for (count, delta) in [(2, 3e-15), (100, 3e-14)] {
+        let refused = coupled(count, delta);
+        assert!(
+            matches!(
+                refused,
+                Err(Error::NotPositiveDefinite {
+                    what: "structural stiffness",
+                    dof: 1
+                })
+            ),
+            "{count}: {refused:?}"
+        );
+    }
+}
+
 /// No element of this crate is indefinite; one handed in is named by the row where the factorization stops.
 #[test]
 fn an_indefinite_element_matrix_is_refused() {
@@ -146,4 +201,65 @@ fn an_indefinite_element_matrix_is_refused() {
         ),
         "{refused:?}"
     );
+}
+
+/// Nor is a motion named that an element pushes on.
+#[test]
+fn a_dense_indefinite_stiffness_has_no_free_motion() {
+    let structure = spring_chain(&[1.0, 1.0], [true, false]);
+    let unit = |sign: f64| DMatrix::from_row_slice(2, 2, &[1.0, -sign, -sign, sign]);
+    for units in [
+        vec![DMatrix::identity(1, 1), unit(-1.0)],
+        vec![
+            DMatrix::identity(1, 1),
+            4.0 * unit(1.0) - 3.5 * DMatrix::identity(2, 2),
+        ],
+    ] {
+        let error = dense_error(&structure, Some(units));
+        assert!(
+            matches!(
+                error,
+                Error::NotPositiveDefinite {
+                    what: "structural stiffness",
+                    ..
+                }
+            ),
+            "{error:?}"
+        );
+    }
+}
+
+/// Rods 1 and 3 stand on the ground side by side, so that both upper corners move alike, across the rods.
+#[test]
+fn a_dense_mechanism_is_refused_by_the_dof_that_moves_most_in_it() {
+    for (apex, expected) in [
+        ([[1.0, 1.0], [0.0, 1.0]], 'x'),
+        ([[3.0, 1.0], [2.0, 1.0]], 'z'),
+    ] {
+        let (grid, direction, ratio) = dense_refusal(&linkage(apex, [1.0, 2.0, 0.5, 1.0], false));
+        assert!(
+            [3, 4].contains(&grid) && direction == expected,
+            "{grid}{direction}"
+        );
+        assert!(ratio.abs() <= MATRIX_ROUND_OFF, "{ratio:e}");
+    }
+}
+
+/// Its ratio is the smallest eigenvalue with a diagonal of ones, in any unit of stiffness.
+#[test]
+fn a_dense_motion_has_the_same_ratio_in_any_unit() {
+    let (structure, delta) = (spring_chain(&[1.0, 1.0], [true, false]), 3e-15);
+    let coupled = DMatrix::from_row_slice(2, 2, &[1.0, delta - 1.0, delta - 1.0, 1.0]);
+    for power in [-20, 0, 20] {
+        let unit = 2.0_f64.powi(power) * &coupled;
+        let (_, direction, ratio) = named(dense_error(
+            &structure,
+            Some(vec![DMatrix::zeros(1, 1), unit]),
+        ));
+        assert_eq!(direction, 'x');
+        assert!(
+            (ratio / delta - 1.0).abs() <= SMALLEST_EIGENVALUE,
+            "{ratio:e}"
+        );
+    }
 }

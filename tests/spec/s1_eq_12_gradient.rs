@@ -75,6 +75,7 @@ fn the_gradient_of_weighted_errors_is_their_central_difference() {
             .map(|(error, weight)| (weight.shape * error.shape.expect("a shape")).powi(2))
             .sum();
         let weighted = problem.clone().weighted(&weights).unwrap();
+        assert_eq!(weighted.weights(), weights);
         assert_near(
             &[weighted.exact().errors.sum()],
             &[frequency.sqrt() + shape.sqrt()],
@@ -302,4 +303,20 @@ fn roots_apart_by_round_off_count_as_equal() {
     );
     // A little further apart the shapes have a derivative, and it is large.
     assert!(gradient_at(2.0 * SMALLEST_SEPARATION)[1].abs() > 1e3 * equal[1].abs());
+}
+
+/// Two DOF apart have the shapes of the test exactly. The error is that of the first frequency, 1 - (2/3)√c, whose derivative at c = 1
+/// is -1/3.
+#[test]
+fn where_shapes_are_equal_the_gradient_is_that_of_frequencies() {
+    let model = DynamicModel {
+        stiffness: dmatrix![4.0, 0.0; 0.0, 16.0],
+        mass: DMatrix::identity(2, 2),
+        shares: vec![ParameterMatrix::Stiffness(dmatrix![4.0, 1.0; 1.0, 0.0])],
+    };
+    let test = ModeSet::new(vec![9.0, 16.0].into(), DMatrix::identity(2, 2)).expect("modes");
+    let problem = model.analyze(&test, None).expect("a problem");
+    assert_eq!(problem.exact().errors.shape, 0.0);
+    let found = gradient(&problem, &ModalState::start(&problem)).expect("a gradient");
+    assert_near(&found, &[-1.0 / 3.0], CONVERGED_STATE);
 }

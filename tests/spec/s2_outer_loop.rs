@@ -2,7 +2,7 @@
 
 use crate::common::loops::correlate_chain;
 use crate::common::tolerances::{CONVERGED_STATE, MATRIX_ROUND_OFF, ROUND_OFF};
-use crate::common::vibrations::{chain_and_truth, error_sum_by_definition};
+use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
 use corfem::method::error::Error;
 use corfem::method::error_sum::Errors;
 use corfem::method::inner_loop::InnerSettings;
@@ -128,4 +128,23 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn passes_are_told_by_their_number_from_one() {
+    let (chain, truth) = (Chain::uniform(3), [1.3, 0.8, 1.1]);
+    let test = chain.modes(&truth);
+    let settings = Settings {
+        least_passes: 3,
+        most_passes: 3,
+        ..Settings::default()
+    };
+    let analyze = |factors: &[f64]| chain.model(factors).analyze(&test, None);
+    let mut told = Vec::new();
+    let found = correlate(analyze, &[None; 3], &settings, |number, _| {
+        told.push(number)
+    });
+    let count = found.expect("a correlation").passes.len();
+    assert!(count > 1);
+    assert_eq!(told, (1..=count).collect::<Vec<_>>());
 }

@@ -2,13 +2,14 @@
 
 use crate::common::loops::correlate_chain;
 use crate::common::tolerances::ROUND_OFF;
-use crate::common::vibrations::Chain;
+use crate::common::vibrations::{Chain, chain_and_truth};
 use corfem::method::error_sum::{ModeError, errors, mode_errors};
 use corfem::method::model::Bounds;
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
 use corfem::method::verdict::{Outcome, Verdict};
 use corfem::present::verdict::verdict_in_words;
 use corfem::torque_box::{Case, run_case};
+use proptest::prelude::*;
 
 const TRUTH: [f64; 3] = [1.3, 0.8, 1.1];
 
@@ -127,6 +128,21 @@ fn the_worst_mode_and_its_errors_are_those_of_the_error_sum() {
         (worst.frequency - expected.frequency).abs() <= ROUND_OFF
             && (shape(&worst) - shape(&expected)).abs() <= ROUND_OFF
     );
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    /// Of frequency and shape together: the one may be large where the other is small.
+    #[test]
+    fn no_mode_of_the_first_model_is_worse_than_the_worst((chain, truth) in chain_and_truth()) {
+        let settings = Settings { most_passes: 0, ..Settings::default() };
+        let found = correlate_chain(&chain, &truth, &settings);
+        let each = mode_errors(&found.initial.modes, &found.initial.pairing, &chain.modes(&truth)).unwrap();
+        let size = |error: &ModeError| error.frequency.powi(2) + shape(error).powi(2);
+        let worst = size(&each[found.verdict.worst_mode]);
+        prop_assert!(each.iter().all(|error| size(error) <= worst + ROUND_OFF));
+    }
 }
 
 #[test]

@@ -9,6 +9,7 @@ use corfem::method::appendix_b::{
     ModeVerdict, MovementLimits, SYMMETRIC, Supports, examine, generalized_mass, orthogonalize,
     rigid_body_vectors,
 };
+use corfem::method::error::Error;
 use corfem::method::modes::{ModeSet, solve};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
@@ -155,4 +156,22 @@ proptest! {
         prop_assert_eq!(again.modes, found.modes);
         prop_assert_eq!(again.kept, (0..found.kept.len()).collect::<Vec<_>>());
     }
+}
+
+/// A mass may give every shape a positive generalized mass and be indefinite all the same.
+#[test]
+fn an_indefinite_mass_is_refused() {
+    let mass = DMatrix::from_row_slice(2, 2, &[1.0, 2.0, 2.0, 1.0]);
+    let raw = ModeSet::new(vec![1.0, 4.0].into(), DMatrix::identity(2, 2)).expect("modes");
+    let refused = examine(&raw, &mass, Supports::Held, &MovementLimits::default());
+    assert!(
+        matches!(
+            refused,
+            Err(Error::NotPositiveDefinite {
+                what: "dynamic mass",
+                dof: 1
+            })
+        ),
+        "{refused:?}"
+    );
 }

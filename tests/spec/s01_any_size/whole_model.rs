@@ -4,17 +4,20 @@ use crate::common::condensed::analyze_condensed;
 use crate::common::known::delta_wing::DeltaWing;
 use crate::common::known::delta_wing::correlation::GROUPS;
 use crate::common::measured::equal_weights;
-use crate::common::tolerances::{RECOVERED_STORY, ROUND_OFF, SAME_ANALYSIS};
+use crate::common::strategies::symmetric;
+use crate::common::tolerances::{MATRIX_ROUND_OFF, RECOVERED_STORY, ROUND_OFF, SAME_ANALYSIS};
 use crate::common::whole_models::{
     counted_modes, masses, seen_by, sensors_at, shear_building, springs,
 };
 use corfem::method::assembly::ElementMatrix;
+use corfem::method::derivatives::{DERIVATIVE_STEP, by_definition, gradient};
 use corfem::method::error::Error;
 use corfem::method::inner_loop::InnerSettings;
 use corfem::method::model::{FiniteElementModel, Parameter, ParameterMatrix};
 use corfem::method::modes::ModeSet;
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::pairing::{modal_assurance, pair_modes};
+use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::structure::{Element, Grid, Material, Structure};
 use corfem::sparse::LargeModel;
 use corfem::sparse::{
@@ -24,6 +27,7 @@ use corfem::torque_box::Case;
 use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use corfem::weighted::noise::Noise;
 use nalgebra::{DMatrix, DVector};
+use proptest::prelude::*;
 
 /// A mode that moves no sensor resembles no test mode; that is no reason to refuse the analysis.
 #[test]
@@ -48,6 +52,187 @@ fn a_mode_that_no_sensor_sees_is_like_no_test_mode() {
         "it is seen by none"
     );
     assert_eq!(found.cross().as_slice(), [1.0, 0.0]);
+}
+
+/// When a test mode must answer it, the two have no distance; nor have shapes at other sensors.
+#[test]
+fn a_mode_that_no_sensor_sees_cannot_be_compared() {
+    let apart = [(0, None, 1.0), (1, None, 4.0)];
+    let parameter = WholeParameter {
+        name: "first".to_owned(),
+        share: WholeShare::Stiffness(springs(2, &apart[..1])),
+        range: None,
+    };
+    let model =
+        WholeModel::new(springs(2, &apart), masses(&[1.0, 1.0]), vec![parameter]).expect("a model");
+    let analyze = |shapes: DMatrix<f64>| {
+        let squares = DVector::from_vec(vec![1.2, 4.4]);
+        let test = ModeSet::new(squares, shapes)?;
+        let sensors = sensors_at(&[0], 2);
+        model
+            .analyze(&[1.0], &sensors, (&test, pair_modes), [2, 0])
+            .map(drop)
+    };
+    let refused = analyze(DMatrix::from_element(1, 2, 1.0));
+    assert!(
+        matches!(
+            &refused,
+            Err(Error::NotPositive { what: "largest component where it is compared", owner, .. })
+                if owner == "analysis mode 1 (from zero)"
+        ),
+        "{refused:?}"
+    );
+    let refused = analyze(DMatrix::identity(2, 2));
+    assert!(
+        matches!(
+            refused,
+            Err(Error::WrongShape {
+                what: "mode shapes",
+                expected_rows: 1,
+                rows: 2,
+                ..
+            })
+        ),
+        "{refused:?}"
+    );
+}
+
+/// Two masses on a spring, whose rigid-body motion a change of mass beyond nothing would leave with a negative one.
+#[test]
+fn a_state_in_which_rigid_body_modes_have_no_mass_is_refused() {
+    let parameter = WholeParameter {
+        name: "both".to_owned(),
+        share: WholeShare::Mass(masses(&[1.0, 1.0])),
+        range: None,
+    };
+    let spring = springs(2, &[(1, Some(0), 1.0)]);
+    let model = WholeModel::new(spring, masses(&[1.0, 1.0]), vec![parameter]).expect("a model");
+    let shape = DMatrix::from_column_slice(2, 1, &[1.0, -1.0]);
+    let test = ModeSet::new(DVector::from_element(1, 2.0), shape).expect("a mode");
+    let free = model
+        .analyze(&[1.0], &sensors_at(&[0, 1], 2), (&test, pair_modes), [1, 0])
+        .expect("an analysis");
+    for rule in [UpdateRule::Recursive1, UpdateRule::Eigensolution] {
+        assert!(ModalState::at(&free, vec![2.0], rule).is_ok());
+        let refused = ModalState::at(&free, vec![-1.0], rule);
+        assert!(
+            matches!(
+                refused,
+                Err(Error::NotPositiveDefinite {
+                    what: "mass of the rigid-body modes",
+                    ..
+                })
+            ),
+            "{refused:?}"
+        );
+    }
+}
+
+/// The shares of one matrix, as an element and as a whole, with the modes of a building of three stories.
+fn shares_both_ways(unit: &DMatrix<f64>, size: f64) -> [DMatrix<f64>; 2] {
+    let element = ElementMatrix {
+        label: 1,
+        dof: vec![2, 0, 1],
+        unit: unit.clone(),
+        unit_mass: DVector::zeros(3),
+    };
+    let place = |at: usize| (at % 3, at / 3);
+    let entries = (0..9)
+        .map(place)
+        .map(|(a, b)| (element.dof[a], element.dof[b], size * unit[(a, b)]));
+    let whole = SparseMatrix::new("share", 3, 3, entries.collect()).expect("a matrix");
+    let shares = [
+        WholeShare::Elements(vec![(element, size)]),
+        WholeShare::Stiffness(whole),
+    ];
+    let parameters = shares.map(|share| WholeParameter {
+        name: "a share".to_owned(),
+        share,
+        range: None,
+    });
+    let stories = [(0, None, 3.0), (1, Some(0), 2.0), (2, Some(1), 1.0)];
+    let model = WholeModel::new(springs(3, &stories), masses(&[1.0; 3]), parameters.into())
+        .expect("a model");
+    let test = model.modes(&[1.0; 2], 3).expect("modes").vibrations;
+    let sensors = sensors_at(&[0, 1, 2], 3);
+    let found = model
+        .analyze(&[1.0; 2], &sensors, (&test, pair_modes), [3, 0])
+        .expect("an analysis");
+    [0, 1].map(|share| found.shares()[share].matrix().clone())
+}
+
+proptest! {
+    #![proptest_config(crate::common::config())]
+
+    /// An element's share needs no theory of elasticity: any symmetric matrix gives its congruence, in any unit.
+    #[test]
+    fn the_share_of_any_element_matrix_is_its_congruence(
+        unit in symmetric(3), decades in -12..=12_i32, size in 0.1..10.0_f64,
+    ) {
+        let unit = unit * 10.0_f64.powi(decades);
+        let [of_element, whole] = shares_both_ways(&unit, size);
+        prop_assert!((of_element - whole).amax() <= MATRIX_ROUND_OFF * size * unit.amax());
+    }
+}
+
+#[test]
+fn the_share_of_an_element_without_a_diagonal_is_its_congruence() {
+    let mut unit = DMatrix::zeros(3, 3);
+    (unit[(0, 2)], unit[(2, 0)]) = (1.0, 1.0);
+    let [of_element, whole] = shares_both_ways(&unit, 2.0);
+    assert!(whole.amax() > 0.1);
+    assert!((of_element - whole).amax() <= MATRIX_ROUND_OFF);
+}
+
+/// On test shapes that are those of the modes but for their signs, so is a share, relative to the test's frequencies.
+#[test]
+fn a_share_on_the_test_shapes_has_their_signs() {
+    let model = shear_building(&[3.0, 2.0, 1.0], 1.0, None);
+    let (sensors, turns) = (sensors_at(&[0, 1, 2], 3), [1.0, -1.0, -1.0]);
+    let whole = model.modes(&[1.0; 3], 3).expect("modes").vibrations;
+    let turned = whole.shapes() * DMatrix::from_diagonal(&turns.to_vec().into());
+    let test = whole.with_shapes(turned).expect("modes");
+    let found = model
+        .analyze(&[1.0; 3], &sensors, (&test, pair_modes), [3, 0])
+        .expect("an analysis");
+    let modes = found.exact().modes.shapes();
+    let sign = |j: usize| modes.column(j).dot(&test.shapes().column(j)).signum();
+    let signs = [0, 1, 2].map(sign);
+    assert!(signs.contains(&1.0) && signs.contains(&-1.0));
+    let omega = whole.omega_squared().map(f64::sqrt);
+    for (share, on_test) in found.shares().iter().zip(found.test_shares()) {
+        let expected = DMatrix::from_fn(3, 3, |j, k| {
+            signs[j] * signs[k] * share.matrix()[(j, k)] / (omega[j] * omega[k])
+        });
+        assert!((on_test - expected).amax() <= MATRIX_ROUND_OFF);
+    }
+}
+
+/// Two vibrations of three free masses, whose rigid-body motion a change of the first mass mixes into both. The difference is off by
+/// something like its own step.
+#[test]
+fn the_error_change_by_a_mass_of_a_free_structure_is_near_its_limit() {
+    let parameter = WholeParameter {
+        name: "first".to_owned(),
+        share: WholeShare::Mass(masses(&[1.0, 0.0, 0.0])),
+        range: None,
+    };
+    let between = springs(3, &[(1, Some(0), 1.0), (2, Some(1), 2.0)]);
+    let model = WholeModel::new(between, masses(&[1.0, 2.0, 1.5]), vec![parameter]).unwrap();
+    let sensors = sensors_at(&[0, 1, 2], 3);
+    let test = model.modes(&[1.5], 2).expect("modes").vibrations;
+    let test = seen_by(&sensors, &test);
+    let free = model
+        .analyze(&[1.0], &sensors, (&test, pair_modes), [2, 0])
+        .expect("an analysis");
+    let state = ModalState::start(&free);
+    let difference = by_definition(&free, &state).expect("a difference")[0];
+    let limit = gradient(&free, &state).expect("a gradient")[0];
+    let size = DERIVATIVE_STEP * limit;
+    assert!(
+        (difference / size - 1.0).abs() <= 10.0 * DERIVATIVE_STEP,
+        "{difference:e} {size:e}"
+    );
 }
 
 /// Five of ten floors measured on an exact building: condensation alone would raise its frequencies by percents.
