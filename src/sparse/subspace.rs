@@ -6,8 +6,10 @@ use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use nalgebra::{DMatrix, DVector};
 
-/// How often a subspace is looked at before it is given up: some two hundred times from one that is full to the next.
-const LOOKS: usize = 800;
+/// How often a subspace that has begun anew is looked at until it is full.
+const LOOKS: usize = 4;
+/// Most restarts of the subspace.
+const RESTARTS: usize = 200;
 /// Residual of a mode relative to its root at which it counts as found.
 const FOUND: f64 = 1e-10;
 /// The same where round-off of a softer mode leaves no smaller one: a root errs by the square of it.
@@ -162,7 +164,7 @@ pub(super) fn subspace(
     let mut small = DMatrix::zeros(0, 0);
     let mut next = fresh(&basis)?;
     let mut goal = most;
-    for _ in 0..LOOKS {
+    for _ in 0..RESTARTS * LOOKS {
         let mut rest = DMatrix::zeros(0, 0);
         while next.len() > 0 && basis.len() < goal {
             let (begin, image) = (basis.len(), solve(&next.weighted)?);
@@ -209,7 +211,7 @@ pub(super) fn subspace(
             basis = basis.combined(&vectors);
             small = DMatrix::from_diagonal(&roots);
         }
-        goal = most.min(basis.len() + 2 * block);
+        goal = most.min(basis.len() + (most - keep).div_ceil(LOOKS));
     }
     Err(Error::NoConvergence("modes of a sparse pencil"))
 }

@@ -129,7 +129,11 @@ impl Factor {
             let row = rows[turn * count..].iter_mut().zip(loads.iter());
             row.for_each(|(value, load)| *value = load * self.scale[turn]);
         }
-        self.forward(&mut rows, count, &self.reach(is_loaded).with_all_rows());
+        self.forward(
+            &mut rows,
+            count,
+            &Reach::of_all_rows(self.reached(is_loaded)),
+        );
         self.backward(&mut rows, count);
         let at =
             |column: usize, dof: usize| self.scale[turn[dof]] * rows[turn[dof] * count + column];
@@ -152,7 +156,7 @@ impl Factor {
         let loads = loads.map(|&(dof, column, value)| (self.plan.turn[dof], column, value));
         let mut is_loaded = vec![false; size];
         loads.clone().for_each(|(turn, ..)| is_loaded[turn] = true);
-        let reach = self.reach(is_loaded);
+        let reach = Reach::of_reached_rows(self.reached(is_loaded));
         let mut rows = vec![0.0; reach.place[size] * count];
         for (turn, column, coefficient) in loads {
             rows[reach.place[turn] * count + column] = coefficient * self.scale[turn];
@@ -172,8 +176,8 @@ impl Factor {
         finite("dynamic flexibility", sum)
     }
 
-    /// The rows to which loads on some lead in forward substitution, and no others to be kept.
-    fn reach(&self, mut is_reached: Vec<bool>) -> Reach {
+    /// Which rows loads on some of them lead to in forward substitution.
+    fn reached(&self, mut is_reached: Vec<bool>) -> Vec<bool> {
         for block in self.plan.blocks(&self.values) {
             let own = block.start()..block.start() + block.val().ncols();
             if is_reached[own.clone()].contains(&true) {
@@ -184,15 +188,7 @@ impl Factor {
                     .for_each(|&row| is_reached[row] = true);
             }
         }
-        let count = |kept: &mut usize, is_reached: &bool| {
-            *kept += usize::from(*is_reached);
-            Some(*kept)
-        };
-        let kept = is_reached.iter().scan(0, count);
-        Reach {
-            place: [0].into_iter().chain(kept).collect(),
-            is_reached,
-        }
+        is_reached
     }
 
     /// $L^{-1}$ times right-hand sides in place, `count` values for each DOF that is kept in the order of elimination; blocks of DOF that
@@ -262,7 +258,7 @@ impl Factor {
 
     /// The solution of the scaled problem for a row of loads, both in the order of elimination.
     fn solved(&self, mut row: RowDVector<f64>) -> RowDVector<f64> {
-        let all = self.reach(vec![true; self.scale.len()]);
+        let all = Reach::of_all_rows(vec![true; self.scale.len()]);
         self.forward(row.as_mut_slice(), 1, &all);
         self.backward(row.as_mut_slice(), 1);
         row
@@ -339,10 +335,23 @@ struct Reach {
 }
 
 impl Reach {
-    /// The same with every row kept.
-    fn with_all_rows(self) -> Self {
-        let place = (0..self.place.len()).collect();
-        Self { place, ..self }
+    /// With every row kept.
+    fn of_all_rows(is_reached: Vec<bool>) -> Self {
+        let place = (0..=is_reached.len()).collect();
+        Self { is_reached, place }
+    }
+
+    /// With no others kept.
+    fn of_reached_rows(is_reached: Vec<bool>) -> Self {
+        let count = |kept: &mut usize, is_reached: &bool| {
+            *kept += usize::from(*is_reached);
+            Some(*kept)
+        };
+        let kept = is_reached.iter().scan(0, count);
+        Self {
+            place: [0].into_iter().chain(kept).collect(),
+            is_reached,
+        }
     }
 }
 
