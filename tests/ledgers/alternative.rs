@@ -26,31 +26,23 @@ fn answer(subject: &str, way: &str, key: &str) -> Option<f64> {
     ANSWERS[subject][way][key].as_f64()
 }
 
-/// Exact analyses; weighted steps on the cases are in the golden of the two rules.
+/// A number of weighted steps on a case, which are in the golden of the two rules.
+fn of_rules(subject: &str, way: &str, column: &str, digits: usize) -> Option<String> {
+    let is_there = way == WEIGHTED && subject.starts_with("Case");
+    is_there.then(|| computed("rules", &format!("{subject}, {way}"), column, digits))
+}
+
+/// Exact analyses.
 fn analyses(subject: &str, way: &str) -> Option<String> {
-    if way == WEIGHTED && subject.starts_with("Case") {
-        return Some(computed(
-            "rules",
-            &format!("{subject}, {way}"),
-            "Analyses",
-            0,
-        ));
-    }
-    answer(subject, way, "analyses").map(|count| format!("{count:.0}"))
+    let counted = || answer(subject, way, "analyses").map(|count| format!("{count:.0}"));
+    of_rules(subject, way, "Analyses", 0).or_else(counted)
 }
 
 /// What is left of the errors of gages or factors, or where these are not known of those of frequencies, %.
 fn left(subject: &str, way: &str) -> Option<String> {
-    if way == WEIGHTED && subject.starts_with("Case") {
-        return Some(computed(
-            "rules",
-            &format!("{subject}, {way}"),
-            "Factor RMS",
-            1,
-        ));
-    }
-    let left = answer(subject, way, "factors").or_else(|| answer(subject, way, "frequencies"));
-    left.map(|error| format!("{error:.1}"))
+    let known = || answer(subject, way, "factors").or_else(|| answer(subject, way, "frequencies"));
+    let left = || known().map(|error| format!("{error:.1}"));
+    of_rules(subject, way, "Factor RMS", 1).or_else(left)
 }
 
 fn milliseconds(subject: &str, way: &str) -> Option<String> {
