@@ -239,20 +239,21 @@ fn beyond_ratios_of_a_trillion_a_doubt_names_the_row() {
 #[test]
 fn one_in_the_seventh_digit_may_be_rounding_and_four_may_not() {
     // Rounding to the millionth leaves a standard deviation of a root of one twelfth of it, and three of them are doubtful.
-    for (part, doubtful) in [(1e-6, 1), (4e-6, 0)] {
-        let own = format!("{:.6}", 1.234_567 + part)
-            .parse()
-            .expect("a number");
-        let rows = vec![
-            (0, 0, own),
-            (0, 1, -1.234_567),
-            (1, 0, -1.234_567),
-            (1, 1, 1.234_567),
-        ];
-        let matrix = SparseMatrix::new("stiffness", 2, 2, rows).expect("a matrix");
-        let found = RigidBodies::of("stiffness", &matrix).expect("a null space");
-        let numbers = (found.rows.len(), found.doubtful.len());
-        assert_eq!(numbers, (0, doubtful), "{part:e}: {found:?}");
+    // Three of the four numbers may end in a zero, which is not written.
+    for spring in [1.234_567, 1.234_56] {
+        for (part, doubtful) in [(1e-6, 1), (4e-6, 0)] {
+            let own = format!("{:.6}", spring + part).parse().expect("a number");
+            let rows = vec![
+                (0, 0, own),
+                (0, 1, -spring),
+                (1, 0, -spring),
+                (1, 1, spring),
+            ];
+            let matrix = SparseMatrix::new("stiffness", 2, 2, rows).expect("a matrix");
+            let found = RigidBodies::of("stiffness", &matrix).expect("a null space");
+            let numbers = (found.rows.len(), found.doubtful.len());
+            assert_eq!(numbers, (0, doubtful), "{spring} {part:e}: {found:?}");
+        }
     }
 }
 
@@ -260,14 +261,8 @@ fn one_in_the_seventh_digit_may_be_rounding_and_four_may_not() {
 fn resistance_that_may_be_the_rounding_of_a_file_is_doubtful() {
     let mut draws = Draws(3);
     let (mut held, mut doubtful) = (0, 0);
-    for draw in 0..80 {
-        // Of every other the springs end in a zero, which is not written, and their sums at the joints do not.
-        let digits = [6, 5][draw % 2];
-        let tree = (1..20).map(|row| {
-            let spring = format!("{:.digits$e}", draws.between(1e4, 9e4));
-            let spring = spring.parse().expect("a number");
-            (draws.below(row), Some(row), spring)
-        });
+    for _ in 0..40 {
+        let tree = (1..20).map(|row| (draws.below(row), Some(row), draws.between(1e4, 9e4)));
         let free = springs(20, &tree.collect::<Vec<_>>());
         // Single precision: seven digits.
         let written = free.entries().iter().map(|&(row, column, value)| {
