@@ -1,5 +1,6 @@
 //! Small pieces that several parts of the room share.
 
+use super::random::random_block;
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use faer::linalg::matmul::matmul;
@@ -40,10 +41,16 @@ pub fn check_solution(
     }
 }
 
-/// A unit vector with no symmetry: the golden ratio's multiples are never commensurate with a mesh.
+/// A unit vector with no symmetry, always the same.
 pub(crate) fn start_vector(size: usize) -> DVector<f64> {
-    let golden = 0.618_033_988_749_894_8;
-    DVector::from_fn(size, |i, _| 0.5 + (golden * (i + 1) as f64).fract()).normalize()
+    random_block(size, 1, &mut 0).column(0).normalize()
+}
+
+/// The places of numbers above a limit; one that is no number is not.
+pub(crate) fn places_above(numbers: &DVector<f64>, limit: f64) -> Vec<usize> {
+    (0..numbers.len())
+        .filter(|&place| numbers[place] > limit)
+        .collect()
 }
 
 /// Adds the lower triangle of $\sum c c^t$ to a matrix (m × m), of columns $c$ (m) one behind the other.

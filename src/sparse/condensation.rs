@@ -20,8 +20,8 @@ use std::sync::Arc;
 
 /// Stiffness of a way to deform, relative to the element's largest, below which it is the round-off of a rigid motion.
 const SMALLEST_DEFORMATION: f64 = 1e-14;
-/// Ways to deform that are multiplied at once: as many as a processor's cache holds.
-const AMPLITUDES_AT_ONCE: usize = 256;
+/// Amplitudes of ways to deform that are multiplied at once: as many numbers as a processor's cache holds.
+const AMPLITUDES_AT_ONCE: usize = 32_768;
 
 /// A [`FiniteElementModel`] of any size: the same structure, mass and parameters, with $T$ by its coefficients and the
 /// factorization of $K_S$ planned once.
@@ -272,7 +272,7 @@ pub(crate) fn sum_of_stiffness<'a>(
                 );
             }
         }
-        if amplitudes.len() >= AMPLITUDES_AT_ONCE * count {
+        if amplitudes.len() >= AMPLITUDES_AT_ONCE {
             add_squares(&mut sum, &amplitudes);
             amplitudes.clear();
         }

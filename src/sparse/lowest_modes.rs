@@ -4,7 +4,7 @@
 use super::condensation::take_deformation;
 use super::matrix::GIVEN;
 use super::subspace::{Directions, Found, subspace};
-use super::{Factor, RigidBodies, SparseMatrix};
+use super::{Factor, RigidBodies, SparseMatrix, places_above};
 use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{
     check_length, cholesky, finite_list, solve_lower, symmetric_eigen, symmetric_part,
@@ -27,6 +27,8 @@ const BEYOND: usize = 4;
 const SMALLEST_ROOT: f64 = 1e-13;
 /// Distance of two neighbors relative to the higher between which modes can be counted.
 const APART: f64 = 1e-5;
+/// A bound above the last of some neighbors so close that none of them can be left out, relative to it: two such distances.
+const JUST_ABOVE: f64 = 1.000_02;
 
 /// Modes of a pencil, the rigid-body modes apart.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,7 +53,7 @@ pub struct CountedModes {
 /// again, each new one made orthogonal to those before it in $M$; in the subspace that they span the modes are those of a small
 /// matrix, and the best of them begin the next subspace. Pencils of [`MOST_DENSE_ROWS`], and those of which the subspace would be
 /// the whole, have all their modes found at once. A factorization of $K - b M$ with $b$ just above the modes found must have as many
-/// negative pivots as there are modes below: Sylvester's law of inertia. Where it counts more, a root is repeated more often than the
+/// negative pivots as there are modes below: Sylvester's law of inertia. Where it counts others, a root is repeated more often than the
 /// block has directions, and a block of as many directions as modes were counted begins anew.
 ///
 /// # Errors
@@ -106,18 +108,18 @@ pub(super) fn modes_at_most(
         let needed = omega_squared.len().min(count);
         if needed > 0 {
             let (bound, counted, found) = numbers(&factor_at, &omega_squared, needed, is_all)?;
-            // A block as wide as all modes below the bound holds every copy of a repeated root.
-            let is_wide = wanted >= counted && block >= counted;
-            if counted > rigid + found && !is_wide && !is_all {
-                (wanted, block) = (counted + BEYOND, block.max(counted));
+            let found = rigid + found;
+            if counted != found {
+                // A block as wide as all modes below the bound holds every copy of a repeated root.
+                if block >= counted {
+                    return Err(Error::Miscounted {
+                        bound,
+                        counted,
+                        found,
+                    });
+                }
+                (wanted, block) = (counted + BEYOND, counted);
                 continue;
-            }
-            if counted != rigid + found {
-                return Err(Error::Miscounted {
-                    bound,
-                    counted,
-                    found: rigid + found,
-                });
             }
         }
         let found = CountedModes {
@@ -244,9 +246,9 @@ fn all(flexibility: &Flexibility, mass: &SparseMatrix) -> Result<Found, Error> {
     let (roots, vectors) = symmetric_eigen("flexibility weighted by the mass", &small)?;
     let smallest = SMALLEST_ROOT * roots.max();
     // Rigid-body modes have the lowest roots: zero but for round-off.
-    let vibrations = flexibility.rigid.len().min(roots.len())..roots.len();
-    let kept = vibrations.rev().filter(|&at| roots[at] > smallest);
-    let kept: Vec<usize> = kept.collect();
+    let kept = places_above(&roots, smallest).into_iter();
+    let mut kept: Vec<usize> = kept.filter(|&at| at >= flexibility.rigid.len()).collect();
+    kept.reverse();
     Ok(Found {
         roots: roots.select_rows(&kept),
         shapes: deflections * vectors.select_columns(&kept),
@@ -307,8 +309,7 @@ fn numbers(
     let next = match is_all {
         _ if found < last => omega_squared[found],
         true => 3.0 * omega_squared[last - 1],
-        // Neighbors so close that none of them can be left out: the bound stands just above the last.
-        false => (1.0 + 2.0 * APART) * omega_squared[last - 1],
+        false => JUST_ABOVE * omega_squared[last - 1],
     };
     let bound = |part: f64| omega_squared[found - 1] + part * (next - omega_squared[found - 1]);
     let factor_at = |bound: f64| {

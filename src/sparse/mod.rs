@@ -19,7 +19,9 @@ pub mod whole_modes;
 mod whole_model;
 
 pub use checks::check_solution;
-pub(crate) use checks::{add_squares, start_vector, take_product, transposed_product};
+pub(crate) use checks::{
+    add_squares, places_above, start_vector, take_product, transposed_product,
+};
 pub(crate) use condensation::sum_of_stiffness;
 pub use condensation::{LargeCondensation, LargeModel};
 pub use factorization::Factor;

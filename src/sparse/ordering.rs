@@ -12,6 +12,12 @@ const SMALLEST_PART: usize = 6;
 /// entries than by halves alone.
 const TENTHS: [usize; 3] = [4, 5, 6];
 
+/// A mark that no point has yet.
+fn next(last: &mut usize) -> usize {
+    *last += 1;
+    *last
+}
+
 /// Points of a mesh.
 pub(crate) struct Mesh {
     /// Where they are, all alike where that is not known.
@@ -78,8 +84,7 @@ impl Mesh {
             .iter()
             .map(|&key| u8::from(key > middle || key == middle && !is_lowest))
             .collect();
-        let marks = [*last + 1, *last + 2];
-        *last += 2;
+        let marks = [(); 2].map(|()| next(last));
         part.iter()
             .zip(&sides)
             .for_each(|(&point, &side)| mark[point] = marks[usize::from(side)]);
@@ -109,20 +114,18 @@ impl Mesh {
         Some((sides, separator.len() * (1 + lopsided)))
     }
 
-    /// How many couplings lie between the points of a part and one at its end; pieces that do not hang together follow one another.
+    /// How many couplings lie between the points of a part and one at its end, and some number more, the same for all; pieces that do not
+    /// hang together follow one another.
     fn distances(&self, part: &[usize], mark: &mut [usize], last: &mut usize) -> Vec<f64> {
-        let (mut start, mut first) = (part[0], 0);
+        let mut start = part[0];
         // From the farthest of the first point's: an end of the part.
         for _ in 0..2 {
-            *last += 1;
-            let inside = *last;
-            first = inside + 1;
+            let inside = next(last);
             part.iter().for_each(|&point| mark[point] = inside);
             let mut queue = VecDeque::new();
             for piece in [start].iter().chain(part) {
                 if mark[*piece] == inside {
-                    *last += 1;
-                    mark[*piece] = *last;
+                    mark[*piece] = next(last);
                     queue.push_back(*piece);
                 }
                 while let Some(point) = queue.pop_front() {
@@ -137,8 +140,6 @@ impl Mesh {
                 }
             }
         }
-        part.iter()
-            .map(|&point| (mark[point] - first) as f64)
-            .collect()
+        part.iter().map(|&point| mark[point] as f64).collect()
     }
 }

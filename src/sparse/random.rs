@@ -2,10 +2,10 @@
 
 use nalgebra::DMatrix;
 
-/// Columns of numbers from −½ up to ½.
+/// Columns of numbers on both sides of zero, of a size that is left to whoever makes the columns of unit length.
 pub(super) fn random_block(rows: usize, columns: usize, state: &mut u64) -> DMatrix<f64> {
     DMatrix::from_fn(rows, columns, |_, _| {
-        split_mix_64(state) as f64 / u64::MAX as f64 - 0.5
+        split_mix_64(state).cast_signed() as f64
     })
 }
 

@@ -1,7 +1,7 @@
 //! Residual vectors: static deflections that the lowest modes lack, as further shapes in which changes are followed.
 
-use super::SparseMatrix;
 use super::matrix::GIVEN;
+use super::{SparseMatrix, places_above};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::ModeSet;
@@ -27,9 +27,8 @@ pub(super) fn leading_loads(
         &symmetric_part(&shapes.tr_mul(&loads)),
     )?;
     let digits = GIVEN * energies.amax();
-    let leading = (0..energies.len()).rev().take(most);
-    let leading: Vec<usize> = leading.filter(|&place| energies[place] > digits).collect();
-    Ok(loads * vectors.select_columns(&leading))
+    let leading = places_above(&energies, digits);
+    Ok(loads * vectors.select_columns(leading.iter().rev().take(most)))
 }
 
 /// Shapes of unit generalized mass, orthogonal to `vibrations` $V$ and each other in mass and in stiffness, that span static
@@ -65,9 +64,7 @@ pub(super) fn residual_vectors(
         deflections -= &vibrations.shapes * shares;
     }
     let rest = energies(&deflections)?.diagonal();
-    let new: Vec<usize> = (0..rest.len())
-        .filter(|&column| rest[column] > GIVEN * first[column])
-        .collect();
+    let new = places_above(&rest.component_div(&first), GIVEN);
     if new.is_empty() {
         return Ok(none);
     }
@@ -76,17 +73,13 @@ pub(super) fn residual_vectors(
     let unit = DMatrix::from_diagonal(&DVector::from_iterator(new.len(), unit));
     let deflections = deflections.select_columns(&new) * unit;
     let (sizes, vectors) = symmetric_eigen("energy of deflections", &energies(&deflections)?)?;
-    let own: Vec<usize> = (0..sizes.len())
-        .filter(|&place| sizes[place] > GIVEN * sizes.amax())
-        .collect();
+    let own = places_above(&sizes, GIVEN);
     let scale = DMatrix::from_diagonal(&sizes.select_rows(&own).map(|size| 1.0 / size.sqrt()));
     let deflections = deflections * vectors.select_columns(&own) * scale;
     let inertia = symmetric_part(&deflections.tr_mul(&mass.times(&deflections)?));
     let (roots, vectors) = symmetric_eigen("mass of deflections", &inertia)?;
-    let moving: Vec<usize> = (0..roots.len())
-        .rev()
-        .filter(|&place| roots[place] * vibrations.omega_squared[0] > GIVEN)
-        .collect();
+    let mut moving = places_above(&roots, GIVEN / vibrations.omega_squared[0]);
+    moving.reverse();
     if moving.is_empty() {
         return Ok(none);
     }

@@ -98,17 +98,18 @@ impl RigidBodies {
                         (value * motion[row] * motion[column]).powi(2)
                     };
                     let parts: f64 = unit.entries().iter().map(part).sum();
-                    motion.dot(&forces.column(at)) / parts.sqrt().max(f64::MIN_POSITIVE)
+                    // At a row without stiffness there is nothing but what round-off leaves of others.
+                    motion.dot(&forces.column(at)) / parts.sqrt().max(f64::EPSILON)
                 })
                 .collect();
             let negative = resisted.iter().fold(0.0_f64, |most, part| most.max(-part));
-            let limit = least.max(4.0 * negative);
+            let draws = 4.0 * negative;
+            let (limit, told) = (least.max(draws), told.max(draws));
             let free: Vec<usize> = (0..block).filter(|&at| resisted[at] <= limit).collect();
             if free.len() == block && block < count {
                 block = (2 * block).min(count);
                 continue;
             }
-            let told = if limit > least { limit } else { told };
             let doubtful = (0..block).filter(|&at| resisted[at] > told && resisted[at] <= most);
             let doubtful = doubtful
                 .map(|at| {

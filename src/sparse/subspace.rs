@@ -1,15 +1,15 @@
 //! The largest roots of $K^{-1} M$ in subspaces that are far smaller than the structure.
 
 use super::random::random_block;
-use super::{SparseMatrix, take_product, transposed_product};
+use super::{SparseMatrix, places_above, take_product, transposed_product};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use nalgebra::{DMatrix, DVector};
 
 /// How often a subspace that has begun anew is looked at until it is full.
 const LOOKS: usize = 4;
-/// Most restarts of the subspace.
-const RESTARTS: usize = 200;
+/// Most looks in all: some two hundred subspaces.
+const MOST_LOOKS: usize = 800;
 /// Residual of a mode relative to its root at which it counts as found.
 const FOUND: f64 = 1e-10;
 /// The same where round-off of a softer mode leaves no smaller one: a root errs by the square of it.
@@ -117,9 +117,7 @@ fn orthonormal(mass: &SparseMatrix, block: DMatrix<f64>) -> Result<Directions, E
     )?;
     // Round-off is relative to the largest: of as few masses as there are columns, some are combinations of the others.
     let least = (1e-14 * values.max()).max(1e-20);
-    let independent: Vec<usize> = (0..values.len())
-        .filter(|&column| values[column] > least)
-        .collect();
+    let independent = places_above(&values, least);
     let scale = values
         .select_rows(&independent)
         .map(|value| 1.0 / value.sqrt());
@@ -164,7 +162,7 @@ pub(super) fn subspace(
     let mut small = DMatrix::zeros(0, 0);
     let mut next = fresh(&basis)?;
     let mut goal = most;
-    for _ in 0..RESTARTS * LOOKS {
+    for _ in 0..MOST_LOOKS {
         let mut rest = DMatrix::zeros(0, 0);
         while next.len() > 0 && basis.len() < goal {
             let (begin, image) = (basis.len(), solve(&next.weighted)?);

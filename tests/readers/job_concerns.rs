@@ -176,6 +176,25 @@ fn a_motion_hardly_told_from_a_rigid_body_mode_is_named_by_its_row() {
     assert_eq!(trust.rigid_body_modes, 1);
 }
 
+/// Below the rounding of a double it is a rigid-body mode that is doubtful, above it a vibration.
+#[test]
+fn a_motion_hardly_resisted_counts_as_what_it_is_called() {
+    for (own, kind) in [
+        ("100000.0000005", "vibration"),
+        ("100000.0000000008", "rigid-body mode"),
+    ] {
+        let mut files = measured_building(2, 1);
+        files[1].1 = HARDLY_HELD.replace("100000.0000005", own);
+        let (_folder, path) = placed(&files);
+        let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+        let concerns = loaded.concerns().unwrap_or_else(|error| panic!("{error}"));
+        let mut concerns = concerns.iter();
+        let weak = concerns.find(|concern| concern.identifier.starts_with("weak-"));
+        let words = &weak.expect("a concern").words;
+        assert!(words.ends_with(&format!("counts as a {kind}.")), "{words}");
+    }
+}
+
 /// Of thirty tests whose deviations were written in percent, half a percent or less of a frequency and up to five of a shape, all.
 #[test]
 fn deviations_in_percent_are_named_in_every_test() {

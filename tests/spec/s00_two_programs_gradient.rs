@@ -110,6 +110,24 @@ fn an_error_of_zero_counts_as_constant() {
     }
 }
 
+/// Squared frequencies of a trillionth are apart by as much of themselves as those of a trillion.
+#[test]
+fn the_packed_gradient_is_the_plain_one_in_any_unit() {
+    for unit in [1e-12, 1.0, 1e12] {
+        let [first, second] = [dmatrix![4.0, 1.0; 1.0, 2.0], dmatrix![1.0, 0.5; 0.5, 7.0]];
+        let shares = [unit * &first, unit * &second];
+        let coupled = DynamicModel {
+            stiffness: unit * (first + second),
+            mass: DMatrix::identity(2, 2),
+            shares: shares.map(ParameterMatrix::Stiffness).to_vec(),
+        };
+        let shapes = dmatrix![1.0, 0.1; -0.5, 1.0];
+        let test = ModeSet::new(unit * dvector![5.0, 8.0], shapes).unwrap();
+        let model = coupled.analyze(&test, None).unwrap();
+        assert_same(&model, &ModalState::start(&model));
+    }
+}
+
 /// The loops of a job take the derivative that the rule names.
 #[test]
 fn the_derivative_of_a_model_is_the_rules() {

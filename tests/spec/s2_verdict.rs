@@ -3,11 +3,14 @@
 use crate::common::loops::correlate_chain;
 use crate::common::tolerances::ROUND_OFF;
 use crate::common::vibrations::{Chain, chain_and_truth};
+use crate::common::whole_models::{masses, seen_by, sensors_at, springs};
 use corfem::method::error_sum::{ModeError, errors, mode_errors};
-use corfem::method::model::Bounds;
+use corfem::method::model::{Bounds, LoneFrequency};
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
+use corfem::method::pairing::pair_modes;
 use corfem::method::verdict::{Outcome, Verdict};
 use corfem::present::verdict::verdict_in_words;
+use corfem::sparse::{WholeModel, WholeParameter, WholeShare};
 use corfem::torque_box::{Case, run_case};
 use proptest::prelude::*;
 
@@ -101,6 +104,42 @@ fn a_right_model_that_is_stepped_once_is_a_local_minimum_within_tolerance() {
         (found.outcome, found.is_within),
         (Outcome::LocalMinimum, true)
     );
+}
+
+/// A frequency without a shape sees of a parameter what part of its mode's stiffness it has, whatever the unit.
+#[test]
+fn what_no_frequency_without_a_shape_sees_is_unseen() {
+    // Beside the first of three springs one a hundred-thousandth as stiff.
+    let all = [
+        (0, None, 1e5),
+        (1, Some(0), 1e5),
+        (2, Some(1), 1e5),
+        (0, None, 1.0),
+    ];
+    let parameters = all.iter().enumerate().map(|(e, one)| WholeParameter {
+        name: format!("spring {e}"),
+        share: WholeShare::Stiffness(springs(3, &[*one])),
+        range: None,
+    });
+    let model = WholeModel::new(springs(3, &all), masses(&[1.0; 3]), parameters.collect()).unwrap();
+    let sensors = sensors_at(&[0, 1, 2], 3);
+    let modes = model.modes(&[1.0; 4], 3).unwrap().vibrations;
+    let lone = LoneFrequency {
+        frequency_hz: 1.01 * modes.frequencies_hz()[2],
+        partner: 2,
+    };
+    let test = seen_by(&sensors, &model.modes(&[1.0; 4], 1).unwrap().vibrations);
+    let analyze = |factors: &[f64]| {
+        model
+            .analyze(factors, &sensors, (&test, pair_modes as _), [3, 0])?
+            .with_lone_frequencies(vec![lone])
+    };
+    let settings = Settings {
+        most_passes: 0,
+        ..Settings::default()
+    };
+    let found = correlate(analyze, &[None; 4], &settings, |_, _| {}).unwrap();
+    assert_eq!(found.verdict.unseen, [3]);
 }
 
 fn shape(error: &ModeError) -> f64 {

@@ -15,7 +15,7 @@ use crate::spec::s5_weighted::at;
 use corfem::files::test_data::TestData;
 use corfem::job::{JobResult, LoadedJob, run};
 use corfem::method::linear_algebra::symmetric_part;
-use corfem::method::model::{DynamicModel, ParameterMatrix};
+use corfem::method::model::{DynamicModel, LoneFrequency, ParameterMatrix};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::nalgebra::{DMatrix, DVector};
 use corfem::sparse::WholeShare;
@@ -273,6 +273,21 @@ fn residuals_with_a_covariance_are_those_of_generalized_least_squares() {
         assert!((&one.1 - &two.1).amax() < MATRIX_ROUND_OFF * one.1.amax());
         let singular = DMatrix::from_element(28, 28, 1.0);
         assert!(plain.clone().with_covariance(&singular).is_err());
-        assert!(plain.with_covariance(&DMatrix::identity(27, 27)).is_err());
+        assert!(
+            plain
+                .clone()
+                .with_covariance(&DMatrix::identity(27, 27))
+                .is_err()
+        );
+        // A frequency without a shape is one more number.
+        let lone = LoneFrequency {
+            frequency_hz: 10.0,
+            partner: 5,
+        };
+        let more = plain.with_lone_frequencies(vec![lone]).unwrap();
+        for (count, is_right) in [(27, false), (28, false), (29, true)] {
+            let unit = DMatrix::identity(count, count);
+            assert_eq!(more.clone().with_covariance(&unit).is_ok(), is_right);
+        }
     }
 }

@@ -13,6 +13,7 @@ use corfem::method::pairing::{Pairing, pair_modes};
 use corfem::method::state::{ModalState, UpdateRule};
 use corfem::nalgebra::DMatrix;
 use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
+use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use corfem::weighted::residuals::{DEVIATIONS, jacobian, residuals};
 
 /// Four springs and three masses of a random net are parameters; all but one point have sensors.
@@ -166,6 +167,18 @@ fn the_gradient_and_the_papers_difference_follow_masses_of_free_structures() {
         apart += usize::from(is_apart);
     }
     assert!(apart > 40, "{apart} of 200 nets have modes apart");
+}
+
+/// In a basis of all modes the steps from the first model end where the exact ones would, masses changed or not.
+#[test]
+fn with_all_modes_the_first_trial_of_a_weighted_correlation_is_the_last() {
+    let settings = WeightedSettings::default();
+    for (net, name) in nets().step_by(7) {
+        let weights = equal_weights(DEVIATIONS, net.test.omega_squared().len());
+        let analyze = |factors: &[f64]| net.analyze(factors);
+        let found = gauss_newton(analyze, &[1.0; 7], &[None; 7], &weights, &settings).unwrap();
+        assert_eq!(found.analyses, 2, "{name}");
+    }
 }
 
 #[test]

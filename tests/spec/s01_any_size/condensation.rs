@@ -99,6 +99,17 @@ proptest! {
     }
 }
 
+/// Where no point has a mass of its own and every element has one.
+#[test]
+fn the_mass_of_elements_alone_is_condensed_as_the_method_does() {
+    let model = bar(&ONES, &FIVE);
+    let plain = model.condense(&ONES).expect("held").mass;
+    let large = LargeModel::of(&model).expect("a plan");
+    let found = large.condense(&ONES).expect("held").mass;
+    assert!(plain.amax() > 0.0);
+    assert!((found - &plain).amax() <= MATRIX_ROUND_OFF * plain.amax());
+}
+
 #[test]
 fn five_of_ten_joints_are_too_few_for_the_higher_modes() {
     let (model, joints) = whole(&bar(&[1.0; RODS], &FIVE));

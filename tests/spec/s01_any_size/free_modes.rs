@@ -1,5 +1,6 @@
 //! Free structures and massless degrees of freedom: every mode found once, and counted another way.
 
+use crate::common::assert_refused;
 use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
 use crate::common::draws::Draws;
 use crate::common::known::delta_wing::DeltaWing;
@@ -9,7 +10,7 @@ use corfem::chain::spring_stiffness;
 use corfem::method::assembly::{dense_stiffness, element_matrices, lumped_mass};
 use corfem::method::error::Error;
 use corfem::method::structure::{Grid, Structure};
-use corfem::sparse::Factor;
+use corfem::sparse::{Factor, SparseMatrix, lowest_modes};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
@@ -198,6 +199,40 @@ fn a_soft_suspension_is_a_vibration_and_no_rigid_body_mode() {
     let found = counted_modes(&stiffness, &DMatrix::identity(2, 2)).expect("modes");
     assert_eq!((found.rigid_body.ncols(), found.vibrations.len()), (0, 2));
     assert!((found.vibrations.omega_squared()[0] / 1e-8 - 1.0).abs() < COUNTED_ROOT);
+}
+
+/// A decomposition loses what vibrates more than three million times as fast as the lowest; the inertia does not.
+#[test]
+fn a_mode_that_is_lost_beside_a_far_lower_one_is_missed_by_the_count() {
+    let stiffness = DMatrix::from_diagonal(&DVector::from_vec(vec![0.0, 1.0, 0.9e13, 1.1e13]));
+    let (stiffness, mass) = (
+        sparse(&stiffness).expect("a matrix"),
+        sparse(&DMatrix::identity(4, 4)).expect("a matrix"),
+    );
+    // Above the last that is found, as far as that is from three times itself, half way.
+    let refused = lowest_modes(&stiffness, &mass, 2);
+    assert!(
+        matches!(
+            refused,
+            Err(Error::Miscounted { bound, counted: 4, found: 3 }) if (bound / 1.8e13 - 1.0).abs() < COUNTED_ROOT
+        ),
+        "{refused:?}"
+    );
+    // One mode is told apart from the others well below them.
+    let one = lowest_modes(&stiffness, &mass, 1).expect("modes");
+    assert_eq!((one.rigid_body.ncols(), one.vibrations.len()), (1, 1));
+}
+
+#[test]
+fn what_is_no_mass_is_named_by_its_row() {
+    let stiffness = sparse(&DMatrix::identity(3, 3)).expect("a matrix");
+    let coupled = vec![(0, 0, 1.0), (1, 2, 1.0), (2, 1, 1.0)];
+    let mass = SparseMatrix::new("mass", 3, 3, coupled).expect("a matrix");
+    let error = Error::NotPositiveDefinite {
+        what: "mass",
+        dof: 2,
+    };
+    assert_refused(lowest_modes(&stiffness, &mass, 1), error);
 }
 
 #[test]

@@ -106,6 +106,41 @@ fn residual_vectors_are_orthogonal_to_the_modes_and_to_each_other() {
     );
 }
 
+/// One spring deforms in one way, however soft it is beside the others and however fast all vibrate.
+#[test]
+fn every_spring_has_one_residual_vector() {
+    for (stiff, mass) in [(1.0, 1.0), (1e9, 1e-2), (1e-6, 1e3)] {
+        let count = 30;
+        let spring = |row: usize, size: f64| (row, row.checked_sub(1), size * stiff);
+        let chain: Vec<_> = (0..count).map(|row| spring(row, 1.0)).collect();
+        // Three of them are parameters with another in parallel: as stiff, and ever softer.
+        let sizes = [1.0, 1e-3, 1e-7];
+        let parts = sizes.iter().zip([7, 15, 24]);
+        let parts: Vec<_> = parts.map(|(&size, row)| spring(row, size)).collect();
+        let parameters = parts.iter().map(|&part| WholeParameter {
+            name: format!("spring at {}", part.0),
+            share: WholeShare::Stiffness(springs(count, &[part])),
+            range: None,
+        });
+        let model = WholeModel::new(
+            springs(count, &[chain, parts.clone()].concat()),
+            masses(&vec![mass; count]),
+            parameters.collect(),
+        )
+        .unwrap();
+        let sensors = sensors_at(&[5, 12, 20, 28], count);
+        let test = seen_by(&sensors, &model.modes(&[1.0; 3], 4).unwrap().vibrations);
+        let found = model
+            .analyze(&[1.0; 3], &sensors, (&test, pair_modes as _), [4, 4])
+            .unwrap();
+        assert_eq!(
+            found.basis().omega_squared().len(),
+            4 + 3,
+            "{stiff:e} {mass:e}"
+        );
+    }
+}
+
 /// Largest relative error of the eight lowest frequencies that a basis predicts, the median over changes within e^±0.3.
 fn predicted(net: &Net, further: usize) -> f64 {
     let first = net.analyze(&[1.0; 9], further);

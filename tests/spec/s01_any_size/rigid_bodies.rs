@@ -150,6 +150,46 @@ fn a_thousand_structures_have_neither_one_too_many_nor_one_too_few() {
 }
 
 #[test]
+fn where_there_is_no_stiffness_every_motion_is_free() {
+    // As many as are sought at first, fewer, and more than twice as many.
+    for size in [3, 8, 9, 20] {
+        let nothing = SparseMatrix::new("nothing", size, size, Vec::new()).expect("a matrix");
+        let found = RigidBodies::of("nothing", &nothing).expect("a null space");
+        let mut rows = found.rows.clone();
+        rows.sort_unstable();
+        assert_eq!(rows, (0..size).collect::<Vec<_>>());
+        assert!(found.doubtful.is_empty(), "{found:?}");
+    }
+}
+
+/// Numbers of seven digits, in nearly all of which single precision leaves energies of either sign.
+#[test]
+fn what_counts_as_free_by_the_round_off_of_its_numbers_is_not_doubtful_too() {
+    let (mut draws, mut free) = (Draws(5), 0);
+    for _ in 0..60 {
+        let parts = (0..2).flat_map(|part| (1..9).map(move |row| (9 * part, row)));
+        let tree: Vec<_> = parts
+            .map(|(begin, row)| {
+                let other = begin + draws.below(row);
+                (other, Some(begin + row), draws.between(1e4, 9e4))
+            })
+            .collect();
+        let entries = springs(18, &tree);
+        let written = entries.entries().iter().map(|&(row, column, value)| {
+            let part = format!("{value:.6e}").parse().expect("a number");
+            (row, column, part)
+        });
+        let written = SparseMatrix::new("stiffness", 18, 18, written.collect()).expect("a matrix");
+        let Ok(found) = RigidBodies::of("stiffness", &written) else {
+            continue;
+        };
+        free += usize::from(!found.rows.is_empty());
+        assert!(found.rows.len() + found.doubtful.len() <= 2, "{found:?}");
+    }
+    assert!(free > 5, "{free}");
+}
+
+#[test]
 fn a_resistance_that_twelve_digits_do_not_tell_from_none_is_doubtful() {
     // One part in a trillion and a half: sixteen digits tell it, twelve would not.
     let stiffness = springs(2, &[(0, Some(1), 1.5e4 / 0.7), (0, None, 1e-8 / 0.7)]);
@@ -193,6 +233,27 @@ fn beyond_ratios_of_a_trillion_a_doubt_names_the_row() {
         );
         let found = RigidBodies::of("stiffness", &stiffness).expect("a null space");
         assert_eq!(found.doubtful.len(), 1, "{ratio}: {found:?}");
+    }
+}
+
+#[test]
+fn one_in_the_seventh_digit_may_be_rounding_and_four_may_not() {
+    // Rounding to the millionth leaves a standard deviation of a root of one twelfth of it, and three of them are doubtful.
+    // Three of the four numbers may end in a zero, which is not written.
+    for spring in [1.234_567, 1.234_56] {
+        for (part, doubtful) in [(1e-6, 1), (4e-6, 0)] {
+            let own = format!("{:.6}", spring + part).parse().expect("a number");
+            let rows = vec![
+                (0, 0, own),
+                (0, 1, -spring),
+                (1, 0, -spring),
+                (1, 1, spring),
+            ];
+            let matrix = SparseMatrix::new("stiffness", 2, 2, rows).expect("a matrix");
+            let found = RigidBodies::of("stiffness", &matrix).expect("a null space");
+            let numbers = (found.rows.len(), found.doubtful.len());
+            assert_eq!(numbers, (0, doubtful), "{spring} {part:e}: {found:?}");
+        }
     }
 }
 

@@ -2,10 +2,11 @@
 
 use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
 use crate::common::draws::Draws;
-use crate::common::tolerances::{COUNTED_ROOT, WHOLE_SHAPE};
+use crate::common::tolerances::{COUNTED_ROOT, TWO_PROGRAMS, WHOLE_SHAPE};
 use crate::common::whole_models::{chain_of_springs as chain, counted_modes, masses, springs};
-use corfem::sparse::{Factor, MOST_DENSE_ROWS, SparseMatrix, lowest_modes};
-use nalgebra::DMatrix;
+use corfem::sparse::whole_modes::{MassDof, whole_modes};
+use corfem::sparse::{Factor, MOST_DENSE_ROWS, RigidBodies, SparseMatrix, lowest_modes};
+use nalgebra::{DMatrix, DVector};
 
 #[test]
 fn a_long_chain_has_the_closed_form_whatever_holds_it() {
@@ -26,6 +27,27 @@ fn a_long_chain_has_the_closed_form_whatever_holds_it() {
                 (omega_squared / expected - 1.0).abs() < COUNTED_ROOT,
                 "{ends:?} {mode}: {omega_squared} {expected}"
             );
+        }
+    }
+}
+
+/// In subspaces modes are sought until nothing is left of them outside, where their frequencies would be right long before.
+#[test]
+fn shapes_are_found_as_well_as_frequencies() {
+    for (count, spring, mass) in [(400, 1e9, 1e-3), (300, 1.0, 1.0), (500, 1e-6, 1e3)] {
+        let stiffness = chain(ChainEnds::FixedFree, count, spring);
+        let mass = masses(&vec![mass; count]);
+        for modes in [1, 2, 3, 5, 8, 12, 20, 30] {
+            let found = lowest_modes(&stiffness, &mass, modes)
+                .expect("modes")
+                .vibrations;
+            for (mode, omega_squared) in found.omega_squared().iter().enumerate() {
+                let shape = found.shapes().columns(mode, 1).into_owned();
+                let forces = stiffness.times(&shape).expect("it fits");
+                let residual = &forces - *omega_squared * mass.times(&shape).expect("it fits");
+                let part = residual.norm() / forces.norm();
+                assert!(part < TWO_PROGRAMS, "{mode} of {modes}: {part:e}");
+            }
         }
     }
 }
@@ -129,6 +151,25 @@ fn random_sparse_pencils_have_the_modes_of_their_dense_ones() {
             );
         }
     }
+}
+
+/// A soft spring to the ground, a hundred-billionth of the others: sixteen digits tell it, a file's twelve would not.
+#[test]
+fn what_is_hardly_held_is_called_by_its_rows_name() {
+    let stiffness = springs(2, &[(0, Some(1), 1.5e4 / 0.7), (0, None, 1e-8 / 0.7)]);
+    let told = RigidBodies::of("stiffness", &stiffness)
+        .expect("a null space")
+        .doubtful;
+    let at = MassDof {
+        dof: Vec::new(),
+        load_distribution: masses(&[1.0, 1.0]),
+        mass: DVector::from_vec(vec![2.0, 3.0]),
+    };
+    let name = |row: usize| format!("row {row}");
+    let found = whole_modes(&stiffness, at, 2, &stiffness, name).expect("modes");
+    let expected = told.iter().map(|&(row, part)| (name(row), part));
+    assert_eq!(found.doubtful, expected.collect::<Vec<_>>());
+    assert_eq!(found.doubtful.len(), 1);
 }
 
 #[test]
