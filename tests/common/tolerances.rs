@@ -142,7 +142,8 @@ pub const GOLDEN_ABSOLUTE_ROOT_PERCENT: f64 = 1e-12;
 pub const SAME_HISTORY: f64 = 1e-6;
 /// Displacements between sensors, of a largest of one: some ten roundings of bilinear or weighted means.
 pub const INTERPOLATED: f64 = 1e-12;
-/// Generalized stiffness of two covers that are mirror images, relative to its norm: condensation's condition number times round-off.
+/// Generalized stiffness of two covers that are mirror images, relative to that of the stiffest element: condensation's condition
+/// number times round-off.
 pub const MIRRORED_COVERS: f64 = 1e-8;
 /// Roots of a recursion that is accepted as settled: the largest change of its last order, 1e-6, a hundred times over.
 pub const SETTLED_ROOTS: f64 = 1e-4;

@@ -41,9 +41,11 @@ proptest! {
         let (model, test) = (model.expect("a model"), case.test_modes().expect("modes"));
         let modal = model.analyze(&[1.0; PANEL_COUNT], &test.into(), None).expect("modes");
         let shares = modal.shares();
+        // Round-off of the condensation is that of the whole structure, however little of it a cover is.
+        let largest = shares.iter().map(|share| share.matrix().norm()).fold(0.0, f64::max);
         for [one, other] in BAYS {
             let apart = (shares[one].matrix() - shares[other].matrix()).norm();
-            prop_assert!(apart < MIRRORED_COVERS * shares[one].matrix().norm());
+            prop_assert!(apart < MIRRORED_COVERS * largest);
         }
         let settings = InnerSettings { iterations: 3, ..case.settings.inner.clone() };
         let changes = error_changes(&modal, &ModalState::start(&modal), settings.derivatives);
