@@ -141,9 +141,9 @@ impl<'a> PackedModel<'a> {
             let (column, rest) = columns.split_at_mut(count - i);
             columns = rest;
             let (own, row) = (per_change(k[i]), &pull[i * width..][..count]);
-            for r in i + 1..count {
+            for r in (i..count).skip(1) {
                 let apart = k[i] - k[r];
-                let larger = if k[i] > k[r] { k[i] } else { k[r] };
+                let larger = k[i].max(k[r]);
                 let both = own * pull[r * width + i] - per_change(k[r]) * row[r];
                 let are_apart = apart.abs() > SMALLEST_SEPARATION * larger;
                 column[r - i] = if are_apart { 0.5 * both / apart } else { 0.0 };
@@ -210,7 +210,7 @@ fn unpacked(packed: &[f64], count: usize) -> DMatrix<f64> {
 
 /// How many numbers stand for a symmetric matrix.
 fn packed_length(count: usize) -> usize {
-    (count * (count + 1) / 2).next_multiple_of(LANES)
+    (1..=count).sum::<usize>().next_multiple_of(LANES)
 }
 
 /// The inner product of two lists of whole lanes.

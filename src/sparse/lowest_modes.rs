@@ -3,7 +3,7 @@
 
 use super::condensation::take_deformation;
 use super::matrix::GIVEN;
-use super::subspace::{Directions, Found, subspace};
+use super::subspace::{Directions, Found, Solve, subspace};
 use super::{Factor, RigidBodies, SparseMatrix, places_above};
 use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{
@@ -39,6 +39,8 @@ pub struct CountedModes {
     pub vibrations: ModeSet,
     /// Motions that are hardly told from rigid-body modes ([`RigidBodies::doubtful`]).
     pub doubtful: Vec<(usize, f64)>,
+    /// How many loads the factor was solved for to find the vibrations.
+    pub solutions: usize,
 }
 
 /// The `count` lowest vibrations of $K v = \omega^2 M v$ for semidefinite `stiffness` (lbf/in) and `mass` (lbf·s²/in), with all
@@ -100,9 +102,9 @@ pub(super) fn modes_at_most(
         }
     };
     let rigid = flexibility.rigid.len();
-    let (mut wanted, mut block) = (count + BEYOND, BLOCK);
+    let (mut wanted, mut block, mut solutions) = (count + BEYOND, BLOCK, 0);
     loop {
-        let found = largest(&flexibility, mass, wanted, block)?;
+        let found = largest(&flexibility, mass, wanted, block, &mut solutions)?;
         let is_all = found.is_all;
         let (omega_squared, shapes) = frequencies(mass, found)?;
         let needed = omega_squared.len().min(count);
@@ -130,6 +132,7 @@ pub(super) fn modes_at_most(
             .select(&(0..needed).collect::<Vec<_>>()),
             rigid_body: flexibility.rigid.shapes.clone(),
             doubtful,
+            solutions,
         };
         return Ok((found, flexibility));
     }
@@ -215,21 +218,25 @@ impl Flexibility {
     }
 }
 
-/// The `wanted` largest roots, or all if there are fewer or all are as easily found.
+/// The `wanted` largest roots, or all if there are fewer or all are as easily found; solutions are counted on.
 fn largest(
     flexibility: &Flexibility,
     mass: &SparseMatrix,
     wanted: usize,
     block: usize,
+    solutions: &mut usize,
 ) -> Result<Found, Error> {
     let keep = wanted + block;
     let most = keep + keep.max(8 * block);
+    let mut solve = |loads: &DMatrix<f64>| {
+        *solutions += loads.ncols();
+        flexibility.solve(loads)
+    };
     if mass.rows() <= most.max(MOST_DENSE_ROWS) {
-        all(flexibility, mass)
+        all(&mut solve, flexibility.rigid.len(), mass)
     } else {
-        let solve = |loads: &DMatrix<f64>| flexibility.solve(loads);
         subspace(
-            &solve,
+            &mut solve,
             &flexibility.rigid,
             mass,
             wanted,
@@ -239,15 +246,15 @@ fn largest(
 }
 
 /// All roots: with $M = F F^t$ they are those of $F^t K^{-1} F y = \mu y$, and $v = K^{-1} F y$.
-fn all(flexibility: &Flexibility, mass: &SparseMatrix) -> Result<Found, Error> {
+fn all(solve: Solve, rigid: usize, mass: &SparseMatrix) -> Result<Found, Error> {
     let f = root(mass)?;
-    let deflections = flexibility.solve(&f)?;
+    let deflections = solve(&f)?;
     let small = symmetric_part(&f.tr_mul(&deflections));
     let (roots, vectors) = symmetric_eigen("flexibility weighted by the mass", &small)?;
     let smallest = SMALLEST_ROOT * roots.max();
     // Rigid-body modes have the lowest roots: zero but for round-off.
     let kept = places_above(&roots, smallest).into_iter();
-    let mut kept: Vec<usize> = kept.filter(|&at| at >= flexibility.rigid.len()).collect();
+    let mut kept: Vec<usize> = kept.filter(|&at| at >= rigid).collect();
     kept.reverse();
     Ok(Found {
         roots: roots.select_rows(&kept),

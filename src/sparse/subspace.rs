@@ -93,7 +93,7 @@ impl Directions {
 }
 
 /// The deflections under loads.
-type Solve<'a> = &'a dyn Fn(&DMatrix<f64>) -> Result<DMatrix<f64>, Error>;
+pub(super) type Solve<'a> = &'a mut dyn FnMut(&DMatrix<f64>) -> Result<DMatrix<f64>, Error>;
 
 /// $Q$, $S$ and $R$ of a block.
 struct Split {
@@ -149,7 +149,7 @@ pub(super) fn subspace(
 ) -> Result<Found, Error> {
     let rows = mass.rows();
     let mut state = 0;
-    let mut fresh = |basis: &Directions| {
+    let mut fresh = |basis: &Directions, solve: Solve| {
         let random = random_block(rows, block, &mut state);
         let random = rigid.split(mass, random)?.next.shapes;
         let random = basis.split(mass, random)?.next;
@@ -160,7 +160,7 @@ pub(super) fn subspace(
     };
     let mut basis = Directions::none(rows);
     let mut small = DMatrix::zeros(0, 0);
-    let mut next = fresh(&basis)?;
+    let mut next = fresh(&basis, solve)?;
     let mut goal = most;
     for _ in 0..MOST_LOOKS {
         let mut rest = DMatrix::zeros(0, 0);
@@ -178,7 +178,7 @@ pub(super) fn subspace(
             (next, rest) = (split.next, split.rest);
             if next.len() == 0 {
                 // What the block led to is complete by itself; there may be other copies of its roots.
-                next = fresh(&basis)?;
+                next = fresh(&basis, solve)?;
                 rest = DMatrix::zeros(next.len(), rest.ncols());
             }
         }

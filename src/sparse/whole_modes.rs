@@ -60,6 +60,7 @@ pub fn whole_modes(
         rigid_body,
         vibrations,
         doubtful,
+        ..
     } = found;
     let shapes = t.transposed().times(&vibrations.shapes)?;
     Ok(WholeModes {

@@ -83,8 +83,7 @@ impl Factor {
         let blocks = plan.blocks(&values).map(|block| block.val());
         let pivots = blocks.flat_map(|block| (0..block.ncols()).map(move |at| block[(at, at)]));
         let pivots: Vec<f64> = pivots.collect();
-        let is_none = |pivot: &f64| !pivot.is_finite() || *pivot == 0.0;
-        if let Some(at) = zero.or_else(|| pivots.iter().position(is_none)) {
+        if let Some(at) = zero {
             return Err(Error::NotPositiveDefinite {
                 what,
                 dof: plan.order[at],
@@ -279,7 +278,8 @@ impl Factor {
 
     /// The number of negative pivots, which is that of the matrix's negative eigenvalues (Sylvester's law of inertia).
     pub fn negative_count(&self) -> usize {
-        self.pivots.iter().filter(|pivot| **pivot < 0.0).count()
+        let is_negative = |pivot: &&f64| pivot.is_sign_negative();
+        self.pivots.iter().filter(is_negative).count()
     }
 
     /// Refuses a matrix that is not positive definite beyond round-off: scaled to unit diagonal, its smallest eigenvalue must exceed

@@ -165,14 +165,12 @@ impl FactorizationPlan {
             rows[column_starts[column]..].sort_unstable();
             column_starts.push(rows.len());
         }
-        let available = u32::MAX as usize;
-        if rows.len() > available {
-            return Err(Error::TooMany {
-                what: "entries of the stiffness",
-                available,
-                requested: rows.len(),
-            });
-        }
+        // Their places are kept in four bytes each.
+        u32::try_from(rows.len()).map_err(|_| Error::TooMany {
+            what: "entries of the stiffness",
+            available: u32::MAX as usize,
+            requested: rows.len(),
+        })?;
         let pattern = SymbolicSparseColMat::new_checked(count, count, column_starts, None, rows);
         let parameters = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
