@@ -50,13 +50,12 @@ pub fn condense(
     stiffness: &DMatrix<f64>,
     load_distribution: &DMatrix<f64>,
 ) -> Result<Condensed, Error> {
-    let (dof_count, dynamic_count) = load_distribution.shape();
+    let dynamic_count = load_distribution.ncols();
     at_least_one("dynamic degrees of freedom", dynamic_count)?;
     let what = "load distribution";
     check_matrix(what, load_distribution, stiffness.nrows(), dynamic_count)?;
-    // Round-off of a pivot grows as the root of the number of DOF.
-    let round_off = 32.0 * f64::EPSILON * (dof_count as f64).sqrt();
-    let lower = cholesky("structural stiffness", stiffness, round_off)?;
+    let lower = cholesky("structural stiffness", stiffness, 0.0)?;
+    check_held(stiffness, &lower)?;
     // With K_S = L Lᵗ and W = L⁻¹ T: Tᵗ K_S⁻¹ T = Wᵗ W, and K_S⁻¹ T = L⁻ᵗ W.
     let half = solve_lower(&lower, load_distribution.clone());
     let stiffness = dynamic_stiffness(&half.tr_mul(&half))?;
@@ -65,6 +64,29 @@ pub fn condense(
     Ok(Condensed {
         transformation: deflections * &stiffness,
         stiffness,
+    })
+}
+
+/// Refuses a stiffness that may be singular for all that its numbers tell, by its Cholesky factor, and names the row that moves most.
+///
+/// Scaled to unit diagonal, $A = S K_S S$, it must have
+///
+/// $$ \frac{1}{\lVert L^{-1} S^{-1} \rVert_F^2} > 32 \varepsilon \sqrt n , $$
+///
+/// one divided by the trace of $A^{-1}$, which is at most the smallest eigenvalue; the right side is what round-off leaves of one that is
+/// zero. The pivots do not tell: one that follows a small one is as wrong as round-off divided by it.
+fn check_held(stiffness: &DMatrix<f64>, lower: &DMatrix<f64>) -> Result<(), Error> {
+    let scale = DMatrix::from_diagonal(&stiffness.diagonal().map(f64::sqrt));
+    let inverse_factor = solve_lower(lower, scale);
+    // The diagonal of A⁻¹: how far each DOF moves under a load of one.
+    let motions = inverse_factor.component_mul(&inverse_factor).row_sum_tr();
+    let round_off = 32.0 * f64::EPSILON * (motions.len() as f64).sqrt();
+    if 1.0 / motions.sum() > round_off {
+        return Ok(());
+    }
+    Err(Error::NotPositiveDefinite {
+        what: "structural stiffness",
+        dof: motions.imax(),
     })
 }
 

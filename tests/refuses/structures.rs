@@ -34,12 +34,17 @@ fn named(error: Error) -> (usize, char, f64) {
     }
 }
 
-/// Why a model of the structure has no matrices, with another stiffness of its elements if one is given.
-fn dense_error(structure: &Structure, units: Option<Vec<DMatrix<f64>>>) -> Error {
+/// A model of the structure with its first DOF as the dynamic one.
+fn dense_model(structure: &Structure) -> FiniteElementModel {
     let (one, count) = (DMatrix::identity(1, 1), structure.free_dof().len());
     let parameters = vec![Parameter::element(1, None)];
     let t = DMatrix::identity(count, 1);
-    let model = FiniteElementModel::new(structure.clone(), t, one, parameters).expect("a model");
+    FiniteElementModel::new(structure.clone(), t, one, parameters).expect("a model")
+}
+
+/// Why a model of the structure has no matrices, with another stiffness of its elements if one is given.
+fn dense_error(structure: &Structure, units: Option<Vec<DMatrix<f64>>>) -> Error {
+    let model = dense_model(structure);
     let model = match units {
         Some(units) => model.with_unit_stiffness(units).expect("they fit"),
         None => model,
@@ -74,6 +79,9 @@ proptest! {
         prop_assert!(named >= (1.0 - SAME_MOTION) * motion.amax(), "{grid}{direction} in {motion}");
         prop_assert!(ratio.abs() <= MATRIX_ROUND_OFF, "{ratio:e}");
         prop_assert!(factorized(&linkage(apex, areas, true)).is_ok(), "the braced one");
+        let (_, _, ratio) = dense_refusal(&structure);
+        prop_assert!(ratio.abs() <= MATRIX_ROUND_OFF, "{ratio:e}");
+        prop_assert!(dense_model(&linkage(apex, areas, true)).matrices(&[1.0]).is_ok(), "the braced one");
     }
 
     /// A chain of rods in space, its first grid fixed, has two free motions a rod; the DOF named takes part in them.
@@ -159,7 +167,7 @@ fn a_stiffness_within_round_off_of_singular_is_refused() {
     }
 }
 
-/// The same where the stiffness is dense and its last pivot, twice δ, is what is compared.
+/// The same where the stiffness is dense; the two rows that move do so alike.
 #[test]
 fn a_dense_stiffness_within_round_off_of_singular_is_refused() {
     let coupled = |count: usize, delta: f64| {
@@ -177,7 +185,7 @@ fn a_dense_stiffness_within_round_off_of_singular_is_refused() {
                 refused,
                 Err(Error::NotPositiveDefinite {
                     what: "structural stiffness",
-                    dof: 1
+                    dof: 0 | 1
                 })
             ),
             "{count}: {refused:?}"
