@@ -3,7 +3,9 @@
 
 use crate::method::assembly::ElementMatrix;
 use crate::method::error::{Error, at_least_one};
-use crate::method::linear_algebra::{check_matrix, cholesky, solve_lower, symmetric_part};
+use crate::method::linear_algebra::{
+    check_matrix, cholesky, round_off, solve_lower, symmetric_part,
+};
 use nalgebra::DMatrix;
 
 /// Pivot of the flexibility relative to its diagonal below which a dynamic DOF is a combination of others.
@@ -67,26 +69,23 @@ pub fn condense(
     })
 }
 
-/// Refuses a stiffness that may be singular for all that its numbers tell, by its Cholesky factor, and names the row that moves most.
+/// Refuses a stiffness that may be singular for all that its numbers tell, by its Cholesky factor, and names the row of the smallest pivot.
 ///
 /// Scaled to unit diagonal, $A = S K_S S$, it must have
 ///
 /// $$ \frac{1}{\lVert L^{-1} S^{-1} \rVert_F^2} > 32 \varepsilon \sqrt n , $$
 ///
 /// one divided by the trace of $A^{-1}$, which is at most the smallest eigenvalue; the right side is what round-off leaves of one that is
-/// zero. The pivots do not tell: one that follows a small one is as wrong as round-off divided by it.
+/// zero ([`round_off`]). The pivots do not tell: one that follows a small one is as wrong as round-off divided by it.
 fn check_held(stiffness: &DMatrix<f64>, lower: &DMatrix<f64>) -> Result<(), Error> {
-    let scale = DMatrix::from_diagonal(&stiffness.diagonal().map(f64::sqrt));
-    let inverse_factor = solve_lower(lower, scale);
-    // The diagonal of A⁻¹: how far each DOF moves under a load of one.
-    let motions = inverse_factor.component_mul(&inverse_factor).row_sum_tr();
-    let round_off = 32.0 * f64::EPSILON * (motions.len() as f64).sqrt();
-    if 1.0 / motions.sum() > round_off {
+    let scale = stiffness.diagonal().map(f64::sqrt);
+    let inverse_factor = solve_lower(lower, DMatrix::from_diagonal(&scale));
+    if 1.0 / inverse_factor.norm_squared() > round_off(scale.len()) {
         return Ok(());
     }
     Err(Error::NotPositiveDefinite {
         what: "structural stiffness",
-        dof: motions.imax(),
+        dof: lower.diagonal().component_div(&scale).imin(),
     })
 }
 

@@ -179,6 +179,17 @@ pub fn cholesky(
     })
 }
 
+/// What round-off leaves of a zero eigenvalue of a semidefinite matrix of $n$ rows with unit diagonal: $32 \varepsilon \sqrt n$.
+///
+/// The computed factor is the exact one of $A + E$. With unit diagonal $|L| D |L|^t$ has no entry above one, so that those of $E$ are
+/// below $\varepsilon$ times the number of products in a sum, of which there are $n$ at most; errors of either sign make it the root of
+/// their number. A structure's matrix has some 32 entries in a row, and no eigenvalue of $E$ exceeds the sum of a row: a matrix whose
+/// smallest eigenvalue is no larger may be singular for all that its numbers tell.
+/// Source: Higham, *Accuracy and Stability of Numerical Algorithms* (2002), theorem 10.3 and section 2.8.
+pub(crate) fn round_off(rows: usize) -> f64 {
+    32.0 * f64::EPSILON * (rows as f64).sqrt()
+}
+
 /// $L^{-1} R$ for a lower triangular $L$ with nonzero diagonal.
 pub(crate) fn solve_lower<T: Number + faer::traits::ComplexField>(
     lower: &DMatrix<T>,

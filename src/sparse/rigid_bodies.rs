@@ -1,12 +1,11 @@
 //! The motions that a stiffness does not resist, counted whatever the stiffest of its parts.
 
 use super::factorization::FactorizationPlan;
-use super::factorization::round_off;
 use super::matrix::GIVEN;
 use super::random::random_block;
 use super::{Factor, SparseMatrix};
 use crate::method::error::Error;
-use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
+use crate::method::linear_algebra::{round_off, symmetric_eigen, symmetric_part};
 use nalgebra::DMatrix;
 use std::ops::RangeInclusive;
 use std::sync::Arc;

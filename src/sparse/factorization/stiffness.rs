@@ -1,9 +1,9 @@
 //! The structural stiffness, factorized anew for every set of sizes.
 
-use super::{Factor, FactorizationPlan, round_off};
+use super::{Factor, FactorizationPlan};
 use crate::method::assembly::{ElementMatrix, check_elements};
 use crate::method::error::Error;
-use crate::method::linear_algebra::check_length;
+use crate::method::linear_algebra::{check_length, round_off};
 use crate::method::structure::{DIRECTIONS, StructuralDof, positive};
 use nalgebra::Vector3;
 use std::sync::Arc;
