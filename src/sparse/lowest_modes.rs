@@ -28,7 +28,7 @@ const SMALLEST_ROOT: f64 = 1e-13;
 /// Distance of two neighbors relative to the higher between which modes can be counted.
 const APART: f64 = 1e-5;
 /// A bound above the last of some neighbors so close that none of them can be left out, relative to it: two such distances.
-const JUST_ABOVE: f64 = 1.000_02;
+const JUST_ABOVE: f64 = 1.0 + 2.0 * APART;
 
 /// Modes of a pencil, the rigid-body modes apart.
 #[derive(Debug, Clone, PartialEq)]
@@ -253,9 +253,8 @@ fn all(solve: Solve, rigid: usize, mass: &SparseMatrix) -> Result<Found, Error> 
     let (roots, vectors) = symmetric_eigen("flexibility weighted by the mass", &small)?;
     let smallest = SMALLEST_ROOT * roots.max();
     // Rigid-body modes have the lowest roots: zero but for round-off.
-    let kept = places_above(&roots, smallest).into_iter();
-    let mut kept: Vec<usize> = kept.filter(|&at| at >= rigid).collect();
-    kept.reverse();
+    let kept = places_above(&roots, smallest).into_iter().rev();
+    let kept: Vec<usize> = kept.filter(|&at| at >= rigid).collect();
     Ok(Found {
         roots: roots.select_rows(&kept),
         shapes: deflections * vectors.select_columns(&kept),

@@ -84,7 +84,7 @@ impl Mesh {
             .iter()
             .map(|&key| u8::from(key > middle || key == middle && !is_lowest))
             .collect();
-        let marks = [(); 2].map(|()| next(last));
+        let marks = [next(last), next(last)];
         part.iter()
             .zip(&sides)
             .for_each(|(&point, &side)| mark[point] = marks[usize::from(side)]);

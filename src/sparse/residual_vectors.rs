@@ -78,8 +78,8 @@ pub(super) fn residual_vectors(
     let deflections = deflections * vectors.select_columns(&own) * scale;
     let inertia = symmetric_part(&deflections.tr_mul(&mass.times(&deflections)?));
     let (roots, vectors) = symmetric_eigen("mass of deflections", &inertia)?;
-    let mut moving = places_above(&roots, GIVEN / vibrations.omega_squared[0]);
-    moving.reverse();
+    let moving = places_above(&roots, GIVEN / vibrations.omega_squared[0]).into_iter();
+    let moving: Vec<usize> = moving.rev().collect();
     if moving.is_empty() {
         return Ok(none);
     }
