@@ -210,21 +210,16 @@ fn a_factor_counts_negative_eigenvalues_and_solves() {
 /// touch have every root nine times, more often than a block has directions.
 #[test]
 fn a_search_takes_as_many_solutions_as_it_took() {
-    let together = |parts: &[SparseMatrix]| {
-        let rows = parts.iter().map(SparseMatrix::rows).sum();
-        let starts = parts.iter().scan(0, |start, part| {
-            *start += part.rows();
-            Some(*start - part.rows())
-        });
-        let entries = parts.iter().zip(starts).flat_map(|(part, start)| {
-            let moved = |&(row, column, value): &_| (row + start, column + start, value);
-            part.entries().iter().map(moved).collect::<Vec<_>>()
-        });
-        SparseMatrix::new("parts", rows, rows, entries.collect()).expect("a matrix")
-    };
     let (held, free) = (ChainEnds::FixedFree, ChainEnds::FreeFree);
-    let beside = |soft| together(&[chain(held, 400, 1.0), masses(&[soft])]);
-    let nine = together(&vec![chain(held, 40, 1.0); 9]);
+    let link = |row: usize| (row, row.checked_sub(1), 1.0);
+    let beside = |soft| {
+        springs(
+            401,
+            &[(0..400).map(link).collect(), vec![(400, None, soft)]].concat(),
+        )
+    };
+    let nine = (0..9 * 40).map(|row| (row, (row % 40 > 0).then(|| row - 1), 1.0));
+    let nine = springs(9 * 40, &nine.collect::<Vec<_>>());
     let solutions = |stiffness: &SparseMatrix, count| {
         let mass = masses(&vec![1.0; stiffness.rows()]);
         let found = lowest_modes(stiffness, &mass, count).expect("modes");
