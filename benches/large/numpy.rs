@@ -1,5 +1,6 @@
 //! Arrays in NumPy's format 1.0, and a wing's problem written with them for other programs.
 
+use corfem::method::assembly::element_matrices;
 use corfem::method::model::ModalModel;
 use corfem::method::structure::ElementKind;
 use corfem::sparse::{LargeModel, SparseMatrix};
@@ -65,10 +66,9 @@ pub fn write(folder: &Path, model: &LargeModel, modal: &ModalModel) -> Result<()
             .iter()
             .for_each(|&label| group_of[label - 1] = group);
     }
+    let matrices = element_matrices(structure);
     for (name, is_rod) in [("rod", true), ("panel", false)] {
-        let all = (0..)
-            .zip(structure.elements())
-            .zip(model.element_matrices());
+        let all = (0..).zip(structure.elements()).zip(&matrices);
         let of_kind = || {
             all.clone()
                 .filter(|((_, element), _)| (element.kind == ElementKind::Rod) == is_rod)

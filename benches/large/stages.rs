@@ -14,11 +14,10 @@ use corfem::method::modes::solve;
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::state::ModalState;
 use corfem::method::structure::Material;
-use corfem::sparse::factorization::{Factor, FactorizationPlan};
+use corfem::sparse::factorization::{Factor, StructuralStiffness};
 use corfem::sparse::{PackedModel, SparseMatrix, WholeModel};
 use nalgebra::DMatrix;
 use std::hint::black_box;
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Modes of the analysis and of the test.
@@ -119,16 +118,14 @@ pub fn of(wing: &Wing) -> (Stages, Known, ModalModel) {
     let known = planted(wing).expect("a wing");
     let (model, test) = (&known.model, &known.test);
     let ones = vec![1.0; model.parameters().len()];
-    let (elements, sizes) = (
-        model.element_matrices(),
-        model.at(&ones).expect("sizes").sizes,
-    );
-    let free = model.structure().free_dof();
-    let plan = || FactorizationPlan::new(model.structure(), elements).expect("a plan");
-    let plan = Arc::new(stages.time("ordering and pattern (once)", plan));
-    stages.fill = fill::of_factor(&plan, elements);
-    let factorize =
-        || Factor::of_planned_stiffness(&plan, elements, &sizes, free).expect("it is held");
+    let sizes = model.at(&ones).expect("sizes").sizes;
+    let plan = || {
+        let elements = model.elements().to_vec();
+        StructuralStiffness::new(model.structure(), elements).expect("a plan")
+    };
+    let planned = stages.time("ordering and pattern (once)", plan);
+    stages.fill = fill::of_factor(&planned);
+    let factorize = || planned.factorized(&sizes).expect("it is held");
     let structural = stages.time("assembly and factorization", factorize);
     let flexibility = || {
         structural
@@ -136,7 +133,7 @@ pub fn of(wing: &Wing) -> (Stages, Known, ModalModel) {
             .expect("a flexibility")
     };
     stages.time("flexibility by forward substitution", flexibility);
-    drop((structural, plan));
+    drop((structural, planned));
     let condensed = stages.time(CONDENSED, || model.condense(&ones).expect("it condenses"));
     let modes = stages.time("modes: 10 of 108", || {
         solve(&condensed.stiffness, &condensed.mass, MODES).expect("modes")
@@ -193,11 +190,8 @@ pub fn papers_costs(known: &Known, stages: &Stages) -> Vec<(&'static str, f64, f
     let model = &known.model;
     let ones = vec![1.0; model.parameters().len()];
     let sizes = model.at(&ones).expect("sizes").sizes;
-    let structural = Factor::of_stiffness(
-        model.element_matrices(),
-        &sizes,
-        model.structure().free_dof(),
-    );
+    let elements = element_matrices(model.structure());
+    let structural = Factor::of_stiffness(&elements, &sizes, model.structure().free_dof());
     let structural = structural.expect("it is held");
     let stiffness = model.condense(&ones).expect("it condenses").stiffness;
     let mut now = Stages {

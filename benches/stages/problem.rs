@@ -8,11 +8,10 @@ use corfem::method::derivatives::by_definition;
 use corfem::method::inner_loop::{InnerSettings, run};
 use corfem::method::modes::{ModeSet, solve};
 use corfem::method::state::ModalState;
-use corfem::sparse::factorization::{Factor, FactorizationPlan};
+use corfem::sparse::factorization::StructuralStiffness;
 use corfem::sparse::{LargeModel, PackedModel};
 use corfem::torque_box::Case;
 use std::hint::black_box;
-use std::sync::Arc;
 
 /// The structures.
 pub const STRUCTURES: [&str; 2] = ["box", "wing"];
@@ -54,12 +53,13 @@ pub fn stages(structure: &str) -> Vec<Stage> {
     let (model, test): (&'static _, &'static _) =
         (Box::leak(Box::new(model)), Box::leak(Box::new(test)));
     let ones: &'static [f64] = vec![1.0; model.parameters().len()].leak();
-    let (elements, free) = (model.element_matrices(), model.structure().free_dof());
     let sizes = model.at(ones).expect("sizes").sizes;
-    let plan = move || FactorizationPlan::new(model.structure(), elements).expect("a plan");
-    let shared = Arc::new(plan());
-    let factorize =
-        move || Factor::of_planned_stiffness(&shared, elements, &sizes, free).expect("it is held");
+    let plan = || {
+        let elements = model.elements().to_vec();
+        StructuralStiffness::new(model.structure(), elements).expect("a plan")
+    };
+    let planned = plan();
+    let factorize = move || planned.factorized(&sizes).expect("it is held");
     let structural = factorize();
     let condensed = model.condense(ones).expect("it condenses");
     let analyze = move || model.analyze(ones, test, Some(modes)).expect("analyzed");

@@ -8,6 +8,7 @@ use crate::method::assembly::{element_matrices, stiffness_entries};
 use crate::method::error::Error;
 use crate::method::model::Bounds;
 use crate::method::structure::StructuralDof;
+use crate::sparse::Deformations;
 use crate::sparse::elements::{mass_entries, moving_mass_entries, resisting};
 use crate::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
 use crate::weighted::identifiability::PRIOR_DEVIATION;
@@ -151,8 +152,10 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
                     job.refuse_if(masses.first(), |label| {
                         format!("parameter \"{name}\": point mass {label} needs scales = \"mass\"")
                     })?;
-                    let member = |&row: &usize| (elements[row].clone(), bulk.elements[row].size);
-                    WholeShare::Elements(rows.iter().map(member).collect())
+                    let member = |&row: &usize| {
+                        Ok((Deformations::of(&elements[row])?, bulk.elements[row].size))
+                    };
+                    WholeShare::Elements(rows.iter().map(member).collect::<Result<_, Error>>()?)
                 }
                 Scales::Mass => {
                     let lumped = rows

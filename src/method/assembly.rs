@@ -64,7 +64,12 @@ pub(crate) fn check_element(element: &ElementMatrix, dof_count: usize) -> Result
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
 pub fn element_matrices(structure: &Structure) -> Vec<ElementMatrix> {
-    let of_element = |(element, geometry): (&Element, &Geometry)| {
+    element_by_element(structure).collect()
+}
+
+/// The same, one after the other.
+pub(crate) fn element_by_element(structure: &Structure) -> impl Iterator<Item = ElementMatrix> {
+    let of_element = move |(element, geometry): (&Element, &Geometry)| {
         let dof = element.grids.iter().flat_map(|&grid| {
             (0..3).map(move |direction| structure.free_dof_index(grid, direction))
         });
@@ -85,7 +90,7 @@ pub fn element_matrices(structure: &Structure) -> Vec<ElementMatrix> {
         }
     };
     let elements = structure.elements().iter();
-    elements.zip(structure.geometry()).map(of_element).collect()
+    elements.zip(structure.geometry()).map(of_element)
 }
 
 /// The structural stiffness $K_S = \sum_e s_e K_e$ at the free DOF as a dense matrix, lbf/in.

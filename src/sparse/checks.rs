@@ -9,26 +9,24 @@ use faer::linalg::matmul::triangular::BlockStructure;
 use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::{DMatrix, DVector};
 
-/// Checks a factorization of a symmetric matrix $A$ by a probe $x$: that it solves $A y = A x$ to
+/// Checks a factorization of a symmetric matrix $A$ by the solution $y$ that it found of $A y = b$, to
 ///
-/// $$ \lVert A y - A x \rVert \le 10^4 \varepsilon \sqrt n \lVert y \rVert $$
+/// $$ \lVert A y - b \rVert \le 10^4 \varepsilon \sqrt n \lVert y \rVert $$
 ///
 /// which is the round-off of a stable solver with room for its constant, where $A$ (n × n) has unit diagonal and some tens of
-/// entries in a row. `product` is $A x$ and `solve` $A^{-1} b$.
+/// entries in a row. `product` is $A y$; `loads` are $b = A x$ of a probe $x$.
 ///
 /// # Errors
 /// [`Error::WrongSolution`]; [`Error::WrongShape`] for a solution of another length.
 pub fn check_solution(
     what: &'static str,
     product: impl Fn(&DVector<f64>) -> DVector<f64>,
-    solve: impl Fn(&DVector<f64>) -> DVector<f64>,
-    probe: &DVector<f64>,
+    loads: &DVector<f64>,
+    found: &DVector<f64>,
 ) -> Result<(), Error> {
-    let loads = product(probe);
-    let found = solve(&loads);
-    check_length(what, found.len(), probe.len())?;
-    let (residual, size) = ((product(&found) - &loads).norm(), loads.norm());
-    let allowed = 1e4 * f64::EPSILON * (probe.len() as f64).sqrt() * found.norm();
+    check_length(what, found.len(), loads.len())?;
+    let (residual, size) = ((product(found) - loads).norm(), loads.norm());
+    let allowed = 1e4 * f64::EPSILON * (loads.len() as f64).sqrt() * found.norm();
     let (residual, allowed) = (residual / size, allowed / size);
     if residual <= allowed {
         Ok(())

@@ -1,8 +1,9 @@
 //! Condensation and shares (A.1) to (A.9) at any size: what [`crate::method::appendix_a`] does with dense matrices, with a sparse
 //! factor, the coefficients of $T$ alone and each element's few ways to deform.
 
+use super::deformations::{Deformations, sum_of_mass, sum_of_stiffness};
 use crate::method::appendix_a::dynamic_stiffness;
-use crate::method::assembly::ElementMatrix;
+use crate::method::assembly::element_by_element;
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_length, check_shape};
 use crate::method::model::{
@@ -12,24 +13,18 @@ use crate::method::model::{
 use crate::method::modes::{ModeSet, Modes, solve};
 use crate::method::structure::Structure;
 use crate::sparse::SparseMatrix;
-use crate::sparse::add_squares;
-use crate::sparse::factorization::{Factor, FactorizationPlan};
-use nalgebra::{DMatrix, DVector};
+use crate::sparse::factorization::{Factor, StructuralStiffness};
+use nalgebra::DMatrix;
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// Stiffness of a way to deform, relative to the element's largest, below which it is the round-off of a rigid motion.
-const SMALLEST_DEFORMATION: f64 = 1e-14;
-/// Amplitudes of ways to deform that are multiplied at once: as many numbers as a processor's cache holds.
-const AMPLITUDES_AT_ONCE: usize = 32_768;
-
-/// A [`FiniteElementModel`] of any size: the same structure, mass and parameters, with $T$ by its coefficients and the
-/// factorization of $K_S$ planned once.
+/// A [`FiniteElementModel`] of any size: the same structure, mass and parameters, with $T$ by its coefficients, elements by their
+/// ways to deform and the factorization of $K_S$ planned once.
 #[derive(Debug, Clone)]
 pub struct LargeModel {
     scaled: ScaledStructure,
     load_distribution: SparseMatrix,
-    plan: Arc<FactorizationPlan>,
+    stiffness: Arc<StructuralStiffness>,
 }
 
 impl Deref for LargeModel {
@@ -41,10 +36,11 @@ impl Deref for LargeModel {
 }
 
 impl LargeModel {
-    /// Puts a model together, forms every unit element matrix and plans the factorization.
+    /// Puts a model together, finds in which ways every element deforms and plans the factorization.
     ///
     /// # Errors
-    /// Those of [`ScaledStructure::new`] and [`FactorizationPlan::new`]; [`Error::WrongShape`] for a $T$ of another size.
+    /// Those of [`ScaledStructure::new`], [`Deformations::of`] and [`StructuralStiffness::new`]; [`Error::WrongShape`] for a $T$ of
+    /// another size.
     pub fn new(
         structure: Structure,
         load_distribution: SparseMatrix,
@@ -58,31 +54,44 @@ impl LargeModel {
         )?;
         let dynamic = load_distribution.columns();
         check_shape("dynamic mass", &mass, dynamic, dynamic)?;
-        Self::planned(
-            ScaledStructure::new(structure, mass, parameters)?,
-            load_distribution,
-        )
+        let scaled = ScaledStructure::new(structure, mass, parameters)?;
+        let elements = element_by_element(scaled.structure())
+            .map(|element| Deformations::of(&element))
+            .collect::<Result<_, Error>>()?;
+        Self::planned(scaled, elements, load_distribution)
     }
 
     /// A model of the method at any size.
     ///
     /// # Errors
-    /// Those of [`FactorizationPlan::new`].
+    /// Those of [`Deformations::of`] and [`StructuralStiffness::new`].
     pub fn of(model: &FiniteElementModel) -> Result<Self, Error> {
-        let scaled: &ScaledStructure = model;
+        let (scaled, elements): (&ScaledStructure, _) = (model, model.element_matrices().iter());
         Self::planned(
             scaled.clone(),
+            elements
+                .map(Deformations::of)
+                .collect::<Result<_, Error>>()?,
             SparseMatrix::of_dense("load distribution", model.load_distribution())?,
         )
     }
 
-    fn planned(scaled: ScaledStructure, load_distribution: SparseMatrix) -> Result<Self, Error> {
-        let plan = FactorizationPlan::new(scaled.structure(), scaled.element_matrices())?;
+    fn planned(
+        scaled: ScaledStructure,
+        elements: Vec<Deformations>,
+        load_distribution: SparseMatrix,
+    ) -> Result<Self, Error> {
+        let stiffness = StructuralStiffness::new(scaled.structure(), elements)?;
         Ok(Self {
             scaled,
             load_distribution,
-            plan: Arc::new(plan),
+            stiffness: Arc::new(stiffness),
         })
+    }
+
+    /// The elements by their ways to deform, in the structure's order.
+    pub fn elements(&self) -> &[Deformations] {
+        self.stiffness.elements()
     }
 
     /// The load distribution $T$ (free SDOF × d).
@@ -99,15 +108,11 @@ impl LargeModel {
     }
 
     fn condense_at(&self, at: &ScaledSizes) -> Result<LargeCondensation, Error> {
-        let (elements, loads) = (self.element_matrices(), self.load_distribution.clone());
-        let free = self.structure().free_dof();
-        let structural = Factor::of_planned_stiffness(&self.plan, elements, &at.sizes, free)?;
+        let (elements, loads) = (self.elements(), self.load_distribution.clone());
+        let structural = self.stiffness.factorized(&at.sizes)?;
         let stiffness = dynamic_stiffness(&structural.flexibility(&loads)?)?;
         let mut mass = at.point_masses.clone();
-        if elements
-            .iter()
-            .any(|element| element.unit_mass.amax() > 0.0)
-        {
+        if elements.iter().any(Deformations::has_mass) {
             let b = structural.solve_transposed(&loads.times(&stiffness)?)?;
             mass += sum_of_mass(&b, elements.iter().zip(at.mass_sizes.iter().copied()));
         }
@@ -125,12 +130,13 @@ impl LargeModel {
         at: &ScaledSizes,
         shapes: &DMatrix<f64>,
     ) -> Result<Vec<ParameterMatrix>, Error> {
-        let transposed = condensed.transposed_shapes(shapes)?;
+        let (elements, transposed) = (self.elements(), condensed.transposed_shapes(shapes)?);
+        let sized = |&(row, size): &(usize, f64)| (&elements[row], size);
         Ok(self.scaled.shares(
             at,
             shapes,
-            |members| sum_of_stiffness(&transposed, members.iter().copied()),
-            |members| sum_of_mass(&transposed, members.iter().copied()),
+            |members| sum_of_stiffness(&transposed, members.iter().map(sized)),
+            |members| sum_of_mass(&transposed, members.iter().map(sized)),
         ))
     }
 
@@ -217,112 +223,4 @@ impl LargeCondensation {
         self.structural
             .solve_transposed(&self.loads.times(&(&self.stiffness * shapes))?)
     }
-}
-
-/// Generalized stiffness of elements of given sizes, $\sum_e s_e V_e^t K_e V_e$ (m × m, lbf/in for deflections in inches), where
-/// $V_e$ are the columns of `transposed_shapes` (m × free SDOF) at an element's own DOF.
-///
-/// For `transposed_shapes` $= B$ it is their share of $K_D$, $\sum_e s_e B K_e B^t$ (A.9); the shares sum to $K_D$ exactly. For
-/// $V_S = B^t V$ it is that share seen through dynamic shapes $V$. An element deforms in few ways, a rod and a shear panel in one: by
-/// Cholesky steps with pivots, $K_e = \sum_r a_r a_r^t/p_r$ and $V_e^t K_e V_e = \sum_r (V_e^t a_r)(V_e^t a_r)^t/p_r$.
-pub(crate) fn sum_of_stiffness<'a>(
-    transposed_shapes: &DMatrix<f64>,
-    members: impl Iterator<Item = (&'a ElementMatrix, f64)>,
-) -> DMatrix<f64> {
-    let (count, shapes) = (transposed_shapes.nrows(), transposed_shapes.as_slice());
-    let mut sum = DMatrix::zeros(count, count);
-    let (mut amplitudes, mut rest, mut deformation) = (Vec::new(), Vec::new(), Vec::new());
-    for (ElementMatrix { dof, unit, .. }, size) in members {
-        let through = |weights: &[f64], scale: f64, force: &mut [f64]| {
-            for (&dof, &weight) in dof
-                .iter()
-                .zip(weights)
-                .filter(|(_, weight)| **weight != 0.0)
-            {
-                let (weight, motion) = (scale * weight, &shapes[dof * count..][..count]);
-                force
-                    .iter_mut()
-                    .zip(motion)
-                    .for_each(|(sum, motion)| *sum += weight * motion);
-            }
-        };
-        rest.clear();
-        rest.extend_from_slice(unit.as_slice());
-        // The largest entry of a semidefinite matrix stands on its diagonal.
-        let smallest = SMALLEST_DEFORMATION * unit.diagonal().amax();
-        while let Some(pivot) = take_deformation(&mut rest, dof.len(), smallest, &mut deformation) {
-            let start = amplitudes.len();
-            amplitudes.resize(start + count, 0.0);
-            through(
-                &deformation,
-                (size / pivot).sqrt(),
-                &mut amplitudes[start..],
-            );
-        }
-        // A matrix that is not semidefinite leaves something that no pivot explains.
-        for (&dof, column) in dof.iter().zip(rest.chunks(dof.len().max(1))) {
-            if column.iter().any(|entry| entry.abs() > smallest) {
-                let mut force = vec![0.0; count];
-                through(column, size, &mut force);
-                sum.syger(
-                    1.0,
-                    &DVector::from_vec(force),
-                    &transposed_shapes.column(dof),
-                    1.0,
-                );
-            }
-        }
-        if amplitudes.len() >= AMPLITUDES_AT_ONCE {
-            add_squares(&mut sum, &amplitudes);
-            amplitudes.clear();
-        }
-    }
-    add_squares(&mut sum, &amplitudes);
-    sum.fill_upper_triangle_with_lower_triangle();
-    sum
-}
-
-/// Takes $a a^t/p$ with the largest pivot $p$, and $a$ its column, out of a symmetric matrix: the pivot, if one is left.
-pub(super) fn take_deformation(
-    matrix: &mut [f64],
-    order: usize,
-    smallest: f64,
-    column: &mut Vec<f64>,
-) -> Option<f64> {
-    let diagonal = |at: usize| matrix[at * (order + 1)];
-    // Ties go to the first.
-    let pivot = (0..order)
-        .rev()
-        .max_by(|&a, &b| diagonal(a).total_cmp(&diagonal(b)))?;
-    let value = Some(diagonal(pivot)).filter(|value| *value > smallest && value.is_finite())?;
-    column.clear();
-    column.extend_from_slice(&matrix[pivot * order..][..order]);
-    for (entries, factor) in matrix
-        .chunks_exact_mut(order)
-        .zip(column.iter())
-        .filter(|(_, factor)| **factor != 0.0)
-    {
-        entries
-            .iter_mut()
-            .zip(column.iter())
-            .for_each(|(entry, of)| *entry -= of * factor / value);
-    }
-    Some(value)
-}
-
-/// Their generalized mass in the same way, $\sum_e s_e V_e^t M_e V_e$ with the lumped $M_e$.
-pub(crate) fn sum_of_mass<'a>(
-    transposed_shapes: &DMatrix<f64>,
-    members: impl Iterator<Item = (&'a ElementMatrix, f64)>,
-) -> DMatrix<f64> {
-    let count = transposed_shapes.nrows();
-    let mut sum = DMatrix::zeros(count, count);
-    for (ElementMatrix { dof, unit_mass, .. }, size) in members {
-        for (&dof, unit) in dof.iter().zip(unit_mass).filter(|(_, unit)| **unit != 0.0) {
-            let motion = transposed_shapes.column(dof);
-            sum.syger(size * unit, &motion, &motion, 1.0);
-        }
-    }
-    sum.fill_upper_triangle_with_lower_triangle();
-    sum
 }

@@ -1,6 +1,6 @@
 //! Whole models made of elements.
 
-use super::LargeModel;
+use super::{Deformations, LargeModel};
 use super::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
 use crate::method::assembly::{ElementMatrix, stiffness_entries};
 use crate::method::elements::unit_stiffness;
@@ -71,11 +71,9 @@ impl WholeModel {
     /// # Errors
     /// Those of [`ScaledStructure::factor_ranges`](crate::method::model::ScaledStructure::factor_ranges) and [`WholeModel::new`].
     pub fn of(model: &LargeModel) -> Result<(Self, SparseMatrix), Error> {
-        let (elements, structure, t) = (
-            model.element_matrices(),
-            model.structure(),
-            model.load_distribution(),
-        );
+        let elements: Vec<ElementMatrix> =
+            model.elements().iter().map(Deformations::matrix).collect();
+        let (structure, t) = (model.structure(), model.load_distribution());
         let (count, points) = (structure.free_dof().len(), model.mass());
         let size = |row: usize| structure.elements()[row].size;
         let stiffness = |row: usize| stiffness_entries(&elements[row], size(row));
@@ -95,7 +93,8 @@ impl WholeModel {
             });
             let share = match parameter.scaled {
                 Scaled::Stiffness => WholeShare::Elements(
-                    rows.map(|row| (elements[row].clone(), size(row))).collect(),
+                    rows.map(|row| (model.elements()[row].clone(), size(row)))
+                        .collect(),
                 ),
                 Scaled::ElementMass => WholeShare::Mass(part(rows.flat_map(lumped).collect())?),
                 Scaled::PointMass => {
@@ -118,7 +117,7 @@ impl WholeModel {
         let stiffness = (0..elements.len()).flat_map(stiffness).collect();
         let (stiffness, mass) = (sparse("stiffness", stiffness)?, sparse("mass", mass)?);
         let whole = Self::new(stiffness, mass, parameters.collect::<Result<_, Error>>()?)?
-            .with_resisting(resisting(structure, elements)?)?;
+            .with_resisting(resisting(structure, &elements)?)?;
         Ok((whole, t.transposed()))
     }
 }

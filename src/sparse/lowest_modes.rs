@@ -1,7 +1,7 @@
 //! The lowest modes of a sparse pencil, none of them missed: of structures on supports and of those that hang free, as an aircraft in
 //! its test, and where degrees of freedom have no mass. Zero and infinite eigenvalues are neither lost nor counted as vibrations.
 
-use super::condensation::take_deformation;
+use super::deformations::take_deformation;
 use super::matrix::GIVEN;
 use super::subspace::{Directions, Found, Solve, subspace};
 use super::{Factor, RigidBodies, SparseMatrix, places_above};

@@ -5,6 +5,7 @@
 
 mod checks;
 mod condensation;
+mod deformations;
 pub(crate) mod elements;
 pub mod factorization;
 mod gradient;
@@ -22,8 +23,8 @@ pub use checks::check_solution;
 pub(crate) use checks::{
     add_squares, places_above, start_vector, take_product, transposed_product,
 };
-pub(crate) use condensation::sum_of_stiffness;
 pub use condensation::{LargeCondensation, LargeModel};
+pub use deformations::Deformations;
 pub use factorization::Factor;
 pub use gradient::{PackedModel, derivative};
 pub use lowest_modes::{CountedModes, FINITE, MOST_DENSE_ROWS, lowest_modes};

@@ -1,13 +1,13 @@
 //! A model given by sparse matrices, whatever made them, and what the loops are handed of it.
 
+use super::deformations::{Deformations, sum_of_stiffness};
 use super::lowest_modes::{CountedModes, FINITE, Flexibility, modes_at_most};
 use super::residual_vectors::{leading_loads, residual_vectors};
-use super::sum_of_stiffness;
 use super::{Factor, RigidBodies, SparseMatrix};
 use crate::method::appendix_a::{Condensed, dynamic_stiffness};
-use crate::method::assembly::{ElementMatrix, check_element, stiffness_entries};
+use crate::method::assembly::stiffness_entries;
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_length, check_symmetric, symmetric_part};
+use crate::method::linear_algebra::{check_length, symmetric_part};
 use crate::method::model::{Bounds, ModalModel, Pair, ParameterMatrix};
 use crate::method::modes::{ModeSet, Modes, check_count};
 use crate::method::structure::positive;
@@ -19,9 +19,17 @@ pub enum WholeShare {
     /// Of the stiffness, lbf/in.
     Stiffness(SparseMatrix),
     /// The stiffness of elements of the given gages (in) and areas (in²).
-    Elements(Vec<(ElementMatrix, f64)>),
+    Elements(Vec<(Deformations, f64)>),
     /// Of the mass, lbf·s²/in.
     Mass(SparseMatrix),
+}
+
+/// The entries (row, column, value) of elements of these sizes, each times a number.
+fn entries_of(members: &[(Deformations, f64)], number: f64) -> Vec<(usize, usize, f64)> {
+    let of_element = |(element, size): &(Deformations, f64)| {
+        stiffness_entries(&element.matrix(), number * size).collect::<Vec<_>>()
+    };
+    members.iter().flat_map(of_element).collect()
 }
 
 /// What may change: a part of the stiffness or mass that is scaled by one factor.
@@ -71,9 +79,8 @@ impl WholeModel {
                 WholeShare::Stiffness(matrix) => check("stiffness of a parameter", matrix)?,
                 WholeShare::Elements(members) => {
                     members.iter().try_for_each(|(element, size)| {
-                        check_element(element, count)?;
-                        check_symmetric("element stiffness", &element.unit)?;
-                        positive("size", || format!("element {}", element.label), *size)
+                        element.check_dof(count)?;
+                        positive("size", || format!("element {}", element.label()), *size)
                     })?
                 }
                 WholeShare::Mass(matrix) => check("mass of a parameter", matrix)?,
@@ -155,10 +162,7 @@ impl WholeModel {
                 _ if change == 0.0 => {}
                 WholeShare::Stiffness(matrix) => stiffness.extend(matrix.times_number(change)),
                 WholeShare::Elements(members) => {
-                    let entries = members
-                        .iter()
-                        .map(|(element, size)| stiffness_entries(element, change * size));
-                    stiffness.extend(entries.flatten());
+                    stiffness.extend(entries_of(members, change));
                 }
                 WholeShare::Mass(matrix) => mass.extend(matrix.times_number(change)),
             }
@@ -249,11 +253,8 @@ impl WholeModel {
             let part = match &parameter.share {
                 WholeShare::Stiffness(matrix) | WholeShare::Mass(matrix) => matrix,
                 WholeShare::Elements(members) => {
-                    let entries = members.iter();
-                    let entries =
-                        entries.flat_map(|(element, size)| stiffness_entries(element, *size));
                     let (what, count) = ("stiffness of a parameter", self.dof_count());
-                    elements = SparseMatrix::new(what, count, count, entries.collect())?;
+                    elements = SparseMatrix::new(what, count, count, entries_of(members, 1.0))?;
                     &elements
                 }
             };

@@ -110,8 +110,8 @@ pub fn analyze_condensed(
             WholeShare::Mass(matrix) => ParameterMatrix::Mass(factor * matrix.through(&b)?),
             WholeShare::Elements(members) => {
                 let of_element = members.iter().map(|(element, size)| {
-                    let own = b.select_columns(&element.dof);
-                    factor * *size * &own * &element.unit * own.transpose()
+                    let own = b.select_columns(element.dof());
+                    factor * *size * &own * element.matrix().unit * own.transpose()
                 });
                 let none = DMatrix::zeros(b.nrows(), b.nrows());
                 ParameterMatrix::Stiffness(of_element.fold(none, |sum, share| sum + share))

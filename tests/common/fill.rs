@@ -1,7 +1,7 @@
-//! How much a factorization stores and computes, by the order of elimination of its plan.
+//! How much a factorization stores and computes, by its order of elimination.
 
-use corfem::method::assembly::ElementMatrix;
-use corfem::sparse::factorization::FactorizationPlan;
+use corfem::sparse::Deformations;
+use corfem::sparse::factorization::StructuralStiffness;
 use faer::Side;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
@@ -20,13 +20,14 @@ pub struct Fill {
     pub operations: f64,
 }
 
-/// The fill by the plan's order of elimination.
-pub fn of_factor(plan: &FactorizationPlan, elements: &[ElementMatrix]) -> Fill {
-    let count = plan.order.len();
+/// The fill by the stiffness's order of elimination.
+pub fn of_factor(stiffness: &StructuralStiffness) -> Fill {
+    let (order, elements) = (stiffness.order(), stiffness.elements());
+    let count = order.len();
     let mut turn = vec![0; count];
-    (plan.order.iter().enumerate()).for_each(|(place, &dof)| turn[dof] = place);
-    let coupled = |element: &ElementMatrix| {
-        let turns: Vec<usize> = element.dof.iter().map(|&dof| turn[dof]).collect();
+    (order.iter().enumerate()).for_each(|(place, &dof)| turn[dof] = place);
+    let coupled = |element: &Deformations| {
+        let turns: Vec<usize> = element.dof().iter().map(|&dof| turn[dof]).collect();
         let all = turns
             .iter()
             .flat_map(|&row| turns.iter().map(move |&column| (row, column)));

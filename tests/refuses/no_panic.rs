@@ -131,7 +131,7 @@ fn every_public_function_of_the_method_is_called() {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut files = files_below(&source.join("method"));
     files.extend(files_below(&source.join("sparse/factorization")));
-    let sparse = ["condensation", "checks"];
+    let sparse = ["condensation", "checks", "deformations"];
     files.extend(sparse.map(|name| source.join("sparse").join(name).with_extension("rs")));
     for file in files {
         let stem = |path: &Path| {

@@ -71,10 +71,11 @@ impl FiniteElementModel {
         shapes: &DMatrix<f64>,
     ) -> Vec<ParameterMatrix> {
         let structural = &condensed.transformation * shapes;
-        let sum = |members: &[(&ElementMatrix, f64)], share: GeneralizedShare| {
+        let elements = self.element_matrices();
+        let sum = |members: &[(usize, f64)], share: GeneralizedShare| {
             members
                 .iter()
-                .map(|(element, size)| share(element, *size, &structural))
+                .map(|&(row, size)| share(&elements[row], size, &structural))
                 .sum()
         };
         self.shares(

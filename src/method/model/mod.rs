@@ -32,7 +32,6 @@ pub const REFERENCE_GAGE: f64 = 0.01;
 #[derive(Debug, Clone)]
 pub struct ScaledStructure {
     structure: Structure,
-    element_matrices: Vec<ElementMatrix>,
     mass: DMatrix<f64>,
     parameters: Vec<Parameter>,
     /// Rows of every parameter's members among the elements or the dynamic DOF.
@@ -91,6 +90,7 @@ pub struct ScaledSizes {
 #[derive(Debug, Clone)]
 pub struct FiniteElementModel {
     scaled: ScaledStructure,
+    element_matrices: Vec<ElementMatrix>,
     load_distribution: DMatrix<f64>,
 }
 
@@ -109,7 +109,8 @@ impl FiniteElementModel {
     /// with a density add to it.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] and [`Error::NotFinite`] for $T$; those of [`ScaledStructure::new`].
+    /// [`Error::WrongShape`] and [`Error::NotFinite`] for $T$; [`Error::NotFinite`] for an element's stiffness; those of
+    /// [`ScaledStructure::new`].
     pub fn new(
         structure: Structure,
         load_distribution: DMatrix<f64>,
@@ -121,8 +122,14 @@ impl FiniteElementModel {
         check_matrix("load distribution", &load_distribution, free, dynamic)?;
         check_shape("dynamic mass", &mass, dynamic, dynamic)?;
         let scaled = ScaledStructure::new(structure, mass, parameters)?;
+        let element_matrices = element_matrices(&scaled.structure);
+        for element in &element_matrices {
+            check_finite("element stiffness", &element.unit)
+                .map_err(|error| error.in_element(element.label))?;
+        }
         Ok(Self {
             scaled,
+            element_matrices,
             load_distribution,
         })
     }
@@ -135,13 +142,18 @@ impl FiniteElementModel {
     pub fn with_unit_stiffness(&self, units: Vec<DMatrix<f64>>) -> Result<Self, Error> {
         check_length("element matrices", units.len(), self.element_matrices.len())?;
         let mut model = self.clone();
-        for (element, unit) in model.scaled.element_matrices.iter_mut().zip(units) {
+        for (element, unit) in model.element_matrices.iter_mut().zip(units) {
             let dof_count = element.dof.len();
             check_shape("element stiffness", &unit, dof_count, dof_count)?;
             check_symmetric("element stiffness", &unit)?;
             element.unit = unit;
         }
         Ok(model)
+    }
+
+    /// Unit matrices of the elements at the free DOF.
+    pub fn element_matrices(&self) -> &[ElementMatrix] {
+        &self.element_matrices
     }
 
     /// The load distribution $T$ (free SDOF × d).
@@ -151,11 +163,10 @@ impl FiniteElementModel {
 }
 
 impl ScaledStructure {
-    /// A structure with the mass of its dynamic points (d × d, lbf·s²/in) and parameters; forms every unit element matrix, once.
+    /// A structure with the mass of its dynamic points (d × d, lbf·s²/in) and parameters.
     ///
     /// # Errors
-    /// Those of [`check_symmetric`] and, without elements that have mass, [`cholesky`] for the mass; those of the elements'
-    /// geometry; [`Error::Empty`], [`Error::Unknown`], [`Error::SharedElement`], [`Error::CoupledMass`] for bad parameters.
+    /// Those of [`check_symmetric`] and, without elements that have mass, [`cholesky`] for the mass; [`Error::Empty`], [`Error::Unknown`], [`Error::SharedElement`], [`Error::CoupledMass`] for bad parameters.
     pub fn new(
         structure: Structure,
         mass: DMatrix<f64>,
@@ -182,14 +193,8 @@ impl ScaledStructure {
                 return Err(Error::CoupledMass(dof));
             }
         }
-        let element_matrices = element_matrices(&structure);
-        for element in &element_matrices {
-            check_finite("element stiffness", &element.unit)
-                .map_err(|error| error.in_element(element.label))?;
-        }
         Ok(Self {
             structure,
-            element_matrices,
             mass,
             parameters,
             rows,
@@ -199,11 +204,6 @@ impl ScaledStructure {
     /// The structure with its first sizes.
     pub fn structure(&self) -> &Structure {
         &self.structure
-    }
-
-    /// Unit matrices of the elements at the free DOF.
-    pub fn element_matrices(&self) -> &[ElementMatrix] {
-        &self.element_matrices
     }
 
     /// The dynamic mass $M$, lbf·s²/in (d × d).
@@ -295,20 +295,18 @@ impl ScaledStructure {
         })
     }
 
-    /// Every parameter's share seen through shapes at the dynamic DOF (d × m), from what `stiffness` and `mass` make of elements
-    /// with their sizes; of point masses from their rows of the shapes.
+    /// Every parameter's share seen through shapes at the dynamic DOF (d × m), from what `stiffness` and `mass` make of elements,
+    /// by row, with their sizes; of point masses from their rows of the shapes.
     pub(crate) fn shares(
         &self,
         at: &ScaledSizes,
         shapes: &DMatrix<f64>,
-        stiffness: impl Fn(&[(&ElementMatrix, f64)]) -> DMatrix<f64>,
-        mass: impl Fn(&[(&ElementMatrix, f64)]) -> DMatrix<f64>,
+        stiffness: impl Fn(&[(usize, f64)]) -> DMatrix<f64>,
+        mass: impl Fn(&[(usize, f64)]) -> DMatrix<f64>,
     ) -> Vec<ParameterMatrix> {
         let of_parameter = |(parameter, rows): (&Parameter, &Vec<usize>)| {
-            let members = |sizes: &[f64]| -> Vec<(&ElementMatrix, f64)> {
-                rows.iter()
-                    .map(|&row| (&self.element_matrices[row], sizes[row]))
-                    .collect()
+            let members = |sizes: &[f64]| -> Vec<(usize, f64)> {
+                rows.iter().map(|&row| (row, sizes[row])).collect()
             };
             let point = |&row: &usize| {
                 at.point_masses[(row, row)] * shapes.row(row).tr_mul(&shapes.row(row))

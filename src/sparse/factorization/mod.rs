@@ -4,7 +4,8 @@
 mod plan;
 mod stiffness;
 
-pub use plan::FactorizationPlan;
+pub(in crate::sparse) use plan::FactorizationPlan;
+pub use stiffness::StructuralStiffness;
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_finite, check_length, check_shape, finite, round_off};
@@ -14,7 +15,8 @@ use faer::linalg::triangular_solve::{
     solve_unit_lower_triangular_in_place, solve_unit_upper_triangular_in_place,
 };
 use faer::{Accum, MatMut, MatRef, Par};
-use nalgebra::{DMatrix, DVector, RowDVector};
+use nalgebra::{DMatrix, DVector};
+use std::mem::take;
 use std::sync::Arc;
 
 /// Steps of inverse iteration toward the weakest motion. Each reduces the other motions by the ratio of the two
@@ -44,6 +46,12 @@ pub struct Factor {
     /// $S$ and $D$ in the order of elimination.
     scale: DVector<f64>,
     pivots: Vec<f64>,
+}
+
+impl Drop for Factor {
+    fn drop(&mut self) {
+        self.plan.keep(take(&mut self.values));
+    }
 }
 
 impl Factor {
@@ -99,12 +107,38 @@ impl Factor {
 
     /// Refuses a factor that does not solve its own scaled matrix.
     fn check(&self, what: &'static str, entries: &[f64]) -> Result<(), Error> {
-        check_solution(
-            what,
-            |x| self.plan.times(entries, x),
-            |right| self.solved(right.transpose()).transpose(),
-            &start_vector(self.scale.len()),
-        )
+        let (product, loads) = self.probe(entries);
+        let found = self.solved(DMatrix::from_rows(&[loads.transpose()]));
+        check_solution(what, product, &loads, &found.row(0).transpose())
+    }
+
+    /// The product with the scaled matrix of these entries, and the loads of a probe.
+    fn probe<'a>(
+        &'a self,
+        entries: &'a [f64],
+    ) -> (impl Fn(&DVector<f64>) -> DVector<f64>, DVector<f64>) {
+        let product = |x: &DVector<f64>| self.plan.times(entries, x);
+        let loads = product(&start_vector(self.scale.len()));
+        (product, loads)
+    }
+
+    /// Refuses a factor that does not solve its own scaled matrix, and says whether every eigenvalue of that is above a limit: both by
+    /// one solution with two loads, which reads the factor once.
+    fn is_proved_above(
+        &self,
+        limit: f64,
+        what: &'static str,
+        entries: &[f64],
+    ) -> Result<bool, Error> {
+        let (product, loads) = self.probe(entries);
+        let start = start_vector(loads.len());
+        let both = DMatrix::from_rows(&[start.transpose(), loads.transpose()]);
+        let found = self.solved(both);
+        let is_above = self.is_first_above(found.rows(0, 1).into_owned(), limit);
+        if is_above {
+            check_solution(what, product, &loads, &found.row(1).transpose())?;
+        }
+        Ok(is_above)
     }
 
     /// $A^{-1} R$ for every column of $R$ (rows × m): of a stiffness (lbf/in) the deflections $q_S = K_S^{-1} Q_S$ (A.2) in inches
@@ -255,12 +289,13 @@ impl Factor {
         }
     }
 
-    /// The solution of the scaled problem for a row of loads, both in the order of elimination.
-    fn solved(&self, mut row: RowDVector<f64>) -> RowDVector<f64> {
+    /// The solutions of the scaled problem for rows of loads, both in the order of elimination.
+    fn solved(&self, mut loads: DMatrix<f64>) -> DMatrix<f64> {
         let all = Reach::of_all_rows(vec![true; self.scale.len()]);
-        self.forward(row.as_mut_slice(), 1, &all);
-        self.backward(row.as_mut_slice(), 1);
-        row
+        let count = loads.nrows();
+        self.forward(loads.as_mut_slice(), count, &all);
+        self.backward(loads.as_mut_slice(), count);
+        loads
     }
 
     /// Number of rows.
@@ -309,15 +344,26 @@ impl Factor {
     ///
     /// Small pivots tell nothing of that: after a small one the next is as wrong as round-off divided by it.
     pub(super) fn is_above(&self, limit: f64) -> bool {
-        self.negative_count() == 0 && self.weakest_motion(CLEARLY_HELD * limit).0 > limit
+        self.is_first_above(self.first_motion(), limit)
     }
 
-    /// Smallest eigenvalue and its vector of the scaled matrix, by inverse iteration; no more than its first estimate if that is above
-    /// `enough`.
-    fn weakest_motion(&self, enough: f64) -> (f64, RowDVector<f64>) {
+    /// The same with the first step of inverse iteration done.
+    fn is_first_above(&self, first: DMatrix<f64>, limit: f64) -> bool {
+        self.negative_count() == 0 && self.weakest_motion(first, CLEARLY_HELD * limit).0 > limit
+    }
+
+    /// The first step of inverse iteration.
+    fn first_motion(&self) -> DMatrix<f64> {
         let start = start_vector(self.scale.len());
-        let (mut motion, mut smallest) = (start.transpose(), 0.0);
-        for _ in 0..INVERSE_ITERATIONS {
+        self.solved(DMatrix::from_rows(&[start.transpose()]))
+    }
+
+    /// Smallest eigenvalue and its vector of the scaled matrix, by inverse iteration after its first step; no more than the first
+    /// estimate if that is above `enough`.
+    fn weakest_motion(&self, first: DMatrix<f64>, enough: f64) -> (f64, DMatrix<f64>) {
+        let mut motion = first;
+        let mut smallest = 1.0 / motion.normalize_mut();
+        for _ in 1..INVERSE_ITERATIONS {
             if smallest <= enough {
                 motion = self.solved(motion);
                 smallest = 1.0 / motion.normalize_mut();

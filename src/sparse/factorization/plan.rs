@@ -1,8 +1,6 @@
 //! The plan of a factorization: what does not change with the sizes.
 
-use crate::method::assembly::{ElementMatrix, check_elements};
-use crate::method::error::{Error, at_least_one};
-use crate::method::structure::{StructuralDof, Structure};
+use crate::method::error::Error;
 use crate::sparse::SparseMatrix;
 use crate::sparse::ordering::Mesh;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -16,7 +14,9 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Par, Side, Spec};
 use nalgebra::{DVector, Vector3};
+use std::mem::take;
 use std::ops::Range;
+use std::sync::Mutex;
 
 /// What does not change with the sizes: in which order the DOF are eliminated, where the stiffness has entries, and where its
 /// factor then has them.
@@ -28,72 +28,27 @@ pub struct FactorizationPlan {
     pub(super) turn: Vec<usize>,
     /// The lower triangle, column by column; the first entry of a column is the diagonal.
     pattern: SymbolicSparseColMat<usize>,
-    /// Place among the entries of every entry of every element's own lower triangle; none where a matrix is factorized.
-    places: Vec<u32>,
     symbolic: SymbolicCholesky<usize>,
-    /// That of the elements ([`dof_of`]).
-    dof: Vec<u32>,
-}
-
-/// The DOF of elements one behind the other, with a mark after each element.
-fn dof_of(elements: &[ElementMatrix]) -> impl Iterator<Item = u32> {
-    let of_element = |element: &ElementMatrix| {
-        element
-            .dof
-            .iter()
-            .map(|&dof| dof as u32)
-            .chain([u32::MAX])
-            .collect::<Vec<_>>()
-    };
-    elements.iter().flat_map(of_element)
+    /// The memory of the last factor that is no longer needed: memory that is new costs a large factorization an eighth of its time.
+    spare: Mutex<Vec<f64>>,
 }
 
 impl FactorizationPlan {
-    /// The plan for a structure's elements: nested dissection by its grids' positions.
+    /// The plan for elements at these DOF, by nested dissection of where the free DOF are.
     ///
     /// # Errors
-    /// Those of [`super::Factor::of_stiffness`] for elements that do not fit the DOF, or none; [`Error::TooMany`] for more entries than are
-    /// counted here; [`Error::NoConvergence`] when there is no memory for it.
-    pub fn new(structure: &Structure, elements: &[ElementMatrix]) -> Result<Self, Error> {
-        Self::of(elements, structure.free_dof(), |grid| {
-            structure.position(grid).unwrap_or_default()
-        })
-    }
-
-    /// The same with positions of grids, all alike where they are not known.
-    pub(super) fn of(
-        elements: &[ElementMatrix],
-        free: &[StructuralDof],
-        position: impl Fn(usize) -> Vector3<f64>,
+    /// [`Error::TooMany`] for more entries than are counted here; [`Error::NoConvergence`] when there is no memory for it.
+    pub(super) fn of_elements<'a>(
+        elements: impl Iterator<Item = &'a [usize]>,
+        position: &[Vector3<f64>],
     ) -> Result<Self, Error> {
-        at_least_one("free degrees of freedom", free.len())?;
-        check_elements(elements, &vec![1.0; elements.len()], free.len())?;
-        let mut touching = vec![Vec::new(); free.len()];
-        for ElementMatrix { dof, .. } in elements {
-            dof.iter()
-                .for_each(|&row| touching[row].push(dof.as_slice()));
-        }
-        let plan = Self::of_matrices(
-            free.len(),
+        let mut touching = vec![Vec::new(); position.len()];
+        elements.for_each(|dof| dof.iter().for_each(|&row| touching[row].push(dof)));
+        Self::of_matrices(
+            position.len(),
             |row| touching[row].concat(),
-            |row| position(free[row].grid),
-        )?;
-        let mut places = Vec::new();
-        for ElementMatrix { dof, .. } in elements {
-            let turns: Vec<usize> = dof.iter().map(|&dof| plan.turn[dof]).collect();
-            for (column, &other) in turns.iter().enumerate() {
-                let place = |&turn: &usize| {
-                    plan.place(turn.max(other), turn.min(other))
-                        .map(|place| place as u32)
-                };
-                places.extend(turns[column..].iter().filter_map(place));
-            }
-        }
-        Ok(Self {
-            places,
-            dof: dof_of(elements).collect(),
-            ..plan
-        })
+            |row| position[row],
+        )
     }
 
     /// The plan for sums of square matrices of one size.
@@ -112,7 +67,7 @@ impl FactorizationPlan {
     /// rows, as those of one grid are, are one point of the mesh.
     ///
     /// # Errors
-    /// Those of [`Self::new`].
+    /// Those of [`Self::of_elements`].
     fn of_matrices(
         count: usize,
         coupled: impl Fn(usize) -> Vec<usize>,
@@ -194,23 +149,22 @@ impl FactorizationPlan {
             order,
             turn,
             pattern,
-            places: Vec::new(),
             symbolic,
-            dof: Vec::new(),
+            spare: Mutex::default(),
         })
     }
 
     /// Where an entry of the lower triangle stands among all, counted in the order of elimination.
-    fn place(&self, row: usize, column: usize) -> Option<usize> {
+    pub(super) fn place(&self, row: usize, column: usize) -> Option<usize> {
         let (rows, range) = self.column(column);
         rows.binary_search(&row)
             .ok()
             .map(|place| range.start + place)
     }
 
-    /// Whether it was made for elements at the same DOF.
-    pub(super) fn is_of(&self, elements: &[ElementMatrix]) -> bool {
-        dof_of(elements).eq(self.dof.iter().copied())
+    /// How many entries the lower triangle has.
+    pub(super) fn entry_count(&self) -> usize {
+        self.pattern.row_idx().len()
     }
 
     /// The places of the diagonal.
@@ -234,23 +188,9 @@ impl FactorizationPlan {
         })
     }
 
-    /// The lower triangle's entries of $\sum_e s_e K_e$.
-    pub(super) fn assembled(&self, elements: &[ElementMatrix], sizes: &[f64]) -> Vec<f64> {
-        let mut values = vec![0.0; self.pattern.row_idx().len()];
-        let mut places = self.places.iter();
-        for (ElementMatrix { unit, .. }, size) in elements.iter().zip(sizes) {
-            for (column, entries) in unit.column_iter().enumerate() {
-                for (entry, &place) in entries.iter().skip(column).zip(places.by_ref()) {
-                    values[place as usize] += size * entry;
-                }
-            }
-        }
-        values
-    }
-
-    /// Those of a sum of symmetric matrices, each times its number, for which it was made.
+    /// The lower triangle's entries of a sum of symmetric matrices, each times its number, for which it was made.
     pub(super) fn entries_of(&self, terms: &[(f64, &SparseMatrix)]) -> Vec<f64> {
-        let mut values = vec![0.0; self.pattern.row_idx().len()];
+        let mut values = vec![0.0; self.entry_count()];
         // Of the rows that the present column has, their places.
         let mut places = vec![0; self.turn.len()];
         for (column, &dof) in self.order.iter().enumerate() {
@@ -304,11 +244,22 @@ impl FactorizationPlan {
         scale
     }
 
+    /// Keeps the memory of a factor for the next.
+    pub(super) fn keep(&self, values: Vec<f64>) {
+        if let Ok(mut spare) = self.spare.lock() {
+            *spare = values;
+        }
+    }
+
     /// $L$ and $D$ of given entries, and where a pivot is zero, in one thread whatever the library's global setting: its parallel kernels
     /// have open reports of wrong results on large matrices.
     pub(super) fn factor(&self, entries: &[f64]) -> Result<(Vec<f64>, Option<usize>), Error> {
         let (symbolic, one) = (&self.symbolic, Par::Seq);
-        let mut values = vec![0.0; symbolic.len_val()];
+        let mut values = self
+            .spare
+            .lock()
+            .map_or_else(|_| Vec::new(), |mut spare| take(&mut *spare));
+        values.resize(symbolic.len_val(), 0.0);
         let scratch = symbolic.factorize_numeric_ldlt_scratch::<f64>(one, Spec::default());
         let mut memory = MemBuffer::try_new(scratch)
             .map_err(|_| Error::NoConvergence("sparse factorization"))?;

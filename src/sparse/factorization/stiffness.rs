@@ -1,10 +1,11 @@
 //! The structural stiffness, factorized anew for every set of sizes.
 
 use super::{Factor, FactorizationPlan};
-use crate::method::assembly::{ElementMatrix, check_elements};
-use crate::method::error::Error;
+use crate::method::assembly::ElementMatrix;
+use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_length, round_off};
-use crate::method::structure::{DIRECTIONS, StructuralDof, positive};
+use crate::method::structure::{DIRECTIONS, StructuralDof, Structure, positive};
+use crate::sparse::Deformations;
 use nalgebra::Vector3;
 use std::sync::Arc;
 
@@ -42,32 +43,94 @@ impl Factor {
         sizes: &[f64],
         free: &[StructuralDof],
     ) -> Result<Self, Error> {
-        let plan = FactorizationPlan::of(elements, free, |_| Vector3::zeros())?;
-        Self::of_planned_stiffness(&Arc::new(plan), elements, sizes, free)
+        let elements = elements.iter().map(Deformations::of);
+        let elements = elements.collect::<Result<_, Error>>()?;
+        let nowhere = vec![Vector3::zeros(); free.len()];
+        StructuralStiffness::at(free, &nowhere, elements)?.factorized(sizes)
     }
+}
 
-    /// The same by a plan that was made for these elements.
+/// The structural stiffness $K_S = \sum_e s_e K_e$ of elements, planned once and factorized at any sizes.
+#[derive(Debug)]
+pub struct StructuralStiffness {
+    elements: Vec<Deformations>,
+    free: Vec<StructuralDof>,
+    plan: Arc<FactorizationPlan>,
+    /// Place among the plan's entries of every entry of every element's lower triangle.
+    places: Vec<u32>,
+}
+
+impl StructuralStiffness {
+    /// The stiffness of these elements at the free DOF of a structure, with a plan by nested dissection of its grids' positions.
     ///
     /// # Errors
-    /// Those of [`Self::of_stiffness`]; [`Error::WrongShape`] for a plan of other elements.
-    pub fn of_planned_stiffness(
-        plan: &Arc<FactorizationPlan>,
-        elements: &[ElementMatrix],
-        sizes: &[f64],
+    /// [`Error::Empty`] without free DOF; [`Error::TooMany`] for elements beyond them, or more entries than are counted here;
+    /// [`Error::NoConvergence`] when there is no memory for a plan.
+    pub fn new(structure: &Structure, elements: Vec<Deformations>) -> Result<Self, Error> {
+        let position = |dof: &StructuralDof| structure.position(dof.grid).unwrap_or_default();
+        let free = structure.free_dof();
+        Self::at(
+            free,
+            &free.iter().map(position).collect::<Vec<_>>(),
+            elements,
+        )
+    }
+
+    fn at(
         free: &[StructuralDof],
+        position: &[Vector3<f64>],
+        elements: Vec<Deformations>,
     ) -> Result<Self, Error> {
-        let (what, count) = ("structural stiffness", free.len());
-        for (element, &size) in elements.iter().zip(sizes) {
-            positive("size", || format!("element {}", element.label), size)?;
+        at_least_one("free degrees of freedom", free.len())?;
+        elements
+            .iter()
+            .try_for_each(|element| element.check_dof(free.len()))?;
+        let plan =
+            FactorizationPlan::of_elements(elements.iter().map(Deformations::dof), position)?;
+        let mut places = Vec::new();
+        for element in &elements {
+            let turns: Vec<usize> = element.dof().iter().map(|&dof| plan.turn[dof]).collect();
+            for (column, &other) in turns.iter().enumerate() {
+                let place = |&turn: &usize| {
+                    plan.place(turn.max(other), turn.min(other))
+                        .map(|place| place as u32)
+                };
+                places.extend(turns[column..].iter().filter_map(place));
+            }
         }
-        check_elements(elements, sizes, count)?;
-        check_length("degrees of freedom of the plan", plan.order.len(), count)?;
-        if !plan.is_of(elements) {
-            check_length("elements of the plan", 0, elements.len())?;
+        places.shrink_to_fit();
+        Ok(Self {
+            elements,
+            free: free.to_vec(),
+            plan: Arc::new(plan),
+            places,
+        })
+    }
+
+    /// The elements by their ways to deform.
+    pub fn elements(&self) -> &[Deformations] {
+        &self.elements
+    }
+
+    /// The free DOF in the order in which they are eliminated.
+    pub fn order(&self) -> &[usize] {
+        &self.plan.order
+    }
+
+    /// Assembles and factorizes the stiffness, which must leave nothing free to move. `sizes` are gages (in) and areas (in²), one per
+    /// element.
+    ///
+    /// # Errors
+    /// Those of [`Factor::of_stiffness`] for sizes and for what they make.
+    pub fn factorized(&self, sizes: &[f64]) -> Result<Factor, Error> {
+        let (what, plan, count) = ("structural stiffness", &self.plan, self.free.len());
+        for (element, &size) in self.elements.iter().zip(sizes) {
+            positive("size", || format!("element {}", element.label()), size)?;
         }
-        let mut entries = plan.assembled(elements, sizes);
+        check_length("element sizes", sizes.len(), self.elements.len())?;
+        let mut entries = self.assembled(sizes);
         let singular = |dof: usize, ratio| {
-            let StructuralDof { grid, direction } = free[dof];
+            let StructuralDof { grid, direction } = self.free[dof];
             Err(Error::SingularStiffness {
                 grid,
                 direction: *DIRECTIONS.get(direction).unwrap_or(&'?'),
@@ -81,9 +144,8 @@ impl Factor {
         let scale = plan.scale(&mut entries, |entry| entry);
         let found = Factor::of_entries(plan, what, &entries, scale.clone());
         if let Ok(factor) = found
-            && factor.is_above(round_off(count))
+            && factor.is_proved_above(round_off(count), what, &entries)?
         {
-            factor.check(what, &entries)?;
             return Ok(factor);
         }
         // Shifted a little, a singular stiffness has the motion that is free as its weakest.
@@ -91,12 +153,24 @@ impl Factor {
             .iter()
             .for_each(|&place| entries[place] += SINGULAR_SHIFT);
         let factor = Factor::of_entries(plan, what, &entries, scale)?.check_signs(what)?;
-        let (smallest, motion) = factor.weakest_motion(f64::INFINITY);
+        let (smallest, motion) = factor.weakest_motion(factor.first_motion(), f64::INFINITY);
         let moved = |dof: usize| (motion[plan.turn[dof]] * factor.scale[plan.turn[dof]]).abs();
         // Ties go to the first.
         let most = (0..count)
             .rev()
             .max_by(|&a, &b| moved(a).total_cmp(&moved(b)));
         singular(most.unwrap_or(0), smallest - SINGULAR_SHIFT)
+    }
+
+    /// The lower triangle's entries of $\sum_e s_e K_e$ in the order of elimination.
+    fn assembled(&self, sizes: &[f64]) -> Vec<f64> {
+        let mut entries = vec![0.0; self.plan.entry_count()];
+        let (mut places, mut triangle) = (self.places.iter(), Vec::new());
+        for (element, &size) in self.elements.iter().zip(sizes) {
+            element.triangle(size, &mut triangle);
+            let placed = triangle.iter().zip(places.by_ref());
+            placed.for_each(|(entry, &place)| entries[place as usize] += entry);
+        }
+        entries
     }
 }

@@ -4,16 +4,21 @@ use super::{Entry, entries, modes};
 use crate::common::draws::Draws;
 use crate::common::whole_models::sparse;
 use corfem::method::appendix_a;
-use corfem::method::assembly::{dense_stiffness, element_matrices, lumped_mass};
+use corfem::method::assembly::{ElementMatrix, dense_stiffness, element_matrices, lumped_mass};
 use corfem::method::elements::membrane::triangle;
 use corfem::method::elements::shear::{corner_forces, energy_coefficient, gauss_legendre};
 use corfem::method::elements::{corner_volumes, membrane, rod, shear, unit_stiffness};
+use corfem::method::error::Error;
 use corfem::method::geometry::{Geometry, mean_plane};
 use corfem::method::model::{Bounds, FiniteElementModel, ScaledStructure};
 use corfem::method::structure::{ElementKind, Material, Structure};
-use corfem::sparse::LargeModel;
-use corfem::sparse::factorization::{Factor, FactorizationPlan};
-use std::sync::Arc;
+
+use corfem::sparse::factorization::{Factor, StructuralStiffness};
+use corfem::sparse::{Deformations, LargeModel};
+
+fn deformations(elements: &[ElementMatrix]) -> Result<Vec<Deformations>, Error> {
+    elements.iter().map(Deformations::of).collect()
+}
 
 pub const STRUCTURES: &[Entry] = &[
     // A product of these beyond the largest number is refused by the model that they become part of.
@@ -168,20 +173,43 @@ pub const STRUCTURES: &[Entry] = &[
             .solve(&d.matrix(rows, columns))
             .map(|found| entries(&found))
     }),
-    ("FactorizationPlan::new", |d| {
+    ("Deformations::of", |d| {
+        let (elements, ..) = d.elements()?;
+        elements
+            .iter()
+            .try_for_each(|element| Deformations::of(element).map(drop))?;
+        Ok(Vec::new())
+    }),
+    ("Deformations::count", |d| {
+        let (elements, ..) = d.elements()?;
+        let found = deformations(&elements)?;
+        Ok(found.iter().map(|element| element.count() as f64).collect())
+    }),
+    ("Deformations::matrix", |d| {
+        let (elements, ..) = d.elements()?;
+        let found = deformations(&elements)?;
+        Ok(found
+            .iter()
+            .flat_map(|element| entries(&element.matrix().unit))
+            .collect())
+    }),
+    ("StructuralStiffness::new", |d| {
         let structure = d.structure()?;
         let (elements, ..) = d.elements()?;
-        FactorizationPlan::new(&structure, &elements)
-            .map(|plan| plan.order.iter().map(|&dof| dof as f64).collect())
+        StructuralStiffness::new(&structure, deformations(&elements)?).map(|_| Vec::new())
     }),
-    ("Factor::of_planned_stiffness", |d| {
+    ("StructuralStiffness::order", |d| {
         let structure = d.structure()?;
-        let plan = Arc::new(FactorizationPlan::new(
-            &structure,
-            &element_matrices(&structure),
-        )?);
-        let (elements, sizes, free) = d.elements()?;
-        Factor::of_planned_stiffness(&plan, &elements, &sizes, &free).map(|_| Vec::new())
+        let elements = deformations(&element_matrices(&structure))?;
+        let stiffness = StructuralStiffness::new(&structure, elements)?;
+        Ok(stiffness.order().iter().map(|&dof| dof as f64).collect())
+    }),
+    ("StructuralStiffness::factorized", |d| {
+        let structure = d.structure()?;
+        let elements = deformations(&element_matrices(&structure))?;
+        let (_, sizes, _) = d.elements()?;
+        let stiffness = StructuralStiffness::new(&structure, elements)?;
+        stiffness.factorized(&sizes).map(|_| Vec::new())
     }),
     ("Factor::flexibility", |d| {
         let (elements, sizes, free) = d.elements()?;
@@ -224,6 +252,11 @@ pub const STRUCTURES: &[Entry] = &[
         let loads = sparse(&d.load_distribution(structure.free_dof().len()))?;
         let mass = d.symmetric(loads.columns());
         LargeModel::new(structure, loads, mass, d.parameters()).map(|_| Vec::new())
+    }),
+    ("LargeModel::elements", |d| {
+        let (model, _) = d.finite_element()?;
+        let model = LargeModel::of(&model)?;
+        Ok(vec![model.elements().len() as f64])
     }),
     ("LargeCondensation::structural_shapes", |d| {
         let (model, factors) = d.finite_element()?;

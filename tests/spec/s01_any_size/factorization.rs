@@ -13,12 +13,11 @@ use corfem::chain::rods;
 use corfem::method::assembly::{ElementMatrix, dense_stiffness, element_matrices};
 use corfem::method::error::Error;
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use corfem::sparse::SparseMatrix;
-use corfem::sparse::factorization::{Factor, FactorizationPlan};
+use corfem::sparse::factorization::{Factor, StructuralStiffness};
+use corfem::sparse::{Deformations, SparseMatrix};
 use corfem::torque_box::Case;
 use nalgebra::{DMatrix, Vector3};
 use proptest::prelude::*;
-use std::sync::Arc;
 
 /// A square net of membranes and rods in the plane, swept, with one edge held and every grid free in x and y.
 fn net(cells: usize) -> Structure {
@@ -60,14 +59,14 @@ fn of_structure(structure: Structure) -> (Structure, Vec<ElementMatrix>) {
     (structure, elements)
 }
 
-fn plan(structure: &Structure) -> Arc<FactorizationPlan> {
-    let elements = element_matrices(structure);
-    Arc::new(FactorizationPlan::new(structure, &elements).expect("a plan"))
+fn planned(structure: &Structure, elements: &[ElementMatrix]) -> StructuralStiffness {
+    let elements = elements.iter().map(Deformations::of);
+    let elements = elements.collect::<Result<_, _>>().expect("symmetric");
+    StructuralStiffness::new(structure, elements).expect("a plan")
 }
 
 fn fill_of(structure: &Structure) -> Fill {
-    let elements = element_matrices(structure);
-    let fill = fill::of_factor(&plan(structure), &elements);
+    let fill = fill::of_factor(&planned(structure, &element_matrices(structure)));
     // Dense blocks store zeros too.
     assert!(fill.needed <= fill.entries);
     fill
@@ -195,9 +194,9 @@ fn fill_is_what_the_cuts_of_nested_dissection_promise_and_elimination_by_hand_co
         .iter()
         .zip(&meshes)
         .map(|((name, _), (structure, elements))| {
-            let plan = FactorizationPlan::new(structure, elements).expect("a plan");
-            let needed = fill::of_factor(&plan, elements).needed;
-            assert_eq!(needed, eliminated(&plan.order, elements), "{name}");
+            let planned = planned(structure, elements);
+            let needed = fill::of_factor(&planned).needed;
+            assert_eq!(needed, eliminated(planned.order(), elements), "{name}");
             (*name, needed)
         });
     assert_eq!(counted.collect::<Vec<_>>(), FILL);
@@ -232,42 +231,6 @@ fn a_factor_that_does_not_solve_its_own_matrix_is_refused() {
     assert!(
         matches!(refused, Err(Error::WrongSolution { residual, allowed, .. }) if residual > allowed),
         "{refused:?}"
-    );
-}
-
-#[test]
-fn a_plan_of_other_elements_is_refused() {
-    let (small, large) = (net(3), net(4));
-    let elements = element_matrices(&large);
-    let refused =
-        Factor::of_planned_stiffness(&plan(&small), &elements, &sizes(&large), large.free_dof());
-    assert!(
-        matches!(
-            refused,
-            Err(Error::WrongShape {
-                what: "degrees of freedom of the plan",
-                ..
-            })
-        ),
-        "{refused:?}"
-    );
-    let mut moved = elements.clone();
-    moved.swap(0, 1);
-    let refused =
-        Factor::of_planned_stiffness(&plan(&large), &moved, &sizes(&large), large.free_dof());
-    assert!(
-        matches!(
-            refused,
-            Err(Error::WrongShape {
-                what: "elements of the plan",
-                ..
-            })
-        ),
-        "{refused:?}"
-    );
-    assert!(
-        Factor::of_planned_stiffness(&plan(&large), &elements, &sizes(&large), large.free_dof())
-            .is_ok()
     );
 }
 
@@ -312,7 +275,7 @@ proptest! {
         let model = Case::new(2).unwrap().model().unwrap();
         let (structure, elements) = (model.structure(), model.element_matrices());
         let sizes: Vec<f64> = sizes(structure).iter().zip(&factors).map(|(size, factor)| size * factor).collect();
-        let factor = Factor::of_planned_stiffness(&plan(structure), elements, &sizes, structure.free_dof()).unwrap();
+        let factor = planned(structure, elements).factorized(&sizes).unwrap();
         let loads = SparseMatrix::of_columns("load distribution", 36, &t).unwrap();
         let found = factor.flexibility(&loads).unwrap();
         let stiffness = dense_stiffness(elements, &sizes, 36).unwrap();

@@ -2,6 +2,7 @@
 
 pub mod clusters;
 pub mod condensation;
+pub mod deformations;
 pub mod factorization;
 pub mod free_modes;
 pub mod residual_vectors;

@@ -19,6 +19,7 @@ use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::pairing::{modal_assurance, pair_modes};
 use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::structure::{Element, Grid, Material, Structure};
+use corfem::sparse::Deformations;
 use corfem::sparse::LargeModel;
 use corfem::sparse::{
     CountedModes, SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes,
@@ -142,7 +143,7 @@ fn shares_both_ways(unit: &DMatrix<f64>, size: f64) -> [DMatrix<f64>; 2] {
         .map(|(a, b)| (element.dof[a], element.dof[b], size * unit[(a, b)]));
     let whole = SparseMatrix::new("share", 3, 3, entries.collect()).expect("a matrix");
     let shares = [
-        WholeShare::Elements(vec![(element, size)]),
+        WholeShare::Elements(vec![(Deformations::of(&element).expect("symmetric"), size)]),
         WholeShare::Stiffness(whole),
     ];
     let parameters = shares.map(|share| WholeParameter {
@@ -347,14 +348,13 @@ fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
         let WholeShare::Elements(members) = &parameter.share else {
             panic!("the box's parameters are elements")
         };
-        let entries = members
-            .iter()
-            .flat_map(|(ElementMatrix { dof, unit, .. }, size)| {
-                let place = move |at: usize| (at / dof.len(), at % dof.len());
-                (0..dof.len() * dof.len())
-                    .map(place)
-                    .map(move |(a, b)| (dof[a], dof[b], size * unit[(a, b)]))
-            });
+        let entries = members.iter().flat_map(|(element, size)| {
+            let ElementMatrix { dof, unit, .. } = element.matrix();
+            let place = |at: usize| (at / dof.len(), at % dof.len());
+            let places = (0..dof.len() * dof.len()).map(place);
+            let entries = places.map(|(a, b)| (dof[a], dof[b], size * unit[(a, b)]));
+            entries.collect::<Vec<_>>()
+        });
         let matrix = SparseMatrix::new(
             "share",
             whole.dof_count(),
@@ -577,7 +577,7 @@ fn what_is_wrong_with_a_whole_model_is_named() {
             unit,
             unit_mass: DVector::zeros(2),
         };
-        let share = WholeShare::Elements(vec![(element, size)]);
+        let share = WholeShare::Elements(vec![(Deformations::of(&element)?, size)]);
         new(
             &held,
             &mass,
@@ -601,10 +601,7 @@ fn what_is_wrong_with_a_whole_model_is_named() {
     ));
     assert!(matches!(
         element(2, leaning, 1.0),
-        Err(Error::NotSymmetric {
-            what: "element stiffness",
-            ..
-        })
+        Err(Error::InElement { element: 7, .. })
     ));
     assert!(matches!(
         element(2, DMatrix::identity(3, 3), 1.0),

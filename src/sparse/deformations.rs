@@ -1,0 +1,246 @@
+//! Elements by the few ways in which they deform.
+
+use super::add_squares;
+use crate::method::assembly::{ElementMatrix, check_element};
+use crate::method::error::Error;
+use crate::method::linear_algebra::{check_symmetric, symmetric_eigen};
+use crate::method::modes::check_count;
+use nalgebra::{DMatrix, DVector};
+
+/// Stiffness of a way to deform, relative to the element's largest, below which it is the round-off of a rigid motion.
+const SMALLEST_DEFORMATION: f64 = 1e-14;
+/// Amplitudes of ways to deform that are multiplied at once: as many numbers as a processor's cache holds.
+const AMPLITUDES_AT_ONCE: usize = 32_768;
+
+/// An [`ElementMatrix`] by the few ways in which its element deforms, a rod and a shear panel in one, a membrane in five or, warped,
+/// six:
+///
+/// $$ K_e = \sum_r k_r w_r w_r^t $$
+///
+/// Cholesky steps with pivots find them, $k_r$ the pivot and $w_r$ its column with a one there, down to $10^{-14}$ of the largest entry:
+/// what is less is the round-off of a rigid motion. They leave no more of a matrix that is semidefinite, as elasticity makes it; of
+/// another one the eigenvalues and eigenvectors are taken.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Deformations {
+    label: usize,
+    dof: Vec<usize>,
+    /// The $k_r$, lbf/in.
+    stiffness: Vec<f64>,
+    /// The $w_r$ one behind the other.
+    shapes: Vec<f64>,
+    /// None for a material without density.
+    unit_mass: Vec<f64>,
+}
+
+impl Deformations {
+    /// The ways in which an element deforms.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] for a matrix or mass that does not fit the DOF; those of [`check_symmetric`] for the stiffness.
+    ///
+    /// # Example
+    ///
+    /// ```rust
+    /// use corfem::chain::rods;
+    /// use corfem::method::assembly::element_matrices;
+    /// use corfem::sparse::Deformations;
+    ///
+    /// let rod = &element_matrices(&rods(&[100.0, 50.0], [true, false])?)[1];
+    /// let found = Deformations::of(rod)?;
+    /// assert_eq!((found.count(), found.matrix()), (1, rod.clone()));
+    /// # Ok::<(), corfem::method::error::Error>(())
+    /// ```
+    pub fn of(element: &ElementMatrix) -> Result<Self, Error> {
+        check_element(element, usize::MAX)?;
+        let ElementMatrix {
+            label, dof, unit, ..
+        } = element;
+        check_symmetric("element stiffness", unit).map_err(|error| error.in_element(*label))?;
+        let mut rest = unit.as_slice().to_vec();
+        // The largest entry of a semidefinite matrix stands on its diagonal.
+        let smallest = SMALLEST_DEFORMATION * unit.diagonal().amax();
+        let (mut stiffness, mut shapes, mut column) = (Vec::new(), Vec::new(), Vec::new());
+        while let Some(pivot) = take_deformation(&mut rest, dof.len(), smallest, &mut column) {
+            stiffness.push(pivot);
+            shapes.extend(column.iter().map(|entry| entry / pivot));
+        }
+        if rest.iter().any(|entry| entry.abs() > smallest) {
+            let (values, vectors) = symmetric_eigen("element stiffness", unit)?;
+            (stiffness, shapes) = (values.data.into(), vectors.data.into());
+        }
+        let mut unit_mass = element.unit_mass.as_slice().to_vec();
+        if unit_mass.iter().all(|&unit| unit == 0.0) {
+            unit_mass = Vec::new();
+        }
+        shapes.shrink_to_fit();
+        Ok(Self {
+            label: *label,
+            dof: dof.clone(),
+            stiffness,
+            shapes,
+            unit_mass,
+        })
+    }
+
+    /// Refuses DOF beyond those that there are.
+    pub(super) fn check_dof(&self, count: usize) -> Result<(), Error> {
+        self.dof
+            .iter()
+            .try_for_each(|row| check_count("degrees of freedom", row.saturating_add(1), count))
+    }
+
+    /// The element's number.
+    pub fn label(&self) -> usize {
+        self.label
+    }
+
+    /// Rows among the free DOF.
+    pub fn dof(&self) -> &[usize] {
+        &self.dof
+    }
+
+    /// In how many ways the element deforms.
+    pub fn count(&self) -> usize {
+        self.stiffness.len()
+    }
+
+    /// Whether it has mass.
+    pub(super) fn has_mass(&self) -> bool {
+        !self.unit_mass.is_empty()
+    }
+
+    /// Every $k_r$ with its $w_r$.
+    fn ways(&self) -> impl Iterator<Item = (f64, &[f64])> {
+        let shapes = self.shapes.chunks_exact(self.dof.len().max(1));
+        self.stiffness.iter().copied().zip(shapes)
+    }
+
+    /// The lower triangle of $s_e K_e$, column by column, in place of what the vector has.
+    pub(super) fn triangle(&self, size: f64, into: &mut Vec<f64>) {
+        let order = self.dof.len();
+        into.clear();
+        into.resize(order * (order + 1) / 2, 0.0);
+        for (stiffness, shape) in self.ways() {
+            let mut rest = into.as_mut_slice();
+            for (column, motion) in shape.iter().enumerate() {
+                let (entries, later) = rest.split_at_mut(order - column);
+                let force = size * stiffness * motion;
+                let below = entries.iter_mut().zip(&shape[column..]);
+                below.for_each(|(entry, motion)| *entry += force * motion);
+                rest = later;
+            }
+        }
+    }
+
+    /// The element by its matrix again.
+    pub fn matrix(&self) -> ElementMatrix {
+        let (order, mut triangle) = (self.dof.len(), Vec::new());
+        self.triangle(1.0, &mut triangle);
+        let mut unit = DMatrix::zeros(order, order);
+        let places = (0..order).flat_map(|column| (column..order).map(move |row| (row, column)));
+        places
+            .zip(triangle)
+            .for_each(|(place, entry)| unit[place] = entry);
+        unit.fill_upper_triangle_with_lower_triangle();
+        let mut unit_mass = DVector::zeros(order);
+        unit_mass
+            .iter_mut()
+            .zip(&self.unit_mass)
+            .for_each(|(unit, own)| *unit = *own);
+        ElementMatrix {
+            label: self.label,
+            dof: self.dof.clone(),
+            unit,
+            unit_mass,
+        }
+    }
+}
+
+/// Generalized stiffness of elements of given sizes, $\sum_e s_e V_e^t K_e V_e$ (m × m, lbf/in for deflections in inches), where
+/// $V_e$ are the columns of `transposed_shapes` (m × free SDOF) at an element's own DOF.
+///
+/// For `transposed_shapes` $= B$ it is their share of $K_D$, $\sum_e s_e B K_e B^t$ (A.9); the shares sum to $K_D$ exactly. For
+/// $V_S = B^t V$ it is that share seen through dynamic shapes $V$. Of an element it is $\sum_r k_r (V_e^t w_r)(V_e^t w_r)^t$.
+pub(crate) fn sum_of_stiffness<'a>(
+    transposed_shapes: &DMatrix<f64>,
+    members: impl Iterator<Item = (&'a Deformations, f64)>,
+) -> DMatrix<f64> {
+    let (count, shapes) = (transposed_shapes.nrows(), transposed_shapes.as_slice());
+    let mut sum = DMatrix::zeros(count, count);
+    let mut amplitudes = Vec::new();
+    for (element, size) in members {
+        for (stiffness, shape) in element.ways() {
+            let (start, weight) = (amplitudes.len(), (size * stiffness.abs()).sqrt());
+            amplitudes.resize(start + count, 0.0);
+            let amplitude = &mut amplitudes[start..];
+            for (&dof, &motion) in element
+                .dof
+                .iter()
+                .zip(shape)
+                .filter(|(_, motion)| **motion != 0.0)
+            {
+                let (weight, motions) = (weight * motion, &shapes[dof * count..][..count]);
+                let sums = amplitude.iter_mut().zip(motions);
+                sums.for_each(|(sum, motion)| *sum += weight * motion);
+            }
+            if stiffness < 0.0 {
+                let taken = DVector::from_vec(amplitudes.split_off(start));
+                sum.syger(-1.0, &taken, &taken, 1.0);
+            }
+        }
+        if amplitudes.len() >= AMPLITUDES_AT_ONCE {
+            add_squares(&mut sum, &amplitudes);
+            amplitudes.clear();
+        }
+    }
+    add_squares(&mut sum, &amplitudes);
+    sum.fill_upper_triangle_with_lower_triangle();
+    sum
+}
+
+/// Their generalized mass in the same way, $\sum_e s_e V_e^t M_e V_e$ with the lumped $M_e$.
+pub(crate) fn sum_of_mass<'a>(
+    transposed_shapes: &DMatrix<f64>,
+    members: impl Iterator<Item = (&'a Deformations, f64)>,
+) -> DMatrix<f64> {
+    let count = transposed_shapes.nrows();
+    let mut sum = DMatrix::zeros(count, count);
+    for (element, size) in members {
+        for (&dof, unit) in element.dof.iter().zip(&element.unit_mass) {
+            let motion = transposed_shapes.column(dof);
+            sum.syger(size * unit, &motion, &motion, 1.0);
+        }
+    }
+    sum.fill_upper_triangle_with_lower_triangle();
+    sum
+}
+
+/// Takes $a a^t/p$ with the largest pivot $p$, and $a$ its column, out of a symmetric matrix: the pivot, if one is left.
+pub(super) fn take_deformation(
+    matrix: &mut [f64],
+    order: usize,
+    smallest: f64,
+    column: &mut Vec<f64>,
+) -> Option<f64> {
+    let diagonal = |at: usize| matrix[at * (order + 1)];
+    // Ties go to the first.
+    let pivot = (0..order)
+        .rev()
+        .max_by(|&a, &b| diagonal(a).total_cmp(&diagonal(b)))?;
+    let value = Some(diagonal(pivot)).filter(|value| *value > smallest && value.is_finite())?;
+    column.clear();
+    column.extend_from_slice(&matrix[pivot * order..][..order]);
+    for (entries, factor) in matrix
+        .chunks_exact_mut(order)
+        .zip(column.iter())
+        .filter(|(_, factor)| **factor != 0.0)
+    {
+        // The quotient first: the product of two entries may leave the range of numbers, and the pivot would not vanish.
+        let part = factor / value;
+        entries
+            .iter_mut()
+            .zip(column.iter())
+            .for_each(|(entry, of)| *entry -= of * part);
+    }
+    Some(value)
+}
