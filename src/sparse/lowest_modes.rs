@@ -19,7 +19,7 @@ pub const MOST_DENSE_ROWS: usize = 150;
 /// What there are too few of when more modes are asked for than have a frequency.
 pub const FINITE: &str = "modes of finite frequency";
 /// Directions that are added to the subspace at once, unless a root is repeated more often.
-const BLOCK: usize = 4;
+const BLOCK: usize = 8;
 /// Modes found beyond those asked for, so that the count can be made where two neighbors are apart.
 const BEYOND: usize = 4;
 /// Root relative to the largest below which it is lost: a decomposition finds each to some tens of roundings of the largest, so that
