@@ -17,16 +17,6 @@ pub struct SparseMatrix {
     rows: usize,
     columns: usize,
     entries: Vec<(usize, usize, f64)>,
-    /// Where each column's entries begin, and their number.
-    starts: Vec<usize>,
-}
-
-/// How many numbers of a list are below each from zero to `count`.
-fn starts(count: usize, of: impl Iterator<Item = usize>) -> Vec<usize> {
-    let mut starts = vec![0; count + 1];
-    of.for_each(|at| starts[at + 1] += 1);
-    (0..count).for_each(|at| starts[at + 1] += starts[at]);
-    starts
 }
 
 impl SparseMatrix {
@@ -60,7 +50,6 @@ impl SparseMatrix {
             None => Ok(Self {
                 rows,
                 columns,
-                starts: starts(columns, entries.iter().map(|entry| entry.1)),
                 entries,
             }),
             Some(&(row, column, value)) => Err(Error::NotFinite {
@@ -116,7 +105,8 @@ impl SparseMatrix {
 
     /// The entries of one column.
     pub(super) fn column(&self, column: usize) -> &[(usize, usize, f64)] {
-        &self.entries[self.starts[column]..self.starts[column + 1]]
+        let first = |column: usize| self.entries.partition_point(|entry| entry.1 < column);
+        &self.entries[first(column)..first(column + 1)]
     }
 
     /// Whether it is square and every entry exactly that of the other triangle.
@@ -131,17 +121,16 @@ impl SparseMatrix {
     }
 
     pub(super) fn transposed(&self) -> Self {
-        let starts = starts(self.rows, self.entries.iter().map(|entry| entry.0));
-        let (mut next, mut entries) = (starts.clone(), self.entries.clone());
-        for &(row, column, value) in &self.entries {
-            entries[next[row]] = (column, row, value);
-            next[row] += 1;
-        }
+        let mut entries: Vec<_> = self
+            .entries
+            .iter()
+            .map(|&(row, column, value)| (column, row, value))
+            .collect();
+        entries.sort_by_key(|&(row, column, _)| (column, row));
         Self {
             rows: self.columns,
             columns: self.rows,
             entries,
-            starts,
         }
     }
 
