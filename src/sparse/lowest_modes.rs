@@ -112,15 +112,15 @@ pub(super) fn modes_at_most(
             let (bound, counted, found) = numbers(&factor_at, &omega_squared, needed, is_all)?;
             let found = rigid + found;
             if counted != found {
-                // A block as wide as all modes below the bound holds every copy of a repeated root.
-                if block >= counted {
+                // A block as wide as all modes below the bound holds every copy of a repeated root, if all are wanted.
+                if block.min(wanted) >= counted {
                     return Err(Error::Miscounted {
                         bound,
                         counted,
                         found,
                     });
                 }
-                (wanted, block) = (counted + BEYOND, counted);
+                (wanted, block) = (counted + BEYOND, block.max(counted));
                 continue;
             }
         }
