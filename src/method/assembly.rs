@@ -44,6 +44,11 @@ pub(crate) fn check_element(element: &ElementMatrix, dof_count: usize) -> Result
     } = element;
     check_shape("element stiffness", unit, dof.len(), dof.len())?;
     check_length("element mass", unit_mass.len(), dof.len())?;
+    check_dof(dof, dof_count)
+}
+
+/// Refuses DOF beyond those that there are.
+pub(crate) fn check_dof(dof: &[usize], dof_count: usize) -> Result<(), Error> {
     dof.iter()
         .try_for_each(|&row| check_count("degrees of freedom", row.saturating_add(1), dof_count))
 }

@@ -4,7 +4,6 @@ use super::add_squares;
 use crate::method::assembly::{ElementMatrix, check_element};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_symmetric, symmetric_eigen};
-use crate::method::modes::check_count;
 use nalgebra::{DMatrix, DVector};
 
 /// Stiffness of a way to deform, relative to the element's largest, below which it is the round-off of a rigid motion.
@@ -80,13 +79,6 @@ impl Deformations {
             shapes,
             unit_mass,
         })
-    }
-
-    /// Refuses DOF beyond those that there are.
-    pub(super) fn check_dof(&self, count: usize) -> Result<(), Error> {
-        self.dof
-            .iter()
-            .try_for_each(|row| check_count("degrees of freedom", row.saturating_add(1), count))
     }
 
     /// The element's number.

@@ -186,13 +186,12 @@ impl SparseMatrix {
     /// [`Error::WrongShape`]; [`Error::NotSymmetric`].
     pub fn check_symmetric(&self, what: &'static str) -> Result<(), Error> {
         check_length(what, self.columns, self.rows)?;
-        let mirrored = self.transposed();
-        if *self == mirrored {
+        if self.is_symmetric() {
             return Ok(());
         }
         let entries = self
             .times_number(1.0)
-            .chain(mirrored.times_number(-1.0))
+            .chain(self.transposed().times_number(-1.0))
             .collect();
         let difference = Self::new(what, self.rows, self.columns, entries)?;
         let mut diagonal = vec![0.0; self.rows];

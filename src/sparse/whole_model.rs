@@ -5,7 +5,7 @@ use super::lowest_modes::{CountedModes, FINITE, Flexibility, modes_at_most};
 use super::residual_vectors::{leading_loads, residual_vectors};
 use super::{Factor, RigidBodies, SparseMatrix};
 use crate::method::appendix_a::{Condensed, dynamic_stiffness};
-use crate::method::assembly::stiffness_entries;
+use crate::method::assembly::{check_dof, stiffness_entries};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_length, symmetric_part};
 use crate::method::model::{Bounds, ModalModel, Pair, ParameterMatrix};
@@ -79,7 +79,7 @@ impl WholeModel {
                 WholeShare::Stiffness(matrix) => check("stiffness of a parameter", matrix)?,
                 WholeShare::Elements(members) => {
                     members.iter().try_for_each(|(element, size)| {
-                        element.check_dof(count)?;
+                        check_dof(element.dof(), count)?;
                         positive("size", || format!("element {}", element.label()), *size)
                     })?
                 }

@@ -166,7 +166,8 @@ impl ScaledStructure {
     /// A structure with the mass of its dynamic points (d × d, lbf·s²/in) and parameters.
     ///
     /// # Errors
-    /// Those of [`check_symmetric`] and, without elements that have mass, [`cholesky`] for the mass; [`Error::Empty`], [`Error::Unknown`], [`Error::SharedElement`], [`Error::CoupledMass`] for bad parameters.
+    /// Those of [`check_symmetric`] and, without elements that have mass, [`cholesky`] for the mass; [`Error::Empty`],
+    /// [`Error::Unknown`], [`Error::SharedElement`], [`Error::CoupledMass`] for bad parameters.
     pub fn new(
         structure: Structure,
         mass: DMatrix<f64>,

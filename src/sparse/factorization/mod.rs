@@ -130,6 +130,9 @@ impl Factor {
         what: &'static str,
         entries: &[f64],
     ) -> Result<bool, Error> {
+        if self.negative_count() > 0 {
+            return Ok(false);
+        }
         let (product, loads) = self.probe(entries);
         let start = start_vector(loads.len());
         let both = DMatrix::from_rows(&[start.transpose(), loads.transpose()]);
@@ -344,12 +347,12 @@ impl Factor {
     ///
     /// Small pivots tell nothing of that: after a small one the next is as wrong as round-off divided by it.
     pub(super) fn is_above(&self, limit: f64) -> bool {
-        self.is_first_above(self.first_motion(), limit)
+        self.negative_count() == 0 && self.is_first_above(self.first_motion(), limit)
     }
 
-    /// The same with the first step of inverse iteration done.
+    /// The same without negative pivots and with the first step of inverse iteration done.
     fn is_first_above(&self, first: DMatrix<f64>, limit: f64) -> bool {
-        self.negative_count() == 0 && self.weakest_motion(first, CLEARLY_HELD * limit).0 > limit
+        self.weakest_motion(first, CLEARLY_HELD * limit).0 > limit
     }
 
     /// The first step of inverse iteration.

@@ -1,7 +1,7 @@
 //! The structural stiffness, factorized anew for every set of sizes.
 
 use super::{Factor, FactorizationPlan};
-use crate::method::assembly::ElementMatrix;
+use crate::method::assembly::{ElementMatrix, check_dof};
 use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{check_length, round_off};
 use crate::method::structure::{DIRECTIONS, StructuralDof, Structure, positive};
@@ -84,7 +84,7 @@ impl StructuralStiffness {
         at_least_one("free degrees of freedom", free.len())?;
         elements
             .iter()
-            .try_for_each(|element| element.check_dof(free.len()))?;
+            .try_for_each(|element| check_dof(element.dof(), free.len()))?;
         let plan =
             FactorizationPlan::of_elements(elements.iter().map(Deformations::dof), position)?;
         let mut places = Vec::new();
