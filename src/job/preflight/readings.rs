@@ -19,7 +19,7 @@ use crate::job::assignment::pair_optimally;
 use crate::method::error::Error;
 use crate::method::model::ParameterMatrix;
 use crate::method::modes::ModeSet;
-use nalgebra::{Cholesky, DMatrix, DVector, RowDVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn, RowDVector};
 
 /// Standard deviation of a reading over the largest of its mode.
 const NOISE: f64 = 0.01;
@@ -56,7 +56,8 @@ struct Likelihood {
     shapes: DMatrix<f64>,
     /// $\sigma^2 W^{-1}$ of every mode.
     priors: Vec<DMatrix<f64>>,
-    ridges: Vec<DMatrix<f64>>,
+    /// $G_i^{-1}$ of every mode, factorized.
+    ridges: Vec<Cholesky<f64, Dyn>>,
     noise: Vec<f64>,
 }
 
@@ -120,7 +121,7 @@ impl Likelihood {
     /// The same with other readings of the model's modes, or fewer.
     fn with(&self, shapes: DMatrix<f64>) -> Option<Self> {
         let gram = shapes.tr_mul(&shapes);
-        let ridge = |prior: &DMatrix<f64>| Some(Cholesky::new(&gram + prior)?.inverse());
+        let ridge = |prior: &DMatrix<f64>| Cholesky::new(&gram + prior);
         Some(Self {
             ridges: self.priors.iter().map(ridge).collect::<Option<_>>()?,
             shapes,
@@ -133,8 +134,8 @@ impl Likelihood {
     /// tails leave room for noise above [`NOISE`] and for modes that the model does not have.
     fn of_shape(&self, shape: &DVector<f64>) -> Vec<(f64, DVector<f64>)> {
         let (products, freedom) = (self.shapes.tr_mul(shape), shape.len().max(2) as f64 - 1.0);
-        let of_mode = |(mode, ridge): (usize, &DMatrix<f64>)| {
-            let parts = ridge * &products;
+        let of_mode = |(mode, ridge): (usize, &Cholesky<f64, Dyn>)| {
+            let parts = ridge.solve(&products);
             let left = (shape.norm_squared() - products.dot(&parts)).max(0.0);
             let misfit = left / (self.noise[mode] * parts[mode]).powi(2);
             let misfit = if misfit.is_finite() { misfit } else { f64::MAX };

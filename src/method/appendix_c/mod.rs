@@ -166,8 +166,9 @@ pub fn normalize_with_mass(shapes: &mut DMatrix<f64>, alpha: &DMatrix<f64>) -> R
         shapes.nrows(),
         shapes.nrows(),
     )?;
+    let moved = alpha * &*shapes;
     for (mode, mut shape) in shapes.column_iter_mut().enumerate() {
-        let mass = shape.norm_squared() + shape.dot(&(alpha * &shape));
+        let mass = shape.norm_squared() + shape.dot(&moved.column(mode));
         positive(
             "changed generalized mass",
             || format!("mode {mode} (from zero)"),

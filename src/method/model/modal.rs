@@ -334,8 +334,9 @@ impl ModalModel {
         let seen = shapes.columns(0, count).into_owned();
         let squares = squares.rows(0, count).into_owned();
         let modes = Modes::seen(squares, &seen, &mut generalized);
+        let transposed = generalized.transpose();
         let through = |matrix: &DMatrix<f64>, factor: f64| {
-            symmetric_part(&(factor * generalized.tr_mul(&(matrix * &generalized))))
+            symmetric_part(&(factor * &transposed * (matrix * &generalized)))
         };
         let shares = self.shares.iter().zip(factors);
         let shares = shares.map(|(share, &factor)| share.map(|matrix| through(matrix, factor)));
