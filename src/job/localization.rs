@@ -9,8 +9,12 @@ use crate::method::state::{ModalState, UpdateRule};
 use crate::weighted::residuals::{residuals, residuals_of};
 use serde::Serialize;
 
-/// Decades on either side of the best factor so far that are searched, at first about one: 25 factors each, to 1 %.
-const DECADES: [f64; 3] = [3.0, 0.375, 0.047];
+/// Factors tried first on either side of one, three decades of them.
+const PLACES: i32 = 12;
+/// Decades from one of them to the next.
+const SPACING: f64 = 0.25;
+/// Decades between neighbors at last: 1 %.
+const FINEST: f64 = 0.004;
 
 /// A parameter under suspicion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -40,7 +44,7 @@ pub fn by_factor(model: &ModalModel, settings: &InnerSettings) -> Result<Vec<Sus
 /// By how far each parameter alone can lower $\frac{1}{2} \sum r^2$ of the weighted residuals, the farthest first.
 ///
 /// The modes at a factor are an eigensolution in the modal coordinates of the one exact analysis there is. Factors are tried from
-/// $10^{-3}$ to $10^3$, then near the best. The fall is the logarithm of the likelihood ratio of this one error against none.
+/// $10^{-3}$ to $10^3$, then halfway to the neighbors of the best, again and again. The fall is the logarithm of the likelihood ratio of this one error against none.
 ///
 /// # Errors
 /// Those of [`residuals`].
@@ -64,15 +68,20 @@ pub fn by_single_fit(model: &ModalModel, weights: &[ModeWeight]) -> Result<Vec<S
         false => first.min(objective(0, 0.0)),
     };
     let best = |parameter: usize| {
-        let (mut lowest, mut log) = (f64::INFINITY, 0.0);
-        for decades in DECADES {
-            let tried = (-12..=12).map(|place| log + decades * f64::from(place) / 12.0);
-            let tried = tried.map(|log| (objective(parameter, log), log));
-            (lowest, log) = tried.fold(
-                (lowest, log),
-                |best, tried| if tried.0 < best.0 { tried } else { best },
-            );
+        let better = |best: (f64, f64), log: f64| {
+            let value = objective(parameter, log);
+            if value < best.0 { (value, log) } else { best }
+        };
+        let everywhere = (-PLACES..=PLACES).map(|place| SPACING * f64::from(place));
+        let mut best = everywhere.fold((f64::INFINITY, 0.0), better);
+        let mut step = SPACING;
+        while step > FINEST {
+            step /= 2.0;
+            best = [best.1 - step, best.1 + step]
+                .into_iter()
+                .fold(best, better);
         }
+        let (lowest, log) = best;
         Suspect {
             parameter,
             factor: 10.0_f64.powf(log),

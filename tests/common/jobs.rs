@@ -6,12 +6,15 @@ use crate::common::test_files::{write_csv, write_universal};
 use corfem::files::deck::{self, BulkData, Task};
 use corfem::files::matrices::write_matrix_market;
 use corfem::files::test_data::{Sensor, TestData};
+use corfem::job::{JobResult, LoadedJob, run};
 use corfem::method::modes::ModeSet;
 use corfem::sparse::{SparseMatrix, WholeModel, WholeShare};
 use corfem::torque_box::Case;
 use corfem::torque_box::wing_box::{TEST_GAGE, dynamic_points};
 use corfem::weighted::noise::{Noise, with_noise};
 use nalgebra::{DMatrix, Vector3};
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use super::whole_models::{seen_by, sensors_at, shear_building};
 
@@ -55,6 +58,29 @@ fn sensor(name: String, grid: usize, direction: usize, place: Option<Vector3<f64
         axis: None,
         place,
     }
+}
+
+/// A folder of `tests/jobs`.
+pub fn folder_of(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/jobs")
+        .join(name)
+}
+
+/// What comes of a job of `tests/jobs`, each run once for all tests.
+pub fn worked(name: &str) -> &'static JobResult {
+    static RUNS: [(&str, OnceLock<JobResult>); 4] = [
+        ("box", OnceLock::new()),
+        ("building", OnceLock::new()),
+        ("garteur", OnceLock::new()),
+        ("wing", OnceLock::new()),
+    ];
+    let (_, result) = RUNS.iter().find(|(of, _)| *of == name).expect("a job");
+    result.get_or_init(|| {
+        let loaded = LoadedJob::new(&folder_of(name).join("job.toml"));
+        let loaded = loaded.unwrap_or_else(|error| panic!("{error}"));
+        run(&loaded, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"))
+    })
 }
 
 /// The paper's box of Case 2 from its deck, and its nine modes with noise.

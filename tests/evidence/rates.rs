@@ -145,10 +145,14 @@ pub fn spring_chain() -> Result<Specimen, Error> {
 pub fn all_rates(seeds: RangeInclusive<u64>) -> Result<Vec<Rates>, CaseError> {
     let [case_2, case_3] = [2, 3].map(|case| Specimen::of_case(&Case::new(case)?));
     let specimens = [case_2?, case_3?, Specimen::delta_wing()?, spring_chain()?];
-    specimens
-        .iter()
-        .map(|specimen| Ok(rates(specimen, seeds.clone())?))
-        .collect()
+    std::thread::scope(|scope| {
+        let found = specimens.each_ref().map(|specimen| {
+            let seeds = seeds.clone();
+            scope.spawn(|| rates(specimen, seeds))
+        });
+        let rates = found.map(|rates| rates.join().expect("no panic"));
+        rates.into_iter().map(|rates| Ok(rates?)).collect()
+    })
 }
 
 /// A count over the seeds of one mistake.

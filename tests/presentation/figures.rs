@@ -1,10 +1,10 @@
 //! The data of the figures are what the tables say.
 
+use crate::common::jobs::{folder_of, worked};
 use crate::common::tolerances::{CENTRAL_DIFFERENCE_FREQUENCY, MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::wing_subjects::wing_subjects;
-use crate::presentation::program::cli_jobs::folder_of;
 use approx::assert_relative_eq;
-use corfem::job::{LoadedJob, run};
+use corfem::job::LoadedJob;
 use corfem::method::step::StepRule;
 use corfem::present::figures::error_history::error_history;
 use corfem::present::figures::mode_shapes::DrawnModes;
@@ -68,14 +68,18 @@ pub fn all_figures() -> &'static [Figure] {
 pub fn job_figures() -> &'static [Figure] {
     static FIGURES: OnceLock<Vec<Figure>> = OnceLock::new();
     let of_job = |name| {
-        let path = folder_of(name).join("job.toml");
-        let job = LoadedJob::new(&path).expect("it loads");
-        let result = run(&job, |_| {}, || true).expect("it runs");
-        let report = Report::from_job(&job, Some(&result)).expect("a report");
+        let job = LoadedJob::new(&folder_of(name).join("job.toml")).expect("it loads");
+        let report = Report::from_job(&job, Some(worked(name))).expect("a report");
         report_figures(&report).expect("drawn")
     };
     let jobs = ["box", "building", "garteur", "wing"];
-    FIGURES.get_or_init(|| jobs.into_iter().flat_map(of_job).collect())
+    let drawn = || {
+        std::thread::scope(|scope| {
+            let drawn = jobs.map(|name| scope.spawn(move || of_job(name)));
+            drawn.map(|figures| figures.join().expect("drawn")).concat()
+        })
+    };
+    FIGURES.get_or_init(drawn)
 }
 
 fn cell(table: &Table, row: &str, column: &str, unit: &str) -> (f64, Option<f64>) {

@@ -1,8 +1,9 @@
 //! A real test: the GARTEUR SM-AG19 airplane, of which eight frequencies are published.
 
 use crate::common::golden::{Numbers, assert_golden};
+use crate::common::jobs::worked;
 use crate::common::tolerances::JOB_RESULTS;
-use corfem::job::{History, JobResult, LoadedJob, run};
+use corfem::job::{History, JobResult};
 use corfem::method::verdict::Outcome;
 use corfem::present::render::csv;
 use corfem::present::report::Report;
@@ -11,17 +12,12 @@ use corfem::present::tables::job::seen_table;
 use corfem::present::tables::report::paired_table;
 use corfem::weighted::gauss_newton::WeightedStop;
 use corfem::weighted::residuals::residuals;
-use std::path::Path;
 use std::sync::LazyLock;
 
 /// Balmes and Wright, *Results from the Test of a Single Structure by 12 Laboratories in Europe* (ASME DETC'97).
 const PUBLISHED_HZ: [f64; 8] = [6.38, 16.10, 33.12, 33.53, 35.65, 48.38, 49.43, 55.08];
 
-static RESULT: LazyLock<JobResult> = LazyLock::new(|| {
-    let job = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/jobs/garteur/job.toml");
-    let loaded = LoadedJob::new(&job).unwrap_or_else(|error| panic!("{error}"));
-    run(&loaded, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"))
-});
+static RESULT: LazyLock<&JobResult> = LazyLock::new(|| worked("garteur"));
 
 /// Weighted squares of the first and of the corrected model.
 fn chi_squared() -> [f64; 2] {

@@ -3,7 +3,7 @@
 use crate::common::condensed::analyze_condensed;
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::jobs::{
-    Files, STORIES, building, delta_wing, rods, torque_box, torque_box_truth,
+    Files, STORIES, building, delta_wing, folder_of, rods, torque_box, torque_box_truth, worked,
 };
 use crate::common::known::delta_wing::correlation::GROUPS;
 use crate::common::test_files::write_universal;
@@ -23,7 +23,6 @@ use corfem::present::tables::job::{places_table, seen_table, trust_table};
 use corfem::present::tables::report::{factor_table, history_table, paired_table, swaps};
 use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use nalgebra::Vector3;
-use std::path::{Path, PathBuf};
 
 const NUMBERS: Numbers = Numbers {
     relative: JOB_RESULTS,
@@ -32,15 +31,9 @@ const NUMBERS: Numbers = Numbers {
     ..Numbers::AS_WRITTEN
 };
 
-fn folder(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/jobs")
-        .join(name)
-}
-
 /// `CORFEM_JOBS=write` writes the files instead of comparing them.
 fn check_files(name: &str, files: &Files) {
-    let folder = folder(name);
+    let folder = folder_of(name);
     let writes = std::env::var("CORFEM_JOBS").is_ok_and(|asked| asked == "write");
     for (file, text) in files {
         let path = folder.join(file);
@@ -60,21 +53,21 @@ fn check_files(name: &str, files: &Files) {
     }
 }
 
-fn finished(name: &str) -> (LoadedJob, JobResult) {
+fn finished(name: &str) -> (LoadedJob, &'static JobResult) {
     let prepared =
-        LoadedJob::new(&folder(name).join("job.toml")).unwrap_or_else(|error| panic!("{error}"));
-    let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
-    let subject = Report::from_job(&prepared, Some(&finished)).expect("a subject");
+        LoadedJob::new(&folder_of(name).join("job.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let finished = worked(name);
+    let subject = Report::from_job(&prepared, Some(finished)).expect("a subject");
     let mut tables = vec![
         trust_table(&finished.trust),
-        places_table(&prepared, Some(&finished)).expect("sensors"),
+        places_table(&prepared, Some(finished)).expect("sensors"),
     ];
     tables.extend([
         paired_table(&subject).expect("modes"),
         factor_table(&subject),
         history_table(&subject),
     ]);
-    tables.push(seen_table(&prepared, &finished).expect("a table"));
+    tables.push(seen_table(&prepared, finished).expect("a table"));
     let text = render::text(&tables);
     assert!(
         text.lines().all(|line| line.chars().count() <= 100),
@@ -91,7 +84,7 @@ fn condensed(
     LoadedJob,
     impl Fn(&LoadedJob, &[f64]) -> Result<ModalModel, Error>,
 ) {
-    let path = folder(name).join("job.toml");
+    let path = folder_of(name).join("job.toml");
     let prepared = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
     let analyze = |job: &LoadedJob, factors: &[f64]| {
         let whole = &job.source.whole;
@@ -211,7 +204,7 @@ fn negated(value: &str) -> String {
 /// A job's first model is analyzed once: what prepares it keeps it, unless something else is compared then.
 #[test]
 fn the_first_model_is_the_one_that_was_prepared() {
-    let prepared = LoadedJob::new(&folder("building").join("job.toml"))
+    let prepared = LoadedJob::new(&folder_of("building").join("job.toml"))
         .unwrap_or_else(|error| panic!("{error}"));
     let first = prepared.analyze(&[1.0; 10]).expect("a model");
     let mut fewer = prepared.clone();
@@ -279,9 +272,9 @@ fn the_wing_is_found_from_ten_modes_at_its_upper_grids() {
             .distance
             .is_some_and(|distance| distance < PLACED_WITHIN)
     }));
-    shapes_at_all_grids_are_those_of_the_sensors(&prepared, &found);
+    shapes_at_all_grids_are_those_of_the_sensors(&prepared, found);
     // Modes 8 and 9 are 1.6 % apart: where another mode of the model answers than before, the report says so.
-    let mut subject = Report::from_job(&prepared, Some(&found)).expect("a subject");
+    let mut subject = Report::from_job(&prepared, Some(found)).expect("a subject");
     subject.stages = vec![subject.stages[0].clone(); 3];
     let mut exchanged = subject.clone();
     let pairing = &mut exchanged.stages[1].check.pairing;

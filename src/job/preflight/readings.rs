@@ -17,9 +17,10 @@ use super::order::{matched, unit};
 use super::shapes::{Change, changed};
 use crate::job::assignment::pair_optimally;
 use crate::method::error::Error;
+use crate::method::linear_algebra::solve_lower;
 use crate::method::model::ParameterMatrix;
 use crate::method::modes::ModeSet;
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn, RowDVector};
+use nalgebra::{Cholesky, DMatrix, DVector, DVectorView, RowDVector};
 
 /// Standard deviation of a reading over the largest of its mode.
 const NOISE: f64 = 0.01;
@@ -56,8 +57,8 @@ struct Likelihood {
     shapes: DMatrix<f64>,
     /// $\sigma^2 W^{-1}$ of every mode.
     priors: Vec<DMatrix<f64>>,
-    /// $G_i^{-1}$ of every mode, factorized.
-    ridges: Vec<Cholesky<f64, Dyn>>,
+    /// L with $G_i^{-1} = L L^t$ of every mode i, and the column i of $L^{-1}$.
+    ridges: Vec<(DMatrix<f64>, DVector<f64>)>,
     noise: Vec<f64>,
 }
 
@@ -121,56 +122,87 @@ impl Likelihood {
     /// The same with other readings of the model's modes, or fewer.
     fn with(&self, shapes: DMatrix<f64>) -> Option<Self> {
         let gram = shapes.tr_mul(&shapes);
-        let ridge = |prior: &DMatrix<f64>| Cholesky::new(&gram + prior);
+        let ridge = |(mode, prior): (usize, &DMatrix<f64>)| {
+            let lower = Cholesky::new(&gram + prior)?.unpack();
+            let mut own = DMatrix::zeros(gram.nrows(), 1);
+            own[mode] = 1.0;
+            let own = solve_lower(&lower, own).column(0).into_owned();
+            Some((lower, own))
+        };
+        let priors = self.priors.iter().enumerate();
         Some(Self {
-            ridges: self.priors.iter().map(ridge).collect::<Option<_>>()?,
+            ridges: priors.map(ridge).collect::<Option<_>>()?,
             shapes,
             priors: self.priors.clone(),
             noise: self.noise.clone(),
         })
     }
 
-    /// The negative logarithm of the likelihood of a shape, if it came from each mode, and its parts q. It is Student's, whose
-    /// tails leave room for noise above [`NOISE`] and for modes that the model does not have.
-    fn of_shape(&self, shape: &DVector<f64>) -> Vec<(f64, DVector<f64>)> {
-        let (products, freedom) = (self.shapes.tr_mul(shape), shape.len().max(2) as f64 - 1.0);
-        let of_mode = |(mode, ridge): (usize, &Cholesky<f64, Dyn>)| {
-            let parts = ridge.solve(&products);
-            let left = (shape.norm_squared() - products.dot(&parts)).max(0.0);
-            let misfit = left / (self.noise[mode] * parts[mode]).powi(2);
-            let misfit = if misfit.is_finite() { misfit } else { f64::MAX };
-            (0.5 * freedom * (misfit / freedom).ln_1p(), parts)
+    /// The negative logarithm of the likelihood of every shape (columns), if it came from each mode (rows), and the part $q_i$ of
+    /// that mode. It is Student's, whose tails leave room for noise above [`NOISE`] and for modes that the model does not have.
+    fn of_shapes(&self, test: &DMatrix<f64>) -> [DMatrix<f64>; 2] {
+        let (products, freedom) = (self.shapes.tr_mul(test), test.nrows().max(2) as f64 - 1.0);
+        let squares: Vec<f64> = test
+            .column_iter()
+            .map(|shape| shape.norm_squared())
+            .collect();
+        let [mut costs, mut parts] =
+            [(); 2].map(|()| DMatrix::zeros(self.noise.len(), test.ncols()));
+        for (mode, (lower, own)) in self.ridges.iter().enumerate() {
+            // xᵗ V G Vᵗ x is the square of L⁻¹ Vᵗ x, and q_i its product with the column i of L⁻¹.
+            let halves = solve_lower(lower, products.clone());
+            for (shape, half) in halves.column_iter().enumerate() {
+                let part = own.dot(&half);
+                let left = (squares[shape] - half.norm_squared()).max(0.0);
+                let misfit = left / (self.noise[mode] * part).powi(2);
+                let misfit = if misfit.is_finite() { misfit } else { f64::MAX };
+                costs[(mode, shape)] = 0.5 * freedom * (misfit / freedom).ln_1p();
+                parts[(mode, shape)] = part;
+            }
+        }
+        [costs, parts]
+    }
+
+    /// The readings expected of another sensor, which sees the modes by a row of their shapes: those of the most likely mode.
+    fn expected(&self, test: &DMatrix<f64>, row: &RowDVector<f64>) -> Vec<f64> {
+        let [costs, _] = self.of_shapes(test);
+        let of_shape = |(shape, costs): (DVectorView<f64>, DVectorView<f64>)| {
+            let (lower, _) = &self.ridges[costs.imin()];
+            let mut parts = lower.solve_lower_triangular_unchecked(&self.shapes.tr_mul(&shape));
+            lower.tr_solve_lower_triangular_unchecked_mut(&mut parts);
+            (row * parts)[0]
         };
-        self.ridges.iter().enumerate().map(of_mode).collect()
+        test.column_iter()
+            .zip(costs.column_iter())
+            .map(of_shape)
+            .collect()
     }
 
     /// The same of all shapes, each from a mode of its own, with what `adds` says of each; and these modes and signs.
     fn of_test(
         &self,
         test: &DMatrix<f64>,
-        adds: impl Fn(usize, f64, &DVector<f64>) -> f64,
+        adds: impl Fn(usize, f64) -> f64,
     ) -> Result<(f64, Partners), Error> {
-        let found: Vec<Vec<(f64, DVector<f64>)>> = test
-            .column_iter()
-            .map(|shape| self.of_shape(&shape.into_owned()))
-            .collect();
-        let costs = DMatrix::from_fn(self.noise.len(), test.ncols(), |mode, test| {
-            let (cost, parts) = &found[test][mode];
-            cost + adds(test, self.noise[mode] * parts[mode].abs(), parts)
-        });
+        let [mut costs, parts] = self.of_shapes(test);
+        for test in 0..test.ncols() {
+            for (mode, noise) in self.noise.iter().enumerate() {
+                costs[(mode, test)] += adds(test, noise * parts[(mode, test)].abs());
+            }
+        }
         let dearest = costs.max() + 1.0;
         let partners = pair_optimally(&costs.map(|cost| dearest - cost), 0.0)?;
         let of =
             |(test, mode): (usize, &Option<usize>)| mode.map_or(0.0, |mode| costs[(mode, test)]);
         let sum = partners.iter().enumerate().map(of).sum();
         let sign = |(test, mode): (usize, Option<usize>)| {
-            mode.map(|mode| (mode, found[test][mode].1[mode].signum()))
+            mode.map(|mode| (mode, parts[(mode, test)].signum()))
         };
         Ok((sum, partners.into_iter().enumerate().map(sign).collect()))
     }
 
     fn misfit(&self, test: &DMatrix<f64>) -> Result<f64, Error> {
-        Ok(self.of_test(test, |_, _, _| 0.0)?.0)
+        Ok(self.of_test(test, |_, _| 0.0)?.0)
     }
 }
 
@@ -204,19 +236,12 @@ pub(super) fn explain(
             continue;
         };
         let rest = test.clone().remove_row(sensor);
-        let (row, readings) = (model.shapes.row(sensor), test.row(sensor));
+        let (row, readings) = (model.shapes.row(sensor).into_owned(), test.row(sensor));
         others.push((without.misfit(&rest)?, sensor));
-        let expected: Vec<f64> = rest
-            .column_iter()
-            .map(|shape| {
-                let found = without.of_shape(&shape.into_owned());
-                let best = found.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
-                best.map_or(0.0, |(_, parts)| (row * parts)[0])
-            })
-            .collect();
+        let expected = without.expected(&rest, &row);
         let size = expected.iter().map(|value| value * value).sum::<f64>();
         if readings.norm_squared() < DEAD * DEAD * size {
-            let noise_alone = |test: usize, noise: f64, _: &DVector<f64>| {
+            let noise_alone = |test: usize, noise: f64| {
                 0.5 * (readings[test] / noise.max(f64::MIN_POSITIVE))
                     .powi(2)
                     .min(1e9)
@@ -269,7 +294,7 @@ fn ordered(model: &Likelihood, test: &DMatrix<f64>) -> Result<Vec<usize>, Error>
     let first = unit(model.shapes.columns(0, lowest).into_owned()).abs();
     let mut order = matched(&first, &shapes.columns(0, lowest).abs()).unwrap_or(given);
     for _ in 0..super::order::ROUNDS {
-        let (_, partners) = model.of_test(&test.select_rows(&order), |_, _, _| 0.0)?;
+        let (_, partners) = model.of_test(&test.select_rows(&order), |_, _| 0.0)?;
         let Some(partners) = partners.into_iter().collect::<Option<Vec<_>>>() else {
             break;
         };
