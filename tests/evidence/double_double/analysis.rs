@@ -162,15 +162,15 @@ impl Box {
     ) -> Model {
         let (dynamic, transformation) = self.condense(gages, noise);
         let modes = self.modes_of(&dynamic).lowest(analysis_modes);
-        let through = |shapes: &Rows, e: usize| {
+        let through = |structural: &Rows, e: usize| {
             let (dof, unit) = &self.panels[e];
-            let structural = product(&transformation, shapes);
             let own: Rows = dof.iter().map(|&row| structural[row].clone()).collect();
             let share = transposed_product(&own, &product(unit, &own));
             rows(share.len(), share.len(), |i, j| gages[e] * share[i][j])
         };
+        let [moved, of_test] = [&modes, test].map(|modes| product(&transformation, &modes.shapes));
         let of_test = |e: usize| {
-            let (share, squares) = (through(&test.shapes, e), &test.omega_squared);
+            let (share, squares) = (through(&of_test, e), &test.omega_squared);
             rows(share.len(), share.len(), |i, j| {
                 share[i][j] / (squares[i] * squares[j]).sqrt()
             })
@@ -181,9 +181,7 @@ impl Box {
                     .map(|d| modes.shapes[d][i] * self.mass[d] * test.shapes[d][j])
                     .sum()
             }),
-            shares: (0..PANEL_COUNT)
-                .map(|e| through(&modes.shapes, e))
-                .collect(),
+            shares: (0..PANEL_COUNT).map(|e| through(&moved, e)).collect(),
             test_shares: (0..PANEL_COUNT).map(of_test).collect(),
             gages: gages.to_vec(),
             modes,

@@ -325,10 +325,13 @@ fn recursive_1(k: &[Dd], beta: &Rows, orders: usize) -> (Vec<Dd>, Rows) {
     let mut shapes = rows(size, size, |i, j| if i == j { Dd::ONE } else { Dd::ZERO });
     for order in 1..=orders {
         let sums = rows(size, size, |i, j| {
-            (0..size)
-                .filter(|&s| s != i)
-                .map(|s| beta[i][s] * shapes[s][j])
-                .sum()
+            let others = (0..size).filter(|&s| s != i);
+            match order {
+                // The shapes before are those of the modes themselves.
+                1 if i == j => Dd::ZERO,
+                1 => beta[i][j],
+                _ => others.map(|s| beta[i][s] * shapes[s][j]).sum(),
+            }
         });
         let before = roots.clone();
         if order > 1 {
