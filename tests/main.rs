@@ -2,6 +2,7 @@
 //! what is refused, `evidence` the studies whose tables `paper/*.md` quotes and the comparisons with other programs, `readers` a
 //! user's files, `presentation` tables, figures and the program, `ledgers` the lists of documents held against the code.
 
+#[macro_use]
 mod common;
 mod ledgers;
 

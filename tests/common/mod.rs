@@ -1,5 +1,8 @@
 //! What the tests share: the ledger of tolerances, the strategies, and small structures.
 
+#[macro_use]
+pub mod properties;
+
 pub mod appendix_b;
 pub mod appendix_c;
 pub mod boxes;

@@ -25,7 +25,7 @@ fn every_property_follows_the_number_of_cases_asked_for() {
     for (path, text) in test_files() {
         let mut lines = text.lines().map(str::trim).peekable();
         while let Some(line) = lines.next() {
-            if line != "proptest! {" {
+            if line != "properties! {" {
                 continue;
             }
             let next = lines.peek().copied().unwrap_or_default();

@@ -291,7 +291,7 @@ fn modes_are_drawn_in_their_plane_in_depth_and_as_marks() {
     );
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::costly_config())]
 
     /// As long as there is room, no name lies on another's, on the legend or beyond the page.

@@ -6,7 +6,7 @@ use corfem::present::figures::frame::Frame;
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::costly_config())]
 
     /// Interpolation passes through what is measured and stays between the least and the most of it.

@@ -32,7 +32,7 @@ fn lines(svg: &str) -> Vec<f64> {
     .collect()
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

@@ -77,7 +77,7 @@ fn a_name_that_is_a_formula_is_words_in_csv() {
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

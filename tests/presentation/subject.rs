@@ -386,7 +386,7 @@ fn more_than_twelve_modes_are_drawn_in_several_figures() {
     );
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::costly_config())]
 
     /// Names, places and directions as a user's file may have them.

@@ -26,7 +26,7 @@ fn factor() -> impl Strategy<Value = Complex<f64>> {
         .prop_map(|(decade, angle)| Complex::from_polar(10_f64.powf(decade), angle))
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

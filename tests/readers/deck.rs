@@ -12,7 +12,7 @@ use corfem::torque_box::{CASES, Case};
 use nalgebra::{DMatrix, SymmetricEigen};
 use proptest::prelude::*;
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

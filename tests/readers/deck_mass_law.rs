@@ -73,7 +73,7 @@ fn both(model: &FiniteElementModel, factors: &[f64]) -> [Vec<f64>; 2] {
     [own.omega_squared(), modes.omega_squared()].map(|squared| squared.as_slice().to_vec())
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

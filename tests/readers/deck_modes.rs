@@ -200,7 +200,7 @@ fn real(value: f64) -> String {
     large_real(value).expect("a finite number")
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// However unlike the parts, there are both modes and they are right, or an error says which parts are too unlike.

@@ -66,7 +66,7 @@ fn reals_are_written_short() {
     assert!(nearest_in_field(f64::NAN).is_nan());
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

@@ -165,7 +165,7 @@ fn sets_that_do_not_exist_or_that_nothing_selects_are_refused() {
     );
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// The deck of a weighted model is another deck of the same model, without the parameter.

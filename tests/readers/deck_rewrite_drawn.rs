@@ -115,7 +115,7 @@ fn decks() -> impl Strategy<Value = (String, Vec<Element>)> {
         })
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

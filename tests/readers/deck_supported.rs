@@ -227,7 +227,7 @@ fn written(model: &BulkData, around: &Around) -> String {
     )
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

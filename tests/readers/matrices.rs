@@ -342,7 +342,7 @@ fn the_owners_programs_read_what_the_crate_writes() {
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

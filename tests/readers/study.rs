@@ -413,7 +413,7 @@ fn no_noisy_test_of_the_building_is_stuck_at_the_start() {
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(costly_config())]
 
     /// Cut anywhere and gone on with, a file has every sample once, and the same summary.

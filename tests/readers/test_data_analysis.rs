@@ -235,7 +235,7 @@ fn written(frequencies: &[f64], values: &[Vec<[f64; 2]>], layout: Layout) -> Str
     modes.collect()
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// Three or six values a node, real or complex, in columns or not: what was written is read.

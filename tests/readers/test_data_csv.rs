@@ -340,7 +340,7 @@ fn what_is_written_reads_back_as_it_was() {
     assert_eq!(wing(&write_csv(&strange)).sensors[0].name, "two lines");
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

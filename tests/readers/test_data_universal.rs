@@ -458,7 +458,7 @@ fn what_is_written_reads_back_to_six_digits() {
     );
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

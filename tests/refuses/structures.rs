@@ -64,7 +64,7 @@ fn row_of(structure: &Structure, grid: usize, direction: char) -> usize {
     structure.free_dof_index(grid, direction).unwrap()
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// A linkage has one free motion and no DOF without stiffness; the DOF named is the one that moves most in it.

@@ -185,7 +185,7 @@ fn assert_same_modes(model: &FiniteElementModel, count: usize) {
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::costly_config())]
 
     #[test]

@@ -34,7 +34,7 @@ fn assert_same(model: &ModalModel, state: &ModalState) {
     );
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// Of any number of modes, some of the parameters masses, at the exact modes and away from them, with weights.

@@ -11,7 +11,7 @@ use corfem::method::modes;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// The whole way: rods, assembly, factorization, condensation with T the identity, and modes.

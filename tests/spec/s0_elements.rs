@@ -40,7 +40,7 @@ fn permuted(stiffness: &DMatrix<f64>, order: &[usize]) -> DMatrix<f64> {
     stiffness.select_rows(&dof).select_columns(&dof)
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

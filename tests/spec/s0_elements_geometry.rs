@@ -9,7 +9,7 @@ use corfem::method::structure::ElementKind;
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

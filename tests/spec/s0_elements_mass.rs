@@ -74,7 +74,7 @@ fn warped_quadrilateral_lumps_the_area_of_its_diagonals_beside_true_corner_trian
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

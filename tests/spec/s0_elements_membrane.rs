@@ -52,7 +52,7 @@ fn triangle_area([a, b, c]: [Vector3<f64>; 3]) -> f64 {
     0.5 * (b - a).cross(&(c - a)).norm()
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

@@ -85,7 +85,7 @@ fn a_rule_without_points_is_empty() {
     assert!(gauss_legendre(0).is_empty());
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

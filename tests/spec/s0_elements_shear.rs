@@ -41,7 +41,7 @@ fn aluminum() -> Material {
     Material::isotropic(1e7, 0.3).unwrap()
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

@@ -16,7 +16,7 @@ fn size() -> impl Strategy<Value = usize> {
     1..12_usize
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

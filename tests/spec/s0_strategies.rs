@@ -11,7 +11,7 @@ use crate::common::vibrations::{
 use nalgebra::{DMatrix, dmatrix};
 use proptest::prelude::*;
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]
@@ -114,7 +114,7 @@ proptest! {
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::costly_config())]
 
     #[test]

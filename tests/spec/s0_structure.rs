@@ -267,7 +267,7 @@ fn an_isotropic_material_needs_a_positive_modulus_and_a_stable_poissons_ratio() 
     assert!(Material::isotropic(1e7, -0.999).is_ok());
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// E, G and ν of an isotropic material are two numbers: E = 2G(1 + ν).

@@ -7,7 +7,7 @@ use corfem::method::appendix_a::condense;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// T that only selects DOF makes K_D what static condensation makes it: K_aa − K_ab K_bb⁻¹ K_ba.

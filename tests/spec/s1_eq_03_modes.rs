@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, dmatrix, dvector};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

@@ -21,7 +21,7 @@ fn assert_is_injective(pairing: &Pairing, cross: &DMatrix<f64>) {
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

@@ -17,7 +17,7 @@ fn in_order(count: usize) -> Pairing {
     Pairing::new((0..count).collect(), vec![1.0; count]).unwrap()
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

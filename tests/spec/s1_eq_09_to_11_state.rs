@@ -24,7 +24,7 @@ fn problem(chain: &Chain, truth: &[f64]) -> ModalModel {
         .unwrap()
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]
@@ -121,7 +121,7 @@ proptest! {
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::costly_config())]
 
     #[test]
@@ -307,7 +307,7 @@ fn the_scale_of_the_test_shapes_does_not_matter() {
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

@@ -52,7 +52,7 @@ pub fn assert_near(found: &[f64], expected: &[f64], tolerance: f64) {
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]
@@ -132,7 +132,7 @@ proptest! {
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::costly_config())]
 
     #[test]

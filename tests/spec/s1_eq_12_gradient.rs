@@ -24,7 +24,7 @@ use corfem::torque_box::Case;
 use nalgebra::{DMatrix, dmatrix};
 use proptest::prelude::*;
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

@@ -35,7 +35,7 @@ fn range() -> impl Strategy<Value = Bounds> {
     (0.1..0.99_f64, 1.01..10.0_f64).prop_map(|(lower, upper)| Bounds { lower, upper })
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

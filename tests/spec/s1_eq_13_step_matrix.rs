@@ -81,7 +81,7 @@ fn rank_one(more: usize) -> impl Strategy<Value = RankOne> {
     })
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

@@ -57,7 +57,7 @@ fn small_step() -> InnerSettings {
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]
@@ -93,7 +93,7 @@ proptest! {
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::costly_config())]
 
     #[test]

@@ -54,7 +54,7 @@ fn draws_reach_the_least_share() {
     assert!(share > LEAST_REACHED, "{share}");
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]
@@ -114,7 +114,7 @@ fn draws_reach_beyond_a_half_and_two() {
     );
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]
@@ -196,7 +196,7 @@ fn draws_cross_roots() {
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// A mode that overtakes another keeps its place, its test mode, and the exact root and shape.

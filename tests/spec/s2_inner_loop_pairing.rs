@@ -93,7 +93,7 @@ fn draws_change_the_pairing_inside_a_loop() {
     assert!(share > LEAST_REACHED, "{share}");
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

@@ -36,7 +36,7 @@ fn settings() -> impl Strategy<Value = Settings> {
         )
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::costly_config())]
 
     #[test]

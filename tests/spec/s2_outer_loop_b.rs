@@ -22,7 +22,7 @@ fn condensed_chain(springs: &[f64]) -> (FiniteElementModel, ModeSet) {
     (model.expect("a model"), test.expect("modes"))
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// Every element is a parameter, so that their shares V^t B K_e B^t V sum to V^t K_D V = diag(ω²), by the present B alone.

@@ -59,7 +59,7 @@ fn draws_have_a_last_pass_that_is_not_the_best() {
     assert!(share > LEAST_REACHED, "{share}");
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::costly_config())]
 
     #[test]

@@ -23,7 +23,7 @@ const SUBSTRUCTURES: [(&str, &[usize]); 4] = [
     ),
 ];
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// A group's factor is that factor on each of its elements, and its share the sum of theirs.

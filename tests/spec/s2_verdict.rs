@@ -169,7 +169,7 @@ fn the_worst_mode_and_its_errors_are_those_of_the_error_sum() {
     );
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// Of frequency and shape together: the one may be large where the other is small.

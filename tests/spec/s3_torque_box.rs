@@ -62,7 +62,7 @@ fn clamped_beam_by_elements(xi: f64) -> [f64; 4] {
     [-at_a[0], -at_a[1], -at_b[0], -at_b[1]]
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// What the structure does as a rigid body its dynamic points do: q_D = Tᵗq_S is their motion along z.

@@ -17,7 +17,7 @@ use proptest::prelude::*;
 /// The covers of the root, tip and middle bays, elements from zero.
 const BAYS: [[usize; 2]; 3] = [[1, 14], [3, 7], [8, 10]];
 
-proptest! {
+properties! {
     #![proptest_config(costly_config())]
 
     /// Any rule that knows $\Delta e$, the element's generalized stiffness and its gage.

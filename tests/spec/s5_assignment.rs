@@ -46,7 +46,7 @@ fn closeness() -> impl Strategy<Value = DMatrix<f64>> {
     })
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

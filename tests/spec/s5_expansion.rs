@@ -17,7 +17,7 @@ fn modes() -> DMatrix<f64> {
         .into_owned()
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

@@ -33,7 +33,7 @@ fn scales(modes: usize) -> impl Strategy<Value = DMatrix<f64>> {
 /// Test mode 0 with analysis mode 2, test mode 1 without, test mode 2 with analysis mode 0.
 const PAIRS: [Option<usize>; 3] = [Some(2), None, Some(0)];
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

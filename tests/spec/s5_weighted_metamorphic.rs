@@ -88,7 +88,7 @@ fn both(one: &DMatrix<f64>, other: &DMatrix<f64>) -> DMatrix<f64> {
     both
 }
 
-proptest! {
+properties! {
     #![proptest_config(costly_config())]
 
     #[test]

@@ -58,7 +58,7 @@ fn square(constrained: &[bool]) -> Structure {
     Structure::new(grids, elements).unwrap()
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// All twelve DOF at once, the constrained ones struck out afterwards: the slow obvious way.

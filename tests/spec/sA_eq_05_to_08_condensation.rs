@@ -79,7 +79,7 @@ fn condensed(stiffness: &DMatrix<f64>, t: &DMatrix<f64>) -> Result<Condensed, Er
     condense(stiffness, t)
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// (A.3) to (A.8): the flexibility is TᵗK_S⁻¹T; B carries it back, K_D = B K_S Bᵗ; by equal work TᵗBᵗ = I.

@@ -99,7 +99,7 @@ fn least(above: &DMatrix<f64>, below: &DMatrix<f64>) -> f64 {
     (above - below).symmetric_eigenvalues().min() / above.amax()
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]
@@ -143,7 +143,7 @@ proptest! {
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::costly_config())]
 
     #[test]

@@ -37,7 +37,7 @@ fn largest_excess(frozen: &DMatrix<f64>, exact: &DynamicModel) -> f64 {
         .fold(0.0, f64::max)
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// With the load between the spars shared by them as if it rode on no rib, the mid points would be averages of the

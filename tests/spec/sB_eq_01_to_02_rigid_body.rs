@@ -106,7 +106,7 @@ fn no_motions_no_dof_and_no_position_are_refused() {
     ));
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// A structure without supports resists none of the six: the vectors agree with the rod's own geometry.

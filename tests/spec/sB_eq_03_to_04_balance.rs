@@ -37,7 +37,7 @@ fn rates(structure: &FreeStructure, lowest: f64, fractions: &[f64]) -> Vec<f64> 
         .collect()
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// (B.1) and (B.2), written out, on a free structure and on soft suspensions.

@@ -46,7 +46,7 @@ fn sorted(values: &DVector<f64>) -> Vec<f64> {
     values
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

@@ -23,7 +23,7 @@ fn without(all: &ModeSet, mode: usize) -> ModeSet {
     .expect("modes")
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// Exact modes of a held structure pass unchanged.

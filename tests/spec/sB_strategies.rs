@@ -15,7 +15,7 @@ fn elastic_count(stiffness: &DMatrix<f64>) -> usize {
     values.iter().filter(|&&value| value > floor).count()
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

@@ -19,7 +19,7 @@ fn identity(size: usize) -> Complexes {
     DMatrix::identity(size, size)
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// (C.8) to (C.10): UᵗKV = I and UᵗGV = Λ, and both sets solve their own pencil (C.1), (C.2).

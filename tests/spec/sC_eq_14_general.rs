@@ -10,7 +10,7 @@ use corfem::method::appendix_c::{eigensolution, normalize_with_mass, recursive};
 use nalgebra::{DMatrix, dmatrix, dvector};
 use proptest::prelude::*;
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// The general formulae with α = 0, k = 1/λ are the plain ones, order by order.

@@ -15,7 +15,7 @@ use proptest::prelude::*;
 /// Size of change at which every rule holds for every change a strategy gives.
 const SMALL: f64 = 0.02;
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

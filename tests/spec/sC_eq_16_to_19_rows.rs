@@ -14,7 +14,7 @@ use proptest::prelude::*;
 /// Size of change at which every rule holds for every change a strategy gives.
 const SIZE: f64 = 0.03;
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

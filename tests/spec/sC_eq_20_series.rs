@@ -152,7 +152,7 @@ fn summed(pencil: &IntegerPencil, terms: usize, t: f64) -> Found {
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::exact_config())]
 
     #[test]
@@ -197,7 +197,7 @@ proptest! {
 
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::costly_config())]
 
     #[test]

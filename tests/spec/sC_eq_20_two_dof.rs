@@ -17,7 +17,7 @@ use corfem::method::appendix_c::{first_order, recursive_1, recursive_1_converged
 use nalgebra::{DMatrix, dmatrix, dvector};
 use proptest::prelude::*;
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

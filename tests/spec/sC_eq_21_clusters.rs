@@ -15,7 +15,7 @@ use corfem::method::error::Error;
 use nalgebra::{DMatrix, dvector};
 use proptest::prelude::*;
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// Clusters of roots down to exact repetition, stiffness and mass changed: roots and shapes are those of the

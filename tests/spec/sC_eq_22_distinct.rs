@@ -25,7 +25,7 @@ fn a_recursion_that_finds_one_mode_twice_is_refused() {
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// Whatever the change, an accepted answer has every mode once: its roots are those of the eigensolution.

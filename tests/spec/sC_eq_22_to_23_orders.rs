@@ -165,7 +165,7 @@ fn root_of_a_massless_motion_stays_zero() {
     assert!(converged.order < 60);
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

@@ -24,7 +24,7 @@ fn two_masses() -> impl Strategy<Value = TwoMasses> {
         .prop_map(|(coupling, change)| TwoMasses { coupling, change })
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// The closed form is the eigensolution of the two masses' own matrices, and the modes before the change are those

@@ -74,7 +74,7 @@ fn admissible(problem: &Problem, mass: &DMatrix<f64>, shapes: &DMatrix<f64>) -> 
     0.5 * (&change + change.transpose())
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

@@ -129,11 +129,11 @@ fn noise_that_turns_a_frequency_negative_is_an_error() {
     ));
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]
-    fn noise_comes_again_from_its_seed_and_grows_with_its_size(seed: u64, times in 0.0..3.0_f64) {
+    fn noise_comes_again_from_its_seed_and_grows_with_its_size(seed in any::<u64>(), times in 0.0..3.0_f64) {
         let exact = exact();
         let once = with_noise(&exact, Noise::USUAL, seed).unwrap();
         prop_assert_eq!(&once, &with_noise(&exact, Noise::USUAL, seed).unwrap());
@@ -148,7 +148,7 @@ proptest! {
     }
 
     #[test]
-    fn noisy_modes_come_out_orthonormal_and_screened_within_the_limits(seed: u64) {
+    fn noisy_modes_come_out_orthonormal_and_screened_within_the_limits(seed in any::<u64>()) {
         let (mass, limits) = (case().reconstruction.mass(), MovementLimits::default());
         let raw = with_noise(&exact(), Noise::USUAL, seed).unwrap();
         let all = orthogonalize(&raw, &mass).unwrap();

@@ -251,7 +251,7 @@ fn is_within(found: Dd, exact: BigRational, units: f64) -> bool {
     -allowed.clone() <= apart && apart <= allowed
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

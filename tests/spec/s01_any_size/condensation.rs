@@ -53,7 +53,7 @@ fn whole(model: &FiniteElementModel) -> (WholeModel, SparseMatrix) {
 const FIVE: [usize; 5] = [2, 4, 6, 8, 10];
 const ONES: [f64; RODS] = [1.0; RODS];
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]

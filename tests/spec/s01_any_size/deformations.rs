@@ -21,7 +21,7 @@ fn element(unit: DMatrix<f64>) -> ElementMatrix {
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// Whatever a symmetric matrix is, its ways to deform sum to it, and with them come its label, DOF and mass.

@@ -263,7 +263,7 @@ fn a_load_distribution_says_what_is_wrong_with_it() {
     assert_eq!((sparse.dense(), sparse.rows()), (t, 3));
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// Half a solution is enough: WᵗW against TᵗK⁻¹T with nalgebra's dense Cholesky, on the box with any gages and any T.

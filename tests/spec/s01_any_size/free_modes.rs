@@ -143,7 +143,7 @@ fn a_free_spring_chain_has_the_closed_form() {
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// Other units of every degree of freedom are a congruence.

@@ -162,7 +162,7 @@ fn shares_both_ways(unit: &DMatrix<f64>, size: f64) -> [DMatrix<f64>; 2] {
     [0, 1].map(|share| found.shares()[share].matrix().clone())
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
 
     /// An element's share needs no theory of elasticity: any symmetric matrix gives its congruence, in any unit.

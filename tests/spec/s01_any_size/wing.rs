@@ -194,7 +194,7 @@ fn lowest_modes_hardly_depend_on_the_mesh() {
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(crate::common::config())]
     #[test]
     fn every_wing_is_held_and_counted(wing in wings()) {
