@@ -239,7 +239,7 @@ fn largest(
             &mut solve,
             &flexibility.rigid,
             mass,
-            wanted,
+            [wanted - BEYOND, wanted],
             [block, keep, most],
         )
     }

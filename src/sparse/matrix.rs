@@ -105,8 +105,10 @@ impl SparseMatrix {
 
     /// The entries of one column.
     pub(super) fn column(&self, column: usize) -> &[(usize, usize, f64)] {
-        let first = |column: usize| self.entries.partition_point(|entry| entry.1 < column);
-        &self.entries[first(column)..first(column + 1)]
+        let before = self.entries.partition_point(|entry| entry.1 < column);
+        let from = &self.entries[before..];
+        let beyond = from.iter().position(|entry| entry.1 > column);
+        &from[..beyond.unwrap_or(from.len())]
     }
 
     /// Whether it is square and every entry exactly that of the other triangle.

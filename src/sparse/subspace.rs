@@ -12,6 +12,8 @@ const LOOKS: usize = 4;
 const MOST_LOOKS: usize = 800;
 /// Residual of a mode relative to its root at which it counts as found.
 const FOUND: f64 = 1e-10;
+/// The same of modes that only tell where others end: no root errs by more, a hundredth of what counts as apart.
+const NEARLY: f64 = 1e-7;
 /// The same where round-off of a softer mode leaves no smaller one: a root errs by the square of it.
 const ROUNDED: f64 = 1e-5;
 
@@ -129,7 +131,7 @@ fn orthonormal(mass: &SparseMatrix, block: DMatrix<f64>) -> Result<Directions, E
     .combined(&vectors))
 }
 
-/// The `wanted` largest roots by blocks of so many directions, in subspaces of at most so many, of which so many are kept. `solve` is
+/// The `wanted` largest roots, `exact` of them to round-off and the others nearly, by blocks of so many directions, in subspaces of at most so many, of which so many are kept. `solve` is
 /// $K^{-1}$ beside the `rigid` bodies.
 ///
 /// With the directions $V$ found so far and the next $Q$, every block gives the next columns of $H$ in
@@ -144,7 +146,7 @@ pub(super) fn subspace(
     solve: Solve,
     rigid: &Directions,
     mass: &SparseMatrix,
-    wanted: usize,
+    [exact, wanted]: [usize; 2],
     [block, keep, most]: [usize; 3],
 ) -> Result<Found, Error> {
     let rows = mass.rows();
@@ -189,8 +191,9 @@ pub(super) fn subspace(
         let residuals = &rest * vectors.rows(basis.len() - rest.ncols(), rest.ncols());
         let is_found = |mode: usize| {
             let round_off = 100.0 * f64::EPSILON * roots[0];
+            let found = if mode < exact { FOUND } else { NEARLY };
             residuals.column(mode).norm()
-                <= FOUND * roots[mode] + round_off.min(ROUNDED * roots[mode])
+                <= found * roots[mode] + round_off.min(ROUNDED * roots[mode])
         };
         let is_whole = next.len() == 0;
         let is_all = is_whole && values.len() <= keep;

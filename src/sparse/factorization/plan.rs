@@ -193,16 +193,14 @@ impl FactorizationPlan {
         let mut values = vec![0.0; self.entry_count()];
         // Of the rows that the present column has, their places.
         let mut places = vec![0; self.turn.len()];
-        for (column, &dof) in self.order.iter().enumerate() {
-            let (rows, range) = self.column(column);
-            rows.iter()
-                .zip(range)
-                .for_each(|(&row, place)| places[row] = place);
-            for (number, matrix) in terms {
-                let entries = matrix
-                    .column(dof)
-                    .iter()
-                    .map(|entry| (self.turn[entry.0], entry.2));
+        for (number, matrix) in terms {
+            for entries in matrix.entries().chunk_by(|a, b| a.1 == b.1) {
+                let column = self.turn[entries[0].1];
+                let (rows, range) = self.column(column);
+                rows.iter()
+                    .zip(range)
+                    .for_each(|(&row, place)| places[row] = place);
+                let entries = entries.iter().map(|entry| (self.turn[entry.0], entry.2));
                 let below = entries.filter(|(row, _)| *row >= column);
                 below.for_each(|(row, value)| values[places[row]] += number * value);
             }
