@@ -131,8 +131,8 @@ fn orthonormal(mass: &SparseMatrix, block: DMatrix<f64>) -> Result<Directions, E
     .combined(&vectors))
 }
 
-/// The `wanted` largest roots, `exact` of them to round-off and the others nearly, by blocks of so many directions, in subspaces of at most so many, of which so many are kept. `solve` is
-/// $K^{-1}$ beside the `rigid` bodies.
+/// The `wanted` largest roots, `exact` of them to round-off and the others nearly, by blocks of so many directions, in subspaces of at
+/// most so many, of which so many are kept. `solve` is $K^{-1}$ beside the `rigid` bodies.
 ///
 /// With the directions $V$ found so far and the next $Q$, every block gives the next columns of $H$ in
 ///
