@@ -329,7 +329,7 @@ fn copy(forms: &[Form], folder: &Path) {
         .map(|module| format!("pub mod {module};\n"))
         .collect();
     let list = format!("#![allow(non_snake_case, reason = \"as in tests/spec/mod.rs\")]\n{list}");
-    let main = "#![allow(warnings, reason = \"a copy\")]\nmod common;\nmod spec;\n";
+    let main = "#![allow(warnings, reason = \"a copy\")]\n#[macro_use]\nmod common;\nmod spec;\n";
     let mut changed = BTreeMap::from([
         (PathBuf::from("tests/main.rs"), main.to_owned()),
         (PathBuf::from("tests/spec/mod.rs"), list),
