@@ -215,7 +215,7 @@ fn truss(_: &mut u64) -> Built {
 pub fn named(kind: Kind, slip: Slip, noise: f64) -> Option<(usize, usize)> {
     let (mut right, mut wrong, mut state) = (0, 0, 11);
     for test in 0..TESTS {
-        let (found, expected) = findings(kind, slip, noise, test, &mut state)?;
+        let (found, expected) = findings(kind, slip, (noise, 1.0), test, &mut state)?;
         let is_expected = |finding: &Finding| match (finding, &expected) {
             (Finding::Suspected { change, .. }, Some(expected)) => match (change, expected) {
                 (Change::Gain(a, gain), Change::Gain(b, given)) => {
@@ -232,11 +232,12 @@ pub fn named(kind: Kind, slip: Slip, noise: f64) -> Option<(usize, usize)> {
     Some((right, wrong))
 }
 
-/// What is found of one test, and the change that should be.
-fn findings(
+/// What is found of one test, and the change that should be. In other units of mass and force shapes of unit generalized mass are other
+/// numbers, and else all is the same.
+pub fn findings(
     kind: Kind,
     slip: Slip,
-    noise: f64,
+    (noise, units): (f64, f64),
     seed: u64,
     state: &mut u64,
 ) -> Option<(Vec<Finding>, Option<Change>)> {
@@ -259,7 +260,7 @@ fn findings(
             (
                 place,
                 1 - sensors[place] % 2,
-                model.shapes().row(sensors[place] ^ 1).into_owned(),
+                model.shapes().row(sensors[place] ^ 1) * units,
             )
         })
         .collect();
@@ -323,7 +324,7 @@ fn findings(
     let seen = SeenModes {
         shares: shares.collect(),
         modes: model
-            .with_shapes(model.shapes().select_rows(&sensors))
+            .with_shapes(model.shapes().select_rows(&sensors) * units)
             .expect("shapes"),
         directions,
     };

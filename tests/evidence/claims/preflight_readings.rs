@@ -2,7 +2,7 @@
 
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::tolerances::{LEAST_OF_THIRTY, LEAST_REVERSED_OF_THIRTY, MOST_FALSE_OF_THIRTY};
-use crate::evidence::readings_rates::{KINDS, SLIPS, Slip, named};
+use crate::evidence::readings_rates::{KINDS, SLIPS, Slip, findings, named};
 use std::fmt::Write;
 
 const NOISE: f64 = 0.01;
@@ -57,4 +57,19 @@ fn right_tests_raise_no_alarm_and_reversed_sensors_are_named_on_five_structures(
 fn every_single_mistake_in_readings_is_named_on_five_structures() {
     let table = checked(&SLIPS);
     assert_golden("preflight_readings", &table, Numbers::COUNTED);
+}
+
+/// To the last bit, where the numbers of the shapes change by a power of two.
+#[test]
+fn the_units_of_mass_and_force_change_no_finding() {
+    let mut found_dead = 0;
+    for kind in KINDS {
+        for (slip, seed) in [(Slip::Dead, 0), (Slip::Dead, 1), (Slip::Twice, 2)] {
+            let in_units = |units| findings(kind, slip, (NOISE, units), seed, &mut 11);
+            let (found, expected) = in_units(1.0).expect("findings");
+            assert_eq!(in_units(0.5_f64.powi(10)), Some((found.clone(), expected)));
+            found_dead += usize::from(slip == Slip::Dead && !found.is_empty());
+        }
+    }
+    assert!(found_dead >= KINDS.len(), "{found_dead}");
 }
