@@ -44,6 +44,7 @@ impl Debug for Drawn {
 }
 
 /// Asks a law of what a strategy draws.
+#[track_caller]
 pub fn check<S>(
     config: Config,
     patterns: &'static str,
@@ -62,6 +63,7 @@ pub fn check<S>(
     });
 }
 
+#[track_caller]
 fn run(config: Config, drawn: &BoxedStrategy<Drawn>, law: &dyn Fn(Drawn) -> TestCaseResult) {
     let mut runner = TestRunner::new(config);
     if let Err(error) = runner.run(drawn, law) {
