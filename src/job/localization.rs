@@ -44,7 +44,8 @@ pub fn by_factor(model: &ModalModel, settings: &InnerSettings) -> Result<Vec<Sus
 /// By how far each parameter alone can lower $\frac{1}{2} \sum r^2$ of the weighted residuals, the farthest first.
 ///
 /// The modes at a factor are an eigensolution in the modal coordinates of the one exact analysis there is. Factors are tried from
-/// $10^{-3}$ to $10^3$, then halfway to the neighbors of the best, again and again. The fall is the logarithm of the likelihood ratio of this one error against none.
+/// $10^{-3}$ to $10^3$, then halfway to the neighbors of the best, again and again. The fall is the logarithm of the likelihood ratio
+/// of this one error against none.
 ///
 /// # Errors
 /// Those of [`residuals`].

@@ -67,6 +67,12 @@ pub fn folder_of(name: &str) -> PathBuf {
         .join(name)
 }
 
+/// A job of `tests/jobs`.
+pub fn loaded(name: &str) -> LoadedJob {
+    let loaded = LoadedJob::new(&folder_of(name).join("job.toml"));
+    loaded.unwrap_or_else(|error| panic!("{error}"))
+}
+
 /// What comes of a job of `tests/jobs`, each run once for all tests.
 pub fn worked(name: &str) -> &'static JobResult {
     static RUNS: [(&str, OnceLock<JobResult>); 4] = [
@@ -77,9 +83,7 @@ pub fn worked(name: &str) -> &'static JobResult {
     ];
     let (_, result) = RUNS.iter().find(|(of, _)| *of == name).expect("a job");
     result.get_or_init(|| {
-        let loaded = LoadedJob::new(&folder_of(name).join("job.toml"));
-        let loaded = loaded.unwrap_or_else(|error| panic!("{error}"));
-        run(&loaded, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"))
+        run(&loaded(name), |_| {}, || true).unwrap_or_else(|error| panic!("{error}"))
     })
 }
 

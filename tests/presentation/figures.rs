@@ -1,10 +1,9 @@
 //! The data of the figures are what the tables say.
 
-use crate::common::jobs::{folder_of, worked};
+use crate::common::jobs::{loaded, worked};
 use crate::common::tolerances::{CENTRAL_DIFFERENCE_FREQUENCY, MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::wing_subjects::wing_subjects;
 use approx::assert_relative_eq;
-use corfem::job::LoadedJob;
 use corfem::method::step::StepRule;
 use corfem::present::figures::error_history::error_history;
 use corfem::present::figures::mode_shapes::DrawnModes;
@@ -68,8 +67,7 @@ pub fn all_figures() -> &'static [Figure] {
 pub fn job_figures() -> &'static [Figure] {
     static FIGURES: OnceLock<Vec<Figure>> = OnceLock::new();
     let of_job = |name| {
-        let job = LoadedJob::new(&folder_of(name).join("job.toml")).expect("it loads");
-        let report = Report::from_job(&job, Some(worked(name))).expect("a report");
+        let report = Report::from_job(&loaded(name), Some(worked(name))).expect("a report");
         report_figures(&report).expect("drawn")
     };
     let jobs = ["box", "building", "garteur", "wing"];

@@ -2,6 +2,7 @@
 
 use crate::common::alter;
 use crate::common::golden::{Numbers, assert_golden};
+use crate::common::jobs::loaded;
 use crate::common::tolerances::MEAN_MISFIT;
 use crate::common::tolerances::{
     JOB_RESULTS, LEAST_COVER, LEAST_PARAMETER_COVERAGE, SINGLE_FIT_FACTOR,
@@ -10,12 +11,10 @@ use crate::evidence::coverage::{Coverage, ENOUGH, Held, coverage_tables};
 use crate::evidence::localization::{localization, localization_tables};
 use crate::evidence::rules::{compare_all, rules_table};
 use crate::ledgers::tables::{COVERED, computed};
-use corfem::job::LoadedJob;
 use corfem::present::render::{WIDTH, csv, markdown, text};
 use corfem::present::table::{Cell, Table};
 use corfem::present::tables::job::{MOST_SUSPECTS, suspects_table};
 use corfem::weighted::gauss_newton::WeightedSettings;
-use std::path::Path;
 
 fn fits(tables: &[Table]) {
     let text = text(tables);
@@ -173,11 +172,7 @@ fn the_structures_on_file_keep_what_is_asked() {
 #[test]
 fn a_job_names_its_suspects() {
     let job = |name: &str| {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("tests/jobs")
-            .join(name)
-            .join("job.toml");
-        let mut prepared = LoadedJob::new(&path).expect("a job");
+        let mut prepared = loaded(name);
         // The test as it would be were the fifth parameter alone wrong: a third of what it is in the model.
         let mut factors = vec![1.0; prepared.source.whole.parameters().len()];
         factors[4] = 0.3;

@@ -3,7 +3,8 @@
 use crate::common::condensed::analyze_condensed;
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::jobs::{
-    Files, STORIES, building, delta_wing, folder_of, rods, torque_box, torque_box_truth, worked,
+    Files, STORIES, building, delta_wing, folder_of, loaded, rods, torque_box, torque_box_truth,
+    worked,
 };
 use crate::common::known::delta_wing::correlation::GROUPS;
 use crate::common::test_files::write_universal;
@@ -54,9 +55,7 @@ fn check_files(name: &str, files: &Files) {
 }
 
 fn finished(name: &str) -> (LoadedJob, &'static JobResult) {
-    let prepared =
-        LoadedJob::new(&folder_of(name).join("job.toml")).unwrap_or_else(|error| panic!("{error}"));
-    let finished = worked(name);
+    let (prepared, finished) = (loaded(name), worked(name));
     let subject = Report::from_job(&prepared, Some(finished)).expect("a subject");
     let mut tables = vec![
         trust_table(&finished.trust),
@@ -84,8 +83,7 @@ fn condensed(
     LoadedJob,
     impl Fn(&LoadedJob, &[f64]) -> Result<ModalModel, Error>,
 ) {
-    let path = folder_of(name).join("job.toml");
-    let prepared = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    let prepared = loaded(name);
     let analyze = |job: &LoadedJob, factors: &[f64]| {
         let whole = &job.source.whole;
         analyze_condensed(whole, factors, &job.sensors, &job.test, None)
@@ -204,8 +202,7 @@ fn negated(value: &str) -> String {
 /// A job's first model is analyzed once: what prepares it keeps it, unless something else is compared then.
 #[test]
 fn the_first_model_is_the_one_that_was_prepared() {
-    let prepared = LoadedJob::new(&folder_of("building").join("job.toml"))
-        .unwrap_or_else(|error| panic!("{error}"));
+    let prepared = loaded("building");
     let first = prepared.analyze(&[1.0; 10]).expect("a model");
     let mut fewer = prepared.clone();
     fewer.analysis_modes = 7;

@@ -1,7 +1,7 @@
 //! Many runs of a job: what is drawn, what a file of samples must be, and what its numbers come to.
 
 use crate::common::costly_config;
-use crate::common::jobs::{Files, STORIES, building, rods};
+use crate::common::jobs::{Files, STORIES, building, folder_of, rods};
 use crate::common::tolerances::STANDARD_ERRORS;
 use crate::readers::job_errors::with;
 use corfem::files::error::FileError;
@@ -394,8 +394,7 @@ fn a_request_to_stop_leaves_no_line() {
 /// None of 200 noisy tests of the building leaves the factors where they began.
 #[test]
 fn no_noisy_test_of_the_building_is_stuck_at_the_start() {
-    let path =
-        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/jobs/building/job.toml");
+    let path = folder_of("building").join("job.toml");
     let study = Study::new(&path, 27, &[Vary::Noise], &[]).expect("a study");
     for sample in 0..200 {
         let (line, error) = study.run(sample, || true).expect("it goes on");

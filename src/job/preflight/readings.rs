@@ -20,7 +20,7 @@ use crate::method::error::Error;
 use crate::method::linear_algebra::solve_lower;
 use crate::method::model::ParameterMatrix;
 use crate::method::modes::ModeSet;
-use nalgebra::{Cholesky, DMatrix, DVector, DVectorView, RowDVector};
+use nalgebra::{Cholesky, DMatrix, DVector, DVectorView, Dyn, RowDVector};
 
 /// Standard deviation of a reading over the largest of its mode.
 const NOISE: f64 = 0.01;
@@ -57,8 +57,8 @@ struct Likelihood {
     shapes: DMatrix<f64>,
     /// $\sigma^2 W^{-1}$ of every mode.
     priors: Vec<DMatrix<f64>>,
-    /// L with $G_i^{-1} = L L^t$ of every mode i, and the column i of $L^{-1}$.
-    ridges: Vec<(DMatrix<f64>, DVector<f64>)>,
+    /// $G_i^{-1} = L L^t$ of every mode i, and the column i of $L^{-1}$.
+    ridges: Vec<(Cholesky<f64, Dyn>, DVector<f64>)>,
     noise: Vec<f64>,
 }
 
@@ -123,11 +123,11 @@ impl Likelihood {
     fn with(&self, shapes: DMatrix<f64>) -> Option<Self> {
         let gram = shapes.tr_mul(&shapes);
         let ridge = |(mode, prior): (usize, &DMatrix<f64>)| {
-            let lower = Cholesky::new(&gram + prior)?.unpack();
+            let ridge = Cholesky::new(&gram + prior)?;
             let mut own = DMatrix::zeros(gram.nrows(), 1);
             own[mode] = 1.0;
-            let own = solve_lower(&lower, own).column(0).into_owned();
-            Some((lower, own))
+            let own = solve_lower(ridge.l_dirty(), own).column(0).into_owned();
+            Some((ridge, own))
         };
         let priors = self.priors.iter().enumerate();
         Some(Self {
@@ -148,9 +148,9 @@ impl Likelihood {
             .collect();
         let [mut costs, mut parts] =
             [(); 2].map(|()| DMatrix::zeros(self.noise.len(), test.ncols()));
-        for (mode, (lower, own)) in self.ridges.iter().enumerate() {
+        for (mode, (ridge, own)) in self.ridges.iter().enumerate() {
             // xᵗ V G Vᵗ x is the square of L⁻¹ Vᵗ x, and q_i its product with the column i of L⁻¹.
-            let halves = solve_lower(lower, products.clone());
+            let halves = solve_lower(ridge.l_dirty(), products.clone());
             for (shape, half) in halves.column_iter().enumerate() {
                 let part = own.dot(&half);
                 let left = (squares[shape] - half.norm_squared()).max(0.0);
@@ -167,10 +167,8 @@ impl Likelihood {
     fn expected(&self, test: &DMatrix<f64>, row: &RowDVector<f64>) -> Vec<f64> {
         let [costs, _] = self.of_shapes(test);
         let of_shape = |(shape, costs): (DVectorView<f64>, DVectorView<f64>)| {
-            let (lower, _) = &self.ridges[costs.imin()];
-            let mut parts = lower.solve_lower_triangular_unchecked(&self.shapes.tr_mul(&shape));
-            lower.tr_solve_lower_triangular_unchecked_mut(&mut parts);
-            (row * parts)[0]
+            let (ridge, _) = &self.ridges[costs.imin()];
+            (row * ridge.solve(&self.shapes.tr_mul(&shape)))[0]
         };
         test.column_iter()
             .zip(costs.column_iter())

@@ -168,9 +168,10 @@ impl Box {
             let share = transposed_product(&own, &product(unit, &own));
             rows(share.len(), share.len(), |i, j| gages[e] * share[i][j])
         };
-        let [moved, of_test] = [&modes, test].map(|modes| product(&transformation, &modes.shapes));
+        let [moved, test_moved] =
+            [&modes, test].map(|modes| product(&transformation, &modes.shapes));
         let of_test = |e: usize| {
-            let (share, squares) = (through(&of_test, e), &test.omega_squared);
+            let (share, squares) = (through(&test_moved, e), &test.omega_squared);
             rows(share.len(), share.len(), |i, j| {
                 share[i][j] / (squares[i] * squares[j]).sqrt()
             })

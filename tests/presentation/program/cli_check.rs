@@ -1,8 +1,8 @@
 //! `corfem check` from outside.
 
+use crate::common::jobs::folder_of;
 use crate::presentation::program::cli::printed;
 use serde_json::Value;
-use std::path::Path;
 
 #[test]
 fn check_says_what_it_finds() {
@@ -26,7 +26,7 @@ fn check_says_what_it_finds() {
 
 #[test]
 fn a_check_of_a_job_ranks_its_parameters() {
-    let job = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/jobs/building/job.toml");
+    let job = folder_of("building").join("job.toml");
     let job = job.to_str().expect("a name");
     let text = printed(&["check", job]);
     let suspects = text.split("Suspects: ").nth(1).expect("the table");

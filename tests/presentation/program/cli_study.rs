@@ -1,5 +1,6 @@
 //! `corfem study` from outside: the same samples whatever the threads, gone on with after any end, and alone.
 
+use crate::common::jobs::folder_of;
 use crate::presentation::program::cli::{corfem, text};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,10 +9,7 @@ use std::process::Output;
 const COUNT: usize = 6;
 
 fn job(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/jobs")
-        .join(name)
-        .join("job.toml")
+    folder_of(name).join("job.toml")
 }
 
 fn words(path: &Path) -> &str {
