@@ -10,7 +10,6 @@ use super::tables::cases::{outcome, published_iterations};
 use super::tables::deck::{not_read, unit_shapes};
 use crate::files::deck::Unread;
 use crate::files::test_data::DIRECTIONS;
-use crate::job::preflight::Finding;
 use crate::job::{Trust, hardly_held};
 use crate::method::inner_loop::Iteration;
 use crate::method::model::{Bounds, ExactResult};
@@ -279,13 +278,6 @@ fn case(result: &CaseResult) -> Result<Value, PresentError> {
         "next_step": result.next_step,
         "gage_errors": result.gage_errors(),
     }))
-}
-
-/// What the pre-flight finds in structures; places count from zero.
-pub fn preflight(found: &[(String, Vec<Finding>)]) -> Result<String, PresentError> {
-    let structure =
-        |(name, findings): &(String, Vec<Finding>)| json!({ "name": name, "findings": findings });
-    document(json!({ "structures": found.iter().map(structure).collect::<Value>() }))
 }
 
 /// The lowest `count` modes of a deck or of matrices, every shape scaled to a largest component of one; components in the order of

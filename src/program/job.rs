@@ -1,4 +1,4 @@
-//! `corfem correlate`, `corfem check JOB` and `corfem init`: the user's own structure.
+//! `corfem correlate`, `corfem check` and `corfem init`: the user's own structure.
 
 use super::example::Example;
 use super::folder::write_files;
@@ -63,11 +63,11 @@ pub struct CorrelateArguments {
 
 #[derive(Debug, Args)]
 pub struct CheckArguments {
-    /// The job
+    /// The job: corfem init explains its entries
     #[arg(value_name = "JOB")]
-    job: Option<PathBuf>,
+    job: PathBuf,
     /// Answer for the doubt of this identifier, which then no longer makes the status 3; may be repeated
-    #[arg(long, value_name = "IDENTIFIER", requires = "job")]
+    #[arg(long, value_name = "IDENTIFIER")]
     accept: Vec<String>,
     #[command(flatten)]
     output: OutputArguments,
@@ -108,11 +108,8 @@ pub fn check_job(
     }: &CheckArguments,
     quiet: bool,
 ) -> Result<bool, PresentError> {
-    let Some(path) = job else {
-        return super::studies::check(output).map(|()| true);
-    };
     let (trust, tables) = progress::during(quiet, "looking at the job", || {
-        let mut loaded = LoadedJob::new(path)?;
+        let mut loaded = LoadedJob::new(job)?;
         loaded.accepted.clone_from(accept);
         let trust = Trust::before(&loaded)?;
         let report = Report {

@@ -16,7 +16,7 @@ mod studies;
 mod study;
 
 use cases::CasesArguments;
-use clap::error::ErrorKind;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use corfem::files::error::FileError;
 use corfem::present::PresentError;
@@ -78,7 +78,7 @@ enum Command {
     Study(StudyArguments),
     /// Write a job file or the table of a test that explains its entries, or a whole example that runs
     Init(InitArguments),
-    /// Look at a job before the first step; without one, at the paper's cases
+    /// Look at a job before the first step
     Check(CheckArguments),
     /// Write the figures of the cases and of fewer modes as SVG
     Figures(FiguresArguments),
@@ -98,7 +98,14 @@ pub fn run() -> ExitCode {
     let parsed = matches.and_then(|matches| Ok((Arguments::from_arg_matches(&matches)?, matches)));
     let (Arguments { command, quiet }, matches) = match parsed {
         Ok(parsed) => parsed,
-        Err(error) if error.use_stderr() => {
+        Err(mut error) if error.use_stderr() => {
+            if error.kind() == ErrorKind::MissingRequiredArgument
+                && error.to_string().contains("<JOB>")
+            {
+                let remedy = "corfem init job.toml writes a job that explains its entries";
+                let tips = ContextValue::StyledStrs(vec![remedy.into()]);
+                error.insert(ContextKind::Suggested, tips);
+            }
             let _ = error.print();
             return ExitCode::from(BAD_INPUT);
         }

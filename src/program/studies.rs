@@ -1,13 +1,12 @@
-//! `corfem tables`, `fewer-modes`, and `check` of the paper's cases.
+//! `corfem tables` and `fewer-modes`.
 
 use super::output::OutputArguments;
 use super::progress::during;
 use super::settings::SettingsArguments;
 use clap::Args;
-use corfem::job::preflight::preflight_of;
 use corfem::present::{PresentError, json, tables};
+use corfem::torque_box::Case;
 use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, all_runs, published_runs};
-use corfem::torque_box::{CASES, Case};
 use serde_json::json;
 
 #[derive(Debug, Args)]
@@ -59,20 +58,4 @@ pub fn fewer_modes(
     let mut tables = tables::fewer_modes::published_tables(&case, &published)?;
     tables.extend(tables::fewer_modes::truncation_tables(&all));
     output.write(&tables, || json::document(json!({ "runs": all })))
-}
-
-/// Looks at the paper's cases before the first step, and writes what is found.
-pub fn check(output: &OutputArguments) -> Result<(), PresentError> {
-    let mut found = Vec::new();
-    for number in CASES {
-        let case = Case::new(number)?;
-        let test = case.test_modes()?;
-        found.push((
-            format!("Case {number}"),
-            preflight_of(&case.model()?, &test, &case.settings)?,
-        ));
-    }
-    output.write(&[tables::preflight::findings_table(&found)], || {
-        json::preflight(&found)
-    })
 }

@@ -236,19 +236,14 @@ pub const MOST_FALSE_OF_THIRTY: usize = 1;
 pub const LEAST_REVERSED_OF_THIRTY: usize = 28;
 /// The same for other single mistakes in the readings.
 pub const LEAST_OF_THIRTY: usize = 27;
-/// Least detections of a mistake in a hundred seeds: frequencies of close modes are missed with up to five.
+/// Least tests of a hundred in which a panel that is too thin is the first suspect.
 pub const LEAST_DETECTIONS: usize = 95;
-/// The same for two columns of T named before two sensors: 61 on a chain whose masses are nearly alike.
-pub const LEAST_COLUMNS: usize = 50;
 /// Least boxes of a hundred, unlike the reconstructed one, on which Case 4 names its faulty element: 67 to 73 when first counted.
 pub const LEAST_DETECTED_BOXES: usize = 65;
 /// Least jobs of thirty whose first suspect is the one parameter that is a hundred times too thin: four of five.
 pub const LEAST_FIRST_SUSPECTS: usize = 24;
 /// The same of ten jobs.
 pub const LEAST_FIRST_SUSPECTS_OF_TEN: usize = 8;
-/// Most seeds of a hundred in which 1 % of noise makes a pair of the box low: six, all of the mode that moves a light point
-/// alone, whose errors at heavy ones count most.
-pub const MOST_LOW_PAIRS: usize = 10;
 /// Smallest singular value of dependent shapes: the root of an eigenvalue that is zero to `MATRIX_ROUND_OFF`.
 pub const DEPENDENT_SHAPES: f64 = 1e-5;
 /// How far the median ratio of frequencies of the first models is from one: 17 % in Case 2.

@@ -1,13 +1,11 @@
-//! Structures before their correlation.
+//! Structures before their correlation, whose tests measure at every dynamic DOF.
 
-use crate::common::known::Known;
-use crate::common::known::delta_wing::correlation;
-use corfem::job::preflight::{Finding, preflight};
+use crate::common::known::delta_wing::{DeltaWing, correlation};
+use corfem::job::preflight::{Finding, SeenModes, preflight_at_sensors};
 use corfem::method::error::Error;
-use corfem::method::model::{Bounds, DynamicModel};
-use corfem::method::modes::ModeSet;
+use corfem::method::model::{Bounds, DynamicModel, FiniteElementModel, ParameterMatrix};
+use corfem::method::modes::{ModeSet, solve};
 use corfem::method::outer_loop::Settings;
-use corfem::sparse::LargeModel;
 use corfem::torque_box::Case;
 use corfem::torque_box::error::CaseError;
 
@@ -33,12 +31,8 @@ impl Specimen {
     /// Those of its model.
     pub fn of_case(case: &Case) -> Result<Self, CaseError> {
         let (model, test) = (case.model()?, case.test_modes()?.into());
-        Self::of(
-            &format!("Case {}", case.number),
-            &LargeModel::of(&model)?,
-            test,
-            case.settings.clone(),
-        )
+        let name = format!("Case {}", case.number);
+        Ok(Self::of(&name, &model, test, case.settings.clone())?)
     }
 
     /// The delta wing with its wrong gages, and ten modes at 19 points.
@@ -46,18 +40,25 @@ impl Specimen {
     /// # Errors
     /// Those of the wing and of its model.
     pub fn delta_wing() -> Result<Self, CaseError> {
-        let Known {
-            name, model, test, ..
-        } = Known::delta_wing()?;
-        Self::of(&name, &model, test, correlation::settings())
+        let wing = DeltaWing::embedded();
+        let (model, test) = (
+            correlation::first_model(&wing)?,
+            correlation::test_modes(&wing)?,
+        );
+        Ok(Self::of(
+            "Delta wing",
+            &model,
+            test,
+            correlation::settings(),
+        )?)
     }
 
     fn of(
         name: &str,
-        model: &LargeModel,
+        model: &FiniteElementModel,
         test: ModeSet,
         settings: Settings,
-    ) -> Result<Self, CaseError> {
+    ) -> Result<Self, Error> {
         let (name, ranges) = (name.to_owned(), model.factor_ranges()?);
         let model = model.matrices(&vec![1.0; ranges.len()])?;
         Ok(Self {
@@ -69,11 +70,29 @@ impl Specimen {
         })
     }
 
-    /// What the pre-flight finds beside a test.
+    /// What a job's pre-flight finds with a sensor at every dynamic DOF.
     ///
     /// # Errors
-    /// Those of [`preflight`].
-    pub fn findings(&self, test: &ModeSet) -> Result<Vec<Finding>, Error> {
-        preflight(&self.model, test, &self.settings, &self.ranges)
+    /// Those of [`solve`] and [`preflight_at_sensors`].
+    pub fn findings(&self) -> Result<Vec<Finding>, Error> {
+        let DynamicModel {
+            stiffness,
+            mass,
+            shares,
+        } = &self.model;
+        let modes: ModeSet = solve(stiffness, mass, mass.nrows())?.into();
+        let shapes = modes.shapes();
+        let seen_share = |share: &ParameterMatrix| match share {
+            ParameterMatrix::Stiffness(share) => {
+                ParameterMatrix::Stiffness(shapes.tr_mul(&(share * shapes)))
+            }
+            ParameterMatrix::Mass(share) => ParameterMatrix::Mass(shapes.tr_mul(&(share * shapes))),
+        };
+        let seen = SeenModes {
+            shares: shares.iter().map(seen_share).collect(),
+            directions: Vec::new(),
+            modes,
+        };
+        preflight_at_sensors(&seen, &self.test, &self.settings, &self.ranges)
     }
 }

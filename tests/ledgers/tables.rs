@@ -640,8 +640,8 @@ fn step() -> [(&'static str, String); 4] {
     ]
 }
 
-/// The tables of `paper/noise.md`, `preflight.md`, `localization.md` and `weighted.md`.
-fn noise() -> [(&'static str, String); 7] {
+/// The tables of `paper/noise.md`, `localization.md` and `weighted.md`.
+fn noise() -> [(&'static str, String); 6] {
     let noise = [
         (
             "gage RMS, no noise, %",
@@ -674,24 +674,6 @@ fn noise() -> [(&'static str, String); 7] {
             ("noisy_course", "median", "iterations", 0),
         ),
     ];
-    let named = [
-        alike("common factor of the frequencies"),
-        alike("one sensor reversed"),
-        alike("two sensors exchanged"),
-        alike("points in another order"),
-        alike("two columns of T exchanged"),
-        ("the same, named first or next", ""),
-        alike("columns of T in another order"),
-        alike("shapes transposed"),
-        alike("two frequencies exchanged"),
-        alike("a mode measured twice"),
-        alike("fewer points than modes"),
-        ("no mistake: false alarms", "none: false alarms"),
-        (
-            "no mistake: a low pair by noise",
-            "none: a low pair by noise",
-        ),
-    ];
     let panels = (1..=15).map(|panel| (format!("panel {panel}"), (panel.to_string(), "first")));
     let all = [
         ("all 1500 tests", "first"),
@@ -708,26 +690,6 @@ fn noise() -> [(&'static str, String); 7] {
                 |(of, row, what, decimals)| {
                     ["Raw", "Orthogonal", "Screened"]
                         .map(|modes| computed(of, row, &format!("{modes} {what}"), decimals))
-                        .to_vec()
-                },
-            ),
-        ),
-        (
-            "preflight",
-            table(
-                "named, of 100 | Case 2 | Case 3 | Delta wing | Spring chain",
-                named,
-                |mistake| {
-                    let cell = |structure| match (mistake, structure) {
-                        ("", _) => {
-                            computed("preflight_told", "two columns of T exchanged", structure, 0)
-                        }
-                        // Ten modes at 19 points cannot be transposed.
-                        ("shapes transposed", "Delta wing") => "none".to_owned(),
-                        _ => computed("preflight_named", mistake, structure, 0),
-                    };
-                    ["Case 2", "Case 3", "Delta wing", "Spring chain"]
-                        .map(cell)
                         .to_vec()
                 },
             ),

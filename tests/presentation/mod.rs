@@ -19,7 +19,6 @@ pub mod matrix_tables;
 pub mod noisy_tables;
 pub mod page;
 pub mod play;
-pub mod preflight_tables;
 pub mod program;
 pub mod published_tables;
 pub mod render;

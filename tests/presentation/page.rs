@@ -225,18 +225,6 @@ fn page_says_what_made_it_what_was_assumed_and_how_well_the_box_fits() {
         !html.contains("<h3>Where the results differ"),
         "its title is the section's"
     );
-    // What looks wrong before the first step, of every case.
-    let preflight = html
-        .split("<table id=\"preflight_findings\">")
-        .nth(1)
-        .expect("the table");
-    let rows = preflight.split("</table>").next().expect("its end");
-    for case in 1..=4 {
-        assert!(
-            rows.contains(&format!("<th scope=\"row\">Case {case}")),
-            "{rows}"
-        );
-    }
 }
 
 #[test]

@@ -77,7 +77,6 @@ pub mod s5_metrics;
 pub mod s5_misfit;
 pub mod s5_preflight;
 pub mod s5_preflight_modes;
-pub mod s5_preflight_orders;
 pub mod s5_weighted;
 pub mod s5_weighted_components;
 pub mod s5_weighted_coverage;

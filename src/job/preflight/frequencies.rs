@@ -1,6 +1,5 @@
 //! Frequencies that are all wrong by one factor, or that belong to other shapes.
 
-use serde::Serialize;
 use std::f64::consts::TAU;
 
 /// How far the median ratio may be from a named factor: a first model is up to 30 % wrong.
@@ -15,7 +14,7 @@ const LEAST_GAIN: f64 = 0.05;
 const LEAST_SHARE: f64 = 0.3;
 
 /// A factor between frequencies of test and model, and the mistake that makes it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NamedFactor {
     /// Test over model.
     pub factor: f64,
@@ -77,7 +76,7 @@ pub const FACTORS: [NamedFactor; 10] = [
 ];
 
 /// One factor between all frequencies.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CommonFactor {
     /// Median of $f_G/f_F$ of the pairs.
     pub median: f64,
@@ -124,7 +123,7 @@ pub(super) fn common_factor(test: &[f64], analysis: &[f64]) -> Option<CommonFact
 }
 
 /// Two frequencies that would fit better if they were exchanged.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrequenciesExchanged {
     /// The test modes, from zero.
     pub modes: [usize; 2],

@@ -1,12 +1,11 @@
 //! A finding as a sentence; places count from one.
 
 use super::frequencies::{CommonFactor, FrequenciesExchanged, NamedFactor};
-use super::shapes::{Change, Mended};
+use super::shapes::Change;
 use super::{Finding, SAME_FREQUENCY};
 use crate::files::test_data::DIRECTIONS;
 use crate::job::Concern;
 use crate::method::model::Bounds;
-use std::fmt::{Display, Formatter, Result};
 
 /// Places from one: the first and the last of them when none is missing between.
 fn list(places: &[usize]) -> String {
@@ -58,8 +57,6 @@ impl Change {
             Self::Reversed(place) => format!("sensor {} reversed", sensor(place)),
             Self::Exchanged([a, b]) => format!("sensors {} and {} exchanged", sensor(a), sensor(b)),
             Self::Reordered(order) => format!("points in another order ({})", list(order)),
-            Self::Transposed => "shapes transposed".to_owned(),
-            Self::Columns(order) => format!("columns of T in another order ({})", list(order)),
             Self::Gain(place, gain) => {
                 format!("sensor {} reads {gain:.3} times too much", sensor(place))
             }
@@ -84,8 +81,6 @@ impl Change {
             Self::Reversed(place) => format!("reversed-{}", sensor(place)),
             Self::Exchanged([a, b]) => format!("exchanged-{}-{}", sensor(a), sensor(b)),
             Self::Reordered(_) => "reordered".to_owned(),
-            Self::Transposed => "transposed".to_owned(),
-            Self::Columns(_) => "columns".to_owned(),
             Self::Gain(place, _) => format!("gain-{}", sensor(place)),
             Self::Dead(place) => format!("dead-{}", sensor(place)),
             Self::Direction(place, _) => format!("direction-{}", sensor(place)),
@@ -99,9 +94,7 @@ impl Finding {
         let words = self.words(names);
         let identifier = match self {
             Self::CommonFactor(_) => "common-factor".to_owned(),
-            Self::Mended(Mended { change, .. }) | Self::Suspected { change, .. } => {
-                change.identifier(names)
-            }
+            Self::Suspected { change, .. } => change.identifier(names),
             Self::FrequenciesExchanged(FrequenciesExchanged { modes: [a, b], .. }) => {
                 format!(
                     "frequencies-exchanged-{}-{}",
@@ -121,7 +114,6 @@ impl Finding {
                 }
                 identifier
             }
-            Self::LowPair { test, .. } => format!("low-pair-{}", test + 1),
             Self::TooManyModes { .. } => return Concern::remark("too-many-modes", words),
             Self::Percent { setting, .. } => format!("percent-{setting}"),
             Self::ExcludesStart { parameter, .. } => {
@@ -141,21 +133,6 @@ impl Finding {
                     |NamedFactor { name, mistake, .. }| format!("near {name}: {mistake}?"),
                 );
                 format!("Test frequencies are {median:.4} times the model's, {mistake}")
-            }
-            Self::Mended(Mended {
-                change,
-                before,
-                after,
-                next,
-            }) => {
-                let question = change.question(names);
-                let next = next.iter().map(|(next, agreement)| {
-                    format!("; the next best, {}, to {agreement:.3}", next.words(names))
-                });
-                let next: String = next.collect();
-                format!(
-                    "{question} It would raise the mean cross-orthogonality from {before:.3} to {after:.3}{next}."
-                )
             }
             Self::Suspected { change, evidence } => {
                 let question = change.question(names);
@@ -190,16 +167,6 @@ impl Finding {
                     "Test modes {a} and {b} are nearly the same shape, modal assurance {assurance:.3}{end}"
                 )
             }
-            Self::LowPair {
-                test,
-                analysis,
-                cross,
-            } => {
-                let (a, b) = (test + 1, analysis + 1);
-                format!(
-                    "Test mode {a} and analysis mode {b} have a cross-orthogonality of {cross:.3} only."
-                )
-            }
             Self::TooManyModes {
                 modes,
                 points,
@@ -228,17 +195,5 @@ impl Finding {
                 format!("Parameters without bounds: {}.", list(parameters))
             }
         }
-    }
-}
-
-impl Display for Change {
-    fn fmt(&self, f: &mut Formatter) -> Result {
-        f.write_str(&self.words(&FindingNames::default()))
-    }
-}
-
-impl Display for Finding {
-    fn fmt(&self, f: &mut Formatter) -> Result {
-        f.write_str(&self.words(&FindingNames::default()))
     }
 }

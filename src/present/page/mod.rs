@@ -13,8 +13,7 @@ use super::table::{Cell, Table};
 use super::tables::cases::{iteration_table, outcome_table, settings_table, summary, tables_of};
 use super::tables::job::trust_table;
 use super::tables::report::{derivative_table, factor_table, history_table, paired_table};
-use super::tables::{fewer_modes, paper_tables, preflight};
-use crate::job::preflight::preflight_of;
+use super::tables::{fewer_modes, paper_tables};
 use crate::present::PresentError;
 use crate::torque_box::fewer_modes::{FewerModesRun, PUBLISHED_CASE, PUBLISHED_RUNS};
 use crate::torque_box::{Case, CaseResult};
@@ -63,15 +62,7 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
         figures: &left,
         ..*contents
     };
-    parts.extend([
-        named("box", "The box", "The box", box_section(contents)),
-        named(
-            "preflight",
-            "Pre-flight",
-            "Before the first step",
-            preflight_section(contents)?,
-        ),
-    ]);
+    parts.push(named("box", "The box", "The box", box_section(contents)));
     for result in contents.results {
         let number = result.case.number;
         let body = part(
@@ -290,23 +281,6 @@ fn box_section(contents: &Contents) -> String {
          {assumed}",
         part(&[], contents.figures, &["box_", "cover_"]),
     )
-}
-
-/// The findings of the pre-flight for the cases.
-fn preflight_section(contents: &Contents) -> Result<String, PresentError> {
-    let found = |result: &CaseResult| {
-        let case = &result.case;
-        Ok((
-            format!("Case {}", case.number),
-            preflight_of(&case.model()?, &result.test, &case.settings)?,
-        ))
-    };
-    let found = contents
-        .results
-        .iter()
-        .map(found)
-        .collect::<Result<Vec<_>, PresentError>>()?;
-    Ok(table(&preflight::findings_table(&found)))
 }
 
 /// Tables 9 to 12, and the figure of the cost of truncation, which has its numbers.

@@ -4,7 +4,6 @@ pub mod cases;
 pub mod deck;
 pub mod fewer_modes;
 pub mod job;
-pub mod preflight;
 pub mod published;
 pub mod stages;
 pub mod report;

@@ -11,6 +11,5 @@ pub mod matrix_comparison;
 pub mod matrix_comparison_elements;
 pub mod matrix_correction;
 pub mod noisy_modes;
-pub mod preflight_rates;
 pub mod preflight_readings;
 pub mod published_counts;

@@ -1,27 +1,18 @@
 //! `corfem check` from outside.
 
 use crate::common::jobs::folder_of;
-use crate::presentation::program::cli::printed;
+use crate::presentation::program::cli::{corfem, printed};
 use serde_json::Value;
 
 #[test]
-fn check_says_what_it_finds() {
-    let corfem = |format: &str| printed(&["check", "--format", format]);
-    let report = corfem("text");
-    let words = report.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(report.starts_with("Before the first step"), "{report:.200}");
+fn a_check_without_a_job_is_refused_and_the_remedy_named() {
+    let refused = corfem(&["check"]);
+    assert_eq!(refused.status.code(), Some(2));
+    let words = String::from_utf8_lossy(&refused.stderr);
     assert!(
-        words.contains("Test mode 7 and analysis mode 6 have a cross-orthogonality of 0.667 only.")
+        words.contains("<JOB>") && words.contains("corfem init job.toml writes a job"),
+        "{words}"
     );
-    let json: Value = serde_json::from_str(&corfem("json")).expect("JSON");
-    let structures = json["structures"].as_array().expect("a list");
-    let names: Vec<&str> = structures
-        .iter()
-        .map(|found| found["name"].as_str().expect("a name"))
-        .collect();
-    assert_eq!(names, ["Case 1", "Case 2", "Case 3", "Case 4"]);
-    assert_eq!(structures[2]["findings"], Value::Array(Vec::new()));
-    assert_eq!(structures[3]["findings"][1]["low_pair"]["test"], 6);
 }
 
 #[test]
