@@ -2,7 +2,7 @@
 
 use crate::evidence::claims::published_counts::COUNTED;
 use crate::evidence::published_counts::{Counted, RULES, Rule};
-use corfem::present::figures::diagram::{Diagram, Series, SeriesMark};
+use crate::ledgers::diagram::{Diagram, Series, SeriesMark};
 
 /// Differences of gages, and error sums.
 pub fn counted_figures() -> [(&'static str, Diagram); 2] {

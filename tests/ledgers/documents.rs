@@ -7,9 +7,9 @@
 
 use crate::common::golden::Numbers;
 use crate::ledgers::counted_figures::counted_figures;
+use crate::ledgers::diagram::Diagram;
 use crate::ledgers::tour_figures::{figures, pictures};
 use crate::ledgers::{files_below, specification, tables};
-use corfem::present::figures::diagram::Diagram;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;

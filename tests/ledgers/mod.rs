@@ -5,6 +5,7 @@ pub mod alternative;
 pub mod claims;
 pub mod costs;
 pub mod counted_figures;
+pub mod diagram;
 pub mod documents;
 pub mod equations;
 pub mod errata;

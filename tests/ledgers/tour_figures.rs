@@ -1,5 +1,6 @@
 //! The figures of the tour, by the number of their chapter: what is drawn is computed here. Those of the box stand beside.
 
+use crate::ledgers::diagram::{Diagram, Series, SeriesMark};
 use crate::ledgers::tour_figures_box::{bounds, demands, deviations, gages, history, orders};
 use corfem::chain::spring_stiffness;
 use corfem::method::derivatives::{DerivativeRule, error_changes};
@@ -10,7 +11,6 @@ use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::state::{ModalState, UpdateRule};
 use corfem::method::step::{StepRule, stiffness_changes, unlimited_factors};
 use corfem::present::figures::case_figures;
-use corfem::present::figures::diagram::{Diagram, Series, SeriesMark};
 use corfem::torque_box::table_1::TwoMasses;
 use corfem::torque_box::{Case, run_case};
 use nalgebra::DMatrix;

@@ -1,12 +1,12 @@
 //! The figures of the tour that show the paper's box.
 
 use crate::common::measured::equal_weights;
+use crate::ledgers::diagram::{Diagram, Series, SeriesMark};
 use corfem::method::appendix_c::general::{ModalChange, recursive_2};
 use corfem::method::appendix_c::{Perturbed, eigensolution, recursive_1};
 use corfem::method::error_sum::Errors;
 use corfem::method::model::ModalModel;
 use corfem::method::modes::solve;
-use corfem::present::figures::diagram::{Diagram, Series, SeriesMark};
 use corfem::torque_box::published::PublishedTable;
 use corfem::torque_box::wing_box::TEST_GAGE;
 use corfem::torque_box::{Case, run_case};

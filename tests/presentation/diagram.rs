@@ -2,7 +2,7 @@
 
 use crate::common::drawings::{attribute, words};
 use crate::common::tolerances::DRAWN_UNIT;
-use corfem::present::figures::diagram::{Diagram, Series, SeriesMark};
+use crate::ledgers::diagram::{Diagram, Series, SeriesMark};
 
 fn drawn(y: (f64, f64), is_logarithmic: bool, series: Vec<Series>) -> String {
     let diagram = Diagram {

@@ -262,3 +262,13 @@ fn nearness((element, corners): &CornersOf) -> f64 {
             0.0
         }
 }
+
+/// Thin is blue and thick is orange; half or one and a half times the test gage have the full color.
+pub(super) fn shade(gage: f64) -> RGBColor {
+    let excess = (2.0 * (gage / TEST_GAGE - 1.0)).clamp(-1.0, 1.0);
+    between(
+        WHITE,
+        if excess < 0.0 { SKY } else { ORANGE },
+        0.85 * excess.abs(),
+    )
+}

@@ -5,9 +5,11 @@
 
 pub(super) use super::chart::{axes, chart, placed};
 pub(super) use super::colors::{
-    BLUE, GRAY, INK, ORANGE, PALE, SILVER, SKY, VERMILION, between, legible_on, shade,
+    BLUE, GRAY, INK, ORANGE, PALE, SILVER, SKY, VERMILION, between, legible_on,
 };
-pub(super) use crate::present::PresentError;
+// Through the module above, for the tests draw the documents' diagrams on this canvas.
+pub(super) use super::PresentError;
+use super::escaped;
 use plotters::coord::Shift;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
@@ -163,7 +165,7 @@ pub(super) fn svg(
     }
     let body = drawn.split_once('\n').map_or("", |(_, body)| body);
     let title = title.replace('&', "&amp;").replace('<', "&lt;");
-    Ok(crate::files::escaped(&format!(
+    Ok(escaped(&format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {across} \
         {down}\" role=\"img\">\n<title>{title}</title>\n{body}"
     )))
@@ -242,13 +244,7 @@ pub(super) fn marked(area: &Area, at: Place, form: Mark, words: &str) -> Drawn {
 pub(super) struct Named<'a>(pub Place, pub &'a str, pub Option<Pen>, pub Option<Mark>);
 
 /// From the end of a line to its name, px.
-const KEY: f64 = 32.0;
-
-/// Room for names behind the ends of their lines, px.
-pub(super) fn name_margin(names: &[Named]) -> f64 {
-    let longest = names.iter().map(|named| named.1.chars().count()).max();
-    KEY + 7.8 * longest.unwrap_or(0) as f64
-}
+pub(super) const KEY: f64 = 32.0;
 
 /// Names behind the ends of their lines, pushed apart where two would meet.
 pub(super) fn name_ends(area: &Area, mut ends: Vec<Named>) -> Drawn {

@@ -1,6 +1,5 @@
 //! Colors, and what can be read on them.
 
-use crate::torque_box::wing_box::TEST_GAGE;
 use plotters::style::{BLACK, RGBColor, WHITE};
 
 // The colors of Okabe and Ito, which people with any common color blindness tell apart. Figures never rely on color
@@ -44,15 +43,5 @@ pub(super) fn between(one: RGBColor, other: RGBColor, share: f64) -> RGBColor {
         mix(one.0, other.0),
         mix(one.1, other.1),
         mix(one.2, other.2),
-    )
-}
-
-/// Thin is blue and thick is orange; half or one and a half times the test gage have the full color.
-pub(super) fn shade(gage: f64) -> RGBColor {
-    let excess = (2.0 * (gage / TEST_GAGE - 1.0)).clamp(-1.0, 1.0);
-    between(
-        WHITE,
-        if excess < 0.0 { SKY } else { ORANGE },
-        0.85 * excess.abs(),
     )
 }

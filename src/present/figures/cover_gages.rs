@@ -1,6 +1,6 @@
 //! Gages of the covers in the test configuration and at each case's start (Figure 4).
 
-use super::box_elements::{Layer, center};
+use super::box_elements::{Layer, center, shade};
 use super::canvas::*;
 use super::view::View;
 use crate::present::tables::kind_letter;

@@ -10,7 +10,6 @@ mod colors;
 pub mod cases;
 pub mod comparisons;
 pub mod cover_gages;
-pub mod diagram;
 pub mod error_history;
 pub mod factors;
 pub mod matrices;
@@ -25,6 +24,9 @@ pub(in crate::present) use cases::SHOWN;
 pub use cases::case_figures;
 pub use comparisons::comparison_figures;
 pub use report::report_figures;
+
+use crate::files::escaped;
+use crate::present::PresentError;
 
 /// A figure, drawn.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,11 +1,25 @@
-//! Diagrams: a few series over two axes.
+//! Diagrams of documents: a few series over two axes, drawn as the report's figures are.
 
-use super::canvas::{
-    Area, BLUE, Dash, Drawn, Form, GRAY, INK, Mark, Named, ORANGE, Pen, PresentError, SKY,
-    VERMILION, axes, chart, line, mark, name_ends, name_margin, name_upright, placed, rectangle,
-    svg,
+#[path = "../../src/present/figures/canvas.rs"]
+#[allow(
+    dead_code,
+    unused_imports,
+    reason = "the report's figures use the rest"
+)]
+mod canvas;
+#[path = "../../src/present/figures/chart.rs"]
+mod chart;
+#[path = "../../src/present/figures/colors.rs"]
+#[allow(dead_code, reason = "the report's figures use the rest")]
+mod colors;
+
+use canvas::{
+    Area, BLUE, Dash, Drawn, Form, GRAY, INK, KEY, Mark, Named, ORANGE, Pen, SKY, VERMILION, axes,
+    chart, line, mark, name_ends, name_upright, placed, rectangle, svg,
 };
-use super::chart::Chart;
+use chart::Chart;
+use corfem::files::escaped;
+use corfem::present::PresentError;
 use plotters::coord::ranged1d::ValueFormatter;
 use plotters::prelude::*;
 
@@ -201,6 +215,12 @@ impl Diagram {
             Pen::solid(INK, 1.0),
         )
     }
+}
+
+/// Room for names behind the ends of their lines, px.
+fn name_margin(names: &[Named]) -> f64 {
+    let longest = names.iter().map(|named| named.1.chars().count()).max();
+    KEY + 7.8 * longest.unwrap_or(0) as f64
 }
 
 /// A negative number as an exponent.
