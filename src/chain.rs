@@ -1,25 +1,8 @@
-//! Chains of point masses and springs: the smallest structures, for examples and for learning.
+//! Chains of springs: the smallest structures, for examples and for learning.
 
 use crate::method::error::Error;
 use crate::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use nalgebra::{DMatrix, DVector, Vector3};
-
-/// Stiffness of spring $s$ of a chain of `mass_count` masses, lbf/in (d × d): spring 0 holds mass 0 to the ground,
-/// spring $s$ joins masses $s-1$ and $s$, and spring d, if there is one, holds the last mass to the ground.
-///
-/// $$ K_s = k_s b b^t, \qquad b = e_s - e_{s-1}, $$
-///
-/// without the unit vector of a mass that does not exist. Any other spring touches no mass and gives zero.
-pub fn spring_stiffness(mass_count: usize, spring: usize, stiffness: f64) -> DMatrix<f64> {
-    let mut ends = DVector::zeros(mass_count);
-    if spring < mass_count {
-        ends[spring] = 1.0;
-    }
-    if (1..=mass_count).contains(&spring) {
-        ends[spring - 1] = -1.0;
-    }
-    stiffness * &ends * ends.transpose()
-}
+use nalgebra::Vector3;
 
 /// A chain as a structure: springs (lbf/in) in a row along x between grids 1, 2, …, which are free along x alone. `held` says which
 /// of the two ends are fixed.

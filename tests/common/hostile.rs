@@ -1,7 +1,7 @@
 //! Matrices, modes and models that nobody means: of any size, of extreme numbers, of what is no number.
 
 use super::draws::Draws;
-use corfem::chain::spring_stiffness;
+use crate::common::structures::spring_stiffness;
 use corfem::method::appendix_c::general::ModalChange;
 use corfem::method::assembly::{ElementMatrix, element_matrices};
 use corfem::method::error::Error;

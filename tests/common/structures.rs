@@ -33,6 +33,19 @@ pub fn rod(label: usize, ends: [usize; 2], area: f64) -> Element {
     }
 }
 
+/// Stiffness of spring s of a chain of `mass_count` masses, lbf/in (d × d): spring 0 holds mass 0 to the ground, spring s joins
+/// masses s - 1 and s, and spring d, if there is one, holds the last mass to the ground. Any other spring touches no mass.
+pub fn spring_stiffness(mass_count: usize, spring: usize, stiffness: f64) -> DMatrix<f64> {
+    let mut ends = DVector::zeros(mass_count);
+    if spring < mass_count {
+        ends[spring] = 1.0;
+    }
+    if (1..=mass_count).contains(&spring) {
+        ends[spring - 1] = -1.0;
+    }
+    stiffness * &ends * ends.transpose()
+}
+
 /// Springs in a row along x between grids 1, 2, …, free along x alone; `constrained` says which ends are fixed.
 pub fn spring_chain(springs: &[f64], constrained: [bool; 2]) -> Structure {
     rods(springs, constrained).expect("a chain")

@@ -3,7 +3,7 @@
 
 use super::pairings::pairs_by_sorting;
 use super::strategies::positive_definite;
-use corfem::chain::spring_stiffness;
+use crate::common::structures::spring_stiffness;
 use corfem::method::model::{DynamicModel, ParameterMatrix};
 use corfem::method::modes::{ModeSet, Modes};
 use nalgebra::{DMatrix, DVector};

@@ -1,7 +1,7 @@
 //! How often mistakes in a test's readings are named on structures unlike the box: a chain, a symmetric ring and net with repeated
 //! modes, a chain with light oscillators, and a truss whose points move in two directions.
 
-use corfem::chain::spring_stiffness;
+use crate::common::structures::spring_stiffness;
 use corfem::job::preflight::{Change, Finding, SeenModes, preflight_at_sensors};
 use corfem::method::model::ParameterMatrix;
 use corfem::method::modes::{ModeSet, solve};

@@ -1,8 +1,8 @@
 //! The figures of the tour, by the number of their chapter: what is drawn is computed here. Those of the box stand beside.
 
+use crate::common::structures::spring_stiffness;
 use crate::ledgers::diagram::{Diagram, Series, SeriesMark};
 use crate::ledgers::tour_figures_box::{bounds, demands, deviations, gages, history, orders};
-use corfem::chain::spring_stiffness;
 use corfem::method::derivatives::{DerivativeRule, error_changes};
 use corfem::method::error_sum::{ErrorMeasure, Errors};
 use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};

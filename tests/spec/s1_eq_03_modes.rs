@@ -2,9 +2,9 @@
 
 use crate::common::closed_forms::uniform_chain::uniform_held_modes;
 use crate::common::strategies::positive_definite;
+use crate::common::structures::spring_stiffness;
 use crate::common::tolerances::{EIGEN_ROUND_OFF, EQUALLY_LARGE, MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::vibrations::{modes_by_nalgebra, pencil};
-use corfem::chain::spring_stiffness;
 use corfem::method::modes::{ModeSet, apply_sign_rule, solve};
 use nalgebra::{DMatrix, dmatrix, dvector};
 use proptest::prelude::*;

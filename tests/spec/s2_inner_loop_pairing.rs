@@ -2,9 +2,9 @@
 //! another change hands while the modes turn.
 
 use crate::common::draws::reached;
+use crate::common::structures::spring_stiffness;
 use crate::common::tolerances::{CONVERGED_STATE, LEAST_REACHED, SECOND_ORDER_CHANGE};
 use crate::common::vibrations::error_sum_by_definition;
-use corfem::chain::spring_stiffness;
 use corfem::method::derivatives::{DERIVATIVE_STEP, by_definition};
 use corfem::method::error_sum::errors;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, run};

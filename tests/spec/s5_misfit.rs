@@ -1,8 +1,8 @@
 //! Chi-squared at the best factors, its degrees of freedom, and what is said of them.
 
 use crate::common::measured::equal_weights;
+use crate::common::structures::spring_stiffness;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
-use corfem::chain::spring_stiffness;
 use corfem::method::error_sum::ModeWeight;
 use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
 use corfem::method::modes::{ModeSet, solve};

@@ -1,9 +1,9 @@
 //! The pre-flight: mistakes made by hand on the box, the delta wing and a spring chain, and what is said of none.
 
 use crate::common::alter;
+use crate::common::structures::spring_stiffness;
 use crate::common::tolerances::{FIRST_FREQUENCY_RATIO, ROUND_OFF};
 use crate::evidence::specimen::Specimen;
-use corfem::chain::spring_stiffness;
 use corfem::job::preflight::{Change, CommonFactor, FACTORS, Finding};
 use corfem::method::model::{DynamicModel, ParameterMatrix};
 use corfem::method::modes::{ModeSet, solve};
