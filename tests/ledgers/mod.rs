@@ -1,5 +1,5 @@
-//! The lists of equations, errata and routes, the rooms, the formulas of the documentation and the numbers in it, held
-//! against the code.
+//! The lists of equations, errata and routes, the rooms and their weight, the formulas and sentences of the documentation and the
+//! numbers in it, held against the code.
 
 pub mod alternative;
 pub mod claims;
@@ -12,6 +12,7 @@ pub mod errata;
 pub mod formulas;
 pub mod library;
 pub mod package;
+pub mod prose;
 pub mod readme;
 pub mod rooms;
 pub mod routes;
@@ -22,6 +23,7 @@ pub mod tour;
 pub mod tour_figures;
 pub mod tour_figures_box;
 pub mod tour_program;
+pub mod weight;
 pub mod wrong_forms;
 
 use std::fs;
