@@ -1,8 +1,8 @@
 //! Every operation on a file: no other module of the crate calls the operating system for one.
 //!
-//! In a build with debug assertions the environment variable `CORFEM_FAILING_OPERATION` makes one of them fail: that of this number,
-//! counting from one every creation, opening, read, write, sync and rename of the process. What only asks about a file, and may
-//! fail without harm, is not counted.
+//! In a build with debug assertions the environment variable `CORFEM_FAILING_OPERATION` names an operation by its number, and that
+//! one fails. Every creation, opening, read, write, sync and rename of the process counts, from one. Questions about a file, which
+//! may fail without harm, do not count.
 
 pub use std::fs::{Metadata, TryLockError, metadata, read_dir, read_link, symlink_metadata};
 
@@ -55,10 +55,10 @@ impl<F> Opened<F> {
 }
 
 impl OpenFile {
-    /// Cuts off what stands behind a length, and goes on writing there.
+    /// Cuts the file off at a length and goes on writing there.
     ///
     /// # Errors
-    /// Those of the operating system.
+    /// The operating system's error.
     pub fn go_on_from(&mut self, length: u64) -> io::Result<()> {
         begin("write", &self.path)?;
         self.file.set_len(length)?;
@@ -106,15 +106,15 @@ impl From<OpenFile> for Stdio {
 /// A file to read.
 ///
 /// # Errors
-/// Those of the operating system.
+/// The operating system's error.
 pub fn open(path: &Path) -> io::Result<OpenFile> {
     Opened::new("open", path, || File::open(path))
 }
 
-/// A new and empty file to write, in the place of one that is there.
+/// A new and empty file to write; one that is there is emptied.
 ///
 /// # Errors
-/// Those of the operating system.
+/// The operating system's error.
 pub fn create(path: &Path) -> io::Result<OpenFile> {
     Opened::new("create", path, || File::create(path))
 }
@@ -122,15 +122,15 @@ pub fn create(path: &Path) -> io::Result<OpenFile> {
 /// A device or pipe to write to.
 ///
 /// # Errors
-/// Those of the operating system.
+/// The operating system's error.
 pub fn append(path: &Path) -> io::Result<OpenFile> {
     Opened::new("open", path, || OpenOptions::new().append(true).open(path))
 }
 
-/// A file to read and go on with, as it is, or a new one.
+/// A file to read and to continue: the one that is there with its contents, or a new one.
 ///
 /// # Errors
-/// Those of the operating system.
+/// The operating system's error.
 pub fn open_or_create(path: &Path) -> io::Result<OpenFile> {
     let mut options = OpenOptions::new();
     options.create(true).read(true).write(true).truncate(false);
@@ -145,7 +145,7 @@ pub fn standard_output() -> Opened<io::StdoutLock<'static>> {
     }
 }
 
-/// Whether it is what standard output goes to.
+/// True if standard output goes to this file, device or pipe.
 #[cfg(unix)]
 pub fn is_standard_output(found: &Metadata) -> bool {
     use std::os::{fd::AsFd, unix::fs::MetadataExt};
@@ -156,13 +156,13 @@ pub fn is_standard_output(found: &Metadata) -> bool {
     own.is_ok_and(|own| (own.dev(), own.ino()) == (found.dev(), found.ino()))
 }
 
-/// Whether it is what standard output goes to; not told here.
+/// False: only Unix tells where standard output goes.
 #[cfg(not(unix))]
 pub fn is_standard_output(_: &Metadata) -> bool {
     false
 }
 
-/// What the system says of this process, where it does.
+/// The system's status report on this process; empty where the system gives none.
 pub fn process_status() -> String {
     std::fs::read_to_string("/proc/self/status").unwrap_or_default()
 }
@@ -170,16 +170,16 @@ pub fn process_status() -> String {
 /// Makes a folder.
 ///
 /// # Errors
-/// Those of the operating system.
+/// The operating system's error.
 pub fn make_folder(path: &Path) -> io::Result<()> {
     begin("create", path)?;
     create_dir(path)
 }
 
-/// A new folder for nobody else's eyes among the system's temporary files; it is removed with what is in it.
+/// A new folder among the system's temporary files, on Unix for this user alone; it is removed with its contents.
 ///
 /// # Errors
-/// Those of the operating system.
+/// The operating system's error.
 pub fn scratch_folder(prefix: &str) -> io::Result<tempfile::TempDir> {
     begin("create", &std::env::temp_dir())?;
     let mut builder = tempfile::Builder::new();
@@ -188,10 +188,10 @@ pub fn scratch_folder(prefix: &str) -> io::Result<tempfile::TempDir> {
     builder.prefix(prefix).tempdir()
 }
 
-/// Whether files can be made in a folder: one without a name is, for a moment.
+/// Checks that files can be made in a folder: it makes one without a name for a moment.
 ///
 /// # Errors
-/// Those of the operating system.
+/// The operating system's error.
 pub fn probe(folder: &Path) -> io::Result<()> {
     let folder = if folder.as_os_str().is_empty() {
         Path::new(".")
@@ -202,10 +202,10 @@ pub fn probe(folder: &Path) -> io::Result<()> {
     tempfile::tempfile_in(folder).map(drop)
 }
 
-/// Refuses to replace what is no regular file, or a file that may not be written.
+/// Refuses to replace anything but a regular file, or a file that may not be written.
 ///
 /// # Errors
-/// That it is one of these.
+/// `AlreadyExists` for anything but a regular file; the operating system's error for a file that may not be written.
 pub fn replaceable(path: &Path) -> io::Result<()> {
     if symlink_metadata(path).is_ok_and(|found| !found.is_file()) {
         return Err(Error::new(
@@ -220,10 +220,10 @@ pub fn replaceable(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Writes a new file completely and syncs it before it takes the place of the old one, if any. It has the rights of any new file.
+/// Writes and syncs a new file before it takes the place of the old one, if any. The new file has the rights of any new file.
 ///
 /// # Errors
-/// Those of the operating system; the old file is then as it was, unless only the sync of its folder fails: then the new one is
+/// The operating system's error; the old file is then as it was, unless only the sync of its folder failed: then the new one is
 /// there, whole.
 pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     replaceable(path)?;
@@ -242,7 +242,7 @@ pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     sync_folder(&folder.join("."))
 }
 
-/// Sees to it that a new name is on the disk too, where the folder may be read and its file system can.
+/// Syncs a folder, so that a new name in it is on the disk too, where the folder may be read and its file system can sync it.
 fn sync_folder(folder: &Path) -> io::Result<()> {
     let Ok(opened) = File::open(folder) else {
         return Ok(());

@@ -1,4 +1,4 @@
-//! What can go wrong with files of other programs and with the programs themselves.
+//! Errors of files of other programs, and of the programs themselves.
 
 use crate::files::deck::Unread;
 use std::path::{Path, PathBuf};
@@ -14,15 +14,15 @@ pub enum FileError {
     /// The method refuses its input or cannot go on.
     #[error(transparent)]
     Method(#[from] crate::method::error::Error),
-    /// A line of a file that does not read, and why.
+    /// A line of a file that cannot be read, and the reason.
     #[error("{file}, line {line}: {reason}")]
     DeckLine {
         file: String,
         line: usize,
         reason: String,
     },
-    /// A field of a bulk data card that does not read, and why: number 2 to 9 on the card's first line, 12 to 19 on its first
-    /// continuation, and so on.
+    /// A field of a bulk data card that cannot be read, and the reason. Fields are numbered 2 to 9 on the card's first line, 12 to
+    /// 19 on its first continuation, and so on.
     #[error("{file}, line {line}: card {card}, field {field}: {reason}")]
     DeckField {
         file: String,
@@ -73,7 +73,7 @@ pub enum FileError {
         grid: usize,
         direction: char,
     },
-    /// A job, what it names, or what else is asked for, that is refused, and why.
+    /// A job, a name in it or another request that is refused, and the reason.
     #[error("{of}: {reason}")]
     Refused { of: String, reason: String },
     /// A request to stop a correlation.
@@ -153,7 +153,7 @@ impl FileError {
     }
 }
 
-/// Says that a text is not what belongs in its place.
+/// Says that a text is missing, or that it is not what belongs there.
 pub(crate) fn is_not(text: &str, what: &str) -> String {
     if text.is_empty() {
         format!("{what} is missing")
@@ -162,7 +162,7 @@ pub(crate) fn is_not(text: &str, what: &str) -> String {
     }
 }
 
-/// Why a file was refused.
+/// Reason for which the operating system refused a file.
 fn why(action: &str, source: &std::io::Error) -> String {
     match (source.kind(), action) {
         (std::io::ErrorKind::NotFound, "write") => "no such folder".to_owned(),

@@ -10,14 +10,15 @@ pub mod test_data;
 use std::io::{Error, ErrorKind, Read};
 use std::path::Path;
 
-/// Bytes of the longest file that is read, 2 GiB: what a matrix of sixty million entries takes. The text and what is read from it
-/// take some three times as much memory.
+/// Size in bytes of the longest file that is read, 2 GiB: enough for a matrix of sixty million entries. The text and the data read
+/// from it take some three times as much memory.
 pub const MOST_BYTES: u64 = 1 << 31;
 
-/// The bytes of a regular file of at most [`MOST_BYTES`]. What is none, such as a device or a pipe, is refused before it is opened.
+/// The bytes of a regular file of at most [`MOST_BYTES`]. Anything else, such as a device or a pipe, is refused before it is
+/// opened.
 ///
 /// # Errors
-/// Those of the operating system; that it is not such a file.
+/// The operating system's error; `InvalidInput` for anything but a regular file, `FileTooLarge` for a longer one.
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, Error> {
     let found = disk::metadata(path)?;
     if !found.is_file() {
@@ -43,12 +44,12 @@ pub fn escaped(text: &str) -> String {
     escape(text, |c| c.is_control() && c != '\n' && c != '\t')
 }
 
-/// A text on one line: the same of line ends and tabs, which would leave their row of a table.
+/// A text on one line: line ends and tabs are escaped too, because they would break out of a table's row.
 pub fn one_line(text: &str) -> String {
     escape(text, char::is_control)
 }
 
-/// A text that a spreadsheet takes for one, on one line: one that could be a formula and is no number begins with an apostrophe.
+/// A text on one line that a spreadsheet shows as text: a leading apostrophe keeps it from reading a formula. Numbers stay numbers.
 pub fn inert(text: &str) -> String {
     let is_formula = text.starts_with(['=', '+', '-', '@']) && text.parse::<f64>().is_err();
     if is_formula { "'" } else { "" }.to_owned() + &one_line(text)

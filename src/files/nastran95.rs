@@ -12,7 +12,7 @@ pub type Matrices = HashMap<String, DMatrix<f64>>;
 /// Widths of the integers of a record and of its reals, format D26.17.
 const INTEGER: usize = 8;
 const REAL: usize = 26;
-/// Where a matrix's header has its sizes, and after them its name.
+/// Columns where a matrix's header begins its sizes and, after them, its name.
 const HEADER_SIZES: usize = 26;
 const HEADER_NAME: usize = 74;
 
@@ -23,7 +23,7 @@ const HEADER_NAME: usize = 74;
 /// next matrix. Together they have at most `numbers` entries: a damaged header must not ask for all memory.
 ///
 /// # Errors
-/// [`FileError::SolverAnswer`] naming the line for anything else.
+/// [`FileError::SolverAnswer`] naming a line that is not in this format.
 pub fn read_output5(text: &str, numbers: usize) -> Result<Matrices, FileError> {
     let lines: Vec<&str> = text.lines().collect();
     let wrong = |line: usize, what: &str| {

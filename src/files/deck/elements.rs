@@ -18,7 +18,7 @@ pub(super) const ELEMENT_CARDS: [(&str, &str, ElementKind); 4] = [
 /// Cards that may hold two entries, the second from field 6 on.
 const TWO_TO_A_CARD: [&str; 4] = ["CROD", "PSHEAR", "PQDMEM", "PTRMEM"];
 
-/// What elements refer to, by their numbers.
+/// The property and the material that every element refers to, by the elements' numbers.
 pub(super) type Members = BTreeMap<usize, Membership>;
 
 /// The cards of elements, properties and materials before they are joined to elements.
@@ -28,7 +28,7 @@ pub(super) struct ElementCards {
     pub connections: Numbered<Option<usize>>,
     pub properties: [Numbered<f64>; 4],
     pub materials: Numbered<Material>,
-    /// The cards with torsion of rods, which no stiffness has: grids have no rotations.
+    /// Cards that give rods torsion, which no stiffness includes: grids have no rotations.
     pub torsion: Vec<Card>,
 }
 
@@ -119,7 +119,7 @@ impl ElementCards {
         })
     }
 
-    /// The elements by number, and what they refer to; property, material and grids must exist.
+    /// The elements by number, and the cards that they refer to; property, material and grids must exist.
     pub fn elements(
         &self,
         grids: &BTreeMap<usize, Grid>,

@@ -14,8 +14,8 @@ const INCLUDES: [&str; 2] = ["INCLUDE", "READFILE"];
 /// Characters that end the first word of such a statement, or of a parameter.
 const WORD_ENDS: [char; 4] = [' ', ',', '\'', '"'];
 
-/// Sets of constraints that case control selects by `SPC = n` and `MPC = n`, each with the line that does: those of the first
-/// subcase, or else those above it, which hold for all.
+/// Sets of constraints that case control selects by `SPC = n` and `MPC = n`, each with its line. The first subcase's selection
+/// counts, or else the one above all subcases.
 pub(super) type Selected = [Option<(usize, usize)>; 2];
 
 /// One line of bulk data, cut into fields.
@@ -91,7 +91,7 @@ pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<
     Ok((begin.map(|_| selected), bulk.collect::<Result<_, _>>()?))
 }
 
-/// Which of these words a line begins with.
+/// The one of these words with which a line begins.
 fn statement(line: &str, names: &[&'static str]) -> Option<&'static str> {
     let begins = |name: &&&str| {
         line.trim_start()
@@ -127,7 +127,7 @@ fn select(file: &str, line: usize, text: &str, [spc, mpc]: &mut Selected) -> Res
 /// A line cut into parts.
 pub(super) struct Cut {
     pub name: String,
-    /// The fields behind the name; in free format as many as there are, else all that a line has and what follows them.
+    /// Fields behind the name: in free format as many as there are, else all of a line and then the rest of it.
     pub parts: Vec<String>,
     pub is_free: bool,
     /// Fields of a line, and their width.

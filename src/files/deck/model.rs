@@ -56,7 +56,7 @@ impl PointMass {
 /// A mass and the free DOF that it moves with.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MovingMass {
-    /// Where it is.
+    /// Degree of freedom at which the mass is.
     pub dof: StructuralDof,
     /// The mass, lbf·s²/in.
     pub mass: f64,
@@ -80,7 +80,7 @@ pub struct BulkData {
     pub masses: Vec<PointMass>,
 }
 
-/// Where a mass is, and how much of it moves along x, y and z.
+/// Position of a mass, and the amounts of it that move along x, y and z.
 pub type PlacedMass = (Vector3<f64>, Vector3<f64>);
 
 impl BulkData {
@@ -95,16 +95,16 @@ impl BulkData {
         }
     }
 
-    /// A finite element model as a deck can express it, its parameters scaled by `factors`. Sizes are those of the stiffness; where the mass of an element has another factor, its density makes up for it.
-    /// Every dynamic DOF becomes the z of a grid of its own at its position in `points` (in), numbered after the next
-    /// multiple of a hundred above every grid and element, constrained in the other directions, with a point mass
-    /// unless that is zero. Its MPC equation is its column of $T$:
+    /// A finite element model as a deck can express it, its parameters scaled by `factors`. Sizes are scaled with the stiffness;
+    /// where the mass of an element has another factor, its density makes up for it. Every dynamic DOF becomes the z of a grid of
+    /// its own at its position in `points` (in), numbered after the next multiple of a hundred above every grid and element,
+    /// constrained in the other directions, with a point mass unless that is zero. Its MPC equation is its column of $T$:
     ///
     /// $$ -u_m + \sum_s T_{sm} u_s = 0 $$
     ///
     /// # Errors
-    /// Those of [`at`](crate::method::model::ScaledStructure::at); [`Error::WrongShape`] unless there is a point per dynamic DOF;
-    /// [`Error::CoupledMass`] for a mass matrix that is not diagonal.
+    /// [`Error::WrongShape`] unless there is a point per dynamic DOF; [`Error::CoupledMass`] for a mass matrix that is not
+    /// diagonal; the errors of [`at`](crate::method::model::ScaledStructure::at) for the factors.
     pub fn from_model(
         model: &FiniteElementModel,
         factors: &[f64],
@@ -172,7 +172,7 @@ impl BulkData {
     /// The structure: its free DOF are those that neither an SPC1 card constrains nor an MPC equation makes dependent.
     ///
     /// # Errors
-    /// [`FileError::TiedElement`] for an element at a dependent DOF; those of [`Structure::new`].
+    /// [`FileError::TiedElement`] for an element at a dependent DOF; the errors of [`Structure::new`].
     pub fn structure(&self) -> Result<Structure, FileError> {
         let tied = self.tie_of();
         let corners = self
@@ -233,10 +233,11 @@ impl BulkData {
         })
     }
 
-    /// Every mass of elements and points, at free and constrained grids alike: where it is, and how much of it moves along x, y and z.
+    /// Every mass of elements and points, at free and constrained grids alike: its position and the amounts of it that move along
+    /// x, y and z.
     ///
     /// # Errors
-    /// Those of [`Self::structure`].
+    /// The errors of [`Self::structure`], such as [`FileError::TiedElement`].
     pub fn placed_masses(&self) -> Result<Vec<PlacedMass>, FileError> {
         let structure = self.structure()?;
         let of_element = |(element, geometry): (&Element, &Geometry)| {
@@ -259,7 +260,7 @@ impl BulkData {
         Ok(elements.flat_map(of_element).chain(points).collect())
     }
 
-    /// The same DOF with the free ones that each follows: its column of $T$ by rows and coefficients.
+    /// The DOF with mass, each with the free DOF that it follows: its column of $T$ by rows and coefficients.
     pub(crate) fn moving_masses(
         &self,
         structure: &Structure,
@@ -296,7 +297,7 @@ impl BulkData {
         }
     }
 
-    /// How a DOF moves: the free DOF that it is or follows, by row and coefficient; none for a constrained one.
+    /// Motion of a DOF: the free DOF that it is or follows, by row and coefficient; none for a constrained one.
     pub(crate) fn motions<'a>(
         &'a self,
         structure: &'a Structure,

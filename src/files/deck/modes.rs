@@ -24,9 +24,9 @@ const INDEPENDENT: f64 = 1e-10;
 /// or all of finite frequency, which are as many as there are masses that move independently.
 ///
 /// # Errors
-/// Those of [`BulkData::structure`], [`BulkData::mass_dof`], the elements, the factorization of $K_S$ and [`whole_modes`];
 /// [`FileError::StiffnessRange`] and [`FileError::LostModes`] for a structure so badly scaled that modes would be lost;
-/// [`Error::NotFinite`] for a squared frequency or a mass beyond the range of numbers.
+/// [`Error::NotFinite`] for a squared frequency or a mass beyond the range of numbers; the errors of [`BulkData::structure`],
+/// [`BulkData::mass_dof`], the elements, the factorization of $K_S$ and [`whole_modes`].
 pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
     let structure = model.structure()?;
     let elements = element_matrices(&structure);
@@ -39,7 +39,7 @@ pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
     let resisting = resisting(&structure, &elements)?;
     let found = whole_modes(&stiffness, at, most, &resisting, |row| row_name(row, free)).map_err(
         |error| match error {
-            // What has neither stiffness nor mass has a grid.
+            // The factorization of the elements names the grid of a DOF with neither stiffness nor mass.
             Error::NotPositiveDefinite { .. } => Factor::of_stiffness(&elements, &sizes, free)
                 .err()
                 .unwrap_or(error),
@@ -54,8 +54,8 @@ pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
 
 /// Refuses elements so unlike in stiffness that a sum of both loses the softer one.
 ///
-/// The stiffness of an element is the largest entry of its matrix, held DOF included: what its direction leaves of it
-/// at the free ones may be round-off.
+/// The stiffness of an element is the largest entry of its matrix, held DOF included: its direction may leave only round-off at the
+/// free ones.
 fn check_stiffness(structure: &Structure, elements: &[ElementMatrix]) -> Result<(), FileError> {
     let mut extremes: Option<[(f64, usize); 2]> = None;
     let elements = structure.elements().iter().zip(elements);
@@ -83,7 +83,7 @@ fn check_stiffness(structure: &Structure, elements: &[ElementMatrix]) -> Result<
     }
 }
 
-/// Refuses fewer modes than masses that move independently.
+/// Errors if fewer modes were found than masses move independently.
 fn check_count(found: usize, at: MassDof) -> Result<(), FileError> {
     let place = |row: usize| {
         format!(
@@ -97,7 +97,7 @@ fn check_count(found: usize, at: MassDof) -> Result<(), FileError> {
     for mut motion in motions.column_iter_mut() {
         motion.normalize_mut();
     }
-    // The smaller of the two Gram matrices; what is not zero of their eigenvalues is the same.
+    // The smaller of the two Gram matrices; their nonzero eigenvalues are the same.
     let gram = if motions.nrows() < motions.ncols() {
         &motions * motions.transpose()
     } else {

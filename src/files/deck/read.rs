@@ -30,9 +30,8 @@ pub struct Deck {
 /// they say how to look for eigenvalues. Every other card is an error.
 ///
 /// # Errors
-/// [`FileError::DeckCards`] lists all cards that are not understood; [`FileError::DeckLine`] and
-/// [`FileError::DeckField`] name file, line, card and field; [`FileError::Refused`] for the name of a card to be ignored that is
-/// read.
+/// [`FileError::DeckCards`] lists all cards that are not understood; [`FileError::DeckLine`] and [`FileError::DeckField`] name
+/// file, line, card and field; [`FileError::Refused`] if a name to be ignored is that of a card that is read.
 pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileError> {
     let ignored: Vec<String> = ignored
         .iter()
@@ -198,28 +197,28 @@ const OF_THE_MODEL: [&str; 6] = ["WTMASS", "CK1", "CK2", "CM1", "CM2", "COUPMASS
 /// Cards of one name that were not read, for one reason.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unread {
-    /// Their name; `PARAM COUPMASS` and its like for a parameter that changes stiffness or mass.
+    /// Name of the cards; `PARAM COUPMASS` and its like for a parameter that changes stiffness or mass.
     pub card: String,
     /// The line of the first, from one.
     pub line: usize,
-    /// How many there are.
+    /// Number of the cards.
     pub count: usize,
-    /// Why.
+    /// Reason for which they were not read.
     pub reason: Reason,
 }
 
-/// Why a card was not read.
+/// Reason for which a card was not read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Reason {
-    /// The crate does not know it: it may be part of the model, and the deck is refused.
+    /// A card that the crate does not know: it may be part of the model, and the deck is refused.
     Unknown,
-    /// The same, but whoever asked for the deck takes responsibility for leaving it out.
+    /// An unknown card that whoever asked for the deck takes responsibility for leaving out.
     Ignored,
-    /// It says nothing of stiffness, mass, supports or coordinates.
+    /// A card that says nothing of stiffness, mass, supports or coordinates.
     WithoutPart,
-    /// It belongs to a set of constraints that the first subcase of case control does not select.
+    /// A card of a set of constraints that the first subcase of case control does not select.
     NotSelected,
-    /// A field of it, the torsion of rods, is in no stiffness.
+    /// A card that gives rods torsion, which no stiffness includes.
     Torsion,
 }
 
@@ -244,7 +243,7 @@ pub(super) fn name(card: &Card) -> String {
     }
 }
 
-/// Whether cards of this [`name`] are read.
+/// True if cards of this [`name`] are read.
 fn is_read(name: &str) -> bool {
     READ.contains(&name)
         || ELEMENT_CARDS

@@ -12,12 +12,12 @@ use crate::method::structure::{Element, Grid, Material};
 /// The set of constraints that case control selects, of SPC1 and of MPC.
 const SET: usize = 1;
 
-/// What NASTRAN is to do with a deck.
+/// Task that a deck sets NASTRAN.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Task {
     /// Normal modes by the inverse power method, which allows a singular mass matrix.
     Modes {
-        /// How many.
+        /// Number of modes.
         count: usize,
         /// Frequencies between which they lie, Hz.
         range_hz: [f64; 2],
@@ -32,7 +32,7 @@ pub enum Task {
 /// answers (the default one of the 1995 release does not).
 ///
 /// # Errors
-/// Those of [`bulk_data`].
+/// [`Error::NotFinite`] and [`Error::TooMany`] for numbers that no card can hold, as in [`bulk_data`].
 pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, FileError> {
     // Rigid format 3 wants a method even where the run ends before it is used.
     let (count, [lower, upper], alter, output) = match task {
@@ -85,9 +85,9 @@ pub fn bulk_data(model: &BulkData) -> Result<String, FileError> {
 #[derive(Default)]
 pub(super) struct Cards {
     pub text: String,
-    /// What the names of continuations begin with.
+    /// Beginning of the names of continuations.
     pub prefix: String,
-    /// Counts the continuations of the deck, so that each has a name of its own.
+    /// Number of continuations so far, so that each has a name of its own.
     pub tag: usize,
 }
 

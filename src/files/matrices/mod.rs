@@ -12,14 +12,14 @@ use crate::files::deck::decoded;
 use crate::files::error::FileError;
 use crate::sparse::SparseMatrix;
 
-/// A matrix of a file, with what the file says of its rows and columns.
+/// A matrix of a file, with the labels of its rows and columns where the file has them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LabeledMatrix {
-    /// Its name; Matrix Market has none.
+    /// Name of the matrix; Matrix Market has none.
     pub name: Option<String>,
     /// Grid and component of every row, ascending: component 1 to 6, or 0 for a scalar point. Only DMIG has them.
     pub rows: Option<Vec<(usize, usize)>>,
-    /// The same for the columns; of a square or symmetric matrix the same list, of all labels in either.
+    /// Labels of the columns; a square or symmetric matrix has one list for both, of all labels in either.
     pub columns: Option<Vec<(usize, usize)>>,
     /// The matrix, a symmetric one with both triangles.
     pub matrix: SparseMatrix,
@@ -30,8 +30,8 @@ pub struct LabeledMatrix {
 /// which may be left out where the file has one alone; Matrix Market has no names. Matrices of other names may be complex.
 ///
 /// # Errors
-/// [`FileError::DeckLine`] and [`FileError::DeckField`] name the line of what is damaged, complex or cut off, line 1 without
-/// such a matrix; those of [`SparseMatrix::new`].
+/// [`FileError::DeckLine`] and [`FileError::DeckField`] name the line of what is damaged, complex or cut off, line 1 without such a
+/// matrix; the errors of [`SparseMatrix::new`].
 pub fn read(name: &str, bytes: &[u8], wanted: Option<&str>) -> Result<LabeledMatrix, FileError> {
     let text = decoded(bytes);
     if begins(text.trim_start(), "%%MatrixMarket") {

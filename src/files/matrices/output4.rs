@@ -7,7 +7,7 @@ use crate::sparse::SparseMatrix;
 
 /// Width of the integers of headers.
 const INTEGER: usize = 8;
-/// Widest header of a string: two integers. Those of a column and a matrix are wider.
+/// Widest header of a string: two integers. Headers of columns and matrices are wider.
 const STRING_HEADER: usize = 2 * INTEGER;
 /// A string's header holds its words and its first row together, the words above this.
 const ROWS_IN_HEADER: usize = 65536;

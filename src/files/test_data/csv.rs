@@ -40,7 +40,7 @@ const ROWS: [&str; 4] = [
 /// Titles of columns that are no modes.
 const TITLES: [&str; 7] = ["name", "grid", "direction", "sign", "x", "y", "z"];
 
-/// Where the header has [`TITLES`], its modes, and by mode the deviations of their components.
+/// Columns of the [`TITLES`] and of the modes, and by mode the columns of their components' deviations.
 type Header = ([Option<usize>; 7], Vec<usize>, BTreeMap<usize, usize>);
 
 /// One row, cut into cells.
@@ -325,7 +325,7 @@ pub(crate) fn cells(line: &str, separator: char) -> Vec<String> {
     cells.iter().map(|cell| cell.trim().to_owned()).collect()
 }
 
-/// A name as one cell that is no formula.
+/// A name as one cell that no spreadsheet takes for a formula.
 pub(crate) fn quoted(name: &str) -> String {
     format!("\"{}\"", inert(name).replace('"', "\"\""))
 }

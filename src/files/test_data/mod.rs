@@ -1,4 +1,4 @@
-//! A ground vibration test as files hold it: frequencies, sensors, and what each of them measured in every mode.
+//! A ground vibration test as files hold it: frequencies, sensors, and every sensor's reading in every mode.
 //!
 //! [`read`] knows two formats: `universal`, the Universal File of test systems, and `csv`, a table that a spreadsheet writes.
 
@@ -19,10 +19,10 @@ use crate::method::structure::{StructuralDof, positive};
 use nalgebra::{DMatrix, DVector, Vector3};
 use std::collections::{BTreeMap, HashSet};
 
-/// What directions 0 to 5 are called.
+/// Names of directions 0 to 5.
 pub const DIRECTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
-/// What a row of a matrix is called: its number where rows have no names.
+/// Name of a row of a matrix: its grid and direction, or its number where rows have no names.
 pub fn row_name(row: usize, dof: &[StructuralDof]) -> String {
     dof.get(row).map_or_else(
         || format!("row {}", row + 1),
@@ -33,7 +33,7 @@ pub fn row_name(row: usize, dof: &[StructuralDof]) -> String {
 /// One sensor: it measures a displacement along an axis at a grid or point of the test.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sensor {
-    /// What it is called; `12 z` when the file has no name.
+    /// Name of the sensor; `12 z` when the file has none.
     pub name: String,
     /// The grid or node number of the test, if the file has one.
     pub grid: Option<usize>,
@@ -41,7 +41,7 @@ pub struct Sensor {
     pub direction: usize,
     /// The unit vector along that axis, if it is one of a coordinate system of the test's own; it is not written.
     pub axis: Option<Vector3<f64>>,
-    /// Where it is, in the model's units of length, if the file says so.
+    /// Position in the model's units of length, if the file gives it.
     pub place: Option<Vector3<f64>>,
 }
 
@@ -54,16 +54,16 @@ pub struct TestData {
     pub sensors: Vec<Sensor>,
     /// Real mode shapes in the positive sense of each sensor's axis, of any scale, one per column (sensors × modes).
     pub shapes: DMatrix<f64>,
-    /// Modes, from zero, of which the test has a frequency alone; nothing is said by their columns of the shapes.
+    /// Modes, from zero, of which the test has a frequency alone; their columns of the shapes mean nothing.
     pub alone: Vec<usize>,
     /// Standard deviation of every frequency, a fraction of it, if known.
     pub frequency_deviation: Option<Vec<f64>>,
     /// Standard deviation of every mode's shape, a fraction of its largest component, if known.
     pub shape_deviation: Option<Vec<f64>>,
-    /// Standard deviation of every component of a shape, a fraction of its largest, by modes from zero that have them.
+    /// Standard deviation of every component of a shape, a fraction of its largest, by mode, from zero, where a mode has them.
     pub component_deviation: BTreeMap<usize, DVector<f64>>,
-    /// Of repeated tests their deviations from the mean, one column a test: of every mode its frequency, a fraction of it, then its
-    /// components, fractions of the largest; empty of one test.
+    /// Deviations of repeated tests from their mean, one column a test: for every mode that of its frequency, a fraction of it,
+    /// then those of its components, fractions of the largest; empty for a single test.
     pub scatter: DMatrix<f64>,
     /// Modal phase collinearity of every mode that was complex before it was made real; empty when all were real.
     pub phase_collinearity: Vec<f64>,
@@ -175,7 +175,7 @@ impl TestData {
 /// Reads a test from the bytes of a file that errors call `name`: a Universal File when its first line is `-1`, otherwise CSV.
 ///
 /// # Errors
-/// [`FileError::DeckLine`] names file and line; those of [`TestData::check`].
+/// [`FileError::DeckLine`] names file and line; the errors of [`TestData::check`].
 pub fn read(name: &str, bytes: &[u8]) -> Result<TestData, FileError> {
     let text = decoded(bytes);
     let first = text.lines().map(str::trim).find(|line| !line.is_empty());

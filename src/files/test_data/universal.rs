@@ -9,7 +9,7 @@
 //! full columns touch; where columns do not hold one number each, blanks separate them.
 //!
 //! A mode has all directions at each of its nodes. Those that are zero in all modes count as not measured and are no sensors; the others
-//! are in ascending order of node and direction. What a mode leaves out was not measured in it, which is not zero: such a
+//! are in ascending order of node and direction. A value that a mode leaves out was not measured in it, which is not zero: such a
 //! sensor is left out of all modes and named in [`TestData::incomplete`].
 //! The frequency of a complex eigenvalue is its magnitude over $2 \pi$, that of the undamped structure; of a conjugate pair the one
 //! with an imaginary part that is not negative is read. Velocities are divided by the circular frequency and accelerations by its
@@ -33,7 +33,7 @@ const SHAPES: [usize; 5] = [0, 1, 8, 11, 12];
 #[derive(Default)]
 struct FoundModes {
     data: TestData,
-    /// By number of the node its place, the coordinate systems of this and of its displacements, and its line.
+    /// Nodes by number: position, the coordinate systems of this and of the displacements, and line.
     nodes: HashMap<usize, (Vector3<f64>, [usize; 2], usize)>,
     systems: Systems,
     shapes: Vec<BTreeMap<(usize, usize), Complex<f64>>>,

@@ -5,7 +5,7 @@ use crate::files::error::FileError;
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 
-/// How far a matrix may be from a rotation: the round-off of six digits.
+/// Deviation from a rotation that a matrix may have: the round-off of six digits.
 pub(super) const ROTATION: f64 = 1e-4;
 
 /// A Cartesian coordinate system, or one of another type, which no node may refer to.
