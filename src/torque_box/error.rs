@@ -1,4 +1,4 @@
-//! What can go wrong with the paper's cases and their data, beside the method itself.
+//! Errors of the paper's cases and their data, beside those of the method itself.
 
 use serde::de::DeserializeOwned;
 use thiserror::Error;
@@ -17,14 +17,14 @@ pub enum CaseError {
     /// A torque box lacks one of its grid points.
     #[error("torque box: grid {grid} of 1 to {count} is missing")]
     MissingGrid { grid: usize, count: usize },
-    /// Data that does not read as TOML of the expected form.
+    /// Data that cannot be read as TOML of the expected form.
     #[error("{name} is not {expected}: {source}")]
     Toml {
         name: String,
         expected: &'static str,
         source: Box<toml::de::Error>,
     },
-    /// A table that does not read as CSV of the expected form.
+    /// A table that cannot be read as CSV of the expected form.
     #[error("{name}: {found} instead of {expected}")]
     Table {
         name: String,
@@ -43,7 +43,7 @@ impl CaseError {
     }
 }
 
-/// Reads TOML text; `name` and what is `expected` of it stand in the error.
+/// Reads TOML text; the error states `name` and what is `expected`.
 pub(crate) fn read_toml<T: DeserializeOwned>(
     name: &str,
     expected: &'static str,

@@ -1,4 +1,4 @@
-//! Correlation with fewer modes: the paper's Tables 9 to 12, and what truncation costs over all numbers of modes.
+//! Correlation with fewer modes: the paper's Tables 9 to 12, and the cost of truncation over all numbers of modes.
 //!
 //! One pass of a case with its lowest test modes against its lowest analysis modes. The inner loop then works in a
 //! truncated modal basis, and so do its frequencies: a change of stiffness cannot move a shape out of the modes it
@@ -74,13 +74,13 @@ pub struct FewerModesRun {
     pub test_frequencies_hz: Vec<f64>,
     /// Iterations made.
     pub iterations: usize,
-    /// Why the inner loop stopped.
+    /// Reason for which the inner loop stopped.
     pub stop: Stop,
     /// Error sum after every iteration.
     pub inner_error_sums: Vec<f64>,
     /// The exact solution before any change.
     pub initial: Agreement,
-    /// The inner loop's own last modes: by perturbation, with the $B$ it began with. What the paper prints.
+    /// The inner loop's own last modes: by perturbation, with the $B$ it began with, as the paper prints them.
     pub inner: Agreement,
     /// The exact solution at the gages found, by the same test modes.
     pub exact: Agreement,
@@ -98,8 +98,8 @@ pub struct FewerModesRun {
 /// modes.
 ///
 /// # Errors
-/// [`Error::Empty`] and [`Error::TooMany`] for numbers of modes that are not $1 \le$ test $\le$ analysis $\le$ DOF;
-/// those of the model, the analysis and the loops.
+/// [`Error::Empty`] and [`Error::TooMany`] for numbers of modes that are not $1 \le$ test $\le$ analysis $\le$ DOF; the errors of
+/// the model, the analysis and the loops.
 pub fn fewer_modes_run(
     case: &Case,
     test_modes: usize,
@@ -153,7 +153,7 @@ pub fn fewer_modes_run(
 /// The paper's runs: Case 2 with seven, five and three test modes.
 ///
 /// # Errors
-/// Those of [`fewer_modes_run`].
+/// The errors of the model, the analysis and the loops, as in [`fewer_modes_run`].
 pub fn published_runs(case: &Case) -> Result<Vec<FewerModesRun>, CaseError> {
     PUBLISHED_RUNS
         .iter()
@@ -164,7 +164,7 @@ pub fn published_runs(case: &Case) -> Result<Vec<FewerModesRun>, CaseError> {
 /// Every pair of numbers of modes, 1 ≤ test ≤ analysis ≤ DOF, by test and then by analysis modes.
 ///
 /// # Errors
-/// Those of [`fewer_modes_run`].
+/// The errors of the model, the analysis and the loops, as in [`fewer_modes_run`].
 pub fn all_runs(case: &Case) -> Result<Vec<FewerModesRun>, CaseError> {
     let most = case.reconstruction.masses.len();
     let pairs = (1..=most).flat_map(|test| (test..=most).map(move |analysis| (test, analysis)));

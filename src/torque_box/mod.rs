@@ -44,10 +44,10 @@ const SUBSTRUCTURES: [(&str, &[usize]); 3] = [
     ("ribs", &[7, 12, 13]),
 ];
 
-/// A case: the true structure, the wrong model of it, and how it is correlated.
+/// A case: the true structure, the wrong model of it, and the settings of its correlation.
 #[derive(Debug, Clone)]
 pub struct Case {
-    /// Its number, 1 to 4.
+    /// Number of the case, 1 to 4.
     pub number: usize,
     /// The box.
     pub reconstruction: Reconstruction,
@@ -57,7 +57,7 @@ pub struct Case {
     pub rod_area: f64,
     /// Bounds on the gages, in, if the paper set any.
     pub gage_range: Option<Bounds>,
-    /// Which panels share a factor.
+    /// Grouping of the panels that share a factor.
     pub grouping: Grouping,
     /// Tolerances and passes.
     pub settings: Settings,
@@ -67,7 +67,7 @@ impl Case {
     /// A case of the paper on the embedded box.
     ///
     /// # Errors
-    /// [`CaseError::UnknownCase`] for another number; those of [`Self::from_reconstruction`].
+    /// [`CaseError::UnknownCase`] for another number; the errors of [`Self::from_reconstruction`].
     pub fn new(number: usize) -> Result<Self, CaseError> {
         Self::from_reconstruction(number, Reconstruction::embedded()?)
     }
@@ -141,7 +141,7 @@ impl Case {
     /// The model of this case with other gages than its first, in inches, elements 1 to 15.
     ///
     /// # Errors
-    /// [`crate::method::error::Error::WrongShape`] unless there are 15; those of [`FiniteElementModel::new`].
+    /// [`crate::method::error::Error::WrongShape`] unless there are 15; the errors of [`FiniteElementModel::new`].
     pub fn model_with(&self, gages: &[f64]) -> Result<FiniteElementModel, CaseError> {
         check_length("panel gages", gages.len(), self.panels.len())?;
         let panels = self.panels.iter().zip(gages).map(|(panel, &gage)| Panel {
@@ -186,7 +186,7 @@ impl Case {
     /// The model with the case's first gages.
     ///
     /// # Errors
-    /// Those of [`Self::model_with`].
+    /// The errors of [`FiniteElementModel::new`] for a box that is no model, as in [`Self::model_with`].
     pub fn model(&self) -> Result<FiniteElementModel, CaseError> {
         self.model_with(&self.first_gages())
     }
@@ -199,7 +199,7 @@ impl Case {
     /// The test modes: the exact modes of the box with every panel at the test gage.
     ///
     /// # Errors
-    /// Those of [`Self::model_with`] and of the analysis.
+    /// The errors of [`FiniteElementModel::new`] for a box that is no model, and of the analysis.
     pub fn test_modes(&self) -> Result<Modes, CaseError> {
         let model = self.test_model()?;
         Ok(model.modes(&vec![1.0; model.parameters().len()])?)
@@ -211,7 +211,7 @@ impl Case {
     }
 }
 
-/// How many passes of a case the paper prints: two, two, three; Case 4 was a single iteration.
+/// Number of passes of a case that the paper prints: two, two, three; Case 4 was a single iteration.
 pub fn published_passes(case: usize) -> usize {
     match case {
         1 | 2 => 2,
@@ -220,8 +220,8 @@ pub fn published_passes(case: usize) -> usize {
     }
 }
 
-/// The reading of the step whose gages lie nearest to those published for a case; for Case 4, which has none, the one that the box was
-/// fitted with (`paper/interpretation.md`).
+/// The reading of the step that comes nearest to the published gages of a case; for Case 4, which has none, the one that the box
+/// was fitted with (`paper/interpretation.md`).
 pub fn published_reading(case: usize) -> StepRule {
     if case == 2 || case == 3 {
         StepRule::Relative
@@ -230,7 +230,7 @@ pub fn published_reading(case: usize) -> StepRule {
     }
 }
 
-/// The paper's tolerances, and by them as many passes as it takes; Case 4 is a single iteration.
+/// The paper's tolerances, and as many passes as they take; Case 4 is a single iteration.
 ///
 /// Errors are sums over the modes compared. The tolerance of the outer loop on the error sum is not printed: it is taken as that of
 /// the first inner loop.

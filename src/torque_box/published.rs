@@ -19,11 +19,11 @@ const REMARKS: [&str; 3] = ["misprint:", "inconsistent:", "borderline:"];
 /// One published table: text cells by row label and column heading.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PublishedTable {
-    /// Its number in the paper; zero if it is not of the paper.
+    /// Number in the paper; zero for a table that is not the paper's.
     pub number: usize,
     /// Name for messages, such as `paper/tables/table_3.csv`.
     pub name: String,
-    /// What it holds, in our words; empty if the file does not say.
+    /// Description of the contents, in our words; empty if the file has none.
     pub title: String,
     /// Column headings after the first.
     pub headings: Vec<String>,
@@ -110,7 +110,7 @@ impl PublishedTable {
         self.text(label, heading)?.parse().ok()
     }
 
-    /// A cell's number where there must be one.
+    /// A cell's number, which must be there.
     ///
     /// # Errors
     /// [`CaseError::Table`] naming the cell.

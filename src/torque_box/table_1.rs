@@ -70,7 +70,7 @@ impl TwoMasses {
     /// Relative error $\gamma/\gamma_{exact} - 1$ of both roots by one formula.
     ///
     /// # Errors
-    /// [`Error::Setting`] for springs that are not positive; those of the formula's function.
+    /// [`Error::Setting`] for springs that are not positive; the errors of the formula's function.
     pub fn root_errors(&self, formula: Formula) -> Result<[f64; 2], Error> {
         for (name, value, lowest, expected) in [
             ("coupling", self.coupling, 0.0, "a positive finite number"),

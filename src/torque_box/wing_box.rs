@@ -27,7 +27,7 @@ const GRID_COUNT: usize = (FREE_RIBS + 1) * RIB_GRIDS;
 /// First grid of the root.
 const FIRST_FIXED_GRID: usize = FREE_RIBS * RIB_GRIDS + 1;
 
-/// Coordinates, masses and material of the box: what the paper never printed.
+/// Coordinates, masses and material of the box, which the paper never printed.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Reconstruction {
@@ -35,7 +35,7 @@ pub struct Reconstruction {
     pub youngs_modulus: f64,
     /// Poisson's ratio.
     pub poissons_ratio: f64,
-    /// Where the mid dynamic point of a rib lies, as a fraction of the chord from the rear spar.
+    /// Position of the mid dynamic point of a rib, as a fraction of the chord from the rear spar.
     pub mid_chord_fraction: f64,
     /// Dynamic masses, lbf·s²/in: tip rear, mid, front; outboard; inboard.
     pub masses: Vec<f64>,
@@ -120,7 +120,7 @@ pub fn gage_rms(panels: &[Panel], gages: &[f64], kind: ElementKind) -> f64 {
         .collect::<Vec<_>>())
 }
 
-/// Root mean square of a list; NaN of none.
+/// Root mean square of a list; NaN for an empty one.
 pub fn rms(values: &[f64]) -> f64 {
     (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
 }
@@ -150,7 +150,7 @@ fn rib_grids(rib: usize) -> [usize; 4] {
 /// The box as a structure: given panels, and 24 rods of one area (in²).
 ///
 /// # Errors
-/// Those of [`Material::isotropic`] and [`Structure::new`].
+/// The errors of [`Material::isotropic`] for the material and of [`Structure::new`] for grids and elements.
 pub fn structure(
     reconstruction: &Reconstruction,
     panels: &[Panel],
@@ -239,7 +239,7 @@ fn nonzero(length: f64) -> Result<f64, Error> {
     }
 }
 
-/// Where the nine dynamic points lie, in: at mid-depth of every free rib, rear, mid, front, from the tip in.
+/// Positions of the nine dynamic points, in: at mid-depth of every free rib, rear, mid, front, from the tip in.
 ///
 /// # Errors
 /// [`CaseError::MissingGrid`] for a box without a grid it must have.
