@@ -63,7 +63,7 @@ fn chosen(
     numbers.iter().enumerate().map(case).collect()
 }
 
-/// Runs the cases asked for and writes the report; whether all of them succeeded.
+/// Runs the cases asked for and writes the report; true if all of them succeeded.
 pub fn cases(arguments: &CasesArguments, quiet: bool) -> Result<bool, PresentError> {
     let reconstruction = reconstruction(arguments.box_file.as_deref())?;
     let solver = Solver::from_arguments(&arguments.solver)?;

@@ -23,7 +23,7 @@ const USUAL_COUNT: usize = 100;
 
 #[derive(Debug, Args)]
 pub struct DeckArguments {
-    /// Which case
+    /// Number of the case, 1 to 4
     #[arg(value_name = "CASE")]
     case: usize,
     /// Use the gages after this pass of the correlation instead of the first ones
@@ -50,7 +50,7 @@ pub struct ModesArguments {
     mass: Option<PathBuf>,
     #[command(flatten)]
     output: OutputArguments,
-    /// How many of the lowest modes, 100 if not given; all with a finite frequency if there are fewer
+    /// Number of the lowest modes, 100 if not given; all with a finite frequency if there are fewer
     #[arg(short, long, value_name = "N")]
     count: Option<NonZeroUsize>,
     /// Leave out cards of these names although corfem does not read them; the report lists them

@@ -9,7 +9,7 @@ use corfem::present::PresentError;
 use std::io::{Error, ErrorKind};
 use std::path::Path;
 
-/// Files that a command replaces in its folder, by name or, from a dot on, by how they end.
+/// Files that a command replaces in its folder: names, or endings where they begin with a dot.
 const REPLACED: [(&str, &[&str]); 5] = [
     (
         "correlate",
@@ -26,7 +26,7 @@ const REPLACED: [(&str, &[&str]); 5] = [
     ("dump", &["dump.json", ".mtx"]),
 ];
 
-/// Refuses a folder that the files of a command could not be written into, before there are any.
+/// Refuses a folder that the files of a command could not be written into, before there are any files.
 pub fn check_folder(folder: &Path, command: &str) -> Result<(), PresentError> {
     let check = || match metadata(folder) {
         _ if folder.as_os_str() == "-" => Err(Error::new(
@@ -59,8 +59,8 @@ pub fn check_folder(folder: &Path, command: &str) -> Result<(), PresentError> {
     Ok(())
 }
 
-/// Writes the files of a run, by name and text, into a folder, made if it is new. `run` is the command with what it
-/// read, and has no clock in it: the same run writes the same bytes.
+/// Writes the files of a run, by name and text, into a folder, made if it is new. `run` is the command with its inputs, without the
+/// time: the same run writes the same bytes.
 pub fn write_files(
     folder: &Path,
     files: &[(String, Vec<u8>)],
@@ -76,8 +76,8 @@ pub fn write_files(
     Ok(())
 }
 
-/// The file with the name of its run, where its format has a place for it. A corrected deck has none: every byte
-/// beside its corrected numbers is as it was.
+/// The file with the name of its run, where its format has a place for it. A corrected deck has none: every byte but its corrected
+/// numbers stays.
 fn signed(path: &Path, bytes: &[u8], run: &str) -> Vec<u8> {
     let run = format!("corfem {} {run}", env!("CARGO_PKG_VERSION")).replace('\n', " ");
     let kind = path.extension().and_then(|kind| kind.to_str());
@@ -99,7 +99,7 @@ fn signed(path: &Path, bytes: &[u8], run: &str) -> Vec<u8> {
     [before, line.as_bytes(), after].concat()
 }
 
-/// Where the second line begins.
+/// Place where the second line begins.
 fn after_line(bytes: &[u8]) -> usize {
     bytes
         .iter()

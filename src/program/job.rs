@@ -99,7 +99,7 @@ pub fn init(
     write_report(path, if *test { TEST_TEMPLATE } else { TEMPLATE })
 }
 
-/// Says everything doubtful of a job and ranks its parameters, without a step; whether no doubt stands.
+/// Reports every doubt about a job and ranks its parameters, without a step; true if no doubt stands.
 pub fn check_job(
     CheckArguments {
         job,
@@ -129,7 +129,7 @@ pub fn check_job(
     Ok(!trust.has_doubt())
 }
 
-/// Corrects the model of a job and writes the report; whether it is within tolerance.
+/// Corrects the model of a job and writes the report; true if it is within tolerance.
 pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, PresentError> {
     let mut loaded = LoadedJob::new(&arguments.job)?;
     if let Some(starts) = arguments.starts {

@@ -34,12 +34,12 @@ enum FormatArgument {
 }
 
 impl OutputArguments {
-    /// Whether the report is text.
+    /// True if the report is text.
     pub fn is_text(&self) -> bool {
         self.format == FormatArgument::Text
     }
 
-    /// Writes tables as they are asked for; `json` makes the whole of what they show.
+    /// Writes tables in the format asked for; `json` makes the document with everything that they show.
     pub fn write(
         &self,
         tables: &[Table],

@@ -51,7 +51,7 @@ fn drawn(quiet: bool) -> Result<CasesAndFigures, PresentError> {
     Ok((results, fewer_modes, figures))
 }
 
-/// Writes the files of a run and says how many.
+/// Writes the files of a run and notes their number.
 fn write_counted(
     folder: &Path,
     files: &[(String, Vec<u8>)],
@@ -109,7 +109,7 @@ pub fn report(arguments: &ReportArguments, quiet: bool) -> Result<(), PresentErr
 
 #[derive(Debug, Args)]
 pub struct DumpArguments {
-    /// Which case
+    /// Number of the case, 1 to 4
     #[arg(value_name = "CASE")]
     case: usize,
     /// Write dump.json and every matrix in the format of the Matrix Market into this folder, created if new, instead of only

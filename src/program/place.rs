@@ -1,4 +1,4 @@
-//! Where a report goes: standard output, a device or a pipe, or a file, which is written whole or not at all.
+//! The place of a report: standard output, a device or a pipe, or a file, which is written whole or not at all.
 
 use corfem::files::disk::{
     append, is_standard_output, metadata, probe, read_link, replace, replaceable, standard_output,
@@ -8,7 +8,7 @@ use corfem::present::PresentError;
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// Where a report goes.
+/// The place of a report.
 enum OutputPlace {
     StandardOutput,
     /// An existing path that is not a regular file, such as a pipe.
@@ -70,7 +70,7 @@ fn place(path: Option<&Path>) -> io::Result<OutputPlace> {
     Ok(OutputPlace::File(path))
 }
 
-/// Whether it is a name of one of the program's own open files, such as `/dev/fd/3`.
+/// True for a name of one of the program's own open files, such as `/dev/fd/3`.
 fn is_descriptor(path: &Path) -> bool {
     let folder = path.parent().and_then(|folder| folder.canonicalize().ok());
     folder.is_some_and(|folder| folder.starts_with("/proc"))

@@ -14,14 +14,14 @@ use serde::de::{Error as _, IntoDeserializer};
 #[derive(Debug, Default, Args)]
 #[command(next_help_heading = "Settings of the loops")]
 pub struct SettingsArguments {
-    /// How the step (13) measures the change of stiffness of an element:
+    /// Reading of the step (13), which measures the change of stiffness of an element:
     ///   own       by its stiffness in each test mode
     ///   matrix    by that and what it couples between test modes
     ///   relative  by the relative change alone, so that every element counts the same
     ///   gage      by the change of its gage, so that thin panels change more
     #[arg(long, value_name = "RULE", value_parser = rule, verbatim_doc_comment)]
     rule: Option<StepRule>,
-    /// How the changes of several iterations combine:
+    /// Combination of the changes of several iterations:
     ///   sum       each changes the stiffness that the pass began with, as the paper prints
     ///   product   each changes the present stiffness
     #[arg(long, value_name = "HOW", value_parser = named::<Accumulation>, verbatim_doc_comment)]
@@ -49,13 +49,13 @@ pub fn named<T: for<'a> Deserialize<'a>>(text: &str) -> Result<T, Error> {
     T::deserialize(from)
 }
 
-/// A rule of the step by its name; of one that is gone it says so.
+/// A rule of the step by its name; the error for a removed one says so.
 fn rule(text: &str) -> Result<StepRule, Error> {
     removed_step(text).map_or_else(|| named(text), |removed| Err(Error::custom(removed)))
 }
 
 impl SettingsArguments {
-    /// Puts what was given in place of a run's settings.
+    /// Replaces a run's settings by those that were given.
     pub fn apply(&self, settings: &mut Settings) -> Result<(), PresentError> {
         let inner = &mut settings.inner;
         inner.step = self.rule.unwrap_or(inner.step);

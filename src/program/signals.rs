@@ -11,9 +11,9 @@ const SIGNALS: [i32; 3] = [SIGINT, SIGTERM, signal_hook::consts::SIGHUP];
 #[cfg(not(unix))]
 const SIGNALS: [i32; 2] = [SIGINT, SIGTERM];
 
-/// Whether the signals end the program at once, as they do by default.
+/// True while the signals end the program at once, as they do by default.
 static FREE: AtomicBool = AtomicBool::new(true);
-/// How many postpone them.
+/// Number of holders that postpone the signals.
 static HOLDERS: AtomicUsize = AtomicUsize::new(0);
 /// The last signal that came while they were postponed; 0 for none.
 static CAME: AtomicUsize = AtomicUsize::new(0);
@@ -34,7 +34,7 @@ pub fn postpone_first() -> (Arc<AtomicBool>, PostponedSignals) {
     let stop = Arc::new(AtomicBool::new(false));
     set_on_signal(&stop);
     for signal in asked_for() {
-        // Behind the handler that looks at it, so that it stands for the next signal.
+        // Registered behind the handler that reads it, so that it counts from the next signal on.
         let _ = flag::register(signal, &FREE);
     }
     (stop, postpone())

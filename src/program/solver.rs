@@ -11,7 +11,7 @@ use std::time::Duration;
 
 #[derive(Debug, Default, Args)]
 pub struct SolverArguments {
-    /// Which program does the finite element analyses of the outer loop
+    /// Program that does the finite element analyses of the outer loop
     #[arg(long, value_enum, default_value = "built-in")]
     solver: SolverArgument,
     /// Folder of NASTRAN-95, with bin/nastrn and rf/; without it that of the environment variable NASTRAN95, or
@@ -33,11 +33,11 @@ enum SolverArgument {
     Nastran95,
 }
 
-/// What analyzes a model: NASTRAN-95, or without it the elements of this program.
+/// The program that analyzes a model: NASTRAN-95, or without it the elements of this program.
 pub struct Solver(Option<Nastran95>);
 
 impl Solver {
-    /// The one asked for; NASTRAN-95 to be stopped by the signals that ask this program to stop.
+    /// The solver asked for. The signals that ask this program to stop also stop NASTRAN-95.
     pub fn from_arguments(arguments: &SolverArguments) -> Result<Self, PresentError> {
         if let SolverArgument::BuiltIn = arguments.solver {
             return Ok(Self(None));
@@ -58,7 +58,7 @@ impl Solver {
         Ok(Self(Some(nastran)))
     }
 
-    /// Its name in reports.
+    /// Name of the solver in reports.
     pub fn name(&self) -> &'static str {
         if self.0.is_some() { NAME } else { BUILT_IN }
     }

@@ -11,7 +11,7 @@ use serde_json::json;
 
 #[derive(Debug, Args)]
 pub struct TablesArguments {
-    /// Which tables; all thirteen if none is named
+    /// Numbers of the tables; all thirteen if none is named
     #[arg(value_name = "TABLE", value_parser = clap::value_parser!(u8).range(1..=13))]
     numbers: Vec<u8>,
     #[command(flatten)]
@@ -44,7 +44,7 @@ pub fn tables(arguments: &TablesArguments) -> Result<(), PresentError> {
         .write(&tables, || json::document(json!({ "tables": tables })))
 }
 
-/// Runs Case 2 with fewer modes and writes Tables 9 to 12 and what truncation costs.
+/// Runs Case 2 with fewer modes and writes Tables 9 to 12 and the cost of truncation.
 pub fn fewer_modes(
     FewerModesArguments { settings, output }: &FewerModesArguments,
     quiet: bool,

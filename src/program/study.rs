@@ -19,7 +19,7 @@ use std::sync::atomic::Ordering::SeqCst;
 use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, available_parallelism, scope};
 
-/// Most samples: where each begins in its file takes some forty bytes, so that all take 400 MB.
+/// Most samples: the place of each in its file takes some forty bytes, so that all take 400 MB.
 const MOST_SAMPLES: u64 = 10_000_000;
 /// Most samples at a time: more than any machine has cores, and their stacks take at most 2 GB.
 const MOST_THREADS: i64 = 1024;
@@ -29,19 +29,19 @@ pub struct StudyArguments {
     /// The job: corfem init explains its entries
     #[arg(value_name = "JOB")]
     job: PathBuf,
-    /// How many samples
+    /// Number of samples
     #[arg(long, value_name = "N", required_unless_present = "sample", value_parser = clap::value_parser!(u64).range(1..=MOST_SAMPLES))]
     samples: Option<u64>,
     /// Seed of the random numbers; each sample depends on it and its own number alone
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
-    /// What varies: noise (the test, by its standard deviations), start (the first factors), subset (sensors or modes left out)
+    /// Variations: noise (the test, by its standard deviations), start (the first factors), subset (sensors or modes left out)
     #[arg(long, value_delimiter = ',', default_value = "noise", value_parser = named::<Vary>)]
     vary: Vec<Vary>,
     /// Results folder (samples.csv, summary.csv, histogram.svg), created if new; an unfinished study in it is resumed
     #[arg(long, value_name = "DIR", required_unless_present = "sample")]
     folder: Option<PathBuf>,
-    /// How many samples to run at a time; the number of cores if not given
+    /// Number of samples to run at a time; the number of cores if not given
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MOST_THREADS))]
     threads: Option<u32>,
     /// Run only this sample and write its line instead of a report
@@ -54,7 +54,7 @@ pub struct StudyArguments {
     output: OutputArguments,
 }
 
-/// Runs the samples that a folder does not have yet, and says what all come to; or one sample alone. Whether no doubt stands.
+/// Runs the samples that a folder does not have yet and reports on all, or runs one sample alone; true if no doubt stands.
 pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<bool, PresentError> {
     let study = Study::new(
         &arguments.job,
@@ -63,14 +63,14 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<bool, PresentErr
         &arguments.accept,
     )?;
     let is_clear = !study.trust.has_doubt();
-    // Postponed until what is done is written, so that a request to stop ends the program then.
+    // Postponed until the finished samples are written, so that a request to stop ends the program then.
     let (stop, _postponed) = signals::postpone_first();
     let (Some(folder), Some(last)) = (&arguments.folder, arguments.samples) else {
         let (line, failure) = study.run(arguments.sample.unwrap_or(1), || !stop.load(SeqCst))?;
         failure
             .into_iter()
             .for_each(|failure| note(format_args!("corfem: {failure}")));
-        // The line belongs to a file of samples: what is doubtful of all of them stands elsewhere.
+        // The line belongs to a file of samples; doubts about all of them go to standard error.
         for doubt in study.trust.concerns.iter().filter(|doubt| doubt.stands()) {
             note(format_args!(
                 "corfem: doubt {}: {}",
@@ -153,7 +153,7 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<bool, PresentErr
     Ok(is_clear)
 }
 
-/// The file of samples, to be gone on with behind its last whole line, and what is in it. Nobody else writes it meanwhile.
+/// The file of samples, opened to continue behind its last whole line, and its samples. A lock keeps other studies out.
 fn opened(path: &Path, study: &Study) -> Result<(OpenFile, Samples), FileError> {
     let failed = FileError::of_file(path, "write");
     let mut file = open_or_create(path).map_err(&failed)?;
