@@ -44,7 +44,7 @@ pub(crate) fn start_vector(size: usize) -> DVector<f64> {
     random_block(size, 1, &mut 0).column(0).normalize()
 }
 
-/// The places of numbers above a limit; one that is no number is not.
+/// Indices of values above a limit. NaN is not above it.
 pub(crate) fn places_above(numbers: &DVector<f64>, limit: f64) -> Vec<usize> {
     (0..numbers.len())
         .filter(|&place| numbers[place] > limit)
@@ -86,7 +86,7 @@ pub(crate) fn transposed_product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<
     product
 }
 
-/// Takes $A B$ away from a matrix of many rows.
+/// Subtracts $A B$ from a matrix of many rows.
 pub(crate) fn take_product(from: &mut DMatrix<f64>, a: &DMatrix<f64>, b: &DMatrix<f64>) {
     let (rows, columns) = from.shape();
     let into = MatMut::from_column_major_slice_mut(from.as_mut_slice(), rows, columns);

@@ -16,9 +16,9 @@ const AMPLITUDES_AT_ONCE: usize = 32_768;
 ///
 /// $$ K_e = \sum_r k_r w_r w_r^t $$
 ///
-/// Cholesky steps with pivots find them, $k_r$ the pivot and $w_r$ its column with a one there, down to $10^{-14}$ of the largest entry:
-/// what is less is the round-off of a rigid motion. They leave no more of a matrix that is semidefinite, as elasticity makes it; of
-/// another one the eigenvalues and eigenvectors are taken.
+/// Cholesky steps with pivots find them, $k_r$ the pivot and $w_r$ its column with a one there, down to $10^{-14}$ of the largest
+/// entry: less is the round-off of a rigid motion. For an indefinite matrix, which elasticity does not make, eigenvalues and
+/// eigenvectors are taken instead.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Deformations {
     label: usize,
@@ -27,7 +27,7 @@ pub struct Deformations {
     stiffness: Vec<f64>,
     /// The $w_r$ one behind the other.
     shapes: Vec<f64>,
-    /// None for a material without density.
+    /// Lumped mass at every DOF for a size of one; empty for a material without density.
     unit_mass: Vec<f64>,
 }
 
@@ -35,7 +35,7 @@ impl Deformations {
     /// The ways in which an element deforms.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] for a matrix or mass that does not fit the DOF; those of [`check_symmetric`] for the stiffness.
+    /// [`Error::WrongShape`] for a matrix or mass that does not fit the DOF; the errors of [`check_symmetric`] for the stiffness.
     ///
     /// # Example
     ///
@@ -91,12 +91,12 @@ impl Deformations {
         &self.dof
     }
 
-    /// In how many ways the element deforms.
+    /// Number of ways in which the element deforms.
     pub fn count(&self) -> usize {
         self.stiffness.len()
     }
 
-    /// Whether it has mass.
+    /// True if the element has mass.
     pub(super) fn has_mass(&self) -> bool {
         !self.unit_mass.is_empty()
     }
@@ -190,7 +190,7 @@ pub(crate) fn sum_of_stiffness<'a>(
     sum
 }
 
-/// Their generalized mass in the same way, $\sum_e s_e V_e^t M_e V_e$ with the lumped $M_e$.
+/// Generalized mass of elements in the same way, $\sum_e s_e V_e^t M_e V_e$ with the lumped $M_e$.
 pub(crate) fn sum_of_mass<'a>(
     transposed_shapes: &DMatrix<f64>,
     members: impl Iterator<Item = (&'a Deformations, f64)>,
@@ -207,7 +207,8 @@ pub(crate) fn sum_of_mass<'a>(
     sum
 }
 
-/// Takes $a a^t/p$ with the largest pivot $p$, and $a$ its column, out of a symmetric matrix: the pivot, if one is left.
+/// Subtracts $a a^t/p$ from a symmetric matrix, with its largest pivot $p$ and the column $a$ of it, and returns the pivot, if one
+/// is left.
 pub(super) fn take_deformation(
     matrix: &mut [f64],
     order: usize,

@@ -18,7 +18,7 @@ pub(crate) fn mass_entries(element: &ElementMatrix, size: f64) -> Vec<(usize, us
         .collect()
 }
 
-/// Those of $m t_1 t_2^t$, a mass that couples two motions of the degrees of freedom, or is that of one.
+/// Entries of $m t_1 t_2^t$: a mass that couples two motions of the degrees of freedom, or moves with one.
 pub(crate) fn moving_mass_entries(
     motion: &[(usize, f64)],
     other: &[(usize, f64)],
@@ -35,11 +35,11 @@ pub(crate) fn moving_mass_entries(
 ///
 /// $$ v^t K v = \sum_e s_e v^t K_e v = 0 \quad \text{if and only if} \quad K_e v = 0 \text{ for all } e, $$
 ///
-/// and no element is stiffer than another. The largest entry is that of the element free of supports; what round-off leaves of its
-/// direction at the free ones is dropped.
+/// and no element is stiffer than another. The largest entry is that of the element free of supports; entries at the free ones that
+/// are only the round-off of its direction are dropped.
 ///
 /// # Errors
-/// Those of [`SparseMatrix::new`].
+/// The errors of [`SparseMatrix::new`] for entries beyond the range of numbers.
 pub(crate) fn resisting(
     structure: &Structure,
     elements: &[ElementMatrix],
@@ -69,7 +69,8 @@ impl WholeModel {
     /// It may hang free. Point masses of parameters are those of the model's own law ([`crate::method::model::ScaledStructure`]).
     ///
     /// # Errors
-    /// Those of [`ScaledStructure::factor_ranges`](crate::method::model::ScaledStructure::factor_ranges) and [`WholeModel::new`].
+    /// The errors of [`ScaledStructure::factor_ranges`](crate::method::model::ScaledStructure::factor_ranges) for the parameters,
+    /// and of [`WholeModel::new`].
     pub fn of(model: &LargeModel) -> Result<(Self, SparseMatrix), Error> {
         let elements: Vec<ElementMatrix> =
             model.elements().iter().map(Deformations::matrix).collect();

@@ -16,18 +16,18 @@ use std::sync::Arc;
 
 /// Most rows of a pencil whose modes are all found at once: a full decomposition of that order takes a few milliseconds.
 pub const MOST_DENSE_ROWS: usize = 150;
-/// What there are too few of when more modes are asked for than have a frequency.
+/// Name, in errors, of modes with a finite frequency.
 pub const FINITE: &str = "modes of finite frequency";
 /// Directions that are added to the subspace at once, unless a root is repeated more often.
 const BLOCK: usize = 8;
-/// Modes found beyond those asked for, so that the count can be made where two neighbors are apart.
+/// Extra modes sought, so that two neighbors are found between which counting is safe.
 const BEYOND: usize = 4;
 /// Root relative to the largest below which it is lost: a decomposition finds each to some tens of roundings of the largest, so that
 /// three digits are left at a frequency three million times the lowest.
 const SMALLEST_ROOT: f64 = 1e-13;
-/// Distance of two neighbors relative to the higher between which modes can be counted.
+/// Distance of two neighbors, relative to the higher, from which on modes can be counted between them.
 const APART: f64 = 1e-5;
-/// A bound above the last of some neighbors so close that none of them can be left out, relative to it: two such distances.
+/// Upper end of a cluster without such a distance, relative to its highest squared frequency: two distances.
 const JUST_ABOVE: f64 = 1.0 + 2.0 * APART;
 
 /// Modes of a pencil, the rigid-body modes apart.
@@ -39,7 +39,7 @@ pub struct CountedModes {
     pub vibrations: ModeSet,
     /// Motions that are hardly told from rigid-body modes ([`RigidBodies::doubtful`]).
     pub doubtful: Vec<(usize, f64)>,
-    /// How many loads the factor was solved for to find the vibrations.
+    /// Number of loads for which the factor was solved to find the vibrations.
     pub solutions: usize,
 }
 
@@ -59,9 +59,9 @@ pub struct CountedModes {
 /// block has directions, and a block of as many directions as modes were counted begins anew.
 ///
 /// # Errors
-/// [`Error::Empty`] or [`Error::TooMany`] for a bad `count`; [`Error::Empty`] without mass; [`Error::NotPositiveDefinite`] for a motion
-/// that has neither stiffness nor mass, or a matrix that is not semidefinite; [`Error::Miscounted`]; [`Error::NoConvergence`]; those of
-/// [`SparseMatrix::check_symmetric`]; [`Error::WrongShape`] for matrices of two sizes.
+/// [`Error::Empty`] or [`Error::TooMany`] for a bad `count`; [`Error::Empty`] without mass; [`Error::NotPositiveDefinite`] for a
+/// motion that has neither stiffness nor mass, or a matrix that is not semidefinite; [`Error::Miscounted`];
+/// [`Error::NoConvergence`]; [`Error::WrongShape`] for matrices of two sizes; the errors of [`SparseMatrix::check_symmetric`].
 ///
 /// Source: Bathe, *Finite Element Procedures* (1996), sections 11.2 and 11.6; Parlett, *The Symmetric Eigenvalue Problem* (1980),
 /// chapters 3, 13 and 15.
@@ -79,8 +79,8 @@ pub fn lowest_modes(
     Ok(found)
 }
 
-/// The same of symmetric matrices of one size, or all modes where they are fewer than `most`. The null space of `resisting` is that of
-/// the stiffness. The flexibility that they were found by serves other loads.
+/// Modes as by [`lowest_modes`] of symmetric matrices of one size, or all modes where they are fewer than `most`, with the
+/// flexibility that found them, which serves other loads too. The null space of `resisting` is that of the stiffness.
 pub(super) fn modes_at_most(
     stiffness: &SparseMatrix,
     mass: &SparseMatrix,
@@ -141,7 +141,7 @@ pub(super) fn modes_at_most(
 /// The factor of $K + \sigma M$, named, for $\sigma$.
 type At<'a> = &'a dyn Fn(&'static str, f64) -> Result<Factor, Error>;
 
-/// $K^{-1}$, or what stands for it where a structure hangs free: the deflections under loads that balance the inertia of its rigid-body
+/// $K^{-1}$, or its substitute where a structure hangs free: the deflections under loads that balance the inertia of its rigid-body
 /// modes $R$, and themselves have none of these,
 ///
 /// $$ (I - R R^t M) K_g^{-1} (I - M R R^t) . $$
@@ -210,7 +210,7 @@ impl Flexibility {
         }
         let balanced = loads - weighted * shapes.tr_mul(loads);
         let mut deflections = self.factor.solve(&balanced)?;
-        // Once leaves the round-off of what was taken away, twice is enough.
+        // One pass leaves the round-off of what it takes away; a second one is enough.
         for _ in 0..2 {
             self.rigid.take_from(&mut deflections);
         }
@@ -218,7 +218,7 @@ impl Flexibility {
     }
 }
 
-/// The `wanted` largest roots, or all if there are fewer or all are as easily found; solutions are counted on.
+/// The `wanted` largest roots, or all if there are fewer or all are as easily found. `solutions` counts the right-hand sides.
 fn largest(
     flexibility: &Flexibility,
     mass: &SparseMatrix,
@@ -263,8 +263,8 @@ fn all(solve: Solve, rigid: usize, mass: &SparseMatrix) -> Result<Found, Error> 
     })
 }
 
-/// $F$ (rows × rank) of a semidefinite $M = F F^t$ by Cholesky steps with pivots of the matrix scaled to unit diagonal, so that a mass
-/// may be as small as it likes beside others; what is left must be within the digits that are given.
+/// $F$ (rows × rank) of a semidefinite $M = F F^t$ by Cholesky steps with pivots of the matrix scaled to unit diagonal, so that a
+/// mass may be as small as it likes beside others; the rest must be within the digits that files carry.
 fn root(mass: &SparseMatrix) -> Result<DMatrix<f64>, Error> {
     let dense = mass.dense();
     let (scale, rows) = (SparseMatrix::unit_scale(&dense.diagonal()), mass.rows());
@@ -283,8 +283,8 @@ fn root(mass: &SparseMatrix) -> Result<DMatrix<f64>, Error> {
     }
 }
 
-/// Squared frequencies and shapes of unit generalized mass, each shape made orthogonal to those before it: what round-off leaves of a
-/// lower mode in a higher one goes. Frequencies are Rayleigh's quotients $v^t K v$ from the forces $K v$.
+/// Squared frequencies and shapes of unit generalized mass. Each shape is made orthogonal to those before it, which removes the
+/// round-off of lower modes from it. Frequencies are Rayleigh's quotients $v^t K v$ from the forces $K v$.
 fn frequencies(mass: &SparseMatrix, found: Found) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
     let unit = found.shapes.column_iter().map(|shape| 1.0 / shape.amax());
     let unit = DMatrix::from_diagonal(&DVector::from_iterator(found.roots.len(), unit));
@@ -299,8 +299,8 @@ fn frequencies(mass: &SparseMatrix, found: Found) -> Result<(DVector<f64>, DMatr
     Ok((DVector::from_vec(omega_squared), shapes))
 }
 
-/// A bound at the first place above the `needed` vibrations where two are apart, how many modes the inertia counts below it, and how many
-/// vibrations were found there.
+/// A bound at the first place above the `needed` vibrations where two are apart, the number of modes that the inertia counts below
+/// it, and the number of vibrations found there.
 fn numbers(
     factor: At,
     omega_squared: &DVector<f64>,
@@ -321,7 +321,7 @@ fn numbers(
     let factor_at = |bound: f64| {
         factor("pencil at a bound on its frequencies", -bound).map(|factor| (bound, factor))
     };
-    // Nothing is exchanged in this factorization: at one place a part of the structure may vibrate by itself, and no other at another.
+    // This factorization exchanges no rows: at one bound a part of the structure may vibrate by itself, and at another none does.
     let (bound, factor) = factor_at(bound(0.5))
         .or_else(|_| factor_at(bound(0.4)))
         .or_else(|_| factor_at(bound(0.6)))?;

@@ -5,8 +5,7 @@ use crate::method::linear_algebra::{check_length, check_shape, symmetric_part};
 use crate::method::modes::check_count;
 use nalgebra::{DMatrix, DVector};
 
-/// Largest difference between two entries that should be equal, relative to the largest of the matrix: what the twelve digits leave
-/// that are given in a file.
+/// Largest difference between two entries that should be equal, relative to the largest of the matrix: files carry twelve digits.
 pub(super) const GIVEN: f64 = 1e-11;
 
 /// A real matrix by its nonzero entries, column by column and in each from the first row down; no place is given twice.
@@ -20,8 +19,8 @@ pub struct SparseMatrix {
 }
 
 impl SparseMatrix {
-    /// A matrix of the given size from its entries (row, column, value) in any order; what stands at one place twice adds up,
-    /// and zeros are left out.
+    /// A matrix of the given size from its entries (row, column, value) in any order; entries at one place add up, and zeros are
+    /// left out.
     ///
     /// # Errors
     /// [`Error::Empty`] without rows or columns; [`Error::TooMany`] for a place outside; [`Error::NotFinite`].
@@ -61,10 +60,10 @@ impl SparseMatrix {
         }
     }
 
-    /// The same of the rows and values of every column.
+    /// A matrix from the rows and values of every column.
     ///
     /// # Errors
-    /// Those of [`Self::new`].
+    /// [`Error::Empty`], [`Error::TooMany`] and [`Error::NotFinite`], as in [`Self::new`].
     pub fn of_columns(
         what: &'static str,
         rows: usize,
@@ -76,10 +75,10 @@ impl SparseMatrix {
         Self::new(what, rows, columns.len(), entries.collect())
     }
 
-    /// The same of a dense matrix.
+    /// A matrix from a dense one.
     ///
     /// # Errors
-    /// Those of [`Self::new`].
+    /// [`Error::Empty`] and [`Error::NotFinite`], as in [`Self::new`].
     pub fn of_dense(what: &'static str, matrix: &DMatrix<f64>) -> Result<Self, Error> {
         let columns: Vec<_> = matrix
             .column_iter()
@@ -111,7 +110,7 @@ impl SparseMatrix {
         &from[..beyond.unwrap_or(from.len())]
     }
 
-    /// Whether it is square and every entry exactly that of the other triangle.
+    /// True if the matrix is square and every entry exactly that of the other triangle.
     pub fn is_symmetric(&self) -> bool {
         *self == self.transposed()
     }
@@ -237,7 +236,7 @@ impl SparseMatrix {
         })
     }
 
-    /// The same as a dense matrix.
+    /// The matrix as a dense one.
     pub fn dense(&self) -> DMatrix<f64> {
         let mut dense = DMatrix::zeros(self.rows, self.columns);
         self.entries

@@ -1,4 +1,4 @@
-//! In which order grid points are eliminated: nested dissection, so that a sparse factor stays sparse.
+//! The order in which grid points are eliminated: nested dissection, so that a sparse factor stays sparse.
 //!
 //! Source: A. George, *Nested Dissection of a Regular Finite Element Mesh*, SIAM J. Numer. Anal. 10 (1973). A set of points is cut
 //! in two where few points lie next to the cut; those are eliminated last, and both parts are cut again.
@@ -8,11 +8,11 @@ use std::collections::VecDeque;
 
 /// Parts that are not cut again: a grid's three DOF times this are one small dense block.
 const SMALLEST_PART: usize = 6;
-/// Where cuts of a part are tried, in tenths of its points: on the three smaller wings of `paper/cost.md` the factor has 3 to 6 % fewer
-/// entries than by halves alone.
+/// Tenths of a part's points after which cuts are tried: on the three smaller wings of `paper/cost.md` the factor has 3 to 6 %
+/// fewer entries than by halves alone.
 const TENTHS: [usize; 3] = [4, 5, 6];
 
-/// A mark that no point has yet.
+/// The next mark, which no point has yet; `last` is the largest in use.
 fn next(last: &mut usize) -> usize {
     *last += 1;
     *last
@@ -20,9 +20,9 @@ fn next(last: &mut usize) -> usize {
 
 /// Points of a mesh.
 pub(crate) struct Mesh {
-    /// Where they are, all alike where that is not known.
+    /// Positions of the points, all alike where they are not known.
     pub(crate) points: Vec<Vector3<f64>>,
-    /// Those coupled to each.
+    /// Points that are coupled to each.
     pub(crate) near: Vec<Vec<usize>>,
 }
 
@@ -62,8 +62,9 @@ impl Mesh {
         order
     }
 
-    /// Cuts a part after some tenths of its points in the order of their keys: for every point 0 or 1 for its side and 2 next to the
-    /// cut, and how many those are. None when all keys are alike.
+    /// Cuts a part after some tenths of its points in the order of their keys: for every point 0 or 1 for its side and 2 next to
+    /// the cut, and the cost of the cut, the number of points next to it, multiplied when the cut is lopsided. None when all keys
+    /// are alike.
     fn cut(
         &self,
         part: &[usize],
@@ -114,11 +115,11 @@ impl Mesh {
         Some((sides, separator.len() * (1 + lopsided)))
     }
 
-    /// How many couplings lie between the points of a part and one at its end, and some number more, the same for all; pieces that do not
-    /// hang together follow one another.
+    /// Graph distance of each point of a part from one at its end, up to a constant; pieces that do not hang together follow one
+    /// another.
     fn distances(&self, part: &[usize], mark: &mut [usize], last: &mut usize) -> Vec<f64> {
         let mut start = part[0];
-        // From the farthest of the first point's: an end of the part.
+        // The second time from the point farthest from the first: an end of the part.
         for _ in 0..2 {
             let inside = next(last);
             part.iter().for_each(|&point| mark[point] = inside);

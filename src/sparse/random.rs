@@ -2,14 +2,14 @@
 
 use nalgebra::DMatrix;
 
-/// Columns of numbers on both sides of zero, of a size that is left to whoever makes the columns of unit length.
+/// Random start vectors with numbers on both sides of zero, not normalized (rows × columns).
 pub(super) fn random_block(rows: usize, columns: usize, state: &mut u64) -> DMatrix<f64> {
     DMatrix::from_fn(rows, columns, |_, _| {
         split_mix_64(state).cast_signed() as f64
     })
 }
 
-/// The next number from zero up to one: of [`split_mix_64`] the 53 bits that a number holds.
+/// The next number from zero up to one, by the 53 bits of [`split_mix_64`] that a number holds.
 pub fn uniform(state: &mut u64) -> f64 {
     (split_mix_64(state) >> 11) as f64 / (1_u64 << 53) as f64
 }

@@ -10,12 +10,13 @@ use nalgebra::DMatrix;
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-/// Standard deviations of an energy's round-off within which it counts as zero, times a double's relative rounding: an entry is the sum
-/// of some thirty parts, each rounded, then scaled and multiplied.
+/// Strain energy, relative to the root of the sum of its terms' squares, that counts as zero: an entry is the sum of some thirty
+/// parts, each rounded, then scaled and multiplied.
 const ROUNDED: f64 = 32.0 * f64::EPSILON;
-/// The root of thirty such roundings is a quarter of that, and leaves more resistance only where there is some.
+/// Stricter limit of that energy, above which a motion is reported as doubtful. Thirty independent roundings add up to about their
+/// root, which is less; more hints at some resistance.
 const DOUBTFUL: f64 = 8.0 * f64::EPSILON;
-/// Digits of numbers that a program has written shorter than a double's: fewer are those of somebody's own numbers, and exact.
+/// Digits of numbers that a program has rounded; shorter ones are somebody's own and taken as exact.
 const DIGITS: RangeInclusive<usize> = 6..=12;
 /// Steps of inverse iteration. In each a motion whose resistance is $k$ shifts loses a factor of $1 + k$ beside those that nothing
 /// resists, and its energy counts by the square: of ten shifts six leave less than $10 \cdot 11^{-12}$ shifts.
@@ -26,16 +27,16 @@ const BLOCK: usize = 8;
 /// The null space of a semidefinite stiffness.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigidBodies {
-    /// Motions that span it (rows × r): each has one at a row of its own in `rows` and zero at those of the others.
+    /// Motions that span the null space (rows × r): each is one at a row of its own in `rows` and zero at the others.
     pub motions: DMatrix<f64>,
-    /// These rows.
+    /// Rows at which one of the motions is one and the others are zero.
     pub rows: Vec<usize>,
-    /// Motions whose resistance the digits hardly tell from none: the row that moves most, and the resistance relative to the entries
-    /// that it is left of. They count as vibrations, but for those so little resisted that it may be the rounding of doubles.
+    /// Motions whose resistance can hardly be told from none: the row that moves most, and the resistance relative to the size of
+    /// its terms. They count as vibrations, except where the rounding of doubles may be all of the resistance.
     pub doubtful: Vec<(usize, f64)>,
 }
 
-/// Whether so little resistance, relative to the entries that it is left of, is round-off.
+/// True if a resistance, relative to the size of its terms, is within the rounding of doubles.
 pub(crate) fn is_rounded(resistance: f64) -> bool {
     resistance <= ROUNDED
 }
@@ -53,7 +54,7 @@ impl RigidBodies {
     /// as much is doubtful. A negative energy is itself a draw of the round-off, which is taken to be within four of the largest such draw.
     ///
     /// # Errors
-    /// [`Error::NotPositiveDefinite`] for a matrix that is not semidefinite; those of the factorization.
+    /// [`Error::NotPositiveDefinite`] for a matrix that is not semidefinite; the errors of the factorization.
     pub fn of(what: &'static str, matrix: &SparseMatrix) -> Result<Self, Error> {
         let (count, entries) = (matrix.rows(), matrix.entries());
         let size = SparseMatrix::unit_scale(&matrix.diagonal());
@@ -97,7 +98,7 @@ impl RigidBodies {
                         (value * motion[row] * motion[column]).powi(2)
                     };
                     let parts: f64 = unit.entries().iter().map(part).sum();
-                    // At a row without stiffness there is nothing but what round-off leaves of others.
+                    // At a row without stiffness there is only the round-off of other rows.
                     motion.dot(&forces.column(at)) / parts.sqrt().max(f64::EPSILON)
                 })
                 .collect();
@@ -134,8 +135,8 @@ impl RigidBodies {
                 rest -= taken;
                 rows.push(row);
             }
-            // A motion that nothing resists is that of one spring at its row, displaced by one, whatever springs stand at the other rows:
-            // to the digits of a solution, where a decomposition mixes in what strains little beside the stiffest.
+            // Held by springs at these rows, one of which is displaced by one, the structure moves by a motion that nothing
+            // resists. A solution gives all its digits; a decomposition mixes in motions that strain little beside the stiffest.
             let ground = rows.iter().map(|&row| (row, row, 1.0)).collect();
             let ground = SparseMatrix::new(what, count, count, ground)?;
             let held = Factor::of_sum(&plan, what, &[(1.0, &unit), (1.0, &ground)])?;

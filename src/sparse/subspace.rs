@@ -6,15 +6,16 @@ use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use nalgebra::{DMatrix, DVector};
 
-/// How often a subspace that has begun anew is looked at until it is full.
+/// Convergence checks per restart.
 const LOOKS: usize = 4;
-/// Most looks in all: some two hundred subspaces.
+/// Most convergence checks in all: some two hundred subspaces.
 const MOST_LOOKS: usize = 800;
 /// Residual of a mode relative to its root at which it counts as found.
 const FOUND: f64 = 1e-10;
-/// The same of modes that only tell where others end: no root errs by more, a hundredth of what counts as apart.
+/// Residual, relative to its root, at which a mode beyond those asked for counts as found: no root errs by more, a hundredth of the
+/// distance at which modes count as apart.
 const NEARLY: f64 = 1e-7;
-/// The same where round-off of a softer mode leaves no smaller one: a root errs by the square of it.
+/// Residual, relative to its root, that the round-off of a softer mode excuses at most: a root errs by the square of it.
 const ROUNDED: f64 = 1e-5;
 
 /// The largest roots of $K^{-1} M$, descending, their shapes (rows × m), the forces $K v$ that these were found from, and whether there
@@ -46,7 +47,7 @@ impl Directions {
         self.shapes.ncols()
     }
 
-    /// Takes from every column what it has of these shapes, and says how much that was (m × columns).
+    /// Subtracts from every column its part in these shapes, and returns the parts (m × columns).
     pub(super) fn take_from(&self, block: &mut DMatrix<f64>) -> DMatrix<f64> {
         let shares = transposed_product(&self.weighted, block);
         take_product(block, &self.shapes, &shares);
@@ -85,7 +86,7 @@ impl Directions {
         let mut rest = block.clone();
         scaled(&mut rest, |size| size);
         let next = orthonormal(mass, block)?;
-        // Once leaves the round-off of what was taken away, twice is enough.
+        // One pass leaves the round-off of what it takes away; a second one is enough.
         let mut block = next.shapes;
         self.take_from(&mut block);
         let next = orthonormal(mass, block)?;
@@ -131,8 +132,8 @@ fn orthonormal(mass: &SparseMatrix, block: DMatrix<f64>) -> Result<Directions, E
     .combined(&vectors))
 }
 
-/// The `wanted` largest roots, `exact` of them to round-off and the others nearly, by blocks of so many directions, in subspaces of at
-/// most so many, of which so many are kept. `solve` is $K^{-1}$ beside the `rigid` bodies.
+/// The `wanted` largest roots, `exact` of them to round-off and the others nearly. The subspace grows by `block` directions at a
+/// time to at most `most`, of which the best `keep` begin the next. `solve` is $K^{-1}$ beside the `rigid` bodies.
 ///
 /// With the directions $V$ found so far and the next $Q$, every block gives the next columns of $H$ in
 ///
@@ -179,7 +180,7 @@ pub(super) fn subspace(
                 .copy_from(&split.shares.transpose());
             (next, rest) = (split.next, split.rest);
             if next.len() == 0 {
-                // What the block led to is complete by itself; there may be other copies of its roots.
+                // The subspace of this block is complete; its roots may have other copies outside.
                 next = fresh(&basis, solve)?;
                 rest = DMatrix::zeros(next.len(), rest.ncols());
             }

@@ -12,7 +12,7 @@ use nalgebra::DVector;
 /// The degrees of freedom that move with mass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MassDof {
-    /// Which they are.
+    /// Degrees of freedom with mass.
     pub dof: Vec<StructuralDof>,
     /// $T$ (free SDOF × d): $q_D = T^t q_S$.
     pub load_distribution: SparseMatrix,
@@ -27,9 +27,9 @@ pub struct WholeModes {
     pub dof: Vec<StructuralDof>,
     /// Vibrations with a finite frequency, from the lowest.
     pub modes: Modes,
-    /// How many rigid-body modes there are beside them.
+    /// Number of rigid-body modes beside them.
     pub rigid_body: usize,
-    /// Where motions are hardly told from these, and the resistance to each
+    /// Names of rows whose motions can hardly be told from rigid-body modes, and the resistance to each
     /// ([`RigidBodies::doubtful`](super::RigidBodies::doubtful)).
     pub doubtful: Vec<(String, f64)>,
 }
@@ -39,7 +39,7 @@ pub struct WholeModes {
 /// whose rows are called `name`.
 ///
 /// # Errors
-/// [`Error::WrongShape`] for a $T$ or masses that do not fit; those of [`lowest_modes`](super::lowest_modes()).
+/// [`Error::WrongShape`] for a $T$ or masses that do not fit; the errors of [`lowest_modes`](super::lowest_modes()).
 pub fn whole_modes(
     stiffness: &SparseMatrix,
     at: MassDof,

@@ -58,15 +58,15 @@ impl Factor {
     /// Factorizes a symmetric matrix (both triangles given), which may be indefinite.
     ///
     /// # Errors
-    /// Those of [`SparseMatrix::check_symmetric`]; [`Error::NotPositiveDefinite`] naming a row without entries or where a pivot
-    /// vanishes; [`Error::WrongSolution`] when the factor does not solve its own matrix.
+    /// [`Error::NotPositiveDefinite`] naming a row without entries or where a pivot vanishes; [`Error::WrongSolution`] when the
+    /// factor does not solve its own matrix; the errors of [`SparseMatrix::check_symmetric`].
     pub fn new(what: &'static str, matrix: &SparseMatrix) -> Result<Self, Error> {
         matrix.check_symmetric(what)?;
         let plan = Arc::new(FactorizationPlan::of_sum(&[matrix])?);
         Self::of_sum(&plan, what, &[(1.0, matrix)])
     }
 
-    /// As [`Self::new`] of a sum of matrices, each times its number, by their plan.
+    /// The factor of a sum of symmetric matrices, each times its number, by their plan.
     pub(super) fn of_sum(
         plan: &Arc<FactorizationPlan>,
         what: &'static str,
@@ -122,8 +122,8 @@ impl Factor {
         (product, loads)
     }
 
-    /// Refuses a factor that does not solve its own scaled matrix, and says whether every eigenvalue of that is above a limit: both by
-    /// one solution with two loads, which reads the factor once.
+    /// True if every eigenvalue of the scaled matrix is above a limit; refuses a factor that does not solve that matrix. Both come
+    /// from one solution with two loads, which reads the factor once.
     fn is_proved_above(
         &self,
         limit: f64,
@@ -156,7 +156,7 @@ impl Factor {
             .map(|deflections| deflections.transpose())
     }
 
-    /// The same transposed (m × rows), so that the deflections of one DOF lie together.
+    /// Deflections as by [`Self::solve`], transposed (m × rows), so that those of one DOF lie together.
     pub(crate) fn solve_transposed(&self, loads: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         let (count, turn) = (loads.ncols(), &self.plan.turn);
         let (mut rows, mut is_loaded) = (vec![0.0; loads.len()], vec![false; loads.nrows()]);
@@ -212,7 +212,7 @@ impl Factor {
         finite("dynamic flexibility", sum)
     }
 
-    /// Which rows loads on some of them lead to in forward substitution.
+    /// Rows to which loads on some of them lead in forward substitution.
     fn reached(&self, mut is_reached: Vec<bool>) -> Vec<bool> {
         for block in self.plan.blocks(&self.values) {
             let own = block.start()..block.start() + block.val().ncols();
@@ -343,14 +343,14 @@ impl Factor {
         }
     }
 
-    /// Whether every eigenvalue of the matrix scaled to unit diagonal is above a limit that is not negative.
+    /// True if every eigenvalue of the matrix scaled to unit diagonal is above a limit that is not negative.
     ///
-    /// Small pivots tell nothing of that: after a small one the next is as wrong as round-off divided by it.
+    /// Small pivots do not tell that: after a small one the next is as wrong as round-off divided by it.
     pub(super) fn is_above(&self, limit: f64) -> bool {
         self.negative_count() == 0 && self.is_first_above(self.first_motion(), limit)
     }
 
-    /// The same without negative pivots and with the first step of inverse iteration done.
+    /// Answer of [`Self::is_above`] without negative pivots and with the first step of inverse iteration done.
     fn is_first_above(&self, first: DMatrix<f64>, limit: f64) -> bool {
         self.weakest_motion(first, CLEARLY_HELD * limit).0 > limit
     }
@@ -379,18 +379,18 @@ impl Factor {
 /// Rows that forward substitution reaches, in the order of elimination.
 struct Reach {
     is_reached: Vec<bool>,
-    /// How many rows are kept before each, and at the end how many in all.
+    /// Number of rows that are kept before each, and at the end of all that are kept.
     place: Vec<usize>,
 }
 
 impl Reach {
-    /// With every row kept.
+    /// Reach with every row kept.
     fn of_all_rows(is_reached: Vec<bool>) -> Self {
         let place = (0..=is_reached.len()).collect();
         Self { is_reached, place }
     }
 
-    /// With no others kept.
+    /// Reach with only the reached rows kept.
     fn of_reached_rows(is_reached: Vec<bool>) -> Self {
         let count = |kept: &mut usize, is_reached: &bool| {
             *kept += usize::from(*is_reached);

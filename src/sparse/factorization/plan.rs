@@ -1,4 +1,4 @@
-//! The plan of a factorization: what does not change with the sizes.
+//! The plan of a factorization: everything that does not change with the sizes.
 
 use crate::method::error::Error;
 use crate::sparse::SparseMatrix;
@@ -18,18 +18,18 @@ use std::mem::take;
 use std::ops::Range;
 use std::sync::Mutex;
 
-/// What does not change with the sizes: in which order the DOF are eliminated, where the stiffness has entries, and where its
-/// factor then has them.
+/// Parts of a factorization that do not change with the sizes: the order in which the DOF are eliminated, and the places where the
+/// stiffness and its factor have entries.
 #[derive(Debug)]
 pub struct FactorizationPlan {
     /// The DOF in the order of elimination.
     pub order: Vec<usize>,
-    /// When each is eliminated; everything below counts the DOF in that order.
+    /// Turn of each DOF in the elimination; everything below counts the DOF in that order.
     pub(super) turn: Vec<usize>,
     /// The lower triangle, column by column; the first entry of a column is the diagonal.
     pattern: SymbolicSparseColMat<usize>,
     symbolic: SymbolicCholesky<usize>,
-    /// The memory of the last factor that is no longer needed: memory that is new costs a large factorization an eighth of its time.
+    /// Memory of the last factor that is no longer needed: new memory costs a large factorization an eighth of its time.
     spare: Mutex<Vec<f64>>,
 }
 
@@ -67,7 +67,7 @@ impl FactorizationPlan {
     /// rows, as those of one grid are, are one point of the mesh.
     ///
     /// # Errors
-    /// Those of [`Self::of_elements`].
+    /// [`Error::TooMany`] and [`Error::NoConvergence`], as in [`Self::of_elements`].
     fn of_matrices(
         count: usize,
         coupled: impl Fn(usize) -> Vec<usize>,
@@ -154,7 +154,7 @@ impl FactorizationPlan {
         })
     }
 
-    /// Where an entry of the lower triangle stands among all, counted in the order of elimination.
+    /// Place of an entry of the lower triangle among all, counted in the order of elimination.
     pub(super) fn place(&self, row: usize, column: usize) -> Option<usize> {
         let (rows, range) = self.column(column);
         rows.binary_search(&row)
@@ -162,7 +162,7 @@ impl FactorizationPlan {
             .map(|place| range.start + place)
     }
 
-    /// How many entries the lower triangle has.
+    /// Number of entries of the lower triangle.
     pub(super) fn entry_count(&self) -> usize {
         self.pattern.row_idx().len()
     }
@@ -188,10 +188,10 @@ impl FactorizationPlan {
         })
     }
 
-    /// The lower triangle's entries of a sum of symmetric matrices, each times its number, for which it was made.
+    /// The lower triangle's entries of a sum of symmetric matrices, each times its number, for which the plan was made.
     pub(super) fn entries_of(&self, terms: &[(f64, &SparseMatrix)]) -> Vec<f64> {
         let mut values = vec![0.0; self.entry_count()];
-        // Of the rows that the present column has, their places.
+        // Places of the rows that the present column has.
         let mut places = vec![0; self.turn.len()];
         for (number, matrix) in terms {
             for entries in matrix.entries().chunk_by(|a, b| a.1 == b.1) {
@@ -229,7 +229,7 @@ impl FactorizationPlan {
         product
     }
 
-    /// Scales entries so that the given size of those of the diagonal becomes one, and says by what.
+    /// Scales entries so that the given size of those of the diagonal becomes one, and returns the scale.
     pub(super) fn scale(&self, entries: &mut [f64], size: impl Fn(f64) -> f64) -> DVector<f64> {
         let sizes = self.diagonal().iter().map(|&at| size(entries[at]));
         let scale = DVector::from_iterator(self.order.len(), sizes.map(|size| 1.0 / size.sqrt()));

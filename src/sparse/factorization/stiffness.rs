@@ -121,7 +121,7 @@ impl StructuralStiffness {
     /// element.
     ///
     /// # Errors
-    /// Those of [`Factor::of_stiffness`] for sizes and for what they make.
+    /// The errors of [`Factor::of_stiffness`] for the sizes and for the stiffness that they make.
     pub fn factorized(&self, sizes: &[f64]) -> Result<Factor, Error> {
         let (what, plan, count) = ("structural stiffness", &self.plan, self.free.len());
         for (element, &size) in self.elements.iter().zip(sizes) {
@@ -148,7 +148,7 @@ impl StructuralStiffness {
         {
             return Ok(factor);
         }
-        // Shifted a little, a singular stiffness has the motion that is free as its weakest.
+        // Shifted a little, a singular stiffness has its free motion as the weakest.
         diagonal
             .iter()
             .for_each(|&place| entries[place] += SINGULAR_SHIFT);
