@@ -17,7 +17,7 @@ use std::iter::once;
 /// A case as one JSON document, and its matrices as texts in the format of the Matrix Market with the names of their files.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dump {
-    /// Everything.
+    /// The document.
     pub json: String,
     /// $T$ (SDOF × d) and $V_G$ (d × g), and of every analysis $K_D$, $M$, $V$ (d × n), $B$ (d × SDOF) and each share (d × d).
     pub matrices: Vec<(String, String)>,
@@ -29,7 +29,7 @@ pub struct Dump {
 /// every parameter where it began, the unlimited factors of (13), and the totals and errors where it ended.
 ///
 /// # Errors
-/// Those of the case's model and run, and of [`document`].
+/// The errors of the case's model and run, and of [`document`].
 pub fn dump(case: &Case) -> Result<Dump, PresentError> {
     let (model, result) = (case.model()?, run_case(case, |_, _| {})?);
     let (names, passes) = (&result.parameter_names, &result.correlation.passes);

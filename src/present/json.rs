@@ -45,10 +45,10 @@ pub fn document(content: impl Serialize) -> Result<String, PresentError> {
     )
 }
 
-/// The same of a user's structure.
+/// A document of a user's structure with its heading, as [`document`].
 ///
 /// # Errors
-/// Those of [`document`].
+/// [`PresentError::Json`], as [`document`].
 pub fn own_document(content: impl Serialize) -> Result<String, PresentError> {
     in_units(
         "the model's own units, hertz; errors are fractions",
@@ -95,7 +95,7 @@ struct ReportValue<'a> {
     derivatives: Option<DerivativesValue<'a>>,
 }
 
-/// An exact solution, and how its modes agree with the test's where that is asked for.
+/// An exact solution, and the agreement of its modes with the test's where that is asked for.
 #[derive(Serialize)]
 struct SolutionValue<'a> {
     frequencies_hz: &'a [f64],
@@ -105,7 +105,7 @@ struct SolutionValue<'a> {
     agreement: Option<AgreementValue>,
 }
 
-/// Modal assurance and cross-orthogonality, analysis modes by test modes, and which analysis mode is paired, from one.
+/// Modal assurance and cross-orthogonality, analysis modes by test modes, and the paired analysis modes, from one.
 #[derive(Serialize)]
 struct AgreementValue {
     paired_analysis_modes: Vec<usize>,
@@ -143,7 +143,7 @@ struct DerivativesValue<'a> {
 /// Any correlation: its parameters by name, its test, its verdict, and its whole history.
 ///
 /// # Errors
-/// Those of [`Report::agreement`].
+/// The errors of [`Report::agreement`].
 pub fn report(report: &Report) -> Result<Value, PresentError> {
     let at_bound = |(e, factor): (usize, &f64)| report.is_at_bound(e, *factor);
     let factors = report.factors();
@@ -256,7 +256,7 @@ pub(super) fn iteration(iteration: &Iteration) -> IterationValue<'_> {
 /// The history of the cases run.
 ///
 /// # Errors
-/// [`PresentError::Case`] if Table 13 were damaged; those of [`document`].
+/// [`PresentError::Case`] if Table 13 were damaged; the errors of [`document`].
 pub fn cases(results: &[CaseResult]) -> Result<String, PresentError> {
     let cases = results.iter().map(case).collect::<Result<Value, _>>()?;
     document(json!({ "cases": cases }))

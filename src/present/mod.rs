@@ -1,4 +1,4 @@
-//! What a reader sees: tables as data and as text, Markdown or CSV, JSON, figures, and the report as one page.
+//! The reader's view of results: tables as data and as text, Markdown or CSV, JSON, figures, and the report as one page.
 //!
 //! A [`report::Report`] is any correlation with all that a reader needs; [`tables::report`], [`figures::report`],
 //! [`json::report`] and [`page::report_page`] show it. The paper's cases and the delta wing are reports with more beside them.
@@ -23,7 +23,7 @@ use crate::torque_box::error::CaseError;
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "a variant's message says what its fields are")]
 pub enum PresentError {
-    /// What is to be shown cannot be computed.
+    /// A number to be shown that cannot be computed.
     #[error(transparent)]
     Method(#[from] Error),
     /// The case to be shown or its data are wrong.

@@ -1,4 +1,4 @@
-//! What `corfem` prints alone: the paper's cases on less than a page of a terminal.
+//! The text that `corfem` alone prints: the paper's cases on less than a page of a terminal.
 
 use super::PresentError;
 use super::render::{lines, text};
@@ -8,7 +8,7 @@ use super::tables::unlimited::unlimited_table;
 use crate::torque_box::CaseResult;
 use crate::torque_box::wing_box::TEST_GAGE;
 
-/// No line is longer, characters.
+/// Length of the longest line, characters.
 const WIDTH: usize = 80;
 /// Length of a bar to either side of zero, characters.
 const BAR: f64 = 10.0;
@@ -112,10 +112,10 @@ fn bars(result: &CaseResult) -> Vec<String> {
     left.iter().enumerate().map(line).collect()
 }
 
-/// What became of every case, the RMS errors beside the published ones, what Case 4 found, and the gages of Case 2.
+/// The outcome of every case, the RMS errors beside the published ones, the finding of Case 4, and the gages of Case 2.
 ///
 /// # Errors
-/// Those of [`rms_table`].
+/// [`PresentError::Case`] if a published table were damaged, as in [`rms_table`].
 pub fn overview(results: &[CaseResult]) -> Result<String, PresentError> {
     let outcome = Table {
         notes: Vec::new(),

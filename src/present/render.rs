@@ -4,7 +4,7 @@ use super::table::{Cell, Column, Row, Table};
 use crate::files::test_data::quoted;
 use crate::files::{inert, one_line};
 
-/// No line of text is longer, characters.
+/// Length of the longest line of text, characters.
 pub const WIDTH: usize = 100;
 /// Blanks between two columns of text.
 const GAP: usize = 2;
@@ -15,8 +15,8 @@ const PUBLISHED: &str = "  published";
 
 /// Tables as text, no line of it longer than [`WIDTH`].
 ///
-/// Published numbers stand in a row of their own below the computed ones. A table that is too wide continues below
-/// itself with the columns that are left, and what is too wide for its column continues on the next line.
+/// Published numbers stand in a row of their own below the computed ones. A table that is too wide continues below itself with the
+/// other columns, and a cell that is too wide for its column continues on the next line.
 pub fn text(tables: &[Table]) -> String {
     let head = "Computed values; the paper's are in the rows marked \"published\".";
     paragraphs(tables, head, |table| {
@@ -108,7 +108,7 @@ pub fn csv(tables: &[Table]) -> String {
     out
 }
 
-/// A field of CSV that is no formula, in quotes if it contains a separator or quote.
+/// A field of CSV that no spreadsheet takes for a formula, in quotes if it contains a separator or quote.
 fn field(text: &str) -> String {
     if text.contains([',', '"']) {
         quoted(text)
@@ -190,7 +190,7 @@ fn grids(table: &Table) -> Vec<String> {
     parts.iter().map(|part| grid(&label, part)).collect()
 }
 
-/// The rows one below the other, for what is too long for a column: label, other cells, sentence.
+/// The rows one below the other, where a cell is too long for a column: label, other cells, sentence.
 fn list(table: &Table) -> String {
     let of_row = |row: &Row| {
         let (sentences, others): (Vec<&Cell>, Vec<&Cell>) = row

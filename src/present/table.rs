@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// How a number is written for a reader.
+/// Form in which a number is written for a reader.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Digits {
     /// This many digits after the point.
@@ -31,7 +31,7 @@ pub enum Cell {
         computed: f64,
         /// Printed in the paper.
         published: Option<f64>,
-        /// How it is written.
+        /// Form in which it is written.
         #[serde(skip)]
         digits: Digits,
     },
@@ -62,7 +62,7 @@ pub struct Table {
     pub name: String,
     /// Title for readers.
     pub title: String,
-    /// What the row labels are.
+    /// Heading of the row labels.
     pub label_heading: &'static str,
     /// Columns after the label.
     pub columns: Vec<Column>,
@@ -113,7 +113,7 @@ impl Cell {
         }
     }
 
-    /// The computed number, or the words, or what is printed alone, as a reader sees them.
+    /// The computed number, or the words, or the paper's own text, as a reader sees them.
     pub fn computed(&self) -> String {
         match self {
             Self::Blank => String::new(),
@@ -126,12 +126,12 @@ impl Cell {
 }
 
 impl Table {
-    /// Whether there is nothing in it to show.
+    /// True if the table has nothing to show.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty() && self.notes.is_empty()
     }
 
-    /// Whether a column of it has sentences.
+    /// True if a column has sentences.
     pub fn has_sentences(&self) -> bool {
         let mut cells = self.rows.iter().flat_map(|row| &row.cells);
         cells.any(|cell| matches!(cell, Cell::Sentence(_)))
@@ -139,7 +139,7 @@ impl Table {
 }
 
 impl Row {
-    /// Whether any number has a published one behind it.
+    /// True if any number has a published one behind it.
     pub fn is_published(&self) -> bool {
         self.cells.iter().any(|cell| cell.published().is_some())
     }
@@ -202,7 +202,7 @@ impl Table {
         });
     }
 
-    /// The table without the columns in which nothing stands.
+    /// The table without its blank columns.
     pub fn filled(mut self) -> Self {
         for at in (0..self.columns.len()).rev() {
             let is_blank = |row: &Row| row.cells[at].computed().is_empty();

@@ -3,8 +3,8 @@
 use crate::method::verdict::{Outcome, Verdict};
 use crate::torque_box::CaseResult;
 
-/// The verdict in sentences, with the parameters' names and the numbers of the test modes; places from one stand for those that have
-/// none. What it is `judged` by stands first, the tolerance where that is nothing else.
+/// The verdict in sentences, with the parameters' names and the numbers of the test modes; places from one stand for those that
+/// have none. The criterion it is `judged` by stands first; without one that is the tolerance.
 pub fn verdict_in_words(
     verdict: &Verdict,
     judged: Option<&str>,
@@ -73,7 +73,8 @@ pub fn verdict_in_words(
     words
 }
 
-/// [`verdict_in_words`] on a case, with what its test cannot tell apart, and what a weighted step would still move.
+/// [`verdict_in_words`] on a case, with the parameters that its test cannot tell apart, and the change that a weighted step would
+/// still make.
 pub fn case_in_words(result: &CaseResult) -> String {
     let names = &result.parameter_names;
     let mut words = verdict_in_words(&result.correlation.verdict, None, names, &[]);

@@ -23,7 +23,7 @@ use corfem::present::PresentError;
 use plotters::coord::ranged1d::ValueFormatter;
 use plotters::prelude::*;
 
-/// How a series is drawn.
+/// Drawing style of a series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SeriesMark {
     /// A line through the points.
@@ -36,12 +36,12 @@ pub enum SeriesMark {
     Bars,
 }
 
-/// Points drawn together, with what they are called.
+/// Points drawn together, with their name.
 #[derive(Debug, Clone)]
 pub struct Series {
-    /// Its name; none for what goes on with the series before.
+    /// Name of the series; empty for one that continues the series before.
     pub name: &'static str,
-    /// How it is drawn.
+    /// Drawing style.
     pub mark: SeriesMark,
     /// Its points.
     pub points: Vec<(f64, f64)>,
@@ -59,20 +59,20 @@ impl Series {
     }
 }
 
-/// A diagram: what its axes are called, from where to where they go, and what stands in it.
+/// A diagram: the names and ends of its axes, and its series.
 #[derive(Debug, Clone)]
 pub struct Diagram {
-    /// What it shows.
+    /// Subject of the diagram.
     pub title: &'static str,
-    /// What its axes are called, across and up.
+    /// Names of its axes, across and up.
     pub labels: [&'static str; 2],
     /// Ends of the axis across.
     pub x: (f64, f64),
     /// Ends of the axis up.
     pub y: (f64, f64),
-    /// Whether the axis up is logarithmic.
+    /// True if the axis up is logarithmic.
     pub is_logarithmic: bool,
-    /// What is drawn.
+    /// The series that are drawn.
     pub series: Vec<Series>,
 }
 
@@ -111,7 +111,7 @@ impl Diagram {
         })
     }
 
-    /// Whether names stand at the ends of lines; bars and dots have a legend instead.
+    /// True if names stand at the ends of lines; bars and dots have a legend instead.
     fn has_lines(&self) -> bool {
         let is_line =
             |series: &Series| matches!(series.mark, SeriesMark::Line | SeriesMark::Dashed);

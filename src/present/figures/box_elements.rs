@@ -37,7 +37,7 @@ impl Layer {
 /// An element with its corners or ends, in.
 type CornersOf<'a> = (&'a Element, Vec<Vector3<f64>>);
 
-/// The layers with their names, long and short, and how far down each begins in a box 720 px wide.
+/// The layers with their long and short names, and their distance from the top of a box 720 px wide.
 const LAYERS: [(Layer, [&str; 2], f64); 3] = [
     (
         Layer::Upper,
@@ -56,7 +56,7 @@ const LAYERS: [(Layer, [&str; 2], f64); 3] = [
     ),
 ];
 
-/// How a box is drawn: left and top, width, what its panels are filled with and called, and whether its rods are numbered.
+/// Style of a box: left and top, width, fill and name of its panels, and whether its rods are numbered.
 struct Look<'a> {
     corner: Place,
     width: f64,
@@ -67,7 +67,7 @@ struct Look<'a> {
 /// The elements of a case's model as SVG.
 ///
 /// # Errors
-/// Those of [`Case::model`]; [`PresentError::Drawing`].
+/// The errors of [`Case::model`]; [`PresentError::Drawing`].
 pub fn draw(case: &Case) -> Result<String, PresentError> {
     let model = case.model()?;
     let title = format!(
@@ -110,7 +110,7 @@ pub fn draw(case: &Case) -> Result<String, PresentError> {
 /// The gage errors of a case's panels before and after its correlation, on the box taken apart, as SVG.
 ///
 /// # Errors
-/// Those of [`Case::model`]; [`PresentError::Drawing`].
+/// The errors of [`Case::model`]; [`PresentError::Drawing`].
 pub fn draw_gages(result: &CaseResult) -> Result<String, PresentError> {
     let model = result.case.model()?;
     let before = result.case.first_gages();
@@ -197,7 +197,7 @@ fn draw_layer(
         side - above,
     );
     write(area, name, at, START.bold())?;
-    // What lies farther from the eye is drawn first.
+    // Elements farther from the eye are drawn first.
     elements.sort_by(|a, b| nearness(a).total_cmp(&nearness(b)));
     for (element, corners) in &elements {
         let corners: Vec<Place> = corners.iter().map(|&corner| view.place(corner)).collect();
@@ -251,7 +251,7 @@ pub(super) fn center(corners: &[Vector3<f64>]) -> Vector3<f64> {
     corners.iter().sum::<Vector3<f64>>() / corners.len() as f64
 }
 
-/// How near the eye an element is, which looks outboard and forward from above; a rod before the panels it borders.
+/// Nearness of an element to the eye, which looks outboard and forward from above; a rod before the panels it borders.
 fn nearness((element, corners): &CornersOf) -> f64 {
     const ROD_BEFORE_PANEL: f64 = 6.0;
     let center = center(corners);

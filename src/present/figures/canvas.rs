@@ -20,7 +20,7 @@ pub(super) use plotters::style::{RGBColor, WHITE};
 pub(super) const UNITS: f64 = 10.0;
 /// Every figure's width, px.
 pub(super) const WIDTH: f64 = 760.0;
-/// Height of what its title fills above everything else, px.
+/// Height that the title fills above everything else, px.
 pub(super) const HEAD: f64 = 30.0;
 /// Faces asked for.
 const FACE: &str = "Noto Sans, Arial, Helvetica, sans-serif";
@@ -41,11 +41,11 @@ fn place((x, y): Place) -> (i32, i32) {
     (units(x), units(y))
 }
 
-/// How a line is drawn: its color, its width in px, and how it is broken.
+/// Style of a line: its color, its width in px, and its dashes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pen(pub RGBColor, pub f64, pub Dash);
 
-/// How a line is broken.
+/// Dashes of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Dash {
     Solid,
@@ -79,7 +79,7 @@ pub(super) enum Form {
     Diamond,
 }
 
-/// How letters look; [`START`], [`MIDDLE`] and [`END`] say which end of them lies at their place.
+/// Style of letters; [`START`], [`MIDDLE`] and [`END`] say which end of them lies at their place.
 #[derive(Clone, Copy)]
 pub(super) struct Letters {
     pub height: f64,
@@ -233,13 +233,13 @@ pub(super) fn write(area: &Area, text: &str, (x, y): Place, letters: Letters) ->
     area.draw(&Text::new(text.to_owned(), place(at), letters.style()))
 }
 
-/// A mark of a legend with what it means.
+/// A mark of a legend with its meaning.
 pub(super) fn marked(area: &Area, at: Place, form: Mark, words: &str) -> Drawn {
     mark(area, at, form)?;
     write(area, words, (at.0 + 12.0, at.1), START)
 }
 
-/// What a line or a mark is called, from where it ends, with the pen and the mark that stand before the name.
+/// Name of a line or a mark, from the place where that ends, with the pen and the mark that stand before the name.
 #[derive(Clone, Copy)]
 pub(super) struct Named<'a>(pub Place, pub &'a str, pub Option<Pen>, pub Option<Mark>);
 

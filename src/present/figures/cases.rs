@@ -15,7 +15,7 @@ pub(in crate::present) const SHOWN: usize = 2;
 /// Every figure of the cases, in the order of the report: the box, then each case.
 ///
 /// # Errors
-/// Those of the figures' data; [`PresentError::Drawing`].
+/// The errors of the figures' data; [`PresentError::Drawing`].
 pub fn case_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError> {
     let mut figures = Vec::new();
     if let Some(first) = results.first() {
@@ -59,7 +59,8 @@ pub fn case_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError>
     Ok(figures)
 }
 
-/// Adds the figures of one case: those of its correlation, or of Case 4 what its single iteration asks for; and its derivatives.
+/// Adds the figures of one case: those of its correlation, or of Case 4 the factors that its single iteration asks for; and its
+/// derivatives.
 fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), PresentError> {
     let report = Report::from_case(result)?;
     let case = result.case.number;

@@ -40,7 +40,7 @@ where
     mesh
 }
 
-/// Where a point of a chart lies below the title.
+/// Place of a chart's point below the title.
 pub(super) fn placed(
     chart: &Chart<impl Ranged<ValueType = f64>, impl Ranged<ValueType = f64>>,
     x: f64,

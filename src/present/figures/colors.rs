@@ -1,4 +1,4 @@
-//! Colors, and what can be read on them.
+//! Colors, and letters that can be read on them.
 
 use plotters::style::{BLACK, RGBColor, WHITE};
 

@@ -1,4 +1,4 @@
-//! The figure of what fewer modes cost.
+//! The figure of the cost of fewer modes.
 
 use super::matrices::{HeatMap, draw_by_twos};
 use super::{Figure, numbers};

@@ -8,15 +8,15 @@ use plotters::prelude::{BindKeyPoints, IntoLogRange};
 /// The SRSS errors of one stage, fractions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PassHistory {
-    /// Iterations before it.
+    /// Iterations before the pass.
     pub from: usize,
-    /// Errors of the exact solution it starts from, then after every iteration by perturbation.
+    /// Errors of the exact solution that the pass starts from, then after every iteration by perturbation.
     pub inner: Vec<Errors>,
-    /// Errors of the exact check at its end.
+    /// Errors of the exact check at the end of the pass.
     pub check: Errors,
     /// Tolerance of its inner loop on the error sum, a fraction, if known.
     pub tolerance: Option<f64>,
-    /// Whether it has an inner loop; without one it is one iteration.
+    /// True if the pass has an inner loop; without one it is one iteration.
     pub is_inner: bool,
 }
 
@@ -69,7 +69,7 @@ const SERIES: [Measure; 3] = [
 
 /// Powers of ten that the error axis begins and ends with at most, percent.
 const DECADES: (i32, i32) = (-3, 4);
-/// The foot of the longest axis, percent: what is less is drawn on it.
+/// The foot of the longest axis, percent: smaller errors are drawn on it.
 const FOOT: f64 = 1e-3;
 /// Decades up to which an axis has ticks at two and five times their powers of ten.
 const FEW_DECADES: f64 = 3.1;
@@ -87,7 +87,7 @@ fn percent(error: f64) -> f64 {
     (100.0 * error).clamp(1.2 * 10f64.powi(DECADES.0), 0.8 * 10f64.powi(DECADES.1))
 }
 
-/// What is drawn: all three, or the one part that is not zero throughout, as shapes are where none is measured.
+/// The errors that are drawn: all three, or the one part that is not zero throughout, as where no shapes are measured.
 fn measures(passes: &[PassHistory]) -> Vec<Measure> {
     let errors = || {
         passes

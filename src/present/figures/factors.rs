@@ -10,7 +10,7 @@ const ROW: f64 = 24.0;
 /// Most steps of the axis.
 const STEPS: f64 = 7.0;
 
-/// Where a row began.
+/// Mark of the value where a row began.
 const OPEN: Mark = Mark(Form::Circle, 4.0, Some(WHITE), Pen(INK, 1.4, Dash::Solid));
 
 /// A parameter's factor.
@@ -20,7 +20,7 @@ pub struct DrawnFactor {
     pub name: String,
     /// Its factor.
     pub value: f64,
-    /// Where it began, if that is not the origin.
+    /// Value where the row began, if that is not the origin.
     pub from: Option<f64>,
     /// Standard deviation of it.
     pub deviation: Option<f64>,
@@ -28,7 +28,7 @@ pub struct DrawnFactor {
     pub published: Option<f64>,
     /// Bounds of its own.
     pub bounds: Option<Bounds>,
-    /// What makes it stand out, if anything does.
+    /// Remark on a factor that stands out.
     pub remark: Option<&'static str>,
 }
 
@@ -41,13 +41,13 @@ pub struct Factors {
     pub limits: Option<Bounds>,
     /// Name of the horizontal axis.
     pub across: String,
-    /// What the rows are.
+    /// Name of the rows.
     pub down: &'static str,
-    /// What every row is compared with.
+    /// Value that every row is compared with.
     pub origin: f64,
     /// Decimals of the numbers.
     pub decimals: usize,
-    /// What the published ones are.
+    /// Name of the published values.
     pub published: &'static str,
 }
 
@@ -58,7 +58,7 @@ impl Factors {
         svg(name, title, height, |area| self.draw_on(area))
     }
 
-    /// Whether a bound of a row lies on the axis.
+    /// True if a bound of a row lies on the axis.
     pub(super) fn draws_bounds(&self) -> bool {
         let [low, high, _] = self.bounds();
         let bounds = self.rows.iter().filter_map(|row| row.bounds);

@@ -1,4 +1,4 @@
-//! A structure as its sensors see it: places, lines between them, and how they move in a mode.
+//! A structure as its sensors see it: places, lines between them, and their motion in a mode.
 
 use super::view::extents;
 use crate::present::report::Report;
@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 /// Sensors of one place: rows of the shapes with their directions.
 type Sensors = Vec<(usize, Vector3<f64>)>;
 
-/// Places of a report, what joins them, and which of them are known to move or not to.
+/// Places of a report, the lines and panels that join them, and the places that are known to move or not to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
     /// Every place, once.
@@ -19,7 +19,7 @@ pub struct Frame {
     pub panels: Vec<Vec<usize>>,
     /// Places with sensors, and supports, which have none.
     pub known: BTreeMap<usize, Sensors>,
-    /// Of every place the grid that stands there, by its row, where all motions are drawn as they are.
+    /// The grid at every place, by its row, where all motions are drawn as they are.
     pub grids: Vec<Option<usize>>,
 }
 
@@ -34,7 +34,7 @@ pub(super) fn is_finite(at: &Vector3<f64>) -> bool {
 }
 
 impl Frame {
-    /// The frame of a report; what is not finite is left out.
+    /// The frame of a report; places that are not finite are left out.
     ///
     /// Sensors of a structure in one line that all measure along it are drawn across it, upward.
     pub fn from_report(report: &Report) -> Self {
@@ -115,8 +115,8 @@ impl Frame {
 
     /// Displacements of all places in a shape whose largest component is one.
     ///
-    /// A place with sensors moves as they say along them, and everywhere else as its grid does, whose motions are given in the scale of
-    /// the shape. Without these a support does not move, and any other place as the mean of the known ones, weighted with
+    /// A place with sensors moves along them as they say, and everywhere else as its grid does, whose motions are given in the
+    /// scale of the shape. Without these a support does not move, and any other place as the mean of the known ones, weighted with
     /// $1/r^4$ for a distance of $r$ (Shepard, *Proc. 23rd ACM National Conference* (1968), 517).
     pub fn moved(&self, shape: &[f64], grids: Option<&[Vector3<f64>]>) -> Vec<Vector3<f64>> {
         let largest = shape
@@ -215,7 +215,7 @@ fn middle(corners: &[Corner]) -> Corner {
     mean(&all)
 }
 
-/// A panel of four corners in so many parts a side, by its bilinear map; any other whole.
+/// A panel of four corners in so many parts a side, by its bilinear map; any other panel whole.
 fn cells(corners: Vec<Corner>, parts: usize) -> Vec<Vec<Corner>> {
     let [a, b, c, d] = corners[..] else {
         return vec![corners];

@@ -5,15 +5,16 @@ use crate::job::{Spread, Summary};
 
 /// Histograms side by side.
 const ACROSS: usize = 3;
-/// Height of one with its name and axis, and what of it is above and below its bars, px.
+/// Height of one with its name and axis, and the parts of it above and below its bars, px.
 const CHART: f64 = 164.0;
 const HEAD: f64 = 34.0;
 const FOOT: f64 = 34.0;
-/// From the left edge of one to that of the next, and what of it the bars have, px.
+/// Distance from the left edge of one to that of the next, and the bars' part of it, px.
 const PITCH: f64 = 250.0;
 const BARS: f64 = 214.0;
 
-/// A summary as SVG: bars of how many samples have a factor between, with lines at the quantiles of 2.5, 50 and 97.5 %.
+/// A summary as SVG: bars for the number of samples whose factor lies in each interval, with lines at the quantiles of 2.5, 50 and
+/// 97.5 %.
 ///
 /// # Errors
 /// [`PresentError::Drawing`].

@@ -6,17 +6,17 @@ use nalgebra::DMatrix;
 /// A matrix with the names of its rows and columns.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatMap {
-    /// What it is.
+    /// Name of the matrix.
     pub title: String,
-    /// What its rows are, and their labels.
+    /// Name of the rows, and their labels.
     pub rows: (String, Vec<String>),
-    /// What its columns are, and their labels.
+    /// Name of the columns, and their labels.
     pub columns: (String, Vec<String>),
-    /// Its entries; nothing where there is no cell.
+    /// The entries; nothing where there is no cell.
     pub values: DMatrix<Option<f64>>,
     /// The magnitude that has the full color: blue for positive values and red for negative ones.
     pub full: f64,
-    /// What a value is multiplied with, and the decimals it is then written with; what rounds to zero is not written.
+    /// Factor on a value that is written, and its decimals; a value that rounds to zero is not written.
     pub written: (f64, usize),
 }
 
@@ -50,7 +50,7 @@ pub fn draw_by_twos(
     )
 }
 
-/// A figure of derivatives: what each parameter does to each frequency, and to the error sum.
+/// A figure of derivatives: the effect of each parameter on each frequency, and on the error sum.
 pub fn draw_derivatives(
     name: &str,
     title: &str,

@@ -33,7 +33,7 @@ use crate::present::PresentError;
 pub struct Figure {
     /// Name for files, such as `case_1_errors`.
     pub name: String,
-    /// What to see in it.
+    /// Words on what to see in it.
     pub caption: String,
     /// The drawing.
     pub svg: String,

@@ -99,7 +99,7 @@ impl DrawnModes {
             .flat_map(|mode| mode.moved.iter().flatten())
     }
 
-    /// In as many figures as their number asks for, each with the words that its name and title end with.
+    /// The modes in as many figures as their number needs, each with the words that its name and title end with.
     pub fn parts(&self) -> Vec<(String, Self)> {
         let part = |modes: &[_]| Self {
             frame: self.frame.clone(),
@@ -121,7 +121,8 @@ impl DrawnModes {
             .collect()
     }
 
-    /// Those whose shape in the first model is at least as far from the test's as the mean over all: all where all are alike.
+    /// The modes whose shape in the first model is at least as far from the test's as the mean over all; every mode where all are
+    /// alike.
     pub fn differing(&self) -> Self {
         let far = |mode: &DrawnMode| -> f64 {
             let known = self.frame.known.keys();

@@ -1,4 +1,4 @@
-//! The figures of any correlation: its structure, its modes, its history, its factors, and how well they are known.
+//! The figures of any correlation: its structure, its modes, its history, its factors, and their uncertainty.
 
 use super::error_history::{self, error_history};
 use super::factors::{DrawnFactor, Factors};
@@ -17,7 +17,7 @@ use nalgebra::DMatrix;
 /// agreement of the modes before and after, and derivatives where there are any.
 ///
 /// # Errors
-/// Those of [`DrawnModes::from_report`] and [`Report::agreement`]; [`PresentError::Drawing`].
+/// [`PresentError::Drawing`]; the errors of [`DrawnModes::from_report`] and [`Report::agreement`].
 pub fn report_figures(report: &Report) -> Result<Vec<Figure>, PresentError> {
     let mut figures = Vec::new();
     let mut add = |what: &str,
@@ -182,7 +182,7 @@ fn factors(report: &Report) -> Factors {
     }
 }
 
-/// How far the frequencies of the first and of the corrected model are from the test's, percent.
+/// Distances of the first and the corrected model's frequencies from the test's, percent.
 fn frequencies(report: &Report) -> Factors {
     // Frequencies without shapes stand last.
     let of = |check: &ExactResult| {
@@ -223,7 +223,7 @@ fn frequencies(report: &Report) -> Factors {
 /// after, analysis modes by test modes.
 ///
 /// # Errors
-/// Those of [`Report::agreement`].
+/// The errors of [`Report::agreement`].
 pub fn mode_agreement(report: &Report) -> Result<Vec<HeatMap>, Error> {
     let map = |title: String, values: &DMatrix<f64>| {
         let rows = ("analysis mode".to_owned(), numbers(values.nrows()));

@@ -1,9 +1,9 @@
-//! How a structure falls on the paper: a quasi-isometric view or a plan, scaled to the room it is given.
+//! Projection of a structure on the paper: a quasi-isometric view or a plan, scaled to the room it is given.
 
 use super::canvas::{Area, Drawn, Pen, Place, line};
 use nalgebra::Vector3;
 
-/// How many times the box's depth is drawn, which is a twentieth of its span.
+/// Factor by which the box's depth is drawn larger; the depth is a twentieth of its span.
 pub(super) const DEPTH_DRAWN: f64 = 7.0;
 /// Rise of the two plan axes on the paper, degrees.
 const RISE: f64 = 27.0;
@@ -24,7 +24,7 @@ pub(super) struct View {
     pub scale: f64,
 }
 
-/// The least and the greatest coordinates of points; zeros of none.
+/// The least and the greatest coordinates of points; zeros without points.
 fn ends(points: impl Iterator<Item = Vector3<f64>>) -> (Vector3<f64>, Vector3<f64>) {
     let both = points.map(|point| (point, point));
     both.reduce(|(low, high), (point, _)| (low.inf(&point), high.sup(&point)))
@@ -65,7 +65,7 @@ impl View {
         }
     }
 
-    /// The isometric view of points, with how many times their depth is drawn.
+    /// The isometric view of points, with the factor by which their depth is drawn.
     pub fn solid(points: &[Vector3<f64>]) -> (Self, f64) {
         let extents = extents(points);
         let heights = (LEAST_DEPTH * extents.max() / extents.z)
@@ -112,7 +112,7 @@ impl View {
         }
     }
 
-    /// Where the axes go, in words.
+    /// Directions of the axes on the paper, in words.
     pub fn axes(&self) -> String {
         let ways = |axis: usize| {
             let words = [

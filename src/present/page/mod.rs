@@ -117,7 +117,7 @@ pub fn page(contents: &Contents) -> Result<String, PresentError> {
     Ok(document(TITLE, LEAD, &answer, &parts))
 }
 
-/// What became of all cases, before anything else: a sentence, the summary, and one case's gages and frequencies before and after.
+/// The outcome of all cases, before anything else: a sentence, the summary, and one case's gages and frequencies before and after.
 fn answer(contents: &Contents) -> Result<String, PresentError> {
     let results = contents.results;
     let summary = summary(results)?;
@@ -153,14 +153,14 @@ fn answer(contents: &Contents) -> Result<String, PresentError> {
     Ok(body)
 }
 
-/// A section: its id, what a link to it says, its heading, its HTML.
+/// A section: its id, the words of a link to it, its heading, its HTML.
 type Part = (String, String, String, String);
 
 fn named(id: &str, link: &str, heading: &str, body: String) -> Part {
     (id.to_owned(), link.to_owned(), heading.to_owned(), body)
 }
 
-/// A whole page: what came of it, then sections.
+/// A whole page: its answer, then sections.
 fn document(title: &str, lead: &str, answer: &str, parts: &[Part]) -> String {
     let links: String = parts
         .iter()
@@ -182,11 +182,11 @@ fn document(title: &str, lead: &str, answer: &str, parts: &[Part]) -> String {
     )
 }
 
-/// The report on one correlation: what it came to, modes, factors, structure and history, with other tables at its end;
-/// `command` makes it again from the job's `text`.
+/// The report on one correlation: its outcome, modes, factors, structure and history, with other tables at its end; `command` makes
+/// it again from the job's `text`.
 ///
 /// # Errors
-/// Those of [`report_figures`] and [`Report::agreement`].
+/// A figure that cannot be drawn; the errors of [`Report::agreement`], as in [`report_figures`].
 pub fn report_page(
     report: &Report,
     extra: &[Table],
@@ -299,7 +299,7 @@ fn fewer_modes_section(contents: &Contents) -> Result<String, PresentError> {
     Ok(lead.to_owned() + &part(&tables, contents.figures, &["truncation"]))
 }
 
-/// How a page was made, with words about its units.
+/// The command and version that made a page, with words about its units.
 fn made(units: &str, command: &str) -> String {
     format!(
         "<p>corfem {VERSION}, by the command</p>\n<pre><code>{}</code></pre>\n<p>{units}; frequency in hertz. The same command \

@@ -15,7 +15,7 @@ use serde_json::json;
 /// the program does, by Jacobi rotations.
 ///
 /// # Errors
-/// Those of the case's model and its analysis.
+/// The errors of the case's model and its analysis.
 pub fn play(result: &CaseResult) -> Result<String, PresentError> {
     let Some(pass) = result.correlation.passes.first() else {
         return Ok(String::new());

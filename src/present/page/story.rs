@@ -1,4 +1,4 @@
-//! What the page tells before its tables, in the words of `paper/report.md`: every case with its figure, then the method.
+//! The page's words before its tables, from `paper/report.md`: every case with its figure, then the method.
 
 use super::html::{figure, figures, prose};
 use super::{Contents, Part, named};

@@ -12,8 +12,8 @@ const FREQUENCY: Digits = Digits::Significant(7);
 const MASS: Digits = Digits::Significant(6);
 const SHAPE: Digits = Digits::Fixed(5);
 
-/// Frequencies and shapes of the lowest `count` modes, every shape scaled to a largest component of one, after a table
-/// of what was left out by request.
+/// Frequencies and shapes of the lowest `count` modes, every shape scaled to a largest component of one, after a table of the cards
+/// that were left out by request.
 ///
 /// Generalized mass, $v^t M v$, is that of the shape so scaled, in the model's own unit.
 pub fn deck_tables(unread: &[Unread], modes: &WholeModes, count: usize) -> Vec<Table> {

@@ -1,4 +1,4 @@
-//! Tables 9 to 12, one pass with fewer modes beside the published numbers, and what truncation costs over all pairs.
+//! Tables 9 to 12, one pass with fewer modes beside the published numbers, and the cost of truncation over all pairs.
 
 use super::stages::{self, ErrorStage};
 use super::{MODE_ERRORS, PERCENT, RMS_PERCENT};
@@ -89,7 +89,7 @@ fn frequency_table(
     )
 }
 
-/// Tables 10, 11, 12: gages and their errors, and RMS errors of gages, frequencies and shapes, which the start has none of.
+/// Tables 10, 11, 12: gages and their errors, and RMS errors of gages, frequencies and shapes, of which the start has none.
 fn gage_table(
     case: &Case,
     number: usize,
@@ -153,7 +153,7 @@ fn iteration_table(runs: &[FewerModesRun]) -> Result<Table, PresentError> {
     ]))
 }
 
-/// What truncation costs over all pairs of numbers of modes, one table a quantity.
+/// Cost of truncation over all pairs of numbers of modes, one table a quantity.
 pub fn truncation_tables(runs: &[FewerModesRun]) -> Vec<Table> {
     let table = |name: &str, what: &str, unit, cell: &dyn Fn(&FewerModesRun) -> Cell| {
         let title = format!("Cost of truncation, Case 2, pass 1: {what}");
@@ -175,7 +175,7 @@ pub fn truncation_tables(runs: &[FewerModesRun]) -> Vec<Table> {
     [vec![iterations], costs.to_vec()].concat()
 }
 
-/// An error that is left after a run: its name, what it is, its digits in percent, and the fraction.
+/// An error that is left after a run: its name, its description, its digits in percent, and the fraction.
 type Cost = (
     &'static str,
     &'static str,
@@ -183,7 +183,7 @@ type Cost = (
     fn(&FewerModesRun) -> f64,
 );
 
-/// What truncation costs: errors of the gages of shear panels and of membranes, and of frequencies and shapes beside all test modes.
+/// Costs of truncation: errors of the gages of shear panels and of membranes, and of frequencies and shapes beside all test modes.
 pub(in crate::present) const COSTS: [Cost; 4] = [
     ("shear", "gage RMS of the shear panels", PERCENT, |run| {
         run.shear_gage_rms

@@ -1,5 +1,5 @@
-//! A job before and after: its sensors on the model, everything doubtful, the suspects, what the test sees of the parameters,
-//! and what many runs make of them.
+//! A job before and after: its sensors on the model, every doubt, the suspects, the parameters as the test sees them, and the
+//! scatter over many runs.
 
 use crate::files::error::FileError;
 use crate::files::test_data::DIRECTIONS;
@@ -21,7 +21,7 @@ pub const MOST_SUSPECTS: usize = 20;
 /// the corrected one there.
 ///
 /// # Errors
-/// Those of [`coordinate_assurance`].
+/// The errors of [`coordinate_assurance`].
 pub fn places_table(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Table, FileError> {
     let direction = |sensor: &PlacedSensor| {
         let sign = if sensor.sign < 0.0 { "-" } else { "" };
@@ -80,10 +80,10 @@ pub fn places_table(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Ta
     Ok(table)
 }
 
-/// What a job was run with: its files, how factors were found, and the weights of the compared test modes.
+/// The inputs of a job: its files, its method for the factors, and the weights of the compared test modes.
 ///
 /// # Errors
-/// Those of [`LoadedJob::weights`].
+/// The errors of [`LoadedJob::weights`].
 pub fn inputs_table(loaded: &LoadedJob) -> Result<Table, FileError> {
     let compare = &loaded.job.compare;
     let files: Vec<String> = loaded
@@ -114,7 +114,7 @@ pub fn inputs_table(loaded: &LoadedJob) -> Result<Table, FileError> {
         .column("Value", "", words.into_iter().map(Cell::Sentence)))
 }
 
-/// What may lower the trust in a job or in its result, what matters most first.
+/// Doubts about a job or its result, and remarks, most important first.
 pub fn trust_table(trust: &Trust) -> Table {
     let all = trust.all();
     let left_out: Vec<String> = trust
@@ -152,7 +152,7 @@ pub fn trust_table(trust: &Trust) -> Table {
 /// [`MOST_SUSPECTS`]; beside it the paper's unlimited factor of the first iteration.
 ///
 /// # Errors
-/// Those of [`LoadedJob::weights`] and of the rankings.
+/// The errors of [`LoadedJob::weights`] and of the rankings.
 pub fn suspects_table(loaded: &LoadedJob) -> Result<Table, FileError> {
     let parameters = loaded.source.whole.parameters();
     let title = "Suspects: what one parameter alone explains";
@@ -220,7 +220,8 @@ pub fn suspects_table(loaded: &LoadedJob) -> Result<Table, FileError> {
         .notes((left > 0).then_some(less)))
 }
 
-/// What the test sees of the parameters, at the first model and at the best factors: 95 % intervals, and who is blind or parallel.
+/// The parameters as the test sees them, at the first model and at the best factors: 95 % intervals, and the blind and the parallel
+/// ones.
 pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileError> {
     let names: Vec<&str> = loaded.parameter_names().collect();
     let [before, after] = &result.seen;
@@ -268,7 +269,8 @@ pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileE
     )
 }
 
-/// The minima that noise allows, one column each, with their chi-squared, how many starts end there, and their factors; none of one start.
+/// The minima that noise allows, one column each, with their chi-squared, the number of starts that end there, and their factors;
+/// none for a single start.
 pub fn minima_table(report: &Report) -> Option<Table> {
     let minima = || report.minima.iter();
     let mut table = Table::new("minima", "Minima that noise allows", "Minimum")

@@ -1,4 +1,4 @@
-//! What is computed, as tables: of any correlation ([`report`]), of the paper's cases, and of decks and jobs.
+//! Results as tables: of any correlation ([`report`]), of the paper's cases, and of decks and jobs.
 
 pub mod cases;
 pub mod deck;
@@ -66,7 +66,7 @@ fn in_words(name: &str) -> String {
     name.split('_').map(word).collect::<Vec<_>>().join(" ")
 }
 
-/// Which of the paper's tables have these names, in a sentence: `table_3` is Table 3.
+/// A sentence with the paper's tables that have these names: `table_3` is Table 3.
 pub fn paper_tables<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     let number = |name: &str| name.strip_prefix("table_")?.parse::<usize>().ok();
     let mut numbers: Vec<usize> = names.into_iter().filter_map(number).collect();

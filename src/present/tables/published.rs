@@ -15,10 +15,10 @@ const UNITS: [(&str, &str); 4] = [
     ("_seconds", "s"),
 ];
 
-/// A table from 2 to 13 as printed, with what is wrong in the print; Table 13 has the CPU seconds of the paper's runs.
+/// A table from 2 to 13 as printed, with the misprints; Table 13 has the CPU seconds of the paper's runs.
 ///
 /// # Errors
-/// Those of [`PublishedTable::number`].
+/// A number for which the paper has no table, as in [`PublishedTable::number`].
 pub fn published_table(number: usize) -> Result<Table, PresentError> {
     let paper = PublishedTable::number(number)?;
     let labels = paper.labels.iter();
@@ -45,7 +45,7 @@ const ORDERS: usize = 6;
 /// The paper's own numbers, and its problems, are lost in the scan, so these have no published numbers.
 ///
 /// # Errors
-/// Those of [`TwoMasses::root_errors`].
+/// The errors of [`TwoMasses::root_errors`].
 pub fn root_error_table() -> Result<Table, PresentError> {
     let problems = problems();
     let title = "Largest root error of two-degree-of-freedom problems (Table 1, computed anew)";

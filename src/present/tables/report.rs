@@ -23,10 +23,10 @@ fn table_of(report: &Report, name: &str, title: &str, label: &'static str) -> Ta
 }
 
 /// Every test mode with its partner in the first and in the corrected model: frequencies and their differences, modal assurance
-/// criterion, cross-orthogonality and the largest other entry of the two modes, and what is to be thought of the last.
+/// criterion, cross-orthogonality and the largest other entry of the two modes, and a mark for the last.
 ///
 /// # Errors
-/// Those of [`Report::agreement`].
+/// The errors of [`Report::agreement`].
 pub fn paired_table(report: &Report) -> Result<Table, Error> {
     let mut test_hz = report.test.frequencies_hz();
     let shaped = test_hz.len();
@@ -121,8 +121,8 @@ pub fn paired_table(report: &Report) -> Result<Table, Error> {
 }
 
 impl PairAgreement {
-    /// Of a test mode and its partner: the magnitude of their cross-orthogonality, or their assurance without mass, and the largest
-    /// other entry of either's row and column.
+    /// Agreement of a test mode and its partner: the magnitude of their cross-orthogonality, or their assurance without mass, and
+    /// the largest other entry of either's row and column.
     fn pair(&self, check: &ExactResult, mode: usize) -> (f64, f64) {
         let (matrix, i) = (
             self.orthogonality.as_ref().unwrap_or(&self.assurance),
@@ -141,7 +141,7 @@ impl PairAgreement {
     }
 }
 
-/// Factors of the corrected model with their standard deviations, their bounds, and what must be known of each.
+/// Factors of the corrected model with their standard deviations, their bounds, and remarks on each.
 pub fn factor_table(report: &Report) -> Table {
     let factors = report.factors();
     let bounds = |end: fn(Bounds) -> f64| {
@@ -183,7 +183,7 @@ pub fn factor_table(report: &Report) -> Table {
         .filled()
 }
 
-/// Stages of a correlation: iterations, why they ended, and the error sum by the inner loop and exactly.
+/// Stages of a correlation: iterations, the reason for their end, and the error sum by the inner loop and exactly.
 pub fn history_table(report: &Report) -> Table {
     let mut table = table_of(report, "passes", "passes", "Pass")
         .headings(["Iterations", "Stopped by"], "")
@@ -239,7 +239,7 @@ pub fn history_table(report: &Report) -> Table {
         .notes([report.words()])
 }
 
-/// Test modes that another mode of the model answers than before: stage, test mode, and the two modes, all from one.
+/// Test modes that are paired with another mode of the model than before: stage, test mode, and the two modes, all from one.
 pub fn swaps(report: &Report) -> Vec<[usize; 4]> {
     let checks =
         std::iter::once(&report.initial).chain(report.stages.iter().map(|stage| &stage.check));
@@ -277,7 +277,7 @@ pub fn derivative_table(report: &Report) -> Option<Table> {
     ))
 }
 
-/// What did the finite element analyses, when it was not the crate itself.
+/// A note on the program that did the finite element analyses, when it was not the crate itself.
 pub(super) fn solver_note(solver: &str, before: &str, after: &str) -> Option<String> {
     (solver != BUILT_IN).then(|| {
         format!(

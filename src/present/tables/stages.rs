@@ -5,8 +5,8 @@ use crate::present::table::{Cell, Digits, Table};
 use crate::torque_box::published::PublishedTable;
 use crate::torque_box::wing_box::{PANEL_COUNT, Panel, TEST_GAGE};
 
-/// A state of a model: how the published columns of it begin (`initial`, `pass_1`, `fem_5`), its values in the order of the
-/// rows, and its errors under these, fractions; those that it has not are left out.
+/// A state of a model: the beginning of its published columns' names (`initial`, `pass_1`, `fem_5`), its values in the order of the
+/// rows, and its errors under these, fractions; those that it does not have are left out.
 pub(super) struct ErrorStage {
     pub name: String,
     pub values: Vec<f64>,
@@ -14,7 +14,7 @@ pub(super) struct ErrorStage {
 }
 
 impl ErrorStage {
-    /// The first model, which has the number zero, or what a pass or a run came to.
+    /// The first model, which has the number zero, or the end of a pass or a run.
     pub fn new(what: &str, number: usize, values: &[f64], errors: &[f64]) -> Self {
         let name = if number == 0 {
             "initial".to_owned()
@@ -37,10 +37,10 @@ pub(super) fn stage_title(stage: &str) -> String {
 }
 
 /// An empty table filled with a column of targets, then two for each stage, its values and their errors, each beside the published
-/// one; under these a row for each label of an error with its digits, and what is wrong in the print.
+/// one; under these a row for each label of an error with its digits, and the misprints.
 ///
 /// The values are frequencies beside those of a test, or the gages of panels beside those of the test configuration. Published
-/// columns are called like the stages with `_hz`, `_in` or `_percent` behind, rows like their labels: `shape_rms`.
+/// columns are named like the stages with `_hz`, `_in` or `_percent` behind, rows like their labels: `shape_rms`.
 pub(super) fn fill(
     table: Table,
     panels: &[Panel],

@@ -7,7 +7,8 @@ use crate::torque_box::{CaseResult, Grouping};
 /// The remark on a factor so large that it points to a modeling error ([`CaseResult::anomaly`]).
 pub const ANOMALY: &str = "anomaly";
 
-/// What the first iteration of a case asks of every parameter, beside what the paper quotes; [`ANOMALY`] is remarked.
+/// Unlimited factor of every parameter in the first iteration of a case, beside the factor that the paper quotes; [`ANOMALY`] is
+/// remarked.
 pub fn unlimited_factors(result: &CaseResult) -> Vec<DrawnFactor> {
     let (names, factors) = (&result.parameter_names, result.unlimited_factors());
     let factor = |(name, &value): (&String, &f64)| DrawnFactor {
