@@ -1,4 +1,4 @@
-//! What is doubtful of a job before its first step.
+//! Doubts about a job before its first step.
 
 use super::loaded::measured;
 use super::preflight::{
@@ -22,15 +22,16 @@ const COLLINEAR: f64 = 0.95;
 const LARGEST_SPAN: f64 = 2.0;
 
 impl LoadedJob {
-    /// Everything doubtful before the first step: what the pre-flight finds, complex test modes, and what the readers left aside.
+    /// Everything doubtful before the first step: findings of the pre-flight, complex test modes, and data that the readers left
+    /// aside.
     ///
     /// # Errors
-    /// Those of [`preflight_at_sensors`] and of the analysis it needs.
+    /// The errors of [`preflight_at_sensors`] and of the analysis that it needs.
     pub fn concerns(&self) -> Result<Vec<Concern>, FileError> {
         self.concerns_and_rigid_body_modes().map(|(all, _)| all)
     }
 
-    /// The same, and how many rigid-body modes the analysis for them has found.
+    /// Everything doubtful before the first step, and the number of rigid-body modes that the analysis for it has found.
     pub(super) fn concerns_and_rigid_body_modes(&self) -> Result<(Vec<Concern>, usize), FileError> {
         let (mut all, rigid_body_modes) = self.preflight_concerns()?;
         if !self.alone.is_empty() {
@@ -125,7 +126,7 @@ impl LoadedJob {
         Ok((all, rigid_body_modes))
     }
 
-    /// What the pre-flight finds, in all modes of the test, and how many rigid-body modes the model has.
+    /// Findings of the pre-flight in all modes of the test, and the number of the model's rigid-body modes.
     fn preflight_concerns(&self) -> Result<(Vec<Concern>, usize), FileError> {
         let whole = &self.source.whole;
         let left_out = self.unpaired.iter().map(|(mode, _)| mode);
@@ -252,7 +253,7 @@ impl LoadedJob {
             .collect()
     }
 
-    /// Sensors placed by where they are cannot span much more than the model does.
+    /// A doubt about the unit of the sensors' places where they span much more than the model does.
     pub fn places_concern(&self) -> Option<Concern> {
         let extent = |places: Vec<Vector3<f64>>| {
             let first = places.first()?;
@@ -280,7 +281,7 @@ impl LoadedJob {
     }
 }
 
-/// One sentence about a motion that is hardly told from a rigid-body mode.
+/// One sentence about a motion that can hardly be told from a rigid-body mode.
 pub(crate) fn hardly_held(name: &str, resistance: f64) -> String {
     let kind = if is_rounded(resistance) {
         "rigid-body mode"
@@ -292,7 +293,7 @@ pub(crate) fn hardly_held(name: &str, resistance: f64) -> String {
     )
 }
 
-/// Whether the whole without a part is semidefinite.
+/// True unless the whole without a part is known to have a negative eigenvalue.
 fn is_part(part: &SparseMatrix, whole: &SparseMatrix) -> Result<bool, FileError> {
     let count = whole.rows();
     let mut sums = vec![0.0; count];
@@ -307,6 +308,6 @@ fn is_part(part: &SparseMatrix, whole: &SparseMatrix) -> Result<bool, FileError>
         .chain(part.times_number(-1.0));
     let entries = entries.chain((0..count).map(|row| (row, row, shift)));
     let rest = SparseMatrix::new("rest", count, count, entries.collect())?;
-    // A rest that cannot be factorized accuses nobody.
+    // If the rest cannot be factorized, no parameter is blamed.
     Ok(!Factor::new("rest", &rest).is_ok_and(|factor| factor.negative_count() > 0))
 }

@@ -59,7 +59,7 @@ struct InnerEntries {
     update: UpdateRule,
 }
 
-/// Entries that jobs no longer have, and what happens instead.
+/// Entries that jobs no longer have, and the rules in their place.
 const REMOVED: [(&str, &str); 13] = [
     (
         "test.orthogonalize",

@@ -1,4 +1,4 @@
-//! Test shapes at all degrees of freedom of the model, from what the sensors measured.
+//! Test shapes at all degrees of freedom of the model, from the sensors' readings.
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_finite, check_shape, finite};
@@ -67,9 +67,9 @@ pub fn expand(
 /// it a test shape has the generalized mass of the combination of modes that is nearest to it.
 ///
 /// # Errors
-/// Those of [`expand`].
+/// The errors of [`expand`].
 ///
-/// Source: the same.
+/// Source: as for [`expand`].
 pub fn mass_by_modes(at_sensors: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     let (sensors, modes) = at_sensors.shape();
     let inverse = expand(

@@ -1,4 +1,4 @@
-//! A model given by matrices: its files, and which row is which degree of freedom.
+//! A model given by matrices: its files, and the degree of freedom of every row.
 
 use super::model::{GridLayout, ModelSource, prior, range};
 use super::{Job, Scales};
@@ -105,7 +105,7 @@ pub(super) fn from_matrices(
 /// chooses one of several matrices.
 ///
 /// # Errors
-/// Those of the files and of [`lowest_modes`].
+/// The errors of the files and of [`lowest_modes`].
 pub fn matrix_modes(stiffness: &Path, mass: &Path, most: usize) -> Result<WholeModes, FileError> {
     let job = Job {
         path: "modes".into(),

@@ -1,4 +1,4 @@
-//! Measures of how well analysis and test modes agree, beside [`modal_assurance`](crate::method::pairing::modal_assurance) and
+//! Measures of the agreement of analysis and test modes, beside [`modal_assurance`](crate::method::pairing::modal_assurance) and
 //! [`cross_orthogonality`](crate::method::pairing::cross_orthogonality).
 //!
 //! AutoMAC is the modal assurance of a set of shapes with itself: modes with large off-diagonal entries are ones that the sensors cannot tell apart.

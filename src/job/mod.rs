@@ -49,19 +49,19 @@ pub const TEMPLATE: &str = include_str!("template.toml");
 /// A test as a table that explains itself.
 pub const TEST_TEMPLATE: &str = include_str!("template.csv");
 
-/// What a job file says, of which [`TEMPLATE`] explains every entry.
+/// Content of a job file; [`TEMPLATE`] explains every entry.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Job {
     #[serde(skip)]
     path: PathBuf,
-    /// Its file's own text.
+    /// Text of the job's file.
     #[serde(skip)]
     pub text: String,
     /// The entries that it gives.
     #[serde(skip)]
     given: toml::Table,
-    /// What reports call the structure; the file's name if not given.
+    /// Name of the structure in reports; the file's name if not given.
     pub title: Option<String>,
     model: ModelFiles,
     test: TestFile,
@@ -69,10 +69,10 @@ pub struct Job {
     sensors: SensorRules,
     #[serde(rename = "parameter", default)]
     parameters: Vec<ParameterRule>,
-    /// What is compared.
+    /// Rules of the comparison.
     #[serde(default)]
     pub compare: Compare,
-    /// How the correlation steps and stops.
+    /// Settings of the correlation's steps and of its end.
     #[serde(default, with = "CorrelationEntries")]
     pub correlation: Settings,
 }
@@ -162,26 +162,26 @@ enum Scales {
     Mass,
 }
 
-/// What is compared, and how.
+/// Rules of the comparison with the test.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Compare {
     analysis_modes: Option<usize>,
     residual_vectors: Option<usize>,
-    /// How the factors are found.
+    /// Method that finds the factors.
     pub method: Method,
     frequency_deviation: Option<f64>,
     shape_deviation: Option<f64>,
     prior_deviation: Option<f64>,
     frequency_weights: Option<Vec<f64>>,
     shape_weights: Option<Vec<f64>>,
-    /// How many first points are tried by Gauss–Newton steps; one if not given.
+    /// Number of first points that Gauss–Newton steps start from; one if not given.
     pub starts: Option<usize>,
     /// The seed of the first points after the model's own.
     pub seed: u64,
 }
 
-/// How factors are found.
+/// Method that finds factors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Method {
@@ -193,7 +193,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// What a job calls it.
+    /// Name of the method in a job.
     pub fn name(self) -> &'static str {
         match self {
             Self::Paper => "paper",
@@ -253,12 +253,12 @@ impl Job {
         named.chain(&self.test.file).chain(&self.test.repeats)
     }
 
-    /// Whether its file has this entry, such as `compare.seed`.
+    /// True if the job's file has this entry, such as `compare.seed`.
     fn gives(&self, entry: &str) -> bool {
         entry_of(&self.given, entry).is_some()
     }
 
-    /// Whether it selects the test mode of this number.
+    /// True if the job selects the test mode of this number.
     fn selects(&self, mode: usize) -> bool {
         self.test
             .modes
@@ -277,7 +277,7 @@ impl Job {
         })
     }
 
-    /// Its file's name.
+    /// Name of the job's file.
     pub(crate) fn stem(&self) -> String {
         self.path
             .file_stem()
@@ -288,7 +288,7 @@ impl Job {
         FileError::refused(self.path.display(), reason)
     }
 
-    /// Refuses what is given, if anything is, for the reason that it makes.
+    /// Refuses the job if anything is given, for the reason that it makes.
     fn refuse_if<T>(
         &self,
         given: Option<T>,

@@ -1,4 +1,4 @@
-//! The model that a job names, as matrices at all degrees of freedom, and where these are.
+//! The model that a job names, as matrices at all degrees of freedom, and the positions of these.
 
 use super::{Job, ParameterRule, Scales};
 use crate::files::deck::{self, Deck, Membership};
@@ -15,7 +15,7 @@ use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Where a model's grids are, and which of them elements join.
+/// Positions of a model's grids, and the grids that elements join.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct GridLayout {
     /// The place of every grid that has one, in units of length.
@@ -24,25 +24,25 @@ pub struct GridLayout {
     pub elements: Vec<Vec<usize>>,
 }
 
-/// A model and what its degrees of freedom are.
+/// A model and its degrees of freedom.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelSource {
     /// Its matrices.
     pub whole: WholeModel,
     /// Its grids.
     pub geometry: GridLayout,
-    /// By grid and direction (0 to 5) of every degree of freedom that moves: the model's rows and their coefficients.
+    /// Rows of the model and their coefficients for every degree of freedom that moves, by grid and direction (0 to 5).
     pub motions: BTreeMap<(usize, usize), Vec<(usize, f64)>>,
-    /// The deck's bytes and what was read of them, if it is one.
+    /// The deck's bytes and the deck read from them, if the model is one.
     pub deck: Option<(Vec<u8>, Deck)>,
-    /// Of a deck, the elements and the point masses that every parameter scales, ascending.
+    /// Elements and point masses of a deck that every parameter scales, ascending.
     pub members: Vec<[Vec<usize>; 2]>,
     /// Standard deviation of the logarithm of every parameter's factor before the test.
     pub priors: Vec<f64>,
 }
 
 impl ModelSource {
-    /// What a row of the matrices is called: the grid and direction that it moves.
+    /// Name of a row of the matrices: the grid and direction that it moves.
     pub(super) fn row_name(&self, row: usize) -> String {
         let moves = |(_, rows): &(&(usize, usize), &Vec<(usize, f64)>)| {
             rows.iter()
@@ -57,9 +57,9 @@ impl ModelSource {
             .map_or_else(|| format!("row {}", row + 1), name)
     }
 
-    /// How much mass moves along x, y and z, and its center, if all of it has a place.
+    /// Mass that moves along x, y and z, and its center, if all of it has a place.
     ///
-    /// Of matrices a row has the part that it takes of the momentum $M r$ of all rows of its direction at unit speed.
+    /// In a model given by matrices, a row counts with its part of the momentum $M r$ of all rows of its direction at unit speed.
     pub(super) fn mass_and_center(
         &self,
     ) -> Result<(Vector3<f64>, Option<Vector3<f64>>), FileError> {

@@ -1,4 +1,4 @@
-//! Repeated tests: their mean, and what their scatter says of its standard deviations and of its covariance.
+//! Repeated tests: their mean, and the standard deviations and the covariance that their scatter gives.
 
 use super::loaded::FLOOR;
 use super::{Job, LoadedJob};
@@ -18,7 +18,7 @@ impl Job {
     /// The test, or the mean of its repeats ([`mean_of`]).
     ///
     /// # Errors
-    /// Those of the files; [`FileError::Refused`] unless the job names one test or several repeats.
+    /// [`FileError::Refused`] unless the job names one test or several repeats; the errors of its files.
     pub(super) fn measured(&self) -> Result<TestData, FileError> {
         let read = |file: &PathBuf, entry: &str| {
             let file = self.beside(file);
@@ -47,8 +47,8 @@ impl Job {
 /// components of a shape, or all frequencies, have one variance.
 ///
 /// # Errors
-/// [`FileError::Refused`] naming the file for sensors or modes that the first has not, for shapes of modal assurance below [`FLOOR`] with
-/// the common one, and for numbers that never differ.
+/// [`FileError::Refused`] naming the file for sensors or modes that the first does not have, for shapes of modal assurance below
+/// [`FLOOR`] with the common one, and for numbers that never differ.
 ///
 /// Source: Anderson, *An Introduction to Multivariate Statistical Analysis*, 3rd ed. (2003), section 7.7.
 fn mean_of(job: &Job, tests: &[TestData]) -> Result<TestData, FileError> {
@@ -180,7 +180,7 @@ impl LoadedJob {
         if is_own || tests < numbers + 3 {
             return None;
         }
-        // Of every residual its row of the scatter, one over its deviation, and the component of the shape that it measures.
+        // For every residual its row of the scatter, one over its deviation, and the component of the shape that it measures.
         type MeasuredNumber = (usize, f64, Option<(usize, f64)>);
         let mut rows: Vec<MeasuredNumber> = Vec::new();
         for (place, mode) in self.compared().enumerate() {
@@ -214,12 +214,12 @@ impl LoadedJob {
         let sizes = (tests * (tests - numbers - 2)) as f64;
         let covariance = &apart * apart.transpose() / sizes + &along * along.transpose();
         let covariance = symmetric_part(&covariance);
-        // Files that are there twice leave it singular.
+        // Files that are given twice leave it singular.
         let is_whole = cholesky("covariance", &covariance, HALF_THE_DIGITS).is_ok();
         is_whole.then_some(covariance)
     }
 
-    /// What chi-squared by an estimated covariance is multiplied with after a fit that leaves these degrees of freedom.
+    /// Factor on chi-squared by an estimated covariance, after a fit that leaves these degrees of freedom.
     ///
     /// The least over the fitted parameters is chi-squared by the covariance of what is left, $\nu$ of the $p$ numbers, and one over
     /// that of $R$ tests is right in the mean with $R - \nu - 2$ for $R - p - 2$. The parameters' own deviations need the latter.
@@ -232,7 +232,7 @@ impl LoadedJob {
         }
     }
 
-    /// How many numbers the test has for a covariance: those compared, less a scale a shape.
+    /// Count of the test's numbers for a covariance: all that are compared, less a scale a shape.
     pub(super) fn free_numbers(&self) -> usize {
         let of_shape = self.placed.len().saturating_sub(1);
         self.modes.len() * (1 + of_shape) + self.alone.len()

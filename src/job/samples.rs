@@ -14,11 +14,11 @@ const BARS: usize = 24;
 /// The parts of all samples below the quantiles.
 const PARTS: [f64; 3] = [0.025, 0.5, 0.975];
 
-/// Where each sample of a file begins: some forty bytes per sample, whatever the number of parameters.
+/// Places of a file's samples: some forty bytes per sample, whatever the number of parameters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Samples {
     path: PathBuf,
-    /// By number, where its line begins.
+    /// Place where the line of each begins, by its number.
     places: BTreeMap<u64, u64>,
     /// Bytes of whole lines; anything after them is a torn line.
     pub whole: u64,
@@ -27,9 +27,9 @@ pub struct Samples {
 /// The factor of one parameter over the samples.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spread {
-    /// How many samples it is of.
+    /// Number of samples.
     pub count: usize,
-    /// In how many of them it is at a bound.
+    /// Number of them that are at a bound.
     pub at_bound: usize,
     /// Mean.
     pub mean: f64,
@@ -39,7 +39,7 @@ pub struct Spread {
     pub quantiles: [f64; 3],
     /// Least and largest.
     pub ends: [f64; 2],
-    /// How many samples lie in each of equal intervals between them.
+    /// Number of samples in each of equal intervals between the least and the largest.
     pub bars: Vec<usize>,
 }
 
@@ -50,7 +50,7 @@ pub struct Summary {
     pub spreads: Vec<(String, Option<Spread>)>,
     /// Samples within tolerance with every test mode compared that they select.
     pub within: usize,
-    /// The others that ran.
+    /// Other samples that ran.
     pub outside: usize,
     /// Numbers of those that failed.
     pub failed: Vec<u64>,
@@ -118,7 +118,7 @@ impl Samples {
         Ok(samples)
     }
 
-    /// Whether a sample is there.
+    /// True if a sample is there.
     pub fn contains(&self, sample: u64) -> bool {
         self.places.contains_key(&sample)
     }

@@ -20,11 +20,11 @@ pub struct PlacedSensor {
     pub direction: usize,
     /// The unit vector along which it measures, or about which it turns, in global axes.
     pub axis: Vector3<f64>,
-    /// −1 where it points the other way.
+    /// Sign of its readings: −1 where it points the other way.
     pub sign: f64,
-    /// Where the grid is.
+    /// Position of the grid.
     pub place: Option<Vector3<f64>>,
-    /// How far the sensor is from it, in units of length, if the places of both are known.
+    /// Distance of the sensor from its grid, in units of length, if the positions of both are known.
     pub distance: Option<f64>,
 }
 

@@ -11,7 +11,7 @@ use crate::weighted::noise::{Noise, with_noise_by_mode};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// What differs from sample to sample.
+/// Part of a job that differs from sample to sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Vary {
@@ -28,21 +28,22 @@ pub enum Vary {
 pub struct Study {
     /// The job as it is.
     pub loaded: LoadedJob,
-    /// What may lower the trust in it, before its first step.
+    /// Doubts and remarks on the job before its first step.
     pub trust: Trust,
     /// The seed.
     pub seed: u64,
-    /// What varies, each once, ascending.
+    /// Parts that vary, each once, ascending.
     pub vary: Vec<Vary>,
-    /// A digest of the job's file, of the files it names, of seed and of what varies: samples with another do not belong to it.
+    /// A digest of the job's file, of the files it names, of the seed and of the parts that vary: samples with another do not
+    /// belong to the study.
     pub identity: String,
 }
 
 impl Study {
-    /// Reads a job to be run many times, and looks at what is doubtful of it; `accepted` are the doubts that the user answers for.
+    /// Reads a job to be run many times, and collects the doubts about it; `accepted` are the doubts that the user answers for.
     ///
     /// # Errors
-    /// Those of [`LoadedJob::new`] and [`Trust::before`]; [`FileError::Refused`] without parameters.
+    /// [`FileError::Refused`] without parameters; the errors of [`LoadedJob::new`] and [`Trust::before`].
     pub fn new(
         path: &Path,
         seed: u64,
@@ -83,7 +84,7 @@ impl Study {
     /// The job of a sample, and its first factors.
     ///
     /// # Errors
-    /// Those of [`with_noise_by_mode`] and [`LoadedJob::new`].
+    /// The errors of [`with_noise_by_mode`] and [`LoadedJob::new`].
     pub fn draw(&self, sample: u64) -> Result<(LoadedJob, Vec<f64>), FileError> {
         let LoadedJob {
             job, data, source, ..

@@ -29,19 +29,20 @@ use std::time::Duration;
 /// The program's name in reports.
 pub const NAME: &str = "NASTRAN-95";
 
-/// How long a run may take unless told otherwise; the box takes half a second.
+/// Time that a run may take unless told otherwise; the box takes half a second.
 const TIME_LIMIT: Duration = Duration::from_secs(60);
 /// Bytes that a run may print, and write on Fortran unit 15, unless told otherwise; the box takes a few thousandths.
 const OUTPUT_LIMIT: u64 = 1 << 28;
 
 /// DOF of a grid in KGG: translations, then rotations.
 const GRID_DOF: usize = 6;
-/// KAA and the sum of the element matrices are the same numbers added in another order.
+/// Largest difference of KAA and the sum of the element matrices, relative to its largest entry: they are the same numbers added in
+/// another order.
 const LARGEST_STIFFNESS_DIFFERENCE: f64 = 1e-9;
-/// NASTRAN-95 holds masses in single precision.
+/// Largest difference of MAA, relative to its largest entry: NASTRAN-95 holds masses in single precision.
 const LARGEST_MASS_DIFFERENCE: f64 = 1e-6;
 
-/// Where the Python wheel `nastran95` ends up when it is unpacked by the commands in `golden/nastran95/README.md`.
+/// Folder of the Python wheel `nastran95` when it is unpacked by the commands in `golden/nastran95/README.md`.
 pub fn default_folder() -> PathBuf {
     std::env::home_dir()
         .unwrap_or_default()
@@ -53,7 +54,7 @@ pub fn default_folder() -> PathBuf {
 pub struct Answer {
     /// The printed output.
     pub printed: String,
-    /// What was written on Fortran unit 15, if anything.
+    /// Text that was written on Fortran unit 15, if any.
     pub unit_15: Option<String>,
 }
 
@@ -61,7 +62,7 @@ pub struct Answer {
 #[derive(Debug, Clone)]
 pub struct Nastran95 {
     home: PathBuf,
-    /// When a run counts as hanging and is stopped.
+    /// Time after which a run counts as hanging and is stopped.
     pub time_limit: Duration,
     /// Bytes of a file of a run above which the run is stopped and nothing read.
     pub output_limit: u64,
@@ -94,7 +95,7 @@ impl Nastran95 {
     /// The matrices that a deck has NASTRAN write with module OUTPUT5 on Fortran unit 15, of no more than `numbers` entries.
     ///
     /// # Errors
-    /// Those of [`Self::run`]; [`FileError::SolverAnswer`] when it writes nothing or something else.
+    /// [`FileError::SolverAnswer`] when NASTRAN writes nothing or something else; the errors of [`Self::run`].
     pub fn matrices(&self, deck: &str, numbers: usize) -> Result<Matrices, FileError> {
         let answer = self.run(deck)?;
         let unit_15 = answer.unit_15.ok_or_else(|| {
@@ -106,11 +107,11 @@ impl Nastran95 {
         read_output5(&unit_15, numbers)
     }
 
-    /// The same model with NASTRAN's elements, from an analysis at the given parameter factors.
+    /// A model with NASTRAN's elements in place of its own, from an analysis at the given parameter factors.
     ///
     /// # Errors
-    /// Those of [`Self::matrices`] and [`BulkData::from_model`]; [`FileError::SolverAnswer`] when KAA is not the sum of the
-    /// elements to 1e-9 or MAA not $T M T^t$ to 1e-6 of its largest entry.
+    /// [`FileError::SolverAnswer`] when KAA is not the sum of the elements to 1e-9 or MAA not $T M T^t$ to 1e-6 of its largest
+    /// entry; the errors of [`Self::matrices`] and [`BulkData::from_model`].
     pub fn elements(
         &self,
         model: &FiniteElementModel,
@@ -121,7 +122,7 @@ impl Nastran95 {
         let bulk = BulkData::from_model(model, factors, &points)?;
         let all = with_single_elements(&bulk);
         let deck = write(&all, "ANALYSIS", &Task::Matrices)?;
-        // KGG, KAA and MAA have no more than so many rows.
+        // KGG, KAA and MAA have no more rows than this.
         let rows = GRID_DOF.saturating_mul(all.grids.len());
         let answer = self.matrices(&deck, rows.saturating_mul(rows).saturating_mul(3))?;
         let units = unit_stiffness(model, &bulk, &answer)?;

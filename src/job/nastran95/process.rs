@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 /// The program and the rigid formats in its folder.
 pub(super) const PROGRAM: &str = "bin/nastrn";
 pub(super) const RIGID_FORMATS: &str = "rf";
-/// How often a running program is looked at.
+/// Interval at which a running program is looked at.
 const POLL: Duration = Duration::from_millis(5);
 /// Words of memory the program takes: the defaults of its own scripts.
 const MEMORY: [(&str, &str); 2] = [("DBMEM", "12000000"), ("OCMEM", "2000000")];
@@ -142,7 +142,7 @@ fn watch(
     Ok(())
 }
 
-/// Whether the program has ended. On Unix it is not reaped yet, so that its number is not given to another process.
+/// True if the program has ended. On Unix it is not reaped yet, so that its number is not given to another process.
 fn has_ended(child: &mut Child) -> std::io::Result<bool> {
     #[cfg(unix)]
     let ended = waitid(
@@ -154,7 +154,7 @@ fn has_ended(child: &mut Child) -> std::io::Result<bool> {
     Ok(ended?.is_some())
 }
 
-/// The first fatal message in what NASTRAN prints, its lines joined.
+/// The first fatal message in NASTRAN's printed output, its lines joined.
 fn fatal_message(printed: &str) -> Option<String> {
     let mut lines = printed.lines().skip_while(|line| !line.contains("FATAL"));
     let first = lines.next()?;
