@@ -27,7 +27,7 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, Error> {
     }
     let (mut bytes, mut length) = (Vec::new(), found.len());
     if length <= MOST_BYTES {
-        // It may have grown meanwhile.
+        // The file may have grown meanwhile.
         length = disk::open(path)?
             .take(MOST_BYTES + 1)
             .read_to_end(&mut bytes)? as u64;

@@ -31,7 +31,7 @@ impl LoadedJob {
         self.concerns_and_rigid_body_modes().map(|(all, _)| all)
     }
 
-    /// Everything doubtful before the first step, and the number of rigid-body modes that the analysis for it has found.
+    /// Concerns before the first step, and the number of rigid-body modes that the analysis for them has found.
     pub(super) fn concerns_and_rigid_body_modes(&self) -> Result<(Vec<Concern>, usize), FileError> {
         let (mut all, rigid_body_modes) = self.preflight_concerns()?;
         if !self.alone.is_empty() {

@@ -27,9 +27,9 @@ pub struct GridLayout {
 /// A model and its degrees of freedom.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelSource {
-    /// Its matrices.
+    /// Matrices of the model.
     pub whole: WholeModel,
-    /// Its grids.
+    /// Grids of the model.
     pub geometry: GridLayout,
     /// Rows of the model and their coefficients for every degree of freedom that moves, by grid and direction (0 to 5).
     pub motions: BTreeMap<(usize, usize), Vec<(usize, f64)>>,

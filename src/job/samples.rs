@@ -46,7 +46,7 @@ pub struct Spread {
 /// The statistics of the samples.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Summary {
-    /// By parameter; none without a sample that did not fail.
+    /// Statistics by parameter; none without a sample that did not fail.
     pub spreads: Vec<(String, Option<Spread>)>,
     /// Samples within tolerance with every test mode compared that they select.
     pub within: usize,

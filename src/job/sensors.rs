@@ -10,9 +10,9 @@ use std::collections::BTreeMap;
 /// A sensor on the model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlacedSensor {
-    /// Its row in the test's shapes.
+    /// Row of the sensor in the test's shapes.
     pub row: usize,
-    /// Its name.
+    /// Name of the sensor.
     pub name: String,
     /// The model's grid.
     pub grid: usize,
@@ -138,7 +138,7 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
     })?;
     let dof_count = source.whole.dof_count();
     if placed.is_empty() {
-        // Frequencies alone are compared, for which the model keeps its shapes whole.
+        // Frequencies alone are compared: the model keeps its shapes whole.
         let all = (0..dof_count).map(|dof| (dof, dof, 1.0)).collect();
         return Ok((
             placed,

@@ -17,7 +17,7 @@ pub enum Digits {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Cell {
-    /// Nothing.
+    /// An empty cell.
     Blank,
     /// Words.
     Text(String),

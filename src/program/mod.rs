@@ -111,7 +111,7 @@ pub fn run() -> ExitCode {
         }
         Err(asked) => {
             let is_version = asked.kind() == ErrorKind::DisplayVersion;
-            // A command's own would have the command's name in it.
+            // The version of a subcommand would have the subcommand's name in it.
             let text = if is_version {
                 Arguments::command().render_version()
             } else {

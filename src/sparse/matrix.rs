@@ -150,7 +150,7 @@ impl SparseMatrix {
         Ok(product)
     }
 
-    /// Its entries times a number.
+    /// The matrix's entries times a number.
     pub(crate) fn times_number(&self, number: f64) -> impl Iterator<Item = (usize, usize, f64)> {
         self.entries
             .iter()

@@ -106,7 +106,7 @@ impl Mesh {
             second
         };
         separator.iter().for_each(|&place| sides[place] = 2);
-        // A cut that leaves nearly everything on one side is paid for by the next cuts.
+        // The next cuts pay for a cut that leaves nearly everything on one side.
         let smaller = [0, 1]
             .map(|side| sides.iter().filter(|&&found| found == side).count())
             .into_iter()

@@ -47,7 +47,7 @@ impl Reconstruction {
     /// The box that comes with the crate.
     ///
     /// # Errors
-    /// As [`Self::parse`], if the data file were damaged.
+    /// The errors of [`Self::parse`], if the data file were damaged.
     pub fn embedded() -> Result<Self, CaseError> {
         Self::parse(
             "paper/reconstruction.toml",

@@ -43,7 +43,7 @@ pub struct Series {
     pub name: &'static str,
     /// Drawing style.
     pub mark: SeriesMark,
-    /// Its points.
+    /// Points of the series.
     pub points: Vec<(f64, f64)>,
 }
 
@@ -126,7 +126,7 @@ impl Diagram {
     where
         Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
     {
-        // Without the round-off of sums of decimal steps.
+        // Four digits, without the round-off of sums of decimal steps.
         let tick = |value: &f64| {
             let text = format!("{value:.3e}");
             text.parse::<f64>().unwrap_or(*value).to_string()

@@ -24,7 +24,7 @@ pub(crate) struct Card {
     pub file: Arc<str>,
     /// The line of its name, from one.
     pub line: usize,
-    /// In capitals and without the asterisk of the large format.
+    /// Name in capitals and without the asterisk of the large format.
     pub name: String,
     /// Eight for every line of the small format or two lines of the large.
     pub fields: Vec<Field>,

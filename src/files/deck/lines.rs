@@ -20,7 +20,7 @@ pub(super) type Selected = [Option<(usize, usize)>; 2];
 
 /// One line of bulk data, cut into fields.
 pub(super) struct Line {
-    /// Its number in the file, from one.
+    /// Number of the line in the file, from one.
     number: usize,
     /// Field 1 in capitals: a name, or of a continuation its tag without `+` or `*`.
     first: String,
@@ -196,7 +196,7 @@ fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
         width,
     } = cut(text);
     if let (false, Some(tag)) = (is_free, parts.last_mut()) {
-        // What follows column 80 does not count.
+        // Text behind column 80 does not count.
         *tag = tag.chars().take(SMALL_FIELD).collect();
     }
     let first = name.trim();

@@ -22,7 +22,7 @@ const LABEL_STEP: usize = 100;
 pub struct Tie {
     /// The dependent DOF.
     pub dependent: StructuralDof,
-    /// Its coefficient $a_m$, not zero.
+    /// Coefficient $a_m$ of the dependent DOF, not zero.
     pub coefficient: f64,
     /// The other DOF with their coefficients $a_j$.
     pub terms: Vec<(StructuralDof, f64)>,
@@ -31,7 +31,7 @@ pub struct Tie {
 /// A mass at a grid, lbf·s²/in.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointMass {
-    /// Its number.
+    /// Number of the mass.
     pub label: usize,
     /// The grid.
     pub grid: usize,
@@ -60,7 +60,7 @@ pub(crate) struct MovingMass {
     pub dof: StructuralDof,
     /// The mass, lbf·s²/in.
     pub mass: f64,
-    /// Its column of $T$ by rows and coefficients.
+    /// Column of $T$ of this DOF by rows and coefficients.
     pub motion: Vec<(usize, f64)>,
 }
 

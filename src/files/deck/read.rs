@@ -1,4 +1,5 @@
-//! From cards to the model they describe: which cards are read, which do not matter to it, and which may matter but are unknown.
+//! The reader, from cards to the model that they describe: the cards that are read, those that do not matter to the model, and
+//! those that may matter but are unknown.
 
 use super::card::{Card, Numbered};
 use super::constraints::Constraints;

@@ -31,7 +31,7 @@ struct Changes<'a> {
 }
 
 /// The deck `bytes`, `file` in messages, with the sizes and densities of these elements and these point masses, found by their
-/// numbers; those of [`BulkData::from_model`](super::BulkData::from_model) give the deck a model's modes.
+/// numbers; with the elements and masses of [`BulkData::from_model`](super::BulkData::from_model) the deck has a model's modes.
 ///
 /// Where elements of one property need different sizes, the unchanged ones keep the card, or else the largest group does; the
 /// others get new cards after it, and a new density gets a new MAT1 card. A number that does not fit in its field turns its line
@@ -55,7 +55,7 @@ pub fn rewrite(
             weight = card.positive(3)?;
         }
     }
-    // Letters that occur nowhere in the deck begin no continuation's name and no remark in field 10.
+    // Letters that occur nowhere in the deck: no continuation's name and no remark in field 10 begins with them.
     let capitals = text.to_ascii_uppercase();
     let prefix = (1..)
         .map(|count| "Z".repeat(count))

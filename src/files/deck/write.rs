@@ -1,4 +1,4 @@
-//! From the model to a deck that NASTRAN-95 runs unchanged.
+//! The writer, from the model to a deck that NASTRAN-95 runs unchanged.
 
 use super::card::{FIELDS_PER_LINE, LARGEST_LABEL};
 use super::elements::ELEMENT_CARDS;

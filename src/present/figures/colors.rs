@@ -29,7 +29,7 @@ pub(super) fn legible_on(fill: RGBColor) -> RGBColor {
         let (one, other) = (luminance(ink) + 0.05, luminance(fill) + 0.05);
         one.max(other) / one.min(other)
     };
-    // Of black and white one always has it; ink is softer.
+    // One of black and white always has it; ink is softer.
     [INK, WHITE]
         .into_iter()
         .find(|&ink| contrast(ink) >= 4.5)

@@ -18,7 +18,7 @@ const OPEN: Mark = Mark(Form::Circle, 4.0, Some(WHITE), Pen(INK, 1.4, Dash::Soli
 pub struct DrawnFactor {
     /// Name of the parameter.
     pub name: String,
-    /// Its factor.
+    /// Value of the factor.
     pub value: f64,
     /// Value where the row began, if that is not the origin.
     pub from: Option<f64>,
@@ -195,7 +195,8 @@ impl Factors {
                 tip,
                 Mark(Form::Circle, 4.0, Some(color), Pen::solid(color, 1.0)),
             )?;
-            // The number is next to its mark, on the side that the right factor is not on; a remark names what stands out.
+            // The number is next to its mark, on the side away from the published value or the start; a remark names a factor that
+            // stands out.
             let written = |value: f64| signed(Digits::Fixed(self.decimals).write(value));
             let around = deviation.map(|deviation| format!(" ± {}", written(deviation)));
             let number = written(factor.value) + &around.unwrap_or_default();

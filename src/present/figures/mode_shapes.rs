@@ -31,7 +31,7 @@ const CLOSED: &str = "\"/>\n";
 /// A test mode and its partners as drawn: of test, first and corrected model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawnMode {
-    /// From one.
+    /// Number of the mode, from one.
     pub number: usize,
     /// Frequencies, Hz.
     pub hertz: [f64; 3],
@@ -44,7 +44,7 @@ pub struct DrawnMode {
 pub struct DrawnModes {
     /// The structure.
     pub frame: Frame,
-    /// Its modes.
+    /// Modes of the structure.
     pub modes: Vec<DrawnMode>,
 }
 
