@@ -368,9 +368,9 @@ pub fn error_changes(model: &Model, state: &State) -> Result<Vec<f64>, Error> {
 #[derive(Clone, Copy, Debug)]
 pub enum StepRule {
     /// The norm $\lVert \kappa \rVert_F$ of the element's relative stiffness $\kappa$ on the test modes.
-    Norm,
+    Matrix,
     /// The norm of its diagonal alone.
-    Diagonal,
+    Own,
     /// The relative change itself.
     Relative,
     /// The change of gage in units of 0.01 in.
@@ -388,8 +388,8 @@ pub fn unlimited_factors(
     let changes = error_changes(model, state)?;
     let factor = |e: usize| {
         let relative = match rule {
-            StepRule::Norm => state.factors[e] * model.test_shares[e].norm(),
-            StepRule::Diagonal => state.factors[e] * model.test_shares[e].diagonal().norm(),
+            StepRule::Matrix => state.factors[e] * model.test_shares[e].norm(),
+            StepRule::Own => state.factors[e] * model.test_shares[e].diagonal().norm(),
             StepRule::Relative => 1.0,
             StepRule::Gage => total[e] * model.gages[e] / 0.01,
         };
@@ -539,7 +539,7 @@ impl Problem {
 pub fn torque_box(case: &corfem::torque_box::Case) -> Problem {
     let model = case.model().expect("the box is sound");
     let modes = case.test_modes().expect("the box has modes");
-    let element = |of: &corfem::method::assembly::ElementMatrix| Element {
+    let element = |of: &corfem::method::appendix_a::ElementMatrix| Element {
         dof: of.dof.clone(),
         unit: of.unit.clone(),
     };
@@ -561,8 +561,8 @@ pub fn torque_box(case: &corfem::torque_box::Case) -> Problem {
         },
         settings: Settings {
             rule: match inner.step.name() {
-                "matrix" => StepRule::Norm,
-                "own" => StepRule::Diagonal,
+                "matrix" => StepRule::Matrix,
+                "own" => StepRule::Own,
                 "relative" => StepRule::Relative,
                 _ => StepRule::Gage,
             },

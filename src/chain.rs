@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 /// Each spring is a rod of unit length and modulus, whose area, in², is its stiffness.
 ///
 /// # Errors
-/// [`Error::Empty`] without springs; [`Error::NotPositive`] for one that is not.
+/// [`Error::Count`] without springs; [`Error::Value`] for one that is not.
 pub fn rods(springs: &[f64], held: [bool; 2]) -> Result<Structure, Error> {
     let (last, material) = (springs.len() + 1, Material::isotropic(1.0, 0.25)?);
     let grid = |label: usize| {

@@ -11,23 +11,25 @@
 //! The crate is a house of rooms; each imports only from those above it in this list, and [`method`] from none.
 //!
 //! - [`method`]: the paper, in its own order: plain functions over dense matrices. Read this first, and read it as a text:
-//!   1. [`structure`](method::structure), [`elements`](method::elements), [`assembly`](method::assembly): the finite element
-//!      model and its stiffness $K_S$;
-//!   2. [`appendix_a`](method::appendix_a): from structural to dynamic degrees of freedom (1, 2);
+//!   1. [`structure`](method::structure) and [`elements`](method::elements): the finite element model;
+//!   2. [`appendix_a`](method::appendix_a): its stiffness $K_S$, and from structural to dynamic degrees of freedom (1, 2);
 //!   3. [`modes`](method::modes) (3) and [`appendix_b`](method::appendix_b): exact modes, and measured ones made fit to compare;
-//!   4. [`model`](method::model): what may change, and the modal model that the loops are handed;
-//!   5. [`pairing`](method::pairing) (4) and [`error_sum`](method::error_sum) (5, 6): which mode is which, and how far apart;
-//!   6. [`appendix_c`](method::appendix_c) (7, 8): new modes without an eigensolution, and [`state`](method::state), where they
-//!      are put together;
-//!   7. [`derivatives`](method::derivatives) (12), [`step`](method::step) (13), [`inner_loop`](method::inner_loop),
-//!      [`outer_loop`](method::outer_loop).
-//! - [`sparse`]: the same analysis at any size, and modes of whole models, counted.
+//!   4. [`sorting`](method::sorting) (4) and [`error_sum`](method::error_sum) (5, 6): which mode is which, and how far apart;
+//!   5. [`perturbation`](method::perturbation) (7, 8): new modes after a change of stiffness, without an eigensolution;
+//!      [`appendix_c`](method::appendix_c): the same with changes of mass, and of complex modes;
+//!   6. [`step`](method::step) (13): from derivatives to stiffness factors and their limits;
+//!   7. [`analysis`](method::analysis) (9 to 12): four questions that the loops ask, and [`model`](method::model), which answers
+//!      them as the paper does;
+//!   8. [`inner_loop`](method::inner_loop) and [`outer_loop`](method::outer_loop).
+//!
+//!   Under them all lie [`error`](method::error) and [`linear_algebra`](method::linear_algebra).
+//! - [`sparse`]: the same analysis at any size, modes of whole models, counted, and their comparison at sensors.
 //! - [`weighted`]: residuals in units of their standard deviations, noise on test modes, weighted steps, and what the test
 //!   sees of the parameters.
 //! - [`torque_box`]: the paper's wing torque box, its four cases, its tables. [`chain`] has the smallest structures, for examples.
 //! - [`files`]: NASTRAN decks, matrices, tests, and analyses by NASTRAN-95.
-//! - [`job`]: a user's structure, from its files to the corrected model, with a pre-flight that names mistakes in model and test
-//!   before the first step.
+//! - [`job`]: a user's structure, from its files to the corrected model and its [`verdict`](job::verdict), with a pre-flight that
+//!   names mistakes in model and test before the first step.
 //! - [`tour`]: ten chapters that teach the method, with code that runs. Read this first if the paper is new to you.
 //! - [`specification`]: every equation on one page, with its tests and the wrong forms that they notice.
 //! - `present` and the program `corfem`, with the feature `program`: tables, figures, a page, commands.
@@ -45,7 +47,7 @@
 //!  exact modes (3)                                             exact check│
 //!      │                                                                  │
 //!      ▼                                                                  │
-//!  pairing (4)         with the test modes (B)                            │
+//!  sorting (4)         with the test modes (B)                            │
 //!      │                                                                  │
 //!      ▼                                                                  │
 //!  error sum (5, 6) ◄────────────────────────┐                            │

@@ -1,7 +1,8 @@
 //! Arrays in NumPy's format 1.0, and a wing's problem written with them for other programs.
 
-use corfem::method::assembly::element_matrices;
-use corfem::method::model::ModalModel;
+use corfem::method::analysis::Analysis;
+use corfem::method::appendix_a::element_matrices;
+use corfem::method::model::Model;
 use corfem::method::structure::ElementKind;
 use corfem::sparse::{LargeModel, SparseMatrix};
 use nalgebra::DMatrix;
@@ -55,18 +56,18 @@ fn matrix(path: &Path, matrix: &DMatrix<f64>) -> Result<()> {
 ///
 /// Of rods and panels each: unit matrices (n × m × m) filled up with zeros, DOF (n × m) with -1 where one is held, size and
 /// group.
-pub fn write(folder: &Path, model: &LargeModel, modal: &ModalModel) -> Result<()> {
+pub fn write(folder: &Path, model: &LargeModel, modal: &Model) -> Result<()> {
     create_dir_all(folder)?;
     let at = |name: &str| folder.join(format!("{name}.npy"));
     let structure = model.structure();
     let mut group_of = vec![0; structure.elements().len()];
     for (group, parameter) in model.parameters().iter().enumerate() {
         parameter
-            .members
+            .elements
             .iter()
             .for_each(|&label| group_of[label - 1] = group);
     }
-    let matrices = element_matrices(structure);
+    let matrices: Vec<_> = element_matrices(structure).collect();
     for (name, is_rod) in [("rod", true), ("panel", false)] {
         let all = (0..).zip(structure.elements()).zip(&matrices);
         let of_kind = || {
@@ -118,7 +119,7 @@ pub fn write(folder: &Path, model: &LargeModel, modal: &ModalModel) -> Result<()
     let diagonals = modal
         .shares()
         .iter()
-        .flat_map(|share| share.matrix().diagonal().data.as_vec().clone());
+        .flat_map(|share| share.diagonal().data.as_vec().clone());
     numbers(&at("shares"), &[count, modes], diagonals)
 }
 

@@ -2,20 +2,21 @@
 
 use crate::fill::{self, Fill};
 use crate::known::delta_wing::correlation;
+use crate::known::eigensolved::Eigensolved;
 use crate::known::wing::Wing;
 use crate::known::{Known, planted};
 use crate::machine::Machine;
 use crate::memory::peak;
-use corfem::method::assembly::element_matrices;
-use corfem::method::derivatives::by_definition;
+use corfem::method::analysis::Analysis;
+use corfem::method::appendix_a::{ElementMatrix, element_matrices};
 use corfem::method::inner_loop::{InnerSettings, run};
-use corfem::method::model::ModalModel;
+use corfem::method::model::Model;
 use corfem::method::modes::solve;
 use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::state::ModalState;
 use corfem::method::structure::Material;
+use corfem::sparse::elements::lumped_masses;
 use corfem::sparse::factorization::{Factor, StructuralStiffness};
-use corfem::sparse::{PackedModel, SparseMatrix, WholeModel};
+use corfem::sparse::{SparseMatrix, WholeModel};
 use nalgebra::DMatrix;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -103,7 +104,7 @@ fn settings() -> Settings {
 }
 
 /// Times every stage of a wing, and hands it back with what an analysis found.
-pub fn of(wing: &Wing) -> (Stages, Known, ModalModel) {
+pub fn of(wing: &Wing) -> (Stages, Known, Model) {
     let machine = Machine::measured();
     let mut stages = Stages {
         dof: 0,
@@ -113,12 +114,13 @@ pub fn of(wing: &Wing) -> (Stages, Known, ModalModel) {
     };
     let structure = stages.time("grids and elements", || wing.structure().expect("a wing"));
     stages.dof = structure.free_dof().len();
-    drop(stages.time("element matrices (once)", || element_matrices(&structure)));
+    let matrices = || element_matrices(&structure).collect::<Vec<ElementMatrix>>();
+    drop(stages.time("element matrices (once)", matrices));
     drop(structure);
     let known = planted(wing).expect("a wing");
-    let (model, test) = (&known.model, &known.test);
+    let (model, test) = (&known.model.0, &known.test);
     let ones = vec![1.0; model.parameters().len()];
-    let sizes = model.at(&ones).expect("sizes").sizes;
+    let sizes = model.sizes(&ones).expect("sizes");
     let plan = || {
         let elements = model.elements().to_vec();
         StructuralStiffness::new(model.structure(), elements).expect("a plan")
@@ -136,7 +138,7 @@ pub fn of(wing: &Wing) -> (Stages, Known, ModalModel) {
     drop((structural, planned));
     let condensed = stages.time(CONDENSED, || model.condense(&ones).expect("it condenses"));
     let modes = stages.time("modes: 10 of 108", || {
-        solve(&condensed.stiffness, &condensed.mass, MODES).expect("modes")
+        solve(&condensed.stiffness, model.mass(), MODES).expect("modes")
     });
     stages.time("shapes of the structure: 10 solutions", || {
         condensed.structural_shapes(modes.shapes()).expect("shapes")
@@ -144,21 +146,20 @@ pub fn of(wing: &Wing) -> (Stages, Known, ModalModel) {
     drop(condensed);
     let analyze = |factors: &[f64]| model.analyze(factors, test, Some(MODES));
     let modal = stages.time(ANALYSIS, || analyze(&ones).expect("analyzed"));
-    let start = ModalState::start(&modal);
-    let packed = PackedModel::new(&modal);
-    stages.time("gradient", || packed.gradient(&start).expect("a gradient"));
     stages.time("derivatives by definition", || {
-        by_definition(&modal, &start).expect("derivatives")
+        modal.error_changes(modal.exact()).expect("derivatives")
     });
     let (settings, ranges) = (settings(), model.factor_ranges().expect("bounds"));
-    let inner = || run(&modal, &ones, &ranges, &settings.inner).expect("it runs");
+    let solved = Eigensolved(modal.clone());
+    let inner = || run(&solved, &ones, &ranges, &settings.inner).expect("it runs");
     let run = stages.time("inner loop of the first pass", inner);
     stages.time("pass with its analysis", || {
         inner();
         analyze(&run.factors).expect("analyzed")
     });
+    let analyze = |factors: &[f64]| analyze(factors).map(Eigensolved);
     stages.time("correlation to an error sum of 5 %", || {
-        correlate(analyze, &ranges, &settings, |_, _| {}).expect("it runs")
+        correlate(analyze, &ranges, &settings, |_, _| true).expect("it runs")
     });
     (stages, known, modal)
 }
@@ -178,19 +179,27 @@ pub fn whole_modes(wing: &Wing, stages: &mut Stages) -> (SparseMatrix, Vec<f64>)
     .model()
     .expect("a wing");
     let ones = vec![1.0; model.parameters().len()];
-    let (whole, _) = WholeModel::of(&model).expect("a whole model");
-    drop(model);
-    let modes = || whole.modes(&ones, WHOLE_MODES).expect("modes").vibrations;
+    let (points, _) = WholeModel::of(&model).expect("a whole model");
+    let (stiffness, points) = points.at(&ones).expect("matrices");
+    let structure = model.structure();
+    let elements = structure.elements().iter().zip(structure.corners());
+    let lumped = elements.flat_map(|(element, own)| lumped_masses(structure, element, own));
+    let lumped = lumped.map(|(row, mass)| (row, row, mass));
+    let all = points.entries().iter().copied().chain(lumped).collect();
+    let mass = SparseMatrix::new("mass", points.rows(), points.rows(), all).expect("a mass");
+    drop((model, points));
+    let whole = WholeModel::new(stiffness, mass.clone(), Vec::new()).expect("a whole model");
+    let modes = || whole.modes(&[], WHOLE_MODES).expect("modes").vibrations;
     let found = stages.time("20 modes of the whole model (counted)", modes);
-    (whole.at(&ones).expect("matrices").1, found.frequencies_hz())
+    (mass, found.frequencies_hz())
 }
 
 /// The paper's costs of its wing of 1326 SDOF in seconds, then and now: what it lists, what is done here in its place.
 pub fn papers_costs(known: &Known, stages: &Stages) -> Vec<(&'static str, f64, f64)> {
-    let model = &known.model;
+    let model = &known.model.0;
     let ones = vec![1.0; model.parameters().len()];
-    let sizes = model.at(&ones).expect("sizes").sizes;
-    let elements = element_matrices(model.structure());
+    let sizes = model.sizes(&ones).expect("sizes");
+    let elements: Vec<_> = element_matrices(model.structure()).collect();
     let structural = Factor::of_stiffness(&elements, &sizes, model.structure().free_dof());
     let structural = structural.expect("it is held");
     let stiffness = model.condense(&ones).expect("it condenses").stiffness;

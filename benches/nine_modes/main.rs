@@ -5,11 +5,9 @@ mod problem;
 mod rivals;
 mod summary;
 
-use corfem::method::appendix_c::recursive_1_converged;
-use corfem::method::derivatives::{by_definition, gradient};
+use corfem::method::analysis::Analysis;
 use corfem::method::inner_loop::run;
-use corfem::method::state::{MOST_ORDERS, ROOT_TOLERANCE};
-use corfem::sparse::PackedModel;
+use corfem::method::perturbation::recursive_1_converged;
 use corfem::torque_box::run_case;
 use criterion::{BenchmarkGroup, Criterion, measurement::WallTime};
 use nalgebra::DMatrix;
@@ -42,21 +40,10 @@ fn eigensolutions(group: &mut BenchmarkGroup<WallTime>, prefix: &str, matrices: 
 /// Derivatives of the error sum with respect to all 15 elements, and the 15 eigensolutions that differences would need.
 fn derivatives(criterion: &mut Criterion, setting: &Setting) {
     let mut group = criterion.benchmark_group(summary::DERIVATIVES);
-    let (problem, state) = (&setting.problem, &setting.state);
-    let packed = PackedModel::new(problem);
-    group.bench_function(summary::GRADIENT, |bencher| {
-        bencher.iter(|| {
-            black_box(&packed)
-                .gradient(black_box(state))
-                .expect("a state of the model")
-        });
-    });
-    group.bench_function(summary::PLAIN, |bencher| {
-        bencher
-            .iter(|| gradient(black_box(problem), black_box(state)).expect("a state of the model"));
-    });
+    let problem = &setting.problem;
     group.bench_function(summary::DEFINITION, |bencher| {
-        bencher.iter(|| by_definition(black_box(problem), black_box(state)).expect("separate"));
+        let work = || black_box(problem).error_changes(black_box(problem.exact()));
+        bencher.iter(|| work().expect("separate"));
     });
     eigensolutions(
         &mut group,
@@ -133,7 +120,6 @@ fn main() {
     criterion.final_summary();
     summary::print(&folder, &passes);
     let k = setting.problem.exact().modes.omega_squared();
-    let settled =
-        recursive_1_converged(k, &setting.beta, ROOT_TOLERANCE, MOST_ORDERS).expect("it settles");
+    let settled = recursive_1_converged(k, &setting.beta).expect("it settles");
     println!("Recursive 1 settles at order {}", settled.order);
 }

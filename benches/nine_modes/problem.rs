@@ -1,10 +1,10 @@
 //! What is timed: the paper's nine-mode problem, and the passes of its cases.
 
-use corfem::method::derivatives::DERIVATIVE_STEP;
+use corfem::method::analysis::{Analysis, DERIVATIVE_STEP};
 use corfem::method::inner_loop::InnerSettings;
-use corfem::method::model::{Bounds, FiniteElementModel, ModalModel};
-use corfem::method::modes::ModeSet;
-use corfem::method::state::ModalState;
+use corfem::method::model::{FiniteElementModel, Model};
+use corfem::method::modes::Modes;
+use corfem::method::step::Bounds;
 use corfem::torque_box::{CASES, Case, run_case};
 use nalgebra::{DMatrix, DVector};
 
@@ -14,9 +14,7 @@ pub const NINE: usize = 9;
 /// Case 2 at its start: membrane covers, shear webs.
 pub struct Setting {
     /// The modal problem.
-    pub problem: ModalModel,
-    /// Its start.
-    pub state: ModalState,
+    pub problem: Model,
     /// $M^{-1/2}(K_D + 0.001 K_e)M^{-1/2}$ of every element: what differences of eigensolutions would solve.
     pub element_matrices: Vec<DMatrix<f64>>,
     /// $V^t \Delta K V$ of a step of ten percent up and down.
@@ -43,23 +41,17 @@ impl Setting {
                 .map(|mass| mass.sqrt().recip()),
         ));
         let standard = |change: &DMatrix<f64>| &scale * (&dynamic.stiffness + change) * &scale;
-        let shares: Vec<&DMatrix<f64>> =
-            dynamic.shares.iter().map(|share| share.matrix()).collect();
         let mut change = DMatrix::zeros(NINE, NINE);
-        for (e, share) in shares.iter().enumerate() {
-            change += if e % 2 == 0 { 0.1 } else { -0.1 } * *share;
+        for (e, share) in dynamic.shares.iter().enumerate() {
+            change += if e % 2 == 0 { 0.1 } else { -0.1 } * share;
         }
+        let shapes = problem.exact().modes.shapes();
+        let shares = dynamic.shares.iter();
         Self {
-            state: ModalState::start(&problem),
             element_matrices: shares
-                .iter()
-                .map(|share| standard(&(DERIVATIVE_STEP * *share)))
+                .map(|share| standard(&(DERIVATIVE_STEP * share)))
                 .collect(),
-            beta: problem
-                .exact()
-                .modes
-                .shapes()
-                .tr_mul(&(&change * problem.exact().modes.shapes())),
+            beta: shapes.tr_mul(&(&change * shapes)),
             step_matrix: standard(&change),
             problem,
         }
@@ -79,11 +71,11 @@ pub struct PassSetting {
     /// Bounds on its factors.
     pub ranges: Vec<Option<Bounds>>,
     /// Its test modes.
-    pub test: ModeSet,
+    pub test: Modes,
     /// Factors at its start.
     pub factors: Vec<f64>,
     /// The analysis there.
-    pub start: ModalModel,
+    pub start: Model,
     /// The inner loop's settings.
     pub settings: InnerSettings,
 }

@@ -1,9 +1,11 @@
 //! Files of other programs: bytes to data and back.
 
 pub mod deck;
+#[doc(hidden)]
 pub mod disk;
 pub mod error;
 pub mod matrices;
+#[doc(hidden)]
 pub mod nastran95;
 pub mod test_data;
 
@@ -12,6 +14,7 @@ use std::path::Path;
 
 /// Size in bytes of the longest file that is read, 2 GiB: enough for a matrix of sixty million entries. The text and the data read
 /// from it take some three times as much memory.
+#[doc(hidden)]
 pub const MOST_BYTES: u64 = 1 << 31;
 
 /// The bytes of a regular file of at most [`MOST_BYTES`]. Anything else, such as a device or a pipe, is refused before it is
@@ -19,6 +22,7 @@ pub const MOST_BYTES: u64 = 1 << 31;
 ///
 /// # Errors
 /// The operating system's error; `InvalidInput` for anything but a regular file, `FileTooLarge` for a longer one.
+#[doc(hidden)]
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, Error> {
     let found = disk::metadata(path)?;
     if !found.is_file() {
@@ -40,16 +44,19 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, Error> {
 }
 
 /// A text with control characters other than line ends and tabs escaped, because a terminal would obey them.
+#[doc(hidden)]
 pub fn escaped(text: &str) -> String {
     escape(text, |c| c.is_control() && c != '\n' && c != '\t')
 }
 
 /// A text on one line: line ends and tabs are escaped too, because they would break out of a table's row.
+#[doc(hidden)]
 pub fn one_line(text: &str) -> String {
     escape(text, char::is_control)
 }
 
 /// A text on one line that a spreadsheet shows as text: a leading apostrophe keeps it from reading a formula. Numbers stay numbers.
+#[doc(hidden)]
 pub fn inert(text: &str) -> String {
     let is_formula = text.starts_with(['=', '+', '-', '@']) && text.parse::<f64>().is_err();
     if is_formula { "'" } else { "" }.to_owned() + &one_line(text)

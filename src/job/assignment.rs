@@ -1,6 +1,6 @@
 //! Pairing of all modes at once, where the method's own (4) takes the closest pair first and may leave a bad one for the last.
 
-use crate::method::error::{Error, setting};
+use crate::method::error::{Error, require};
 use crate::method::linear_algebra::check_finite;
 use nalgebra::DMatrix;
 
@@ -15,15 +15,12 @@ use nalgebra::DMatrix;
 /// 83; shortest paths by Jonker and Volgenant, *Computing* 38 (1987), 325.
 ///
 /// # Errors
-/// [`Error::NotFinite`]; [`Error::Setting`] for a floor that is negative or not finite.
+/// [`Error::Value`] for an entry that is not finite, or a floor that is negative or not finite.
 pub fn pair_optimally(closeness: &DMatrix<f64>, floor: f64) -> Result<Vec<Option<usize>>, Error> {
     check_finite("closeness", closeness)?;
-    setting(
-        "floor of closeness",
-        "a number from zero up",
-        floor,
-        (0.0..f64::INFINITY).contains(&floor),
-    )?;
+    let is_met = (0.0..f64::INFINITY).contains(&floor);
+    let owner = || "closeness".into();
+    require(is_met, "floor", owner, floor, "a number from zero up")?;
     // After the analysis modes, every test mode (the last one first) has a place of its own at no cost: it means no partner.
     let (analysis_count, test_count) = closeness.shape();
     let places = analysis_count + test_count;

@@ -7,10 +7,10 @@ use super::preflight::{
 use super::sensors::{PlacedSensor, motion};
 use super::{Concern, LoadedJob, Method};
 use crate::files::error::FileError;
-use crate::method::model::LoneFrequency;
-use crate::method::modes::ModeSet;
+use crate::method::modes::Modes;
 use crate::sparse::rigid_bodies::is_rounded;
 use crate::sparse::{Factor, SparseMatrix, WholeShare};
+use crate::weighted::comparison::LoneFrequency;
 use crate::weighted::noise::Noise;
 use nalgebra::Vector3;
 
@@ -22,17 +22,12 @@ const COLLINEAR: f64 = 0.95;
 const LARGEST_SPAN: f64 = 2.0;
 
 impl LoadedJob {
-    /// Everything doubtful before the first step: findings of the pre-flight, complex test modes, and data that the readers left
-    /// aside.
+    /// Concerns before the first step, from findings of the pre-flight, complex test modes and data that the readers left aside; and the
+    /// number of rigid-body modes that the analysis for them has found.
     ///
     /// # Errors
     /// The errors of [`preflight_at_sensors`] and of the analysis that it needs.
-    pub fn concerns(&self) -> Result<Vec<Concern>, FileError> {
-        self.concerns_and_rigid_body_modes().map(|(all, _)| all)
-    }
-
-    /// Concerns before the first step, and the number of rigid-body modes that the analysis for them has found.
-    pub(super) fn concerns_and_rigid_body_modes(&self) -> Result<(Vec<Concern>, usize), FileError> {
+    pub fn concerns(&self) -> Result<(Vec<Concern>, usize), FileError> {
         let (mut all, rigid_body_modes) = self.preflight_concerns()?;
         if !self.alone.is_empty() {
             let pair = |(mode, lone): &(usize, LoneFrequency)| {
@@ -89,6 +84,13 @@ impl LoadedJob {
             ));
         }
         all.extend(self.part_concerns()?);
+        all.extend(self.data_concerns());
+        Ok((all, rigid_body_modes))
+    }
+
+    /// Remarks on complex test modes and on what the readers of the test left aside or did not convert.
+    fn data_concerns(&self) -> Vec<Concern> {
+        let mut all = Vec::new();
         for (mode, phase) in self.data.phase_collinearity.iter().enumerate() {
             if *phase < COLLINEAR {
                 let mode = mode + 1;
@@ -123,7 +125,7 @@ impl LoadedJob {
                 format!("The test's file is in units of {units}; nothing is converted."),
             )
         }));
-        Ok((all, rigid_body_modes))
+        all
     }
 
     /// Findings of the pre-flight in all modes of the test, and the number of the model's rigid-body modes.
@@ -148,7 +150,10 @@ impl LoadedJob {
             return Ok((concerns, rigid_body_modes));
         }
         let test = measured(&self.data, &self.placed, &modes)?;
-        let (squares, shapes) = found.vibrations.into_parts();
+        let Modes {
+            omega_squared: squares,
+            shapes,
+        } = found.vibrations;
         let along = |(place, sensor): (usize, &PlacedSensor)| {
             let own = sensor.direction;
             let others = (own / 3 * 3..own / 3 * 3 + 3).filter(move |other| *other != own);
@@ -164,7 +169,7 @@ impl LoadedJob {
         let seen = SeenModes {
             directions: self.placed.iter().enumerate().flat_map(along).collect(),
             shares: whole.shares(&self.ones(), &shapes)?,
-            modes: ModeSet::new(squares, self.sensors.times(&shapes)?)?,
+            modes: Modes::new(squares, self.sensors.times(&shapes)?)?,
         };
         let ranges = whole.ranges();
         let mut found = preflight_at_sensors(&seen, &test, &self.job.correlation, &ranges)?;

@@ -1,13 +1,9 @@
 //! The entries of a job's `[correlation]`, and those that jobs no longer have.
 
 use crate::files::error::FileError;
-use crate::method::derivatives::DerivativeRule;
-use crate::method::error_sum::ErrorMeasure;
 use crate::method::inner_loop::InnerSettings;
-use crate::method::model::Bounds;
 use crate::method::outer_loop::Settings;
-use crate::method::state::UpdateRule;
-use crate::method::step::{Accumulation, StepRule};
+use crate::method::step::{Accumulation, Bounds, StepRule};
 use serde::Deserialize;
 use std::path::Path;
 use toml::{Table, Value};
@@ -48,15 +44,9 @@ struct InnerEntries {
     halvings: usize,
     #[serde(skip)]
     iterations: usize,
-    #[serde(skip)]
-    derivatives: DerivativeRule,
     step: StepRule,
     #[serde(skip)]
     accumulation: Accumulation,
-    #[serde(skip)]
-    measure: ErrorMeasure,
-    #[serde(skip)]
-    update: UpdateRule,
 }
 
 /// Entries that jobs no longer have, and the rules in their place.

@@ -1,8 +1,9 @@
 //! Test shapes at all degrees of freedom of the model, from the sensors' readings.
 
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_finite, check_shape, finite};
-use crate::method::modes::check_count;
+use crate::method::error::check_count;
+use crate::method::linear_algebra::{check_finite, check_shape};
+use crate::sparse::finite;
 use nalgebra::DMatrix;
 
 /// Smallest singular value over the largest, of modes scaled to unit length at the sensors, below which they are dependent there.
@@ -15,8 +16,8 @@ const RANK: f64 = 1e-9;
 /// for analysis modes `all` $V$ (d × n), the same `at_sensors` $V_s$ (s × n), and `test` shapes $W_s$ (s × g); d × g.
 ///
 /// # Errors
-/// [`Error::Empty`] without modes; [`Error::TooMany`] for more modes than sensors; [`Error::Dependent`] naming the first mode that
-/// the sensors do not see or cannot tell from those before it; [`Error::WrongShape`]; [`Error::NotFinite`].
+/// [`Error::Count`] without modes, or for more of them than sensors; [`Error::NotPositiveDefinite`] naming the first mode that
+/// the sensors do not see or cannot tell from those before it; [`Error::WrongShape`] and [`Error::Value`] for shapes that do not fit or are not finite.
 ///
 /// Source: O'Callahan, Avitabile and Riemer, *Proc. 7th International Modal Analysis Conference* (1989), 29.
 pub fn expand(
@@ -26,7 +27,12 @@ pub fn expand(
 ) -> Result<DMatrix<f64>, Error> {
     let what = "analysis mode at the sensors";
     let (sensor_count, mode_count) = at_sensors.shape();
-    check_count("analysis modes for these sensors", mode_count, sensor_count)?;
+    check_count(
+        "analysis modes for these sensors",
+        mode_count,
+        1,
+        sensor_count,
+    )?;
     check_shape(
         "analysis modes at all degrees of freedom",
         all,
@@ -39,14 +45,14 @@ pub fn expand(
     for (index, mut shape) in unit.column_iter_mut().enumerate() {
         all.column_mut(index).unscale_mut(shape.norm());
         if !shape.normalize_mut().is_normal() {
-            return Err(Error::Dependent { what, index });
+            return Err(Error::NotPositiveDefinite { what, row: index });
         }
     }
     let decomposed = |count: usize| {
         let first = unit.columns(0, count).into_owned();
         first
             .try_svd(true, true, f64::EPSILON, 10_000)
-            .ok_or(Error::NoConvergence(what))
+            .ok_or(Error::no_convergence(what))
     };
     let full_rank = |count| {
         decomposed(count).map(|svd| svd.singular_values.min() >= RANK * svd.singular_values.max())
@@ -55,11 +61,11 @@ pub fn expand(
         let index = (1..mode_count)
             .find(|&index| !full_rank(index + 1).unwrap_or(true))
             .unwrap_or_default();
-        return Err(Error::Dependent { what, index });
+        return Err(Error::NotPositiveDefinite { what, row: index });
     }
     let shares = decomposed(mode_count)?
         .solve(test, 0.0)
-        .map_err(|_| Error::NoConvergence(what))?;
+        .map_err(|_| Error::no_convergence(what))?;
     finite("expanded test shapes", all * shares)
 }
 

@@ -9,12 +9,13 @@ use crate::files::read_bytes;
 use crate::files::test_data::TestData;
 use crate::job::assignment::pair_optimally;
 use crate::job::expansion::mass_by_modes;
-use crate::method::error::{Error, at_least_one};
-use crate::method::model::{ExactResult, LoneFrequency, ModalModel};
-use crate::method::modes::ModeSet;
-use crate::method::pairing::{Pairing, modal_assurance};
-use crate::sparse::{FINITE, SparseMatrix};
-use crate::weighted::close_modes::{assurance_of_roots, told_apart, turned};
+use crate::method::analysis::State;
+use crate::method::error::{Error, at_least_one, check_count};
+use crate::method::modes::Modes;
+use crate::method::sorting::Pairing;
+use crate::sparse::{BasisSize, FINITE, SparseMatrix, modal_assurance, no_modes};
+use crate::weighted::close_modes::{assurance_of_roots, indistinct_groups};
+use crate::weighted::comparison::{Comparison, LoneFrequency};
 use nalgebra::DMatrix;
 use sha2::{Digest, Sha256};
 use std::path::Path;
@@ -39,7 +40,7 @@ pub struct LoadedJob {
     /// Reads them off the model (sensors × DOF).
     pub sensors: SparseMatrix,
     /// The test modes to compare, at the placed sensors.
-    pub test: ModeSet,
+    pub test: Modes,
     /// Their places in the test's file, from zero, ascending in frequency.
     pub modes: Vec<usize>,
     /// Test modes, from zero, of which a frequency alone is compared, ascending, with their partners in the first model.
@@ -57,7 +58,7 @@ pub struct LoadedJob {
     /// The shapes of these partners as the sensors see them; none before the first analysis.
     partner_shapes: Option<DMatrix<f64>>,
     /// The first model, kept with the settings, the number of modes and the test it was analyzed with.
-    first: Option<(Compare, usize, ModeSet, ModalModel)>,
+    first: Option<(Compare, usize, Modes, Comparison)>,
 }
 
 /// Residual vectors a parameter, unless the job says how many: more add less than the lowest mode left out.
@@ -114,7 +115,7 @@ impl LoadedJob {
         let alone = lone_frequencies(&job, &data, &numbers)?;
         modes.retain(|mode| !data.alone.contains(mode));
         let test = match &modes[..] {
-            [] => ModeSet::none(sensors.rows()),
+            [] => no_modes(sensors.rows()),
             modes => measured(&data, &placed, modes)?,
         };
         let partners = alone.iter().map(|(_, lone)| lone.partner + 1);
@@ -187,9 +188,9 @@ impl LoadedJob {
     fn leave_out_unpaired(&mut self) -> Result<(), FileError> {
         let mut first = self.analyze(&self.ones());
         // The usual number may be more than the model has.
-        if let Err(Error::TooMany {
+        if let Err(Error::Count {
             what: FINITE,
-            available,
+            most: available,
             ..
         }) = first
             && self.job.compare.analysis_modes.is_none()
@@ -199,9 +200,9 @@ impl LoadedJob {
             first = self.analyze(&self.ones());
         }
         let modes = match &first {
-            Ok(first) => first.exact.modes.clone().into(),
+            Ok(first) => first.model.exact.modes.clone(),
             // Even with more test modes than the model has modes, the pairs can be judged.
-            Err(Error::TooMany {
+            Err(Error::Count {
                 what: "test modes", ..
             }) => {
                 let mut modes = self
@@ -259,7 +260,7 @@ impl LoadedJob {
     }
 
     /// Selected test modes, from zero, that are not compared, with their largest modal assurance with these modes.
-    pub(super) fn unlike(&self, modes: &ModeSet) -> Result<Vec<(usize, f64)>, FileError> {
+    pub(super) fn unlike(&self, modes: &Modes) -> Result<Vec<(usize, f64)>, FileError> {
         let left: Vec<usize> = self.unpaired.iter().map(|(mode, _)| *mode).collect();
         let left = left.into_iter().filter(|mode| !self.modes.contains(mode));
         let of_mode = |mode: usize| {
@@ -271,15 +272,15 @@ impl LoadedJob {
 
     /// The same job that also compares the test modes left out so far that resemble a mode of this model, each one of its own; none
     /// where none does.
-    pub(super) fn joined_by(&self, exact: &ExactResult) -> Result<Option<Self>, FileError> {
-        let left = self.unlike(&exact.modes)?;
+    pub(super) fn joined_by(&self, modes: &Modes) -> Result<Option<Self>, FileError> {
+        let left = self.unlike(modes)?;
         if left.is_empty() {
             return Ok(None);
         }
         let left = left.iter().map(|(mode, _)| mode);
         let all: Vec<usize> = self.modes.iter().chain(left).copied().collect();
         let test = measured(&self.data, &self.placed, &all)?;
-        let partners = pair_optimally(&assurance_of_roots(&exact.modes, &test.shapes)?, FLOOR)?;
+        let partners = pair_optimally(&assurance_of_roots(modes, &test.shapes)?, FLOOR)?;
         let (compared, left) = partners.split_at(self.modes.len());
         let left = left.iter().zip(&all[self.modes.len()..]);
         let joined: Vec<usize> = left
@@ -313,7 +314,7 @@ impl LoadedJob {
     ///
     /// # Errors
     /// Those of the test's shapes and of [`LoadedJob::analyze`].
-    pub fn far_from_first(&self) -> Result<(Self, ModalModel), FileError> {
+    pub fn far_from_first(&self) -> Result<(Self, Comparison), FileError> {
         let left = self.unpaired.iter().map(|(mode, _)| *mode);
         let left: Vec<usize> = left.filter(|mode| !self.modes.contains(mode)).collect();
         let mut far = match left.is_empty() {
@@ -326,7 +327,7 @@ impl LoadedJob {
         }
         match far.analyze(&far.ones()) {
             Ok(first) => Ok((far, first)),
-            Err(Error::TooMany { .. }) => Ok((self.clone(), self.analyze(&self.ones())?)),
+            Err(Error::Count { .. }) => Ok((self.clone(), self.analyze(&self.ones())?)),
             Err(other) => Err(other.into()),
         }
     }
@@ -354,14 +355,14 @@ impl LoadedJob {
 
     /// The mass at the sensors that cross-orthogonality is to be measured with: that of the modes of a model that the test modes are
     /// paired with, whatever other modes are taken; none where these are too alike at the sensors, or a test shape has no part of them.
-    pub fn mass_at_sensors(&self, model: &ModalModel) -> Option<DMatrix<f64>> {
-        let exact = &model.exact;
+    pub fn mass_at_sensors(&self, comparison: &Comparison) -> Option<DMatrix<f64>> {
+        let (exact, test) = (&comparison.model.exact, &comparison.model.test);
         let paired = exact
             .modes
             .shapes
             .select_columns(&exact.pairing.analysis_mode);
         let mass = mass_by_modes(&paired).ok()?;
-        model.test.scaled_with(&mass).ok().map(|_| mass)
+        test.scaled_with(&mass).ok().map(|_| mass)
     }
 
     /// Names of the parameters.
@@ -387,7 +388,7 @@ impl LoadedJob {
     ///
     /// # Errors
     /// Those of [`crate::sparse::WholeModel::analyze`].
-    pub fn analyze(&self, factors: &[f64]) -> Result<ModalModel, Error> {
+    pub fn analyze(&self, factors: &[f64]) -> Result<Comparison, Error> {
         if let Some((compare, count, test, first)) = &self.first
             && (compare, *count, test) == (&self.job.compare, self.analysis_modes, &self.test)
             && factors.iter().all(|&factor| factor == 1.0)
@@ -399,29 +400,28 @@ impl LoadedJob {
             factors,
             &self.sensors,
             (&self.test, pair_by_assignment),
-            [
-                self.analysis_modes,
-                self.job
+            BasisSize {
+                modes: self.analysis_modes,
+                residual_vectors: self
+                    .job
                     .compare
                     .residual_vectors
                     .unwrap_or(RESIDUAL_VECTORS),
-            ],
+            },
         )?;
         // Gauss-Newton steps have weights of their own.
         match self.job.compare.method {
-            Method::Paper => model.weighted(&self.own_weights()),
+            Method::Paper => Ok(model.weighted(&self.own_weights())?.into()),
             Method::GaussNewton => {
                 let lone = self.followed(&model.exact)?;
-                let mut model = model
+                let comparison = Comparison::from(model)
                     .with_groups(self.together())?
                     .with_component_weights(self.component_weights())?
                     .with_lone_frequencies(lone)?;
-                if let Some(covariance) = self.covariance() {
-                    model = model.with_covariance(&covariance)?;
+                match self.covariance() {
+                    Some(covariance) => comparison.with_covariance(&covariance),
+                    None => Ok(comparison),
                 }
-                let turned = turned(&model.exact.modes, &model.exact, &model.test)?;
-                model.exact.errors = model.errors_of(&turned, &model.exact.pairing)?;
-                Ok(model)
             }
         }
     }
@@ -442,7 +442,7 @@ impl LoadedJob {
         weights
     }
 
-    /// Groups of the test modes with shapes that their frequencies' deviations do not tell apart ([`told_apart`]), by place.
+    /// Groups of the test modes with shapes that their frequencies' deviations do not tell apart ([`indistinct_groups`]), by place.
     pub fn together(&self) -> Vec<Vec<usize>> {
         let hertz = self
             .modes
@@ -452,12 +452,12 @@ impl LoadedJob {
             .modes
             .iter()
             .map(|&mode| self.deviations(mode).frequency);
-        told_apart(&hertz.collect::<Vec<_>>(), &deviations.collect::<Vec<_>>())
+        indistinct_groups(&hertz.collect::<Vec<_>>(), &deviations.collect::<Vec<_>>())
     }
 
     /// The frequencies without shapes, each with the mode of this model that its partner in the first has become: those of the largest
     /// sum of modal assurance with the partners, except modes that a test mode's shape has chosen.
-    fn followed(&self, exact: &ExactResult) -> Result<Vec<LoneFrequency>, Error> {
+    fn followed(&self, exact: &State) -> Result<Vec<LoneFrequency>, Error> {
         let mut all: Vec<LoneFrequency> = self.alone.iter().map(|(_, lone)| *lone).collect();
         if let Some(first) = self
             .partner_shapes
@@ -548,7 +548,7 @@ pub(super) fn measured(
     data: &TestData,
     placed: &[PlacedSensor],
     modes: &[usize],
-) -> Result<ModeSet, Error> {
+) -> Result<Modes, Error> {
     let rows: Vec<usize> = placed.iter().map(|sensor| sensor.row).collect();
     let mut shapes = data.shapes.select_rows(&rows).select_columns(modes);
     shapes
@@ -559,7 +559,7 @@ pub(super) fn measured(
         .iter()
         .map(|&mode| data.frequencies_hz[mode])
         .collect();
-    ModeSet::from_measured(&frequencies, &shapes)
+    Modes::from_measured(&frequencies, &shapes)
 }
 
 /// Squared closeness to the digits that shapes decide: a sum of products of up to four thousand sensors is rounded by less than
@@ -572,20 +572,7 @@ fn decided(closeness: &DMatrix<f64>) -> DMatrix<f64> {
 /// The pairs with the largest sum of squared closeness, every test mode with one.
 fn pair_by_assignment(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
     let partners = pair_optimally(&decided(&cross.component_mul(cross)), 0.0)?;
-    let (available, requested) = cross.shape();
-    let analysis_mode: Option<Vec<usize>> = partners.into_iter().collect();
-    let analysis_mode = analysis_mode.ok_or(Error::TooMany {
-        what: "test modes",
-        available,
-        requested,
-    })?;
-    let sign = analysis_mode
-        .iter()
-        .enumerate()
-        .map(|(j, &i)| if cross[(i, j)] < 0.0 { -1.0 } else { 1.0 })
-        .collect();
-    Ok(Pairing {
-        analysis_mode,
-        sign,
-    })
+    check_count("test modes", cross.ncols(), 0, cross.nrows())?;
+    let analysis_mode = partners.into_iter().flatten().collect();
+    Ok(Pairing::signed(analysis_mode, cross))
 }

@@ -1,11 +1,10 @@
 //! Which parameter is wrong: by the paper's unlimited factor, a slope that tells little about gross errors, and by single fits.
 
+use crate::method::analysis::Analysis;
 use crate::method::error::Error;
-use crate::method::error_sum::ModeWeight;
 use crate::method::inner_loop::{InnerSettings, first_factors};
-use crate::method::model::ModalModel;
-use crate::method::pairing::{Pairing, signed_assurance};
-use crate::method::state::{ModalState, UpdateRule};
+use crate::sparse::ModeWeight;
+use crate::weighted::comparison::Comparison;
 use crate::weighted::residuals::{residuals, residuals_of};
 use serde::Serialize;
 
@@ -31,13 +30,13 @@ pub struct Suspect {
 ///
 /// # Errors
 /// Those of [`first_factors`].
-pub fn by_factor(model: &ModalModel, settings: &InnerSettings) -> Result<Vec<Suspect>, Error> {
+pub fn by_factor(analysis: &dyn Analysis, settings: &InnerSettings) -> Result<Vec<Suspect>, Error> {
     let suspect = |(parameter, factor): (usize, f64)| Suspect {
         parameter,
         factor,
         evidence: (factor - 1.0).abs(),
     };
-    let factors = first_factors(model, settings)?;
+    let factors = first_factors(analysis, settings)?;
     Ok(ranked(factors.into_iter().enumerate().map(suspect)))
 }
 
@@ -49,22 +48,25 @@ pub fn by_factor(model: &ModalModel, settings: &InnerSettings) -> Result<Vec<Sus
 ///
 /// # Errors
 /// Those of [`residuals`].
-pub fn by_single_fit(model: &ModalModel, weights: &[ModeWeight]) -> Result<Vec<Suspect>, Error> {
-    let first = 0.5 * residuals(model, weights)?.norm_squared();
+pub fn by_single_fit(
+    comparison: &Comparison,
+    weights: &[ModeWeight],
+) -> Result<Vec<Suspect>, Error> {
+    let first = 0.5 * residuals(comparison, weights)?.norm_squared();
+    let (model, count) = (&comparison.model, comparison.model.shares.len());
     let objective = |parameter: usize, log: f64| {
-        let mut factors = vec![1.0; model.shares.len()];
+        let mut factors = vec![1.0; count];
         factors[parameter] = 10.0_f64.powf(log);
         let squares = || {
-            let state = ModalState::at(model, factors, UpdateRule::Eigensolution)?;
-            let pairing = pairing(model, &state)?;
-            let residuals = residuals_of(&state.modes, &pairing, model, weights);
+            let (modes, pairing) = model.far(&factors)?;
+            let residuals = residuals_of(&modes, &pairing, comparison, weights);
             Ok::<_, Error>(0.5 * residuals.norm_squared())
         };
         // A factor that leaves no modes of vibration cannot fit.
         squares().unwrap_or(f64::INFINITY)
     };
     // Other pairs alone are no evidence against a parameter.
-    let start = match model.shares.is_empty() {
+    let start = match count == 0 {
         true => first,
         false => first.min(objective(0, 0.0)),
     };
@@ -89,19 +91,7 @@ pub fn by_single_fit(model: &ModalModel, weights: &[ModeWeight]) -> Result<Vec<S
             evidence: start - lowest,
         }
     };
-    Ok(ranked((0..model.shares.len()).map(best)))
-}
-
-/// Pairs at a state far from the exact modes: there a mode of the test may continue none of them but a residual vector, of which
-/// `cross` knows nothing.
-fn pairing(model: &ModalModel, state: &ModalState) -> Result<Pairing, Error> {
-    let count = model.vibration_count();
-    if count == model.exact.modes.len() {
-        return Ok(state.pairing.clone());
-    }
-    let vibrations = state.modes.shapes.columns(0, count).into_owned();
-    let assurance = signed_assurance(&vibrations, &model.test.shapes)?;
-    (model.pair)(&assurance.map(|close| close.signum() * close.abs().sqrt()))
+    Ok(ranked((0..count).map(best)))
 }
 
 fn ranked(suspects: impl Iterator<Item = Suspect>) -> Vec<Suspect> {

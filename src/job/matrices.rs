@@ -7,7 +7,7 @@ use crate::files::error::{FileError, is_not};
 use crate::files::matrices::{self, LabeledMatrix};
 use crate::files::test_data::{DIRECTIONS, cells, row_name, separator};
 use crate::method::error::Error;
-use crate::method::modes::{ModeSet, Modes};
+use crate::method::modes::Modes;
 use crate::method::structure::StructuralDof;
 use crate::sparse::whole_modes::{WholeModes, named};
 use crate::sparse::{FINITE, SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes};
@@ -124,9 +124,9 @@ pub fn matrix_modes(stiffness: &Path, mass: &Path, most: usize) -> Result<WholeM
     let mass = on_rows(&job, (mass, "--mass"), &row_of)?;
     let most = most.min(stiffness.rows());
     let found = match lowest_modes(&stiffness, &mass, most) {
-        Err(Error::TooMany {
+        Err(Error::Count {
             what: FINITE,
-            available,
+            most: available,
             ..
         }) if available > 0 => lowest_modes(&stiffness, &mass, available)?,
         found => found?,
@@ -135,14 +135,14 @@ pub fn matrix_modes(stiffness: &Path, mass: &Path, most: usize) -> Result<WholeM
         .into_iter()
         .map(|(grid, direction)| StructuralDof { grid, direction });
     let dof: Vec<_> = dof.collect();
-    let ModeSet {
+    let Modes {
         omega_squared,
         shapes,
     } = found.vibrations;
     Ok(WholeModes {
         doubtful: named(&found.doubtful, |row| row_name(row, &dof)),
         dof,
-        modes: Modes::ascending(omega_squared, shapes),
+        modes: Modes::signed(omega_squared, shapes),
         rigid_body: found.rigid_body.ncols(),
     })
 }

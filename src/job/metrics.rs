@@ -1,11 +1,10 @@
-//! Measures of the agreement of analysis and test modes, beside [`modal_assurance`](crate::method::pairing::modal_assurance) and
-//! [`cross_orthogonality`](crate::method::pairing::cross_orthogonality).
+//! Measures of the agreement of analysis and test modes, beside [`modal_assurance`](crate::sparse::modal_assurance) and
+//! [`cross_orthogonality`](crate::method::sorting::cross_orthogonality).
 //!
 //! AutoMAC is the modal assurance of a set of shapes with itself: modes with large off-diagonal entries are ones that the sensors cannot tell apart.
 
-use crate::method::error::{Error, at_least_one};
+use crate::method::error::{Error, at_least_one, positive};
 use crate::method::linear_algebra::{check_finite, check_length, check_shape};
-use crate::method::structure::positive;
 use nalgebra::{DMatrix, DVector};
 
 /// Coordinate modal assurance (COMAC) of every DOF over paired modes of analysis (d × n) and test (d × g), d numbers from 0 to 1:
@@ -19,8 +18,8 @@ use nalgebra::{DMatrix, DVector};
 /// Conference* (1988), 690.
 ///
 /// # Errors
-/// [`Error::WrongShape`]; [`Error::Empty`] without a pair; [`Error::Unknown`] for a pair with a mode that is not there;
-/// [`Error::NotFinite`]; [`Error::NotPositive`] for a shape that is zero.
+/// [`Error::WrongShape`]; [`Error::Count`] without a pair; [`Error::Unknown`] for a pair with a mode that is not there;
+/// [`Error::Value`]; [`Error::Value`] for a shape that is zero.
 pub fn coordinate_assurance(
     analysis: &DMatrix<f64>,
     test: &DMatrix<f64>,

@@ -3,15 +3,21 @@
 //! [`read`] reads the file alone; [`LoadedJob::new`] reads what it names, puts model and test together, and is what a correlation
 //! starts from. [`TEMPLATE`] is a job with every entry explained.
 
+#[doc(hidden)]
 pub mod assignment;
 mod concerns;
 mod entries;
+#[doc(hidden)]
 pub mod expansion;
+#[doc(hidden)]
 pub mod localization;
 mod matrices;
+#[doc(hidden)]
 pub mod metrics;
 mod model;
+#[doc(hidden)]
 pub mod nastran95;
+#[doc(hidden)]
 pub mod preflight;
 mod loaded;
 mod repeats;
@@ -20,18 +26,29 @@ mod samples;
 mod sensors;
 mod study;
 mod trust;
+pub mod verdict;
 
 #[cfg(feature = "program")]
 pub(crate) use concerns::hardly_held;
+#[doc(hidden)]
 pub use entries::removed_step;
 pub use loaded::LoadedJob;
+#[doc(hidden)]
 pub use matrices::matrix_modes;
+#[doc(hidden)]
 pub use model::{GridLayout, ModelSource};
-pub use run::{History, JobResult, run};
+#[doc(hidden)]
+pub use run::History;
+pub use run::{JobResult, run};
+#[doc(hidden)]
 pub use samples::{Samples, Spread, Summary};
+#[doc(hidden)]
 pub use sensors::PlacedSensor;
+#[doc(hidden)]
 pub use study::{Study, Vary};
-pub use trust::{Concern, NotCompared, Trust};
+#[doc(hidden)]
+pub use trust::NotCompared;
+pub use trust::{Concern, Trust};
 
 use crate::files::deck::decoded;
 use crate::files::error::{FileError, is_not};

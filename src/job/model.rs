@@ -4,11 +4,11 @@ use super::{Job, ParameterRule, Scales};
 use crate::files::deck::{self, Deck, Membership};
 use crate::files::error::FileError;
 use crate::files::test_data::DIRECTIONS;
-use crate::method::assembly::{element_matrices, stiffness_entries};
+use crate::method::appendix_a::element_matrices;
 use crate::method::error::Error;
-use crate::method::model::Bounds;
+use crate::method::step::Bounds;
 use crate::method::structure::StructuralDof;
-use crate::sparse::elements::{mass_entries, moving_mass_entries, resisting};
+use crate::sparse::elements::{lumped_masses, moving_mass_entries, resisting, stiffness_entries};
 use crate::sparse::{Deformations, SparseMatrix, WholeModel, WholeParameter, WholeShare};
 use crate::weighted::identifiability::PRIOR_DEVIATION;
 use nalgebra::Vector3;
@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Positions of a model's grids, and the grids that elements join.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct GridLayout {
     /// The place of every grid that has one, in units of length.
     pub places: BTreeMap<usize, Vector3<f64>>,
@@ -98,7 +98,7 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
     let deck = deck::read(&file.display().to_string(), &bytes, &job.model.ignore)?;
     let bulk = &deck.model;
     let structure = bulk.structure()?;
-    let elements = element_matrices(&structure);
+    let elements: Vec<_> = element_matrices(&structure).collect();
     let count = structure.free_dof().len();
     let row_of: BTreeMap<usize, usize> = elements
         .iter()
@@ -108,7 +108,7 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
     let stiffness = (0..elements.len())
         .flat_map(|row| stiffness_entries(&elements[row], bulk.elements[row].size));
     let stiffness = sum_of(count, stiffness)?;
-    let moving = bulk.moving_masses(&structure, &elements)?;
+    let moving = bulk.moving_masses(&structure)?;
     let mass = sum_of(
         count,
         moving
@@ -137,12 +137,9 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
                 if let Some(first) =
                     owner.insert((rule.scales == Scales::Mass, element), name.clone())
                 {
-                    return Err(Error::SharedElement {
-                        element,
-                        first,
-                        second: name,
-                    }
-                    .into());
+                    let owner = format!("parameters {first} and {name}");
+                    let (what, label) = ("element", element);
+                    return Err(Error::Duplicate { owner, what, label }.into());
                 }
             }
             let rows: Vec<usize> = labels.iter().map(|label| row_of[label]).collect();
@@ -157,10 +154,11 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
                     WholeShare::Elements(rows.iter().map(member).collect::<Result<_, Error>>()?)
                 }
                 Scales::Mass => {
-                    let lumped = rows
-                        .iter()
-                        .flat_map(|&row| mass_entries(&elements[row], bulk.elements[row].size));
-                    let mut entries: Vec<_> = lumped.collect();
+                    let lumped = rows.iter().flat_map(|&row| {
+                        let (element, corners) = (&bulk.elements[row], &structure.corners()[row]);
+                        lumped_masses(&structure, element, corners)
+                    });
+                    let mut entries: Vec<_> = lumped.map(|(row, own)| (row, row, own)).collect();
                     let is_known =
                         |label: &usize| bulk.masses.iter().any(|point| point.label == *label);
                     let unknown = masses.iter().find(|label| !is_known(label));

@@ -4,9 +4,9 @@ use super::loaded::FLOOR;
 use super::{Job, LoadedJob};
 use crate::files::error::FileError;
 use crate::files::test_data::{self, Sensor, TestData};
-use crate::method::error_sum::ModeWeight;
 use crate::method::linear_algebra::{cholesky, symmetric_eigen, symmetric_part};
-use crate::method::model::HALF_THE_DIGITS;
+use crate::sparse::ModeWeight;
+use crate::weighted::comparison::HALF_THE_DIGITS;
 use nalgebra::{DMatrix, DVector};
 use std::path::PathBuf;
 

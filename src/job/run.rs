@@ -1,16 +1,16 @@
 //! Runs a job: finds the factors, how well the test determines them, and the deck that has them.
 
+use super::verdict::{Judged, Outcome, Verdict, sum_of_nine_modes};
 use super::{LoadedJob, Method, Trust};
 use crate::files::deck::rewrite;
 use crate::files::error::FileError;
 use crate::method::error::Error;
-use crate::method::error_sum::ModeWeight;
-use crate::method::model::{Bounds, ModalModel};
-use crate::method::outer_loop::{Correlation, Pass, compared_sum, correlate_while};
+use crate::method::error_sum::mode_errors;
+use crate::method::outer_loop::{Correlation, Pass, correlate};
+use crate::method::step::Bounds;
 use crate::method::structure::{Element, Material};
-use crate::method::verdict::{Outcome, Verdict};
-use crate::sparse::{WholeParameter, WholeShare, derivative};
-use crate::weighted::close_modes::turned;
+use crate::sparse::{ModeWeight, WholeParameter, WholeShare};
+use crate::weighted::comparison::Comparison;
 use crate::weighted::gauss_newton::{
     WeightedCorrelation, WeightedSettings, WeightedStop, gauss_newton,
 };
@@ -25,9 +25,9 @@ use crate::weighted::starts::{Minimum, from_several_starts};
 #[derive(Debug, Clone)]
 pub enum History {
     /// By the paper's loops.
-    Paper(Correlation),
+    Paper(Box<Correlation>),
     /// By Gauss–Newton steps, with the minima that noise allows of several starts and how many failed; none when it was stopped by request.
-    GaussNewton(Option<(WeightedCorrelation, Vec<Minimum>, usize)>),
+    GaussNewton(Option<(Box<WeightedCorrelation>, Vec<Minimum>, usize)>),
 }
 
 /// The result of a job.
@@ -42,9 +42,9 @@ pub struct JobResult {
     /// The best factors.
     pub factors: Vec<f64>,
     /// The first model.
-    pub first: ModalModel,
+    pub first: Comparison,
     /// The model at the best factors.
-    pub last: ModalModel,
+    pub last: Comparison,
     /// The verdict on them.
     pub verdict: Verdict,
     /// What the test sees of the parameters, at the first model and at the best factors.
@@ -243,7 +243,7 @@ pub(super) fn run_from(
 ) -> Result<JobResult, FileError> {
     let mut part = run_part(loaded, trust, start, progress, go_on)?;
     while !part.trust.is_interrupted
-        && let Some(joined) = part.loaded.joined_by(&part.last.exact)?
+        && let Some(joined) = part.loaded.joined_by(&part.last.model.exact.modes)?
     {
         let analyses = part.analyses;
         progress(&format!("test modes compared: {}", joined.modes.len()));
@@ -253,7 +253,7 @@ pub(super) fn run_from(
         part.seen[0] = sees(&joined, &part.first)?;
     }
     let loaded = &part.loaded;
-    let unpaired = loaded.unlike(&part.last.exact.modes)?;
+    let unpaired = loaded.unlike(&part.last.model.exact.modes)?;
     part.trust = part.trust.after(
         loaded,
         &unpaired,
@@ -265,7 +265,7 @@ pub(super) fn run_from(
 }
 
 /// What the test sees of the parameters at a model.
-fn sees(loaded: &LoadedJob, model: &ModalModel) -> Result<Identifiability, FileError> {
+fn sees(loaded: &LoadedJob, model: &Comparison) -> Result<Identifiability, FileError> {
     Ok(identifiability(
         &jacobian(model, &loaded.weights()?)?,
         &loaded.source.priors,
@@ -303,9 +303,9 @@ fn run_part(
         is_interrupted.set(is_interrupted.get() || !go_on());
         !is_interrupted.get()
     };
+    let mut has_joined = false;
     let (history, factors) = match compare.method {
         Method::Paper => {
-            let mut has_joined = false;
             let mut report_pass = |number: usize, pass: &Pass| {
                 let errors = &pass.check.errors;
                 let (frequency, shape) =
@@ -313,7 +313,7 @@ fn run_part(
                 progress(&format!(
                     "pass {number}: frequencies {frequency:.2} %, shapes {shape:.2} % RMS"
                 ));
-                has_joined = matches!(loaded.joined_by(&pass.check), Ok(Some(_)));
+                has_joined = matches!(loaded.joined_by(&pass.check.modes), Ok(Some(_)));
                 may_go_on() && !has_joined
             };
             // The loops count factors from one: the start is their first model.
@@ -331,11 +331,10 @@ fn run_part(
                 })
             };
             let ranges: Vec<_> = ranges.iter().zip(start).map(seen).collect();
-            let mut run = correlate_while(
-                &mut |factors| analyze(&total(factors)),
-                &|model| derivative(model, settings.inner.derivatives),
+            let mut run = correlate(
+                |factors: &[f64]| analyze(&total(factors)).map(Comparison::into_model),
                 &ranges,
-                settings,
+                &settings.for_modes(loaded.modes.len()),
                 &mut report_pass,
             )
             .map_err(|error: Error| {
@@ -355,12 +354,12 @@ fn run_part(
             // A mode that has come in did so after the last pass, which need not be the best of those without it.
             let last = run.passes.last().filter(|_| has_joined);
             let factors = last.map_or(&run.best_factors, |pass| &pass.factors).clone();
-            (History::Paper(run), factors)
+            (History::Paper(Box::new(run)), factors)
         }
         Method::GaussNewton => {
             let is_first = start == ones;
             let starts = compare.starts.filter(|_| is_first).unwrap_or(1);
-            let (mut best, mut has_joined): (Option<(f64, Vec<f64>)>, bool) = (None, false);
+            let mut best: Option<(f64, Vec<f64>)> = None;
             let analyze = |factors: &[f64]| {
                 if has_joined || is_interrupted.get() {
                     return Err(FileError::Interrupted);
@@ -371,7 +370,8 @@ fn run_part(
                     best = Some((objective, factors.to_vec()));
                     progress(&format!("sum of squares {objective:.4e}"));
                     // Other starts may lead elsewhere: their best is looked at.
-                    has_joined = starts == 1 && loaded.joined_by(&model.exact)?.is_some();
+                    has_joined =
+                        starts == 1 && loaded.joined_by(&model.model.exact.modes)?.is_some();
                 }
                 if !has_joined && may_go_on() {
                     Ok(model)
@@ -389,7 +389,10 @@ fn run_part(
             match found {
                 Ok((run, minima, failed)) if !has_joined && !is_interrupted.get() => {
                     let factors = run.factors.clone();
-                    (History::GaussNewton(Some((run, minima, failed))), factors)
+                    (
+                        History::GaussNewton(Some((Box::new(run), minima, failed))),
+                        factors,
+                    )
                 }
                 Ok(_) | Err(FileError::Interrupted) => (
                     History::GaussNewton(None),
@@ -400,8 +403,18 @@ fn run_part(
         }
     };
     let last = analyze(&factors)?;
+    let seen = first.largest_parts();
+    let judged = Judged {
+        seen: &seen,
+        ranges: &ranges,
+    };
     let mut verdict = match &history {
-        History::Paper(run) => run.verdict.clone(),
+        History::Paper(run) => {
+            let best = run.best_check();
+            let errors = mode_errors(&best.modes, &best.pairing, &loaded.test)?;
+            let is_stopped = is_interrupted.get() || has_joined;
+            judged.of_loops(run, &errors, sum_of_nine_modes, is_stopped)
+        }
         History::GaussNewton(run) => {
             let outcome = match run
                 .as_ref()
@@ -413,10 +426,11 @@ fn run_part(
                 Some((WeightedStop::Step, _)) => Outcome::ShortSteps,
                 _ => Outcome::LocalMinimum,
             };
-            let turned = turned(&last.exact.modes, &last.exact, &last.test)?;
-            let (errors, seen) = (last.mode_errors(&turned)?, first.largest_parts());
-            let sum = compared_sum(&last.exact.errors, settings);
-            Verdict::new(outcome, (sum, &errors), &factors, &seen, &ranges, false)
+            let (errors, sum) = (
+                last.mode_errors()?,
+                sum_of_nine_modes(&last.result()?.errors),
+            );
+            judged.verdict(outcome, (sum, &errors), &factors, false)
         }
     };
     let mut misfit = Misfit::of(&last, &weights, &loaded.source.priors, &verdict.at_bound)?;

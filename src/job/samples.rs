@@ -4,7 +4,8 @@ use super::Study;
 use super::study::FAILED;
 use crate::files::disk;
 use crate::files::error::{FileError, is_not};
-use crate::method::model::Bounds;
+use crate::method::step::Bounds;
+use crate::weighted::intervals::is_at_end;
 use std::collections::BTreeMap;
 use std::io::{BufRead, BufReader, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -190,7 +191,7 @@ fn spread(mut values: Vec<f64>, range: Option<Bounds>) -> Option<Spread> {
         bars[((BARS as f64 * (value - ends[0]) / (ends[1] - ends[0])) as usize).min(BARS - 1)] += 1;
     }
     let deviation = (squares / count.saturating_sub(1).max(1) as f64).sqrt();
-    let at_end = |value: &&f64| range.is_some_and(|range| range.has_end_at(**value));
+    let at_end = |value: &&f64| range.is_some_and(|range| is_at_end(range, **value));
     Some(Spread {
         count,
         at_bound: values.iter().filter(at_end).count(),

@@ -1,11 +1,11 @@
 //! Many runs of one job: each sample depends on the study's seed and its own number alone, not on what ran before.
 
 use super::run::run_from;
+use super::verdict::Outcome;
 use super::{Job, JobResult, LoadedJob, Trust};
 use crate::files::error::FileError;
 use crate::files::test_data::quoted;
-use crate::method::modes::ModeSet;
-use crate::method::verdict::Outcome;
+use crate::method::modes::Modes;
 use crate::sparse::random::{split_mix_64, uniform};
 use crate::weighted::noise::{Noise, with_noise_by_mode};
 use serde::{Deserialize, Serialize};
@@ -108,7 +108,7 @@ impl Study {
             for &mode in &data.alone {
                 shapes.fill_column(mode, 1.0);
             }
-            let exact = ModeSet::from_measured(&data.frequencies_hz, &shapes)?;
+            let exact = Modes::from_measured(&data.frequencies_hz, &shapes)?;
             let noisy = with_noise_by_mode(&exact, &noise, seed)?;
             data.frequencies_hz = noisy.frequencies_hz();
             for mode in data.shaped() {
@@ -128,7 +128,7 @@ impl Study {
         if let Some(mut state) = generator(Vary::Start) {
             for (factor, range) in start.iter_mut().zip(&ranges) {
                 let drawn = 0.5 * 4.0_f64.powf(uniform(&mut state));
-                *factor = range.map_or(drawn, |range| range.clamp(drawn));
+                *factor = range.map_or(drawn, |range| drawn.clamp(range.lower, range.upper));
             }
         }
         Ok((LoadedJob::with(job, data, source.clone())?, start))

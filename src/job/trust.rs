@@ -1,10 +1,10 @@
 //! What lowers the trust in a job's result, collected in one place.
 
 use super::loaded::FLOOR;
+use super::verdict::Verdict;
 use super::{LoadedJob, Method};
 use crate::files::deck::{Reason, Unread};
 use crate::files::error::FileError;
-use crate::method::verdict::Verdict;
 use crate::weighted::identifiability::Identifiability;
 use crate::weighted::misfit::Misfit;
 use crate::weighted::residuals::DEVIATIONS;
@@ -107,7 +107,7 @@ impl Trust {
     /// # Errors
     /// Those of [`LoadedJob::concerns`]; [`FileError::Refused`] for an accepted identifier that names no doubt of this job.
     pub fn before(loaded: &LoadedJob) -> Result<Self, FileError> {
-        let (mut concerns, rigid_body_modes) = loaded.concerns_and_rigid_body_modes()?;
+        let (mut concerns, rigid_body_modes) = loaded.concerns()?;
         let doubts: Vec<String> = concerns
             .iter()
             .filter(|concern| concern.is_doubt)

@@ -1,17 +1,99 @@
-//! Appendix A: from structural to dynamic degrees of freedom.
+//! Appendix A: the structural stiffness, and from structural to dynamic degrees of freedom.
 //! Tour: [chapter 6](crate::tour::chapter_06_condensation).
 
-use crate::method::assembly::ElementMatrix;
-use crate::method::error::{Error, at_least_one};
-use crate::method::linear_algebra::{
-    check_matrix, cholesky, round_off, solve_lower, symmetric_part,
+use super::elements::unit_stiffness;
+use super::error::{Error, at_least_one, check_places};
+use super::linear_algebra::{
+    check_length, check_matrix, check_shape, cholesky, round_off, symmetric_part,
 };
+use super::structure::Structure;
 use nalgebra::DMatrix;
 
 /// Pivot of the flexibility relative to its diagonal below which a dynamic DOF is a combination of others.
 pub(crate) const SMALLEST_FLEXIBILITY_PIVOT: f64 = 1e-13;
 
-/// The stiffness at the dynamic DOF and the transformation that brought it there.
+/// Stiffness of one element of unit size at the free structural DOF it touches.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ElementMatrix {
+    /// The element's number.
+    pub label: usize,
+    /// Rows among the free DOF, in the order of `unit`.
+    pub dof: Vec<usize>,
+    /// Stiffness for a gage of 1 in or an area of 1 in², lbf/in.
+    pub unit: DMatrix<f64>,
+}
+
+/// Unit stiffness of every element, restricted to the free DOF, in the structure's order.
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::chain::rods;
+/// use corfem::method::appendix_a::element_matrices;
+/// use nalgebra::dmatrix;
+///
+/// // The first rod's end at the wall has no free DOF.
+/// let elements: Vec<_> = element_matrices(&rods(&[100.0, 50.0], [true, false])?).collect();
+/// assert_eq!((elements[0].dof.clone(), elements[0].unit.clone()), (vec![0], dmatrix![1.0]));
+/// assert_eq!(elements[1].unit, dmatrix![1.0, -1.0; -1.0, 1.0]);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
+pub fn element_matrices(structure: &Structure) -> impl Iterator<Item = ElementMatrix> {
+    let elements = structure.elements().iter().zip(structure.corners());
+    elements.map(move |(element, corners)| {
+        let of_grid = |&grid| (0..3).map(move |axis| structure.free_dof_index(grid, axis));
+        let rows = element.grids.iter().flat_map(of_grid).enumerate();
+        let free = rows.filter_map(|(local, row)| Some((local, row?)));
+        let (local, dof): (Vec<usize>, Vec<usize>) = free.unzip();
+        let full = unit_stiffness(element.kind, corners, &element.material);
+        ElementMatrix {
+            label: element.label,
+            unit: full.select_rows(&local).select_columns(&local),
+            dof,
+        }
+    })
+}
+
+/// Structural stiffness $K_S = \sum_e s_e K_e$ at the free DOF, lbf/in.
+///
+/// `sizes` are the gages (in) and areas (in²) $s_e$, one per element; `dof_count` the number of free DOF.
+///
+/// # Errors
+/// [`Error::WrongShape`] for another number of sizes, or an element whose matrix does not fit its DOF; [`Error::Count`] for a DOF
+/// beyond those that there are.
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::chain::rods;
+/// use corfem::method::appendix_a::{assemble, element_matrices};
+/// use nalgebra::dmatrix;
+///
+/// let elements: Vec<_> = element_matrices(&rods(&[100.0, 50.0], [true, false])?).collect();
+/// let stiffness = assemble(&elements, &[100.0, 50.0], 2)?;
+/// assert_eq!(stiffness, dmatrix![150.0, -50.0; -50.0, 50.0]);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
+pub fn assemble(
+    elements: &[ElementMatrix],
+    sizes: &[f64],
+    dof_count: usize,
+) -> Result<DMatrix<f64>, Error> {
+    check_length("element sizes", sizes.len(), elements.len())?;
+    let mut stiffness = DMatrix::zeros(dof_count, dof_count);
+    for (ElementMatrix { dof, unit, .. }, size) in elements.iter().zip(sizes) {
+        check_shape("element stiffness", unit, dof.len(), dof.len())?;
+        check_places("degrees of freedom", dof, dof_count)?;
+        for (a, &row) in dof.iter().enumerate() {
+            for (b, &column) in dof.iter().enumerate() {
+                stiffness[(row, column)] += size * unit[(a, b)];
+            }
+        }
+    }
+    Ok(stiffness)
+}
+
+/// Stiffness at the dynamic DOF, and the transformation that brought it there.
 #[derive(Debug, Clone)]
 pub struct Condensed {
     /// $K_D$, lbf/in (d × d).
@@ -30,9 +112,8 @@ pub struct Condensed {
 /// last two print $T^t$ for $T$ (`paper/errata.md`).
 ///
 /// # Errors
-/// [`Error::NotPositiveDefinite`] for a structure that nothing holds; [`Error::Empty`] without dynamic DOF;
-/// [`Error::WrongShape`] and [`Error::NotFinite`] for a bad $T$; [`Error::Dependent`] when a dynamic DOF is a combination of
-/// those before it.
+/// [`Error::NotPositiveDefinite`] for a structure that nothing holds, or a dynamic DOF that is a combination of those before it;
+/// [`Error::Count`] without dynamic DOF; [`Error::WrongShape`] and [`Error::Value`] for a bad $T$.
 ///
 /// # Example
 ///
@@ -52,14 +133,25 @@ pub fn condense(
     stiffness: &DMatrix<f64>,
     load_distribution: &DMatrix<f64>,
 ) -> Result<Condensed, Error> {
-    let dynamic_count = load_distribution.ncols();
+    let (what, dynamic_count) = ("load distribution", load_distribution.ncols());
     at_least_one("dynamic degrees of freedom", dynamic_count)?;
-    let what = "load distribution";
     check_matrix(what, load_distribution, stiffness.nrows(), dynamic_count)?;
     let lower = cholesky("structural stiffness", stiffness, 0.0)?;
-    check_held(stiffness, &lower)?;
+    // Scaled to unit diagonal, A = S K_S S, a stiffness that holds every motion has no eigenvalue within round-off of zero. The
+    // smallest is at least 1 / trace(A⁻¹) = 1 / ‖L⁻¹ S⁻¹‖². The pivots do not tell, for one that follows a small one is as wrong as
+    // round-off divided by it; the smallest pivot names the row.
+    let scale = stiffness.diagonal().map(f64::sqrt);
+    let scaled = lower.solve_lower_triangular_unchecked(&DMatrix::from_diagonal(&scale));
+    let is_held = 1.0 / scaled.norm_squared() > round_off(scale.len());
+    if !is_held {
+        let (what, row) = (
+            "structural stiffness",
+            lower.diagonal().component_div(&scale).imin(),
+        );
+        return Err(Error::NotPositiveDefinite { what, row });
+    }
     // With K_S = L Lᵗ and W = L⁻¹ T: Tᵗ K_S⁻¹ T = Wᵗ W, and K_S⁻¹ T = L⁻ᵗ W.
-    let half = solve_lower(&lower, load_distribution.clone());
+    let half = lower.solve_lower_triangular_unchecked(load_distribution);
     let stiffness = dynamic_stiffness(&half.tr_mul(&half))?;
     let mut deflections = half;
     lower.tr_solve_lower_triangular_unchecked_mut(&mut deflections);
@@ -69,58 +161,24 @@ pub fn condense(
     })
 }
 
-/// Refuses a stiffness that may be singular for all that its numbers tell, by its Cholesky factor, and names the row of the smallest pivot.
-///
-/// Scaled to unit diagonal, $A = S K_S S$, it must have
-///
-/// $$ \frac{1}{\lVert L^{-1} S^{-1} \rVert_F^2} > 32 \varepsilon \sqrt n , $$
-///
-/// one divided by the trace of $A^{-1}$, which is at most the smallest eigenvalue; the right side is what round-off leaves of one that is
-/// zero ([`round_off`]). The pivots do not tell: one that follows a small one is as wrong as round-off divided by it.
-fn check_held(stiffness: &DMatrix<f64>, lower: &DMatrix<f64>) -> Result<(), Error> {
-    let scale = stiffness.diagonal().map(f64::sqrt);
-    let inverse_factor = solve_lower(lower, DMatrix::from_diagonal(&scale));
-    if 1.0 / inverse_factor.norm_squared() > round_off(scale.len()) {
-        return Ok(());
-    }
-    Err(Error::NotPositiveDefinite {
-        what: "structural stiffness",
-        dof: lower.diagonal().component_div(&scale).imin(),
-    })
-}
-
-/// The dynamic stiffness $K_D$ (lbf/in) of its inverse, the flexibility (in/lbf), both d × d.
+/// Dynamic stiffness $K_D$ (lbf/in) of its inverse, the flexibility (in/lbf), both d × d.
 pub(crate) fn dynamic_stiffness(flexibility: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-    let lower = cholesky(
-        "dynamic flexibility",
-        flexibility,
-        SMALLEST_FLEXIBILITY_PIVOT,
-    )
-    .map_err(|error| error.or_dependent("dynamic degree of freedom"))?;
-    let identity = DMatrix::identity(flexibility.nrows(), flexibility.nrows());
-    let inverse_factor = solve_lower(&lower, identity);
+    let what = "dynamic flexibility";
+    let lower = cholesky(what, flexibility, SMALLEST_FLEXIBILITY_PIVOT)?;
+    let identity = DMatrix::identity(lower.nrows(), lower.nrows());
+    let inverse_factor = lower.solve_lower_triangular_unchecked(&identity);
     Ok(inverse_factor.tr_mul(&inverse_factor))
 }
 
-/// An element's share of the stiffness for shapes at the structural DOF, $s_e V_e^t K_e V_e$ (A.9), where $V_e$ are the rows of
+/// Share of an element in the stiffness for shapes at the structural DOF, $s_e V_e^t K_e V_e$ (A.9), where $V_e$ are the rows of
 /// `structural_shapes` (free SDOF × m) at its own DOF.
 ///
 /// For $B^t$ it is the element's share of $K_D$, $s_e B K_e B^t$; the shares sum to $K_D$ exactly.
-pub(crate) fn generalized_stiffness(
+pub fn generalized_stiffness(
     element: &ElementMatrix,
     size: f64,
     structural_shapes: &DMatrix<f64>,
 ) -> DMatrix<f64> {
     let own = structural_shapes.select_rows(&element.dof);
     size * symmetric_part(&own.tr_mul(&(&element.unit * &own)))
-}
-
-/// Its share of the mass in the same way, $s_e V_e^t M_e V_e$ with the lumped $M_e$.
-pub(crate) fn generalized_mass(
-    element: &ElementMatrix,
-    size: f64,
-    structural_shapes: &DMatrix<f64>,
-) -> DMatrix<f64> {
-    let own = structural_shapes.select_rows(&element.dof);
-    size * symmetric_part(&own.tr_mul(&(DMatrix::from_diagonal(&element.unit_mass) * &own)))
 }

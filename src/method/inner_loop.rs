@@ -1,18 +1,14 @@
 //! The inner loop: steps by perturbation alone, from one exact solution to the next.
 //! Tour: [chapter 5](crate::tour::chapter_05_inner_loop).
 
-use crate::method::derivatives::{DerivativeRule, error_changes};
-use crate::method::error::{Error, positive_setting};
-use crate::method::error_sum::{ErrorMeasure, Errors};
-use crate::method::linear_algebra::check_length;
-use crate::method::model::{Bounds, ModalModel};
-use crate::method::state::{ModalState, UpdateRule};
-use crate::method::step::{
-    Accumulation, Limit, StepRule, limited_factor, stiffness_changes, unlimited_factors,
-};
+use super::analysis::{Analysis, State};
+use super::error::{Error, positive};
+use super::error_sum::Errors;
+use super::linear_algebra::check_length;
+use super::step::{Accumulation, Bounds, Limit, StepRule, limited_factor, unlimited_factor};
 use serde::{Deserialize, Serialize};
 
-/// How the inner loop steps and when it stops.
+/// Settings of the inner loop: how it steps and when it stops.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct InnerSettings {
@@ -22,23 +18,17 @@ pub struct InnerSettings {
     pub relaxation: f64,
     /// Bounds of one iteration's factor.
     pub factor_range: Bounds,
-    /// Tolerance TOLI on the error sum $e_S$, in the measure below.
+    /// Tolerance TOLI on the error sum $e_S$.
     pub tolerance: f64,
-    /// How often a step that does not lower $e_S$ is halved before the place counts as a local minimum; zero stops
+    /// Halvings of a step that does not lower $e_S$ before the place counts as a local minimum; zero stops
     /// at the first rise.
     pub halvings: usize,
     /// Most iterations (accepted steps).
     pub iterations: usize,
-    /// How the error sum's derivatives are taken.
-    pub derivatives: DerivativeRule,
-    /// How they become factors.
+    /// Reading of the step.
     pub step: StepRule,
-    /// How the changes of several iterations come together.
+    /// Way in which the changes of several iterations come together.
     pub accumulation: Accumulation,
-    /// How errors are measured by the tolerances and by the step.
-    pub measure: ErrorMeasure,
-    /// How modes follow the factors.
-    pub update: UpdateRule,
 }
 
 impl Default for InnerSettings {
@@ -54,11 +44,8 @@ impl Default for InnerSettings {
             tolerance: 0.025,
             halvings: 5,
             iterations: 30,
-            derivatives: DerivativeRule::default(),
             step: StepRule::default(),
             accumulation: Accumulation::default(),
-            measure: ErrorMeasure::default(),
-            update: UpdateRule::default(),
         }
     }
 }
@@ -67,13 +54,18 @@ impl InnerSettings {
     pub(crate) fn check(&self) -> Result<(), Error> {
         let Bounds { lower, upper } = self.factor_range;
         Bounds::positive("factor limits", lower, upper)?;
-        positive_setting("first_relaxation", self.first_relaxation)?;
-        positive_setting("relaxation", self.relaxation)?;
-        positive_setting("tolerance", self.tolerance)
+        for (what, value) in [
+            ("first_relaxation", self.first_relaxation),
+            ("relaxation", self.relaxation),
+            ("tolerance", self.tolerance),
+        ] {
+            positive(what, || "the inner loop".into(), value)?;
+        }
+        Ok(())
     }
 }
 
-/// Why an inner loop stopped.
+/// Reason why an inner loop stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Stop {
@@ -94,11 +86,11 @@ pub struct Iteration {
     pub stiffness_changes: Vec<f64>,
     /// Factors of (13) before any bound.
     pub unlimited_factors: Vec<f64>,
-    /// How often the step was halved.
+    /// Number of halvings of the step.
     pub halvings: usize,
-    /// Factor on each parameter's gage or mass since the last exact solution, after the step.
+    /// Factor $g_e$ on each parameter's gage since the last exact solution, after the step.
     pub factors: Vec<f64>,
-    /// What limited each parameter's factor.
+    /// Limit of each parameter's factor.
     pub limits: Vec<Limit>,
     /// Errors after the step.
     pub errors: Errors,
@@ -111,13 +103,13 @@ pub struct InnerRun {
     pub start: Errors,
     /// Accepted steps.
     pub iterations: Vec<Iteration>,
-    /// Where the loop ended, with the factors on the stored shares.
-    pub last: ModalState,
-    /// Factor on each parameter's gage or mass since the last exact solution, where it ended.
+    /// State where the loop ended, with the factors on the stored stiffness.
+    pub last: State,
+    /// Factor $g_e$ on each parameter's gage since the last exact solution, where it ended.
     pub factors: Vec<f64>,
     /// Unlimited factors at the start: what the first iteration asked for, taken or not.
     pub first_unlimited_factors: Vec<f64>,
-    /// Why it stopped.
+    /// Reason why it stopped.
     pub stop: Stop,
 }
 
@@ -127,227 +119,158 @@ pub struct InnerRun {
 /// one step is tried even when the start is within tolerance, for the outer loop decides whether to begin.
 ///
 /// # Errors
-/// [`Error::Setting`], [`Error::Limits`], [`Error::WrongShape`] for settings, bounds and lists; those of [`error_changes`]
-/// and [`stiffness_changes`]. A step too far for the perturbation is halved like one that raises $e_S$;
-/// [`Error::CoalescingModes`] or [`Error::UnsettledRoots`] is returned when the first and all its halvings are.
+/// [`Error::Value`], [`Error::Range`] and [`Error::WrongShape`] for settings, bounds and lists; [`Error::LostRoot`] for a parameter of
+/// which no derivative can be taken.
+/// A step too far for the perturbation is halved like one that raises $e_S$; [`Error::CoalescingModes`] or
+/// [`Error::UnsettledRoots`] is returned when the first and all its halvings are.
 ///
 /// # Example
 ///
 /// ```rust
-/// use corfem::method::inner_loop::{InnerSettings, Stop, run};
-/// use corfem::method::model::{DynamicModel, ParameterMatrix};
-/// # use corfem::method::modes::ModeSet;
+/// use corfem::method::inner_loop::{Stop, run};
+/// use corfem::method::model::DynamicModel;
+/// use corfem::method::outer_loop::Settings;
+/// # use corfem::method::modes::Modes;
 /// # use nalgebra::{dmatrix, dvector};
 ///
 /// // A unit mass on a spring of 4 beside a test mode of ω² = 9.
-/// let shares = vec![ParameterMatrix::Stiffness(dmatrix![4.0])];
-/// let model = DynamicModel { stiffness: dmatrix![4.0], mass: dmatrix![1.0], shares };
-/// let test = ModeSet::new(dvector![9.0], dmatrix![1.0])?;
-/// let inner = run(&model.analyze(&test, None)?, &[1.0], &[None], &InnerSettings::default())?;
-/// // The first step asks for 1 + 0.8 · (3 · 1/3) · (1/3) / (4/9), and 1.5 is allowed.
+/// let spring = dmatrix![4.0];
+/// let model = DynamicModel { stiffness: spring.clone(), mass: dmatrix![1.0], shares: vec![spring] };
+/// let test = Modes::new(dvector![9.0], dmatrix![1.0])?;
+/// let settings = Settings::default().for_modes(1).inner; // steps and tolerances of one mode for the paper's nine
+/// let inner = run(&model.analyze(&test, None)?, &[1.0], &[None], &settings)?;
+/// // The first step asks for a factor of 1.6 and gets the 1.5 that one iteration may.
 /// assert!((inner.first_unlimited_factors[0] - 1.6).abs() < 0.001);
 /// assert_eq!((inner.iterations[0].factors[0], inner.stop), (1.5, Stop::Tolerance));
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
 pub fn run(
-    model: &ModalModel,
+    analysis: &dyn Analysis,
     base: &[f64],
     total_ranges: &[Option<Bounds>],
     settings: &InnerSettings,
 ) -> Result<InnerRun, Error> {
     settings.check()?;
-    InnerLoop::new(model, base, total_ranges, settings, &|state| {
-        error_changes(model, state, settings.derivatives)
-    })?
-    .run()
+    check_length("parameter limits", total_ranges.len(), base.len())?;
+    for range in total_ranges.iter().flatten() {
+        Bounds::positive("parameter limits", range.lower, range.upper)?;
+    }
+    let mut factors = vec![1.0; base.len()];
+    let mut state = analysis.at(&factors)?;
+    let start = state.errors;
+    let (mut iterations, mut first_unlimited_factors) = (Vec::new(), Vec::new());
+    let stop = loop {
+        if iterations.len() == settings.iterations {
+            break Stop::Iterations;
+        }
+        let is_first = iterations.is_empty();
+        let direction = direction(analysis, &state, &factors, is_first, settings)?;
+        if is_first {
+            first_unlimited_factors.clone_from(&direction.unlimited_factors);
+        }
+        let bounds = (base, total_ranges);
+        let step = lowering_step(analysis, &state, &factors, direction, bounds, settings);
+        let (iteration, lower): (Iteration, State) = match step {
+            Ok(Some(found)) => found,
+            Ok(None) => break Stop::LocalMinimum,
+            // An error in the first step names the modes that prevent any; later ones end the loop where it is.
+            Err(error) if error.is_of_close_modes() && !is_first => break Stop::LocalMinimum,
+            Err(error) => return Err(error),
+        };
+        state = lower;
+        factors.clone_from(&iteration.factors);
+        iterations.push(iteration);
+        if state.errors.sum() < settings.tolerance {
+            break Stop::Tolerance;
+        }
+    };
+    Ok(InnerRun {
+        start,
+        iterations,
+        last: state,
+        factors,
+        first_unlimited_factors,
+        stop,
+    })
 }
 
 /// Factors of (13) before any bound that the first iteration from the last exact modes asks for.
 ///
 /// # Errors
-/// Those of [`run`] for settings; those of [`error_changes`].
-pub fn first_factors(model: &ModalModel, settings: &InnerSettings) -> Result<Vec<f64>, Error> {
+/// [`Error::Value`] and [`Error::Range`] for settings; [`Error::LostRoot`] and [`Error::CoalescingModes`] for a parameter of which no
+/// derivative can be taken.
+pub fn first_factors(analysis: &dyn Analysis, settings: &InnerSettings) -> Result<Vec<f64>, Error> {
     settings.check()?;
-    let (ones, free) = (
-        vec![1.0; model.shares.len()],
-        vec![None; model.shares.len()],
-    );
-    let derivative = |state: &_| error_changes(model, state, settings.derivatives);
-    let first = InnerLoop::new(model, &ones, &free, settings, &derivative)?;
-    let direction = first.direction(&ModalState::start(model), &ones, true)?;
-    Ok(direction.unlimited_factors)
+    let ones = vec![1.0; analysis.exact().factors.len()];
+    let first = direction(analysis, &analysis.at(&ones)?, &ones, true, settings)?;
+    Ok(first.unlimited_factors)
 }
 
-/// The function that gives the change of the error sum by every parameter (12) at a state of one model: [`error_changes`] or a faster
-/// form of it.
-pub type Derivative<'a> = dyn Fn(&ModalState) -> Result<Vec<f64>, Error> + 'a;
-
-/// What one inner loop works on.
-pub(crate) struct InnerLoop<'a> {
-    model: &'a ModalModel,
-    base: &'a [f64],
-    total_ranges: &'a [Option<Bounds>],
-    settings: &'a InnerSettings,
-    derivative: &'a Derivative<'a>,
+/// Derivatives (12) and the factors of (13) at a state: an iteration whose step is yet to come.
+fn direction(
+    analysis: &dyn Analysis,
+    state: &State,
+    factors: &[f64],
+    is_first: bool,
+    settings: &InnerSettings,
+) -> Result<Iteration, Error> {
+    let error_changes = analysis.error_changes(state)?;
+    let stiffness_changes = analysis.stiffness_changes(state, factors, settings.step);
+    let relaxation = match is_first {
+        true => settings.first_relaxation,
+        false => settings.relaxation,
+    };
+    let changes = error_changes.iter().zip(&stiffness_changes);
+    let factors = changes.map(|(error, stiffness)| {
+        unlimited_factor(*error, *stiffness, state.errors.sum(), relaxation)
+    });
+    Ok(Iteration {
+        unlimited_factors: factors.collect(),
+        error_changes,
+        stiffness_changes,
+        halvings: 0,
+        factors: Vec::new(),
+        limits: Vec::new(),
+        errors: state.errors,
+    })
 }
 
-/// A step that lowers the error sum, and where it leads.
-struct Step {
-    halvings: usize,
-    limits: Vec<Limit>,
-    factors: Vec<f64>,
-    state: ModalState,
-}
-
-impl<'a> InnerLoop<'a> {
-    pub(crate) fn new(
-        model: &'a ModalModel,
-        base: &'a [f64],
-        total_ranges: &'a [Option<Bounds>],
-        settings: &'a InnerSettings,
-        derivative: &'a Derivative<'a>,
-    ) -> Result<Self, Error> {
-        check_length("parameter factors", base.len(), model.shares.len())?;
-        check_length("parameter limits", total_ranges.len(), model.shares.len())?;
-        for range in total_ranges.iter().flatten() {
-            Bounds::positive("parameter limits", range.lower, range.upper)?;
-        }
-        Ok(Self {
-            model,
-            base,
-            total_ranges,
-            settings,
-            derivative,
-        })
-    }
-
-    pub(crate) fn run(&self) -> Result<InnerRun, Error> {
-        let (mut factors, mut state) = (vec![1.0; self.base.len()], ModalState::start(self.model));
-        let start = state.errors;
-        let (mut iterations, mut first_unlimited_factors) = (Vec::new(), Vec::new());
-        let stop = loop {
-            if iterations.len() == self.settings.iterations {
-                break Stop::Iterations;
-            }
-            let is_first = iterations.is_empty();
-            let direction = self.direction(&state, &factors, is_first)?;
-            if is_first {
-                first_unlimited_factors.clone_from(&direction.unlimited_factors);
-            }
-            let step = match self.lowering_step(&state, &factors, &direction.unlimited_factors) {
-                Ok(Some(step)) => step,
-                Ok(None) => break Stop::LocalMinimum,
-                // An error in the first step names the modes that prevent any; later ones end the loop where it is.
-                Err(error) if error.is_of_close_modes() && !is_first => break Stop::LocalMinimum,
-                Err(error) => return Err(error),
-            };
-            (factors, state) = (step.factors, step.state);
-            iterations.push(Iteration {
-                halvings: step.halvings,
-                factors: factors.clone(),
-                limits: step.limits,
-                errors: state.errors,
-                ..direction
-            });
-            if self.measured(&state) < self.settings.tolerance {
-                break Stop::Tolerance;
-            }
+/// Tries the limited step, then its halvings, and returns the first that lowers the error sum. When modes come too close in
+/// every trial, returns the last error.
+fn lowering_step(
+    analysis: &dyn Analysis,
+    state: &State,
+    factors: &[f64],
+    direction: Iteration,
+    (base, total_ranges): (&[f64], &[Option<Bounds>]),
+    settings: &InnerSettings,
+) -> Result<Option<(Iteration, State)>, Error> {
+    let (mut is_too_far, mut refusal) = (false, None);
+    for halvings in 0..=settings.halvings {
+        let fraction = 0.5_f64.powi(halvings as i32);
+        let limited = |e: usize| {
+            let (c, range) = (direction.unlimited_factors[e], settings.factor_range);
+            limited_factor(c, fraction, factors[e], base[e], range, total_ranges[e])
         };
-        Ok(InnerRun {
-            start,
-            iterations,
-            last: state,
-            factors,
-            first_unlimited_factors,
-            stop,
-        })
-    }
-
-    /// The error sum in the measure of the settings.
-    fn measured(&self, state: &ModalState) -> f64 {
-        self.settings.measure.scale(self.model.test.len()) * state.errors.sum()
-    }
-
-    /// Derivatives (12) and the factors of (13) at the present state: an iteration whose step is yet to come.
-    fn direction(
-        &self,
-        state: &ModalState,
-        factors: &[f64],
-        is_first: bool,
-    ) -> Result<Iteration, Error> {
-        let settings = self.settings;
-        let error_changes = (self.derivative)(state)?;
-        let stiffness_changes =
-            stiffness_changes(self.model, &state.factors, factors, settings.step);
-        let relaxation = if is_first {
-            settings.first_relaxation
-        } else {
-            settings.relaxation
-        };
-        let unlimited_factors = unlimited_factors(
-            &error_changes,
-            &stiffness_changes,
-            self.measured(state),
-            relaxation,
-        );
-        Ok(Iteration {
-            error_changes,
-            stiffness_changes,
-            unlimited_factors,
-            halvings: 0,
-            factors: Vec::new(),
-            limits: Vec::new(),
-            errors: state.errors,
-        })
-    }
-
-    /// Tries the limited step, then its halvings, and returns the first that lowers the error sum. When modes come too close in
-    /// every trial, returns the last error.
-    fn lowering_step(
-        &self,
-        state: &ModalState,
-        factors: &[f64],
-        unlimited: &[f64],
-    ) -> Result<Option<Step>, Error> {
-        let settings = self.settings;
-        let (mut is_too_far, mut refusal) = (false, None);
-        for halvings in 0..=settings.halvings {
-            let fraction = 0.5_f64.powi(halvings as i32);
-            let next = |e: usize| {
-                let (total_range, base) = (self.total_ranges[e], self.base[e]);
-                limited_factor(
-                    unlimited[e],
-                    fraction,
-                    factors[e],
-                    base,
-                    settings.factor_range,
-                    total_range,
-                )
-            };
-            let (next, limits): (Vec<f64>, Vec<Limit>) = (0..factors.len()).map(next).unzip();
-            let accumulated = |e: usize| {
-                settings
-                    .accumulation
-                    .next_share_factor(state.factors[e], factors[e], next[e])
-            };
-            let share_factors = (0..factors.len()).map(accumulated).collect();
-            match ModalState::at(self.model, share_factors, settings.update) {
-                Ok(lower) if lower.errors.sum() < state.errors.sum() => {
-                    return Ok(Some(Step {
-                        halvings,
-                        limits,
-                        factors: next,
-                        state: lower,
-                    }));
-                }
-                // Uphill, or too far for the perturbation: a shorter step may do.
-                Ok(_) | Err(Error::LostRoot { .. } | Error::NotAVibration { .. }) => {
-                    is_too_far = true;
-                }
-                Err(error) if error.is_of_close_modes() => refusal = Some(error),
-                Err(other) => return Err(other),
+        let (next, limits): (Vec<f64>, Vec<Limit>) = (0..factors.len()).map(limited).unzip();
+        let rule = settings.accumulation;
+        let share = |e: usize| rule.next_share_factor(state.factors[e], factors[e], next[e]);
+        match analysis.at(&(0..factors.len()).map(share).collect::<Vec<_>>()) {
+            Ok(lower) if lower.errors.sum() < state.errors.sum() => {
+                let iteration = Iteration {
+                    halvings,
+                    factors: next,
+                    limits,
+                    errors: lower.errors,
+                    ..direction
+                };
+                return Ok(Some((iteration, lower)));
             }
+            // Uphill, or too far for the perturbation: a shorter step may do.
+            Ok(_) | Err(Error::LostRoot { .. } | Error::NotAVibration { .. }) => is_too_far = true,
+            Err(error) if error.is_of_close_modes() => refusal = Some(error),
+            Err(other) => return Err(other),
         }
-        refusal.filter(|_| !is_too_far).map_or(Ok(None), Err)
     }
+    refusal.filter(|_| !is_too_far).map_or(Ok(None), Err)
 }

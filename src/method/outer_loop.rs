@@ -1,16 +1,15 @@
 //! The outer loop: finite element analysis, inner loop, and back, until analysis and test agree.
 //! Tour: [chapter 5](crate::tour::chapter_05_inner_loop).
 
-use crate::method::derivatives::error_changes;
-use crate::method::error::{Error, positive_setting};
-use crate::method::error_sum::{Errors, mode_errors};
-use crate::method::inner_loop::{Derivative, InnerLoop, InnerRun, InnerSettings, Stop};
-use crate::method::linear_algebra::check_length;
-use crate::method::model::{Bounds, ExactResult, ModalModel};
-use crate::method::verdict::{Outcome, Verdict};
+use super::analysis::{Analysis, State};
+use super::error::{Error, positive};
+use super::error_sum::Errors;
+use super::inner_loop::{InnerRun, InnerSettings, run};
+use super::linear_algebra::check_length;
+use super::step::Bounds;
 use serde::{Deserialize, Serialize};
 
-/// When analysis and test count as correlated, and how long to try.
+/// Settings of both loops: when analysis and test count as correlated, and how long to try.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Settings {
@@ -49,10 +48,37 @@ impl Default for Settings {
 impl Settings {
     fn check(&self) -> Result<(), Error> {
         self.inner.check()?;
-        positive_setting("later_inner_tolerance", self.later_inner_tolerance)?;
-        positive_setting("error_sum_tolerance", self.error_sum_tolerance)?;
-        positive_setting("frequency_tolerance", self.frequency_tolerance)?;
-        positive_setting("shape_tolerance", self.shape_tolerance)
+        for (what, value) in [
+            ("later_inner_tolerance", self.later_inner_tolerance),
+            ("error_sum_tolerance", self.error_sum_tolerance),
+            ("frequency_tolerance", self.frequency_tolerance),
+            ("shape_tolerance", self.shape_tolerance),
+        ] {
+            positive(what, || "the outer loop".into(), value)?;
+        }
+        Ok(())
+    }
+
+    /// Settings for another number of test modes than the nine that the paper's were found with: errors of the same root mean
+    /// square are met, and the step (13) is as long.
+    pub fn for_modes(&self, count: usize) -> Self {
+        let scale = 3.0 / (count.max(1) as f64).sqrt();
+        let mut settings = self.clone();
+        settings.inner.first_relaxation *= scale;
+        settings.inner.relaxation *= scale;
+        settings.inner.tolerance /= scale;
+        settings.later_inner_tolerance /= scale;
+        settings.error_sum_tolerance /= scale;
+        settings.frequency_tolerance /= scale;
+        settings.shape_tolerance /= scale;
+        settings
+    }
+
+    /// Verdict that errors are within the tolerances of the exact check.
+    pub fn are_met_by(&self, errors: &Errors) -> bool {
+        errors.sum() <= self.error_sum_tolerance
+            && errors.frequency <= self.frequency_tolerance
+            && errors.shape <= self.shape_tolerance
     }
 }
 
@@ -64,14 +90,14 @@ pub struct Pass {
     /// Factor of each parameter on its first value, after the pass.
     pub factors: Vec<f64>,
     /// The exact solution at these factors.
-    pub check: ExactResult,
+    pub check: State,
 }
 
 /// The whole history of a correlation.
 #[derive(Debug, Clone)]
 pub struct Correlation {
     /// The exact solution before any change.
-    pub initial: ExactResult,
+    pub initial: State,
     /// The passes made.
     pub passes: Vec<Pass>,
     /// The pass with the lowest exact error sum, of those within tolerance if there are any, from zero; none when no pass improved
@@ -79,92 +105,68 @@ pub struct Correlation {
     pub best: Option<usize>,
     /// The factors of that pass; all one when there is none.
     pub best_factors: Vec<f64>,
-    /// Whether an exact solution meets the tolerances.
+    /// Verdict that an exact solution meets the tolerances.
     pub converged: bool,
-    /// What it came to.
-    pub verdict: Verdict,
+}
+
+impl Correlation {
+    /// The exact solution at the best factors.
+    pub fn best_check(&self) -> &State {
+        self.best
+            .map_or(&self.initial, |best| &self.passes[best].check)
+    }
 }
 
 /// Corrects a model until its modes agree with the test modes.
 ///
-/// `analyze` is the finite element analysis: given each parameter's factor on its first value it returns the modal model
-/// there, with a new $B$ and compared with the test modes, such as [`crate::method::model::FiniteElementModel::analyze`].
-/// `total_ranges` bounds those factors, one entry per parameter. `progress` is told of every pass as it is finished.
+/// `analyze` is the finite element analysis: given each parameter's factor on its first value it returns the analysis
+/// there, with a new $B$ and compared with the test modes, such as
+/// [`FiniteElementModel::analyze`](crate::method::model::FiniteElementModel::analyze).
+/// `total_ranges` bounds those factors, one entry per parameter. `go_on` is told of every pass as it is finished, and ends the
+/// correlation by false: what was found until then is kept.
 ///
 /// # Errors
-/// Those of `analyze`, of the inner loop, and [`Error::Setting`] or [`Error::Limits`] for settings out of range. Modes that
+/// Every error of `analyze`; [`Error::Value`], [`Error::Range`] and [`Error::WrongShape`] for settings and bounds. Modes that
 /// the inner loop cannot follow are an error in the first pass and the end of the correlation in a later one.
 ///
 /// # Example
 ///
 /// ```rust
 /// use corfem::method::error::Error;
-/// use corfem::method::model::{DynamicModel, ParameterMatrix};
-/// # use corfem::method::modes::ModeSet;
+/// use corfem::method::model::DynamicModel;
+/// # use corfem::method::modes::Modes;
 /// use corfem::method::outer_loop::{Settings, correlate};
 /// # use nalgebra::{dmatrix, dvector};
 ///
 /// // A unit mass on a spring of 4, of which the test says 9.
-/// let test = ModeSet::new(dvector![9.0], dmatrix![1.0])?;
+/// let test = Modes::new(dvector![9.0], dmatrix![1.0])?;
 /// let analyze = |factors: &[f64]| -> Result<_, Error> {
 ///     let stiffness = dmatrix![4.0 * factors[0]];
-///     let shares = vec![ParameterMatrix::Stiffness(stiffness.clone())];
+///     let shares = vec![stiffness.clone()];
 ///     DynamicModel { stiffness, mass: dmatrix![1.0], shares }.analyze(&test, None)
 /// };
-/// let result = correlate(analyze, &[None], &Settings::default(), |_, _| {})?;
+/// let result = correlate(analyze, &[None], &Settings::default().for_modes(1), |_, _| true)?;
 /// assert!(result.converged && (result.best_factors[0] - 2.25).abs() < 0.05);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn correlate<E: From<Error>>(
-    mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
+pub fn correlate<A: Analysis, E: From<Error>>(
+    mut analyze: impl FnMut(&[f64]) -> Result<A, E>,
     total_ranges: &[Option<Bounds>],
     settings: &Settings,
-    mut progress: impl FnMut(usize, &Pass),
-) -> Result<Correlation, E> {
-    let rule = settings.inner.derivatives;
-    correlate_while(
-        &mut analyze,
-        &|model| Box::new(move |state| error_changes(model, state, rule)),
-        total_ranges,
-        settings,
-        &mut |number, pass| {
-            progress(number, pass);
-            true
-        },
-    )
-}
-
-/// The same with any function for the derivatives, ended after a pass for which `progress` returns false: what was found until
-/// then is kept. It is compiled once per type of error, and not once per caller.
-pub(crate) fn correlate_while<E: From<Error>>(
-    analyze: &mut dyn FnMut(&[f64]) -> Result<ModalModel, E>,
-    derivative: &dyn for<'m> Fn(&'m ModalModel) -> Box<Derivative<'m>>,
-    total_ranges: &[Option<Bounds>],
-    settings: &Settings,
-    progress: &mut dyn FnMut(usize, &Pass) -> bool,
+    mut go_on: impl FnMut(usize, &Pass) -> bool,
 ) -> Result<Correlation, E> {
     settings.check()?;
     let mut factors = vec![1.0; total_ranges.len()];
-    let mut model = analyze(&factors)?;
-    check_length("parameter factors", factors.len(), model.shares.len())?;
-    let (first, mut passes) = (model.clone(), Vec::<Pass>::new());
+    let mut analysis = analyze(&factors)?;
+    let initial = analysis.exact().clone();
+    check_length("parameter factors", factors.len(), initial.factors.len())?;
     let mut inner_settings = settings.inner.clone();
-    let mut converged = meets(&model.exact.errors, settings);
-    let mut is_stopped = false;
+    let mut passes: Vec<Pass> = Vec::new();
+    let mut converged = settings.are_met_by(&initial.errors);
     while passes.len() < settings.most_passes
         && (passes.len() < settings.least_passes || !converged)
     {
-        let run = |derivative: Box<Derivative>| {
-            InnerLoop::new(
-                &model,
-                &factors,
-                total_ranges,
-                &inner_settings,
-                &*derivative,
-            )?
-            .run()
-        };
-        let inner = match run(derivative(&model)) {
+        let inner = match run(&analysis, &factors, total_ranges, &inner_settings) {
             Ok(inner) => inner,
             // Nowhere to go from here, as in a local minimum: what the passes before have reached is kept.
             Err(error) if error.is_of_close_modes() && !passes.is_empty() => break,
@@ -173,98 +175,35 @@ pub(crate) fn correlate_while<E: From<Error>>(
         for (factor, step) in factors.iter_mut().zip(&inner.factors) {
             *factor *= step;
         }
-        model = analyze(&factors)?;
+        analysis = analyze(&factors)?;
         let pass = Pass {
-            check: model.exact.clone(),
+            check: analysis.exact().clone(),
             factors: factors.clone(),
             inner,
         };
-        converged = meets(&pass.check.errors, settings);
-        is_stopped = !progress(passes.len() + 1, &pass);
-        let is_at_end = pass.inner.iterations.is_empty();
+        converged = settings.are_met_by(&pass.check.errors);
+        let is_last = !go_on(passes.len() + 1, &pass) || pass.inner.iterations.is_empty();
         passes.push(pass);
-        if is_stopped || is_at_end {
+        if is_last {
             break;
         }
         inner_settings.tolerance = settings.later_inner_tolerance;
     }
-    Ok(Correlation::best_of(
-        &first,
-        passes,
-        total_ranges,
-        settings,
-        is_stopped,
-    )?)
-}
-
-impl Correlation {
-    /// The best of the first model and all passes, and the verdict on it.
-    fn best_of(
-        first: &ModalModel,
-        passes: Vec<Pass>,
-        total_ranges: &[Option<Bounds>],
-        settings: &Settings,
-        is_stopped: bool,
-    ) -> Result<Self, Error> {
-        let ones = vec![1.0; total_ranges.len()];
-        let start = (None, &first.exact, &ones);
-        let checks = passes
-            .iter()
-            .enumerate()
-            .map(|(pass, Pass { check, factors, .. })| (Some(pass), check, factors));
-        // Whether a result is within tolerance comes before how large its error sum is.
-        let place = |check: &ExactResult| (!meets(&check.errors, settings), check.errors.sum());
-        let (best, check, factors) = checks.fold(start, |best, next| {
-            if place(next.1) < place(best.1) {
-                next
-            } else {
-                best
-            }
-        });
-        let converged = meets(&check.errors, settings);
-        let has_stepped = passes.iter().any(|pass| !pass.inner.iterations.is_empty());
-        let outcome = match passes.last() {
-            _ if is_stopped && !converged => Outcome::Request,
-            _ if !has_stepped && !converged => Outcome::Nothing,
-            Some(pass) if pass.inner.stop == Stop::LocalMinimum => Outcome::LocalMinimum,
-            _ if converged => Outcome::Tolerance,
-            _ => Outcome::Cap,
-        };
-        let errors = mode_errors(&check.modes, &check.pairing, &first.test)?;
-        let verdict = Verdict::new(
-            outcome,
-            (compared_sum(&check.errors, settings), &errors),
-            factors,
-            &first.largest_parts(),
-            total_ranges,
-            converged,
-        );
-        Ok(Self {
-            initial: first.exact.clone(),
-            best,
-            best_factors: factors.clone(),
-            passes,
-            converged,
-            verdict,
-        })
+    // Whether a result is within tolerance comes before how large its error sum is.
+    let rank = |state: &State| (!settings.are_met_by(&state.errors), state.errors.sum());
+    let mut best = None;
+    let mut lowest = rank(&initial);
+    for (number, pass) in passes.iter().enumerate() {
+        if rank(&pass.check) < lowest {
+            (best, lowest) = (Some(number), rank(&pass.check));
+        }
     }
-}
-
-/// The error sum in the measure of the settings, frequencies and shapes each by their number.
-pub(crate) fn compared_sum(errors: &Errors, settings: &Settings) -> f64 {
-    let [frequencies, shapes] = scales(errors, settings);
-    frequencies * (errors.frequency + shapes / frequencies * errors.shape)
-}
-
-/// Whether errors meet the tolerances in the measure of the settings.
-pub(crate) fn meets(errors: &Errors, settings: &Settings) -> bool {
-    let [frequencies, shapes] = scales(errors, settings);
-    compared_sum(errors, settings) <= settings.error_sum_tolerance
-        && frequencies * errors.frequency <= settings.frequency_tolerance
-        && shapes * errors.shape <= settings.shape_tolerance
-}
-
-fn scales(errors: &Errors, settings: &Settings) -> [f64; 2] {
-    let measure = settings.inner.measure;
-    [errors.mode_count + errors.lone_count, errors.mode_count].map(|count| measure.scale(count))
+    let ones = vec![1.0; total_ranges.len()];
+    Ok(Correlation {
+        best_factors: best.map_or(ones, |best| passes[best].factors.clone()),
+        converged: !lowest.0,
+        initial,
+        passes,
+        best,
+    })
 }

@@ -1,87 +1,110 @@
 //! The step (13): from derivatives to stiffness change factors, and the bounds that limit them.
 //! Tour: [chapter 4](crate::tour::chapter_04_step).
 
-use crate::method::derivatives::DERIVATIVE_STEP;
-use crate::method::model::{Bounds, ModalModel, REFERENCE_GAGE};
+use super::error::Error;
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
+
+/// Gage in which a change of gage is measured by the step, in.
+pub const REFERENCE_GAGE: f64 = 0.01;
 
 /// Least part of the stored stiffness that the changes of an inner loop leave when they add.
 pub const LEAST_SHARE: f64 = 1e-3;
 
-/// How the change in generalized stiffness $\Delta k_e$ of (12) and (13) is measured for a change of 0.1 %.
+/// Closed interval of factors, gages or areas.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Bounds {
+    /// Its lower end.
+    pub lower: f64,
+    /// Its upper end.
+    pub upper: f64,
+}
+
+impl Bounds {
+    /// An interval of positive numbers.
+    ///
+    /// # Errors
+    /// [`Error::Range`] unless $0 < \text{lower} < \text{upper}$, both finite.
+    pub fn positive(what: &str, lower: f64, upper: f64) -> Result<Self, Error> {
+        if lower > 0.0 && upper > lower && upper.is_finite() {
+            return Ok(Self { lower, upper });
+        }
+        let what = what.to_owned();
+        Err(Error::Range { what, lower, upper })
+    }
+
+    /// Verdict that a number lies in the interval, ends included.
+    pub fn contains(&self, value: f64) -> bool {
+        (self.lower..=self.upper).contains(&value)
+    }
+
+    /// The number of the interval nearest to a value; NaN of NaN, which `max` would turn into a number.
+    fn nearest(&self, value: f64) -> f64 {
+        if value.is_nan() {
+            return value;
+        }
+        value.max(self.lower).min(self.upper)
+    }
+}
+
+/// Measure of the change in generalized stiffness $\Delta k_e$ of (12) and (13) for a relative change.
 ///
 /// The paper's sentence can be read in several ways, and its tables do not decide between them (`paper/interpretation.md`). With
-/// $\kappa_{ij} = c_e V_{Gi}^t K_e V_{Gj}/(\omega_{Gi} \omega_{Gj})$, the element's stiffness on the test modes relative to the
+/// $\kappa_{ij} = s_e V_{Gi}^t K_e V_{Gj}/(\omega_{Gi} \omega_{Gj})$, the element's stiffness on the test modes relative to the
 /// test's own:
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StepRule {
-    /// $0.001 \lVert \kappa \rVert_F$, the coupling of modes included: the library's own. With all
+    /// $\lVert \kappa \rVert_F$, the coupling of modes included: the library's own. With all
     /// modes it is $\lVert K_G^{-1/2} \Delta K K_G^{-1/2} \rVert_F$ with the test's stiffness $K_G$, whatever the basis.
     #[default]
-    #[serde(rename = "matrix")]
-    Norm,
-    /// $0.001 (\sum_i \kappa_{ii}^2)^{1/2}$, the diagonal alone.
-    #[serde(rename = "own")]
-    Diagonal,
-    /// The relative change itself, 0.001 for every parameter.
+    Matrix,
+    /// $(\sum_i \kappa_{ii}^2)^{1/2}$, the diagonal alone.
+    Own,
+    /// The relative change itself, alike for every parameter.
     Relative,
-    /// The change of gage in units of [`REFERENCE_GAGE`], $0.001 t_e/(0.01 \text{ in})$.
+    /// The change of gage in units of [`REFERENCE_GAGE`], $t_e/(0.01 \text{ in})$.
     Gage,
 }
 
-/// $\Delta k_e$ of every parameter for a change of 0.1 % (12), dimensionless.
-///
-/// The parameters stand at `share_factors` on the model's shares and at `size_factors` on its gages, one of either a parameter.
-pub fn stiffness_changes(
-    model: &ModalModel,
-    share_factors: &[f64],
-    size_factors: &[f64],
-    rule: StepRule,
-) -> Vec<f64> {
-    let relative =
-        |((share, share_factor), (size, size_factor)): ((&DMatrix<f64>, &f64), (&f64, &f64))| {
-            match rule {
-                StepRule::Norm => share_factor * share.norm(),
-                StepRule::Diagonal => share_factor * share.diagonal().norm(),
-                StepRule::Relative => 1.0,
-                StepRule::Gage => size_factor * size / REFERENCE_GAGE,
+impl StepRule {
+    /// $\Delta k_e$ for a relative change of one, dimensionless: of a parameter with the stiffness `test_share` relative to the test's
+    /// (g × g), at the factor $s_e$ on it, of the present `gage` (in).
+    pub fn measure(self, test_share: &DMatrix<f64>, share_factor: f64, gage: f64) -> f64 {
+        match self {
+            Self::Matrix => share_factor * test_share.norm(),
+            Self::Own => {
+                let own = (0..).map_while(|j| test_share.get((j, j)));
+                share_factor * own.map(|kappa| kappa * kappa).sum::<f64>().sqrt()
             }
-        };
-    let shares = model.test_shares.iter().zip(share_factors);
-    let sizes = model.sizes.iter().zip(size_factors);
-    shares
-        .zip(sizes)
-        .map(|parameter| DERIVATIVE_STEP * relative(parameter))
-        .collect()
+            Self::Relative => 1.0,
+            Self::Gage => gage / REFERENCE_GAGE,
+        }
+    }
 }
 
-/// Unlimited stiffness change factors by (13).
+/// Unlimited stiffness change factor by (13).
 ///
 /// $$ c_e = 1 - R e_S \frac{\Delta e_e}{\Delta k_e} $$
 ///
 /// The paper prints $c = R e_S (\Delta e/\Delta k)$, which is the change of the factor, not the factor
 /// (`paper/errata.md`). A parameter without stiffness in any test mode keeps factor one.
-pub fn unlimited_factors(
-    error_changes: &[f64],
-    stiffness_changes: &[f64],
+pub fn unlimited_factor(
+    error_change: f64,
+    stiffness_change: f64,
     error_sum: f64,
     relaxation: f64,
-) -> Vec<f64> {
-    let factor = |(&error, &stiffness): (&f64, &f64)| match stiffness > 0.0 {
+) -> f64 {
+    if stiffness_change > 0.0 {
+        let step = relaxation * error_sum * error_change / stiffness_change;
         // An infinite factor becomes the largest finite number; the limits cut it anyway.
-        true => (1.0 - relaxation * error_sum * error / stiffness).clamp(-f64::MAX, f64::MAX),
-        false => 1.0,
-    };
-    error_changes
-        .iter()
-        .zip(stiffness_changes)
-        .map(factor)
-        .collect()
+        (1.0 - step).clamp(-f64::MAX, f64::MAX)
+    } else {
+        1.0
+    }
 }
 
-/// What limited a parameter's factor in an iteration.
+/// Limit of a parameter's factor in an iteration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Limit {
@@ -93,7 +116,7 @@ pub enum Limit {
     Total,
 }
 
-/// One parameter's new total factor after a `fraction` of the limited step, and what limited it.
+/// New total factor of a parameter after a `fraction` of the limited step, and what limited it.
 ///
 /// The unlimited factor $c$ is first brought within the bounds of one iteration, then the step $c - 1$ is shortened, so that a
 /// halving shortens the step that is taken. `total` is the factor so far and `base` what it multiplies (the product of earlier
@@ -106,54 +129,35 @@ pub fn limited_factor(
     factor_range: Bounds,
     total_range: Option<Bounds>,
 ) -> (f64, Limit) {
-    let factor = factor_range.clamp(unlimited);
+    let factor = factor_range.nearest(unlimited);
     let next = total * (1.0 + fraction * (factor - 1.0));
     match total_range {
         Some(range) if !range.contains(base * next) => {
-            (range.clamp(base * next) / base, Limit::Total)
+            (range.nearest(base * next) / base, Limit::Total)
         }
-        _ => (
-            next,
-            if factor == unlimited {
-                Limit::None
-            } else {
-                Limit::Factor
-            },
-        ),
+        _ if factor == unlimited => (next, Limit::None),
+        _ => (next, Limit::Factor),
     }
 }
 
-/// How the changes of an inner loop's iterations come together on the stiffness stored since the last exact modes.
+/// Way in which the changes of an inner loop's iterations come together on the stiffness stored since the last exact modes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Accumulation {
-    /// They add, $K_e \big(1 + \sum (c - 1)\big)$ and at least [`LEAST_SHARE`] of $K_e$, while gages multiply: the paper's, by its
+    /// Changes add, $K_e \big(1 + \sum (c - 1)\big)$ and at least [`LEAST_SHARE`] of $K_e$, while gages multiply: the paper's, by its
     /// Tables 9 to 12.
     #[default]
     Sum,
-    /// They multiply as gages do: $K_e c_1 c_2$ after two steps.
+    /// Changes multiply as gages do: $K_e c_1 c_2$ after two steps.
     Product,
 }
 
-impl StepRule {
-    /// What the rule is called in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Norm => "matrix",
-            Self::Diagonal => "own",
-            Self::Relative => "relative",
-            Self::Gage => "gage",
-        }
-    }
-}
-
 impl Accumulation {
-    /// The factor on a stored share after a step that takes its gage's factor from `total` to `next`.
+    /// Factor $s_e$ on a stored share after a step that takes its gage's factor from `total` to `next`.
     pub fn next_share_factor(self, share_factor: f64, total: f64, next: f64) -> f64 {
         match self {
             // `f64::max` would turn NaN into a number.
-            Self::Sum if share_factor + next / total - 1.0 < LEAST_SHARE => LEAST_SHARE,
-            Self::Sum => share_factor + next / total - 1.0,
+            Self::Sum => (share_factor + next / total - 1.0).clamp(LEAST_SHARE, f64::INFINITY),
             Self::Product => next,
         }
     }

@@ -1,14 +1,22 @@
 //! The structure: grid points, materials, elements, and which motions are constrained.
 //! Tour: [chapter 7](crate::tour::chapter_07_box).
 
-use crate::method::error::{Error, at_least_one, setting};
-pub use crate::method::geometry::ElementKind;
-use crate::method::geometry::Geometry;
-use nalgebra::{DMatrix, Vector3};
+use super::error::{Error, at_least_one, check_count, positive, require};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 use std::collections::{HashMap, HashSet};
 
 /// Names of the three directions of a grid point's motion, in the order of its DOF.
 pub const DIRECTIONS: [char; 3] = ['x', 'y', 'z'];
+
+/// Position in space, in.
+pub type Point = Vector3<f64>;
+
+/// Length of a rod over the distance of its ends from the origin below which it is round-off of their coordinates.
+const SMALLEST_LENGTH_RATIO: f64 = 1e-12;
+/// Area over the square of the longest side or diagonal, or doubled area of a corner's triangle over that of its panel, below which it
+/// is none.
+const SMALLEST_AREA_RATIO: f64 = 1e-10;
 
 /// A point of the structure with three translations.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,8 +24,8 @@ pub struct Grid {
     /// Its number.
     pub label: usize,
     /// Position, in.
-    pub position: Vector3<f64>,
-    /// Which of x, y, z a support fixes to ground.
+    pub position: Point,
+    /// Directions x, y, z that a support fixes to ground.
     pub constrained: [bool; 3],
 }
 
@@ -38,7 +46,7 @@ impl Material {
     /// A material without mass from $E$ (lbf/in²) and $\nu$: $G = E/\big(2(1+\nu)\big)$.
     ///
     /// # Errors
-    /// [`Error::NotPositive`] unless $E > 0$; [`Error::Setting`] unless $-1 < \nu \le 1/2$.
+    /// [`Error::Value`] unless $E > 0$ and $-1 < \nu \le 1/2$.
     pub fn isotropic(youngs_modulus: f64, poissons_ratio: f64) -> Result<Self, Error> {
         let shear_modulus = youngs_modulus / (2.0 * (1.0 + poissons_ratio));
         let material = Self {
@@ -47,38 +55,44 @@ impl Material {
             shear_modulus,
             density: 0.0,
         };
-        material.check().map(|()| material)
+        material.check(|| "the material".into()).map(|()| material)
     }
 
-    /// The same material with a mass density, lbf·s²/in⁴.
-    ///
-    /// # Errors
-    /// [`Error::NotPositive`] unless the density is positive.
-    pub fn with_density(self, density: f64) -> Result<Self, Error> {
-        positive("density", material, density)?;
-        Ok(Self { density, ..self })
-    }
-
-    fn check(&self) -> Result<(), Error> {
-        positive("Young's modulus", material, self.youngs_modulus)?;
+    /// Refuses moduli, Poisson's ratio or density out of their range.
+    pub(crate) fn check(&self, owner: impl Fn() -> String) -> Result<(), Error> {
+        positive("Young's modulus", &owner, self.youngs_modulus)?;
         let nu = self.poissons_ratio;
-        setting(
-            "Poisson's ratio",
-            "more than -1 and at most 0.5",
-            nu,
-            nu > -1.0 && nu <= 0.5,
-        )?;
-        positive("shear modulus", material, self.shear_modulus)?;
-        if self.density == 0.0 {
-            Ok(())
-        } else {
-            positive("density", material, self.density)
-        }
+        let (is_met, expected) = (nu > -1.0 && nu <= 0.5, "more than -1 and at most 0.5");
+        require(is_met, "Poisson's ratio", &owner, nu, expected)?;
+        positive("shear modulus", &owner, self.shear_modulus)?;
+        let (density, expected) = (self.density, "positive and finite");
+        let is_met = density >= 0.0 && density.is_finite();
+        require(is_met, "density", &owner, density, expected)
     }
 }
 
-fn material() -> String {
-    "the material".into()
+/// Kind of an element: what it is made of and what it resists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ElementKind {
+    /// Axial member between two grids; its size is a cross section (area), in².
+    Rod,
+    /// Garvey shear panel between four grids; its size is a gage (thickness), in.
+    ShearPanel,
+    /// Membrane panel of four overlapping triangles between four grids; its size is a gage, in.
+    Membrane,
+    /// Constant-strain triangle between three grids; its size is a gage, in.
+    Triangle,
+}
+
+impl ElementKind {
+    /// Number of grid points that the element joins.
+    pub fn corner_count(self) -> usize {
+        match self {
+            Self::Rod => 2,
+            Self::Triangle => 3,
+            Self::ShearPanel | Self::Membrane => 4,
+        }
+    }
 }
 
 /// One finite element.
@@ -92,35 +106,12 @@ pub struct Element {
     pub grids: Vec<usize>,
     /// Gage in inches or area in square inches; stiffness is proportional to it.
     pub size: f64,
-    /// What it is made of.
+    /// Material that it is made of.
     pub material: Material,
 }
 
-impl Element {
-    /// Where the element lies, from the positions of all grids.
-    fn geometry(
-        &self,
-        position: impl Fn(usize) -> Option<Vector3<f64>>,
-    ) -> Result<Geometry, Error> {
-        let owner = || format!("element {}", self.label);
-        let corner = |&label: &usize| {
-            position(label).ok_or_else(|| Error::Unknown {
-                owner: owner(),
-                what: "grid",
-                label,
-            })
-        };
-        let corners: Vec<_> = self.grids.iter().map(corner).collect::<Result<_, _>>()?;
-        let is_rod = self.kind == ElementKind::Rod;
-        positive(if is_rod { "area" } else { "gage" }, owner, self.size)?;
-        (self.material.check())
-            .and_then(|()| Geometry::new(self.kind, &corners))
-            .map_err(|error| error.in_element(self.label))
-    }
-}
-
 /// A structural DOF: one direction of one grid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct StructuralDof {
     /// The grid's label.
     pub grid: usize,
@@ -136,18 +127,19 @@ pub struct StructuralDof {
 pub struct Structure {
     grids: Vec<Grid>,
     elements: Vec<Element>,
-    geometry: Vec<Geometry>,
-    index_of_grid: HashMap<usize, usize>,
+    corners: Vec<Vec<Point>>,
+    positions: HashMap<usize, Point>,
     free: Vec<StructuralDof>,
-    free_index: HashMap<(usize, usize), usize>,
+    row_of: HashMap<StructuralDof, usize>,
 }
 
 impl Structure {
     /// Checks grids and elements and numbers the free DOF.
     ///
     /// # Errors
-    /// [`Error::Empty`] without elements; [`Error::Duplicate`], [`Error::Unknown`], [`Error::NotFinite`] (a
-    /// coordinate), [`Error::NotPositive`] (a size), and [`Error::InElement`] around a bad material or geometry.
+    /// [`Error::Count`] without elements; [`Error::Duplicate`] for a grid or element that is given twice; [`Error::Unknown`] for an
+    /// element's grid that is not there; [`Error::Value`] for a coordinate, size or material out of its range; [`Error::Degenerate`] for
+    /// corners that [`check_corners`] refuses.
     ///
     /// # Example
     ///
@@ -166,64 +158,56 @@ impl Structure {
     /// ```
     pub fn new(grids: Vec<Grid>, elements: Vec<Element>) -> Result<Self, Error> {
         at_least_one("elements", elements.len())?;
-        let (mut index_of_grid, mut free, mut free_index) =
-            (HashMap::new(), Vec::new(), HashMap::new());
-        for (
-            row,
-            &Grid {
-                label,
-                position,
-                constrained,
-            },
-        ) in grids.iter().enumerate()
+        let (mut positions, mut free) = (HashMap::new(), Vec::new());
+        let twice = |what, label| Error::Duplicate {
+            owner: "structure".into(),
+            what,
+            label,
+        };
+        for &Grid {
+            label: grid,
+            position,
+            constrained,
+        } in &grids
         {
-            if index_of_grid.insert(label, row).is_some() {
-                return Err(Error::Duplicate {
+            if positions.insert(grid, position).is_some() {
+                return Err(twice("grid", grid));
+            }
+            for (direction, &value) in position.iter().enumerate() {
+                let owner = || format!("grid {grid}");
+                require(value.is_finite(), "coordinate", owner, value, "finite")?;
+                let dof = StructuralDof { grid, direction };
+                free.extend((!constrained[direction]).then_some(dof));
+            }
+        }
+        let (mut seen, mut corners) = (HashSet::new(), Vec::new());
+        for element in &elements {
+            let owner = || format!("element {}", element.label);
+            if !seen.insert(element.label) {
+                return Err(twice("element", element.label));
+            }
+            positive("gage or area", owner, element.size)?;
+            element.material.check(owner)?;
+            let mut own = Vec::new();
+            for &label in &element.grids {
+                let missing = || Error::Unknown {
+                    owner: owner(),
                     what: "grid",
                     label,
-                });
+                };
+                own.push(*positions.get(&label).ok_or_else(missing)?);
             }
-            for (direction, (&value, constrained)) in position.iter().zip(constrained).enumerate() {
-                if !value.is_finite() {
-                    return Err(Error::NotFinite {
-                        what: "grid coordinates",
-                        row,
-                        column: direction,
-                        value,
-                    });
-                }
-                if !constrained {
-                    free_index.insert((label, direction), free.len());
-                    free.push(StructuralDof {
-                        grid: label,
-                        direction,
-                    });
-                }
-            }
+            check_corners(element.label, element.kind, &own)?;
+            corners.push(own);
         }
-        let position = |label| {
-            index_of_grid
-                .get(&label)
-                .map(|&row: &usize| grids[row].position)
-        };
-        let mut seen = HashSet::new();
-        let mut geometry = Vec::new();
-        for element in &elements {
-            if !seen.insert(element.label) {
-                return Err(Error::Duplicate {
-                    what: "element",
-                    label: element.label,
-                });
-            }
-            geometry.push(element.geometry(position)?);
-        }
+        let row_of = free.iter().copied().zip(0..).collect();
         Ok(Self {
             grids,
             elements,
-            geometry,
-            index_of_grid,
+            corners,
+            positions,
             free,
-            free_index,
+            row_of,
         })
     }
 
@@ -237,9 +221,9 @@ impl Structure {
         &self.elements
     }
 
-    /// Where every element lies.
-    pub fn geometry(&self) -> &[Geometry] {
-        &self.geometry
+    /// Positions of every element's grids, in.
+    pub fn corners(&self) -> &[Vec<Point>] {
+        &self.corners
     }
 
     /// The free structural DOF, in the order of every SDOF matrix.
@@ -249,64 +233,57 @@ impl Structure {
 
     /// Row of a grid's direction among the free DOF; `None` if it is constrained or the grid does not exist.
     pub fn free_dof_index(&self, grid: usize, direction: usize) -> Option<usize> {
-        self.free_index.get(&(grid, direction)).copied()
-    }
-
-    /// The load distribution $T$ (A.3), free SDOF × d: a dynamic DOF for every list of `points`, each of whose rows, (grid, `'x'`,
-    /// `'y'` or `'z'`, weight), takes that part of its load, and gives it that part of its motion: $q_D = T^t q_S$.
-    ///
-    /// # Errors
-    /// [`Error::Unknown`] for a grid that does not exist or is not free to move so.
-    pub fn load_distribution(
-        &self,
-        points: &[Vec<(usize, char, f64)>],
-    ) -> Result<DMatrix<f64>, Error> {
-        let mut t = DMatrix::zeros(self.free.len(), points.len());
-        for (column, rows) in points.iter().enumerate() {
-            for &(grid, direction, weight) in rows {
-                let direction_index = DIRECTIONS.iter().position(|name| *name == direction);
-                let row = direction_index.and_then(|index| self.free_dof_index(grid, index));
-                let row = row.ok_or_else(|| Error::Unknown {
-                    owner: format!("dynamic DOF {column}, direction {direction}"),
-                    what: "free grid",
-                    label: grid,
-                })?;
-                t[(row, column)] += weight;
-            }
-        }
-        Ok(t)
-    }
-
-    /// Positions of an element's grids, in.
-    pub fn corners(&self, element: &Element) -> Vec<Vector3<f64>> {
-        element
-            .grids
-            .iter()
-            .filter_map(|&grid| self.position(grid))
-            .collect()
+        self.row_of.get(&StructuralDof { grid, direction }).copied()
     }
 
     /// Position of the grid of a number, in.
-    pub(crate) fn position(&self, grid: usize) -> Option<Vector3<f64>> {
-        self.index_of_grid
-            .get(&grid)
-            .map(|&row| self.grids[row].position)
+    pub fn position(&self, grid: usize) -> Option<Point> {
+        self.positions.get(&grid).copied()
     }
 }
 
-/// Accepts a positive finite number.
-pub(crate) fn positive(
-    what: &'static str,
-    owner: impl Fn() -> String,
-    value: f64,
-) -> Result<(), Error> {
-    if value > 0.0 && value.is_finite() {
-        Ok(())
-    } else {
-        Err(Error::NotPositive {
+/// Refuses corners that have no length or area between them, and a panel that is not convex in its mean plane.
+///
+/// # Errors
+/// [`Error::Count`] for another number of corners than the kind has; [`Error::Degenerate`] for a rod whose ends coincide to working
+/// precision, a triangle whose corners lie on a line, a panel with parallel diagonals or an interior angle of 180° or more.
+pub fn check_corners(label: usize, kind: ElementKind, corners: &[Point]) -> Result<(), Error> {
+    let count = kind.corner_count();
+    check_count("corners of an element", corners.len(), count, count)?;
+    let side = |a: usize, b: usize| corners[b % count] - corners[a % count];
+    let require = |what: &str, ratio: f64, least: f64| {
+        // All corners in one place leave no number.
+        if ratio > least {
+            return Ok(());
+        }
+        let (element, what) = (label, what.to_owned());
+        Err(Error::Degenerate {
+            element,
             what,
-            owner: owner(),
-            value,
+            ratio,
         })
+    };
+    if kind == ElementKind::Rod {
+        let ratio = side(0, 1).norm() / (corners[0].norm() + corners[1].norm());
+        return require("the rod has no length", ratio, SMALLEST_LENGTH_RATIO);
     }
+    // The sides of a triangle, the diagonals of a panel.
+    let across = match count {
+        3 => vec![side(0, 1), side(0, 2), side(1, 2)],
+        _ => vec![side(0, 2), side(1, 3)],
+    };
+    let normal = across[0].cross(&across[1]);
+    let longest = across.iter().map(Point::norm).fold(0.0, f64::max);
+    let ratio = 0.5 * normal.norm() / longest.powi(2);
+    require("its corners have no area", ratio, SMALLEST_AREA_RATIO)?;
+    for corner in (0..count).filter(|_| count == 4) {
+        let turn = side(corner, corner + 1).cross(&side(corner, corner + 3));
+        let what = format!(
+            "its interior angle at corner {} is 180 degrees or more",
+            corner + 1
+        );
+        let ratio = turn.dot(&normal) / normal.norm_squared();
+        require(&what, ratio, SMALLEST_AREA_RATIO)?;
+    }
+    Ok(())
 }

@@ -45,7 +45,7 @@ pub fn dump(case: &Case) -> Result<Dump, PresentError> {
         let modes = solve(&dynamic.stiffness, &dynamic.mass, dynamic.mass.nrows())?;
         let points = DMatrix::identity(dynamic.mass.nrows(), dynamic.mass.nrows());
         let b = (&condensed.transformation * &points).transpose();
-        let mut analysis = json!({"factors": factors, "sizes": model.at(factors)?.sizes, "frequencies_hz": modes.frequencies_hz()});
+        let mut analysis = json!({"factors": factors, "sizes": model.sizes(factors)?, "frequencies_hz": modes.frequencies_hz()});
         for (name, matrix) in [
             ("K_D", &dynamic.stiffness),
             ("M", &dynamic.mass),
@@ -55,16 +55,9 @@ pub fn dump(case: &Case) -> Result<Dump, PresentError> {
             analysis[name] = json!(matrix_rows(matrix));
             matrices.push(file(&format!("analysis_{number}_{name}"), matrix)?);
         }
-        analysis["shares"] = dynamic
-            .shares
-            .iter()
-            .map(|share| matrix_rows(share.matrix()))
-            .collect();
+        analysis["shares"] = dynamic.shares.iter().map(matrix_rows).collect();
         for (name, share) in names.iter().zip(&dynamic.shares) {
-            matrices.push(file(
-                &format!("analysis_{number}_share_{name}"),
-                share.matrix(),
-            )?);
+            matrices.push(file(&format!("analysis_{number}_share_{name}"), share)?);
         }
         analyses.push(analysis);
     }

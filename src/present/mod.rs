@@ -3,15 +3,24 @@
 //! A [`report::Report`] is any correlation with all that a reader needs; [`tables::report`], [`figures::report`],
 //! [`json::report`] and [`page::report_page`] show it. The paper's cases and the delta wing are reports with more beside them.
 
+#[doc(hidden)]
 pub mod dump;
+#[doc(hidden)]
 pub mod figures;
+#[doc(hidden)]
 pub mod json;
+#[doc(hidden)]
 pub mod overview;
+#[doc(hidden)]
 pub mod page;
+#[doc(hidden)]
 pub mod render;
 pub mod report;
+#[doc(hidden)]
 pub mod table;
+#[doc(hidden)]
 pub mod verdict;
+#[doc(hidden)]
 pub mod tables;
 
 use crate::files::error::FileError;

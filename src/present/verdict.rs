@@ -1,6 +1,6 @@
 //! The verdict on a correlation in words.
 
-use crate::method::verdict::{Outcome, Verdict};
+use crate::job::verdict::{Outcome, Verdict};
 use crate::torque_box::CaseResult;
 
 /// The verdict in sentences, with the parameters' names and the numbers of the test modes; places from one stand for those that
@@ -77,7 +77,7 @@ pub fn verdict_in_words(
 /// still make.
 pub fn case_in_words(result: &CaseResult) -> String {
     let names = &result.parameter_names;
-    let mut words = verdict_in_words(&result.correlation.verdict, None, names, &[]);
+    let mut words = verdict_in_words(&Verdict::of_case(result), None, names, &[]);
     let Some(next) = &result.next_step else {
         return words;
     };

@@ -48,6 +48,7 @@ fn chosen(
     let case = |(row, &number): (usize, &usize)| {
         if numbers[..row].contains(&number) {
             return Err(Error::Duplicate {
+                owner: "the cases asked for".into(),
                 what: "case",
                 label: number,
             }
@@ -81,7 +82,7 @@ pub fn cases(arguments: &CasesArguments, quiet: bool) -> Result<bool, PresentErr
                 let words = format!(
                     "case {number}, pass {pass}: {}, error sum {:.4} by perturbation, {:.4} exact",
                     counted(done.inner.iterations.len(), "iteration", "iterations"),
-                    done.inner.last.errors().sum(),
+                    done.inner.last.errors.sum(),
                     done.check.errors.sum(),
                 );
                 match is_brief {

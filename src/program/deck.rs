@@ -68,10 +68,11 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
     let mut factors = vec![1.0; model.parameters().len()];
     if arguments.pass > 0 {
         let passes = run_case(&case, |_, _| ())?.correlation.passes;
-        let none = Error::TooMany {
+        let none = Error::Count {
             what: "pass",
-            available: passes.len(),
-            requested: arguments.pass,
+            found: arguments.pass,
+            least: 0,
+            most: passes.len(),
         };
         factors = passes.get(arguments.pass - 1).ok_or(none)?.factors.clone();
     }

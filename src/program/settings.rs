@@ -3,8 +3,8 @@
 use clap::Args;
 use corfem::job::removed_step;
 use corfem::method::linear_algebra::check_length;
-use corfem::method::model::Bounds;
 use corfem::method::outer_loop::Settings;
+use corfem::method::step::Bounds;
 use corfem::method::step::{Accumulation, StepRule};
 use corfem::present::PresentError;
 use serde::Deserialize;

@@ -2,10 +2,11 @@
 
 use super::random::random_block;
 use crate::method::error::Error;
-use crate::method::linear_algebra::check_length;
+use crate::method::linear_algebra::{check_finite, check_length};
 use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular;
 use faer::linalg::matmul::triangular::BlockStructure;
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::{DMatrix, DVector};
 
@@ -17,7 +18,7 @@ use nalgebra::{DMatrix, DVector};
 /// entries in a row. `product` is $A y$; `loads` are $b = A x$ of a probe $x$.
 ///
 /// # Errors
-/// [`Error::WrongSolution`]; [`Error::WrongShape`] for a solution of another length.
+/// [`Error::Failed`] with the residual; [`Error::WrongShape`] for a solution of another length.
 pub fn check_solution(
     what: &'static str,
     product: impl Fn(&DVector<f64>) -> DVector<f64>,
@@ -31,11 +32,9 @@ pub fn check_solution(
     if residual <= allowed {
         Ok(())
     } else {
-        Err(Error::WrongSolution {
-            what,
-            residual,
-            allowed,
-        })
+        let why =
+            format!("the solution leaves {residual:.1e} of its loads, more than {allowed:.1e}");
+        Err(Error::Failed { what, why })
     }
 }
 
@@ -95,4 +94,17 @@ pub(crate) fn take_product(from: &mut DMatrix<f64>, a: &DMatrix<f64>, b: &DMatri
 
 fn view(matrix: &DMatrix<f64>) -> MatRef<'_, f64> {
     MatRef::from_column_major_slice(matrix.as_slice(), matrix.nrows(), matrix.ncols())
+}
+
+/// Hands on a matrix whose entries are all finite.
+pub(crate) fn finite(what: &'static str, matrix: DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+    check_finite(what, &matrix).map(|()| matrix)
+}
+
+/// Solution $L^{-1} R$ for a lower triangular $L$ with nonzero diagonal.
+pub(crate) fn solve_lower(lower: &DMatrix<f64>, mut right: DMatrix<f64>) -> DMatrix<f64> {
+    let (rows, columns) = right.shape();
+    let solved = MatMut::from_column_major_slice_mut(right.as_mut_slice(), rows, columns);
+    solve_lower_triangular_in_place(view(lower), solved, Par::Seq);
+    right
 }

@@ -1,16 +1,12 @@
 //! Condensation and shares (A.1) to (A.9) at any size: what [`crate::method::appendix_a`] does with dense matrices, with a sparse
 //! factor, the coefficients of $T$ alone and each element's few ways to deform.
 
-use super::deformations::{Deformations, sum_of_mass, sum_of_stiffness};
-use crate::method::appendix_a::dynamic_stiffness;
-use crate::method::assembly::element_by_element;
+use super::deformations::{Deformations, sum_of_stiffness};
+use crate::method::appendix_a::{dynamic_stiffness, element_matrices};
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_length, check_shape};
-use crate::method::model::{
-    DynamicModel, FiniteElementModel, ModalModel, Parameter, ParameterMatrix, ScaledSizes,
-    ScaledStructure,
-};
-use crate::method::modes::{ModeSet, Modes, solve};
+use crate::method::linear_algebra::{check_length, check_shape, cholesky};
+use crate::method::model::{DynamicModel, FiniteElementModel, Model, Parameter, ScaledStructure};
+use crate::method::modes::{Modes, solve};
 use crate::method::structure::Structure;
 use crate::sparse::SparseMatrix;
 use crate::sparse::factorization::{Factor, StructuralStiffness};
@@ -23,6 +19,7 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 pub struct LargeModel {
     scaled: ScaledStructure,
+    mass: DMatrix<f64>,
     load_distribution: SparseMatrix,
     stiffness: Arc<StructuralStiffness>,
 }
@@ -54,11 +51,12 @@ impl LargeModel {
         )?;
         let dynamic = load_distribution.columns();
         check_shape("dynamic mass", &mass, dynamic, dynamic)?;
-        let scaled = ScaledStructure::new(structure, mass, parameters)?;
-        let elements = element_by_element(scaled.structure())
+        cholesky("dynamic mass", &mass, 0.0)?;
+        let scaled = ScaledStructure::new(structure, parameters)?;
+        let elements = element_matrices(scaled.structure())
             .map(|element| Deformations::of(&element))
             .collect::<Result<_, Error>>()?;
-        Self::planned(scaled, elements, load_distribution)
+        Self::planned(scaled, mass, elements, load_distribution)
     }
 
     /// A model of the method at any size.
@@ -69,6 +67,7 @@ impl LargeModel {
         let (scaled, elements): (&ScaledStructure, _) = (model, model.element_matrices().iter());
         Self::planned(
             scaled.clone(),
+            model.mass().clone(),
             elements
                 .map(Deformations::of)
                 .collect::<Result<_, Error>>()?,
@@ -78,12 +77,14 @@ impl LargeModel {
 
     fn planned(
         scaled: ScaledStructure,
+        mass: DMatrix<f64>,
         elements: Vec<Deformations>,
         load_distribution: SparseMatrix,
     ) -> Result<Self, Error> {
         let stiffness = StructuralStiffness::new(scaled.structure(), elements)?;
         Ok(Self {
             scaled,
+            mass,
             load_distribution,
             stiffness: Arc::new(stiffness),
         })
@@ -99,82 +100,57 @@ impl LargeModel {
         &self.load_distribution
     }
 
-    /// $K_S$ anew at the given parameter factors, with it $K_D$ and $M$.
-    ///
-    /// # Errors
-    /// Those of [`FiniteElementModel::condense`].
-    pub fn condense(&self, factors: &[f64]) -> Result<LargeCondensation, Error> {
-        self.condense_at(&self.at(factors)?)
+    /// The dynamic mass $M$, lbf·s²/in (d × d).
+    pub fn mass(&self) -> &DMatrix<f64> {
+        &self.mass
     }
 
-    fn condense_at(&self, at: &ScaledSizes) -> Result<LargeCondensation, Error> {
-        let (elements, loads) = (self.elements(), self.load_distribution.clone());
-        let structural = self.stiffness.factorized(&at.sizes)?;
-        let stiffness = dynamic_stiffness(&structural.flexibility(&loads)?)?;
-        let mut mass = at.point_masses.clone();
-        if elements.iter().any(Deformations::has_mass) {
-            let b = structural.solve_transposed(&loads.times(&stiffness)?)?;
-            mass += sum_of_mass(&b, elements.iter().zip(at.mass_sizes.iter().copied()));
-        }
+    /// $K_S$ anew at the given parameter factors, with it $K_D$.
+    ///
+    /// # Errors
+    /// As [`FiniteElementModel::condense`].
+    pub fn condense(&self, factors: &[f64]) -> Result<LargeCondensation, Error> {
+        let structural = self.stiffness.factorized(&self.sizes(factors)?)?;
+        let loads = self.load_distribution.clone();
         Ok(LargeCondensation {
-            stiffness,
-            mass,
+            stiffness: dynamic_stiffness(&structural.flexibility(&loads)?)?,
             structural,
             loads,
         })
-    }
-
-    fn condensed_shares(
-        &self,
-        condensed: &LargeCondensation,
-        at: &ScaledSizes,
-        shapes: &DMatrix<f64>,
-    ) -> Result<Vec<ParameterMatrix>, Error> {
-        let (elements, transposed) = (self.elements(), condensed.transposed_shapes(shapes)?);
-        let sized = |&(row, size): &(usize, f64)| (&elements[row], size);
-        Ok(self.scaled.shares(
-            at,
-            shapes,
-            |members| sum_of_stiffness(&transposed, members.iter().map(sized)),
-            |members| sum_of_mass(&transposed, members.iter().map(sized)),
-        ))
     }
 
     /// The finite element analysis at the given parameter factors, compared with the test modes: the same as
     /// [`FiniteElementModel::analyze`].
     ///
     /// # Errors
-    /// Those of [`FiniteElementModel::analyze`].
+    /// As [`FiniteElementModel::analyze`].
     pub fn analyze(
         &self,
         factors: &[f64],
-        test: &ModeSet,
+        test: &Modes,
         analysis_modes: Option<usize>,
-    ) -> Result<ModalModel, Error> {
-        let at = self.at(factors)?;
-        let condensed = self.condense_at(&at)?;
-        let LargeCondensation {
-            stiffness, mass, ..
-        } = &condensed;
-        let model = ModalModel::new(stiffness, mass, test, analysis_modes, |shapes| {
-            self.condensed_shares(&condensed, &at, shapes)
-        })?;
-        Ok(model.with_sizes(at.mean_sizes))
+    ) -> Result<Model, Error> {
+        let mut model = self.matrices(factors)?.analyze(test, analysis_modes)?;
+        model.gages = self.mean_sizes(&self.sizes(factors)?);
+        Ok(model)
     }
 
-    /// $K_D$, $M$ and every parameter's share of them as matrices (d × d).
+    /// $K_D$, $M$ and every parameter's share of $K_D$ as matrices (d × d).
     ///
     /// # Errors
-    /// Those of [`Self::condense`].
+    /// As [`Self::condense`].
     pub fn matrices(&self, factors: &[f64]) -> Result<DynamicModel, Error> {
-        let at = self.at(factors)?;
-        let condensed = self.condense_at(&at)?;
-        let identity = DMatrix::identity(self.mass().nrows(), self.mass().nrows());
-        let shares = self.condensed_shares(&condensed, &at, &identity)?;
+        let (sizes, condensed) = (self.sizes(factors)?, self.condense(factors)?);
+        let identity = DMatrix::identity(self.mass.nrows(), self.mass.nrows());
+        let b = condensed.transposed_shapes(&identity)?;
+        let of_parameter = |rows: &Vec<usize>| {
+            let sized = |&row: &usize| (&self.elements()[row], sizes[row]);
+            sum_of_stiffness(&b, rows.iter().map(sized))
+        };
         Ok(DynamicModel {
+            shares: self.rows().iter().map(of_parameter).collect(),
             stiffness: condensed.stiffness,
-            mass: condensed.mass,
-            shares,
+            mass: self.mass.clone(),
         })
     }
 
@@ -183,10 +159,11 @@ impl LargeModel {
     /// # Errors
     /// Those of [`Self::condense`] and [`solve`].
     pub fn modes(&self, factors: &[f64]) -> Result<Modes, Error> {
-        let LargeCondensation {
-            stiffness, mass, ..
-        } = self.condense(factors)?;
-        solve(&stiffness, &mass, mass.nrows())
+        solve(
+            &self.condense(factors)?.stiffness,
+            &self.mass,
+            self.mass.nrows(),
+        )
     }
 }
 
@@ -195,8 +172,6 @@ impl LargeModel {
 pub struct LargeCondensation {
     /// Dynamic stiffness $K_D$, lbf/in (d × d).
     pub stiffness: DMatrix<f64>,
-    /// Dynamic mass $M$, lbf·s²/in (d × d).
-    pub mass: DMatrix<f64>,
     structural: Factor,
     loads: SparseMatrix,
 }

@@ -1,9 +1,9 @@
 //! Elements by the few ways in which they deform.
 
 use super::add_squares;
-use crate::method::assembly::{ElementMatrix, check_element};
+use crate::method::appendix_a::ElementMatrix;
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_symmetric, symmetric_eigen};
+use crate::method::linear_algebra::{check_shape, check_symmetric, symmetric_eigen};
 use nalgebra::{DMatrix, DVector};
 
 /// Stiffness of a way to deform, relative to the element's largest, below which it is the round-off of a rigid motion.
@@ -27,34 +27,31 @@ pub struct Deformations {
     stiffness: Vec<f64>,
     /// The $w_r$ one behind the other.
     shapes: Vec<f64>,
-    /// Lumped mass at every DOF for a size of one; empty for a material without density.
-    unit_mass: Vec<f64>,
 }
 
 impl Deformations {
     /// The ways in which an element deforms.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] for a matrix or mass that does not fit the DOF; the errors of [`check_symmetric`] for the stiffness.
+    /// [`Error::WrongShape`] and [`Error::Value`] for a stiffness that does not fit the DOF, or is not symmetric and finite.
     ///
     /// # Example
     ///
     /// ```rust
     /// use corfem::chain::rods;
-    /// use corfem::method::assembly::element_matrices;
+    /// use corfem::method::appendix_a::element_matrices;
     /// use corfem::sparse::Deformations;
     ///
-    /// let rod = &element_matrices(&rods(&[100.0, 50.0], [true, false])?)[1];
-    /// let found = Deformations::of(rod)?;
-    /// assert_eq!((found.count(), found.matrix()), (1, rod.clone()));
+    /// let structure = rods(&[100.0, 50.0], [true, false])?;
+    /// let rod = element_matrices(&structure).last().expect("two rods");
+    /// let found = Deformations::of(&rod)?;
+    /// assert_eq!((found.count(), found.matrix()), (1, rod));
     /// # Ok::<(), corfem::method::error::Error>(())
     /// ```
     pub fn of(element: &ElementMatrix) -> Result<Self, Error> {
-        check_element(element, usize::MAX)?;
-        let ElementMatrix {
-            label, dof, unit, ..
-        } = element;
-        check_symmetric("element stiffness", unit).map_err(|error| error.in_element(*label))?;
+        let ElementMatrix { label, dof, unit } = element;
+        check_shape("element stiffness", unit, dof.len(), dof.len())?;
+        check_symmetric("element stiffness", unit)?;
         let mut rest = unit.as_slice().to_vec();
         // The largest entry of a semidefinite matrix stands on its diagonal.
         let smallest = SMALLEST_DEFORMATION * unit.diagonal().amax();
@@ -67,17 +64,12 @@ impl Deformations {
             let (values, vectors) = symmetric_eigen("element stiffness", unit)?;
             (stiffness, shapes) = (values.data.into(), vectors.data.into());
         }
-        let mut unit_mass = element.unit_mass.as_slice().to_vec();
-        if unit_mass.iter().all(|&unit| unit == 0.0) {
-            unit_mass = Vec::new();
-        }
         shapes.shrink_to_fit();
         Ok(Self {
             label: *label,
             dof: dof.clone(),
             stiffness,
             shapes,
-            unit_mass,
         })
     }
 
@@ -94,11 +86,6 @@ impl Deformations {
     /// Number of ways in which the element deforms.
     pub fn count(&self) -> usize {
         self.stiffness.len()
-    }
-
-    /// True if the element has mass.
-    pub(super) fn has_mass(&self) -> bool {
-        !self.unit_mass.is_empty()
     }
 
     /// Every $k_r$ with its $w_r$.
@@ -134,16 +121,10 @@ impl Deformations {
             .zip(triangle)
             .for_each(|(place, entry)| unit[place] = entry);
         unit.fill_upper_triangle_with_lower_triangle();
-        let mut unit_mass = DVector::zeros(order);
-        unit_mass
-            .iter_mut()
-            .zip(&self.unit_mass)
-            .for_each(|(unit, own)| *unit = *own);
         ElementMatrix {
             label: self.label,
             dof: self.dof.clone(),
             unit,
-            unit_mass,
         }
     }
 }
@@ -186,23 +167,6 @@ pub(crate) fn sum_of_stiffness<'a>(
         }
     }
     add_squares(&mut sum, &amplitudes);
-    sum.fill_upper_triangle_with_lower_triangle();
-    sum
-}
-
-/// Generalized mass of elements in the same way, $\sum_e s_e V_e^t M_e V_e$ with the lumped $M_e$.
-pub(crate) fn sum_of_mass<'a>(
-    transposed_shapes: &DMatrix<f64>,
-    members: impl Iterator<Item = (&'a Deformations, f64)>,
-) -> DMatrix<f64> {
-    let count = transposed_shapes.nrows();
-    let mut sum = DMatrix::zeros(count, count);
-    for (element, size) in members {
-        for (&dof, unit) in element.dof.iter().zip(&element.unit_mass) {
-            let motion = transposed_shapes.column(dof);
-            sum.syger(size * unit, &motion, &motion, 1.0);
-        }
-    }
     sum.fill_upper_triangle_with_lower_triangle();
     sum
 }

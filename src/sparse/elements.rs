@@ -1,24 +1,68 @@
-//! Whole models made of elements.
+//! Whole models made of elements, and the lumped masses of these.
 
 use super::{Deformations, LargeModel};
 use super::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
-use crate::method::assembly::{ElementMatrix, stiffness_entries};
+use crate::method::appendix_a::ElementMatrix;
 use crate::method::elements::unit_stiffness;
 use crate::method::error::Error;
-use crate::method::model::Scaled;
-use crate::method::structure::Structure;
+use crate::method::structure::{Element, ElementKind, Point, Structure};
 
-/// The entries (row, column, value) of an element's lumped mass for its size.
-pub(crate) fn mass_entries(element: &ElementMatrix, size: f64) -> Vec<(usize, usize, f64)> {
-    element
-        .dof
-        .iter()
-        .zip(&element.unit_mass)
-        .map(|(&row, unit)| (row, row, size * unit))
+/// Row, column and value of every entry of $s_e K_e$.
+pub(crate) fn stiffness_entries(
+    element: &ElementMatrix,
+    size: f64,
+) -> impl Iterator<Item = (usize, usize, f64)> {
+    let ElementMatrix { dof, unit, .. } = element;
+    let column = move |b| (0..dof.len()).map(move |a| (dof[a], dof[b], size * unit[(a, b)]));
+    (0..dof.len()).flat_map(column)
+}
+
+/// Volume an element of unit size lumps at each of its corners, in³ per in of gage or in² of area.
+///
+/// Times density (lbf·s²/in⁴) and size it is the mass that moves with the corner, alike in x, y and z:
+///
+/// $$ v_{rod} = \frac{L}{2}, \qquad v_{triangle} = \frac{A}{3}, \qquad v_{quadrilateral, i} = \frac{A + A_i}{6} $$
+///
+/// where $A_i$ is the area of the triangle of corner $i$ and its two neighbors and $A = |d_{13} \times d_{24}|/2$ the
+/// quadrilateral's in its mean plane. As in NASTRAN, the four of a warped panel sum to slightly more than $A$. Source:
+/// the lumped masses of NASTRAN, NASA SP-222, and for warped quadrilaterals its routine EMADTQ.
+pub fn corner_volumes(kind: ElementKind, corners: &[Point]) -> Vec<f64> {
+    let count = corners.len();
+    let side = |a: usize, b: usize| corners[b % count] - corners[a % count];
+    let triangle = |n: usize| 0.5 * side(n, n + 1).cross(&side(n, n + count - 1)).norm();
+    match kind {
+        ElementKind::Rod => vec![0.5 * side(0, 1).norm(); 2],
+        ElementKind::Triangle => vec![triangle(0) / 3.0; 3],
+        ElementKind::ShearPanel | ElementKind::Membrane => {
+            let area = 0.5 * side(0, 2).cross(&side(1, 3)).norm();
+            (0..4)
+                .map(|corner| (area + triangle(corner)) / 6.0)
+                .collect()
+        }
+    }
+}
+
+/// Lumped mass of an element at every free DOF it touches: row and mass, lbf·s²/in; none for a material without density.
+pub fn lumped_masses(
+    structure: &Structure,
+    element: &Element,
+    corners: &[Point],
+) -> Vec<(usize, f64)> {
+    let density = element.material.density * element.size;
+    let volumes = corner_volumes(element.kind, corners)
+        .into_iter()
+        .zip(&element.grids);
+    let at_corner = |(volume, &grid): (f64, &usize)| {
+        let rows = (0..3).filter_map(move |direction| structure.free_dof_index(grid, direction));
+        rows.map(move |row| (row, density * volume))
+    };
+    volumes
+        .filter(|_| density > 0.0)
+        .flat_map(at_corner)
         .collect()
 }
 
-/// Entries of $m t_1 t_2^t$: a mass that couples two motions of the degrees of freedom, or moves with one.
+/// Entries (row, column, value) of $m t_1 t_2^t$, a mass that couples two motions of the degrees of freedom, or is that of one.
 pub(crate) fn moving_mass_entries(
     motion: &[(usize, f64)],
     other: &[(usize, f64)],
@@ -45,79 +89,56 @@ pub(crate) fn resisting(
     elements: &[ElementMatrix],
 ) -> Result<SparseMatrix, Error> {
     let count = structure.free_dof().len();
-    let whole = structure.elements().iter().zip(structure.geometry());
-    let parts = elements
-        .iter()
-        .zip(whole)
-        .flat_map(|(matrix, (element, geometry))| {
-            let largest = unit_stiffness(geometry, &element.material)
-                .amax()
-                .max(matrix.unit.amax());
-            let parts = stiffness_entries(matrix, 1.0 / largest);
-            parts
-                .into_iter()
-                .filter(|entry| entry.2.abs() > 4.0 * f64::EPSILON)
-        });
+    let whole = structure.elements().iter().zip(structure.corners());
+    let of_element = |(matrix, (element, corners)): (&ElementMatrix, (&Element, &Vec<Point>))| {
+        let whole = unit_stiffness(element.kind, corners, &element.material);
+        let largest = whole.amax().max(matrix.unit.amax());
+        let parts = stiffness_entries(matrix, 1.0 / largest).collect::<Vec<_>>();
+        parts
+            .into_iter()
+            .filter(|entry| entry.2.abs() > 4.0 * f64::EPSILON)
+    };
+    let parts = elements.iter().zip(whole).flat_map(of_element);
     SparseMatrix::new("stiffness of the elements", count, count, parts.collect())
 }
 
 impl WholeModel {
     /// A finite element model at all its structural degrees of freedom, and the matrix $T^t$ that reads its dynamic ones:
     ///
-    /// $$ K = \sum_e s_e K_e, \qquad M = T M_{points} T^t + \sum_e s_e M_e . $$
+    /// $$ K = \sum_e s_e K_e, \qquad M = T M_{points} T^t . $$
     ///
-    /// It may hang free. Point masses of parameters are those of the model's own law ([`crate::method::model::ScaledStructure`]).
+    /// It may hang free.
     ///
     /// # Errors
-    /// The errors of [`ScaledStructure::factor_ranges`](crate::method::model::ScaledStructure::factor_ranges) for the parameters,
-    /// and of [`WholeModel::new`].
+    /// [`Error::Range`] for bounds that exclude the start, and what [`WholeModel::new`] refuses.
     pub fn of(model: &LargeModel) -> Result<(Self, SparseMatrix), Error> {
         let elements: Vec<ElementMatrix> =
             model.elements().iter().map(Deformations::matrix).collect();
         let (structure, t) = (model.structure(), model.load_distribution());
         let (count, points) = (structure.free_dof().len(), model.mass());
         let size = |row: usize| structure.elements()[row].size;
-        let stiffness = |row: usize| stiffness_entries(&elements[row], size(row));
-        let lumped = |row: usize| mass_entries(&elements[row], size(row));
-        let moving = |(i, j): (usize, usize)| {
-            moving_mass_entries(&t.motion(i), &t.motion(j), points[(i, j)])
-        };
         let sparse = |what, entries| SparseMatrix::new(what, count, count, entries);
-        let parameters = model
-            .parameters()
-            .iter()
-            .zip(model.rows())
-            .zip(model.factor_ranges()?);
+        let parameters = model.parameters().iter().zip(model.rows());
+        let parameters = parameters.zip(model.factor_ranges()?);
         let parameters = parameters.map(|((parameter, rows), range)| {
-            let (rows, part) = (rows.iter().copied(), |entries| {
-                sparse("matrix of a parameter", entries)
-            });
-            let share = match parameter.scaled {
-                Scaled::Stiffness => WholeShare::Elements(
-                    rows.map(|row| (model.elements()[row].clone(), size(row)))
-                        .collect(),
-                ),
-                Scaled::ElementMass => WholeShare::Mass(part(rows.flat_map(lumped).collect())?),
-                Scaled::PointMass => {
-                    WholeShare::Mass(part(rows.flat_map(|dof| moving((dof, dof))).collect())?)
-                }
-            };
-            Ok(WholeParameter {
+            let member = |&row: &usize| (model.elements()[row].clone(), size(row));
+            WholeParameter {
                 name: parameter.name.clone(),
-                share,
+                share: WholeShare::Elements(rows.iter().map(member).collect()),
                 range,
-            })
+            }
         });
         let couplings = (0..t.columns())
             .flat_map(|i| (0..t.columns()).map(move |j| (i, j)))
             .filter(|&at| points[at] != 0.0);
-        let mass = (0..elements.len())
-            .flat_map(lumped)
-            .chain(couplings.flat_map(moving))
-            .collect();
+        let moving = |(i, j): (usize, usize)| {
+            moving_mass_entries(&t.motion(i), &t.motion(j), points[(i, j)])
+        };
+        let mass = sparse("mass", couplings.flat_map(moving).collect())?;
+        let stiffness = |row: usize| stiffness_entries(&elements[row], size(row));
         let stiffness = (0..elements.len()).flat_map(stiffness).collect();
-        let (stiffness, mass) = (sparse("stiffness", stiffness)?, sparse("mass", mass)?);
-        let whole = Self::new(stiffness, mass, parameters.collect::<Result<_, Error>>()?)?
+        let stiffness = sparse("stiffness", stiffness)?;
+        let whole = Self::new(stiffness, mass, parameters.collect())?
             .with_resisting(resisting(structure, &elements)?)?;
         Ok((whole, t.transposed()))
     }

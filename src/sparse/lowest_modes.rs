@@ -3,13 +3,13 @@
 
 use super::deformations::take_deformation;
 use super::matrix::GIVEN;
-use super::subspace::{Directions, Found, Solve, subspace};
-use super::{Factor, RigidBodies, SparseMatrix, places_above};
-use crate::method::error::{Error, at_least_one};
+use super::subspace::{Directions, Found, Growth, Solve, Wanted, subspace};
+use super::{Factor, RigidBodies, SparseMatrix, places_above, solve_lower};
+use crate::method::error::{Error, at_least_one, check_count};
 use crate::method::linear_algebra::{
-    check_length, cholesky, finite_list, solve_lower, symmetric_eigen, symmetric_part,
+    check_finite, check_length, cholesky, symmetric_eigen, symmetric_part,
 };
-use crate::method::modes::{ModeSet, check_count};
+use crate::method::modes::Modes;
 use crate::sparse::factorization::FactorizationPlan;
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
@@ -36,7 +36,7 @@ pub struct CountedModes {
     /// Motions without strain, of unit generalized mass and orthogonal to each other (d × r).
     pub rigid_body: DMatrix<f64>,
     /// Vibrations of finite frequency, ascending, of unit generalized mass.
-    pub vibrations: ModeSet,
+    pub vibrations: Modes,
     /// Motions that are hardly told from rigid-body modes ([`RigidBodies::doubtful`]).
     pub doubtful: Vec<(usize, f64)>,
     /// Number of loads for which the factor was solved to find the vibrations.
@@ -59,9 +59,9 @@ pub struct CountedModes {
 /// block has directions, and a block of as many directions as modes were counted begins anew.
 ///
 /// # Errors
-/// [`Error::Empty`] or [`Error::TooMany`] for a bad `count`; [`Error::Empty`] without mass; [`Error::NotPositiveDefinite`] for a
-/// motion that has neither stiffness nor mass, or a matrix that is not semidefinite; [`Error::Miscounted`];
-/// [`Error::NoConvergence`]; [`Error::WrongShape`] for matrices of two sizes; the errors of [`SparseMatrix::check_symmetric`].
+/// [`Error::Count`] for a bad `count`; [`Error::Count`] without mass; [`Error::NotPositiveDefinite`] for a
+/// motion that has neither stiffness nor mass, or a matrix that is not semidefinite; [`Error::Failed`];
+/// [`Error::Failed`]; [`Error::WrongShape`] for matrices of two sizes; the errors of [`SparseMatrix::check_symmetric`].
 ///
 /// Source: Bathe, *Finite Element Procedures* (1996), sections 11.2 and 11.6; Parlett, *The Symmetric Eigenvalue Problem* (1980),
 /// chapters 3, 13 and 15.
@@ -73,9 +73,9 @@ pub fn lowest_modes(
     stiffness.check_symmetric("stiffness")?;
     mass.check_symmetric("mass")?;
     check_length("mass", mass.rows(), stiffness.rows())?;
-    check_count("modes", count, stiffness.rows())?;
+    check_count("modes", count, 1, stiffness.rows())?;
     let (found, _) = modes_at_most(stiffness, mass, count, stiffness)?;
-    check_count(FINITE, count, found.vibrations.len())?;
+    check_count(FINITE, count, 1, found.vibrations.len())?;
     Ok(found)
 }
 
@@ -114,18 +114,18 @@ pub(super) fn modes_at_most(
             if counted != found {
                 // A block as wide as all modes below the bound holds every copy of a repeated root, if all are wanted.
                 if block.min(wanted) >= counted {
-                    return Err(Error::Miscounted {
-                        bound,
-                        counted,
-                        found,
-                    });
+                    let why = format!(
+                        "{found} were found below {bound:.6e} rad^2/s^2, but the shifted pencil's inertia counts {counted}"
+                    );
+                    let what = "modes";
+                    return Err(Error::Failed { what, why });
                 }
                 (wanted, block) = (counted + BEYOND, block.max(counted));
                 continue;
             }
         }
         let found = CountedModes {
-            vibrations: ModeSet {
+            vibrations: Modes {
                 omega_squared,
                 shapes,
             }
@@ -189,9 +189,9 @@ impl Flexibility {
         let unit = gram.component_div(&(&size * size.transpose()));
         let what = "mass of rigid-body motions";
         let lower = cholesky(what, &unit, GIVEN).map_err(|error| match error {
-            Error::NotPositiveDefinite { what, dof } => Error::NotPositiveDefinite {
+            Error::NotPositiveDefinite { what, row } => Error::NotPositiveDefinite {
                 what,
-                dof: rows[dof],
+                row: rows[row],
             },
             other => other,
         })?;
@@ -239,8 +239,11 @@ fn largest(
             &mut solve,
             &flexibility.rigid,
             mass,
-            [wanted - BEYOND, wanted],
-            [block, keep, most],
+            Wanted {
+                exact: wanted - BEYOND,
+                wanted,
+            },
+            Growth { block, keep, most },
         )
     }
 }
@@ -278,7 +281,7 @@ fn root(mass: &SparseMatrix) -> Result<DMatrix<f64>, Error> {
         None => Ok(DMatrix::from_vec(rows, columns.len() / rows, columns)),
         Some(at) => Err(Error::NotPositiveDefinite {
             what: "mass",
-            dof: at % rows,
+            row: at % rows,
         }),
     }
 }
@@ -294,9 +297,10 @@ fn frequencies(mass: &SparseMatrix, found: Found) -> Result<(DVector<f64>, DMatr
     let orthogonal = |columns: DMatrix<f64>| solve_lower(&lower, columns.transpose()).transpose();
     let (shapes, forces) = (orthogonal(shapes), orthogonal(forces));
     let quotient = |mode: usize| shapes.column(mode).dot(&forces.column(mode)).max(0.0);
-    let quotients = (0..shapes.ncols()).map(quotient).collect();
-    let omega_squared = finite_list("squared frequencies", quotients)?;
-    Ok((DVector::from_vec(omega_squared), shapes))
+    let count = shapes.ncols();
+    let squares = DMatrix::from_fn(count, 1, |mode, _| quotient(mode));
+    check_finite("squared frequencies", &squares)?;
+    Ok((squares.column(0).into_owned(), shapes))
 }
 
 /// A bound at the first place above the `needed` vibrations where two are apart, the number of modes that the inertia counts below

@@ -1,8 +1,7 @@
 //! A real matrix by its nonzero entries.
 
-use crate::method::error::{Error, at_least_one};
+use crate::method::error::{Error, at_least_one, check_count, require};
 use crate::method::linear_algebra::{check_length, check_shape, symmetric_part};
-use crate::method::modes::check_count;
 use nalgebra::{DMatrix, DVector};
 
 /// Largest difference between two entries that should be equal, relative to the largest of the matrix: files carry twelve digits.
@@ -23,7 +22,7 @@ impl SparseMatrix {
     /// left out.
     ///
     /// # Errors
-    /// [`Error::Empty`] without rows or columns; [`Error::TooMany`] for a place outside; [`Error::NotFinite`].
+    /// [`Error::Count`] without rows or columns; [`Error::Count`] for a place outside; [`Error::Value`].
     pub fn new(
         what: &'static str,
         rows: usize,
@@ -32,8 +31,8 @@ impl SparseMatrix {
     ) -> Result<Self, Error> {
         at_least_one(what, rows.min(columns))?;
         for &(row, column, _) in &entries {
-            check_count("rows of a matrix", row.saturating_add(1), rows)?;
-            check_count("columns of a matrix", column.saturating_add(1), columns)?;
+            check_count("rows of a matrix", row.saturating_add(1), 1, rows)?;
+            check_count("columns of a matrix", column.saturating_add(1), 1, columns)?;
         }
         entries.sort_by_key(|&(row, column, _)| (column, row));
         entries.dedup_by(|next, kept| {
@@ -45,25 +44,21 @@ impl SparseMatrix {
         });
         entries.retain(|entry| entry.2 != 0.0);
         entries.shrink_to_fit();
-        match entries.iter().find(|entry| !entry.2.is_finite()) {
-            None => Ok(Self {
-                rows,
-                columns,
-                entries,
-            }),
-            Some(&(row, column, value)) => Err(Error::NotFinite {
-                what,
-                row,
-                column,
-                value,
-            }),
+        if let Some((row, column, value)) = entries.iter().find(|entry| !entry.2.is_finite()) {
+            let owner = || format!("entry ({row}, {column})");
+            require(false, what, owner, *value, "a finite number")?;
         }
+        Ok(Self {
+            rows,
+            columns,
+            entries,
+        })
     }
 
     /// A matrix from the rows and values of every column.
     ///
     /// # Errors
-    /// [`Error::Empty`], [`Error::TooMany`] and [`Error::NotFinite`], as in [`Self::new`].
+    /// [`Error::Count`] and [`Error::Value`], as in [`Self::new`].
     pub fn of_columns(
         what: &'static str,
         rows: usize,
@@ -78,7 +73,7 @@ impl SparseMatrix {
     /// A matrix from a dense one.
     ///
     /// # Errors
-    /// [`Error::Empty`] and [`Error::NotFinite`], as in [`Self::new`].
+    /// [`Error::Count`] and [`Error::Value`], as in [`Self::new`].
     pub fn of_dense(what: &'static str, matrix: &DMatrix<f64>) -> Result<Self, Error> {
         let columns: Vec<_> = matrix
             .column_iter()
@@ -184,7 +179,7 @@ impl SparseMatrix {
     /// degrees of freedom. A larger entry, which a semidefinite matrix does not have, is a scale of its own.
     ///
     /// # Errors
-    /// [`Error::WrongShape`]; [`Error::NotSymmetric`].
+    /// [`Error::WrongShape`] unless it is square; [`Error::Value`] with the difference of an entry from its mirror.
     pub fn check_symmetric(&self, what: &'static str) -> Result<(), Error> {
         check_length(what, self.columns, self.rows)?;
         if self.is_symmetric() {
@@ -205,15 +200,12 @@ impl SparseMatrix {
             difference.abs() / scale.max(diagonal[row] * diagonal[column])
         };
         let mut differences = difference.entries.iter().filter(|entry| entry.2 != 0.0);
-        match differences.find(|entry| apart(entry) > GIVEN) {
-            Some(entry) => Err(Error::NotSymmetric {
-                what,
-                row: entry.0,
-                column: entry.1,
-                difference: apart(entry),
-            }),
-            None => Ok(()),
-        }
+        let Some(entry) = differences.find(|entry| apart(entry) > GIVEN) else {
+            return Ok(());
+        };
+        let owner = || format!("{what}, entry ({}, {}) beside its mirror", entry.0, entry.1);
+        let expected = "at most 1e-11: the matrix must be symmetric";
+        require(false, "relative difference", owner, apart(entry), expected)
     }
 
     /// The diagonal of a square matrix.

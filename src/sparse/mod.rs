@@ -3,31 +3,59 @@
 //! [`crate::method`] says what is computed; here it is computed fast. Each fast form equals the plain one by a property of the
 //! specification.
 
+mod assurance;
 mod checks;
 mod condensation;
 mod deformations;
-pub(crate) mod elements;
+#[doc(hidden)]
+pub mod elements;
+#[doc(hidden)]
 pub mod factorization;
-mod gradient;
 mod lowest_modes;
 mod matrix;
 mod ordering;
+#[doc(hidden)]
 pub mod random;
 mod residual_vectors;
 pub(crate) mod rigid_bodies;
+mod sensor_model;
 mod subspace;
+#[doc(hidden)]
 pub mod whole_modes;
 mod whole_model;
 
+pub use assurance::modal_assurance;
+#[doc(hidden)]
 pub use checks::check_solution;
 pub(crate) use checks::{
-    add_squares, places_above, start_vector, take_product, transposed_product,
+    add_squares, finite, places_above, solve_lower, start_vector, take_product, transposed_product,
 };
-pub use condensation::{LargeCondensation, LargeModel};
+#[doc(hidden)]
+pub use condensation::LargeCondensation;
+pub use condensation::LargeModel;
+#[doc(hidden)]
 pub use deformations::Deformations;
+#[doc(hidden)]
 pub use factorization::Factor;
-pub use gradient::{PackedModel, derivative};
-pub use lowest_modes::{CountedModes, FINITE, MOST_DENSE_ROWS, lowest_modes};
+pub use lowest_modes::{CountedModes, lowest_modes};
+#[doc(hidden)]
+pub use lowest_modes::{FINITE, MOST_DENSE_ROWS};
 pub use matrix::SparseMatrix;
+#[doc(hidden)]
 pub use rigid_bodies::RigidBodies;
-pub use whole_model::{WholeModel, WholeParameter, WholeShare};
+pub(crate) use sensor_model::check_weights;
+#[doc(hidden)]
+pub use sensor_model::normalize_with_mass;
+pub use sensor_model::{ModeWeight, Pair, ParameterMatrix, SensorModel};
+pub use whole_model::{BasisSize, WholeModel, WholeParameter, WholeShare};
+
+use crate::method::modes::Modes;
+use nalgebra::{DMatrix, DVector};
+
+/// No modes, as of a test that has frequencies alone.
+pub(crate) fn no_modes(dof_count: usize) -> Modes {
+    Modes {
+        omega_squared: DVector::zeros(0),
+        shapes: DMatrix::zeros(dof_count, 0),
+    }
+}

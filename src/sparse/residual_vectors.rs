@@ -4,7 +4,7 @@ use super::matrix::GIVEN;
 use super::{SparseMatrix, places_above};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
-use crate::method::modes::ModeSet;
+use crate::method::modes::Modes;
 use nalgebra::{DMatrix, DVector};
 
 /// The loads (DOF × at most `most`) of a parameter's part $P$ of stiffness or mass in the modes, by which it couples them most with
@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector};
 /// columns $L$ these are the combinations $L y$ of largest $y^t V^t L y$, one a deformation for a part that has fewer.
 pub(super) fn leading_loads(
     part: &SparseMatrix,
-    modes: &ModeSet,
+    modes: &Modes,
     is_mass: bool,
     most: usize,
 ) -> Result<DMatrix<f64>, Error> {
@@ -47,10 +47,10 @@ pub(super) fn leading_loads(
 pub(super) fn residual_vectors(
     stiffness: &SparseMatrix,
     mass: &SparseMatrix,
-    vibrations: &ModeSet,
+    vibrations: &Modes,
     mut deflections: DMatrix<f64>,
-) -> Result<ModeSet, Error> {
-    let none = ModeSet::none(stiffness.rows());
+) -> Result<Modes, Error> {
+    let none = super::no_modes(stiffness.rows());
     if deflections.ncols() == 0 {
         return Ok(none);
     }
@@ -85,7 +85,7 @@ pub(super) fn residual_vectors(
     }
     let roots = roots.select_rows(&moving);
     let scale = DMatrix::from_diagonal(&roots.map(|root| 1.0 / root.sqrt()));
-    Ok(ModeSet {
+    Ok(Modes {
         omega_squared: roots.map(f64::recip),
         shapes: deflections * vectors.select_columns(&moving) * scale,
     })

@@ -68,20 +68,7 @@ impl RigidBodies {
         let shifted =
             |shift| Factor::of_sum(&plan, what, &[(1.0, &unit), (shift, &ones)])?.check_signs(what);
         let factor = shifted(round_off(count)).or_else(|_| shifted(GIVEN))?;
-        let numbers: Vec<usize> = entries.iter().map(|entry| digits(entry.2)).collect();
-        let longest = numbers.iter().copied().max().unwrap_or(0);
-        let as_long = numbers.iter().filter(|&&digits| digits + 1 >= longest);
-        let is_written = DIGITS.contains(&longest) && 2 * as_long.count() >= numbers.len();
-        let part_of = |digits: usize| 10_f64.powf(1.0 - digits as f64) / 12_f64.sqrt();
-        let [least, told, most] = if is_written {
-            [
-                part_of(*DIGITS.end()),
-                part_of(*DIGITS.end()),
-                (3.0 * part_of(longest)).max(GIVEN),
-            ]
-        } else {
-            [ROUNDED, DOUBTFUL, GIVEN]
-        };
+        let Limits { least, told, most } = Limits::of(entries);
         let (mut block, mut state) = (BLOCK.min(count), 0);
         loop {
             let mut weakest = random_block(count, block, &mut state);
@@ -90,18 +77,7 @@ impl RigidBodies {
             }
             let energies = symmetric_part(&weakest.tr_mul(&unit.times(&weakest)?));
             weakest *= symmetric_eigen(what, &energies)?.1;
-            let forces = unit.times(&weakest)?;
-            let resisted: Vec<f64> = (0..block)
-                .map(|at| {
-                    let motion = weakest.column(at);
-                    let part = |&(row, column, value): &(usize, usize, f64)| {
-                        (value * motion[row] * motion[column]).powi(2)
-                    };
-                    let parts: f64 = unit.entries().iter().map(part).sum();
-                    // At a row without stiffness there is only the round-off of other rows.
-                    motion.dot(&forces.column(at)) / parts.sqrt().max(f64::EPSILON)
-                })
-                .collect();
+            let resisted = resistances(&unit, &weakest)?;
             let negative = resisted.iter().fold(0.0_f64, |most, part| most.max(-part));
             let draws = 4.0 * negative;
             let (limit, told) = (least.max(draws), told.max(draws));
@@ -120,21 +96,7 @@ impl RigidBodies {
                 })
                 .collect();
             let free = weakest.select_columns(&free);
-            // The row that moves most, then the one that moves most in what the first leaves free.
-            let (mut rest, mut rows) = (free.transpose(), Vec::new());
-            for _ in 0..free.ncols() {
-                let moved = |row: usize| rest.column(row).norm_squared();
-                let Some(row) = (0..count)
-                    .rev()
-                    .max_by(|&a, &b| moved(a).total_cmp(&moved(b)))
-                else {
-                    break;
-                };
-                let direction = rest.column(row).normalize();
-                let taken = &direction * (direction.transpose() * &rest);
-                rest -= taken;
-                rows.push(row);
-            }
+            let rows = moving_rows(&free);
             // Held by springs at these rows, one of which is displaced by one, the structure moves by a motion that nothing
             // resists. A solution gives all its digits; a decomposition mixes in motions that strain little beside the stiffest.
             let ground = rows.iter().map(|&row| (row, row, 1.0)).collect();
@@ -149,7 +111,7 @@ impl RigidBodies {
                 motion.component_div_assign(&size);
             }
             let own = motions.select_rows(&rows).try_inverse();
-            let own = own.ok_or(Error::NoConvergence("rigid-body modes"))?;
+            let own = own.ok_or(Error::no_convergence("rigid-body modes"))?;
             return Ok(Self {
                 motions: motions * own,
                 rows,
@@ -157,6 +119,74 @@ impl RigidBodies {
             });
         }
     }
+}
+
+/// Resistances relative to the size of their terms.
+struct Limits {
+    /// Resistance up to which a motion counts as free.
+    least: f64,
+    /// Resistance above which a motion is not certainly free.
+    told: f64,
+    /// Resistance above which a motion is certainly held.
+    most: f64,
+}
+
+impl Limits {
+    /// Limits for entries of a matrix, by the digits with which they are written.
+    fn of(entries: &[(usize, usize, f64)]) -> Self {
+        let numbers: Vec<usize> = entries.iter().map(|entry| digits(entry.2)).collect();
+        let longest = numbers.iter().copied().max().unwrap_or(0);
+        let as_long = numbers.iter().filter(|&&digits| digits + 1 >= longest);
+        let is_written = DIGITS.contains(&longest) && 2 * as_long.count() >= numbers.len();
+        let part_of = |digits: usize| 10_f64.powf(1.0 - digits as f64) / 12_f64.sqrt();
+        if is_written {
+            Self {
+                least: part_of(*DIGITS.end()),
+                told: part_of(*DIGITS.end()),
+                most: (3.0 * part_of(longest)).max(GIVEN),
+            }
+        } else {
+            Self {
+                least: ROUNDED,
+                told: DOUBTFUL,
+                most: GIVEN,
+            }
+        }
+    }
+}
+
+/// Energies $y^t K y$ of motions relative to the root of the sum of their terms' squares.
+fn resistances(stiffness: &SparseMatrix, motions: &DMatrix<f64>) -> Result<Vec<f64>, Error> {
+    let forces = stiffness.times(motions)?;
+    let resistance = |at: usize| {
+        let motion = motions.column(at);
+        let part = |&(row, column, value): &(usize, usize, f64)| {
+            (value * motion[row] * motion[column]).powi(2)
+        };
+        let parts: f64 = stiffness.entries().iter().map(part).sum();
+        // At a row without stiffness there is only the round-off of other rows.
+        motion.dot(&forces.column(at)) / parts.sqrt().max(f64::EPSILON)
+    };
+    Ok((0..motions.ncols()).map(resistance).collect())
+}
+
+/// The row that moves most in motions, then the one that moves most in what the first leaves free, as many as there are motions.
+fn moving_rows(motions: &DMatrix<f64>) -> Vec<usize> {
+    let (mut rest, mut rows) = (motions.transpose(), Vec::new());
+    for _ in 0..motions.ncols() {
+        let moved = |row: usize| rest.column(row).norm_squared();
+        let Some(row) = (0..motions.nrows())
+            .rev()
+            .max_by(|&a, &b| moved(a).total_cmp(&moved(b)))
+        else {
+            break;
+        };
+        let direction = rest.column(row).normalize();
+        let taken = &direction * (direction.transpose() * &rest);
+        rest -= taken;
+        rows.push(row);
+    }
+    rows
 }
 
 /// Significant decimal digits of a number as short as it can be written.

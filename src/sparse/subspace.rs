@@ -132,8 +132,27 @@ fn orthonormal(mass: &SparseMatrix, block: DMatrix<f64>) -> Result<Directions, E
     .combined(&vectors))
 }
 
-/// The `wanted` largest roots, `exact` of them to round-off and the others nearly. The subspace grows by `block` directions at a
-/// time to at most `most`, of which the best `keep` begin the next. `solve` is $K^{-1}$ beside the `rigid` bodies.
+/// Numbers of the largest roots that are wanted.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted {
+    /// Number of them that are wanted to round-off.
+    pub(super) exact: usize,
+    /// Number of all, the others nearly right.
+    pub(super) wanted: usize,
+}
+
+/// Sizes of a subspace, in directions.
+#[derive(Clone, Copy)]
+pub(super) struct Growth {
+    /// Number added at a time.
+    pub(super) block: usize,
+    /// Number of the best, with which the next begins.
+    pub(super) keep: usize,
+    /// Most it may have.
+    pub(super) most: usize,
+}
+
+/// The largest roots and their shapes. `solve` is $K^{-1}$ beside the `rigid` bodies.
 ///
 /// With the directions $V$ found so far and the next $Q$, every block gives the next columns of $H$ in
 ///
@@ -147,8 +166,8 @@ pub(super) fn subspace(
     solve: Solve,
     rigid: &Directions,
     mass: &SparseMatrix,
-    [exact, wanted]: [usize; 2],
-    [block, keep, most]: [usize; 3],
+    Wanted { exact, wanted }: Wanted,
+    Growth { block, keep, most }: Growth,
 ) -> Result<Found, Error> {
     let rows = mass.rows();
     let mut state = 0;
@@ -215,5 +234,5 @@ pub(super) fn subspace(
         }
         goal = most.min(basis.len() + (most - keep).div_ceil(LOOKS));
     }
-    Err(Error::NoConvergence("modes of a sparse pencil"))
+    Err(Error::no_convergence("modes of a sparse pencil"))
 }

@@ -1,19 +1,18 @@
 //! A model given by sparse matrices, whatever made them, and what the loops are handed of it.
 
 use super::deformations::{Deformations, sum_of_stiffness};
+use super::elements::stiffness_entries;
 use super::lowest_modes::{CountedModes, FINITE, Flexibility, modes_at_most};
 use super::residual_vectors::{leading_loads, residual_vectors};
-use super::{Factor, RigidBodies, SparseMatrix};
-use crate::method::appendix_a::{Condensed, dynamic_stiffness};
-use crate::method::assembly::{check_dof, stiffness_entries};
-use crate::method::error::Error;
-use crate::method::linear_algebra::{check_length, symmetric_part};
-use crate::method::model::{Bounds, ModalModel, Pair, ParameterMatrix};
-use crate::method::modes::{ModeSet, Modes, check_count};
-use crate::method::structure::positive;
+use super::sensor_model::{Further, Pair, ParameterMatrix, SensorModel, turn_alike};
+use super::{RigidBodies, SparseMatrix, no_modes};
+use crate::method::error::{Error, check_count, check_places, positive};
+use crate::method::linear_algebra::check_length;
+use crate::method::modes::Modes;
+use crate::method::step::Bounds;
 use nalgebra::DMatrix;
 
-/// What one parameter holds of the whole model's matrices.
+/// Part of the whole model's matrices.
 #[derive(Debug, Clone, PartialEq)]
 pub enum WholeShare {
     /// Of the stiffness, lbf/in.
@@ -43,6 +42,15 @@ pub struct WholeParameter {
     pub range: Option<Bounds>,
 }
 
+/// Size of the basis in which changes of a whole model are followed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BasisSize {
+    /// Number of exact modes, the lowest.
+    pub modes: usize,
+    /// Most residual vectors behind them for each parameter.
+    pub residual_vectors: usize,
+}
+
 /// A structure at all its degrees of freedom.
 ///
 /// $$ K = K_1 + \sum_e (c_e - 1) K_e, \qquad M = M_1 + \sum_e (c_e - 1) M_e $$
@@ -60,8 +68,8 @@ impl WholeModel {
     /// parameters' parts of them.
     ///
     /// # Errors
-    /// Those of [`SparseMatrix::check_symmetric`]; [`Error::WrongShape`] for matrices of other sizes; [`Error::TooMany`] for a row of
-    /// an element beyond them; [`Error::NotPositive`] for its size; [`Error::StartOutside`] for a range that excludes one.
+    /// Those of [`SparseMatrix::check_symmetric`]; [`Error::WrongShape`] for matrices of other sizes; [`Error::Count`] for a row of
+    /// an element beyond them; [`Error::Value`] for its size; [`Error::Range`] for a range that excludes one.
     pub fn new(
         stiffness: SparseMatrix,
         mass: SparseMatrix,
@@ -79,7 +87,7 @@ impl WholeModel {
                 WholeShare::Stiffness(matrix) => check("stiffness of a parameter", matrix)?,
                 WholeShare::Elements(members) => {
                     members.iter().try_for_each(|(element, size)| {
-                        check_dof(element.dof(), count)?;
+                        check_places("degrees of freedom", element.dof(), count)?;
                         positive("size", || format!("element {}", element.label()), *size)
                     })?
                 }
@@ -88,7 +96,7 @@ impl WholeModel {
             if let Some(Bounds { lower, upper }) = *range {
                 let what = format!("factor of parameter {name}");
                 if !Bounds::positive(&what, lower, upper)?.contains(1.0) {
-                    return Err(Error::StartOutside { what, lower, upper });
+                    return Err(Error::Range { what, lower, upper });
                 }
             }
         }
@@ -148,7 +156,7 @@ impl WholeModel {
     /// Stiffness and mass at the given parameter factors.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] unless there is one factor per parameter; [`Error::NotPositive`] for a factor that is not.
+    /// [`Error::WrongShape`] unless there is one factor per parameter; [`Error::Value`] for a factor that is not.
     pub fn at(&self, factors: &[f64]) -> Result<(SparseMatrix, SparseMatrix), Error> {
         check_length("parameter factors", factors.len(), self.parameters.len())?;
         let (mut stiffness, mut mass) = (
@@ -187,10 +195,10 @@ impl WholeModel {
         mass: &SparseMatrix,
         count: usize,
     ) -> Result<(CountedModes, Flexibility), Error> {
-        check_count("modes", count, self.dof_count())?;
+        check_count("modes", count, 1, self.dof_count())?;
         let resisting = self.resisting.as_ref().unwrap_or(stiffness);
         let found = modes_at_most(stiffness, mass, count, resisting)?;
-        check_count(FINITE, count, found.0.vibrations.len())?;
+        check_count(FINITE, count, 1, found.0.vibrations.len())?;
         Ok(found)
     }
 
@@ -205,47 +213,89 @@ impl WholeModel {
         Ok(modes_at_most(stiffness, mass, most, resisting)?.0)
     }
 
-    /// What the loops are handed without any condensation: the `count` lowest modes of the whole model as the sensors see them, and
-    /// every parameter's share $V^t K_e V$ with the whole shapes, of elements by the function that also serves condensed shapes.
+    /// Analysis for the loops without any condensation: the lowest modes of the whole model as the sensors see them, and every
+    /// parameter's share $V^t K_e V$ or $V^t M_e V$ with the whole shapes.
     ///
-    /// The basis in which changes are followed has at most `further` residual vectors a parameter behind the modes, and rigid-body
-    /// modes of a free structure where a mass is a parameter: only a change of mass couples them with vibrations. `sensors` reads the
-    /// sensors' motions off the model's, $q_G = R q$ (sensors × DOF).
+    /// Behind the modes stand residual vectors, and rigid-body modes of a free structure where a mass is a parameter: only a change of
+    /// mass couples them with vibrations. `sensors` reads the sensors' motions off the model's, $q_G = R q$ (sensors × DOF).
     ///
     /// # Errors
-    /// Those of [`Self::modes`] and of the pairing.
+    /// [`Error::Count`] for more modes than there are; whatever the eigensolution or the pairing of modes refuses.
+    ///
+    /// # Example
+    ///
+    /// Two unit masses in a row on springs of 3 and 2 from a wall. The second spring was built with 3.
+    ///
+    /// ```rust
+    /// use corfem::method::modes::solve;
+    /// use corfem::method::outer_loop::{Settings, correlate};
+    /// use corfem::method::sorting::pair_modes;
+    /// use corfem::sparse::{BasisSize, ParameterMatrix, SparseMatrix, WholeModel, WholeParameter, WholeShare};
+    /// use nalgebra::{DMatrix, dmatrix};
+    ///
+    /// let sparse = |matrix| SparseMatrix::of_dense("matrix", &matrix);
+    /// let (one, spring) = (DMatrix::identity(2, 2), dmatrix![1.0, -1.0; -1.0, 1.0]);
+    /// let stiffness = |second: f64| dmatrix![3.0, 0.0; 0.0, 0.0] + second * &spring;
+    /// let share = WholeShare::Stiffness(sparse(2.0 * &spring)?);
+    /// let second = WholeParameter { name: "second spring".into(), share, range: None };
+    /// let model = WholeModel::new(sparse(stiffness(2.0))?, sparse(one.clone())?, vec![second])?;
+    ///
+    /// let test = solve(&stiffness(3.0), &one, 2)?;
+    /// let (sensors, size) = (sparse(one)?, BasisSize { modes: 2, residual_vectors: 0 });
+    /// let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, pair_modes), size);
+    ///
+    /// // The basis: its shapes at the sensors, their squared frequencies, and the spring's share.
+    /// let first = analyze(&[1.0])?;
+    /// let ParameterMatrix::Stiffness(share) = &first.shares()[0] else { unreachable!() };
+    /// let expected = first.basis().tr_mul(&(2.0 * spring * first.basis()));
+    /// assert!((share - expected).amax() < 1e-12 && first.omega_squared()[0] < first.test().omega_squared()[0]);
+    ///
+    /// let settings = Settings { error_sum_tolerance: 1e-4, later_inner_tolerance: 1e-4, ..Settings::default() };
+    /// let found = correlate(analyze, &[None], &settings.for_modes(2), |_, _| true)?;
+    /// assert!((found.best_factors[0] - 1.5).abs() < 1e-3);
+    /// # Ok::<(), corfem::method::error::Error>(())
+    /// ```
     pub fn analyze(
         &self,
         factors: &[f64],
         sensors: &SparseMatrix,
-        (test, pair): (&ModeSet, Pair),
-        [count, further]: [usize; 2],
-    ) -> Result<ModalModel, Error> {
+        (test, pair): (&Modes, Pair),
+        size: BasisSize,
+    ) -> Result<SensorModel, Error> {
         let (stiffness, mass) = self.at(factors)?;
-        let (mut found, flexibility) = self.modes_of(&stiffness, &mass, count)?;
+        let (mut found, flexibility) = self.modes_of(&stiffness, &mass, size.modes)?;
         let vibrations = &mut found.vibrations;
         let seen = sensors.times(&vibrations.shapes)?;
-        let squares = vibrations.omega_squared.clone();
-        let modes = Modes::seen(squares, &seen, &mut vibrations.shapes);
-        let further = self.further(&stiffness, &mass, (&found, &flexibility), further)?;
+        let modes = Modes::signed(vibrations.omega_squared.clone(), seen.clone());
+        turn_alike(&mut vibrations.shapes, &seen, &modes.shapes);
+        let (residual, rigid_body) = self.further(
+            &stiffness,
+            &mass,
+            (&found, &flexibility),
+            size.residual_vectors,
+        )?;
         let mut basis = found.vibrations.shapes;
-        basis.extend(further.shapes.column_iter());
+        basis.extend(residual.shapes.column_iter());
+        basis.extend(rigid_body.column_iter());
         let shares = self.shares(factors, &basis)?;
-        let further = ModeSet {
-            shapes: sensors.times(&further.shapes)?,
-            ..further
+        let further = Further {
+            residual: Modes {
+                shapes: sensors.times(&residual.shapes)?,
+                ..residual
+            },
+            rigid_body: sensors.times(&rigid_body)?,
         };
-        ModalModel::at_sensors(modes, &further, test, pair, shares)
+        SensorModel::at_sensors(modes, &further, test, pair, shares)
     }
 
-    /// The shapes of the basis that are no modes of it: at most `most` residual vectors a parameter, then rigid-body modes.
+    /// Shapes of the basis that are no modes of it: at most `most` residual vectors a parameter, and rigid-body modes.
     fn further(
         &self,
         stiffness: &SparseMatrix,
         mass: &SparseMatrix,
         (found, flexibility): (&CountedModes, &Flexibility),
         most: usize,
-    ) -> Result<ModeSet, Error> {
+    ) -> Result<(Modes, DMatrix<f64>), Error> {
         let is_mass = |parameter: &WholeParameter| matches!(parameter.share, WholeShare::Mass(_));
         let mut loads = DMatrix::zeros(self.dof_count(), 0);
         for parameter in self.parameters.iter().filter(|_| most > 0) {
@@ -261,46 +311,14 @@ impl WholeModel {
             let leading = leading_loads(part, &found.vibrations, is_mass(parameter), most)?;
             loads.extend(leading.column_iter());
         }
-        let mut further = residual_vectors(
-            stiffness,
-            mass,
-            &found.vibrations,
-            flexibility.solve(&loads)?,
-        )?;
-        if self.parameters.iter().any(is_mass) {
-            further.shapes.extend(found.rigid_body.column_iter());
-            let all = further.shapes.ncols();
-            further.omega_squared = further.omega_squared.resize_vertically(all, 0.0);
-        }
-        Ok(further)
-    }
-
-    /// Stiffness and mass condensed to the sensors with one $B^t$ (Appendix A): $K_D$ (lbf/in), $M_D = B M B^t$ (lbf·s²/in), and
-    /// $B^t$ (DOF × sensors).
-    ///
-    /// # Errors
-    /// Those of [`Self::at`]; [`Error::Dependent`] for a sensor that is a combination of those before it;
-    /// [`Error::NotPositiveDefinite`] for a structure that is not held.
-    pub fn condensed(
-        &self,
-        factors: &[f64],
-        sensors: &SparseMatrix,
-    ) -> Result<(Condensed, DMatrix<f64>), Error> {
-        let (stiffness, mass) = self.at(factors)?;
-        let factor = Factor::new("structural stiffness", &stiffness)?
-            .check_positive("structural stiffness")?;
-        let distribution = sensors.dense().transpose();
-        let deflections = factor.solve(&distribution)?;
-        let stiffness = dynamic_stiffness(&symmetric_part(&distribution.tr_mul(&deflections)))?;
-        let transformation = deflections * &stiffness;
-        let mass = mass.through(&transformation.transpose())?;
-        Ok((
-            Condensed {
-                stiffness,
-                transformation,
-            },
-            mass,
-        ))
+        let deflections = flexibility.solve(&loads)?;
+        let further = residual_vectors(stiffness, mass, &found.vibrations, deflections)?;
+        let has_mass = self.parameters.iter().any(is_mass);
+        let rigid_body = match has_mass {
+            true => found.rigid_body.clone(),
+            false => no_modes(self.dof_count()).shapes,
+        };
+        Ok((further, rigid_body))
     }
 
     /// Every parameter's present share in shapes $V$ at all DOF, $c_e V^t K_e V$ or $c_e V^t M_e V$.

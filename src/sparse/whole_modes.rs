@@ -65,7 +65,7 @@ pub fn whole_modes(
     let shapes = t.transposed().times(&vibrations.shapes)?;
     Ok(WholeModes {
         dof: at.dof,
-        modes: Modes::ascending(vibrations.omega_squared, shapes),
+        modes: Modes::signed(vibrations.omega_squared, shapes),
         rigid_body: rigid_body.ncols(),
         doubtful: named(&doubtful, name),
     })

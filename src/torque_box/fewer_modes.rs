@@ -4,13 +4,10 @@
 //! truncated modal basis, and so do its frequencies: a change of stiffness cannot move a shape out of the modes it
 //! started with. The exact check afterwards shows what that costs.
 
-use crate::method::error::Error;
-use crate::method::error_sum::Errors;
+use crate::method::analysis::{Analysis, State};
+use crate::method::error::at_least_one;
 use crate::method::inner_loop::Stop;
-use crate::method::model::ExactResult;
-use crate::method::modes::ModeSet;
 use crate::method::outer_loop::{Settings, correlate};
-use crate::method::pairing::Pairing;
 use crate::method::structure::ElementKind;
 use crate::torque_box::Case;
 use crate::torque_box::error::CaseError;
@@ -44,7 +41,13 @@ pub struct Agreement {
 }
 
 impl Agreement {
-    fn new(modes: &ModeSet, pairing: &Pairing, errors: &Errors) -> Self {
+    fn new(state: &State) -> Self {
+        let State {
+            modes,
+            pairing,
+            errors,
+            ..
+        } = state;
         let all = modes.frequencies_hz();
         let others = (0..all.len()).filter(|mode| !pairing.analysis_mode.contains(mode));
         let order = pairing.analysis_mode.iter().copied().chain(others);
@@ -54,10 +57,6 @@ impl Agreement {
             frequency_rms: errors.frequency_rms(),
             shape_rms: errors.shape_rms(),
         }
-    }
-
-    fn from_check(check: &ExactResult) -> Self {
-        Self::new(&check.modes, &check.pairing, &check.errors)
     }
 }
 
@@ -98,8 +97,8 @@ pub struct FewerModesRun {
 /// modes.
 ///
 /// # Errors
-/// [`Error::Empty`] and [`Error::TooMany`] for numbers of modes that are not $1 \le$ test $\le$ analysis $\le$ DOF; the errors of
-/// the model, the analysis and the loops.
+/// [`Error::Count`](crate::method::error::Error::Count) for numbers of modes that are not $1 \le$ test $\le$ analysis $\le$ DOF;
+/// those of the model, the analysis and the loops.
 pub fn fewer_modes_run(
     case: &Case,
     test_modes: usize,
@@ -118,15 +117,12 @@ pub fn fewer_modes_run(
         |factors| model.analyze(factors, &test, Some(analysis_modes)),
         &ranges,
         &settings,
-        |_, _| {},
+        |_, _| true,
     )?;
-    let pass = correlation
-        .passes
-        .first()
-        .ok_or(Error::Empty { what: "passes" })?;
-    let gages = model.at(&pass.factors)?.sizes[..PANEL_COUNT].to_vec();
-    let last = &pass.inner.last;
-    let all_modes = model.analyze(&pass.factors, &all, None)?.exact;
+    at_least_one("passes", correlation.passes.len())?;
+    let pass = &correlation.passes[0];
+    let gages = model.sizes(&pass.factors)?[..PANEL_COUNT].to_vec();
+    let all_modes = model.analyze(&pass.factors, &all, None)?;
     Ok(FewerModesRun {
         case: case.number,
         test_modes,
@@ -140,10 +136,10 @@ pub fn fewer_modes_run(
             .iter()
             .map(|iteration| iteration.errors.sum())
             .collect(),
-        initial: Agreement::from_check(&correlation.initial),
-        inner: Agreement::new(&last.modes, &last.pairing, &last.errors),
-        exact: Agreement::from_check(&pass.check),
-        exact_all_modes: Agreement::from_check(&all_modes),
+        initial: Agreement::new(&correlation.initial),
+        inner: Agreement::new(&pass.inner.last),
+        exact: Agreement::new(&pass.check),
+        exact_all_modes: Agreement::new(all_modes.exact()),
         shear_gage_rms: gage_rms(&case.panels, &gages, ElementKind::ShearPanel),
         membrane_gage_rms: gage_rms(&case.panels, &gages, ElementKind::Membrane),
         gages_in: gages,

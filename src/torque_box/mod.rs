@@ -1,21 +1,26 @@
 //! The paper's four cases on its wing torque box.
 
 pub mod error;
+#[doc(hidden)]
 pub mod fewer_modes;
+#[doc(hidden)]
 pub mod published;
 mod run;
+#[doc(hidden)]
 pub mod table_1;
+#[doc(hidden)]
 pub mod wing_box;
 
-pub use run::{ANOMALY_RATIO, Anomaly, BUILT_IN, CaseResult, run_case, run_case_with, stands_out};
+#[doc(hidden)]
+pub use run::{ANOMALY_RATIO, Anomaly, BUILT_IN, run_case_with, stands_out};
+pub use run::{CaseResult, run_case};
 
-use crate::method::error_sum::ErrorMeasure;
 use crate::method::inner_loop::InnerSettings;
 use crate::method::linear_algebra::check_length;
-use crate::method::model::{Bounds, FiniteElementModel, Parameter};
+use crate::method::model::{FiniteElementModel, Parameter};
 use crate::method::modes::Modes;
 use crate::method::outer_loop::Settings;
-use crate::method::step::StepRule;
+use crate::method::step::{Bounds, StepRule};
 use crate::method::structure::ElementKind;
 use crate::torque_box::error::CaseError;
 use crate::torque_box::published::PublishedTable;
@@ -212,6 +217,7 @@ impl Case {
 }
 
 /// Number of passes of a case that the paper prints: two, two, three; Case 4 was a single iteration.
+#[doc(hidden)]
 pub fn published_passes(case: usize) -> usize {
     match case {
         1 | 2 => 2,
@@ -222,11 +228,12 @@ pub fn published_passes(case: usize) -> usize {
 
 /// The reading of the step that comes nearest to the published gages of a case; for Case 4, which has none, the one that the box
 /// was fitted with (`paper/interpretation.md`).
+#[doc(hidden)]
 pub fn published_reading(case: usize) -> StepRule {
     if case == 2 || case == 3 {
         StepRule::Relative
     } else {
-        StepRule::Diagonal
+        StepRule::Own
     }
 }
 
@@ -236,11 +243,9 @@ pub fn published_reading(case: usize) -> StepRule {
 /// the first inner loop.
 fn published_settings(number: usize) -> Settings {
     let (most_passes, iterations) = if number == 4 { (1, 1) } else { (10, 30) };
-    let measure = ErrorMeasure::Sum;
     let inner = InnerSettings {
         iterations,
         step: published_reading(number),
-        measure,
         ..InnerSettings::default()
     };
     Settings {

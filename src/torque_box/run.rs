@@ -2,13 +2,15 @@
 
 use super::{Case, Grouping};
 use crate::method::error::Error;
+use crate::method::error_sum::{ModeError, mode_errors};
 use crate::method::inner_loop::first_factors;
-use crate::method::model::{FiniteElementModel, ModalModel};
-use crate::method::modes::ModeSet;
+use crate::method::model::{FiniteElementModel, Model};
+use crate::method::modes::Modes;
 use crate::method::outer_loop::{Correlation, Pass, correlate};
-use crate::method::step::StepRule;
+use crate::method::step::{Bounds, StepRule};
 use crate::torque_box::error::CaseError;
 use crate::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
+use crate::weighted::comparison::Comparison;
 use crate::weighted::identifiability::PRIOR_DEVIATION;
 use crate::weighted::next_step::NextStep;
 use crate::weighted::noise::Noise;
@@ -43,11 +45,17 @@ pub struct CaseResult {
     /// What did the finite element analyses: [`BUILT_IN`] or another program.
     pub solver: &'static str,
     /// Its test modes.
-    pub test: ModeSet,
+    pub test: Modes,
     /// Its whole history.
     pub correlation: Correlation,
     /// Names of what was scaled: element numbers or substructures.
     pub parameter_names: Vec<String>,
+    /// Bounds on its factors.
+    pub ranges: Vec<Option<Bounds>>,
+    /// Largest part of a test mode's generalized stiffness that each parameter had at first.
+    pub seen: Vec<f64>,
+    /// Errors of every test mode at the best factors.
+    pub best_errors: Vec<ModeError>,
     /// Gages after every pass, in, elements 1 to 15.
     pub pass_gages: Vec<Vec<f64>>,
     /// The parameter reported as a modeling error after the first iteration, if one is.
@@ -98,8 +106,11 @@ impl CaseResult {
 ///
 /// # Errors
 /// Those of the model, the analysis and the loops.
-pub fn run_case(case: &Case, progress: impl FnMut(usize, &Pass)) -> Result<CaseResult, CaseError> {
-    run_case_with(case, BUILT_IN, |model, _| Ok(model.clone()), progress)
+pub fn run_case(
+    case: &Case,
+    mut progress: impl FnMut(usize, &Pass),
+) -> Result<CaseResult, CaseError> {
+    run_case_with(case, BUILT_IN, |model, _| Ok(model.clone()), &mut progress)
 }
 
 /// Correlates a case with another finite element analysis than the crate's own: `solver` is its name for the report,
@@ -113,29 +124,35 @@ pub fn run_case_with<E: From<CaseError> + From<Error>>(
     case: &Case,
     solver: &'static str,
     mut elements: impl FnMut(&FiniteElementModel, &[f64]) -> Result<FiniteElementModel, E>,
-    progress: impl FnMut(usize, &Pass),
+    mut progress: impl FnMut(usize, &Pass),
 ) -> Result<CaseResult, E> {
     let (model, tested) = (case.model()?, case.test_model()?);
     let ones = vec![1.0; tested.parameters().len()];
-    let test = ModeSet::from(elements(&tested, &ones)?.modes(&ones)?);
+    let test = elements(&tested, &ones)?.modes(&ones)?;
     let by_gage = case.settings_by(StepRule::Gage).inner;
-    let mut demands = None;
+    let ranges = model.factor_ranges()?;
+    let (mut demands, mut seen) = (None, Vec::new());
     let correlation = correlate(
-        |factors| -> Result<ModalModel, E> {
-            let modal = elements(&model, factors)?.analyze(factors, &test, None)?;
+        |factors| -> Result<Model, E> {
+            let analysis = elements(&model, factors)?.analyze(factors, &test, None)?;
             if demands.is_none() {
-                demands = Some(first_factors(&modal, &by_gage)?);
+                demands = Some(first_factors(&analysis, &by_gage)?);
+                let shares = analysis.test_shares().iter();
+                seen = shares.map(|share| share.diagonal().amax()).collect();
             }
-            Ok(modal)
+            Ok(analysis)
         },
-        &model.factor_ranges()?,
+        &ranges,
         &case.settings,
-        progress,
+        |number, pass| {
+            progress(number, pass);
+            true
+        },
     )?;
     let pass_gages = correlation
         .passes
         .iter()
-        .map(|pass| Ok(model.at(&pass.factors)?.sizes[..PANEL_COUNT].to_vec()));
+        .map(|pass| Ok(model.sizes(&pass.factors)?[..PANEL_COUNT].to_vec()));
     let pass_gages = pass_gages.collect::<Result<_, Error>>()?;
     let parameter_names: Vec<String> = model.parameters().iter().map(|p| p.name.clone()).collect();
     let first = correlation.passes.first();
@@ -148,9 +165,11 @@ pub fn run_case_with<E: From<CaseError> + From<Error>>(
             ratio,
         })
     });
-    let best = &correlation.best_factors;
+    let (best, check) = (&correlation.best_factors, correlation.best_check());
+    let best_errors = mode_errors(&check.modes, &check.pairing, &test)?;
     let next_step = correlation.converged.then(|| -> Result<NextStep, E> {
         let there = elements(&model, best)?.analyze(best, &test, None)?;
+        let there = Comparison::from(&there);
         Ok(NextStep::at(&there, Noise::USUAL, PRIOR_DEVIATION)?)
     });
     Ok(CaseResult {
@@ -160,6 +179,9 @@ pub fn run_case_with<E: From<CaseError> + From<Error>>(
         test,
         correlation,
         parameter_names,
+        ranges,
+        seen,
+        best_errors,
         pass_gages,
         anomaly,
     })

@@ -5,9 +5,9 @@
 //! two unit masses on equal springs to the ground, joined by a coupling spring, one ground spring being changed: the
 //! modes before the change and the roots after it are known in closed form.
 
-use crate::method::appendix_c::general::{ModalChange, original, recursive_2};
-use crate::method::appendix_c::{first_order, recursive_1};
-use crate::method::error::{Error, setting};
+use crate::method::appendix_c::Pencil;
+use crate::method::error::{Error, require};
+use crate::method::perturbation::{first_order, recursive_1};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 
 /// A column of the table: one of the formulae of Appendix C, at an order of approximation.
@@ -70,22 +70,23 @@ impl TwoMasses {
     /// Relative error $\gamma/\gamma_{exact} - 1$ of both roots by one formula.
     ///
     /// # Errors
-    /// [`Error::Setting`] for springs that are not positive; the errors of the formula's function.
+    /// [`Error::Value`] for springs out of their range; what the formula's function refuses.
     pub fn root_errors(&self, formula: Formula) -> Result<[f64; 2], Error> {
         for (name, value, lowest, expected) in [
             ("coupling", self.coupling, 0.0, "a positive finite number"),
             ("change", self.change, -1.0, "a finite number above -1"),
         ] {
-            setting(name, expected, value, value > lowest && value.is_finite())?;
+            let (is_met, owner) = (value > lowest && value.is_finite(), || "two masses".into());
+            require(is_met, name, owner, value, expected)?;
         }
         let exact = self.exact_roots();
         let (k, beta) = (self.generalized_stiffness(), self.beta());
-        let change = || ModalChange::of_vibrations(&k, beta.clone(), DMatrix::zeros(2, 2));
+        let pencil = Pencil::of_vibrations(&k, &beta, &DMatrix::zeros(2, 2))?;
         let perturbed = match formula {
             Formula::FirstOrder => first_order(&k, &beta),
-            Formula::Original => original(&change()),
+            Formula::Original => pencil.original(),
             Formula::Recursive1 { order } => recursive_1(&k, &beta, order),
-            Formula::Recursive2 { order } => recursive_2(&change(), order),
+            Formula::Recursive2 { order } => pencil.recursive_2(order),
         }?;
         perturbed.check_roots()?;
         Ok([0, 1].map(|i| perturbed.roots[i] / exact[i] - 1.0))

@@ -4,7 +4,7 @@
 //! (upper, then lower). Rib 1-4 is the tip, 5-8 outboard, 9-12 inboard, 13-16 the root, which is fixed.
 //! Nine dynamic points with z motion alone lie at mid-depth, three to a free rib: rear spar, mid chord, front spar.
 
-use crate::method::error::{Error, setting};
+use crate::method::error::{Error, positive, require};
 use crate::method::linear_algebra::check_length;
 use crate::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use crate::torque_box::error::{CaseError, read_toml};
@@ -60,7 +60,7 @@ impl Reconstruction {
     /// # Errors
     /// [`CaseError::Toml`] for text of another form; [`Error::WrongShape`] unless there are 16 grids and 9 masses;
     /// [`CaseError::MissingGrid`] unless the grids are 1 to 16;
-    /// [`Error::Setting`] for a mid-chord fraction not between 0 and 1.
+    /// [`Error::Value`] for a mid-chord fraction not between 0 and 1.
     pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
         let read: Self = read_toml(name, "a torque box: material, masses and grids", text)?;
         check_length("box grids", read.grids.len(), GRID_COUNT)?;
@@ -72,12 +72,9 @@ impl Reconstruction {
             });
         }
         let fraction = read.mid_chord_fraction;
-        setting(
-            "mid_chord_fraction",
-            "a number between 0 and 1",
-            fraction,
-            fraction > 0.0 && fraction < 1.0,
-        )?;
+        let (is_met, owner) = (fraction > 0.0 && fraction < 1.0, || "torque box".into());
+        let expected = "a number between 0 and 1";
+        require(is_met, "mid_chord_fraction", owner, fraction, expected)?;
         Ok(read)
     }
 
@@ -196,7 +193,7 @@ pub fn structure(
 /// instead would make the dynamic flexibility singular.
 ///
 /// # Errors
-/// [`Error::ZeroLength`] when the spars of a rib meet or a spar has no depth there; [`CaseError::MissingGrid`].
+/// [`Error::Value`] when the spars of a rib meet or a spar has no depth there; [`CaseError::MissingGrid`].
 pub fn load_distribution(reconstruction: &Reconstruction) -> Result<DMatrix<f64>, CaseError> {
     let xi = reconstruction.mid_chord_fraction;
     let hermite = [
@@ -232,11 +229,7 @@ pub fn load_distribution(reconstruction: &Reconstruction) -> Result<DMatrix<f64>
 }
 
 fn nonzero(length: f64) -> Result<f64, Error> {
-    if length > 0.0 {
-        Ok(length)
-    } else {
-        Err(Error::ZeroLength(length))
-    }
+    positive("length", || "a rib's chord or depth".into(), length).map(|()| length)
 }
 
 /// Positions of the nine dynamic points, in: at mid-depth of every free rib, rear, mid, front, from the tip in.

@@ -1,11 +1,11 @@
 //! Modes so close in frequency that a small change mixes their shapes: what is compared is the subspace that they span.
 
-use crate::method::appendix_c::SMALLEST_SEPARATION;
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
-use crate::method::model::ExactResult;
-use crate::method::modes::ModeSet;
-use crate::method::pairing::{Pairing, modal_assurance};
+use crate::method::modes::Modes;
+use crate::method::perturbation::SMALLEST_SEPARATION;
+use crate::method::sorting::Pairing;
+use crate::sparse::modal_assurance;
 use nalgebra::{DMatrix, DVector};
 
 /// Standard deviations of a difference of two frequencies within which the test does not tell which is the higher.
@@ -16,7 +16,7 @@ const SEEN: f64 = 1e-8;
 
 /// Test modes in groups, each of which is compared as a subspace: every two neighbors in frequency (Hz) are within twice the standard
 /// deviation of their difference, by the relative `deviations` of each.
-pub fn told_apart(frequencies_hz: &[f64], deviations: &[f64]) -> Vec<Vec<usize>> {
+pub fn indistinct_groups(frequencies_hz: &[f64], deviations: &[f64]) -> Vec<Vec<usize>> {
     let mut ascending: Vec<usize> = (0..frequencies_hz.len()).collect();
     ascending.sort_by(|&a, &b| frequencies_hz[a].total_cmp(&frequencies_hz[b]));
     let mut groups: Vec<Vec<usize>> = Vec::new();
@@ -90,7 +90,7 @@ pub(crate) fn nearest(shapes: &DMatrix<f64>, members: &[usize], u: &DVector<f64>
 ///
 /// # Errors
 /// Those of [`modal_assurance`].
-pub fn assurance_of_roots(modes: &ModeSet, shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+pub fn assurance_of_roots(modes: &Modes, shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     let mut assurance = modal_assurance(&modes.shapes, shapes)?;
     let k = &modes.omega_squared;
     for i in 0..k.len() {
@@ -113,11 +113,15 @@ pub fn assurance_of_roots(modes: &ModeSet, shapes: &DMatrix<f64>) -> Result<DMat
 /// [`Error::WrongShape`] for a pairing of another number of test modes.
 ///
 /// Source: Golub and Van Loan, *Matrix Computations*, 4th ed. (2013), section 6.4.1.
-pub fn turned(modes: &ModeSet, exact: &ExactResult, test: &ModeSet) -> Result<ModeSet, Error> {
-    let pairing = &exact.pairing;
+pub fn turned(
+    modes: &Modes,
+    pairing: &Pairing,
+    together: &[Vec<usize>],
+    test: &Modes,
+) -> Result<Modes, Error> {
     check_length("paired modes", pairing.analysis_mode.len(), test.len())?;
     let mut turned = modes.clone();
-    for group in exact.together.iter().filter(|group| group.len() > 1) {
+    for group in together.iter().filter(|group| group.len() > 1) {
         let members: Vec<usize> = group.iter().map(|&j| pairing.analysis_mode[j]).collect();
         let mut wanted = DMatrix::zeros(members.len(), members.len());
         for (place, &j) in group.iter().enumerate() {

@@ -1,11 +1,12 @@
 //! Bounded Gauss–Newton steps with Levenberg and Marquardt's damping, one exact analysis each.
 
+use super::comparison::{Comparison, ExactResult};
 use super::identifiability::{Identifiability, PRIOR_DEVIATION, identifiability};
 use super::residuals::{jacobian, residuals};
-use crate::method::error::{Error, positive_setting};
-use crate::method::error_sum::ModeWeight;
+use crate::method::error::{Error, positive};
 use crate::method::linear_algebra::check_length;
-use crate::method::model::{Bounds, ExactResult, ModalModel};
+use crate::method::step::Bounds;
+use crate::sparse::ModeWeight;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
@@ -16,7 +17,7 @@ const LONGEST_STEP: f64 = 1.0;
 /// A step that moves no logarithm by more is none.
 const SHORTEST_STEP: f64 = 1e-9;
 
-/// What a weighted correlation assumes and when it stops.
+/// Assumptions of a weighted correlation, and when it stops.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct WeightedSettings {
@@ -41,7 +42,7 @@ impl Default for WeightedSettings {
 }
 
 impl WeightedSettings {
-    /// The prior deviation of each of so many parameters.
+    /// Prior deviations of `count` parameters.
     pub(crate) fn priors(&self, count: usize) -> Vec<f64> {
         match self.prior_deviations[..] {
             [one] => vec![one; count],
@@ -50,7 +51,7 @@ impl WeightedSettings {
     }
 }
 
-/// Why a weighted correlation stopped.
+/// Reason why a weighted correlation stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum WeightedStop {
@@ -86,16 +87,16 @@ pub struct WeightedCorrelation {
     pub objective: f64,
     /// Exact analyses made.
     pub analyses: usize,
-    /// Why it stopped.
+    /// Reason why it stopped.
     pub stop: WeightedStop,
-    /// What the test modes see of the parameters there.
+    /// Identifiability of the parameters there.
     pub identifiability: Identifiability,
 }
 
-/// Where a correlation stands.
+/// Place where a correlation stands.
 struct Iterate {
     factors: Vec<f64>,
-    model: ModalModel,
+    comparison: Comparison,
     jacobian: DMatrix<f64>,
     objective: f64,
     gradient: DVector<f64>,
@@ -122,186 +123,204 @@ struct Iterate {
 /// (1999).
 ///
 /// # Errors
-/// Those of `analyze` at the first factors, of [`residuals`] and [`identifiability`]; [`Error::Setting`], [`Error::Limits`] and [`Error::WrongShape`] for
-/// settings and lists out of range.
+/// What `analyze` refuses at the first factors; [`Error::Value`], [`Error::Range`] and [`Error::WrongShape`] for settings and lists out of
+/// range, and for residuals that are not finite.
 pub fn gauss_newton<E: From<Error>>(
-    mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
+    mut analyze: impl FnMut(&[f64]) -> Result<Comparison, E>,
     first: &[f64],
     ranges: &[Option<Bounds>],
     weights: &[ModeWeight],
     settings: &WeightedSettings,
 ) -> Result<WeightedCorrelation, E> {
-    steps(&mut analyze, true, first, ranges, weights, settings)
+    Problem::new(first.len(), ranges, weights, settings)?.steps(&mut analyze, true, first)
 }
 
-pub(super) fn steps<E: From<Error>>(
-    analyze: &mut dyn FnMut(&[f64]) -> Result<ModalModel, E>,
-    is_exact: bool,
-    first: &[f64],
-    ranges: &[Option<Bounds>],
-    weights: &[ModeWeight],
-    settings: &WeightedSettings,
-) -> Result<WeightedCorrelation, E> {
-    let priors = settings.priors(first.len());
-    check_length("prior deviations", priors.len(), first.len())?;
-    for prior in &priors {
-        positive_setting("prior_deviation", *prior)?;
-    }
-    positive_setting("tolerance", settings.tolerance)?;
-    check_length("parameter limits", ranges.len(), first.len())?;
-    ranges
-        .iter()
-        .flatten()
-        .try_for_each(|r| Bounds::positive("parameter limits", r.lower, r.upper).map(drop))?;
-    let tikhonov = DVector::from_iterator(priors.len(), priors.iter().map(|prior| prior.powi(-2)));
-    let mut place_at = |factors: Vec<f64>| -> Result<Iterate, E> {
-        let within = |(&factor, range): (&f64, &Option<Bounds>)| {
-            range.map_or(factor, |range| range.clamp(factor))
-        };
-        let factors: Vec<f64> = factors.iter().zip(ranges).map(within).collect();
-        let model = analyze(&factors)?;
-        check_length("parameter factors", factors.len(), model.shares.len())?;
-        let logs = DVector::from_iterator(factors.len(), factors.iter().map(|factor| factor.ln()));
-        let (residuals, jacobian) = (residuals(&model, weights)?, jacobian(&model, weights)?);
-        let pull = tikhonov.component_mul(&logs);
-        let objective = 0.5 * (residuals.norm_squared() + pull.dot(&logs));
-        let gradient = jacobian.tr_mul(&residuals) + pull;
-        let curvature = jacobian.tr_mul(&jacobian) + DMatrix::from_diagonal(&tikhonov);
-        Ok(Iterate {
-            factors,
-            model,
-            jacobian,
-            objective,
-            gradient,
-            curvature,
+/// Problem that the steps of a correlation share.
+pub(super) struct Problem<'a> {
+    ranges: &'a [Option<Bounds>],
+    weights: &'a [ModeWeight],
+    settings: &'a WeightedSettings,
+    priors: Vec<f64>,
+    /// $1/\tau^2$ of every parameter.
+    tikhonov: DVector<f64>,
+}
+
+impl<'a> Problem<'a> {
+    pub(super) fn new(
+        count: usize,
+        ranges: &'a [Option<Bounds>],
+        weights: &'a [ModeWeight],
+        settings: &'a WeightedSettings,
+    ) -> Result<Self, Error> {
+        let priors = settings.priors(count);
+        check_length("prior deviations", priors.len(), count)?;
+        let owner = || "the weighted steps".to_owned();
+        for prior in &priors {
+            positive("prior_deviation", owner, *prior)?;
+        }
+        positive("tolerance", owner, settings.tolerance)?;
+        check_length("parameter limits", ranges.len(), count)?;
+        for range in ranges.iter().flatten() {
+            Bounds::positive("parameter limits", range.lower, range.upper)?;
+        }
+        let tikhonov = priors.iter().map(|prior| prior.powi(-2));
+        Ok(Self {
+            tikhonov: DVector::from_iterator(count, tikhonov),
+            ranges,
+            weights,
+            settings,
+            priors,
         })
-    };
-    let mut place = place_at(first.to_vec())?;
-    let initial = place.model.exact.clone();
-    let mut is_new = is_exact;
-    let (mut iterations, mut damping, mut growth, mut trials) = (Vec::new(), FIRST_DAMPING, 2.0, 0);
-    let stop = loop {
-        let Iterate {
+    }
+
+    /// The exact analysis at factors brought within their bounds.
+    fn place_at<E: From<Error>>(
+        &self,
+        analyze: &mut dyn FnMut(&[f64]) -> Result<Comparison, E>,
+        factors: Vec<f64>,
+    ) -> Result<Iterate, E> {
+        let within = |(&factor, range): (&f64, &Option<Bounds>)| {
+            range.map_or(factor, |range| factor.clamp(range.lower, range.upper))
+        };
+        let factors: Vec<f64> = factors.iter().zip(self.ranges).map(within).collect();
+        let comparison = analyze(&factors)?;
+        check_length(
+            "parameter factors",
+            factors.len(),
+            comparison.model.shares.len(),
+        )?;
+        let logs = DVector::from_iterator(factors.len(), factors.iter().map(|factor| factor.ln()));
+        let residuals = residuals(&comparison, self.weights)?;
+        let jacobian = jacobian(&comparison, self.weights)?;
+        let pull = self.tikhonov.component_mul(&logs);
+        Ok(Iterate {
+            objective: 0.5 * (residuals.norm_squared() + pull.dot(&logs)),
+            gradient: jacobian.tr_mul(&residuals) + pull,
+            curvature: jacobian.tr_mul(&jacobian) + DMatrix::from_diagonal(&self.tikhonov),
             factors,
-            gradient,
-            curvature,
-            ..
-        } = &place;
+            comparison,
+            jacobian,
+        })
+    }
+
+    /// Steps from `first`; those whose analyses are exact look ahead in the basis of each.
+    pub(super) fn steps<E: From<Error>>(
+        &self,
+        analyze: &mut dyn FnMut(&[f64]) -> Result<Comparison, E>,
+        is_exact: bool,
+        first: &[f64],
+    ) -> Result<WeightedCorrelation, E> {
+        let mut place = self.place_at(analyze, first.to_vec())?;
+        let initial = place.comparison.result()?;
+        let mut is_new = is_exact;
+        let (mut iterations, mut trials) = (Vec::new(), 0);
+        let (mut damping, mut growth) = (FIRST_DAMPING, 2.0);
+        let stop = loop {
+            let room = place.room(self.ranges);
+            let free = place.free(&room);
+            let is_flat = |&e: &usize| {
+                let deviations = place.curvature[(e, e)].sqrt();
+                place.gradient[e].abs() <= self.settings.tolerance * deviations
+            };
+            if free.iter().all(is_flat) {
+                break WeightedStop::Gradient;
+            }
+            if trials == self.settings.trials {
+                break WeightedStop::Trials;
+            }
+            if std::mem::take(&mut is_new)
+                && let Some(ahead) = self.ahead(&place)
+            {
+                trials += 1;
+                if let Ok(next) = self.place_at(analyze, ahead)
+                    && next.objective < place.objective
+                {
+                    (place, is_new) = (next, is_exact);
+                    iterations.push(place.iteration()?);
+                }
+                continue;
+            }
+            let mut step = bounded_step(&place.curvature, &place.gradient, free, &room, damping)?;
+            step *= (LONGEST_STEP / step.amax()).min(1.0);
+            if step.amax() <= SHORTEST_STEP {
+                break WeightedStop::Step;
+            }
+            trials += 1;
+            let both = place.factors.iter().zip(&step);
+            let trial = both.map(|(factor, step)| factor * step.exp()).collect();
+            // A place without a model is no better than this one, nor is one where the objective has not fallen.
+            let next = self.place_at(analyze, trial).ok();
+            let promised = place.promised_fall(&step);
+            let fall = |next: &Iterate| place.objective - next.objective;
+            let Some(next) = next.filter(|next| fall(next) > 0.0 && promised > 0.0) else {
+                (damping, growth) = (damping * growth, 2.0 * growth);
+                continue;
+            };
+            let ratio = fall(&next) / promised;
+            (place, is_new) = (next, is_exact);
+            iterations.push(place.iteration()?);
+            damping *= (1.0 - (2.0 * ratio - 1.0).powi(3)).max(1.0 / 3.0);
+            growth = 2.0;
+        };
+        Ok(WeightedCorrelation {
+            initial,
+            iterations,
+            identifiability: identifiability(&place.jacobian, &self.priors)?,
+            factors: place.factors,
+            objective: place.objective,
+            analyses: trials + 1,
+            stop,
+        })
+    }
+
+    /// Factors where the steps from a place end in the basis of its model; none if nowhere else.
+    fn ahead(&self, place: &Iterate) -> Option<Vec<f64>> {
+        let mut follow = |factors: &[f64]| {
+            let both = factors.iter().zip(&place.factors);
+            let change: Vec<f64> = both.map(|(factor, from)| factor / from).collect();
+            place.comparison.followed(&change)
+        };
+        let found = self.steps::<Error>(&mut follow, false, &place.factors);
+        let found = found.ok().filter(|found| !found.iterations.is_empty())?;
+        Some(found.factors)
+    }
+}
+
+impl Iterate {
+    fn iteration(&self) -> Result<WeightedIteration, Error> {
+        Ok(WeightedIteration {
+            factors: self.factors.clone(),
+            check: self.comparison.result()?,
+            objective: self.objective,
+        })
+    }
+
+    /// Room of every logarithm within the bounds.
+    fn room(&self, ranges: &[Option<Bounds>]) -> Vec<Bounds> {
+        let (lower, upper) = (0.0, f64::INFINITY);
         let room = |(range, factor): (&Option<Bounds>, &f64)| {
-            let range = range.unwrap_or(Bounds {
-                lower: 0.0,
-                upper: f64::INFINITY,
-            });
+            let range = range.unwrap_or(Bounds { lower, upper });
             Bounds {
                 lower: (range.lower / factor).ln(),
                 upper: (range.upper / factor).ln(),
             }
         };
-        let room: Vec<Bounds> = ranges.iter().zip(factors).map(room).collect();
-        let is_free = |&e: &usize| {
-            if gradient[e] > 0.0 {
-                room[e].lower < 0.0
-            } else {
-                room[e].upper > 0.0
-            }
-        };
-        let free: Vec<usize> = (0..first.len()).filter(is_free).collect();
-        let is_flat =
-            |&e: &usize| gradient[e].abs() <= settings.tolerance * curvature[(e, e)].sqrt();
-        if free.iter().all(is_flat) {
-            break WeightedStop::Gradient;
-        }
-        if trials == settings.trials {
-            break WeightedStop::Trials;
-        }
-        if std::mem::take(&mut is_new)
-            && let Some(ahead) = ahead(&place, ranges, weights, settings)
-        {
-            trials += 1;
-            if let Ok(next) = place_at(ahead)
-                && next.objective < place.objective
-            {
-                (place, is_new) = (next, is_exact);
-                iterations.push(place.iteration());
-            }
-            continue;
-        }
-        let mut step = bounded_step(curvature, gradient, free, &room, damping)?;
-        step *= (LONGEST_STEP / step.amax()).min(1.0);
-        if step.amax() <= SHORTEST_STEP {
-            break WeightedStop::Step;
-        }
-        trials += 1;
-        let trial = factors
-            .iter()
-            .zip(&step)
-            .map(|(factor, step)| factor * step.exp());
-        // A place without a model is no better than this one.
-        let Ok(next) = place_at(trial.collect()) else {
-            (damping, growth) = (damping * growth, 2.0 * growth);
-            continue;
-        };
-        let promised = -gradient.dot(&step) - 0.5 * step.dot(&(curvature * &step));
-        let fall = place.objective - next.objective;
-        if !(fall > 0.0 && promised > 0.0) {
-            (damping, growth) = (damping * growth, 2.0 * growth);
-            continue;
-        }
-        (place, is_new) = (next, is_exact);
-        iterations.push(place.iteration());
-        damping *= (1.0 - (2.0 * fall / promised - 1.0).powi(3)).max(1.0 / 3.0);
-        growth = 2.0;
-    };
-    let identifiability = identifiability(&place.jacobian, &priors)?;
-    let (
-        Iterate {
-            factors, objective, ..
-        },
-        analyses,
-    ) = (place, trials + 1);
-    Ok(WeightedCorrelation {
-        initial,
-        iterations,
-        factors,
-        objective,
-        analyses,
-        stop,
-        identifiability,
-    })
-}
-
-impl Iterate {
-    fn iteration(&self) -> WeightedIteration {
-        WeightedIteration {
-            factors: self.factors.clone(),
-            check: self.model.exact.clone(),
-            objective: self.objective,
-        }
+        ranges.iter().zip(&self.factors).map(room).collect()
     }
-}
 
-/// Where the steps from a place end in the basis of its model; none if nowhere else.
-fn ahead(
-    place: &Iterate,
-    ranges: &[Option<Bounds>],
-    weights: &[ModeWeight],
-    settings: &WeightedSettings,
-) -> Option<Vec<f64>> {
-    let mut follow = |factors: &[f64]| {
-        let both = factors.iter().zip(&place.factors);
-        let change: Vec<f64> = both.map(|(factor, from)| factor / from).collect();
-        place.model.followed(&change)
-    };
-    let found = steps::<Error>(
-        &mut follow,
-        false,
-        &place.factors,
-        ranges,
-        weights,
-        settings,
-    );
-    let found = found.ok().filter(|found| !found.iterations.is_empty())?;
-    Some(found.factors)
+    /// Parameters that the gradient does not press against a bound.
+    fn free(&self, room: &[Bounds]) -> Vec<usize> {
+        let is_free = |&e: &usize| match self.gradient[e] > 0.0 {
+            true => room[e].lower < 0.0,
+            false => room[e].upper > 0.0,
+        };
+        (0..room.len()).filter(is_free).collect()
+    }
+
+    /// Fall of the objective that the quadratic model promises for a step.
+    fn promised_fall(&self, step: &DVector<f64>) -> f64 {
+        -self.gradient.dot(step) - 0.5 * step.dot(&(&self.curvature * step))
+    }
 }
 
 /// The damped step of the `free` parameters within their `room` below and above: one that would leave it stops at its bound.
@@ -320,7 +339,7 @@ fn bounded_step(
         (0..free.len()).for_each(|e| left[(e, e)] *= 1.0 + damping);
         let factor = left.cholesky().ok_or(Error::NotPositiveDefinite {
             what: "damped curvature",
-            dof: 0,
+            row: 0,
         })?;
         let solved = factor.solve(&right);
         let within = |place: &usize| room[free[*place]].contains(solved[*place]);
@@ -331,9 +350,12 @@ fn bounded_step(
                 .for_each(|&place| step[free[place]] = solved[place]);
             return Ok(step);
         }
-        beyond
-            .into_iter()
-            .for_each(|place| step[free[place]] = room[free[place]].clamp(solved[place]));
+        beyond.into_iter().for_each(|place| {
+            step[free[place]] = {
+                let Bounds { lower, upper } = room[free[place]];
+                solved[place].clamp(lower, upper)
+            }
+        });
         free = inside.into_iter().map(|place| free[place]).collect();
     }
 }

@@ -1,6 +1,6 @@
 //! What the test modes can see of the parameters, and how sure the factors are.
 
-use crate::method::error::{Error, at_least_one, positive_setting};
+use crate::method::error::{Error, at_least_one, positive};
 use crate::method::linear_algebra::{as_faer, check_finite, check_length};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
@@ -50,12 +50,12 @@ pub const MOSTLY_PRIOR: f64 = 0.5;
 /// Computations*.
 ///
 /// # Errors
-/// [`Error::Setting`] for $\tau$ that is not positive; [`Error::NotFinite`]; [`Error::Empty`] without parameters or residuals.
+/// [`Error::Value`] for $\tau$ that is not positive; [`Error::Value`]; [`Error::Count`] without parameters or residuals.
 pub fn identifiability(jacobian: &DMatrix<f64>, priors: &[f64]) -> Result<Identifiability, Error> {
     let count = jacobian.ncols();
     check_length("prior deviations", priors.len(), count)?;
     for prior in priors {
-        positive_setting("prior_deviation", *prior)?;
+        positive("prior_deviation", || "the parameters".into(), *prior)?;
     }
     check_finite("Jacobian", jacobian)?;
     at_least_one("parameters or residuals", jacobian.len())?;
@@ -80,7 +80,7 @@ pub fn identifiability(jacobian: &DMatrix<f64>, priors: &[f64]) -> Result<Identi
         jacobian.tr_mul(jacobian) + DMatrix::from_diagonal(&priors.map(|prior| prior.powi(-2)));
     let factor = information.cholesky().ok_or(Error::NotPositiveDefinite {
         what: "information",
-        dof: 0,
+        row: 0,
     })?;
     let covariance = factor.inverse();
     let deviations: Vec<f64> = covariance
@@ -122,7 +122,7 @@ fn subset(jacobian: &DMatrix<f64>) -> Vec<usize> {
 }
 
 impl Identifiability {
-    /// Whether the prior says more of a parameter than the test.
+    /// True if the prior says more of a parameter than the test.
     pub fn is_mostly_prior(&self, e: usize) -> bool {
         1.0 - self.learned[e] > MOSTLY_PRIOR
     }

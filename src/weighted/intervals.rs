@@ -1,16 +1,18 @@
 //! 95 % intervals of the factors around the optimum of weighted steps.
 
-use super::gauss_newton::{WeightedSettings, steps};
+use super::comparison::Comparison;
+use super::gauss_newton::{Problem, WeightedSettings};
 use super::identifiability::{NORMAL_95, identifiability};
 use super::residuals::{jacobian, residuals};
 use crate::method::error::Error;
-use crate::method::error_sum::ModeWeight;
-use crate::method::model::{Bounds, ModalModel};
+use crate::method::step::Bounds;
+use crate::sparse::ModeWeight;
 use statrs::function::erf::erfc;
 
 /// Part of the tests in which an interval by slopes may miss the truth before the objective itself is asked.
 const MOST_MISSED: f64 = 0.07;
-/// How far the root of twice the rise of the objective may be from [`NORMAL_95`], relative to it, at an end that is sought: 94.6 to 95.4 %.
+/// Largest distance of the root of twice the rise of the objective from [`NORMAL_95`], relative to it, at an end that is sought: 94.6 to
+/// 95.4 %.
 const CLOSE: f64 = 0.02;
 /// Most tries for an end; an interval without one is withheld.
 const TRIES: usize = 30;
@@ -29,11 +31,11 @@ const GRADIENT: f64 = 1e-2;
 /// `analyze` need be no other analysis: a job follows the modes in the basis of its best model.
 ///
 /// # Errors
-/// Those of [`residuals`], [`jacobian`] and [`identifiability`].
+/// [`Error::WrongShape`] and [`Error::Value`] for weights and priors out of range, and for residuals that are not finite.
 ///
 /// Source: Venzon and Moolgavkar, *Applied Statistics* 37 (1988), 87.
 pub fn intervals(
-    analyze: &dyn Fn(&[f64]) -> Result<ModalModel, Error>,
+    analyze: &dyn Fn(&[f64]) -> Result<Comparison, Error>,
     factors: &[f64],
     ranges: &[Option<Bounds>],
     weights: &[ModeWeight],
@@ -54,7 +56,7 @@ pub fn intervals(
         ..settings.clone()
     };
     let interval = |e: usize| -> Option<Bounds> {
-        if ranges[e].is_some_and(|range| range.has_end_at(factors[e])) || seen.is_mostly_prior(e) {
+        if ranges[e].is_some_and(|range| is_at_end(range, factors[e])) || seen.is_mostly_prior(e) {
             return None;
         }
         let along = |log: f64| -> Vec<f64> {
@@ -83,14 +85,9 @@ pub fn intervals(
                     lower: first[e],
                     upper: first[e] * (1.0 + 4.0 * f64::EPSILON),
                 });
-                let found = steps(
-                    &mut |at: &[f64]| analyze(at),
-                    true,
-                    &first,
-                    &ranges,
-                    weights,
-                    &settings,
-                );
+                let problem = Problem::new(first.len(), &ranges, weights, &settings);
+                let found =
+                    problem.and_then(|of| of.steps(&mut |at: &[f64]| analyze(at), true, &first));
                 found.ok().map(|found| root(found.objective) - reach)
             };
             [
@@ -104,7 +101,7 @@ pub fn intervals(
     Ok((0..factors.len()).map(interval).collect())
 }
 
-/// Where `rise`, less than zero at zero, is zero to within [`CLOSE`] of `reach`: from `first` outward, then between.
+/// Place where `rise`, less than zero at zero, is zero to within [`CLOSE`] of `reach`: from `first` outward, then between.
 fn end(rise: &mut dyn FnMut(f64) -> Option<f64>, first: f64, reach: f64) -> Option<f64> {
     let (mut inner, mut outer) = ((0.0, -reach), (first, rise(first)?));
     for _ in 0..TRIES {
@@ -127,4 +124,13 @@ fn end(rise: &mut dyn FnMut(f64) -> Option<f64>, first: f64, reach: f64) -> Opti
         }
     }
     None
+}
+
+/// Distance from an end of its range, relative, within which a factor counts as at its bound.
+const AT_END: f64 = 1e-9;
+
+/// True if a factor is at an end of its range, to round-off.
+pub(crate) fn is_at_end(range: Bounds, factor: f64) -> bool {
+    let ends = [range.lower, range.upper];
+    ends.iter().any(|end| (factor / end - 1.0).abs() < AT_END)
 }

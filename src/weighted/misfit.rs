@@ -1,10 +1,11 @@
 //! How far a model is from its test at the best factors, beside what noise alone would leave.
 
+use super::comparison::Comparison;
 use super::identifiability::identifiability;
 use super::residuals::{jacobian, residuals};
 use crate::method::error::Error;
-use crate::method::error_sum::ModeWeight;
-use crate::method::model::ModalModel;
+use crate::method::error::require;
+use crate::sparse::ModeWeight;
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -40,41 +41,46 @@ impl Misfit {
     /// # Errors
     /// Those of [`residuals`], [`jacobian`] and [`identifiability`].
     pub fn of(
-        model: &ModalModel,
+        comparison: &Comparison,
         weights: &[ModeWeight],
         priors: &[f64],
         at_bound: &[usize],
     ) -> Result<Self, Error> {
-        let chi_squared = residuals(model, weights)?.norm_squared();
-        let free: Vec<usize> = (0..model.shares.len())
+        let chi_squared = residuals(comparison, weights)?.norm_squared();
+        let free: Vec<usize> = (0..comparison.model.shares.len())
             .filter(|e| !at_bound.contains(e))
             .collect();
-        let jacobian = jacobian(model, weights)?.select_columns(&free);
+        let jacobian = jacobian(comparison, weights)?.select_columns(&free);
         let priors: Vec<f64> = free.iter().map(|&e| priors[e]).collect();
         let fitted: f64 = if free.is_empty() {
             0.0
         } else {
             identifiability(&jacobian, &priors)?.learned.iter().sum()
         };
-        let sensors = model.test.shapes.nrows();
+        let (test, sensors) = (&comparison.model.test, comparison.model.test.shapes.nrows());
         let compared = |(mode, weight): (usize, &ModeWeight)| {
-            let groups = &model.exact.together;
+            let groups = &comparison.test.together;
             let size = groups
                 .iter()
                 .find(|group| group.contains(&mode))
                 .map_or(1, Vec::len);
-            let is_shape = weight.shape > 0.0 && mode < model.test.len();
+            let is_shape = weight.shape > 0.0 && mode < test.len();
             usize::from(weight.frequency > 0.0)
                 + usize::from(is_shape) * sensors.saturating_sub(size)
         };
         let numbers: usize = weights.iter().enumerate().map(compared).sum();
         let degrees_of_freedom = numbers as f64 - fitted;
-        let law = ChiSquared::new(degrees_of_freedom.max(1.0)).map_err(|_| Error::NotFinite {
-            what: "degrees of freedom",
-            value: degrees_of_freedom,
-            row: 0,
-            column: 0,
-        })?;
+        let owner = || "the fit".into();
+        let is_met = degrees_of_freedom.is_finite();
+        require(
+            is_met,
+            "degrees of freedom",
+            owner,
+            degrees_of_freedom,
+            "a finite number",
+        )?;
+        let law = ChiSquared::new(degrees_of_freedom.max(1.0))
+            .map_err(|_| Error::no_convergence("chi-squared"))?;
         let largest_by_noise = law.inverse_cdf(1.0 - FALSE_ALARMS);
         Ok(Self {
             chi_squared,
@@ -99,7 +105,7 @@ impl Misfit {
         }
     }
 
-    /// Whether noise may have left as much.
+    /// True if noise may have left as much.
     pub fn is_by_noise(&self) -> bool {
         self.chi_squared <= self.largest_by_noise
     }

@@ -2,12 +2,19 @@
 //! deviations. Their sum of squares is the test's chi-squared and its curvature says how sure the factors are, which the
 //! paper's error sum, where every mode and sensor counts alike, cannot tell.
 
+#[doc(hidden)]
 pub mod close_modes;
+pub mod comparison;
 pub mod gauss_newton;
+#[doc(hidden)]
 pub mod identifiability;
 pub mod intervals;
 pub mod misfit;
+#[doc(hidden)]
 pub mod next_step;
+#[doc(hidden)]
 pub mod noise;
+#[doc(hidden)]
 pub mod residuals;
+#[doc(hidden)]
 pub mod starts;

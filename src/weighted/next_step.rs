@@ -1,10 +1,10 @@
 //! One weighted step from where a correlation ended: what the test still says there.
 
+use super::comparison::Comparison;
 use super::identifiability::{Identifiability, identifiability};
 use super::noise::Noise;
 use super::residuals::{jacobian, residuals};
 use crate::method::error::Error;
-use crate::method::model::ModalModel;
 use serde::Serialize;
 
 /// One weighted step from where a correlation ended.
@@ -27,9 +27,9 @@ impl NextStep {
     /// with the [`residuals`] $r$ and their [`jacobian`] $J$.
     ///
     /// # Errors
-    /// Those of [`residuals`] and [`identifiability`]: [`Error::Setting`] for deviations that are not positive.
-    pub fn at(model: &ModalModel, noise: Noise, prior_deviation: f64) -> Result<Self, Error> {
-        let weights = vec![noise.weight(); model.test().len()];
+    /// Those of [`residuals`] and [`identifiability`]: [`Error::Value`] for deviations that are not positive.
+    pub fn at(model: &Comparison, noise: Noise, prior_deviation: f64) -> Result<Self, Error> {
+        let weights = vec![noise.weight(); model.model.test.len()];
         let jacobian = jacobian(model, &weights)?;
         let seen = identifiability(&jacobian, &vec![prior_deviation; jacobian.ncols()])?;
         let step = -(&seen.covariance * jacobian.tr_mul(&residuals(model, &weights)?));

@@ -1,9 +1,9 @@
 //! Test modes with reproducible errors of measurement, and the numbers that they are drawn from.
 
 use crate::method::error::Error;
-use crate::method::error_sum::ModeWeight;
 use crate::method::linear_algebra::check_length;
-use crate::method::modes::ModeSet;
+use crate::method::modes::Modes;
+use crate::sparse::ModeWeight;
 use crate::sparse::random::uniform;
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -30,12 +30,6 @@ impl Noise {
             shape: 1.0 / self.shape,
         }
     }
-
-    /// A perfect one.
-    pub const NONE: Self = Self {
-        shape: 0.0,
-        frequency: 0.0,
-    };
 }
 
 /// Test modes with reproducible errors of measurement:
@@ -46,8 +40,8 @@ impl Noise {
 /// are those of Box and Muller, *Annals of Mathematical Statistics* 29 (1958), 610–611, from [`split_mix_64`](crate::sparse::random::split_mix_64).
 ///
 /// # Errors
-/// Those of [`ModeSet::from_measured`], such as [`Error::NotPositive`] when noise turns a frequency negative.
-pub fn with_noise(exact: &ModeSet, noise: Noise, seed: u64) -> Result<ModeSet, Error> {
+/// Those of [`Modes::from_measured`], such as [`Error::Value`] when noise turns a frequency negative.
+pub fn with_noise(exact: &Modes, noise: Noise, seed: u64) -> Result<Modes, Error> {
     with_noise_by_mode(exact, &vec![noise; exact.len()], seed)
 }
 
@@ -55,7 +49,7 @@ pub fn with_noise(exact: &ModeSet, noise: Noise, seed: u64) -> Result<ModeSet, E
 ///
 /// # Errors
 /// [`Error::WrongShape`] unless there is one `noise` a mode; those of [`with_noise`].
-pub fn with_noise_by_mode(exact: &ModeSet, noise: &[Noise], seed: u64) -> Result<ModeSet, Error> {
+pub fn with_noise_by_mode(exact: &Modes, noise: &[Noise], seed: u64) -> Result<Modes, Error> {
     check_length("standard deviations", noise.len(), exact.len())?;
     let mut state = seed;
     // Above zero, so that it has a logarithm, and at most one.
@@ -73,5 +67,5 @@ pub fn with_noise_by_mode(exact: &ModeSet, noise: &[Noise], seed: u64) -> Result
         let deviation = noise.shape * shape.amax();
         shape.apply(|component| *component += deviation * normal());
     }
-    ModeSet::from_measured(&frequencies, &shapes)
+    Modes::from_measured(&frequencies, &shapes)
 }

@@ -1,13 +1,13 @@
 //! Residuals between analysis and test, each over its standard deviation, and their Jacobian.
 
-use crate::method::appendix_c::SMALLEST_SEPARATION;
+use crate::method::analysis::State;
 use crate::method::error::Error;
-use crate::method::error_sum::ModeWeight;
-use crate::method::linear_algebra::{finite, finite_list, solve_lower};
-use crate::method::model::{ExactResult, ModalModel, ParameterMatrix, check_weights};
-use crate::method::modes::ModeSet;
-use crate::method::pairing::Pairing;
+use crate::method::modes::Modes;
+use crate::method::perturbation::SMALLEST_SEPARATION;
+use crate::method::sorting::Pairing;
+use crate::sparse::{ModeWeight, ParameterMatrix, SensorModel, check_weights, finite, solve_lower};
 use crate::weighted::close_modes::{Nearest, members, nearest};
+use crate::weighted::comparison::{Comparison, Test};
 use crate::weighted::noise::Noise;
 use nalgebra::{DMatrix, DVector, Dyn, QR, RowDVector};
 
@@ -25,32 +25,35 @@ pub const DEVIATIONS: Noise = Noise {
 ///    a_j = \frac{v_i^t u_j}{v_i^t v_i} $$
 ///
 /// with $v_i$ the paired analysis shape and $u_j$ the test shape of unit largest component. Of test modes that are compared
-/// together ([`ModalModel::with_groups`]) $V V^+ u_j$ stands for $a_j v_i$, with the shapes of all their partners in $V$. Components with
-/// weights of their own ([`ModalModel::with_component_weights`]) are multiplied by these in $v_i$, $V$ and $u_j$ first. Residuals with a
-/// covariance ([`ModalModel::with_covariance`]) are made independent. The analysis shape's scale is that of least squares (the modal
+/// together ([`Comparison::with_groups`]) $V V^+ u_j$ stands for $a_j v_i$, with the shapes of all their partners in $V$. Components with
+/// weights of their own ([`Comparison::with_component_weights`]) are multiplied by these in $v_i$, $V$ and $u_j$ first. Residuals with a
+/// covariance ([`Comparison::with_covariance`]) are made independent. The analysis shape's scale is that of least squares (the modal
 /// scale factor) instead of the paper's: it gives the sign, has no kink where the largest component
 /// changes its place, and the noise of one component does not enter all others. Eliminating a linear unknown in this way
 /// leaves the covariance of the others as it is with the scale among the unknowns, on which intervals depend.
 ///
 /// # Errors
-/// [`Error::WrongShape`] and [`Error::Setting`] for weights that do not fit; [`Error::NotFinite`].
+/// [`Error::WrongShape`] and [`Error::Value`] for weights that do not fit; [`Error::Value`].
 ///
 /// Source: Golub and Pereyra, *SIAM Journal on Numerical Analysis* 10 (1973), 413.
-pub fn residuals(model: &ModalModel, weights: &[ModeWeight]) -> Result<DVector<f64>, Error> {
-    check_weights(weights, model.test.len() + model.exact.lone.len())?;
-    let residuals = residuals_of(&model.exact.modes, &model.exact.pairing, model, weights);
-    finite_list("residuals", residuals.data.into()).map(DVector::from_vec)
+pub fn residuals(comparison: &Comparison, weights: &[ModeWeight]) -> Result<DVector<f64>, Error> {
+    let Comparison { model, test } = comparison;
+    check_weights(weights, model.test.len() + test.lone.len())?;
+    let State { modes, pairing, .. } = &model.exact;
+    let residuals = residuals_of(modes, pairing, comparison, weights);
+    let column = DMatrix::from_column_slice(residuals.len(), 1, residuals.as_slice());
+    finite("residuals", column).map(|_| residuals)
 }
 
 /// The residuals of any modes beside a model's test, of weights that fit.
 pub(crate) fn residuals_of(
-    modes: &ModeSet,
+    modes: &Modes,
     pairing: &Pairing,
-    model: &ModalModel,
+    comparison: &Comparison,
     weights: &[ModeWeight],
 ) -> DVector<f64> {
-    let residuals = correlated(modes, pairing, model, weights);
-    match Whitening::of((&modes.shapes, pairing), &model.exact, &model.test) {
+    let residuals = correlated(modes, pairing, comparison, weights);
+    match Whitening::of((&modes.shapes, pairing), comparison) {
         Some(of) => of.independent(&residuals).column(0).into_owned(),
         None => residuals.column(0).into_owned(),
     }
@@ -58,23 +61,24 @@ pub(crate) fn residuals_of(
 
 /// The same in one column, before a covariance is taken out.
 fn correlated(
-    modes: &ModeSet,
+    modes: &Modes,
     pairing: &Pairing,
-    ModalModel { test, exact, .. }: &ModalModel,
+    comparison: &Comparison,
     weights: &[ModeWeight],
 ) -> DMatrix<f64> {
+    let (test, Test { together, lone, .. }) = (&comparison.model.test, &comparison.test);
     let rows = 1 + test.shapes.nrows();
-    let mut residuals = DMatrix::zeros(rows * test.len() + exact.lone.len(), 1);
+    let mut residuals = DMatrix::zeros(rows * test.len() + lone.len(), 1);
     for (j, &i) in pairing.analysis_mode.iter().enumerate() {
         residuals[rows * j] =
             weights[j].frequency * ((modes.omega_squared[i] / test.omega_squared[j]).sqrt() - 1.0);
-        let members = members(pairing, &exact.together, j);
-        let apart = compared(&modes.shapes, exact, &members, test, j).1.apart;
+        let members = members(pairing, together, j);
+        let apart = compared(&modes.shapes, comparison, &members, j).1.apart;
         residuals
             .rows_mut(rows * j + 1, rows - 1)
             .copy_from(&(weights[j].shape * apart));
     }
-    for (place, (lone, weight)) in exact.lone.iter().zip(&weights[test.len()..]).enumerate() {
+    for (place, (lone, weight)) in lone.iter().zip(&weights[test.len()..]).enumerate() {
         residuals[rows * test.len() + place] = weight.frequency * lone.error(modes);
     }
     residuals
@@ -95,14 +99,13 @@ impl<'a> Whitening<'a> {
     /// None where residuals are independent as they are.
     fn of(
         (shapes, pairing): (&DMatrix<f64>, &Pairing),
-        exact: &'a ExactResult,
-        test: &ModeSet,
+        comparison: &'a Comparison,
     ) -> Option<Self> {
-        let factor = exact.covariance.as_ref()?;
+        let factor = comparison.test.covariance.as_ref()?;
         let (rows, mut all) = (1 + shapes.nrows(), DMatrix::zeros(factor.nrows(), 0));
-        for j in 0..test.len() {
-            let members = members(pairing, &exact.together, j);
-            let (shapes, _) = compared(shapes, exact, &members, test, j);
+        for j in 0..comparison.model.test.len() {
+            let members = members(pairing, &comparison.test.together, j);
+            let (shapes, _) = compared(shapes, comparison, &members, j);
             let first = all.ncols();
             all = all.resize_horizontally(first + members.len(), 0.0);
             all.view_mut((rows * j + 1, first), (rows - 1, members.len()))
@@ -131,12 +134,14 @@ impl<'a> Whitening<'a> {
 /// the test shape of unit largest component.
 fn compared(
     shapes: &DMatrix<f64>,
-    exact: &ExactResult,
+    Comparison { model, test }: &Comparison,
     members: &[usize],
-    test: &ModeSet,
     j: usize,
 ) -> (DMatrix<f64>, Nearest) {
-    let (weights, tested) = (exact.component_weights.column(j), test.shapes.column(j));
+    let (weights, tested) = (
+        test.component_weights.column(j),
+        model.test.shapes.column(j),
+    );
     let mut shapes = shapes.clone();
     for mut shape in shapes.column_iter_mut() {
         shape.component_mul_assign(&weights);
@@ -158,73 +163,51 @@ fn compared(
 /// the second of modes compared together. Weights of components multiply $v$, $\mathrm d v$ and $u$ alike, so nothing else changes.
 ///
 /// The sum goes over the whole basis, rigid-body modes with $\omega_r^2 = 0$ among it. It is exact with all modes, unless a
-/// condensation's $B$ moves mass. Of residuals with a covariance ([`ModalModel::with_covariance`]) it leaves out what turns them within
+/// condensation's $B$ moves mass. Of residuals with a covariance ([`Comparison::with_covariance`]) it leaves out what turns them within
 /// themselves (Kaufman, *BIT* 15 (1975), 49), which is orthogonal to them: the gradient $J^t r$ is exact. Modes closer than [`SMALLEST_SEPARATION`] keep their own shapes.
 ///
 /// # Errors
 /// Those of [`residuals`].
 ///
 /// Source: Fox and Kapoor, *AIAA Journal* 6 (1968), 2426.
-pub fn jacobian(model: &ModalModel, weights: &[ModeWeight]) -> Result<DMatrix<f64>, Error> {
-    let (modes, test, lone) = (&model.basis, &model.test, &model.exact.lone);
+pub fn jacobian(comparison: &Comparison, weights: &[ModeWeight]) -> Result<DMatrix<f64>, Error> {
+    let Comparison {
+        model,
+        test: Test { together, lone, .. },
+    } = comparison;
+    let (test, State { modes, pairing, .. }) = (&model.test, &model.exact);
     check_weights(weights, test.len() + lone.len())?;
-    let (k, rows, count) = (
-        &modes.omega_squared,
-        1 + test.shapes.nrows(),
-        model.shares.len(),
-    );
-    let change = |r: usize, i: usize, share: &ParameterMatrix| match share {
-        ParameterMatrix::Stiffness(beta) => beta[(r, i)],
-        ParameterMatrix::Mass(alpha) => -k[i] * alpha[(r, i)],
-    };
-    // Of the frequency of mode i, which is so many times the test's (1 × p).
-    let of_frequency = |weight: &ModeWeight, ratio: f64, i: usize| {
-        let slope = |share| weight.frequency * ratio * change(i, i, share) / (2.0 * k[i]);
-        RowDVector::from_iterator(count, model.shares.iter().map(slope))
-    };
-    let pairing = &model.exact.pairing;
-    let whitening = Whitening::of((&modes.shapes, pairing), &model.exact, test);
+    let slopes = Slopes::new(model);
+    let (rows, count) = (1 + test.shapes.nrows(), model.shares.len());
+    let whitening = Whitening::of((&model.basis, pairing), comparison);
     let excess = whitening
         .as_ref()
-        .map(|of| of.excess(&correlated(&model.exact.modes, pairing, model, weights)));
+        .map(|of| of.excess(&correlated(modes, pairing, comparison, weights)));
     let (mut jacobian, mut column) = (DMatrix::zeros(rows * test.len() + lone.len(), count), 0..);
-    for (j, &i) in model.exact.pairing.analysis_mode.iter().enumerate() {
-        let ratio = (k[i] / test.omega_squared[j]).sqrt();
-        let members = members(&model.exact.pairing, &model.exact.together, j);
-        let (
-            shapes,
-            Nearest {
-                inverse,
-                shares,
-                apart,
-            },
-        ) = compared(&modes.shapes, &model.exact, &members, test, j);
+    for (j, &i) in pairing.analysis_mode.iter().enumerate() {
+        let members = members(pairing, together, j);
+        let (shapes, nearest) = compared(&model.basis, comparison, &members, j);
+        let Nearest {
+            inverse,
+            shares,
+            apart,
+        } = nearest;
         let v = shapes.select_columns(&members);
         let mut shape = DMatrix::zeros(rows - 1, count);
         for (place, &i) in members.iter().enumerate() {
-            // The share of every other mode that each parameter adds to this one (n × p).
-            let added = DMatrix::from_fn(k.len(), count, |r, e| {
-                let (apart, held) = (k[i] - k[r], SMALLEST_SEPARATION * k[i].max(k[r]));
-                if apart.abs() > held && !members.contains(&r) {
-                    change(r, i, &model.shares[e]) / apart
-                } else {
-                    0.0
-                }
-            });
-            let moved = &shapes * added;
+            let moved = &shapes * slopes.added(i, &members);
             let out = &moved - &v * (&inverse * &moved);
             let turned = inverse.row(place).transpose() * (apart.transpose() * moved);
             let (weight, column) = (weights[j].shape, column.next().unwrap_or_default());
             let excess = excess.as_ref().map_or(0.0, |excess| excess[column]);
             shape += (weight * shares[place] - excess) * out - weight * turned;
         }
-        jacobian
-            .view_mut((rows * j + 1, 0), (rows - 1, count))
-            .copy_from(&shape);
-        jacobian.set_row(rows * j, &of_frequency(&weights[j], ratio, i));
+        jacobian.rows_mut(rows * j + 1, rows - 1).copy_from(&shape);
+        let ratio = (slopes.k[i] / test.omega_squared[j]).sqrt();
+        jacobian.set_row(rows * j, &slopes.of_frequency(&weights[j], ratio, i));
     }
     for (place, (lone, weight)) in lone.iter().zip(&weights[test.len()..]).enumerate() {
-        let row = of_frequency(weight, 1.0 + lone.error(modes), lone.partner);
+        let row = slopes.of_frequency(weight, 1.0 + lone.error(modes), lone.partner);
         jacobian.set_row(rows * test.len() + place, &row);
     }
     let jacobian = match whitening {
@@ -232,4 +215,49 @@ pub fn jacobian(model: &ModalModel, weights: &[ModeWeight]) -> Result<DMatrix<f6
         None => jacobian,
     };
     finite("Jacobian", jacobian)
+}
+
+/// Slopes of modes by the logarithm of every parameter's factor, in the basis of a model.
+struct Slopes<'a> {
+    shares: &'a [ParameterMatrix],
+    /// Squared circular frequencies of all shapes of the basis, zero of rigid-body modes.
+    k: DVector<f64>,
+}
+
+impl<'a> Slopes<'a> {
+    fn new(model: &'a SensorModel) -> Self {
+        let size = model.basis.ncols();
+        Self {
+            shares: &model.shares,
+            k: model.omega_squared.clone().resize_vertically(size, 0.0),
+        }
+    }
+
+    /// $\beta_{ri}$ of a parameter, or what a mass has in its place.
+    fn change(&self, r: usize, i: usize, share: &ParameterMatrix) -> f64 {
+        match share {
+            ParameterMatrix::Stiffness(beta) => beta[(r, i)],
+            ParameterMatrix::Mass(alpha) => -self.k[i] * alpha[(r, i)],
+        }
+    }
+
+    /// Slopes (1 × p) of the frequency of mode i, which is `ratio` times the test's.
+    fn of_frequency(&self, weight: &ModeWeight, ratio: f64, i: usize) -> RowDVector<f64> {
+        let scale = weight.frequency * ratio / (2.0 * self.k[i]);
+        let slope = |share| scale * self.change(i, i, share);
+        RowDVector::from_iterator(self.shares.len(), self.shares.iter().map(slope))
+    }
+
+    /// The share of every other shape of the basis that each parameter adds to mode i (N × p), but of the `members` of its group.
+    fn added(&self, i: usize, members: &[usize]) -> DMatrix<f64> {
+        let k = &self.k;
+        DMatrix::from_fn(k.len(), self.shares.len(), |r, e| {
+            let (apart, held) = (k[i] - k[r], SMALLEST_SEPARATION * k[i].max(k[r]));
+            if apart.abs() > held && !members.contains(&r) {
+                self.change(r, i, &self.shares[e]) / apart
+            } else {
+                0.0
+            }
+        })
+    }
 }

@@ -1,9 +1,11 @@
 //! Weighted correlations from several first points, and the different minima that they end in.
 
+use super::comparison::Comparison;
 use super::gauss_newton::{WeightedCorrelation, WeightedSettings, WeightedStop, gauss_newton};
 use crate::method::error::Error;
-use crate::method::error_sum::ModeWeight;
-use crate::method::model::{Bounds, ModalModel};
+use crate::method::error::at_least_one;
+use crate::method::step::Bounds;
+use crate::sparse::ModeWeight;
 use crate::sparse::random::uniform;
 use nalgebra::DVector;
 use serde::Serialize;
@@ -20,7 +22,7 @@ pub struct Minimum {
     pub factors: Vec<f64>,
     /// Sum of the squared residuals, without the prior.
     pub chi_squared: f64,
-    /// How many starts end there.
+    /// Number of starts that end there.
     pub starts: usize,
 }
 
@@ -34,17 +36,17 @@ pub struct Minimum {
 /// in 95 of 100 tests (Wilks, *Annals of Mathematical Statistics* 9 (1938), 60–62). The prior counts as measurements of the parameters.
 ///
 /// # Errors
-/// Those of [`gauss_newton`] of the last start when all fail; [`Error::Empty`] without starts.
+/// Those of [`gauss_newton`] of the last start when all fail; [`Error::Count`] without starts.
 pub fn from_several_starts<E: From<Error>>(
-    mut analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
+    mut analyze: impl FnMut(&[f64]) -> Result<Comparison, E>,
     ranges: &[Option<Bounds>],
     weights: &[ModeWeight],
     settings: &WeightedSettings,
     starts: usize,
     seed: u64,
 ) -> Result<(WeightedCorrelation, Vec<Minimum>, usize), E> {
-    let (mut state, mut ends, mut failed) =
-        (seed, Vec::new(), Error::Empty { what: "starts" }.into());
+    at_least_one("starts", starts)?;
+    let (mut state, mut ends, mut failed) = (seed, Vec::new(), None);
     let mut draw = || 0.5 * 4.0_f64.powf(uniform(&mut state));
     for start in 0..starts {
         let first: Vec<f64> = ranges
@@ -53,12 +55,12 @@ pub fn from_several_starts<E: From<Error>>(
             .collect();
         match gauss_newton(&mut analyze, &first, ranges, weights, settings) {
             Ok(found) => ends.push(found),
-            Err(error) => failed = error,
+            Err(error) => failed = Some(error),
         }
     }
     ends.sort_by(|a, b| a.objective.total_cmp(&b.objective));
     let Some(best) = ends.first().cloned() else {
-        return Err(failed);
+        return Err(failed.unwrap_or_else(|| Error::no_convergence("starts").into()));
     };
     let allowed = ChiSquared::new(ranges.len() as f64)
         .map_or(0.0, |chi_squared| 0.5 * chi_squared.inverse_cdf(0.95));
@@ -88,7 +90,7 @@ pub fn from_several_starts<E: From<Error>>(
     Ok((best, minima, starts - ends.len()))
 }
 
-/// Whether steps have ended in a minimum again.
+/// True if steps have ended in a minimum again.
 fn is_same(minimum: &WeightedCorrelation, end: &WeightedCorrelation) -> bool {
     let both = minimum.factors.iter().zip(&end.factors);
     let apart = both.map(|(a, b)| (a / b).ln());

@@ -1,12 +1,12 @@
 //! Test modes and measures for Appendix B.
 
 use corfem::method::appendix_b::Movement;
-use corfem::method::modes::ModeSet;
+use corfem::method::modes::Modes;
 use nalgebra::{DMatrix, DVector};
 
 /// Test modes from squared circular frequencies and shapes by columns.
-pub fn modes(omega_squared: &[f64], shapes: DMatrix<f64>) -> ModeSet {
-    ModeSet::new(DVector::from_column_slice(omega_squared), shapes).expect("modes")
+pub fn modes(omega_squared: &[f64], shapes: DMatrix<f64>) -> Modes {
+    Modes::new(DVector::from_column_slice(omega_squared), shapes).expect("modes")
 }
 
 /// The mass norm of a shape.
@@ -32,7 +32,7 @@ pub fn unit_shapes(columns: &[[f64; 4]]) -> DMatrix<f64> {
 }
 
 /// Two modes of overlap 0.05 at 10 and 20 rad/s, and their movement.
-pub fn slight_overlap() -> (ModeSet, DMatrix<f64>, Vec<Movement>) {
+pub fn slight_overlap() -> (Modes, DMatrix<f64>, Vec<Movement>) {
     let raw = modes(
         &[100.0, 400.0],
         unit_shapes(&[[1.0, 0.0, 0.0, 0.0], [0.05, 1.0, 0.0, 0.0]]),

@@ -1,10 +1,10 @@
 //! Strategies and small problems for Appendix C in full: changes of stiffness and mass, clusters of roots.
 
-use corfem::method::appendix_c::general::{self, ModalChange};
-use corfem::method::appendix_c::{
-    Perturbed, eigensolution, first_order, recursive_1, recursive_1_converged,
-};
+use corfem::method::appendix_c::Pencil;
 use corfem::method::error::Error;
+use corfem::method::modes::solve;
+use corfem::method::perturbation::{Perturbed, first_order, recursive_1, recursive_1_converged};
+use corfem::method::sorting::pair_modes;
 use nalgebra::{Complex, DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
 
@@ -14,7 +14,64 @@ use super::strategies::symmetric;
 pub type Plain = fn(&DVector<f64>, &DMatrix<f64>) -> Result<Perturbed, Error>;
 
 /// A function of Appendix C on a change of stiffness and mass.
-pub type General = fn(&ModalChange<f64>) -> Result<Perturbed, Error>;
+pub type General = fn(&ModalChange) -> Result<Perturbed, Error>;
+
+/// Change of stiffness and mass seen through modes of vibration, as a test has it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModalChange {
+    /// Squared circular frequencies $k_{ii}$ before it.
+    pub generalized_stiffness: DVector<f64>,
+    /// $\beta = V^t \Delta K V$.
+    pub beta: DMatrix<f64>,
+    /// $\alpha = V^t \Delta M V$.
+    pub alpha: DMatrix<f64>,
+}
+
+impl ModalChange {
+    pub fn of_vibrations(k: &DVector<f64>, beta: DMatrix<f64>, alpha: DMatrix<f64>) -> Self {
+        let generalized_stiffness = k.clone();
+        Self {
+            generalized_stiffness,
+            beta,
+            alpha,
+        }
+    }
+
+    /// The pencil of the crate.
+    ///
+    /// # Errors
+    /// What [`Pencil::of_vibrations`] refuses.
+    pub fn pencil(&self) -> Result<Pencil<f64>, Error> {
+        Pencil::of_vibrations(&self.generalized_stiffness, &self.beta, &self.alpha)
+    }
+}
+
+/// Exact roots and shapes of $k + \beta$ with $I + \alpha$: what the perturbation approaches. Modes stand in the order of the modes they
+/// are most like, scaled to $p_{jj} = 1$.
+///
+/// # Errors
+/// What [`solve`] refuses; [`Error::CoalescingModes`] when a new mode has no part in the mode it continues.
+pub fn eigensolution(change: &ModalChange) -> Result<Perturbed, Error> {
+    let pencil = change.pencil()?;
+    let modes = solve(pencil.a(), pencil.g(), pencil.a().nrows())?;
+    // Rows of the shape matrix are the old modes, so its transpose is the cross-orthogonality of new with old.
+    let partners = pair_modes(&modes.shapes().transpose())?;
+    let partners = partners.analysis_mode();
+    let mut shapes = modes.shapes().select_columns(partners);
+    for (j, mut shape) in shapes.column_iter_mut().enumerate() {
+        let separation = shape[j].abs();
+        if separation < 1e-9 {
+            return Err(Error::CoalescingModes {
+                first: j,
+                second: j,
+                separation,
+            });
+        }
+        shape /= shape[j];
+    }
+    let roots = modes.omega_squared().select_rows(partners).map(f64::recip);
+    Ok(Perturbed { roots, shapes })
+}
 
 /// One way of solving Appendix C, for stiffness alone and in general.
 pub struct Rule {
@@ -28,37 +85,37 @@ pub const FORMULAE: [Rule; 7] = [
     Rule {
         name: "first order",
         plain: first_order,
-        general: general::first_order,
+        general: |change| change.pencil()?.first_order(),
     },
     Rule {
         name: "original",
         plain: original,
-        general: general::original,
+        general: |change| change.pencil()?.original(),
     },
     Rule {
         name: "Recursive 1, order 1",
         plain: |k, beta| recursive_1(k, beta, 1),
-        general: |change| general::recursive_1(change, 1),
+        general: |change| change.pencil()?.recursive_1(1),
     },
     Rule {
         name: "Recursive 1, order 4",
         plain: |k, beta| recursive_1(k, beta, 4),
-        general: |change| general::recursive_1(change, 4),
+        general: |change| change.pencil()?.recursive_1(4),
     },
     Rule {
         name: "Recursive 2, order 1",
         plain: |k, beta| recursive_2(k, beta, 1),
-        general: |change| general::recursive_2(change, 1),
+        general: |change| change.pencil()?.recursive_2(1),
     },
     Rule {
         name: "Recursive 2, order 3",
         plain: |k, beta| recursive_2(k, beta, 3),
-        general: |change| general::recursive_2(change, 3),
+        general: |change| change.pencil()?.recursive_2(3),
     },
     Rule {
         name: "Recursive 1, converged",
-        plain: |k, beta| Ok(recursive_1_converged(k, beta, 1e-13, 60)?.perturbed),
-        general: |change| Ok(general::recursive_1_converged(change, 1e-13, 60)?.perturbed),
+        plain: |k, beta| Ok(recursive_1_converged(k, beta)?.perturbed),
+        general: |change| Ok(change.pencil()?.recursive_1_converged()?.perturbed),
     },
 ];
 
@@ -82,7 +139,7 @@ pub fn rules() -> impl Iterator<Item = Rule> {
 }
 
 /// A change of stiffness alone.
-pub fn of_stiffness(k: &DVector<f64>, beta: &DMatrix<f64>) -> ModalChange<f64> {
+pub fn of_stiffness(k: &DVector<f64>, beta: &DMatrix<f64>) -> ModalChange {
     ModalChange::of_vibrations(k, beta.clone(), DMatrix::zeros(k.len(), k.len()))
 }
 
@@ -97,12 +154,12 @@ pub fn recursive_2(
     beta: &DMatrix<f64>,
     order: usize,
 ) -> Result<Perturbed, Error> {
-    general::recursive_2(&of_stiffness(k, beta), order)
+    of_stiffness(k, beta).pencil()?.recursive_2(order)
 }
 
 /// The formulae of 1947 for a change of stiffness alone.
 pub fn original(k: &DVector<f64>, beta: &DMatrix<f64>) -> Result<Perturbed, Error> {
-    general::original(&of_stiffness(k, beta))
+    of_stiffness(k, beta).pencil()?.original()
 }
 
 /// Largest change of a root relative to itself.
@@ -135,7 +192,7 @@ pub fn separate_spectrum(size: usize) -> impl Strategy<Value = DVector<f64>> {
 }
 
 /// β with $\beta_{ij}$ within `largest` of $\sqrt{k_i k_j}$ and α with entries within `largest`, both symmetric.
-pub fn change_of(k: DVector<f64>, largest: f64) -> impl Strategy<Value = ModalChange<f64>> {
+pub fn change_of(k: DVector<f64>, largest: f64) -> impl Strategy<Value = ModalChange> {
     (symmetric(k.len()), symmetric(k.len())).prop_map(move |(b, a)| {
         let root = DMatrix::from_diagonal(&k.map(f64::sqrt));
         let beta = largest * &root * b * &root;
@@ -146,7 +203,7 @@ pub fn change_of(k: DVector<f64>, largest: f64) -> impl Strategy<Value = ModalCh
 }
 
 /// A change of two to six separate modes in which every rule converges.
-pub fn separate_change() -> impl Strategy<Value = ModalChange<f64>> {
+pub fn separate_change() -> impl Strategy<Value = ModalChange> {
     (2..=6_usize)
         .prop_flat_map(separate_spectrum)
         .prop_flat_map(|k| change_of(k, LARGEST_CHANGE))
@@ -155,7 +212,7 @@ pub fn separate_change() -> impl Strategy<Value = ModalChange<f64>> {
 /// Modes in clusters and their change, with the clusters expected as blocks at 10 % separation.
 #[derive(Debug, Clone)]
 pub struct Clustered {
-    pub change: ModalChange<f64>,
+    pub change: ModalChange,
     pub blocks: Vec<Vec<usize>>,
 }
 
@@ -236,7 +293,7 @@ pub fn largest_root_error(roots: &[Complex<f64>], exact: &[Complex<f64>]) -> f64
 }
 
 /// Four modes, stiffness and mass changed together, every entry of both changes at work.
-pub fn four_modes(size: f64) -> ModalChange<f64> {
+pub fn four_modes(size: f64) -> ModalChange {
     let beta = dmatrix![
         0.3, 0.5, -0.4, 0.6;
         0.5, -0.8, 0.9, 0.7;

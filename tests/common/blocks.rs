@@ -11,13 +11,13 @@
 //! where $P_s$ is a row of the identity for $s$ in $C$. With blocks of one mode these are the equations of Recursive 1
 //! (C.22). The modes of a block come at last from the symmetric eigenproblem of $A$ and $G$ within its span.
 
-use corfem::method::appendix_c::general::ModalChange;
-use corfem::method::appendix_c::{
-    LARGEST_UNSETTLED_CHANGE, Perturbed, SMALLEST_SEPARATION, Settled,
-};
+use super::appendix_c::ModalChange;
 use corfem::method::error::Error;
 use corfem::method::linear_algebra::{check_finite, symmetric_part};
 use corfem::method::modes::{apply_sign_rule, solve};
+use corfem::method::perturbation::{
+    LARGEST_UNSETTLED_CHANGE, Perturbed, SMALLEST_SEPARATION, Settled,
+};
 use nalgebra::{DMatrix, DVector};
 
 /// Stiffness $k + \beta$ and mass $k\Lambda + \alpha$.
@@ -69,7 +69,7 @@ pub struct SolvedInBlocks {
 /// changes; [`Error::LostStiffness`], [`Error::LostRoot`], [`Error::UnsettledRoots`]; [`Error::CoalescingModes`] when the
 /// recursion itself brings roots together that were apart.
 pub fn close_roots(
-    change: &ModalChange<f64>,
+    change: &ModalChange,
     settings: CloseRootsSettings,
 ) -> Result<SolvedInBlocks, Error> {
     let CloseRootsSettings {
@@ -78,7 +78,8 @@ pub fn close_roots(
         orders,
     } = settings;
     let pencil = change.pencil()?;
-    let size = change.roots.len();
+    let pencil = (pencil.a().clone(), pencil.g().clone());
+    let size = change.generalized_stiffness.len();
     let mut blocks: Vec<Vec<usize>> = (0..size).map(|mode| vec![mode]).collect();
     let identity = DMatrix::identity(size, size);
     let mut alone = solve_in(&blocks, &pencil, &identity)?;
@@ -122,7 +123,6 @@ fn is_settled(settled: Settled, tolerance: f64, orders: usize) -> Result<Settled
         Ok(settled)
     } else {
         Err(Error::UnsettledRoots {
-            largest,
             orders,
             last_change,
         })
@@ -248,9 +248,9 @@ fn solve_in(
                     mode: block[mode],
                     value: value.recip(),
                 },
-                Error::NotPositiveDefinite { dof, .. } => Error::NotPositiveDefinite {
+                Error::NotPositiveDefinite { row, .. } => Error::NotPositiveDefinite {
                     what: "changed generalized mass",
-                    dof: block[dof],
+                    row: block[row],
                 },
                 other => other,
             })?;

@@ -1,6 +1,6 @@
 //! The torque box as the loops see it, and boxes like it with other gages.
 
-use corfem::method::model::ModalModel;
+use corfem::method::model::Model;
 use corfem::torque_box::Case;
 use corfem::torque_box::wing_box::{PANEL_COUNT, Reconstruction};
 use proptest::prelude::*;
@@ -8,13 +8,13 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, RngSeed, TestRunner};
 
 /// The problem of a case's first pass: its first gages, its test modes, all nine analysis modes.
-pub fn first_problem(number: usize) -> ModalModel {
+pub fn first_problem(number: usize) -> Model {
     let case = Case::new(number).expect("a case of the paper");
     problem_of(&case)
 }
 
 /// The same for a case with other gages or settings.
-pub fn problem_of(case: &Case) -> ModalModel {
+pub fn problem_of(case: &Case) -> Model {
     let model = case.model().expect("a model");
     let test = case.test_modes().expect("test modes");
     model

@@ -1,27 +1,26 @@
 //! Chains with known spectra, and how far modes solved in blocks are from the exact ones.
 
-use super::appendix_c::{ascending, three_mass_chain};
+use super::appendix_c::{ModalChange, ascending, three_mass_chain};
 use crate::common::blocks::{CloseRootsSettings, SolvedInBlocks, close_roots};
-use corfem::method::appendix_c::Perturbed;
-use corfem::method::appendix_c::general::ModalChange;
 use corfem::method::modes::Modes;
+use corfem::method::perturbation::Perturbed;
 use nalgebra::{DMatrix, DVector, dvector};
 
-pub fn solved(change: &ModalChange<f64>) -> SolvedInBlocks {
+pub fn solved(change: &ModalChange) -> SolvedInBlocks {
     close_roots(change, CloseRootsSettings::default()).expect("a change the method can follow")
 }
 
 /// Stiffness and mass after the change in the modal coordinates.
-pub fn changed(change: &ModalChange<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
+pub fn changed(change: &ModalChange) -> (DMatrix<f64>, DMatrix<f64>) {
     let k = &change.generalized_stiffness;
     (
         DMatrix::from_diagonal(k) + &change.beta,
-        DMatrix::from_diagonal(&k.component_mul(&change.roots)) + &change.alpha,
+        DMatrix::identity(k.len(), k.len()) + &change.alpha,
     )
 }
 
 /// Largest relative distance of sorted ω² from those of the eigensolution of the changed matrices.
-pub fn root_error(roots: &DVector<f64>, change: &ModalChange<f64>) -> f64 {
+pub fn root_error(roots: &DVector<f64>, change: &ModalChange) -> f64 {
     let (stiffness, mass) = changed(change);
     let exact = corfem::method::modes::solve(&stiffness, &mass, roots.len()).expect("vibrations");
     ascending(roots.map(f64::recip).iter())
@@ -32,7 +31,7 @@ pub fn root_error(roots: &DVector<f64>, change: &ModalChange<f64>) -> f64 {
 }
 
 /// (k + β)p γ − (I + α)p, largest entry: zero for exact modes, repeated or not.
-pub fn residual(solved: &SolvedInBlocks, change: &ModalChange<f64>) -> f64 {
+pub fn residual(solved: &SolvedInBlocks, change: &ModalChange) -> f64 {
     let (stiffness, mass) = changed(change);
     let Perturbed { roots, shapes } = &solved.settled.perturbed;
     (stiffness * shapes * DMatrix::from_diagonal(roots) - mass * shapes).amax()
@@ -55,7 +54,7 @@ pub fn separate_chain() -> (DMatrix<f64>, DMatrix<f64>, Modes) {
 }
 
 /// A change of springs seen through a chain's modes.
-pub fn spring_change(modes: &Modes, ground: [f64; 3], between: [f64; 3]) -> ModalChange<f64> {
+pub fn spring_change(modes: &Modes, ground: [f64; 3], between: [f64; 3]) -> ModalChange {
     let beta = modes
         .shapes()
         .tr_mul(&(three_mass_chain(ground, between) * modes.shapes()));

@@ -1,10 +1,13 @@
 //! The paper's condensation of a whole model to its sensors, which no job compares any more, and what it costs: the condensed modes beside
 //! those of the whole model.
 
+use corfem::method::appendix_a::{Condensed, condense};
 use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
-use corfem::method::modes::{ModeSet, solve};
-use corfem::method::pairing::{modal_assurance, pair_modes};
+use corfem::method::model::DynamicModel;
+use corfem::method::model::Model;
+use corfem::method::modes::{Modes, solve};
+use corfem::method::sorting::pair_modes;
+use corfem::sparse::modal_assurance;
 use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
 use nalgebra::DMatrix;
 
@@ -28,51 +31,67 @@ pub struct CondensationError {
 /// The `count` lowest modes that move a sensor, with their shapes there (sensors × count).
 ///
 /// # Errors
-/// Those of [`WholeModel::modes`]; [`Error::TooMany`] when fewer move a sensor.
+/// Those of [`WholeModel::modes`]; [`Error::Count`] when fewer move a sensor.
 pub fn seen_modes(
     model: &WholeModel,
     factors: &[f64],
     sensors: &SparseMatrix,
     count: usize,
-) -> Result<ModeSet, Error> {
+) -> Result<Modes, Error> {
     let mut wanted = count;
     loop {
         let (modes, is_all) = match model.modes(factors, wanted) {
-            Err(Error::TooMany { available, .. }) if available > 0 => {
-                (model.modes(factors, available)?, true)
-            }
+            Err(Error::Count {
+                most: available, ..
+            }) if available > 0 => (model.modes(factors, available)?, true),
             found => (found?, false),
         };
-        let (squares, shapes) = modes.vibrations.into_parts();
-        let shapes = sensors.times(&shapes)?;
+        let squares = modes.vibrations.omega_squared();
+        let shapes = sensors.times(modes.vibrations.shapes())?;
         let most = shapes.amax();
         let seen = (0..squares.len()).filter(|&mode| shapes.column(mode).amax() > UNSEEN * most);
         let seen: Vec<usize> = seen.take(count).collect();
         if seen.len() == count {
-            return ModeSet::new(squares.select_rows(&seen), shapes.select_columns(&seen));
+            return Modes::new(squares.select_rows(&seen), shapes.select_columns(&seen));
         }
         if is_all {
-            return Err(Error::TooMany {
+            return Err(Error::Count {
                 what: "modes that move a sensor",
-                available: seen.len(),
-                requested: count,
+                found: count,
+                least: 1,
+                most: seen.len(),
             });
         }
         wanted *= 2;
     }
 }
 
+/// A whole model condensed to the sensors with one $B^t$ (Appendix A), and its mass there, $B M B^t$.
+///
+/// # Errors
+/// Those of [`WholeModel::at`] and [`condense`].
+pub fn condensed(
+    model: &WholeModel,
+    factors: &[f64],
+    sensors: &SparseMatrix,
+) -> Result<(Condensed, DMatrix<f64>), Error> {
+    let (stiffness, mass) = model.at(factors)?;
+    let condensed = condense(&stiffness.dense(), &sensors.dense().transpose())?;
+    let mass = mass.through(&condensed.transformation.transpose())?;
+    Ok((condensed, mass))
+}
+
 /// What condensation to the sensors does to each of the lowest `count` modes, each compared with the whole model's mode of its shape.
 ///
 /// # Errors
-/// Those of [`WholeModel::condensed`], [`seen_modes`] and [`solve`].
+/// Those of [`condensed`], [`seen_modes`] and [`solve`].
 pub fn condensation_errors(
     model: &WholeModel,
     factors: &[f64],
     sensors: &SparseMatrix,
     count: usize,
 ) -> Result<Vec<CondensationError>, Error> {
-    let (condensed, mass) = model.condensed(factors, sensors)?;
+    let (condensed, mass) = condensed(model, factors, sensors)?;
     let condensed = solve(&condensed.stiffness, &mass, count)?;
     let whole = seen_modes(model, factors, sensors, count)?;
     let assurance = modal_assurance(whole.shapes(), condensed.shapes())?;
@@ -92,29 +111,27 @@ pub fn condensation_errors(
 /// The paper's way to the same as [`WholeModel::analyze`]: modes of the condensed matrices, all of them or the lowest `count`.
 ///
 /// # Errors
-/// Those of [`WholeModel::condensed`] and [`DynamicModel::analyze`].
+/// Those of [`condensed`] and [`DynamicModel::analyze`].
 pub fn analyze_condensed(
     model: &WholeModel,
     factors: &[f64],
     sensors: &SparseMatrix,
-    test: &ModeSet,
+    test: &Modes,
     count: Option<usize>,
-) -> Result<ModalModel, Error> {
-    let (condensed, mass) = model.condensed(factors, sensors)?;
+) -> Result<Model, Error> {
+    let (condensed, mass) = condensed(model, factors, sensors)?;
     let b = condensed.transformation.transpose();
     let share = |(parameter, &factor): (&WholeParameter, &f64)| {
         Ok(match &parameter.share {
-            WholeShare::Stiffness(matrix) => {
-                ParameterMatrix::Stiffness(factor * matrix.through(&b)?)
-            }
-            WholeShare::Mass(matrix) => ParameterMatrix::Mass(factor * matrix.through(&b)?),
+            WholeShare::Stiffness(matrix) => factor * matrix.through(&b)?,
+            WholeShare::Mass(_) => unreachable!("the paper's model has no parameter of mass"),
             WholeShare::Elements(members) => {
                 let of_element = members.iter().map(|(element, size)| {
                     let own = b.select_columns(element.dof());
                     factor * *size * &own * element.matrix().unit * own.transpose()
                 });
                 let none = DMatrix::zeros(b.nrows(), b.nrows());
-                ParameterMatrix::Stiffness(of_element.fold(none, |sum, share| sum + share))
+                of_element.fold(none, |sum, share| sum + share)
             }
         })
     };

@@ -1,11 +1,25 @@
 //! Strategies of models that a deck can hold, and of decks that say the same in another way.
 
-use corfem::files::deck::{BulkData, PointMass, Tie};
+use corfem::files::deck::{self, BulkData, PointMass, Tie};
+use corfem::files::error::FileError;
 use corfem::method::structure::{Element, ElementKind, Grid, Material, StructuralDof};
 use proptest::prelude::*;
 
 /// Columns of a field of the small and of the large format.
 const WIDTHS: [usize; 2] = [8, 16];
+
+/// The bulk data alone of the deck that is written of a model.
+///
+/// # Errors
+/// Those of [`deck::write`].
+pub fn bulk_text(model: &BulkData) -> Result<String, FileError> {
+    let deck = deck::write(model, "", &deck::Task::Matrices)?;
+    let bulk = deck.split_once("BEGIN BULK\n").expect("bulk data").1;
+    Ok(bulk
+        .split_inclusive('\n')
+        .take_while(|line| !line.starts_with("EIGR"))
+        .collect())
+}
 
 /// A decimal number of up to ten digits between 1e-15 and 1e15: a field of 16 characters holds it exactly, with its
 /// sign and an exponent.

@@ -1,18 +1,19 @@
 //! Matrices, modes and models that nobody means: of any size, of extreme numbers, of what is no number.
 
 use super::draws::Draws;
+use crate::common::appendix_c::ModalChange;
 use crate::common::structures::spring_stiffness;
-use corfem::method::appendix_c::general::ModalChange;
-use corfem::method::assembly::{ElementMatrix, element_matrices};
+use corfem::method::analysis::{Analysis, State};
+use corfem::method::appendix_a::{ElementMatrix, element_matrices};
 use corfem::method::error::Error;
 use corfem::method::error_sum::Errors;
-use corfem::method::model::{
-    Bounds, DynamicModel, FiniteElementModel, ModalModel, Parameter, ParameterMatrix, Scaled,
-};
-use corfem::method::modes::{ModeSet, solve};
-use corfem::method::pairing::Pairing;
-use corfem::method::state::{ModalState, UpdateRule};
+use corfem::method::model::Model;
+use corfem::method::model::{DynamicModel, FiniteElementModel, Parameter};
+use corfem::method::modes::{Modes, solve};
+use corfem::method::sorting::Pairing;
+use corfem::method::step::Bounds;
 use corfem::method::structure::{Element, ElementKind, Grid, Material, StructuralDof, Structure};
+use corfem::sparse::ParameterMatrix;
 use nalgebra::{DMatrix, DVector, Vector3};
 
 /// Numbers that break things: zeros, ends of the range, and what is no number.
@@ -90,10 +91,10 @@ impl Draws {
         }
     }
 
-    pub fn modes(&mut self, dof: usize) -> Result<ModeSet, Error> {
+    pub fn modes(&mut self, dof: usize) -> Result<Modes, Error> {
         let (rows, count) = (self.about(dof), self.size());
         let length = self.about(count);
-        ModeSet::new(self.vector(length), self.matrix(rows, count))
+        Modes::new(self.vector(length), self.matrix(rows, count))
     }
 
     pub fn corners(&mut self) -> [Vector3<f64>; 4] {
@@ -139,20 +140,20 @@ impl Draws {
         DynamicModel {
             stiffness: self.symmetric(size),
             mass: self.symmetric(size),
-            shares: self.shares(size),
+            shares: self
+                .shares(size)
+                .iter()
+                .map(|share| share.matrix().clone())
+                .collect(),
         }
     }
 
     /// A spring chain and its modal model: what comes out of a constructor, for the loops to be given bad settings and factors.
-    pub fn chain(&mut self) -> Option<ModalModel> {
+    pub fn chain(&mut self) -> Option<Model> {
         let count = 1 + self.below(4);
-        let share =
-            |spring: usize| ParameterMatrix::Stiffness(spring_stiffness(count, spring, 100.0));
-        let shares: Vec<ParameterMatrix> = (0..count).map(share).collect();
-        let stiffness = shares
-            .iter()
-            .map(ParameterMatrix::matrix)
-            .sum::<DMatrix<f64>>();
+        let share = |spring: usize| spring_stiffness(count, spring, 100.0);
+        let shares: Vec<DMatrix<f64>> = (0..count).map(share).collect();
+        let stiffness = shares.iter().sum::<DMatrix<f64>>();
         let mass = DMatrix::identity(count, count);
         let test = solve(&(1.2 * &stiffness), &mass, count).ok()?;
         DynamicModel {
@@ -165,7 +166,7 @@ impl Draws {
     }
 
     /// A change of stiffness and mass that fits together or does not.
-    pub fn change(&mut self) -> ModalChange<f64> {
+    pub fn change(&mut self) -> ModalChange {
         let size = self.size();
         let (alpha, beta, length) = (self.symmetric(size), self.symmetric(size), self.about(size));
         ModalChange::of_vibrations(&self.vector(length), beta, alpha)
@@ -187,7 +188,7 @@ impl Draws {
     }
 
     /// Analysis modes, test modes and what pairs them.
-    pub fn compared(&mut self) -> Result<(ModeSet, Pairing, ModeSet), Error> {
+    pub fn compared(&mut self) -> Result<(Modes, Pairing, Modes), Error> {
         let size = self.size();
         let (analysis, test) = (self.modes(size)?, self.modes(size)?);
         let pairing = self.pairing(test.len(), analysis.len())?;
@@ -199,13 +200,13 @@ impl Draws {
         Errors {
             frequency: self.unit(),
             shape: self.unit(),
-            mode_count: self.size(),
-            lone_count: self.size(),
+            frequency_count: self.size(),
+            shape_count: self.size(),
         }
     }
 
     /// A state of a model, or of another.
-    pub fn state(&mut self, model: &ModalModel) -> ModalState {
+    pub fn state(&mut self, model: &Model) -> State {
         let other = self.chain().filter(|_| self.below(6) == 0);
         let model = other.as_ref().unwrap_or(model);
         let factors = if self.below(2) == 0 {
@@ -213,8 +214,7 @@ impl Draws {
         } else {
             vec![1.1; model.shares().len()]
         };
-        let start = ModalState::start(model);
-        ModalState::at(model, factors, UpdateRule::Eigensolution).unwrap_or(start)
+        model.at(&factors).unwrap_or_else(|_| model.exact().clone())
     }
 
     /// Four grids, two of them held, and rods and panels between them.
@@ -257,7 +257,10 @@ impl Draws {
         }
         if self.below(2) == 0 {
             let panel = [ElementKind::Membrane, ElementKind::ShearPanel][self.below(2)];
-            let material = Material::isotropic(1e7, 0.3)?.with_density(3e-4)?;
+            let material = Material {
+                density: 3e-4,
+                ..Material::isotropic(1e7, 0.3)?
+            };
             elements.push(Element {
                 label: 6,
                 kind: panel,
@@ -275,7 +278,7 @@ impl Draws {
     /// Element matrices, their sizes and the DOF they belong to, of which a part may not fit the others.
     pub fn elements(&mut self) -> Result<Elements, Error> {
         let structure = self.structure()?;
-        let mut elements = element_matrices(&structure);
+        let mut elements: Vec<ElementMatrix> = element_matrices(&structure).collect();
         let mut free = structure.free_dof().to_vec();
         let count = self.about(elements.len());
         let sizes = (0..count)
@@ -291,7 +294,6 @@ impl Draws {
         match self.below(12) {
             0 => elements[row].dof = vec![self.size(); size],
             1 => elements[row].unit = self.symmetric(size),
-            2 => elements[row].unit_mass = self.vector(size),
             3 => elements[row].unit *= self.number(),
             4 => free.truncate(size),
             5 => free.iter_mut().for_each(|dof| dof.direction += size),
@@ -318,12 +320,6 @@ impl Draws {
     /// Parameters of every sort, with members and bounds that may not be.
     pub fn parameters(&mut self) -> Vec<Parameter> {
         let parameter = |draws: &mut Self, place: usize| {
-            let scaled = [
-                Scaled::Stiffness,
-                Scaled::Stiffness,
-                Scaled::ElementMass,
-                Scaled::PointMass,
-            ][draws.below(4)];
             let member = if draws.below(6) == 0 {
                 draws.below(8)
             } else {
@@ -339,7 +335,7 @@ impl Draws {
             Parameter {
                 size_range,
                 factor_range,
-                ..Parameter::of("drawn", scaled, &[member])
+                ..Parameter::group("drawn", &[member])
             }
         };
         (0..1 + self.below(2))

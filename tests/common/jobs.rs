@@ -7,7 +7,7 @@ use corfem::files::deck::{self, BulkData, Task};
 use corfem::files::matrices::write_matrix_market;
 use corfem::files::test_data::{Sensor, TestData};
 use corfem::job::{JobResult, LoadedJob, run};
-use corfem::method::modes::ModeSet;
+use corfem::method::modes::Modes;
 use corfem::sparse::{SparseMatrix, WholeModel, WholeShare};
 use corfem::torque_box::Case;
 use corfem::torque_box::wing_box::{TEST_GAGE, dynamic_points};
@@ -36,7 +36,7 @@ fn task() -> Task {
     }
 }
 
-fn test_data(modes: &ModeSet, sensors: Vec<Sensor>) -> TestData {
+fn test_data(modes: &Modes, sensors: Vec<Sensor>) -> TestData {
     let mut shapes = modes.shapes().clone();
     // As a test has them: of unit largest component.
     shapes
@@ -226,7 +226,7 @@ pub fn of_whole(
 }
 
 /// A structure of one matrix a parameter, p1, p2 …, with a sensor at every row and some modes as its test.
-pub fn of_matrices(parts: &[DMatrix<f64>], mass: &DMatrix<f64>, modes: &ModeSet) -> Files {
+pub fn of_matrices(parts: &[DMatrix<f64>], mass: &DMatrix<f64>, modes: &Modes) -> Files {
     let text = |matrix: &DMatrix<f64>| {
         write_matrix_market(&SparseMatrix::of_dense("matrix", matrix).expect("a matrix"))
     };
@@ -274,7 +274,7 @@ pub fn delta_wing() -> Files {
             .expect("a row")
     };
     let rows: Vec<usize> = grids.iter().map(row).collect();
-    let modes = ModeSet::new(
+    let modes = Modes::new(
         lowest.omega_squared().clone(),
         lowest.shapes().select_rows(&rows),
     )
@@ -298,7 +298,7 @@ pub fn delta_wing() -> Files {
                    method = \"gauss_newton\"\nfrequency_deviation = 0.001\nshape_deviation = 0.005\n"
         .to_owned();
     for parameter in model.parameters() {
-        let list: Vec<String> = parameter.members.iter().map(usize::to_string).collect();
+        let list: Vec<String> = parameter.elements.iter().map(usize::to_string).collect();
         job += &format!(
             "\n[[parameter]]\nname = \"{}\"\nelements = [{}]\n",
             parameter.name,

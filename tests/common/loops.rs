@@ -1,26 +1,27 @@
 //! Strategies of inner-loop problems and settings, and the loop told again from its own record.
 
+pub use super::known::eigensolved::{Eigensolved, exact_state};
 use super::tolerances::ROUND_OFF;
 use super::vibrations::{Chain, chain_and_truth};
-use corfem::method::derivatives::DerivativeRule;
-use corfem::method::error_sum::ErrorMeasure;
+use corfem::job::verdict::{Judged, Verdict};
+use corfem::method::error_sum::{Errors, mode_errors};
 use corfem::method::inner_loop::{InnerRun, InnerSettings};
-use corfem::method::model::{Bounds, ModalModel};
+use corfem::method::model::Model;
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::method::state::UpdateRule;
+use corfem::method::step::Bounds;
 use corfem::method::step::{Accumulation, StepRule};
 use proptest::prelude::*;
 
 /// All rules of the step.
 pub const STEP_RULES: [StepRule; 4] = [
-    StepRule::Norm,
-    StepRule::Diagonal,
+    StepRule::Matrix,
+    StepRule::Own,
     StepRule::Relative,
     StepRule::Gage,
 ];
 
 /// The problem of a chain towards the truth, with all its modes.
-pub fn chain_problem(chain: &Chain, truth: &[f64]) -> ModalModel {
+pub fn chain_problem(chain: &Chain, truth: &[f64]) -> Model {
     let count = truth.len();
     chain
         .model(&vec![1.0; count])
@@ -48,27 +49,16 @@ pub struct Given {
 fn settings() -> impl Strategy<Value = InnerSettings> {
     let rule = prop::sample::select(STEP_RULES.to_vec());
     let accumulation = prop_oneof![Just(Accumulation::Sum), Just(Accumulation::Product)];
-    let update = prop_oneof![Just(UpdateRule::default()), Just(UpdateRule::Eigensolution),];
-    let derivatives = prop_oneof![
-        3 => Just(DerivativeRule::Definition),
-        1 => Just(DerivativeRule::Gradient),
-    ];
     (
         (0.3..3.0_f64, 0.3..3.0_f64),
         (0.5..0.95_f64, 1.05..2.0_f64),
         0.01..0.1_f64,
         (0..=5_usize, 0..=12_usize),
-        (
-            derivatives,
-            rule,
-            accumulation,
-            update,
-            prop_oneof![Just(ErrorMeasure::Sum), Just(ErrorMeasure::NineModes)],
-        ),
+        (rule, accumulation),
     )
         .prop_map(
             |(relaxations, (lower, upper), tolerance, (halvings, iterations), rules)| {
-                let (derivatives, step, accumulation, update, measure) = rules;
+                let (step, accumulation) = rules;
                 InnerSettings {
                     first_relaxation: relaxations.0,
                     relaxation: relaxations.1,
@@ -76,11 +66,8 @@ fn settings() -> impl Strategy<Value = InnerSettings> {
                     tolerance,
                     halvings,
                     iterations,
-                    derivatives,
                     step,
                     accumulation,
-                    measure,
-                    update,
                 }
             },
         )
@@ -159,7 +146,29 @@ pub fn correlate_chain(chain: &Chain, truth: &[f64], settings: &Settings) -> Cor
         |factors| chain.model(factors).analyze(&test, None),
         &ranges,
         settings,
-        |_, _| {},
+        |_, _| true,
     )
     .expect("a chain can be correlated")
+}
+
+/// Settings of the inner loop for so many test modes, where `inner` is for the paper's nine.
+pub fn inner_for_modes(inner: InnerSettings, modes: usize) -> InnerSettings {
+    let settings = Settings {
+        inner,
+        ..Settings::default()
+    };
+    settings.for_modes(modes).inner
+}
+
+/// The verdict on a correlation that began at this model.
+pub fn verdict_of(found: &Correlation, first: &Model, ranges: &[Option<Bounds>]) -> Verdict {
+    let seen = first.test_shares().iter();
+    let seen: Vec<f64> = seen.map(|share| share.diagonal().amax()).collect();
+    let best = found.best_check();
+    let each = mode_errors(&best.modes, &best.pairing, first.test()).expect("paired modes");
+    Judged {
+        seen: &seen,
+        ranges,
+    }
+    .of_loops(found, &each, Errors::sum, false)
 }

@@ -11,7 +11,6 @@ pub mod close_roots;
 pub mod closed_forms;
 pub mod complex_pencils;
 pub mod condensed;
-pub mod counting_allocator;
 pub mod decks;
 pub mod double_double;
 pub mod double_double_matrices;
@@ -21,6 +20,7 @@ pub mod draws;
 pub mod fake_solver;
 pub mod fill;
 pub mod golden;
+pub mod gradient;
 pub mod ground_tests;
 pub mod hostile;
 pub mod inertia;
@@ -47,7 +47,7 @@ pub mod whole_models;
 pub mod wing_subjects;
 
 use corfem::method::error::Error;
-use corfem::method::modes::ModeSet;
+use corfem::method::modes::Modes;
 use nalgebra::{DMatrix, DVector};
 use proptest::test_runner::{Config, FileFailurePersistence};
 
@@ -102,8 +102,20 @@ pub fn assert_refused<T>(answer: Result<T, Error>, error: Error) {
 }
 
 /// Changes something about modes.
-pub fn alter(modes: &mut ModeSet, change: impl FnOnce(&mut DVector<f64>, &mut DMatrix<f64>)) {
-    let (mut omega_squared, mut shapes) = modes.clone().into_parts();
+pub fn alter(modes: &mut Modes, change: impl FnOnce(&mut DVector<f64>, &mut DMatrix<f64>)) {
+    let (mut omega_squared, mut shapes) = (modes.omega_squared().clone(), modes.shapes().clone());
     change(&mut omega_squared, &mut shapes);
-    *modes = ModeSet::new(omega_squared, shapes).expect("modes");
+    *modes = Modes::new(omega_squared, shapes).expect("modes");
+}
+
+/// Words of a refusal, or that there is none.
+pub fn said<T>(answer: Result<T, impl std::fmt::Display>) -> String {
+    answer.map_or_else(|refusal| refusal.to_string(), |_| "an answer".into())
+}
+
+/// Words for a matrix that is not positive definite by this row.
+pub fn not_definite(what: &str, row: usize) -> String {
+    format!(
+        "{what} is not positive definite: row {row} (from zero) is a combination of those before it, or not positive"
+    )
 }

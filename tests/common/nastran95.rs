@@ -1,7 +1,6 @@
 //! The stored answers of NASTRAN-95 (`golden/nastran95/README.md`), read as they are.
 
 use corfem::method::elements::unit_stiffness;
-use corfem::method::geometry::Geometry;
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use nalgebra::{DMatrix, Vector3};
 use serde::Deserialize;
@@ -44,8 +43,7 @@ impl StoredElement {
             "triangle" => ElementKind::Triangle,
             other => panic!("{}: unknown kind {other}", self.name),
         };
-        self.area.or(self.thickness).unwrap()
-            * unit_stiffness(&Geometry::new(kind, &corners).unwrap(), &material)
+        self.area.or(self.thickness).unwrap() * unit_stiffness(kind, &corners, &material)
     }
 
     /// Its stiffness as NASTRAN-95 has it.
@@ -153,11 +151,8 @@ pub fn snap_factor(corners: &[Vector3<f64>], material: &Material) -> f64 {
         no_sides_parallel_energy, parallelogram_energy, sides_12_34_parallel_energy,
         sides_14_23_parallel_energy,
     };
-    let [a, b, c, d] = corners[..] else {
-        panic!("four corners")
-    };
-    let plane = corfem::method::geometry::mean_plane(&[a, b, c, d]).unwrap();
-    let [_, c2, c3, c4] = plane.corners();
+    let flat = corfem::method::elements::shear::mean_plane(corners);
+    let [_, c2, c3, c4] = flat;
     let tangent = 0.01;
     let parallel_12_34 = (c3.y - c4.y).abs() < tangent * (c3.x - c4.x).abs();
     let parallel_14_23 = (c4.y * (c3.x - c2.x) - c3.y * c4.x).abs()
@@ -168,5 +163,5 @@ pub fn snap_factor(corners: &[Vector3<f64>], material: &Material) -> f64 {
         (false, true) => sides_14_23_parallel_energy,
         (false, false) => no_sides_parallel_energy,
     };
-    corfem::method::elements::shear::energy_coefficient(&plane, material) / energy(&plane, material)
+    corfem::method::elements::shear::energy_coefficient(corners, material) / energy(&flat, material)
 }

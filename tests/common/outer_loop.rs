@@ -1,5 +1,6 @@
 //! The stored answers of the outer loop through NASTRAN-95.
 
+use corfem::method::analysis::State;
 use corfem::torque_box::CASES;
 use serde::Deserialize;
 
@@ -71,6 +72,12 @@ pub fn stored() -> Vec<StoredCase> {
         CASES
     );
     stored.case
+}
+
+/// Frequencies of the modes that answer the test's, in its order, Hz.
+pub fn paired_hz(state: &State) -> Vec<f64> {
+    let paired = state.pairing.paired(&state.modes);
+    paired.expect("its own modes").frequencies_hz()
 }
 
 pub fn assert_near(found: &[f64], expected: &[f64], relative: f64, what: &str) {

@@ -2,7 +2,6 @@
 
 use super::strategies::{point, rotation};
 use corfem::method::elements::unit_stiffness;
-use corfem::method::geometry::Geometry;
 use corfem::method::structure::{ElementKind, Material};
 use nalgebra::{DMatrix, Rotation3, Vector3};
 use proptest::prelude::*;
@@ -120,10 +119,7 @@ pub struct Sample {
 impl Sample {
     /// Its unit stiffness.
     pub fn stiffness(&self) -> DMatrix<f64> {
-        unit_stiffness(
-            &Geometry::new(self.kind, &self.corners).expect("a sound element"),
-            &self.material,
-        )
+        unit_stiffness(self.kind, &self.corners, &self.material)
     }
 
     /// The same element turned about the origin.

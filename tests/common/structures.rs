@@ -1,10 +1,12 @@
 //! Small structures with known answers, and strategies of structures and their sizes.
 
+pub use crate::common::known::weighed::lumped_mass;
 use crate::common::known::wing::Wing;
 use corfem::chain::rods;
-use corfem::method::assembly::{ElementMatrix, dense_stiffness, element_matrices};
+use corfem::method::appendix_a::{ElementMatrix, assemble, element_matrices};
 use corfem::method::error::Error;
-use corfem::method::model::{Bounds, FiniteElementModel, Parameter};
+use corfem::method::model::{FiniteElementModel, Parameter};
+use corfem::method::step::Bounds;
 use corfem::method::structure::{Element, ElementKind, Grid, Material, StructuralDof, Structure};
 use corfem::sparse::factorization::Factor;
 use nalgebra::{DMatrix, DVector};
@@ -117,13 +119,13 @@ pub fn sizes(structure: &Structure) -> Vec<f64> {
 
 /// The stiffness of a structure by dense assembly.
 pub fn dense(structure: &Structure) -> DMatrix<f64> {
-    let matrices = element_matrices(structure);
-    dense_stiffness(&matrices, &sizes(structure), structure.free_dof().len()).expect("a size each")
+    let matrices: Vec<_> = element_matrices(structure).collect();
+    assemble(&matrices, &sizes(structure), structure.free_dof().len()).expect("a size each")
 }
 
 /// The stiffness of a structure, factorized.
 pub fn factorized(structure: &Structure) -> Result<Factor, Error> {
-    let matrices = element_matrices(structure);
+    let matrices: Vec<_> = element_matrices(structure).collect();
     Factor::of_stiffness(&matrices, &sizes(structure), structure.free_dof())
 }
 
@@ -134,7 +136,6 @@ pub fn as_element(stiffness: &DMatrix<f64>) -> (Vec<ElementMatrix>, Vec<Structur
         label: 1,
         dof: (0..count).collect(),
         unit: stiffness.clone(),
-        unit_mass: DVector::zeros(count),
     };
     let free = (0..count)
         .map(|row| StructuralDof {

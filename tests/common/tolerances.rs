@@ -11,8 +11,6 @@ pub const MATRIX_ROUND_OFF: f64 = 1e-11;
 pub const CONDITIONED_ROUND_OFF: f64 = 1e-14;
 /// A difference of a hundred-millionth of its terms, relative: what is left of sixteen digits, and some.
 pub const DIFFERENCE_ROUND_OFF: f64 = 1e-6;
-/// An eigenvalue of 3e-15 of the largest, relative: a tenth of it is one rounding of the largest.
-pub const SMALLEST_EIGENVALUE: f64 = 0.1;
 /// Two routes to the free motion of a mechanism, of its largest component: inverse iteration sheds the other motions to
 /// 1e-10 a step.
 pub const SAME_MOTION: f64 = 1e-6;
@@ -65,8 +63,6 @@ pub const PLAYED: f64 = 1e-9;
 /// The fast forms beside the plain ones, relative to the norm of a matrix, a frequency or a shape: round-off of a structural
 /// stiffness whose condition is a million at most.
 pub const TWO_PROGRAMS: f64 = 1e-9;
-/// The packed gradient beside the plain one, relative to the largest slope: sums of some dozens of products in another order.
-pub const SAME_GRADIENT: f64 = 1e-12;
 /// Whole correlations of one problem put in two ways, where they end: round-off through dozens of iterations.
 pub const SAME_CORRELATION: f64 = 1e-9;
 /// Error sums and steps on the way there, 6.3e-9 at worst (Case 2 by the norm), which the steps after them bring together again.

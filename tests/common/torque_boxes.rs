@@ -1,6 +1,6 @@
 //! The paper's torque box as a subject of properties.
 
-use corfem::method::assembly::dense_stiffness;
+use corfem::method::appendix_a::assemble;
 use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::sparse::factorization::Factor;
 use corfem::torque_box::Case;
@@ -74,7 +74,7 @@ pub fn stiffness(model: &FiniteElementModel, sizes: &[f64]) -> (DMatrix<f64>, Fa
     let free = model.structure().free_dof();
     let matrices = model.element_matrices();
     (
-        dense_stiffness(matrices, sizes, free.len()).expect("a size each"),
+        assemble(matrices, sizes, free.len()).expect("a size each"),
         Factor::of_stiffness(matrices, sizes, free).expect("nothing free"),
     )
 }

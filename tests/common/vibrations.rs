@@ -4,8 +4,8 @@
 use super::pairings::pairs_by_sorting;
 use super::strategies::positive_definite;
 use crate::common::structures::spring_stiffness;
-use corfem::method::model::{DynamicModel, ParameterMatrix};
-use corfem::method::modes::{ModeSet, Modes};
+use corfem::method::model::DynamicModel;
+use corfem::method::modes::Modes;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
@@ -130,7 +130,7 @@ impl Chain {
         DynamicModel {
             stiffness: shares.iter().sum(),
             mass: self.mass(),
-            shares: shares.into_iter().map(ParameterMatrix::Stiffness).collect(),
+            shares,
         }
     }
 
@@ -182,11 +182,7 @@ pub fn modes_by_nalgebra(
 
 /// The error sum written from its definition on all exact modes through nalgebra, paired and signed by their
 /// mass-weighted products.
-pub fn error_sum_by_definition(
-    stiffness: &DMatrix<f64>,
-    mass: &DMatrix<f64>,
-    test: &ModeSet,
-) -> f64 {
+pub fn error_sum_by_definition(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, test: &Modes) -> f64 {
     let (omega_squared, shapes) = modes_by_nalgebra(stiffness, mass);
     let cross = shapes.transpose() * mass * test.shapes();
     let (mut frequency, mut shape) = (0.0, 0.0);

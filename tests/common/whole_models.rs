@@ -1,9 +1,13 @@
 //! Whole models of springs and masses as sparse matrices.
 
 use crate::common::closed_forms::analytical::ChainEnds;
+use crate::common::structures::{lumped_mass, sizes};
+use corfem::method::appendix_a::{ElementMatrix, assemble, element_matrices};
 use corfem::method::error::Error;
-use corfem::method::model::Bounds;
-use corfem::method::modes::ModeSet;
+use corfem::method::modes::Modes;
+use corfem::method::step::Bounds;
+use corfem::method::structure::Structure;
+use corfem::sparse::Deformations;
 use corfem::sparse::{
     CountedModes, FINITE, SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes,
 };
@@ -24,9 +28,9 @@ pub fn sparse(matrix: &DMatrix<f64>) -> Result<SparseMatrix, Error> {
 pub fn counted_modes(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<CountedModes, Error> {
     let (stiffness, mass) = (sparse(stiffness)?, sparse(mass)?);
     match lowest_modes(&stiffness, &mass, stiffness.rows()) {
-        Err(Error::TooMany {
+        Err(Error::Count {
             what: FINITE,
-            available,
+            most: available,
             ..
         }) => lowest_modes(&stiffness, &mass, available),
         found => found,
@@ -81,9 +85,9 @@ pub fn shear_building(stories: &[f64], mass: f64, range: Option<Bounds>) -> Whol
 }
 
 /// Modes of a whole model as sensors see them.
-pub fn seen_by(sensors: &SparseMatrix, modes: &ModeSet) -> ModeSet {
+pub fn seen_by(sensors: &SparseMatrix, modes: &Modes) -> Modes {
     let shapes = sensors.times(modes.shapes()).expect("they fit");
-    modes.with_shapes(shapes).expect("shapes that fit")
+    Modes::new(modes.omega_squared().clone(), shapes).expect("shapes that fit")
 }
 
 /// Sensors that read single degrees of freedom.
@@ -94,4 +98,58 @@ pub fn sensors_at(rows: &[usize], count: usize) -> SparseMatrix {
         .map(|(sensor, &row)| (sensor, row, 1.0))
         .collect();
     SparseMatrix::new("sensors", rows.len(), count, entries).expect("sensors")
+}
+
+/// A model of dense matrices with every part as a parameter, and sensors at all its degrees of freedom.
+///
+/// # Errors
+/// What [`WholeModel::new`] refuses.
+pub fn of_dense(
+    stiffness: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+    shares: &[corfem::sparse::ParameterMatrix],
+) -> Result<(WholeModel, SparseMatrix), Error> {
+    use corfem::sparse::ParameterMatrix::{Mass, Stiffness};
+    let parameter = |(place, share): (usize, &corfem::sparse::ParameterMatrix)| {
+        Ok(WholeParameter {
+            name: place.to_string(),
+            share: match share {
+                Stiffness(matrix) => WholeShare::Stiffness(sparse(matrix)?),
+                Mass(matrix) => WholeShare::Mass(sparse(matrix)?),
+            },
+            range: None,
+        })
+    };
+    let parameters = shares.iter().enumerate().map(parameter);
+    let parameters = parameters.collect::<Result<_, Error>>()?;
+    let whole = WholeModel::new(sparse(stiffness)?, sparse(mass)?, parameters)?;
+    let sensors = sparse(&DMatrix::identity(mass.nrows(), mass.nrows()))?;
+    Ok((whole, sensors))
+}
+
+/// A structure at all its degrees of freedom with the masses of its elements, and a parameter for each group of these, by label.
+///
+/// # Errors
+/// What [`WholeModel::new`] refuses.
+pub fn of_structure(structure: &Structure, groups: &[Vec<usize>]) -> Result<WholeModel, Error> {
+    let elements: Vec<ElementMatrix> = element_matrices(structure).collect();
+    let sizes = sizes(structure);
+    let stiffness = assemble(&elements, &sizes, structure.free_dof().len())?;
+    let parameter = |labels: &Vec<usize>| {
+        let all = elements.iter().zip(&sizes);
+        let members = all.filter(|(element, _)| labels.contains(&element.label));
+        let members = members.map(|(element, size)| Ok((Deformations::of(element)?, *size)));
+        Ok(WholeParameter {
+            name: format!("{labels:?}"),
+            share: WholeShare::Elements(members.collect::<Result<_, Error>>()?),
+            range: None,
+        })
+    };
+    let parameters = groups.iter().map(parameter);
+    let mass = masses(lumped_mass(structure).as_slice());
+    WholeModel::new(
+        sparse(&stiffness)?,
+        mass,
+        parameters.collect::<Result<_, Error>>()?,
+    )
 }

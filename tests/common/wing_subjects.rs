@@ -5,8 +5,16 @@ use super::known::delta_wing::correlation::{
     GROUPS, Group, WingCorrelation, correlate_wing, first_model, measured_grids,
 };
 use super::known::recovered;
+use corfem::job::verdict::{Judged, Verdict};
+use corfem::method::error::Error;
+use corfem::method::error_sum::{Errors, mode_errors};
+use corfem::method::model::Model;
+use corfem::method::modes::Modes;
+use corfem::method::outer_loop::Correlation;
+use corfem::method::step::Bounds;
 use corfem::present::PresentError;
 use corfem::present::report::{Derivatives, Report, SensorPoint};
+use corfem::weighted::comparison::{Comparison, ExactResult};
 use nalgebra::Vector3;
 
 /// The delta wing with wrong gages.
@@ -33,14 +41,20 @@ pub fn wing_subject(wing: &DeltaWing, run: &WingCorrelation) -> Result<Report, P
         ranges: model.factor_ranges()?,
         supports: held.map(|grid| grid.position).collect(),
         sensors: measured_grids(structure).into_iter().map(sensor).collect(),
-        mass: Some(model.condense(&[1.0; GROUPS.len()])?.mass),
-        derivatives: Some(Derivatives::at(&first)?),
+        mass: Some(model.matrices(&[1.0; GROUPS.len()])?.mass),
+        derivatives: Some(Derivatives::at(&Comparison::from(&first))?),
         truth: GROUPS.iter().map(Group::true_factor).collect(),
+        verdict: Some(judged(
+            &run.correlation,
+            &run.test,
+            &run.shares,
+            &model.factor_ranges()?,
+        )?),
         ..Report::from_correlation(
             "delta_wing",
             &names,
             &run.test,
-            &run.correlation.initial,
+            &ExactResult::from(&run.correlation.initial),
             Some(&run.correlation),
         )
         .with_structure(structure)
@@ -63,18 +77,47 @@ pub fn wing_subjects() -> Result<[Report; 2], PresentError> {
         "Wing of 1,458 DOF with wrong gages".to_owned(),
         known.model.factor_ranges()?,
     );
-    let large = Report::from_correlation("wing", &names, &known.test, &run.initial, Some(&run))
+    let initial = ExactResult::from(&run.initial);
+    let first =
+        known
+            .model
+            .analyze(&vec![1.0; names.len()], &known.test, Some(known.test.len()))?;
+    let seen: Vec<f64> = parts(&first);
+    let verdict = judged(&run, &known.test, &seen, &ranges)?;
+    let large = Report::from_correlation("wing", &names, &known.test, &initial, Some(&run))
         .with_structure(known.model.structure());
-    let delta = wing_subject(&wing, &correlate_wing(&wing, |_, _| {})?)?;
+    let delta = wing_subject(&wing, &correlate_wing(&wing, |_, _| ())?)?;
     Ok([
         delta,
         Report {
             title,
             ranges,
             truth: known.truth,
+            verdict: Some(verdict),
             ..large
         },
     ])
+}
+
+/// Largest part of a test mode's generalized stiffness that each parameter has.
+fn parts(first: &Model) -> Vec<f64> {
+    let shares = first.test_shares().iter();
+    shares.map(|share| share.diagonal().amax()).collect()
+}
+
+/// The verdict on a correlation whose tolerances are sums over its modes.
+///
+/// # Errors
+/// What [`mode_errors`] refuses.
+fn judged(
+    run: &Correlation,
+    test: &Modes,
+    seen: &[f64],
+    ranges: &[Option<Bounds>],
+) -> Result<Verdict, Error> {
+    let best = run.best_check();
+    let errors = mode_errors(&best.modes, &best.pairing, test)?;
+    Ok(Judged { seen, ranges }.of_loops(run, &errors, Errors::sum, false))
 }
 
 /// A sensor that measures upward.

@@ -47,7 +47,7 @@ pub fn frequencies_by_both(reconstruction: &Reconstruction) -> Result<Vec<ByBoth
             let mut stiffness = model.stiffness.clone();
             for (panel, share) in case.panels.iter().zip(&model.shares) {
                 let gage = gages.required(&panel.label.to_string(), &format!("fem_{modes}_in"))?;
-                stiffness += (change(gage / panel.gage) - 1.0) * share.matrix();
+                stiffness += (change(gage / panel.gage) - 1.0) * share;
             }
             let reduced = first.shapes().transpose() * stiffness * first.shapes();
             let found = solve(&reduced, &DMatrix::identity(modes, modes), modes)?;

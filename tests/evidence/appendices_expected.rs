@@ -1,21 +1,19 @@
 //! Appendix B, the general formulae of Appendix C, gradients, and exact checks of truncated sets, against numpy's
 //! (golden/reference/appendices.py).
 
+use crate::common::appendix_c::{ModalChange, eigensolution};
+use crate::common::gradient::gradient;
 use crate::common::matrices::relative_distance;
 use crate::common::tolerances::{
     EXPECTED_FREQUENCY, EXPECTED_GRADIENT, EXPECTED_HISTORY, MATRIX_ROUND_OFF,
 };
 use approx::assert_relative_eq;
+use corfem::method::analysis::Analysis;
 use corfem::method::appendix_b::{balance, orthogonalize};
-use corfem::method::appendix_c::Perturbed;
-use corfem::method::appendix_c::eigensolution;
-use corfem::method::appendix_c::general::{
-    ModalChange, original, recursive_1, recursive_1_converged, recursive_2,
-};
-use corfem::method::derivatives::gradient;
-use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
-use corfem::method::modes::ModeSet;
-use corfem::method::state::ModalState;
+use corfem::method::appendix_c::Pencil;
+use corfem::method::appendix_c::complex_modes::LeftRightModes;
+use corfem::method::modes::Modes;
+use corfem::method::perturbation::Perturbed;
 use corfem::torque_box::Case;
 use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, published_runs};
 use nalgebra::{Complex, DMatrix, DVector};
@@ -64,7 +62,7 @@ fn appendix_b_is_numpys() {
     let table = &expected()["appendix_b"];
     let (stiffness, mass) = (matrix(&table["stiffness"]), matrix(&table["mass"]));
     let omega_squared = DVector::from_vec(list(&table["omega_squared"]));
-    let raw = ModeSet::new(omega_squared, matrix(&table["raw"])).expect("modes");
+    let raw = Modes::new(omega_squared, matrix(&table["raw"])).expect("modes");
     let balanced =
         balance(&raw, &stiffness, &mass, &matrix(&table["rigid_body"])).expect("balanced");
     assert_near(
@@ -85,11 +83,8 @@ fn appendix_b_is_numpys() {
         &table["change"],
         MATRIX_ROUND_OFF,
     );
-    let found = orthogonalize(
-        &raw.with_shapes(balanced.shapes).expect("shapes that fit"),
-        &mass,
-    )
-    .expect("orthogonal");
+    let balanced = Modes::new(raw.omega_squared().clone(), balanced.shapes).expect("modes");
+    let found = orthogonalize(&balanced, &mass).expect("orthogonal");
     assert_near(
         "overlap",
         &found.overlap,
@@ -163,32 +158,34 @@ fn the_general_formulae_are_numpys() {
     for name in ["symmetric", "unsymmetric", "complex"] {
         let table = &expected()[&format!("appendix_c_{name}")];
         let k = DVector::from_vec(list(&table["k"]));
-        let change = ModalChange {
-            generalized_stiffness: k.map(Complex::from),
+        let [beta, alpha] = ["beta", "alpha"].map(|name| complex(table, name));
+        // Unit shapes of a diagonal pencil: the change is seen as it is.
+        let own = DMatrix::identity(k.len(), k.len());
+        let modes = LeftRightModes {
             roots: k.map(|k| Complex::from(1.0 / k)),
-            beta: complex(table, "beta"),
-            alpha: complex(table, "alpha"),
+            right: own.clone(),
+            left: own,
         };
-        assert_perturbed(table, "original", &original(&change).expect("apart"));
+        let stiffness = DMatrix::from_diagonal(&k.map(Complex::from));
+        let pencil = Pencil::new(&stiffness, &modes, &beta, &alpha).expect("a pencil");
+        assert_perturbed(table, "original", &pencil.original().expect("apart"));
         for order in [1, 2, 3, 5] {
             assert_perturbed(
                 table,
                 &format!("recursive_1_{order}"),
-                &recursive_1(&change, order).expect("apart"),
+                &pencil.recursive_1(order).expect("apart"),
             );
             assert_perturbed(
                 table,
                 &format!("recursive_2_{order}"),
-                &recursive_2(&change, order).expect("apart"),
+                &pencil.recursive_2(order).expect("apart"),
             );
         }
-        let settled = recursive_1_converged(&change, 1e-15, 200)
-            .expect("it settles")
-            .perturbed;
-        assert_perturbed(table, "exact", &settled);
+        let settled = pencil.recursive_1_converged().expect("it settles");
+        assert_perturbed(table, "exact", &settled.perturbed);
         if name == "symmetric" {
             let real = |matrix: &DMatrix<Complex<f64>>| matrix.map(|entry| entry.re);
-            let exact = ModalChange::of_vibrations(&k, real(&change.beta), real(&change.alpha));
+            let exact = ModalChange::of_vibrations(&k, real(&beta), real(&alpha));
             let Perturbed { roots, shapes } = eigensolution(&exact).expect("solved");
             let exact = Perturbed {
                 roots: roots.map(Complex::from),
@@ -199,12 +196,7 @@ fn the_general_formulae_are_numpys() {
     }
 }
 
-fn assert_gradient(what: &str, model: &ModalModel, expected: &Value) {
-    let found = gradient(model, &ModalState::start(model)).expect("a gradient");
-    assert_near(what, &column(&found), expected, EXPECTED_GRADIENT);
-}
-
-/// Gradients by gages and by point masses where the cases begin, with all modes and with fewer.
+/// Gradients by gages where the cases begin, with all modes and with fewer.
 #[test]
 fn gradients_are_numpys() {
     for (number, tests, analysis) in [
@@ -219,31 +211,14 @@ fn gradients_are_numpys() {
         let table = &expected()
             [&format!("gradient, case {number}, {tests} test and {analysis} analysis modes")];
         let case = Case::new(number).expect("a case");
-        let test = ModeSet::from(
-            case.test_modes()
-                .expect("solved")
-                .lowest(tests)
-                .expect("as many"),
-        );
-        let (model, ones) = (case.model().expect("a model"), [1.0; 15]);
-        let modal = model.analyze(&ones, &test, Some(analysis)).expect("solved");
-        assert_gradient("stiffness", &modal, &table["stiffness"]);
-        let DynamicModel {
-            stiffness, mass, ..
-        } = model.matrices(&ones).expect("solved");
-        let of_point = |dof: usize| {
-            ParameterMatrix::Mass(DMatrix::from_fn(9, 9, |i, j| {
-                if i == dof { mass[(i, j)] } else { 0.0 }
-            }))
-        };
-        let shares = (0..9).map(of_point).collect();
-        let modal = DynamicModel {
-            stiffness,
-            mass: mass.clone(),
-            shares,
-        }
-        .analyze(&test, Some(analysis));
-        assert_gradient("mass", &modal.expect("solved"), &table["mass"]);
+        let test = case.test_modes().expect("solved");
+        let test = test.lowest(tests).expect("as many");
+        let model = case.model().expect("a model");
+        let modal = model.analyze(&[1.0; 15], &test, Some(analysis));
+        let modal = modal.expect("solved");
+        let found = gradient(&modal, modal.exact()).expect("a gradient");
+        let expected = &table["stiffness"];
+        assert_near("stiffness", &column(&found), expected, EXPECTED_GRADIENT);
     }
 }
 

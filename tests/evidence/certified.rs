@@ -15,8 +15,9 @@ use crate::common::double_double::{DD_EPSILON, Dd};
 use crate::common::double_double_matrices::{Rows, inverse, product as matrix_product, rows};
 use crate::common::inertia::{Flexible, Lower, negative_eigenvalues, product, scaled};
 use crate::common::tolerances::{CERTIFIED_ROOT, SHOWN_UNITS};
+use corfem::method::analysis::Analysis;
 use corfem::method::inner_loop::run;
-use corfem::method::modes::ModeSet;
+use corfem::method::modes::Modes;
 use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, PUBLISHED_RUNS, fewer_modes_run};
 use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
 use corfem::torque_box::{CASES, Case, run_case};
@@ -134,7 +135,7 @@ impl Pencil {
     }
 
     /// Certifies modes as the lowest of the pencil: a root within the bound of each, and no other below or between.
-    fn certify(&self, what: &str, modes: &ModeSet) {
+    fn certify(&self, what: &str, modes: &Modes) {
         let mut order: Vec<usize> = (0..modes.len()).collect();
         order.sort_by(|&a, &b| modes.omega_squared()[a].total_cmp(&modes.omega_squared()[b]));
         for (place, &mode) in order.iter().enumerate() {
@@ -156,7 +157,7 @@ impl Pencil {
 impl Pencil {
     /// Asserts that modes have the lowest frequencies to the last of the ten digits that tables have as numbers (other tables show
     /// fewer of the same): a rounded one is half a unit off.
-    fn assert_shown(&self, what: &str, modes: &ModeSet) {
+    fn assert_shown(&self, what: &str, modes: &Modes) {
         let mut shown: Vec<String> = modes
             .frequencies_hz()
             .iter()
@@ -194,17 +195,13 @@ fn frequencies_of_the_cases_are_certified() {
         let run = &found.correlation;
         let mut columns = vec![
             ("GVT".to_owned(), vec![TEST_GAGE; PANEL_COUNT], &found.test),
-            (
-                "Initial".to_owned(),
-                case.first_gages(),
-                &*run.initial.modes,
-            ),
+            ("Initial".to_owned(), case.first_gages(), &run.initial.modes),
         ];
         for (row, pass) in run.passes.iter().enumerate() {
             columns.push((
                 format!("Pass {}", row + 1),
                 found.pass_gages[row].clone(),
-                &*pass.check.modes,
+                &pass.check.modes,
             ));
         }
         for (column, gages, modes) in columns {
@@ -225,7 +222,7 @@ fn frequencies_with_fewer_modes_are_certified() {
     let ones = vec![1.0; PANEL_COUNT];
     for (test_modes, analysis_modes) in PUBLISHED_RUNS {
         let what = format!("{test_modes} test and {analysis_modes} analysis modes");
-        let test = ModeSet::from(case.test_modes().unwrap().lowest(test_modes).unwrap());
+        let test = case.test_modes().unwrap().lowest(test_modes).unwrap();
         let analyzed = model
             .analyze(&ones, &test, Some(analysis_modes))
             .expect("solved");
@@ -236,18 +233,14 @@ fn frequencies_with_fewer_modes_are_certified() {
             &case.settings.inner,
         )
         .expect("it runs");
-        let shares: Vec<&DMatrix<f64>> = analyzed
-            .shares()
-            .iter()
-            .map(|share| share.matrix())
-            .collect();
+        let shares: Vec<&DMatrix<f64>> = analyzed.shares().iter().collect();
         let squares = analyzed.exact().modes.omega_squared().as_slice();
-        let modal = ModeSet::new(
-            inner.last.modes().omega_squared().clone(),
-            inner.last.generalized_shapes().clone(),
+        let modal = Modes::new(
+            inner.last.modes.omega_squared().clone(),
+            inner.last.generalized_shapes.clone(),
         )
         .expect("modes");
-        let inner = of_inner_loop(squares, &shares, inner.last.factors());
+        let inner = of_inner_loop(squares, &shares, &inner.last.factors);
         inner.certify(&what, &modal);
         let gages = fewer_modes_run(&case, test_modes, analysis_modes)
             .expect("it runs")

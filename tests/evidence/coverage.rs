@@ -4,17 +4,20 @@
 use super::PERCENT;
 use crate::common::jobs::{Files, building, of_whole};
 use crate::common::known::Known;
+use crate::common::known::weighed::Weighed;
 use crate::common::measured::equal_weights;
 use crate::common::test_files::write_csv;
 use crate::common::whole_models::{masses, shear_building, springs};
 use crate::readers::job_errors::{placed, with};
 use corfem::files::error::FileError;
 use corfem::job::{JobResult, LoadedJob, run};
-use corfem::method::model::{Bounds, Parameter};
-use corfem::method::modes::ModeSet;
+use corfem::method::model::Parameter;
+use corfem::method::modes::Modes;
+use corfem::method::step::Bounds;
 use corfem::present::table::{Cell, Digits, Table, numbers, percents};
 use corfem::sparse::{LargeModel, WholeModel, WholeParameter, WholeShare};
 use corfem::torque_box::error::CaseError;
+use corfem::weighted::comparison::Comparison;
 use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop, gauss_newton};
 use corfem::weighted::intervals::intervals;
 use corfem::weighted::misfit::Misfit;
@@ -170,7 +173,10 @@ fn of_known(known: Known) -> Subject {
             };
             let test = with_noise(&known.test, noise, seed)?;
             let weights = equal_weights(Noise::USUAL, test.len());
-            let analyze = |factors: &[f64]| known.model.analyze(factors, &test, None);
+            let analyze = |factors: &[f64]| {
+                let model = known.model.analyze(factors, &test, None)?;
+                Ok::<_, corfem::method::error::Error>(Comparison::from(&model))
+            };
             let settings = WeightedSettings::default();
             let found = gauss_newton(analyze, &ones, &ranges, &weights, &settings)?;
             let last = analyze(&found.factors)?;
@@ -236,7 +242,7 @@ fn noisy(
     seed: u64,
 ) -> Result<Files, Box<dyn Error>> {
     let mut data = loaded.data.clone();
-    let exact = ModeSet::from_measured(&data.frequencies_hz, &data.shapes)?;
+    let exact = Modes::from_measured(&data.frequencies_hz, &data.shapes)?;
     let noise = (0..exact.len()).map(|mode| loaded.deviations(mode));
     let noise: Vec<Noise> = noise
         .map(|noise| Noise {
@@ -267,7 +273,7 @@ fn case_2_by_bays() -> Result<Known, CaseError> {
         known.model.mass(),
     );
     let elements = known.model.parameters().iter().zip(&known.truth);
-    let alone = elements.filter(|(element, _)| !BAYS.as_flattened().contains(&element.members[0]));
+    let alone = elements.filter(|(element, _)| !BAYS.as_flattened().contains(&element.elements[0]));
     let (mut parameters, mut truth): (Vec<Parameter>, Vec<f64>) = alone
         .map(|(element, truth)| (element.clone(), *truth))
         .unzip();
@@ -278,7 +284,8 @@ fn case_2_by_bays() -> Result<Known, CaseError> {
         ));
         truth.push(known.truth[bay[0] - 1]);
     }
-    let model = LargeModel::new(structure.clone(), t.clone(), mass.clone(), parameters)?;
+    let model = LargeModel::new(structure.clone(), t.clone(), mass.clone(), parameters);
+    let model = Weighed(model?);
     Ok(Known {
         name: "Case 2 by bays".to_owned(),
         model,

@@ -8,12 +8,11 @@ use crate::evidence::readings::{FAULTY_ELEMENT, READINGS};
 use crate::evidence::readings_rates::{KINDS, Kind, below, unit};
 use crate::readers::job_prepared::prepared;
 use corfem::job::localization::by_factor;
-use corfem::method::derivatives::error_changes;
+use corfem::method::analysis::Analysis;
 use corfem::method::error::Error;
-use corfem::method::model::ModalModel;
-use corfem::method::modes::{ModeSet, solve};
-use corfem::method::state::ModalState;
-use corfem::method::step::{StepRule, stiffness_changes, unlimited_factors};
+use corfem::method::model::Model;
+use corfem::method::modes::{Modes, solve};
+use corfem::method::step::{StepRule, unlimited_factor};
 use corfem::present::table::{Cell, Table};
 use corfem::present::tables::job::suspects_table;
 use corfem::torque_box::error::CaseError;
@@ -62,16 +61,15 @@ impl BoxRates {
 }
 
 /// What the first iteration of a case asks for by each of [`READINGS`].
-fn demands(case: &Case, model: &ModalModel) -> Result<[Vec<f64>; 4], Error> {
-    let (state, inner) = (ModalState::start(model), &case.settings.inner);
-    let (changes, ones) = (
-        error_changes(model, &state, inner.derivatives)?,
-        [1.0; PANEL_COUNT],
-    );
-    let error_sum = state.errors().sum();
+fn demands(case: &Case, model: &Model) -> Result<[Vec<f64>; 4], Error> {
+    let (state, relaxation) = (model.exact(), case.settings.inner.first_relaxation);
+    let (changes, error_sum) = (model.error_changes(state)?, state.errors.sum());
     Ok(READINGS.map(|reading| {
-        let stiffnesses = stiffness_changes(model, &ones, &ones, reading);
-        unlimited_factors(&changes, &stiffnesses, error_sum, inner.first_relaxation)
+        let stiffnesses = model.stiffness_changes(state, &[1.0; PANEL_COUNT], reading);
+        let pairs = changes.iter().zip(&stiffnesses);
+        pairs
+            .map(|(error, stiffness)| unlimited_factor(*error, *stiffness, error_sum, relaxation))
+            .collect()
     }))
 }
 
@@ -91,7 +89,7 @@ pub fn box_rates(size: (f64, f64), boxes: usize) -> Result<BoxRates, CaseError> 
     for other in other_boxes(size.0, size.1).take(boxes) {
         for number in CASES {
             let case = Case::from_reconstruction(number, other.clone())?;
-            let test = ModeSet::from(case.test_modes()?);
+            let test = case.test_modes()?;
             let model = case.model()?.analyze(&[1.0; PANEL_COUNT], &test, None)?;
             for (place, demands) in demands(&case, &model)?.iter().enumerate() {
                 if number == 4 {
@@ -118,7 +116,7 @@ pub fn box_rates(size: (f64, f64), boxes: usize) -> Result<BoxRates, CaseError> 
 pub fn right_model_alarms(number: usize, seeds: u64) -> Result<[usize; 4], CaseError> {
     let case = Case::new(number)?;
     let model = case.model_with(&[TEST_GAGE; PANEL_COUNT])?;
-    let exact = ModeSet::from(case.test_modes()?);
+    let exact = case.test_modes()?;
     let mut alarms = [0; 4];
     for seed in 1..=seeds {
         let test = with_noise(&exact, NOISE, seed)?;
@@ -159,10 +157,9 @@ pub fn job_rates(kind: Kind, tests: u64) -> JobRates {
         let culprit = below(&mut state, parts.len());
         let mut real: DMatrix<f64> = parts.iter().sum();
         real -= 0.99 * &parts[culprit];
-        let exact: ModeSet = solve(&real, &mass, MODES).expect("modes").into();
-        let exact = exact
-            .with_shapes(unit(exact.shapes().clone()))
-            .expect("shapes");
+        let exact = solve(&real, &mass, MODES).expect("modes");
+        let shapes = unit(exact.shapes().clone());
+        let exact = Modes::new(exact.omega_squared().clone(), shapes).expect("shapes");
         let test = with_noise(&exact, NOISE, seed).expect("noise");
         let loaded = prepared(&of_matrices(&parts, &mass, &test));
         let table = suspects_table(&loaded).expect("suspects");
@@ -171,7 +168,8 @@ pub fn job_rates(kind: Kind, tests: u64) -> JobRates {
         rates.fit[0] += usize::from(place == Some(0));
         rates.fit[1] += usize::from(place.is_some_and(|place| place < 3));
         let first = loaded.analyze(&vec![1.0; parts.len()]).expect("modes");
-        let largest = by_factor(&first, &loaded.job.correlation.inner).expect("factors");
+        let settings = loaded.job.correlation.for_modes(MODES).inner;
+        let largest = by_factor(first.model(), &settings).expect("factors");
         rates.factor += usize::from(largest[0].parameter == culprit);
     }
     rates
@@ -188,7 +186,7 @@ pub fn all_job_rates(tests: u64) -> Vec<JobRates> {
 /// How often what is a hundred times too thin is named, on other boxes and in jobs.
 pub fn detection_tables(boxes: &[BoxRates], alarms: [usize; 4], jobs: &[JobRates]) -> Vec<Table> {
     let place = |reading| READINGS.iter().position(|other| *other == reading);
-    let by = [StepRule::Gage, StepRule::Diagonal, StepRule::Norm].map(place);
+    let by = [StepRule::Gage, StepRule::Own, StepRule::Matrix].map(place);
     let pick = |counts: &[usize; 4]| by.map(|place| Cell::count(counts[place.unwrap_or(0)]));
     let title = "Case 4 and Cases 1 to 3 on other boxes: how many name an element";
     let mut table =

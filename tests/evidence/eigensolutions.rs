@@ -1,10 +1,13 @@
 //! How many full eigensolutions a correlation takes: perturbation between exact checks against a new analysis after every step.
 
 use crate::common::known::delta_wing::correlation;
+use crate::common::known::eigensolved::Eigensolved;
 use crate::common::known::wing::Wing;
 use crate::common::known::{Known, WING_MODES, planted};
+use corfem::method::analysis::Analysis;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::InnerSettings;
+use corfem::method::model::Model;
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::present::table::{Cell, Table};
 use corfem::torque_box::Case;
@@ -41,14 +44,15 @@ pub struct Counted {
     pub reanalysis: Effort,
 }
 
-/// Counts both ways on one structure to an exact error sum, with the rule of the step of given settings.
+/// Counts both ways on one structure to an exact error sum, with the rule of the step of given settings, and what the loops are handed of
+/// each analysis.
 ///
 /// # Errors
 /// Those of the analysis and of [`correlate`].
-pub fn counted(
+pub fn counted<A: Analysis>(
     known: &Known,
     modes: Option<usize>,
-    settings: &Settings,
+    (settings, handed): (&Settings, fn(Model) -> A),
     error: f64,
 ) -> Result<Counted, Error> {
     let effort = |inner: InnerSettings| {
@@ -67,9 +71,12 @@ pub fn counted(
         let mut analyses = 0;
         let analyze = |factors: &[f64]| {
             analyses += 1;
-            known.model.analyze(factors, &known.test, modes)
+            let model = known.model.analyze(factors, &known.test, modes)?;
+            Ok::<_, Error>(handed(model))
         };
-        let found = correlate(analyze, &known.model.factor_ranges()?, &settings, |_, _| {})?;
+        let found = correlate(analyze, &known.model.factor_ranges()?, &settings, |_, _| {
+            true
+        })?;
         let steps = found
             .passes
             .iter()
@@ -102,22 +109,24 @@ pub fn counted(
 /// # Errors
 /// Those of the models and of [`counted`].
 pub fn count_all(errors: &[f64]) -> Result<Vec<Counted>, CaseError> {
-    let of = |number: usize| -> Result<Vec<Counted>, CaseError> {
-        let (known, modes, settings) = match number {
-            4 => (Known::delta_wing()?, None, correlation::settings()),
-            5 => (
-                planted(&Wing::default())?,
-                Some(WING_MODES),
-                correlation::settings(),
-            ),
-            case => (Known::of_case(case)?, None, Case::new(case)?.settings),
-        };
-        Ok(errors
-            .iter()
-            .map(|error| counted(&known, modes, &settings, *error))
-            .collect::<Result<_, _>>()?)
-    };
-    Ok((1..=5).map(of).collect::<Result<Vec<_>, _>>()?.concat())
+    let mut all = Vec::new();
+    for number in 1..=3 {
+        let (known, settings) = (Known::of_case(number)?, Case::new(number)?.settings);
+        for &error in errors {
+            all.push(counted(&known, None, (&settings, |model| model), error)?);
+        }
+    }
+    let wings = [
+        (Known::delta_wing()?, None),
+        (planted(&Wing::default())?, Some(WING_MODES)),
+    ];
+    for (known, modes) in &wings {
+        for &error in errors {
+            let settings = (&correlation::settings(), Eigensolved as fn(Model) -> _);
+            all.push(counted(known, *modes, settings, error)?);
+        }
+    }
+    Ok(all)
 }
 
 /// Full eigensolutions to an exact error sum, by perturbation and with an analysis after every step.

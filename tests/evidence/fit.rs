@@ -1,6 +1,7 @@
 //! How well the reconstructed box reproduces the published frequencies.
 
 use super::RMS_PERCENT;
+use corfem::method::analysis::Analysis;
 use corfem::present::table::{Table, percents};
 use corfem::torque_box::Case;
 use corfem::torque_box::error::CaseError;

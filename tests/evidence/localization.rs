@@ -4,11 +4,11 @@ use super::noise_words;
 use crate::common::measured::equal_weights;
 use corfem::job::localization::{by_factor, by_single_fit};
 use corfem::method::error::Error;
-use corfem::method::modes::ModeSet;
 use corfem::present::table::{Cell, Table};
 use corfem::torque_box::Case;
 use corfem::torque_box::error::CaseError;
 use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
+use corfem::weighted::comparison::Comparison;
 use corfem::weighted::noise::{Noise, with_noise};
 use std::ops::RangeInclusive;
 
@@ -44,7 +44,7 @@ pub struct Located {
 /// Those of the model and of the rankings.
 pub fn localization(seeds: RangeInclusive<u64>) -> Result<Vec<Located>, CaseError> {
     let case = Case::new(4)?;
-    let exact = ModeSet::from(case.test_modes()?);
+    let exact = case.test_modes()?;
     let weights = equal_weights(NOISE, exact.len());
     let noisy = seeds
         .map(|seed| with_noise(&exact, NOISE, seed))
@@ -63,7 +63,7 @@ pub fn localization(seeds: RangeInclusive<u64>) -> Result<Vec<Located>, CaseErro
                 let modal = model.analyze(&[1.0; PANEL_COUNT], test, None)?;
                 let rankings = [
                     by_factor(&modal, &case.settings.inner)?,
-                    by_single_fit(&modal, &weights)?,
+                    by_single_fit(&Comparison::from(&modal), &weights)?,
                 ];
                 for (found, suspects) in found.iter_mut().zip(rankings) {
                     let place = suspects

@@ -8,9 +8,9 @@ use crate::evidence::matrix_correction::{
 };
 use corfem::method::error::Error;
 use corfem::method::model::DynamicModel;
-use corfem::method::modes::{ModeSet, Modes, solve};
+use corfem::method::modes::{Modes, solve};
 use corfem::method::outer_loop::correlate;
-use corfem::method::pairing::{cross_orthogonality, pair_modes, paired};
+use corfem::method::sorting::{cross_orthogonality, pair_modes};
 use corfem::method::step::StepRule;
 use corfem::torque_box::Case;
 use corfem::torque_box::error::CaseError;
@@ -102,9 +102,9 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
         |factors| model.analyze(factors, &test, None),
         &ranges,
         &settings,
-        |_, _| {},
+        |_, _| true,
     )?;
-    let found = model.at(&correlation.best_factors)?.sizes[..PANEL_COUNT].to_vec();
+    let found = model.sizes(&correlation.best_factors)?[..PANEL_COUNT].to_vec();
 
     let baruch = baruch_stiffness(&start.stiffness, &start.mass, &test);
     let read = as_read(&test, &start.mass)?;
@@ -184,13 +184,13 @@ fn with_doublers(gages: &[f64]) -> Vec<f64> {
 
 /// Modes as read from a plot: shapes of unit largest component times [`READ_DIGITS`], rounded to whole numbers,
 /// then of unit generalized mass.
-fn as_read(modes: &ModeSet, mass: &DMatrix<f64>) -> Result<ModeSet, Error> {
+fn as_read(modes: &Modes, mass: &DMatrix<f64>) -> Result<Modes, Error> {
     let mut shapes = modes.shapes().clone();
     for mut shape in shapes.column_iter_mut() {
         let largest = shape.amax();
         shape.apply(|value| *value = (*value / largest * READ_DIGITS).round());
     }
-    modes.with_shapes(shapes)?.scaled_with(mass)
+    Modes::new(modes.omega_squared().clone(), shapes)?.scaled_with(mass)
 }
 
 /// Relative frequency errors of a model, its modes paired with the true ones.
@@ -201,7 +201,7 @@ fn frequency_errors(
 ) -> Result<Vec<f64>, Error> {
     let modes = solve(stiffness, mass, truth.len())?;
     let pairing = pair_modes(&cross_orthogonality(&modes, truth, mass)?)?;
-    let pairs = paired(&modes, &pairing)?.frequencies_hz();
+    let pairs = pairing.paired(&modes)?.frequencies_hz();
     Ok(pairs
         .iter()
         .zip(truth.frequencies_hz())
@@ -231,7 +231,7 @@ fn nearest_factors(change: &DMatrix<f64>, start: &DynamicModel) -> Result<(Vec<f
     let mut shares: Vec<_> = start
         .shares
         .iter()
-        .map(|share| weighted(share.matrix()))
+        .map(weighted)
         .collect::<Result<_, _>>()?;
     let norms: Vec<f64> = shares.iter_mut().map(DVector::normalize_mut).collect();
     let shares = DMatrix::from_columns(&shares);
@@ -240,7 +240,7 @@ fn nearest_factors(change: &DMatrix<f64>, start: &DynamicModel) -> Result<(Vec<f
         .clone()
         .svd(true, true)
         .solve(&target, SMALLEST_SINGULAR_VALUE);
-    let coefficients = nearest.map_err(|_| Error::NoConvergence("element shares"))?;
+    let coefficients = nearest.map_err(|_| Error::no_convergence("element shares"))?;
     let (left, whole) = ((&target - shares * &coefficients).norm(), target.norm());
     let factors = coefficients.iter().zip(&norms).map(|(c, norm)| c / norm);
     Ok((

@@ -8,7 +8,7 @@
 //! Journal* 21 (1983), 1168–1173.
 
 use corfem::method::linear_algebra::{cholesky, symmetric_part};
-use corfem::method::modes::ModeSet;
+use corfem::method::modes::Modes;
 use nalgebra::DMatrix;
 
 /// Baruch's correction of the stiffness, lbf/in (d × d):
@@ -22,7 +22,7 @@ use nalgebra::DMatrix;
 pub fn baruch_stiffness(
     stiffness: &DMatrix<f64>,
     mass: &DMatrix<f64>,
-    test: &ModeSet,
+    test: &Modes,
 ) -> DMatrix<f64> {
     let (inertia, forces) = (mass * test.shapes(), stiffness * test.shapes());
     let generalized = test.shapes().tr_mul(&forces) + DMatrix::from_diagonal(test.omega_squared());

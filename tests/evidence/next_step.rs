@@ -20,7 +20,7 @@ fn errors(number: usize) -> Vec<[f64; 2]> {
 
 /// The box is symmetric about its mid-plane: upper and lower covers answer alike.
 #[test]
-fn the_covers_of_each_bay_cannot_be_told_apart() {
+fn the_covers_of_each_bay_cannot_be_indistinct_groups() {
     for number in [1, 2, 3] {
         let next = case(number).next_step.as_ref().expect("a step");
         let found: Vec<Vec<usize>> = next.seen.parallel_groups();

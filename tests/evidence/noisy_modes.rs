@@ -2,13 +2,14 @@
 //! What is wrong with the gages each time says what its steps are worth.
 
 use super::{PERCENT, RMS_PERCENT, noise_words};
+use corfem::method::analysis::Analysis;
 use corfem::method::appendix_b::{
     Examination, LARGEST_SUSPENSION_RATIO, MeasuringPoint, Motion, MovementLimits, Supports,
     balance, examine, rigid_body_vectors,
 };
 use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
-use corfem::method::modes::ModeSet;
+use corfem::method::modes::Modes;
 use corfem::method::outer_loop::correlate;
 use corfem::method::step::StepRule;
 use corfem::method::structure::ElementKind;
@@ -101,7 +102,7 @@ pub fn noisy_modes(
     seeds: RangeInclusive<u64>,
 ) -> Result<NoisyModes, CaseError> {
     let model = case.model()?;
-    let exact = ModeSet::from(case.test_modes()?);
+    let exact = case.test_modes()?;
     let first = model.matrices(&vec![1.0; model.parameters().len()])?;
     let point = |position| MeasuringPoint {
         position,
@@ -124,7 +125,7 @@ pub fn noisy_modes(
         Err(Error::Supported { ratio, .. }) => (Supports::Held, Some(ratio)),
         Err(error) => return Err(error.into()),
     };
-    let found = |test: &ModeSet| correlated(case, &model, &exact, test);
+    let found = |test: &Modes| correlated(case, &model, &exact, test);
     let run = |(seed, noise): (Option<u64>, Noise)| {
         let raw = with_noise(&exact, noise, seed.unwrap_or_default())?;
         let orthogonal = examine(&raw, &first.mass, supports, &NO_LIMITS)?.modes;
@@ -138,7 +139,11 @@ pub fn noisy_modes(
             screened: found(&modes)?,
         })
     };
-    let all = std::iter::once((None, Noise::NONE)).chain(seeds.map(|seed| (Some(seed), noise)));
+    let none = Noise {
+        shape: 0.0,
+        frequency: 0.0,
+    };
+    let all = std::iter::once((None, none)).chain(seeds.map(|seed| (Some(seed), noise)));
     Ok(NoisyModes {
         case: case.number,
         noise,
@@ -150,8 +155,8 @@ pub fn noisy_modes(
 fn correlated(
     case: &Case,
     model: &FiniteElementModel,
-    exact: &ModeSet,
-    test: &ModeSet,
+    exact: &Modes,
+    test: &Modes,
 ) -> Result<Found, CaseError> {
     let ranges = model.factor_ranges()?;
     let settings = case.settings_by(StepRule::default());
@@ -159,10 +164,10 @@ fn correlated(
         |factors| model.analyze(factors, test, None),
         &ranges,
         &settings,
-        |_, _| {},
+        |_, _| true,
     )?;
     let factors = &correlation.best_factors;
-    let gages = model.at(factors)?.sizes[..PANEL_COUNT].to_vec();
+    let gages = model.sizes(factors)?[..PANEL_COUNT].to_vec();
     let truth = model.analyze(factors, exact, None)?.exact().errors;
     let errors: Vec<f64> = gages.iter().map(|gage| gage / TEST_GAGE - 1.0).collect();
     Ok(Found {

@@ -4,13 +4,14 @@
 //! same: the modes before the step and $\beta = V^t \Delta K V$, whose entries are the exact derivatives of $K_D$.
 
 use crate::common::known::Known;
-use corfem::method::appendix_c::{Perturbed, first_order, recursive_1};
+use crate::common::known::weighed::Weighed;
 use corfem::method::error::Error;
 use corfem::method::error_sum::{Errors, errors};
 use corfem::method::linear_algebra::symmetric_part;
 use corfem::method::model::DynamicModel;
-use corfem::method::modes::{ModeSet, solve};
-use corfem::method::pairing::{cross_orthogonality, pair_modes};
+use corfem::method::modes::{Modes, solve};
+use corfem::method::perturbation::{Perturbed, first_order, recursive_1};
+use corfem::method::sorting::{cross_orthogonality, pair_modes};
 use corfem::sparse::LargeModel;
 use corfem::torque_box::error::CaseError;
 use nalgebra::{DMatrix, DVector};
@@ -83,7 +84,7 @@ fn taylor(k: &DVector<f64>, beta: &DMatrix<f64>, of_roots: bool) -> Perturbed {
 /// # Errors
 /// Those of [`LargeModel::matrices`], [`solve`] and [`pair_modes`].
 pub fn predictions(
-    model: &LargeModel,
+    model: &Weighed<LargeModel>,
     toward: &[f64],
     steps: &[f64],
     exact: Exact,
@@ -99,16 +100,16 @@ pub fn predictions(
         let changes = shares
             .iter()
             .zip(toward)
-            .map(|(share, factor)| step * (factor - 1.0) * share.matrix());
+            .map(|(share, factor)| step * (factor - 1.0) * share);
         let change: DMatrix<f64> = changes.sum();
         let beta = symmetric_part(&shapes.tr_mul(&(&change * shapes)));
         let factors: Vec<f64> = toward
             .iter()
             .map(|factor| 1.0 + step * (factor - 1.0))
             .collect();
-        let answer: ModeSet = match exact {
-            Exact::SameCondensation => solve(&(&stiffness + &change), &mass, k.len())?.into(),
-            Exact::NewCondensation => model.modes(&factors)?.into(),
+        let answer = match exact {
+            Exact::SameCondensation => solve(&(&stiffness + &change), &mass, k.len())?,
+            Exact::NewCondensation => model.modes(&factors)?,
         };
         let found = [first_order(k, &beta), recursive_1(k, &beta, ORDER)].map(Result::ok);
         let error = |found: Option<Perturbed>| -> Result<Option<Errors>, Error> {
@@ -117,7 +118,7 @@ pub fn predictions(
             else {
                 return Ok(None);
             };
-            let modes = ModeSet::new(roots.map(f64::recip), shapes * p)?.scaled_with(&mass)?;
+            let modes = Modes::new(roots.map(f64::recip), shapes * p)?.scaled_with(&mass)?;
             let pairing = pair_modes(&cross_orthogonality(&modes, &answer, &mass)?)?;
             errors(&modes, &pairing, &answer).map(Some)
         };

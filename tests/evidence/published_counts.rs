@@ -3,12 +3,11 @@
 
 use super::PERCENT;
 use crate::evidence::readings::READINGS;
-use corfem::method::derivatives::{DERIVATIVE_STEP, error_changes};
+use corfem::method::analysis::{Analysis, DERIVATIVE_STEP};
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerSettings, run};
-use corfem::method::model::{Bounds, ModalModel};
-use corfem::method::state::ModalState;
-use corfem::method::step::{StepRule, limited_factor, stiffness_changes, unlimited_factors};
+use corfem::method::model::Model;
+use corfem::method::step::{Bounds, StepRule, limited_factor, unlimited_factor};
 use corfem::present::table::{Cell, Table};
 use corfem::torque_box::error::CaseError;
 use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, PUBLISHED_RUNS};
@@ -145,7 +144,7 @@ pub fn counted(reconstruction: &Reconstruction) -> Result<Vec<Counted>, CaseErro
                 Rule::Reading(step) => {
                     let settings = InnerSettings { step, ..settings };
                     let run = run(&modal, &[1.0; PANEL_COUNT], &ranges, &settings)?;
-                    (run.factors, run.last.errors().sum())
+                    (run.factors, run.last.errors.sum())
                 }
                 Rule::Half => run_by_half(&modal, &ranges, &settings)?,
             };
@@ -172,7 +171,7 @@ pub fn counted(reconstruction: &Reconstruction) -> Result<Vec<Counted>, CaseErro
 
 /// The inner loop by [`Rule::Half`].
 fn run_by_half(
-    model: &ModalModel,
+    model: &Model,
     ranges: &[Option<Bounds>],
     settings: &InnerSettings,
 ) -> Result<(Vec<f64>, f64), Error> {
@@ -196,17 +195,18 @@ pub type Divisors<'a> = &'a dyn Fn(&[f64], &[f64], &[f64]) -> Vec<f64>;
 /// The inner loop by any rule, without a tolerance: its factors and error sum at the end.
 ///
 /// # Errors
-/// Those of [`error_changes`].
+/// Those of [`Analysis::error_changes`].
 pub fn run_by(
-    model: &ModalModel,
+    model: &Model,
     ranges: &[Option<Bounds>],
     settings: &InnerSettings,
     divisors: Divisors<'_>,
 ) -> Result<(Vec<f64>, f64), Error> {
-    let (mut factors, mut state) = (vec![1.0; PANEL_COUNT], ModalState::start(model));
+    let (mut factors, mut state) = (vec![1.0; PANEL_COUNT], model.exact().clone());
     for iteration in 0..settings.iterations {
-        let changes = error_changes(model, &state, settings.derivatives)?;
-        let kappa: Vec<f64> = stiffness_changes(model, state.factors(), &factors, StepRule::Norm)
+        let changes = model.error_changes(&state)?;
+        let kappa: Vec<f64> = model
+            .stiffness_changes(&state, &factors, StepRule::Matrix)
             .iter()
             .map(|change| change / DERIVATIVE_STEP)
             .collect();
@@ -215,28 +215,29 @@ pub fn run_by(
             0 => settings.first_relaxation,
             _ => settings.relaxation,
         };
-        let unlimited = unlimited_factors(&changes, &divisors, state.errors().sum(), relaxation);
+        let error_sum = state.errors.sum();
+        let unlimited = |e: usize| unlimited_factor(changes[e], divisors[e], error_sum, relaxation);
         let trial = |halvings: i32| {
             let fraction = 0.5_f64.powi(halvings);
             let next = |e: usize| {
                 let (bounds, range) = (settings.factor_range, ranges[e]);
-                limited_factor(unlimited[e], fraction, factors[e], 1.0, bounds, range).0
+                limited_factor(unlimited(e), fraction, factors[e], 1.0, bounds, range).0
             };
             let next: Vec<f64> = (0..PANEL_COUNT).map(next).collect();
             let share = |e: usize| {
                 let accumulation = settings.accumulation;
-                accumulation.next_share_factor(state.factors()[e], factors[e], next[e])
+                accumulation.next_share_factor(state.factors[e], factors[e], next[e])
             };
-            let shares = (0..PANEL_COUNT).map(share).collect();
-            let there = ModalState::at(model, shares, settings.update).ok()?;
-            (there.errors().sum() < state.errors().sum()).then_some((next, there))
+            let shares: Vec<f64> = (0..PANEL_COUNT).map(share).collect();
+            let there = model.at(&shares).ok()?;
+            (there.errors.sum() < error_sum).then_some((next, there))
         };
         let Some(step) = (0..=settings.halvings as i32).find_map(trial) else {
             break;
         };
         (factors, state) = step;
     }
-    Ok((factors, state.errors().sum()))
+    Ok((factors, state.errors.sum()))
 }
 
 /// Difference of all columns of a rule together, a fraction.

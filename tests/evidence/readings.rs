@@ -13,8 +13,8 @@ use nalgebra::DVector;
 
 /// The readings of the step that the tables are asked about, the library's own first.
 pub const READINGS: [StepRule; 4] = [
-    StepRule::Norm,
-    StepRule::Diagonal,
+    StepRule::Matrix,
+    StepRule::Own,
     StepRule::Relative,
     StepRule::Gage,
 ];

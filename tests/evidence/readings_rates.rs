@@ -3,9 +3,9 @@
 
 use crate::common::structures::spring_stiffness;
 use corfem::job::preflight::{Change, Finding, SeenModes, preflight_at_sensors};
-use corfem::method::model::ParameterMatrix;
-use corfem::method::modes::{ModeSet, solve};
+use corfem::method::modes::{Modes, solve};
 use corfem::method::outer_loop::Settings;
+use corfem::sparse::ParameterMatrix;
 use corfem::sparse::random::uniform;
 use corfem::weighted::noise::{Noise, with_noise};
 use nalgebra::{DMatrix, DVector};
@@ -247,8 +247,8 @@ pub fn findings(
     for part in &parts {
         true_stiffness += part * (MODEL * normal(state)).exp();
     }
-    let model: ModeSet = solve(&first, &mass, mass.nrows()).expect("modes").into();
-    let modes: ModeSet = solve(&true_stiffness, &mass, MODES).expect("modes").into();
+    let model = solve(&first, &mass, mass.nrows()).expect("modes");
+    let modes = solve(&true_stiffness, &mass, MODES).expect("modes");
     let a = below(state, sensors.len());
     let b = (a + 1 + below(state, sensors.len() - 1)) % sensors.len();
     let mut read = sensors.clone();
@@ -268,18 +268,14 @@ pub fn findings(
     if slip == Slip::Direction {
         read[turned?.0] ^= 1;
     }
-    let exact = modes
-        .with_shapes(modes.shapes().select_rows(&read))
-        .expect("shapes");
-    let exact = exact
-        .with_shapes(unit(exact.shapes().clone()))
-        .expect("shapes");
+    let shapes = unit(modes.shapes().select_rows(&read));
+    let exact = Modes::new(modes.omega_squared().clone(), shapes).expect("shapes");
     let usual = Noise {
         frequency: 0.003,
         shape: noise,
     };
     let noisy = with_noise(&exact, usual, seed).expect("noise");
-    let (mut squares, mut shapes) = noisy.into_parts();
+    let (mut squares, mut shapes) = (noisy.omega_squared().clone(), noisy.shapes().clone());
     let expected = match slip {
         Slip::None => None,
         Slip::Reversed => {
@@ -321,14 +317,13 @@ pub fn findings(
     let shares = parts
         .iter()
         .map(|part| ParameterMatrix::Stiffness(model.shapes().tr_mul(&(part * model.shapes()))));
+    let at_sensors = model.shapes().select_rows(&sensors) * units;
     let seen = SeenModes {
         shares: shares.collect(),
-        modes: model
-            .with_shapes(model.shapes().select_rows(&sensors) * units)
-            .expect("shapes"),
+        modes: Modes::new(model.omega_squared().clone(), at_sensors).expect("shapes"),
         directions,
     };
-    let test = ModeSet::new(squares, shapes).expect("modes");
+    let test = Modes::new(squares, shapes).expect("modes");
     let found = preflight_at_sensors(&seen, &test, &Settings::default(), &[]).expect("findings");
     Some((found, expected))
 }

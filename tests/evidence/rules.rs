@@ -9,6 +9,7 @@ use corfem::present::table::{Cell, Table, percents};
 use corfem::torque_box::error::CaseError;
 use corfem::torque_box::wing_box::rms;
 use corfem::torque_box::{Case, run_case};
+use corfem::weighted::comparison::Comparison;
 use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use corfem::weighted::residuals::DEVIATIONS;
 
@@ -71,7 +72,10 @@ pub fn compare_all(settings: &WeightedSettings) -> Result<Vec<[Compared; 3]>, Ca
             ),
         };
         let weights = equal_weights(DEVIATIONS, known.test.len());
-        let analyze = |factors: &[f64]| known.model.analyze(factors, &known.test, None);
+        let analyze = |factors: &[f64]| {
+            let model = known.model.analyze(factors, &known.test, None)?;
+            Ok::<_, CaseError>(Comparison::from(&model))
+        };
         let ones = vec![1.0; known.truth.len()];
         let found = gauss_newton(
             analyze,

@@ -1,11 +1,14 @@
 //! Structures before their correlation, whose tests measure at every dynamic DOF.
 
 use crate::common::known::delta_wing::{DeltaWing, correlation};
+use crate::common::known::weighed::Weighed;
 use corfem::job::preflight::{Finding, SeenModes, preflight_at_sensors};
 use corfem::method::error::Error;
-use corfem::method::model::{Bounds, DynamicModel, FiniteElementModel, ParameterMatrix};
-use corfem::method::modes::{ModeSet, solve};
+use corfem::method::model::{DynamicModel, FiniteElementModel};
+use corfem::method::modes::{Modes, solve};
 use corfem::method::outer_loop::Settings;
+use corfem::method::step::Bounds;
+use corfem::sparse::ParameterMatrix;
 use corfem::torque_box::Case;
 use corfem::torque_box::error::CaseError;
 
@@ -17,7 +20,7 @@ pub struct Specimen {
     /// The first model.
     pub model: DynamicModel,
     /// Its test, without noise.
-    pub test: ModeSet,
+    pub test: Modes,
     /// How it is correlated.
     pub settings: Settings,
     /// Bounds on its parameters' factors.
@@ -30,7 +33,7 @@ impl Specimen {
     /// # Errors
     /// Those of its model.
     pub fn of_case(case: &Case) -> Result<Self, CaseError> {
-        let (model, test) = (case.model()?, case.test_modes()?.into());
+        let (model, test) = (Weighed(case.model()?), case.test_modes()?);
         let name = format!("Case {}", case.number);
         Ok(Self::of(&name, &model, test, case.settings.clone())?)
     }
@@ -55,8 +58,8 @@ impl Specimen {
 
     fn of(
         name: &str,
-        model: &FiniteElementModel,
-        test: ModeSet,
+        model: &Weighed<FiniteElementModel>,
+        test: Modes,
         settings: Settings,
     ) -> Result<Self, Error> {
         let (name, ranges) = (name.to_owned(), model.factor_ranges()?);
@@ -80,14 +83,9 @@ impl Specimen {
             mass,
             shares,
         } = &self.model;
-        let modes: ModeSet = solve(stiffness, mass, mass.nrows())?.into();
+        let modes = solve(stiffness, mass, mass.nrows())?;
         let shapes = modes.shapes();
-        let seen_share = |share: &ParameterMatrix| match share {
-            ParameterMatrix::Stiffness(share) => {
-                ParameterMatrix::Stiffness(shapes.tr_mul(&(share * shapes)))
-            }
-            ParameterMatrix::Mass(share) => ParameterMatrix::Mass(shapes.tr_mul(&(share * shapes))),
-        };
+        let seen_share = |share| ParameterMatrix::Stiffness(shapes.tr_mul(&(share * shapes)));
         let seen = SeenModes {
             shares: shares.iter().map(seen_share).collect(),
             directions: Vec::new(),

@@ -2,19 +2,22 @@
 //!
 //! This program's answers are left beside its own files for `golden/mark.py`, which marks any implementation's.
 
+use crate::common::loops::Eigensolved;
+use crate::common::structures::lumped_mass;
+use corfem::method::analysis::Analysis;
+use corfem::method::appendix_a::assemble;
 use corfem::method::appendix_b::{balance, generalized_mass, orthogonalize};
-use corfem::method::appendix_c::general::complex_modes::{self, LeftRightModes};
-use corfem::method::appendix_c::general::{self, ModalChange, original, recursive_2};
-use corfem::method::appendix_c::{Perturbed, recursive_1};
-use corfem::method::assembly::dense_stiffness;
-use corfem::method::derivatives::by_definition;
+use corfem::method::appendix_c::Pencil;
+use corfem::method::appendix_c::complex_modes::{self, LeftRightModes};
 use corfem::method::error_sum::errors;
-use corfem::method::inner_loop::{InnerSettings, run};
+use corfem::method::inner_loop::run;
+use corfem::method::linear_algebra::symmetric_part;
 use corfem::method::model::{DynamicModel, FiniteElementModel, Parameter};
-use corfem::method::modes::{ModeSet, solve};
-use corfem::method::pairing::{cross_orthogonality, pair_modes};
-use corfem::method::state::{ModalState, UpdateRule};
-use corfem::method::step::{StepRule, stiffness_changes, unlimited_factors};
+use corfem::method::modes::{Modes, solve};
+use corfem::method::outer_loop::Settings;
+use corfem::method::perturbation::{Perturbed, recursive_1};
+use corfem::method::sorting::{cross_orthogonality, pair_modes};
+use corfem::method::step::{StepRule, unlimited_factor};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use corfem::sparse::SparseMatrix;
 use corfem::sparse::factorization::Factor;
@@ -91,11 +94,7 @@ fn model(given: &Value) -> FiniteElementModel {
     let entries = |key: &str| given[key].as_array().expect("a list").clone();
     let mut material = Material::isotropic(number("youngs_modulus"), number("poissons_ratio"))
         .expect("a material");
-    if number("density") > 0.0 {
-        material = material
-            .with_density(number("density"))
-            .expect("a material");
-    }
+    material.density = number("density");
     let held = entries("held");
     let grids = entries("grids")
         .iter()
@@ -137,6 +136,16 @@ fn model(given: &Value) -> FiniteElementModel {
         .expect("a model")
 }
 
+/// The matrices of a model whose elements have the mass of their first sizes, lumped and condensed as its stiffness is.
+fn matrices(model: &FiniteElementModel, factors: &[f64]) -> DynamicModel {
+    let b = model.condense(factors).expect("held").transformation;
+    let lumped = DMatrix::from_diagonal(&lumped_mass(model.structure()));
+    let seen = b.tr_mul(&(lumped * &b));
+    let mut dynamic = model.matrices(factors).expect("held");
+    dynamic.mass += symmetric_part(&seen);
+    dynamic
+}
+
 fn analysis(given: &Value) -> Value {
     let (model, factors, loads) = (
         model(&given["structure"]),
@@ -144,20 +153,20 @@ fn analysis(given: &Value) -> Value {
         matrix(&given["loads"]),
     );
     let (elements, free) = (model.element_matrices(), model.structure().free_dof());
-    let sizes = model.at(&factors).expect("sizes").sizes;
+    let sizes = model.sizes(&factors).expect("sizes");
     let factor = Factor::of_stiffness(elements, &sizes, free).expect("held");
     let deflections = factor.solve(&loads).expect("loads");
     let t = SparseMatrix::of_dense("load distribution", model.load_distribution()).expect("finite");
     let condensed = model.condense(&factors).expect("held");
-    let DynamicModel { mass, shares, .. } = model.matrices(&factors).expect("held");
+    let DynamicModel { mass, shares, .. } = matrices(&model, &factors);
     json!({
-        "structural_stiffness": rows(&dense_stiffness(elements, &sizes, free.len()).expect("sizes")),
+        "structural_stiffness": rows(&assemble(elements, &sizes, free.len()).expect("sizes")),
         "deflections": rows(&deflections),
         "dynamic_deflections": rows(&model.load_distribution().tr_mul(&deflections)),
         "dynamic_flexibility": rows(&factor.flexibility(&t).expect("fits")),
         "dynamic_stiffness": rows(&condensed.stiffness),
         "transformation": rows(&condensed.transformation),
-        "shares": shares.iter().map(|share| rows(share.matrix())).collect::<Vec<_>>(),
+        "shares": shares.iter().map(rows).collect::<Vec<_>>(),
         "mass": rows(&mass),
     })
 }
@@ -171,7 +180,7 @@ fn box_loads(given: &Value) -> Value {
 fn modes(given: &Value) -> Value {
     let (stiffness, mass) = (matrix(&given["stiffness"]), matrix(&given["mass"]));
     let modes = solve(&stiffness, &mass, mass.nrows()).expect("solved");
-    let test = ModeSet::from_measured(&flat(&given["frequencies_hz"]), &matrix(&given["shapes"]));
+    let test = Modes::from_measured(&flat(&given["frequencies_hz"]), &matrix(&given["shapes"]));
     let test = test
         .and_then(|test| test.scaled_with(&mass))
         .expect("modes");
@@ -186,7 +195,7 @@ fn modes(given: &Value) -> Value {
 
 fn comparison(given: &Value) -> Value {
     let set = |squares: &str, shapes: &str| {
-        ModeSet::new(list(&given[squares]), matrix(&given[shapes])).expect("modes")
+        Modes::new(list(&given[squares]), matrix(&given[shapes])).expect("modes")
     };
     let (analysis, test) = (
         set("omega_squared", "shapes"),
@@ -217,12 +226,16 @@ fn stiffness_alone(given: &Value) -> Value {
 
 fn with_mass(given: &Value) -> Value {
     let k = list(&given["k"]);
-    let change = ModalChange {
-        generalized_stiffness: k.map(Complex::from),
+    let [beta, alpha] = ["beta", "alpha"].map(|key| complex(given, key));
+    // Unit shapes of a diagonal pencil: the change is seen as it is.
+    let own = DMatrix::identity(k.len(), k.len());
+    let modes = LeftRightModes {
         roots: k.map(|k| Complex::from(1.0 / k)),
-        beta: complex(given, "beta"),
-        alpha: complex(given, "alpha"),
+        right: own.clone(),
+        left: own,
     };
+    let stiffness = DMatrix::from_diagonal(&k.map(Complex::from));
+    let pencil = Pencil::new(&stiffness, &modes, &beta, &alpha).expect("a pencil");
     let mut answer = Map::new();
     let column = |roots: &DVector<Complex<f64>>| {
         DMatrix::from_column_slice(roots.len(), 1, roots.as_slice())
@@ -234,15 +247,15 @@ fn with_mass(given: &Value) -> Value {
     for order in [1, 2, 4] {
         both(
             format!("recursive_1_{order}"),
-            general::recursive_1(&change, order).expect("apart"),
+            pencil.recursive_1(order).expect("apart"),
         );
         both(
             format!("recursive_2_{order}"),
-            recursive_2(&change, order).expect("apart"),
+            pencil.recursive_2(order).expect("apart"),
         );
     }
-    both("original".into(), original(&change).expect("apart"));
-    let settled = general::recursive_1_converged(&change, 1e-15, 200).expect("it settles");
+    both("original".into(), pencil.original().expect("apart"));
+    let settled = pencil.recursive_1_converged().expect("it settles");
     both("exact".into(), settled.perturbed);
     answer.into()
 }
@@ -250,9 +263,12 @@ fn with_mass(given: &Value) -> Value {
 fn left_and_right(given: &Value) -> Value {
     let real = |key: &str| matrix(&given[key]);
     let modes = complex_modes::solve(&real("stiffness"), &complex(given, "g")).expect("solved");
-    let changes = ["stiffness", "stiffness_change", "g_change"].map(|key| complex(given, key));
-    let change =
-        ModalChange::new(&changes[0], &modes, &changes[1], &changes[2]).expect("biorthogonal");
+    let [stiffness, stiffness_change, g_change] =
+        ["stiffness", "stiffness_change", "g_change"].map(|key| complex(given, key));
+    let none = DMatrix::zeros(stiffness.nrows(), stiffness.ncols());
+    let before = Pencil::new(&stiffness, &modes, &none, &none).expect("biorthogonal");
+    let after = Pencil::new(&stiffness, &modes, &stiffness_change, &g_change);
+    let after = after.expect("biorthogonal");
     let LeftRightModes { roots, right, left } = &modes;
     let mut answer = Map::new();
     let column =
@@ -261,9 +277,9 @@ fn left_and_right(given: &Value) -> Value {
         ("roots", &column(roots)),
         ("right", right),
         ("left", left),
-        ("k", &column(&change.generalized_stiffness)),
-        ("beta", &change.beta),
-        ("alpha", &change.alpha),
+        ("k", &column(&before.a().diagonal())),
+        ("beta", &(after.a() - before.a())),
+        ("alpha", &(after.g() - before.g())),
     ] {
         put(&mut answer, key, found);
     }
@@ -272,7 +288,7 @@ fn left_and_right(given: &Value) -> Value {
 
 fn state_and_step(given: &Value) -> Value {
     let (model, factors) = (model(&given["structure"]), flat(&given["factors"]));
-    let test = ModeSet::new(
+    let test = Modes::new(
         list(&given["test_omega_squared"]),
         matrix(&given["test_shapes"]),
     )
@@ -280,29 +296,34 @@ fn state_and_step(given: &Value) -> Value {
     let modal = model
         .analyze(&vec![1.0; factors.len()], &test, None)
         .expect("solved");
-    let state = ModalState::at(&modal, factors.clone(), UpdateRule::default()).expect("it settles");
-    let by = |rule| stiffness_changes(&modal, &factors, &factors, rule);
-    let changes = by_definition(&modal, &state).expect("apart");
-    let measured = 3.0 / (test.len() as f64).sqrt() * state.errors().sum();
+    let state = modal.at(&factors).expect("it settles");
+    let by = |rule| modal.stiffness_changes(&state, &factors, rule);
+    let changes = modal.error_changes(&state).expect("apart");
+    let settings = Settings::default().for_modes(test.len()).inner;
+    let unlimited = |(error, stiffness): (&f64, &f64)| {
+        unlimited_factor(*error, *stiffness, state.errors.sum(), settings.relaxation)
+    };
+    let stiffnesses = by(StepRule::Matrix);
+    let unlimited = changes.iter().zip(&stiffnesses).map(unlimited);
     json!({
-        "omega_squared": state.modes().omega_squared().as_slice(),
-        "shapes": rows(state.modes().shapes()),
-        "frequencies_hz": state.modes().frequencies_hz(),
-        "error_sum": state.errors().sum(),
-        "unlimited_factors": unlimited_factors(&changes, &by(StepRule::Norm), measured, 1.0),
+        "omega_squared": state.modes.omega_squared().as_slice(),
+        "shapes": rows(state.modes.shapes()),
+        "frequencies_hz": state.modes.frequencies_hz(),
+        "error_sum": state.errors.sum(),
+        "unlimited_factors": unlimited.collect::<Vec<f64>>(),
         "error_changes": changes,
-        "stiffness_changes": by(StepRule::Norm),
-        "diagonal_stiffness_changes": by(StepRule::Diagonal),
-        "start_error_changes": by_definition(&modal, &ModalState::start(&modal)).expect("apart"),
+        "stiffness_changes": stiffnesses,
+        "diagonal_stiffness_changes": by(StepRule::Own),
+        "start_error_changes": modal.error_changes(modal.exact()).expect("apart"),
     })
 }
 
 fn appendix_b(given: &Value) -> Value {
     let [stiffness, mass, rigid_body, shapes] =
         ["stiffness", "mass", "rigid_body", "raw"].map(|key| matrix(&given[key]));
-    let raw = ModeSet::new(list(&given["omega_squared"]), shapes).expect("modes");
+    let raw = Modes::new(list(&given["omega_squared"]), shapes).expect("modes");
     let balanced = balance(&raw, &stiffness, &mass, &rigid_body).expect("free");
-    let test = raw.with_shapes(balanced.shapes.clone()).expect("modes");
+    let test = Modes::new(raw.omega_squared().clone(), balanced.shapes.clone()).expect("modes");
     let found = orthogonalize(&test, &mass).expect("independent").modes;
     let unit = test.scaled_with(&mass).expect("modes");
     json!({
@@ -317,15 +338,15 @@ fn appendix_b(given: &Value) -> Value {
 /// One pass from first sizes that a test of the structure with others (`truth`) shows to be wrong.
 fn one_pass(given: &Value) -> Value {
     let (model, truth) = (model(given), flat(&given["truth"]));
-    let test = model.modes(&truth).expect("held").into();
+    let right = matrices(&model, &truth);
+    let test = solve(&right.stiffness, &right.mass, right.mass.nrows()).expect("solved");
     let ones = vec![1.0; truth.len()];
-    let start = model.analyze(&ones, &test, None).expect("solved");
-    let settings = InnerSettings {
-        update: UpdateRule::Eigensolution,
-        ..InnerSettings::default()
-    };
+    let analyze = |factors: &[f64]| matrices(&model, factors).analyze(&test, None);
+    // With the modes of an eigensolution after every step, which is what Recursive 1 approaches.
+    let start = Eigensolved(analyze(&ones).expect("solved"));
+    let settings = Settings::default().for_modes(test.len()).inner;
     let inner = run(&start, &ones, &vec![None; ones.len()], &settings).expect("a loop");
-    let check = model.analyze(&inner.factors, &test, None).expect("solved");
+    let check = analyze(&inner.factors).expect("solved");
     let sums = inner
         .iterations
         .iter()

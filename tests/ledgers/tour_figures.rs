@@ -1,15 +1,16 @@
 //! The figures of the tour, by the number of their chapter: what is drawn is computed here. Those of the box stand beside.
 
+use crate::common::gradient::gradient;
+use crate::common::loops::exact_state;
 use crate::common::structures::spring_stiffness;
 use crate::ledgers::diagram::{Diagram, Series, SeriesMark};
 use crate::ledgers::tour_figures_box::{bounds, demands, deviations, gages, history, orders};
-use corfem::method::derivatives::{DerivativeRule, error_changes};
-use corfem::method::error_sum::{ErrorMeasure, Errors};
-use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
+use corfem::method::analysis::{Analysis, DERIVATIVE_STEP};
+use corfem::method::error_sum::Errors;
+use corfem::method::model::{DynamicModel, Model};
 use corfem::method::modes::solve;
 use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::state::{ModalState, UpdateRule};
-use corfem::method::step::{StepRule, stiffness_changes, unlimited_factors};
+use corfem::method::step::{StepRule, unlimited_factor};
 use corfem::present::figures::case_figures;
 use corfem::torque_box::table_1::TwoMasses;
 use corfem::torque_box::{Case, run_case};
@@ -110,12 +111,11 @@ fn two_springs() -> Diagram {
 }
 
 /// A model of one parameter a share, beside the modes of its stiffness divided by a number.
-fn too_stiff(shares: Vec<DMatrix<f64>>, too_stiff: f64) -> ModalModel {
+fn too_stiff(shares: Vec<DMatrix<f64>>, too_stiff: f64) -> Model {
     let stiffness: DMatrix<f64> = shares.iter().sum();
     let count = stiffness.nrows();
     let mass = DMatrix::identity(count, count);
     let test = solve(&(&stiffness / too_stiff), &mass, count).expect("modes");
-    let shares = shares.into_iter().map(ParameterMatrix::Stiffness).collect();
     DynamicModel {
         stiffness,
         mass,
@@ -131,9 +131,8 @@ fn crease() -> Diagram {
         1.5,
     );
     let at = |factor: f64| {
-        ModalState::at(&modal, vec![factor, 1.0], UpdateRule::Eigensolution)
-            .expect("a state")
-            .errors()
+        let state = exact_state(&modal, &[factor, 1.0]);
+        state.expect("a state").errors
     };
     let series = |name, mark, of: fn(&Errors) -> f64| {
         Series::new(
@@ -161,27 +160,22 @@ fn crease() -> Diagram {
 }
 
 fn first_step() -> Diagram {
-    let ratio = |n: usize, rule, measure: ErrorMeasure| {
+    let ratio = |n: usize, rule, settings: &Settings| {
         let whole = (0..n).map(|spring| spring_stiffness(n, spring, 1.0)).sum();
         let modal = too_stiff(vec![whole], 1.001);
-        let start = ModalState::start(&modal);
-        let changes = error_changes(&modal, &start, DerivativeRule::Gradient).expect("a slope");
-        let stiffness = stiffness_changes(&modal, &[1.0], &[1.0], rule);
-        let error = measure.scale(n) * start.errors().sum();
+        let start = modal.exact();
+        let slope = gradient(&modal, start).expect("a slope")[0];
+        let stiffness = modal.stiffness_changes(start, &[1.0], rule)[0];
+        let (sum, relaxation) = (start.errors.sum(), settings.inner.relaxation);
+        let factor = unlimited_factor(DERIVATIVE_STEP * slope, stiffness, sum, relaxation);
         // Newton's is the step to the right factor.
-        (
-            n as f64,
-            (unlimited_factors(&changes, &stiffness, error, 1.0)[0] - 1.0) / (1.0 / 1.001 - 1.0),
-        )
+        (n as f64, (factor - 1.0) / (1.0 / 1.001 - 1.0))
     };
-    let series = |name, mark, most: usize, rule, measure| {
-        Series::new(
-            name,
-            mark,
-            (1..=most)
-                .map(|n| ratio(n, rule, measure))
-                .collect::<Vec<_>>(),
-        )
+    type Scaled = fn(&Settings, usize) -> Settings;
+    let as_it_is: Scaled = |settings, _| settings.clone();
+    let series = |name, mark, most: usize, rule, scaled: Scaled| {
+        let of = |n| ratio(n, rule, &scaled(&Settings::default(), n));
+        Series::new(name, mark, (1..=most).map(of).collect::<Vec<_>>())
     };
     Diagram {
         title: "The first step beside Newton's",
@@ -195,21 +189,15 @@ fn first_step() -> Diagram {
                 SeriesMark::Line,
                 12,
                 StepRule::Relative,
-                ErrorMeasure::Sum,
+                as_it_is,
             ),
-            series(
-                "matrix",
-                SeriesMark::Line,
-                30,
-                StepRule::Norm,
-                ErrorMeasure::Sum,
-            ),
+            series("matrix", SeriesMark::Line, 30, StepRule::Matrix, as_it_is),
             series(
                 "matrix, as nine modes",
                 SeriesMark::Dashed,
                 30,
-                StepRule::Norm,
-                ErrorMeasure::NineModes,
+                StepRule::Matrix,
+                Settings::for_modes,
             ),
         ],
     }
@@ -217,30 +205,27 @@ fn first_step() -> Diagram {
 
 fn stories() -> Diagram {
     let analyze = |factors: &[f64]| {
-        let share = |(story, factor): (usize, &f64)| {
-            ParameterMatrix::Stiffness(spring_stiffness(4, story, 4000.0 * factor))
-        };
-        let shares: Vec<ParameterMatrix> = factors.iter().enumerate().map(share).collect();
+        let share = |(story, factor)| spring_stiffness(4, story, 4000.0 * factor);
+        let shares: Vec<DMatrix<f64>> = factors.iter().enumerate().map(share).collect();
         DynamicModel {
-            stiffness: shares.iter().map(ParameterMatrix::matrix).sum(),
+            stiffness: shares.iter().sum(),
             mass: DMatrix::identity(4, 4),
             shares,
         }
     };
     let truth = analyze(&[0.7, 1.0, 1.1, 1.0]);
-    let test = solve(&truth.stiffness, &truth.mass, 4)
-        .expect("modes")
-        .into();
+    let test = solve(&truth.stiffness, &truth.mass, 4).expect("modes");
     let settings = Settings {
         error_sum_tolerance: 0.005,
         later_inner_tolerance: 0.0025,
         ..Settings::default()
-    };
+    }
+    .for_modes(4);
     let run = correlate(
         |factors| analyze(factors).analyze(&test, None),
         &[None; 4],
         &settings,
-        |_, _| {},
+        |_, _| true,
     );
     let mut history = vec![vec![1.0; 4]];
     for pass in run.expect("a run").passes {

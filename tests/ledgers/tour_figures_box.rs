@@ -1,22 +1,24 @@
 //! The figures of the tour that show the paper's box.
 
+use crate::common::appendix_c::{ModalChange, eigensolution};
 use crate::common::measured::equal_weights;
 use crate::ledgers::diagram::{Diagram, Series, SeriesMark};
-use corfem::method::appendix_c::general::{ModalChange, recursive_2};
-use corfem::method::appendix_c::{Perturbed, eigensolution, recursive_1};
+use corfem::method::analysis::Analysis;
 use corfem::method::error_sum::Errors;
-use corfem::method::model::ModalModel;
+use corfem::method::model::Model;
 use corfem::method::modes::solve;
+use corfem::method::perturbation::{Perturbed, recursive_1};
 use corfem::torque_box::published::PublishedTable;
 use corfem::torque_box::wing_box::TEST_GAGE;
 use corfem::torque_box::{Case, run_case};
+use corfem::weighted::comparison::Comparison;
 use corfem::weighted::identifiability::identifiability;
 use corfem::weighted::noise::Noise;
 use corfem::weighted::residuals::jacobian;
 use nalgebra::DMatrix;
 
 /// A case's first model, and the change of its first pass in modal coordinates.
-fn first_pass(number: usize) -> (ModalModel, DMatrix<f64>) {
+fn first_pass(number: usize) -> (Model, DMatrix<f64>) {
     let case = Case::new(number).expect("a case");
     let test = case.test_modes().expect("modes");
     let modal = case
@@ -24,12 +26,12 @@ fn first_pass(number: usize) -> (ModalModel, DMatrix<f64>) {
         .and_then(|model| Ok(model.analyze(&[1.0; 15], &test, None)?))
         .expect("a model");
     let result = run_case(&case, |_, _| {}).expect("a run");
-    let factors = result.correlation.passes[0].inner.last.factors();
+    let factors = &result.correlation.passes[0].inner.last.factors;
     let beta = modal
         .shares()
         .iter()
         .zip(factors)
-        .map(|(share, factor)| (factor - 1.0) * share.matrix())
+        .map(|(share, factor)| (factor - 1.0) * share)
         .sum();
     (modal, beta)
 }
@@ -51,7 +53,7 @@ pub fn orders() -> Diagram {
             if is_first {
                 recursive_1(k, &beta, order)
             } else {
-                recursive_2(&change, order)
+                change.pencil()?.recursive_2(order)
             }
         };
         let point = |order| (order as f64, error(&by(order).expect("an order"), &exact));
@@ -135,8 +137,8 @@ pub fn bounds() -> Diagram {
     let flexibility = first.stiffness.clone().try_inverse().expect("regular");
     let (mut above, mut below) = (first.stiffness.clone(), flexibility.clone());
     for (share, factor) in first.shares.iter().zip(&factors) {
-        above += (factor - 1.0) * share.matrix();
-        below += (1.0 / factor - 1.0) * &flexibility * share.matrix() * &flexibility;
+        above += (factor - 1.0) * share;
+        below += (1.0 / factor - 1.0) * &flexibility * share * &flexibility;
     }
     let exact = model.modes(&factors).expect("modes").frequencies_hz();
     let series = |name, mark, stiffness: DMatrix<f64>| {
@@ -238,7 +240,7 @@ pub fn deviations() -> Diagram {
         .analyze(&[1.0; 15], &test, None)
         .expect("a model");
     let weights = equal_weights(Noise::USUAL, 9);
-    let seen = jacobian(&model, &weights)
+    let seen = jacobian(&Comparison::from(&model), &weights)
         .and_then(|jacobian| identifiability(&jacobian, &[1.0; 15]))
         .expect("what is seen");
     let percents = seen

@@ -51,11 +51,9 @@ fn box_elements_are_the_models_in_three_layers() {
     let structure = model.structure();
     assert_eq!(structure.elements().len(), 39);
     let on = |layer| {
-        let here = structure
-            .elements()
-            .iter()
-            .filter(|element| Layer::from_corners(&structure.corners(element)) == layer);
-        here.map(|element| element.label).collect::<Vec<_>>()
+        let elements = structure.elements().iter().zip(structure.corners());
+        let here = elements.filter(|(_, corners)| Layer::from_corners(corners) == layer);
+        here.map(|(element, _)| element.label).collect::<Vec<_>>()
     };
     assert_eq!(on(Layer::Upper)[..3], [4, 9, 15]);
     assert_eq!(on(Layer::Lower)[..3], [2, 8, 11]);

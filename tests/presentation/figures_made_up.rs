@@ -5,7 +5,7 @@ use crate::common::drawings::words;
 use crate::common::golden::{Numbers, assert_golden};
 use corfem::job::{Spread, Summary};
 use corfem::method::error_sum::Errors;
-use corfem::method::model::Bounds;
+use corfem::method::step::Bounds;
 use corfem::present::figures::error_history::{self, PassHistory};
 use corfem::present::figures::factors::{DrawnFactor, Factors};
 use corfem::present::figures::histogram;
@@ -166,8 +166,8 @@ fn pass(
         Errors {
             frequency: 0.25 * sum,
             shape: 0.75 * sum,
-            mode_count: 9,
-            lone_count: 0,
+            frequency_count: 9,
+            shape_count: 9,
         }
     };
     let inner = (0..if is_inner { iterations + 1 } else { 1 })

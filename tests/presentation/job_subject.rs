@@ -6,18 +6,24 @@ use crate::common::known::delta_wing::correlation::{first_model, measured_grids}
 use crate::common::known::planted;
 use crate::common::known::wing::Wing;
 use crate::common::tolerances::{CENTRAL_DIFFERENCE_GRADIENT, ROUND_OFF};
+use crate::common::whole_models::of_dense;
 use crate::presentation::figures::{results, wings};
 use crate::presentation::figures_made_up::{spread, summary};
 use crate::readers::job_errors::{placed, with};
 use crate::readers::job_prepared::prepared;
 use approx::assert_relative_eq;
 use corfem::job::{Spread, Study, Summary, Trust, Vary, run};
+use corfem::method::analysis::Analysis;
 use corfem::method::error::Error;
-use corfem::method::model::Bounds;
+use corfem::method::modes::solve;
+use corfem::method::sorting::pair_modes;
+use corfem::method::step::Bounds;
 use corfem::present::render::text;
 use corfem::present::report::{Derivatives, Report};
 use corfem::present::tables::job::{places_table, study_table, suspects_table, trust_table};
-use nalgebra::Vector3;
+use corfem::sparse::{BasisSize, ParameterMatrix};
+use corfem::weighted::comparison::Comparison;
+use nalgebra::{DMatrix, Vector3};
 
 fn at(x: f64) -> Vector3<f64> {
     Vector3::new(x, 0.0, 0.0)
@@ -218,8 +224,9 @@ fn suspects_have_their_own_unlimited_factors() {
     ));
     let table = suspects_table(&prepared).expect("a table");
     let first = prepared.analyze(&[1.0; 3]).expect("analyzed");
-    let inner = &prepared.job.correlation.inner;
-    let slopes = corfem::job::localization::by_factor(&first, inner).expect("factors");
+    let settings = prepared.job.correlation.for_modes(prepared.modes.len());
+    let slopes = corfem::job::localization::by_factor(first.model(), &settings.inner);
+    let slopes = slopes.expect("factors");
     let parameters = prepared.source.whole.parameters();
     assert_eq!(table.rows.len(), 3);
     for row in &table.rows {
@@ -299,27 +306,27 @@ fn a_case_and_both_wings_have_the_bounds_and_the_places_of_their_models() {
 /// A frequency's derivative by the mass of a parameter, against frequencies of a model with a little more of it.
 #[test]
 fn a_derivative_by_a_mass_is_the_change_of_frequency_with_it() {
-    use corfem::method::model::{DynamicModel, ParameterMatrix};
-    use nalgebra::DMatrix;
     let (stiffness, share) = (
         DMatrix::from_row_slice(2, 2, &[3.0, -1.0, -1.0, 2.0]),
         DMatrix::from_row_slice(2, 2, &[0.4, 0.1, 0.1, 0.6]),
     );
+    let mass = DMatrix::identity(2, 2) + &share;
+    let test = solve(&stiffness, &mass, 2).expect("solved");
+    let (whole, sensors) =
+        of_dense(&stiffness, &mass, &[ParameterMatrix::Mass(share)]).expect("a model");
     let model = |factor: f64| {
-        let mass = DMatrix::<f64>::identity(2, 2) + factor * &share;
-        let shares = vec![ParameterMatrix::Mass(factor * &share)];
-        let test =
-            corfem::method::modes::solve(&stiffness, &(DMatrix::identity(2, 2) + &share), 2)?
-                .into();
-        DynamicModel {
-            stiffness: stiffness.clone(),
-            mass,
-            shares,
-        }
-        .analyze(&test, None)
+        whole.analyze(
+            &[factor],
+            &sensors,
+            (&test, pair_modes),
+            BasisSize {
+                modes: 2,
+                residual_vectors: 0,
+            },
+        )
     };
     let found = model(1.0)
-        .and_then(|first| Derivatives::at(&first))
+        .and_then(|first| Derivatives::at(&Comparison::from(first)))
         .expect("taken");
     const STEP: f64 = 1e-5;
     let hertz = |factor: f64| Ok::<_, Error>(model(factor)?.exact().modes.frequencies_hz());

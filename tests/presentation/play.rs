@@ -2,9 +2,10 @@
 
 use crate::common::draws::Draws;
 use crate::common::golden::Numbers;
+use crate::common::loops::exact_state;
 use crate::common::tolerances::PLAYED;
 use crate::presentation::figures::results;
-use corfem::method::state::{ModalState, UpdateRule};
+use corfem::method::analysis::State;
 use corfem::method::step::Accumulation;
 use corfem::present::page::play;
 use serde_json::{Value, json};
@@ -85,15 +86,10 @@ fn node_solves_the_pages_modes_as_the_program_does() {
     let found: Value =
         serde_json::from_slice(&output.stdout).unwrap_or_else(|error| panic!("{error}: {words}"));
     let mut compared = 0;
-    let mut compare = |found: &Value, state: &ModalState, what: &str| {
-        let errors = state.errors();
-        let hertz = state.modes().frequencies_hz();
-        let paired = state
-            .pairing()
-            .analysis_mode()
-            .iter()
-            .map(|&mode| hertz[mode]);
-        let expected = paired.chain([errors.frequency, errors.shape]);
+    let mut compare = |found: &Value, state: &State, what: &str| {
+        let paired = state.pairing.paired(&state.modes).expect("its own modes");
+        let errors = [state.errors.frequency, state.errors.shape];
+        let expected = paired.frequencies_hz().into_iter().chain(errors);
         let read = found["hertz"].as_array().expect("frequencies").iter();
         let read: Vec<f64> = read
             .chain([&found["frequency"], &found["shape"]])
@@ -109,9 +105,7 @@ fn node_solves_the_pages_modes_as_the_program_does() {
             compared += 1;
         }
     };
-    let by_gages = |gages: &[f64]| {
-        ModalState::at(&modal, gages.to_vec(), UpdateRule::Eigensolution).expect("modes")
-    };
+    let by_gages = |gages: &[f64]| exact_state(&modal, gages).expect("modes");
     // The stiffness on which the loop stands after every step, and that of its gages.
     let ones = vec![1.0; 15];
     let (mut stiffness, mut before) = (vec![ones.clone()], &ones);
@@ -125,7 +119,7 @@ fn node_solves_the_pages_modes_as_the_program_does() {
         let last = add(&stiffness[at], before, &step.factors);
         let state = by_gages(&last);
         assert!(
-            (state.errors().sum() - step.errors.sum()).abs() < PLAYED,
+            (state.errors.sum() - step.errors.sum()).abs() < PLAYED,
             "the loop's own"
         );
         compare(&found["adds"][at + 1], &state, &format!("step {}", at + 1));

@@ -6,11 +6,13 @@ use crate::common::known::delta_wing::DeltaWing;
 use crate::common::known::delta_wing::correlation::correlate_wing;
 use crate::common::structures::spring_stiffness;
 use crate::common::wing_subjects::wing_subject;
-use corfem::method::error::Error;
-use corfem::method::model::{Bounds, DynamicModel, ParameterMatrix};
-use corfem::method::modes::ModeSet;
+use corfem::job::verdict::Judged;
+use corfem::method::error_sum::{Errors, mode_errors};
+use corfem::method::model::DynamicModel;
+use corfem::method::modes::{Modes, solve};
 use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::pairing::Pairing;
+use corfem::method::sorting::Pairing;
+use corfem::method::step::Bounds;
 use corfem::present::figures::{Figure, report_figures};
 use corfem::present::json;
 use corfem::present::page::report_page;
@@ -20,6 +22,7 @@ use corfem::present::table::{Cell, Table};
 use corfem::present::tables::report::{
     derivative_table, factor_table, history_table, paired_table,
 };
+use corfem::weighted::comparison::Comparison;
 use nalgebra::{DMatrix, Vector3};
 use proptest::prelude::*;
 use std::sync::LazyLock;
@@ -38,22 +41,12 @@ pub fn chain(
         sum + spring_stiffness(count, spring, 4e4)
     });
     let mass = DMatrix::from_diagonal_element(count, count, 0.5);
-    let test: ModeSet = corfem::method::modes::solve(&right, &mass, count.min(3))
-        .expect("solved")
-        .into();
+    let test = solve(&right, &mass, count.min(3)).expect("solved");
     let model = |factors: &[f64]| {
-        let shares: Vec<ParameterMatrix> = shares
-            .iter()
-            .zip(factors)
-            .map(|(share, f)| ParameterMatrix::Stiffness(share * *f))
-            .collect();
-        let stiffness = shares
-            .iter()
-            .fold(DMatrix::zeros(count, count), |sum, share| {
-                sum + share.matrix()
-            });
+        let shares = shares.iter().zip(factors).map(|(share, f)| share * *f);
+        let shares: Vec<DMatrix<f64>> = shares.collect();
         DynamicModel {
-            stiffness,
+            stiffness: shares.iter().sum(),
             mass: mass.clone(),
             shares,
         }
@@ -68,9 +61,23 @@ pub fn chain(
     ];
     let (names, run_settings): (Vec<String>, _) = (
         (0..count).map(|e| format!("{name} {e}")).collect(),
-        Settings::default(),
+        Settings::default().for_modes(test.len()),
     );
-    let run = correlate::<Error>(&model, &ranges, &run_settings, |_, _| {}).expect("it runs");
+    let run = correlate(model, &ranges, &run_settings, |_, _| true).expect("it runs");
+    let (first, best) = (
+        model(&vec![1.0; count]).expect("analyzed"),
+        run.best_check(),
+    );
+    let shares = first.test_shares().iter();
+    let seen: Vec<f64> = shares.map(|share| share.diagonal().amax()).collect();
+    let judged = Judged {
+        seen: &seen,
+        ranges: &ranges,
+    };
+    let errors = mode_errors(&best.modes, &best.pairing, &test).expect("errors");
+    // Told as the error sum that nine modes of the same errors would have.
+    let of_nine = |errors: &Errors| 3.0 * (errors.frequency_rms() + errors.shape_rms());
+    let verdict = judged.of_loops(&run, &errors, of_nine, false);
     let sensor = |row: usize| {
         let (place, direction) = places(row);
         SensorPoint {
@@ -91,10 +98,9 @@ pub fn chain(
         sensors,
         frame,
         mass: Some(mass.clone()),
-        derivatives: Some(
-            Derivatives::at(&model(&vec![1.0; count]).expect("analyzed")).expect("taken"),
-        ),
-        ..Report::from_correlation("chain", &names, &test, &run.initial, Some(&run))
+        verdict: Some(verdict),
+        derivatives: Some(Derivatives::at(&Comparison::from(&first)).expect("taken")),
+        ..Report::from_correlation("chain", &names, &test, &(&run.initial).into(), Some(&run))
     }
 }
 
@@ -356,7 +362,7 @@ fn more_than_twelve_modes_are_drawn_in_several_figures() {
     });
     // Of three shapes at least one is farther off than their mean.
     let places: Vec<usize> = (0..45).map(|mode| mode % 3).collect();
-    subject.test = ModeSet::new(
+    subject.test = Modes::new(
         subject.test.omega_squared().select_rows(&places),
         subject.test.shapes().select_columns(&places),
     )

@@ -1,11 +1,9 @@
 //! Decks: the identity of writing and reading, and the theorem that NASTRAN's reduction of a deck is Appendix A.
 
-use crate::common::decks::{bulk_data, restyled, style};
+use crate::common::decks::{bulk_data, bulk_text as written, restyled, style};
 use crate::common::tolerances::{DECK_ROUNDING, ROUND_OFF, SINGULAR_MASS_ROOT};
-use corfem::files::deck::bulk_data as written;
 use corfem::files::deck::number::nearest_in_field;
 use corfem::files::deck::{self, BulkData, Task};
-use corfem::method::assembly::element_matrices;
 use corfem::sparse::LargeModel;
 use corfem::torque_box::wing_box::dynamic_points;
 use corfem::torque_box::{CASES, Case};
@@ -99,10 +97,9 @@ fn nine_finite_roots_of_the_box_are_its_dynamic_modes() {
         let dynamic = model.matrices(&[1.0; 15]).expect("an analysis");
         let modes =
             corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
-        let sizes = model.at(&[1.0; 15]).expect("sizes").sizes;
-        let stiffness =
-            corfem::method::assembly::dense_stiffness(model.element_matrices(), &sizes, 36)
-                .expect("stiffness");
+        let sizes = model.sizes(&[1.0; 15]).expect("sizes");
+        let stiffness = corfem::method::appendix_a::assemble(model.element_matrices(), &sizes, 36)
+            .expect("stiffness");
         let t = &model.load_distribution().clone();
         let roots = singular_pencil_roots(&stiffness, &(t * model.mass() * t.transpose()));
         assert_eq!(roots.len(), 36);
@@ -190,8 +187,7 @@ fn mpc_cards_are_the_load_distribution() {
     let structure = read.structure().expect("a structure");
     let model = Case::new(2).expect("a case").model().expect("a model");
     assert_eq!(structure.free_dof(), model.structure().free_dof());
-    let elements = element_matrices(&structure);
-    let dynamic = read.mass_dof(&structure, &elements).expect("masses");
+    let dynamic = read.mass_dof(&structure).expect("masses");
     let loads = dynamic.load_distribution.dense();
     assert_eq!(loads.shape(), (36, 9));
     for (read, meant) in loads.iter().zip(model.load_distribution().clone().iter()) {

@@ -214,17 +214,18 @@ fn what_no_deck_can_hold_is_refused() {
     let mut model = deck::read("wing.dat", GOOD.as_bytes(), &[])
         .expect("it reads")
         .model;
-    let write = |model: &deck::BulkData| deck::bulk_data(model);
+    let write = |model: &deck::BulkData| deck::write(model, "", &deck::Task::Matrices);
     model.grids[0].position.y = f64::NAN;
     let error = write(&model).expect_err("not a number");
     assert!(
         matches!(
             error,
-            FileError::Method(Error::NotFinite {
-                what: "number on a bulk data card",
-                column: 3,
+            FileError::Method(Error::Value {
+                what: "number",
+                ref owner,
+                expected: "a finite number",
                 ..
-            })
+            }) if owner == "card GRID, entry 3"
         ),
         "{error}"
     );
@@ -234,10 +235,11 @@ fn what_no_deck_can_hold_is_refused() {
     assert!(
         matches!(
             error,
-            FileError::Method(Error::TooMany {
+            FileError::Method(Error::Count {
                 what: "number of a grid or element in a deck",
-                available: 99_999_999,
-                requested: 100_000_000
+                found: 100_000_000,
+                most: 99_999_999,
+                ..
             })
         ),
         "{error}"

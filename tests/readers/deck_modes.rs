@@ -140,8 +140,11 @@ fn a_deck_without_mass_or_with_a_loose_grid_is_refused() {
     assert!(
         matches!(
             error,
-            FileError::Method(Error::Empty {
-                what: "degrees of freedom with mass"
+            FileError::Method(Error::Count {
+                what: "degrees of freedom with mass",
+                found: 0,
+                least: 1,
+                ..
             })
         ),
         "{error}"
@@ -280,12 +283,12 @@ fn numbers_beyond_the_range_are_refused() {
         (
             "1.+306",
             "1.-6",
-            "squared frequencies: inf at entry (0, 0) is not a finite number",
+            "squared frequencies of entry (0, 0) is inf; it must be a finite number",
         ),
         (
             "1.-303",
             "1.+300",
-            "deflections: inf at entry (0, 0) is not a finite number",
+            "deflections of entry (0, 0) is inf; it must be a finite number",
         ),
         (
             "1.+300",
@@ -305,7 +308,10 @@ fn numbers_beyond_the_range_are_refused() {
     let error = modes(&pair.replace("MAT1,1,1.+6", "MAT1,1,1.+13"))
         .expect_err("beyond the range")
         .to_string();
-    assert_eq!(error, "mass: inf at entry (0, 0) is not a finite number");
+    assert_eq!(
+        error,
+        "mass of entry (0, 0) is inf; it must be a finite number"
+    );
 }
 
 /// Twenty thousand masses, each hung on the one before it, as no dense matrix could hold them.

@@ -1,7 +1,7 @@
 //! What a deck may say and how: sets, two to a card, defaults, ranges, formats.
 
+use crate::common::decks::bulk_text;
 use crate::common::tolerances::ROUND_OFF;
-use corfem::files::deck::bulk_data;
 use corfem::files::deck::{self, Reason, Unread};
 use corfem::files::error::FileError;
 use proptest::prelude::*;
@@ -173,7 +173,7 @@ properties! {
     fn wtmass_multiplies_masses_and_densities(model in crate::common::decks::bulk_data(), factor in 1e-4..1e4_f64) {
         let factor = deck::number::nearest_in_field(factor);
         let value = deck::number::large_real(factor).expect("a number");
-        let text = bulk_data(&model).expect("a deck");
+        let text = bulk_text(&model).expect("a deck");
         let weighted = deck::read("test", format!("PARAM*,WTMASS,{value}\n{text}").as_bytes(), &[]).expect("it reads");
         prop_assert!(weighted.unread.is_empty());
         let mut expected = model;
@@ -184,7 +184,7 @@ properties! {
             point.mass = deck::number::nearest_in_field(factor * point.mass);
         }
         prop_assert_eq!(&weighted.model, &expected);
-        let again = deck::read("test", bulk_data(&weighted.model).expect("a deck").as_bytes(), &[]).expect("it reads");
+        let again = deck::read("test", bulk_text(&weighted.model).expect("a deck").as_bytes(), &[]).expect("it reads");
         prop_assert_eq!(&again.model, &expected);
     }
 }
@@ -388,7 +388,7 @@ fn neighbors_constrained_alike_are_written_as_a_range_and_one_alone_is_not() {
     let model = deck::read("test", deck.as_bytes(), &[])
         .expect("it reads")
         .model;
-    let text = bulk_data(&model).expect("a deck");
+    let text = bulk_text(&model).expect("a deck");
     let constrained: Vec<Vec<&str>> = text
         .lines()
         .filter(|line| line.starts_with("SPC1"))

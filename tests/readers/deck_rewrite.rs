@@ -301,7 +301,13 @@ fn what_no_deck_can_say_is_refused() {
     wanted[0].size = f64::INFINITY;
     let error = rewrite("deck", ORIGINAL.as_bytes(), &wanted, &[]).expect_err("no number");
     assert!(
-        matches!(error, FileError::Method(Error::NotFinite { .. })),
+        matches!(
+            error,
+            FileError::Method(Error::Value {
+                expected: "a finite number",
+                ..
+            })
+        ),
         "{error}"
     );
     wanted = elements(ORIGINAL.as_bytes());
@@ -320,7 +326,7 @@ fn what_no_deck_can_say_is_refused() {
     )
     .expect_err("no number is free");
     assert!(
-        matches!(error, FileError::Method(Error::TooMany { .. })),
+        matches!(error, FileError::Method(Error::Count { .. })),
         "{error}"
     );
 }

@@ -3,13 +3,14 @@
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::jobs::worked;
 use crate::common::tolerances::JOB_RESULTS;
+use corfem::job::verdict::Outcome;
 use corfem::job::{History, JobResult};
-use corfem::method::verdict::Outcome;
 use corfem::present::render::csv;
 use corfem::present::report::Report;
 use corfem::present::table::{Cell, Digits, Table, numbers};
 use corfem::present::tables::job::seen_table;
 use corfem::present::tables::report::paired_table;
+use corfem::weighted::comparison::Comparison;
 use corfem::weighted::gauss_newton::WeightedStop;
 use corfem::weighted::residuals::residuals;
 use std::sync::LazyLock;
@@ -66,8 +67,8 @@ fn the_corrected_airplane_is_nearer_and_still_not_explained() {
 
 #[test]
 fn partners_are_followed_by_shape_where_modes_change_places() {
-    let partners = |model: &corfem::method::model::ModalModel| -> Vec<usize> {
-        model.exact().lone.iter().map(|lone| lone.partner).collect()
+    let partners = |comparison: &Comparison| -> Vec<usize> {
+        comparison.lone().iter().map(|lone| lone.partner).collect()
     };
     assert_eq!(partners(&RESULT.first), [0, 1, 2, 3, 4, 5, 6, 7]);
     assert_ne!(partners(&RESULT.last), partners(&RESULT.first));

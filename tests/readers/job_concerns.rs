@@ -12,7 +12,7 @@ use corfem::job::{LoadedJob, Trust, run};
 fn doubts(files: &Files) -> Vec<String> {
     let (_folder, path) = placed(files);
     let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
-    let concerns = loaded.concerns().unwrap_or_else(|error| panic!("{error}"));
+    let (concerns, _) = loaded.concerns().unwrap_or_else(|error| panic!("{error}"));
     let doubts = concerns.into_iter().filter(|concern| concern.is_doubt);
     doubts.map(|concern| concern.identifier).collect()
 }
@@ -187,7 +187,7 @@ fn a_motion_hardly_resisted_counts_as_what_it_is_called() {
         files[1].1 = HARDLY_HELD.replace("100000.0000005", own);
         let (_folder, path) = placed(&files);
         let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
-        let concerns = loaded.concerns().unwrap_or_else(|error| panic!("{error}"));
+        let (concerns, _) = loaded.concerns().unwrap_or_else(|error| panic!("{error}"));
         let mut concerns = concerns.iter();
         let weak = concerns.find(|concern| concern.identifier.starts_with("weak-"));
         let words = &weak.expect("a concern").words;
@@ -247,7 +247,7 @@ fn places_in_another_unit_are_named() {
             sensor.distance = Some(0.0);
             loaded.data.sensors[sensor.row].place = sensor.place.map(|place| factor * place);
         }
-        let concerns = loaded.concerns().unwrap_or_else(|error| panic!("{error}"));
+        let (concerns, _) = loaded.concerns().unwrap_or_else(|error| panic!("{error}"));
         concerns
             .into_iter()
             .any(|concern| concern.is_doubt && concern.identifier == "unit-of-places")

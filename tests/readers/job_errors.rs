@@ -3,6 +3,7 @@
 use crate::common::jobs::{Files, building, rods};
 use crate::common::tolerances::{ROUND_OFF, WEIGHTED_FACTOR};
 use corfem::job::{LoadedJob, Study, Trust, Vary, run};
+use corfem::method::analysis::Analysis;
 use corfem::method::outer_loop::Settings;
 use std::path::PathBuf;
 use tempfile::TempDir;
@@ -195,7 +196,7 @@ fn a_parameter_names_what_the_deck_has() {
         (
             A,
             "elements = [1]\nlower_size = 0.2\nupper_size = 0.3",
-            "a: bounds 2 to ",
+            "factor of parameter a: 2 to ",
         ),
         (
             A,
@@ -205,7 +206,7 @@ fn a_parameter_names_what_the_deck_has() {
         (
             A,
             "elements = [1]\nlower = 1.5\nupper = 2.0",
-            "a: bounds 1.5 to 2 exclude the starting factor 1",
+            "factor of parameter a: 1.5 to 2 exclude the starting factor 1",
         ),
         (
             A,
@@ -215,7 +216,7 @@ fn a_parameter_names_what_the_deck_has() {
         (
             A,
             "elements = [\"1-2\"]",
-            "element 2 is in two parameters, a and b; it may be in one",
+            "parameters a and b: element 2 is given twice",
         ),
         ("\"b\"", "\"a\"", "job.toml: parameter a is named twice"),
     ]);
@@ -474,17 +475,25 @@ fn test_modes_are_there_and_named_once() {
             &modes("[2, 1, 2]"),
             "test.modes: mode 2 is named twice",
         ),
-        (FILE, &modes("[]"), "test modes: at least one is needed"),
-        (COMPARE, "[compare]\nanalysis_modes = 0", "at least one"),
+        (
+            FILE,
+            &modes("[]"),
+            "test modes: 0 given or asked for; there must be at least 1",
+        ),
+        (
+            COMPARE,
+            "[compare]\nanalysis_modes = 0",
+            "0 given or asked for; there must be 1 to",
+        ),
         (
             COMPARE,
             "[compare]\nanalysis_modes = 4",
-            "but there are only",
+            "4 given or asked for; there must be 1 to 3",
         ),
         (
             COMPARE,
             "[compare]\nstarts = 0",
-            "starts: at least one is needed",
+            "starts: 0 given or asked for; there must be at least 1",
         ),
         (
             "method = \"gauss_newton\"",
@@ -592,7 +601,7 @@ fn weights_are_one_a_test_mode_and_some_may_be_zero() {
         (
             COMPARE,
             "[compare]\nfrequency_weights = [0, 0, 0]\nshape_weights = [0, 0, 0]",
-            "weight is 0; it must be a finite number from zero up, one of them positive",
+            "weight of the test modes is 0; it must be a finite number from zero up, one of them positive",
         ),
     ]);
     let frequencies = with(
@@ -606,7 +615,7 @@ fn weights_are_one_a_test_mode_and_some_may_be_zero() {
     let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
     // Without shapes the frequencies come as close as two factors allow.
     let [first, last] =
-        [&finished.first, &finished.last].map(|model| model.exact().errors.frequency);
+        [&finished.first, &finished.last].map(|model| model.model().exact().errors.frequency);
     assert!(last < first, "{last} after {first}");
     assert!(
         prepared
@@ -628,7 +637,7 @@ fn the_papers_error_sum_takes_the_weights_of_a_job() {
         let (_folder, path) = placed(files);
         let prepared = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
         let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
-        (finished.first.exact().errors, finished.factors)
+        (finished.first.model().exact().errors, finished.factors)
     };
     let ones = ran(&paper("shape_weights = [1, 1, 1]"));
     assert_eq!(ones, ran(&paper("")));
@@ -671,7 +680,7 @@ fn the_papers_error_sum_takes_the_weights_of_a_job() {
         "frequency_weights = [0, 0, 0]\nshape_weights = [0, 0, 0]",
     ));
     assert!(
-        none.contains("weight is 0; it must be a finite number from zero up, one of them positive"),
+        none.contains("weight of the test modes is 0; it must be a finite number from zero up"),
         "{none}"
     );
 }
@@ -706,7 +715,7 @@ fn a_sensor_left_out_for_a_mode_without_it_is_a_remark() {
     let (_folder, path) = placed(&rods());
     let mut loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
     loaded.data.incomplete = vec!["7 y".to_owned(), "9 z".to_owned()];
-    let all = loaded.concerns().expect("concerns");
+    let (all, _) = loaded.concerns().expect("concerns");
     let found = all
         .iter()
         .find(|concern| concern.identifier == "not-in-every-mode");

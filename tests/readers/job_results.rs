@@ -8,10 +8,10 @@ use crate::common::tolerances::{
     MATRIX_ROUND_OFF, MEAN_MISFIT, PRINTED_RMS, ROUND_OFF, WEIGHTED_FACTOR,
 };
 use corfem::files::deck;
+use corfem::job::verdict::Outcome;
 use corfem::job::{History, JobResult, Study, Vary, run};
-use corfem::method::model::Bounds;
-use corfem::method::modes::ModeSet;
-use corfem::method::verdict::Outcome;
+use corfem::method::modes::Modes;
+use corfem::method::step::Bounds;
 use corfem::present::page::report_page;
 use corfem::present::report::Report;
 use corfem::present::tables::job::minima_table;
@@ -218,7 +218,7 @@ fn the_chi_squared_of_a_right_model_is_its_degrees_of_freedom_in_the_mean() {
         "[compare]\nmethod = \"gauss_newton\"\n",
     );
     let loaded = prepared(&files);
-    let exact = ModeSet::from_measured(&loaded.data.frequencies_hz, &loaded.data.shapes).unwrap();
+    let exact = Modes::from_measured(&loaded.data.frequencies_hz, &loaded.data.shapes).unwrap();
     let noise: Vec<_> = (0..exact.len())
         .map(|mode| loaded.deviations(mode))
         .collect();

@@ -70,7 +70,7 @@ fn a_table_may_be_frequencies_alone() {
 #[test]
 fn frequencies_without_shapes_count_as_frequencies_and_nowhere_else() {
     let found = result(&without_shapes(&[2, 4]));
-    let (exact, loaded) = (found.first.exact(), &found.loaded);
+    let (exact, loaded) = (found.first.result().expect("errors"), &found.loaded);
     assert_eq!(loaded.modes, [0, 2, 4]);
     let partners = loaded
         .alone
@@ -83,8 +83,10 @@ fn frequencies_without_shapes_count_as_frequencies_and_nowhere_else() {
     let frequency = squares.sum::<f64>().sqrt();
     assert!((exact.errors.frequency - frequency).abs() <= ROUND_OFF * frequency);
     let with_all = result(&without_shapes(&[]));
-    assert!(exact.errors.shape < with_all.first.exact().errors.shape);
-    assert_eq!((exact.errors.mode_count, exact.errors.lone_count), (3, 2));
+    let with_all = with_all.first.result().expect("errors");
+    assert!(exact.errors.shape < with_all.errors.shape);
+    let counts = (exact.errors.shape_count, exact.errors.frequency_count);
+    assert_eq!(counts, (3, 5));
     let residuals =
         corfem::weighted::residuals::residuals(&found.first, &loaded.weights().expect("weights"));
     assert_eq!(residuals.expect("residuals").len(), 3 * (1 + 5) + 2);
@@ -125,13 +127,14 @@ fn a_whole_test_may_be_frequencies() {
     let found = result(&files);
     assert!(found.loaded.placed.is_empty() && found.loaded.modes.is_empty());
     assert!(found.verdict.is_within && found.verdict.worst.shape.is_none());
-    let [before, after] = [&found.first, &found.last].map(|model| model.exact().errors);
+    let [before, after] =
+        [&found.first, &found.last].map(|comparison| comparison.result().expect("errors").errors);
     assert!(
         after.frequency < 0.01 * before.frequency,
         "{after:?} {before:?}"
     );
     assert_eq!(
-        (after.shape, after.mode_count, after.lone_count),
+        (after.shape, after.shape_count, after.frequency_count),
         (0.0, 0, 5)
     );
 }

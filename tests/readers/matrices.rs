@@ -74,7 +74,6 @@ fn matrices_of_the_owners_programs_read_to_the_last_digit() {
         let bytes = fs::read(golden(file)).expect("it reads");
         let wanted = (!name.is_empty()).then_some(name.as_str());
         let found = read(file, &bytes, wanted).expect("a matrix");
-        assert_eq!(found.name.as_deref(), wanted);
         assert_eq!(
             by_name(&found),
             expected[&(file.clone(), name.clone())],
@@ -107,13 +106,9 @@ fn matrices_of_the_owners_programs_read_to_the_last_digit() {
 #[test]
 fn a_matrix_is_chosen_by_its_name() {
     let bytes = fs::read(golden("sparse.op4")).expect("it reads");
-    assert_eq!(
-        read("m", &bytes, Some("kaa"))
-            .expect("in any case")
-            .name
-            .as_deref(),
-        Some("KAA")
-    );
+    let [one, other] =
+        ["kaa", "KAA"].map(|name| read("m", &bytes, Some(name)).expect("in any case"));
+    assert_eq!(one, other);
     let dmig = fs::read(golden("small.dmig")).expect("it reads");
     for (bytes, wanted, found) in [
         (&bytes[..], None, "KAA, T"),

@@ -7,8 +7,10 @@ use crate::common::test_files::write_csv;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, STANDARD_ERRORS};
 use corfem::files::test_data::TestData;
 use corfem::job::{LoadedJob, Trust, run};
-use corfem::method::modes::ModeSet;
+use corfem::method::analysis::{Analysis, State};
+use corfem::method::modes::Modes;
 use corfem::weighted::noise::{Noise, with_noise};
+use corfem::weighted::residuals::residuals;
 use nalgebra::DMatrix;
 
 /// The building's exact test.
@@ -19,7 +21,7 @@ fn exact() -> TestData {
 
 /// The same with noise, scaled and signed anyhow as an identification leaves it.
 fn noisy(exact: &TestData, seed: u64) -> TestData {
-    let modes = ModeSet::from_measured(&exact.frequencies_hz, &exact.shapes).unwrap();
+    let modes = Modes::from_measured(&exact.frequencies_hz, &exact.shapes).unwrap();
     let test = with_noise(&modes, Noise::USUAL, seed).unwrap();
     let (mut shapes, mut draws) = (test.shapes().clone(), Draws(seed));
     for mut shape in shapes.column_iter_mut() {
@@ -145,6 +147,19 @@ fn correlated(exact: &TestData, seed: u64) -> TestData {
     test
 }
 
+/// Whether a covariance has made a job's residuals independent: the first is then not the weighted error of the first frequency.
+fn is_whitened(loaded: &LoadedJob) -> bool {
+    let (comparison, weights) = (
+        loaded.analyze(&[1.0; 10]).unwrap(),
+        loaded.weights().unwrap(),
+    );
+    let State { modes, pairing, .. } = comparison.model().exact();
+    let hertz = pairing.paired(modes).unwrap().frequencies_hz();
+    let error = hertz[0] / comparison.model().test().frequencies_hz()[0] - 1.0;
+    let first = residuals(&comparison, &weights).unwrap()[0];
+    (first / (weights[0].frequency * error) - 1.0).abs() > 0.1
+}
+
 #[test]
 fn with_enough_repeats_their_covariance_counts() {
     let exact = exact();
@@ -162,15 +177,7 @@ fn with_enough_repeats_their_covariance_counts() {
             "their variances alone count, for a covariance of 10 numbers needs 13 tests"
         };
         assert!(words.contains(expected), "{words}");
-        assert_eq!(
-            loaded
-                .analyze(&[1.0; 10])
-                .unwrap()
-                .exact()
-                .covariance
-                .is_some(),
-            counts
-        );
+        assert_eq!(is_whitened(&loaded), counts);
         assert!(trust.assumed.is_empty(), "{:?}", trust.assumed);
         // Weights of the job's own leave variances.
         let own = with(
@@ -179,8 +186,7 @@ fn with_enough_repeats_their_covariance_counts() {
             "[compare]",
             "[compare]\nshape_weights = [2, 1]",
         );
-        let model = self::loaded(&own).analyze(&[1.0; 10]).unwrap();
-        assert!(model.exact().covariance.is_none());
+        assert!(!is_whitened(&self::loaded(&own)));
     }
     let (mean, error) = chi_squared(40, 40, ALL, |seed| correlated(&exact, seed));
 
@@ -247,27 +253,40 @@ fn a_covariance_is_that_of_what_is_compared() {
         "[compare]",
         "[sensors]\nleave_out = [\"floor 6\"]\n[compare]",
     );
-    let model = loaded(&files).analyze(&[1.0; 10]).unwrap();
-    let factor = model.exact().covariance.as_ref().unwrap();
-    assert_eq!(factor.shape(), (10, 10));
-    // Of frequencies it is computed by hand: both over their deviations, and R (R − p − 2) with eight numbers.
+    let loaded = loaded(&files);
+    // By hand: frequencies over their deviations, of shapes the four floors that are left, and R (R − p − 2) with eight numbers.
     let hertz = |mode: usize| DMatrix::from_fn(1, 13, |_, test| tests[test].frequencies_hz[mode]);
-    let apart = |mode: usize| {
-        let hertz = hertz(mode);
-        let relative = &hertz / hertz.mean();
-        relative.add_scalar(-1.0)
-    };
-    let covariance = factor * factor.transpose();
-    for (i, first) in [1, 3].into_iter().enumerate() {
-        for (j, second) in [1, 3].into_iter().enumerate() {
-            let deviation = |mode: usize| (apart(mode).norm_squared() / (13.0 * 10.0)).sqrt();
-            let expected = apart(first).dot(&apart(second))
-                / (13.0 * 3.0 * deviation(first) * deviation(second));
-            let found = covariance[(5 * i, 5 * j)];
-            assert!(
-                (found - expected).abs() < MATRIX_ROUND_OFF,
-                "{found} {expected}"
-            );
+    let (mut apart, mut along) = (DMatrix::zeros(10, 13), DMatrix::zeros(10, 2));
+    for (place, mode) in [1, 3].into_iter().enumerate() {
+        let relative = hertz(mode) / hertz(mode).mean();
+        let off = relative.add_scalar(-1.0);
+        let deviation = (off.norm_squared() / (13.0 * 10.0)).sqrt();
+        apart.set_row(5 * place, &(off / deviation).row(0));
+        let deviations = &loaded.data.component_deviation[&mode];
+        for (number, floor) in [0, 1, 3, 4].into_iter().enumerate() {
+            let row = 5 * place + 1 + number;
+            let scatter = loaded.data.scatter.row(6 * mode + 1 + floor);
+            apart.set_row(row, &(scatter / deviations[floor]));
+            along[(row, place)] = loaded.data.shapes[(floor, mode)] / deviations[floor];
         }
     }
+    along
+        .column_iter_mut()
+        .for_each(|mut own| _ = own.normalize_mut());
+    let covariance = &apart * apart.transpose() / (13.0 * 3.0) + &along * along.transpose();
+    let (comparison, weights) = (
+        loaded.analyze(&[1.0; 10]).unwrap(),
+        loaded.weights().unwrap(),
+    );
+    let found = residuals(&comparison, &weights).unwrap();
+    assert_eq!(found.len(), 10);
+    let by_hand = |covariance: &DMatrix<f64>| {
+        let comparison = comparison.clone().with_covariance(covariance).unwrap();
+        residuals(&comparison, &weights).unwrap()
+    };
+    let apart = (by_hand(&covariance) - &found).amax() / found.amax();
+    assert!(apart < MATRIX_ROUND_OFF, "{apart}");
+    // What goes together counts: variances alone would make other residuals of the same numbers.
+    let variances = DMatrix::from_diagonal(&covariance.diagonal());
+    assert!((by_hand(&variances) - &found).amax() > 0.1 * found.amax());
 }

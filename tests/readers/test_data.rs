@@ -16,7 +16,11 @@ fn a_test_without_modes_is_refused() {
     wing_test().check().expect("sound");
     assert!(matches!(
         TestData::default().check(),
-        Err(Error::Empty { .. })
+        Err(Error::Count {
+            what: "test modes",
+            found: 0,
+            ..
+        })
     ));
 }
 
@@ -32,11 +36,11 @@ fn errors_name_the_offender() {
             refused(|data| data.frequencies_hz[0] = f64::NAN),
         ),
         (
-            "largest component of test mode 1 (from zero)",
+            "largest component of mode 1 (from zero)",
             refused(|data| data.shapes.column_mut(1).fill(0.0)),
         ),
         (
-            "inf at entry (2, 1) is not a finite number",
+            "mode shapes of entry (2, 1) is inf; it must be a finite number",
             refused(|data| data.shapes[(2, 1)] = f64::INFINITY),
         ),
         (
@@ -44,11 +48,11 @@ fn errors_name_the_offender() {
             refused(|data| data.shapes = DMatrix::identity(4, 1)),
         ),
         (
-            "sensor z 12 is defined twice",
+            "test: sensor z 12 is given twice",
             refused(|data| data.sensors[2].direction = 2),
         ),
         (
-            "direction: 6 asked for, but there are only 5",
+            "direction: 6 given or asked for; there must be 0 to 5",
             refused(|data| data.sensors[3].direction = 6),
         ),
         (

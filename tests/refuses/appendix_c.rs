@@ -2,64 +2,46 @@
 //! zero.
 
 use crate::common::appendix_c::{
-    FORMULAE, exact, largest_change, original, recursive_2, rules, stiffness_rules,
+    FORMULAE, exact, largest_change, of_stiffness, original, recursive_2, rules, stiffness_rules,
 };
-use crate::common::assert_refused;
+use crate::common::said;
 use crate::common::tolerances::{CANCELLED_DIFFERENCE, ROUND_OFF};
-use corfem::method::appendix_c::{
-    LARGEST_UNSETTLED_CHANGE, SMALLEST_SEPARATION, first_order, recursive_1, recursive_1_converged,
-};
 use corfem::method::error::Error;
+use corfem::method::perturbation::{
+    LARGEST_UNSETTLED_CHANGE, MOST_ORDERS, ROOT_TOLERANCE, SMALLEST_SEPARATION, first_order,
+    recursive_1, recursive_1_converged,
+};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 
 #[test]
 fn every_rule_needs_modes() {
     for rule in rules() {
-        match (rule.plain)(&DVector::zeros(0), &DMatrix::zeros(0, 0)) {
-            Err(Error::Empty { what }) => assert_eq!(what, "modes"),
-            other => panic!("{}: {other:?}", rule.name),
-        }
+        let answer = (rule.plain)(&DVector::zeros(0), &DMatrix::zeros(0, 0));
+        assert_eq!(
+            said(answer),
+            "modes: 0 given or asked for; there must be at least 1",
+            "{}",
+            rule.name
+        );
     }
 }
 
 #[test]
-fn every_rule_refuses_a_change_of_another_shape() {
+fn every_rule_refuses_a_change_that_is_none_of_its_modes() {
+    let nan = dmatrix![0.0, f64::NAN; 0.0, 0.0];
     for rule in rules() {
-        for (rows, columns) in [(3, 3), (2, 3), (1, 2)] {
-            match (rule.plain)(&dvector![1.0, 2.0], &DMatrix::zeros(rows, columns)) {
-                Err(Error::WrongShape {
-                    what,
-                    expected_rows,
-                    expected_columns,
-                    rows: found_rows,
-                    columns: found_columns,
-                }) => assert_eq!(
-                    (
-                        what,
-                        expected_rows,
-                        expected_columns,
-                        found_rows,
-                        found_columns
-                    ),
-                    ("generalized stiffness change", 2, 2, rows, columns)
-                ),
-                other => panic!("{}: {other:?}", rule.name),
-            }
-        }
-    }
-}
-
-#[test]
-fn every_rule_refuses_nan() {
-    let beta = dmatrix![0.0, f64::NAN; 0.0, 0.0];
-    for rule in rules() {
-        match (rule.plain)(&dvector![1.0, 2.0], &beta) {
-            Err(Error::NotFinite {
-                what, row, column, ..
-            }) => {
-                assert_eq!((what, row, column), ("generalized stiffness change", 0, 1))
-            }
-            other => panic!("{}: {other:?}", rule.name),
+        for (beta, words) in [
+            (DMatrix::zeros(3, 3), ": 3 x 3 instead of 2 x 2"),
+            (DMatrix::zeros(2, 3), ": 2 x 3 instead of 2 x 2"),
+            (DMatrix::zeros(1, 2), ": 1 x 2 instead of 2 x 2"),
+            (
+                nan.clone(),
+                " of entry (0, 1) is NaN; it must be a finite number",
+            ),
+        ] {
+            let expected = format!("generalized stiffness change{words}");
+            let answer = (rule.plain)(&dvector![1.0, 2.0], &beta);
+            assert_eq!(said(answer), expected, "{}", rule.name);
         }
     }
 }
@@ -67,52 +49,44 @@ fn every_rule_refuses_nan() {
 #[test]
 fn every_formula_of_the_loops_starts_from_vibrations() {
     for rule in stiffness_rules() {
-        for bad in [0.0, -1.0, f64::INFINITY] {
-            match (rule.plain)(&dvector![1.0, bad], &DMatrix::zeros(2, 2)) {
-                Err(Error::NotAVibration { mode, value }) => assert_eq!((mode, value), (1, bad)),
-                other => panic!("{}: {other:?}", rule.name),
-            }
+        for (bad, value) in [
+            (0.0, "0.000000e0"),
+            (-1.0, "-1.000000e0"),
+            (f64::INFINITY, "inf"),
+            (f64::NAN, "NaN"),
+        ] {
+            let answer = (rule.plain)(&dvector![1.0, bad], &DMatrix::zeros(2, 2));
+            let words =
+                format!("mode 1 (from zero) is no vibration: its eigenvalue is {value} rad^2/s^2");
+            assert_eq!(said(answer), words, "{}", rule.name);
         }
-        assert!(matches!(
-            (rule.plain)(&dvector![f64::NAN], &DMatrix::zeros(1, 1)),
-            Err(Error::NotAVibration { mode: 0, value }) if value.is_nan()
-        ));
     }
 }
 
-/// It works on roots as well as on stiffnesses, and says which of the two is not a number it can use.
+/// Roots of any sign are theirs, but none without a stiffness that is a number.
 #[test]
-fn the_eigensolution_starts_from_vibrations() {
-    let from = |bad: f64| exact(&dvector![1.0, bad], &DMatrix::zeros(2, 2));
-    assert!(matches!(
-        from(0.0),
-        Err(Error::NotFinite { what: "roots", row: 1, value, .. }) if value == f64::INFINITY
-    ));
-    // Modes of the eigensolution are numbered in ascending order: the one that is no vibration comes first.
-    assert!(matches!(
-        from(-1.0),
-        Err(Error::NotAVibration { mode: 0, value }) if value == -1.0
-    ));
-    for bad in [f64::INFINITY, f64::NAN] {
-        assert!(matches!(
-            from(bad),
-            Err(Error::NotFinite { what: "generalized stiffness", row: 1, value, .. })
-                if value.to_bits() == bad.to_bits()
-        ));
+fn the_general_formulae_start_from_roots_that_are_numbers() {
+    for rule in FORMULAE {
+        for (bad, value) in [(0.0, "inf"), (f64::NAN, "NaN")] {
+            let change = of_stiffness(&dvector![1.0, bad], &DMatrix::zeros(2, 2));
+            let answer = (rule.general)(&change);
+            let words =
+                format!("perturbed roots of entry (1, 0) is {value}; it must be a finite number");
+            assert_eq!(said(answer), words, "{}", rule.name);
+        }
     }
 }
 
 #[test]
 fn a_change_that_takes_all_stiffness_loses_the_root() {
-    for lost in [-2.0, -3.0] {
+    for (lost, root) in [(-2.0, "inf"), (-3.0, "-1.000e0")] {
         let beta = dmatrix![0.0, 0.0; 0.0, lost];
         for rule in stiffness_rules() {
-            match (rule.plain)(&dvector![1.0, 2.0], &beta) {
-                Err(Error::LostRoot { mode, value }) => {
-                    assert_eq!((mode, value), (1, 1.0 / (2.0 + lost)));
-                }
-                other => panic!("{}: {other:?}", rule.name),
-            }
+            let answer = (rule.plain)(&dvector![1.0, 2.0], &beta);
+            let words = format!(
+                "the change takes the root of mode 1 (from zero) to {root}; it must stay positive and finite"
+            );
+            assert_eq!(said(answer), words, "{}", rule.name);
         }
     }
 }
@@ -140,16 +114,9 @@ fn modes_that_come_together_are_named() {
     // k + β is 2 for both modes, so that the denominator of row 1 in mode 0 vanishes.
     let beta = dmatrix![1.0, 0.1; 0.1, 0.0];
     for rule in FORMULAE {
-        match (rule.plain)(&dvector![1.0, 2.0], &beta) {
-            Err(Error::CoalescingModes {
-                first,
-                second,
-                separation,
-            }) => {
-                assert_eq!((first, second, separation), (1, 0, 0.0))
-            }
-            other => panic!("{}: {other:?}", rule.name),
-        }
+        let answer = (rule.plain)(&dvector![1.0, 2.0], &beta);
+        let words = "modes 1 and 0 (from zero) come too close to tell apart (0.0e0)";
+        assert_eq!(said(answer), words, "{}", rule.name);
     }
     // What the recursion cannot do, the eigensolution can: 2 -+ 0.1.
     let exact = exact(&dvector![1.0, 2.0], &beta).unwrap();
@@ -192,58 +159,55 @@ fn a_mode_on_a_root_of_the_others_makes_the_linear_system_singular() {
     let k = dvector![1.0, 2.0, 5.0];
     let beta = dmatrix![0.0, 0.0, 0.0; 0.0, 0.0, 2.0; 0.0, 2.0, 0.0];
     assert!(original(&k, &beta).is_ok());
-    assert_refused(
-        recursive_2(&k, &beta, 2),
-        Error::CoalescingModes {
-            first: 0,
-            second: 0,
-            separation: 0.0,
-        },
+    assert_eq!(
+        said(recursive_2(&k, &beta, 2)),
+        "modes 0 and 0 (from zero) come too close to tell apart (0.0e0)"
     );
 }
 
 #[test]
 fn order_zero_is_no_order() {
     let (k, beta) = (dvector![1.0, 2.0], DMatrix::zeros(2, 2));
-    for result in [
-        recursive_1(&k, &beta, 0),
-        recursive_2(&k, &beta, 0),
-        recursive_1_converged(&k, &beta, 1e-13, 0).map(|settled| settled.perturbed),
-    ] {
-        assert_refused(
-            result,
-            Error::Setting {
-                name: "order",
-                expected: "at least 1",
-                found: 0.0,
-            },
-        );
-    }
+    let words = "order: 0 given or asked for; there must be at least 1";
+    assert_eq!(said(recursive_1(&k, &beta, 0)), words);
+    assert_eq!(said(recursive_2(&k, &beta, 0)), words);
 }
 
+/// Coupled by twice their distance, two modes gain a digit in a dozen orders: the most orders allowed are too few, or nearly so.
 #[test]
 fn roots_that_do_not_settle_are_refused_with_their_last_change() {
-    // Coupled by a tenth of their distance, two modes gain about two digits in two orders: three orders are too few.
-    let (k, beta) = (dvector![1.0, 2.0], dmatrix![0.0, 0.1; 0.1, 0.0]);
-    let of_order = |order| recursive_1(&k, &beta, order).unwrap().roots;
-    match recursive_1_converged(&k, &beta, 1e-13, 3) {
-        Err(Error::UnsettledRoots {
-            largest,
-            orders,
-            last_change,
-        }) => {
-            assert_eq!((largest, orders), (LARGEST_UNSETTLED_CHANGE, 3));
-            assert_eq!(last_change, largest_change(&of_order(3), &of_order(2)));
-        }
-        other => panic!("{other:?}"),
-    }
-    // One order alone has nothing to compare with.
-    assert!(matches!(
-        recursive_1_converged(&k, &beta, 1e-13, 1),
-        Err(Error::UnsettledRoots { orders: 1, .. })
-    ));
-    let settled = recursive_1_converged(&k, &beta, 1e-13, 60).unwrap();
-    assert!(settled.last_change < 1e-13);
+    let k = dvector![10.0, 11.0];
+    let converged =
+        |coupling: f64| recursive_1_converged(&k, &dmatrix![0.0, coupling; coupling, 0.0]);
+    let last_change = |coupling: f64| {
+        let of_order = |order| {
+            let beta = dmatrix![0.0, coupling; coupling, 0.0];
+            recursive_1(&k, &beta, order).expect("an order").roots
+        };
+        largest_change(&of_order(MOST_ORDERS), &of_order(MOST_ORDERS - 1))
+    };
+    let refused = converged(2.1);
+    let Err(Error::UnsettledRoots {
+        orders,
+        last_change: found,
+    }) = refused
+    else {
+        panic!("{refused:?}")
+    };
+    assert_eq!((orders, found), (MOST_ORDERS, last_change(2.1)));
+    assert!(found > LARGEST_UNSETTLED_CHANGE, "{found:e}");
+    assert_eq!(
+        said(refused),
+        format!("the roots still change by {found:.1e} after 60 orders; they must settle to 1e-6")
+    );
+    let slow = converged(1.9).expect("nearly settled");
+    assert_eq!(
+        (slow.order, slow.last_change),
+        (MOST_ORDERS, last_change(1.9))
+    );
+    assert!(slow.last_change > 1e-8 && slow.last_change < LARGEST_UNSETTLED_CHANGE);
+    let settled = recursive_1_converged(&dvector![1.0, 2.0], &dmatrix![0.0, 0.1; 0.1, 0.0]);
+    assert!(settled.expect("settled").last_change < ROOT_TOLERANCE);
 }
 
 /// Mode 0 comes down to mode 1 at the second order: with mode 2 its root is 1 + 1/2, with mode 1 it changes by 0.01/(k₁ - 1), and k₁ is

@@ -1,11 +1,22 @@
 //! What the general formulae of Appendix C refuse, and that the offender is named.
 
-use crate::common::appendix_c::four_modes;
+use crate::common::appendix_c::{ModalChange, four_modes};
+use crate::common::said;
 use crate::common::tolerances::{CANCELLED_DIFFERENCE, ROUND_OFF};
-use corfem::method::appendix_c::general::{self, ModalChange};
-use corfem::method::appendix_c::{eigensolution, normalize_with_mass};
+use corfem::method::appendix_c::Pencil;
+use corfem::method::appendix_c::complex_modes::LeftRightModes;
 use corfem::method::error::Error;
+use corfem::method::perturbation::Perturbed;
+use corfem::sparse::normalize_with_mass;
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
+
+fn pencil(change: &ModalChange) -> Pencil<f64> {
+    change.pencil().expect("a pencil")
+}
+
+fn first_order(change: &ModalChange) -> Result<Perturbed, Error> {
+    pencil(change).first_order()
+}
 
 #[test]
 fn two_roots_brought_together_are_refused_with_both_modes_named() {
@@ -15,11 +26,12 @@ fn two_roots_brought_together_are_refused_with_both_modes_named() {
         dmatrix![0.0, 0.0, 0.0; 0.0, 1.0, 0.1; 0.0, 0.1, -1.0],
         DMatrix::zeros(3, 3),
     );
+    let found = pencil(&together);
     for result in [
-        general::first_order(&together),
-        general::recursive_1(&together, 2),
-        general::recursive_2(&together, 2),
-        general::original(&together),
+        found.first_order(),
+        found.recursive_1(2),
+        found.recursive_2(2),
+        found.original(),
     ] {
         assert!(matches!(
             result,
@@ -29,10 +41,10 @@ fn two_roots_brought_together_are_refused_with_both_modes_named() {
     // A separation of one part in a million is enough, and reported when it is not.
     let mut near = together.clone();
     near.beta[(2, 2)] = -1.0 + 2e-6;
-    assert!(general::first_order(&near).is_ok());
+    assert!(first_order(&near).is_ok());
     near.beta[(2, 2)] = -1.0 + 1e-9;
     assert!(matches!(
-        general::first_order(&near),
+        first_order(&near),
         Err(Error::CoalescingModes { first: 2, second: 1, separation }) if (separation / 0.5e-9 - 1.0).abs() < CANCELLED_DIFFERENCE
     ));
 }
@@ -50,9 +62,10 @@ fn rows_of_a_shape_without_a_solution_are_refused() {
     // Row 0 and 1 at γ: (γ·1 − 1)(γ·4 − 1) = −0.5 = r₀₁·r₁₀ with r = −α, unsymmetric.
     change.alpha[(0, 1)] = 1.0;
     change.alpha[(1, 0)] = -0.5;
-    assert!((change.roots[2] - gamma).abs() < ROUND_OFF);
+    let change = pencil(&change);
+    assert!((change.first_order().unwrap().roots[2] - gamma).abs() < ROUND_OFF);
     assert!(matches!(
-        general::recursive_2(&change, 2),
+        change.recursive_2(2),
         Err(Error::CoalescingModes {
             first: 2,
             second: 2,
@@ -62,163 +75,136 @@ fn rows_of_a_shape_without_a_solution_are_refused() {
 }
 
 #[test]
-fn input_that_does_not_fit_is_refused_by_every_function() {
-    let good = four_modes(0.05);
-    let broken = |edit: fn(&mut ModalChange<f64>)| {
-        let mut change = good.clone();
+fn a_change_that_does_not_fit_its_modes_is_refused() {
+    let refused = |edit: fn(&mut ModalChange)| {
+        let mut change = four_modes(0.05);
         edit(&mut change);
-        let results = [
-            general::first_order(&change),
-            general::recursive_1(&change, 2),
-            general::recursive_2(&change, 2),
-            general::original(&change),
-            eigensolution(&change),
-        ];
-        results.map(|result| result.expect_err("broken input"))
+        said(change.pencil())
     };
-    for error in broken(|change| change.roots = DVector::zeros(0)) {
-        assert!(matches!(error, Error::Empty { what: "modes" }));
-    }
-    for error in broken(|change| change.generalized_stiffness = DVector::zeros(3)) {
-        assert!(matches!(
-            error,
-            Error::WrongShape {
-                what: "generalized stiffness",
-                expected_rows: 4,
-                expected_columns: 1,
-                rows: 3,
-                columns: 1
-            }
-        ));
-    }
-    for error in broken(|change| change.beta = DMatrix::zeros(4, 3)) {
-        assert!(matches!(
-            error,
-            Error::WrongShape {
-                what: "generalized stiffness change",
-                expected_columns: 4,
-                columns: 3,
-                ..
-            }
-        ));
-    }
-    for error in broken(|change| change.alpha = DMatrix::zeros(5, 4)) {
-        assert!(matches!(
-            error,
-            Error::WrongShape {
-                what: "generalized change of mass and aerodynamic terms",
-                rows: 5,
-                ..
-            }
-        ));
-    }
-    for error in broken(|change| change.alpha[(2, 3)] = f64::NAN) {
-        assert!(matches!(
-            error,
-            Error::NotFinite { what: "generalized change of mass and aerodynamic terms", row: 2, column: 3, value } if value.is_nan()
-        ));
-    }
-    for error in broken(|change| change.beta[(1, 0)] = f64::INFINITY) {
-        assert!(matches!(
-            error,
-            Error::NotFinite {
-                what: "generalized stiffness change",
-                row: 1,
-                column: 0,
-                value: f64::INFINITY
-            }
-        ));
-    }
-    for error in broken(|change| change.generalized_stiffness[1] = f64::NAN) {
-        assert!(matches!(
-            error,
-            Error::NotFinite {
-                what: "generalized stiffness",
-                row: 1,
-                column: 0,
-                ..
-            }
-        ));
-    }
-    for error in broken(|change| change.roots[3] = f64::INFINITY) {
-        assert!(matches!(
-            error,
-            Error::NotFinite {
-                what: "roots",
-                row: 3,
-                column: 0,
-                ..
-            }
-        ));
-    }
-    for error in broken(|change| change.beta[(2, 2)] = -6.0) {
-        assert!(matches!(
-            error,
-            Error::LostStiffness {
-                mode: 2,
-                ratio: 0.0
-            }
-        ));
+    type Edit = fn(&mut ModalChange);
+    let table: [(Edit, &str); 7] = [
+        (
+            |change| change.generalized_stiffness = DVector::zeros(0),
+            "modes: 0 given or asked for; there must be at least 1",
+        ),
+        (
+            |change| change.generalized_stiffness = DVector::zeros(3),
+            "generalized stiffness change: 4 x 4 instead of 3 x 3",
+        ),
+        (
+            |change| change.beta = DMatrix::zeros(4, 3),
+            "generalized stiffness change: 4 x 3 instead of 4 x 4",
+        ),
+        (
+            |change| change.alpha = DMatrix::zeros(5, 4),
+            "generalized mass change: 5 x 4 instead of 4 x 4",
+        ),
+        (
+            |change| change.alpha[(2, 3)] = f64::NAN,
+            "generalized mass change of entry (2, 3) is NaN; it must be a finite number",
+        ),
+        (
+            |change| change.beta[(1, 0)] = f64::INFINITY,
+            "generalized stiffness change of entry (1, 0) is inf; it must be a finite number",
+        ),
+        (|_| {}, "an answer"),
+    ];
+    for (edit, words) in table {
+        assert_eq!(refused(edit), words);
     }
 }
 
+/// A root of a mode that has no stiffness left, or whose stiffness is no number.
 #[test]
-fn stiffness_nearly_lost_is_named_with_what_is_left_of_it() {
-    let mut change = four_modes(0.05);
-    change.beta[(3, 3)] = -14.0 * (1.0 - 1e-10);
-    assert!(matches!(
-        general::first_order(&change),
-        Err(Error::LostStiffness { mode: 3, ratio }) if (ratio / 1e-10 - 1.0).abs() < CANCELLED_DIFFERENCE
-    ));
-    change.beta[(3, 3)] = -14.0 * (1.0 - 1e-3);
-    assert!(general::first_order(&change).is_ok());
+fn a_root_that_is_no_number_is_refused_by_every_formula() {
+    let lost = |edit: fn(&mut ModalChange)| {
+        let mut change = four_modes(0.05);
+        edit(&mut change);
+        let found = pencil(&change);
+        [
+            found.first_order(),
+            found.recursive_1(2),
+            found
+                .recursive_1_converged()
+                .map(|settled| settled.perturbed),
+            found.recursive_2(2),
+            found.original(),
+        ]
+        .map(said)
+    };
+    let words = |row: usize, value: &str| {
+        format!("perturbed roots of entry ({row}, 0) is {value}; it must be a finite number")
+    };
+    assert_eq!(
+        lost(|change| change.beta[(2, 2)] = -6.0),
+        [(); 5].map(|()| words(2, "inf"))
+    );
+    let nan = |change: &mut ModalChange| change.generalized_stiffness[1] = f64::NAN;
+    assert_eq!(lost(nan), [(); 5].map(|()| words(1, "NaN")));
+}
+
+/// Left and right shapes that are not those of the stiffness.
+#[test]
+fn shapes_that_do_not_fit_a_stiffness_are_refused() {
+    let (stiffness, none) = (dmatrix![2.0, -1.0; -1.0, 2.0], DMatrix::zeros(2, 2));
+    let modes = |right: DMatrix<f64>, left: DMatrix<f64>| LeftRightModes {
+        roots: dvector![1.0, 0.5],
+        right,
+        left,
+    };
+    let own = || dmatrix![1.0, 1.0; 1.0, -1.0];
+    let refused =
+        |shapes: &LeftRightModes<f64>, stiffness: &DMatrix<f64>, change: &DMatrix<f64>| {
+            said(Pencil::new(stiffness, shapes, change, &none))
+        };
+    let good = modes(own(), own());
+    assert_eq!(refused(&good, &stiffness, &none), "an answer");
+    assert_eq!(
+        refused(&modes(own(), DMatrix::zeros(3, 2)), &stiffness, &none),
+        "left shapes: 3 x 2 instead of 2 x 2"
+    );
+    assert_eq!(
+        refused(&good, &DMatrix::zeros(3, 3), &none),
+        "stiffness: 3 x 3 instead of 2 x 2"
+    );
+    assert_eq!(
+        refused(&good, &stiffness, &dmatrix![0.0, f64::NAN; 0.0, 0.0]),
+        "stiffness change of entry (0, 1) is NaN; it must be a finite number"
+    );
+    assert_eq!(
+        refused(
+            &modes(DMatrix::identity(2, 2), DMatrix::identity(2, 2)),
+            &stiffness,
+            &none
+        ),
+        "coupling of left and right shapes of modes 1 and 0 is 0.5; it must be zero"
+    );
 }
 
 #[test]
 fn order_zero_is_refused() {
-    let change = four_modes(0.05);
-    for result in [
-        general::recursive_1(&change, 0),
-        general::recursive_1_converged(&change, 1e-6, 0).map(|settled| settled.perturbed),
-        general::recursive_2(&change, 0),
-    ] {
-        assert!(matches!(
-            result,
-            Err(Error::Setting {
-                name: "order",
-                expected: "at least 1",
-                found: 0.0
-            })
-        ));
-    }
+    let found = pencil(&four_modes(0.05));
+    let words = "order: 0 given or asked for; there must be at least 1";
+    assert_eq!(said(found.recursive_1(0)), words);
+    assert_eq!(said(found.recursive_2(0)), words);
 }
 
 #[test]
 fn generalized_mass_that_loses_its_sign_is_refused() {
     let mut change = four_modes(0.0);
     change.alpha[(1, 1)] = -1.5;
-    let root = general::first_order(&change).unwrap().roots[1];
+    let root = first_order(&change).unwrap().roots[1];
     assert!((root + 0.5 / 2.5).abs() < ROUND_OFF);
-    assert!(matches!(
-        eigensolution(&change),
-        Err(Error::NotPositiveDefinite {
-            what: "dynamic mass",
-            dof: 1
-        })
-    ));
-    assert!(matches!(
-        normalize_with_mass(&mut DMatrix::identity(4, 4), &change.alpha),
-        Err(Error::NotPositive { what: "changed generalized mass", owner, value: -0.5 }) if owner == "mode 1 (from zero)"
-    ));
-    assert!(matches!(
-        normalize_with_mass(&mut DMatrix::identity(4, 4), &DMatrix::zeros(3, 4)),
-        Err(Error::WrongShape {
-            what: "generalized mass change",
-            expected_rows: 4,
-            rows: 3,
-            ..
-        })
-    ));
+    let normalized =
+        |alpha: &DMatrix<f64>| normalize_with_mass(&mut DMatrix::identity(4, 4), alpha);
+    assert_eq!(
+        said(normalized(&change.alpha)),
+        "changed generalized mass of mode 1 (from zero) is -0.5; it must be positive and finite"
+    );
+    assert_eq!(
+        said(normalized(&DMatrix::zeros(3, 4))),
+        "generalized mass change: 3 x 4 instead of 4 x 4"
+    );
 }
 
 /// A recursion that diverges ends in an error, never in NaN.
@@ -231,7 +217,10 @@ fn runaway_recursion_is_an_error() {
         change.beta[(i, i)] = 0.0;
     }
     assert!(matches!(
-        general::recursive_1(&change, 500),
-        Err(Error::NotFinite { .. } | Error::CoalescingModes { .. })
+        pencil(&change).recursive_1(500),
+        Err(Error::Value {
+            what: "perturbed roots" | "perturbed generalized shapes",
+            ..
+        } | Error::CoalescingModes { .. })
     ));
 }

@@ -1,15 +1,19 @@
 //! What the inner loop refuses before it takes a step.
 
-use crate::common::assert_refused;
+use crate::common::appendix_c::{ModalChange, eigensolution};
 use crate::common::loops::chain_problem;
+use crate::common::said;
 use crate::common::vibrations::Chain;
-use corfem::method::derivatives::{DerivativeRule, by_definition, gradient};
+use crate::common::whole_models::of_dense;
+use corfem::method::analysis::Analysis;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, first_factors, run};
-use corfem::method::model::{Bounds, DynamicModel, ParameterMatrix};
-use corfem::method::modes::ModeSet;
-use corfem::method::state::{ModalState, UpdateRule};
-use nalgebra::{dmatrix, dvector};
+use corfem::method::model::{DynamicModel, Model};
+use corfem::method::modes::Modes;
+use corfem::method::sorting::pair_modes;
+use corfem::method::step::Bounds;
+use corfem::sparse::{BasisSize, ParameterMatrix, SensorModel};
+use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 
 /// Two springs, the given lists, and the default settings with one change.
 fn run_with(
@@ -27,6 +31,52 @@ fn with_settings(change: impl Fn(&mut InnerSettings)) -> Result<InnerRun, Error>
     run_with(&[1.0; 2], &[None; 2], change)
 }
 
+/// Uncoupled unit masses on springs of these rates, beside a test with squared frequencies of its own.
+struct Uncoupled<'a> {
+    springs: &'a [f64],
+    test: &'a [f64],
+}
+
+impl Uncoupled<'_> {
+    fn matrices(&self) -> (DMatrix<f64>, DMatrix<f64>, Modes) {
+        let [springs, squares] = [self.springs, self.test].map(DVector::from_column_slice);
+        let mass = DMatrix::identity(springs.len(), springs.len());
+        let test = Modes::new(squares, mass.clone()).expect("modes");
+        (DMatrix::from_diagonal(&springs), mass, test)
+    }
+
+    fn with_stiffness(&self, share: DMatrix<f64>) -> Model {
+        let (stiffness, mass, test) = self.matrices();
+        let shares = vec![share];
+        let model = DynamicModel {
+            stiffness,
+            mass,
+            shares,
+        };
+        model.analyze(&test, None).expect("a problem")
+    }
+
+    fn with_mass(&self, share: DMatrix<f64>) -> SensorModel {
+        let (stiffness, mass, test) = self.matrices();
+        let shares = [ParameterMatrix::Mass(share)];
+        let (whole, sensors) = of_dense(&stiffness, &mass, &shares).expect("a model");
+        let found = whole.analyze(
+            &[1.0],
+            &sensors,
+            (&test, pair_modes),
+            BasisSize {
+                modes: mass.nrows(),
+                residual_vectors: 0,
+            },
+        );
+        found.expect("a problem")
+    }
+}
+
+fn range(lower: f64, upper: f64) -> Bounds {
+    Bounds { lower, upper }
+}
+
 #[test]
 fn relaxations_and_tolerance_must_be_positive() {
     type Setter = fn(&mut InnerSettings, f64);
@@ -38,139 +88,100 @@ fn relaxations_and_tolerance_must_be_positive() {
         ("tolerance", |settings, value| settings.tolerance = value),
     ];
     for (setting, set) in setters {
-        for bad in [0.0, -1.0, f64::INFINITY] {
-            assert_refused(
-                with_settings(|settings| set(settings, bad)),
-                Error::Setting {
-                    name: setting,
-                    expected: "a positive finite number",
-                    found: bad,
-                },
+        for bad in [0.0, -1.0, f64::INFINITY, f64::NAN] {
+            assert_eq!(
+                said(with_settings(|settings| set(settings, bad))),
+                format!("{setting} of the inner loop is {bad}; it must be positive and finite")
             );
         }
-        assert!(matches!(
-            with_settings(|settings| set(settings, f64::NAN)),
-            Err(Error::Setting { name, found, .. }) if name == setting && found.is_nan()
-        ));
         assert!(with_settings(|settings| set(settings, 0.5)).is_ok());
     }
 }
 
 #[test]
-fn factor_limits_must_be_in_order() {
-    for (low, high) in [(1.5, 0.55), (0.0, 1.5), (1.0, 1.0), (0.5, f64::INFINITY)] {
-        let range = Bounds {
-            lower: low,
-            upper: high,
+fn limits_must_be_in_order() {
+    for (lower, upper) in [(1.5, 0.55), (0.0, 1.5), (1.0, 1.0), (0.5, f64::INFINITY)] {
+        let words = |what: &str| {
+            format!(
+                "{what}: {lower} to {upper} is no range; the lower limit must be positive, the upper one larger and finite"
+            )
         };
-        assert_refused(
-            with_settings(|settings| settings.factor_range = range),
-            Error::Limits {
-                what: "factor limits".into(),
-                lower: low,
-                upper: high,
-            },
-        );
+        let refused = with_settings(|settings| settings.factor_range = range(lower, upper));
+        assert_eq!(said(refused), words("factor limits"));
+        let refused = run_with(&[1.0; 2], &[None, Some(range(lower, upper))], |_| {});
+        assert_eq!(said(refused), words("parameter limits"));
     }
 }
 
 #[test]
-fn total_limits_must_be_in_order() {
-    let crossed = Bounds {
-        lower: 2.0,
-        upper: 0.5,
-    };
-    assert_refused(
-        run_with(&[1.0; 2], &[None, Some(crossed)], |_| {}),
-        Error::Limits {
-            what: "parameter limits".into(),
-            lower: 2.0,
-            upper: 0.5,
-        },
-    );
-}
-
-#[test]
 fn lists_must_have_one_entry_a_parameter() {
-    for (factors, limits, expected) in [
-        (1, 2, ("parameter factors", 2, 1, 1, 1)),
-        (3, 2, ("parameter factors", 2, 1, 3, 1)),
-        (2, 0, ("parameter limits", 2, 1, 0, 1)),
-        (2, 3, ("parameter limits", 2, 1, 3, 1)),
+    for (factors, limits, words) in [
+        (1, 1, "parameter factors: 1 x 1 instead of 2 x 1"),
+        (3, 3, "parameter factors: 3 x 1 instead of 2 x 1"),
+        (1, 2, "parameter limits: 2 x 1 instead of 1 x 1"),
+        (2, 0, "parameter limits: 0 x 1 instead of 2 x 1"),
+        (2, 3, "parameter limits: 3 x 1 instead of 2 x 1"),
     ] {
-        let (what, expected_rows, expected_columns, rows, columns) = expected;
-        assert_refused(
-            run_with(&vec![1.0; factors], &vec![None; limits], |_| {}),
-            Error::WrongShape {
-                what,
-                expected_rows,
-                expected_columns,
-                rows,
-                columns,
-            },
+        assert_eq!(
+            said(run_with(&vec![1.0; factors], &vec![None; limits], |_| {})),
+            words
         );
     }
 }
 
 #[test]
 fn a_factor_of_an_earlier_pass_that_is_no_number_is_an_error() {
-    let range = Some(Bounds {
-        lower: 0.5,
-        upper: 2.0,
-    });
-    assert!(matches!(
-        run_with(&[1.0, f64::NAN], &[None, range], |_| {}),
-        Err(Error::NotFinite { .. })
-    ));
+    assert_eq!(
+        said(run_with(
+            &[1.0, f64::NAN],
+            &[None, Some(range(0.5, 2.0))],
+            |_| {}
+        )),
+        "generalized stiffness change of entry (0, 0) is NaN; it must be a finite number"
+    );
 }
 
 /// A thousandth of what a parameter has takes all stiffness, or more than all, from the mode.
 #[test]
 fn a_share_so_negative_that_no_difference_can_be_taken_is_refused() {
-    let settings = InnerSettings {
-        derivatives: DerivativeRule::Definition,
-        ..InnerSettings::default()
+    let spring = Uncoupled {
+        springs: &[4.0],
+        test: &[9.0],
     };
-    for share in [
-        ParameterMatrix::Stiffness(dmatrix![-4000.0]),
-        ParameterMatrix::Stiffness(dmatrix![-8000.0]),
-        ParameterMatrix::Mass(dmatrix![-2000.0]),
-    ] {
-        let model = DynamicModel {
-            stiffness: dmatrix![4.0],
-            mass: dmatrix![1.0],
-            shares: vec![share],
-        };
-        let test = ModeSet::new(dvector![9.0], dmatrix![1.0]).expect("a mode");
-        let problem = model.analyze(&test, None).expect("a problem");
-        let refusals = [
-            by_definition(&problem, &ModalState::start(&problem)).map(drop),
-            first_factors(&problem, &settings).map(drop),
-            run(&problem, &[1.0], &[None], &settings).map(drop),
-        ];
-        for refused in refusals {
-            assert!(
-                matches!(refused, Err(Error::LostRoot { mode: 0, .. })),
-                "{refused:?}"
-            );
-        }
+    for share in [-4000.0, -8000.0] {
+        assert_lost_root(&spring.with_stiffness(dmatrix![share]));
+    }
+    assert_lost_root(&spring.with_mass(dmatrix![-2000.0]));
+}
+
+fn assert_lost_root(problem: &dyn Analysis) {
+    let settings = InnerSettings::default();
+    let start = problem.at(&[1.0]).expect("a state");
+    let refusals = [
+        problem.error_changes(&start).map(drop),
+        first_factors(problem, &settings).map(drop),
+        run(problem, &[1.0], &[None], &settings).map(drop),
+    ];
+    for refused in refusals {
+        assert!(
+            matches!(refused, Err(Error::LostRoot { mode: 0, .. })),
+            "{refused:?}"
+        );
     }
 }
 
 /// A thousandth of what a parameter has brings one mode to another that it is coupled with.
 #[test]
 fn a_share_that_brings_modes_together_has_no_difference() {
-    let stiffness = ParameterMatrix::Stiffness(dmatrix![500.0, 1.0; 1.0, 0.0]);
-    let mass = ParameterMatrix::Mass(dmatrix![-1000.0 / 3.0, 1.0; 1.0, 0.0]);
-    for share in [stiffness, mass] {
-        let model = DynamicModel {
-            stiffness: dmatrix![1.0, 0.0; 0.0, 1.5],
-            mass: dmatrix![1.0, 0.0; 0.0, 1.0],
-            shares: vec![share],
-        };
-        let test = ModeSet::new(dvector![1.0, 1.5], dmatrix![1.0, 0.0; 0.0, 1.0]).expect("modes");
-        let problem = model.analyze(&test, None).expect("a problem");
-        let refused = by_definition(&problem, &ModalState::start(&problem));
+    let springs = Uncoupled {
+        springs: &[1.0, 1.5],
+        test: &[1.0, 1.5],
+    };
+    let stiffness = springs.with_stiffness(dmatrix![500.0, 1.0; 1.0, 0.0]);
+    let mass = springs.with_mass(dmatrix![-1000.0 / 3.0, 1.0; 1.0, 0.0]);
+    for problem in [&stiffness as &dyn Analysis, &mass] {
+        let start = problem.at(&[1.0]).expect("a state");
+        let refused = problem.error_changes(&start);
         assert!(
             matches!(refused, Err(Error::CoalescingModes { .. })),
             "{refused:?}"
@@ -182,18 +193,18 @@ fn a_share_that_brings_modes_together_has_no_difference() {
 fn a_state_of_another_model_has_no_derivatives() {
     let three = chain_problem(&Chain::uniform(3), &[1.2, 0.8, 1.1]);
     let two = chain_problem(&Chain::uniform(2), &[1.2, 0.8]);
-    for derivatives in [by_definition, gradient] {
-        assert!(derivatives(&two, &ModalState::start(&two)).is_ok());
-        let refused = derivatives(&two, &ModalState::start(&three));
-        assert!(
-            matches!(
-                refused,
-                Err(Error::WrongShape {
-                    what: "parameter factors",
-                    ..
-                })
-            ),
-            "{refused:?}"
+    let seen = SensorModel::from(&two);
+    for (problem, expected) in [(&two as &dyn Analysis, "2 x 3"), (&seen, "2 x 2")] {
+        assert!(problem.error_changes(two.exact()).is_ok());
+        assert_eq!(
+            said(problem.error_changes(three.exact())),
+            format!("shapes of the state: 3 x 3 instead of {expected}")
+        );
+        let mut state = two.exact().clone();
+        state.factors.push(1.0);
+        assert_eq!(
+            said(problem.error_changes(&state)),
+            "parameter factors: 3 x 1 instead of 2 x 1"
         );
     }
 }
@@ -201,16 +212,16 @@ fn a_state_of_another_model_has_no_derivatives() {
 /// Two neighbors that a change of mass couples more than they are apart: the recursion has no end, the eigensolution follows.
 #[test]
 fn a_change_of_mass_that_the_recursion_does_not_settle_on_is_refused() {
-    let model = DynamicModel {
-        stiffness: dmatrix![1.0, 0.0; 0.0, 1.1],
-        mass: dmatrix![1.0, 0.0; 0.0, 1.0],
-        shares: vec![ParameterMatrix::Mass(dmatrix![1.0, 0.9; 0.9, 1.0])],
+    let share = dmatrix![1.0, 0.9; 0.9, 1.0];
+    let springs = Uncoupled {
+        springs: &[1.0, 1.1],
+        test: &[1.0, 1.1],
     };
-    let test = ModeSet::new(dvector![1.0, 1.1], dmatrix![1.0, 0.0; 0.0, 1.0]).expect("modes");
-    let problem = model.analyze(&test, None).expect("a problem");
-    let at = |rule| ModalState::at(&problem, vec![3.0], rule);
-    assert!(at(UpdateRule::Eigensolution).is_ok());
-    let refused = at(UpdateRule::Recursive1);
+    let problem = springs.with_mass(share.clone());
+    let none = DMatrix::zeros(2, 2);
+    let change = ModalChange::of_vibrations(&dvector![1.0, 1.1], none, 2.0 * share);
+    assert!(eigensolution(&change).is_ok());
+    let refused = problem.at(&[3.0]);
     assert!(
         matches!(
             refused,

@@ -1,82 +1,86 @@
 //! Mass parameters that cannot be are refused.
 
-use crate::spec::s2_parameters_mass::{DENSITY, boxed, point_masses};
+use crate::common::said;
+use crate::common::structures::spring_stiffness;
+use crate::common::whole_models::{of_dense, sparse};
 use corfem::method::error::Error;
-use corfem::method::model::{FiniteElementModel, Parameter, Scaled};
+use corfem::method::step::Bounds;
+use corfem::sparse::{ParameterMatrix, SparseMatrix, WholeModel, WholeParameter, WholeShare};
+use nalgebra::{DMatrix, dmatrix};
 
-#[test]
-fn bad_mass_parameters_name_the_offender() {
-    let unknown = boxed(
-        vec![Parameter::of("far", Scaled::PointMass, &[9])],
-        DENSITY,
-        [1.0; 9],
-    );
-    let Err(Error::Unknown {
-        owner,
-        what: "dynamic degree of freedom",
-        label: 9,
-    }) = unknown
-    else {
-        panic!("{:?}", unknown.err())
-    };
-    assert_eq!(owner, "parameter far");
-    let unknown = boxed(
-        vec![Parameter::of("far", Scaled::ElementMass, &[40])],
-        DENSITY,
-        [1.0; 9],
-    );
-    assert!(
-        matches!(unknown, Err(Error::Unknown { ref owner, what: "element", label: 40 }) if owner == "parameter far")
-    );
-    let twice = vec![
-        Parameter::of("a", Scaled::PointMass, &[3]),
-        Parameter::of("b", Scaled::PointMass, &[4, 3]),
-    ];
-    let shared = boxed(twice, DENSITY, [1.0; 9]);
-    assert!(
-        matches!(shared, Err(Error::SharedElement { element: 3, ref first, ref second }) if first == "a" && second == "b")
-    );
-    // The same element may have its stiffness in one parameter and its mass in another.
-    let both = vec![
-        Parameter::element(3, None),
-        Parameter::of("mass of 3", Scaled::ElementMass, &[3]),
-    ];
-    assert!(boxed(both, DENSITY, [1.0; 9]).is_ok());
-    let empty = boxed(
-        vec![Parameter::of("none", Scaled::PointMass, &[])],
-        DENSITY,
-        [1.0; 9],
-    );
-    assert!(matches!(
-        empty,
-        Err(Error::Empty {
-            what: "members of a parameter"
-        })
-    ));
-    assert!(matches!(
-        boxed(vec![], DENSITY, [1.0; 9]),
-        Err(Error::Empty { what: "parameters" })
-    ));
-    assert!(matches!(
-        boxed(point_masses(), -1.0, [1.0; 9]),
-        Err(Error::NotPositive {
-            what: "density",
-            ..
-        })
-    ));
+/// Two unit masses on two springs with these shares.
+fn whole(shares: &[ParameterMatrix]) -> Result<(WholeModel, SparseMatrix), Error> {
+    let stiffness = spring_stiffness(2, 0, 1.0) + spring_stiffness(2, 1, 1.0);
+    of_dense(&stiffness, &DMatrix::identity(2, 2), shares)
 }
 
 #[test]
-fn point_mass_coupled_to_others_cannot_be_scaled() {
-    let model = boxed(point_masses(), DENSITY, [1.0; 9]).expect("a model");
-    let mut mass = model.mass().clone();
-    mass[(4, 6)] = 0.001;
-    mass[(6, 4)] = 0.001;
-    let parameters = |dof| vec![Parameter::of("p", Scaled::PointMass, &[dof])];
-    let make = |dof| {
-        let t = model.load_distribution().clone();
-        FiniteElementModel::new(model.structure().clone(), t, mass.clone(), parameters(dof))
+fn shares_of_the_mass_that_cannot_be_are_named() {
+    for (share, words) in [
+        (DMatrix::identity(2, 2), "an answer"),
+        (
+            DMatrix::identity(3, 3),
+            "mass of a parameter: 3 x 1 instead of 2 x 1",
+        ),
+        (
+            DMatrix::identity(2, 3),
+            "mass of a parameter: 3 x 1 instead of 2 x 1",
+        ),
+        (
+            dmatrix![1.0, 0.0; 0.25, 1.0],
+            "relative difference of mass of a parameter, entry (1, 0) beside its mirror is 0.25; it must be at most 1e-11: the matrix must be symmetric",
+        ),
+        (
+            dmatrix![1.0, 0.0; 0.0, f64::NAN],
+            "matrix of entry (1, 1) is NaN; it must be a finite number",
+        ),
+    ] {
+        assert_eq!(said(whole(&[ParameterMatrix::Mass(share)])), words);
+    }
+}
+
+/// A part of the structure may have its stiffness in one parameter and its mass in another.
+#[test]
+fn factors_on_masses_are_refused_by_their_parameter() {
+    let shares = [
+        ParameterMatrix::Stiffness(spring_stiffness(2, 1, 1.0)),
+        ParameterMatrix::Mass(DMatrix::identity(2, 2)),
+    ];
+    let (model, _) = whole(&shares).expect("a model");
+    assert_eq!(said(model.at(&[1.0, 0.5])), "an answer");
+    for (factors, words) in [
+        (&[1.0][..], "parameter factors: 1 x 1 instead of 2 x 1"),
+        (
+            &[1.0, 0.0][..],
+            "factor of parameter 1 is 0; it must be positive and finite",
+        ),
+        (
+            &[1.0, f64::NAN][..],
+            "factor of parameter 1 is NaN; it must be positive and finite",
+        ),
+    ] {
+        assert_eq!(said(model.modes(factors, 1)), words);
+    }
+}
+
+#[test]
+fn bounds_on_masses_are_refused_by_their_parameter() {
+    let one = || sparse(&dmatrix![1.0]).expect("a matrix");
+    let bounded = |lower: f64, upper: f64| {
+        let parameter = WholeParameter {
+            name: "fuel".into(),
+            share: WholeShare::Mass(one()),
+            range: Some(Bounds { lower, upper }),
+        };
+        said(WholeModel::new(one(), one(), vec![parameter]))
     };
-    assert!(matches!(make(6), Err(Error::CoupledMass(6))));
-    assert!(make(5).is_ok());
+    assert_eq!(bounded(0.5, 2.0), "an answer");
+    assert_eq!(
+        bounded(1.5, 2.0),
+        "factor of parameter fuel: 1.5 to 2 exclude the starting factor 1"
+    );
+    assert_eq!(
+        bounded(2.0, 0.5),
+        "factor of parameter fuel: 2 to 0.5 is no range; the lower limit must be positive, the upper one larger and finite"
+    );
 }

@@ -22,7 +22,6 @@ pub mod s02_plain_program;
 pub mod s0_strategies;
 pub mod s0_structure;
 pub mod s00_two_programs;
-pub mod s00_two_programs_gradient;
 pub mod s01_any_size;
 pub mod s1_eq_01_flexibility;
 pub mod s1_eq_02_transformation;

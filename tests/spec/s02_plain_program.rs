@@ -5,21 +5,19 @@ mod program;
 
 use crate::common::tolerances::{SAME_CORRELATION, SAME_ON_THE_WAY};
 use corfem::method::model::FiniteElementModel;
-use corfem::method::modes::ModeSet;
 use corfem::method::outer_loop::correlate;
 use corfem::method::step::StepRule;
 use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, PUBLISHED_RUNS};
 use corfem::torque_box::{CASES, Case};
 
 fn assert_same(what: &str, model: &FiniteElementModel, case: &Case, modes: (usize, usize)) {
-    let test: ModeSet = case
+    let test = case
         .test_modes()
         .and_then(|all| Ok(all.lowest(modes.0)?))
-        .expect("test modes")
-        .into();
+        .expect("test modes");
     let analyze = |factors: &[f64]| model.analyze(factors, &test, Some(modes.1));
     let ranges = model.factor_ranges().expect("ranges");
-    let expected = correlate(analyze, &ranges, &case.settings, |_, _| {}).expect("a correlation");
+    let expected = correlate(analyze, &ranges, &case.settings, |_, _| true).expect("a correlation");
     let mut problem = program::torque_box(case);
     problem.test = program::Modes {
         omega_squared: test.omega_squared().clone(),
@@ -39,7 +37,7 @@ fn assert_same(what: &str, model: &FiniteElementModel, case: &Case, modes: (usiz
             let apart = (found - expected).abs() / (expected - 1.0).abs().max(1.0);
             assert!(apart <= SAME_ON_THE_WAY, "{what}: {apart:e}");
         }
-        let sizes = model.at(&expected.factors).expect("sizes").sizes;
+        let sizes = model.sizes(&expected.factors).expect("sizes");
         for (found, expected) in gages.iter().zip(sizes) {
             let apart = (found / expected - 1.0).abs();
             assert!(apart <= SAME_CORRELATION, "{what}: {apart:e}");
@@ -53,8 +51,8 @@ fn assert_same(what: &str, model: &FiniteElementModel, case: &Case, modes: (usiz
 fn the_plain_program_corrects_every_case_by_every_reading_as_the_crate_does() {
     for number in CASES {
         for rule in [
-            StepRule::Norm,
-            StepRule::Diagonal,
+            StepRule::Matrix,
+            StepRule::Own,
             StepRule::Relative,
             StepRule::Gage,
         ] {

@@ -2,11 +2,11 @@
 
 use crate::common::matrices::{rank_of_semidefinite, relative_distance};
 use crate::common::panels::{Sample, sample};
+use crate::common::said;
 use crate::common::strategies::{point, rotation};
 use crate::common::tolerances::ELEMENT_ROUND_OFF;
 use corfem::method::error::Error;
-use corfem::method::geometry::Geometry;
-use corfem::method::structure::ElementKind;
+use corfem::method::structure::{ElementKind, check_corners};
 use nalgebra::{DMatrix, DVector, Vector3};
 use proptest::prelude::*;
 
@@ -124,15 +124,17 @@ properties! {
 fn the_wrong_number_of_corners_is_refused() {
     for kind in [
         ElementKind::Rod,
+        ElementKind::Triangle,
         ElementKind::ShearPanel,
         ElementKind::Membrane,
     ] {
-        for count in (0..6).filter(|&count| count != kind.corner_count()) {
-            let refused = Geometry::new(kind, &vec![Vector3::zeros(); count]);
-            assert!(
-                matches!(refused, Err(Error::WrongCornerCount { expected, found })
-                    if expected == kind.corner_count() && found == count),
-                "{kind:?} of {count}: {refused:?}"
+        let corners = kind.corner_count();
+        for count in (0..6).filter(|&count| count != corners) {
+            assert_eq!(
+                said(check_corners(7, kind, &vec![Vector3::zeros(); count])),
+                format!(
+                    "corners of an element: {count} given or asked for; there must be {corners} to {corners}"
+                )
             );
         }
     }
@@ -142,21 +144,25 @@ fn the_wrong_number_of_corners_is_refused() {
 fn a_rod_needs_length_beyond_the_round_off_of_its_ends() {
     let from = Vector3::new(1.0, 0.0, 0.0);
     let along = |length: f64| {
-        Geometry::new(
-            ElementKind::Rod,
-            &[from, from + Vector3::new(length, 0.0, 0.0)],
-        )
+        let ends = [from, from + Vector3::new(length, 0.0, 0.0)];
+        check_corners(7, ElementKind::Rod, &ends)
     };
     for length in [0.0, 1.5e-12, -1.5e-12, f64::NAN] {
         let refused = along(length);
         assert!(
-            matches!(refused, Err(Error::ZeroLength(found)) if found.is_nan() || found <= 2e-12),
+            matches!(&refused, Err(Error::Degenerate { element: 7, what, ratio })
+                if what == "the rod has no length" && (ratio.is_nan() || *ratio <= 1e-12)),
             "{length:e}: {refused:?}"
         );
     }
     assert!(along(3e-12).is_ok());
-    assert!(matches!(
-        Geometry::new(ElementKind::Rod, &[Vector3::zeros(); 2]),
-        Err(Error::ZeroLength(0.0))
-    ));
+    assert_eq!(
+        said(along(0.0)),
+        "element 7: the rod has no length (0.000e0 of its size)"
+    );
+    // Both ends at the origin leave no size either.
+    assert_eq!(
+        said(check_corners(7, ElementKind::Rod, &[Vector3::zeros(); 2])),
+        "element 7: the rod has no length (NaN of its size)"
+    );
 }

@@ -1,12 +1,14 @@
 //! Lumped masses of single elements.
 
+use crate::common::panels::{Sample, sample};
+use crate::common::said;
 use crate::common::strategies::{point, rotation};
+use crate::common::structures::grid;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use approx::assert_relative_eq;
-use corfem::method::elements::corner_volumes;
-use corfem::method::error::Error;
-use corfem::method::geometry::Geometry;
-use corfem::method::structure::ElementKind;
+use corfem::files::deck::BulkData;
+use corfem::method::structure::{Element, ElementKind, Material, Structure, check_corners};
+use corfem::sparse::elements::{corner_volumes, lumped_masses};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
@@ -15,27 +17,20 @@ fn rectangle_and_triangle_lump_equally_and_rod_by_halves() {
     let at = |x, y| Vector3::new(x, y, 0.0);
     let rectangle = [at(0.0, 0.0), at(4.0, 0.0), at(4.0, 3.0), at(0.0, 3.0)];
     for kind in [ElementKind::ShearPanel, ElementKind::Membrane] {
-        assert_eq!(
-            corner_volumes(&Geometry::new(kind, &rectangle).expect("four corners")),
-            vec![3.0; 4]
-        );
+        assert_eq!(corner_volumes(kind, &rectangle), vec![3.0; 4]);
     }
     assert_eq!(
-        corner_volumes(&Geometry::new(ElementKind::Triangle, &rectangle[..3]).expect("three")),
+        corner_volumes(ElementKind::Triangle, &rectangle[..3]),
         vec![2.0; 3]
     );
     assert_eq!(
-        corner_volumes(&Geometry::new(ElementKind::Rod, &rectangle[1..3]).expect("two")),
+        corner_volumes(ElementKind::Rod, &rectangle[1..3]),
         vec![1.5; 2]
     );
-    let error = Geometry::new(ElementKind::Rod, &rectangle).expect_err("four corners");
-    assert!(matches!(
-        error,
-        Error::WrongCornerCount {
-            expected: 2,
-            found: 4
-        }
-    ));
+    assert_eq!(
+        said(check_corners(1, ElementKind::Rod, &rectangle)),
+        "corners of an element: 4 given or asked for; there must be 2 to 2"
+    );
 }
 
 #[test]
@@ -43,8 +38,7 @@ fn trapezoid_lumps_more_where_it_is_wider() {
     let at = |x, y| Vector3::new(x, y, 0.0);
     // Sides 6 (bottom) and 2 (top), height 3: area 12; corner triangles 9, 9, 3, 3.
     let corners = [at(0.0, 0.0), at(6.0, 0.0), at(4.0, 3.0), at(2.0, 3.0)];
-    let volumes =
-        corner_volumes(&Geometry::new(ElementKind::ShearPanel, &corners).expect("four corners"));
+    let volumes = corner_volumes(ElementKind::ShearPanel, &corners);
     let expected = [21.0 / 6.0, 21.0 / 6.0, 15.0 / 6.0, 15.0 / 6.0];
     for (found, expected) in volumes.iter().zip(expected) {
         assert_relative_eq!(*found, expected, max_relative = ROUND_OFF);
@@ -66,7 +60,7 @@ fn warped_quadrilateral_lumps_the_area_of_its_diagonals_beside_true_corner_trian
     let (raised, beside) = (9.0 * 22.0_f64.sqrt(), 3.0 * 117.0_f64.sqrt());
     let expected = [beside, 18.0, beside, raised].map(|corner| (area + corner) / 6.0);
     for kind in [ElementKind::ShearPanel, ElementKind::Membrane] {
-        let volumes = corner_volumes(&Geometry::new(kind, &corners).expect("four corners"));
+        let volumes = corner_volumes(kind, &corners);
         assert_eq!(volumes.len(), 4);
         for (found, expected) in volumes.iter().zip(expected) {
             assert_relative_eq!(*found, expected, max_relative = ROUND_OFF);
@@ -82,11 +76,11 @@ properties! {
         offset in point(), turn in rotation(), x3 in 1.0..8.0, y3 in 1.0..8.0, x4 in -1.0..1.0, y4 in 1.0..8.0,
     ) {
         let flat = [[0.0, 0.0], [5.0, 0.0], [x3, y3], [x4, y4]].map(|[x, y]| Vector3::new(x, y, 0.0));
-        prop_assume!(Geometry::new(ElementKind::Membrane, &flat).is_ok());
+        prop_assume!(check_corners(1, ElementKind::Membrane, &flat).is_ok());
         let moved = flat.map(|corner| turn * corner + offset);
         for (kind, count) in [(ElementKind::Rod, 2), (ElementKind::Triangle, 3), (ElementKind::Membrane, 4)] {
-            let here = corner_volumes(&Geometry::new(kind, &flat[..count]).expect("fits"));
-            let there = corner_volumes(&Geometry::new(kind, &moved[..count]).expect("fits"));
+            let here = corner_volumes(kind, &flat[..count]);
+            let there = corner_volumes(kind, &moved[..count]);
             prop_assert_eq!(here.len(), count);
             for (a, b) in here.iter().zip(there) {
                 // Offsets of 100 in and areas of some in²: the difference of two large coordinates.
@@ -94,4 +88,91 @@ properties! {
             }
         }
     }
+
+    /// Corners of a flat element share all of its volume; those of a warped one a little more than that of its mean plane.
+    #[test]
+    fn lumped_volumes_sum_to_the_elements(sample in sample()) {
+        let Sample { kind, corners, warped, .. } = sample;
+        let sum: f64 = corner_volumes(kind, &corners).iter().sum();
+        let volume = match kind {
+            ElementKind::Rod => (corners[1] - corners[0]).norm(),
+            ElementKind::Triangle => 0.5 * (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).norm(),
+            _ => 0.5 * (corners[2] - corners[0]).cross(&(corners[3] - corners[1])).norm(),
+        };
+        let excess = sum / volume - 1.0;
+        if warped && corners.len() == 4 {
+            prop_assert!(excess > 0.0, "{excess:e}");
+        } else {
+            prop_assert!(excess.abs() <= MATRIX_ROUND_OFF, "{excess:e}");
+        }
+    }
+
+    /// The mass of a corner is density times size times its volume, alike along x, y and z, at whatever is free of it; a deck has it in
+    /// the same places.
+    #[test]
+    fn a_corner_moves_with_its_mass_in_every_direction(
+        sample in sample(), density in 1e-4..1e-2_f64, size in 0.01..0.5_f64, held in prop::collection::vec(any::<[bool; 3]>(), 4),
+    ) {
+        let structure = structure(&sample, density, size, &held);
+        let (element, corners) = (&structure.elements()[0], &structure.corners()[0]);
+        let expected: Vec<f64> =
+            corner_volumes(sample.kind, corners).iter().map(|volume| density * size * volume).collect();
+        let rows = structure.free_dof().iter().enumerate();
+        let at_free: Vec<(usize, f64)> = rows.map(|(row, dof)| (row, expected[dof.grid - 1])).collect();
+        let found = lumped_masses(&structure, element, corners);
+        prop_assert_eq!(found.len(), at_free.len());
+        for ((row, mass), (expected_row, expected)) in found.iter().zip(&at_free) {
+            prop_assert!(row == expected_row && (mass / expected - 1.0).abs() <= ROUND_OFF);
+        }
+        let deck = BulkData::from_structure(&structure);
+        let placed = deck.placed_masses().expect("masses");
+        prop_assert_eq!(placed.len(), corners.len());
+        for ((place, mass), (corner, expected)) in placed.iter().zip(corners.iter().zip(&expected)) {
+            prop_assert_eq!(place, corner);
+            prop_assert!((mass / *expected - Vector3::repeat(1.0)).amax() <= ROUND_OFF);
+        }
+        if !at_free.is_empty() {
+            let moving = deck.mass_dof(&structure).expect("masses");
+            prop_assert_eq!(moving.dof.as_slice(), structure.free_dof());
+            for (mass, (_, expected)) in moving.mass.iter().zip(&at_free) {
+                prop_assert!((mass / expected - 1.0).abs() <= ROUND_OFF);
+            }
+        }
+    }
+}
+
+/// The sample alone with this density and size, its corners as grids from one on, held where they are.
+fn structure(sample: &Sample, density: f64, size: f64, held: &[[bool; 3]]) -> Structure {
+    let grids = sample.corners.iter().zip(held).zip(1..);
+    let grids = grids.map(|((&corner, &held), label)| grid(label, corner.into(), held));
+    let element = Element {
+        label: 1,
+        kind: sample.kind,
+        grids: (1..=sample.corners.len()).collect(),
+        size,
+        material: Material {
+            density,
+            ..sample.material
+        },
+    };
+    Structure::new(grids.collect(), vec![element]).expect("a structure")
+}
+
+/// An element without a density has no mass.
+#[test]
+fn a_material_without_density_has_no_lumped_mass() {
+    let corners = [Vector3::zeros(), Vector3::x()];
+    let rod = Sample {
+        kind: ElementKind::Rod,
+        corners: corners.to_vec(),
+        warped: false,
+        material: Material::isotropic(1e7, 0.3).expect("a material"),
+    };
+    let structure = structure(&rod, 0.0, 0.5, &[[false; 3]; 2]);
+    let element = &structure.elements()[0];
+    assert!(lumped_masses(&structure, element, &structure.corners()[0]).is_empty());
+    assert_eq!(
+        said(BulkData::from_structure(&structure).mass_dof(&structure)),
+        "degrees of freedom with mass: 0 given or asked for; there must be at least 1"
+    );
 }

@@ -5,7 +5,7 @@ use crate::common::strategies::positive_definite;
 use crate::common::structures::spring_stiffness;
 use crate::common::tolerances::{EIGEN_ROUND_OFF, EQUALLY_LARGE, MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::vibrations::{modes_by_nalgebra, pencil};
-use corfem::method::modes::{ModeSet, apply_sign_rule, solve};
+use corfem::method::modes::{Modes, apply_sign_rule, solve};
 use nalgebra::{DMatrix, dmatrix, dvector};
 use proptest::prelude::*;
 use std::f64::consts::PI;
@@ -107,7 +107,7 @@ properties! {
         for (mut shape, &(scale, flip)) in raw.column_iter_mut().zip(&scales) {
             shape *= if flip { -scale } else { scale };
         }
-        let measured = ModeSet::from_measured(&modes.frequencies_hz(), &raw)
+        let measured = Modes::from_measured(&modes.frequencies_hz(), &raw)
             .and_then(|measured| measured.scaled_with(&mass))
             .unwrap();
         prop_assert_eq!(measured.len(), modes.len());
@@ -166,7 +166,6 @@ fn two_masses_by_hand() {
     let mass = dmatrix![0.25, 0.0; 0.0, 0.5];
     let modes = solve(&stiffness, &mass, 2).unwrap();
     assert_eq!(modes.len(), 2);
-    assert!(!modes.is_empty());
     for (found, expected) in modes
         .omega_squared()
         .iter()
@@ -205,7 +204,7 @@ fn nearly_symmetric_stiffness_is_taken_as_symmetric() {
 #[test]
 fn measured_modes_by_hand() {
     // Mass 4 and shape 3: generalized mass 36, so the shape becomes 1/2; 1 Hz is (2 pi)^2.
-    let modes = ModeSet::from_measured(&[1.0, 0.5], &dmatrix![-3.0, 0.0; 0.0, 2.0])
+    let modes = Modes::from_measured(&[1.0, 0.5], &dmatrix![-3.0, 0.0; 0.0, 2.0])
         .and_then(|measured| measured.scaled_with(&dmatrix![4.0, 0.0; 0.0, 25.0]))
         .unwrap();
     assert_eq!(*modes.shapes(), dmatrix![-0.5, 0.0; 0.0, 0.2]);
@@ -216,6 +215,6 @@ fn measured_modes_by_hand() {
 #[test]
 fn measured_modes_keep_their_order() {
     let identity = DMatrix::identity(2, 2);
-    let modes = ModeSet::from_measured(&[9.0, 4.0], &identity).unwrap();
+    let modes = Modes::from_measured(&[9.0, 4.0], &identity).unwrap();
     assert!(modes.omega_squared()[0] > modes.omega_squared()[1]);
 }

@@ -10,7 +10,7 @@
 use crate::common::tolerances::{RECOVERED_AREA, RIGID_ON_SUSPENSION};
 use corfem::method::error::Error;
 use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::modes::{ModeSet, solve};
+use corfem::method::modes::{Modes, solve};
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -79,14 +79,14 @@ fn chain(areas: [f64; 5], support: Support) -> Result<FiniteElementModel, Error>
 }
 
 /// Correlates the wrong chain with the modes of the right one, its `rigid` lowest left out.
-fn correlated(support: Support, rigid: usize) -> (Correlation, ModeSet) {
+fn correlated(support: Support, rigid: usize) -> (Correlation, Modes) {
     let truth = chain(TRUE_AREAS, support)
         .expect("a chain")
         .matrices(&[1.0; 5])
         .expect("held");
     let count = truth.mass.nrows();
     let all = solve(&truth.stiffness, &truth.mass, count).expect("solved");
-    let test = ModeSet::new(
+    let test = Modes::new(
         all.omega_squared().rows(rigid, count - rigid).into_owned(),
         all.shapes().columns(rigid, count - rigid).into_owned(),
     )
@@ -99,15 +99,16 @@ fn correlated(support: Support, rigid: usize) -> (Correlation, ModeSet) {
     // Exact test modes of a small chain: ask for more than the paper did.
     settings.inner.tolerance = 0.002;
     settings.later_inner_tolerance = 0.002;
+    let settings = settings.for_modes(test.len());
     let ranges = model.factor_ranges().expect("no bounds");
     let result = correlate(
         |factors| model.analyze(factors, &test, None),
         &ranges,
         &settings,
-        |_, _| {},
+        |_, _| true,
     )
     .expect("it runs");
-    (result, all.into())
+    (result, all)
 }
 
 fn assert_areas_found(result: &Correlation) {

@@ -6,8 +6,9 @@ use crate::common::pairings::{
 use crate::common::strategies::orthogonal;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::vibrations::{chain, pencil};
-use corfem::method::modes::{ModeSet, solve};
-use corfem::method::pairing::{Pairing, cross_orthogonality, modal_assurance, pair_modes, paired};
+use corfem::method::modes::{Modes, solve};
+use corfem::method::sorting::{Pairing, cross_orthogonality, pair_modes};
+use corfem::sparse::modal_assurance;
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
 
@@ -90,16 +91,16 @@ properties! {
         let factors = [1.0; 5];
         let test = chain.modes(&[1.1, 0.9, 1.2, 1.0, 0.8]);
         let analysis = chain.modes(&factors);
-        let paired = |analysis: &ModeSet, test: &ModeSet| {
+        let paired = |analysis: &Modes, test: &Modes| {
             let cross = cross_orthogonality(analysis, test, &chain.mass()).unwrap();
-            paired(analysis, &pair_modes(&cross).unwrap()).unwrap()
+            pair_modes(&cross).unwrap().paired(analysis).unwrap()
         };
         let expected = paired(&analysis, &test);
         prop_assert_eq!(expected.shapes().shape(), (5, 5));
-        let rearranged = ModeSet::new(analysis.omega_squared().select_rows(&change.order), change.columns(analysis.shapes())).expect("modes");
+        let rearranged = Modes::new(analysis.omega_squared().select_rows(&change.order), change.columns(analysis.shapes())).expect("modes");
         prop_assert_eq!(paired(&rearranged, &test), expected.clone());
         // Test modes in another order and sign take their partners with them.
-        let test = ModeSet::new(test.omega_squared().select_rows(&other.order), other.columns(test.shapes())).expect("modes");
+        let test = Modes::new(test.omega_squared().select_rows(&other.order), other.columns(test.shapes())).expect("modes");
         let followed = paired(&analysis, &test);
         prop_assert_eq!(followed.omega_squared(), &expected.omega_squared().select_rows(&other.order));
         prop_assert_eq!(followed.shapes(), &other.columns(expected.shapes()));
@@ -174,7 +175,7 @@ fn a_shape_without_a_sign_keeps_its_own() {
 #[test]
 fn cross_orthogonality_by_hand() {
     let modes = |shapes: DMatrix<f64>| {
-        ModeSet::new(DVector::from_element(shapes.ncols(), 1.0), shapes).expect("modes")
+        Modes::new(DVector::from_element(shapes.ncols(), 1.0), shapes).expect("modes")
     };
     let analysis = modes(dmatrix![1.0, 2.0, 0.0; 0.0, 1.0, -1.0]);
     let test = modes(dmatrix![3.0; 5.0]);
@@ -186,13 +187,13 @@ fn cross_orthogonality_by_hand() {
 
 #[test]
 fn paired_by_hand() {
-    let analysis = ModeSet::new(
+    let analysis = Modes::new(
         dvector![1.0, 4.0, 9.0],
         dmatrix![1.0, 2.0, 3.0; 4.0, 5.0, 6.0],
     )
     .expect("modes");
     let pairing = Pairing::new(vec![2, 0], vec![-1.0, 1.0]).unwrap();
-    let paired = paired(&analysis, &pairing).unwrap();
+    let paired = pairing.paired(&analysis).unwrap();
     assert_eq!(*paired.omega_squared(), dvector![9.0, 1.0]);
     assert_eq!(*paired.shapes(), dmatrix![-3.0, 1.0; -6.0, 4.0]);
 }

@@ -1,13 +1,16 @@
 //! The objective (5, 6): zero only on equal modes, blind to scale and sign of shapes, relative in frequency.
 
-use crate::common::alter;
+use crate::common::boxes::first_problem;
 use crate::common::pairings::rearrangement;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, PRINTED_PERCENT, ROUND_OFF};
 use crate::common::vibrations::{chain_and_truth, error_sum_by_definition};
+use crate::common::{alter, assert_refused};
+use corfem::method::analysis::Analysis;
 use corfem::method::error::Error;
-use corfem::method::error_sum::{Errors, errors};
-use corfem::method::modes::ModeSet;
-use corfem::method::pairing::{Pairing, cross_orthogonality, pair_modes};
+use corfem::method::error_sum::{Errors, errors, mode_errors};
+use corfem::method::modes::Modes;
+use corfem::method::sorting::{Pairing, cross_orthogonality, pair_modes};
+use corfem::sparse::{ModeWeight, SensorModel};
 use corfem::torque_box::published::PublishedTable;
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
@@ -25,7 +28,7 @@ properties! {
         let modes = chain.modes(&truth);
         let found = errors(&modes, &in_order(modes.len()), &modes).unwrap();
         prop_assert_eq!((found.frequency, found.shape, found.sum()), (0.0, 0.0, 0.0));
-        prop_assert_eq!(found.mode_count, modes.len());
+        prop_assert_eq!((found.frequency_count, found.shape_count), (modes.len(), modes.len()));
     }
 
     #[test]
@@ -43,7 +46,7 @@ properties! {
     ) {
         let (analysis, test) = (chain.modes(&vec![1.0; truth.len()]), chain.modes(&truth));
         let expected = errors(&analysis, &in_order(test.len()), &test).unwrap();
-        let (mut scaled, mut scaled_test) = (ModeSet::from(analysis.clone()), ModeSet::from(test.clone()));
+        let (mut scaled, mut scaled_test) = (analysis.clone(), test.clone());
         let mut signs = vec![1.0; test.len()];
         for (mode, (scale, flip, test_scale)) in scales.into_iter().take(test.len()).enumerate() {
             let sign = if flip { -1.0 } else { 1.0 };
@@ -64,7 +67,7 @@ properties! {
         let (analysis, test) = (chain.modes(&vec![1.0; truth.len()]), chain.modes(&truth));
         let expected = errors(&analysis, &in_order(test.len()), &test).unwrap();
         let order: Vec<usize> = change.order.iter().copied().filter(|&i| i < test.len()).collect();
-        let reordered = ModeSet::new(test.omega_squared().select_rows(&order), test.shapes().select_columns(&order)).expect("modes");
+        let reordered = Modes::new(test.omega_squared().select_rows(&order), test.shapes().select_columns(&order)).expect("modes");
         let pairing = Pairing::new(order, vec![1.0; test.len()]).unwrap();
         let found = errors(&analysis, &pairing, &reordered).unwrap();
         prop_assert!((found.frequency - expected.frequency).abs() <= ROUND_OFF);
@@ -77,7 +80,7 @@ properties! {
         error in -0.5..1.0_f64,
     ) {
         let test = chain.modes(&truth);
-        let analysis = ModeSet::new((1.0 + error).powi(2) * test.omega_squared(), test.shapes().clone()).expect("modes");
+        let analysis = Modes::new((1.0 + error).powi(2) * test.omega_squared(), test.shapes().clone()).expect("modes");
         let found = errors(&analysis, &in_order(test.len()), &test).unwrap();
         let count = test.len() as f64;
         prop_assert!((found.frequency - error.abs() * count.sqrt()).abs() <= ROUND_OFF);
@@ -102,29 +105,26 @@ properties! {
 fn errors_by_hand() {
     // Frequencies 1.1 and 1.8 against 1 and 2: (0.1)^2 + (-0.1)^2. Shapes (2, 1) against (1, 0) is (1, 1/2) against
     // (1, 0), and (1, -3) against (-1, 4), turned, is (-1/3, 1) against (-1/4, 1): (1/4 + 1/144)/2.
-    let analysis =
-        ModeSet::new(dvector![3.24, 1.21], dmatrix![1.0, 2.0; -3.0, 1.0]).expect("modes");
-    let test = ModeSet::new(dvector![1.0, 4.0], dmatrix![1.0, -1.0; 0.0, 4.0]).expect("modes");
+    let analysis = Modes::new(dvector![3.24, 1.21], dmatrix![1.0, 2.0; -3.0, 1.0]).expect("modes");
+    let test = Modes::new(dvector![1.0, 4.0], dmatrix![1.0, -1.0; 0.0, 4.0]).expect("modes");
     let pairing = Pairing::new(vec![1, 0], vec![1.0, -1.0]).unwrap();
     let found = errors(&analysis, &pairing, &test).unwrap();
     assert!((found.frequency - 0.02_f64.sqrt()).abs() <= ROUND_OFF);
     assert!((found.shape - (37.0 / 288.0_f64).sqrt()).abs() <= ROUND_OFF);
-    assert_eq!(found.mode_count, 2);
+    assert_eq!((found.frequency_count, found.shape_count), (2, 2));
 }
 
 #[test]
 fn squares_too_large_for_a_number_are_refused_as_such() {
-    let modes = |scale| ModeSet::new(dvector![scale], dmatrix![1.0]).expect("modes");
-    let error = errors(&modes(1e300), &in_order(1), &modes(1e-20)).unwrap_err();
-    assert!(
-        matches!(
-            error,
-            Error::NotFinite {
-                what: "error sum",
-                ..
-            }
-        ),
-        "{error}"
+    let modes = |scale| Modes::new(dvector![scale], dmatrix![1.0]).expect("modes");
+    assert_refused(
+        errors(&modes(1e300), &in_order(1), &modes(1e-20)),
+        Error::Value {
+            what: "error sum",
+            owner: "these modes".into(),
+            value: f64::INFINITY,
+            expected: "a finite number",
+        },
     );
 }
 
@@ -133,12 +133,74 @@ fn sums_and_root_mean_squares_by_hand() {
     let errors = Errors {
         frequency: 0.3,
         shape: 0.6,
-        mode_count: 9,
-        lone_count: 0,
+        frequency_count: 9,
+        shape_count: 4,
     };
     assert!((errors.sum() - 0.9).abs() <= ROUND_OFF);
     assert!((errors.frequency_rms() - 0.1).abs() <= ROUND_OFF);
-    assert!((errors.shape_rms() - 0.2).abs() <= ROUND_OFF);
+    assert!((errors.shape_rms() - 0.3).abs() <= ROUND_OFF);
+}
+
+/// Errors of the box's test modes with weights from zero to two.
+#[test]
+fn weights_multiply_the_errors_of_their_modes() {
+    let plain = SensorModel::from(&first_problem(2));
+    let weight = |mode: usize| ModeWeight {
+        frequency: mode as f64 % 3.0,
+        shape: (mode + 1) as f64 % 3.0,
+    };
+    let weights: Vec<ModeWeight> = (0..plain.test().len()).map(weight).collect();
+    let exact = plain.exact();
+    let of_modes = mode_errors(&exact.modes, &exact.pairing, plain.test()).unwrap();
+    let both = of_modes.iter().zip(&weights);
+    let frequency: f64 = both
+        .clone()
+        .map(|(error, weight)| (weight.frequency * error.frequency).powi(2))
+        .sum();
+    let shape: f64 = both
+        .map(|(error, weight)| (weight.shape * error.shape).powi(2))
+        .sum();
+    let weighted = plain.clone().weighted(&weights).unwrap();
+    let found = weighted.exact().errors;
+    assert!((found.frequency - frequency.sqrt()).abs() <= ROUND_OFF);
+    assert!((found.shape - shape.sqrt()).abs() <= ROUND_OFF);
+    // They do so wherever errors are taken, and weights of one change nothing.
+    let factors = [0.9; 15];
+    let at = |model: &SensorModel| model.at(&factors).unwrap().errors;
+    assert_ne!(at(&weighted), at(&plain));
+    let ones = plain
+        .clone()
+        .weighted(&vec![ModeWeight::ONE; weights.len()])
+        .unwrap();
+    assert_eq!(ones.exact().errors, exact.errors);
+    assert_eq!(at(&ones), at(&plain));
+    for (frequency, shape, value) in [
+        (-1.0, 1.0, -1.0),
+        (1.0, f64::NAN, f64::NAN),
+        (f64::INFINITY, 1.0, f64::INFINITY),
+        (0.0, 0.0, 0.0),
+    ] {
+        let weight = ModeWeight { frequency, shape };
+        assert_refused(
+            plain.clone().weighted(&vec![weight; weights.len()]),
+            Error::Value {
+                what: "weight",
+                owner: "the test modes".into(),
+                value,
+                expected: "a finite number from zero up, one of them positive",
+            },
+        );
+    }
+    assert_refused(
+        plain.clone().weighted(&weights[1..]),
+        Error::WrongShape {
+            what: "weights",
+            expected_rows: 9,
+            expected_columns: 1,
+            rows: 8,
+            columns: 1,
+        },
+    );
 }
 
 #[test]
@@ -150,9 +212,8 @@ fn the_frequency_error_is_the_relative_one_of_table_3() {
             .map(|mode| table.required(&mode.to_string(), heading).unwrap())
             .collect()
     };
-    let modes = |frequencies: &[f64]| {
-        ModeSet::from_measured(frequencies, &DMatrix::identity(9, 9)).unwrap()
-    };
+    let modes =
+        |frequencies: &[f64]| Modes::from_measured(frequencies, &DMatrix::identity(9, 9)).unwrap();
     let (test, analysis) = (modes(&column("gvt_hz")), modes(&column("initial_hz")));
     let found = errors(&analysis, &in_order(9), &test).unwrap();
     assert!((found.frequency - 0.3828).abs() <= PRINTED_PERCENT / 100.0);

@@ -6,7 +6,8 @@
 use crate::common::appendix_c::exact;
 use crate::common::boxes::first_problem;
 use crate::common::tolerances::{EIGEN_ROUND_OFF, WRONG_FORM};
-use corfem::method::appendix_c::Perturbed;
+use corfem::method::analysis::Analysis;
+use corfem::method::perturbation::Perturbed;
 use nalgebra::{DMatrix, DVector};
 
 pub const MODES: usize = 9;
@@ -24,7 +25,7 @@ impl Changed {
         let problem = first_problem(2);
         let mut beta = DMatrix::zeros(MODES, MODES);
         for (e, share) in problem.shares().iter().enumerate() {
-            beta += if e % 2 == 0 { 0.1 } else { -0.1 } * share.matrix();
+            beta += if e % 2 == 0 { 0.1 } else { -0.1 } * share;
         }
         let k = problem.exact().modes.omega_squared().clone();
         let Perturbed { roots, shapes } = exact(&k, &beta).expect("solved");

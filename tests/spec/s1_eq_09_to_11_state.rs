@@ -3,35 +3,27 @@
 use crate::common::alter;
 use crate::common::assert_refused;
 use crate::common::boxes::{first_problem, problem_of, uneven_box};
+use crate::common::loops::{chain_problem, exact_state};
 use crate::common::tolerances::{CONVERGED_STATE, MATRIX_ROUND_OFF, PRINTED_RMS, ROUND_OFF};
 use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
-use corfem::method::appendix_c::recursive_1_converged;
-use corfem::method::derivatives::{DerivativeRule, error_changes};
+use corfem::method::analysis::{Analysis, State};
+use corfem::method::appendix_a::generalized_stiffness;
 use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
-use corfem::method::modes::ModeSet;
-use corfem::method::state::{MOST_ORDERS, ModalState, ROOT_TOLERANCE, UpdateRule};
+use corfem::method::model::{DynamicModel, Parameter};
+use corfem::method::modes::Modes;
+use corfem::method::perturbation::{ROOT_TOLERANCE, recursive_1_converged};
 use corfem::torque_box::Case;
 use nalgebra::{DMatrix, dmatrix};
 use proptest::prelude::*;
-
-/// The problem of a chain with all its modes.
-fn problem(chain: &Chain, truth: &[f64]) -> ModalModel {
-    let count = truth.len();
-    chain
-        .model(&vec![1.0; count])
-        .analyze(&chain.modes(truth), Some(count))
-        .unwrap()
-}
 
 properties! {
     #![proptest_config(crate::common::config())]
 
     #[test]
     fn generalized_shares_sum_to_the_generalized_stiffness((chain, truth) in chain_and_truth()) {
-        let problem = problem(&chain, &truth);
+        let problem = chain_problem(&chain, &truth);
         prop_assert_eq!(problem.shares().len(), truth.len());
-        let sum: DMatrix<f64> = problem.shares().iter().map(ParameterMatrix::matrix).sum();
+        let sum: DMatrix<f64> = problem.shares().iter().sum();
         let expected = DMatrix::from_diagonal(problem.exact().modes.omega_squared());
         let error = (sum - &expected).amax();
         prop_assert!(error <= MATRIX_ROUND_OFF * expected.amax(), "{error:e}");
@@ -39,12 +31,12 @@ properties! {
 
     #[test]
     fn generalized_shares_are_those_of_the_start_modes((chain, truth) in chain_and_truth()) {
-        let problem = problem(&chain, &truth);
+        let problem = chain_problem(&chain, &truth);
         let model = chain.model(&vec![1.0; truth.len()]);
         for (share, generalized) in model.shares.iter().zip(problem.shares()) {
             let v = problem.exact().modes.shapes();
-            let expected = v.transpose() * share.matrix() * v;
-            prop_assert!((generalized.matrix() - &expected).amax() <= MATRIX_ROUND_OFF * expected.amax());
+            let expected = v.transpose() * share * v;
+            prop_assert!((generalized - &expected).amax() <= MATRIX_ROUND_OFF * expected.amax());
         }
     }
 
@@ -61,15 +53,16 @@ properties! {
 
     #[test]
     fn the_start_state_is_the_last_exact_solution((chain, truth) in chain_and_truth()) {
-        let problem = problem(&chain, &truth);
-        let state = ModalState::start(&problem);
-        prop_assert_eq!(state.factors(), &vec![1.0; truth.len()]);
-        prop_assert_eq!(state.modes(), &*problem.exact().modes);
-        prop_assert_eq!(state.generalized_shapes(), &DMatrix::identity(truth.len(), truth.len()));
+        let problem = chain_problem(&chain, &truth);
+        let (state, ones) = (problem.exact(), vec![1.0; truth.len()]);
+        prop_assert_eq!(&state.factors, &ones);
+        prop_assert_eq!(&state.modes, &chain.modes(&ones));
+        prop_assert_eq!(&state.generalized_shapes, &DMatrix::identity(truth.len(), truth.len()));
         // One is a factor like any other.
-        let same = ModalState::at(&problem, state.factors().to_vec(), UpdateRule::default()).unwrap();
-        prop_assert!((same.errors().sum() - state.errors().sum()).abs() <= ROUND_OFF);
-        prop_assert_eq!(same.pairing(), state.pairing());
+        let same = problem.at(&ones).unwrap();
+        prop_assert_eq!(&same.factors, &ones);
+        prop_assert!((same.errors.sum() - state.errors.sum()).abs() <= ROUND_OFF);
+        prop_assert_eq!(same.pairing, state.pairing.clone());
     }
 
     #[test]
@@ -80,29 +73,28 @@ properties! {
         // All the way round: perturbation in modal coordinates against an eigensolution of the physical matrices.
         let count = truth.len();
         let factors = &factors[..count];
-        let problem = problem(&chain, &truth);
+        let problem = chain_problem(&chain, &truth);
         let model = chain.model(factors);
         let expected = error_sum_by_definition(&model.stiffness, &model.mass, &chain.modes(&truth));
-        let changes = problem.shares().iter().zip(factors).map(|(share, factor)| (factor - 1.0) * share.matrix());
-        let k = problem.exact().modes.omega_squared();
-        let recursion = recursive_1_converged(k, &changes.sum(), ROOT_TOLERANCE, MOST_ORDERS);
-        for rule in [UpdateRule::Eigensolution, UpdateRule::Recursive1] {
-            // Where roots are close the recursion gains little an order, and sixty may not be enough for every digit.
-            if rule == UpdateRule::Recursive1 && !recursion.as_ref().is_ok_and(|it| it.last_change < ROOT_TOLERANCE) {
-                continue;
-            }
-            let state = ModalState::at(&problem, factors.to_vec(), rule).unwrap();
-            prop_assert_eq!(state.factors(), factors);
-            prop_assert!((state.errors().sum() - expected).abs() <= CONVERGED_STATE, "{rule:?}");
-            let v = state.modes().shapes();
+        let changes = problem.shares().iter().zip(factors).map(|(share, factor)| (factor - 1.0) * share);
+        let recursion = recursive_1_converged(problem.exact().modes.omega_squared(), &changes.sum());
+        let mut states = vec![("eigensolution", exact_state(&problem, factors).unwrap())];
+        // Where roots are close the recursion gains little an order, and sixty may not be enough for every digit.
+        if recursion.is_ok_and(|it| it.last_change < ROOT_TOLERANCE) {
+            states.push(("Recursive 1", problem.at(factors).unwrap()));
+        }
+        for (rule, State { factors: found, modes, generalized_shapes, errors, .. }) in states {
+            prop_assert_eq!(found, factors);
+            prop_assert!((errors.sum() - expected).abs() <= CONVERGED_STATE, "{rule}");
+            let v = modes.shapes();
             prop_assert_eq!(v.shape(), (count, count));
             let mass = v.tr_mul(&(&model.mass * v));
             prop_assert!((mass - DMatrix::identity(count, count)).amax() <= CONVERGED_STATE);
             let stiffness = v.tr_mul(&(&model.stiffness * v));
-            let diagonal = DMatrix::from_diagonal(state.modes().omega_squared());
+            let diagonal = DMatrix::from_diagonal(modes.omega_squared());
             prop_assert!((stiffness - &diagonal).amax() <= CONVERGED_STATE * diagonal.amax());
-            let g = state.generalized_shapes();
-            prop_assert!((problem.exact().modes.shapes() * g - v).amax() <= MATRIX_ROUND_OFF * v.amax());
+            let from_exact = problem.exact().modes.shapes() * generalized_shapes;
+            prop_assert!((from_exact - v).amax() <= MATRIX_ROUND_OFF * v.amax());
         }
     }
 
@@ -111,13 +103,14 @@ properties! {
         (chain, truth) in chain_and_truth(),
         factor in 0.5..1.5_f64,
     ) {
-        let problem = problem(&chain, &truth);
-        let state = ModalState::at(&problem, vec![factor; truth.len()], UpdateRule::default()).unwrap();
-        let expected = factor * problem.exact().modes.omega_squared();
-        let error = (state.modes().omega_squared() - &expected).amax();
+        let problem = chain_problem(&chain, &truth);
+        let state = problem.at(&vec![factor; truth.len()]).unwrap();
+        let before = &problem.exact().modes;
+        let expected = factor * before.omega_squared();
+        let error = (state.modes.omega_squared() - &expected).amax();
         prop_assert!(error <= MATRIX_ROUND_OFF * expected.amax(), "{error:e}");
-        let shapes = (state.modes().shapes() - problem.exact().modes.shapes()).amax();
-        prop_assert!(shapes <= MATRIX_ROUND_OFF * problem.exact().modes.shapes().amax(), "{shapes:e}");
+        let shapes = (state.modes.shapes() - before.shapes()).amax();
+        prop_assert!(shapes <= MATRIX_ROUND_OFF * before.shapes().amax(), "{shapes:e}");
     }
 }
 
@@ -128,7 +121,7 @@ properties! {
     fn shares_of_the_box_leave_the_rods_out(case in uneven_box()) {
         // The parameters are the panels; what the nine modes have beyond them is the rods' stiffness.
         let problem = problem_of(&case);
-        let panels: DMatrix<f64> = problem.shares().iter().map(ParameterMatrix::matrix).sum();
+        let panels: DMatrix<f64> = problem.shares().iter().sum();
         let rods = DMatrix::from_diagonal(problem.exact().modes.omega_squared()) - panels;
         let lowest = rods.symmetric_eigenvalues().min();
         prop_assert!(lowest >= -MATRIX_ROUND_OFF * problem.exact().modes.omega_squared().amax());
@@ -145,19 +138,17 @@ fn fewer_analysis_modes_are_the_lowest_ones() {
     assert_eq!(some.cross().shape(), (3, 2));
     assert_eq!(some.test_shares().len(), 5);
     assert_eq!(some.test_shares()[0].shape(), (2, 2));
-    assert_eq!(some.shares()[0].matrix().shape(), (3, 3));
-    assert_eq!(
-        ModalState::start(&some).generalized_shapes().shape(),
-        (3, 3)
-    );
+    assert_eq!(some.shares()[0].shape(), (3, 3));
+    assert_eq!(some.exact().generalized_shapes.shape(), (3, 3));
 }
 
 #[test]
 fn the_problem_of_case_1_has_its_errors() {
-    let state = ModalState::start(&first_problem(1));
+    let problem = first_problem(1);
+    let errors = problem.exact().errors;
     // Initial RMS errors of the reconstructed box, 12.1 and 7.56 % (published 12.76 and 7.67 %).
-    assert!((state.errors().frequency_rms() - 0.1211).abs() < PRINTED_RMS);
-    assert!((state.errors().shape_rms() - 0.0756).abs() < PRINTED_RMS);
+    assert!((errors.frequency_rms() - 0.1211).abs() < PRINTED_RMS);
+    assert!((errors.shape_rms() - 0.0756).abs() < PRINTED_RMS);
 }
 
 #[test]
@@ -169,72 +160,74 @@ fn problems_that_do_not_fit_are_refused() {
         change(&mut model);
         model.analyze(&test, Some(3))
     };
-    let fixed = new(&|model| model.shares.clear()).expect("modes");
-    assert!(matches!(
-        error_changes(
-            &fixed,
-            &ModalState::start(&fixed),
-            DerivativeRule::Definition
-        ),
-        Err(Error::Empty { what: "parameters" })
-    ));
-    assert!(matches!(
-        new(&|model| model.shares[1] = ParameterMatrix::Stiffness(DMatrix::identity(2, 2))),
-        Err(Error::WrongShape {
+    assert_refused(
+        new(&|model| model.shares[1] = DMatrix::identity(2, 2)),
+        Error::WrongShape {
             what: "parameter share",
             expected_rows: 3,
             expected_columns: 3,
             rows: 2,
-            columns: 2
-        })
-    ));
-    assert!(matches!(
-        new(&|model| model.shares[2] =
-            ParameterMatrix::Stiffness(dmatrix![1.0, 0.0, 0.0; 2.0, 1.0, 0.0; 0.0, 0.0, 1.0])),
-        Err(Error::NotSymmetric {
-            what: "parameter share",
-            row: 1,
-            column: 0,
-            ..
-        })
-    ));
-    assert!(matches!(
+            columns: 2,
+        },
+    );
+    assert_refused(
+        new(&|model| model.shares[2] = dmatrix![1.0, 0.0, 0.0; 2.0, 1.0, 0.0; 0.0, 0.0, 1.0]),
+        Error::Value {
+            what: "relative asymmetry",
+            owner: "parameter share".into(),
+            value: 1.0,
+            expected: "at most 1e-8",
+        },
+    );
+    assert_refused(
         new(&|model| model.mass[(1, 1)] = 0.0),
-        Err(Error::NotPositiveDefinite {
+        Error::NotPositiveDefinite {
             what: "dynamic mass",
-            dof: 1
-        })
-    ));
-    assert!(matches!(
+            row: 1,
+        },
+    );
+    assert_refused(
         model.analyze(&test, Some(2)),
-        Err(Error::TooMany {
+        Error::Count {
             what: "test modes",
-            available: 2,
-            requested: 3
-        })
-    ));
-    let other = ModeSet::from(test.clone())
-        .with_shapes(DMatrix::identity(4, 3))
-        .expect("shapes that fit");
-    assert!(matches!(
-        model.analyze(&other, Some(3)),
-        Err(Error::WrongShape {
+            found: 3,
+            least: 1,
+            most: 2,
+        },
+    );
+    let at_four = Modes::new(test.omega_squared().clone(), DMatrix::identity(4, 3));
+    assert_refused(
+        model.analyze(&at_four.expect("modes"), Some(3)),
+        Error::WrongShape {
             what: "test mode shapes",
             expected_rows: 3,
+            expected_columns: 3,
             rows: 4,
-            ..
-        })
-    ));
+            columns: 3,
+        },
+    );
+}
+
+/// A model of which nothing may change has its exact modes and no derivatives.
+#[test]
+fn a_model_without_parameters_has_nothing_to_change() {
+    let chain = Chain::uniform(3);
+    let mut model = chain.model(&[1.0; 3]);
+    model.shares.clear();
+    let fixed = model.analyze(&chain.modes(&[1.1; 3]), None).unwrap();
+    assert!(fixed.error_changes(fixed.exact()).unwrap().is_empty());
+    let same = fixed.at(&[]).unwrap();
+    assert!((same.errors.sum() - fixed.exact().errors.sum()).abs() <= ROUND_OFF);
 }
 
 #[test]
 fn there_is_one_factor_a_parameter() {
     let chain = Chain::uniform(3);
-    let problem = problem(&chain, &[1.1; 3]);
+    let problem = chain_problem(&chain, &[1.1; 3]);
     for factors in [vec![1.0; 2], vec![1.0; 4]] {
         let found = factors.len();
         assert_refused(
-            ModalState::at(&problem, factors, UpdateRule::default()),
+            problem.at(&factors),
             Error::WrongShape {
                 what: "parameter factors",
                 expected_rows: 3,
@@ -244,16 +237,18 @@ fn there_is_one_factor_a_parameter() {
             },
         );
     }
-    assert!(matches!(
-        ModalState::at(&problem, vec![1.0, f64::NAN, 1.0], UpdateRule::default()),
-        Err(Error::NotFinite {
+    assert_refused(
+        problem.at(&[1.0, f64::NAN, 1.0]),
+        Error::Value {
             what: "generalized stiffness change",
-            ..
-        })
-    ));
+            owner: "entry (0, 0)".into(),
+            value: f64::NAN,
+            expected: "a finite number",
+        },
+    );
 }
 
-/// The two ways to a modal model: through each element's own rows, and through whole matrices of the dynamic DOF.
+/// The two ways to a share: through the rows of each element's own DOF, and through matrices of the dynamic DOF.
 #[test]
 fn shares_by_rows_are_shares_by_matrices() {
     for number in 1..=4 {
@@ -263,20 +258,30 @@ fn shares_by_rows_are_shares_by_matrices() {
             case.test_modes().unwrap().lowest(7).unwrap(),
         );
         let factors: Vec<f64> = (0..15).map(|e| 0.8 + 0.03 * e as f64).collect();
-        let rows = model.analyze(&factors, &test, Some(8)).unwrap();
-        let whole = model
-            .matrices(&factors)
-            .unwrap()
-            .analyze(&test, Some(8))
-            .unwrap();
-        assert_eq!(rows.exact().pairing, whole.exact().pairing);
-        assert_eq!(rows.exact().modes, whole.exact().modes);
-        for (a, b) in rows.shares().iter().zip(whole.shares()) {
-            let scale = rows.exact().modes.omega_squared().amax();
-            assert!((a.matrix() - b.matrix()).amax() <= MATRIX_ROUND_OFF * scale);
+        let by_matrices = model.analyze(&factors, &test, Some(8)).unwrap();
+        let exact = &by_matrices.exact().modes;
+        assert_eq!(*exact, model.modes(&factors).unwrap().lowest(8).unwrap());
+        let (sizes, b) = (
+            model.sizes(&factors).unwrap(),
+            model.condense(&factors).unwrap().transformation,
+        );
+        let by_rows = |parameter: &Parameter, shapes: &DMatrix<f64>| -> DMatrix<f64> {
+            let elements = model.element_matrices().iter().zip(&sizes);
+            let own = elements.filter(|(element, _)| parameter.elements.contains(&element.label));
+            own.map(|(element, &size)| generalized_stiffness(element, size, &(&b * shapes)))
+                .sum()
+        };
+        let scale = exact.omega_squared().amax();
+        for (parameter, share) in model.parameters().iter().zip(by_matrices.shares()) {
+            let apart = (by_rows(parameter, exact.shapes()) - share).amax();
+            assert!(apart <= MATRIX_ROUND_OFF * scale);
         }
-        for (a, b) in rows.test_shares().iter().zip(whole.test_shares()) {
-            assert!((a - b).amax() <= MATRIX_ROUND_OFF);
+        let test = by_matrices.test();
+        let omega = test.omega_squared().map(f64::sqrt);
+        let own = &omega * omega.transpose();
+        for (parameter, share) in model.parameters().iter().zip(by_matrices.test_shares()) {
+            let relative = by_rows(parameter, test.shapes()).component_div(&own);
+            assert!((relative - share).amax() <= MATRIX_ROUND_OFF);
         }
     }
 }
@@ -286,7 +291,7 @@ fn shares_by_rows_are_shares_by_matrices() {
 fn the_scale_of_the_test_shapes_does_not_matter() {
     let case = Case::new(2).unwrap();
     let model = case.model().unwrap();
-    let test = ModeSet::from(case.test_modes().unwrap());
+    let test = case.test_modes().unwrap();
     let mut rescaled = test.clone();
     alter(&mut rescaled, |_, shapes| {
         for (mode, mut shape) in shapes.column_iter_mut().enumerate() {
@@ -316,7 +321,7 @@ properties! {
         scales in prop::collection::vec(prop_oneof![-1e6..-1e-6_f64, 1e-6..1e6_f64], 5),
     ) {
         let model = chain.model(&vec![1.0; truth.len()]);
-        let test = ModeSet::from(chain.modes(&truth));
+        let test = chain.modes(&truth);
         let mut scaled = test.clone();
         alter(&mut scaled, |_, shapes| shapes.column_iter_mut().zip(&scales).for_each(|(mut shape, scale)| shape *= *scale));
         let (one, other) = (model.analyze(&test, None).unwrap(), model.analyze(&scaled, None).unwrap());

@@ -3,6 +3,7 @@
 use crate::common::boxes::first_problem;
 use crate::common::tolerances::EIGEN_ROUND_OFF;
 use approx::assert_relative_eq;
+use corfem::method::analysis::Analysis;
 use std::f64::consts::PI;
 
 #[test]

@@ -1,19 +1,21 @@
 //! Derivatives of the error sum (12) by the paper's difference, against exact differences.
 
 use crate::common::boxes::{first_problem, problem_of, uneven_box};
+use crate::common::gradient::gradient;
+use crate::common::loops::exact_state;
 use crate::common::tolerances::{CENTRAL_DIFFERENCE, CONVERGED_STATE, FIRST_ORDER_REMAINDER};
 use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
-use corfem::method::derivatives::{DERIVATIVE_STEP, HELD_SEPARATION, by_definition, gradient};
-use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
+use corfem::method::analysis::{Analysis, DERIVATIVE_STEP, HELD_SEPARATION, State};
+use corfem::method::error_sum::{Errors, ModeError, mode_errors};
+use corfem::method::model::{DynamicModel, Model};
 use corfem::method::modes::solve;
-use corfem::method::state::{ModalState, UpdateRule};
+use corfem::sparse::{ModeWeight, SensorModel};
 use nalgebra::{DMatrix, dmatrix};
 use proptest::prelude::*;
 
 /// The error sum by eigensolution in modal coordinates at the given factors.
-pub fn exact_error_sum(problem: &ModalModel, factors: Vec<f64>) -> f64 {
-    let state = ModalState::at(problem, factors, UpdateRule::Eigensolution).unwrap();
-    state.errors().sum()
+pub fn exact_error_sum(problem: &Model, factors: &[f64]) -> f64 {
+    exact_state(problem, factors).unwrap().errors.sum()
 }
 
 /// Factors with one of them multiplied.
@@ -25,11 +27,11 @@ pub fn with_one(factors: &[f64], parameter: usize, by: f64) -> Vec<f64> {
 
 /// What first order leaves out of the change of the error sum by a 0.1 % step of a parameter: second-order terms of the
 /// ratio of coupling to separation of any two modes.
-fn first_order_remainder(problem: &ModalModel, state: &ModalState, parameter: usize) -> f64 {
-    let g = state.generalized_shapes();
-    let size = DERIVATIVE_STEP * state.factors()[parameter];
-    let beta = size * g.tr_mul(&(problem.shares()[parameter].matrix() * g));
-    let k = state.modes().omega_squared();
+fn first_order_remainder(problem: &Model, state: &State, parameter: usize) -> f64 {
+    let g = &state.generalized_shapes;
+    let size = DERIVATIVE_STEP * state.factors[parameter];
+    let beta = size * g.tr_mul(&(&problem.shares()[parameter] * g));
+    let k = state.modes.omega_squared();
     let mut ratio = size;
     for i in 0..k.len() {
         for j in (0..k.len()).filter(|&j| j != i) {
@@ -63,16 +65,48 @@ properties! {
         let count = truth.len();
         let problem =
             chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), Some(count)).unwrap();
-        let state = ModalState::at(&problem, factors[..count].to_vec(), UpdateRule::Eigensolution).unwrap();
-        let found = by_definition(&problem, &state).unwrap();
+        let state = exact_state(&problem, &factors[..count]).unwrap();
+        let found = problem.error_changes(&state).unwrap();
         prop_assert_eq!(found.len(), count);
         for (e, change) in found.iter().enumerate() {
-            let factors = with_one(state.factors(), e, 1.0 + DERIVATIVE_STEP);
-            let ahead = ModalState::at(&problem, factors, UpdateRule::Eigensolution).unwrap();
+            let factors = with_one(&state.factors, e, 1.0 + DERIVATIVE_STEP);
+            let ahead = exact_state(&problem, &factors).unwrap();
             // The derivative keeps the present pairing; where that changes the error sum jumps.
-            prop_assume!(ahead.pairing() == state.pairing());
-            let exact = ahead.errors().sum() - state.errors().sum();
+            prop_assume!(ahead.pairing == state.pairing);
+            let exact = ahead.errors.sum() - state.errors.sum();
             let bound = first_order_remainder(&problem, &state, e);
+            prop_assert!((change - exact).abs() <= bound, "{e}: {change:e} {exact:e} {bound:e}");
+        }
+    }
+
+    /// Weights of at most one leave no more of it than first order does without.
+    #[test]
+    fn the_change_of_weighted_errors_is_exact_to_second_order_of_the_step(
+        (chain, truth) in chain_and_truth(),
+        factors in prop::collection::vec(0.95..1.05_f64, 5),
+        weights in prop::collection::vec((0.0..1.0_f64, 0.1..1.0_f64), 5),
+    ) {
+        let count = truth.len();
+        let plain = chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), None).unwrap();
+        let weight = |&(frequency, shape): &(f64, f64)| ModeWeight { frequency, shape };
+        let weights: Vec<ModeWeight> = weights.iter().take(count).map(weight).collect();
+        let at = |factors: &[f64]| {
+            let state = exact_state(&plain, factors).unwrap();
+            let each = mode_errors(&state.modes, &state.pairing, plain.test()).unwrap();
+            let weighted = |(error, weight): (&ModeError, &ModeWeight)| ModeError {
+                frequency: weight.frequency * error.frequency,
+                shape: weight.shape * error.shape,
+            };
+            let weighted: Vec<ModeError> = each.iter().zip(&weights).map(weighted).collect();
+            State { errors: Errors::of(&weighted).unwrap(), ..state }
+        };
+        let state = at(&factors[..count]);
+        let weighted = SensorModel::from(&plain).weighted(&weights).unwrap();
+        for (e, change) in weighted.error_changes(&state).unwrap().iter().enumerate() {
+            let ahead = at(&with_one(&state.factors, e, 1.0 + DERIVATIVE_STEP));
+            prop_assume!(ahead.pairing == state.pairing);
+            let exact = ahead.errors.sum() - state.errors.sum();
+            let bound = first_order_remainder(&plain, &state, e);
             prop_assert!((change - exact).abs() <= bound, "{e}: {change:e} {exact:e} {bound:e}");
         }
     }
@@ -85,20 +119,20 @@ properties! {
         let start = vec![1.0; count];
         let test = chain.modes(&truth);
         let problem = chain.model(&start).analyze(&test, None).unwrap();
-        let state = ModalState::start(&problem);
+        let state = problem.exact();
         let error_sum = |factors: &[f64]| {
             let model = chain.model(factors);
             error_sum_by_definition(&model.stiffness, &model.mass, &test)
         };
         let (h, here) = (DERIVATIVE_STEP, error_sum(&start));
-        let found = by_definition(&problem, &state).unwrap();
+        let found = problem.error_changes(state).unwrap();
         for (e, change) in found.iter().enumerate() {
             let ahead = error_sum(&with_one(&start, e, 1.0 + h));
             let behind = error_sum(&with_one(&start, e, 1.0 - h));
             // A forward difference is off by half the second one, which is large where the error sum has a kink:
             // where a shape or frequency error is near zero, or another component becomes the largest.
             let curvature = (ahead - 2.0 * here + behind).abs() / 2.0;
-            let bound = curvature + first_order_remainder(&problem, &state, e);
+            let bound = curvature + first_order_remainder(&problem, state, e);
             prop_assert!((change - (ahead - behind) / 2.0).abs() <= bound, "{e} {bound:e}");
         }
     }
@@ -109,23 +143,23 @@ properties! {
         let count = truth.len();
         let problem =
             chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), Some(count)).unwrap();
-        let state = ModalState::start(&problem);
-        let found = by_definition(&problem, &state).unwrap();
+        let state = problem.exact();
+        let found = problem.error_changes(state).unwrap();
         let sum: f64 = found.iter().sum();
         let ratios: Vec<f64> = (0..count)
             .map(|j| {
-                let i = state.pairing().analysis_mode()[j];
-                (state.modes().omega_squared()[i] / problem.test().omega_squared()[j]).sqrt()
+                let i = state.pairing.analysis_mode()[j];
+                (state.modes.omega_squared()[i] / problem.test().omega_squared()[j]).sqrt()
             })
             .collect();
-        let slope: f64 = ratios.iter().map(|r| (r - 1.0) * r / 2.0).sum::<f64>() / state.errors().frequency;
+        let slope: f64 = ratios.iter().map(|r| (r - 1.0) * r / 2.0).sum::<f64>() / state.errors.frequency;
         let mut bound = 0.0;
         for e in 0..count {
-            let ahead = exact_error_sum(&problem, with_one(state.factors(), e, 1.0 + DERIVATIVE_STEP));
-            let behind = exact_error_sum(&problem, with_one(state.factors(), e, 1.0 - DERIVATIVE_STEP));
+            let ahead = exact_error_sum(&problem, &with_one(&state.factors, e, 1.0 + DERIVATIVE_STEP));
+            let behind = exact_error_sum(&problem, &with_one(&state.factors, e, 1.0 - DERIVATIVE_STEP));
             // A kink within the step, where another component becomes the largest, costs a whole second difference.
-            bound += (ahead - 2.0 * state.errors().sum() + behind).abs()
-                + first_order_remainder(&problem, &state, e);
+            bound += (ahead - 2.0 * state.errors.sum() + behind).abs()
+                + first_order_remainder(&problem, state, e);
         }
         let expected = slope * DERIVATIVE_STEP;
         prop_assert!((sum - expected).abs() <= bound, "{sum:e} {expected:e} {bound:e}");
@@ -138,16 +172,16 @@ properties! {
     #[test]
     fn derivatives_of_boxes_are_exact_to_second_order_of_the_step(case in uneven_box()) {
         let problem = problem_of(&case);
-        let state = ModalState::start(&problem);
-        let found = by_definition(&problem, &state).unwrap();
+        let state = problem.exact();
+        let found = problem.error_changes(state).unwrap();
         prop_assert_eq!(found.len(), 15);
         for (e, change) in found.iter().enumerate() {
-            let factors = with_one(state.factors(), e, 1.0 + DERIVATIVE_STEP);
-            let ahead = ModalState::at(&problem, factors, UpdateRule::Eigensolution).unwrap();
+            let factors = with_one(&state.factors, e, 1.0 + DERIVATIVE_STEP);
+            let ahead = exact_state(&problem, &factors).unwrap();
             // The derivative keeps the present pairing; where that changes the error sum jumps.
-            prop_assume!(ahead.pairing() == state.pairing());
-            let exact = ahead.errors().sum() - state.errors().sum();
-            let bound = first_order_remainder(&problem, &state, e);
+            prop_assume!(ahead.pairing == state.pairing);
+            let exact = ahead.errors.sum() - state.errors.sum();
+            let bound = first_order_remainder(&problem, state, e);
             prop_assert!((change - exact).abs() <= bound, "{e}: {change:e} {exact:e} {bound:e}");
         }
     }
@@ -157,13 +191,13 @@ properties! {
 fn derivatives_of_the_box_are_central_differences() {
     for case in 1..=4 {
         let problem = first_problem(case);
-        let state = ModalState::start(&problem);
-        let found = by_definition(&problem, &state).unwrap();
+        let state = problem.exact();
+        let found = problem.error_changes(state).unwrap();
         let h = DERIVATIVE_STEP / 10.0;
         let central: Vec<f64> = (0..15)
             .map(|e| {
-                let ahead = exact_error_sum(&problem, with_one(state.factors(), e, 1.0 + h));
-                let behind = exact_error_sum(&problem, with_one(state.factors(), e, 1.0 - h));
+                let ahead = exact_error_sum(&problem, &with_one(&state.factors, e, 1.0 + h));
+                let behind = exact_error_sum(&problem, &with_one(&state.factors, e, 1.0 - h));
                 (ahead - behind) / (2.0 * h)
             })
             .collect();
@@ -181,14 +215,14 @@ fn derivatives_away_from_the_start_are_those_of_a_new_start() {
     let chain = Chain::uniform(4);
     let (test, factors) = (chain.modes(&[1.2, 0.8, 1.3, 0.9]), [1.05, 0.97, 1.1, 0.94]);
     let problem = chain.model(&[1.0; 4]).analyze(&test, Some(4)).unwrap();
-    let state = ModalState::at(&problem, factors.to_vec(), UpdateRule::default()).unwrap();
+    let state = problem.at(&factors).unwrap();
     let moved = chain.model(&factors).analyze(&test, Some(4)).unwrap();
-    let found = by_definition(&problem, &state).unwrap();
-    let expected = by_definition(&moved, &ModalState::start(&moved)).unwrap();
+    let found = problem.error_changes(&state).unwrap();
+    let expected = moved.error_changes(moved.exact()).unwrap();
     for (a, b) in found.iter().zip(&expected) {
         assert!((a - b).abs() <= CONVERGED_STATE, "{a:e} {b:e}");
     }
-    let at_start = gradient(&moved, &ModalState::start(&moved)).unwrap();
+    let at_start = gradient(&moved, moved.exact()).unwrap();
     for (a, b) in gradient(&problem, &state).unwrap().iter().zip(at_start) {
         assert!(
             (a - b).abs() <= CONVERGED_STATE / DERIVATIVE_STEP,
@@ -202,9 +236,7 @@ fn derivatives_away_from_the_start_are_those_of_a_new_start() {
 fn close_modes_are_held_to_their_own_shapes() {
     let changes = |apart: f64, coupling: f64| {
         let stiffness = dmatrix![100.0, 0.0; 0.0, 100.0 * (1.0 + apart)];
-        let shares = vec![ParameterMatrix::Stiffness(
-            dmatrix![30.0, coupling; coupling, 50.0],
-        )];
+        let shares = vec![dmatrix![30.0, coupling; coupling, 50.0]];
         let model = DynamicModel {
             shares,
             mass: DMatrix::identity(2, 2),
@@ -212,7 +244,7 @@ fn close_modes_are_held_to_their_own_shapes() {
         };
         let test = solve(&dmatrix![121.0, 5.0; 5.0, 144.0], &model.mass, 2).unwrap();
         let problem = model.analyze(&test, None).unwrap();
-        by_definition(&problem, &ModalState::start(&problem)).unwrap()
+        problem.error_changes(problem.exact()).unwrap()
     };
     let (inside, outside) = (0.99 * HELD_SEPARATION, 1.02 * HELD_SEPARATION);
     assert_eq!(changes(inside, 20.0), changes(inside, 0.0));

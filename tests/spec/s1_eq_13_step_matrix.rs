@@ -4,16 +4,15 @@ use crate::common::alter;
 use crate::common::loops::chain_problem;
 use crate::common::tolerances::MATRIX_ROUND_OFF;
 use crate::common::vibrations::chain_and_truth;
-use corfem::method::derivatives::DERIVATIVE_STEP;
-use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
-use corfem::method::modes::{ModeSet, solve};
-use corfem::method::step::{StepRule, stiffness_changes};
+use corfem::method::analysis::{Analysis, DERIVATIVE_STEP};
+use corfem::method::model::{DynamicModel, Model};
+use corfem::method::modes::{Modes, solve};
+use corfem::method::step::StepRule;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
-fn changes(model: &ModalModel, rule: StepRule) -> Vec<f64> {
-    let ones = vec![1.0; model.shares().len()];
-    stiffness_changes(model, &ones, &ones, rule)
+fn changes(model: &Model, rule: StepRule) -> Vec<f64> {
+    model.stiffness_changes(model.exact(), &model.exact().factors, rule)
 }
 
 /// A structure of one mass a DOF, elements k aaᵗ with a vector each, and factors on them that the test has.
@@ -33,14 +32,10 @@ impl RankOne {
         (0..self.vectors.len()).map(share).sum()
     }
 
-    fn model(&self) -> (ModalModel, DMatrix<f64>) {
+    fn model(&self) -> (Model, DMatrix<f64>) {
         let ones = vec![1.0; self.vectors.len()];
         let mass = DMatrix::from_diagonal(&DVector::from_column_slice(&self.mass));
-        let share = |e: usize| {
-            ParameterMatrix::Stiffness(
-                self.stiffness[e] * &self.vectors[e] * self.vectors[e].transpose(),
-            )
-        };
+        let share = |e: usize| self.stiffness[e] * &self.vectors[e] * self.vectors[e].transpose();
         let shares = (0..ones.len()).map(share).collect();
         let model = DynamicModel {
             stiffness: self.matrix(&ones),
@@ -92,9 +87,9 @@ properties! {
         let inverse_root =
             &root.eigenvectors * DMatrix::from_diagonal(&root.eigenvalues.map(|value| 1.0 / value.sqrt()))
             * root.eigenvectors.transpose();
-        let found = changes(&chain_problem(&chain, &truth), StepRule::Norm);
+        let found = changes(&chain_problem(&chain, &truth), StepRule::Matrix);
         for (found, share) in found.iter().zip(&model.shares) {
-            let expected = DERIVATIVE_STEP * (&inverse_root * share.matrix() * &inverse_root).norm();
+            let expected = DERIVATIVE_STEP * (&inverse_root * share * &inverse_root).norm();
             prop_assert!((found / expected - 1.0).abs() < MATRIX_ROUND_OFF);
         }
     }
@@ -104,7 +99,7 @@ properties! {
         // 0.001 k aᵗ K_G⁻¹ a: k times the deflection of the test structure along a under a unit load along a.
         let (model, test_stiffness) = given.model();
         let flexibility = test_stiffness.try_inverse().expect("it is regular");
-        for (e, found) in changes(&model, StepRule::Norm).into_iter().enumerate() {
+        for (e, found) in changes(&model, StepRule::Matrix).into_iter().enumerate() {
             let a = &given.vectors[e];
             let expected = DERIVATIVE_STEP * given.stiffness[e] * a.dot(&(&flexibility * a));
             prop_assert!((found / expected - 1.0).abs() < MATRIX_ROUND_OFF);
@@ -115,7 +110,7 @@ properties! {
     fn in_a_statically_determinate_structure_it_is_the_stiffness_over_the_tests(given in rank_one(0)) {
         // There it knows each element's error without iterating; with all tests alike it is the reading by gages.
         let (model, _) = given.model();
-        for (found, truth) in changes(&model, StepRule::Norm).into_iter().zip(&given.truth) {
+        for (found, truth) in changes(&model, StepRule::Matrix).into_iter().zip(&given.truth) {
             prop_assert!((found * truth / DERIVATIVE_STEP - 1.0).abs() < MATRIX_ROUND_OFF);
         }
     }
@@ -125,7 +120,7 @@ properties! {
         let count = truth.len();
         let test = chain.modes(&truth).lowest(modes.min(count)).expect("so many modes");
         let model = chain.model(&vec![1.0; count]).analyze(&test, None).expect("a model");
-        let (own, matrix) = (changes(&model, StepRule::Diagonal), changes(&model, StepRule::Norm));
+        let (own, matrix) = (changes(&model, StepRule::Own), changes(&model, StepRule::Matrix));
         for ((own, matrix), share) in own.iter().zip(matrix).zip(model.test_shares()) {
             let sum: f64 = share.iter().map(|entry| entry.abs()).sum();
             prop_assert!(*own <= matrix * (1.0 + MATRIX_ROUND_OFF));
@@ -136,10 +131,10 @@ properties! {
     #[test]
     fn it_depends_on_no_test_shapes_scale_or_sign((chain, truth) in chain_and_truth(), scales in prop::collection::vec(prop_oneof![-5.0..-0.2_f64, 0.2..5.0_f64], 5)) {
         let model = chain.model(&vec![1.0; truth.len()]);
-        let test = ModeSet::from(chain.modes(&truth));
+        let test = chain.modes(&truth);
         let mut scaled = test.clone();
         alter(&mut scaled, |_, shapes| shapes.column_iter_mut().zip(&scales).for_each(|(mut shape, scale)| shape *= *scale));
-        let of = |test: &ModeSet| changes(&model.analyze(test, None).expect("a model"), StepRule::Norm);
+        let of = |test: &Modes| changes(&model.analyze(test, None).expect("a model"), StepRule::Matrix);
         for (found, expected) in of(&scaled).iter().zip(of(&test)) {
             prop_assert!((found / expected - 1.0).abs() < MATRIX_ROUND_OFF);
         }

@@ -1,46 +1,50 @@
-//! The inner loop where roots are close or repeated: which rule can follow them, and what the other says.
+//! The inner loop where roots are close or repeated: an eigensolution can follow them, and the recursion says that it cannot.
 
+use crate::common::loops::{Eigensolved, inner_for_modes};
 use crate::common::tolerances::{ROUND_OFF, STOPPED_FACTOR, STOPPED_FACTOR_BY_DEFAULT};
-use corfem::method::appendix_c::LARGEST_UNSETTLED_CHANGE;
+use corfem::method::analysis::Analysis;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerSettings, Stop, run};
-use corfem::method::model::{Bounds, DynamicModel, ModalModel, ParameterMatrix};
+use corfem::method::model::{DynamicModel, Model};
 use corfem::method::modes::solve;
 use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::state::{MOST_ORDERS, ModalState, UpdateRule};
+use corfem::method::perturbation::{LARGEST_UNSETTLED_CHANGE, MOST_ORDERS};
+use corfem::method::step::Bounds;
 use nalgebra::{DMatrix, dmatrix};
 
 /// Two like oscillators side by side, stiffened together: a repeated root from the first to the last iteration.
 #[test]
-fn repeated_roots_that_nothing_couples_are_corrected_by_either_rule() {
+fn repeated_roots_that_nothing_couples_are_corrected_by_recursion_and_eigensolution() {
     let stiffness = DMatrix::identity(2, 2) * 100.0;
     let model = DynamicModel {
-        shares: vec![ParameterMatrix::Stiffness(stiffness.clone())],
+        shares: vec![stiffness.clone()],
         mass: DMatrix::identity(2, 2),
         stiffness,
     };
     let test = solve(&(1.3 * &model.stiffness), &model.mass, 2).unwrap();
     let problem = model.analyze(&test, None).unwrap();
-    for update in [UpdateRule::Recursive1, UpdateRule::Eigensolution] {
-        let settings = InnerSettings {
-            update,
-            tolerance: 1e-3,
-            ..InnerSettings::default()
-        };
-        let corrected = run(&problem, &[1.0], &[None], &settings).unwrap();
+    let settings = InnerSettings {
+        tolerance: 1e-3,
+        ..InnerSettings::default()
+    };
+    let settings = inner_for_modes(settings, 2);
+    let exactly = Eigensolved(problem.clone());
+    let analyses: [&dyn Analysis; 2] = [&problem, &exactly];
+    for analysis in analyses {
+        let corrected = run(analysis, &[1.0], &[None], &settings).unwrap();
         assert_eq!(corrected.stop, Stop::Tolerance);
-        assert!((corrected.last.factors()[0] / 1.3 - 1.0).abs() < STOPPED_FACTOR);
+        assert!((corrected.last.factors[0] / 1.3 - 1.0).abs() < STOPPED_FACTOR);
     }
 }
 
 /// Two oscillators of nearly the same stiffness, and a share that couples them; of it the test structure has `missing` more.
-fn coupled(missing: f64) -> ModalModel {
+fn coupled(missing: f64) -> Model {
     let stiffness = dmatrix![100.0, 0.0; 0.0, 101.0];
     let coupling = dmatrix![1.0, 1.0; 1.0, 1.0];
     let mass = DMatrix::identity(2, 2);
     let test = solve(&(&stiffness + missing * &coupling), &mass, 2).unwrap();
     let model = DynamicModel {
-        shares: vec![ParameterMatrix::Stiffness(coupling)],
+        shares: vec![coupling],
         stiffness,
         mass,
     };
@@ -51,21 +55,19 @@ fn coupled(missing: f64) -> ModalModel {
 #[test]
 fn roots_that_do_not_settle_are_an_error_and_not_an_answer() {
     let problem = coupled(20.0);
-    let at = |factor, update| ModalState::at(&problem, vec![factor], update);
-    match at(8.0, UpdateRule::Recursive1) {
+    match problem.at(&[8.0]) {
         Err(Error::UnsettledRoots {
-            largest,
             orders,
             last_change,
         }) => {
-            assert_eq!((largest, orders), (LARGEST_UNSETTLED_CHANGE, MOST_ORDERS));
-            assert!(last_change > largest);
+            assert_eq!(orders, MOST_ORDERS);
+            assert!(last_change > LARGEST_UNSETTLED_CHANGE);
         }
         other => panic!("{other:?}"),
     }
-    let exact = at(8.0, UpdateRule::Eigensolution).unwrap();
+    let exact = Eigensolved(problem.clone()).at(&[8.0]).unwrap();
     // The roots of 107, 7; 7, 108.
-    for (found, side) in exact.modes().omega_squared().iter().zip([-1.0, 1.0]) {
+    for (found, side) in exact.modes.omega_squared().iter().zip([-1.0, 1.0]) {
         assert!((found / (107.5 + side * 49.25_f64.sqrt()) - 1.0).abs() < ROUND_OFF);
     }
     // In the loop such a step is halved; when none settles, the first is an error.
@@ -80,6 +82,7 @@ fn roots_that_do_not_settle_are_an_error_and_not_an_answer() {
             factor_range,
             ..InnerSettings::default()
         };
+        let settings = inner_for_modes(settings, 2);
         run(&problem, &[1.0], &[None], &settings)
     };
     assert!(matches!(by(0), Err(Error::UnsettledRoots { .. })));
@@ -94,9 +97,7 @@ fn modes_that_meet_end_a_correlation_begun() {
     let of = |first: f64, second: f64, coupling: f64| {
         let stiffness = dmatrix![first, 0.0; 0.0, second];
         DynamicModel {
-            shares: vec![ParameterMatrix::Stiffness(
-                &stiffness + dmatrix![0.0, coupling; coupling, 0.0],
-            )],
+            shares: vec![&stiffness + dmatrix![0.0, coupling; coupling, 0.0]],
             mass: DMatrix::identity(2, 2),
             stiffness,
         }
@@ -113,15 +114,11 @@ fn modes_that_meet_end_a_correlation_begun() {
             halvings: 0,
             ..InnerSettings::default()
         };
-        correlate(
-            analyze,
-            &[None],
-            &Settings {
-                inner,
-                ..Settings::default()
-            },
-            |_, _| {},
-        )
+        let settings = Settings {
+            inner,
+            ..Settings::default()
+        };
+        correlate(analyze, &[None], &settings.for_modes(2), |_, _| true)
     };
     let refused = run([&together, &apart]);
     assert!(

@@ -1,13 +1,15 @@
 //! The inner loop far from its start: the least share of a stiffness, factors beyond a half and two, and roots that cross.
 
 use crate::common::draws::reached;
+use crate::common::loops::{exact_state, inner_for_modes};
 use crate::common::pairings::pairs_by_sorting;
 use crate::common::tolerances::{CONVERGED_STATE, FAR_RECURSION, LEAST_REACHED, ROUND_OFF};
 use crate::common::vibrations::{Chain, chain, error_sum_by_definition, modes_by_nalgebra};
+use corfem::method::analysis::{Analysis, State};
+use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, run};
-use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
-use corfem::method::modes::{ModeSet, solve};
-use corfem::method::state::{ModalState, UpdateRule};
+use corfem::method::model::{DynamicModel, Model};
+use corfem::method::modes::{Modes, solve};
 use corfem::method::step::LEAST_SHARE;
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
@@ -19,14 +21,15 @@ fn much_too_stiff() -> impl Strategy<Value = (f64, f64)> {
 
 fn run_down(stiffness: f64, truth: f64) -> InnerRun {
     let stiffness = dmatrix![stiffness];
-    let test = ModeSet::new(dvector![truth * stiffness[0]], dmatrix![1.0]).expect("a mode");
+    let test = Modes::new(dvector![truth * stiffness[0]], dmatrix![1.0]).expect("a mode");
     let model = DynamicModel {
-        shares: vec![ParameterMatrix::Stiffness(stiffness.clone())],
+        shares: vec![stiffness.clone()],
         stiffness,
         mass: dmatrix![1.0],
     };
     let model = model.analyze(&test, None).expect("solved");
-    run(&model, &[1.0], &[None], &InnerSettings::default()).expect("a loop")
+    let settings = inner_for_modes(InnerSettings::default(), 1);
+    run(&model, &[1.0], &[None], &settings).expect("a loop")
 }
 
 /// The share factors on the way: each step adds to the one before what it takes of the gage.
@@ -61,7 +64,7 @@ properties! {
     fn stiffness_never_falls_below_its_least_share((stiffness, truth) in much_too_stiff()) {
         let inner = run_down(stiffness, truth);
         let shares = share_factors(&inner);
-        let (first, last) = (inner.iterations[0].factors[0], inner.last.factors()[0]);
+        let (first, last) = (inner.iterations[0].factors[0], inner.last.factors[0]);
         prop_assert!((first - 0.55).abs() <= ROUND_OFF && inner.iterations.len() > 2);
         prop_assert!((last - shares[shares.len() - 1]).abs() <= ROUND_OFF);
         prop_assert!(last >= LEAST_SHARE);
@@ -92,7 +95,7 @@ fn far_chain() -> impl Strategy<Value = (Chain, Vec<f64>)> {
     })
 }
 
-fn start(chain: &Chain) -> ModalModel {
+fn start(chain: &Chain) -> Model {
     let count = chain.masses.len();
     let (test, ones) = (chain.modes(&vec![1.1; count]), vec![1.0; count]);
     chain.model(&ones).analyze(&test, None).expect("solved")
@@ -106,7 +109,7 @@ fn draws_reach_beyond_a_half_and_two() {
     let settled = reached(
         "Recursive 1 beyond 0.5 to 2",
         &far_chain(),
-        |(chain, factors)| ModalState::at(&start(&chain), factors, UpdateRule::Recursive1).is_ok(),
+        |(chain, factors)| start(&chain).at(&factors).is_ok(),
     );
     assert!(
         beyond > LEAST_REACHED && settled > LEAST_REACHED,
@@ -122,14 +125,26 @@ properties! {
         let model = start(&chain);
         let there = chain.model(&factors);
         let expected = error_sum_by_definition(&there.stiffness, &there.mass, model.test());
-        let exact = ModalState::at(&model, factors.clone(), UpdateRule::Eigensolution).unwrap();
-        prop_assert!((exact.errors().sum() - expected).abs() <= CONVERGED_STATE * expected);
+        let exact = exact_state(&model, &factors).unwrap();
+        prop_assert!((exact.errors.sum() - expected).abs() <= CONVERGED_STATE * expected);
         // So far off the recursion may not settle; where it has settled, on roots to a millionth, it is at the same place.
-        if let Ok(state) = ModalState::at(&model, factors, UpdateRule::Recursive1) {
-            prop_assert!((state.errors().sum() - expected).abs() <= FAR_RECURSION * expected);
+        if let Ok(state) = model.at(&factors) {
+            prop_assert!((state.errors.sum() - expected).abs() <= FAR_RECURSION * expected);
         }
     }
 }
+
+/// Ways to the modes at some factors: by recursion as the paper, and by eigensolution.
+const WAYS: [(&str, Way, f64); 2] = [
+    (
+        "recursion",
+        |model, factors| model.at(factors),
+        FAR_RECURSION,
+    ),
+    ("eigensolution", exact_state, CONVERGED_STATE),
+];
+
+type Way = fn(&Model, &[f64]) -> Result<State, Error>;
 
 /// Three unit masses on springs of their own in this order, softly coupled: factors on the first two that bring the first past the second.
 #[derive(Debug, Clone)]
@@ -155,17 +170,15 @@ impl Crossing {
         DynamicModel {
             stiffness,
             mass: DMatrix::identity(3, 3),
-            shares: shares.into_iter().map(ParameterMatrix::Stiffness).collect(),
+            shares,
         }
     }
 
-    fn state(&self, rule: UpdateRule) -> Option<(ModalModel, ModalState)> {
+    fn state(&self, way: Way) -> Option<(Model, State)> {
         let model = self.model(&[1.0; 3]);
-        let test = solve(&model.stiffness, &model.mass, 3)
-            .expect("held")
-            .into();
+        let test = solve(&model.stiffness, &model.mass, 3).expect("held");
         let model = model.analyze(&test, None).expect("solved");
-        let state = ModalState::at(&model, self.factors.to_vec(), rule).ok()?;
+        let state = way(&model, &self.factors).ok()?;
         Some((model, state))
     }
 }
@@ -185,14 +198,14 @@ fn crossing() -> impl Strategy<Value = Crossing> {
 
 #[test]
 fn draws_cross_roots() {
-    for rule in [UpdateRule::Recursive1, UpdateRule::Eigensolution] {
+    for (name, way, _) in WAYS {
         let share = reached("roots that cross", &crossing(), |draw| {
-            draw.state(rule).is_some_and(|(_, state)| {
-                let squares = state.modes().omega_squared();
+            draw.state(way).is_some_and(|(_, state)| {
+                let squares = state.modes.omega_squared();
                 squares[0] > squares[1]
             })
         });
-        assert!(share > LEAST_REACHED, "{rule:?}: {share}");
+        assert!(share > LEAST_REACHED, "{name}: {share}");
     }
 }
 
@@ -204,22 +217,21 @@ properties! {
     fn modes_whose_roots_cross_keep_their_places(draw in crossing()) {
         let there = draw.model(&draw.factors);
         let (squares, shapes) = modes_by_nalgebra(&there.stiffness, &there.mass);
-        for rule in [UpdateRule::Recursive1, UpdateRule::Eigensolution] {
-            let Some((model, state)) = draw.state(rule) else {
-                prop_assert_eq!(rule, UpdateRule::Recursive1);
+        for (name, way, bar) in WAYS {
+            let Some((model, state)) = draw.state(way) else {
+                prop_assert_eq!(name, "recursion");
                 continue;
             };
             let alike = shapes.tr_mul(model.exact().modes.shapes());
             let places = pairs_by_sorting(&alike);
             // Where two modes are half and half of each other, either continues either.
             prop_assume!((0..3).all(|mode| alike[(places[mode], mode)].abs() > 0.8));
-            prop_assert_eq!(state.pairing().analysis_mode(), [0, 1, 2]);
+            prop_assert_eq!(state.pairing.analysis_mode(), [0, 1, 2]);
             for (mode, &place) in places.iter().enumerate() {
-                let ratio = state.modes().omega_squared()[mode] / squares[place];
-                let bar = if rule == UpdateRule::Recursive1 { FAR_RECURSION } else { CONVERGED_STATE };
-                prop_assert!((ratio - 1.0).abs() <= bar, "{rule:?} {mode}: {ratio}");
+                let ratio = state.modes.omega_squared()[mode] / squares[place];
+                prop_assert!((ratio - 1.0).abs() <= bar, "{name} {mode}: {ratio}");
                 let same: DVector<f64> = shapes.column(place) * alike[(place, mode)].signum();
-                prop_assert!((state.modes().shapes().column(mode) - same).amax() <= 10.0 * bar);
+                prop_assert!((state.modes.shapes().column(mode) - same).amax() <= 10.0 * bar);
             }
         }
     }

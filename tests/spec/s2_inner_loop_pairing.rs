@@ -2,16 +2,16 @@
 //! another change hands while the modes turn.
 
 use crate::common::draws::reached;
+use crate::common::loops::{Eigensolved, exact_state, inner_for_modes};
 use crate::common::structures::spring_stiffness;
 use crate::common::tolerances::{CONVERGED_STATE, LEAST_REACHED, SECOND_ORDER_CHANGE};
 use crate::common::vibrations::error_sum_by_definition;
-use corfem::method::derivatives::{DERIVATIVE_STEP, by_definition};
+use corfem::method::analysis::{Analysis, DERIVATIVE_STEP};
 use corfem::method::error_sum::errors;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, run};
-use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
-use corfem::method::modes::{ModeSet, solve};
-use corfem::method::pairing::Pairing;
-use corfem::method::state::{ModalState, UpdateRule};
+use corfem::method::model::{DynamicModel, Model};
+use corfem::method::modes::{Modes, solve};
+use corfem::method::sorting::Pairing;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 
@@ -38,11 +38,11 @@ impl Turned {
         DynamicModel {
             stiffness: shares.iter().sum::<DMatrix<f64>>() + between(1) + between(2),
             mass: DMatrix::identity(3, 3),
-            shares: shares.into_iter().map(ParameterMatrix::Stiffness).collect(),
+            shares,
         }
     }
 
-    fn test(&self) -> ModeSet {
+    fn test(&self) -> Modes {
         let modes = |factors: &[f64]| {
             let model = self.model(factors);
             solve(&model.stiffness, &model.mass, 3).expect("held")
@@ -53,19 +53,19 @@ impl Turned {
             .copy_from(&nalgebra::dmatrix![cos, -sin; sin, cos]);
         let squares = modes(&self.truth).omega_squared().clone();
         let shapes = modes(&[1.0; 3]).shapes() * turn;
-        ModeSet::new(squares, shapes).expect("modes")
+        Modes::new(squares, shapes).expect("modes")
     }
 
-    fn run(&self) -> (ModalModel, InnerRun) {
+    fn run(&self) -> (Model, InnerRun) {
         let model = self.model(&[1.0; 3]).analyze(&self.test(), None);
-        let model = model.expect("solved");
+        let exactly = Eigensolved(model.expect("solved"));
         let settings = InnerSettings {
-            update: UpdateRule::Eigensolution,
             iterations: 10,
             ..InnerSettings::default()
         };
-        let inner = run(&model, &[1.0; 3], &[None; 3], &settings).expect("a loop");
-        (model, inner)
+        let settings = inner_for_modes(settings, 3);
+        let inner = run(&exactly, &[1.0; 3], &[None; 3], &settings).expect("a loop");
+        (exactly.0, inner)
     }
 }
 
@@ -88,7 +88,7 @@ fn turned() -> impl Strategy<Value = Turned> {
 fn draws_change_the_pairing_inside_a_loop() {
     let share = reached("pairing that changes inside a loop", &turned(), |draw| {
         let (model, inner) = draw.run();
-        inner.last.pairing() != &model.exact().pairing
+        inner.last.pairing != model.exact().pairing
     });
     assert!(share > LEAST_REACHED, "{share}");
 }
@@ -100,22 +100,22 @@ properties! {
     fn pairing_that_changes_inside_a_loop_is_that_of_the_eigensolution(draw in turned()) {
         let (model, inner) = draw.run();
         // Where the loop ends, which a wrong pairing would choose for itself, and where the test's stiffness is.
-        let at_truth = ModalState::at(&model, draw.truth.to_vec(), UpdateRule::Eigensolution).unwrap();
+        let at_truth = exact_state(&model, &draw.truth).unwrap();
         for state in [&at_truth, &inner.last] {
-            let there = draw.model(state.factors());
+            let there = draw.model(&state.factors);
             let expected = error_sum_by_definition(&there.stiffness, &there.mass, model.test());
-            let found = state.errors().sum();
+            let found = state.errors.sum();
             prop_assert!((found - expected).abs() <= CONVERGED_STATE, "{found} {expected}");
         }
-        let found = inner.last.errors().sum();
+        let found = inner.last.errors.sum();
         // The derivatives are those of the pairs that there are now: of exact modes paired like these, to second order.
         let changed = |parameter: usize| {
-            let mut factors = inner.last.factors().to_vec();
+            let mut factors = inner.last.factors.clone();
             factors[parameter] *= 1.0 + DERIVATIVE_STEP;
-            let there = ModalState::at(&model, factors, UpdateRule::Eigensolution).unwrap();
+            let there = exact_state(&model, &factors).unwrap();
             // An eigensolution's shapes have places and signs of their own: the same modes are those most alike.
-            let alike = inner.last.modes().shapes().tr_mul(there.modes().shapes());
-            let now = inner.last.pairing();
+            let alike = inner.last.modes.shapes().tr_mul(there.modes.shapes());
+            let now = &inner.last.pairing;
             let (partners, signs) = now
                 .analysis_mode()
                 .iter()
@@ -126,9 +126,9 @@ properties! {
                 })
                 .unzip();
             let pairing = Pairing::new(partners, signs).unwrap();
-            errors(there.modes(), &pairing, model.test()).unwrap().sum() - found
+            errors(&there.modes, &pairing, model.test()).unwrap().sum() - found
         };
-        for (parameter, change) in by_definition(&model, &inner.last).unwrap().into_iter().enumerate() {
+        for (parameter, change) in model.error_changes(&inner.last).unwrap().into_iter().enumerate() {
             let apart = (change - changed(parameter)).abs() / DERIVATIVE_STEP;
             prop_assert!(apart <= SECOND_ORDER_CHANGE, "{parameter}: {apart}");
         }

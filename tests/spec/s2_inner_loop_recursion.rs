@@ -1,48 +1,48 @@
-//! Appendix C as the inner loop meets it: the state of a chain by either update rule, near a meeting of two roots and at it,
-//! and changes of mass that take too much.
+//! Appendix C as the inner loop meets it: the state of a chain by recursion and by eigensolution, near a meeting of two roots and at
+//! it, and changes of mass that take too much.
 
 use crate::common::appendix_c::three_mass_chain;
 use crate::common::assert_refused;
+use crate::common::loops::exact_state;
 use crate::common::tolerances::EIGEN_ROUND_OFF;
+use crate::common::whole_models::of_dense;
+use corfem::method::analysis::Analysis;
 use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
-use corfem::method::modes::ModeSet;
-use corfem::method::state::{ModalState, UpdateRule};
+use corfem::method::model::{DynamicModel, Model};
+use corfem::method::modes::{Modes, solve};
+use corfem::method::sorting::pair_modes;
+use corfem::sparse::{BasisSize, ParameterMatrix};
 use nalgebra::{DMatrix, dmatrix};
 
 /// The chain with λ = 1, 4, 8, its six springs as parameters, and the modes of a stiffer chain as test modes.
-fn chain() -> ModalModel {
+fn chain() -> Model {
     let springs = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let grounds = springs.map(|ground| three_mass_chain(ground, [0.0; 3]));
     let couplings = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 3.0]];
     let betweens = couplings.map(|between| three_mass_chain([0.0; 3], between));
     let mass = DMatrix::identity(3, 3);
     let test_stiffness = three_mass_chain([1.2, 1.0, 0.9], [1.1, 1.0, 1.0]);
-    let test = corfem::method::modes::solve(&test_stiffness, &mass, 3).expect("a held chain");
+    let test = solve(&test_stiffness, &mass, 3).expect("a held chain");
     let model = DynamicModel {
         stiffness: three_mass_chain([1.0, 1.0, 1.0], [1.0, 1.0, 3.0]),
         mass,
-        shares: grounds
-            .into_iter()
-            .chain(betweens)
-            .map(ParameterMatrix::Stiffness)
-            .collect(),
+        shares: grounds.into_iter().chain(betweens).collect(),
     };
     model.analyze(&test, Some(3)).expect("a held chain")
 }
 
 /// Where Recursive 1 settles, its state is the eigensolution's.
 #[test]
-fn both_update_rules_reach_the_same_state() {
+fn recursion_and_eigensolution_reach_the_same_state() {
     let model = chain();
     for factors in [
         [1.0, 1.0, 1.0, 1.0, 1.0, 1.0],
         [1.2, 1.0, 0.9, 1.1, 1.0, 0.9],
         [0.8, 1.1, 1.0, 1.0, 0.9, 1.3],
     ] {
-        let by = |rule| ModalState::at(&model, factors.to_vec(), rule).expect("separate roots");
-        let (found, exact) = (by(UpdateRule::Recursive1), by(UpdateRule::Eigensolution));
-        let (modes, exact_modes) = (&found.modes(), &exact.modes());
+        let found = model.at(&factors).expect("separate roots");
+        let exact = exact_state(&model, &factors).expect("separate roots");
+        let (modes, exact_modes) = (&found.modes, &exact.modes);
         for (found, exact) in modes
             .omega_squared()
             .iter()
@@ -54,10 +54,11 @@ fn both_update_rules_reach_the_same_state() {
             );
         }
         assert!((modes.shapes() - exact_modes.shapes()).amax() < EIGEN_ROUND_OFF);
-        assert!((found.generalized_shapes() - exact.generalized_shapes()).amax() < EIGEN_ROUND_OFF);
-        assert_eq!(found.pairing(), exact.pairing());
-        assert!((found.errors().frequency - exact.errors().frequency).abs() < EIGEN_ROUND_OFF);
-        assert!((found.errors().shape - exact.errors().shape).abs() < EIGEN_ROUND_OFF);
+        let generalized = &found.generalized_shapes - &exact.generalized_shapes;
+        assert!(generalized.amax() < EIGEN_ROUND_OFF);
+        assert_eq!(found.pairing, exact.pairing);
+        assert!((found.errors.frequency - exact.errors.frequency).abs() < EIGEN_ROUND_OFF);
+        assert!((found.errors.shape - exact.errors.shape).abs() < EIGEN_ROUND_OFF);
     }
 }
 
@@ -66,52 +67,60 @@ fn both_update_rules_reach_the_same_state() {
 #[test]
 fn state_where_two_roots_meet_is_the_eigensolutions_alone() {
     let model = chain();
-    let meeting = vec![1.3, 1.0, 1.0, 1.0, 1.0, 0.95 / 3.0];
+    let meeting = [1.3, 1.0, 1.0, 1.0, 1.0, 0.95 / 3.0];
     assert!(matches!(
-        ModalState::at(&model, meeting.clone(), UpdateRule::Recursive1),
+        model.at(&meeting),
         Err(Error::CoalescingModes {
             first: 2,
             second: 1,
             ..
         })
     ));
-    let found = ModalState::at(&model, meeting, UpdateRule::Eigensolution).unwrap();
+    let found = exact_state(&model, &meeting).unwrap();
     // Both are turned by 45 degrees, 0.3/√12 to either side of 4.05 but for what mode 0 adds.
     for (mode, side) in [(1, -1.0), (2, 1.0)] {
         let expected = 4.05 + side * 0.3 / 12_f64.sqrt();
-        let found = found.modes().omega_squared()[mode];
+        let found = found.modes.omega_squared()[mode];
         assert!((found / expected - 1.0).abs() < 0.01, "{found} {expected}");
     }
-    let product = found
-        .generalized_shapes()
-        .tr_mul(found.generalized_shapes());
+    let generalized = &found.generalized_shapes;
+    let product = generalized.tr_mul(generalized);
     assert!((product - DMatrix::identity(3, 3)).amax() < EIGEN_ROUND_OFF);
-    assert!(found.errors().sum().is_finite());
+    assert!(found.errors.sum().is_finite());
 }
 
 /// Two oscillators side by side whose second mass is a parameter: without it the root is zero, with less than nothing it is
 /// negative, and neither is a vibration.
 #[test]
 fn mass_that_is_taken_whole_loses_the_root() {
-    let model = DynamicModel {
-        stiffness: dmatrix![1.0, 0.0; 0.0, 4.0],
-        mass: DMatrix::identity(2, 2),
-        shares: vec![ParameterMatrix::Mass(dmatrix![0.0, 0.0; 0.0, 1.0])],
-    };
-    let test = ModeSet::from_measured(&[0.1, 0.4], &DMatrix::identity(2, 2)).unwrap();
-    let model = model.analyze(&test, None).unwrap();
+    let (stiffness, mass) = (dmatrix![1.0, 0.0; 0.0, 4.0], DMatrix::identity(2, 2));
+    let second = dmatrix![0.0, 0.0; 0.0, 1.0];
+    let shares = [ParameterMatrix::Mass(second.clone())];
+    let (whole, sensors) = of_dense(&stiffness, &mass, &shares).unwrap();
+    let test = Modes::from_measured(&[0.1, 0.4], &DMatrix::identity(2, 2)).unwrap();
+    let model = whole.analyze(
+        &[1.0],
+        &sensors,
+        (&test, pair_modes),
+        BasisSize {
+            modes: 2,
+            residual_vectors: 0,
+        },
+    );
+    let model = model.unwrap();
     for (factor, root) in [(0.0, 0.0), (-0.5, -0.125)] {
         assert_refused(
-            ModalState::at(&model, vec![factor], UpdateRule::Recursive1),
+            model.at(&[factor]),
             Error::LostRoot {
                 mode: 1,
                 value: root,
             },
         );
+        let changed = &mass + (factor - 1.0) * &second;
         assert!(matches!(
-            ModalState::at(&model, vec![factor], UpdateRule::Eigensolution),
-            Err(Error::NotPositiveDefinite { dof: 1, .. })
+            solve(&stiffness, &changed, 2),
+            Err(Error::NotPositiveDefinite { row: 1, .. })
         ));
     }
-    assert!(ModalState::at(&model, vec![0.5], UpdateRule::Recursive1).is_ok());
+    assert!(model.at(&[0.5]).is_ok());
 }

@@ -3,20 +3,27 @@
 //! small differences of many changes could add up.
 
 use crate::common::loops::STEP_RULES;
+use crate::common::structures::spring_stiffness;
 use crate::common::tolerances::SAME_LOOPS;
 use crate::common::whole_models::{seen_by, sensors_at, sparse};
-use corfem::chain::{rods, spring_stiffness};
+use corfem::chain::rods;
 use corfem::job::assignment::pair_optimally;
+use corfem::method::analysis::{Analysis, DERIVATIVE_STEP, State, without_close_couplings};
+use corfem::method::appendix_c::Pencil;
 use corfem::method::error::Error;
-use corfem::method::error_sum::ModeWeight;
+use corfem::method::error_sum::errors;
 use corfem::method::inner_loop::InnerSettings;
-use corfem::method::model::{
-    Bounds, DynamicModel, FiniteElementModel, Pair, Parameter, ParameterMatrix,
-};
-use corfem::method::modes::solve;
+use corfem::method::linear_algebra::symmetric_part;
+use corfem::method::model::{DynamicModel, FiniteElementModel, Parameter};
+use corfem::method::modes::{Modes, solve};
 use corfem::method::outer_loop::{Correlation, Pass, Settings, correlate};
-use corfem::method::pairing::{Pairing, pair_modes};
-use corfem::sparse::{WholeModel, WholeParameter, WholeShare};
+use corfem::method::perturbation::{Perturbed, first_order};
+use corfem::method::sorting::{Pairing, cross_orthogonality, pair_modes};
+use corfem::method::step::{Bounds, REFERENCE_GAGE, StepRule};
+use corfem::sparse::{
+    BasisSize, ModeWeight, Pair, ParameterMatrix, WholeModel, WholeParameter, WholeShare,
+    normalize_with_mass,
+};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -49,7 +56,7 @@ struct Sensing {
 
 /// How a structure is analyzed.
 #[derive(Debug, Clone)]
-enum Analysis {
+enum Way {
     /// Whole, as sensors see it.
     AtSensors(System, Sensing),
     /// By its matrices, with so many modes.
@@ -62,7 +69,7 @@ enum Analysis {
 #[derive(Debug, Clone)]
 struct Run {
     name: String,
-    analysis: Analysis,
+    way: Way,
     test_modes: usize,
     inner: InnerSettings,
 }
@@ -124,15 +131,20 @@ impl System {
         self.parts.iter().map(|part| part.truth).collect()
     }
 
+    fn has_mass(&self) -> bool {
+        self.parts.iter().any(|part| part.is_mass)
+    }
+
+    /// Stiffness, mass, and every part at these factors.
     fn at(&self, factors: &[f64]) -> DynamicModel {
         let (mut stiffness, mut mass) = (self.stiffness.clone(), self.mass.clone());
         let share = |(part, factor): (&Part, &f64)| {
-            let (matrix, share): (_, fn(DMatrix<f64>) -> _) = match part.is_mass {
-                true => (&mut mass, ParameterMatrix::Mass),
-                false => (&mut stiffness, ParameterMatrix::Stiffness),
+            let matrix = match part.is_mass {
+                true => &mut mass,
+                false => &mut stiffness,
             };
             *matrix += (factor - 1.0) * &part.matrix;
-            share(*factor * &part.matrix)
+            *factor * &part.matrix
         };
         let shares = self.parts.iter().zip(factors).map(share).collect();
         DynamicModel {
@@ -159,15 +171,129 @@ impl System {
     }
 }
 
+/// A caller's own analysis of matrices: the paper's, with masses among the parts, of which the paper has none.
+struct WithMasses {
+    exact: State,
+    test: Modes,
+    cross: DMatrix<f64>,
+    /// Parts through the exact modes.
+    shares: Vec<ParameterMatrix>,
+    /// Parts through the test modes, relative to the test's own stiffness and mass.
+    test_shares: Vec<DMatrix<f64>>,
+}
+
+impl WithMasses {
+    fn new(system: &System, factors: &[f64], test: &Modes, modes: usize) -> Result<Self, Error> {
+        let DynamicModel {
+            stiffness,
+            mass,
+            shares,
+        } = system.at(factors);
+        let modes = solve(&stiffness, &mass, modes)?;
+        let test = test.scaled_with(&mass)?;
+        let through = |part: &Part, share: &DMatrix<f64>, shapes: &DMatrix<f64>| {
+            let share = symmetric_part(&shapes.tr_mul(&(share * shapes)));
+            match part.is_mass {
+                true => ParameterMatrix::Mass(share),
+                false => ParameterMatrix::Stiffness(share),
+            }
+        };
+        let omega = test.omega_squared().map(f64::sqrt);
+        let relative = |share| match share {
+            ParameterMatrix::Stiffness(share) => share.component_div(&(&omega * omega.transpose())),
+            ParameterMatrix::Mass(share) => share,
+        };
+        let all = || system.parts.iter().zip(&shares);
+        let through_modes = all().map(|(part, share)| through(part, share, modes.shapes()));
+        let through_test = all().map(|(part, share)| through(part, share, test.shapes()));
+        let cross = cross_orthogonality(&modes, &test, &mass)?;
+        let pairing = pair_modes(&cross)?;
+        Ok(Self {
+            shares: through_modes.collect(),
+            test_shares: through_test.map(relative).collect(),
+            exact: State {
+                factors: vec![1.0; shares.len()],
+                generalized_shapes: DMatrix::identity(modes.len(), modes.len()),
+                errors: errors(&modes, &pairing, &test)?,
+                modes,
+                pairing,
+            },
+            cross,
+            test,
+        })
+    }
+}
+
+impl Analysis for WithMasses {
+    fn exact(&self) -> &State {
+        &self.exact
+    }
+
+    fn at(&self, factors: &[f64]) -> Result<State, Error> {
+        let modes = &self.exact.modes;
+        let mut beta = DMatrix::zeros(modes.len(), modes.len());
+        let mut alpha = beta.clone();
+        for (share, factor) in self.shares.iter().zip(factors) {
+            let change = match share {
+                ParameterMatrix::Stiffness(_) => &mut beta,
+                ParameterMatrix::Mass(_) => &mut alpha,
+            };
+            *change += (factor - 1.0) * share.matrix();
+        }
+        let pencil = Pencil::of_vibrations(modes.omega_squared(), &beta, &alpha)?;
+        let Perturbed { roots, mut shapes } = pencil.recursive_1_converged()?.perturbed;
+        if let Some(mode) = roots.iter().position(|root| *root <= 0.0) {
+            let value = roots[mode];
+            return Err(Error::LostRoot { mode, value });
+        }
+        normalize_with_mass(&mut shapes, &alpha)?;
+        let modes = Modes::new(roots.map(f64::recip), modes.shapes() * &shapes)?;
+        let pairing = pair_modes(&shapes.tr_mul(&self.cross))?;
+        Ok(State {
+            factors: factors.to_vec(),
+            errors: errors(&modes, &pairing, &self.test)?,
+            generalized_shapes: shapes,
+            modes,
+            pairing,
+        })
+    }
+
+    fn error_changes(&self, state: &State) -> Result<Vec<f64>, Error> {
+        let (k, p) = (state.modes.omega_squared(), &state.generalized_shapes);
+        let change = |(share, factor): (&ParameterMatrix, &f64)| {
+            let change = DERIVATIVE_STEP * *factor * p.tr_mul(&(share.matrix() * p));
+            let own = without_close_couplings(k.as_slice(), &change);
+            let Perturbed { roots, shapes } = match share {
+                ParameterMatrix::Stiffness(_) => first_order(k, &own)?,
+                ParameterMatrix::Mass(_) => {
+                    Pencil::of_vibrations(k, &(0.0 * &own), &own)?.first_order()?
+                }
+            };
+            let modes = Modes::new(roots.map(f64::recip), state.modes.shapes() * shapes)?;
+            let errors = errors(&modes, &state.pairing, &self.test)?;
+            Ok(errors.sum() - state.errors.sum())
+        };
+        self.shares.iter().zip(&state.factors).map(change).collect()
+    }
+
+    fn stiffness_changes(&self, state: &State, gage_factors: &[f64], rule: StepRule) -> Vec<f64> {
+        let both = state.factors.iter().zip(gage_factors);
+        let change = |(share, (factor, gage_factor)): (_, (&f64, &f64))| {
+            DERIVATIVE_STEP * rule.measure(share, *factor, REFERENCE_GAGE * gage_factor)
+        };
+        self.test_shares.iter().zip(both).map(change).collect()
+    }
+}
+
 impl Run {
-    fn new(name: String, analysis: Analysis, test_modes: usize) -> Self {
+    fn new(name: String, way: Way, test_modes: usize) -> Self {
         let inner = InnerSettings {
             tolerance: 0.002,
             ..InnerSettings::default()
         };
         Self {
             name,
-            analysis,
+            way,
             test_modes,
             inner,
         }
@@ -193,20 +319,21 @@ impl Run {
 
     /// The paper's settings with tolerances so tight that there are several passes of several iterations.
     fn settings(&self) -> Settings {
-        Settings {
+        let of_nine = Settings {
             inner: self.inner.clone(),
             later_inner_tolerance: 0.001,
             error_sum_tolerance: 0.002,
             most_passes: 4,
             ..Settings::default()
-        }
+        };
+        of_nine.for_modes(self.test_modes)
     }
 
     fn correlation(&self) -> Result<Correlation, Error> {
-        match &self.analysis {
-            Analysis::AtSensors(system, sensing) => self.at_sensors(system, sensing),
-            Analysis::Matrices(system, modes) => self.of_matrices(system, *modes),
-            Analysis::Rods { is_bounded, modes } => self.of_rods(*is_bounded, *modes),
+        match &self.way {
+            Way::AtSensors(system, sensing) => self.at_sensors(system, sensing),
+            Way::Matrices(system, modes) => self.of_matrices(system, *modes),
+            Way::Rods { is_bounded, modes } => self.of_rods(*is_bounded, *modes),
         }
     }
 
@@ -220,22 +347,30 @@ impl Run {
         let test = seen_by(&sensors, &found.vibrations);
         let weights: Vec<ModeWeight> = (0..self.test_modes).map(weight).collect();
         let analyze = |factors: &[f64]| {
-            let counts = [self.test_modes + 2, sensing.further];
-            let model = model.analyze(factors, &sensors, (&test, pair), counts)?;
+            let size = BasisSize {
+                modes: self.test_modes + 2,
+                residual_vectors: sensing.further,
+            };
+            let model = model.analyze(factors, &sensors, (&test, pair), size)?;
             match sensing.is_weighted {
                 true => model.weighted(&weights),
                 false => Ok(model),
             }
         };
-        correlate(analyze, &model.ranges(), &self.settings(), |_, _| {})
+        correlate(analyze, &model.ranges(), &self.settings(), |_, _| true)
     }
 
     fn of_matrices(&self, system: &System, modes: usize) -> Result<Correlation, Error> {
         let there = system.at(&system.truth());
-        let test = solve(&there.stiffness, &there.mass, self.test_modes)?.into();
+        let test = solve(&there.stiffness, &there.mass, self.test_modes)?;
         let ranges: Vec<_> = system.parts.iter().map(Part::bounds).collect();
+        let (settings, all) = (self.settings(), |_: usize, _: &Pass| true);
+        if system.has_mass() {
+            let analyze = |factors: &[f64]| WithMasses::new(system, factors, &test, modes);
+            return correlate(analyze, &ranges, &settings, all);
+        }
         let analyze = |factors: &[f64]| system.at(factors).analyze(&test, Some(modes));
-        correlate(analyze, &ranges, &self.settings(), |_, _| {})
+        correlate(analyze, &ranges, &settings, all)
     }
 
     /// Rods whose areas are near the gage that one rule of the step measures by, so that its steps are as long as the others'.
@@ -251,10 +386,10 @@ impl Run {
         let structure = rods(&areas, [true, false])?;
         let model = FiniteElementModel::new(structure, distribution, masses, parameters.to_vec())?;
         let test = model.modes(&[0.75, 1.3, 0.8, 1.2])?;
-        let test = test.lowest(self.test_modes)?.into();
+        let test = test.lowest(self.test_modes)?;
         let analyze = |factors: &[f64]| model.analyze(factors, &test, Some(modes));
         let ranges = model.factor_ranges()?;
-        correlate(analyze, &ranges, &self.settings(), |_, _| {})
+        correlate(analyze, &ranges, &self.settings(), |_, _| true)
     }
 
     fn record(&self) -> Recorded {
@@ -379,8 +514,8 @@ fn chain_at(rows: &[usize], bits: usize) -> Run {
         is_greedy,
     };
     let name = format!("chain, held {is_held}, masses {with_mass}, {sensing:?}");
-    let analysis = Analysis::AtSensors(chain(is_held, with_mass), sensing);
-    Run::new(name, analysis, 5)
+    let way = Way::AtSensors(chain(is_held, with_mass), sensing);
+    Run::new(name, way, 5)
 }
 
 fn chains() -> Vec<Run> {
@@ -398,12 +533,22 @@ fn chains() -> Vec<Run> {
     runs
 }
 
+/// The name of a rule of the step when the golden was recorded.
+fn recorded(step: StepRule) -> &'static str {
+    match step {
+        StepRule::Matrix => "Norm",
+        StepRule::Own => "Diagonal",
+        StepRule::Relative => "Relative",
+        StepRule::Gage => "Gage",
+    }
+}
+
 fn condensed_rods() -> Vec<Run> {
     let mut runs = Vec::new();
     for step in STEP_RULES {
         for (is_bounded, modes) in [(false, 5), (true, 5), (false, 4)] {
-            let analysis = Analysis::Rods { is_bounded, modes };
-            let mut run = Run::new(format!("{analysis:?}, step {step:?}"), analysis, 4);
+            let way = Way::Rods { is_bounded, modes };
+            let mut run = Run::new(format!("{way:?}, step {}", recorded(step)), way, 4);
             run.inner.step = step;
             runs.push(run);
         }
@@ -419,7 +564,7 @@ fn oscillators(springs: &[f64], parts: Vec<Part>) -> Run {
         mass: DMatrix::identity(count, count),
         parts,
     };
-    Run::new(String::new(), Analysis::Matrices(system, count), count)
+    Run::new(String::new(), Way::Matrices(system, count), count)
 }
 
 /// Runs that come to what guards the perturbation, found among random systems.

@@ -1,15 +1,15 @@
 //! The outer loop: exact checks between inner loops, until analysis and test agree or there is no more to try.
 
-use crate::common::loops::correlate_chain;
+use crate::common::loops::{Eigensolved, chain_problem, correlate_chain, verdict_of};
 use crate::common::tolerances::{CONVERGED_STATE, MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
+use corfem::method::analysis::Analysis;
 use corfem::method::error::Error;
 use corfem::method::error_sum::Errors;
 use corfem::method::inner_loop::InnerSettings;
-use corfem::method::model::Bounds;
 use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::state::UpdateRule;
-use corfem::method::step::Accumulation;
+use corfem::method::step::{Accumulation, Bounds};
+use corfem::weighted::comparison::ExactResult;
 use proptest::prelude::*;
 
 /// Settings with tolerances from loose to strict and up to four passes, so that loops end for every reason.
@@ -42,7 +42,7 @@ properties! {
     #[test]
     fn checks_are_exact_solutions((chain, truth) in chain_and_truth()) {
         let settings = Settings { least_passes: 2, most_passes: 2, ..Settings::default() };
-        let found = correlate_chain(&chain, &truth, &settings);
+        let found = correlate_chain(&chain, &truth, &settings.for_modes(truth.len()));
         let test = chain.modes(&truth);
         let ones = vec![1.0; truth.len()];
         let checks = std::iter::once((&ones, &found.initial))
@@ -52,9 +52,9 @@ properties! {
             let expected = error_sum_by_definition(&model.stiffness, &model.mass, &test);
             prop_assert!((check.errors.sum() - expected).abs() <= MATRIX_ROUND_OFF);
             prop_assert_eq!(check.modes.len(), truth.len());
-            prop_assert_eq!(check.frequencies_hz.len(), truth.len());
-            let all = check.modes.frequencies_hz();
-            for (frequency, &i) in check.frequencies_hz.iter().zip(check.pairing.analysis_mode()) {
+            let (all, paired) = (check.modes.frequencies_hz(), ExactResult::from(check).frequencies_hz);
+            prop_assert_eq!(paired.len(), truth.len());
+            for (frequency, &i) in paired.iter().zip(check.pairing.analysis_mode()) {
                 prop_assert_eq!(*frequency, all[i]);
             }
         }
@@ -64,11 +64,13 @@ properties! {
     fn where_b_never_changes_the_check_confirms_the_inner_loop((chain, truth) in chain_and_truth()) {
         // By eigensolutions: the recursion stops at 60 orders, which a large step among close modes may not be enough for.
         // Changes multiply as the gages of the check do; added ones are those of another structure.
-        let (update, accumulation) = (UpdateRule::Eigensolution, Accumulation::Product);
-        let inner = InnerSettings { update, accumulation, ..InnerSettings::default() };
-        let settings = Settings { inner, least_passes: 3, ..Settings::default() };
-        for pass in correlate_chain(&chain, &truth, &settings).passes {
-            let difference = pass.check.errors.sum() - pass.inner.last.errors().sum();
+        let inner = InnerSettings { accumulation: Accumulation::Product, ..InnerSettings::default() };
+        let settings = Settings { inner, least_passes: 3, ..Settings::default() }.for_modes(truth.len());
+        let test = chain.modes(&truth);
+        let analyze = |factors: &[f64]| chain.model(factors).analyze(&test, None).map(Eigensolved);
+        let found = correlate(analyze, &vec![None; truth.len()], &settings, |_, _| true);
+        for pass in found.expect("a chain can be correlated").passes {
+            let difference = pass.check.errors.sum() - pass.inner.last.errors.sum();
             prop_assert!(difference.abs() <= CONVERGED_STATE, "{difference:e}");
         }
     }
@@ -78,20 +80,21 @@ properties! {
         (chain, truth) in chain_and_truth(),
         settings in settings(),
     ) {
+        let settings = settings.for_modes(truth.len());
         let found = correlate_chain(&chain, &truth, &settings);
+        let verdict = verdict_of(&found, &chain_problem(&chain, &truth), &vec![None; truth.len()]);
         let best = found.best_factors;
         prop_assert_eq!(best.len(), truth.len());
         let test = chain.modes(&truth);
         let sum = |factors: &[f64]| chain.model(factors).analyze(&test, None).unwrap().exact().errors.sum();
         let lowest = sum(&best);
-        let scale = 3.0 / (truth.len() as f64).sqrt();
         // The number that the tolerance is compared with.
-        prop_assert_eq!(found.verdict.error_sum, scale * lowest);
+        prop_assert_eq!(verdict.error_sum, lowest);
         // Of those within tolerance, if there are any.
         let within = |errors: &Errors| {
-            scale * errors.sum() <= settings.error_sum_tolerance
-                && scale * errors.frequency <= settings.frequency_tolerance
-                && scale * errors.shape <= settings.shape_tolerance
+            errors.sum() <= settings.error_sum_tolerance
+                && errors.frequency <= settings.frequency_tolerance
+                && errors.shape <= settings.shape_tolerance
         };
         let all = std::iter::once(&found.initial).chain(found.passes.iter().map(|pass| &pass.check));
         for check in all.filter(|check| !found.converged || within(&check.errors)) {
@@ -112,12 +115,13 @@ properties! {
             .map(|&(lower, upper)| Some(Bounds { lower, upper }))
             .collect();
         let settings = Settings { least_passes: 3, most_passes: 3, ..Settings::default() };
+        let settings = settings.for_modes(truth.len());
         let test = chain.modes(&truth);
         let found = correlate(
             |factors| chain.model(factors).analyze(&test, None),
             &ranges,
             &settings,
-            |_, _| {},
+            |_, _| true,
         );
         // Where roots are so close that no first step settles there is no pass to look at.
         prop_assume!(!matches!(found, Err(Error::UnsettledRoots { .. })));
@@ -139,12 +143,20 @@ fn passes_are_told_by_their_number_from_one() {
         most_passes: 3,
         ..Settings::default()
     };
+    let settings = settings.for_modes(3);
     let analyze = |factors: &[f64]| chain.model(factors).analyze(&test, None);
     let mut told = Vec::new();
     let found = correlate(analyze, &[None; 3], &settings, |number, _| {
-        told.push(number)
+        told.push(number);
+        true
     });
-    let count = found.expect("a correlation").passes.len();
+    let found = found.expect("a correlation");
+    let count = found.passes.len();
     assert!(count > 1);
     assert_eq!(told, (1..=count).collect::<Vec<_>>());
+    // The caller may end it after any pass, and what was found until then is kept.
+    let ended = correlate(analyze, &[None; 3], &settings, |_, _| false);
+    let ended = ended.expect("a correlation");
+    assert_eq!(ended.passes.len(), 1);
+    assert_eq!(ended.passes[0].factors, found.passes[0].factors);
 }

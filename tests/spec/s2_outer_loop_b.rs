@@ -2,20 +2,21 @@
 
 use crate::common::tolerances::MATRIX_ROUND_OFF;
 use corfem::chain::rods;
-use corfem::method::model::{FiniteElementModel, Parameter, ParameterMatrix};
-use corfem::method::modes::ModeSet;
+use corfem::method::analysis::Analysis;
+use corfem::method::model::{FiniteElementModel, Parameter};
+use corfem::method::modes::Modes;
 use nalgebra::{DMatrix, dvector};
 use proptest::prelude::*;
 
 /// Five springs in a row from a wall, of which the second and the last joint are measured.
-fn condensed_chain(springs: &[f64]) -> (FiniteElementModel, ModeSet) {
+fn condensed_chain(springs: &[f64]) -> (FiniteElementModel, Modes) {
     let mut t = DMatrix::zeros(5, 2);
     (t[(1, 0)], t[(4, 1)]) = (1.0, 1.0);
     let parameters = (1..=5).map(|spring| Parameter::element(spring, None));
     let structure = rods(springs, [true, false]).expect("a chain");
     let mass = DMatrix::identity(2, 2);
     let model = FiniteElementModel::new(structure, t, mass, parameters.collect());
-    let test = ModeSet::new(
+    let test = Modes::new(
         dvector![100.0, 1000.0],
         nalgebra::dmatrix![0.5, 1.0; 1.0, -0.5],
     );
@@ -33,7 +34,7 @@ properties! {
     ) {
         let (model, test) = condensed_chain(&springs);
         let modal = model.analyze(&factors, &test, None).unwrap();
-        let sum: DMatrix<f64> = modal.shares().iter().map(ParameterMatrix::matrix).sum();
+        let sum: DMatrix<f64> = modal.shares().iter().sum();
         let expected = DMatrix::from_diagonal(modal.exact().modes.omega_squared());
         let error = (sum - &expected).amax();
         prop_assert!(error <= MATRIX_ROUND_OFF * expected.amax(), "{error:e}");

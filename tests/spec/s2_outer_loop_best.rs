@@ -1,13 +1,12 @@
 //! Passes that make the exact error worse: the loops take stiffness to be linear in what changes, as in a gage, and here it is a power.
 
 use crate::common::draws::reached;
+use crate::common::loops::Eigensolved;
 use crate::common::tolerances::{CONVERGED_STATE, LEAST_REACHED};
 use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
-use corfem::method::error_sum::ErrorMeasure;
-use corfem::method::model::{DynamicModel, ParameterMatrix};
-use corfem::method::modes::ModeSet;
+use corfem::method::model::DynamicModel;
+use corfem::method::modes::Modes;
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::method::state::UpdateRule;
 use nalgebra::{DMatrix, dmatrix, dvector};
 use proptest::prelude::*;
 
@@ -22,22 +21,21 @@ fn springs(factors: &[f64], power: f64) -> Vec<f64> {
 
 /// Three passes, whatever they bring.
 fn three_passes((chain, truth, power): &(Chain, Vec<f64>, f64)) -> Correlation {
-    let mut settings = Settings {
+    let settings = Settings {
         least_passes: 3,
         most_passes: 3,
         // None is within tolerance, so that the error sum alone decides.
         frequency_tolerance: 1e-9,
         ..Settings::default()
     };
-    // Steps go so far that Recursive 1 may not settle.
-    settings.inner.update = UpdateRule::Eigensolution;
-    settings.inner.measure = ErrorMeasure::Sum;
     let test = chain.modes(truth);
+    let analyze = |factors: &[f64]| chain.model(&springs(factors, *power)).analyze(&test, None);
+    // Steps go so far that Recursive 1 may not settle.
     correlate(
-        |factors| chain.model(&springs(factors, *power)).analyze(&test, None),
+        |factors| analyze(factors).map(Eigensolved),
         &vec![None; truth.len()],
         &settings,
-        |_, _| {},
+        |_, _| true,
     )
     .expect("a chain can be correlated")
 }
@@ -80,12 +78,12 @@ properties! {
 /// with shapes turned by 0.03. The sum is larger, and within the tolerances.
 #[test]
 fn what_is_within_the_tolerances_comes_before_a_smaller_sum_outside() {
-    let test = ModeSet::new(dvector![1.0, 4.0], DMatrix::identity(2, 2)).expect("modes");
+    let test = Modes::new(dvector![1.0, 4.0], DMatrix::identity(2, 2)).expect("modes");
     let analysis = |ratio: f64, tangent: f64| {
         let turn = dmatrix![1.0, -tangent; tangent, 1.0] / 1.0_f64.hypot(tangent);
         let squares = DMatrix::from_diagonal(&dvector![ratio * ratio, 4.0]);
         let stiffness = &turn * squares * turn.transpose();
-        let shares = vec![ParameterMatrix::Stiffness(stiffness.clone())];
+        let shares = vec![stiffness.clone()];
         let mass = DMatrix::identity(2, 2);
         DynamicModel {
             stiffness,
@@ -94,20 +92,19 @@ fn what_is_within_the_tolerances_comes_before_a_smaller_sum_outside() {
         }
         .analyze(&test, None)
     };
-    let mut settings = Settings {
+    let settings = Settings {
         most_passes: 1,
         error_sum_tolerance: 0.05,
         frequency_tolerance: 0.015,
         shape_tolerance: 0.04,
         ..Settings::default()
     };
-    settings.inner.measure = ErrorMeasure::Sum;
     let mut is_first = true;
     let analyze = |_: &[f64]| match std::mem::take(&mut is_first) {
         true => analysis(1.02, 0.0),
         false => analysis(1.01, 0.03),
     };
-    let found = correlate(analyze, &[None], &settings, |_, _| {}).expect("a correlation");
+    let found = correlate(analyze, &[None], &settings, |_, _| true).expect("a correlation");
     assert!(found.passes[0].check.errors.sum() > found.initial.errors.sum());
     assert!(found.converged);
     assert_eq!(found.best, Some(0));

@@ -1,28 +1,28 @@
 //! Correlation by mass, and by stiffness and mass together.
 
 use crate::common::tolerances::ROUND_OFF;
-use crate::spec::s2_parameters_mass::{DENSITY, both, boxed, modes, point_masses};
-use corfem::method::model::Parameter;
+use crate::spec::s2_parameters_mass::{DENSITY, analyze, both, boxed, modes, point_masses};
 use corfem::method::outer_loop::{Settings, correlate};
+use corfem::method::step::Bounds;
+use corfem::sparse::{WholeModel, WholeParameter};
 
 #[test]
 fn wrong_point_masses_are_found() {
-    let truth = boxed(point_masses(), 1e-12, [1.0; 9]).expect("a model");
+    let (truth, _) = boxed(&point_masses(), 1e-12, [1.0; 9]);
     let wrong = [1.2, 0.85, 1.15, 0.8, 1.25, 0.9, 1.1, 0.85, 1.15];
-    let model = boxed(point_masses(), 1e-12, wrong).expect("a model");
+    let model = boxed(&point_masses(), 1e-12, wrong);
     let mut settings = Settings {
         least_passes: 2,
         ..Settings::default()
     };
     settings.inner.tolerance = 0.002;
     settings.later_inner_tolerance = 0.002;
-    let ranges = model.factor_ranges().expect("no bounds");
     let test = modes(&truth);
     let result = correlate(
-        |f| model.analyze(f, &test, None),
-        &ranges,
+        |f| analyze(&model, f, &test),
+        &model.0.ranges(),
         &settings,
-        |_, _| {},
+        |_, _| true,
     )
     .expect("it runs");
     assert!(result.converged);
@@ -41,13 +41,12 @@ fn wrong_point_masses_are_found() {
 #[test]
 fn stiffness_and_mass_change_together() {
     let (model, test) = both();
-    let ranges = model.factor_ranges().expect("no bounds");
     let settings = Settings::default();
     let result = correlate(
-        |f| model.analyze(f, &test, None),
-        &ranges,
+        |f| analyze(&model, f, &test),
+        &model.0.ranges(),
         &settings,
-        |_, _| {},
+        |_, _| true,
     )
     .expect("it runs");
     assert!(
@@ -64,26 +63,25 @@ fn stiffness_and_mass_change_together() {
 #[test]
 fn mass_limits_hold() {
     let wrong = [1.3, 0.8, 1.2, 0.75, 1.25, 0.9, 1.1, 0.85, 1.15];
-    let range = corfem::method::model::Bounds::positive("factor", 0.9, 1.1).expect("a range");
-    let parameters = point_masses()
-        .into_iter()
-        .map(|p| Parameter {
-            factor_range: Some(range),
-            ..p
-        })
-        .collect();
-    let model = boxed(parameters, DENSITY, wrong).expect("a model");
-    let truth = modes(&boxed(point_masses(), DENSITY, [1.0; 9]).expect("a model"));
-    let ranges = model.factor_ranges().expect("bounds");
+    let range = Bounds::positive("factor", 0.9, 1.1).expect("a range");
+    let (model, sensors) = boxed(&point_masses(), DENSITY, wrong);
+    let parameters = model.parameters().iter().map(|p| WholeParameter {
+        range: Some(range),
+        ..p.clone()
+    });
+    let (stiffness, mass) = model.at(&[1.0; 9]).expect("matrices");
+    let model = WholeModel::new(stiffness, mass, parameters.collect()).expect("a model");
+    let truth = modes(&boxed(&point_masses(), DENSITY, [1.0; 9]).0);
+    let (ranges, model) = (model.ranges(), (model, sensors));
     let settings = Settings {
         most_passes: 2,
         ..Settings::default()
     };
     let result = correlate(
-        |f| model.analyze(f, &truth, None),
+        |f| analyze(&model, f, &truth),
         &ranges,
         &settings,
-        |_, _| {},
+        |_, _| true,
     )
     .expect("it runs");
     for pass in &result.passes {

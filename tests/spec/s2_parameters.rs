@@ -4,7 +4,8 @@ use crate::common::matrices::relative_distance;
 use crate::common::structures::{chain_model as chain, group};
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::torque_boxes::{case, factors, with_every_element, with_parameters};
-use corfem::method::model::{Bounds, Parameter, Scaled};
+use corfem::method::model::Parameter;
+use corfem::method::step::Bounds;
 use corfem::torque_box::Case;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
@@ -37,13 +38,13 @@ properties! {
                 each[element - 1] = *factor;
             }
         }
-        prop_assert_eq!(groups.at(&factors).unwrap().sizes, single.at(&each).unwrap().sizes);
+        prop_assert_eq!(groups.sizes(&factors).unwrap(), single.sizes(&each).unwrap());
         let (together, apart) = (groups.matrices(&factors).unwrap(), single.matrices(&each).unwrap());
         prop_assert_eq!(together.shares.len(), 4);
         prop_assert!(relative_distance(&together.stiffness, &apart.stiffness) <= ROUND_OFF);
         for ((_, elements), share) in SUBSTRUCTURES.iter().zip(&together.shares) {
-            let sum: DMatrix<f64> = elements.iter().map(|&element| apart.shares[element - 1].matrix()).sum();
-            prop_assert!(relative_distance(share.matrix(), &sum) <= MATRIX_ROUND_OFF);
+            let sum: DMatrix<f64> = elements.iter().map(|&element| &apart.shares[element - 1]).sum();
+            prop_assert!(relative_distance(share, &sum) <= MATRIX_ROUND_OFF);
         }
         prop_assert_eq!(&together.mass, groups.mass());
     }
@@ -52,7 +53,7 @@ properties! {
     #[test]
     fn sizes_are_first_sizes_times_factors(case in case(), factors in factors(15)) {
         let model = case.model().unwrap();
-        let sizes = model.at(&factors).unwrap().sizes;
+        let sizes = model.sizes(&factors).unwrap();
         prop_assert_eq!(sizes.len(), 39);
         for (panel, (size, factor)) in case.panels.iter().zip(sizes.iter().zip(&factors)) {
             prop_assert_eq!(*size, panel.gage * factor);
@@ -65,7 +66,7 @@ properties! {
     fn factor_ranges_keep_sizes_within_bounds(lower in 0.5..2.0_f64, upper in 8.0..20.0_f64, beyond in 1e-6..0.1_f64) {
         let model = chain(vec![group("all", &[1, 2, 3], Some(Bounds { lower, upper }))]).unwrap();
         let range = model.factor_ranges().unwrap()[0].unwrap();
-        let within = |factor: f64| model.at(&[factor]).unwrap().sizes.iter().all(|&size| {
+        let within = |factor: f64| model.sizes(&[factor]).unwrap().iter().all(|&size| {
             size >= lower * (1.0 - ROUND_OFF) && size <= upper * (1.0 + ROUND_OFF)
         });
         prop_assert!(within(range.lower) && within(range.upper));
@@ -78,16 +79,8 @@ fn a_model_keeps_what_it_was_made_of() {
     let parameters = vec![Parameter::element(2, None), group("ends", &[1, 3], None)];
     let model = chain(parameters.clone()).unwrap();
     assert_eq!(model.parameters(), parameters);
-    let Parameter {
-        name,
-        scaled,
-        members,
-        ..
-    } = &model.parameters()[0];
-    assert_eq!(
-        (name.as_str(), *scaled, members.as_slice()),
-        ("2", Scaled::Stiffness, &[2][..])
-    );
+    let Parameter { name, elements, .. } = &model.parameters()[0];
+    assert_eq!((name.as_str(), elements.as_slice()), ("2", &[2][..]));
     let range = Bounds {
         lower: 1.0,
         upper: 5.0,
@@ -102,7 +95,7 @@ fn a_model_keeps_what_it_was_made_of() {
     assert_eq!(labels, [1, 2, 3]);
     assert_eq!(model.load_distribution().clone(), DMatrix::identity(3, 3));
     assert_eq!(model.mass(), &DMatrix::identity(3, 3));
-    assert_eq!(model.at(&[3.0, 0.5]).unwrap().sizes, [1.0, 12.0, 4.0]);
+    assert_eq!(model.sizes(&[3.0, 0.5]).unwrap(), [1.0, 12.0, 4.0]);
     // T and M the identity: K_D is K_S, and a spring's share its own matrix.
     let dynamic = model.matrices(&[3.0, 0.5]).unwrap();
     let expected =
@@ -110,10 +103,8 @@ fn a_model_keeps_what_it_was_made_of() {
     assert!(relative_distance(&dynamic.stiffness, &expected) <= MATRIX_ROUND_OFF);
     let middle =
         DMatrix::from_row_slice(3, 3, &[12.0, -12.0, 0.0, -12.0, 12.0, 0.0, 0.0, 0.0, 0.0]);
-    assert!(relative_distance(dynamic.shares[0].matrix(), &middle) <= MATRIX_ROUND_OFF);
-    assert!(
-        relative_distance(dynamic.shares[1].matrix(), &(expected - middle)) <= MATRIX_ROUND_OFF
-    );
+    assert!(relative_distance(&dynamic.shares[0], &middle) <= MATRIX_ROUND_OFF);
+    assert!(relative_distance(&dynamic.shares[1], &(expected - middle)) <= MATRIX_ROUND_OFF);
 }
 
 #[test]

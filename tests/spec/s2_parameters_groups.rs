@@ -3,8 +3,8 @@
 use crate::common::tolerances::{GROUPED_GAGE, ROUND_OFF};
 use crate::common::torque_boxes::with_parameters;
 use corfem::method::error::Error;
-use corfem::method::model::REFERENCE_GAGE;
-use corfem::method::model::{Parameter, Scaled};
+use corfem::method::model::Parameter;
+use corfem::method::step::REFERENCE_GAGE;
 use corfem::torque_box::error::CaseError;
 use corfem::torque_box::wing_box::TEST_GAGE;
 use corfem::torque_box::{CASES, Case, CaseResult, Grouping, run_case};
@@ -50,10 +50,7 @@ fn substructures_are_what_the_geometry_says() {
     let names: Vec<&str> = model.parameters().iter().map(|p| p.name.as_str()).collect();
     assert_eq!(names, ["covers", "spars", "ribs"]);
     for (parameter, expected) in model.parameters().iter().zip(by_geometry(&case)) {
-        assert_eq!(
-            (parameter.scaled, &parameter.members),
-            (Scaled::Stiffness, &expected)
-        );
+        assert_eq!(parameter.elements, expected);
     }
 }
 
@@ -145,9 +142,9 @@ fn there_is_a_gage_for_every_panel() {
     }
 }
 
-/// What steps are taken in: a group's size is the mean of its members', one of masses has none.
+/// What steps are taken in: a group's size is the mean of its elements', and a model by its matrices has none.
 #[test]
-fn the_size_of_a_group_is_the_mean_of_its_members() {
+fn the_size_of_a_group_is_the_mean_of_its_elements() {
     let case = Case::new(1).unwrap();
     let own = case.model().unwrap();
     let structure = own.structure();
@@ -158,25 +155,23 @@ fn the_size_of_a_group_is_the_mean_of_its_members() {
     );
     assert_ne!(panel.size, rod.size);
     let expected = [panel.size + rod.size, 3.0 * other.size];
-    let tip = Parameter {
-        scaled: Scaled::PointMass,
-        ..Parameter::group("tip", &[0])
-    };
     let parameters = vec![
         Parameter::group("two", &[panel.label, rod.label]),
         Parameter::element(other.label, None),
-        tip,
     ];
-    let sizes = with_parameters(&case, parameters)
-        .analyze(&[2.0, 3.0, 1.0], &case.test_modes().unwrap(), None)
-        .unwrap()
-        .sizes()
-        .to_vec();
-    for (found, expected) in sizes.iter().zip(expected) {
+    let (model, test) = (
+        with_parameters(&case, parameters),
+        case.test_modes().unwrap(),
+    );
+    let analysis = model.analyze(&[2.0, 3.0], &test, None).unwrap();
+    assert_eq!(analysis.gages().len(), 2);
+    for (found, expected) in analysis.gages().iter().zip(expected) {
         assert!(
             (found / expected - 1.0).abs() <= ROUND_OFF,
             "{found} {expected}"
         );
     }
-    assert_eq!(sizes[2], REFERENCE_GAGE);
+    let matrices = model.matrices(&[2.0, 3.0]).unwrap();
+    let analysis = matrices.analyze(&test, None).unwrap();
+    assert_eq!(analysis.gages(), [REFERENCE_GAGE; 2]);
 }

@@ -1,88 +1,166 @@
-//! Changes of mass: element and point masses, their derivatives, and correlation by mass or by both.
+//! Changes of mass: masses of elements and points as parameters of a whole model, and their derivatives.
 
+use crate::common::appendix_c::{ModalChange, eigensolution};
+use crate::common::condensed::condensed;
 use crate::common::log_log_slope;
 use crate::common::tolerances::{FORWARD_DIFFERENCE, MATRIX_ROUND_OFF};
+use crate::common::whole_models::{of_dense, seen_by, sparse};
 use approx::assert_relative_eq;
-use corfem::method::appendix_a::condense;
-use corfem::method::appendix_c::general::{ModalChange, first_order};
-use corfem::method::assembly::dense_stiffness;
-use corfem::method::assembly::element_matrices;
-use corfem::method::derivatives::{DERIVATIVE_STEP, by_definition};
-use corfem::method::elements::corner_volumes;
+use corfem::method::analysis::{Analysis, DERIVATIVE_STEP};
+use corfem::method::appendix_a::{assemble, condense};
 use corfem::method::error::Error;
-use corfem::method::geometry::Geometry;
-use corfem::method::model::{FiniteElementModel, ModalModel, Parameter, ParameterMatrix, Scaled};
-use corfem::method::modes::ModeSet;
-use corfem::method::state::{ModalState, UpdateRule};
+use corfem::method::error_sum::errors;
+use corfem::method::model::{FiniteElementModel, Parameter};
+use corfem::method::modes::Modes;
+use corfem::method::perturbation::Perturbed;
+use corfem::method::sorting::pair_modes;
 use corfem::method::structure::Structure;
+use corfem::sparse::elements::{corner_volumes, lumped_masses};
+use corfem::sparse::{
+    BasisSize, ParameterMatrix, SensorModel, SparseMatrix, WholeModel, WholeParameter, WholeShare,
+    normalize_with_mass,
+};
 use corfem::torque_box::Case;
 use nalgebra::{DMatrix, DVector};
 
 /// Aluminum, lbf·s²/in⁴.
 pub const DENSITY: f64 = 2.5e-4;
+/// Elements of the box, its free DOF, and its dynamic points.
+const ELEMENTS: usize = 39;
+const FREE: usize = 36;
+const POINTS: usize = 9;
 
-/// The box of Case 2 at its test gages, its panels with a density, given parameters and point mass factors.
-pub fn boxed(
-    parameters: Vec<Parameter>,
-    density: f64,
-    point_factors: [f64; 9],
-) -> Result<FiniteElementModel, Error> {
+/// Part of the box that is a parameter.
+#[derive(Debug, Clone, Copy)]
+pub enum Part {
+    /// The stiffness of an element.
+    Stiffness(usize),
+    /// The mass of an element.
+    ElementMass(usize),
+    /// The mass of a dynamic point, from zero.
+    PointMass(usize),
+}
+
+pub fn point_masses() -> Vec<Part> {
+    (0..POINTS).map(Part::PointMass).collect()
+}
+
+fn element_masses() -> Vec<Part> {
+    (1..=ELEMENTS).map(Part::ElementMass).collect()
+}
+
+/// The box of Case 2 at its test gages as the paper has it, with a density, of which that model knows nothing.
+fn the_box(density: f64) -> FiniteElementModel {
     let case = Case::new(2).expect("a case");
     let model = case.model_with(&[0.010; 15]).expect("a model");
     let mut elements = model.structure().elements().to_vec();
     for element in &mut elements {
-        element.material = element.material.with_density(density)?;
+        element.material.density = density;
     }
-    let structure = Structure::new(model.structure().grids().to_vec(), elements)?;
-    let mut mass = model.mass().clone();
-    for (dof, factor) in point_factors.iter().enumerate() {
-        mass[(dof, dof)] *= factor;
-    }
+    let grids = model.structure().grids().to_vec();
+    let all = (1..=ELEMENTS).map(|label| Parameter::element(label, None));
     FiniteElementModel::new(
-        structure,
+        Structure::new(grids, elements).expect("a structure"),
         model.load_distribution().clone(),
-        mass,
-        parameters,
+        model.mass().clone(),
+        all.collect(),
     )
+    .expect("a model")
 }
 
-pub fn point_masses() -> Vec<Parameter> {
-    (0..9)
-        .map(|dof| Parameter::of(&format!("mass {dof}"), Scaled::PointMass, &[dof]))
-        .collect()
+/// The box at all its DOF with the masses of its elements, those of its points multiplied by factors, and sensors at these.
+fn whole_box(
+    parts: &[Part],
+    density: f64,
+    point_factors: [f64; POINTS],
+) -> (WholeModel, SparseMatrix) {
+    let model = the_box(density);
+    let (structure, t) = (model.structure(), model.load_distribution());
+    let (elements, unit) = (structure.elements(), model.element_matrices());
+    let stiffness_of = |label: usize| {
+        let row = label - 1;
+        assemble(&unit[row..=row], &[elements[row].size], FREE).expect("an element")
+    };
+    let mass_of = |label: usize| {
+        let (element, corners) = (&elements[label - 1], &structure.corners()[label - 1]);
+        let mut mass = DMatrix::zeros(FREE, FREE);
+        for (row, lumped) in lumped_masses(structure, element, corners) {
+            mass[(row, row)] += lumped;
+        }
+        mass
+    };
+    let mass_at = |point: usize| {
+        let (own, motion) = (model.mass()[(point, point)], t.column(point));
+        point_factors[point] * own * motion * motion.transpose()
+    };
+    let share = |part: &Part| match *part {
+        Part::Stiffness(label) => ParameterMatrix::Stiffness(stiffness_of(label)),
+        Part::ElementMass(label) => ParameterMatrix::Mass(mass_of(label)),
+        Part::PointMass(point) => ParameterMatrix::Mass(mass_at(point)),
+    };
+    let shares: Vec<ParameterMatrix> = parts.iter().map(share).collect();
+    let stiffness: DMatrix<f64> = (1..=ELEMENTS).map(stiffness_of).sum();
+    let of_elements: DMatrix<f64> = (1..=ELEMENTS).map(mass_of).sum();
+    let of_points: DMatrix<f64> = (0..POINTS).map(mass_at).sum();
+    let (whole, _) = of_dense(&stiffness, &(of_elements + of_points), &shares).expect("a model");
+    (whole, sparse(&t.transpose()).expect("sensors"))
 }
 
-fn element_masses() -> Vec<Parameter> {
-    (1..=39)
-        .map(|label| Parameter::of(&format!("of {label}"), Scaled::ElementMass, &[label]))
-        .collect()
+/// The same condensed to its dynamic points, with a sensor at each.
+pub fn boxed(
+    parts: &[Part],
+    density: f64,
+    point_factors: [f64; POINTS],
+) -> (WholeModel, SparseMatrix) {
+    let (whole, sensors) = whole_box(parts, density, point_factors);
+    let ones = vec![1.0; parts.len()];
+    let (condensed, mass) = condensed(&whole, &ones, &sensors).expect("held");
+    let b = condensed.transformation.transpose();
+    let through = |parameter: &WholeParameter| match &parameter.share {
+        WholeShare::Stiffness(share) => share.through(&b).map(ParameterMatrix::Stiffness),
+        WholeShare::Mass(share) => share.through(&b).map(ParameterMatrix::Mass),
+        WholeShare::Elements(_) => unreachable!("its parts are matrices"),
+    };
+    let shares: Result<Vec<_>, Error> = whole.parameters().iter().map(through).collect();
+    of_dense(&condensed.stiffness, &mass, &shares.expect("they fit")).expect("a model")
 }
 
-pub fn modes(model: &FiniteElementModel) -> ModeSet {
-    let factors = vec![1.0; model.parameters().len()];
-    model.modes(&factors).expect("solved").into()
+/// The nine lowest modes of a first model.
+pub fn modes(model: &WholeModel) -> Modes {
+    let ones = vec![1.0; model.parameters().len()];
+    model.modes(&ones, POINTS).expect("solved").vibrations
+}
+
+/// The analysis of a model's nine lowest modes.
+pub fn analyze(
+    (model, sensors): &(WholeModel, SparseMatrix),
+    factors: &[f64],
+    test: &Modes,
+) -> Result<SensorModel, Error> {
+    model.analyze(
+        factors,
+        sensors,
+        (test, pair_modes),
+        BasisSize {
+            modes: POINTS,
+            residual_vectors: 0,
+        },
+    )
 }
 
 #[test]
 fn dynamic_mass_holds_the_kinetic_energy_of_the_structural_mass() {
     // (A.9): q_Dᵗ M_D q_D = q_Sᵗ M_S q_S with q_S = Bᵗ q_D, M_S put together here entry by entry.
-    let model = boxed(element_masses(), DENSITY, [1.0; 9]).expect("a model");
+    let model = the_box(DENSITY);
     let structure = model.structure();
-    let matrices = element_matrices(structure);
-    let sizes: Vec<f64> = structure
-        .elements()
-        .iter()
-        .map(|element| element.size)
-        .collect();
-    let stiffness = dense_stiffness(&matrices, &sizes, 36).expect("36 free DOF");
+    let sizes = model.sizes(&[1.0; ELEMENTS]).expect("sizes");
+    let stiffness = assemble(model.element_matrices(), &sizes, FREE).expect("36 free DOF");
     let b_t = condense(&stiffness, model.load_distribution())
         .expect("independent")
         .transformation;
-    let mut structural = DMatrix::zeros(36, 36);
-    for element in structure.elements() {
-        let volumes = corner_volumes(
-            &Geometry::new(element.kind, &structure.corners(element)).expect("fits"),
-        );
+    let mut structural = DMatrix::zeros(FREE, FREE);
+    for (element, corners) in structure.elements().iter().zip(structure.corners()) {
+        let volumes = corner_volumes(element.kind, corners);
         for (grid, volume) in element.grids.iter().zip(volumes) {
             for direction in 0..3 {
                 if let Some(dof) = structure.free_dof_index(*grid, direction) {
@@ -92,100 +170,107 @@ fn dynamic_mass_holds_the_kinetic_energy_of_the_structural_mass() {
         }
     }
     let expected = b_t.tr_mul(&(structural * &b_t)) + model.mass();
-    let dynamic = model.matrices(&[1.0; 39]).expect("held");
-    assert_eq!(dynamic.mass.shape(), (9, 9));
+    let (whole, sensors) = whole_box(&element_masses(), DENSITY, [1.0; POINTS]);
+    let (_, dynamic) = condensed(&whole, &[1.0; ELEMENTS], &sensors).expect("held");
+    assert_eq!(dynamic.shape(), (POINTS, POINTS));
     assert_relative_eq!(
-        dynamic.mass,
+        dynamic,
         expected,
         epsilon = MATRIX_ROUND_OFF * expected.amax()
     );
-    let added = dynamic.mass - model.mass();
+    let added = dynamic - model.mass();
     assert!(
         added.trace() > model.mass()[(2, 2)],
         "the elements weigh more than the smallest point mass"
     );
 }
 
+/// Shares add up at all DOF, and through the modes, whose mass is one.
 #[test]
 fn mass_shares_sum_to_the_mass() {
-    let parameters = point_masses().into_iter().chain(element_masses()).collect();
-    let model = boxed(parameters, DENSITY, [1.0; 9]).expect("a model");
+    let parts = [point_masses(), element_masses()].concat();
+    let model = whole_box(&parts, DENSITY, [1.0; POINTS]);
+    let test = seen_by(&model.1, &modes(&model.0));
     for factors in [
         vec![1.0; 48],
         (0..48).map(|e| 0.6 + 0.02 * e as f64).collect(),
     ] {
-        let dynamic = model.matrices(&factors).expect("held");
-        let mut sum = DMatrix::zeros(9, 9);
-        for share in &dynamic.shares {
-            assert!(matches!(share, ParameterMatrix::Mass(_)));
-            sum += share.matrix();
-        }
-        assert_relative_eq!(
-            sum,
-            dynamic.mass,
-            epsilon = MATRIX_ROUND_OFF * dynamic.mass.amax()
-        );
+        let (_, mass) = model.0.at(&factors).expect("factors");
+        let own = |(parameter, factor): (&WholeParameter, &f64)| match &parameter.share {
+            WholeShare::Mass(share) => *factor * share.dense(),
+            other => panic!("{other:?}"),
+        };
+        let sum: DMatrix<f64> = model.0.parameters().iter().zip(&factors).map(own).sum();
+        let mass = mass.dense();
+        assert_relative_eq!(sum, mass, epsilon = MATRIX_ROUND_OFF * mass.amax());
+        let analysis = analyze(&model, &factors, &test).expect("solved");
+        let through = |share: &ParameterMatrix| match share {
+            ParameterMatrix::Mass(share) => share.clone(),
+            other => panic!("{other:?}"),
+        };
+        let sum: DMatrix<f64> = analysis.shares().iter().map(through).sum();
+        let one = DMatrix::identity(POINTS, POINTS);
+        assert_relative_eq!(sum, one, epsilon = MATRIX_ROUND_OFF);
     }
 }
 
 #[test]
-fn mass_factors_leave_sizes_and_stiffness_alone() {
-    let model = boxed(element_masses(), DENSITY, [1.0; 9]).expect("a model");
-    let (light, heavy) = (
-        model.matrices(&[1.0; 39]).expect("held"),
-        model.matrices(&[2.0; 39]).expect("held"),
-    );
-    assert_eq!(light.stiffness, heavy.stiffness);
-    assert_eq!(
-        model.at(&[2.0; 39]).expect("sizes").sizes,
-        model.at(&[1.0; 39]).expect("sizes").sizes
-    );
-    let (one, two) = (&light.mass - model.mass(), &heavy.mass - model.mass());
+fn mass_factors_leave_the_stiffness_alone() {
+    let stiffness: Vec<Part> = (1..=ELEMENTS).map(Part::Stiffness).collect();
+    let parts = [stiffness, element_masses()].concat();
+    let (model, sensors) = whole_box(&parts, DENSITY, [1.0; POINTS]);
+    let at = |mass_factor: f64| {
+        let factors = [[1.0; ELEMENTS], [mass_factor; ELEMENTS]].concat();
+        let (stiffness, _) = model.at(&factors).expect("factors");
+        let (condensed, mass) = condensed(&model, &factors, &sensors).expect("held");
+        (stiffness, condensed, mass)
+    };
+    let (light, heavy) = (at(1.0), at(2.0));
+    assert_eq!(light.0, heavy.0);
+    assert_eq!(light.1.stiffness, heavy.1.stiffness);
+    assert_eq!(light.1.transformation, heavy.1.transformation);
+    let points = the_box(DENSITY).mass().clone();
+    let (one, two) = (light.2 - &points, heavy.2 - points);
     assert_relative_eq!(2.0 * one, two, epsilon = MATRIX_ROUND_OFF * two.amax());
 }
 
 #[test]
-fn unit_mass_share_is_symmetric_and_semidefinite() {
-    let model = boxed(element_masses(), DENSITY, [1.0; 9]).expect("a model");
-    for share in &model.matrices(&[1.0; 39]).expect("held").shares {
+fn mass_share_is_symmetric_and_semidefinite() {
+    let model = whole_box(&element_masses(), DENSITY, [1.0; POINTS]);
+    let test = seen_by(&model.1, &modes(&model.0));
+    let analysis = analyze(&model, &[1.0; ELEMENTS], &test).expect("solved");
+    assert_eq!(analysis.shares().len(), ELEMENTS);
+    for share in analysis.shares() {
         let share = share.matrix();
-        assert_eq!(share.shape(), (9, 9));
+        assert_eq!(share.shape(), (POINTS, POINTS));
         assert_eq!(*share, share.transpose());
         let smallest = share.clone().symmetric_eigenvalues().min();
         assert!(smallest >= -MATRIX_ROUND_OFF * share.amax());
     }
 }
 
-/// The box with point masses off by up to 30 %, stiffness of panels and masses as parameters.
-pub fn both() -> (FiniteElementModel, ModeSet) {
-    let truth = boxed(point_masses(), DENSITY, [1.0; 9]).expect("a model");
+/// The box with point masses off by up to 30 %, stiffness of panels and masses as parameters, and the modes of the right one.
+pub fn both() -> ((WholeModel, SparseMatrix), Modes) {
+    let (truth, _) = boxed(&point_masses(), DENSITY, [1.0; POINTS]);
     let wrong = [1.3, 0.8, 1.2, 0.75, 1.25, 0.9, 1.1, 0.85, 1.15];
-    let parameters = (1..=15)
-        .map(|label| Parameter::element(label, None))
-        .chain(point_masses())
-        .collect();
-    (
-        boxed(parameters, DENSITY, wrong).expect("a model"),
-        modes(&truth),
-    )
+    let panels: Vec<Part> = (1..=15).map(Part::Stiffness).collect();
+    let parts = [panels, point_masses()].concat();
+    (boxed(&parts, DENSITY, wrong), modes(&truth))
 }
 
 #[test]
 fn mass_derivatives_are_central_differences() {
     let (model, test) = both();
-    let problem = model
-        .matrices(&[1.0; 24])
-        .expect("held")
-        .analyze(&test, Some(9))
-        .expect("reduced");
-    let state = ModalState::start(&problem);
-    let derivatives = by_definition(&problem, &state).expect("separate modes");
+    let problem = analyze(&model, &[1.0; 24], &test).expect("solved");
+    let state = problem.at(&[1.0; 24]).expect("the exact modes");
+    let derivatives = problem.error_changes(&state).expect("separate modes");
+    assert_eq!(derivatives.len(), 24);
     for e in 0..24 {
         let e_s = |change: f64| {
-            let mut factors = vec![1.0; 24];
+            let mut factors = [1.0; 24];
             factors[e] += change;
-            let state = ModalState::at(&problem, factors, UpdateRule::Eigensolution);
-            state.expect("solved").errors().sum()
+            let there = analyze(&model, &factors, &test).expect("solved");
+            there.exact().errors.sum()
         };
         let h = DERIVATIVE_STEP;
         let (below, here, above) = (e_s(-h), e_s(0.0), e_s(h));
@@ -202,42 +287,37 @@ fn mass_derivatives_are_central_differences() {
     }
 }
 
-/// Squared circular frequencies at some factors by first order.
-fn first_order_state(problem: &ModalModel, factors: &[f64]) -> DVector<f64> {
-    let count = problem.exact().modes.len();
-    let (mut beta, mut alpha) = (DMatrix::zeros(count, count), DMatrix::zeros(count, count));
+/// The change by factors on a model's parameters, seen through its modes.
+fn change_by(problem: &SensorModel, factors: &[f64]) -> ModalChange {
+    let k = problem.omega_squared();
+    let (mut beta, mut alpha) = (
+        DMatrix::zeros(k.len(), k.len()),
+        DMatrix::zeros(k.len(), k.len()),
+    );
     for (share, factor) in problem.shares().iter().zip(factors) {
         match share {
             ParameterMatrix::Stiffness(matrix) => beta += (factor - 1.0) * matrix,
             ParameterMatrix::Mass(matrix) => alpha += (factor - 1.0) * matrix,
         }
     }
-    let change = ModalChange::of_vibrations(problem.exact().modes.omega_squared(), beta, alpha);
-    first_order(&change).expect("apart").roots.map(f64::recip)
+    ModalChange::of_vibrations(k, beta, alpha)
 }
 
 #[test]
 fn perturbation_by_mass_approaches_the_eigensolution_of_the_changed_pencil() {
     let (model, test) = both();
-    let problem = model
-        .matrices(&[1.0; 24])
-        .expect("held")
-        .analyze(&test, Some(9))
-        .expect("reduced");
+    let problem = analyze(&model, &[1.0; 24], &test).expect("solved");
     let points: Vec<(f64, f64)> = [0.005, 0.01, 0.02, 0.04]
         .into_iter()
         .map(|size| {
             let factors: Vec<f64> = (0..24)
                 .map(|e| 1.0 + if e % 3 == 0 { size } else { -size })
                 .collect();
-            let first = first_order_state(&problem, &factors);
-            let exact =
-                ModalState::at(&problem, factors, UpdateRule::Eigensolution).expect("solved");
-            let pairs = first.iter().zip(exact.modes().omega_squared().iter());
-            (
-                size,
-                pairs.map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max),
-            )
+            let change = change_by(&problem, &factors);
+            let first = change.pencil().and_then(|pencil| pencil.first_order());
+            let exact = eigensolution(&change).expect("solved").roots;
+            let pairs = exact.component_div(&first.expect("apart").roots);
+            (size, pairs.add_scalar(-1.0).amax())
         })
         .collect();
     let slope = log_log_slope(&points);
@@ -247,61 +327,83 @@ fn perturbation_by_mass_approaches_the_eigensolution_of_the_changed_pencil() {
 #[test]
 fn converged_perturbation_by_stiffness_and_mass_is_the_eigensolution() {
     let (model, test) = both();
-    let problem = model
-        .matrices(&[1.0; 24])
-        .expect("held")
-        .analyze(&test, Some(9))
-        .expect("reduced");
+    let problem = analyze(&model, &[1.0; 24], &test).expect("solved");
     let factors: Vec<f64> = (0..24)
         .map(|e| 1.0 + 0.05 * ((e * 5 % 7) as f64 - 3.0) / 3.0)
         .collect();
-    let ours = ModalState::at(&problem, factors.clone(), UpdateRule::default()).expect("solved");
-    let exact = ModalState::at(&problem, factors, UpdateRule::Eigensolution).expect("solved");
+    let ours = problem.at(&factors).expect("solved");
+    let change = change_by(&problem, &factors);
+    let Perturbed { roots, mut shapes } = eigensolution(&change).expect("solved");
+    normalize_with_mass(&mut shapes, &change.alpha).expect("masses");
+    let exact = Modes::new(roots.map(f64::recip), problem.basis() * shapes).expect("modes");
     for (a, b) in ours
-        .modes()
+        .modes
         .omega_squared()
         .iter()
-        .zip(exact.modes().omega_squared().iter())
+        .zip(exact.omega_squared().iter())
     {
         assert_relative_eq!(*a, *b, max_relative = 1e2 * MATRIX_ROUND_OFF);
     }
     assert_relative_eq!(
-        ours.modes().shapes(),
-        exact.modes().shapes(),
-        epsilon = 1e4 * MATRIX_ROUND_OFF * exact.modes().shapes().amax()
+        ours.modes.shapes(),
+        exact.shapes(),
+        epsilon = 1e4 * MATRIX_ROUND_OFF * exact.shapes().amax()
     );
+    let expected = errors(&exact, &ours.pairing, problem.test()).expect("paired");
     assert_relative_eq!(
-        ours.errors().sum(),
-        exact.errors().sum(),
+        ours.errors.sum(),
+        expected.sum(),
         max_relative = 1e4 * MATRIX_ROUND_OFF
     );
 }
 
-/// What a gage has to do with mass: nothing. Twice the stiffness everywhere leaves $B$ and the mass alone, and every squared
-/// frequency doubles; were the mass to follow the gages, they would not. The density is a hundred times aluminum's, so that it shows.
+/// A gage has nothing to do with mass. Twice the stiffness everywhere leaves $B$ and the mass alone, and every squared frequency
+/// doubles; were the mass to follow the gages, they would not. The density is a hundred times aluminum's, so that it shows.
 #[test]
 fn gages_twice_as_thick_double_every_squared_frequency() {
-    let stiffness: Vec<Parameter> = (1..=39)
-        .map(|label| Parameter::element(label, None))
-        .collect();
-    let model = boxed(stiffness, 100.0 * DENSITY, [1.0; 9]).expect("a model");
-    let at = |factor: f64| model.matrices(&[factor; 39]).expect("held");
-    let (first, thick) = (at(1.0), at(2.0));
+    let stiffness: Vec<Part> = (1..=ELEMENTS).map(Part::Stiffness).collect();
+    let (model, sensors) = whole_box(&stiffness, 100.0 * DENSITY, [1.0; POINTS]);
+    let of_paper = the_box(100.0 * DENSITY);
+    let mass = |factor: f64| {
+        let condensed = condensed(&model, &[factor; ELEMENTS], &sensors);
+        condensed.expect("held").1
+    };
+    let (first, thick) = (mass(1.0), mass(2.0));
     assert!(
-        first.mass.trace() > 1.1 * model.mass().trace(),
+        first.trace() > 1.1 * of_paper.mass().trace(),
         "elements have a mass of their own"
     );
+    assert_relative_eq!(thick, first, epsilon = MATRIX_ROUND_OFF * first.amax());
+    let of_analysis = of_paper.matrices(&[2.0; ELEMENTS]).expect("held").mass;
+    assert_eq!(of_analysis, *of_paper.mass());
+    let of_whole = |factor: f64| {
+        let found = model.modes(&[factor; ELEMENTS], POINTS).expect("solved");
+        found.vibrations.omega_squared().clone()
+    };
+    let of_paper = |factor: f64| {
+        let found = of_paper.modes(&[factor; ELEMENTS]).expect("solved");
+        found.omega_squared().clone()
+    };
+    assert_times(2.0, &of_whole(1.0), &of_whole(2.0));
+    assert_times(2.0, &of_paper(1.0), &of_paper(2.0));
+}
+
+/// Half of every squared frequency is left where all masses are twice as heavy.
+#[test]
+fn masses_twice_as_heavy_halve_every_squared_frequency() {
+    let parts = [point_masses(), element_masses()].concat();
+    let (model, _) = whole_box(&parts, DENSITY, [1.0; POINTS]);
+    let squares = |factor: f64| {
+        let found = model.modes(&[factor; 48], POINTS).expect("solved");
+        found.vibrations.omega_squared().clone()
+    };
+    assert_times(0.5, &squares(1.0), &squares(2.0));
+}
+
+fn assert_times(factor: f64, first: &DVector<f64>, other: &DVector<f64>) {
     assert_relative_eq!(
-        thick.mass,
-        first.mass,
-        epsilon = MATRIX_ROUND_OFF * first.mass.amax()
+        *other,
+        factor * first,
+        max_relative = 1e2 * MATRIX_ROUND_OFF
     );
-    let [first, thick] = [1.0, 2.0].map(|factor| {
-        model
-            .modes(&[factor; 39])
-            .expect("solved")
-            .omega_squared()
-            .clone()
-    });
-    assert_relative_eq!(thick, 2.0 * first, max_relative = 1e2 * MATRIX_ROUND_OFF);
 }

@@ -1,55 +1,57 @@
-//! What a correlation says it came to.
+//! The verdict on a correlation.
 
-use crate::common::loops::correlate_chain;
+use crate::common::jobs::{Files, building, of_matrices};
+use crate::common::loops::{chain_problem, correlate_chain, verdict_of};
+use crate::common::structures::spring_stiffness;
 use crate::common::tolerances::ROUND_OFF;
 use crate::common::vibrations::{Chain, chain_and_truth};
-use crate::common::whole_models::{masses, seen_by, sensors_at, springs};
+use crate::readers::job_errors::{placed, with};
+use corfem::job::verdict::{Outcome, Verdict};
+use corfem::job::{History, JobResult, LoadedJob, run};
 use corfem::method::error_sum::{ModeError, errors, mode_errors};
-use corfem::method::model::{Bounds, LoneFrequency};
+use corfem::method::modes::{Modes, solve};
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::method::pairing::pair_modes;
-use corfem::method::verdict::{Outcome, Verdict};
+use corfem::method::step::Bounds;
 use corfem::present::verdict::verdict_in_words;
-use corfem::sparse::{WholeModel, WholeParameter, WholeShare};
 use corfem::torque_box::{Case, run_case};
+use corfem::weighted::comparison::ModeErrors;
+use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
 const TRUTH: [f64; 3] = [1.3, 0.8, 1.1];
 
-fn chain_with(change: impl Fn(&mut Settings)) -> Correlation {
+fn chain_with(change: impl Fn(&mut Settings)) -> (Correlation, Verdict) {
     let mut settings = Settings::default();
     change(&mut settings);
-    correlate_chain(&Chain::uniform(3), &TRUTH, &settings)
+    judged(&Chain::uniform(3), &TRUTH, &settings)
+}
+
+/// A chain's correlation by settings for nine modes, and the verdict on it.
+fn judged(chain: &Chain, truth: &[f64], settings: &Settings) -> (Correlation, Verdict) {
+    let found = correlate_chain(chain, truth, &settings.for_modes(truth.len()));
+    let free = vec![None; truth.len()];
+    let verdict = verdict_of(&found, &chain_problem(chain, truth), &free);
+    (found, verdict)
 }
 
 #[test]
 fn every_outcome_is_said_as_what_it_is() {
-    let within = chain_with(|_| {}).verdict;
+    let (_, within) = chain_with(|_| {});
     assert_eq!(
         (within.outcome, within.is_within),
         (Outcome::Tolerance, true)
     );
     assert!(verdict_in_words(&within, None, &[], &[]).starts_with("Correlated: error sum "));
-    let capped = chain_with(|settings| {
+    let (_, capped) = chain_with(|settings| {
         settings.most_passes = 1;
         settings.inner.iterations = 1;
     });
-    assert_eq!(
-        (capped.verdict.outcome, capped.verdict.is_within),
-        (Outcome::Cap, false)
-    );
+    assert_eq!((capped.outcome, capped.is_within), (Outcome::Cap, false));
+    assert!(verdict_in_words(&capped, None, &[], &[]).contains("Try more iterations or passes."));
+    let (_, none) = chain_with(|settings| settings.most_passes = 0);
+    assert_eq!((none.outcome, none.is_within), (Outcome::Nothing, false));
     assert!(
-        verdict_in_words(&capped.verdict, None, &[], &[])
-            .contains("Try more iterations or passes.")
-    );
-    let none = chain_with(|settings| settings.most_passes = 0);
-    assert_eq!(
-        (none.verdict.outcome, none.verdict.is_within),
-        (Outcome::Nothing, false)
-    );
-    assert!(
-        verdict_in_words(&none.verdict, None, &[], &[])
-            .contains("No step from the first model lowered it")
+        verdict_in_words(&none, None, &[], &[]).contains("No step from the first model lowered it")
     );
     // Bounds that hold the truth out end in a local minimum at the bound.
     let (chain, ranges) = (
@@ -71,17 +73,18 @@ fn every_outcome_is_said_as_what_it_is() {
     let held = correlate(
         |factors| chain.model(factors).analyze(&test, None),
         &ranges,
-        &settings,
-        |_, _| {},
+        &settings.for_modes(3),
+        |_, _| true,
     )
     .unwrap();
+    let held = verdict_of(&held, &chain_problem(&chain, &TRUTH), &ranges);
     assert_eq!(
-        (held.verdict.outcome, held.verdict.is_within),
+        (held.outcome, held.is_within),
         (Outcome::LocalMinimum, false)
     );
-    assert_eq!(held.verdict.at_bound, [0]);
+    assert_eq!(held.at_bound, [0]);
     let words = verdict_in_words(
-        &held.verdict,
+        &held,
         None,
         &["wall".to_owned(), "b".to_owned(), "c".to_owned()],
         &[],
@@ -99,7 +102,7 @@ fn a_right_model_that_is_stepped_once_is_a_local_minimum_within_tolerance() {
         least_passes: 1,
         ..Settings::default()
     };
-    let found = correlate_chain(&Chain::uniform(3), &[1.0; 3], &settings).verdict;
+    let (_, found) = judged(&Chain::uniform(3), &[1.0; 3], &settings);
     assert_eq!(
         (found.outcome, found.is_within),
         (Outcome::LocalMinimum, true)
@@ -110,63 +113,75 @@ fn a_right_model_that_is_stepped_once_is_a_local_minimum_within_tolerance() {
 #[test]
 fn what_no_frequency_without_a_shape_sees_is_unseen() {
     // Beside the first of three springs one a hundred-thousandth as stiff.
-    let all = [
-        (0, None, 1e5),
-        (1, Some(0), 1e5),
-        (2, Some(1), 1e5),
-        (0, None, 1.0),
-    ];
-    let parameters = all.iter().enumerate().map(|(e, one)| WholeParameter {
-        name: format!("spring {e}"),
-        share: WholeShare::Stiffness(springs(3, &[*one])),
-        range: None,
-    });
-    let model = WholeModel::new(springs(3, &all), masses(&[1.0; 3]), parameters.collect()).unwrap();
-    let sensors = sensors_at(&[0, 1, 2], 3);
-    let modes = model.modes(&[1.0; 4], 3).unwrap().vibrations;
-    let lone = LoneFrequency {
-        frequency_hz: 1.01 * modes.frequencies_hz()[2],
-        partner: 2,
-    };
-    let test = seen_by(&sensors, &model.modes(&[1.0; 4], 1).unwrap().vibrations);
-    let analyze = |factors: &[f64]| {
-        model
-            .analyze(factors, &sensors, (&test, pair_modes as _), [3, 0])?
-            .with_lone_frequencies(vec![lone])
-    };
-    let settings = Settings {
-        most_passes: 0,
-        ..Settings::default()
-    };
-    let found = correlate(analyze, &[None; 4], &settings, |_, _| {}).unwrap();
+    let parts = [(0, 1e5), (1, 1e5), (2, 1e5), (0, 1.0)];
+    let parts = parts.map(|(spring, stiffness)| spring_stiffness(3, spring, stiffness));
+    let mass = DMatrix::identity(3, 3);
+    let modes = solve(&parts.iter().sum(), &mass, 3).unwrap();
+    // The first mode, and the third's frequency.
+    let squares = modes.omega_squared();
+    let squares = DVector::from_vec(vec![squares[0], 1.01_f64.powi(2) * squares[2]]);
+    let test = Modes::new(squares, modes.shapes().columns(0, 2).into_owned()).unwrap();
+    let files = of_matrices(&parts, &mass, &test);
+    let files = with(
+        files,
+        "job.toml",
+        "file = \"test.csv\"",
+        "file = \"test.csv\"\npartners = [0, 3]\n[compare]\nanalysis_modes = 3",
+    );
+    let found = of_job(&without_last_shape(files));
+    assert_eq!(found.loaded.modes, [0]);
     assert_eq!(found.verdict.unseen, [3]);
 }
 
-fn shape(error: &ModeError) -> f64 {
-    error.shape.expect("a shape")
+/// Files of a job whose test has no shape in its last column.
+fn without_last_shape(mut files: Files) -> Files {
+    let (_, test) = files
+        .iter_mut()
+        .find(|(name, _)| name == "test.csv")
+        .expect("a test");
+    let cut = |line: &str| match line.starts_with(|first: char| first.is_ascii_digit()) {
+        true => line.rsplit_once(',').expect("a cell").0.to_owned() + ",\n",
+        false => line.to_owned() + "\n",
+    };
+    *test = test.lines().map(cut).collect();
+    files
+}
+
+fn of_job(files: &Files) -> JobResult {
+    let (_folder, path) = placed(files);
+    LoadedJob::new(&path)
+        .and_then(|loaded| run(&loaded, |_| {}, || true))
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A job's tolerances are for sums over nine modes, whatever the number compared, and so is the sum that its verdict tells.
+#[test]
+fn a_job_tells_the_error_sum_that_nine_modes_would_have() {
+    let method = "[compare]\nmethod = \"paper\"";
+    let found = of_job(&with(building(), "job.toml", "[compare]", method));
+    let History::Paper(run) = &found.history else {
+        panic!("{:?}", found.history)
+    };
+    let sum = 3.0 / 5_f64.sqrt() * run.best_check().errors.sum();
+    assert!((found.verdict.error_sum / sum - 1.0).abs() <= ROUND_OFF);
+    assert_eq!(found.verdict.is_within, run.converged);
 }
 
 #[test]
 fn the_worst_mode_and_its_errors_are_those_of_the_error_sum() {
-    let found = chain_with(|settings| settings.inner.iterations = 2);
-    let best = found
-        .best
-        .map_or(&found.initial, |pass| &found.passes[pass].check);
+    let (found, verdict) = chain_with(|settings| settings.inner.iterations = 2);
+    let best = found.best_check();
     let test = Chain::uniform(3).modes(&TRUTH);
     let each = mode_errors(&best.modes, &best.pairing, &test).unwrap();
     let whole = errors(&best.modes, &best.pairing, &test).unwrap();
-    let sum = |of: fn(&corfem::method::error_sum::ModeError) -> f64| {
-        each.iter().map(|e| of(e).powi(2)).sum::<f64>().sqrt()
-    };
+    let sum = |of: fn(&ModeError) -> f64| each.iter().map(|e| of(e).powi(2)).sum::<f64>().sqrt();
     assert!((sum(|e| e.frequency) - whole.frequency).abs() <= ROUND_OFF);
-    assert!((sum(shape) - whole.shape).abs() <= ROUND_OFF);
-    let size = |mode: usize| each[mode].frequency.powi(2) + shape(&each[mode]).powi(2);
-    assert!((0..3).all(|mode| size(mode) <= size(found.verdict.worst_mode)));
-    let (worst, expected) = (found.verdict.worst, each[found.verdict.worst_mode]);
-    assert!(
-        (worst.frequency - expected.frequency).abs() <= ROUND_OFF
-            && (shape(&worst) - shape(&expected)).abs() <= ROUND_OFF
-    );
+    assert!((sum(|e| e.shape) - whole.shape).abs() <= ROUND_OFF);
+    let size = |mode: usize| each[mode].frequency.powi(2) + each[mode].shape.powi(2);
+    assert!((0..3).all(|mode| size(mode) <= size(verdict.worst_mode)));
+    let (worst, expected) = (verdict.worst, each[verdict.worst_mode]);
+    assert!((worst.frequency - expected.frequency).abs() <= ROUND_OFF);
+    assert!((worst.shape.expect("a shape") - expected.shape).abs() <= ROUND_OFF);
 }
 
 properties! {
@@ -176,10 +191,10 @@ properties! {
     #[test]
     fn no_mode_of_the_first_model_is_worse_than_the_worst((chain, truth) in chain_and_truth()) {
         let settings = Settings { most_passes: 0, ..Settings::default() };
-        let found = correlate_chain(&chain, &truth, &settings);
+        let (found, verdict) = judged(&chain, &truth, &settings);
         let each = mode_errors(&found.initial.modes, &found.initial.pairing, &chain.modes(&truth)).unwrap();
-        let size = |error: &ModeError| error.frequency.powi(2) + shape(error).powi(2);
-        let worst = size(&each[found.verdict.worst_mode]);
+        let size = |error: &ModeError| error.frequency.powi(2) + error.shape.powi(2);
+        let worst = size(&each[verdict.worst_mode]);
         prop_assert!(each.iter().all(|error| size(error) <= worst + ROUND_OFF));
     }
 }
@@ -191,15 +206,17 @@ fn an_element_in_no_test_mode_is_named_as_unseen() {
     let test = chain.modes(&[1.3, 0.8, 1.1]);
     let analyze = |factors: &[f64]| {
         let mut model = chain.model(&factors[..3]);
-        let soft = model.shares[1].map(|share| 1e-3 * factors[3] * share);
-        model.stiffness += soft.matrix();
+        let soft = 1e-3 * factors[3] * &model.shares[1];
+        model.stiffness += &soft;
         model.shares.push(soft);
         model.analyze(&test, None)
     };
-    let found = correlate(analyze, &[None; 4], &Settings::default(), |_, _| {}).unwrap();
-    assert_eq!(found.verdict.unseen, [3]);
+    let settings = Settings::default().for_modes(3);
+    let found = correlate(analyze, &[None; 4], &settings, |_, _| true).unwrap();
+    let found = verdict_of(&found, &analyze(&[1.0; 4]).unwrap(), &[None; 4]);
+    assert_eq!(found.unseen, [3]);
     assert!(
-        verdict_in_words(&found.verdict, None, &[], &[])
+        verdict_in_words(&found, None, &[], &[])
             .contains("Hardly seen by the test modes, and so not to be trusted: 4.")
     );
 }
@@ -207,20 +224,16 @@ fn an_element_in_no_test_mode_is_named_as_unseen() {
 #[test]
 fn case_4_is_never_called_within_tolerance() {
     let result = run_case(&Case::new(4).unwrap(), |_, _| {}).unwrap();
-    assert_eq!(
-        (
-            result.correlation.verdict.outcome,
-            result.correlation.converged
-        ),
-        (Outcome::Cap, false)
-    );
+    let verdict = Verdict::of_case(&result);
+    assert_eq!((verdict.outcome, verdict.is_within), (Outcome::Cap, false));
+    assert!(!result.correlation.converged);
 }
 
-/// What to try next goes by why the correlation ended, and nothing is to be tried once the model is within tolerance.
+/// Advice goes by why the correlation ended, and nothing is to be tried once the model is within tolerance.
 #[test]
 fn advice_goes_by_the_outcome() {
     let says = |outcome, is_within, at_bound: &[usize]| {
-        let worst = ModeError {
+        let worst = ModeErrors {
             frequency: 0.01,
             shape: Some(0.02),
         };

@@ -114,7 +114,7 @@ fn a_mid_point_must_lie_between_the_spars() {
         );
         let value: f64 = outside.parse().unwrap();
         assert!(
-            matches!(refused, CaseError::Method(Error::Setting { name: "mid_chord_fraction", expected: "a number between 0 and 1", found })
+            matches!(refused, CaseError::Method(Error::Value { what: "mid_chord_fraction", expected: "a number between 0 and 1", value: found, .. })
                 if found.to_bits() == value.to_bits()),
             "{refused:?}"
         );
@@ -127,7 +127,11 @@ fn a_rib_without_chord_or_depth_is_refused() {
         let mut data = Reconstruction::embedded().unwrap();
         change(&mut data);
         match load_distribution(&data) {
-            Err(CaseError::Method(Error::ZeroLength(length))) => length,
+            Err(CaseError::Method(Error::Value {
+                what: "length",
+                value,
+                ..
+            })) => value,
             other => panic!("expected a zero length, found {other:?}"),
         }
     };
@@ -154,8 +158,9 @@ fn numbers_that_cannot_be_are_refused_where_they_are_used() {
     assert!(
         matches!(
             refused,
-            Error::NotPositive {
+            Error::Value {
                 what: "Young's modulus",
+                value: -1.0,
                 ..
             }
         ),
@@ -163,7 +168,7 @@ fn numbers_that_cannot_be_are_refused_where_they_are_used() {
     );
     let refused = structure(&Reconstruction::embedded().unwrap(), &panels, 0.0).unwrap_err();
     assert!(
-        matches!(&refused, Error::NotPositive { what: "area", owner, .. } if owner == "element 16"),
+        matches!(&refused, Error::Value { what: "gage or area", owner, .. } if owner == "element 16"),
         "{refused:?}"
     );
 }

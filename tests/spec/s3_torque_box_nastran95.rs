@@ -6,7 +6,7 @@ use crate::common::tolerances::{
     NASTRAN_EIGENVALUE, NASTRAN_PRINTED_EIGENVALUE, NASTRAN_SINGLE_PRECISION, ROUND_OFF,
 };
 use corfem::method::appendix_a::condense;
-use corfem::method::assembly::{ElementMatrix, dense_stiffness, element_matrices};
+use corfem::method::appendix_a::{ElementMatrix, assemble, element_matrices};
 use corfem::method::modes;
 use corfem::method::structure::Structure;
 use corfem::torque_box::Case;
@@ -21,12 +21,18 @@ fn sizes(structure: &Structure) -> Vec<f64> {
         .collect()
 }
 
-/// Element matrices of a box, those of panels that NASTRAN-95 snaps with its factor on them.
+/// Element matrices of a box.
+fn own_matrices(structure: &Structure) -> Vec<ElementMatrix> {
+    element_matrices(structure).collect()
+}
+
+/// The same, those of panels that NASTRAN-95 snaps with its factor on them.
 fn as_nastran(structure: &Structure, stored: &StoredBox) -> Vec<ElementMatrix> {
-    let mut matrices = element_matrices(structure);
-    for (element, matrix) in structure.elements().iter().zip(&mut matrices) {
+    let mut matrices = own_matrices(structure);
+    let elements = structure.elements().iter().zip(structure.corners());
+    for ((element, corners), matrix) in elements.zip(&mut matrices) {
         if stored.snapped.contains(&element.label) {
-            matrix.unit *= snap_factor(&structure.corners(element), &element.material);
+            matrix.unit *= snap_factor(corners, &element.material);
         }
     }
     matrices
@@ -34,7 +40,7 @@ fn as_nastran(structure: &Structure, stored: &StoredBox) -> Vec<ElementMatrix> {
 
 /// Eigenvalues with mass on z of the twelve free grids alone: the crate's own condensation, T selecting those DOF.
 fn eigenvalues(matrices: &[ElementMatrix], structure: &Structure, mass: f64) -> Vec<f64> {
-    let stiffness = dense_stiffness(matrices, &sizes(structure), 36).unwrap();
+    let stiffness = assemble(matrices, &sizes(structure), 36).unwrap();
     let select = DMatrix::from_fn(36, 12, |row, column| f64::from(row == 3 * column + 2));
     let condensed = condense(&stiffness, &select).unwrap();
     let mass = mass * DMatrix::identity(12, 12);
@@ -66,8 +72,8 @@ fn boxes_without_snapped_panels_equal_nastran95() {
     assert_eq!((all.boxes.len(), plain.len()), (16, 10));
     for stored in plain {
         let structure = all.structure(stored);
-        let matrices = element_matrices(&structure);
-        let ours = dense_stiffness(&matrices, &sizes(&structure), 36).unwrap();
+        let matrices = own_matrices(&structure);
+        let ours = assemble(&matrices, &sizes(&structure), 36).unwrap();
         let distance = relative_distance(&ours, &stored.stored());
         assert!(
             distance <= NASTRAN_SINGLE_PRECISION,
@@ -89,8 +95,8 @@ fn snapped_boxes_equal_nastran95_with_its_closed_form_in_their_place() {
     for stored in snapped {
         let structure = all.structure(stored);
         let sizes = sizes(&structure);
-        let true_one = dense_stiffness(&element_matrices(&structure), &sizes, 36).unwrap();
-        let theirs = dense_stiffness(&as_nastran(&structure, stored), &sizes, 36).unwrap();
+        let true_one = assemble(&own_matrices(&structure), &sizes, 36).unwrap();
+        let theirs = assemble(&as_nastran(&structure, stored), &sizes, 36).unwrap();
         let distance = relative_distance(&theirs, &stored.stored());
         assert!(
             distance <= NASTRAN_SINGLE_PRECISION,
@@ -134,7 +140,7 @@ fn snapping_moves_an_eigenvalue_by_six_parts_in_ten_thousand_at_most() {
     let moved = |name: &str| {
         let stored = by_name(&all, name);
         let structure = all.structure(stored);
-        let found = eigenvalues(&element_matrices(&structure), &structure, all.mass);
+        let found = eigenvalues(&own_matrices(&structure), &structure, all.mass);
         worst(&found, stored.eigenvalues.as_ref().unwrap())
     };
     let most = |names: &[&str]| names.iter().map(|name| moved(name)).fold(0.0, f64::max);
@@ -154,7 +160,7 @@ fn the_round_box_has_the_eigenvalues_another_installation_printed() {
     let all = boxes();
     let stored = by_name(&all, "round");
     let structure = all.structure(stored);
-    let found = eigenvalues(&element_matrices(&structure), &structure, all.mass);
+    let found = eigenvalues(&own_matrices(&structure), &structure, all.mass);
     for printed in [&stored.known_eigenvalues, &stored.printed_eigenvalues] {
         let printed = printed.as_ref().unwrap();
         assert_eq!(printed.len(), 6);
@@ -168,9 +174,8 @@ fn the_round_box_has_the_eigenvalues_another_installation_printed() {
 #[test]
 fn the_cases_are_the_stored_boxes() {
     let all = boxes();
-    let assemble = |structure: &Structure| {
-        dense_stiffness(&element_matrices(structure), &sizes(structure), 36).unwrap()
-    };
+    let assemble =
+        |structure: &Structure| assemble(&own_matrices(structure), &sizes(structure), 36).unwrap();
     for number in 1..=4 {
         let case = Case::new(number).unwrap();
         let test = case.model_with(&[TEST_GAGE; PANEL_COUNT]).unwrap();

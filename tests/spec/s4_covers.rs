@@ -6,9 +6,8 @@ use crate::common::tolerances::{MIRRORED_COVERS, SAME_HISTORY};
 use crate::evidence::claims::published_counts::COUNTED;
 use crate::evidence::published_counts::run_by;
 use crate::evidence::readings::correlation;
-use corfem::method::derivatives::error_changes;
+use corfem::method::analysis::Analysis;
 use corfem::method::inner_loop::InnerSettings;
-use corfem::method::state::ModalState;
 use corfem::torque_box::Case;
 use corfem::torque_box::published::PublishedTable;
 use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE, rms};
@@ -39,16 +38,16 @@ properties! {
         // Panels must be convex.
         prop_assume!(model.is_ok());
         let (model, test) = (model.expect("a model"), case.test_modes().expect("modes"));
-        let modal = model.analyze(&[1.0; PANEL_COUNT], &test.into(), None).expect("modes");
+        let modal = model.analyze(&[1.0; PANEL_COUNT], &test, None).expect("modes");
         let shares = modal.shares();
         // Round-off of the condensation is that of the whole structure, however little of it a cover is.
-        let largest = shares.iter().map(|share| share.matrix().norm()).fold(0.0, f64::max);
+        let largest = shares.iter().map(|share| share.norm()).fold(0.0, f64::max);
         for [one, other] in BAYS {
-            let apart = (shares[one].matrix() - shares[other].matrix()).norm();
+            let apart = (&shares[one] - &shares[other]).norm();
             prop_assert!(apart < MIRRORED_COVERS * largest);
         }
         let settings = InnerSettings { iterations: 3, ..case.settings.inner.clone() };
-        let changes = error_changes(&modal, &ModalState::start(&modal), settings.derivatives);
+        let changes = modal.error_changes(modal.exact());
         let largest = changes.expect("derivatives").iter().fold(0.0_f64, |most, e| most.max(e.abs()));
         let rule = |_: &[f64], kappa: &[f64], factors: &[f64]| {
             let divisor = |e: usize| {

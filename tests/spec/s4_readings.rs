@@ -63,7 +63,7 @@ fn the_gages_of_relative_lie_nearest_in_cases_2_and_3_and_tables_10_to_12() {
     );
     // In each of these columns it is nearer to the print than matrix and own, by both measures.
     for table in [6, 8, 10, 11, 12] {
-        for other in [StepRule::Norm, StepRule::Diagonal] {
+        for other in [StepRule::Matrix, StepRule::Own] {
             for (relative, other) in of(StepRule::Relative, table).iter().zip(of(other, table)) {
                 assert!(relative.correlation() > other.correlation());
                 assert!(relative.difference() < other.difference());
@@ -76,7 +76,7 @@ fn the_gages_of_relative_lie_nearest_in_cases_2_and_3_and_tables_10_to_12() {
 fn those_of_own_and_matrix_lie_nearest_in_case_1() {
     for (relative, (own, matrix)) in of(StepRule::Relative, 4)
         .iter()
-        .zip(of(StepRule::Diagonal, 4).iter().zip(of(StepRule::Norm, 4)))
+        .zip(of(StepRule::Own, 4).iter().zip(of(StepRule::Matrix, 4)))
     {
         assert!(relative.difference() > 2.0 * own.difference().max(matrix.difference()));
     }
@@ -88,7 +88,7 @@ fn those_of_own_and_matrix_lie_nearest_in_case_1() {
             .collect::<Vec<_>>()
     };
     assert_eq!(
-        (shear(StepRule::Diagonal), shear(StepRule::Norm)),
+        (shear(StepRule::Own), shear(StepRule::Matrix)),
         (vec![84, 50], vec![69, 42])
     );
 }

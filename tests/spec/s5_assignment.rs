@@ -3,7 +3,7 @@
 use crate::common::tolerances::ROUND_OFF;
 use corfem::job::assignment::pair_optimally;
 use corfem::method::error::Error;
-use corfem::method::pairing::pair_modes;
+use corfem::method::sorting::pair_modes;
 use nalgebra::{DMatrix, dmatrix};
 use proptest::prelude::*;
 
@@ -128,13 +128,16 @@ fn the_floor_forbids_pairs_before_the_best_are_chosen() {
 fn numbers_that_are_none_are_refused() {
     assert!(matches!(
         pair_optimally(&dmatrix![f64::NAN], 0.5),
-        Err(Error::NotFinite { .. })
+        Err(Error::Value {
+            what: "closeness",
+            ..
+        })
     ));
     for floor in [-0.1, f64::NAN, f64::INFINITY] {
         assert!(
             matches!(
                 pair_optimally(&dmatrix![1.0], floor),
-                Err(Error::Setting { .. })
+                Err(Error::Value { what: "floor", .. })
             ),
             "{floor}"
         );

@@ -1,6 +1,7 @@
 //! Test shapes from the sensors to all degrees of freedom.
 
 use crate::common::closed_forms::uniform_chain::uniform_held_modes;
+use crate::common::said;
 use crate::common::tolerances::MATRIX_ROUND_OFF;
 use corfem::job::expansion::{expand, mass_by_modes};
 use corfem::method::error::Error;
@@ -59,7 +60,11 @@ fn with_the_mass_by_modes_they_are_orthonormal_and_a_test_shape_weighs_what_its_
     );
     assert!(matches!(
         mass_by_modes(&DMatrix::identity(2, 3)),
-        Err(Error::TooMany { .. })
+        Err(Error::Count {
+            found: 3,
+            most: 2,
+            ..
+        })
     ));
 }
 
@@ -75,26 +80,26 @@ fn sensors_that_cannot_tell_the_modes_apart_are_refused() {
     };
     assert!(matches!(
         few(&[1, 3]),
-        Err(Error::TooMany {
-            available: 2,
-            requested: 3,
+        Err(Error::Count {
+            found: 3,
+            most: 2,
             ..
         })
     ));
     assert!(matches!(
         few(&[1, 3, 3, 1]),
-        Err(Error::Dependent { index: 2, .. })
+        Err(Error::NotPositiveDefinite { row: 2, .. })
     ));
     let unseen = dmatrix![1.0, 0.0; 2.0, 0.0; 0.5, 0.0];
     let refused = expand(&unseen, &unseen, &DMatrix::identity(3, 1));
     assert!(
-        matches!(refused, Err(Error::Dependent { index: 1, .. })),
+        matches!(refused, Err(Error::NotPositiveDefinite { row: 1, .. })),
         "{refused:?}"
     );
     let twice = dmatrix![1.0, -2.0, 0.0; 0.0, 0.0, 1.0; 0.5, -1.0, 0.0];
     let refused = expand(&twice, &twice, &DMatrix::identity(3, 1));
     assert!(
-        matches!(refused, Err(Error::Dependent { index: 1, .. })),
+        matches!(refused, Err(Error::NotPositiveDefinite { row: 1, .. })),
         "{refused:?}"
     );
 }
@@ -106,7 +111,10 @@ fn modes_are_dependent_that_differ_by_a_billionth_of_their_length() {
         let two = dmatrix![1.0, 1.0; 0.0, angle];
         expand(&two, &two, &dmatrix![1.0; 0.0])
     };
-    assert!(matches!(at(1.9e-9), Err(Error::Dependent { index: 1, .. })));
+    assert!(matches!(
+        at(1.9e-9),
+        Err(Error::NotPositiveDefinite { row: 1, .. })
+    ));
     assert!(at(2.1e-9).is_ok());
 }
 
@@ -116,28 +124,46 @@ fn what_does_not_fit_is_refused() {
         DMatrix::<f64>::identity(2, 2),
         DMatrix::<f64>::identity(3, 3),
     );
-    assert!(matches!(
-        expand(&three, &two, &two),
-        Err(Error::WrongShape { .. })
-    ));
-    assert!(matches!(
-        expand(&two, &two, &three),
-        Err(Error::WrongShape { .. })
-    ));
-    assert!(matches!(
-        expand(&two, &DMatrix::zeros(2, 0), &two),
-        Err(Error::Empty { .. })
-    ));
-    assert!(matches!(
-        expand(&two, &(f64::NAN * &two), &two),
-        Err(Error::NotFinite { .. })
-    ));
-    assert!(matches!(
-        expand(&two, &two, &(f64::NAN * &two)),
-        Err(Error::NotFinite { .. })
-    ));
-    assert!(matches!(
-        expand(&(f64::NAN * &two), &two, &two),
-        Err(Error::NotFinite { .. })
-    ));
+    let (none, no_number) = (DMatrix::zeros(2, 0), f64::NAN * &two);
+    for (all, at_sensors, test, words) in [
+        (&two, &two, &two, "an answer"),
+        (
+            &three,
+            &two,
+            &two,
+            "analysis modes at all degrees of freedom: 3 x 3 instead of 3 x 2",
+        ),
+        (
+            &two,
+            &two,
+            &three,
+            "test mode shapes: 3 x 3 instead of 2 x 3",
+        ),
+        (
+            &two,
+            &none,
+            &two,
+            "analysis modes for these sensors: 0 given or asked for; there must be 1 to 2",
+        ),
+        (
+            &two,
+            &no_number,
+            &two,
+            "analysis mode at the sensors of entry (0, 0) is NaN; it must be a finite number",
+        ),
+        (
+            &two,
+            &two,
+            &no_number,
+            "expanded test shapes of entry (0, 0) is NaN; it must be a finite number",
+        ),
+        (
+            &no_number,
+            &two,
+            &two,
+            "expanded test shapes of entry (0, 0) is NaN; it must be a finite number",
+        ),
+    ] {
+        assert_eq!(said(expand(all, at_sensors, test)), words);
+    }
 }

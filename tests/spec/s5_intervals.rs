@@ -4,7 +4,9 @@ use crate::common::known::Known;
 use crate::common::measured::equal_weights;
 use crate::common::tolerances::{END_OF_INTERVAL, MATRIX_ROUND_OFF};
 use corfem::method::error::Error;
-use corfem::method::model::{Bounds, ModalModel};
+use corfem::method::modes::Modes;
+use corfem::method::step::Bounds;
+use corfem::weighted::comparison::Comparison;
 use corfem::weighted::gauss_newton::{WeightedCorrelation, WeightedSettings, gauss_newton};
 use corfem::weighted::identifiability::NORMAL_95;
 use corfem::weighted::intervals::intervals;
@@ -15,7 +17,7 @@ type Ranges = [Option<Bounds>; 15];
 /// A noisy test of Case 3, whose covers begin unlike and are alike in truth.
 struct Noisy {
     known: Known,
-    test: corfem::method::modes::ModeSet,
+    test: Modes,
 }
 
 impl Noisy {
@@ -25,8 +27,9 @@ impl Noisy {
         Self { known, test }
     }
 
-    fn analyze(&self, factors: &[f64]) -> Result<ModalModel, Error> {
-        self.known.model.analyze(factors, &self.test, None)
+    fn analyze(&self, factors: &[f64]) -> Result<Comparison, Error> {
+        let model = self.known.model.analyze(factors, &self.test, None)?;
+        Ok(Comparison::from(&model))
     }
 
     fn optimum(&self, first: &[f64], ranges: &Ranges) -> WeightedCorrelation {

@@ -1,32 +1,34 @@
 //! Rankings of suspects: by the first iteration's own factors, and by what one parameter alone explains.
 
 use crate::common::known::Known;
+use crate::common::loops::inner_for_modes;
 use crate::common::measured::equal_weights;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, SINGLE_FIT_FACTOR};
 use crate::evidence::localization::NOISE;
 use crate::spec::s5_weighted::at;
 use corfem::job::localization::{by_factor, by_single_fit};
 use corfem::method::inner_loop::{InnerSettings, run};
-use corfem::method::modes::ModeSet;
+use corfem::method::modes::Modes;
 use corfem::torque_box::Case;
+use corfem::weighted::comparison::Comparison;
 use corfem::weighted::residuals::residuals;
 
 #[test]
 fn the_first_ranking_is_by_what_the_first_iteration_asks_for() {
     for (number, modes) in [(1, 9), (2, 9), (3, 5)] {
         let known = Known::of_case(number).unwrap();
-        // With fewer than nine modes the error sum has a scale.
         let lowest: Vec<usize> = (0..modes).collect();
         let (omega_squared, shapes) = (
             known.test.omega_squared().select_rows(&lowest),
             known.test.shapes().select_columns(&lowest),
         );
-        let test = ModeSet::new(omega_squared, shapes).expect("modes");
+        let test = Modes::new(omega_squared, shapes).expect("modes");
         let model = known.model.analyze(&[1.0; 15], &test, None).unwrap();
         let settings = InnerSettings {
             iterations: 1,
             ..InnerSettings::default()
         };
+        let settings = inner_for_modes(settings, modes);
         let asked = run(&model, &[1.0; 15], &[None; 15], &settings)
             .unwrap()
             .first_unlimited_factors;
@@ -51,16 +53,18 @@ fn evidence_is_what_the_objective_falls_by_at_the_factor_named() {
     let case = Case::new(2).unwrap();
     let (first, test) = (
         case.model().unwrap().matrices(&[1.0; 15]).unwrap(),
-        ModeSet::from(case.test_modes().unwrap()),
+        case.test_modes().unwrap(),
     );
     let weights = equal_weights(NOISE, test.len());
     let objective = |factors: &[f64]| {
         let model = at(&first, factors).analyze(&test, None).unwrap();
-        0.5 * residuals(&model, &weights).unwrap().norm_squared()
+        let residuals = residuals(&Comparison::from(&model), &weights);
+        0.5 * residuals.unwrap().norm_squared()
     };
     let ones = [1.0; 15];
     let start = objective(&ones);
-    for suspect in by_single_fit(&first.analyze(&test, None).unwrap(), &weights).unwrap() {
+    let here = Comparison::from(&first.analyze(&test, None).unwrap());
+    for suspect in by_single_fit(&here, &weights).unwrap() {
         let fall = |factor: f64| {
             let mut factors = ones;
             factors[suspect.parameter] = factor;

@@ -1,9 +1,9 @@
 //! Coordinate assurance by what its definition promises.
 
 use crate::common::closed_forms::uniform_chain::uniform_held_modes;
+use crate::common::said;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use corfem::job::metrics::coordinate_assurance;
-use corfem::method::error::Error;
 use nalgebra::{DMatrix, DVector, dmatrix};
 use proptest::prelude::*;
 
@@ -90,24 +90,41 @@ fn what_does_not_fit_is_refused() {
         DMatrix::<f64>::identity(2, 2),
         DMatrix::<f64>::identity(3, 3),
     );
-    let zero = DMatrix::<f64>::zeros(2, 1);
-    let wrong = |error: Option<Error>| matches!(error, Some(Error::WrongShape { .. }));
-    assert!(wrong(coordinate_assurance(&two, &three, &[None; 3]).err()));
-    assert!(wrong(coordinate_assurance(&two, &two, &[Some(0)]).err()));
-    assert!(matches!(
-        coordinate_assurance(&two, &two, &[None; 2]),
-        Err(Error::Empty { .. })
-    ));
-    assert!(matches!(
-        coordinate_assurance(&two, &two, &[None, Some(2)]),
-        Err(Error::Unknown { label: 2, .. })
-    ));
-    assert!(matches!(
-        coordinate_assurance(&two, &zero, &[Some(0)]),
-        Err(Error::NotPositive { .. })
-    ));
-    assert!(matches!(
-        coordinate_assurance(&(f64::NAN * &two), &two, &[Some(0), None]),
-        Err(Error::NotFinite { .. })
-    ));
+    let (zero, no_number) = (DMatrix::zeros(2, 1), f64::NAN * &two);
+    for (analysis, test, pairs, words) in [
+        (&two, &two, &[Some(0), None][..], "an answer"),
+        (
+            &two,
+            &three,
+            &[None; 3],
+            "test mode shapes: 3 x 3 instead of 2 x 3",
+        ),
+        (&two, &two, &[Some(0)], "pairs: 1 x 1 instead of 2 x 1"),
+        (
+            &two,
+            &two,
+            &[None; 2],
+            "pairs: 0 given or asked for; there must be at least 1",
+        ),
+        (
+            &two,
+            &two,
+            &[None, Some(2)],
+            "pairs: there is no analysis mode (from zero) 2",
+        ),
+        (
+            &two,
+            &zero,
+            &[Some(0)],
+            "largest component of paired test mode 0 (from zero) is 0; it must be positive and finite",
+        ),
+        (
+            &no_number,
+            &two,
+            &[Some(0), None],
+            "mode shapes of entry (0, 0) is NaN; it must be a finite number",
+        ),
+    ] {
+        assert_eq!(said(coordinate_assurance(analysis, test, pairs)), words);
+    }
 }

@@ -3,28 +3,29 @@
 use crate::common::measured::equal_weights;
 use crate::common::structures::spring_stiffness;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
-use corfem::method::error_sum::ModeWeight;
-use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
-use corfem::method::modes::{ModeSet, solve};
+use corfem::method::model::DynamicModel;
+use corfem::method::modes::solve;
 use corfem::nalgebra::DMatrix;
+use corfem::sparse::ModeWeight;
+use corfem::weighted::comparison::Comparison;
 use corfem::weighted::misfit::Misfit;
 use corfem::weighted::noise::Noise;
 use corfem::weighted::residuals::residuals;
 
 /// Four equal stories with a sensor on every floor, of a test of stories with these factors.
-fn building(truth: &[f64; 4]) -> ModalModel {
+fn building(truth: &[f64; 4]) -> Comparison {
     let model = |factors: &[f64; 4]| {
         let story = |story: usize| spring_stiffness(4, story, 1e5 * factors[story]);
-        let shares: Vec<_> = (0..4).map(story).map(ParameterMatrix::Stiffness).collect();
+        let shares: Vec<DMatrix<f64>> = (0..4).map(story).collect();
         DynamicModel {
-            stiffness: shares.iter().map(ParameterMatrix::matrix).sum(),
+            stiffness: shares.iter().sum(),
             mass: 60.0 * DMatrix::identity(4, 4),
             shares,
         }
     };
     let real = model(truth);
-    let test: ModeSet = solve(&real.stiffness, &real.mass, 4).unwrap().into();
-    model(&[1.0; 4]).analyze(&test, None).unwrap()
+    let test = solve(&real.stiffness, &real.mass, 4).unwrap();
+    Comparison::from(&model(&[1.0; 4]).analyze(&test, None).unwrap())
 }
 
 fn misfit(weights: &[ModeWeight], prior: f64, at_bound: &[usize]) -> Misfit {

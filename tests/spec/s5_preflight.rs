@@ -5,10 +5,11 @@ use crate::common::structures::spring_stiffness;
 use crate::common::tolerances::{FIRST_FREQUENCY_RATIO, ROUND_OFF};
 use crate::evidence::specimen::Specimen;
 use corfem::job::preflight::{Change, CommonFactor, FACTORS, Finding};
-use corfem::method::model::{DynamicModel, ParameterMatrix};
-use corfem::method::modes::{ModeSet, solve};
+use corfem::method::model::DynamicModel;
+use corfem::method::modes::solve;
 use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::pairing::{modal_assurance, pair_modes};
+use corfem::method::sorting::pair_modes;
+use corfem::sparse::modal_assurance;
 use corfem::sparse::random::split_mix_64;
 use corfem::torque_box::Case;
 use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
@@ -31,11 +32,11 @@ pub fn chain() -> Specimen {
     let mass = DMatrix::from_diagonal(&mass);
     Specimen {
         name: "Spring chain".to_owned(),
-        test: solve(&right, &mass, count).unwrap().into(),
+        test: solve(&right, &mass, count).unwrap(),
         model: DynamicModel {
             stiffness: wrong.clone().sum(),
             mass,
-            shares: wrong.map(ParameterMatrix::Stiffness).collect(),
+            shares: wrong.collect(),
         },
         settings: Settings::default(),
         ranges: vec![None; count],
@@ -54,14 +55,9 @@ pub fn findings(specimen: &Specimen) -> Vec<Finding> {
 }
 
 pub fn with_shapes(specimen: &Specimen, shapes: DMatrix<f64>) -> Specimen {
-    Specimen {
-        test: specimen
-            .test
-            .clone()
-            .with_shapes(shapes)
-            .expect("shapes that fit"),
-        ..specimen.clone()
-    }
+    let mut wrong = specimen.clone();
+    alter(&mut wrong.test, |_, own| *own = shapes);
+    wrong
 }
 
 /// The change that alone is found.
@@ -176,17 +172,14 @@ fn every_reversed_sensor_is_named() {
 #[test]
 fn the_loops_take_a_reversed_sensor_for_wrong_gages() {
     let case = Case::new(2).unwrap();
-    let (model, mut test) = (
-        case.model().unwrap(),
-        ModeSet::from(case.test_modes().unwrap()),
-    );
+    let (model, mut test) = (case.model().unwrap(), case.test_modes().unwrap());
     alter(&mut test, |_, shapes| shapes.row_mut(6).neg_mut());
     let analyze = |factors: &[f64]| model.analyze(factors, &test, None);
     let run = correlate(
         analyze,
         &model.factor_ranges().unwrap(),
         &case.settings,
-        |_, _| {},
+        |_, _| true,
     )
     .unwrap();
     let factors = &run.best_factors;
@@ -263,9 +256,7 @@ fn the_common_factor_is_the_median_of_the_ratios_of_pairs() {
             panic!("{}", specimen.name)
         };
         let model = &specimen.model;
-        let analysis: ModeSet = solve(&model.stiffness, &model.mass, model.mass.nrows())
-            .unwrap()
-            .into();
+        let analysis = solve(&model.stiffness, &model.mass, model.mass.nrows()).unwrap();
         let assurance = modal_assurance(analysis.shapes(), specimen.test.shapes()).unwrap();
         let (test, all) = (wrong.test.frequencies_hz(), analysis.frequencies_hz());
         let pairs = pair_modes(&assurance).unwrap().analysis_mode().to_vec();

@@ -7,8 +7,9 @@ use crate::spec::s5_preflight::{case, chain, findings, wing, with_shapes};
 use corfem::job::preflight::{
     Change, FACTORS, Finding, FindingNames, FrequenciesExchanged, LARGEST_TOLERANCE,
 };
-use corfem::method::model::{Bounds, DynamicModel};
+use corfem::method::model::DynamicModel;
 use corfem::method::outer_loop::Settings;
+use corfem::method::step::Bounds;
 
 /// A finding as a sentence, where nothing has a name.
 fn words(finding: &Finding) -> String {

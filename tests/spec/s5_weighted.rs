@@ -4,17 +4,23 @@ use crate::common::alter;
 use crate::common::draws::Draws;
 use crate::common::known::Known;
 use crate::common::measured::equal_weights;
+use crate::common::said;
 use crate::common::tolerances::{
     CENTRAL_DIFFERENCE_GRADIENT, MATRIX_ROUND_OFF, ROUND_OFF, WEIGHTED_FACTOR,
 };
+use crate::common::whole_models::of_dense;
 use crate::evidence::rules::compare_all;
+use corfem::method::analysis::{Analysis, State};
 use corfem::method::error::Error;
-use corfem::method::error_sum::ModeWeight;
-use corfem::method::model::{Bounds, DynamicModel, ModalModel, ParameterMatrix};
-use corfem::method::modes::{ModeSet, solve};
+use corfem::method::model::DynamicModel;
+use corfem::method::modes::{Modes, solve};
+use corfem::method::sorting::pair_modes;
+use corfem::method::step::Bounds;
 use corfem::nalgebra::{DMatrix, DVector};
+use corfem::sparse::{BasisSize, ModeWeight, ParameterMatrix, SparseMatrix, WholeModel};
 use corfem::torque_box::Case;
-use corfem::weighted::close_modes::{told_apart, turned};
+use corfem::weighted::close_modes::{indistinct_groups, turned};
+use corfem::weighted::comparison::Comparison;
 use corfem::weighted::gauss_newton::{
     WeightedCorrelation, WeightedSettings, WeightedStop, gauss_newton,
 };
@@ -23,40 +29,48 @@ use corfem::weighted::noise::{Noise, with_noise};
 use corfem::weighted::residuals::{DEVIATIONS, jacobian, residuals};
 use corfem::weighted::starts::from_several_starts;
 
-/// The box of Case 2 by its matrices, with a stiffness parameter for every panel and a mass parameter for every point.
+/// The box of Case 2 by its matrices, with a stiffness parameter for every panel.
 fn by_matrices() -> DynamicModel {
     let model = Case::new(2).unwrap().model().unwrap();
-    let mut matrices = model.matrices(&[1.0; 15]).unwrap();
-    for dof in 0..9 {
+    model.matrices(&[1.0; 15]).unwrap()
+}
+
+/// The same with a mass parameter for every point as well, and a sensor there.
+fn with_masses() -> (WholeModel, SparseMatrix) {
+    let model = by_matrices();
+    let own_mass = |dof: usize| {
         let mut mass = DMatrix::zeros(9, 9);
-        mass[(dof, dof)] = matrices.mass[(dof, dof)];
-        matrices.shares.push(ParameterMatrix::Mass(mass));
-    }
-    matrices
+        mass[(dof, dof)] = model.mass[(dof, dof)];
+        ParameterMatrix::Mass(mass)
+    };
+    let panels = model.shares.iter().cloned().map(ParameterMatrix::Stiffness);
+    let shares: Vec<ParameterMatrix> = panels.chain((0..9).map(own_mass)).collect();
+    of_dense(&model.stiffness, &model.mass, &shares).unwrap()
 }
 
 /// The model at other factors.
 pub fn at(first: &DynamicModel, factors: &[f64]) -> DynamicModel {
     let mut model = first.clone();
-    for (share, factor) in first.shares.iter().zip(factors) {
-        match share {
-            ParameterMatrix::Stiffness(matrix) => model.stiffness += (factor - 1.0) * matrix,
-            ParameterMatrix::Mass(matrix) => model.mass += (factor - 1.0) * matrix,
-        }
+    for ((share, first), factor) in model.shares.iter_mut().zip(&first.shares).zip(factors) {
+        model.stiffness += (factor - 1.0) * first;
+        *share *= *factor;
     }
-    model.shares = first
-        .shares
-        .iter()
-        .zip(factors)
-        .map(|(share, &factor)| share.map(|m| factor * m))
-        .collect();
     model
 }
 
-fn modes(model: &DynamicModel) -> ModeSet {
-    solve(&model.stiffness, &model.mass, model.mass.nrows())
-        .unwrap()
-        .into()
+/// A structure whose factors are known, at others beside its test.
+pub fn compare(known: &Known, factors: &[f64]) -> Result<Comparison, Error> {
+    let model = known.model.analyze(factors, &known.test, None)?;
+    Ok(Comparison::from(&model))
+}
+
+/// A model beside a test, all its modes.
+fn beside(model: &DynamicModel, test: &Modes) -> Comparison {
+    Comparison::from(&model.analyze(test, None).unwrap())
+}
+
+fn modes(model: &DynamicModel) -> Modes {
+    solve(&model.stiffness, &model.mass, model.mass.nrows()).unwrap()
 }
 
 fn weights(modes: usize) -> Vec<ModeWeight> {
@@ -65,12 +79,13 @@ fn weights(modes: usize) -> Vec<ModeWeight> {
 
 #[test]
 fn the_jacobian_is_the_derivative_of_exact_analyses() {
-    let first = by_matrices();
+    let (first, sensors) = with_masses();
+    let exact = modes(&by_matrices());
     let step = 1e-5_f64;
     for seed in 1..=6 {
         let mut draws = Draws(seed);
         let factors: Vec<f64> = (0..24).map(|_| 0.8 + 0.4 * draws.unit()).collect();
-        let test = with_noise(&modes(&first), Noise::USUAL, seed).unwrap();
+        let test = with_noise(&exact, Noise::USUAL, seed).unwrap();
         let weight = |_| ModeWeight {
             frequency: 100.0 + 200.0 * draws.unit(),
             shape: 30.0 + 70.0 * draws.unit(),
@@ -91,7 +106,16 @@ fn the_jacobian_is_the_derivative_of_exact_analyses() {
             }
         });
         let analyzed = |factors: &[f64]| {
-            let model = at(&first, factors).analyze(&test, None).unwrap();
+            let model = first.analyze(
+                factors,
+                &sensors,
+                (&test, pair_modes),
+                BasisSize {
+                    modes: 9,
+                    residual_vectors: 0,
+                },
+            );
+            let model = Comparison::from(model.unwrap());
             let model = model.with_groups(groups.clone()).unwrap();
             model.with_component_weights(own.clone()).unwrap()
         };
@@ -103,10 +127,8 @@ fn the_jacobian_is_the_derivative_of_exact_analyses() {
                 let mut factors = factors.clone();
                 factors[e] *= log.exp();
                 let model = analyzed(&factors);
-                assert_eq!(
-                    model.exact().pairing.analysis_mode(),
-                    here.exact().pairing.analysis_mode()
-                );
+                let pairs = [&model, &here].map(|of| &of.model().exact().pairing);
+                assert_eq!(pairs[0].analysis_mode(), pairs[1].analysis_mode());
                 residuals(&model, &weights).unwrap()
             };
             let difference = (beside(step) - beside(-step)) / (2.0 * step);
@@ -134,7 +156,7 @@ fn of_modes_compared_together_the_subspace_alone_counts() {
         alter(&mut test, |_, shapes| {
             shapes.columns_mut(2, 3).copy_from(&mixed)
         });
-        let model = first.analyze(&test, None).unwrap();
+        let model = beside(&first, &test);
         let alone = residuals(&model, &weights(9)).unwrap();
         assert!(alone.amax() > 1.0, "{}", alone.amax());
         let model = model.with_groups(vec![vec![0], vec![3, 2, 4]]).unwrap();
@@ -161,14 +183,11 @@ fn shapes_turned_to_the_test_are_modes_of_the_same_subspace() {
         alter(&mut test, |_, shapes| {
             shapes.columns_mut(4, 3).copy_from(&mixed)
         });
-        let model = first
-            .analyze(&test, None)
-            .unwrap()
-            .with_groups(vec![vec![4, 5, 6]])
-            .unwrap();
-        let found = turned(&model.exact().modes, model.exact(), &test).unwrap();
-        for (j, &i) in model.exact().pairing.analysis_mode().iter().enumerate() {
-            let sign = model.exact().pairing.sign()[j];
+        let model = first.analyze(&test, None).unwrap();
+        let State { modes, pairing, .. } = model.exact();
+        let found = turned(modes, pairing, &[vec![4, 5, 6]], &test).unwrap();
+        for (j, &i) in pairing.analysis_mode().iter().enumerate() {
+            let sign = pairing.sign()[j];
             let off = (found.shapes().column(i) * sign - test.shapes().column(j)).amax();
             assert!(
                 off < MATRIX_ROUND_OFF * test.shapes().amax(),
@@ -183,7 +202,7 @@ fn shapes_turned_to_the_test_are_modes_of_the_same_subspace() {
 #[test]
 fn modes_are_told_apart_by_twice_the_deviation_of_their_difference() {
     // Of one percent each: 100 and 102.8 are within 2.84, and 107 is not.
-    let groups = |hertz: &[f64]| told_apart(hertz, &vec![0.01; hertz.len()]);
+    let groups = |hertz: &[f64]| indistinct_groups(hertz, &vec![0.01; hertz.len()]);
     assert_eq!(groups(&[100.0, 102.8, 107.0]), [vec![0, 1], vec![2]]);
     assert_eq!(groups(&[100.0, 102.9, 107.0]), [vec![0], vec![1], vec![2]]);
     // A chain of neighbors is one group, in any order.
@@ -198,17 +217,15 @@ fn shapes_are_scaled_by_least_squares_and_the_tests_scale_and_sign_do_not_matter
     let mut other = test.clone();
     alter(&mut other, |_, shapes| *shapes *= -7.0);
     let weights = weights(9);
-    let model = first.analyze(&test, None).unwrap();
+    let model = beside(&first, &test);
     let (one, two) = (
         residuals(&model, &weights).unwrap(),
-        residuals(&first.analyze(&other, None).unwrap(), &weights).unwrap(),
+        residuals(&beside(&first, &other), &weights).unwrap(),
     );
+    let State { modes, pairing, .. } = model.model().exact();
     for j in 0..9 {
-        let i = model.exact().pairing.analysis_mode()[j];
-        let (v, r) = (
-            model.exact().modes.shapes().column(i),
-            one.rows(10 * j + 1, 9),
-        );
+        let i = pairing.analysis_mode()[j];
+        let (v, r) = (modes.shapes().column(i), one.rows(10 * j + 1, 9));
         let other = two.rows(10 * j + 1, 9);
         assert!(v.dot(&r).abs() < MATRIX_ROUND_OFF * v.norm() * weights[j].shape);
         // The least distance from any multiple of the shape: that of no other scale is less.
@@ -218,7 +235,7 @@ fn shapes_are_scaled_by_least_squares_and_the_tests_scale_and_sign_do_not_matter
             assert!((scale * v - &unit).norm() * weights[j].shape > r.norm());
         }
         assert!((r + other).amax() < MATRIX_ROUND_OFF * weights[j].shape);
-        let ratio = (model.exact().modes.omega_squared()[i] / test.omega_squared()[j]).sqrt();
+        let ratio = (modes.omega_squared()[i] / test.omega_squared()[j]).sqrt();
         assert!(
             (one[10 * j] - (ratio - 1.0) * weights[j].frequency).abs()
                 < ROUND_OFF * weights[j].frequency
@@ -233,11 +250,12 @@ fn of_components_with_deviations_of_their_own_the_scale_is_that_of_weighted_leas
     for seed in 1..=5 {
         let mut draws = Draws(seed);
         let own = DMatrix::from_fn(9, 9, |_, _| draws.between(0.2, 5.0));
-        let model = first.analyze(&test, None).unwrap();
+        let model = beside(&first, &test);
         let model = model.with_component_weights(own.clone()).unwrap();
         let found = residuals(&model, &weights(9)).unwrap();
-        for (j, &i) in model.exact().pairing.analysis_mode().iter().enumerate() {
-            let v = model.exact().modes.shapes().column(i);
+        let State { modes, pairing, .. } = model.model().exact();
+        for (j, &i) in pairing.analysis_mode().iter().enumerate() {
+            let v = modes.shapes().column(i);
             let unit = test.shapes().column(j) / test.shapes().column(j).amax();
             let squares = own.column(j).map(|weight| weight * weight);
             let scale = v.component_mul(&squares).dot(&unit) / v.component_mul(&squares).dot(&v);
@@ -252,7 +270,7 @@ fn of_components_with_deviations_of_their_own_the_scale_is_that_of_weighted_leas
 fn components_of_one_weight_are_as_a_mode_of_that_weight() {
     let first = by_matrices();
     let test = with_noise(&modes(&first), Noise::USUAL, 3).unwrap();
-    let model = first.analyze(&test, None).unwrap();
+    let model = beside(&first, &test);
     let own = DMatrix::from_fn(9, 9, |_, j| 0.5 + j as f64);
     let all = weights(9);
     let of_modes: Vec<ModeWeight> = (0..9)
@@ -281,9 +299,8 @@ fn corrected(
     ranges: &[Option<Bounds>],
     settings: &WeightedSettings,
 ) -> WeightedCorrelation {
-    let analyze = |factors: &[f64]| known.model.analyze(factors, &known.test, None);
     gauss_newton(
-        analyze,
+        |factors| compare(known, factors),
         &vec![1.0; ranges.len()],
         ranges,
         &weights(known.test.len()),
@@ -302,7 +319,7 @@ fn with_a_vague_prior_it_finds_the_gages_of_case_2() {
     let mut calls = 0;
     let analyze = |factors: &[f64]| {
         calls += 1;
-        known.model.analyze(factors, &known.test, None)
+        compare(&known, factors)
     };
     let found = gauss_newton(analyze, &[1.0; 15], &[None; 15], &weights(9), &settings).unwrap();
     assert_eq!(calls, found.analyses);
@@ -356,7 +373,7 @@ fn what_is_at_a_bound_is_pressed_there_and_all_else_is_stationary() {
         (0.8, 0.8, WeightedStop::Gradient)
     );
     let objective = |factors: &[f64]| {
-        let model = known.model.analyze(factors, &known.test, None).unwrap();
+        let model = compare(&known, factors).unwrap();
         let logs: f64 = factors.iter().map(|factor| factor.ln().powi(2)).sum();
         0.5 * (residuals(&model, &weights(9)).unwrap().norm_squared() + logs)
     };
@@ -379,10 +396,7 @@ fn what_is_at_a_bound_is_pressed_there_and_all_else_is_stationary() {
 #[test]
 fn modes_that_change_places_are_followed_and_recorded() {
     let diagonal = |a, b| DMatrix::from_diagonal(&DVector::from_vec(vec![a, b]));
-    let shares = vec![
-        ParameterMatrix::Stiffness(diagonal(400.0, 0.0)),
-        ParameterMatrix::Stiffness(diagonal(0.0, 200.0)),
-    ];
+    let shares = vec![diagonal(400.0, 0.0), diagonal(0.0, 200.0)];
     let first = DynamicModel {
         stiffness: diagonal(400.0, 200.0),
         mass: diagonal(1.0, 1.0),
@@ -392,7 +406,10 @@ fn modes_that_change_places_are_followed_and_recorded() {
         stiffness: diagonal(100.0, 200.0),
         ..first.clone()
     });
-    let analyze = |factors: &[f64]| at(&first, factors).analyze(&test, None);
+    let analyze = |factors: &[f64]| {
+        let model = at(&first, factors).analyze(&test, None);
+        model.map(|model| Comparison::from(&model))
+    };
     let settings = WeightedSettings {
         prior_deviations: vec![1e3],
         ..WeightedSettings::default()
@@ -495,7 +512,7 @@ fn upper_and_lower_cover_of_a_bay_cannot_be_told_apart_in_case_2() {
 #[test]
 fn several_starts_lead_to_one_place_on_the_box_and_on_the_wing() {
     for known in [Known::of_case(2).unwrap(), Known::delta_wing().unwrap()] {
-        let analyze = |factors: &[f64]| known.model.analyze(factors, &known.test, None);
+        let analyze = |factors: &[f64]| compare(&known, factors);
         let run = |starts| {
             let ranges = vec![None; known.truth.len()];
             let settings = WeightedSettings::default();
@@ -519,7 +536,14 @@ fn several_starts_lead_to_one_place_on_the_box_and_on_the_wing() {
         );
         let again = run(5).unwrap();
         assert_eq!((again.0.factors, again.1), (best.factors, minima));
-        assert!(matches!(run(0), Err(Error::Empty { .. })));
+        assert!(matches!(
+            run(0),
+            Err(Error::Count {
+                what: "starts",
+                found: 0,
+                ..
+            })
+        ));
     }
 }
 
@@ -547,61 +571,70 @@ fn gauss_newton_needs_fewer_steps_than_the_papers_rule_and_ends_nearer_to_the_tr
 #[test]
 fn input_out_of_range_is_refused() {
     let known = Known::of_case(2).unwrap();
-    let analyze = |factors: &[f64]| -> Result<ModalModel, Error> {
-        known.model.analyze(factors, &known.test, None)
-    };
-    let run = |first: &[f64],
-               ranges: &[Option<Bounds>],
-               weights: &[ModeWeight],
-               settings: &WeightedSettings| {
-        gauss_newton(analyze, first, ranges, weights, settings).err()
-    };
+    let analyze = |factors: &[f64]| compare(&known, factors);
     let (ones, free, usual) = ([1.0; 15], [None; 15], WeightedSettings::default());
     let vague = WeightedSettings {
         prior_deviations: vec![f64::INFINITY],
         ..usual.clone()
     };
-    assert!(matches!(
-        run(&ones, &free, &weights(9), &vague),
-        Some(Error::Setting {
-            name: "prior_deviation",
-            ..
-        })
-    ));
     let idle = WeightedSettings {
         tolerance: 0.0,
         ..usual.clone()
     };
-    assert!(matches!(
-        run(&ones, &free, &weights(9), &idle),
-        Some(Error::Setting {
-            name: "tolerance",
-            ..
-        })
-    ));
-    assert!(matches!(
-        run(&ones, &free[1..], &weights(9), &usual),
-        Some(Error::WrongShape { .. })
-    ));
-    assert!(matches!(
-        run(&ones, &free, &weights(8), &usual),
-        Some(Error::WrongShape { .. })
-    ));
-    assert!(matches!(
-        run(&[0.0; 15], &free, &weights(9), &usual),
-        Some(Error::NotPositive { .. })
-    ));
-    let upside_down = [Some(Bounds {
-        lower: 2.0,
-        upper: 1.0,
-    }); 15];
-    assert!(matches!(
-        run(&ones, &upside_down, &weights(9), &usual),
-        Some(Error::Limits { .. })
-    ));
+    let (lower, upper) = (2.0, 1.0);
+    let upside_down = [Some(Bounds { lower, upper }); 15];
+    let zeros = [0.0; 15];
+    for (first, ranges, modes, settings, words) in [
+        (&ones, &free[..], 9, &usual, "an answer"),
+        (
+            &ones,
+            &free[..],
+            9,
+            &vague,
+            "prior_deviation of the weighted steps is inf; it must be positive and finite",
+        ),
+        (
+            &ones,
+            &free[..],
+            9,
+            &idle,
+            "tolerance of the weighted steps is 0; it must be positive and finite",
+        ),
+        (
+            &ones,
+            &free[1..],
+            9,
+            &usual,
+            "parameter limits: 14 x 1 instead of 15 x 1",
+        ),
+        (
+            &ones,
+            &free[..],
+            8,
+            &usual,
+            "weights: 8 x 1 instead of 9 x 1",
+        ),
+        (
+            &zeros,
+            &free[..],
+            9,
+            &usual,
+            "factor of parameter 1 is 0; it must be positive and finite",
+        ),
+        (
+            &ones,
+            &upside_down[..],
+            9,
+            &usual,
+            "parameter limits: 2 to 1 is no range; the lower limit must be positive, the upper one larger and finite",
+        ),
+    ] {
+        let found = gauss_newton(analyze, first, ranges, &weights(modes), settings);
+        assert_eq!(said(found), words);
+    }
     assert!(matches!(
         identifiability(&DMatrix::zeros(0, 3), &[1.0; 3]),
-        Err(Error::Empty { .. })
+        Err(Error::Count { found: 0, .. })
     ));
     let few = WeightedSettings { trials: 1, ..usual };
     let stopped = gauss_newton(analyze, &ones, &free, &weights(9), &few).unwrap();

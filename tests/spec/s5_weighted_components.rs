@@ -14,11 +14,13 @@ use crate::readers::job_errors::placed;
 use crate::spec::s5_weighted::at;
 use corfem::files::test_data::TestData;
 use corfem::job::{JobResult, LoadedJob, run};
+use corfem::method::analysis::{Analysis, State};
 use corfem::method::linear_algebra::symmetric_part;
-use corfem::method::model::{DynamicModel, LoneFrequency, ParameterMatrix};
-use corfem::method::modes::{ModeSet, solve};
+use corfem::method::model::DynamicModel;
+use corfem::method::modes::{Modes, solve};
 use corfem::nalgebra::{DMatrix, DVector};
 use corfem::sparse::WholeShare;
+use corfem::weighted::comparison::{Comparison, LoneFrequency};
 use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use corfem::weighted::identifiability::NORMAL_95;
 use corfem::weighted::noise::{Noise, with_noise};
@@ -30,7 +32,7 @@ fn chain() -> DynamicModel {
     let whole = shear_building(&[1e5, 8e4, 1.2e5, 9e4, 1.1e5, 1e5], 60.0, None);
     let (stiffness, mass) = whole.at(&[1.0; 6]).unwrap();
     let share = |share: &WholeShare| match share {
-        WholeShare::Stiffness(matrix) => ParameterMatrix::Stiffness(matrix.dense()),
+        WholeShare::Stiffness(matrix) => matrix.dense(),
         _ => unreachable!("stories are stiffness"),
     };
     DynamicModel {
@@ -50,7 +52,7 @@ fn intervals_hold_the_truth_where_every_component_has_its_own_deviation() {
     let first = chain();
     let truth = [1.3, 0.8, 1.1, 0.9, 1.2, 0.7_f64];
     let real = at(&first, &truth);
-    let exact: ModeSet = solve(&real.stiffness, &real.mass, 4).unwrap().into();
+    let exact = solve(&real.stiffness, &real.mass, 4).unwrap();
     let own = DVector::from_vec(vec![0.3, 1.0, 6.0, 0.5, 3.0, 1.5]);
     let noise = Noise {
         shape: 0.01,
@@ -79,7 +81,7 @@ fn intervals_hold_the_truth_where_every_component_has_its_own_deviation() {
             };
             let analyze = |factors: &[f64]| {
                 let model = at(&first, factors).analyze(&test, Some(6))?;
-                model.with_component_weights(of_components.clone())
+                Comparison::from(&model).with_component_weights(of_components.clone())
             };
             let settings = WeightedSettings::default();
             let found = gauss_newton(analyze, &[1.0; 6], &[None; 6], &weights, &settings).unwrap();
@@ -127,7 +129,7 @@ fn corrected(data: TestData) -> JobResult {
 
 /// The noise of a job's test, so that weights matter.
 fn noisy(data: &mut TestData) {
-    let exact = ModeSet::from_measured(&data.frequencies_hz, &data.shapes).unwrap();
+    let exact = Modes::from_measured(&data.frequencies_hz, &data.shapes).unwrap();
     let test = with_noise(&exact, Noise::USUAL, 11).unwrap();
     (data.frequencies_hz, data.shapes) = (test.frequencies_hz(), test.shapes().clone());
 }
@@ -187,7 +189,7 @@ fn a_component_of_boundless_deviation_is_as_one_without_a_sensor() {
 #[test]
 fn residuals_with_a_covariance_are_those_of_generalized_least_squares() {
     let first = chain();
-    let exact: ModeSet = solve(&first.stiffness, &first.mass, 4).unwrap().into();
+    let exact = solve(&first.stiffness, &first.mass, 4).unwrap();
     for seed in 1..=6 {
         let mut draws = Draws(seed);
         let test = with_noise(&exact, Noise::USUAL, seed).unwrap();
@@ -202,7 +204,7 @@ fn residuals_with_a_covariance_are_those_of_generalized_least_squares() {
             Vec::new()
         };
         let analyzed = |factors: &[f64]| {
-            let model = at(&first, factors).analyze(&test, None).unwrap();
+            let model = Comparison::from(&at(&first, factors).analyze(&test, None).unwrap());
             let model = model.with_groups(groups.clone()).unwrap();
             model.with_covariance(&covariance).unwrap()
         };
@@ -214,8 +216,9 @@ fn residuals_with_a_covariance_are_those_of_generalized_least_squares() {
         let found = residuals(&model, &weights).unwrap();
         // Free columns: the shapes that a test mode is compared with, in its rows.
         let (mut plain, mut free) = (DVector::zeros(28), Vec::new());
-        for (j, &i) in model.exact().pairing.analysis_mode().iter().enumerate() {
-            let ratio = model.exact().modes.omega_squared()[i] / test.omega_squared()[j];
+        let State { modes, pairing, .. } = model.model().exact();
+        for (j, &i) in pairing.analysis_mode().iter().enumerate() {
+            let ratio = modes.omega_squared()[i] / test.omega_squared()[j];
             plain[7 * j] = weights[j].frequency * (ratio.sqrt() - 1.0);
             let tested = test.shapes().column(j);
             plain
@@ -223,9 +226,9 @@ fn residuals_with_a_covariance_are_those_of_generalized_least_squares() {
                 .copy_from(&(-weights[j].shape / tested.amax() * tested));
             let together = groups.iter().find(|group: &&Vec<usize>| group.contains(&j));
             for test in together.cloned().unwrap_or(vec![j]) {
-                let partner = model.exact().pairing.analysis_mode()[test];
+                let partner = pairing.analysis_mode()[test];
                 let mut column = DVector::zeros(28);
-                let shape = model.exact().modes.shapes().column(partner);
+                let shape = modes.shapes().column(partner);
                 column.rows_mut(7 * j + 1, 6).copy_from(&shape);
                 free.push(column);
             }
@@ -259,7 +262,7 @@ fn residuals_with_a_covariance_are_those_of_generalized_least_squares() {
             );
         }
         // Independent ones of unit variance are what they were, and so is the gradient.
-        let plain = at(&first, &factors).analyze(&test, None).unwrap();
+        let plain = Comparison::from(&at(&first, &factors).analyze(&test, None).unwrap());
         let unit = plain
             .clone()
             .with_covariance(&DMatrix::identity(28, 28))

@@ -10,9 +10,10 @@ use crate::evidence::coverage::{ENOUGH, SEEDS, SEEN, all_coverages, coverage_tab
 use crate::evidence::localization::{self, NOISE, localization, localization_tables};
 use crate::spec::s5_weighted::at;
 use corfem::job::localization::by_single_fit;
-use corfem::method::modes::{ModeSet, solve};
+use corfem::method::modes::solve;
 use corfem::present::render::csv;
 use corfem::torque_box::Case;
+use corfem::weighted::comparison::Comparison;
 use corfem::weighted::residuals::residuals;
 use std::ops::RangeInclusive;
 
@@ -90,12 +91,12 @@ fn a_single_error_is_undone_by_its_own_factor() {
         .unwrap()
         .matrices(&[1.0; 15])
         .unwrap();
-    let test: ModeSet = solve(&right.stiffness, &right.mass, 9).unwrap().into();
+    let test = solve(&right.stiffness, &right.mass, 9).unwrap();
     let weights = equal_weights(NOISE, 9);
     for culprit in 0..15 {
         let mut factors = [1.0; 15];
         factors[culprit] = 0.05;
-        let model = at(&right, &factors).analyze(&test, None).unwrap();
+        let model = Comparison::from(&at(&right, &factors).analyze(&test, None).unwrap());
         let suspects = by_single_fit(&model, &weights).unwrap();
         assert_eq!(suspects.len(), 15);
         assert_eq!(suspects[0].parameter, culprit);

@@ -3,16 +3,18 @@
 
 use crate::common::draws::Draws;
 use crate::common::measured::equal_weights;
-use crate::common::tolerances::{CENTRAL_DIFFERENCE_GRADIENT, CONVERGED_STATE, FORWARD_DIFFERENCE};
+use crate::common::tolerances::{CONVERGED_STATE, FAR_RECURSION, FORWARD_DIFFERENCE};
+use crate::common::vibrations::modes_by_nalgebra;
 use crate::common::whole_models::{masses, seen_by, sensors_at, springs};
-use corfem::method::derivatives::{DERIVATIVE_STEP, by_definition, gradient};
+use corfem::method::analysis::{Analysis, DERIVATIVE_STEP, State};
 use corfem::method::error::Error;
-use corfem::method::model::ModalModel;
-use corfem::method::modes::ModeSet;
-use corfem::method::pairing::{Pairing, pair_modes};
-use corfem::method::state::{ModalState, UpdateRule};
+use corfem::method::modes::Modes;
+use corfem::method::sorting::pair_modes;
 use corfem::nalgebra::DMatrix;
-use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
+use corfem::sparse::{
+    BasisSize, ParameterMatrix, SensorModel, SparseMatrix, WholeModel, WholeParameter, WholeShare,
+};
+use corfem::weighted::comparison::Comparison;
 use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use corfem::weighted::residuals::{DEVIATIONS, jacobian, residuals};
 
@@ -20,7 +22,7 @@ use corfem::weighted::residuals::{DEVIATIONS, jacobian, residuals};
 struct Net {
     model: WholeModel,
     sensors: SparseMatrix,
-    test: ModeSet,
+    test: Modes,
     vibrations: usize,
 }
 
@@ -80,15 +82,22 @@ impl Net {
         }
     }
 
-    fn analyze(&self, factors: &[f64]) -> Result<ModalModel, Error> {
+    fn analyze(&self, factors: &[f64]) -> Result<SensorModel, Error> {
         let test = (&self.test, pair_modes as _);
-        self.model
-            .analyze(factors, &self.sensors, test, [self.vibrations, 0])
+        self.model.analyze(
+            factors,
+            &self.sensors,
+            test,
+            BasisSize {
+                modes: self.vibrations,
+                residual_vectors: 0,
+            },
+        )
     }
 }
 
 /// Central differences of what `of` says of the exact models beside factors of one, by the logarithm of each factor.
-fn differences(net: &Net, step: f64, of: impl Fn(&ModalModel) -> Vec<f64>) -> DMatrix<f64> {
+fn differences(net: &Net, step: f64, of: impl Fn(&SensorModel) -> Vec<f64>) -> DMatrix<f64> {
     let columns = (0..7).map(|e| {
         let beside = |log: f64| {
             let mut factors = [1.0; 7];
@@ -122,9 +131,10 @@ fn with_all_modes_the_jacobian_is_exact_for_springs_and_masses_of_held_and_free_
     for (net, name) in nets() {
         let here = net.analyze(&[1.0; 7]).unwrap();
         let weights = equal_weights(DEVIATIONS, net.test.len());
-        let found = jacobian(&here, &weights).unwrap();
+        let found = jacobian(&Comparison::from(here), &weights).unwrap();
         let exact = differences(&net, 1e-4, |model| {
-            residuals(model, &weights).unwrap().data.into()
+            let there = Comparison::from(model.clone());
+            residuals(&there, &weights).unwrap().data.into()
         });
         for e in 0..7 {
             let off = (found.column(e) - exact.column(e)).norm() / exact.column(e).norm();
@@ -137,26 +147,20 @@ fn with_all_modes_the_jacobian_is_exact_for_springs_and_masses_of_held_and_free_
 }
 
 #[test]
-fn the_gradient_and_the_papers_difference_follow_masses_of_free_structures() {
+fn the_papers_difference_follows_masses_of_free_structures() {
     let mut apart = 0;
     for (net, name) in nets() {
         let here = net.analyze(&[1.0; 7]).unwrap();
         let squares = here.exact().modes.omega_squared().as_slice();
         let is_apart = squares.windows(2).all(|pair| pair[0] < 0.95 * pair[1]);
-        let start = ModalState::start(&here);
-        let slopes = gradient(&here, &start).unwrap();
-        let by_step = by_definition(&here, &start).unwrap();
+        let start = here.at(&[1.0; 7]).unwrap();
+        let by_step = here.error_changes(&start).unwrap();
         let exact = differences(&net, 1e-5, |model| vec![model.exact().errors.sum()]);
         for e in 0..7 {
-            let off = (slopes[e] - exact[(0, e)]).abs() / exact.amax();
-            assert!(
-                off < CENTRAL_DIFFERENCE_GRADIENT,
-                "{name}, parameter {e}: {off:e}"
-            );
             let mut factors = [1.0; 7];
             factors[e] += DERIVATIVE_STEP;
             let there = net.analyze(&factors).unwrap().exact().errors.sum();
-            let off = (by_step[e] - (there - start.errors().sum())).abs();
+            let off = (by_step[e] - (there - start.errors.sum())).abs();
             let off = off / (DERIVATIVE_STEP * exact.amax());
             // A step of a thousandth is far where modes are close.
             assert!(
@@ -175,55 +179,86 @@ fn with_all_modes_the_first_trial_of_a_weighted_correlation_is_the_last() {
     let settings = WeightedSettings::default();
     for (net, name) in nets().step_by(7) {
         let weights = equal_weights(DEVIATIONS, net.test.omega_squared().len());
-        let analyze = |factors: &[f64]| net.analyze(factors);
+        let analyze = |factors: &[f64]| net.analyze(factors).map(Comparison::from);
         let found = gauss_newton(analyze, &[1.0; 7], &[None; 7], &weights, &settings).unwrap();
         assert_eq!(found.analyses, 2, "{name}");
     }
 }
 
+/// Factors that change springs and masses by up to a third.
+const CHANGED: [f64; 7] = [1.05, 0.95, 1.1, 0.9, 1.3, 0.8, 1.2];
+
+/// The changed stiffness and mass in the basis, of rigid-body modes too, which have no stiffness.
+fn in_basis(model: &SensorModel) -> [DMatrix<f64>; 2] {
+    let size = model.basis().ncols();
+    let k = model.omega_squared().clone().resize_vertically(size, 0.0);
+    let mut both = [DMatrix::from_diagonal(&k), DMatrix::identity(size, size)];
+    for (share, factor) in model.shares().iter().zip(CHANGED) {
+        let is_mass = matches!(share, ParameterMatrix::Mass(_));
+        both[usize::from(is_mass)] += (factor - 1.0) * share.matrix();
+    }
+    both
+}
+
+/// Squared frequencies of the modes that answer the test modes.
+fn paired(state: &State) -> Vec<f64> {
+    let mode = |&i: &usize| state.modes.omega_squared()[i];
+    state.pairing.analysis_mode().iter().map(mode).collect()
+}
+
+/// Largest relative distance of two lists of numbers.
+fn apart(found: &[f64], expected: &[f64]) -> f64 {
+    assert_eq!(found.len(), expected.len());
+    let both = found.iter().zip(expected);
+    both.map(|(found, expected)| (found / expected - 1.0).abs())
+        .fold(0.0, f64::max)
+}
+
 #[test]
 fn the_perturbation_on_all_modes_reaches_the_exact_modes_of_changed_masses() {
-    let mut same_pairs = 0;
+    let [mut converged, mut same_pairs] = [0; 2];
     for (net, name) in nets() {
         let here = net.analyze(&[1.0; 7]).unwrap();
-        let factors = [1.05, 0.95, 1.1, 0.9, 1.3, 0.8, 1.2];
-        let exact = net.analyze(&factors).unwrap();
-        let state = ModalState::at(&here, factors.to_vec(), UpdateRule::Eigensolution).unwrap();
-        let mut squares: Vec<f64> = state.modes().omega_squared().iter().copied().collect();
-        squares.retain(|square| *square > 0.0);
-        squares.sort_by(f64::total_cmp);
-        for (found, expected) in squares.iter().zip(exact.exact().modes.omega_squared()) {
-            assert!((found / expected - 1.0).abs() < CONVERGED_STATE, "{name}");
-        }
-        // Mode by mode they are the same, so the pairs may be compared by their frequencies.
-        let pairs = |modes: &ModeSet, pairing: &Pairing| {
-            let mode = |&i: &usize| modes.omega_squared()[i];
-            pairing.analysis_mode().iter().map(mode).collect::<Vec<_>>()
+        let exact = net.analyze(&CHANGED).unwrap();
+        let expected = exact.exact().modes.omega_squared().as_slice();
+        // The basis has them all.
+        let [stiffness, mass] = in_basis(&here);
+        let (squares, _) = modes_by_nalgebra(&stiffness, &mass);
+        let vibrations = &squares.as_slice()[squares.len() - net.vibrations..];
+        assert!(apart(vibrations, expected) < CONVERGED_STATE, "{name}");
+        // Where modes are close the recursion may not settle, and where it has settled, it may have done so on roots to a millionth.
+        let Ok(state) = here.at(&CHANGED) else {
+            continue;
         };
-        let there = exact.exact();
-        let (found, expected) = (
-            pairs(state.modes(), state.pairing()),
-            pairs(&there.modes, &there.pairing),
-        );
-        let mut both = found.iter().zip(&expected);
-        if both.any(|(found, expected)| (found / expected - 1.0).abs() > CONVERGED_STATE) {
+        let mut squares = state.modes.omega_squared().as_slice().to_vec();
+        squares.sort_by(f64::total_cmp);
+        let off = apart(&squares, expected);
+        assert!(off < FAR_RECURSION, "{name}: {off:e}");
+        converged += usize::from(off < CONVERGED_STATE);
+        // Mode by mode they are the same, so the pairs may be compared by their frequencies.
+        if apart(&paired(&state), &paired(exact.exact())) > CONVERGED_STATE {
             continue;
         }
         same_pairs += 1;
         // Shapes too, and the error sum with them.
-        let (found, expected) = (state.errors(), exact.exact().errors);
+        let (found, expected) = (state.errors, exact.exact().errors);
         assert!(
             (found.sum() - expected.sum()).abs() < CONVERGED_STATE,
             "{name}"
         );
         // From there on the derivatives are those of the exact model there.
+        let there = exact.at(&[1.0; 7]).unwrap();
         let (found, expected) = (
-            gradient(&here, &state).unwrap(),
-            gradient(&exact, &ModalState::start(&exact)).unwrap(),
+            here.error_changes(&state).unwrap(),
+            exact.error_changes(&there).unwrap(),
         );
         for (found, expected) in found.iter().zip(&expected) {
-            assert!((found - expected).abs() < FORWARD_DIFFERENCE, "{name}");
+            let off = (found - expected).abs() / DERIVATIVE_STEP;
+            assert!(off < FORWARD_DIFFERENCE, "{name}: {off:e}");
         }
     }
-    assert!(same_pairs > 180, "{same_pairs} of 200 nets");
+    assert!(
+        converged > 135 && same_pairs > 140,
+        "{converged} and {same_pairs} of 200 nets"
+    );
 }

@@ -3,10 +3,12 @@
 use crate::common::costly_config;
 use crate::common::tolerances::SAME_ON_THE_WAY;
 use crate::common::vibrations::{Chain, chain_and_truth};
-use corfem::method::error_sum::ModeWeight;
-use corfem::method::model::{DynamicModel, ModalModel, ParameterMatrix};
-use corfem::method::modes::ModeSet;
+use corfem::method::error::Error;
+use corfem::method::model::{DynamicModel, Model};
+use corfem::method::modes::Modes;
+use corfem::sparse::ModeWeight;
 use corfem::torque_box::{CASES, Case};
+use corfem::weighted::comparison::Comparison;
 use corfem::weighted::gauss_newton::{WeightedCorrelation, WeightedSettings, gauss_newton};
 use corfem::weighted::noise::{Noise, with_noise};
 use nalgebra::{DMatrix, DVector};
@@ -22,8 +24,8 @@ fn settings(unit: f64) -> WeightedSettings {
 }
 
 /// A correlation whose standard deviations, and that of the prior, are so many times the usual.
-fn correlated<E: std::fmt::Debug + From<corfem::method::error::Error>>(
-    analyze: impl FnMut(&[f64]) -> Result<ModalModel, E>,
+fn correlated(
+    analyze: impl Fn(&[f64]) -> Result<Model, Error>,
     modes: usize,
     parameters: usize,
     unit: f64,
@@ -35,7 +37,8 @@ fn correlated<E: std::fmt::Debug + From<corfem::method::error::Error>>(
     };
     let weights: Vec<ModeWeight> = vec![noise.weight(); modes];
     let (first, ranges) = (vec![1.0; parameters], vec![None; parameters]);
-    gauss_newton(analyze, &first, &ranges, &weights, &settings(unit)).expect("a correlation")
+    let compare = |factors: &[f64]| analyze(factors).map(|model| Comparison::from(&model));
+    gauss_newton(compare, &first, &ranges, &weights, &settings(unit)).expect("a correlation")
 }
 
 fn assert_same(one: &[f64], other: &[f64]) {
@@ -47,7 +50,7 @@ fn assert_same(one: &[f64], other: &[f64]) {
 
 /// Noise, and with it the prior, in another unit: the factors are the same, and their deviations scale.
 fn assert_unit_does_not_matter(
-    analyze: impl Fn(&[f64]) -> Result<ModalModel, corfem::method::error::Error>,
+    analyze: impl Fn(&[f64]) -> Result<Model, Error>,
     modes: usize,
     parameters: usize,
 ) {
@@ -109,22 +112,22 @@ properties! {
         let other = Chain { masses: other.masses.iter().map(|mass| 1e-4 * mass).collect(), ..other };
         let test = |chain: &Chain, truth: &[f64], seed| with_noise(&chain.modes(truth), Noise::USUAL, seed).expect("noise");
         let (test, tests) = (test(&one, &truth, seed), test(&other, &others, seed ^ 1));
-        let alone = |chain: &Chain, test: &ModeSet| {
+        let alone = |chain: &Chain, test: &Modes| {
             correlated(|factors: &[f64]| chain.model(factors).analyze(test, None), test.len(), chain.masses.len(), 1.0).factors
         };
         let apart = [alone(&one, &test), alone(&other, &tests)].concat();
         let count = truth.len();
         let squares: Vec<f64> = test.omega_squared().iter().chain(tests.omega_squared()).copied().collect();
-        let all = ModeSet::new(DVector::from_vec(squares), both(test.shapes(), tests.shapes())).expect("modes");
+        let all = Modes::new(DVector::from_vec(squares), both(test.shapes(), tests.shapes())).expect("modes");
         let together = |factors: &[f64]| {
             let (a, b) = (one.model(&factors[..count]), other.model(&factors[count..]));
             let (n, m) = (a.mass.nrows(), b.mass.nrows());
-            let first = a.shares.iter().map(|share| both(share.matrix(), &DMatrix::zeros(m, m)));
-            let second = b.shares.iter().map(|share| both(&DMatrix::zeros(n, n), share.matrix()));
+            let first = a.shares.iter().map(|share| both(share, &DMatrix::zeros(m, m)));
+            let second = b.shares.iter().map(|share| both(&DMatrix::zeros(n, n), share));
             DynamicModel {
                 stiffness: both(&a.stiffness, &b.stiffness),
                 mass: both(&a.mass, &b.mass),
-                shares: first.chain(second).map(ParameterMatrix::Stiffness).collect(),
+                shares: first.chain(second).collect(),
             }
             .analyze(&all, None)
         };

@@ -3,14 +3,15 @@
 use crate::common::known::Known;
 use crate::common::measured::equal_weights;
 use crate::common::tolerances::{ORDER_SLACK, ROUND_OFF, STANDARD_ERRORS, WEIGHTED_FACTOR};
-use crate::spec::s5_weighted::at;
+use crate::spec::s5_weighted::{at, compare};
 use approx::assert_relative_eq;
-use corfem::method::appendix_c::SMALLEST_SEPARATION;
 use corfem::method::error::Error;
-use corfem::method::error_sum::ModeWeight;
-use corfem::method::model::{DynamicModel, ParameterMatrix};
-use corfem::method::modes::{ModeSet, solve};
+use corfem::method::model::DynamicModel;
+use corfem::method::modes::solve;
+use corfem::method::perturbation::SMALLEST_SEPARATION;
+use corfem::sparse::ModeWeight;
 use corfem::torque_box::{Case, Grouping};
+use corfem::weighted::comparison::Comparison;
 use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop};
 use corfem::weighted::identifiability::identifiability;
 use corfem::weighted::next_step::NextStep;
@@ -31,7 +32,7 @@ fn random_starts_are_log_uniform_from_half_to_twice_the_first_factors() {
     let mut firsts: Vec<Vec<f64>> = Vec::new();
     let analyze = |factors: &[f64]| {
         firsts.push(factors.to_vec());
-        known.model.analyze(factors, &known.test, None)
+        compare(&known, factors)
     };
     let (best, ..) = from_several_starts(analyze, &[None; 15], &weights, &settings, 41, 7).unwrap();
     assert_eq!(
@@ -61,19 +62,18 @@ fn random_starts_are_log_uniform_from_half_to_twice_the_first_factors() {
 /// Two masses on two springs in a row, by their frequencies: with $k_1 k_2$ and $k_1 + 2 k_2$ known, springs $(2 k_2, k_1/2)$ have the same.
 #[test]
 fn all_minima_that_noise_allows_are_named_with_their_starts() {
-    let spring = ParameterMatrix::Stiffness;
     let first = DynamicModel {
         stiffness: dmatrix![2.0, -1.0; -1.0, 1.0],
         mass: DMatrix::identity(2, 2),
-        shares: vec![
-            spring(dmatrix![1.0, 0.0; 0.0, 0.0]),
-            spring(dmatrix![1.0, -1.0; -1.0, 1.0]),
-        ],
+        shares: vec![dmatrix![1.0, 0.0; 0.0, 0.0], dmatrix![1.0, -1.0; -1.0, 1.0]],
     };
     let truth = [1.4, 1.0];
     let real = at(&first, &truth);
-    let test: ModeSet = solve(&real.stiffness, &real.mass, 2).unwrap().into();
-    let analyze = |factors: &[f64]| at(&first, factors).analyze(&test, None);
+    let test = solve(&real.stiffness, &real.mass, 2).unwrap();
+    let analyze = |factors: &[f64]| {
+        let model = at(&first, factors).analyze(&test, None);
+        model.map(|model| Comparison::from(&model))
+    };
     let settings = WeightedSettings {
         prior_deviations: vec![100.0],
         ..WeightedSettings::default()
@@ -134,9 +134,9 @@ fn a_start_or_a_trial_without_a_model_is_rejected_and_the_others_stand() {
             calls += 1;
             if fails(calls, factors) {
                 failed += 1;
-                return Err(Error::Empty { what: "modes" });
+                return Err(Error::no_convergence("modes"));
             }
-            known.model.analyze(factors, &known.test, None)
+            compare(&known, factors)
         };
         let found = from_several_starts(analyze, &[None; 15], &weights, &settings, count, 7);
         (found, failed)
@@ -180,10 +180,10 @@ fn shapes_of_modes_closer_than_they_can_be_told_apart_are_held() {
         let model = DynamicModel {
             stiffness,
             mass: DMatrix::identity(2, 2),
-            shares: vec![ParameterMatrix::Stiffness(share.clone())],
+            shares: vec![share.clone()],
         };
-        let test: ModeSet = solve(&model.stiffness, &model.mass, 2).unwrap().into();
-        let modal = model.analyze(&test, None).unwrap();
+        let test = solve(&model.stiffness, &model.mass, 2).unwrap();
+        let modal = Comparison::from(&model.analyze(&test, None).unwrap());
         let weights = [ModeWeight::ONE; 2];
         // What the first mode gains of the second.
         jacobian(&modal, &weights).unwrap()[(2, 0)]
@@ -219,12 +219,12 @@ fn one_step_from_near_the_truth_leaves_an_error_of_second_order() {
         grouping: Grouping::Substructures,
         ..Case::new(2).unwrap()
     };
-    let (model, test) = (case.model().unwrap(), case.test_modes().unwrap().into());
+    let (model, test) = (case.model().unwrap(), case.test_modes().unwrap());
     let off = [0.4, -1.0, 0.8];
     let left = |size: f64| {
         // All first gages are half too thick.
         let factors = off.map(|off: f64| (size * off).exp() / 1.5);
-        let there = model.analyze(&factors, &test, None).unwrap();
+        let there = Comparison::from(&model.analyze(&factors, &test, None).unwrap());
         let next = NextStep::at(&there, Noise::USUAL, 1e6).unwrap();
         let errors = off.iter().zip(&next.step);
         errors.fold(0.0_f64, |most, (off, step)| {
@@ -240,7 +240,7 @@ fn one_step_from_near_the_truth_leaves_an_error_of_second_order() {
 fn what_a_step_moves_is_more_than_its_deviation() {
     let known = Known::of_case(2).unwrap();
     let next = |factors: &[f64]| {
-        let there = known.model.analyze(factors, &known.test, None).unwrap();
+        let there = compare(&known, factors).unwrap();
         NextStep::at(&there, Noise::USUAL, 1.0).unwrap()
     };
     assert_eq!(next(&known.truth).moved(), []);
@@ -257,18 +257,19 @@ fn what_a_step_moves_is_more_than_its_deviation() {
 #[test]
 fn a_step_by_a_test_without_errors_is_refused() {
     let known = Known::of_case(2).unwrap();
-    let there = known
-        .model
-        .analyze(&known.truth, &known.test, None)
-        .unwrap();
+    let there = compare(&known, &known.truth).unwrap();
     for noise in [
-        Noise::NONE,
+        Noise {
+            shape: 0.0,
+            frequency: 0.0,
+        },
         Noise {
             shape: -0.01,
             ..Noise::USUAL
         },
     ] {
         let found = NextStep::at(&there, noise, 1.0);
-        assert!(matches!(found, Err(Error::Setting { .. })), "{found:?}");
+        let is_refused = matches!(found, Err(Error::Value { what: "weight", .. }));
+        assert!(is_refused, "{found:?}");
     }
 }

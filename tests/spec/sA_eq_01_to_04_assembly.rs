@@ -1,15 +1,14 @@
 //! Assembly and factorization: two routes to the same deflections, and every refusal by name.
 
 use crate::common::matrices::relative_distance;
+use crate::common::said;
 use crate::common::strategies::positive_definite;
 use crate::common::structures::{
     as_element, condition, dense, factorized, grid, rod, sizes_of, spring_chain, unit_material,
 };
 use crate::common::tolerances::{CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF};
-use corfem::method::assembly::{dense_stiffness, element_matrices};
+use corfem::method::appendix_a::{assemble, element_matrices};
 use corfem::method::elements::unit_stiffness;
-use corfem::method::error::Error;
-use corfem::method::geometry::Geometry;
 use corfem::method::structure::{Element, ElementKind, Structure};
 use corfem::sparse::factorization::Factor;
 use corfem::torque_box::Case;
@@ -68,8 +67,8 @@ properties! {
     ) {
         let structure = square(&constrained);
         let mut whole = DMatrix::zeros(12, 12);
-        for element in structure.elements() {
-            let unit = unit_stiffness(&Geometry::new(element.kind, &structure.corners(element)).unwrap(), &element.material);
+        for (element, corners) in structure.elements().iter().zip(structure.corners()) {
+            let unit = unit_stiffness(element.kind, corners, &element.material);
             for a in 0..unit.nrows() {
                 for b in 0..unit.ncols() {
                     let at = |k: usize| 3 * (element.grids[k / 3] - 1) + k % 3;
@@ -82,7 +81,7 @@ properties! {
         let found = dense(&structure);
         prop_assert_eq!(found.shape(), expected.shape());
         prop_assert!((found - expected).amax() <= ROUND_OFF * whole.amax());
-        for (matrix, element) in element_matrices(&structure).iter().zip(structure.elements()) {
+        for (matrix, element) in element_matrices(&structure).zip(structure.elements()) {
             prop_assert_eq!(matrix.label, element.label);
             prop_assert_eq!(matrix.unit.shape(), (matrix.dof.len(), matrix.dof.len()));
         }
@@ -90,8 +89,8 @@ properties! {
 
     #[test]
     fn stiffness_is_linear_in_gage_and_area(a in sizes_of(3), b in sizes_of(3), factor in 0.1..10.0_f64) {
-        let matrices = element_matrices(&square(&[false; 12]));
-        let at = |sizes: &[f64]| dense_stiffness(&matrices, sizes, 12).unwrap();
+        let matrices: Vec<_> = element_matrices(&square(&[false; 12])).collect();
+        let at = |sizes: &[f64]| assemble(&matrices, sizes, 12).unwrap();
         let mixed: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a + factor * b).collect();
         prop_assert!(relative_distance(&at(&mixed), &(at(&a) + factor * at(&b))) <= ROUND_OFF);
     }
@@ -104,7 +103,7 @@ properties! {
         let matrices = model.element_matrices();
         let factor = Factor::of_stiffness(matrices, &sizes, model.structure().free_dof()).unwrap();
         let found = factor.solve(&loads).unwrap();
-        let stiffness = dense_stiffness(matrices, &sizes, 36).unwrap();
+        let stiffness = assemble(matrices, &sizes, 36).unwrap();
         let expected = stiffness.clone().cholesky().unwrap().solve(&loads);
         let bar = CONDITIONED_ROUND_OFF * condition(&stiffness);
         prop_assert!(relative_distance(&found, &expected) <= bar, "{:e}", relative_distance(&found, &expected));
@@ -144,68 +143,36 @@ properties! {
 #[test]
 fn wrong_sizes_and_loads_are_refused_by_name() {
     let structure = spring_chain(&[1.0, 2.0, 3.0], [true, false]);
-    let matrices = element_matrices(&structure);
-    let free = structure.free_dof();
+    let matrices: Vec<_> = element_matrices(&structure).collect();
+    let factor = |sizes: &[f64]| Factor::of_stiffness(&matrices, sizes, structure.free_dof());
     for sizes in [vec![1.0; 2], vec![1.0; 4]] {
-        for refused in [
-            Factor::of_stiffness(&matrices, &sizes, free).unwrap_err(),
-            dense_stiffness(&matrices, &sizes, 3).unwrap_err(),
-        ] {
-            assert!(
-                matches!(refused, Error::WrongShape {
-                    what: "element sizes", expected_rows: 3, expected_columns: 1, rows, columns: 1
-                } if rows == sizes.len()),
-                "{refused:?}"
-            );
-        }
+        let words = format!("element sizes: {} x 1 instead of 3 x 1", sizes.len());
+        assert_eq!(said(factor(&sizes)), words);
+        assert_eq!(said(assemble(&matrices, &sizes, 3)), words);
     }
+    assert_eq!(
+        said(assemble(&matrices, &[1.0; 3], 2)),
+        "degrees of freedom: 3 given or asked for; there must be 0 to 2"
+    );
     for value in [0.0, -2.0, f64::NAN, f64::INFINITY] {
-        let refused = Factor::of_stiffness(&matrices, &[1.0, value, 3.0], free).unwrap_err();
-        assert!(
-            matches!(&refused, Error::NotPositive { what: "size", owner, .. } if owner == "element 2"),
-            "{refused:?}"
-        );
+        let words = format!("size of element 2 is {value}; it must be positive and finite");
+        assert_eq!(said(factor(&[1.0, value, 3.0])), words);
     }
     let nothing = Factor::of_stiffness(&matrices, &[1.0, 2.0, 3.0], &[]);
-    assert!(
-        matches!(
-            nothing,
-            Err(Error::Empty {
-                what: "free degrees of freedom"
-            })
-        ),
-        "{nothing:?}"
+    assert_eq!(
+        said(nothing),
+        "free degrees of freedom: 0 given or asked for; there must be at least 1"
     );
     let factor = factorized(&structure).unwrap();
-    let refused = factor.solve(&DMatrix::zeros(4, 2)).unwrap_err();
-    assert!(
-        matches!(
-            refused,
-            Error::WrongShape {
-                what: "loads",
-                expected_rows: 3,
-                expected_columns: 2,
-                rows: 4,
-                columns: 2
-            }
+    for (loads, words) in [
+        (DMatrix::zeros(4, 2), "loads: 4 x 2 instead of 3 x 2"),
+        (
+            DMatrix::from_column_slice(3, 1, &[0.0, f64::NAN, 0.0]),
+            "loads of entry (1, 0) is NaN; it must be a finite number",
         ),
-        "{refused:?}"
-    );
-    let refused = factor
-        .solve(&DMatrix::from_column_slice(3, 1, &[0.0, f64::NAN, 0.0]))
-        .unwrap_err();
-    assert!(
-        matches!(
-            refused,
-            Error::NotFinite {
-                what: "loads",
-                row: 1,
-                column: 0,
-                ..
-            }
-        ),
-        "{refused:?}"
-    );
+    ] {
+        assert_eq!(said(factor.solve(&loads)), words);
+    }
     assert_eq!(
         factor.solve(&DMatrix::zeros(3, 2)).unwrap(),
         DMatrix::zeros(3, 2)
@@ -214,22 +181,20 @@ fn wrong_sizes_and_loads_are_refused_by_name() {
 
 #[test]
 fn bad_geometry_is_refused_by_its_element() {
-    let with = |kind: ElementKind, positions: &[[f64; 3]]| {
-        let grids = positions
-            .iter()
-            .zip(1..)
-            .map(|(&position, label)| grid(label, position, [false; 3]));
+    let structure = |kind: ElementKind, positions: &[[f64; 3]], grids: &[usize]| {
+        let points = positions.iter().zip(1..);
+        let points = points.map(|(&position, label)| grid(label, position, [false; 3]));
         let element = Element {
             label: 8,
             kind,
-            grids: (1..=positions.len()).collect(),
+            grids: grids.to_vec(),
             size: 1.0,
             material: unit_material(),
         };
-        match Structure::new(grids.collect(), vec![element]) {
-            Err(Error::InElement { element: 8, source }) => *source,
-            other => panic!("expected an error in element 8, found {other:?}"),
-        }
+        said(Structure::new(points.collect(), vec![element]))
+    };
+    let with = |kind, positions: &[[f64; 3]]| {
+        structure(kind, positions, &(1..=positions.len()).collect::<Vec<_>>())
     };
     let [a, b, c, d] = [
         [0.0, 0.0, 0.0],
@@ -237,28 +202,26 @@ fn bad_geometry_is_refused_by_its_element() {
         [1.0, 1.0, 0.0],
         [0.0, 1.0, 0.0],
     ];
-    let inside = [0.25, 0.5, 0.0];
-    assert!(matches!(
-        with(ElementKind::Rod, &[c, c]),
-        Error::ZeroLength(0.0)
-    ));
+    let (inside, higher) = ([0.25, 0.5, 0.0], [0.0, 2.0, 0.0]);
+    let rod = "element 8: the rod has no length (0.000e0 of its size)";
+    assert_eq!(with(ElementKind::Rod, &[c, c]), rod);
+    // The same grid twice.
+    assert_eq!(structure(ElementKind::Rod, &[c], &[1, 1]), rod);
     for kind in [ElementKind::ShearPanel, ElementKind::Membrane] {
-        assert!(matches!(with(kind, &[a, b, b, a]), Error::ZeroArea(0.0)));
-        assert!(matches!(
-            with(kind, &[d, a, inside, c]),
-            Error::NotConvex(3)
-        ));
-        // Corners that do not run round the perimeter.
-        let higher = [0.0, 2.0, 0.0];
-        assert!(matches!(
-            with(kind, &[a, c, b, higher]),
-            Error::NotConvex(2)
-        ));
+        let angle = |corner: usize| {
+            format!("element 8: its interior angle at corner {corner} is 180 degrees or more")
+        };
+        assert_eq!(
+            with(kind, &[a, b, b, a]),
+            "element 8: its corners have no area (0.000e0 of its size)"
+        );
+        for (positions, corner) in [
+            ([d, a, inside, c], 3),
+            // Corners that do not run round the perimeter.
+            ([a, c, b, higher], 2),
+        ] {
+            let refused = with(kind, &positions);
+            assert!(refused.starts_with(&angle(corner)), "{refused}");
+        }
     }
-    let grids = vec![grid(1, a, [true; 3]), grid(2, a, [false; 3])];
-    let refused = Structure::new(grids, vec![rod(3, [1, 2], 1.0)]);
-    assert_eq!(
-        refused.unwrap_err().to_string(),
-        "element 3: the rod has no length (0.000e0 between its ends)"
-    );
 }

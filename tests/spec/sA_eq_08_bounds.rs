@@ -153,8 +153,8 @@ properties! {
         let flexibility = first.stiffness.clone().try_inverse().expect("regular");
         let (mut above, mut below) = (DMatrix::zeros(9, 9), DMatrix::zeros(9, 9));
         for (share, factor) in first.shares.iter().zip(&factors) {
-            above += *factor * share.matrix();
-            below += &flexibility * share.matrix() * &flexibility / *factor;
+            above += *factor * share;
+            below += &flexibility * share * &flexibility / *factor;
         }
         let below = below.try_inverse().expect("regular");
         let [above, below] =

@@ -30,7 +30,7 @@ fn of_two_overlapping_modes_the_higher_is_deleted() {
 
 #[test]
 fn a_third_mode_decides_between_two() {
-    // ModeSet 0 and 1 overlap by 0.29; mode 0 has something of mode 2 besides, so it is the suspect, though lowest.
+    // Modes 0 and 1 overlap by 0.29; mode 0 has something of mode 2 besides, so it is the suspect, though lowest.
     let raw = modes(
         &[100.0, 400.0, 1600.0],
         unit_shapes(&[

@@ -1,12 +1,16 @@
 //! Appendix C in full on real numbers: equal to the plain path where that applies, and mass changes beside stiffness.
 
 use crate::common::appendix_c::{
-    ascending, errors, four_modes, rules, separate_change, three_mass_chain,
+    ModalChange, ascending, eigensolution, errors, four_modes, rules, separate_change,
+    three_mass_chain,
 };
 use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF};
-use corfem::method::appendix_c::general::complex_modes::LeftRightModes;
-use corfem::method::appendix_c::general::{self, ModalChange};
-use corfem::method::appendix_c::{eigensolution, normalize_with_mass, recursive};
+use corfem::method::appendix_c::Pencil;
+use corfem::method::appendix_c::complex_modes::LeftRightModes;
+use corfem::method::perturbation::{
+    ROOT_TOLERANCE, first_order, recursive_1, recursive_1_converged,
+};
+use corfem::sparse::normalize_with_mass;
 use nalgebra::{DMatrix, dmatrix, dvector};
 use proptest::prelude::*;
 
@@ -17,10 +21,10 @@ properties! {
     #[test]
     fn general_path_is_the_plain_path_for_stiffness_alone(mut change in separate_change(), order in 1..=6_usize) {
         change.alpha.fill(0.0);
-        let (k, beta) = (&change.generalized_stiffness, &change.beta);
+        let (k, beta, pencil) = (&change.generalized_stiffness, &change.beta, change.pencil()?);
         for (general, plain) in [
-            (general::first_order(&change)?, recursive::first_order(k, beta)?),
-            (general::recursive_1(&change, order)?, recursive::recursive_1(k, beta, order)?),
+            (pencil.first_order()?, first_order(k, beta)?),
+            (pencil.recursive_1(order)?, recursive_1(k, beta, order)?),
         ] {
             let (root, shape) = errors(&general, &plain);
             prop_assert!(root < ROUND_OFF && shape < MATRIX_ROUND_OFF, "{root:e} {shape:e}");
@@ -32,8 +36,8 @@ properties! {
     fn both_paths_converge_to_the_same_modes_for_stiffness_alone(mut change in separate_change()) {
         change.alpha.fill(0.0);
         let (k, beta) = (&change.generalized_stiffness, &change.beta);
-        let general = general::recursive_1_converged(&change, 1e-13, 60)?;
-        let plain = recursive::recursive_1_converged(k, beta, 1e-13, 60)?;
+        let general = change.pencil()?.recursive_1_converged()?;
+        let plain = recursive_1_converged(k, beta)?;
         let (root, shape) = errors(&general.perturbed, &plain.perturbed);
         prop_assert!(root < EIGEN_ROUND_OFF && shape < EIGEN_ROUND_OFF, "{root:e} {shape:e}");
         prop_assert!(general.order >= plain.order);
@@ -42,18 +46,18 @@ properties! {
     /// Mass enters through α: carried to convergence, the recursion solves (k + β)p = ω²(I + α)p.
     #[test]
     fn converged_recursion_is_the_exact_eigensolution_with_mass(change in separate_change()) {
-        let converged = general::recursive_1_converged(&change, 1e-13, 60)?;
+        let converged = change.pencil()?.recursive_1_converged()?;
         let exact = eigensolution(&change)?;
         let (root, shape) = errors(&converged.perturbed, &exact);
         prop_assert!(root < EIGEN_ROUND_OFF && shape < EIGEN_ROUND_OFF, "{root:e} {shape:e}");
-        prop_assert!(converged.last_change < 1e-13);
+        prop_assert!(converged.last_change < ROOT_TOLERANCE);
     }
 
     /// More stiffness and as much more mass everywhere: the modes stay as they are, by every rule.
     #[test]
     fn scaling_stiffness_and_mass_alike_changes_nothing(change in separate_change(), scale in -0.5..1.0_f64) {
-        let size = change.roots.len();
-        let k = change.generalized_stiffness.clone();
+        let k = change.generalized_stiffness;
+        let size = k.len();
         let alike = ModalChange::of_vibrations(
             &k,
             scale * DMatrix::from_diagonal(&k),
@@ -70,9 +74,9 @@ properties! {
     /// After normalization the shapes are orthonormal in the changed mass.
     #[test]
     fn normalized_shapes_are_orthonormal_in_the_changed_mass(change in separate_change()) {
-        let mut shapes = general::recursive_1_converged(&change, 1e-13, 60)?.perturbed.shapes;
+        let mut shapes = change.pencil()?.recursive_1_converged()?.perturbed.shapes;
         normalize_with_mass(&mut shapes, &change.alpha)?;
-        let size = change.roots.len();
+        let size = shapes.nrows();
         let mass = DMatrix::identity(size, size) + &change.alpha;
         let product = shapes.tr_mul(&(mass * &shapes));
         prop_assert!((product - DMatrix::identity(size, size)).amax() < EIGEN_ROUND_OFF);
@@ -91,11 +95,13 @@ fn mass_added_to_a_chain_lowers_its_frequencies_as_the_eigensolution_says() {
     assert_eq!(&base.right, modes.shapes());
     let share_change = three_mass_chain([0.05, 0.0, 0.0], [0.0, 0.1, -0.2]);
     let mass_change = DMatrix::from_diagonal(&dvector![0.0, 0.15, -0.03]);
-    let change = ModalChange::new(&stiffness, &base, &share_change, &mass_change).unwrap();
-    assert!((&change.generalized_stiffness - modes.omega_squared()).amax() < MATRIX_ROUND_OFF);
-    let converged = general::recursive_1_converged(&change, 1e-13, 60)
-        .unwrap()
-        .perturbed;
+    let pencil = Pencil::new(&stiffness, &base, &share_change, &mass_change).unwrap();
+    let through_modes = |change: &DMatrix<f64>| modes.shapes().tr_mul(&(change * modes.shapes()));
+    let (beta, alpha) = (through_modes(&share_change), through_modes(&mass_change));
+    let k = DMatrix::from_diagonal(modes.omega_squared());
+    assert!((pencil.a() - beta - k).amax() < MATRIX_ROUND_OFF);
+    assert!((pencil.g() - &alpha - DMatrix::identity(3, 3)).amax() < MATRIX_ROUND_OFF);
+    let converged = pencil.recursive_1_converged().unwrap().perturbed;
     let exact =
         corfem::method::modes::solve(&(&stiffness + &share_change), &(&mass + &mass_change), 3)
             .unwrap();
@@ -107,7 +113,7 @@ fn mass_added_to_a_chain_lowers_its_frequencies_as_the_eigensolution_says() {
         );
     }
     let mut shapes = converged.shapes;
-    normalize_with_mass(&mut shapes, &change.alpha).unwrap();
+    normalize_with_mass(&mut shapes, &alpha).unwrap();
     let mut structural = modes.shapes() * shapes;
     corfem::method::modes::apply_sign_rule(&mut structural);
     assert!((structural - exact.shapes()).amax() < EIGEN_ROUND_OFF);
@@ -117,7 +123,7 @@ fn mass_added_to_a_chain_lowers_its_frequencies_as_the_eigensolution_says() {
 #[test]
 fn first_order_is_rayleighs_quotient_on_the_old_shapes() {
     let change = four_modes(0.05);
-    let roots = general::first_order(&change).unwrap().roots;
+    let roots = change.pencil().unwrap().first_order().unwrap().roots;
     for i in 0..4 {
         let quotient =
             (1.0 + change.alpha[(i, i)]) / (change.generalized_stiffness[i] + change.beta[(i, i)]);
@@ -128,25 +134,27 @@ fn first_order_is_rayleighs_quotient_on_the_old_shapes() {
 /// Scaling the left shapes scales k, α and β of a row alike and must not matter.
 #[test]
 fn scale_of_the_left_shapes_does_not_matter() {
-    let change = four_modes(0.05);
+    let ModalChange {
+        generalized_stiffness: k,
+        beta,
+        alpha,
+    } = four_modes(0.05);
     let scale = DMatrix::from_diagonal(&dvector![2.0, -3.0, 0.5, 7.0]);
-    let scaled = ModalChange {
-        generalized_stiffness: &scale * &change.generalized_stiffness,
-        roots: change.roots.clone(),
-        beta: &scale * &change.beta,
-        alpha: &scale * &change.alpha,
+    let seen_from = |left: DMatrix<f64>| {
+        let modes = LeftRightModes {
+            roots: k.map(f64::recip),
+            right: DMatrix::identity(4, 4),
+            left,
+        };
+        Pencil::new(&DMatrix::from_diagonal(&k), &modes, &beta, &alpha).unwrap()
     };
+    let (one, other) = (seen_from(DMatrix::identity(4, 4)), seen_from(scale.clone()));
+    assert!((other.a() - scale * one.a()).amax() < MATRIX_ROUND_OFF);
     for (one, other) in [
-        (general::first_order(&change), general::first_order(&scaled)),
-        (
-            general::recursive_1(&change, 4),
-            general::recursive_1(&scaled, 4),
-        ),
-        (
-            general::recursive_2(&change, 3),
-            general::recursive_2(&scaled, 3),
-        ),
-        (general::original(&change), general::original(&scaled)),
+        (one.first_order(), other.first_order()),
+        (one.recursive_1(4), other.recursive_1(4)),
+        (one.recursive_2(3), other.recursive_2(3)),
+        (one.original(), other.original()),
     ] {
         let (root, shape) = errors(&one.unwrap(), &other.unwrap());
         assert!(

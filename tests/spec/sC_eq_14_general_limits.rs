@@ -1,8 +1,7 @@
 //! The general formulae of Appendix C at their limits: roots that meet, vanish, or exceed all numbers.
 
-use crate::common::appendix_c::FORMULAE;
+use crate::common::appendix_c::{FORMULAE, ModalChange};
 use crate::common::tolerances::CANCELLED_DIFFERENCE;
-use corfem::method::appendix_c::general::{self, ModalChange};
 use corfem::method::error::Error;
 use nalgebra::{DMatrix, dmatrix, dvector};
 
@@ -19,7 +18,7 @@ fn separation_is_relative_to_the_rows_own_stiffness_times_the_root() {
     change.alpha[(1, 0)] = 1e-12;
     let meeting_at = |separation: f64| 9.0 - 10.0 * separation;
     change.alpha[(1, 1)] = meeting_at(1e-10);
-    match general::first_order(&change) {
+    match change.pencil().unwrap().first_order() {
         Err(Error::CoalescingModes {
             first: 1,
             second: 0,
@@ -33,7 +32,7 @@ fn separation_is_relative_to_the_rows_own_stiffness_times_the_root() {
         other => panic!("{other:?}"),
     }
     change.alpha[(1, 1)] = meeting_at(1e-8);
-    assert!(general::first_order(&change).is_ok());
+    assert!(change.pencil().unwrap().first_order().is_ok());
 }
 
 /// A change of mass that takes all of a mode's inertia, or more, leaves a root that is zero or negative. Such roots are those
@@ -64,8 +63,16 @@ fn a_root_beyond_all_numbers_is_refused() {
     );
     change.alpha[(0, 1)] = 1e200;
     change.alpha[(1, 0)] = 1e200;
-    match general::recursive_1(&change, 2) {
-        Err(Error::NotFinite { what, row, .. }) => assert_eq!((what, row), ("perturbed roots", 0)),
+    match change.pencil().unwrap().recursive_1(2) {
+        Err(Error::Value {
+            what,
+            owner,
+            expected,
+            ..
+        }) => assert_eq!(
+            (what, owner.as_str(), expected),
+            ("perturbed roots", "entry (0, 0)", "a finite number")
+        ),
         other => panic!("{other:?}"),
     }
 }
@@ -80,7 +87,7 @@ fn when_roots_settle_does_not_depend_on_units() {
             beta,
             DMatrix::zeros(3, 3),
         );
-        let settled = general::recursive_1_converged(&change, 1e-9, 100).unwrap();
+        let settled = change.pencil().unwrap().recursive_1_converged().unwrap();
         (settled.order, settled.last_change)
     };
     assert_eq!(settle(2_f64.powi(60)), settle(1.0));

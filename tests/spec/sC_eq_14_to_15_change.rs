@@ -7,8 +7,9 @@ use crate::common::tolerances::{
     CONVERGED_RECURSION, EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, NEARLY_UNCOUPLED, ROUND_OFF,
 };
 use crate::common::vibrations::{any_change, full_change, modes_by_nalgebra};
-use corfem::method::appendix_c::{Perturbed, normalize_with_mass, recursive_1_converged};
 use corfem::method::error::Error;
+use corfem::method::perturbation::{Perturbed, recursive_1_converged};
+use corfem::sparse::normalize_with_mass;
 use nalgebra::{DMatrix, dmatrix, dvector};
 use proptest::prelude::*;
 
@@ -144,7 +145,7 @@ properties! {
     #[test]
     fn the_converged_recursion_is_the_eigensolution(change in full_change(5)) {
         let beta = change.beta(SMALL);
-        let settled = recursive_1_converged(&change.stiffness, &beta, 1e-13, 60).unwrap();
+        let settled = recursive_1_converged(&change.stiffness, &beta).unwrap();
         let recursive = settled.perturbed;
         let exact = exact(&change.stiffness, &beta).unwrap();
         for (a, b) in recursive.roots.iter().zip(exact.roots.iter()) {

@@ -1,12 +1,12 @@
 //! (C.15) to (C.19) as scanned and printed.
 
+use crate::common::appendix_c::{ModalChange, eigensolution};
 use crate::common::tolerances::{MATRIX_ROUND_OFF, WRONG_FORM};
-use corfem::method::appendix_c::general::ModalChange;
-use corfem::method::appendix_c::{Perturbed, eigensolution};
+use corfem::method::perturbation::Perturbed;
 use nalgebra::{DMatrix, dmatrix, dvector};
 
 /// Three modes under a change of stiffness and mass.
-fn three_modes() -> (ModalChange<f64>, Perturbed) {
+fn three_modes() -> (ModalChange, Perturbed) {
     let beta = dmatrix![0.1, 0.2, -0.3; 0.2, -0.2, 0.4; -0.3, 0.4, 0.5];
     let alpha = dmatrix![0.1, -0.05, 0.02; -0.05, 0.2, 0.03; 0.02, 0.03, -0.1];
     let change = ModalChange::of_vibrations(&dvector![1.0, 3.0, 8.0], beta, alpha);
@@ -15,10 +15,10 @@ fn three_modes() -> (ModalChange<f64>, Perturbed) {
 }
 
 /// The matrix of (C.17), (C.18) or (C.19) for a changed root, with what stands for β_is γ − α_is.
-fn rows(change: &ModalChange<f64>, gamma: f64, entry: impl Fn(f64, f64) -> f64) -> DMatrix<f64> {
+fn rows(change: &ModalChange, gamma: f64, entry: impl Fn(f64, f64) -> f64) -> DMatrix<f64> {
     DMatrix::from_fn(3, 3, |i, s| {
         let own = if i == s {
-            change.generalized_stiffness[i] * (gamma - change.roots[i])
+            change.generalized_stiffness[i] * (gamma - 1.0 / change.generalized_stiffness[i])
         } else {
             0.0
         };

@@ -14,15 +14,12 @@
 //! for changes of stiffness alone, and of stiffness and mass together, symmetric or not. The functions of the crate are those rows
 //! in floating point: they differ from the rows in rational numbers by round-off.
 
-use crate::common::appendix_c::of_stiffness;
+use crate::common::appendix_c::{ModalChange, eigensolution, of_stiffness};
 use crate::common::blocks::{CloseRootsSettings, close_roots};
 use crate::common::rational_rows::Change;
 use crate::common::rational_series::{Found, IntegerPencil, Series};
 use crate::common::tolerances::{RATIONAL_ROUND_OFF, ROUND_OFF};
-use corfem::method::appendix_c::general::{self, ModalChange};
-use corfem::method::appendix_c::{
-    Perturbed, eigensolution, first_order, recursive_1, recursive_1_converged,
-};
+use corfem::method::perturbation::{Perturbed, first_order, recursive_1, recursive_1_converged};
 use nalgebra::{DMatrix, DVector};
 use num_rational::BigRational;
 use proptest::prelude::*;
@@ -95,7 +92,7 @@ fn any_pencil() -> impl Strategy<Value = IntegerPencil> {
 }
 
 /// The change as the crate has it. A power of two for $t$ leaves every entry exact.
-fn in_floating_point(pencil: &IntegerPencil, t: f64) -> ModalChange<f64> {
+fn in_floating_point(pencil: &IntegerPencil, t: f64) -> ModalChange {
     let size = pencil.k.len();
     let k = DVector::from_iterator(size, pencil.k.iter().map(|&k| k as f64));
     let scaled = |matrix: &[Vec<i64>]| DMatrix::from_fn(size, size, |i, j| t * matrix[i][j] as f64);
@@ -204,16 +201,16 @@ properties! {
     fn the_functions_are_the_rows_in_floating_point(pencil in any_pencil(), halvings in 9..=12_i32) {
         let t = 0.5_f64.powi(halvings);
         let rows = Change::at(&pencil, &exactly(t));
-        let change = in_floating_point(&pencil, t);
+        let change = in_floating_point(&pencil, t).pencil().unwrap();
         for (order, exact) in (1..=ORDERS.0).zip(rows.general_recursive_1()) {
-            let found = general::recursive_1(&change, order).unwrap();
+            let found = change.recursive_1(order).unwrap();
             prop_assert_eq!(are_within(&found, &exact, RATIONAL_ROUND_OFF), Ok(()), "Recursive 1, {}", order);
         }
         for (order, exact) in (1..=ORDERS.1).zip(rows.general_recursive_2()) {
-            let found = general::recursive_2(&change, order).unwrap();
+            let found = change.recursive_2(order).unwrap();
             prop_assert_eq!(are_within(&found, &exact, RATIONAL_ROUND_OFF), Ok(()), "Recursive 2, {}", order);
         }
-        let (first, original) = (general::first_order(&change).unwrap(), general::original(&change).unwrap());
+        let (first, original) = (change.first_order().unwrap(), change.original().unwrap());
         prop_assert_eq!(are_within(&first, &rows.general_first_order(), RATIONAL_ROUND_OFF), Ok(()));
         prop_assert_eq!(are_within(&original, &rows.general_original(), RATIONAL_ROUND_OFF), Ok(()));
     }
@@ -238,7 +235,7 @@ properties! {
         let stiffness = pencil.of_stiffness();
         let (in_full, alone) = (summed(&pencil, 12, t), summed(&stiffness, 12, t));
         let change = in_floating_point(&pencil, t);
-        let settled = general::recursive_1_converged(&change, 1e-15, 60).unwrap().perturbed;
+        let settled = change.pencil().unwrap().recursive_1_converged().unwrap().perturbed;
         prop_assert_eq!(are_within(&settled, &in_full, ROUND_OFF), Ok(()));
         prop_assert_eq!(are_within(&eigensolution(&change).unwrap(), &in_full, ROUND_OFF), Ok(()));
         let apart = CloseRootsSettings { separation: 0.01, ..Default::default() };
@@ -249,7 +246,7 @@ properties! {
         }
         prop_assert_eq!(are_within(&blocks, &in_full, ROUND_OFF), Ok(()));
         let k = &change.generalized_stiffness;
-        let settled = recursive_1_converged(k, &change.beta, 1e-15, 60).unwrap().perturbed;
+        let settled = recursive_1_converged(k, &change.beta).unwrap().perturbed;
         prop_assert_eq!(are_within(&settled, &alone, ROUND_OFF), Ok(()));
         prop_assert_eq!(are_within(&eigensolution(&of_stiffness(k, &change.beta)).unwrap(), &alone, ROUND_OFF), Ok(()));
     }

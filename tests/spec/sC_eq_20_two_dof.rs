@@ -13,7 +13,7 @@ use crate::common::tolerances::{
     ROUND_OFF,
 };
 use crate::common::vibrations::{full_change, modes_by_nalgebra};
-use corfem::method::appendix_c::{first_order, recursive_1, recursive_1_converged};
+use corfem::method::perturbation::{first_order, recursive_1, recursive_1_converged};
 use nalgebra::{DMatrix, dmatrix, dvector};
 use proptest::prelude::*;
 
@@ -78,7 +78,7 @@ properties! {
         let beta = change.beta(0.05);
         let exact = perturbed(&change.stiffness, &beta);
         for found in [
-            recursive_1_converged(&change.stiffness, &beta, 1e-13, 60).unwrap().perturbed,
+            recursive_1_converged(&change.stiffness, &beta).unwrap().perturbed,
             recursive_2(&change.stiffness, &beta, 8).unwrap(),
         ] {
             for (a, b) in found.roots.iter().zip(exact.roots.iter()) {

@@ -1,13 +1,12 @@
 //! Close and repeated roots: three-mass chains with known spectra, and how blocks form.
 
-use crate::common::appendix_c::{FORMULAE, Rule, three_mass_chain};
+use crate::common::appendix_c::{FORMULAE, ModalChange, Rule, three_mass_chain};
 use crate::common::close_roots::{
     repeated_chain, residual, root_error, separate_chain, solved, spring_change,
 };
 use crate::common::tolerances::{EIGEN_ROUND_OFF, EQUALLY_LARGE, MATRIX_ROUND_OFF, ROUND_OFF};
-use corfem::method::appendix_c::general::{self, ModalChange};
-use corfem::method::appendix_c::recursive_1_converged;
 use corfem::method::error::Error;
+use corfem::method::perturbation::recursive_1_converged;
 use nalgebra::{DMatrix, dmatrix, dvector};
 
 #[test]
@@ -112,12 +111,13 @@ fn uncoupled_modes_may_have_equal_roots() {
             assert!(found.shapes[(0, 3)] > 0.0 && found.shapes[(3, 0)] < 0.0);
         }
     }
-    let settled = recursive_1_converged(&k, &beta, 1e-13, 60).unwrap();
+    let settled = recursive_1_converged(&k, &beta).unwrap();
     assert!(root_error(&settled.perturbed.roots, &change) < EIGEN_ROUND_OFF);
     // A change of mass that moves the two alike does not part them either.
     let alpha = DMatrix::from_diagonal(&dvector![0.0, 0.1, 0.1, 0.0]);
     let with_mass = ModalChange::of_vibrations(&k, beta, alpha);
-    let settled = general::recursive_1_converged(&with_mass, 1e-13, 60).unwrap();
+    let pencil = with_mass.pencil().unwrap();
+    let settled = pencil.recursive_1_converged().unwrap();
     assert!(root_error(&settled.perturbed.roots, &with_mass) < EIGEN_ROUND_OFF);
 }
 
@@ -129,7 +129,7 @@ fn chain_with_separate_roots_forms_no_block() {
     let found = solved(&change);
     assert!(found.blocks.is_empty());
     let (k, beta) = (&change.generalized_stiffness, &change.beta);
-    let plain = recursive_1_converged(k, beta, 1e-13, 60).unwrap().perturbed;
+    let plain = recursive_1_converged(k, beta).unwrap().perturbed;
     assert!((found.settled.perturbed.roots - plain.roots).amax() < ROUND_OFF);
 }
 
@@ -141,7 +141,7 @@ fn roots_that_a_change_brings_together_form_a_block() {
     let (_, _, modes) = separate_chain();
     let coupled = spring_change(&modes, [0.3, 0.0, 0.0], [0.0, 0.0, -2.05]);
     assert!(matches!(
-        recursive_1_converged(&coupled.generalized_stiffness, &coupled.beta, 1e-13, 60),
+        recursive_1_converged(&coupled.generalized_stiffness, &coupled.beta),
         Err(Error::CoalescingModes {
             first: 2,
             second: 1,

@@ -12,26 +12,33 @@
 //! | Recursive 1, order r | r + 1 | r + 1 |
 //! | Recursive 2, order r ≥ 2 | 2r − 1 | 2r |
 
-use crate::common::appendix_c::{errors, exact, four_modes, largest_change, original};
+use crate::common::appendix_c::{
+    ModalChange, eigensolution, errors, exact, four_modes, largest_change, original,
+};
 use crate::common::log_log_slope;
 use crate::common::tolerances::{EIGEN_ROUND_OFF, ORDER_SLACK, ROUND_OFF, SECOND_ORDER_REMAINDER};
 use crate::common::vibrations::full_change;
-use corfem::method::appendix_c::general::{self, ModalChange};
-use corfem::method::appendix_c::{
-    LARGEST_UNSETTLED_CHANGE, Perturbed, eigensolution, first_order, recursive_1,
-};
+use corfem::method::appendix_c::Pencil;
+use corfem::method::appendix_c::complex_modes::LeftRightModes;
 use corfem::method::error::Error;
+use corfem::method::perturbation::{
+    LARGEST_UNSETTLED_CHANGE, MOST_ORDERS, Perturbed, ROOT_TOLERANCE, first_order, recursive_1,
+};
 use nalgebra::{DMatrix, dmatrix, dvector};
 use proptest::prelude::*;
 
+fn pencil_of(change: &ModalChange) -> Pencil<f64> {
+    change.pencil().expect("a pencil")
+}
+
 /// Slopes of both errors over change sizes for which every order is above round-off.
-fn slopes(rule: impl Fn(&ModalChange<f64>) -> Result<Perturbed, Error>) -> (f64, f64) {
+fn slopes(rule: impl Fn(&Pencil<f64>) -> Result<Perturbed, Error>) -> (f64, f64) {
     let points: Vec<(f64, f64, f64)> = [0.04, 0.02, 0.01]
         .into_iter()
         .map(|size| {
             let change = four_modes(size);
             let exact = eigensolution(&change).expect("separate modes");
-            let perturbed = rule(&change).expect("separate modes");
+            let perturbed = rule(&pencil_of(&change)).expect("separate modes");
             let (root, shape) = errors(&perturbed, &exact);
             (size, root, shape)
         })
@@ -46,7 +53,7 @@ fn slopes(rule: impl Fn(&ModalChange<f64>) -> Result<Perturbed, Error>) -> (f64,
 #[test]
 fn recursive_1_gains_an_order_each_time() {
     for order in 1..=4 {
-        let (root, shape) = slopes(|change| general::recursive_1(change, order));
+        let (root, shape) = slopes(|pencil| pencil.recursive_1(order));
         let expected = order as f64 + 1.0;
         assert!(root > expected - ORDER_SLACK, "order {order}: roots {root}");
         assert!(
@@ -60,72 +67,66 @@ fn recursive_1_gains_an_order_each_time() {
 /// The original formulae: second-order roots (error of order three) with first-order shapes (error of order two).
 #[test]
 fn original_roots_are_an_order_better_than_their_shapes() {
-    let (root, shape) = slopes(general::original);
+    let (root, shape) = slopes(Pencil::original);
     assert!((root - 3.0).abs() < 2.0 * ORDER_SLACK, "{root}");
     assert!((shape - 2.0).abs() < ORDER_SLACK, "{shape}");
-    let change = four_modes(0.05);
-    let original = general::original(&change).unwrap();
-    assert_eq!(
-        original.roots,
-        general::recursive_2(&change, 2).unwrap().roots
-    );
-    assert_eq!(
-        original.shapes,
-        general::first_order(&change).unwrap().shapes
-    );
+    let pencil = pencil_of(&four_modes(0.05));
+    let original = pencil.original().unwrap();
+    assert_eq!(original.roots, pencil.recursive_2(2).unwrap().roots);
+    assert_eq!(original.shapes, pencil.first_order().unwrap().shapes);
 }
 
 /// Recursive 2 solves the rows of the shapes exactly, so its errors fall two orders at a time after the first.
 #[test]
 fn recursive_2_gains_two_orders_each_time() {
-    let (root, shape) = slopes(|change| general::recursive_2(change, 2));
+    let (root, shape) = slopes(|pencil| pencil.recursive_2(2));
     assert!((root - 3.0).abs() < 2.0 * ORDER_SLACK, "{root}");
     assert!(shape > 4.0 - ORDER_SLACK, "{shape}");
-    let (root, _) = slopes(|change| general::recursive_2(change, 3));
+    let (root, _) = slopes(|pencil| pencil.recursive_2(3));
     assert!(root > 5.0 - ORDER_SLACK, "{root}");
 }
 
 /// The recursion stops after two quiet orders in a row and is the recursion of the order it names.
 #[test]
 fn recursion_stops_at_the_second_quiet_order() {
-    let change = four_modes(0.1);
-    let of_order = |order| general::recursive_1(&change, order).unwrap();
+    let pencil = pencil_of(&four_modes(0.2));
+    let of_order = |order| pencil.recursive_1(order).unwrap();
     let moved_by = |order| largest_change(&of_order(order).roots, &of_order(order - 1).roots);
-    let settled = general::recursive_1_converged(&change, 1e-7, 60).unwrap();
-    assert!(settled.order > 4 && settled.last_change < 1e-7);
+    let settled = pencil.recursive_1_converged().unwrap();
+    assert!(settled.order > 4 && settled.last_change < ROOT_TOLERANCE);
     assert_eq!(settled.perturbed, of_order(settled.order));
     assert!((settled.last_change - moved_by(settled.order)).abs() < ROUND_OFF);
-    assert!(moved_by(settled.order - 1) < 1e-7, "the first quiet order");
-    assert!(moved_by(settled.order - 2) >= 1e-7);
+    assert!(
+        moved_by(settled.order - 1) < ROOT_TOLERANCE,
+        "the first quiet order"
+    );
+    assert!(moved_by(settled.order - 2) >= ROOT_TOLERANCE);
 }
 
 /// At its last order it stops too: without an error when the roots hardly moved in it, with one that says how far otherwise.
 #[test]
 fn recursion_stops_at_its_last_order() {
-    let moved_by = |size: f64| {
-        let of_order = |order| {
-            general::recursive_1(&four_modes(size), order)
-                .unwrap()
-                .roots
-        };
-        largest_change(&of_order(3), &of_order(2))
+    let moved_by = |pencil: &Pencil<f64>| {
+        let of_order = |order| pencil.recursive_1(order).unwrap().roots;
+        largest_change(&of_order(MOST_ORDERS), &of_order(MOST_ORDERS - 1))
     };
-    match general::recursive_1_converged(&four_modes(0.1), 1e-13, 3) {
+    let pencil = pencil_of(&four_modes(0.7));
+    match pencil.recursive_1_converged() {
         Err(Error::UnsettledRoots {
-            largest,
             orders,
             last_change,
         }) => {
-            assert_eq!((largest, orders), (LARGEST_UNSETTLED_CHANGE, 3));
-            assert!((last_change - moved_by(0.1)).abs() < ROUND_OFF);
+            assert_eq!(orders, MOST_ORDERS);
+            assert!((last_change - moved_by(&pencil)).abs() < ROUND_OFF);
             assert!(last_change > LARGEST_UNSETTLED_CHANGE);
         }
         other => panic!("{other:?}"),
     }
-    let settled = general::recursive_1_converged(&four_modes(0.002), 1e-13, 3).unwrap();
-    assert_eq!(settled.order, 3);
-    assert!((settled.last_change - moved_by(0.002)).abs() < ROUND_OFF);
-    assert!((1e-13..LARGEST_UNSETTLED_CHANGE).contains(&settled.last_change));
+    let pencil = pencil_of(&four_modes(0.63));
+    let settled = pencil.recursive_1_converged().unwrap();
+    assert_eq!(settled.order, MOST_ORDERS);
+    assert!((settled.last_change - moved_by(&pencil)).abs() < ROUND_OFF);
+    assert!((ROOT_TOLERANCE..LARGEST_UNSETTLED_CHANGE).contains(&settled.last_change));
 }
 
 /// Two modes coupled by mass alone move their roots in every second order only, and the recursion waits for it.
@@ -136,11 +137,12 @@ fn quiet_order_between_two_others_does_not_stop_the_recursion() {
         DMatrix::zeros(2, 2),
         dmatrix![0.0, 0.02; 0.02, 0.0],
     );
-    let of_order = |order| general::recursive_1(&change, order).unwrap().roots;
+    let pencil = pencil_of(&change);
+    let of_order = |order| pencil.recursive_1(order).unwrap().roots;
     assert_eq!(of_order(3), of_order(2));
     assert!(largest_change(&of_order(4), &of_order(3)) > 1e-7);
     let exact = eigensolution(&change).unwrap();
-    let found = general::recursive_1_converged(&change, 1e-13, 60).unwrap();
+    let found = pencil.recursive_1_converged().unwrap();
     assert!(errors(&found.perturbed, &exact).0 < EIGEN_ROUND_OFF);
     assert!(found.order > 4);
 }
@@ -148,21 +150,22 @@ fn quiet_order_between_two_others_does_not_stop_the_recursion() {
 /// A massless motion has λ = 0: a change of stiffness leaves it there, and the recursion comes to rest beside it.
 #[test]
 fn root_of_a_massless_motion_stays_zero() {
-    let change = ModalChange {
-        generalized_stiffness: dvector![1.0, 2.0],
+    let modes = LeftRightModes {
         roots: dvector![1.0, 0.0],
-        beta: dmatrix![0.1, 0.2; 0.2, 0.3],
-        alpha: DMatrix::zeros(2, 2),
+        right: DMatrix::identity(2, 2),
+        left: DMatrix::identity(2, 2),
     };
+    let (stiffness, change) = (dmatrix![1.0, 0.0; 0.0, 2.0], dmatrix![0.1, 0.2; 0.2, 0.3]);
+    let pencil = Pencil::new(&stiffness, &modes, &change, &DMatrix::zeros(2, 2)).unwrap();
     let exact: f64 = {
         // (k + β)x λ = diag(1, 0)x: λ is the first entry of the flexibility.
         let flexibility = dmatrix![1.1, 0.2; 0.2, 2.3].try_inverse().unwrap();
         flexibility[(0, 0)]
     };
-    let converged = general::recursive_1_converged(&change, 1e-14, 60).unwrap();
+    let converged = pencil.recursive_1_converged().unwrap();
     assert!((converged.perturbed.roots[0] / exact - 1.0).abs() < ROUND_OFF);
     assert_eq!(converged.perturbed.roots[1], 0.0);
-    assert!(converged.order < 60);
+    assert!(converged.order < MOST_ORDERS);
 }
 
 properties! {

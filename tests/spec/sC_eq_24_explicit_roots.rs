@@ -2,7 +2,7 @@
 
 use super::s1_eq_07_roots::{Changed, MODES, without};
 use crate::common::tolerances::{EIGEN_ROUND_OFF, SECOND_ORDER_ROOT, WRONG_FORM};
-use corfem::method::appendix_c::first_order;
+use corfem::method::perturbation::first_order;
 use nalgebra::DMatrix;
 
 #[test]

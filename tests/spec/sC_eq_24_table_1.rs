@@ -2,6 +2,7 @@
 //! wins where. The paper's own numbers are lost in the scan, so the statements and not the digits are tested.
 
 use crate::common::appendix_c::{ascending, exact};
+use crate::common::assert_refused;
 use crate::common::log_log_slope;
 use crate::common::tolerances::{EIGEN_ROUND_OFF, ORDER_SLACK, ROUND_OFF};
 use corfem::method::error::Error;
@@ -205,31 +206,25 @@ fn table_has_a_column_for_every_formula_and_a_row_for_every_problem() {
 
 #[test]
 fn springs_that_are_not_positive_are_refused() {
-    for coupling in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let problem = TwoMasses {
-            coupling,
-            change: 0.1,
-        };
-        let expected = "a positive finite number";
-        assert!(matches!(
-            problem.root_errors(Formula::FirstOrder),
-            Err(Error::Setting { name: "coupling", expected: found, found: value })
-                if found == expected && value.to_bits() == coupling.to_bits()
-        ));
+    let refused = |coupling, change, (what, value, expected)| {
+        let problem = TwoMasses { coupling, change };
+        for formula in formulae(2) {
+            assert_refused(
+                problem.root_errors(formula),
+                Error::Value {
+                    what,
+                    owner: "two masses".into(),
+                    value,
+                    expected,
+                },
+            );
+        }
+    };
+    for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        refused(value, 0.1, ("coupling", value, "a positive finite number"));
     }
-    for change in [-1.0, -2.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(
-            TwoMasses {
-                coupling: 1.0,
-                change
-            }
-            .root_errors(Formula::Original),
-            Err(Error::Setting {
-                name: "change",
-                expected: "a finite number above -1",
-                ..
-            })
-        ));
+    for value in [-1.0, -2.0, f64::NAN, f64::INFINITY] {
+        refused(1.0, value, ("change", value, "a finite number above -1"));
     }
     let softest = TwoMasses {
         coupling: 2.0,

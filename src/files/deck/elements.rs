@@ -169,7 +169,10 @@ fn material(card: &Card) -> Result<Material, FileError> {
         _ => return Err(card.error(3, "a material needs two of E, G and NU")),
     };
     let derived = Material::isotropic(e, nu).map_err(|error| match error {
-        Error::Setting { .. } => card.wrong(5, "a Poisson's ratio above -1 and at most 0.5"),
+        Error::Value {
+            what: "Poisson's ratio",
+            ..
+        } => card.wrong(5, "a Poisson's ratio above -1 and at most 0.5"),
         _ => card.wrong(3, "a positive Young's modulus"),
     })?;
     let shear_modulus = if g.is_some() {

@@ -23,6 +23,7 @@ mod elements;
 mod lines;
 mod model;
 mod modes;
+#[doc(hidden)]
 pub mod number;
 mod read;
 mod rewrite;
@@ -33,8 +34,14 @@ pub(crate) use elements::Membership;
 pub(super) use lines::cards;
 pub(crate) use lines::decoded;
 
-pub use model::{BulkData, PointMass, Tie};
+pub use model::BulkData;
+#[doc(hidden)]
+pub use model::{PointMass, Tie};
+#[doc(hidden)]
 pub use modes::modes;
-pub use read::{Deck, Reason, Unread, read};
+pub use read::{Deck, read};
+#[doc(hidden)]
+pub use read::{Reason, Unread};
 pub use rewrite::rewrite;
-pub use write::{Task, bulk_data, write};
+#[doc(hidden)]
+pub use write::{Task, write};

@@ -1,14 +1,12 @@
 //! The model that a deck describes: grids, elements, ties and masses, whatever the order and the format of its cards.
 
 use crate::files::error::FileError;
-use crate::method::assembly::{ElementMatrix, lumped_mass};
-use crate::method::elements::corner_volumes;
-use crate::method::error::Error;
-use crate::method::geometry::Geometry;
+use crate::method::error::{at_least_one, require};
 use crate::method::linear_algebra::check_length;
 use crate::method::model::FiniteElementModel;
-use crate::method::structure::{DIRECTIONS, Element, Grid, StructuralDof, Structure};
+use crate::method::structure::{DIRECTIONS, Element, Grid, Point, StructuralDof, Structure};
 use crate::sparse::SparseMatrix;
+use crate::sparse::elements::{corner_volumes, lumped_masses};
 use crate::sparse::whole_modes::MassDof;
 use nalgebra::{DVector, Vector3};
 use std::collections::{BTreeMap, HashMap};
@@ -95,35 +93,37 @@ impl BulkData {
         }
     }
 
-    /// A finite element model as a deck can express it, its parameters scaled by `factors`. Sizes are scaled with the stiffness;
-    /// where the mass of an element has another factor, its density makes up for it. Every dynamic DOF becomes the z of a grid of
-    /// its own at its position in `points` (in), numbered after the next multiple of a hundred above every grid and element,
-    /// constrained in the other directions, with a point mass unless that is zero. Its MPC equation is its column of $T$:
+    /// A finite element model as a deck can express it, its parameters scaled by `factors`: an element that becomes larger becomes as much
+    /// less dense.
+    /// Every dynamic DOF becomes the z of a grid of its own at its position in `points` (in), numbered after the next
+    /// multiple of a hundred above every grid and element, constrained in the other directions, with a point mass
+    /// unless that is zero. Its MPC equation is its column of $T$:
     ///
     /// $$ -u_m + \sum_s T_{sm} u_s = 0 $$
     ///
     /// # Errors
-    /// [`Error::WrongShape`] unless there is a point per dynamic DOF; [`Error::CoupledMass`] for a mass matrix that is not
-    /// diagonal; the errors of [`at`](crate::method::model::ScaledStructure::at) for the factors.
+    /// [`Error::WrongShape`](crate::method::error::Error::WrongShape) unless there is a factor per parameter and a point per dynamic
+    /// DOF; [`Error::Value`](crate::method::error::Error::Value) for a factor that is not
+    /// positive, or a mass matrix that is not diagonal.
     pub fn from_model(
         model: &FiniteElementModel,
         factors: &[f64],
         points: &[Vector3<f64>],
     ) -> Result<Self, FileError> {
         let structure = model.structure();
-        let at = model.at(factors)?;
-        let (t, mass) = (model.load_distribution(), &at.point_masses);
+        let (t, mass) = (model.load_distribution(), model.mass());
         check_length("positions of dynamic points", points.len(), t.ncols())?;
         let mut all = Self::from_structure(structure);
-        let sizes = at.sizes.iter().zip(&at.mass_sizes);
-        for (element, (&size, mass_size)) in all.elements.iter_mut().zip(sizes) {
+        for (element, size) in all.elements.iter_mut().zip(model.sizes(factors)?) {
+            element.material.density *= element.size / size;
             element.size = size;
-            element.material.density *= mass_size / size;
         }
         let base = all.first_free_label();
         for (column, &position) in points.iter().enumerate() {
-            if (0..mass.nrows()).any(|row| row != column && mass[(row, column)] != 0.0) {
-                return Err(Error::CoupledMass(column).into());
+            for row in (0..mass.nrows()).filter(|&row| row != column) {
+                let (coupling, owner) = (mass[(row, column)], || "the dynamic mass".into());
+                let expected = "zero: a deck has point masses alone";
+                require(coupling == 0.0, "coupling", owner, coupling, expected)?;
             }
             let label = base + column;
             all.grids.push(Grid {
@@ -212,13 +212,9 @@ impl BulkData {
     /// The column of $T$ of a free DOF selects it; that of a dependent one is its MPC equation, $T_{jm} = -a_j/a_m$.
     ///
     /// # Errors
-    /// [`Error::Empty`] when no mass can move.
-    pub fn mass_dof(
-        &self,
-        structure: &Structure,
-        elements: &[ElementMatrix],
-    ) -> Result<MassDof, FileError> {
-        let moving = self.moving_masses(structure, elements)?;
+    /// [`Error::Count`](crate::method::error::Error::Count) when no mass can move.
+    pub fn mass_dof(&self, structure: &Structure) -> Result<MassDof, FileError> {
+        let moving = self.moving_masses(structure)?;
         Ok(MassDof {
             dof: moving.iter().map(|point| point.dof).collect(),
             mass: DVector::from_iterator(moving.len(), moving.iter().map(|point| point.mass)),
@@ -240,15 +236,14 @@ impl BulkData {
     /// The errors of [`Self::structure`], such as [`FileError::TiedElement`].
     pub fn placed_masses(&self) -> Result<Vec<PlacedMass>, FileError> {
         let structure = self.structure()?;
-        let of_element = |(element, geometry): (&Element, &Geometry)| {
-            let volumes = corner_volumes(geometry);
+        let of_element = |(element, corners): (&Element, &Vec<Point>)| {
+            let volumes = corner_volumes(element.kind, corners);
             let density = element.material.density * element.size;
-            let corners = structure.corners(element);
             let masses = volumes.into_iter().map(move |volume| density * volume);
-            let placed = corners.into_iter().zip(masses.map(Vector3::repeat));
+            let placed = corners.iter().copied().zip(masses.map(Vector3::repeat));
             placed.collect::<Vec<_>>()
         };
-        let elements = self.elements.iter().zip(structure.geometry());
+        let elements = self.elements.iter().zip(structure.corners());
         let of_point = |point: &PointMass| {
             let along = |dof: StructuralDof| Vector3::ith(dof.direction, point.mass);
             Some((
@@ -264,13 +259,15 @@ impl BulkData {
     pub(crate) fn moving_masses(
         &self,
         structure: &Structure,
-        elements: &[ElementMatrix],
     ) -> Result<Vec<MovingMass>, FileError> {
         let free = structure.free_dof();
-        let lumped = lumped_mass(elements, &self.sizes(), free.len())?;
         let at = |dof: &StructuralDof| (dof.grid, dof.direction);
-        let mut mass: BTreeMap<(usize, usize), f64> =
-            free.iter().map(at).zip(lumped.iter().copied()).collect();
+        let mut mass: BTreeMap<(usize, usize), f64> = BTreeMap::new();
+        for (element, corners) in self.elements.iter().zip(structure.corners()) {
+            for (row, own) in lumped_masses(structure, element, corners) {
+                *mass.entry(at(&free[row])).or_default() += own;
+            }
+        }
         for point in &self.masses {
             point
                 .dof()
@@ -287,14 +284,8 @@ impl BulkData {
             }
         });
         let moving: Vec<MovingMass> = moving.filter(|point| !point.motion.is_empty()).collect();
-        if moving.is_empty() {
-            Err(Error::Empty {
-                what: "degrees of freedom with mass",
-            }
-            .into())
-        } else {
-            Ok(moving)
-        }
+        at_least_one("degrees of freedom with mass", moving.len())?;
+        Ok(moving)
     }
 
     /// Motion of a DOF: the free DOF that it is or follows, by row and coefficient; none for a constrained one.

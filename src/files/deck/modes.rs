@@ -3,13 +3,13 @@
 use super::model::BulkData;
 use crate::files::error::FileError;
 use crate::files::test_data::row_name;
-use crate::method::assembly::{ElementMatrix, element_matrices, stiffness_entries};
+use crate::method::appendix_a::{ElementMatrix, element_matrices};
 use crate::method::elements::unit_stiffness;
 use crate::method::error::Error;
 use crate::method::linear_algebra::symmetric_eigen;
 use crate::method::structure::{DIRECTIONS, Structure};
 use crate::sparse::SparseMatrix;
-use crate::sparse::elements::resisting;
+use crate::sparse::elements::{resisting, stiffness_entries};
 use crate::sparse::factorization::Factor;
 use crate::sparse::whole_modes::{MassDof, WholeModes, whole_modes};
 
@@ -25,13 +25,12 @@ const INDEPENDENT: f64 = 1e-10;
 ///
 /// # Errors
 /// [`FileError::StiffnessRange`] and [`FileError::LostModes`] for a structure so badly scaled that modes would be lost;
-/// [`Error::NotFinite`] for a squared frequency or a mass beyond the range of numbers; the errors of [`BulkData::structure`],
-/// [`BulkData::mass_dof`], the elements, the factorization of $K_S$ and [`whole_modes`].
+/// [`Error::Value`] for a squared frequency or a mass beyond the range of numbers.
 pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
     let structure = model.structure()?;
-    let elements = element_matrices(&structure);
+    let elements: Vec<_> = element_matrices(&structure).collect();
     check_stiffness(&structure, &elements)?;
-    let at = model.mass_dof(&structure, &elements)?;
+    let at = model.mass_dof(&structure)?;
     let (sizes, free) = (model.sizes(), structure.free_dof());
     let entries = elements.iter().zip(&sizes);
     let entries = entries.flat_map(|(element, &size)| stiffness_entries(element, size));
@@ -47,7 +46,7 @@ pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
         },
     )?;
     if found.rigid_body == 0 && found.modes.len() < most.min(found.dof.len()) {
-        check_count(found.modes.len(), model.mass_dof(&structure, &elements)?)?;
+        check_count(found.modes.len(), model.mass_dof(&structure)?)?;
     }
     Ok(found)
 }
@@ -59,11 +58,11 @@ pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
 fn check_stiffness(structure: &Structure, elements: &[ElementMatrix]) -> Result<(), FileError> {
     let mut extremes: Option<[(f64, usize); 2]> = None;
     let elements = structure.elements().iter().zip(elements);
-    for ((element, matrix), geometry) in elements.zip(structure.geometry()) {
+    for ((element, matrix), corners) in elements.zip(structure.corners()) {
         if matrix.dof.is_empty() {
             continue;
         }
-        let unit = unit_stiffness(geometry, &element.material);
+        let unit = unit_stiffness(element.kind, corners, &element.material);
         let own = (element.size * unit.amax(), element.label);
         let [low, high] = extremes.unwrap_or([own; 2]);
         extremes = Some([

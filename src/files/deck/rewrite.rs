@@ -39,7 +39,7 @@ struct Changes<'a> {
 ///
 /// # Errors
 /// [`FileError::DeckLine`] and [`FileError::DeckField`] where the deck does not read or would not hold a number,
-/// [`Error::Unknown`] for an element that it does not have, [`Error::TooMany`] without a free number.
+/// [`Error::Unknown`] for an element that it does not have, [`Error::Count`] without a free number.
 pub fn rewrite(
     file: &str,
     bytes: &[u8],

@@ -6,7 +6,7 @@ use super::lines::LARGE_FIELDS_PER_LINE;
 use super::model::{BulkData, PointMass, Tie};
 use super::number::{LARGE_FIELD, SMALL_FIELD, exact_real, large_real};
 use crate::files::error::FileError;
-use crate::method::error::Error;
+use crate::method::error::{check_count, require};
 use crate::method::structure::{Element, Grid, Material};
 
 /// The set of constraints that case control selects, of SPC1 and of MPC.
@@ -31,8 +31,13 @@ pub enum Task {
 /// `BANDIT=-1` keeps the grids in the order of their numbers, and `DIAG 44` takes the decomposition that gives right
 /// answers (the default one of the 1995 release does not).
 ///
+/// Grids have fields of 16 characters, other cards where 8 would lose digits; a number that needs more than 16 is
+/// rounded to the nearest that fits ([`large_real`]). Every element has a property card of its own number, every
+/// distinct material a MAT1 card.
+///
 /// # Errors
-/// [`Error::NotFinite`] and [`Error::TooMany`] for numbers that no card can hold, as in [`bulk_data`].
+/// [`Error::Value`](crate::method::error::Error::Value) and [`Error::Count`](crate::method::error::Error::Count) for numbers that no
+/// card can hold.
 pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, FileError> {
     // Rigid format 3 wants a method even where the run ends before it is used.
     let (count, [lower, upper], alter, output) = match task {
@@ -64,20 +69,6 @@ pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, FileE
         &format!("{SET},INV,{lower:?},{upper:?},{count},{count},,,MASS"),
     )?;
     cards.text.push_str("ENDDATA\n");
-    Ok(cards.text)
-}
-
-/// The bulk data alone, without a `BEGIN BULK` or `ENDDATA`.
-///
-/// Grids have fields of 16 characters, other cards where 8 would lose digits; a number that needs more than 16 is
-/// rounded to the nearest that fits ([`large_real`]). Every element has a property card of its own number, every
-/// distinct material a MAT1 card.
-///
-/// # Errors
-/// [`Error::NotFinite`] and [`Error::TooMany`] for numbers that no card can hold.
-pub fn bulk_data(model: &BulkData) -> Result<String, FileError> {
-    let mut cards = Cards::default();
-    cards.model(model)?;
     Ok(cards.text)
 }
 
@@ -209,22 +200,15 @@ impl Cards {
             fields.push(match (label, real) {
                 (Ok(label), _) if label > LARGEST_LABEL => {
                     let what = "number of a grid or element in a deck";
-                    return Err(Error::TooMany {
-                        what,
-                        available: LARGEST_LABEL,
-                        requested: label,
-                    }
-                    .into());
+                    check_count(what, label, 1, LARGEST_LABEL)?;
+                    entry.to_owned()
                 }
                 (Err(_), Ok(value)) => {
                     is_large |= exact_real(value, SMALL_FIELD).is_none();
-                    let what = "number on a bulk data card";
-                    large_real(value).ok_or(Error::NotFinite {
-                        what,
-                        row: 0,
-                        column,
-                        value,
-                    })?
+                    let owner = || format!("card {name}, entry {column}");
+                    let is_met = value.is_finite();
+                    require(is_met, "number", owner, value, "a finite number")?;
+                    large_real(value).unwrap_or_default()
                 }
                 _ => entry.to_owned(),
             });

@@ -105,7 +105,6 @@ fn matrix(header: &Card, cards: &[&Card]) -> Result<LabeledMatrix, FileError> {
         .map(|&(row, column, value)| (place(&rows, row), place(&columns, column), value));
     let matrix = SparseMatrix::new("DMIG matrix", rows.len(), columns.len(), entries.collect())?;
     Ok(LabeledMatrix {
-        name: Some(header.text(2).to_owned()),
         rows: Some(rows),
         columns: Some(columns),
         matrix,

@@ -6,6 +6,7 @@ mod dmig;
 mod matrix_market;
 mod output4;
 
+#[doc(hidden)]
 pub use matrix_market::write_matrix_market;
 
 use crate::files::deck::decoded;
@@ -15,8 +16,6 @@ use crate::sparse::SparseMatrix;
 /// A matrix of a file, with the labels of its rows and columns where the file has them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LabeledMatrix {
-    /// Name of the matrix; Matrix Market has none.
-    pub name: Option<String>,
     /// Grid and component of every row, ascending: component 1 to 6, or 0 for a scalar point. Only DMIG has them.
     pub rows: Option<Vec<(usize, usize)>>,
     /// Labels of the columns; a square or symmetric matrix has one list for both, of all labels in either.
@@ -37,7 +36,6 @@ pub fn read(name: &str, bytes: &[u8], wanted: Option<&str>) -> Result<LabeledMat
     if begins(text.trim_start(), "%%MatrixMarket") {
         let matrix = matrix_market::read(name, &text)?;
         return Ok(LabeledMatrix {
-            name: None,
             rows: None,
             columns: None,
             matrix,

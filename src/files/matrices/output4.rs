@@ -47,7 +47,6 @@ pub(super) fn read(
         if is_wanted(&name, wanted) {
             let matrix = lines.matrix(&mut at)?;
             matrices.push(LabeledMatrix {
-                name: Some(name.clone()),
                 rows: None,
                 columns: None,
                 matrix,

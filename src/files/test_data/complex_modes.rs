@@ -1,9 +1,9 @@
 //! Complex mode shapes, as tests of damped structures find them: how near to real, and the nearest real shape.
 
-use crate::method::error::Error;
-use crate::method::linear_algebra::{check_finite, finite};
+use crate::method::error::{Error, positive};
+use crate::method::linear_algebra::check_finite;
 use crate::method::modes::apply_sign_rule;
-use crate::method::structure::positive;
+use crate::sparse::finite;
 use nalgebra::{Complex, DMatrix};
 
 /// Real shapes (columns, d × g) in place of complex ones, and the modal phase collinearity of each, from 0 to 1.
@@ -21,7 +21,7 @@ use nalgebra::{Complex, DMatrix};
 /// and Testing* (1997).
 ///
 /// # Errors
-/// [`Error::NotFinite`]; [`Error::NotPositive`] naming a shape that is zero.
+/// [`Error::Value`] for an entry that is not finite, or naming a shape that is zero.
 pub fn realize(shapes: &DMatrix<Complex<f64>>) -> Result<(DMatrix<f64>, Vec<f64>), Error> {
     check_finite("complex mode shapes", shapes)?;
     let (mut real, mut collinearity) = (DMatrix::zeros(shapes.nrows(), shapes.ncols()), Vec::new());

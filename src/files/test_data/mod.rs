@@ -2,6 +2,7 @@
 //!
 //! [`read`] knows two formats: `universal`, the Universal File of test systems, and `csv`, a table that a spreadsheet writes.
 
+#[doc(hidden)]
 pub mod complex_modes;
 mod csv;
 mod universal;
@@ -12,17 +13,19 @@ pub(crate) use csv::{cells, quoted, separator};
 
 use crate::files::deck::{decoded, number::parse_real};
 use crate::files::error::FileError;
-use crate::method::error::{Error, at_least_one};
+use crate::method::error::{Error, at_least_one, check_count, positive, require};
 use crate::method::linear_algebra::{check_length, check_shape};
-use crate::method::modes::ModeSet;
-use crate::method::structure::{StructuralDof, positive};
+use crate::method::modes::Modes;
+use crate::method::structure::StructuralDof;
 use nalgebra::{DMatrix, DVector, Vector3};
 use std::collections::{BTreeMap, HashSet};
 
 /// Names of directions 0 to 5.
+#[doc(hidden)]
 pub const DIRECTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
 /// Name of a row of a matrix: its grid and direction, or its number where rows have no names.
+#[doc(hidden)]
 pub fn row_name(row: usize, dof: &[StructuralDof]) -> String {
     dof.get(row).map_or_else(
         || format!("row {}", row + 1),
@@ -81,8 +84,8 @@ impl TestData {
     /// Checks that these data can be a test.
     ///
     /// # Errors
-    /// [`Error::Empty`] without modes; [`Error::WrongShape`] unless there are as many values as sensors and modes;
-    /// [`Error::NotFinite`] and [`Error::NotPositive`] for numbers; [`Error::TooMany`] for a direction above 5;
+    /// [`Error::Count`] without modes; [`Error::WrongShape`] unless there are as many values as sensors and modes;
+    /// [`Error::Value`] for numbers; [`Error::Count`] for a direction above 5;
     /// [`Error::Duplicate`] naming direction and grid of a sensor that is there twice.
     pub fn check(&self) -> Result<(), Error> {
         let count = self.frequencies_hz.len();
@@ -100,7 +103,7 @@ impl TestData {
                 .iter()
                 .map(|&mode| self.frequencies_hz[mode])
                 .collect();
-            ModeSet::from_measured(&hertz, &shapes)?;
+            Modes::from_measured(&hertz, &shapes)?;
         }
         at_least_one("test modes", count)?;
         let mut seen = HashSet::new();
@@ -109,12 +112,8 @@ impl TestData {
             if let Some((column, &value)) =
                 numbers.enumerate().find(|(_, value)| !value.is_finite())
             {
-                return Err(Error::NotFinite {
-                    what: "place and axis of a sensor",
-                    row,
-                    column,
-                    value,
-                });
+                let owner = || format!("sensor {row} (from zero), number {column}");
+                require(false, "place or axis", owner, value, "a finite number")?;
             }
             let names = [
                 "sensor x",
@@ -124,17 +123,14 @@ impl TestData {
                 "sensor ry",
                 "sensor rz",
             ];
-            let wrong = Error::TooMany {
-                what: "direction",
-                available: 5,
-                requested: sensor.direction,
-            };
-            let what = names.get(sensor.direction).ok_or(wrong)?;
+            check_count("direction", sensor.direction, 0, names.len() - 1)?;
+            let what = names[sensor.direction];
             if let Some(label) = sensor
                 .grid
                 .filter(|grid| !seen.insert((*grid, sensor.direction)))
             {
-                return Err(Error::Duplicate { what, label });
+                let owner = "test".into();
+                return Err(Error::Duplicate { owner, what, label });
             }
         }
         let lists = [

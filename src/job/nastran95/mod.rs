@@ -15,10 +15,12 @@ mod process;
 use crate::files::deck::{BulkData, Task, write};
 use crate::files::error::FileError;
 use crate::files::nastran95::{Matrices, read_output5};
-use crate::method::assembly::{dense_stiffness, lumped_mass};
+use crate::method::appendix_a::assemble;
 use crate::method::error::Error;
+use crate::method::linear_algebra::{check_length, check_shape, check_symmetric};
 use crate::method::model::FiniteElementModel;
 use crate::method::structure::{Element, Grid};
+use crate::sparse::elements::lumped_masses;
 use nalgebra::{DMatrix, Vector3};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -132,6 +134,25 @@ impl Nastran95 {
     }
 }
 
+impl FiniteElementModel {
+    /// Model with element matrices of another origin, such as another program's: stiffness for unit size at each
+    /// element's free DOF, lbf/in, in the structure's order.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] and [`Error::Value`] for matrices that do not fit or are not symmetric and finite.
+    pub fn with_unit_stiffness(&self, units: Vec<DMatrix<f64>>) -> Result<Self, Error> {
+        check_length("element matrices", units.len(), self.element_matrices.len())?;
+        let mut model = self.clone();
+        for (element, unit) in model.element_matrices.iter_mut().zip(units) {
+            let dof_count = element.dof.len();
+            check_shape("element stiffness", &unit, dof_count, dof_count)?;
+            check_symmetric("element stiffness", &unit)?;
+            element.unit = unit;
+        }
+        Ok(model)
+    }
+}
+
 /// The model with every element a second time, alone, on fixed grids of its own after all others.
 fn with_single_elements(bulk: &BulkData) -> BulkData {
     let mut all = bulk.clone();
@@ -204,11 +225,15 @@ fn check_assembled(
     answer: &Matrices,
 ) -> Result<(), FileError> {
     let free = model.structure().free_dof();
-    let at = model.at(factors)?;
-    let stiffness = dense_stiffness(model.element_matrices(), &at.sizes, free.len())?;
-    let t = model.load_distribution().clone();
-    let lumped = lumped_mass(model.element_matrices(), &at.mass_sizes, free.len())?;
-    let mass = &t * &at.point_masses * t.transpose() + DMatrix::from_diagonal(&lumped);
+    let (structure, t) = (model.structure(), model.load_distribution());
+    let sizes = model.sizes(factors)?;
+    let stiffness = assemble(model.element_matrices(), &sizes, free.len())?;
+    let mut mass = t * model.mass() * t.transpose();
+    for (element, corners) in structure.elements().iter().zip(structure.corners()) {
+        for (row, own) in lumped_masses(structure, element, corners) {
+            mass[(row, row)] += own;
+        }
+    }
     // NASTRAN's order is that of the grids' numbers.
     let mut order: Vec<usize> = (0..free.len()).collect();
     order.sort_by_key(|&row| (free[row].grid, free[row].direction));

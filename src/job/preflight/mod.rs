@@ -19,10 +19,11 @@ pub(super) use words::hyphened;
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
-use crate::method::model::Bounds;
-use crate::method::modes::ModeSet;
+use crate::method::modes::Modes;
 use crate::method::outer_loop::Settings;
-use crate::method::pairing::{Pairing, modal_assurance, pair_modes};
+use crate::method::sorting::{Pairing, pair_modes};
+use crate::method::step::Bounds;
+use crate::sparse::modal_assurance;
 use nalgebra::DMatrix;
 use readings::explain;
 use shapes::changed;
@@ -75,7 +76,7 @@ pub enum Finding {
 }
 
 /// The places of test modes without near copies of earlier ones, and a finding for each such copy.
-fn distinct_shapes(test: &ModeSet) -> Result<(Vec<usize>, Vec<Finding>), Error> {
+fn distinct_shapes(test: &Modes) -> Result<(Vec<usize>, Vec<Finding>), Error> {
     let assurance = modal_assurance(&test.shapes, &test.shapes)?;
     let frequencies = test.frequencies_hz();
     let (mut apart, mut findings): (Vec<usize>, Vec<Finding>) = (Vec::new(), Vec::new());
@@ -96,7 +97,7 @@ fn distinct_shapes(test: &ModeSet) -> Result<(Vec<usize>, Vec<Finding>), Error> 
 
 /// Adds the findings from the frequencies of test modes and of their partners.
 fn judge_frequencies(
-    test: &ModeSet,
+    test: &Modes,
     analysis_hz: &[f64],
     pairing: &Pairing,
     places: &[usize],
@@ -126,7 +127,7 @@ fn judge_frequencies(
 /// Those of the comparison of shapes.
 pub fn preflight_at_sensors(
     seen: &SeenModes,
-    test: &ModeSet,
+    test: &Modes,
     settings: &Settings,
     ranges: &[Option<Bounds>],
 ) -> Result<Vec<Finding>, Error> {

@@ -1,6 +1,6 @@
 //! Points in another order, found by what each does in all modes.
 
-use crate::method::pairing::pair_modes;
+use crate::method::sorting::pair_modes;
 use nalgebra::DMatrix;
 
 /// Most rounds of guessing the order from the pairs and the pairs from the order; it settles after two or three.

@@ -17,9 +17,8 @@ use super::order::{matched, unit};
 use super::shapes::{Change, changed};
 use crate::job::assignment::pair_optimally;
 use crate::method::error::Error;
-use crate::method::linear_algebra::solve_lower;
-use crate::method::model::ParameterMatrix;
-use crate::method::modes::ModeSet;
+use crate::method::modes::Modes;
+use crate::sparse::{ParameterMatrix, solve_lower};
 use nalgebra::{Cholesky, DMatrix, DVector, DVectorView, Dyn, RowDVector};
 
 /// Standard deviation of a reading over the largest of its mode.
@@ -42,7 +41,7 @@ const MOST_EXCHANGED: usize = 24;
 #[derive(Debug, Clone)]
 pub struct SeenModes {
     /// $\omega^2$, and shapes of unit generalized mass in the whole model (sensors × n).
-    pub modes: ModeSet,
+    pub modes: Modes,
     /// $V^t K_e V$ or $V^t M_e V$ of every parameter, with the whole shapes.
     pub shares: Vec<ParameterMatrix>,
     /// What a sensor would read if it measured along another direction of its grid: sensor, direction, readings.

@@ -5,7 +5,7 @@ use super::shapes::Change;
 use super::{Finding, SAME_FREQUENCY};
 use crate::files::test_data::DIRECTIONS;
 use crate::job::Concern;
-use crate::method::model::Bounds;
+use crate::method::step::Bounds;
 
 /// Places from one: the first and the last of them when none is missing between.
 fn list(places: &[usize]) -> String {

@@ -2,9 +2,9 @@
 
 use crate::method::error::{Error, at_least_one};
 use crate::method::linear_algebra::{
-    check_matrix, check_shape, check_symmetric, cholesky, finite, pencil_eigen,
+    check_finite, check_matrix, check_shape, check_symmetric, cholesky, pencil_eigen,
 };
-use crate::method::modes::ModeSet;
+use crate::method::modes::Modes;
 use nalgebra::{DMatrix, Unit, Vector3};
 
 /// Rigid-body stiffness, relative to $\omega^2$ times the rigid-body mass, above which a structure counts as supported:
@@ -43,19 +43,19 @@ pub struct Balanced {
 /// (`paper/interpretation.md`); `rigid_body` $= \Phi$ (d × m), see [`super::rigid_body_vectors`].
 ///
 /// # Errors
-/// Those of [`cholesky`] and [`ModeSet::scaled_with`] for bad data; [`Error::Dependent`] when the balance equations are
-/// singular; [`Error::Supported`] when some $\lvert\mu_k\rvert$ exceeds [`LARGEST_SUSPENSION_RATIO`] of a mode's
+/// [`Error::WrongShape`] and [`Error::Value`] for data that does not fit or is not finite; [`Error::NotPositiveDefinite`] when the
+/// balance equations are singular; [`Error::Supported`] when some $\lvert\mu_k\rvert$ exceeds [`LARGEST_SUSPENSION_RATIO`] of a mode's
 /// $\omega_i^2$: the structure is held, or the mode is itself a rigid-body mode on the suspension.
 ///
 /// # Example
 ///
 /// ```rust
 /// use corfem::method::appendix_b::balance;
-/// use corfem::method::modes::ModeSet;
+/// use corfem::method::modes::Modes;
 /// use nalgebra::{DMatrix, dmatrix, dvector};
 ///
 /// // Two free unit masses on a spring move against each other; measured with 0.05 of both together.
-/// let raw = ModeSet::new(dvector![2.0], dmatrix![1.0; -0.9])?;
+/// let raw = Modes::new(dvector![2.0], dmatrix![1.0; -0.9])?;
 /// let stiffness = dmatrix![1.0, -1.0; -1.0, 1.0];
 /// let balanced = balance(&raw, &stiffness, &DMatrix::identity(2, 2), &dmatrix![1.0; 1.0])?;
 /// assert!((balanced.shapes - dmatrix![0.95; -0.95]).amax() < 1e-14);
@@ -63,57 +63,44 @@ pub struct Balanced {
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
 pub fn balance(
-    raw: &ModeSet,
+    raw: &Modes,
     stiffness: &DMatrix<f64>,
     mass: &DMatrix<f64>,
     rigid_body: &DMatrix<f64>,
 ) -> Result<Balanced, Error> {
+    let (dof_count, motion_count) = (mass.nrows(), rigid_body.ncols());
     cholesky("dynamic mass", mass, 0.0)?;
-    let generalized_masses = raw.generalized_masses(mass)?;
-    check_shape("dynamic stiffness", stiffness, mass.nrows(), mass.nrows())?;
+    let size = raw.generalized_masses(mass)?;
+    check_shape("dynamic stiffness", stiffness, dof_count, dof_count)?;
     check_symmetric("dynamic stiffness", stiffness)?;
-    at_least_one("rigid-body vectors", rigid_body.ncols())?;
-    let motion_count = rigid_body.ncols();
-    check_matrix("rigid-body vectors", rigid_body, mass.nrows(), motion_count)?;
-    let rigid_mass = rigid_body.tr_mul(&(mass * rigid_body));
-    let lower = cholesky("rigid-body mass", &rigid_mass, SMALLEST_INDEPENDENT_PART)
-        .map_err(|error| error.or_dependent("rigid-body vector"))?;
+    at_least_one("rigid-body vectors", motion_count)?;
+    check_matrix("rigid-body vectors", rigid_body, dof_count, motion_count)?;
+    let through = |matrix: &DMatrix<f64>| rigid_body.tr_mul(&(matrix * rigid_body));
+    let lower = cholesky("rigid-body mass", &through(mass), SMALLEST_INDEPENDENT_PART)?;
     // μ, zero on a free structure, and L⁻ᵗ Y (m × m).
-    let rigid_stiffness = rigid_body.tr_mul(&(stiffness * rigid_body));
-    let (suspension, from_suspension) = pencil_eigen(
-        "rigid-body stiffness",
-        &rigid_stiffness,
-        &lower,
-        lower.ncols(),
-    )?;
-    let (stiffest, limit) = (suspension.amax(), LARGEST_SUSPENSION_RATIO);
-    if let Some(mode) = raw
-        .omega_squared
-        .iter()
-        .position(|omega_squared| stiffest > limit * omega_squared)
-    {
-        return Err(Error::Supported {
-            mode,
-            ratio: stiffest / raw.omega_squared[mode],
-            limit,
-        });
+    let what = "rigid-body stiffness";
+    let (mu, from_suspension) = pencil_eigen(what, &through(stiffness), &lower, motion_count)?;
+    let (omega_squared, limit) = (&raw.omega_squared, LARGEST_SUSPENSION_RATIO);
+    for mode in 0..raw.len() {
+        let ratio = mu.amax() / omega_squared[mode];
+        if ratio > limit {
+            return Err(Error::Supported { mode, ratio, limit });
+        }
     }
     let motions = rigid_body * &from_suspension;
     let inertia = motions.tr_mul(&(mass * &raw.shapes));
     let elastic = motions.tr_mul(&(stiffness * &raw.shapes));
-    let amplitudes = DMatrix::from_fn(suspension.len(), raw.len(), |k, i| {
-        let omega_squared = raw.omega_squared[i];
-        (elastic[(k, i)] - omega_squared * inertia[(k, i)]) / (omega_squared - suspension[k])
+    let amplitudes = DMatrix::from_fn(motion_count, raw.len(), |k, i| {
+        (elastic[(k, i)] - omega_squared[i] * inertia[(k, i)]) / (omega_squared[i] - mu[k])
     });
+    let shapes = &raw.shapes + motions * &amplitudes;
+    check_finite("balanced test mode shapes", &shapes)?;
+    let changes = amplitudes.column_iter().zip(size);
+    let change = changes.map(|(added, size)| added.norm() / size.sqrt());
     Ok(Balanced {
-        shapes: finite(
-            "balanced test mode shapes",
-            &raw.shapes + motions * &amplitudes,
-        )?,
-        change: (0..raw.len())
-            .map(|i| amplitudes.column(i).norm() / generalized_masses[i].sqrt())
-            .collect(),
-        coefficients: from_suspension * amplitudes,
+        change: change.collect(),
+        coefficients: from_suspension * &amplitudes,
+        shapes,
     })
 }
 
@@ -167,20 +154,20 @@ impl Motion {
     }
 }
 
-/// The rigid-body vectors $\Phi_{ij} = n_i \cdot u_j(x_i)$ (dynamic DOF × motions): what motion $j$ shows at DOF $i$.
+/// Rigid-body vectors $\Phi_{ij} = n_i \cdot u_j(x_i)$ (dynamic DOF × motions): what motion $j$ shows at DOF $i$.
 /// Translations have no unit, rotations are in inches per radian.
 ///
 /// # Errors
-/// [`Error::Empty`] without motions or without DOF; [`Error::NotFinite`] for a position that is not.
+/// [`Error::Count`] without motions or without DOF; [`Error::Value`] for a position that is not finite.
 pub fn rigid_body_vectors(
     motions: &[Motion],
     dofs: &[MeasuringPoint],
 ) -> Result<DMatrix<f64>, Error> {
     at_least_one("rigid-body motions", motions.len())?;
     at_least_one("dynamic degrees of freedom", dofs.len())?;
-    let displacement = |i: usize, j: usize| motions[j].displacement(dofs[i].position);
     let vectors = DMatrix::from_fn(dofs.len(), motions.len(), |i, j| {
-        dofs[i].direction.dot(&displacement(i, j))
+        let shown = motions[j].displacement(dofs[i].position);
+        dofs[i].direction.dot(&shown)
     });
-    finite("rigid-body vectors", vectors)
+    check_finite("rigid-body vectors", &vectors).map(|()| vectors)
 }

@@ -1,15 +1,14 @@
-//! Which test modes are fit for correlation: both steps, the report, and the deletion of deviant modes.
+//! Examination of test modes: both steps, the report, and the deletion of deviant modes.
 
-use super::balance::{Balanced, balance};
-use super::orthogonalize::{Movement, orthogonalize};
-use crate::method::error::{Error, at_least_one, positive_setting, setting};
-use crate::method::modes::ModeSet;
+use super::{Balanced, Movement, balance, orthogonalize};
+use crate::method::error::{Error, at_least_one, positive, require};
+use crate::method::modes::Modes;
 use nalgebra::DMatrix;
 
-/// How far a mode may move before it is deleted, in fractions chosen by engineering judgment.
+/// Movements beyond which a mode is deleted, in fractions chosen by engineering judgment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MovementLimits {
-    /// Change of shape by balancing, [`super::Balanced::change`]; between 0 and 1.
+    /// Change of shape by balancing, [`Balanced::change`]; between 0 and 1.
     pub balance: f64,
     /// Change of frequency by orthogonalization, up or down, [`Movement::frequency`].
     pub frequency: f64,
@@ -31,10 +30,17 @@ impl Default for MovementLimits {
 
 impl MovementLimits {
     fn check(&self) -> Result<(), Error> {
-        let is_met = self.balance > 0.0 && self.balance < 1.0;
-        setting("balance", "a number between 0 and 1", self.balance, is_met)?;
-        positive_setting("frequency", self.frequency)?;
-        positive_setting("shape", self.shape)
+        let owner = || "the movement limits".to_owned();
+        let (value, expected) = (self.balance, "a number between 0 and 1");
+        require(
+            value > 0.0 && value < 1.0,
+            "balance",
+            owner,
+            value,
+            expected,
+        )?;
+        positive("frequency", owner, self.frequency)?;
+        positive("shape", owner, self.shape)
     }
 
     /// The larger movement in units of its limit.
@@ -43,7 +49,7 @@ impl MovementLimits {
     }
 }
 
-/// How the tested structure was held.
+/// Supports of the tested structure.
 #[derive(Debug, Clone, Copy)]
 pub enum Supports<'a> {
     /// By supports, whose reactions balance the forces: the modes are not balanced.
@@ -52,12 +58,12 @@ pub enum Supports<'a> {
     Free {
         /// Dynamic stiffness with the suspension's springs, lbf/in (d × d).
         stiffness: &'a DMatrix<f64>,
-        /// Rigid-body vectors (d × m), see [`super::rigid_body_vectors`].
+        /// Rigid-body vectors (d × m), see [`rigid_body_vectors`](crate::method::appendix_b::rigid_body_vectors).
         rigid_body: &'a DMatrix<f64>,
     },
 }
 
-/// Whether a test mode is kept, and if not, why.
+/// Verdict on a test mode: kept, or why not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ModeVerdict {
     /// Kept.
@@ -68,7 +74,7 @@ pub enum ModeVerdict {
     NotOrthogonal,
 }
 
-/// What became of one test mode.
+/// Report on one test mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ModeReport {
     /// Relative change of shape by balancing; none when the structure was held.
@@ -83,8 +89,8 @@ pub struct ModeReport {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Examination {
     /// The modes kept, balanced and orthonormal, in the order of the raw ones.
-    pub modes: ModeSet,
-    /// Which raw modes they are, from zero.
+    pub modes: Modes,
+    /// Places of these among the raw modes, from zero.
     pub kept: Vec<usize>,
     /// One report for every raw mode.
     pub reports: Vec<ModeReport>,
@@ -99,88 +105,82 @@ pub struct Examination {
 /// wrong mode anywhere in the spectrum; several that are mixed with each other are not always told from good ones.
 ///
 /// # Errors
-/// [`Error::Setting`] for a bad limit; [`Error::Empty`] when no mode is left; those of [`balance`] and
-/// [`orthogonalize`], with modes numbered as they came.
+/// [`Error::Value`] for a bad limit; [`Error::Count`] when no mode is left; what [`balance`] and [`orthogonalize`] refuse.
 ///
 /// # Example
 ///
 /// ```rust
 /// use corfem::method::appendix_b::{MovementLimits, Supports, examine};
-/// use corfem::method::modes::ModeSet;
+/// use corfem::method::modes::Modes;
 /// use nalgebra::{DMatrix, dmatrix, dvector};
 ///
 /// // The third shape has a fifth of either of the others in it.
 /// let shapes = dmatrix![1.0, 0.0, 0.2; 0.0, 1.0, 0.2; 0.0, 0.0, 1.0];
-/// let raw = ModeSet::new(dvector![1.0, 4.0, 9.0], shapes)?;
+/// let raw = Modes::new(dvector![1.0, 4.0, 9.0], shapes)?;
 /// let mass = DMatrix::identity(3, 3);
 /// let examination = examine(&raw, &mass, Supports::Held, &MovementLimits::default())?;
 /// assert_eq!(examination.kept, [0, 1]);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
 pub fn examine(
-    raw: &ModeSet,
+    raw: &Modes,
     mass: &DMatrix<f64>,
     supports: Supports,
     limits: &MovementLimits,
 ) -> Result<Examination, Error> {
     limits.check()?;
-    raw.generalized_masses(mass)?;
-    let unmoved = ModeReport {
-        balance: None,
-        movement: None,
-        verdict: ModeVerdict::Kept,
-    };
-    let (mut balanced, mut reports) = (raw.clone(), vec![unmoved; raw.len()]);
+    let mut balanced = raw.clone();
+    let mut change = vec![None; raw.len()];
     if let Supports::Free {
         stiffness,
         rigid_body,
     } = supports
     {
-        let Balanced { shapes, change, .. } = balance(raw, stiffness, mass, rigid_body)?;
+        let Balanced {
+            shapes,
+            change: moved,
+            ..
+        } = balance(raw, stiffness, mass, rigid_body)?;
         balanced.shapes = shapes;
-        for (report, change) in reports.iter_mut().zip(change) {
-            report.balance = Some(change);
-            if change > limits.balance {
-                report.verdict = ModeVerdict::Unbalanced;
-            }
-        }
+        change = moved.into_iter().map(Some).collect();
     }
-    let mut kept: Vec<usize> = (0..raw.len())
-        .filter(|&mode| reports[mode].verdict == ModeVerdict::Kept)
-        .collect();
-    at_least_one("test modes within the limits", kept.len())?;
+    let report = |&balance: &Option<f64>| ModeReport {
+        balance,
+        movement: None,
+        verdict: match balance {
+            Some(change) if change > limits.balance => ModeVerdict::Unbalanced,
+            _ => ModeVerdict::Kept,
+        },
+    };
+    let mut reports: Vec<ModeReport> = change.iter().map(report).collect();
+    let is_kept = |&mode: &usize| reports[mode].verdict == ModeVerdict::Kept;
+    let mut kept: Vec<usize> = (0..raw.len()).filter(is_kept).collect();
     loop {
-        let result = orthogonalize(&balanced.select(&kept), mass).map_err(|error| match error {
-            Error::Dependent { what, index } => Error::Dependent {
-                what,
-                index: kept[index],
-            },
-            other => other,
-        })?;
+        at_least_one("test modes within the limits", kept.len())?;
+        let result = orthogonalize(&balanced.select(&kept), mass)?;
+        let excess: Vec<f64> = result
+            .movement
+            .iter()
+            .map(|moved| limits.excess(moved))
+            .collect();
         for (&mode, &movement) in kept.iter().zip(&result.movement) {
             reports[mode].movement = Some(movement);
         }
-        if !result
-            .movement
-            .iter()
-            .any(|movement| limits.excess(movement) > 1.0)
-        {
+        if !excess.iter().any(|excess| *excess > 1.0) {
+            let modes = result.modes;
             return Ok(Examination {
-                modes: result.modes,
+                modes,
                 kept,
                 reports,
             });
         }
-        let moved = |i: usize| limits.excess(&result.movement[i]);
-        let others = |i: usize| (0..kept.len()).filter(move |&j| j != i);
-        let overlaps =
-            |i: usize| -> f64 { others(i).map(|j| result.overlap[(j, i)].powi(2)).sum() };
-        let order = |a: &usize, b: &usize| {
-            overlaps(*a)
-                .total_cmp(&overlaps(*b))
-                .then(moved(*a).total_cmp(&moved(*b)))
+        let m = &result.overlap;
+        let overlaps = |i: usize| m.column(i).norm_squared() - m[(i, i)].powi(2);
+        let rank = |&a: &usize, &b: &usize| {
+            let most = overlaps(a).total_cmp(&overlaps(b));
+            most.then(excess[a].total_cmp(&excess[b]))
         };
-        let deleted = kept.remove((0..kept.len()).max_by(order).unwrap_or(0));
+        let deleted = kept.remove((0..kept.len()).max_by(rank).unwrap_or(0));
         reports[deleted].verdict = ModeVerdict::NotOrthogonal;
     }
 }

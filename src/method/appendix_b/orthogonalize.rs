@@ -1,9 +1,9 @@
 //! Orthogonal test modes from nearly orthogonal ones (B.5 to B.7).
 
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_shape, cholesky, finite, symmetric_part};
-use crate::method::modes::{ModeSet, solve};
-use crate::method::pairing::{pair_modes, paired};
+use crate::method::linear_algebra::{check_finite, check_shape, cholesky, symmetric_part};
+use crate::method::modes::{Modes, solve};
+use crate::method::sorting::pair_modes;
 use nalgebra::DMatrix;
 
 /// Squared sine of the angle between a shape and the span of those before it, below which it counts as dependent.
@@ -13,7 +13,7 @@ const SMALLEST_INDEPENDENT_PART: f64 = 1e-12;
 /// turn two modes of one frequency by any angle.
 const OVERLAP_ROUND_OFF: f64 = 1e-12;
 
-/// How far orthogonalization moved a mode.
+/// Movement of a mode by orthogonalization.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Movement {
     /// Change of frequency relative to the raw one, $(f - f_G)/f_G$.
@@ -27,7 +27,7 @@ pub struct Movement {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Orthogonalized {
     /// The modes, $V^t M V = I$, in the order and with the signs of the raw ones.
-    pub modes: ModeSet,
+    pub modes: Modes,
     /// Overlaps of the raw shapes: $m_1$ (B.6) with every shape scaled to unit generalized mass (n × n).
     pub overlap: DMatrix<f64>,
     /// Each mode's movement.
@@ -38,7 +38,7 @@ pub struct Orthogonalized {
 /// are the integrals of (B.5), which vanish for orthogonal modes.
 ///
 /// # Errors
-/// [`Error::WrongShape`] when shapes and mass do not fit; [`Error::NotFinite`].
+/// [`Error::WrongShape`] when shapes and mass do not fit; [`Error::Value`] for a product that is not finite.
 ///
 /// # Example
 ///
@@ -53,10 +53,11 @@ pub struct Orthogonalized {
 /// ```
 pub fn generalized_mass(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     check_shape("dynamic mass", mass, shapes.nrows(), shapes.nrows())?;
-    finite("generalized mass", shapes.tr_mul(&(mass * shapes)))
+    let overlaps = shapes.tr_mul(&(mass * shapes));
+    check_finite("generalized mass", &overlaps).map(|()| overlaps)
 }
 
-/// The combinations of the test shapes that are orthogonal in mass, and their frequencies (B.7).
+/// Combinations of the test shapes that are orthogonal in mass, and their frequencies (B.7).
 ///
 /// In the raw shapes, scaled to unit generalized mass, the equations of motion are the symmetric-definite eigenproblem
 ///
@@ -67,18 +68,18 @@ pub fn generalized_mass(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<DM
 /// $e^2$; the sum of $1/\omega^2$ never changes. `mass` in lbf·s²/in (d × d).
 ///
 /// # Errors
-/// Those of [`cholesky`] and [`ModeSet::scaled_with`] for bad data; [`Error::Dependent`] for a shape that is a combination
-/// of those before it.
+/// [`Error::WrongShape`] and [`Error::Value`] for data that does not fit or is not finite; [`Error::NotPositiveDefinite`] for the mass, or
+/// a shape that is a combination of those before it.
 ///
 /// # Example
 ///
 /// ```rust
 /// use corfem::method::appendix_b::{generalized_mass, orthogonalize};
-/// use corfem::method::modes::ModeSet;
+/// use corfem::method::modes::Modes;
 /// use nalgebra::{DMatrix, dmatrix, dvector};
 ///
 /// // The second shape has a tenth of the first in it.
-/// let raw = ModeSet::new(dvector![1.0, 4.0], dmatrix![1.0, 0.1; 0.0, 1.0])?;
+/// let raw = Modes::new(dvector![1.0, 4.0], dmatrix![1.0, 0.1; 0.0, 1.0])?;
 /// let mass = DMatrix::identity(2, 2);
 /// let modes = orthogonalize(&raw, &mass)?.modes;
 /// assert!((generalized_mass(modes.shapes(), &mass)? - &mass).amax() < 1e-14);
@@ -86,38 +87,31 @@ pub fn generalized_mass(shapes: &DMatrix<f64>, mass: &DMatrix<f64>) -> Result<DM
 /// assert!((modes.omega_squared().map(f64::recip).sum() - 1.25).abs() < 1e-14);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn orthogonalize(raw: &ModeSet, mass: &DMatrix<f64>) -> Result<Orthogonalized, Error> {
+pub fn orthogonalize(raw: &Modes, mass: &DMatrix<f64>) -> Result<Orthogonalized, Error> {
     cholesky("dynamic mass", mass, 0.0)?;
     let unit = raw.scaled_with(mass)?.shapes;
-    let mut overlap = symmetric_part(&generalized_mass(&unit, mass)?);
-    overlap
-        .iter_mut()
-        .filter(|entry| entry.abs() < OVERLAP_ROUND_OFF)
-        .for_each(|entry| *entry = 0.0);
+    let overlap = symmetric_part(&generalized_mass(&unit, mass)?);
+    let overlap = overlap.map(|m| if m.abs() < OVERLAP_ROUND_OFF { 0.0 } else { m });
     cholesky(
         "overlap of the test shapes",
         &overlap,
         SMALLEST_INDEPENDENT_PART,
-    )
-    .map_err(|error| error.or_dependent("test mode"))?;
-    let combined = solve(
-        &DMatrix::from_diagonal(&raw.omega_squared),
-        &overlap,
-        raw.len(),
     )?;
-    let combined = paired(&combined, &pair_modes(&combined.shapes.tr_mul(&overlap))?)?;
-    let modes = ModeSet {
+    let squares = DMatrix::from_diagonal(&raw.omega_squared);
+    let combined = solve(&squares, &overlap, raw.len())?;
+    let combined = pair_modes(&combined.shapes.tr_mul(&overlap))?.paired(&combined)?;
+    let modes = Modes {
         shapes: &unit * combined.shapes,
         omega_squared: combined.omega_squared,
     };
     let difference = &modes.shapes - unit;
     let weighted = mass * &difference;
-    let movement = |mode: usize| Movement {
+    let movements = (0..raw.len()).map(|mode| Movement {
         frequency: (modes.omega_squared[mode] / raw.omega_squared[mode]).sqrt() - 1.0,
         shape: difference.column(mode).dot(&weighted.column(mode)).sqrt(),
-    };
+    });
     Ok(Orthogonalized {
-        movement: (0..raw.len()).map(movement).collect(),
+        movement: movements.collect(),
         modes,
         overlap,
     })

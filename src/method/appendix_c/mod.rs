@@ -1,180 +1,257 @@
-//! Appendix C: Van de Vooren's perturbation of roots and shapes, in modal coordinates.
+//! Appendix C in full: changes of stiffness and of $G$ together, left and right shapes, real or complex.
 //! Tour: [chapter 2](crate::tour::chapter_02_recursion).
 //!
-//! The modes before the change are $V$ with $V^t M V = I$ and $k = V^t K V = \mathrm{diag}(\omega^2)$. With
-//! $\lambda = 1/\omega^2$ (the paper's root of $(K\lambda - M)v = 0$) a change of stiffness $\Delta K$ enters through
-//! $\beta = V^t \Delta K V$ alone, and mode $j$ of the changed structure is $V p_j$ with root $\gamma_j$:
+//! With $k = U^t K V$ diagonal (C.10), $\beta = U^t \Delta K V$ and $\alpha = U^t \Delta G V$, the changed mode $j$ is
+//! $V p_j$ with root $\gamma_j = \lambda_j + \Delta\lambda_j$ and
 //!
-//! $$ \big[k(\gamma_j - \Lambda) + \beta\gamma_j\big] p_j = 0, \qquad p_{jj} = 1. $$
+//! $$ (A\gamma_j - G) p_j = 0, \qquad A = k + \beta, \quad G = k\Lambda + \alpha, \quad p_{jj} = 1
+//!    \quad \text{(C.14 to C.19)}. $$
 //!
-//! Every function here solves these equations in one way or another:
-//!
-//! - [`recursive`]: first order and Recursive 1 for a change of stiffness alone;
-//! - [`general`]: all of it, Recursive 2 and the formulae of 1947 too, with changes of mass, complex and unsymmetric pencils;
-//! - [`eigensolution`]: exactly, which is what the others approach.
+//! The paper prints $k = g\Lambda$ before (C.13), where (C.5) gives $k\Lambda = g$, and $G$ for $G^t$ in the transposed
+//! equations (C.4) to (C.9); more is in `paper/errata.md`. The same functions serve real and, with aerodynamic terms,
+//! complex numbers. Stiffness alone is in [`perturbation`](crate::method::perturbation).
 
-pub mod general;
-pub mod recursive;
+pub mod complex_modes;
 
-pub use recursive::{first_order, recursive_1, recursive_1_converged};
+pub use super::linear_algebra::Number;
 
-use crate::method::error::Error;
-use crate::method::linear_algebra::{Number, check_shape};
-use crate::method::modes::solve;
-use crate::method::pairing::pair_modes;
-use crate::method::structure::positive;
-use general::ModalChange;
+use super::error::{Error, at_least_one, require};
+use super::linear_algebra::{check_finite, check_matrix, check_shape};
+use super::perturbation::{Perturbed, SMALLEST_SEPARATION};
+use complex_modes::LeftRightModes;
 use nalgebra::{DMatrix, DVector};
 
-/// Denominator relative to the generalized stiffness below which two modes count as coalescing.
-pub const SMALLEST_SEPARATION: f64 = 1e-9;
+/// Generalized stiffness between a left and another right mode, relative to their own, above which shapes count as not
+/// biorthogonal. Round-off leaves about 1e-14 times their condition.
+const LARGEST_COUPLING: f64 = 1e-8;
 
-/// Relative change of a root in the last order allowed above which a recursion has not settled: a thousandth of an error sum of
-/// some percent. Below it the recursion may be slow, but what it still has to go is little.
-pub const LARGEST_UNSETTLED_CHANGE: f64 = 1e-6;
-
-/// One minus the cosine of two generalized shapes below which they are those of one mode, if their roots agree to [`SAME_ROOT`]:
-/// where roots have settled to 1e-6, shapes of one mode agree to better than a hundredth, and those of two modes are orthogonal.
-const SAME_SHAPE: f64 = 1e-2;
-/// Relative distance of two roots below which they are one.
-const SAME_ROOT: f64 = 1e-3;
-
-/// Roots and generalized shapes after a change; complex where [`general`] works on complex numbers.
+/// Pencil after a change of $K$ and of $G$, seen through the modes before it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Perturbed<T = f64> {
-    /// Changed roots $\gamma_i = \lambda_i + \Delta\lambda_i = 1/\omega_i^2$, s².
-    pub roots: DVector<T>,
-    /// Generalized shapes $p$ (n × n): column $j$ is mode $j$ in terms of the modes before the change, $p_{jj} = 1$.
-    pub shapes: DMatrix<T>,
+pub struct Pencil<T> {
+    a: DMatrix<T>,
+    g: DMatrix<T>,
 }
 
-impl Perturbed {
-    /// Refuses roots that are not positive and finite.
-    pub(crate) fn check_roots(&self) -> Result<(), Error> {
-        let lost = self
-            .roots
-            .iter()
-            .position(|&root| !(root > 0.0 && root.is_finite()));
-        lost.map_or(Ok(()), |mode| {
-            Err(Error::LostRoot {
-                mode,
-                value: self.roots[mode],
-            })
+impl Pencil<f64> {
+    /// A change seen through mass-orthonormal modes of vibration, whose $k_{ii} = \omega_i^2$ (rad²/s²) and
+    /// $k_{ii} \lambda_i = 1$: `beta` $= V^t\Delta K V$ and `alpha` $= V^t \Delta M V$ (n × n).
+    ///
+    /// # Errors
+    /// [`Error::Count`] without modes; [`Error::WrongShape`] and [`Error::Value`] for what does not fit or is not finite.
+    pub fn of_vibrations(
+        omega_squared: &DVector<f64>,
+        beta: &DMatrix<f64>,
+        alpha: &DMatrix<f64>,
+    ) -> Result<Self, Error> {
+        let size = omega_squared.len();
+        at_least_one("modes", size)?;
+        check_matrix("generalized stiffness change", beta, size, size)?;
+        check_matrix("generalized mass change", alpha, size, size)?;
+        Ok(Self {
+            a: DMatrix::from_diagonal(omega_squared) + beta,
+            g: DMatrix::identity(size, size) + alpha,
         })
     }
 }
 
-/// What a recursion that goes on until its roots settle has reached.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Settled<T = f64> {
-    /// Roots and shapes of the last order.
-    pub perturbed: Perturbed<T>,
-    /// The last order.
-    pub order: usize,
-    /// Largest relative change of a root in it: how far the recursion may still have had to go.
-    pub last_change: f64,
-}
-
-impl<T: Number> Settled<T> {
-    /// Accepts a recursion whose roots have settled to its tolerance, or nearly so, on as many modes as there are: a strong change
-    /// can lead two modes to one, and then another is missed.
-    fn check(self, tolerance: f64, orders: usize) -> Result<Self, Error> {
-        let (largest, last_change) = (tolerance.max(LARGEST_UNSETTLED_CHANGE), self.last_change);
-        // NaN has not settled either.
-        if last_change.is_nan() || last_change > largest {
-            return Err(Error::UnsettledRoots {
-                largest,
-                orders,
-                last_change,
+impl<T: Number> Pencil<T> {
+    /// Changes of stiffness (lbf/in) and of $G$ (lbf·s²/in), all d × d, seen through the modes before them.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] and [`Error::Value`] for input that does not fit or is not finite; [`Error::Value`] when $U^t K V$ is not
+    /// diagonal (C.10).
+    pub fn new(
+        stiffness: &DMatrix<T>,
+        modes: &LeftRightModes<T>,
+        stiffness_change: &DMatrix<T>,
+        g_change: &DMatrix<T>,
+    ) -> Result<Self, Error> {
+        let (dof_count, count) = modes.right.shape();
+        check_shape("left shapes", &modes.left, dof_count, count)?;
+        let through_modes = |what, matrix: &DMatrix<T>| {
+            check_matrix(what, matrix, dof_count, dof_count)?;
+            Ok(modes.left.tr_mul(&(matrix * &modes.right)))
+        };
+        let k = through_modes("stiffness", stiffness)?;
+        for (i, j) in (0..count).flat_map(|j| (0..count).map(move |i| (i, j))) {
+            let found = k[(i, j)].modulus() / (k[(i, i)] * k[(j, j)]).modulus().sqrt();
+            let (what, owner) = ("coupling of left and right shapes", || {
+                format!("modes {i} and {j}")
             });
+            let is_met = i == j || found <= LARGEST_COUPLING;
+            require(is_met, what, owner, found, "zero")?;
         }
-        let Perturbed { roots, shapes } = &self.perturbed;
-        for (second, shape) in shapes.column_iter().enumerate() {
-            for (first, other) in shapes.column_iter().enumerate().take(second) {
-                let cosine = other.dotc(&shape).modulus() / (other.norm() * shape.norm());
-                let separation = (roots[second] / roots[first] - T::one()).modulus();
-                if 1.0 - cosine < SAME_SHAPE && separation < SAME_ROOT {
-                    return Err(Error::CoalescingModes {
-                        first,
-                        second,
-                        separation,
-                    });
-                }
+        let k = DMatrix::from_diagonal(&k.diagonal());
+        let own_g = &k * DMatrix::from_diagonal(&modes.roots);
+        Ok(Self {
+            a: k + through_modes("stiffness change", stiffness_change)?,
+            g: own_g + through_modes("change of G", g_change)?,
+        })
+    }
+
+    /// $A = k + \beta$ (n × n).
+    pub fn a(&self) -> &DMatrix<T> {
+        &self.a
+    }
+
+    /// $G = k\Lambda + \alpha$ (n × n).
+    pub fn g(&self) -> &DMatrix<T> {
+        &self.g
+    }
+
+    /// Change seen by the transposed pencil (C.2); the changed left modes are $U$ times its shapes.
+    pub fn transposed(&self) -> Self {
+        Self {
+            a: self.a.transpose(),
+            g: self.g.transpose(),
+        }
+    }
+
+    /// First order (C.20, C.21 with $\alpha$ and a general $k$), where $\gamma_i = \lambda_i + \Delta\lambda_i$:
+    ///
+    /// $$ \Delta\lambda_i = \frac{\alpha_{ii} - \beta_{ii}\lambda_i}{k_{ii} + \beta_{ii}}, \qquad
+    ///    p_{ij} = -\frac{\beta_{ij}\gamma_j - \alpha_{ij}}{A_{ii}\gamma_j - G_{ii}} $$
+    ///
+    /// Modes that the change does not couple may have equal roots.
+    ///
+    /// # Errors
+    /// [`Error::Value`] for a root that is not finite, as where some $A_{ii}$ vanishes; [`Error::CoalescingModes`] when the denominator
+    /// of coupled modes vanishes.
+    ///
+    /// # Example
+    ///
+    /// ```rust
+    /// use corfem::method::appendix_c::Pencil;
+    /// use nalgebra::{dmatrix, dvector};
+    ///
+    /// // Twice the mass halves ω² = 4.
+    /// let pencil = Pencil::of_vibrations(&dvector![4.0], &dmatrix![0.0], &dmatrix![1.0])?;
+    /// assert_eq!(pencil.first_order()?.roots[0], 1.0 / 2.0);
+    /// # Ok::<(), corfem::method::error::Error>(())
+    /// ```
+    pub fn first_order(&self) -> Result<Perturbed<T>, Error> {
+        self.recursive_1(1)
+    }
+
+    /// Recursive 1 (C.22 with $\alpha$ and a general $k$) to a given order; with $\rho = r - 1$:
+    ///
+    /// $$ \gamma_j^{(r)} = \frac{G_{jj} - \sum_{s\ne j} f_{js} p_{sj}^{(\rho)}}{A_{jj}}, \quad
+    ///    p_{ij}^{(r)} = -\frac{\sum_{s\ne i} f_{is} p_{sj}^{(\rho)}}{f_{ii}},
+    ///    \quad f_{is} = A_{is}\gamma_j^{(\rho)} - G_{is} $$
+    ///
+    /// Order zero is $p = I$ with $\gamma_j = G_{jj}/A_{jj}$, so that order one is [`Self::first_order`].
+    ///
+    /// # Errors
+    /// [`Error::Count`] for order zero; [`Error::Value`] for a root that is not finite; [`Error::CoalescingModes`] when the denominator
+    /// of coupled modes vanishes.
+    pub fn recursive_1(&self, order: usize) -> Result<Perturbed<T>, Error> {
+        at_least_one("order", order)?;
+        (0..order).try_fold(self.order_zero()?, |now, _| self.next_order(now))
+    }
+
+    /// Order zero: the shapes before the change, and Rayleigh's quotients on them for roots.
+    pub(crate) fn order_zero(&self) -> Result<Perturbed<T>, Error> {
+        self.with_explicit_roots(DMatrix::identity(self.g.nrows(), self.g.nrows()))
+    }
+
+    /// One more order of Recursive 1.
+    pub(crate) fn next_order(&self, mut now: Perturbed<T>) -> Result<Perturbed<T>, Error> {
+        let (mut a, mut g, size) = (self.a.clone(), self.g.clone(), self.g.nrows());
+        a.fill_diagonal(T::zero());
+        g.fill_diagonal(T::zero());
+        let (a_sums, g_sums) = (a * &now.shapes, g * &now.shapes);
+        for j in 0..size {
+            let gamma = now.roots[j];
+            let sum = |i: usize| a_sums[(i, j)] * gamma - g_sums[(i, j)];
+            for i in (0..size).filter(|&i| i != j) {
+                let own = self.a[(i, i)] * gamma;
+                let difference = own - self.g[(i, i)];
+                let separation = difference.modulus() / own.modulus();
+                now.shapes[(i, j)] = match -sum(i) {
+                    numerator if numerator == T::zero() => numerator,
+                    numerator if separation > SMALLEST_SEPARATION => numerator / difference,
+                    _ => return Err(Error::coalescing(i, j, separation)),
+                };
             }
+            now.roots[j] = (self.g[(j, j)] - sum(j)) / self.a[(j, j)];
         }
-        Ok(self)
+        finite(now)
+    }
+
+    /// Recursive 2 (C.24 in general) to a given order: explicit roots, and shapes from one linear solution per mode.
+    ///
+    /// $$ \gamma_i^{(r)} = \frac{\sum_j G_{ij} p_{ji}^{(\rho)}}{\sum_j A_{ij} p_{ji}^{(\rho)}}, \qquad
+    ///    \sum_{s \ne j}\big[A_{is}\gamma_j^{(r)} - G_{is}\big] p_{sj}^{(r)} = G_{ij} - A_{ij}\gamma_j^{(r)}, \ i \ne j $$
+    ///
+    /// # Errors
+    /// [`Error::Count`] for order zero; [`Error::Value`] for a root that is not finite; [`Error::CoalescingModes`] when a denominator
+    /// vanishes or the linear system of a mode is singular.
+    ///
+    /// # Example
+    ///
+    /// ```rust
+    /// use corfem::method::appendix_c::Pencil;
+    /// use nalgebra::{DMatrix, dmatrix, dvector};
+    ///
+    /// // First order has -0.3 / (5 - 2) of the second mode in the first; then 1 / (2 + 0.3 · -0.1).
+    /// let (k, beta) = (dvector![1.0, 5.0], dmatrix![1.0, 0.3; 0.3, 0.0]);
+    /// let pencil = Pencil::of_vibrations(&k, &beta, &DMatrix::zeros(2, 2))?;
+    /// assert!((pencil.recursive_2(2)?.roots[0] - 1.0 / 1.97).abs() < 1e-15);
+    /// # Ok::<(), corfem::method::error::Error>(())
+    /// ```
+    pub fn recursive_2(&self, order: usize) -> Result<Perturbed<T>, Error> {
+        at_least_one("order", order)?;
+        let (mut now, size) = (self.first_order()?, self.g.nrows());
+        for _ in 2..=order {
+            now = self.with_explicit_roots(now.shapes)?;
+            // One mode has no others, and nalgebra's solution of an empty system panics.
+            for j in (0..size).filter(|_| size > 1) {
+                // The shape satisfies all equations but its own.
+                let rows = (&self.a * now.roots[j] - &self.g).remove_row(j);
+                let others = rows.clone().remove_column(j).lu().solve(&-rows.column(j));
+                let others = others.ok_or(Error::coalescing(j, j, 0.0))?;
+                now.shapes.set_column(j, &others.insert_row(j, T::one()));
+            }
+            now = finite(now)?;
+        }
+        Ok(now)
+    }
+
+    /// Original formulae of 1947: first-order roots and shapes, then the root once more from those shapes.
+    ///
+    /// # Errors
+    /// [`Error::Value`] for a root that is not finite; [`Error::CoalescingModes`] when the denominator of coupled modes vanishes.
+    ///
+    /// # Example
+    ///
+    /// ```rust
+    /// use corfem::method::appendix_c::Pencil;
+    /// use nalgebra::{DMatrix, dmatrix, dvector};
+    ///
+    /// // The root is that of the second order of Recursive 2, the shape that of first order.
+    /// let (k, beta) = (dvector![1.0, 5.0], dmatrix![1.0, 0.3; 0.3, 0.0]);
+    /// let pencil = Pencil::of_vibrations(&k, &beta, &DMatrix::zeros(2, 2))?;
+    /// let found = pencil.original()?;
+    /// assert_eq!(found.roots, pencil.recursive_2(2)?.roots);
+    /// assert_eq!(found.shapes, pencil.first_order()?.shapes);
+    /// # Ok::<(), corfem::method::error::Error>(())
+    /// ```
+    pub fn original(&self) -> Result<Perturbed<T>, Error> {
+        self.with_explicit_roots(self.first_order()?.shapes)
+    }
+
+    /// Given shapes with their roots, $\gamma_i = g_i/a_i$ with the diagonals $g$ of $Gp$ and $a$ of $Ap$ (C.24).
+    fn with_explicit_roots(&self, shapes: DMatrix<T>) -> Result<Perturbed<T>, Error> {
+        let (a, g) = (&self.a * &shapes, &self.g * &shapes);
+        let roots = g.diagonal().component_div(&a.diagonal());
+        finite(Perturbed { roots, shapes })
     }
 }
 
-/// Exact roots and shapes of $k + \beta$ with $k\Lambda + \alpha$ in the modal coordinates: what the perturbation approaches,
-/// and what it saves.
-///
-/// Modes stand in the order of the modes they are most like, so that column $j$ continues mode $j$, and are scaled to
-/// $p_{jj} = 1$ like the perturbed shapes.
-///
-/// # Errors
-/// [`Error::Empty`], [`Error::WrongShape`], [`Error::NotFinite`], [`Error::LostStiffness`] for bad input; those of [`solve`];
-/// [`Error::LostRoot`]; [`Error::CoalescingModes`] when a new mode has no part in the mode it continues.
-///
-/// # Example
-///
-/// ```rust
-/// use corfem::method::appendix_c::eigensolution;
-/// use corfem::method::appendix_c::general::ModalChange;
-/// use nalgebra::{DMatrix, dmatrix, dvector};
-///
-/// // Two and five on the diagonal of k + β and 0.3 beside it: 3.5 ∓ √(1.5² + 0.3²).
-/// let (k, beta) = (dvector![1.0, 5.0], dmatrix![1.0, 0.3; 0.3, 0.0]);
-/// let exact = eigensolution(&ModalChange::of_vibrations(&k, beta, DMatrix::zeros(2, 2)))?;
-/// assert!((1.0 / exact.roots[0] - (3.5 - 2.34_f64.sqrt())).abs() < 1e-14);
-/// # Ok::<(), corfem::method::error::Error>(())
-/// ```
-pub fn eigensolution(change: &ModalChange<f64>) -> Result<Perturbed, Error> {
-    let (stiffness, mass) = change.pencil()?;
-    let modes = solve(&stiffness, &mass, stiffness.nrows())?;
-    // Rows of the shape matrix are the old modes, so its transpose is the cross-orthogonality of new with old.
-    let pairing = pair_modes(&modes.shapes.transpose())?;
-    let mut continued = modes.select(&pairing.analysis_mode);
-    for (j, mut shape) in continued.shapes.column_iter_mut().enumerate() {
-        let own = shape[j];
-        if own.abs() < SMALLEST_SEPARATION {
-            return Err(Error::CoalescingModes {
-                first: j,
-                second: j,
-                separation: own.abs(),
-            });
-        }
-        shape /= own;
-    }
-    let found = Perturbed {
-        roots: continued.omega_squared.map(f64::recip),
-        shapes: continued.shapes,
-    };
-    found.check_roots().map(|()| found)
-}
-
-/// Scales every generalized shape to unit changed generalized mass, $p_j^t(I + \alpha)p_j = 1$, keeping its sign.
-///
-/// `alpha` $= V^t \Delta M V$ (n × n); the shapes $V p$ are then orthonormal in the changed mass.
-///
-/// # Errors
-/// [`Error::WrongShape`]; [`Error::NotPositive`] naming the mode whose changed generalized mass is not.
-pub fn normalize_with_mass(shapes: &mut DMatrix<f64>, alpha: &DMatrix<f64>) -> Result<(), Error> {
-    check_shape(
-        "generalized mass change",
-        alpha,
-        shapes.nrows(),
-        shapes.nrows(),
-    )?;
-    let moved = alpha * &*shapes;
-    for (mode, mut shape) in shapes.column_iter_mut().enumerate() {
-        let mass = shape.norm_squared() + shape.dot(&moved.column(mode));
-        positive(
-            "changed generalized mass",
-            || format!("mode {mode} (from zero)"),
-            mass,
-        )?;
-        shape /= mass.sqrt();
-    }
-    Ok(())
+/// Accepts roots and shapes that are finite; the root of a mode without stiffness is not.
+fn finite<T: Number>(found: Perturbed<T>) -> Result<Perturbed<T>, Error> {
+    let roots = DMatrix::from_columns(std::slice::from_ref(&found.roots));
+    check_finite("perturbed roots", &roots)?;
+    check_finite("perturbed generalized shapes", &found.shapes)?;
+    Ok(found)
 }

@@ -1,8 +1,7 @@
 //! The constant-strain triangle in plane stress, and the membrane panel of four that overlap.
 
-use crate::method::geometry::MeanPlane;
-use crate::method::structure::Material;
-use nalgebra::{DMatrix, Matrix3, Vector3};
+use crate::method::structure::{Material, Point};
+use nalgebra::{DMatrix, Matrix3};
 
 /// Stiffness of a constant-strain triangle of unit thickness, lbf/in per inch of gage (9 × 9).
 ///
@@ -24,12 +23,12 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 ///
 /// // Corner 2 moves along x by one: strain 1 in an area of 1/2, with E = 1 and no Poisson's ratio.
 /// let corners = [Vector3::zeros(), Vector3::x(), Vector3::y()];
-/// let stiffness = triangle(corners, &Material::isotropic(1.0, 0.0)?);
+/// let stiffness = triangle(&corners, &Material::isotropic(1.0, 0.0)?);
 /// assert!((stiffness[(3, 3)] - 0.5).abs() < 1e-15);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn triangle(corners: [Vector3<f64>; 3], material: &Material) -> DMatrix<f64> {
-    let [a, b, c] = corners;
+pub fn triangle(corners: &[Point], material: &Material) -> DMatrix<f64> {
+    let [a, b, c] = [0, 1, 2].map(|n| corners[n]);
     let normal = (b - a).cross(&(c - a));
     let area = 0.5 * normal.norm();
     let k = normal / (2.0 * area);
@@ -74,23 +73,20 @@ const TRIANGLES: [[usize; 3]; 4] = [[0, 1, 3], [1, 2, 0], [2, 3, 1], [3, 0, 2]];
 ///
 /// ```rust
 /// use corfem::method::elements::membrane::membrane;
-/// use corfem::method::geometry::mean_plane;
 /// use corfem::method::structure::Material;
 /// use nalgebra::{DVector, Vector3};
 ///
 /// let (o, x, y) = (Vector3::zeros(), Vector3::x(), Vector3::y());
-/// let square = mean_plane(&[o, x, x + y, y])?;
-/// let stiffness = membrane(&square, &Material::isotropic(1.0, 0.0)?);
+/// let stiffness = membrane(&[o, x, x + y, y], &Material::isotropic(1.0, 0.0)?);
 /// // A unit square stretched by one along x holds twice the energy E A = 1.
 /// let stretch = DVector::from_iterator(12, [o, x, x, o].iter().flatten().copied());
 /// assert!((stretch.dot(&(stiffness * &stretch)) - 1.0).abs() < 1e-14);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn membrane(panel: &MeanPlane, material: &Material) -> DMatrix<f64> {
-    let corners = panel.corners_in_space();
+pub fn membrane(corners: &[Point], material: &Material) -> DMatrix<f64> {
     let mut stiffness = DMatrix::zeros(12, 12);
     for nodes in TRIANGLES {
-        let part = triangle(nodes.map(|n| corners[n]), material);
+        let part = triangle(&nodes.map(|n| corners[n]), material);
         for (a, &row_node) in nodes.iter().enumerate() {
             for (b, &column_node) in nodes.iter().enumerate() {
                 let mut block = stiffness.fixed_view_mut::<3, 3>(3 * row_node, 3 * column_node);

@@ -1,11 +1,9 @@
 //! The Garvey shear panel.
 
-use crate::method::geometry::MeanPlane;
-use crate::method::structure::Material;
+use crate::method::structure::{Material, Point};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
-/// Points per direction of the quadrature: eight reach round-off on the panels of a wing; twelve agree with the closed
-/// forms to 7e-7 on strongly distorted ones.
+/// Points per direction of the quadrature: on strongly distorted panels it agrees with the closed forms to 7e-7.
 const QUADRATURE_POINTS: usize = 12;
 
 /// Stiffness of a shear panel of unit thickness, lbf/in per inch of gage (12 × 12).
@@ -20,13 +18,11 @@ const QUADRATURE_POINTS: usize = 12;
 ///
 /// ```rust
 /// use corfem::method::elements::shear::shear_panel;
-/// use corfem::method::geometry::mean_plane;
 /// use corfem::method::structure::Material;
 /// use nalgebra::{DVector, Vector3};
 ///
 /// let (o, x, y) = (Vector3::zeros(), Vector3::x(), Vector3::y());
-/// let square = mean_plane(&[o, x, x + y, y])?;
-/// let stiffness = shear_panel(&square, &Material::isotropic(2.5, 0.25)?);
+/// let stiffness = shear_panel(&[o, x, x + y, y], &Material::isotropic(2.5, 0.25)?);
 /// // A unit square sheared by one holds twice the energy G A = 1; stretched it holds none.
 /// let shear = DVector::from_iterator(12, [o, o, x, x].iter().flatten().copied());
 /// let stretch = DVector::from_iterator(12, [o, x, x, o].iter().flatten().copied());
@@ -34,9 +30,28 @@ const QUADRATURE_POINTS: usize = 12;
 /// assert!((&stiffness * stretch).norm() < 1e-14);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn shear_panel(panel: &MeanPlane, material: &Material) -> DMatrix<f64> {
-    let a = corner_forces(panel);
-    (0.5 / energy_coefficient(panel, material)) * &a * a.transpose()
+pub fn shear_panel(corners: &[Point], material: &Material) -> DMatrix<f64> {
+    let a = corner_forces(corners);
+    (0.5 / energy_coefficient(corners, material)) * &a * a.transpose()
+}
+
+/// Corners of a (possibly warped) panel in its mean plane, to which both diagonals are parallel, in: the first at the origin, the
+/// second on the first axis.
+///
+/// With diagonals $d_{13}$ and $d_{24}$ the unit normal is $k = d_{13} \times d_{24}/|d_{13} \times d_{24}|$; axis $i$ is side 1-2
+/// projected on the plane, $j = k \times i$. Source: geometry of the NASTRAN shear panel, NASA SP-222 and SP-223.
+pub fn mean_plane(corners: &[Point]) -> [Vector2<f64>; 4] {
+    let k = (corners[2] - corners[0])
+        .cross(&(corners[3] - corners[1]))
+        .normalize();
+    let side = corners[1] - corners[0];
+    let i = (side - side.dot(&k) * k).normalize();
+    let j = k.cross(&i);
+    // Corners 1 and 3 lie on one side of the plane by the warp, 2 and 4 on the other: only i and j count.
+    [0, 1, 2, 3].map(|n| {
+        let from_first = corners[n] - corners[0];
+        Vector2::new(from_first.dot(&i), from_first.dot(&j))
+    })
 }
 
 /// The 12 corner forces in equilibrium with a unit mean shear flow on side 1-2, lbf per lbf/in.
@@ -47,9 +62,9 @@ pub fn shear_panel(panel: &MeanPlane, material: &Material) -> DMatrix<f64> {
 ///    f_2 = \frac{X_2 Y_3}{2\big(\tau - X_2 (Y_3 - Y_4)\big)} d_{24} = -f_4 . $$
 ///
 /// They act along the true diagonals, so that force and moment vanish exactly, even on a warped panel.
-pub fn corner_forces(panel: &MeanPlane) -> DVector<f64> {
-    let [_, c2, c3, c4] = panel.corners();
-    let [d13, d24] = panel.diagonals();
+pub fn corner_forces(corners: &[Point]) -> DVector<f64> {
+    let [_, c2, c3, c4] = mean_plane(corners);
+    let [d13, d24] = [corners[2] - corners[0], corners[3] - corners[1]];
     let x2 = c2.x;
     let tau = c4.x * c3.y - c3.x * c4.y;
     let f1 = -0.5 * x2 * c4.y / tau * d13;
@@ -67,14 +82,14 @@ pub fn corner_forces(panel: &MeanPlane) -> DVector<f64> {
 ///
 /// In homogeneous coordinates $P$, $Q$ and the line between them also exist when sides are parallel, so that one
 /// quadrature serves every panel.
-pub fn energy_coefficient(panel: &MeanPlane, material: &Material) -> f64 {
-    let flat = panel.corners();
-    let corners = flat.map(|corner| corner.push(1.0));
-    let side: [_; 4] = std::array::from_fn(|k| corners[k].cross(&corners[(k + 1) % 4]));
+pub fn energy_coefficient(corners: &[Point], material: &Material) -> f64 {
+    let flat = mean_plane(corners);
+    let homogeneous = flat.map(|corner| corner.push(1.0));
+    let side: [_; 4] = std::array::from_fn(|k| homogeneous[k].cross(&homogeneous[(k + 1) % 4]));
     let p = side[0].cross(&side[2]);
     let q = side[1].cross(&side[3]);
     let line = p.cross(&q);
-    let first_two = line.dot(&corners[0]) * line.dot(&corners[1]);
+    let first_two = line.dot(&homogeneous[0]) * line.dot(&homogeneous[1]);
     let rule = gauss_legendre(QUADRATURE_POINTS);
     let mut energy = 0.0;
     for &(s, ws) in &rule {
@@ -111,13 +126,12 @@ fn bilinear(corners: &[Vector2<f64>; 4], s: f64, t: f64) -> (Vector2<f64>, f64) 
 /// $\cos\big(\pi (k - 1/4)/(n + 1/2)\big)$; the weights are $2/\big((1-s_k^2)P_n^\prime(s_k)^2\big)$.
 /// Points ascend. Source: Abramowitz and Stegun, *Handbook of Mathematical Functions*, 25.4.29.
 pub fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
-    // Newton converges quadratically from this start: six steps are more than double precision can use.
-    const NEWTON_STEPS: usize = 8;
     (1..=count)
         .rev()
         .map(|k| {
             let mut s = (std::f64::consts::PI * (k as f64 - 0.25) / (count as f64 + 0.5)).cos();
-            for _ in 0..NEWTON_STEPS {
+            // Newton converges quadratically from here: six steps are more than double precision can use.
+            for _ in 0..8 {
                 let (value, slope) = legendre(count, s);
                 s -= value / slope;
             }

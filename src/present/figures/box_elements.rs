@@ -147,11 +147,8 @@ pub fn draw_gages(result: &CaseResult) -> Result<String, PresentError> {
 
 /// The three layers at the scale at which the webs, the highest, fill the width.
 fn draw_box(area: &Area, structure: &Structure, look: &Look) -> Drawn<View> {
-    let elements: Vec<CornersOf> = structure
-        .elements()
-        .iter()
-        .map(|e| (e, structure.corners(e)))
-        .collect();
+    let corners = structure.corners().iter().cloned();
+    let elements: Vec<CornersOf> = structure.elements().iter().zip(corners).collect();
     let corners: Vec<Vector3<f64>> = elements
         .iter()
         .flat_map(|(_, corners)| corners)

@@ -1,7 +1,7 @@
 //! Factors of parameters as marks on a common axis, with their limits, published values and uncertainties.
 
 use super::canvas::*;
-use crate::method::model::Bounds;
+use crate::method::step::Bounds;
 use crate::present::table::Digits;
 
 /// Margins of the plot: left at least, right, top, bottom, px.

@@ -4,7 +4,6 @@ use super::canvas::{HEAD as TITLE, *};
 use super::frame::Frame;
 use super::view::{Room, View, extents};
 use crate::method::linear_algebra::check_shape;
-use crate::method::pairing;
 use crate::present::report::Report;
 use crate::present::table::Digits;
 use nalgebra::Vector3;
@@ -71,7 +70,7 @@ impl DrawnModes {
             test.len(),
         )?;
         let checks = [&report.initial, report.corrected()];
-        let [first, corrected] = checks.map(|check| pairing::paired(&check.modes, &check.pairing));
+        let [first, corrected] = checks.map(|check| check.pairing.paired(&check.modes));
         let states = [test.clone(), first?, corrected?];
         let mode = |mode: usize| DrawnMode {
             number: report.mode_number(mode),

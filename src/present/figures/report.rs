@@ -7,10 +7,10 @@ use super::mode_shapes::DrawnModes;
 use super::structure::{MOST_NUMBERS, draw_structure};
 use super::{Figure, numbers};
 use crate::method::error::Error;
-use crate::method::model::ExactResult;
 use crate::present::PresentError;
 use crate::present::report::Report;
 use crate::present::table::Digits;
+use crate::weighted::comparison::ExactResult;
 use nalgebra::DMatrix;
 
 /// Every figure of a report: structure, frequencies, mode shapes where sensors have places, errors against iteration, factors,
@@ -113,7 +113,7 @@ pub fn report_figures(report: &Report) -> Result<Vec<Figure>, PresentError> {
     add("factors", "factors", &caption, &|name, title| {
         factors.draw(name, title)
     })?;
-    if !report.test.is_empty() {
+    if report.test.len() > 0 {
         let maps = mode_agreement(report)?;
         let cross = if report.mass.is_some() {
             "cross-orthogonality and "

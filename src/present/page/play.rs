@@ -1,6 +1,6 @@
 //! The figure to play with: Case 2's first pass, its gages to be dragged, its modes solved in the page.
 
-use crate::method::state::{ModalState, UpdateRule};
+use crate::method::analysis::Analysis;
 use crate::method::step::LEAST_SHARE;
 use crate::present::PresentError;
 use crate::present::table::Digits;
@@ -34,14 +34,15 @@ pub fn play(result: &CaseResult) -> Result<String, PresentError> {
             .flat_map(|i| (0..=i).map(move |j| matrix[(i, j)]))
             .collect()
     };
-    let shares = first.shares.iter().map(|share| triangle(share.matrix()));
+    let shares = first.shares().iter().map(triangle);
     let steps = pass.inner.iterations.iter().map(|step| &step.factors);
     let mils = 1000.0 * case.first_gages().first().copied().unwrap_or(TEST_GAGE);
-    let follows = ModalState::at(&first, pass.inner.factors.clone(), UpdateRule::Recursive1)?;
+    let follows = first.at(&pass.inner.factors)?;
+    let modes = &first.exact().modes;
     let data = json!({
-        "squares": first.basis.omega_squared.as_slice(),
+        "squares": modes.omega_squared.as_slice(),
         "shares": shares.collect::<Vec<_>>(),
-        "shapes": rows(&first.basis.shapes),
+        "shapes": rows(&modes.shapes),
         "test": rows(&test.shapes),
         "hertz": test.frequencies_hz(),
         "masses": case.reconstruction.masses,

@@ -1,9 +1,11 @@
 //! The paper's cases as reports.
 
 use super::{Derivatives, Report, SensorPoint};
+use crate::job::verdict::Verdict;
 use crate::present::PresentError;
 use crate::torque_box::CaseResult;
 use crate::torque_box::wing_box::dynamic_points;
+use crate::weighted::comparison::{Comparison, ExactResult};
 use nalgebra::Vector3;
 
 /// Grids of the box's root, rear and front.
@@ -57,12 +59,13 @@ impl Report {
                 case.settings.inner.tolerance,
                 case.settings.later_inner_tolerance,
             ]),
-            derivatives: Some(Derivatives::at(&first)?),
+            derivatives: Some(Derivatives::at(&Comparison::from(&first))?),
+            verdict: Some(Verdict::of_case(result)),
             ..Self::from_correlation(
                 &format!("case_{}", case.number),
                 names,
                 test,
-                &run.initial,
+                &ExactResult::from(&run.initial),
                 Some(run),
             )
         })

@@ -3,8 +3,11 @@
 use super::{Derivatives, Report, SensorPoint, Stage};
 use crate::job::expansion::expand;
 use crate::job::{History, JobResult, LoadedJob, Method, PlacedSensor};
-use crate::method::model::{Bounds, ModalModel};
+use crate::method::error::Error;
+use crate::method::modes::Modes;
+use crate::method::step::Bounds;
 use crate::present::PresentError;
+use crate::weighted::comparison::{Comparison, ExactResult};
 use crate::weighted::gauss_newton::{WeightedCorrelation, WeightedStop};
 use crate::weighted::identifiability::NORMAL_95;
 use nalgebra::{DMatrix, DVectorView, Vector3};
@@ -51,17 +54,19 @@ impl Report {
         let still = |grid: &&usize| {
             (0..3).all(|direction| !loaded.source.motions.contains_key(&(**grid, direction)))
         };
+        let (test, initial) = (&first.model.test, first.result()?);
+        let stages = result.map(stopped).transpose()?;
         let base = match result.map(|result| &result.history) {
             Some(History::Paper(run)) => {
-                Self::from_correlation(&stem, &names, &first.test, &first.exact, Some(run))
+                Self::from_correlation(&stem, &names, test, &initial, Some(run))
             }
             Some(History::GaussNewton(Some((run, ..)))) => {
-                Self::from_weighted(&stem, &names, &first, run)
+                Self::from_weighted(&stem, &names, (test, &initial), run)
             }
             history => Self {
                 best: history.map(|_| 0),
-                stages: result.into_iter().map(stopped).collect(),
-                ..Self::from_correlation(&stem, &names, &first.test, &first.exact, None)
+                stages: stages.into_iter().collect(),
+                ..Self::from_correlation(&stem, &names, test, &initial, None)
             },
         };
         let report = Self {
@@ -121,7 +126,7 @@ impl Report {
     fn from_weighted(
         name: &str,
         names: &[String],
-        first: &ModalModel,
+        (test, initial): (&Modes, &ExactResult),
         run: &WeightedCorrelation,
     ) -> Self {
         let stop = match run.stop {
@@ -148,7 +153,7 @@ impl Report {
         Self {
             best: stages.len().checked_sub(1),
             stages,
-            ..Self::from_correlation(name, names, &first.test, &first.exact, None)
+            ..Self::from_correlation(name, names, test, initial, None)
         }
     }
 }
@@ -160,7 +165,7 @@ fn moved(loaded: &LoadedJob, result: &JobResult) -> Option<[Vec<Vec<Vector3<f64>
         source, sensors, ..
     } = loaded;
     let ones = vec![1.0; result.factors.len()];
-    let whole = |factors: &[f64], model: &ModalModel| {
+    let whole = |factors: &[f64], Comparison { model, .. }: &Comparison| {
         let pairs = &model.exact.pairing.analysis_mode;
         let count = pairs.iter().max().map_or(0, |mode| mode + 1);
         let all = source.whole.modes(factors, count).ok()?.vibrations.shapes;
@@ -178,7 +183,7 @@ fn moved(loaded: &LoadedJob, result: &JobResult) -> Option<[Vec<Vec<Vector3<f64>
     };
     let (first, ..) = whole(&ones, &result.first)?;
     let (last, all, seen) = whole(&result.factors, &result.last)?;
-    let test = expand(&all, &seen, &result.first.test.shapes).ok()?;
+    let test = expand(&all, &seen, &result.first.model.test.shapes).ok()?;
     let at = |shape: DVectorView<f64>, grid: usize| {
         Vector3::from_fn(|direction, _| {
             let motion = source.motions.get(&(grid, direction)).into_iter().flatten();
@@ -218,14 +223,14 @@ fn joined(mut places: Vec<Vector3<f64>>) -> Vec<Vec<Vector3<f64>>> {
 }
 
 /// The best stage of a stopped run.
-fn stopped(result: &JobResult) -> Stage {
-    let (factors, check) = (result.factors.clone(), result.last.exact.clone());
-    Stage {
+fn stopped(result: &JobResult) -> Result<Stage, Error> {
+    let (factors, check) = (result.factors.clone(), result.last.result()?);
+    Ok(Stage {
         factors,
         check,
         inner: None,
         stop: "request".to_owned(),
-    }
+    })
 }
 
 fn sensor_point(sensor: &PlacedSensor) -> SensorPoint {

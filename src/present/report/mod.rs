@@ -4,19 +4,21 @@ mod job;
 mod case;
 
 use crate::job::Trust;
-use crate::method::derivatives::{DERIVATIVE_STEP, by_definition};
+use crate::job::verdict::Verdict;
+use crate::method::analysis::DERIVATIVE_STEP;
 use crate::method::error::Error;
 use crate::method::error_sum::Errors;
 use crate::method::inner_loop::{InnerRun, Stop};
-use crate::method::model::{Bounds, ExactResult, ModalModel, ParameterMatrix};
-use crate::method::modes::ModeSet;
+use crate::method::modes::Modes;
 use crate::method::outer_loop::{Correlation, Pass};
-use crate::method::pairing::{cross_orthogonality, modal_assurance};
-use crate::method::state::ModalState;
+use crate::method::sorting::cross_orthogonality;
+use crate::method::step::Bounds;
 use crate::method::structure::Structure;
-use crate::method::verdict::Verdict;
 use crate::present::verdict::verdict_in_words;
+use crate::sparse::{ParameterMatrix, modal_assurance};
 use crate::weighted::close_modes::turned;
+use crate::weighted::comparison::{Comparison, ExactResult};
+use crate::weighted::intervals::is_at_end;
 use crate::weighted::misfit::Misfit;
 use crate::weighted::starts::Minimum;
 use nalgebra::{DMatrix, Vector3};
@@ -82,7 +84,7 @@ pub struct Report {
     /// Factors that make the model right, where they are known.
     pub truth: Vec<f64>,
     /// Test modes, sensors × modes.
-    pub test: ModeSet,
+    pub test: Modes,
     /// The numbers in the test's file of the test modes, then of those without shapes.
     pub mode_numbers: Vec<usize>,
     /// What may lower the trust in it; none of the paper's cases.
@@ -127,10 +129,11 @@ impl Derivatives {
     /// Derivatives at a model: $V_i^t K_e V_i/2\omega_i^2$, or $-V_i^t M_e V_i/2$ of a mass.
     ///
     /// # Errors
-    /// Those of [`by_definition`].
-    pub fn at(first: &ModalModel) -> Result<Self, Error> {
-        let changes = by_definition(first, &ModalState::start(first))?;
-        let lone = first.exact.lone.iter().map(|lone| &lone.partner);
+    /// [`Error::CoalescingModes`] and [`Error::LostRoot`] where a thousandth of a parameter is too much.
+    pub fn at(comparison: &Comparison) -> Result<Self, Error> {
+        let first = comparison.model();
+        let changes = comparison.error_changes()?;
+        let lone = comparison.lone().iter().map(|lone| &lone.partner);
         let partners: Vec<usize> = first
             .exact
             .pairing
@@ -164,7 +167,7 @@ impl Report {
     pub fn from_correlation(
         name: &str,
         parameters: &[String],
-        test: &ModeSet,
+        test: &Modes,
         initial: &ExactResult,
         run: Option<&Correlation>,
     ) -> Self {
@@ -174,8 +177,11 @@ impl Report {
                 Stop::LocalMinimum => "local minimum",
                 Stop::Iterations => "iterations",
             };
-            let (factors, check, inner) =
-                (pass.factors.clone(), pass.check.clone(), pass.inner.clone());
+            let (factors, check, inner) = (
+                pass.factors.clone(),
+                (&pass.check).into(),
+                pass.inner.clone(),
+            );
             Stage {
                 factors,
                 check,
@@ -209,18 +215,14 @@ impl Report {
             tolerances: None,
             stages: run.iter().flat_map(|run| &run.passes).map(stage).collect(),
             best: run.and_then(|run| run.best),
-            verdict: run.map(|run| run.verdict.clone()),
+            verdict: None,
             derivatives: None,
         }
     }
 
     /// The same with the panels, rods, grids and supports of a structure.
     pub fn with_structure(mut self, structure: &Structure) -> Self {
-        self.frame = structure
-            .elements()
-            .iter()
-            .map(|element| structure.corners(element))
-            .collect();
+        self.frame = structure.corners().to_vec();
         self.grids = structure
             .grids()
             .iter()
@@ -300,7 +302,7 @@ impl Report {
             .get(parameter)
             .copied()
             .flatten()
-            .is_some_and(|range| range.has_end_at(factor))
+            .is_some_and(|range| is_at_end(range, factor))
     }
 
     /// Errors of a stage: of the exact solution it starts from, then after every iteration of its inner loop.
@@ -320,7 +322,7 @@ impl Report {
     /// How the modes of an exact solution, up to the highest that is paired by shape, agree with the test's; paired ones are signed like them.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] when shapes and mass do not fit; [`Error::NotPositive`] for a shape that is zero or has no mass.
+    /// [`Error::WrongShape`] when shapes and mass do not fit; [`Error::Value`] for a shape that is zero or has no mass.
     pub fn agreement(&self, check: &ExactResult) -> Result<PairAgreement, Error> {
         let Some(highest) = check.pairing.analysis_mode.iter().max() else {
             return Ok(PairAgreement {
@@ -328,7 +330,12 @@ impl Report {
                 orthogonality: None,
             });
         };
-        let mut modes = turned(&check.modes.lowest(highest + 1)?.into(), check, &self.test)?;
+        let mut modes = turned(
+            &check.modes.lowest(highest + 1)?,
+            &check.pairing,
+            &check.together,
+            &self.test,
+        )?;
         for (&mode, &sign) in check.pairing.analysis_mode.iter().zip(&check.pairing.sign) {
             modes.shapes.column_mut(mode).scale_mut(sign);
         }

@@ -4,9 +4,9 @@ use super::report::solver_note;
 use super::stages::{self, ErrorStage};
 use super::unlimited::unlimited_table;
 use super::{MODE_ERRORS, PERCENT, RMS_PERCENT, remarks};
+use crate::method::analysis::State;
 use crate::method::error_sum::Errors;
-use crate::method::model::ExactResult;
-use crate::method::step::Accumulation;
+use crate::method::step::{Accumulation, StepRule};
 use crate::method::structure::ElementKind;
 use crate::present::PresentError;
 use crate::present::table::{Cell, Digits, Table, numbers, percents};
@@ -14,6 +14,19 @@ use crate::present::verdict::case_in_words;
 use crate::torque_box::published::PublishedTable;
 use crate::torque_box::wing_box::gage_rms;
 use crate::torque_box::{CASES, CaseResult, Grouping};
+use crate::weighted::comparison::ExactResult;
+
+impl StepRule {
+    /// Its name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Matrix => "matrix",
+            Self::Own => "own",
+            Self::Relative => "relative",
+            Self::Gage => "gage",
+        }
+    }
+}
 
 /// The published table of a run, if the paper made that run: by single elements.
 fn published(
@@ -54,7 +67,8 @@ pub fn frequency_table(result: &CaseResult) -> Result<Table, PresentError> {
     let checks = std::iter::once(&run.initial)
         .chain(run.passes.iter().map(|pass| &pass.check))
         .enumerate();
-    let stage = |(pass, check): (usize, &ExactResult)| {
+    let stage = |(pass, check): (usize, &State)| {
+        let check = ExactResult::from(check);
         ErrorStage::new(
             "pass",
             pass,
@@ -133,7 +147,7 @@ pub fn published_iterations(result: &CaseResult) -> Result<Vec<Option<f64>>, Pre
 }
 
 /// The last exact solution.
-fn last(result: &CaseResult) -> &ExactResult {
+fn last(result: &CaseResult) -> &State {
     let run = &result.correlation;
     run.passes.last().map_or(&run.initial, |pass| &pass.check)
 }

@@ -8,7 +8,7 @@ use crate::job::metrics::coordinate_assurance;
 use crate::job::{
     Concern, JobResult, LoadedJob, Method, NotCompared, PlacedSensor, Study, Summary, Trust, Vary,
 };
-use crate::method::model::Bounds;
+use crate::method::step::Bounds;
 use crate::present::report::Report;
 use crate::present::table::{Cell, Digits, Table, counted, numbers, percents};
 use crate::weighted::identifiability::Identifiability;
@@ -52,9 +52,10 @@ pub fn places_table(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Ta
     let models = result
         .into_iter()
         .flat_map(|result| [&result.first, &result.last])
-        .filter(|model| !model.test.is_empty());
+        .filter(|model| model.model.test.len() > 0);
     for (name, model) in ["first COMAC", "corrected COMAC"].into_iter().zip(models) {
         let pairs: Vec<Option<usize>> = model
+            .model
             .exact
             .pairing
             .analysis_mode
@@ -62,8 +63,11 @@ pub fn places_table(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Ta
             .copied()
             .map(Some)
             .collect();
-        let assurance =
-            coordinate_assurance(&model.exact.modes.shapes, &model.test.shapes, &pairs)?;
+        let assurance = coordinate_assurance(
+            &model.model.exact.modes.shapes,
+            &model.model.test.shapes,
+            &pairs,
+        )?;
         table = table.column(
             name,
             "",
@@ -165,7 +169,10 @@ pub fn suspects_table(loaded: &LoadedJob) -> Result<Table, FileError> {
     let suspects = by_single_fit(&first, &weights)?;
     // The paper's step needs shapes.
     let slopes = match &loaded.alone[..] {
-        [] => by_factor(&first, &loaded.job.correlation.inner)?,
+        [] => by_factor(
+            &first.model,
+            &loaded.job.correlation.for_modes(far.modes.len()).inner,
+        )?,
         _ => Vec::new(),
     };
     let residuals = residuals(&first, &weights)?;
@@ -176,7 +183,7 @@ pub fn suspects_table(loaded: &LoadedJob) -> Result<Table, FileError> {
         model; far from one, factors are rough where these are few. Paper's factor: unlimited, of the first iteration.",
         0.5 * residuals.norm_squared(),
         residuals.len(),
-        first.exact.modes.len(),
+        first.model.exact.modes.len(),
     );
     let left = suspects.len().saturating_sub(MOST_SUSPECTS);
     let less = format!(

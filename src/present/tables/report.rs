@@ -2,10 +2,11 @@
 
 use super::{HERTZ, RMS_PERCENT};
 use crate::method::error::Error;
-use crate::method::model::{Bounds, ExactResult};
+use crate::method::step::Bounds;
 use crate::present::report::{PairAgreement, Report};
 use crate::present::table::{Cell, Digits, Table, numbers, percents};
 use crate::torque_box::BUILT_IN;
+use crate::weighted::comparison::ExactResult;
 use crate::weighted::identifiability::MOSTLY_PRIOR;
 
 /// Three decimals, of criteria between zero and one and of factors.
@@ -207,9 +208,12 @@ pub fn history_table(report: &Report) -> Table {
                 .chain(sums),
         );
     }
-    let words = |[pass, test, from, to]: [usize; 4]| {
-        let test = report.mode_number(test - 1);
-        format!("in pass {pass} test mode {test} from {from} to {to}")
+    let words = |swap: Swap| {
+        let Swap {
+            stage, from, to, ..
+        } = swap;
+        let test = report.mode_number(swap.test_mode - 1);
+        format!("in pass {stage} test mode {test} from {from} to {to}")
     };
     let words = swaps(report)
         .into_iter()
@@ -239,8 +243,21 @@ pub fn history_table(report: &Report) -> Table {
         .notes([report.words()])
 }
 
-/// Test modes that are paired with another mode of the model than before: stage, test mode, and the two modes, all from one.
-pub fn swaps(report: &Report) -> Vec<[usize; 4]> {
+/// Change of the mode that a test mode is paired with; numbers count from one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Swap {
+    /// Stage in which it happened.
+    pub stage: usize,
+    /// Place of the test mode.
+    pub test_mode: usize,
+    /// Mode of the model before.
+    pub from: usize,
+    /// Mode of the model from then on.
+    pub to: usize,
+}
+
+/// Test modes that are paired with another mode of the model than before.
+pub fn swaps(report: &Report) -> Vec<Swap> {
     let checks =
         std::iter::once(&report.initial).chain(report.stages.iter().map(|stage| &stage.check));
     let pairs: Vec<&Vec<usize>> = checks.map(|check| &check.pairing.analysis_mode).collect();
@@ -251,7 +268,12 @@ pub fn swaps(report: &Report) -> Vec<[usize; 4]> {
             .enumerate()
             .filter(|(_, (from, to))| from != to);
         modes
-            .map(|(test, (from, to))| [stage + 1, test + 1, from + 1, to + 1])
+            .map(|(test, (from, to))| Swap {
+                stage: stage + 1,
+                test_mode: test + 1,
+                from: from + 1,
+                to: to + 1,
+            })
             .collect::<Vec<_>>()
     };
     pairs.windows(2).enumerate().flat_map(of_stage).collect()

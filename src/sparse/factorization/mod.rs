@@ -8,7 +8,8 @@ pub(in crate::sparse) use plan::FactorizationPlan;
 pub use stiffness::StructuralStiffness;
 
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_finite, check_length, check_shape, finite, round_off};
+use crate::method::linear_algebra::{check_finite, check_length, check_shape};
+use crate::sparse::finite;
 use crate::sparse::{SparseMatrix, add_squares, check_solution, start_vector};
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::{
@@ -58,7 +59,7 @@ impl Factor {
     /// Factorizes a symmetric matrix (both triangles given), which may be indefinite.
     ///
     /// # Errors
-    /// [`Error::NotPositiveDefinite`] naming a row without entries or where a pivot vanishes; [`Error::WrongSolution`] when the
+    /// [`Error::NotPositiveDefinite`] naming a row without entries or where a pivot vanishes; [`Error::Failed`] when the
     /// factor does not solve its own matrix; the errors of [`SparseMatrix::check_symmetric`].
     pub fn new(what: &'static str, matrix: &SparseMatrix) -> Result<Self, Error> {
         matrix.check_symmetric(what)?;
@@ -94,7 +95,7 @@ impl Factor {
         if let Some(at) = zero {
             return Err(Error::NotPositiveDefinite {
                 what,
-                dof: plan.order[at],
+                row: plan.order[at],
             });
         }
         Ok(Self {
@@ -148,7 +149,7 @@ impl Factor {
     /// under loads in lbf.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] unless $R$ has a row per row of the matrix; [`Error::NotFinite`].
+    /// [`Error::WrongShape`] unless $R$ has a row per row of the matrix; [`Error::Value`].
     pub fn solve(&self, right: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         check_shape("loads", right, self.scale.len(), right.ncols())?;
         check_finite("loads", right)?;
@@ -183,7 +184,7 @@ impl Factor {
     /// Where no dynamic DOF's loads reach, $W$ is zero and nothing is done.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] unless $T$ has a row per free DOF; [`Error::NotFinite`].
+    /// [`Error::WrongShape`] unless $T$ has a row per free DOF; [`Error::Value`].
     pub fn flexibility(&self, load_distribution: &SparseMatrix) -> Result<DMatrix<f64>, Error> {
         let size = self.scale.len();
         check_length("load distribution", load_distribution.rows(), size)?;
@@ -320,26 +321,13 @@ impl Factor {
         self.pivots.iter().filter(is_negative).count()
     }
 
-    /// Refuses a matrix that is not positive definite beyond round-off: scaled to unit diagonal, its smallest eigenvalue must exceed
-    /// $32 \varepsilon \sqrt n$.
-    ///
-    /// # Errors
-    /// [`Error::NotPositiveDefinite`] naming the row of the smallest pivot.
-    pub fn check_positive(self, what: &'static str) -> Result<Self, Error> {
-        if self.is_above(round_off(self.pivots.len())) {
-            Ok(self)
-        } else {
-            Err(self.not_positive(what))
-        }
-    }
-
     /// The error that names the row of the smallest pivot.
     fn not_positive(&self, what: &'static str) -> Error {
         let rows = self.pivots.iter().zip(&self.plan.order);
         let smallest = rows.min_by(|a, b| a.0.total_cmp(b.0));
         Error::NotPositiveDefinite {
             what,
-            dof: smallest.map_or(0, |(_, &dof)| dof),
+            row: smallest.map_or(0, |(_, &dof)| dof),
         }
     }
 

@@ -1,6 +1,6 @@
 //! The plan of a factorization: everything that does not change with the sizes.
 
-use crate::method::error::Error;
+use crate::method::error::{Error, check_count};
 use crate::sparse::SparseMatrix;
 use crate::sparse::ordering::Mesh;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -37,7 +37,7 @@ impl FactorizationPlan {
     /// The plan for elements at these DOF, by nested dissection of where the free DOF are.
     ///
     /// # Errors
-    /// [`Error::TooMany`] for more entries than are counted here; [`Error::NoConvergence`] when there is no memory for it.
+    /// [`Error::Count`] for more entries than are counted here; [`Error::Failed`] when there is no memory for it.
     pub(super) fn of_elements<'a>(
         elements: impl Iterator<Item = &'a [usize]>,
         position: &[Vector3<f64>],
@@ -67,7 +67,7 @@ impl FactorizationPlan {
     /// rows, as those of one grid are, are one point of the mesh.
     ///
     /// # Errors
-    /// [`Error::TooMany`] and [`Error::NoConvergence`], as in [`Self::of_elements`].
+    /// [`Error::Count`] and [`Error::Failed`], as in [`Self::of_elements`].
     fn of_matrices(
         count: usize,
         coupled: impl Fn(usize) -> Vec<usize>,
@@ -80,30 +80,7 @@ impl FactorizationPlan {
             rows
         };
         let columns: Vec<Vec<usize>> = (0..count).map(column).collect();
-        let points: Vec<&[Vec<usize>]> = columns.chunk_by(|a, b| a == b).collect();
-        let point_of: Vec<usize> = points
-            .iter()
-            .enumerate()
-            .flat_map(|(point, of)| vec![point; of.len()])
-            .collect();
-        let first_row = |point: usize| point_of.partition_point(|&other| other < point);
-        let near = |of: &&[Vec<usize>]| {
-            let mut near: Vec<usize> = of[0].iter().map(|&row| point_of[row]).collect();
-            near.dedup();
-            near
-        };
-        let places = (0..points.len())
-            .map(|point| position(first_row(point)))
-            .collect();
-        let order = Mesh {
-            points: places,
-            near: points.iter().map(near).collect(),
-        }
-        .nested_dissection()
-        .into_iter();
-        let order: Vec<usize> = order
-            .flat_map(|point| first_row(point)..first_row(point + 1))
-            .collect();
+        let order = order_of(&columns, position);
         let mut turn = vec![0; count];
         order
             .iter()
@@ -121,17 +98,14 @@ impl FactorizationPlan {
             column_starts.push(rows.len());
         }
         // Their places are kept in four bytes each.
-        u32::try_from(rows.len()).map_err(|_| Error::TooMany {
-            what: "entries of the stiffness",
-            available: u32::MAX as usize,
-            requested: rows.len(),
-        })?;
+        let what = "entries of the stiffness";
+        check_count(what, rows.len(), 0, u32::MAX as usize)?;
         let pattern = SymbolicSparseColMat::new_checked(count, count, column_starts, None, rows);
         let parameters = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..Default::default()
         };
-        let failed = |_| Error::NoConvergence("sparse assembly");
+        let failed = |_| Error::no_convergence("sparse assembly");
         // In the order given the library reads the upper triangle here, and the lower one when it factorizes.
         let upper = pattern
             .as_ref()
@@ -260,7 +234,7 @@ impl FactorizationPlan {
         values.resize(symbolic.len_val(), 0.0);
         let scratch = symbolic.factorize_numeric_ldlt_scratch::<f64>(one, Spec::default());
         let mut memory = MemBuffer::try_new(scratch)
-            .map_err(|_| Error::NoConvergence("sparse factorization"))?;
+            .map_err(|_| Error::no_convergence("sparse factorization"))?;
         let done = symbolic.factorize_numeric_ldlt(
             &mut values,
             SparseColMatRef::new(self.pattern.as_ref(), entries),
@@ -273,4 +247,33 @@ impl FactorizationPlan {
         let zero = done.err().map(|LdltError::ZeroPivot { index }| index);
         Ok((values, zero))
     }
+}
+
+/// Order of elimination of rows that are coupled to those in their columns. Neighbors coupled to the same rows, as those of one grid
+/// are, are one point of the mesh.
+fn order_of(columns: &[Vec<usize>], position: impl Fn(usize) -> Vector3<f64>) -> Vec<usize> {
+    let points: Vec<&[Vec<usize>]> = columns.chunk_by(|a, b| a == b).collect();
+    let point_of: Vec<usize> = points
+        .iter()
+        .enumerate()
+        .flat_map(|(point, of)| vec![point; of.len()])
+        .collect();
+    let first_row = |point: usize| point_of.partition_point(|&other| other < point);
+    let near = |of: &&[Vec<usize>]| {
+        let mut near: Vec<usize> = of[0].iter().map(|&row| point_of[row]).collect();
+        near.dedup();
+        near
+    };
+    let places = (0..points.len())
+        .map(|point| position(first_row(point)))
+        .collect();
+    let order = Mesh {
+        points: places,
+        near: points.iter().map(near).collect(),
+    }
+    .nested_dissection();
+    order
+        .into_iter()
+        .flat_map(|point| first_row(point)..first_row(point + 1))
+        .collect()
 }

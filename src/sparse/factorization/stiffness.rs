@@ -1,10 +1,10 @@
 //! The structural stiffness, factorized anew for every set of sizes.
 
 use super::{Factor, FactorizationPlan};
-use crate::method::assembly::{ElementMatrix, check_dof};
-use crate::method::error::{Error, at_least_one};
+use crate::method::appendix_a::ElementMatrix;
+use crate::method::error::{Error, at_least_one, check_places, positive};
 use crate::method::linear_algebra::{check_length, round_off};
-use crate::method::structure::{DIRECTIONS, StructuralDof, Structure, positive};
+use crate::method::structure::{DIRECTIONS, StructuralDof, Structure};
 use crate::sparse::Deformations;
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -18,23 +18,24 @@ impl Factor {
     /// `sizes` are gages (in) and areas (in²), one per element; `free` the free DOF of the structure.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] for a wrong number of sizes; [`Error::NotPositive`] naming the element of a bad size;
-    /// [`Error::Empty`] without free DOF; [`Error::SingularStiffness`] naming the grid and direction that nothing
+    /// [`Error::WrongShape`] for a wrong number of sizes; [`Error::Value`] naming the element of a bad size;
+    /// [`Error::Count`] without free DOF; [`Error::SingularStiffness`] naming the grid and direction that nothing
     /// constrains, when the smallest eigenvalue of the unit-diagonal stiffness is within round-off of zero;
-    /// [`Error::NotPositiveDefinite`] for element matrices that are not semidefinite; [`Error::WrongSolution`] when the
+    /// [`Error::NotPositiveDefinite`] for element matrices that are not semidefinite; [`Error::Failed`] when the
     /// factor does not solve its own matrix.
     ///
     /// # Example
     ///
     /// ```rust
     /// use corfem::chain::rods;
-    /// use corfem::method::assembly::element_matrices;
+    /// use corfem::method::appendix_a::element_matrices;
     /// use corfem::method::error::Error;
     /// use corfem::sparse::factorization::Factor;
     ///
     /// // Held nowhere, the chain can move along x.
     /// let free = rods(&[100.0, 50.0], [false, false])?;
-    /// let found = Factor::of_stiffness(&element_matrices(&free), &[100.0, 50.0], free.free_dof());
+    /// let elements: Vec<_> = element_matrices(&free).collect();
+    /// let found = Factor::of_stiffness(&elements, &[100.0, 50.0], free.free_dof());
     /// assert!(matches!(found, Err(Error::SingularStiffness { direction: 'x', .. })));
     /// # Ok::<(), corfem::method::error::Error>(())
     /// ```
@@ -64,8 +65,8 @@ impl StructuralStiffness {
     /// The stiffness of these elements at the free DOF of a structure, with a plan by nested dissection of its grids' positions.
     ///
     /// # Errors
-    /// [`Error::Empty`] without free DOF; [`Error::TooMany`] for elements beyond them, or more entries than are counted here;
-    /// [`Error::NoConvergence`] when there is no memory for a plan.
+    /// [`Error::Count`] without free DOF; [`Error::Count`] for elements beyond them, or more entries than are counted here;
+    /// [`Error::Failed`] when there is no memory for a plan.
     pub fn new(structure: &Structure, elements: Vec<Deformations>) -> Result<Self, Error> {
         let position = |dof: &StructuralDof| structure.position(dof.grid).unwrap_or_default();
         let free = structure.free_dof();
@@ -82,9 +83,9 @@ impl StructuralStiffness {
         elements: Vec<Deformations>,
     ) -> Result<Self, Error> {
         at_least_one("free degrees of freedom", free.len())?;
-        elements
-            .iter()
-            .try_for_each(|element| check_dof(element.dof(), free.len()))?;
+        elements.iter().try_for_each(|element| {
+            check_places("degrees of freedom", element.dof(), free.len())
+        })?;
         let plan =
             FactorizationPlan::of_elements(elements.iter().map(Deformations::dof), position)?;
         let mut places = Vec::new();
@@ -129,17 +130,16 @@ impl StructuralStiffness {
         }
         check_length("element sizes", sizes.len(), self.elements.len())?;
         let mut entries = self.assembled(sizes);
-        let singular = |dof: usize, ratio| {
+        let singular = |dof: usize| {
             let StructuralDof { grid, direction } = self.free[dof];
             Err(Error::SingularStiffness {
                 grid,
                 direction: *DIRECTIONS.get(direction).unwrap_or(&'?'),
-                ratio,
             })
         };
         let diagonal = plan.diagonal();
         if let Some(dof) = (0..count).find(|&dof| entries[diagonal[plan.turn[dof]]] <= 0.0) {
-            return singular(dof, 0.0);
+            return singular(dof);
         }
         let scale = plan.scale(&mut entries, |entry| entry);
         let found = Factor::of_entries(plan, what, &entries, scale.clone());
@@ -153,13 +153,13 @@ impl StructuralStiffness {
             .iter()
             .for_each(|&place| entries[place] += SINGULAR_SHIFT);
         let factor = Factor::of_entries(plan, what, &entries, scale)?.check_signs(what)?;
-        let (smallest, motion) = factor.weakest_motion(factor.first_motion(), f64::INFINITY);
+        let (_, motion) = factor.weakest_motion(factor.first_motion(), f64::INFINITY);
         let moved = |dof: usize| (motion[plan.turn[dof]] * factor.scale[plan.turn[dof]]).abs();
         // Ties go to the first.
         let most = (0..count)
             .rev()
             .max_by(|&a, &b| moved(a).total_cmp(&moved(b)));
-        singular(most.unwrap_or(0), smallest - SINGULAR_SHIFT)
+        singular(most.unwrap_or(0))
     }
 
     /// The lower triangle's entries of $\sum_e s_e K_e$ in the order of elimination.

@@ -1,9 +1,17 @@
 //! Closed forms that the numerical routes are compared with: the energy of the shear panel, chains of equal
 //! masses and springs, the uniform rod.
 
-use corfem::method::geometry::MeanPlane;
 use corfem::method::structure::Material;
+use nalgebra::Vector2;
 use std::f64::consts::PI;
+
+/// Corners of a panel in its mean plane, the first at the origin, the second on the first axis, in.
+pub type Flat = [Vector2<f64>; 4];
+
+/// Area of a panel in its mean plane, in²: half the product of its diagonals.
+pub fn area([a, b, c, d]: &Flat) -> f64 {
+    0.5 * (c - a).perp(&(d - b))
+}
 
 /// Energy coefficient $Z$ of a shear panel whose opposite sides are all parallel, as
 /// [`corfem::method::elements::shear::energy_coefficient`] for unit thickness, in⁴/lbf.
@@ -13,10 +21,10 @@ use std::f64::consts::PI;
 ///
 /// $X_i$, $Y_i$ are the corners in the mean plane (corner 1 at the origin, $Y_2 = 0$), $A$ the area. The caller says
 /// that the sides are parallel; nothing is tested. Source: NASA SP-222, shear panel; rederived.
-pub fn parallelogram_energy(plane: &MeanPlane, material: &Material) -> f64 {
-    let [_, c2, c3, c4] = plane.corners();
+pub fn parallelogram_energy(plane: &Flat, material: &Material) -> f64 {
+    let [_, c2, c3, c4] = *plane;
     let d = -0.5 * (c4.x / c4.y + (c3.x - c2.x) / c3.y + (c3.y - c4.y) / (c3.x - c4.x));
-    plane.area() / (2.0 * material.shear_modulus) * (1.0 + skewness_weight(material) * 3.0 * d * d)
+    area(plane) / (2.0 * material.shear_modulus) * (1.0 + skewness_weight(material) * 3.0 * d * d)
 }
 
 /// $Z$ of a shear panel whose sides 1-2 and 3-4 alone are parallel, in⁴/lbf; as [`parallelogram_energy`] otherwise.
@@ -25,12 +33,12 @@ pub fn parallelogram_energy(plane: &MeanPlane, material: &Material) -> f64 {
 ///    p_i = y_b - Y_i, \quad s = \frac{X_2 - x_b}{y_b}, \quad c = -\frac{x_b}{y_b} $$
 ///
 /// $(x_b, y_b)$ is where sides 1-4 and 2-3 meet.
-pub fn sides_12_34_parallel_energy(plane: &MeanPlane, material: &Material) -> f64 {
-    let [_, c2, c3, c4] = plane.corners();
+pub fn sides_12_34_parallel_energy(plane: &Flat, material: &Material) -> f64 {
+    let [_, c2, c3, c4] = *plane;
     let (xb, yb) = meeting_of_sides_14_23(plane);
     let (s, c) = ((c2.x - xb) / yb, -xb / yb);
     let flow_ratio = yb * yb / ((yb - c3.y) * (yb - c4.y));
-    flow_ratio * plane.area() / (2.0 * material.shear_modulus)
+    flow_ratio * area(plane) / (2.0 * material.shear_modulus)
         * (1.0 + skewness_weight(material) * (s * s + s * c + c * c))
 }
 
@@ -41,13 +49,13 @@ pub fn sides_12_34_parallel_energy(plane: &MeanPlane, material: &Material) -> f6
 /// $$ p_i = \frac{x_a - X_i - D Y_i}{\sqrt{1+D^2}}, \qquad b = \frac{(x_a - X_4) D + Y_4}{(x_a - X_4) - Y_4 D} $$
 ///
 /// $(x_a, 0)$ is where sides 1-2 and 3-4 meet.
-pub fn sides_14_23_parallel_energy(plane: &MeanPlane, material: &Material) -> f64 {
-    let [_, c2, c3, c4] = plane.corners();
+pub fn sides_14_23_parallel_energy(plane: &Flat, material: &Material) -> f64 {
+    let [_, c2, c3, c4] = *plane;
     let xa = meeting_of_sides_12_34(plane);
     let d = -0.5 * (c4.x / c4.y + (c3.x - c2.x) / c3.y);
-    let p = plane.corners().map(|c| xa - c.x - d * c.y);
+    let p = plane.map(|c| xa - c.x - d * c.y);
     let b = ((xa - c4.x) * d + c4.y) / ((xa - c4.x) - c4.y * d);
-    p[0] * p[1] / (p[2] * p[3]) * plane.area() / (2.0 * material.shear_modulus)
+    p[0] * p[1] / (p[2] * p[3]) * area(plane) / (2.0 * material.shear_modulus)
         * (1.0 + skewness_weight(material) * (b * b + b * d + d * d))
 }
 
@@ -65,14 +73,12 @@ pub fn sides_14_23_parallel_energy(plane: &MeanPlane, material: &Material) -> f6
 ///
 /// The terms of $F$ grow as the fifth power of the distance of the meeting points and cancel: near parallel sides
 /// the form loses its digits.
-pub fn no_sides_parallel_energy(plane: &MeanPlane, material: &Material) -> f64 {
+pub fn no_sides_parallel_energy(plane: &Flat, material: &Material) -> f64 {
     let xa = meeting_of_sides_12_34(plane);
     let (xb, yb) = meeting_of_sides_14_23(plane);
     let l = (xa - xb).hypot(yb);
     let d = (xa - xb) / yb;
-    let p = plane
-        .corners()
-        .map(|corner| yb / l * (xa - corner.x - d * corner.y));
+    let p = plane.map(|corner| yb / l * (xa - corner.x - d * corner.y));
     let c = l / p[0] - d;
     let b = l / p[3] - c;
     let a = l / p[1] - d;
@@ -87,7 +93,7 @@ pub fn no_sides_parallel_energy(plane: &MeanPlane, material: &Material) -> f64 {
     let f = p.iter().product::<f64>() / (2.0 * l * l)
         * (w(a, b) + w(c, d) - w(b, c) - w(d, a) + 0.1 * powers(2, 3) - 0.2 * powers(1, 4));
     p[0] * p[1] / (p[2] * p[3]) / (2.0 * material.shear_modulus)
-        * (plane.area() + 6.0 * skewness_weight(material) * (f - plane.area() / 1.5))
+        * (area(plane) + 6.0 * skewness_weight(material) * (f - area(plane) / 1.5))
 }
 
 /// $\frac23/(1+\nu)$: how much the direct stresses of a panel that is not a rectangle weigh.
@@ -96,13 +102,13 @@ fn skewness_weight(material: &Material) -> f64 {
 }
 
 /// Where side 3-4 meets the line of side 1-2, the first axis.
-fn meeting_of_sides_12_34(plane: &MeanPlane) -> f64 {
-    let [_, _, c3, c4] = plane.corners();
+fn meeting_of_sides_12_34(plane: &Flat) -> f64 {
+    let [_, _, c3, c4] = *plane;
     c4.x - c4.y * (c3.x - c4.x) / (c3.y - c4.y)
 }
 
-fn meeting_of_sides_14_23(plane: &MeanPlane) -> (f64, f64) {
-    let [_, c2, c3, c4] = plane.corners();
+fn meeting_of_sides_14_23(plane: &Flat) -> (f64, f64) {
+    let [_, c2, c3, c4] = *plane;
     let along = c2.x * c3.y / (c3.y * c4.x - c4.y * (c3.x - c2.x));
     (along * c4.x, along * c4.y)
 }

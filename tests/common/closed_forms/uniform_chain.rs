@@ -1,7 +1,7 @@
 //! The uniform chain with both ends held, whose modes are written down.
 
 use super::analytical::{ChainEnds, chain_eigenvalues};
-use corfem::method::modes::{ModeSet, apply_sign_rule};
+use corfem::method::modes::{Modes, apply_sign_rule};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
 
@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 /// Each is signed so that the first of its largest components (within one part in a million) is positive.
 ///
 /// Source: Lagrange, *Mécanique analytique* (1788): the string loaded with equal masses.
-pub fn uniform_held_modes(mass_count: usize, stiffness: f64, mass: f64) -> ModeSet {
+pub fn uniform_held_modes(mass_count: usize, stiffness: f64, mass: f64) -> Modes {
     let span = (mass_count + 1) as f64;
     let mut shapes = DMatrix::from_fn(mass_count, mass_count, |j, i| {
         let angle = ((i + 1) * (j + 1)) as f64 * PI / span;
@@ -21,5 +21,5 @@ pub fn uniform_held_modes(mass_count: usize, stiffness: f64, mass: f64) -> ModeS
     });
     apply_sign_rule(&mut shapes);
     let omega_squared = chain_eigenvalues(ChainEnds::FixedFixed, mass_count, stiffness, mass);
-    ModeSet::new(DVector::from_vec(omega_squared), shapes).expect("modes")
+    Modes::new(DVector::from_vec(omega_squared), shapes).expect("modes")
 }

@@ -1,10 +1,12 @@
 //! Structures with wrong gages whose true factors are known. The benches include this file too.
 
 pub mod delta_wing;
+pub mod eigensolved;
+pub mod weighed;
 pub mod wing;
 
 use corfem::method::error::Error;
-use corfem::method::modes::ModeSet;
+use corfem::method::modes::Modes;
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
 use corfem::sparse::LargeModel;
 use corfem::torque_box::Case;
@@ -12,6 +14,8 @@ use corfem::torque_box::error::CaseError;
 use corfem::torque_box::wing_box::TEST_GAGE;
 use delta_wing::DeltaWing;
 use delta_wing::correlation::{self, GROUPS, Group, first_model, test_modes};
+use eigensolved::Eigensolved;
+use weighed::Weighed;
 use wing::Wing;
 
 /// Modes of the wing's test and analysis.
@@ -24,9 +28,9 @@ pub struct Known {
     /// What it is.
     pub name: String,
     /// The first model.
-    pub model: LargeModel,
+    pub model: Weighed<LargeModel>,
     /// Its test modes, without noise.
-    pub test: ModeSet,
+    pub test: Modes,
     /// The factors that make the model right.
     pub truth: Vec<f64>,
 }
@@ -45,8 +49,8 @@ impl Known {
             .collect();
         Ok(Self {
             name: format!("Case {number}"),
-            model: LargeModel::of(&case.model()?)?,
-            test: case.test_modes()?.into(),
+            model: Weighed(LargeModel::of(&case.model()?)?),
+            test: case.test_modes()?,
             truth,
         })
     }
@@ -60,7 +64,7 @@ impl Known {
         let truth = GROUPS.iter().map(Group::true_factor).collect();
         Ok(Self {
             name: "Delta wing".to_owned(),
-            model: LargeModel::of(&first_model(&wing)?)?,
+            model: Weighed(LargeModel::of(&first_model(&wing)?.0)?),
             test: test_modes(&wing)?,
             truth,
         })
@@ -72,14 +76,14 @@ impl Known {
 /// # Errors
 /// Those of [`Wing::model`] and its modes.
 pub fn planted(wing: &Wing) -> Result<Known, Error> {
-    let model = wing.model()?;
+    let model = Weighed(wing.model()?);
     let pattern = [1.0, 1.2, 0.8, 1.1, 0.75, 1.0, 1.3, 0.9];
     let truth: Vec<f64> = pattern
         .into_iter()
         .cycle()
         .take(model.parameters().len())
         .collect();
-    let test = model.modes(&truth)?.lowest(WING_MODES)?.into();
+    let test = model.modes(&truth)?.lowest(WING_MODES)?;
     Ok(Known {
         name: "Wing".to_owned(),
         model,
@@ -98,7 +102,14 @@ pub fn recovered() -> Result<(Known, Correlation), Error> {
         error_sum_tolerance: WING_ERROR_SUM,
         ..correlation::settings()
     };
-    let analyze = |factors: &[f64]| known.model.analyze(factors, &known.test, Some(WING_MODES));
-    let run = correlate(analyze, &known.model.factor_ranges()?, &settings, |_, _| {})?;
+    let analyze = |factors: &[f64]| {
+        let model = known
+            .model
+            .analyze(factors, &known.test, Some(WING_MODES))?;
+        Ok::<_, Error>(Eigensolved(model))
+    };
+    let run = correlate(analyze, &known.model.factor_ranges()?, &settings, |_, _| {
+        true
+    })?;
     Ok((known, run))
 }

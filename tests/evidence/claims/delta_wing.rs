@@ -155,12 +155,9 @@ fn covers_fill_the_planform() {
     let expected = 30.0 * 80.0 + 60.0 * (80.0 + 20.0) / 2.0;
     let structure = structure();
     let mut area = 0.0;
-    for element in structure.elements().iter().filter(|e| e.label <= 17) {
-        let flat: Vec<_> = structure
-            .corners(element)
-            .iter()
-            .map(|corner| corner.xy())
-            .collect();
+    let elements = structure.elements().iter().zip(structure.corners());
+    for (_, corners) in elements.filter(|(element, _)| element.label <= 17) {
+        let flat: Vec<_> = corners.iter().map(|corner| corner.xy()).collect();
         for n in 0..flat.len() {
             area += 0.5 * flat[n].perp(&flat[(n + 1) % flat.len()]);
         }

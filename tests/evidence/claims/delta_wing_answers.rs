@@ -1,16 +1,18 @@
 //! What the delta wing does under load and in vibration, beside what NASTRAN printed, what was measured, and what an analog
 //! computer gave: an experiment nobody here can tune.
 
+use crate::common::decks::bulk_text;
 use crate::common::known::delta_wing::{
     DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies,
 };
+use crate::common::structures::lumped_mass;
 use crate::common::tolerances::{
     ANALOG_FREQUENCY, CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF, PRINTED_SEVEN_DIGITS, ROUND_OFF,
 };
 use approx::assert_relative_eq;
-use corfem::files::deck::{self, BulkData, bulk_data};
-use corfem::method::assembly::{dense_stiffness, element_matrices};
-use nalgebra::{DMatrix, DVector};
+use corfem::files::deck::{self, BulkData};
+use corfem::method::appendix_a::{assemble, element_matrices};
+use nalgebra::DMatrix;
 
 fn wing() -> DeltaWing {
     DeltaWing::embedded()
@@ -111,16 +113,11 @@ fn lowest_eigenvalues_are_those_nastran_printed_in_1995() {
 #[test]
 fn modes_are_those_of_the_dense_pencil() {
     let structure = wing().structure().expect("a structure");
-    let elements = element_matrices(&structure);
+    let elements: Vec<_> = element_matrices(&structure).collect();
     let sizes: Vec<f64> = structure.elements().iter().map(|e| e.size).collect();
     let count = structure.free_dof().len();
-    let stiffness = dense_stiffness(&elements, &sizes, count).expect("a matrix");
-    let mut mass = DVector::zeros(count);
-    for (element, size) in elements.iter().zip(&sizes) {
-        for (&row, unit) in element.dof.iter().zip(element.unit_mass.iter()) {
-            mass[row] += size * unit;
-        }
-    }
+    let stiffness = assemble(&elements, &sizes, count).expect("a matrix");
+    let mass = lumped_mass(&structure);
     let dense = corfem::method::modes::solve(&stiffness, &DMatrix::from_diagonal(&mass), count);
     let dense = dense.expect("modes").omega_squared().clone();
     let found = wing().modes().expect("modes").modes.omega_squared().clone();
@@ -135,7 +132,7 @@ fn modes_are_those_of_the_dense_pencil() {
 #[test]
 fn wing_to_deck_to_wing_is_the_identity() {
     let model = BulkData::from_structure(&wing().structure().expect("a structure"));
-    let text = bulk_data(&model).expect("a deck");
+    let text = bulk_text(&model).expect("a deck");
     for (card, count) in [
         ("GRID*", 48),
         ("CROD", 60),

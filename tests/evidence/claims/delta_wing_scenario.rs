@@ -4,10 +4,12 @@ use crate::common::known::delta_wing::DeltaWing;
 use crate::common::known::delta_wing::correlation::{
     GROUPS, TEST_MODES, first_model, measured_grids, test_modes,
 };
+use crate::common::structures::lumped_mass;
 use crate::common::tolerances::{CONDENSED_WING, MATRIX_ROUND_OFF, ROUND_OFF};
 use approx::assert_relative_eq;
 use corfem::method::modes::solve;
-use corfem::method::pairing::{cross_orthogonality, pair_modes};
+use corfem::method::sorting::{cross_orthogonality, pair_modes};
+use nalgebra::DMatrix;
 
 fn wing() -> DeltaWing {
     DeltaWing::embedded()
@@ -48,11 +50,10 @@ fn groups_lie_where_their_names_say() {
     for group in GROUPS {
         let mut words = group.name.split(' ');
         let (kind, axis, place) = (words.next(), words.next(), words.next());
-        for element in structure.elements() {
+        for (element, corners) in structure.elements().iter().zip(structure.corners()) {
             if !group.elements.contains(&element.label) {
                 continue;
             }
-            let corners = structure.corners(element);
             let range = |axis: usize| {
                 let values = corners.iter().map(|corner| corner[axis]);
                 values.fold((f64::MAX, f64::MIN), |(low, high), value| {
@@ -104,7 +105,14 @@ fn first_model_has_wrong_gages_and_true_masses() {
     }
     let names: Vec<&str> = model.parameters().iter().map(|p| p.name.as_str()).collect();
     assert_eq!(names, GROUPS.map(|g| g.name));
-    assert!(model.mass().amax() == 0.0, "all mass is the elements'");
+    let condensed = model.matrices(&[1.0; 21]).expect("an analysis").mass;
+    let b = model.condense(&[1.0; 21]).expect("held").transformation;
+    let expected = b.tr_mul(&(DMatrix::from_diagonal(&lumped_mass(&right)) * &b));
+    assert_relative_eq!(
+        condensed,
+        expected,
+        epsilon = MATRIX_ROUND_OFF * expected.amax()
+    );
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use crate::common::known::wing::Wing;
 use crate::common::known::{Known, planted};
 use crate::evidence::eigensolutions::{Counted, counted};
+use corfem::method::analysis::Analysis;
 use corfem::torque_box::{Case, run_case};
 
 fn case(number: usize, error: f64) -> Counted {
@@ -10,7 +11,7 @@ fn case(number: usize, error: f64) -> Counted {
     counted(
         &Known::of_case(number).expect("a case"),
         None,
-        &settings,
+        (&settings, |model| model),
         error,
     )
     .expect("it runs")

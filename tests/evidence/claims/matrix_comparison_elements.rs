@@ -21,7 +21,7 @@ fn nearest_factors_leave_the_least() {
         let change: DMatrix<f64> = corrected - &first.stiffness;
         let left = |factors: &[f64]| {
             let made = first.shares.iter().zip(factors);
-            let made: DMatrix<f64> = made.map(|(share, c)| (c - 1.0) * share.matrix()).sum();
+            let made: DMatrix<f64> = made.map(|(share, c)| (c - 1.0) * share).sum();
             weighted_norm(&(&change - made), &first.mass) / weighted_norm(&change, &first.mass)
         };
         let nearest: Vec<f64> = comparison

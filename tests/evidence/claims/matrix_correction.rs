@@ -3,7 +3,7 @@
 use crate::common::strategies::{positive_definite, symmetric};
 use crate::common::tolerances::CORRECTION_ROUND_OFF;
 use crate::evidence::matrix_correction::{baruch_stiffness, berman_nagy_mass, weighted_norm};
-use corfem::method::modes::{ModeSet, Modes, solve};
+use corfem::method::modes::{Modes, solve};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
 
@@ -152,7 +152,7 @@ properties! {
             weighted_norm(&beside, &problem.mass).powi(2),
         ];
         prop_assert!((squares[0] - squares[1] - squares[2]).abs() <= CORRECTION_ROUND_OFF * squares[0]);
-        let measured = problem.test.clone().with_shapes(shapes).expect("shapes that fit");
+        let measured = Modes::new(problem.test.omega_squared().clone(), shapes).expect("modes");
         let stiffness = baruch_stiffness(&problem.stiffness, &mass, &measured);
         let inertia = &mass * measured.shapes() * DMatrix::from_diagonal(measured.omega_squared());
         let scale = problem.stiffness.amax().max(problem.true_stiffness.amax()) * measured.shapes().amax();
@@ -160,8 +160,8 @@ properties! {
     }
 }
 
-fn one_mode(shape: DVector<f64>, omega_squared: f64) -> ModeSet {
-    ModeSet::new(dvector![omega_squared], DMatrix::from_columns(&[shape])).expect("modes")
+fn one_mode(shape: DVector<f64>, omega_squared: f64) -> Modes {
+    Modes::new(dvector![omega_squared], DMatrix::from_columns(&[shape])).expect("modes")
 }
 
 #[test]

@@ -5,11 +5,12 @@ use crate::common::tolerances::{
     STANDARD_ERRORS,
 };
 use crate::evidence::noisy_modes::{Found, NOISY_CASE, NoisyModes, NoisyRun, SEEDS, noisy_modes};
+use corfem::method::analysis::Analysis;
 use corfem::method::appendix_b::{
     LARGEST_SUSPENSION_RATIO, MovementLimits, Supports, examine, generalized_mass, orthogonalize,
 };
 use corfem::method::error::Error;
-use corfem::method::modes::ModeSet;
+use corfem::method::modes::Modes;
 use corfem::method::step::StepRule;
 use corfem::sparse::random::split_mix_64;
 use corfem::torque_box::wing_box::dynamic_points;
@@ -23,8 +24,8 @@ fn case() -> Case {
     Case::new(NOISY_CASE).expect("a case")
 }
 
-fn exact() -> ModeSet {
-    case().test_modes().expect("test modes").into()
+fn exact() -> Modes {
+    case().test_modes().expect("test modes")
 }
 
 pub fn study() -> &'static NoisyModes {
@@ -38,7 +39,7 @@ fn unit(shape: DVector<f64>) -> DVector<f64> {
 }
 
 /// The changes of all shapes by noise, relative to each shape's largest component, mode by mode.
-fn shape_changes(exact: &ModeSet, noisy: &ModeSet) -> Vec<f64> {
+fn shape_changes(exact: &Modes, noisy: &Modes) -> Vec<f64> {
     let change = |mode: usize| {
         (noisy.shapes().column(mode) - exact.shapes().column(mode))
             / exact.shapes().column(mode).amax()
@@ -48,7 +49,7 @@ fn shape_changes(exact: &ModeSet, noisy: &ModeSet) -> Vec<f64> {
         .collect()
 }
 
-fn frequency_changes(exact: &ModeSet, noisy: &ModeSet) -> Vec<f64> {
+fn frequency_changes(exact: &Modes, noisy: &Modes) -> Vec<f64> {
     noisy
         .frequencies_hz()
         .iter()
@@ -81,7 +82,7 @@ fn noise_is_normal_and_of_the_stated_size() {
             frequency: 0.004,
         },
     );
-    let noisy: Vec<ModeSet> = (1..=100)
+    let noisy: Vec<Modes> = (1..=100)
         .map(|seed| with_noise(&exact, noise, seed).unwrap())
         .collect();
     let shapes: Vec<f64> = noisy
@@ -125,7 +126,11 @@ fn noise_that_turns_a_frequency_negative_is_an_error() {
     };
     assert!(matches!(
         with_noise(&exact(), far, 1),
-        Err(Error::NotPositive { .. })
+        Err(Error::Value {
+            what: "frequency",
+            expected: "positive and finite",
+            ..
+        })
     ));
 }
 
@@ -157,7 +162,7 @@ properties! {
             let off = generalized_mass(modes.shapes(), &mass).unwrap() - DMatrix::identity(modes.len(), modes.len());
             prop_assert!(off.amax() < MATRIX_ROUND_OFF, "{}", off.amax());
         }
-        let flexibility = |modes: &ModeSet| modes.omega_squared().map(f64::recip).sum();
+        let flexibility = |modes: &Modes| modes.omega_squared().map(f64::recip).sum();
         prop_assert!((flexibility(&all.modes) / flexibility(&raw) - 1.0).abs() < MATRIX_ROUND_OFF);
         for &mode in &screened.kept {
             let movement = screened.reports[mode].movement.unwrap();
@@ -174,7 +179,7 @@ fn orthogonalization_cleans_the_highest_mode_and_spoils_mode_6() {
         let raw = with_noise(&exact, Noise::USUAL, seed).unwrap();
         let orthogonal = orthogonalize(&raw, &mass).unwrap().modes;
         for mode in 0..9 {
-            let error = |modes: &ModeSet| {
+            let error = |modes: &Modes| {
                 let [found, right] =
                     [modes, &exact].map(|modes| unit(modes.shapes().column(mode).into_owned()));
                 (found - right).norm_squared()
@@ -226,7 +231,7 @@ fn the_box_is_held_so_that_its_modes_are_not_balanced() {
 }
 
 /// The three correlations of a run with the test modes that each was given.
-fn sides(run: &NoisyRun) -> [(&Found, ModeSet); 3] {
+fn sides(run: &NoisyRun) -> [(&Found, Modes); 3] {
     let (exact, mass) = (exact(), case().reconstruction.mass());
     let raw = run.seed.map_or_else(
         || exact.clone(),
@@ -285,7 +290,7 @@ fn errors_are_those_of_a_model_with_the_gages_found() {
     for run in &study().runs {
         for (found, test) in sides(run) {
             let model = case.model_with(&found.gages_in).unwrap();
-            let errors = |test: &ModeSet| {
+            let errors = |test: &Modes| {
                 model
                     .analyze(&[1.0; 15], test, None)
                     .unwrap()

@@ -6,8 +6,8 @@ use super::noise::Noise;
 use crate::common::double_double::Dd;
 use crate::common::double_double_matrices::{Rows, product, rows, transposed_product};
 use corfem::method::inner_loop::Stop;
-use corfem::method::model::REFERENCE_GAGE;
 use corfem::method::outer_loop::Settings;
+use corfem::method::step::REFERENCE_GAGE;
 use corfem::method::step::{LEAST_SHARE, StepRule};
 use corfem::torque_box::Case;
 use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
@@ -263,10 +263,10 @@ impl Chain<'_> {
                 entries.map(|entry| entry * entry).sum::<Dd>().sqrt()
             };
             let stiffness = match self.settings.inner.step {
-                StepRule::Norm => {
+                StepRule::Matrix => {
                     state.share_factors[e] * norm(&mut share.iter().flatten().copied())
                 }
-                StepRule::Diagonal => {
+                StepRule::Own => {
                     state.share_factors[e] * norm(&mut (0..share.len()).map(|i| share[i][i]))
                 }
                 StepRule::Relative => Dd::ONE,

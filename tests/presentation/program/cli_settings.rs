@@ -89,11 +89,11 @@ fn settings_out_of_range_are_refused_by_their_names() {
         (["--limits", "0.5"], "--limits: 1 x 1 instead of 2 x 1"),
         (
             ["--relaxation", "0,1"],
-            "first_relaxation is 0; it must be a positive finite number",
+            "first_relaxation of the inner loop is 0; it must be positive and finite",
         ),
         (
             ["--tolerance", "nan,1"],
-            "tolerance is NaN; it must be a positive finite number",
+            "tolerance of the inner loop is NaN; it must be positive and finite",
         ),
         (["--iterations", "0"], "--iterations"),
     ] {

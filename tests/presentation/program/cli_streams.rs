@@ -258,7 +258,10 @@ fn what_was_meant_is_suggested() {
         (&["case", "1"][..], "a similar subcommand exists: 'cases'"),
         (&["qqqqqq"], "unrecognized subcommand 'qqqqqq'"),
         (&["cases", "one"], "invalid value 'one' for '[CASE]...'"),
-        (&["cases", "2", "1", "2"], "corfem: case 2 is defined twice"),
+        (
+            &["cases", "2", "1", "2"],
+            "corfem: the cases asked for: case 2 is given twice",
+        ),
         (&["cases", "1", "--nastran", "x"], "--solver <SOLVER>"),
         (&["cases", "1", "--time-limit", "9"], "--solver <SOLVER>"),
         (

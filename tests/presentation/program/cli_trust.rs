@@ -4,6 +4,7 @@ use crate::common::jobs::{Files, rods};
 use crate::presentation::program::cli::{corfem, text};
 use crate::readers::job_errors::{placed, with};
 use corfem::job::{Concern, LoadedJob, NotCompared, Trust, run};
+use corfem::method::analysis::Analysis;
 use corfem::present::page::report_page;
 use corfem::present::report::Report;
 use corfem::present::tables::job::trust_table;
@@ -320,7 +321,7 @@ fn a_mode_left_out_is_compared_once_it_resembles_a_mode_of_the_model() {
         assert!(result.trust.not_compared.is_empty(), "{method}");
         let report = Report::from_job(&loaded, Some(&result)).expect("a report");
         assert_eq!(report.mode_numbers, [1, 2, 3], "{method}");
-        assert_eq!(report.corrected().errors.mode_count, 3, "{method}");
+        assert_eq!(report.corrected().errors.shape_count, 3, "{method}");
         assert!(result.verdict.is_within, "{method}: {}", report.words());
     }
 }
@@ -431,7 +432,8 @@ fn what_shapes_do_not_decide_is_paired_by_frequency_and_said() {
     assert_eq!(loaded.placed.len(), 1);
     assert_eq!(loaded.undecided, [0, 1, 2]);
     let model = loaded.analyze(&[1.0; 2]).expect("a model");
-    assert_eq!(model.exact().pairing.analysis_mode(), [0, 1, 2]);
+    let exact = model.model().exact();
+    assert_eq!(exact.pairing.analysis_mode(), [0, 1, 2]);
     let trust = Trust::before(&loaded).expect("an account");
     assert_eq!(trust.undecided, [1, 2, 3]);
     let all = unbroken(&render::text(&[trust_table(&trust)]));

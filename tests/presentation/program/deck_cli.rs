@@ -192,7 +192,7 @@ fn bad_input_is_exit_status_2() {
         ),
         (
             vec!["deck", "4", "--pass", "2"],
-            "corfem: pass: 2 asked for, but there are only 1\n".to_owned(),
+            "corfem: pass: 2 given or asked for; there must be 0 to 1\n".to_owned(),
         ),
         (
             vec!["modes", path],

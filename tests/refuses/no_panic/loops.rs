@@ -1,34 +1,133 @@
-//! Errors, states, steps and the loops.
+//! Errors, analyses, steps and the loops.
 
-use super::Entry;
+use super::{Entry, chain};
 use crate::common::draws::Draws;
-use corfem::method::derivatives::{DerivativeRule, by_definition, error_changes, gradient};
+use crate::common::structures::spring_stiffness;
+use crate::common::whole_models::of_dense;
+use corfem::method::analysis::{Analysis, without_close_couplings};
 use corfem::method::error::Error;
-use corfem::method::error_sum::{ErrorMeasure, ModeWeight, errors, mode_errors};
+use corfem::method::error_sum::{Errors, ModeError, errors, mode_errors};
 use corfem::method::inner_loop::{InnerSettings, first_factors, run};
-use corfem::method::model::{Bounds, LoneFrequency};
 use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::state::{ModalState, UpdateRule};
-use corfem::method::step::{
-    Accumulation, StepRule, limited_factor, stiffness_changes, unlimited_factors,
-};
+use corfem::method::sorting::pair_modes;
+use corfem::method::step::{Accumulation, Bounds, StepRule, limited_factor, unlimited_factor};
+use corfem::sparse::{BasisSize, ModeWeight, ParameterMatrix, SensorModel};
 use corfem::weighted::close_modes::turned;
+use corfem::weighted::comparison::{Comparison, LoneFrequency};
 use corfem::weighted::residuals::residuals;
 use nalgebra::DMatrix;
 
+/// A chain as sensors see it, with a share of its stiffness or of its mass.
+fn sensed(d: &mut Draws) -> Result<SensorModel, Error> {
+    let model = chain(d)?;
+    if d.below(2) == 0 {
+        return Ok(SensorModel::from(&model));
+    }
+    let count = model.test().len();
+    let springs = (0..count).map(|spring| spring_stiffness(count, spring, 100.0));
+    let (stiffness, mass) = (
+        springs.sum::<DMatrix<f64>>(),
+        DMatrix::identity(count, count),
+    );
+    let shares = [
+        ParameterMatrix::Stiffness(stiffness.clone()),
+        ParameterMatrix::Mass(spring_stiffness(count, 0, 0.5)),
+    ];
+    let (whole, sensors) = of_dense(&stiffness, &mass, &shares)?;
+    whole.analyze(
+        &[1.0; 2],
+        &sensors,
+        (model.test(), pair_modes),
+        BasisSize {
+            modes: count,
+            residual_vectors: 0,
+        },
+    )
+}
+
+fn comparison(d: &mut Draws) -> Result<Comparison, Error> {
+    Ok(Comparison::from(&chain(d)?))
+}
+
+fn weights(d: &mut Draws, count: usize) -> Vec<ModeWeight> {
+    let mut weight = || d.number().abs();
+    let both = |_| ModeWeight {
+        frequency: weight(),
+        shape: weight(),
+    };
+    (0..count).map(both).collect()
+}
+
+fn rule(d: &mut Draws) -> StepRule {
+    let rules = [
+        StepRule::Matrix,
+        StepRule::Own,
+        StepRule::Relative,
+        StepRule::Gage,
+    ];
+    rules[d.below(4)]
+}
+
+/// Settings of no more than so many passes.
+fn at_most(most_passes: usize) -> Settings {
+    Settings {
+        most_passes,
+        ..Settings::default()
+    }
+}
+
 pub const LOOPS: &[Entry] = &[
-    ("ModalState::at", |d| {
-        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
+    ("Model::at", |d| {
+        let model = chain(d)?;
         let count = d.about(model.shares().len());
-        let rule = if d.below(2) == 0 {
-            UpdateRule::Recursive1
-        } else {
-            UpdateRule::Eigensolution
-        };
-        ModalState::at(&model, d.list(count), rule).map(|state| vec![state.errors().sum()])
+        let state = model.at(&d.list(count))?;
+        Ok(vec![state.errors.sum()])
+    }),
+    ("Model::error_changes", |d| {
+        let model = chain(d)?;
+        model.error_changes(&d.state(&model))
+    }),
+    ("Model::stiffness_changes", |d| {
+        let model = chain(d)?;
+        let gages: Vec<f64> = (0..d.about(model.shares().len()))
+            .map(|_| d.unit())
+            .collect();
+        let (state, rule) = (d.state(&model), rule(d));
+        Ok(model.stiffness_changes(&state, &gages, rule))
+    }),
+    ("SensorModel::at", |d| {
+        let model = sensed(d)?;
+        let count = d.about(model.shares().len());
+        let state = model.at(&d.list(count))?;
+        Ok(vec![state.errors.sum()])
+    }),
+    ("SensorModel::error_changes", |d| {
+        let model = sensed(d)?;
+        let own = model.at(&vec![1.1; model.shares().len()])?;
+        let other = sensed(d)?.exact().clone();
+        model.error_changes(if d.below(6) == 0 { &other } else { &own })
+    }),
+    ("SensorModel::stiffness_changes", |d| {
+        let model = sensed(d)?;
+        let gages: Vec<f64> = (0..d.about(model.shares().len()))
+            .map(|_| d.unit())
+            .collect();
+        Ok(model.stiffness_changes(model.exact(), &gages, rule(d)))
+    }),
+    ("SensorModel::weighted", |d| {
+        let model = sensed(d)?;
+        let count = d.about(model.test().len());
+        let model = model.weighted(&weights(d, count))?;
+        Ok(vec![model.exact().errors.sum()])
+    }),
+    // A change whose entries are no numbers is refused by the formulae.
+    ("analysis::without_close_couplings", |d| {
+        let size = d.size();
+        without_close_couplings(&d.list(size), &d.matrix(size, size));
+        Ok(Vec::new())
     }),
     ("inner_loop::first_factors", |d| {
-        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
+        let model = chain(d)?;
         let settings = InnerSettings {
             first_relaxation: d.number(),
             ..InnerSettings::default()
@@ -36,7 +135,7 @@ pub const LOOPS: &[Entry] = &[
         first_factors(&model, &settings)
     }),
     ("inner_loop::run", |d| {
-        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
+        let model = chain(d)?;
         let count = d.about(model.shares().len());
         let base = if d.below(2) == 0 {
             vec![1.0; count]
@@ -53,6 +152,7 @@ pub const LOOPS: &[Entry] = &[
         let mut settings = InnerSettings {
             iterations: d.below(4),
             halvings: d.below(4),
+            step: rule(d),
             ..InnerSettings::default()
         };
         if d.below(2) == 0 {
@@ -67,42 +167,57 @@ pub const LOOPS: &[Entry] = &[
             };
         }
         run(&model, &base, &ranges, &settings)
-            .map(|run| [vec![run.last.errors().sum()], run.factors].concat())
+            .map(|run| [vec![run.last.errors.sum()], run.factors].concat())
     }),
     ("outer_loop::correlate", |d| {
-        let settings = Settings {
-            most_passes: d.below(3),
-            ..Settings::default()
-        };
+        let settings = at_most(d.below(3));
         // Half of the models are right ones, so that calls come past the analysis.
         let found = if d.below(2) == 0 {
-            let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
+            let model = chain(d)?;
             let ranges = vec![None; d.about(model.shares().len())];
-            correlate(
-                |_: &[f64]| Ok::<_, Error>(model.clone()),
-                &ranges,
-                &settings,
-                |_, _| {},
-            )?
+            let analyze = |_: &[f64]| Ok::<_, Error>(model.clone());
+            correlate(analyze, &ranges, &settings, |_, _| true)?
         } else {
             let model = d.dynamic();
             let (test, ranges) = (
                 d.modes(model.mass.nrows())?,
                 vec![None; d.about(model.shares.len())],
             );
-            correlate(
-                |_: &[f64]| model.analyze(&test, None),
-                &ranges,
-                &settings,
-                |_, _| {},
-            )?
+            let analyze = |_: &[f64]| model.analyze(&test, None);
+            correlate(analyze, &ranges, &settings, |_, _| true)?
         };
-        Ok([found.best_factors, vec![found.verdict.error_sum]].concat())
+        Ok([found.best_factors, vec![found.initial.errors.sum()]].concat())
     }),
-    ("step::unlimited_factors", |d| {
-        let count = d.size();
-        let other = d.about(count);
-        unlimited_factors(&d.list(count), &d.list(other), d.number(), d.number());
+    ("Correlation::best_check", |d| {
+        let (model, settings) = (chain(d)?, at_most(d.below(3)));
+        let ranges = vec![None; model.shares().len()];
+        let analyze = |_: &[f64]| Ok::<_, Error>(model.clone());
+        let found = correlate(analyze, &ranges, &settings, |_, _| true)?;
+        let best = found.best_check();
+        Ok([best.factors.clone(), vec![best.errors.sum()]].concat())
+    }),
+    ("Settings::for_modes", |d| {
+        let found = Settings::default().for_modes([d.size(), usize::MAX][d.below(2)]);
+        Ok(vec![
+            found.inner.first_relaxation,
+            found.inner.relaxation,
+            found.inner.tolerance,
+            found.later_inner_tolerance,
+            found.error_sum_tolerance,
+            found.frequency_tolerance,
+            found.shape_tolerance,
+        ])
+    }),
+    ("Settings::are_met_by", |d| {
+        let settings = Settings {
+            error_sum_tolerance: d.number(),
+            ..Settings::default()
+        };
+        settings.are_met_by(&d.errors());
+        Ok(Vec::new())
+    }),
+    ("step::unlimited_factor", |d| {
+        unlimited_factor(d.number(), d.number(), d.number(), d.number());
         Ok(Vec::new())
     }),
     ("step::limited_factor", |d| {
@@ -120,118 +235,82 @@ pub const LOOPS: &[Entry] = &[
         );
         Ok(Vec::new())
     }),
+    // The measure of numbers that are none is none; the analysis has refused them.
+    ("StepRule::measure", |d| {
+        let (rows, columns, rule) = (d.size(), d.size(), rule(d));
+        rule.measure(&d.matrix(rows, columns), d.number(), d.number());
+        Ok(Vec::new())
+    }),
+    ("Errors::of", |d| {
+        let each: Vec<ModeError> = (0..d.size())
+            .map(|_| ModeError {
+                frequency: d.number(),
+                shape: d.number(),
+            })
+            .collect();
+        Errors::of(&each).map(|found| vec![found.frequency, found.shape])
+    }),
     ("Errors::sum", |d| Ok(vec![d.errors().sum()])),
     ("Errors::frequency_rms", |d| {
         Ok(vec![d.errors().frequency_rms()])
     }),
     ("Errors::shape_rms", |d| Ok(vec![d.errors().shape_rms()])),
-    ("ErrorMeasure::scale", |d| {
-        Ok(vec![
-            ErrorMeasure::NineModes.scale(d.size()),
-            ErrorMeasure::Sum.scale(d.size()),
-        ])
-    }),
     ("error_sum::mode_errors", |d| {
         let (analysis, pairing, test) = d.compared()?;
         let found = mode_errors(&analysis, &pairing, &test)?;
         Ok(found
             .iter()
-            .flat_map(|error| [error.frequency, error.shape.unwrap_or_default()])
+            .flat_map(|error| [error.frequency, error.shape])
             .collect())
     }),
     ("error_sum::errors", |d| {
         let (analysis, pairing, test) = d.compared()?;
         errors(&analysis, &pairing, &test).map(|found| vec![found.frequency, found.shape])
     }),
-    ("ModalModel::with_lone_frequencies", |d| {
-        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
+    ("Comparison::result", |d| {
+        let found = Comparison::from(sensed(d)?).result()?;
+        Ok([found.frequencies_hz, vec![found.errors.sum()]].concat())
+    }),
+    ("Comparison::with_lone_frequencies", |d| {
+        let comparison = comparison(d)?;
         let lone = (0..d.size()).map(|_| LoneFrequency {
             frequency_hz: d.number(),
             partner: d.size(),
         });
         let lone = lone.collect();
-        model
-            .with_lone_frequencies(lone)
-            .map(|model| vec![model.exact().errors.sum()])
+        let found = comparison.with_lone_frequencies(lone)?.result()?;
+        Ok(vec![found.errors.sum()])
     }),
-    ("ModalModel::with_groups", |d| {
-        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
-        let most = model.test().len() + 1;
+    ("Comparison::with_groups", |d| {
+        let comparison = comparison(d)?;
+        let most = comparison.model().test().len() + 1;
         let group = |_| {
             (0..d.size() % 3)
                 .map(|_| d.size().saturating_sub(1) % most)
                 .collect()
         };
-        let groups = (0..3).map(group).collect();
-        let model = model.with_groups(groups)?;
-        let found = turned(&model.exact().modes, model.exact(), model.test())?;
-        Ok(found.shapes().iter().copied().collect())
+        let groups: Vec<Vec<usize>> = (0..3).map(group).collect();
+        let found = comparison.with_groups(groups.clone())?;
+        let (exact, test) = (found.model().exact(), found.model().test());
+        let turned = turned(&exact.modes, &exact.pairing, &groups, test)?;
+        let numbers = turned.shapes().iter().copied();
+        Ok(numbers.chain([found.result()?.errors.sum()]).collect())
     }),
-    ("ModalModel::with_component_weights", |d| {
-        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
-        let (dof, modes) = model.test().shapes().shape();
+    ("Comparison::with_component_weights", |d| {
+        let comparison = comparison(d)?;
+        let (dof, modes) = comparison.model().test().shapes().shape();
         let own = DMatrix::from_fn(d.about(dof), d.about(modes), |_, _| d.number().abs());
-        let model = model.with_component_weights(own)?;
-        let weights = vec![ModeWeight::ONE; model.test().len()];
-        residuals(&model, &weights).map(|found| found.data.into())
+        let comparison = comparison.with_component_weights(own)?;
+        residuals(&comparison, &vec![ModeWeight::ONE; modes]).map(|found| found.data.into())
     }),
-    ("ModalModel::with_covariance", |d| {
-        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
-        let (dof, modes) = model.test().shapes().shape();
+    ("Comparison::with_covariance", |d| {
+        let comparison = comparison(d)?;
+        let (dof, modes) = comparison.model().test().shapes().shape();
         let count = d.about((1 + dof) * modes);
         let (size, root) = (d.number(), DMatrix::identity(count, count));
         let covariance = root * size;
-        let model = model.with_covariance(&covariance)?;
-        let weights = vec![ModeWeight::ONE; model.test().len()];
-        residuals(&model, &weights).map(|found| found.data.into())
-    }),
-    ("ModalModel::weighted", |d| {
-        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
-        let count = d.about(model.test().len());
-        let weights: Vec<ModeWeight> = (0..count)
-            .map(|_| ModeWeight {
-                frequency: d.number().abs(),
-                shape: d.number().abs(),
-            })
-            .collect();
-        model
-            .weighted(&weights)
-            .map(|model| vec![model.exact().errors.sum()])
-    }),
-    ("ModalState::start", |d| {
-        // It copies the model; what is done with it refuses one that is not whole.
-        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
-        ModalState::start(&model);
-        Ok(Vec::new())
-    }),
-    ("derivatives::by_definition", |d| {
-        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
-        by_definition(&model, &d.state(&model))
-    }),
-    ("derivatives::gradient", |d| {
-        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
-        gradient(&model, &d.state(&model))
-    }),
-    ("derivatives::error_changes", |d| {
-        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
-        let rule = if d.below(2) == 0 {
-            DerivativeRule::Definition
-        } else {
-            DerivativeRule::Gradient
-        };
-        error_changes(&model, &d.state(&model), rule)
-    }),
-    ("step::stiffness_changes", |d| {
-        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
-        let [shares, sizes] = [(); 2].map(|()| (0..d.size()).map(|_| d.unit()).collect::<Vec<_>>());
-        let rules = [
-            StepRule::Norm,
-            StepRule::Diagonal,
-            StepRule::Relative,
-            StepRule::Gage,
-        ];
-        let rule = rules.get(d.below(4)).copied().unwrap_or(StepRule::Relative);
-        Ok(stiffness_changes(&model, &shares, &sizes, rule))
+        let comparison = comparison.with_covariance(&covariance)?;
+        residuals(&comparison, &vec![ModeWeight::ONE; modes]).map(|found| found.data.into())
     }),
     ("Accumulation::next_share_factor", |d| {
         for accumulation in [Accumulation::Sum, Accumulation::Product] {

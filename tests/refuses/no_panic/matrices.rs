@@ -1,18 +1,18 @@
 //! Matrices, modes and measured modes.
 
-use super::{Entry, entries, modes};
+use super::{Entry, chain, entries, modes};
+use corfem::method::analysis::Analysis;
 use corfem::method::appendix_b::{
     MeasuringPoint, Motion, MovementLimits, Supports, balance, examine, generalized_mass,
     orthogonalize, rigid_body_vectors,
 };
-use corfem::method::error::Error;
 use corfem::method::linear_algebra::{
     check_finite, check_length, check_shape, check_symmetric, cholesky, symmetric_eigen,
     symmetric_part,
 };
-use corfem::method::modes::{ModeSet, apply_sign_rule, solve};
-use corfem::method::pairing::{cross_orthogonality, modal_assurance, pair_modes, paired};
-use corfem::sparse::check_solution;
+use corfem::method::modes::{Modes, apply_sign_rule, solve};
+use corfem::method::sorting::{cross_orthogonality, pair_modes};
+use corfem::sparse::{check_solution, modal_assurance};
 use nalgebra::{DMatrix, Vector3};
 
 pub const MATRICES: &[Entry] = &[
@@ -40,12 +40,12 @@ pub const MATRICES: &[Entry] = &[
         let (size, count) = (d.size(), d.size());
         solve(&d.symmetric(size), &d.symmetric(size), count).map(|found| modes(&found))
     }),
-    ("ModeSet::from_measured", |d| {
+    ("Modes::from_measured", |d| {
         let (count, dof) = (d.size(), d.size());
         let (frequencies, columns) = (d.list(count), d.about(count));
-        ModeSet::from_measured(&frequencies, &d.matrix(dof, columns)).map(|found| modes(&found))
+        Modes::from_measured(&frequencies, &d.matrix(dof, columns)).map(|found| modes(&found))
     }),
-    ("ModeSet::scaled_with", |d| {
+    ("Modes::scaled_with", |d| {
         let size = d.size();
         d.modes(size)?
             .scaled_with(&d.symmetric(size))
@@ -55,17 +55,17 @@ pub const MATRICES: &[Entry] = &[
         apply_sign_rule(&mut d.symmetric(3));
         Ok(Vec::new())
     }),
-    ("pairing::cross_orthogonality", |d| {
+    ("sorting::cross_orthogonality", |d| {
         let size = d.size();
         let (one, other, mass) = (d.modes(size)?, d.modes(size)?, d.symmetric(size));
         cross_orthogonality(&one, &other, &mass).map(|_| Vec::new())
     }),
-    ("pairing::modal_assurance", |d| {
+    ("assurance::modal_assurance", |d| {
         let (rows, one, other) = (d.size(), d.size(), d.size());
         let others = d.about(rows);
         modal_assurance(&d.matrix(rows, one), &d.matrix(others, other)).map(|found| entries(&found))
     }),
-    ("pairing::pair_modes", |d| {
+    ("sorting::pair_modes", |d| {
         let (rows, columns) = (d.size(), d.size());
         pair_modes(&d.matrix(rows, columns)).map(|found| found.sign().to_vec())
     }),
@@ -127,24 +127,29 @@ pub const MATRICES: &[Entry] = &[
         let found = d.vector(of_found);
         check_solution("matrix", |x| &matrix * x, &loads, &found).map(|()| Vec::new())
     }),
-    ("ModeSet::frequencies_hz", |d| {
+    ("Modes::frequencies_hz", |d| {
         let (size, count) = (d.size(), d.size());
         let frequencies = d.list(count);
         // Modes that were measured have frequencies; of others the square roots are what they are.
         d.modes(size)?.frequencies_hz();
-        ModeSet::from_measured(&frequencies, &d.matrix(size, count))
+        Modes::from_measured(&frequencies, &d.matrix(size, count))
             .map(|found| found.frequencies_hz())
     }),
     ("Modes::lowest", |d| {
         let count = d.size();
-        let model = d.chain().ok_or(Error::Empty { what: "chains" })?;
-        model.exact().modes.lowest(count).map(|found| modes(&found))
+        chain(d)?
+            .exact()
+            .modes
+            .lowest(count)
+            .map(|found| modes(&found))
     }),
-    ("pairing::paired", |d| {
+    ("Pairing::paired", |d| {
         let (size, count) = (d.size(), d.size());
         let analysis = d.modes(size)?;
         let pairing = d.pairing(count, analysis.len())?;
-        paired(&analysis, &pairing).map(|found| entries(found.shapes()))
+        pairing
+            .paired(&analysis)
+            .map(|found| entries(found.shapes()))
     }),
     ("Motion::displacement", |d| {
         let motions = [

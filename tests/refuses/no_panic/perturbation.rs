@@ -1,13 +1,12 @@
 //! Appendix C.
 
 use super::{Answer, Entry, entries};
-use corfem::method::appendix_c::general::complex_modes::LeftRightModes;
-use corfem::method::appendix_c::general::{self, ModalChange, complex_modes};
-use corfem::method::appendix_c::{
-    Perturbed, eigensolution, first_order, normalize_with_mass, recursive_1, recursive_1_converged,
-};
+use corfem::method::appendix_c::Pencil;
+use corfem::method::appendix_c::complex_modes::{self, LeftRightModes};
 use corfem::method::error::Error;
 use corfem::method::modes::solve;
+use corfem::method::perturbation::{Perturbed, first_order, recursive_1, recursive_1_converged};
+use corfem::sparse::normalize_with_mass;
 use nalgebra::DMatrix;
 
 fn perturbed(found: Result<Perturbed, Error>) -> Answer {
@@ -15,61 +14,26 @@ fn perturbed(found: Result<Perturbed, Error>) -> Answer {
 }
 
 pub const PERTURBATION: &[Entry] = &[
-    ("recursive::first_order", |d| {
+    ("perturbation::first_order", |d| {
         let size = d.size();
         perturbed(first_order(&d.vector(size), &d.symmetric(size)))
     }),
-    ("recursive::recursive_1", |d| {
+    ("perturbation::recursive_1", |d| {
         let (size, order) = (d.size(), d.size());
         perturbed(recursive_1(&d.vector(size), &d.symmetric(size), order))
     }),
-    ("recursive::recursive_1_converged", |d| {
+    ("perturbation::recursive_1_converged", |d| {
         let size = d.size();
-        perturbed(
-            recursive_1_converged(&d.vector(size), &d.symmetric(size), 1e-13, 60)
-                .map(|found| found.perturbed),
-        )
+        let found = recursive_1_converged(&d.vector(size), &d.symmetric(size));
+        perturbed(found.map(|found| found.perturbed))
     }),
-    ("general::first_order", |d| {
-        perturbed(general::first_order(&d.change()))
-    }),
-    ("general::recursive_1", |d| {
-        let change = d.change();
-        perturbed(general::recursive_1(&change, d.size()))
-    }),
-    ("general::recursive_1_converged", |d| {
-        perturbed(
-            general::recursive_1_converged(&d.change(), 1e-13, 60).map(|found| found.perturbed),
-        )
-    }),
-    ("general::recursive_2", |d| {
-        let change = d.change();
-        perturbed(general::recursive_2(&change, d.size()))
-    }),
-    ("general::original", |d| {
-        perturbed(general::original(&d.change()))
-    }),
-    ("appendix_c::eigensolution", |d| {
-        perturbed(eigensolution(&d.change()))
-    }),
-    ("complex_modes::solve", |d| {
+    // A sum beyond the largest number, and a stiffness that is none, are refused by the formulae.
+    ("Pencil::of_vibrations", |d| {
         let size = d.size();
-        let g = d
-            .symmetric(size)
-            .map(|entry| nalgebra::Complex::new(entry, 0.1 * entry));
-        complex_modes::solve(&d.symmetric(size), &g).map(|_| Vec::new())
+        Pencil::of_vibrations(&d.vector(size), &d.symmetric(size), &d.symmetric(size))
+            .map(|_| Vec::new())
     }),
-    ("appendix_c::normalize_with_mass", |d| {
-        let size = d.size();
-        let mut shapes = d.symmetric(size);
-        normalize_with_mass(&mut shapes, &d.symmetric(size)).map(|()| entries(&shapes))
-    }),
-    ("ModalChange::of_vibrations", |d| {
-        let size = d.size();
-        ModalChange::of_vibrations(&d.vector(size), d.symmetric(size), d.symmetric(size));
-        Ok(Vec::new())
-    }),
-    ("ModalChange::new", |d| {
+    ("Pencil::new", |d| {
         let size = d.size();
         let (stiffness, change, g_change) =
             (d.symmetric(size), d.symmetric(size), d.symmetric(size));
@@ -81,12 +45,40 @@ pub const PERTURBATION: &[Entry] = &[
                 left: d.symmetric(size),
             },
         };
-        // Whatever takes a change refuses one that is not whole.
-        perturbed(general::first_order(&ModalChange::new(
-            &stiffness, &modes, &change, &g_change,
-        )?))
+        let found = Pencil::new(&stiffness, &modes, &change, &g_change)?;
+        perturbed(found.first_order())
     }),
-    ("ModalChange::transposed", |d| {
-        perturbed(general::first_order(&d.change().transposed()))
+    ("Pencil::transposed", |d| {
+        perturbed(d.change().pencil()?.transposed().first_order())
+    }),
+    ("Pencil::first_order", |d| {
+        perturbed(d.change().pencil()?.first_order())
+    }),
+    ("Pencil::recursive_1", |d| {
+        let found = d.change().pencil()?;
+        perturbed(found.recursive_1(d.size()))
+    }),
+    ("Pencil::recursive_1_converged", |d| {
+        let found = d.change().pencil()?.recursive_1_converged();
+        perturbed(found.map(|found| found.perturbed))
+    }),
+    ("Pencil::recursive_2", |d| {
+        let found = d.change().pencil()?;
+        perturbed(found.recursive_2(d.size()))
+    }),
+    ("Pencil::original", |d| {
+        perturbed(d.change().pencil()?.original())
+    }),
+    ("complex_modes::solve", |d| {
+        let size = d.size();
+        let g = d
+            .symmetric(size)
+            .map(|entry| nalgebra::Complex::new(entry, 0.1 * entry));
+        complex_modes::solve(&d.symmetric(size), &g).map(|_| Vec::new())
+    }),
+    ("sensor_model::normalize_with_mass", |d| {
+        let size = d.size();
+        let mut shapes = d.symmetric(size);
+        normalize_with_mass(&mut shapes, &d.symmetric(size)).map(|()| entries(&shapes))
     }),
 ];

@@ -3,67 +3,87 @@
 use super::{Entry, entries, modes};
 use crate::common::draws::Draws;
 use crate::common::whole_models::sparse;
-use corfem::method::appendix_a;
-use corfem::method::assembly::{ElementMatrix, dense_stiffness, element_matrices, lumped_mass};
+use corfem::method::analysis::Analysis;
+use corfem::method::appendix_a::{
+    self, ElementMatrix, assemble, element_matrices, generalized_stiffness,
+};
 use corfem::method::elements::membrane::triangle;
-use corfem::method::elements::shear::{corner_forces, energy_coefficient, gauss_legendre};
-use corfem::method::elements::{corner_volumes, membrane, rod, shear, unit_stiffness};
+use corfem::method::elements::shear::{
+    corner_forces, energy_coefficient, gauss_legendre, mean_plane,
+};
+use corfem::method::elements::{membrane, rod, shear, unit_stiffness};
 use corfem::method::error::Error;
-use corfem::method::geometry::{Geometry, mean_plane};
-use corfem::method::model::{Bounds, FiniteElementModel, ScaledStructure};
-use corfem::method::structure::{ElementKind, Material, Structure};
-
+use corfem::method::model::{FiniteElementModel, ScaledStructure};
+use corfem::method::step::Bounds;
+use corfem::method::structure::{ElementKind, Material, Point, Structure, check_corners};
+use corfem::sparse::elements::{corner_volumes, lumped_masses};
 use corfem::sparse::factorization::{Factor, StructuralStiffness};
-use corfem::sparse::{Deformations, LargeModel};
+use corfem::sparse::{Deformations, LargeModel, WholeModel};
 
 fn deformations(elements: &[ElementMatrix]) -> Result<Vec<Deformations>, Error> {
     elements.iter().map(Deformations::of).collect()
 }
 
+/// The ways to deform of a structure's own elements.
+fn own_deformations(structure: &Structure) -> Result<Vec<Deformations>, Error> {
+    deformations(&element_matrices(structure).collect::<Vec<_>>())
+}
+
+/// A kind of element and as many corners as it has.
+fn element(d: &mut Draws) -> (ElementKind, Vec<Point>) {
+    let kind = kind(d);
+    (kind, d.corners()[..kind.corner_count()].to_vec())
+}
+
+fn kind(d: &mut Draws) -> ElementKind {
+    let kinds = [
+        ElementKind::Rod,
+        ElementKind::Triangle,
+        ElementKind::ShearPanel,
+        ElementKind::Membrane,
+    ];
+    kinds[d.below(4)]
+}
+
 pub const STRUCTURES: &[Entry] = &[
-    // A product of these beyond the largest number is refused by the model that they become part of.
+    // Corners without length or area, and a product of these beyond the largest number, are refused by the structure and the model that
+    // they become part of.
     ("elements::rod", |d| {
-        let [a, b, ..] = d.corners();
-        rod([a, b], d.number());
+        rod(&d.corners()[..2], d.number());
         Ok(Vec::new())
     }),
     ("membrane::triangle", |d| {
-        let ([a, b, c, _], material) = (d.corners(), d.material());
-        triangle([a, b, c], &material);
+        triangle(&d.corners()[..3], &d.material());
         Ok(Vec::new())
     }),
     ("membrane::membrane", |d| {
-        let (corners, material) = (d.corners(), d.material());
-        mean_plane(&corners).map(|panel| membrane::membrane(&panel, &material))?;
+        membrane::membrane(&d.corners(), &d.material());
         Ok(Vec::new())
     }),
     ("shear::shear_panel", |d| {
-        let (corners, material) = (d.corners(), d.material());
-        mean_plane(&corners).map(|panel| shear::shear_panel(&panel, &material))?;
+        shear::shear_panel(&d.corners(), &d.material());
         Ok(Vec::new())
     }),
-    ("Geometry::new", |d| {
-        let kinds = [
-            ElementKind::Rod,
-            ElementKind::Triangle,
-            ElementKind::ShearPanel,
-            ElementKind::Membrane,
-        ];
-        let (kind, corners) = (kinds[d.below(4)], d.corners());
-        Geometry::new(kind, &corners[..d.below(5)]).map(|_| Vec::new())
+    ("structure::check_corners", |d| {
+        let (kind, corners) = (kind(d), d.corners());
+        check_corners(1, kind, &corners[..d.below(5)]).map(|()| Vec::new())
     }),
     ("elements::unit_stiffness", |d| {
-        let panel = Geometry::new(ElementKind::ShearPanel, &d.corners())?;
-        unit_stiffness(&panel, &d.material());
+        let (kind, corners) = element(d);
+        unit_stiffness(kind, &corners, &d.material());
         Ok(Vec::new())
     }),
     ("elements::corner_volumes", |d| {
-        corner_volumes(&Geometry::new(ElementKind::Membrane, &d.corners())?);
+        let (kind, corners) = element(d);
+        corner_volumes(kind, &corners);
         Ok(Vec::new())
     }),
-    ("MeanPlane::diagonals", |d| {
-        let diagonals = mean_plane(&d.corners())?.diagonals();
-        Ok(diagonals.iter().flatten().copied().collect())
+    ("elements::lumped_masses", |d| {
+        let structure = d.structure()?;
+        for (element, corners) in structure.elements().iter().zip(structure.corners()) {
+            lumped_masses(&structure, element, corners);
+        }
+        Ok(Vec::new())
     }),
     ("Material::isotropic", |d| {
         let (modulus, ratio) = (d.number(), d.number());
@@ -89,39 +109,25 @@ pub const STRUCTURES: &[Entry] = &[
         .contains(d.number());
         Ok(Vec::new())
     }),
-    ("geometry::mean_plane", |d| {
-        let plane = mean_plane(&d.corners())?;
-        Ok(plane
-            .corners()
-            .iter()
-            .flatten()
-            .chain(plane.diagonals().iter().flatten())
-            .copied()
-            .chain([plane.area()])
-            .collect())
+    ("shear::mean_plane", |d| {
+        let corners = d.corners();
+        mean_plane(&corners);
+        check_corners(1, ElementKind::ShearPanel, &corners)?;
+        Ok(mean_plane(&corners).iter().flatten().copied().collect())
     }),
     ("shear::corner_forces", |d| {
-        mean_plane(&d.corners())
-            .map(|plane| corner_forces(&plane))
-            .map(|_| Vec::new())
+        corner_forces(&d.corners());
+        Ok(Vec::new())
     }),
     ("shear::energy_coefficient", |d| {
-        let (corners, material) = (d.corners(), d.material());
-        mean_plane(&corners)
-            .map(|plane| energy_coefficient(&plane, &material))
-            .map(|_| Vec::new())
+        energy_coefficient(&d.corners(), &d.material());
+        Ok(Vec::new())
     }),
     ("shear::gauss_legendre", |d| {
         Ok(gauss_legendre(d.below(40))
             .into_iter()
             .flat_map(|(point, weight)| [point, weight])
             .collect())
-    }),
-    ("Material::with_density", |d| {
-        let material = d.material();
-        material
-            .with_density(d.number())
-            .map(|found| vec![found.density])
     }),
     ("Structure::new", |d| {
         let structure = d.structure()?;
@@ -133,34 +139,28 @@ pub const STRUCTURES: &[Entry] = &[
         structure.free_dof_index(grid, direction);
         Ok(Vec::new())
     }),
-    // A weight that is no number is refused by the model that T becomes part of.
-    ("Structure::load_distribution", |d| {
-        let (structure, count) = (d.structure()?, d.size());
-        let row = |d: &mut Draws| (d.size(), ['x', 'y', 'z', 'w'][d.below(4)], d.number());
-        let points: Vec<_> = (0..count).map(|_| vec![row(d), row(d)]).collect();
-        structure.load_distribution(&points).map(|_| Vec::new())
+    ("Structure::position", |d| {
+        let (structure, grid) = (d.structure()?, d.size());
+        let found = structure.position(grid).into_iter();
+        Ok(found.flat_map(|at| [at.x, at.y, at.z]).collect())
     }),
-    ("Structure::corners", |d| {
-        let (structure, other) = (d.structure()?, d.structure()?);
-        let found = other
-            .elements()
-            .iter()
-            .flat_map(|element| structure.corners(element));
-        Ok(found
-            .flat_map(|corner| [corner.x, corner.y, corner.z])
-            .collect())
-    }),
-    ("assembly::element_matrices", |d| {
-        element_matrices(&d.structure()?);
+    ("appendix_a::element_matrices", |d| {
+        element_matrices(&d.structure()?).for_each(drop);
         Ok(Vec::new())
     }),
-    ("assembly::dense_stiffness", |d| {
+    ("appendix_a::assemble", |d| {
         let (elements, sizes, free) = d.elements()?;
-        dense_stiffness(&elements, &sizes, free.len()).map(|_| Vec::new())
+        assemble(&elements, &sizes, free.len()).map(|_| Vec::new())
     }),
-    ("assembly::lumped_mass", |d| {
-        let (elements, sizes, free) = d.elements()?;
-        lumped_mass(&elements, &sizes, free.len()).map(|_| Vec::new())
+    // Shapes that are no numbers have no stiffness that is one.
+    ("appendix_a::generalized_stiffness", |d| {
+        let structure = d.structure()?;
+        let (count, columns) = (structure.free_dof().len(), d.size());
+        let shapes = d.matrix(count, columns);
+        for element in element_matrices(&structure) {
+            generalized_stiffness(&element, d.number(), &shapes);
+        }
+        Ok(Vec::new())
     }),
     ("Factor::of_stiffness", |d| {
         let (elements, sizes, free) = d.elements()?;
@@ -200,13 +200,13 @@ pub const STRUCTURES: &[Entry] = &[
     }),
     ("StructuralStiffness::order", |d| {
         let structure = d.structure()?;
-        let elements = deformations(&element_matrices(&structure))?;
+        let elements = own_deformations(&structure)?;
         let stiffness = StructuralStiffness::new(&structure, elements)?;
         Ok(stiffness.order().iter().map(|&dof| dof as f64).collect())
     }),
     ("StructuralStiffness::factorized", |d| {
         let structure = d.structure()?;
-        let elements = deformations(&element_matrices(&structure))?;
+        let elements = own_deformations(&structure)?;
         let (_, sizes, _) = d.elements()?;
         let stiffness = StructuralStiffness::new(&structure, elements)?;
         stiffness.factorized(&sizes).map(|_| Vec::new())
@@ -223,22 +223,15 @@ pub const STRUCTURES: &[Entry] = &[
         let matrix = sparse(&d.symmetric(size))?;
         Factor::new("matrix", &matrix).map(|factor| vec![factor.negative_count() as f64])
     }),
-    ("Factor::check_positive", |d| {
-        let size = d.size();
-        let factor = Factor::new("matrix", &sparse(&d.symmetric(size))?)?;
-        factor.check_positive("matrix").map(|_| Vec::new())
-    }),
     ("appendix_a::condense", |d| {
         let (elements, sizes, free) = d.elements()?;
-        let structural = dense_stiffness(&elements, &sizes, free.len())?;
+        let structural = assemble(&elements, &sizes, free.len())?;
         let load_distribution = d.load_distribution(free.len());
         let found = appendix_a::condense(&structural, &load_distribution)?;
         Ok([entries(&found.stiffness), entries(&found.transformation)].concat())
     }),
     ("ScaledStructure::new", |d| {
-        let (structure, size) = (d.structure()?, d.size());
-        let mass = d.symmetric(size);
-        ScaledStructure::new(structure, mass, d.parameters()).map(|_| Vec::new())
+        ScaledStructure::new(d.structure()?, d.parameters()).map(|_| Vec::new())
     }),
     ("FiniteElementModel::new", |d| {
         let structure = d.structure()?;
@@ -258,6 +251,14 @@ pub const STRUCTURES: &[Entry] = &[
         let model = LargeModel::of(&model)?;
         Ok(vec![model.elements().len() as f64])
     }),
+    ("WholeModel::of", |d| {
+        let (model, factors) = d.finite_element()?;
+        let (whole, sensors) = WholeModel::of(&LargeModel::of(&model)?)?;
+        let (stiffness, mass) = whole.at(&factors)?;
+        let all = [stiffness, mass, sensors];
+        let numbers = all.iter().flat_map(|matrix| matrix.entries());
+        Ok(numbers.map(|entry| entry.2).collect())
+    }),
     ("LargeCondensation::structural_shapes", |d| {
         let (model, factors) = d.finite_element()?;
         let (rows, columns) = (d.about(model.mass().nrows()), d.size());
@@ -265,21 +266,6 @@ pub const STRUCTURES: &[Entry] = &[
             .condense(&factors)?
             .structural_shapes(&d.matrix(rows, columns))
             .map(|found| entries(&found))
-    }),
-    ("FiniteElementModel::with_unit_stiffness", |d| {
-        let (model, factors) = d.finite_element()?;
-        let count = d.about(model.element_matrices().len());
-        let size = |row: usize| {
-            model
-                .element_matrices()
-                .get(row)
-                .map_or(2, |element| element.dof.len())
-        };
-        let units = (0..count).map(|row| d.symmetric(size(row))).collect();
-        model
-            .with_unit_stiffness(units)?
-            .condense(&factors)
-            .map(|found| entries(&found.stiffness))
     }),
     ("ScaledStructure::factor_ranges", |d| {
         let (model, factors) = d.finite_element()?;
@@ -293,26 +279,19 @@ pub const STRUCTURES: &[Entry] = &[
             .take(2 * ranges.len())
             .collect())
     }),
-    ("ScaledStructure::at", |d| {
+    ("ScaledStructure::sizes", |d| {
         let (model, factors) = d.finite_element()?;
-        let at = model.at(&factors)?;
-        Ok([at.sizes, at.mass_sizes, entries(&at.point_masses)].concat())
+        model.sizes(&factors)
     }),
     ("FiniteElementModel::condense", |d| {
         let (model, factors) = d.finite_element()?;
         let found = model.condense(&factors)?;
-        let shapes = found.transformation;
-        Ok([
-            entries(&found.stiffness),
-            entries(&found.mass),
-            entries(&shapes),
-        ]
-        .concat())
+        Ok([entries(&found.stiffness), entries(&found.transformation)].concat())
     }),
     ("FiniteElementModel::analyze", |d| {
         let (model, factors) = d.finite_element()?;
         let test = d.modes(model.mass().nrows())?;
-        let test = model.modes(&factors).map_or(test, |found| found.into());
+        let test = model.modes(&factors).unwrap_or(test);
         model
             .analyze(&factors, &test, None)
             .map(|found| vec![found.exact().errors.sum()])
@@ -323,7 +302,7 @@ pub const STRUCTURES: &[Entry] = &[
         Ok(found
             .shares
             .iter()
-            .flat_map(|share| entries(share.matrix()))
+            .flat_map(entries)
             .chain(entries(&found.mass))
             .collect())
     }),

@@ -1,26 +1,29 @@
 //! What condensation to the measured DOF costs, and that the test is not blamed for it: a bar of ten rods measured at five joints.
 
 use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
-use crate::common::condensed::{LARGEST_CONDENSATION_ERROR, condensation_errors, seen_modes};
+use crate::common::condensed::{
+    LARGEST_CONDENSATION_ERROR, condensation_errors, condensed, seen_modes,
+};
+use crate::common::structures::{dense, lumped_mass};
 use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
 use crate::common::vibrations::modes_by_nalgebra;
-use crate::common::whole_models::{chain_of_springs, masses, sensors_at, springs};
-use corfem::method::assembly::{dense_stiffness, element_matrices};
+use crate::common::whole_models::{chain_of_springs, masses, of_structure, sensors_at, springs};
+use corfem::method::appendix_a::condense;
 use corfem::method::error::Error;
-use corfem::method::model::{FiniteElementModel, Parameter};
+use corfem::method::modes::solve;
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use corfem::sparse::LargeModel;
 use corfem::sparse::{FINITE, SparseMatrix, WholeModel, WholeParameter, WholeShare};
 use nalgebra::{DMatrix, DVector, Vector3};
 use proptest::prelude::*;
 
 const RODS: usize = 10;
 
-/// Areas of the rods, and which joints (1 to 10, from the wall) are measured.
-fn bar(areas: &[f64], measured: &[usize]) -> FiniteElementModel {
-    let material = Material::isotropic(1.0e7, 0.3)
-        .and_then(|material| material.with_density(2.5e-4))
-        .expect("a metal");
+/// A bar of rods with these areas, whose masses are theirs alone.
+fn bar(areas: &[f64]) -> Structure {
+    let material = Material {
+        density: 2.5e-4,
+        ..Material::isotropic(1.0e7, 0.3).expect("a metal")
+    };
     let grids = (0..=RODS).map(|joint| Grid {
         label: joint + 1,
         // Rods of unlike lengths: in a bar of like ones all that is condensed vibrates at one frequency, and costs no orthogonality.
@@ -34,20 +37,17 @@ fn bar(areas: &[f64], measured: &[usize]) -> FiniteElementModel {
         size,
         material,
     });
-    let structure = Structure::new(grids.collect(), rods.collect()).expect("a bar");
-    let t = DMatrix::from_fn(RODS, measured.len(), |row, column| {
-        f64::from(u8::from(row + 1 == measured[column]))
-    });
-    let parameters = (1..=RODS)
-        .map(|rod| Parameter::element(rod, None))
-        .collect();
-    let none = DMatrix::zeros(measured.len(), measured.len());
-    FiniteElementModel::new(structure, t, none, parameters).expect("a model")
+    Structure::new(grids.collect(), rods.collect()).expect("a bar")
 }
 
-/// The same without condensation, and what reads the measured joints.
-fn whole(model: &FiniteElementModel) -> (WholeModel, SparseMatrix) {
-    WholeModel::of(&LargeModel::of(model).expect("a plan")).expect("a whole model")
+/// The same as a whole model, and what reads the joints (1 to 10, from the wall) that are measured.
+fn whole(bar: &Structure, measured: &[usize]) -> (WholeModel, SparseMatrix) {
+    let rods: Vec<Vec<usize>> = (1..=RODS).map(|rod| vec![rod]).collect();
+    let joints: Vec<usize> = measured.iter().map(|joint| joint - 1).collect();
+    (
+        of_structure(bar, &rods).expect("a whole model"),
+        sensors_at(&joints, RODS),
+    )
 }
 
 const FIVE: [usize; 5] = [2, 4, 6, 8, 10];
@@ -58,15 +58,10 @@ properties! {
 
     #[test]
     fn whole_modes_are_those_of_the_assembled_pencil(areas in prop::collection::vec(0.5..2.0_f64, RODS)) {
-        let model = bar(&areas, &FIVE);
-        let elements = element_matrices(model.structure());
-        let stiffness = dense_stiffness(&elements, &areas, RODS).expect("a stiffness");
-        let mut lumped = DVector::zeros(RODS);
-        for (element, area) in elements.iter().zip(&areas) {
-            element.dof.iter().zip(&element.unit_mass).for_each(|(&row, unit)| lumped[row] += area * unit);
-        }
-        let (omega_squared, shapes) = modes_by_nalgebra(&stiffness, &DMatrix::from_diagonal(&lumped));
-        let (whole, joints) = whole(&model);
+        let bar = bar(&areas);
+        let mass = DMatrix::from_diagonal(&lumped_mass(&bar));
+        let (omega_squared, shapes) = modes_by_nalgebra(&dense(&bar), &mass);
+        let (whole, joints) = whole(&bar, &FIVE);
         let found = seen_modes(&whole, &ONES, &joints, 5).expect("modes");
         for mode in 0..5 {
             prop_assert!((found.omega_squared()[mode] / omega_squared[mode] - 1.0).abs() < 1e2 * EIGEN_ROUND_OFF);
@@ -80,9 +75,9 @@ properties! {
     #[test]
     fn condensed_frequencies_are_those_of_a_ritz_approximation(areas in prop::collection::vec(0.5..2.0_f64, RODS)) {
         // Mode by mode none lies below the whole structure's.
-        let model = bar(&areas, &FIVE);
-        let condensed = model.modes(&ONES).expect("modes").frequencies_hz();
-        let (whole, joints) = whole(&model);
+        let (whole, joints) = whole(&bar(&areas), &FIVE);
+        let (condensed, mass) = condensed(&whole, &ONES, &joints).expect("held");
+        let condensed = solve(&condensed.stiffness, &mass, 5).expect("modes").frequencies_hz();
         let whole = seen_modes(&whole, &ONES, &joints, 5).expect("modes").frequencies_hz();
         for (condensed, whole) in condensed.iter().zip(whole) {
             prop_assert!(*condensed >= whole * (1.0 - EIGEN_ROUND_OFF));
@@ -92,7 +87,7 @@ properties! {
     #[test]
     fn where_every_joint_is_measured_condensation_costs_nothing(areas in prop::collection::vec(0.5..2.0_f64, RODS)) {
         let all: Vec<usize> = (1..=RODS).collect();
-        let (whole, joints) = whole(&bar(&areas, &all));
+        let (whole, joints) = whole(&bar(&areas), &all);
         for error in condensation_errors(&whole, &ONES, &joints, RODS).expect("errors") {
             prop_assert!(error.frequency.abs() < MATRIX_ROUND_OFF && error.shape.abs() < MATRIX_ROUND_OFF);
         }
@@ -102,17 +97,19 @@ properties! {
 /// Where no point has a mass of its own and every element has one.
 #[test]
 fn the_mass_of_elements_alone_is_condensed_as_the_method_does() {
-    let model = bar(&ONES, &FIVE);
-    let plain = model.condense(&ONES).expect("held").mass;
-    let large = LargeModel::of(&model).expect("a plan");
-    let found = large.condense(&ONES).expect("held").mass;
+    let bar = bar(&ONES);
+    let t = DMatrix::identity(RODS, RODS).select_columns(&FIVE.map(|joint| joint - 1));
+    let b = condense(&dense(&bar), &t).expect("held").transformation;
+    let plain = b.tr_mul(&(DMatrix::from_diagonal(&lumped_mass(&bar)) * &b));
+    let (model, joints) = whole(&bar, &FIVE);
+    let (_, found) = condensed(&model, &ONES, &joints).expect("held");
     assert!(plain.amax() > 0.0);
     assert!((found - &plain).amax() <= MATRIX_ROUND_OFF * plain.amax());
 }
 
 #[test]
 fn five_of_ten_joints_are_too_few_for_the_higher_modes() {
-    let (model, joints) = whole(&bar(&[1.0; RODS], &FIVE));
+    let (model, joints) = whole(&bar(&ONES), &FIVE);
     let errors = condensation_errors(&model, &ONES, &joints, 5).expect("errors");
     // Static condensation raises the fourth and the fifth frequency by several percent, the first by next to nothing.
     assert!(errors[0].frequency < 0.005 && errors[0].frequency > 0.0);
@@ -159,10 +156,11 @@ fn modes_that_move_no_sensor_are_passed_over_in_any_units() {
         assert!(
             matches!(
                 refused,
-                Err(Error::TooMany {
+                Err(Error::Count {
                     what: "modes that move a sensor",
-                    available: 2,
-                    requested: 3
+                    found: 3,
+                    most: 2,
+                    ..
                 })
             ),
             "{refused:?}"
@@ -185,10 +183,11 @@ fn what_only_moves_as_one_has_no_mode_that_a_sensor_could_see() {
     assert!(
         matches!(
             refused,
-            Err(Error::TooMany {
+            Err(Error::Count {
                 what: FINITE,
-                available: 0,
-                requested: 1
+                found: 1,
+                most: 0,
+                ..
             })
         ),
         "{refused:?}"
@@ -197,21 +196,25 @@ fn what_only_moves_as_one_has_no_mode_that_a_sensor_could_see() {
 
 #[test]
 fn more_modes_than_there_are_is_an_error() {
-    let (model, joints) = whole(&bar(&[1.0; RODS], &FIVE));
+    let (model, joints) = whole(&bar(&ONES), &FIVE);
     assert!(matches!(
         seen_modes(&model, &ONES, &joints, 11),
-        Err(Error::TooMany {
-            available: 10,
-            requested: 11,
+        Err(Error::Count {
+            found: 11,
+            most: 10,
             ..
         })
     ));
     assert!(matches!(
         seen_modes(&model, &ONES, &joints, 0),
-        Err(Error::Empty { .. })
+        Err(Error::Count { found: 0, .. })
     ));
     assert!(matches!(
         condensation_errors(&model, &ONES, &joints, 6),
-        Err(Error::TooMany { .. })
+        Err(Error::Count {
+            found: 6,
+            most: 5,
+            ..
+        })
     ));
 }

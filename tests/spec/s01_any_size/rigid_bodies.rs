@@ -4,12 +4,13 @@ use crate::common::draws::Draws;
 use crate::common::tolerances::DIFFERENCE_ROUND_OFF;
 use crate::common::whole_models::{masses, springs};
 use corfem::chain::rods;
-use corfem::method::model::Parameter;
+use corfem::files::deck::{self, BulkData};
+use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use corfem::sparse::{LargeModel, RigidBodies, SparseMatrix, WholeModel, lowest_modes};
 use nalgebra::{DMatrix, Vector3};
 
-/// The whole model of a structure with the mass of its elements and a first point.
+/// Whole model of a structure with a mass at its first degree of freedom.
 fn whole(structure: Structure, point: f64) -> WholeModel {
     let count = structure.free_dof().len();
     let t = SparseMatrix::new("T", count, 1, vec![(0, 0, 1.0)]).expect("T");
@@ -131,14 +132,19 @@ fn a_thousand_structures_have_neither_one_too_many_nor_one_too_few() {
         // In millimeters and tons, and in meters and kilograms.
         for units in [[1e3, 2.1e5, 7.8e-9], [1.0, 2.1e11, 7.8e3]] {
             let structure = truss(&mut Draws(1000 + number), held, points, units);
-            let model = whole(structure, 0.0);
-            let modes = model
-                .modes(&[1.0], 3)
-                .unwrap_or_else(|error| panic!("{number}: {error}"));
+            // A millionth of a unit cube: next to nothing.
+            let point = 1e-6 * units[2] * units[0].powi(3);
+            let t = DMatrix::from_fn(structure.free_dof().len(), 1, |row, _| f64::from(row == 0));
+            let mass = DMatrix::from_element(1, 1, point);
+            let model =
+                FiniteElementModel::new(structure, t, mass, vec![Parameter::element(1, None)]);
+            let model = model.expect("a model");
+            let deck = BulkData::from_model(&model, &[1.0], &[Vector3::zeros()]).expect("a deck");
+            let found = deck::modes(&deck, 3).unwrap_or_else(|error| panic!("{number}: {error}"));
             // Three points hold six motions of a body and more; two let it turn about their line.
             let expected = [6, 3, 1, 0][held];
-            assert_eq!(modes.rigid_body.ncols(), expected, "truss {number}");
-            frequencies.push(modes.vibrations.frequencies_hz());
+            assert_eq!(found.rigid_body, expected, "truss {number}");
+            frequencies.push(found.modes.frequencies_hz());
         }
         for (one, other) in frequencies[0].iter().zip(&frequencies[1]) {
             assert!(

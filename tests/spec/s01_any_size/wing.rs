@@ -4,8 +4,8 @@ use crate::common::known::wing::{MESHES, SORTS, Wing};
 use crate::common::structures::{factorized, wings};
 use crate::common::tolerances::{COARSE_WING, ELEMENT_ROUND_OFF, ROUND_OFF, SLENDER_BEAM};
 use approx::assert_relative_eq;
-use corfem::method::elements::corner_volumes;
 use corfem::method::structure::{ElementKind, Material, Structure};
+use corfem::sparse::elements::corner_volumes;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 use std::f64::consts::PI;
@@ -29,7 +29,8 @@ fn free_dof([ribs, chord, depth]: [usize; 3]) -> usize {
 
 /// Area of an element for unit size: its volume.
 fn area(structure: &Structure, label: usize) -> f64 {
-    corner_volumes(&structure.geometry()[label - 1])
+    let (row, elements) = (label - 1, structure.elements());
+    corner_volumes(elements[row].kind, &structure.corners()[row])
         .iter()
         .sum()
 }
@@ -73,7 +74,7 @@ fn sizes_of_a_sort_sum_to_what_was_given() {
             .take(wing.zones);
         let size = |label: usize| model.structure().elements()[label - 1].size;
         let total: f64 = of_sort
-            .flat_map(|p| &p.members)
+            .flat_map(|p| &p.elements)
             .map(|&label| size(label))
             .sum();
         assert_relative_eq!(total, *expected, max_relative = ROUND_OFF);
@@ -220,7 +221,7 @@ properties! {
         prop_assert_eq!(model.parameters().len(), SORTS.len() * wing.zones);
         let members = |sort: usize| {
             let zones = &model.parameters()[sort * wing.zones..(sort + 1) * wing.zones];
-            zones.iter().flat_map(|p| p.members.clone()).collect::<Vec<_>>()
+            zones.iter().flat_map(|p| p.elements.clone()).collect::<Vec<_>>()
         };
         let mut all: Vec<usize> = (0..SORTS.len()).flat_map(members).collect();
         for (sort, expected) in counts(wing.bays).into_iter().enumerate() {

@@ -1,8 +1,9 @@
 //! What the wing does under load and in vibration, and what others found.
 
+use super::super::weighed::lumped_mass;
 use super::{DeltaWing, STATIONS, upper_grid};
 use corfem::files::test_data::row_name;
-use corfem::method::assembly::{ElementMatrix, dense_stiffness, element_matrices, lumped_mass};
+use corfem::method::appendix_a::{ElementMatrix, assemble, element_matrices};
 use corfem::method::error::Error;
 use corfem::method::structure::Structure;
 use corfem::sparse::SparseMatrix;
@@ -41,9 +42,9 @@ impl DeltaWing {
     /// Those of [`Self::structure`], of the factorization and of [`whole_modes`].
     pub fn modes(&self) -> Result<WholeModes, Error> {
         let (structure, elements, sizes, _) = self.parts()?;
+        let mass = lumped_mass(&structure);
         let dof = structure.free_dof().to_vec();
-        let mass = lumped_mass(&elements, &sizes, dof.len())?;
-        let dense = dense_stiffness(&elements, &sizes, dof.len())?;
+        let dense = assemble(&elements, &sizes, dof.len())?;
         let t = DMatrix::identity(dof.len(), dof.len());
         let stiffness = SparseMatrix::of_dense("stiffness", &dense)?;
         whole_modes(
@@ -62,7 +63,7 @@ impl DeltaWing {
     /// The structure, its unit element matrices, sizes and stiffness.
     fn parts(&self) -> Result<(Structure, Vec<ElementMatrix>, Vec<f64>, Factor), Error> {
         let structure = self.structure()?;
-        let elements = element_matrices(&structure);
+        let elements: Vec<_> = element_matrices(&structure).collect();
         let sizes: Vec<f64> = structure.elements().iter().map(|e| e.size).collect();
         let stiffness = Factor::of_stiffness(&elements, &sizes, structure.free_dof())?;
         Ok((structure, elements, sizes, stiffness))

@@ -12,14 +12,14 @@
 //!   within 0.006 % of those of the whole wing. Stiffness alone is corrected.
 //! - **Held fixed** are posts and caps, rods of known cross section.
 
+use super::super::eigensolved::Eigensolved;
+use super::super::weighed::Weighed;
 use super::DeltaWing;
 use corfem::method::error::Error;
-use corfem::method::error_sum::ErrorMeasure;
 use corfem::method::inner_loop::InnerSettings;
-use corfem::method::model::{FiniteElementModel, ModalModel, Parameter};
-use corfem::method::modes::ModeSet;
+use corfem::method::model::{FiniteElementModel, Parameter};
+use corfem::method::modes::Modes;
 use corfem::method::outer_loop::{Correlation, Pass, Settings, correlate};
-use corfem::method::state::UpdateRule;
 use corfem::method::step::{Accumulation, StepRule};
 use corfem::method::structure::{Element, Material, Structure};
 use corfem::sparse::SparseMatrix;
@@ -80,6 +80,8 @@ pub const GROUPS: [Group; 21] = [
 /// The test modes, by their number among the right wing's.
 pub const TEST_MODES: [usize; 10] = [1, 2, 3, 4, 5, 6, 7, 10, 11, 12];
 
+/// Mass of the points of a model that has none there, lbf·s²/in.
+pub const POINT_MASS: f64 = 1e-3;
 /// Direction measured.
 const Z: usize = 2;
 
@@ -93,10 +95,8 @@ pub fn settings() -> Settings {
         inner: InnerSettings {
             tolerance: 0.01,
             iterations: 100,
-            step: StepRule::Diagonal,
+            step: StepRule::Own,
             accumulation: Accumulation::Product,
-            measure: ErrorMeasure::Sum,
-            update: UpdateRule::Eigensolution,
             ..InnerSettings::default()
         },
         later_inner_tolerance: 0.005,
@@ -115,11 +115,12 @@ pub fn measured_grids(structure: &Structure) -> Vec<usize> {
         .collect()
 }
 
-/// The model with the wrong gages of [`GROUPS`], one parameter a group.
+/// The model with the wrong gages of [`GROUPS`], one parameter a group. Its points have no masses: those that a finite element model must
+/// have are [`POINT_MASS`], of which its matrices know nothing.
 ///
 /// # Errors
 /// Those of [`DeltaWing::structure`] and [`FiniteElementModel::new`].
-pub fn first_model(wing: &DeltaWing) -> Result<FiniteElementModel, Error> {
+pub fn first_model(wing: &DeltaWing) -> Result<Weighed<FiniteElementModel>, Error> {
     let right = wing.structure()?;
     let elements = right.elements().iter().map(|element| {
         let wrong = GROUPS.iter().find(|g| g.elements.contains(&element.label));
@@ -140,21 +141,21 @@ pub fn first_model(wing: &DeltaWing) -> Result<FiniteElementModel, Error> {
         .into_iter()
         .filter_map(column)
         .collect();
-    let mass = DMatrix::zeros(columns.len(), columns.len());
+    let mass = DMatrix::from_diagonal_element(columns.len(), columns.len(), POINT_MASS);
     let rows = structure.free_dof().len();
     let loads = SparseMatrix::of_columns("load distribution", rows, &columns)?;
     let parameters = GROUPS
         .iter()
         .map(|g| Parameter::group(g.name, g.elements))
         .collect();
-    FiniteElementModel::new(structure, loads.dense(), mass, parameters)
+    FiniteElementModel::new(structure, loads.dense(), mass, parameters).map(Weighed)
 }
 
 /// The test modes at the measured grids.
 ///
 /// # Errors
-/// Those of [`DeltaWing::modes`] and [`ModeSet::from_measured`].
-pub fn test_modes(wing: &DeltaWing) -> Result<ModeSet, Error> {
+/// Those of [`DeltaWing::modes`] and [`Modes::from_measured`].
+pub fn test_modes(wing: &DeltaWing) -> Result<Modes, Error> {
     let (structure, whole) = (wing.structure()?, wing.modes()?.modes);
     let (places, all_hz) = (TEST_MODES.map(|mode| mode - 1), whole.frequencies_hz());
     let row = |grid: usize| structure.free_dof_index(grid, Z);
@@ -163,7 +164,7 @@ pub fn test_modes(wing: &DeltaWing) -> Result<ModeSet, Error> {
         .filter_map(row)
         .collect();
     let shapes = whole.shapes().select_rows(&rows).select_columns(&places);
-    ModeSet::from_measured(&places.map(|place| all_hz[place]), &shapes)
+    Modes::from_measured(&places.map(|place| all_hz[place]), &shapes)
 }
 
 /// The scenario run to its end.
@@ -172,7 +173,7 @@ pub struct WingCorrelation {
     /// What did the finite element analyses of the model: [`BUILT_IN`] or another program.
     pub solver: &'static str,
     /// The test modes.
-    pub test: ModeSet,
+    pub test: Modes,
     /// The whole history.
     pub correlation: Correlation,
     /// What the test modes can see of each of the [`GROUPS`]: its largest share of a test mode's generalized stiffness in the first
@@ -211,20 +212,30 @@ pub fn correlate_wing_with<E: From<Error>>(
     settings: &Settings,
     solver: &'static str,
     mut elements: impl FnMut(&FiniteElementModel, &[f64]) -> Result<FiniteElementModel, E>,
-    progress: impl FnMut(usize, &Pass),
+    mut progress: impl FnMut(usize, &Pass),
 ) -> Result<WingCorrelation, E> {
     let model = first_model(wing)?;
     let test = test_modes(wing)?;
-    let mut analyze = |factors: &[f64]| -> Result<ModalModel, E> {
-        Ok(elements(&model, factors)?.analyze(factors, &test, None)?)
+    let mut analyze = |factors: &[f64]| -> Result<Eigensolved, E> {
+        let model = Weighed(elements(&model, factors)?).analyze(factors, &test, None)?;
+        Ok(Eigensolved(model))
     };
     let first = analyze(&[1.0; GROUPS.len()])?;
     let shares = first
+        .0
         .test_shares()
         .iter()
         .map(|share| share.diagonal().max())
         .collect();
-    let correlation = correlate(analyze, &model.factor_ranges()?, settings, progress)?;
+    let correlation = correlate(
+        analyze,
+        &model.factor_ranges()?,
+        settings,
+        |number, pass| {
+            progress(number, pass);
+            true
+        },
+    )?;
     Ok(WingCorrelation {
         solver,
         test,

@@ -82,7 +82,10 @@ impl DeltaWing {
     /// Those of [`Material::isotropic`] and [`Structure::new`].
     pub fn structure(&self) -> Result<Structure, Error> {
         let rods = Material::isotropic(self.youngs_modulus, self.poissons_ratio)?;
-        let sheet = rods.with_density(self.sheet_density)?;
+        let sheet = Material {
+            density: self.sheet_density,
+            ..rods
+        };
         let mut elements = Vec::new();
         // From the first numbers of each sort in NASA's deck.
         for (first, members, material) in [

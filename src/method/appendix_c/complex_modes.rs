@@ -1,9 +1,9 @@
 //! Left and right modes of the general pencil (C.1), whose $G$ may be complex and unsymmetric, such as mass with
 //! aerodynamic terms.
 
-use crate::method::error::{Error, at_least_one};
+use crate::method::error::{Error, at_least_one, require};
 use crate::method::linear_algebra::{as_faer, check_matrix, cholesky, reduced};
-use crate::method::modes::{Modes, SIGN_TIE};
+use crate::method::modes::{Modes, SIGN_TIE, mode};
 use nalgebra::{Complex, DMatrix, DVector};
 
 /// Neighboring magnitudes that differ by less than this fraction count as equal for the order of modes, so that
@@ -48,13 +48,13 @@ impl From<&Modes> for LeftRightModes<f64> {
 /// - Phase: the first of the largest components of $v$ (within one part in a million) is real and positive.
 ///
 /// # Errors
-/// Those of [`cholesky`] for the stiffness; [`Error::WrongShape`] and [`Error::NotFinite`] for $G$; [`Error::Empty`] without
-/// DOF; [`Error::Defective`] when the pencil has fewer shapes than DOF; [`Error::NoConvergence`].
+/// [`Error::NotPositiveDefinite`] for the stiffness; [`Error::WrongShape`] and [`Error::Value`] for a $G$ that does not fit or is not
+/// finite, and for a pencil that has fewer shapes than DOF; [`Error::Count`] without DOF; [`Error::Failed`] without convergence.
 ///
 /// # Example
 ///
 /// ```rust
-/// use corfem::method::appendix_c::general::complex_modes::solve;
+/// use corfem::method::appendix_c::complex_modes::solve;
 /// use nalgebra::{Complex, dmatrix};
 ///
 /// // 4 λ - (1 + 2i) = 0.
@@ -66,48 +66,40 @@ pub fn solve(
     stiffness: &DMatrix<f64>,
     g: &DMatrix<Complex<f64>>,
 ) -> Result<LeftRightModes<Complex<f64>>, Error> {
-    let size = stiffness.nrows();
+    let (what, size) = ("mass and aerodynamic terms", stiffness.nrows());
     at_least_one("degrees of freedom", size)?;
     let lower = cholesky("stiffness", stiffness, 0.0)?.map(Complex::from);
-    let what = "mass and aerodynamic terms";
     check_matrix(what, g, size, size)?;
-    let eigen = as_faer(&reduced(&lower, g))
-        .eigen()
-        .map_err(|_| Error::NoConvergence(what))?;
+    let eigen = as_faer(&reduced(&lower, g)).eigen();
+    let eigen = eigen.map_err(|_| Error::no_convergence(what))?;
     let root = |i: usize| eigen.S()[i];
     let mut order: Vec<usize> = (0..size).collect();
     order.sort_by(|&a, &b| root(b).norm().total_cmp(&root(a).norm()));
-    for equal in
-        order.chunk_by_mut(|&a, &b| root(b).norm() >= (1.0 - MAGNITUDE_TIE) * root(a).norm())
-    {
+    let is_tie = |&a: &usize, &b: &usize| root(b).norm() >= (1.0 - MAGNITUDE_TIE) * root(a).norm();
+    for equal in order.chunk_by_mut(is_tie) {
         equal.sort_by(|&a, &b| root(a).arg().total_cmp(&root(b).arg()));
     }
-    let mut reduced_right = DMatrix::from_fn(size, size, |row, j| eigen.U()[(row, order[j])]);
-    reduced_right
-        .column_iter_mut()
-        .for_each(|mut shape| _ = shape.normalize_mut());
-    let mut right = reduced_right.clone();
-    lower.tr_solve_lower_triangular_unchecked_mut(&mut right);
-    for (mut shape, mut reduced) in right.column_iter_mut().zip(reduced_right.column_iter_mut()) {
-        let largest = shape.map(Complex::norm).max();
-        let first = shape
-            .iter()
-            .find(|value| value.norm() >= (1.0 - SIGN_TIE) * largest);
+    // Shapes Y of unit length, each turned so that the first largest component of its v is real and positive.
+    let mut y = DMatrix::from_fn(size, size, |row, j| eigen.U()[(row, order[j])]);
+    for mut shape in y.column_iter_mut() {
+        let mut v = shape.clone_owned();
+        lower.tr_solve_lower_triangular_unchecked_mut(&mut v);
+        let largest = v.map(Complex::norm).max();
+        let is_largest = |value: &&Complex<f64>| value.norm() >= (1.0 - SIGN_TIE) * largest;
+        let first = v.iter().find(is_largest).copied();
         let phase = first.map_or(Complex::from(1.0), |value| value / value.norm());
-        shape /= phase;
-        reduced /= phase;
+        shape /= phase * shape.norm();
     }
-    let inverse = reduced_right.try_inverse().ok_or(Error::Defective {
-        mode: 0,
-        cosine: 0.0,
-    })?;
-    let mut left = inverse.transpose();
-    for (mode, shape) in left.column_iter().enumerate() {
-        let cosine = 1.0 / shape.norm();
-        if cosine.is_nan() || cosine <= SMALLEST_COSINE {
-            return Err(Error::Defective { mode, cosine });
-        }
+    // Left shapes of shapes that depend on each other are infinitely long.
+    let endless = DMatrix::from_element(size, size, Complex::from(f64::INFINITY));
+    let inverse = y.clone().try_inverse().unwrap_or(endless);
+    let (mut right, mut left) = (y, inverse.transpose());
+    for (place, shape) in left.column_iter().enumerate() {
+        let (cosine, owner) = (1.0 / shape.norm(), || mode(place));
+        let what = "cosine of left and right shapes";
+        require(cosine > SMALLEST_COSINE, what, owner, cosine, "above 1e-7")?;
     }
+    lower.tr_solve_lower_triangular_unchecked_mut(&mut right);
     lower.tr_solve_lower_triangular_unchecked_mut(&mut left);
     Ok(LeftRightModes {
         roots: DVector::from_fn(size, |j, _| root(order[j])),

@@ -1,0 +1,123 @@
+//! The verdict on a finished correlation.
+
+use crate::method::error_sum::{Errors, ModeError};
+use crate::method::inner_loop::Stop;
+use crate::method::outer_loop::Correlation;
+use crate::method::step::Bounds;
+use crate::torque_box::CaseResult;
+use crate::weighted::comparison::ModeErrors;
+use crate::weighted::intervals::is_at_end;
+use serde::Serialize;
+
+/// Largest part of a test mode's generalized stiffness (or mass) below which a parameter counts as unseen: twice as much of it
+/// would move no frequency by half a percent.
+#[doc(hidden)]
+pub const UNSEEN_SHARE: f64 = 0.01;
+
+/// Reason why a correlation ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// The exact modes met the tolerances, and nothing else ended it.
+    Tolerance,
+    /// No step lowered the error sum any more.
+    LocalMinimum,
+    /// Steps became too short to tell whether one lowers it, which is no proof of a minimum.
+    ShortSteps,
+    /// The passes allowed were used up, or the iterations of the only one.
+    Cap,
+    /// The caller asked to stop.
+    Request,
+    /// Not one step was taken: the first was uphill with all its halvings, or no pass was allowed.
+    Nothing,
+}
+
+/// Verdict on a correlation, at its best factors.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Verdict {
+    /// Reason why it ended.
+    pub outcome: Outcome,
+    /// Whether the exact modes at the best factors meet the tolerances.
+    pub is_within: bool,
+    /// Error sum there: the number that the tolerance is compared with.
+    pub error_sum: f64,
+    /// The test mode with the largest errors there, from zero.
+    pub worst_mode: usize,
+    /// Its errors.
+    pub worst: ModeErrors,
+    /// Parameters at an end of their range, from zero.
+    pub at_bound: Vec<usize>,
+    /// Parameters that no test mode has [`UNSEEN_SHARE`] of its stiffness or mass in, from zero.
+    pub unseen: Vec<usize>,
+}
+
+/// What a verdict judges beside the best factors.
+#[doc(hidden)]
+pub struct Judged<'a> {
+    /// Largest part of a test mode that each parameter had at first.
+    pub seen: &'a [f64],
+    /// Bounds on every parameter's factor.
+    pub ranges: &'a [Option<Bounds>],
+}
+
+impl Judged<'_> {
+    /// The verdict on a correlation that is best at `factors`, where the test modes have the error sum and `errors`.
+    pub(crate) fn verdict(
+        &self,
+        outcome: Outcome,
+        (error_sum, errors): (f64, &[ModeErrors]),
+        factors: &[f64],
+        is_within: bool,
+    ) -> Verdict {
+        let worst_mode = (0..errors.len())
+            .max_by(|&a, &b| errors[a].square().total_cmp(&errors[b].square()))
+            .unwrap_or(0);
+        let at_end = |e: &usize| self.ranges[*e].is_some_and(|range| is_at_end(range, factors[*e]));
+        let is_unseen = |e: &usize| factors[*e] * self.seen[*e] < UNSEEN_SHARE;
+        Verdict {
+            outcome,
+            is_within,
+            error_sum,
+            worst_mode,
+            worst: errors.get(worst_mode).copied().unwrap_or_default(),
+            at_bound: (0..factors.len()).filter(at_end).collect(),
+            unseen: (0..factors.len()).filter(is_unseen).collect(),
+        }
+    }
+
+    /// The verdict on the paper's loops, whose error sum is told in the given measure; `errors` are those of every test mode at its best.
+    pub fn of_loops(
+        &self,
+        run: &Correlation,
+        errors: &[ModeError],
+        measure: fn(&Errors) -> f64,
+        is_stopped: bool,
+    ) -> Verdict {
+        let passes = run.passes.iter();
+        let has_stepped = passes.clone().any(|pass| !pass.inner.iterations.is_empty());
+        let outcome = match passes.last() {
+            _ if is_stopped && !run.converged => Outcome::Request,
+            _ if !has_stepped && !run.converged => Outcome::Nothing,
+            Some(pass) if pass.inner.stop == Stop::LocalMinimum => Outcome::LocalMinimum,
+            _ if run.converged => Outcome::Tolerance,
+            _ => Outcome::Cap,
+        };
+        let errors: Vec<ModeErrors> = errors.iter().copied().map(ModeErrors::from).collect();
+        let sums = (measure(&run.best_check().errors), &errors[..]);
+        self.verdict(outcome, sums, &run.best_factors, run.converged)
+    }
+}
+
+/// Error sum that nine modes of the same root mean square errors would have.
+pub(crate) fn sum_of_nine_modes(errors: &Errors) -> f64 {
+    3.0 * (errors.frequency_rms() + errors.shape_rms())
+}
+
+impl Verdict {
+    /// The verdict on a case of the paper.
+    pub fn of_case(result: &CaseResult) -> Self {
+        let (seen, ranges) = (&result.seen, &result.ranges);
+        let (run, errors) = (&result.correlation, &result.best_errors);
+        Judged { seen, ranges }.of_loops(run, errors, Errors::sum, false)
+    }
+}

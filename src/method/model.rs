@@ -1,0 +1,506 @@
+//! The finite element model as the correlation sees it: a structure, its dynamic points, what may change, and its analysis.
+//! Tour: [chapter 10](crate::tour::chapter_10_own_structure).
+
+use super::analysis::{Analysis, DERIVATIVE_STEP, State, without_close_couplings};
+use super::appendix_a::{
+    Condensed, ElementMatrix, assemble, condense, element_matrices, generalized_stiffness,
+};
+use super::error::{Error, at_least_one, positive};
+use super::error_sum::errors;
+use super::linear_algebra::{
+    check_finite, check_length, check_matrix, check_shape, check_symmetric, cholesky,
+    symmetric_part,
+};
+use super::modes::{Modes, solve};
+use super::perturbation::{first_order, recursive_1_converged};
+use super::sorting::{cross_orthogonality, pair_modes};
+use super::step::{Bounds, REFERENCE_GAGE, StepRule};
+use super::structure::{DIRECTIONS, Structure};
+use nalgebra::DMatrix;
+use std::collections::HashMap;
+use std::ops::Deref;
+
+/// Elements whose stiffness is scaled by one factor: a single one, or a substructure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// Its name in reports.
+    pub name: String,
+    /// Labels of its elements.
+    pub elements: Vec<usize>,
+    /// Bounds on the gages (in) or areas (in²) of its elements, if any.
+    pub size_range: Option<Bounds>,
+    /// Bounds on the factor on its first value, if any.
+    pub factor_range: Option<Bounds>,
+}
+
+impl Parameter {
+    /// The stiffness of one element, named by its number.
+    pub fn element(label: usize, size_range: Option<Bounds>) -> Self {
+        Self {
+            size_range,
+            ..Self::group(&label.to_string(), &[label])
+        }
+    }
+
+    /// The stiffness of a group of elements.
+    pub fn group(name: &str, elements: &[usize]) -> Self {
+        Self {
+            name: name.into(),
+            elements: elements.to_vec(),
+            size_range: None,
+            factor_range: None,
+        }
+    }
+}
+
+/// A structure and what may change of it.
+///
+/// A parameter scales stiffness alone: in the paper the mass is known and never changes. A gage that a correlation finds is
+/// therefore a statement about stiffness and does not make the element heavier.
+#[derive(Debug, Clone)]
+pub struct ScaledStructure {
+    structure: Structure,
+    parameters: Vec<Parameter>,
+    /// Rows of every parameter's elements.
+    rows: Vec<Vec<usize>>,
+}
+
+impl ScaledStructure {
+    /// A structure with parameters.
+    ///
+    /// # Errors
+    /// [`Error::Count`] without parameters, or for one without elements; [`Error::Unknown`] for an element that is not there;
+    /// [`Error::Duplicate`] for one in two parameters.
+    pub fn new(structure: Structure, parameters: Vec<Parameter>) -> Result<Self, Error> {
+        at_least_one("parameters", parameters.len())?;
+        let labels = structure.elements().iter().map(|element| element.label);
+        let row_of: HashMap<usize, usize> = labels.zip(0..).collect();
+        let (mut rows, mut first_with) = (Vec::new(), HashMap::new());
+        for Parameter { name, elements, .. } in &parameters {
+            at_least_one("elements of a parameter", elements.len())?;
+            let mut own = Vec::new();
+            for &label in elements {
+                let (owner, what) = (format!("parameter {name}"), "element");
+                let missing = Error::Unknown { owner, what, label };
+                own.push(*row_of.get(&label).ok_or(missing)?);
+                if let Some(first) = first_with.insert(label, name) {
+                    let owner = format!("parameters {first} and {name}");
+                    return Err(Error::Duplicate { owner, what, label });
+                }
+            }
+            rows.push(own);
+        }
+        Ok(Self {
+            structure,
+            parameters,
+            rows,
+        })
+    }
+
+    /// The structure with its first sizes.
+    pub fn structure(&self) -> &Structure {
+        &self.structure
+    }
+
+    /// Parameters: what may change.
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.parameters
+    }
+
+    /// Rows of every parameter's elements.
+    pub(crate) fn rows(&self) -> &[Vec<usize>] {
+        &self.rows
+    }
+
+    /// Bounds on each parameter's factor: its own, and those that keep all its elements within its size bounds.
+    ///
+    /// # Errors
+    /// [`Error::Range`] when no factor meets both, or when the first sizes lie outside.
+    pub fn factor_ranges(&self) -> Result<Vec<Option<Bounds>>, Error> {
+        let parameters = self.parameters.iter().zip(&self.rows);
+        let ranges = parameters.map(|(parameter, rows)| {
+            let of_sizes = rows.iter().filter_map(|&row| {
+                let (range, size) = (parameter.size_range?, self.structure.elements()[row].size);
+                let (lower, upper) = (range.lower / size, range.upper / size);
+                Some(Bounds { lower, upper })
+            });
+            let both = |a: Bounds, b: Bounds| Bounds {
+                lower: a.lower.max(b.lower),
+                upper: a.upper.min(b.upper),
+            };
+            let all = parameter.factor_range.into_iter().chain(of_sizes);
+            let range = all.reduce(both);
+            let what = format!("factor of parameter {}", parameter.name);
+            let around_one = |Bounds { lower, upper }| match Bounds::positive(&what, lower, upper)?
+            {
+                range if range.contains(1.0) => Ok(range),
+                _ => Err(Error::Range { what, lower, upper }),
+            };
+            range.map(around_one).transpose()
+        });
+        ranges.collect()
+    }
+
+    /// Gages (in) and areas (in²) of all elements at the parameters' factors, in the structure's order.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] for another number of factors; [`Error::Value`] for a factor or size that is not positive and finite.
+    pub fn sizes(&self, factors: &[f64]) -> Result<Vec<f64>, Error> {
+        check_length("parameter factors", factors.len(), self.parameters.len())?;
+        let elements = self.structure.elements().iter();
+        let mut sizes: Vec<f64> = elements.map(|element| element.size).collect();
+        for ((parameter, rows), &factor) in self.parameters.iter().zip(&self.rows).zip(factors) {
+            let owner = || format!("parameter {}", parameter.name);
+            positive("factor", owner, factor)?;
+            for &row in rows {
+                sizes[row] *= factor;
+                positive("scaled size", owner, sizes[row])?;
+            }
+        }
+        Ok(sizes)
+    }
+
+    /// Mean size of every parameter's elements.
+    pub(crate) fn mean_sizes(&self, sizes: &[f64]) -> Vec<f64> {
+        let means = self.rows.iter().map(|rows| {
+            let sum: f64 = rows.iter().map(|&row| sizes[row]).sum();
+            sum / rows.len() as f64
+        });
+        means.collect()
+    }
+}
+
+/// A [`ScaledStructure`] with its load distribution $T$ (A.3) and the mass $M$ of its dynamic points: what an analysis needs.
+///
+/// # Example
+///
+/// Two rods whose areas a test knows better:
+///
+/// ```rust
+/// use corfem::method::model::{FiniteElementModel, Parameter};
+/// use corfem::method::modes::Modes;
+/// use corfem::method::outer_loop::{Settings, correlate};
+/// use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
+/// use nalgebra::{DMatrix, Vector3, dmatrix};
+///
+/// // Two rods end to end from a wall, 10 in each, free to move along x.
+/// let material = Material::isotropic(1.0e7, 0.3)?;
+/// let grids = [1, 2, 3].map(|label| {
+///     Grid { label, position: Vector3::new(10.0 * label as f64, 0.0, 0.0), constrained: [label == 1, true, true] }
+/// });
+/// let rods = [1, 2].map(|label| {
+///     Element { label, kind: ElementKind::Rod, grids: vec![label, label + 1], size: 0.1, material }
+/// });
+/// let structure = Structure::new(grids.to_vec(), rods.to_vec())?;
+/// let t = DMatrix::identity(2, 2); // measured are the structure's own two DOF
+/// let mass = DMatrix::from_diagonal_element(2, 2, 0.01);
+/// let parameters = [1, 2].map(|rod| Parameter::element(rod, None));
+/// let model = FiniteElementModel::new(structure, t, mass, parameters.to_vec())?;
+///
+/// // Frequencies in hertz; shapes of any scale, one a column.
+/// let test = Modes::from_measured(&[291.340, 851.875], &dmatrix![0.7208, 1.0; 1.0, -0.7208])?;
+/// let settings = Settings { error_sum_tolerance: 0.005, later_inner_tolerance: 0.002, ..Settings::default() };
+/// let settings = settings.for_modes(2);
+/// let limits = model.factor_ranges()?;
+/// let result = correlate(|factors| model.analyze(factors, &test, None), &limits, &settings, |_, _| true)?;
+/// let areas = model.sizes(&result.best_factors)?;
+/// assert!((areas[0] - 0.08).abs() < 0.001 && (areas[1] - 0.12).abs() < 0.001);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct FiniteElementModel {
+    scaled: ScaledStructure,
+    pub(crate) element_matrices: Vec<ElementMatrix>,
+    load_distribution: DMatrix<f64>,
+    mass: DMatrix<f64>,
+}
+
+impl Deref for FiniteElementModel {
+    type Target = ScaledStructure;
+
+    fn deref(&self) -> &ScaledStructure {
+        &self.scaled
+    }
+}
+
+impl FiniteElementModel {
+    /// Puts a model together and forms every unit element matrix, once.
+    ///
+    /// `load_distribution` is $T$ (free SDOF × d), `mass` the dynamic mass $M$ (d × d, lbf·s²/in).
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] and [`Error::Value`] for a $T$ or element stiffness that does not fit or is not finite;
+    /// [`Error::NotPositiveDefinite`] for the mass; what [`ScaledStructure::new`] refuses.
+    pub fn new(
+        structure: Structure,
+        load_distribution: DMatrix<f64>,
+        mass: DMatrix<f64>,
+        parameters: Vec<Parameter>,
+    ) -> Result<Self, Error> {
+        let (free, dynamic) = (structure.free_dof().len(), load_distribution.ncols());
+        at_least_one("dynamic degrees of freedom", dynamic)?;
+        check_matrix("load distribution", &load_distribution, free, dynamic)?;
+        check_shape("dynamic mass", &mass, dynamic, dynamic)?;
+        cholesky("dynamic mass", &mass, 0.0)?;
+        let element_matrices: Vec<_> = element_matrices(&structure).collect();
+        for element in &element_matrices {
+            check_finite("element stiffness", &element.unit)?;
+        }
+        Ok(Self {
+            scaled: ScaledStructure::new(structure, parameters)?,
+            element_matrices,
+            load_distribution,
+            mass,
+        })
+    }
+
+    /// Unit matrices of the elements at the free DOF.
+    pub fn element_matrices(&self) -> &[ElementMatrix] {
+        &self.element_matrices
+    }
+
+    /// The load distribution $T$ (free SDOF × d).
+    pub fn load_distribution(&self) -> &DMatrix<f64> {
+        &self.load_distribution
+    }
+
+    /// The dynamic mass $M$, lbf·s²/in (d × d).
+    pub fn mass(&self) -> &DMatrix<f64> {
+        &self.mass
+    }
+
+    /// $K_D$ and $B^t$ at the given parameter factors: $K_S$ anew.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] and [`Error::Value`] for a bad list of factors; [`Error::SingularStiffness`] naming the grid and direction
+    /// that nothing holds; [`Error::NotPositiveDefinite`] when a dynamic DOF is a combination of others.
+    pub fn condense(&self, factors: &[f64]) -> Result<Condensed, Error> {
+        let free = self.structure.free_dof();
+        let structural = assemble(&self.element_matrices, &self.sizes(factors)?, free.len())?;
+        condense(&structural, &self.load_distribution).map_err(|error| match error {
+            Error::NotPositiveDefinite {
+                what: "structural stiffness",
+                row,
+            } => Error::SingularStiffness {
+                grid: free[row].grid,
+                direction: DIRECTIONS[free[row].direction],
+            },
+            other => other,
+        })
+    }
+
+    /// The finite element analysis at the given parameter factors, compared with the test modes: what the loops are handed.
+    ///
+    /// It takes the lowest `analysis_modes` modes, or as many as there are dynamic DOF.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] and [`Error::Value`] for a bad list of factors or test modes at other DOF; [`Error::SingularStiffness`] and
+    /// [`Error::NotPositiveDefinite`] for a motion that nothing holds; [`Error::Count`] for no modes or more than there are, of the
+    /// model or the test; [`Error::NotAVibration`] for a mode with $\omega^2 \le 0$.
+    ///
+    /// # Example
+    ///
+    /// ```rust
+    /// # use corfem::chain::rods;
+    /// # use corfem::method::model::{FiniteElementModel, Parameter};
+    /// use corfem::method::analysis::Analysis;
+    /// use corfem::method::modes::Modes;
+    /// use nalgebra::{dmatrix, dvector};
+    ///
+    /// // A unit mass on a spring of 4 beside a test mode of ω² = 9: a frequency of 2 for 3.
+    /// let (spring, parameters) = (rods(&[4.0], [true, false])?, vec![Parameter::element(1, None)]);
+    /// let model = FiniteElementModel::new(spring, dmatrix![1.0], dmatrix![1.0], parameters)?;
+    /// let test = Modes::new(dvector![9.0], dmatrix![1.0])?;
+    /// let analysis = model.analyze(&[1.0], &test, None)?;
+    /// assert!((analysis.exact().errors.frequency - 1.0 / 3.0).abs() < 1e-14);
+    /// # Ok::<(), corfem::method::error::Error>(())
+    /// ```
+    pub fn analyze(
+        &self,
+        factors: &[f64],
+        test: &Modes,
+        analysis_modes: Option<usize>,
+    ) -> Result<Model, Error> {
+        let mut model = self.matrices(factors)?.analyze(test, analysis_modes)?;
+        model.gages = self.mean_sizes(&self.sizes(factors)?);
+        Ok(model)
+    }
+
+    /// $K_D$, $M$ and every parameter's share $B K_e B^t$ of $K_D$ (A.9), at the given parameter factors.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] and [`Error::Value`] for a bad list of factors; [`Error::SingularStiffness`] and
+    /// [`Error::NotPositiveDefinite`] for a motion that nothing holds.
+    pub fn matrices(&self, factors: &[f64]) -> Result<DynamicModel, Error> {
+        let (sizes, condensed) = (self.sizes(factors)?, self.condense(factors)?);
+        let (elements, b) = (&self.element_matrices, &condensed.transformation);
+        let share = |&row: &usize| generalized_stiffness(&elements[row], sizes[row], b);
+        let shares = self.rows.iter().map(|rows| rows.iter().map(share).sum());
+        Ok(DynamicModel {
+            shares: shares.collect(),
+            stiffness: condensed.stiffness,
+            mass: self.mass.clone(),
+        })
+    }
+
+    /// The exact modes at the given parameter factors, at the dynamic DOF.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] and [`Error::Value`] for a bad list of factors; [`Error::SingularStiffness`] and
+    /// [`Error::NotPositiveDefinite`] for a motion that nothing holds; [`Error::NotAVibration`] for a mode with $\omega^2 \le 0$.
+    pub fn modes(&self, factors: &[f64]) -> Result<Modes, Error> {
+        let stiffness = self.condense(factors)?.stiffness;
+        solve(&stiffness, &self.mass, self.mass.nrows())
+    }
+}
+
+/// A model given by its matrices at the dynamic DOF, whatever made them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DynamicModel {
+    /// Dynamic stiffness $K_D$, lbf/in (d × d).
+    pub stiffness: DMatrix<f64>,
+    /// Dynamic mass $M$, lbf·s²/in (d × d).
+    pub mass: DMatrix<f64>,
+    /// Each parameter's present share of the stiffness, $B K_e B^t$ (A.9), lbf/in (d × d).
+    pub shares: Vec<DMatrix<f64>>,
+}
+
+impl DynamicModel {
+    /// The analysis of the lowest `analysis_modes` modes, of all when none are named, beside test modes of any scale.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] and [`Error::Value`] for matrices or test modes that do not fit, or are not symmetric and finite;
+    /// [`Error::NotPositiveDefinite`] for the mass; [`Error::NotAVibration`] for a mode with $\omega^2 \le 0$; [`Error::Count`] for no
+    /// modes or more than there are, of the model or the test.
+    pub fn analyze(&self, test: &Modes, analysis_modes: Option<usize>) -> Result<Model, Error> {
+        let (mass, dof_count) = (&self.mass, self.stiffness.nrows());
+        for share in &self.shares {
+            check_shape("parameter share", share, dof_count, dof_count)?;
+            check_symmetric("parameter share", share)?;
+        }
+        let modes = solve(&self.stiffness, mass, analysis_modes.unwrap_or(dof_count))?;
+        check_shape("test mode shapes", &test.shapes, dof_count, test.len())?;
+        let test = test.scaled_with(mass)?;
+        let through = |v: &DMatrix<f64>| {
+            let share = |share| symmetric_part(&v.tr_mul(&(share * v)));
+            self.shares.iter().map(share).collect::<Vec<_>>()
+        };
+        let omega = test.omega_squared.map(f64::sqrt);
+        let relative = |share: DMatrix<f64>| share.component_div(&(&omega * omega.transpose()));
+        let test_shares = through(&test.shapes).into_iter().map(relative).collect();
+        let cross = cross_orthogonality(&modes, &test, mass)?;
+        let pairing = pair_modes(&cross)?;
+        Ok(Model {
+            shares: through(&modes.shapes),
+            gages: vec![REFERENCE_GAGE; self.shares.len()],
+            exact: State {
+                factors: vec![1.0; self.shares.len()],
+                generalized_shapes: DMatrix::identity(modes.len(), modes.len()),
+                errors: errors(&modes, &pairing, &test)?,
+                modes,
+                pairing,
+            },
+            test,
+            cross,
+            test_shares,
+        })
+    }
+}
+
+/// A model seen through its exact modes, beside the test modes: the paper's analysis.
+#[derive(Debug, Clone)]
+pub struct Model {
+    exact: State,
+    test: Modes,
+    cross: DMatrix<f64>,
+    shares: Vec<DMatrix<f64>>,
+    test_shares: Vec<DMatrix<f64>>,
+    pub(crate) gages: Vec<f64>,
+}
+
+impl Model {
+    /// The test modes, scaled to unit generalized mass with the model's mass.
+    pub fn test(&self) -> &Modes {
+        &self.test
+    }
+
+    /// Cross-orthogonality of the exact modes with the test modes (4), n × g.
+    pub fn cross(&self) -> &DMatrix<f64> {
+        &self.cross
+    }
+
+    /// Generalized stiffness $V^t K_e V$ of every parameter, rad²/s² (n × n).
+    pub fn shares(&self) -> &[DMatrix<f64>] {
+        &self.shares
+    }
+
+    /// Generalized stiffness of every parameter on the test modes, relative to the test's own,
+    /// $V_{Gi}^t K_e V_{Gj}/(\omega_{Gi} \omega_{Gj})$ (g × g).
+    pub fn test_shares(&self) -> &[DMatrix<f64>] {
+        &self.test_shares
+    }
+
+    /// Mean gage (in) or area (in²) of every parameter's elements; [`REFERENCE_GAGE`] for one that has none.
+    pub fn gages(&self) -> &[f64] {
+        &self.gages
+    }
+}
+
+impl Analysis for Model {
+    fn exact(&self) -> &State {
+        &self.exact
+    }
+
+    /// Recursive 1 (C.22) carried until its roots have settled, for $\beta = \sum_e (s_e - 1) V^t K_e V$.
+    fn at(&self, factors: &[f64]) -> Result<State, Error> {
+        check_length("parameter factors", factors.len(), self.shares.len())?;
+        let (v, k) = (&self.exact.modes.shapes, &self.exact.modes.omega_squared);
+        let mut beta = DMatrix::zeros(k.len(), k.len());
+        for (share, s) in self.shares.iter().zip(factors) {
+            beta += (s - 1.0) * share;
+        }
+        let perturbed = recursive_1_converged(k, &beta)?.perturbed;
+        // V p of unit generalized mass (11), with ω² = 1/γ (9).
+        let mut p = perturbed.shapes;
+        for mut shape in p.column_iter_mut() {
+            shape.normalize_mut();
+        }
+        let modes = Modes::new(perturbed.roots.map(f64::recip), v * &p)?;
+        let pairing = pair_modes(&p.tr_mul(&self.cross))?;
+        let errors = errors(&modes, &pairing, &self.test)?;
+        Ok(State {
+            factors: factors.to_vec(),
+            modes,
+            generalized_shapes: p,
+            pairing,
+            errors,
+        })
+    }
+
+    /// For each parameter, $\beta = 0.001 s_e V^t K_e V$ with the present modes $V$; roots and shapes follow by first order
+    /// (C.20, C.21) and the error sum is taken anew with the present pairing.
+    fn error_changes(&self, state: &State) -> Result<Vec<f64>, Error> {
+        let (p, v) = (&state.generalized_shapes, &state.modes.shapes);
+        let k = &state.modes.omega_squared;
+        check_shape("shapes of the state", p, self.exact.modes.len(), k.len())?;
+        check_length("parameter factors", state.factors.len(), self.shares.len())?;
+        let parameters = self.shares.iter().zip(&state.factors);
+        let changes = parameters.map(|(share, s)| {
+            let beta = DERIVATIVE_STEP * *s * p.tr_mul(&(share * p));
+            let perturbed = first_order(k, &without_close_couplings(k.as_slice(), &beta))?;
+            let modes = Modes::new(perturbed.roots.map(f64::recip), v * perturbed.shapes)?;
+            let errors = errors(&modes, &state.pairing, &self.test)?;
+            Ok(errors.sum() - state.errors.sum())
+        });
+        changes.collect()
+    }
+
+    fn stiffness_changes(&self, state: &State, gage_factors: &[f64], rule: StepRule) -> Vec<f64> {
+        let stored = self.test_shares.iter().zip(&state.factors);
+        let gages = self.gages.iter().zip(gage_factors);
+        let change = |((share, s), (gage, g)): ((&DMatrix<f64>, &f64), (&f64, &f64))| {
+            DERIVATIVE_STEP * rule.measure(share, *s, gage * g)
+        };
+        stored.zip(gages).map(change).collect()
+    }
+}

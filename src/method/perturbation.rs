@@ -1,0 +1,252 @@
+//! Perturbation of roots and shapes by a change of stiffness alone (7, 8): what the loops run on.
+//! Tour: [chapter 2](crate::tour::chapter_02_recursion).
+//!
+//! The modes before the change are $V$ with $V^t M V = I$ and $k = V^t K V = \mathrm{diag}(\omega^2)$. With
+//! $\lambda = 1/\omega^2$ (the paper's root of $(K\lambda - M)v = 0$) a change of stiffness $\Delta K$ enters through
+//! $\beta = V^t \Delta K V$ alone, both in rad²/s², and mode $j$ of the changed structure is $V p_j$ with root $\gamma_j$:
+//!
+//! $$ \big[k(\gamma_j - \Lambda) + \beta\gamma_j\big] p_j = 0, \qquad p_{jj} = 1. $$
+//!
+//! [`appendix_c`](crate::method::appendix_c) has the same with changes of mass, and unsymmetric and complex pencils.
+
+use super::error::{Error, at_least_one, check_count};
+use super::linear_algebra::{Number, check_finite, check_matrix};
+use nalgebra::{DMatrix, DVector};
+
+/// Denominator relative to the generalized stiffness below which two modes count as coalescing.
+pub const SMALLEST_SEPARATION: f64 = 1e-9;
+
+/// Relative change of a root at which Recursive 1 counts as converged: round-off.
+pub const ROOT_TOLERANCE: f64 = 1e-13;
+/// Most orders of Recursive 1.
+pub const MOST_ORDERS: usize = 60;
+/// Relative change of a root in the last order allowed above which a recursion has not settled: a thousandth of an error sum of
+/// some percent. Below it the recursion may be slow, but what it still has to go is little.
+pub const LARGEST_UNSETTLED_CHANGE: f64 = 1e-6;
+
+/// One minus the cosine of two generalized shapes below which they are those of one mode, if their roots agree to [`SAME_ROOT`]:
+/// where roots have settled to 1e-6, shapes of one mode agree to better than a hundredth, and those of two modes are orthogonal.
+const SAME_SHAPE: f64 = 1e-2;
+/// Relative distance of two roots below which they are one.
+const SAME_ROOT: f64 = 1e-3;
+
+/// Roots and generalized shapes after a change; complex where [`appendix_c`](crate::method::appendix_c) works on complex numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Perturbed<T = f64> {
+    /// Changed roots $\gamma_i = \lambda_i + \Delta\lambda_i = 1/\omega_i^2$, s².
+    pub roots: DVector<T>,
+    /// Generalized shapes $p$ (n × n): column $j$ is mode $j$ in terms of the modes before the change, $p_{jj} = 1$.
+    pub shapes: DMatrix<T>,
+}
+
+impl Perturbed {
+    /// Refuses roots that are not positive and finite.
+    pub(crate) fn check_roots(&self) -> Result<(), Error> {
+        for (mode, &value) in self.roots.iter().enumerate() {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(Error::LostRoot { mode, value });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Result of a recursion that goes on until its roots settle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settled<T = f64> {
+    /// Roots and shapes of the last order.
+    pub perturbed: Perturbed<T>,
+    /// The last order.
+    pub order: usize,
+    /// Largest relative change of a root in it: how far the recursion may still have had to go.
+    pub last_change: f64,
+}
+
+impl<T: Number> Settled<T> {
+    /// Accepts a recursion whose roots have settled, or nearly so, on as many modes as there are: a strong change can lead two modes to
+    /// one, and then another is missed.
+    pub(crate) fn check(self) -> Result<Self, Error> {
+        let (last_change, orders) = (self.last_change, self.order);
+        // NaN has not settled either.
+        if last_change.is_nan() || last_change > LARGEST_UNSETTLED_CHANGE {
+            return Err(Error::UnsettledRoots {
+                orders,
+                last_change,
+            });
+        }
+        let Perturbed { roots, shapes } = &self.perturbed;
+        for second in 0..roots.len() {
+            for first in 0..second {
+                let (p, q) = (shapes.column(first), shapes.column(second));
+                let cosine = p.dotc(&q).modulus() / (p.norm() * q.norm());
+                let separation = (roots[second] / roots[first] - T::one()).modulus();
+                if 1.0 - cosine < SAME_SHAPE && separation < SAME_ROOT {
+                    return Err(Error::coalescing(first, second, separation));
+                }
+            }
+        }
+        Ok(self)
+    }
+}
+
+/// First order (C.20, C.21):
+///
+/// $$ \Delta\lambda_i = -\frac{\lambda_i \beta_{ii}}{k_{ii} + \beta_{ii}}, \qquad
+///    p_{ij} = -\frac{\beta_{ij}}{k_{ii} + \beta_{ii} - 1/\gamma_j} $$
+///
+/// so that $\gamma_i = \lambda_i + \Delta\lambda_i = 1/(k_{ii} + \beta_{ii})$: Rayleigh's quotient on the old shape. Modes that
+/// the change does not couple, $\beta_{ij} = 0$, may have equal roots.
+///
+/// # Errors
+/// [`Error::NotAVibration`] for a $k_{ii}$ that is not positive, [`Error::WrongShape`] and [`Error::Value`] for a change that does not
+/// fit or is not finite; [`Error::LostRoot`] when $k_{ii} + \beta_{ii} \le 0$; [`Error::CoalescingModes`] when the denominator of
+/// coupled modes vanishes.
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::perturbation::first_order;
+/// use nalgebra::{dmatrix, dvector};
+///
+/// // k = (1, 5): the first root is 1 / (1 + 1), and takes on -0.3 / (5 - 2) of the second mode.
+/// let found = first_order(&dvector![1.0, 5.0], &dmatrix![1.0, 0.3; 0.3, 0.0])?;
+/// assert!((found.roots[0] - 0.5).abs() < 1e-15 && (found.shapes[(1, 0)] + 0.1).abs() < 1e-15);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
+pub fn first_order(
+    generalized_stiffness: &DVector<f64>,
+    beta: &DMatrix<f64>,
+) -> Result<Perturbed, Error> {
+    let (k, size) = (generalized_stiffness, generalized_stiffness.len());
+    at_least_one("modes", size)?;
+    check_matrix("generalized stiffness change", beta, size, size)?;
+    for (mode, &value) in k.iter().enumerate() {
+        if value <= 0.0 || !value.is_finite() {
+            return Err(Error::NotAVibration { mode, value });
+        }
+    }
+    let mut now = Perturbed {
+        roots: (k + beta.diagonal()).map(f64::recip),
+        shapes: DMatrix::identity(size, size),
+    };
+    now.check_roots()?;
+    update_shapes(k, beta, beta, &mut now)?;
+    Ok(now)
+}
+
+/// Recursive 1 (7, 8, C.22) to a given order, from first order on. Superscripts in parentheses are orders, which the
+/// paper writes as outer subscripts; with $\rho = r - 1$:
+///
+/// $$ \Delta\lambda_i^{(r)} = -\frac{\beta_{ii}\lambda_i + \gamma_i^{(\rho)} \sum_{j\ne i}\beta_{ij}p_{ji}^{(\rho)}}{k_{ii}+\beta_{ii}}, \qquad
+///    p_{ij}^{(r)} = -\frac{\beta_{ij} + \sum_{s\ne i,j}\beta_{is}p_{sj}^{(\rho)}}{k_{ii}+\beta_{ii} - 1/\gamma_j^{(\rho)}} $$
+///
+/// The print has $p_{ij}$ where the row of mode $i$ needs $p_{ji}$, and the root of row $i$ in the denominator of
+/// $p_{ij}$, where that of mode $j$ belongs (`paper/errata.md`).
+///
+/// # Errors
+/// [`Error::Count`] for order zero; every error of [`first_order`], which it starts with, and again for later orders.
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::perturbation::recursive_1;
+/// use nalgebra::{dmatrix, dvector};
+///
+/// let found = recursive_1(&dvector![1.0, 5.0], &dmatrix![1.0, 0.3; 0.3, 0.0], 2)?;
+/// // First order is 0.5 with -0.1 of the second mode; the second order 1 - (1 + 0.5 · 0.3 · -0.1) / 2.
+/// assert!((found.roots[0] - 0.5075).abs() < 1e-15);
+/// // The change of the exact one is a three-thousandth: ω² = 3.5 - √(1.5² + 0.3²).
+/// assert!((found.roots[0] * (3.5 - 2.34_f64.sqrt()) - 1.0).abs() < 1e-4);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
+pub fn recursive_1(
+    generalized_stiffness: &DVector<f64>,
+    beta: &DMatrix<f64>,
+    order: usize,
+) -> Result<Perturbed, Error> {
+    Ok(settle(generalized_stiffness, beta, 0.0, order)?.perturbed)
+}
+
+/// Recursive 1 until no root changes by more than [`ROOT_TOLERANCE`] (relative), at most to order [`MOST_ORDERS`].
+///
+/// # Errors
+/// Every error of [`recursive_1`]; [`Error::UnsettledRoots`] when the last order allowed still changes a root by more than
+/// [`LARGEST_UNSETTLED_CHANGE`], as happens where roots are close; [`Error::CoalescingModes`] when two of them settle on one
+/// mode, as a strong change can make them.
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::perturbation::recursive_1_converged;
+/// use nalgebra::{dmatrix, dvector};
+///
+/// // The eigenvalues of k + β, with 2 and 5 on its diagonal and 0.3 beside it, are 3.5 ∓ √(1.5² + 0.3²).
+/// let (k, beta) = (dvector![1.0, 5.0], dmatrix![1.0, 0.3; 0.3, 0.0]);
+/// let found = recursive_1_converged(&k, &beta)?;
+/// assert!((1.0 / found.perturbed.roots[0] - (3.5 - 2.34_f64.sqrt())).abs() < 1e-12);
+/// assert!(found.order < 15, "{}", found.order);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
+pub fn recursive_1_converged(
+    generalized_stiffness: &DVector<f64>,
+    beta: &DMatrix<f64>,
+) -> Result<Settled, Error> {
+    settle(generalized_stiffness, beta, ROOT_TOLERANCE, MOST_ORDERS)?.check()
+}
+
+/// Recursive 1 to an order, or until no root changes by as much as `tolerance`.
+fn settle(
+    k: &DVector<f64>,
+    beta: &DMatrix<f64>,
+    tolerance: f64,
+    orders: usize,
+) -> Result<Settled, Error> {
+    check_count("order", orders, 1, usize::MAX)?;
+    let mut perturbed = first_order(k, beta)?;
+    let mut coupling = beta.clone();
+    coupling.fill_diagonal(0.0);
+    let (mut order, mut last_change) = (1, 1.0);
+    while order < orders && last_change >= tolerance {
+        // With p_jj = 1 and no diagonal in the coupling, column j of the product is β_ij + Σ_{s≠i,j} β_is p_sj off
+        // the diagonal and Σ_{i≠j} β_ji p_ij on it: all the sums of this order at once.
+        let sums = &coupling * &perturbed.shapes;
+        update_shapes(k, beta, &sums, &mut perturbed)?;
+        last_change = 0.0;
+        for (j, gamma) in perturbed.roots.iter_mut().enumerate() {
+            let lambda = 1.0 / k[j];
+            let root =
+                lambda - (beta[(j, j)] * lambda + *gamma * sums[(j, j)]) / (k[j] + beta[(j, j)]);
+            last_change = (root / *gamma - 1.0).abs().max(last_change);
+            *gamma = root;
+        }
+        perturbed.check_roots()?;
+        order += 1;
+    }
+    Ok(Settled {
+        perturbed,
+        order,
+        last_change,
+    })
+}
+
+/// Shapes from the present roots and the sums over the others, $p_{ij} = -S_{ij}/(k_{ii} + \beta_{ii} - 1/\gamma_j)$: zero
+/// where nothing couples the modes, refused where something does and the denominator vanishes.
+fn update_shapes(
+    k: &DVector<f64>,
+    beta: &DMatrix<f64>,
+    sums: &DMatrix<f64>,
+    now: &mut Perturbed,
+) -> Result<(), Error> {
+    for j in 0..k.len() {
+        for i in (0..k.len()).filter(|&i| i != j) {
+            let own = k[i] + beta[(i, i)];
+            let difference = own - 1.0 / now.roots[j];
+            now.shapes[(i, j)] = match sums[(i, j)] {
+                0.0 => 0.0,
+                sum if difference.abs() > SMALLEST_SEPARATION * own => -sum / difference,
+                _ => return Err(Error::coalescing(i, j, difference / own)),
+            };
+        }
+    }
+    check_finite("perturbed shapes", &now.shapes)
+}

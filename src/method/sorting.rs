@@ -1,0 +1,150 @@
+//! Mode sorting (4): the pairing of every test mode with the analysis mode that answers it.
+//! Tour: [chapter 3](crate::tour::chapter_03_error_sum).
+
+use super::error::{Error, check_count, check_places, require};
+use super::linear_algebra::{check_finite, check_length, check_shape};
+use super::modes::Modes;
+use nalgebra::DMatrix;
+
+/// Pairs of an analysis mode with every test mode. A sign is +1 or −1:
+///
+/// ```compile_fail,E0451
+/// let pairing = corfem::method::sorting::Pairing { analysis_mode: vec![0], sign: vec![0.5] };
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pairing {
+    /// Index of the analysis mode of each test mode.
+    pub(crate) analysis_mode: Vec<usize>,
+    /// Sign, +1 or −1, that turns each test mode's analysis shape its way.
+    pub(crate) sign: Vec<f64>,
+}
+
+impl Pairing {
+    /// Index of the analysis mode of each test mode.
+    pub fn analysis_mode(&self) -> &[usize] {
+        &self.analysis_mode
+    }
+
+    /// Sign, +1 or −1, that turns each test mode's analysis shape its way.
+    pub fn sign(&self) -> &[f64] {
+        &self.sign
+    }
+
+    /// Pairs of known analysis modes (from zero) and signs, one of each for every test mode.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] for lists of different lengths; [`Error::Value`] for another sign.
+    pub fn new(analysis_mode: Vec<usize>, sign: Vec<f64>) -> Result<Self, Error> {
+        check_length("signs of paired modes", sign.len(), analysis_mode.len())?;
+        for &sign in &sign {
+            let owner = || "a pair".into();
+            require(sign.abs() == 1.0, "sign", owner, sign, "1 or -1")?;
+        }
+        Ok(Self {
+            analysis_mode,
+            sign,
+        })
+    }
+
+    /// Pairs with the signs of their entries in the cross-orthogonality (n × g).
+    pub(crate) fn signed(analysis_mode: Vec<usize>, cross: &DMatrix<f64>) -> Self {
+        let pairs = analysis_mode.iter().enumerate();
+        let sign = pairs.map(|(j, &i)| if cross[(i, j)] < 0.0 { -1.0 } else { 1.0 });
+        Self {
+            sign: sign.collect(),
+            analysis_mode,
+        }
+    }
+
+    /// Refuses analysis modes other than those paired, and another number of test modes.
+    pub(crate) fn check(&self, analysis: &Modes, test_count: usize) -> Result<(), Error> {
+        check_length("paired modes", self.analysis_mode.len(), test_count)?;
+        check_places("paired analysis modes", &self.analysis_mode, analysis.len())
+    }
+
+    /// The paired analysis modes, in the order and with the signs of the test modes.
+    ///
+    /// # Errors
+    /// [`Error::Count`] for a pairing of other modes.
+    pub fn paired(&self, analysis: &Modes) -> Result<Modes, Error> {
+        self.check(analysis, self.sign.len())?;
+        let mut paired = analysis.select(&self.analysis_mode);
+        for (mut shape, &sign) in paired.shapes.column_iter_mut().zip(&self.sign) {
+            shape *= sign;
+        }
+        Ok(paired)
+    }
+}
+
+/// Cross-orthogonality $m = V_F^t M V_G$ (4), analysis modes by test modes (n × g).
+///
+/// With mass-orthonormal shapes every entry lies between −1 and 1.
+///
+/// # Errors
+/// [`Error::WrongShape`] when shapes and mass do not fit.
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::modes::Modes;
+/// use corfem::method::sorting::cross_orthogonality;
+/// use nalgebra::{DMatrix, dmatrix, dvector};
+///
+/// // The test has the second analysis mode first, and the first one upside down.
+/// let omega_squared = dvector![1.0, 4.0];
+/// let analysis = Modes::new(omega_squared.clone(), DMatrix::identity(2, 2))?;
+/// let test = Modes::new(omega_squared, dmatrix![0.0, -1.0; 1.0, 0.0])?;
+/// let cross = cross_orthogonality(&analysis, &test, &DMatrix::identity(2, 2))?;
+/// assert_eq!(cross, dmatrix![0.0, -1.0; 1.0, 0.0]);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
+pub fn cross_orthogonality(
+    analysis: &Modes,
+    test: &Modes,
+    mass: &DMatrix<f64>,
+) -> Result<DMatrix<f64>, Error> {
+    let (v, w, dof_count) = (&analysis.shapes, &test.shapes, mass.nrows());
+    check_shape("dynamic mass", mass, dof_count, dof_count)?;
+    check_shape("analysis mode shapes", v, dof_count, v.ncols())?;
+    check_shape("test mode shapes", w, dof_count, w.ncols())?;
+    Ok(v.tr_mul(&(mass * w)))
+}
+
+/// Pairs every test mode with an analysis mode by the cross-orthogonality $m$ (n × g, g ≤ n).
+///
+/// The pair whose $|m_{ij}|$ is closest to one is made first, then the closest of what is left, and so on: on
+/// a conflict the closest keeps its mode and the other takes its next best. A tie goes to the lower test mode, then
+/// to the lower analysis mode. The sign of a pair is that of its $m_{ij}$.
+///
+/// # Errors
+/// [`Error::Count`] without test modes, or with more of them than analysis modes; [`Error::Value`] for an entry that is not finite.
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::sorting::pair_modes;
+/// use nalgebra::dmatrix;
+///
+/// // Both test modes are closest to the first analysis mode; the second is closer and keeps it.
+/// let pairing = pair_modes(&dmatrix![0.8, -0.9; 0.6, 0.3])?;
+/// assert_eq!((pairing.analysis_mode(), pairing.sign()), (&[1, 0][..], &[1.0, -1.0][..]));
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
+pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
+    let (analysis_count, test_count) = cross.shape();
+    check_count("test modes", test_count, 1, analysis_count)?;
+    check_finite("cross-orthogonality", cross)?;
+    let from_one = |(i, j): (usize, usize)| (1.0 - cross[(i, j)].abs()).abs();
+    let of_test = |j| (0..analysis_count).map(move |i| (i, j));
+    let mut pairs: Vec<_> = (0..test_count).flat_map(of_test).collect();
+    // The sort is stable, so ties stay in the order of test modes, then analysis modes.
+    pairs.sort_by(|&a, &b| from_one(a).total_cmp(&from_one(b)));
+    let mut partner = vec![None; test_count];
+    for (i, j) in pairs {
+        if partner[j].is_none() && !partner.contains(&Some(i)) {
+            partner[j] = Some(i);
+        }
+    }
+    let analysis_mode = partner.into_iter().flatten().collect();
+    Ok(Pairing::signed(analysis_mode, cross))
+}

@@ -1,0 +1,550 @@
+//! The analysis of a user's model for the loops: modes as sensors see them, in a basis with residual vectors and rigid-body modes,
+//! changes of stiffness and of mass, weights of the test modes, and any rule of pairing.
+
+use super::assurance::cosines;
+use crate::method::analysis::{Analysis, DERIVATIVE_STEP, State, without_close_couplings};
+use crate::method::appendix_c::{Number, Pencil};
+use crate::method::error::{Error, positive, require};
+use crate::method::error_sum::{Errors, ModeError, mode_errors};
+use crate::method::linear_algebra::{check_length, check_shape, symmetric_part};
+use crate::method::model::Model;
+use crate::method::modes::{Modes, mode, solve};
+use crate::method::perturbation::{
+    MOST_ORDERS, Perturbed, ROOT_TOLERANCE, Settled, first_order, recursive_1_converged,
+};
+use crate::method::sorting::{Pairing, pair_modes};
+use crate::method::step::{REFERENCE_GAGE, StepRule};
+use nalgebra::{DMatrix, DVector};
+
+/// Orders in a row that must leave the roots alone for a recursion with changes of mass to count as converged.
+const QUIET_ORDERS: usize = 2;
+
+/// Part of the stiffness or mass that one parameter scales: at d DOF (d × d), or in n shapes as $V^t K_e V$ or $V^t M_e V$ (n × n).
+#[derive(Debug, Clone, PartialEq)]
+pub enum ParameterMatrix {
+    /// Of the stiffness, lbf/in, or rad²/s² in mass-orthonormal shapes.
+    Stiffness(DMatrix<f64>),
+    /// Of the mass, lbf·s²/in, or a fraction in mass-orthonormal shapes.
+    Mass(DMatrix<f64>),
+}
+
+impl ParameterMatrix {
+    /// The matrix, whatever it is a share of.
+    pub fn matrix(&self) -> &DMatrix<f64> {
+        match self {
+            Self::Stiffness(matrix) | Self::Mass(matrix) => matrix,
+        }
+    }
+
+    /// A share of the same kind with another matrix made from this one's.
+    pub fn map(&self, change: impl FnOnce(&DMatrix<f64>) -> DMatrix<f64>) -> Self {
+        match self {
+            Self::Stiffness(matrix) => Self::Stiffness(change(matrix)),
+            Self::Mass(matrix) => Self::Mass(change(matrix)),
+        }
+    }
+
+    fn is_mass(&self) -> bool {
+        matches!(self, Self::Mass(_))
+    }
+}
+
+/// Factors on the errors of one test mode in the error sum.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ModeWeight {
+    /// Factor on its frequency error.
+    pub frequency: f64,
+    /// Factor on its shape error.
+    pub shape: f64,
+}
+
+impl ModeWeight {
+    /// The paper's: every test mode counts as much.
+    pub const ONE: Self = Self {
+        frequency: 1.0,
+        shape: 1.0,
+    };
+}
+
+/// Requires one finite, non-negative weight per test mode and number, not all zero.
+pub(crate) fn check_weights(weights: &[ModeWeight], modes: usize) -> Result<(), Error> {
+    check_length("weights", weights.len(), modes)?;
+    let all = || {
+        weights
+            .iter()
+            .flat_map(|weight| [weight.frequency, weight.shape])
+    };
+    let wrong = all().find(|weight| !(0.0..f64::INFINITY).contains(weight));
+    let wrong = wrong.or_else(|| all().all(|weight| weight == 0.0).then_some(0.0));
+    let expected = "a finite number from zero up, one of them positive";
+    let owner = || "the test modes".into();
+    require(
+        wrong.is_none(),
+        "weight",
+        owner,
+        wrong.unwrap_or(1.0),
+        expected,
+    )
+}
+
+/// Rule that pairs test modes with analysis modes by their closeness (n × g), such as [`pair_modes`].
+pub type Pair = fn(&DMatrix<f64>) -> Result<Pairing, Error>;
+
+/// A model seen through its exact modes at sensors, beside the test modes.
+#[derive(Debug, Clone)]
+pub struct SensorModel {
+    /// The exact modes (n) and how far they are from the test.
+    pub(crate) exact: State,
+    /// The test modes, each of the scale of the mode that it is paired with.
+    pub(crate) test: Modes,
+    /// Squared circular frequencies of the shapes of the basis that vibrate: the exact modes, then residual vectors, rad²/s² (N).
+    pub(crate) omega_squared: DVector<f64>,
+    /// All shapes of the basis at the sensors: those, then rigid-body modes.
+    pub(crate) basis: DMatrix<f64>,
+    /// Cosine of every shape of the basis with the test modes; zero beyond the exact modes.
+    pub(crate) cross: DMatrix<f64>,
+    pub(crate) pair: Pair,
+    weights: Vec<ModeWeight>,
+    /// Generalized stiffness or mass of every parameter in the basis.
+    pub(crate) shares: Vec<ParameterMatrix>,
+    test_shares: Vec<DMatrix<f64>>,
+    gages: Vec<f64>,
+}
+
+/// Shapes of a basis beyond the exact modes: residual vectors with their squared frequencies, and rigid-body modes, at the sensors.
+pub(crate) struct Further {
+    pub residual: Modes,
+    pub rigid_body: DMatrix<f64>,
+}
+
+impl SensorModel {
+    /// The model of exact modes that some sensors see (d × n), without a mass there.
+    ///
+    /// They are paired by `pair` with the cosine between two shapes in place of their cross-orthogonality; its square is the
+    /// modal assurance criterion. Every test mode is scaled by its modal scale factor to the mode it is paired with, whose
+    /// generalized stiffness stands for its own. `further` shapes of the basis, orthonormal to the modes in the whole model's mass and
+    /// diagonal in its stiffness, are paired with none. `shares` are $V^t K_e V$ or $V^t M_e V$ with the basis at all DOF.
+    pub(crate) fn at_sensors(
+        modes: Modes,
+        further: &Further,
+        test: &Modes,
+        pair: Pair,
+        shares: Vec<ParameterMatrix>,
+    ) -> Result<Self, Error> {
+        let cross = cosines(&modes.shapes, &test.shapes)?;
+        let pairing = pair(&cross)?;
+        let mut scaled = test.clone();
+        for (j, mut shape) in scaled.shapes.column_iter_mut().enumerate() {
+            let partner = modes.shapes.column(pairing.analysis_mode[j]);
+            shape *= pairing.sign[j] * partner.dot(&shape) / shape.norm_squared();
+        }
+        let Pairing {
+            analysis_mode,
+            sign,
+        } = &pairing;
+        let omega = scaled.omega_squared.map(f64::sqrt);
+        let on_test = |share: &ParameterMatrix| {
+            let matrix = share.matrix();
+            let entry = |j: usize, k: usize| {
+                let own = sign[j] * sign[k] * matrix[(analysis_mode[j], analysis_mode[k])];
+                if share.is_mass() {
+                    own
+                } else {
+                    own / (omega[j] * omega[k])
+                }
+            };
+            DMatrix::from_fn(sign.len(), sign.len(), entry)
+        };
+        let (mut omega_squared, mut basis) = (modes.omega_squared.clone(), modes.shapes.clone());
+        omega_squared.extend(further.residual.omega_squared.iter().copied());
+        basis.extend(further.residual.shapes.column_iter());
+        basis.extend(further.rigid_body.column_iter());
+        let (weights, count) = (vec![ModeWeight::ONE; test.len()], modes.len());
+        Ok(Self {
+            test_shares: shares.iter().map(on_test).collect(),
+            gages: vec![REFERENCE_GAGE; shares.len()],
+            exact: State {
+                factors: vec![1.0; shares.len()],
+                generalized_shapes: DMatrix::identity(basis.ncols(), count),
+                errors: weighted_errors(&modes, &pairing, &scaled, &weights)?,
+                modes,
+                pairing,
+            },
+            cross: cross.resize_vertically(basis.ncols(), 0.0),
+            test: scaled,
+            omega_squared,
+            basis,
+            pair,
+            weights,
+            shares,
+        })
+    }
+
+    /// The test modes, each of the scale of the mode that it is paired with.
+    pub fn test(&self) -> &Modes {
+        &self.test
+    }
+
+    /// Squared circular frequencies of the vibrations of the basis, rad²/s²: the exact modes, then residual vectors.
+    pub fn omega_squared(&self) -> &DVector<f64> {
+        &self.omega_squared
+    }
+
+    /// All shapes of the basis at the sensors: the exact modes, residual vectors, rigid-body modes.
+    pub fn basis(&self) -> &DMatrix<f64> {
+        &self.basis
+    }
+
+    /// Generalized stiffness (rad²/s²) or mass of every parameter in the basis.
+    pub fn shares(&self) -> &[ParameterMatrix] {
+        &self.shares
+    }
+
+    /// The same model with weights of the test modes: in all errors $w_i e_i$ stands for $e_i$ of (5) and (6).
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] unless there is one weight per test mode; [`Error::Value`] for one that is negative or not finite, and when
+    /// all are zero.
+    pub fn weighted(mut self, weights: &[ModeWeight]) -> Result<Self, Error> {
+        check_weights(weights, self.test.len())?;
+        self.weights = weights.to_vec();
+        self.exact.errors = self.errors_of(&self.exact.modes, &self.exact.pairing)?;
+        Ok(self)
+    }
+
+    /// Distance of paired modes from the test modes, with the weights.
+    pub(crate) fn errors_of(&self, modes: &Modes, pairing: &Pairing) -> Result<Errors, Error> {
+        weighted_errors(modes, pairing, &self.test, &self.weights)
+    }
+
+    /// The largest part of a test mode's stiffness or mass that each parameter has.
+    pub(crate) fn largest_parts(&self) -> Vec<f64> {
+        let largest = |share: &DMatrix<f64>| share.diagonal().amax();
+        self.test_shares.iter().map(largest).collect()
+    }
+
+    fn has_mass(&self) -> bool {
+        self.shares.iter().any(ParameterMatrix::is_mass)
+    }
+
+    /// The change of all parameters together.
+    fn change(&self, factors: &[f64]) -> Result<Change, Error> {
+        check_length("parameter factors", factors.len(), self.shares.len())?;
+        let (count, size) = (self.omega_squared.len(), self.basis.ncols());
+        let (mut beta, mut alpha) = (DMatrix::zeros(size, size), DMatrix::zeros(size, size));
+        for (share, s) in self.shares.iter().zip(factors) {
+            match share {
+                ParameterMatrix::Stiffness(matrix) => beta += (s - 1.0) * matrix,
+                ParameterMatrix::Mass(matrix) => alpha += (s - 1.0) * matrix,
+            }
+        }
+        let (apart, rigid) = (DMatrix::identity(size, size), size - count);
+        if rigid == 0 {
+            return Ok(Change { beta, alpha, apart });
+        }
+        let apart = apart_from_rigid_bodies(apart, &alpha, count)?;
+        Ok(Change {
+            beta: beta.resize(count, count, 0.0),
+            alpha: (alpha * &apart).resize(count, count, 0.0),
+            apart,
+        })
+    }
+
+    /// The model that follows from this one at `factors` on its shares, exact in its basis: the modes of $k + \beta$ with $I + \alpha$ in
+    /// place of an analysis, paired anew as by sensors; and the exact modes' shapes in terms of this basis.
+    pub(crate) fn followed(&self, factors: &[f64]) -> Result<(Self, DMatrix<f64>), Error> {
+        let (vibrations, mut generalized) = self.solved(factors)?;
+        let (count, all) = (self.exact.modes.len(), self.omega_squared.len());
+        let seen = &self.basis * &generalized;
+        let squares = &vibrations.omega_squared;
+        let modes = Modes::signed(
+            squares.rows(0, count).into_owned(),
+            seen.columns(0, count).into_owned(),
+        );
+        turn_alike(&mut generalized, &seen, &modes.shapes);
+        let rest = |first: usize, size: usize| seen.columns(first, size).into_owned();
+        let further = Further {
+            residual: Modes {
+                omega_squared: squares.rows(count, all - count).into_owned(),
+                shapes: rest(count, all - count),
+            },
+            rigid_body: rest(all, self.basis.ncols() - all),
+        };
+        let transposed = generalized.transpose();
+        let through = |matrix: &DMatrix<f64>, factor: f64| {
+            symmetric_part(&(factor * &transposed * (matrix * &generalized)))
+        };
+        let shares = self.shares.iter().zip(factors);
+        let shares = shares.map(|(share, &factor)| share.map(|matrix| through(matrix, factor)));
+        let shares = shares.collect();
+        let mut model = Self::at_sensors(modes, &further, &self.test, self.pair, shares)?;
+        model.gages.clone_from(&self.gages);
+        model.weights.clone_from(&self.weights);
+        Ok((model, generalized))
+    }
+
+    /// Vibrations at factors by an eigensolution in the basis, ascending, and the shapes of all its changed shapes (N × N).
+    fn solved(&self, factors: &[f64]) -> Result<(Modes, DMatrix<f64>), Error> {
+        let Change { beta, alpha, apart } = self.change(factors)?;
+        let (k, size) = (&self.omega_squared, self.omega_squared.len());
+        let stiffness = symmetric_part(&(DMatrix::from_diagonal(k) + beta));
+        let mass = symmetric_part(&(DMatrix::identity(size, size) + alpha));
+        let vibrations = solve(&stiffness, &mass, size)?;
+        let generalized = with_rigid_bodies(&apart, &vibrations.shapes);
+        Ok((vibrations, generalized))
+    }
+
+    /// Modes at factors far from the exact ones, by an eigensolution in the basis, and their pairs: there a mode of the test may continue
+    /// none of the exact modes but a residual vector, of which the cosines with them know nothing.
+    pub(crate) fn far(&self, factors: &[f64]) -> Result<(Modes, Pairing), Error> {
+        let (vibrations, generalized) = self.solved(factors)?;
+        let count = self.omega_squared.len();
+        let shapes = &self.basis * generalized.columns(0, count);
+        let modes = Modes {
+            omega_squared: vibrations.omega_squared,
+            shapes,
+        };
+        let is_plain = count == self.exact.modes.len();
+        let pairing = match is_plain {
+            true => (self.pair)(&generalized.columns(0, count).tr_mul(&self.cross))?,
+            false => (self.pair)(&cosines(&modes.shapes, &self.test.shapes)?)?,
+        };
+        Ok((modes, pairing))
+    }
+}
+
+impl From<&Model> for SensorModel {
+    /// The paper's analysis with the dynamic DOF as sensors.
+    fn from(model: &Model) -> Self {
+        let exact = model.exact().clone();
+        let shares = model.shares().iter().cloned();
+        Self {
+            test: model.test().clone(),
+            omega_squared: exact.modes.omega_squared.clone(),
+            basis: exact.modes.shapes.clone(),
+            cross: model.cross().clone(),
+            pair: pair_modes,
+            weights: vec![ModeWeight::ONE; model.test().len()],
+            shares: shares.map(ParameterMatrix::Stiffness).collect(),
+            test_shares: model.test_shares().to_vec(),
+            gages: model.gages().to_vec(),
+            exact,
+        }
+    }
+}
+
+/// SRSS errors with every test mode's errors multiplied by its weights; there is one weight a test mode.
+fn weighted_errors(
+    modes: &Modes,
+    pairing: &Pairing,
+    test: &Modes,
+    weights: &[ModeWeight],
+) -> Result<Errors, Error> {
+    let each = mode_errors(modes, pairing, test)?;
+    let weighted = |(error, weight): (&ModeError, &ModeWeight)| ModeError {
+        frequency: weight.frequency * error.frequency,
+        shape: weight.shape * error.shape,
+    };
+    Errors::of(&each.iter().zip(weights).map(weighted).collect::<Vec<_>>())
+}
+
+/// A change of all parameters, seen through the vibrations of the basis.
+struct Change {
+    /// $\beta = \sum_{stiffness} (s_e - 1) V^t K_e V$.
+    beta: DMatrix<f64>,
+    /// $\alpha = \sum_{mass} (s_e - 1) V^t M_e V$, less what rigid-body modes carry.
+    alpha: DMatrix<f64>,
+    /// The identity, or what [`apart_from_rigid_bodies`] makes of it.
+    apart: DMatrix<f64>,
+}
+
+/// Shapes in terms of the basis (N × N) that a change of mass, `alpha` $= V^t \Delta M V$ (N × N), leaves apart: the `count` vibrations and
+/// the rigid-body modes $R$ behind them.
+///
+/// Rigid-body modes strain nothing, and stay what they are; vibrations stay orthogonal to them by carrying some of them along,
+///
+/// $$ V - R q, \qquad (I + \alpha_{RR}) q = \alpha_{RV} . $$
+///
+/// The stiffness is that in $V$, the change of mass $\alpha_{VV} - \alpha_{VR} q$, and the roots $1/\omega^2$ of rigid-body modes, which would be infinite, are not needed.
+fn apart_from_rigid_bodies(
+    mut apart: DMatrix<f64>,
+    alpha: &DMatrix<f64>,
+    count: usize,
+) -> Result<DMatrix<f64>, Error> {
+    let rigid = alpha.nrows() - count;
+    let own = DMatrix::identity(rigid, rigid) + alpha.view((count, count), (rigid, rigid));
+    let factor = own.cholesky().ok_or(Error::NotPositiveDefinite {
+        what: "mass of the rigid-body modes",
+        row: 0,
+    })?;
+    let along = factor.solve(&alpha.view((count, 0), (rigid, count)).into_owned());
+    apart
+        .view_mut((count, 0), (rigid, count))
+        .copy_from(&-along);
+    let mut orthonormal = apart.view_mut((count, count), (rigid, rigid));
+    factor
+        .l()
+        .tr_solve_lower_triangular_unchecked_mut(&mut orthonormal);
+    Ok(apart)
+}
+
+/// Generalized shapes of vibrations and rigid-body modes (N × N) from those of the vibrations (n × n).
+fn with_rigid_bodies(apart: &DMatrix<f64>, vibrations: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut both = DMatrix::identity(apart.nrows(), apart.nrows());
+    both.view_mut((0, 0), vibrations.shape())
+        .copy_from(vibrations);
+    apart * both
+}
+
+/// Turns the columns of shapes at all DOF whose counterparts at the sensors the sign rule has turned.
+pub(crate) fn turn_alike(whole: &mut DMatrix<f64>, seen: &DMatrix<f64>, signed: &DMatrix<f64>) {
+    let is_turned = |mode: &usize| signed.column(*mode) != seen.column(*mode);
+    for mode in (0..signed.ncols()).filter(is_turned) {
+        whole.column_mut(mode).neg_mut();
+    }
+}
+
+/// Scales every generalized shape to unit changed generalized mass, $p_j^t(I + \alpha)p_j = 1$, keeping its sign.
+///
+/// `alpha` $= V^t \Delta M V$ (n × n); the shapes $V p$ are then orthonormal in the changed mass.
+///
+/// # Errors
+/// [`Error::WrongShape`]; [`Error::Value`] naming the mode whose changed generalized mass is not positive.
+pub fn normalize_with_mass(shapes: &mut DMatrix<f64>, alpha: &DMatrix<f64>) -> Result<(), Error> {
+    let size = shapes.nrows();
+    check_shape("generalized mass change", alpha, size, size)?;
+    let moved = alpha * &*shapes;
+    for (place, mut shape) in shapes.column_iter_mut().enumerate() {
+        let mass = shape.norm_squared() + shape.dot(&moved.column(place));
+        positive("changed generalized mass", || mode(place), mass)?;
+        shape /= mass.sqrt();
+    }
+    Ok(())
+}
+
+impl<T: Number> Pencil<T> {
+    /// Recursive 1 until two orders in a row change no root by more than [`ROOT_TOLERANCE`] (relative), at most to order
+    /// [`MOST_ORDERS`].
+    ///
+    /// One quiet order is not enough: roots of two modes that only a change of mass couples move in every second order.
+    ///
+    /// # Errors
+    /// [`Error::Value`] for a root that is not finite; [`Error::UnsettledRoots`] and [`Error::CoalescingModes`] as for a change of
+    /// [stiffness alone](crate::method::perturbation::recursive_1_converged).
+    pub fn recursive_1_converged(&self) -> Result<Settled<T>, Error> {
+        let mut perturbed = self.order_zero()?;
+        let (mut order, mut last_change, mut quiet_orders) = (0, 1.0, 0);
+        while order < MOST_ORDERS && quiet_orders < QUIET_ORDERS {
+            let before = perturbed.roots.clone();
+            perturbed = self.next_order(perturbed)?;
+            order += 1;
+            // Round-off in the largest root is no change of a root that is smaller still.
+            let floor = f64::EPSILON * before.map(T::modulus).max();
+            let change = |old: T, new: T| (new - old).modulus() / old.modulus().max(floor);
+            last_change = before.zip_map(&perturbed.roots, change).fold(0.0, f64::max);
+            // The roots of first order are those of order zero.
+            let is_quiet = last_change < ROOT_TOLERANCE && order > 1;
+            quiet_orders = if is_quiet { quiet_orders + 1 } else { 0 };
+        }
+        Settled {
+            perturbed,
+            order,
+            last_change,
+        }
+        .check()
+    }
+}
+
+impl Analysis for SensorModel {
+    fn exact(&self) -> &State {
+        &self.exact
+    }
+
+    /// Recursive 1 in the basis: the modes are the vibrations of the basis, each in the place of the exact mode or residual vector that it
+    /// continues.
+    fn at(&self, factors: &[f64]) -> Result<State, Error> {
+        let Change { beta, alpha, apart } = self.change(factors)?;
+        let k = &self.omega_squared;
+        let perturbed = match self.has_mass() {
+            true => {
+                Pencil::of_vibrations(k, &beta, &alpha)?
+                    .recursive_1_converged()?
+                    .perturbed
+            }
+            false => recursive_1_converged(k, &beta)?.perturbed,
+        };
+        perturbed.check_roots()?;
+        let Perturbed { roots, mut shapes } = perturbed;
+        normalize_with_mass(&mut shapes, &alpha)?;
+        let generalized = with_rigid_bodies(&apart, &shapes);
+        let generalized_shapes = generalized.columns(0, k.len()).into_owned();
+        let close = generalized_shapes.tr_mul(&self.cross);
+        let pairing = (self.pair)(&close.rows(0, self.exact.modes.len()).into_owned())?;
+        let modes = Modes {
+            omega_squared: roots.map(f64::recip),
+            shapes: &self.basis * &generalized_shapes,
+        };
+        let errors = self.errors_of(&modes, &pairing)?;
+        Ok(State {
+            factors: factors.to_vec(),
+            modes,
+            generalized_shapes,
+            pairing,
+            errors,
+        })
+    }
+
+    fn error_changes(&self, state: &State) -> Result<Vec<f64>, Error> {
+        let change = |modes: &Modes| {
+            let errors = self.errors_of(modes, &state.pairing)?;
+            Ok(errors.sum() - state.errors.sum())
+        };
+        self.changed_modes(state)?.iter().map(change).collect()
+    }
+
+    fn stiffness_changes(&self, state: &State, gage_factors: &[f64], rule: StepRule) -> Vec<f64> {
+        let stored = self.test_shares.iter().zip(&state.factors);
+        let gages = self.gages.iter().zip(gage_factors);
+        let change = |((share, s), (gage, g)): ((&DMatrix<f64>, &f64), (&f64, &f64))| {
+            DERIVATIVE_STEP * rule.measure(share, *s, gage * g)
+        };
+        stored.zip(gages).map(change).collect()
+    }
+}
+
+impl SensorModel {
+    /// Modes of a state after a thousandth of each parameter's present stiffness or mass is added, by first order.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] for the state of another model; [`Error::LostRoot`] where a thousandth is too much.
+    pub(crate) fn changed_modes(&self, state: &State) -> Result<Vec<Modes>, Error> {
+        let (p, k) = (&state.generalized_shapes, &state.modes.omega_squared);
+        let (count, size) = (self.omega_squared.len(), self.basis.ncols());
+        check_shape("shapes of the state", p, size, count)?;
+        let apart = self.change(&state.factors)?.apart;
+        let rigid = apart.columns(count, size - count);
+        let change = |(share, s): (&ParameterMatrix, &f64)| {
+            let moved = DERIVATIVE_STEP * *s * (share.matrix() * p);
+            let own = without_close_couplings(k.as_slice(), &p.tr_mul(&moved));
+            let now = &state.modes.shapes;
+            let (roots, shapes) = if share.is_mass() {
+                let perturbed = Pencil::of_vibrations(k, &(0.0 * &own), &own)?.first_order()?;
+                perturbed.check_roots()?;
+                let Perturbed { roots, shapes } = perturbed;
+                // With ω² = 0 the first order of a rigid-body mode in a vibration is -α_Ri.
+                (
+                    roots,
+                    now * shapes - &self.basis * rigid * rigid.tr_mul(&moved),
+                )
+            } else {
+                let Perturbed { roots, shapes } = first_order(k, &own)?;
+                (roots, now * shapes)
+            };
+            Ok(Modes {
+                omega_squared: roots.map(f64::recip),
+                shapes,
+            })
+        };
+        self.shares.iter().zip(&state.factors).map(change).collect()
+    }
+}

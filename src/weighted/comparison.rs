@@ -1,0 +1,311 @@
+//! A model beside a test as weighted steps compare them: with groups of close modes, frequencies without shapes, and what is known of
+//! the errors of components.
+
+use super::close_modes::turned;
+use crate::method::analysis::{Analysis, State};
+use crate::method::error::{Error, check_count, positive, require};
+use crate::method::error_sum::{Errors, ModeError, mode_errors};
+use crate::method::linear_algebra::{check_shape, cholesky};
+use crate::method::model::Model;
+use crate::method::modes::Modes;
+use crate::method::sorting::{Pairing, pair_modes};
+use crate::sparse::{ParameterMatrix, SensorModel};
+use nalgebra::DMatrix;
+use serde::Serialize;
+use std::f64::consts::TAU;
+
+/// Part of a variance that must be left when those before have explained what they can of it.
+pub(crate) const HALF_THE_DIGITS: f64 = 1e-8;
+
+/// A frequency of the test without a shape, and the mode of the model that it is compared with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoneFrequency {
+    /// Hz.
+    pub frequency_hz: f64,
+    /// Place of the mode among the model's elastic modes, which ascend, from zero.
+    pub partner: usize,
+}
+
+impl LoneFrequency {
+    /// The partner's frequency over the test's, less one.
+    pub(crate) fn error(&self, modes: &Modes) -> f64 {
+        modes.omega_squared[self.partner].sqrt() / (TAU * self.frequency_hz) - 1.0
+    }
+}
+
+/// Errors of one test mode, which need not have a shape.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct ModeErrors {
+    /// Relative difference of its frequency, with its sign.
+    pub frequency: f64,
+    /// Root mean square difference of its shape, if it has one.
+    pub shape: Option<f64>,
+}
+
+impl From<ModeError> for ModeErrors {
+    fn from(ModeError { frequency, shape }: ModeError) -> Self {
+        Self {
+            frequency,
+            shape: Some(shape),
+        }
+    }
+}
+
+impl ModeErrors {
+    /// Sum of their squares.
+    pub(crate) fn square(&self) -> f64 {
+        self.frequency.powi(2) + self.shape.unwrap_or_default().powi(2)
+    }
+}
+
+/// Knowledge of weighted steps about a test beside its modes.
+#[derive(Debug, Clone)]
+pub struct Test {
+    /// Groups of test modes (from zero) whose shapes are compared as subspaces.
+    pub(crate) together: Vec<Vec<usize>>,
+    /// Weights of the components of every test shape beside that of the mode (d × g).
+    pub(crate) component_weights: DMatrix<f64>,
+    /// Frequencies without shapes.
+    pub(crate) lone: Vec<LoneFrequency>,
+    /// Cholesky factor of the covariance of the weighted residuals; none where they are independent.
+    pub(crate) covariance: Option<DMatrix<f64>>,
+}
+
+/// A model seen by sensors beside a test.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// The model, with the test modes at its sensors.
+    pub(crate) model: SensorModel,
+    /// Knowledge of the test beside its modes.
+    pub(crate) test: Test,
+}
+
+impl From<SensorModel> for Comparison {
+    /// A comparison in which every number of the test is independent and every shape stands alone.
+    fn from(model: SensorModel) -> Self {
+        let (dof, modes) = model.test.shapes.shape();
+        Self {
+            test: Test {
+                together: Vec::new(),
+                component_weights: DMatrix::from_element(dof, modes, 1.0),
+                lone: Vec::new(),
+                covariance: None,
+            },
+            model,
+        }
+    }
+}
+
+impl From<&Model> for Comparison {
+    /// The paper's analysis with the dynamic DOF as sensors.
+    fn from(model: &Model) -> Self {
+        Self::from(SensorModel::from(model))
+    }
+}
+
+impl Comparison {
+    /// The model, with the test modes at its sensors.
+    pub fn model(&self) -> &SensorModel {
+        &self.model
+    }
+
+    /// The model alone, for loops that know nothing else of the test.
+    pub fn into_model(self) -> SensorModel {
+        self.model
+    }
+
+    /// Frequencies of the test without shapes.
+    pub fn lone(&self) -> &[LoneFrequency] {
+        &self.test.lone
+    }
+
+    /// This comparison with groups of test modes (from zero) whose shapes are compared as subspaces.
+    ///
+    /// # Errors
+    /// [`Error::Count`] for a test mode that there is not.
+    pub fn with_groups(mut self, together: Vec<Vec<usize>>) -> Result<Self, Error> {
+        for mode in together.iter().flatten() {
+            check_count(
+                "test modes",
+                mode.saturating_add(1),
+                1,
+                self.model.test.len(),
+            )?;
+        }
+        self.test.together = together;
+        Ok(self)
+    }
+
+    /// This comparison with weights of the components of every test shape (d × g), which multiply those of the modes.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] unless there is one a component and test mode; [`Error::Value`] for one that is not positive and finite.
+    pub fn with_component_weights(mut self, weights: DMatrix<f64>) -> Result<Self, Error> {
+        let (dof, modes) = self.model.test.shapes.shape();
+        check_shape("component weights", &weights, dof, modes)?;
+        for &weight in &weights {
+            positive("component weight", || "a test shape".into(), weight)?;
+        }
+        self.test.component_weights = weights;
+        Ok(self)
+    }
+
+    /// This comparison with frequencies of the test that have no shapes as well.
+    ///
+    /// # Errors
+    /// [`Error::Value`] for a frequency that is not positive; [`Error::Count`] for a partner that the model has not.
+    pub fn with_lone_frequencies(mut self, lone: Vec<LoneFrequency>) -> Result<Self, Error> {
+        let modes = self.model.exact.modes.len();
+        for (place, frequency) in lone.iter().enumerate() {
+            let owner = || format!("frequency {place} without a shape (from zero)");
+            positive("frequency", owner, frequency.frequency_hz)?;
+            check_count("modes", frequency.partner.saturating_add(1), 1, modes)?;
+        }
+        self.test.lone = lone;
+        Ok(self)
+    }
+
+    /// This comparison with the covariance of its weighted residuals (N × N, in their order), which then are not independent.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] and [`Error::Value`] for a covariance that does not fit or is not symmetric;
+    /// [`Error::NotPositiveDefinite`] where less than half the digits of a variance are its own.
+    pub fn with_covariance(mut self, covariance: &DMatrix<f64>) -> Result<Self, Error> {
+        let (dof, modes) = self.model.test.shapes.shape();
+        let numbers = (1 + dof) * modes + self.test.lone.len();
+        check_shape("covariance of residuals", covariance, numbers, numbers)?;
+        let factor = cholesky("covariance of residuals", covariance, HALF_THE_DIGITS)?;
+        self.test.covariance = Some(factor);
+        Ok(self)
+    }
+
+    /// The comparison that follows from this one at `factors` on its shares, exact in the basis of the model.
+    pub(crate) fn followed(&self, factors: &[f64]) -> Result<Self, Error> {
+        let (model, generalized) = self.model.followed(factors)?;
+        let mut test = self.test.clone();
+        if !test.lone.is_empty() {
+            // What a partner has become is most of it in the coordinates of the modes, in which the mass is one.
+            let partners: Vec<usize> = test.lone.iter().map(|lone| lone.partner).collect();
+            let exact = generalized.columns(0, model.exact.modes.len());
+            let became = pair_modes(&exact.select_rows(&partners).transpose())?;
+            let became = became.analysis_mode.into_iter();
+            test.lone
+                .iter_mut()
+                .zip(became)
+                .for_each(|(lone, mode)| lone.partner = mode);
+        }
+        Ok(Self { model, test })
+    }
+
+    /// The exact modes with those of every group turned to the test's.
+    pub(crate) fn turned(&self) -> Result<Modes, Error> {
+        let State { modes, pairing, .. } = &self.model.exact;
+        turned(modes, pairing, &self.test.together, &self.model.test)
+    }
+
+    /// Errors of every test mode, then of the frequencies without shapes.
+    pub(crate) fn mode_errors(&self) -> Result<Vec<ModeErrors>, Error> {
+        let modes = self.turned()?;
+        let paired = mode_errors(&modes, &self.model.exact.pairing, &self.model.test)?;
+        let lone = self.test.lone.iter().map(|lone| ModeErrors {
+            frequency: lone.error(&modes),
+            shape: None,
+        });
+        Ok(paired
+            .into_iter()
+            .map(ModeErrors::from)
+            .chain(lone)
+            .collect())
+    }
+
+    /// The largest part of a test mode's stiffness or mass that each parameter has.
+    pub(crate) fn largest_parts(&self) -> Vec<f64> {
+        let modes = &self.model.exact.modes;
+        let part = |(share, largest): (&ParameterMatrix, f64)| {
+            let of_lone = |&LoneFrequency { partner, .. }: &LoneFrequency| match share {
+                ParameterMatrix::Stiffness(beta) => {
+                    beta[(partner, partner)] / modes.omega_squared[partner]
+                }
+                ParameterMatrix::Mass(alpha) => alpha[(partner, partner)],
+            };
+            self.test.lone.iter().map(of_lone).fold(largest, f64::max)
+        };
+        let shares = self.model.shares.iter();
+        shares.zip(self.model.largest_parts()).map(part).collect()
+    }
+
+    /// Errors of paired modes, with those of the frequencies without shapes.
+    fn with_lone(&self, mut errors: Errors, modes: &Modes) -> Errors {
+        for lone in &self.test.lone {
+            errors.frequency = errors.frequency.hypot(lone.error(modes));
+        }
+        errors.frequency_count += self.test.lone.len();
+        errors
+    }
+
+    /// Changes $\Delta e_e$ (12) of the error sum over all numbers that are compared, at the exact modes.
+    ///
+    /// # Errors
+    /// [`Error::CoalescingModes`] and [`Error::LostRoot`] where a thousandth of a parameter is too much.
+    pub(crate) fn error_changes(&self) -> Result<Vec<f64>, Error> {
+        let state = self.model.at(&vec![1.0; self.model.shares.len()])?;
+        let sum = |errors, modes: &Modes| self.with_lone(errors, modes).sum();
+        let before = sum(state.errors, &state.modes);
+        let change = |modes: &Modes| {
+            let errors = self.model.errors_of(modes, &state.pairing)?;
+            Ok(sum(errors, modes) - before)
+        };
+        let changed = self.model.changed_modes(&state)?;
+        changed.iter().map(change).collect()
+    }
+
+    /// The exact solution, with errors over all numbers that are compared.
+    ///
+    /// # Errors
+    /// [`Error::Value`] for modes so far from the test that their errors are not finite.
+    pub fn result(&self) -> Result<ExactResult, Error> {
+        let State { modes, pairing, .. } = &self.model.exact;
+        let errors = self.with_lone(self.model.errors_of(&self.turned()?, pairing)?, modes);
+        let (sum, owner) = (errors.sum(), || "these modes".into());
+        require(sum.is_finite(), "error sum", owner, sum, "a finite number")?;
+        Ok(ExactResult {
+            lone: self.test.lone.clone(),
+            together: self.test.together.clone(),
+            errors,
+            ..ExactResult::from(&self.model.exact)
+        })
+    }
+}
+
+/// Exact modes compared with the test modes: what histories and reports keep of an analysis.
+#[derive(Debug, Clone)]
+pub struct ExactResult {
+    /// The exact modes, ascending.
+    pub modes: Modes,
+    /// Pairs of these with the test modes.
+    pub pairing: Pairing,
+    /// Frequencies of the paired modes in the order of the test modes, Hz.
+    pub frequencies_hz: Vec<f64>,
+    /// Frequencies of the test without shapes.
+    pub lone: Vec<LoneFrequency>,
+    /// Groups of test modes whose shapes are compared as subspaces.
+    pub together: Vec<Vec<usize>>,
+    /// Their distance from the test modes.
+    pub errors: Errors,
+}
+
+impl From<&State> for ExactResult {
+    /// An exact solution of the loops.
+    fn from(state: &State) -> Self {
+        let hertz = state.modes.frequencies_hz();
+        let paired = state.pairing.analysis_mode.iter();
+        Self {
+            modes: state.modes.clone(),
+            frequencies_hz: paired.map(|&mode| hertz[mode]).collect(),
+            pairing: state.pairing.clone(),
+            lone: Vec::new(),
+            together: Vec::new(),
+            errors: state.errors,
+        }
+    }
+}
