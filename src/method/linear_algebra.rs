@@ -18,13 +18,13 @@ impl<T: ComplexField<RealField = f64> + Copy> Number for T {}
 /// # Errors
 /// [`Error::Value`] naming the first such entry, column by column, and the part of it that is not finite.
 pub fn check_finite<T: Number>(what: &'static str, matrix: &DMatrix<T>) -> Result<(), Error> {
-    for (at, entry) in matrix.iter().enumerate() {
-        let owner = || format!("entry ({}, {})", at % matrix.nrows(), at / matrix.nrows());
-        for part in [entry.real(), entry.imaginary()] {
-            require(part.is_finite(), what, owner, part, "a finite number")?;
-        }
-    }
-    Ok(())
+    let Some(at) = matrix.iter().position(|entry| !entry.is_finite()) else {
+        return Ok(());
+    };
+    let owner = || format!("entry ({}, {})", at % matrix.nrows(), at / matrix.nrows());
+    let parts = [matrix[at].real(), matrix[at].imaginary()];
+    let value = parts[usize::from(parts[0].is_finite())];
+    require(false, what, owner, value, "a finite number")
 }
 
 /// Refuses matrices, real or complex, of another shape.

@@ -53,7 +53,7 @@ pub struct BasisSize {
 
 /// A structure at all its degrees of freedom.
 ///
-/// $$ K = K_1 + \sum_e (c_e - 1) K_e, \qquad M = M_1 + \sum_e (c_e - 1) M_e $$
+/// $$ K = K_1 + \sum_e (s_e - 1) K_e, \qquad M = M_1 + \sum_e (s_e - 1) M_e $$
 #[derive(Debug, Clone, PartialEq)]
 pub struct WholeModel {
     stiffness: SparseMatrix,
@@ -321,7 +321,7 @@ impl WholeModel {
         Ok((further, rigid_body))
     }
 
-    /// Every parameter's present share in shapes $V$ at all DOF, $c_e V^t K_e V$ or $c_e V^t M_e V$.
+    /// Every parameter's present share in shapes $V$ at all DOF, $s_e V^t K_e V$ or $s_e V^t M_e V$.
     pub(crate) fn shares(
         &self,
         factors: &[f64],

@@ -103,7 +103,7 @@ struct Iterate {
     curvature: DMatrix<f64>,
 }
 
-/// Lowers $\frac{1}{2} \sum r^2 + \frac{1}{2} \sum (\ln c_e/\tau_e)^2$ over the factors $c_e$ within their bounds, from `first`.
+/// Lowers $\frac{1}{2} \sum r^2 + \frac{1}{2} \sum (\ln s_e/\tau_e)^2$ over the factors $s_e$ within their bounds, from `first`.
 ///
 /// The unknowns are logarithms: factors stay positive, and twice and half as stiff are equally far. With the
 /// [`jacobian`] $J$, $A = J^t J + \mathrm{diag}(\tau^{-2})$ and the gradient $g$, a step solves

@@ -50,9 +50,9 @@ pub struct Stage {
 /// Derivatives at the first model by the relative stiffness or mass of each parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Derivatives {
-    /// $\partial \ln f_i/\partial \ln c_e$ of the mode paired with test mode $i$ (parameters × test modes, those without shapes last).
+    /// $\partial \ln f_i/\partial \ln s_e$ of the mode paired with test mode $i$ (parameters × test modes, those without shapes last).
     pub frequency: DMatrix<f64>,
-    /// $\partial e_S/\partial \ln c_e$ of the error sum, by (12).
+    /// $\partial e_S/\partial \ln s_e$ of the error sum, by (12).
     pub error_sum: Vec<f64>,
 }
 
