@@ -247,6 +247,7 @@ impl Comparison {
     ///
     /// # Errors
     /// [`Error::CoalescingModes`] and [`Error::LostRoot`] where a thousandth of a parameter is too much.
+    #[cfg(feature = "program")]
     pub(crate) fn error_changes(&self) -> Result<Vec<f64>, Error> {
         let state = self.model.at(&vec![1.0; self.model.shares.len()])?;
         let sum = |errors, modes: &Modes| self.with_lone(errors, modes).sum();

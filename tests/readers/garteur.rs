@@ -2,9 +2,10 @@
 
 use crate::common::golden::{Numbers, assert_golden};
 use crate::common::jobs::worked;
-use crate::common::tolerances::JOB_RESULTS;
+use crate::common::tolerances::{FORWARD_DIFFERENCE, JOB_RESULTS};
 use corfem::job::verdict::Outcome;
 use corfem::job::{History, JobResult};
+use corfem::method::analysis::DERIVATIVE_STEP;
 use corfem::present::render::csv;
 use corfem::present::report::Report;
 use corfem::present::table::{Cell, Digits, Table, numbers};
@@ -63,6 +64,31 @@ fn the_corrected_airplane_is_nearer_and_still_not_explained() {
         "{:?}",
         RESULT.trust.blind
     );
+}
+
+#[test]
+fn slopes_of_the_error_sum_count_frequencies_without_shapes() {
+    let report = Report::from_job(&RESULT.loaded, None).expect("a report");
+    let slopes = report.derivatives.expect("derivatives").error_sum;
+    let ones = vec![1.0; slopes.len()];
+    let sum = |factors: &[f64]| {
+        let comparison = RESULT.loaded.analyze(factors).expect("an analysis");
+        comparison.result().expect("errors").errors.sum()
+    };
+    let first = sum(&ones);
+    let largest = slopes
+        .iter()
+        .fold(0.0_f64, |most, slope| most.max(slope.abs()));
+    assert!(largest > 0.1, "{slopes:?}");
+    for (parameter, slope) in slopes.iter().enumerate() {
+        let mut factors = ones.clone();
+        factors[parameter] += DERIVATIVE_STEP;
+        let exact = (sum(&factors) - first) / DERIVATIVE_STEP;
+        assert!(
+            (slope - exact).abs() < FORWARD_DIFFERENCE,
+            "{parameter}: {slope} {exact}"
+        );
+    }
 }
 
 #[test]
