@@ -373,37 +373,16 @@ impl DynamicModel {
     /// [`Error::NotPositiveDefinite`] for the mass; [`Error::NotAVibration`] for a mode with $\omega^2 \le 0$; [`Error::Count`] for no
     /// modes or more than there are, of the model or the test.
     pub fn analyze(&self, test: &Modes, analysis_modes: Option<usize>) -> Result<Model, Error> {
-        let (mass, dof_count) = (&self.mass, self.stiffness.nrows());
+        let dof_count = self.stiffness.nrows();
         for share in &self.shares {
             check_shape("parameter share", share, dof_count, dof_count)?;
             check_symmetric("parameter share", share)?;
         }
-        let modes = solve(&self.stiffness, mass, analysis_modes.unwrap_or(dof_count))?;
-        check_shape("test mode shapes", &test.shapes, dof_count, test.len())?;
-        let test = test.scaled_with(mass)?;
         let through = |v: &DMatrix<f64>| {
             let share = |share| symmetric_part(&v.tr_mul(&(share * v)));
-            self.shares.iter().map(share).collect::<Vec<_>>()
+            Ok(self.shares.iter().map(share).collect())
         };
-        let omega = test.omega_squared.map(f64::sqrt);
-        let relative = |share: DMatrix<f64>| share.component_div(&(&omega * omega.transpose()));
-        let test_shares = through(&test.shapes).into_iter().map(relative).collect();
-        let cross = cross_orthogonality(&modes, &test, mass)?;
-        let pairing = pair_modes(&cross)?;
-        Ok(Model {
-            shares: through(&modes.shapes),
-            gages: vec![REFERENCE_GAGE; self.shares.len()],
-            exact: State {
-                factors: vec![1.0; self.shares.len()],
-                generalized_shapes: DMatrix::identity(modes.len(), modes.len()),
-                errors: errors(&modes, &pairing, &test)?,
-                modes,
-                pairing,
-            },
-            test,
-            cross,
-            test_shares,
-        })
+        Model::seen((&self.stiffness, &self.mass), test, analysis_modes, through)
     }
 }
 
@@ -419,6 +398,42 @@ pub struct Model {
 }
 
 impl Model {
+    /// The model of stiffness and mass, where `through` returns $V^t K_e V$ of every parameter for given shapes (d × m).
+    ///
+    /// # Errors
+    /// As [`DynamicModel::analyze`].
+    pub(crate) fn seen(
+        (stiffness, mass): (&DMatrix<f64>, &DMatrix<f64>),
+        test: &Modes,
+        analysis_modes: Option<usize>,
+        through: impl Fn(&DMatrix<f64>) -> Result<Vec<DMatrix<f64>>, Error>,
+    ) -> Result<Self, Error> {
+        let dof_count = stiffness.nrows();
+        let modes = solve(stiffness, mass, analysis_modes.unwrap_or(dof_count))?;
+        check_shape("test mode shapes", &test.shapes, dof_count, test.len())?;
+        let test = test.scaled_with(mass)?;
+        let omega = test.omega_squared.map(f64::sqrt);
+        let relative = |share: DMatrix<f64>| share.component_div(&(&omega * omega.transpose()));
+        let test_shares = through(&test.shapes)?.into_iter().map(relative).collect();
+        let cross = cross_orthogonality(&modes, &test, mass)?;
+        let pairing = pair_modes(&cross)?;
+        let shares = through(&modes.shapes)?;
+        Ok(Self {
+            gages: vec![REFERENCE_GAGE; shares.len()],
+            exact: State {
+                factors: vec![1.0; shares.len()],
+                generalized_shapes: DMatrix::identity(modes.len(), modes.len()),
+                errors: errors(&modes, &pairing, &test)?,
+                modes,
+                pairing,
+            },
+            test,
+            cross,
+            shares,
+            test_shares,
+        })
+    }
+
     /// The test modes, scaled to unit generalized mass with the model's mass.
     pub fn test(&self) -> &Modes {
         &self.test

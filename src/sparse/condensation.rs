@@ -130,9 +130,27 @@ impl LargeModel {
         test: &Modes,
         analysis_modes: Option<usize>,
     ) -> Result<Model, Error> {
-        let mut model = self.matrices(factors)?.analyze(test, analysis_modes)?;
-        model.gages = self.mean_sizes(&self.sizes(factors)?);
+        let (sizes, condensed) = (self.sizes(factors)?, self.condense(factors)?);
+        let through = |shapes: &DMatrix<f64>| self.shares(&condensed, &sizes, shapes);
+        let matrices = (&condensed.stiffness, &self.mass);
+        let mut model = Model::seen(matrices, test, analysis_modes, through)?;
+        model.gages = self.mean_sizes(&sizes);
         Ok(model)
+    }
+
+    /// Every parameter's share $V^t B K_e B^t V$ in shapes $V$ at the dynamic DOF (d × m).
+    fn shares(
+        &self,
+        condensed: &LargeCondensation,
+        sizes: &[f64],
+        shapes: &DMatrix<f64>,
+    ) -> Result<Vec<DMatrix<f64>>, Error> {
+        let structural = condensed.transposed_shapes(shapes)?;
+        let of_parameter = |rows: &Vec<usize>| {
+            let sized = |&row: &usize| (&self.elements()[row], sizes[row]);
+            sum_of_stiffness(&structural, rows.iter().map(sized))
+        };
+        Ok(self.rows().iter().map(of_parameter).collect())
     }
 
     /// $K_D$, $M$ and every parameter's share of $K_D$ as matrices (d × d).
@@ -142,13 +160,8 @@ impl LargeModel {
     pub fn matrices(&self, factors: &[f64]) -> Result<DynamicModel, Error> {
         let (sizes, condensed) = (self.sizes(factors)?, self.condense(factors)?);
         let identity = DMatrix::identity(self.mass.nrows(), self.mass.nrows());
-        let b = condensed.transposed_shapes(&identity)?;
-        let of_parameter = |rows: &Vec<usize>| {
-            let sized = |&row: &usize| (&self.elements()[row], sizes[row]);
-            sum_of_stiffness(&b, rows.iter().map(sized))
-        };
         Ok(DynamicModel {
-            shares: self.rows().iter().map(of_parameter).collect(),
+            shares: self.shares(&condensed, &sizes, &identity)?,
             stiffness: condensed.stiffness,
             mass: self.mass.clone(),
         })

@@ -2,7 +2,9 @@
 //! the errors of components.
 
 use super::close_modes::turned;
-use crate::method::analysis::{Analysis, State};
+#[cfg(feature = "program")]
+use crate::method::analysis::Analysis;
+use crate::method::analysis::State;
 use crate::method::error::{Error, check_count, positive, require};
 use crate::method::error_sum::{Errors, ModeError, mode_errors};
 use crate::method::linear_algebra::{check_shape, cholesky};
