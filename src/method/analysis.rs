@@ -56,6 +56,22 @@ pub trait Analysis {
     fn stiffness_changes(&self, state: &State, gage_factors: &[f64], rule: StepRule) -> Vec<f64>;
 }
 
+/// $\Delta k_e$ (12) of every parameter by a rule, from its relative stiffness on the test modes (g × g) and its gage (in).
+pub(crate) fn changes_by(
+    rule: StepRule,
+    test_shares: &[DMatrix<f64>],
+    state: &State,
+    gages: &[f64],
+    gage_factors: &[f64],
+) -> Vec<f64> {
+    let stored = test_shares.iter().zip(&state.factors);
+    let gages = gages.iter().zip(gage_factors);
+    stored
+        .zip(gages)
+        .map(|((share, s), (gage, g))| DERIVATIVE_STEP * rule.measure(share, *s, gage * g))
+        .collect()
+}
+
 /// Change of stiffness or mass (n × n) without what couples modes closer than [`HELD_SEPARATION`], which keep their own shapes.
 pub fn without_close_couplings(omega_squared: &[f64], change: &DMatrix<f64>) -> DMatrix<f64> {
     let k = omega_squared;

@@ -1,7 +1,7 @@
 //! The finite element model as the correlation sees it: a structure, its dynamic points, what may change, and its analysis.
 //! Tour: [chapter 10](crate::tour::chapter_10_own_structure).
 
-use super::analysis::{Analysis, DERIVATIVE_STEP, State, without_close_couplings};
+use super::analysis::{Analysis, DERIVATIVE_STEP, State, changes_by, without_close_couplings};
 use super::appendix_a::{
     Condensed, ElementMatrix, assemble, condense, element_matrices, generalized_stiffness,
 };
@@ -503,7 +503,11 @@ impl Analysis for Model {
         let changes = parameters.map(|(share, s)| {
             let beta = DERIVATIVE_STEP * *s * p.tr_mul(&(share * p));
             let perturbed = first_order(k, &without_close_couplings(k.as_slice(), &beta))?;
-            let modes = Modes::new(perturbed.roots.map(f64::recip), v * perturbed.shapes)?;
+            // First order has refused what is no mode.
+            let modes = Modes {
+                omega_squared: perturbed.roots.map(f64::recip),
+                shapes: v * perturbed.shapes,
+            };
             let errors = errors(&modes, &state.pairing, &self.test)?;
             Ok(errors.sum() - state.errors.sum())
         });
@@ -511,11 +515,6 @@ impl Analysis for Model {
     }
 
     fn stiffness_changes(&self, state: &State, gage_factors: &[f64], rule: StepRule) -> Vec<f64> {
-        let stored = self.test_shares.iter().zip(&state.factors);
-        let gages = self.gages.iter().zip(gage_factors);
-        let change = |((share, s), (gage, g)): ((&DMatrix<f64>, &f64), (&f64, &f64))| {
-            DERIVATIVE_STEP * rule.measure(share, *s, gage * g)
-        };
-        stored.zip(gages).map(change).collect()
+        changes_by(rule, &self.test_shares, state, &self.gages, gage_factors)
     }
 }

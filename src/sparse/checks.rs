@@ -2,7 +2,7 @@
 
 use super::random::random_block;
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_finite, check_length};
+use crate::method::linear_algebra::{as_faer, check_finite, check_length};
 use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular;
 use faer::linalg::matmul::triangular::BlockStructure;
@@ -77,8 +77,8 @@ pub(crate) fn transposed_product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<
     matmul(
         into,
         Accum::Replace,
-        view(a).transpose(),
-        view(b),
+        as_faer(a).transpose(),
+        as_faer(b),
         1.0,
         Par::Seq,
     );
@@ -89,11 +89,7 @@ pub(crate) fn transposed_product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<
 pub(crate) fn take_product(from: &mut DMatrix<f64>, a: &DMatrix<f64>, b: &DMatrix<f64>) {
     let (rows, columns) = from.shape();
     let into = MatMut::from_column_major_slice_mut(from.as_mut_slice(), rows, columns);
-    matmul(into, Accum::Add, view(a), view(b), -1.0, Par::Seq);
-}
-
-fn view(matrix: &DMatrix<f64>) -> MatRef<'_, f64> {
-    MatRef::from_column_major_slice(matrix.as_slice(), matrix.nrows(), matrix.ncols())
+    matmul(into, Accum::Add, as_faer(a), as_faer(b), -1.0, Par::Seq);
 }
 
 /// Hands on a matrix whose entries are all finite.
@@ -105,6 +101,6 @@ pub(crate) fn finite(what: &'static str, matrix: DMatrix<f64>) -> Result<DMatrix
 pub(crate) fn solve_lower(lower: &DMatrix<f64>, mut right: DMatrix<f64>) -> DMatrix<f64> {
     let (rows, columns) = right.shape();
     let solved = MatMut::from_column_major_slice_mut(right.as_mut_slice(), rows, columns);
-    solve_lower_triangular_in_place(view(lower), solved, Par::Seq);
+    solve_lower_triangular_in_place(as_faer(lower), solved, Par::Seq);
     right
 }

@@ -2,7 +2,9 @@
 //! changes of stiffness and of mass, weights of the test modes, and any rule of pairing.
 
 use super::assurance::cosines;
-use crate::method::analysis::{Analysis, DERIVATIVE_STEP, State, without_close_couplings};
+use crate::method::analysis::{
+    Analysis, DERIVATIVE_STEP, State, changes_by, without_close_couplings,
+};
 use crate::method::appendix_c::{Number, Pencil};
 use crate::method::error::{Error, positive, require};
 use crate::method::error_sum::{Errors, ModeError, mode_errors};
@@ -503,12 +505,7 @@ impl Analysis for SensorModel {
     }
 
     fn stiffness_changes(&self, state: &State, gage_factors: &[f64], rule: StepRule) -> Vec<f64> {
-        let stored = self.test_shares.iter().zip(&state.factors);
-        let gages = self.gages.iter().zip(gage_factors);
-        let change = |((share, s), (gage, g)): ((&DMatrix<f64>, &f64), (&f64, &f64))| {
-            DERIVATIVE_STEP * rule.measure(share, *s, gage * g)
-        };
-        stored.zip(gages).map(change).collect()
+        changes_by(rule, &self.test_shares, state, &self.gages, gage_factors)
     }
 }
 
