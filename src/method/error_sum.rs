@@ -117,7 +117,7 @@ impl Errors {
 /// let shapes = DMatrix::identity(2, 2);
 /// let analysis = Modes::new(dvector![1.3 * 1.3, 1.4 * 1.4], shapes.clone())?;
 /// let test = Modes::new(dvector![1.0, 1.0], shapes)?;
-/// let pairing = Pairing::new(vec![0, 1], vec![1.0, 1.0])?;
+/// let pairing = Pairing { analysis_mode: vec![0, 1], sign: vec![1.0, 1.0] };
 /// let errors = errors(&analysis, &pairing, &test)?;
 /// assert!((errors.frequency - 0.5).abs() < 1e-15 && errors.shape == 0.0);
 /// # Ok::<(), corfem::method::error::Error>(())

@@ -1,51 +1,21 @@
 //! Mode sorting (4): the pairing of every test mode with the analysis mode that answers it.
 //! Tour: [chapter 3](crate::tour::chapter_03_error_sum).
 
-use super::error::{Error, check_count, check_places, require};
+use super::error::{Error, check_count, check_places};
 use super::linear_algebra::{check_finite, check_length, check_shape};
 use super::modes::Modes;
 use nalgebra::DMatrix;
 
-/// Pairs of an analysis mode with every test mode. A sign is +1 or −1:
-///
-/// ```compile_fail,E0451
-/// let pairing = corfem::method::sorting::Pairing { analysis_mode: vec![0], sign: vec![0.5] };
-/// ```
+/// Pairs of an analysis mode with every test mode.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pairing {
     /// Index of the analysis mode of each test mode.
-    pub(crate) analysis_mode: Vec<usize>,
+    pub analysis_mode: Vec<usize>,
     /// Sign, +1 or −1, that turns each test mode's analysis shape its way.
-    pub(crate) sign: Vec<f64>,
+    pub sign: Vec<f64>,
 }
 
 impl Pairing {
-    /// Index of the analysis mode of each test mode.
-    pub fn analysis_mode(&self) -> &[usize] {
-        &self.analysis_mode
-    }
-
-    /// Sign, +1 or −1, that turns each test mode's analysis shape its way.
-    pub fn sign(&self) -> &[f64] {
-        &self.sign
-    }
-
-    /// Pairs of known analysis modes (from zero) and signs, one of each for every test mode.
-    ///
-    /// # Errors
-    /// [`Error::WrongShape`] for lists of different lengths; [`Error::Value`] for another sign.
-    pub fn new(analysis_mode: Vec<usize>, sign: Vec<f64>) -> Result<Self, Error> {
-        check_length("signs of paired modes", sign.len(), analysis_mode.len())?;
-        for &sign in &sign {
-            let owner = || "a pair".into();
-            require(sign.abs() == 1.0, "sign", owner, sign, "1 or -1")?;
-        }
-        Ok(Self {
-            analysis_mode,
-            sign,
-        })
-    }
-
     /// Pairs with the signs of their entries in the cross-orthogonality (n × g).
     pub(crate) fn signed(analysis_mode: Vec<usize>, cross: &DMatrix<f64>) -> Self {
         let pairs = analysis_mode.iter().enumerate();
@@ -56,18 +26,19 @@ impl Pairing {
         }
     }
 
-    /// Refuses analysis modes other than those paired, and another number of test modes.
+    /// Refuses analysis modes other than those paired, and another number of test modes or signs.
     pub(crate) fn check(&self, analysis: &Modes, test_count: usize) -> Result<(), Error> {
         check_length("paired modes", self.analysis_mode.len(), test_count)?;
+        check_length("signs of paired modes", self.sign.len(), test_count)?;
         check_places("paired analysis modes", &self.analysis_mode, analysis.len())
     }
 
     /// The paired analysis modes, in the order and with the signs of the test modes.
     ///
     /// # Errors
-    /// [`Error::Count`] for a pairing of other modes.
+    /// [`Error::Count`] for a pairing of other modes; [`Error::WrongShape`] unless every one has a sign.
     pub fn paired(&self, analysis: &Modes) -> Result<Modes, Error> {
-        self.check(analysis, self.sign.len())?;
+        self.check(analysis, self.analysis_mode.len())?;
         let mut paired = analysis.select(&self.analysis_mode);
         for (mut shape, &sign) in paired.shapes.column_iter_mut().zip(&self.sign) {
             shape *= sign;
@@ -127,7 +98,7 @@ pub fn cross_orthogonality(
 ///
 /// // Both test modes are closest to the first analysis mode; the second is closer and keeps it.
 /// let pairing = pair_modes(&dmatrix![0.8, -0.9; 0.6, 0.3])?;
-/// assert_eq!((pairing.analysis_mode(), pairing.sign()), (&[1, 0][..], &[1.0, -1.0][..]));
+/// assert_eq!((pairing.analysis_mode, pairing.sign), (vec![1, 0], vec![1.0, -1.0]));
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
 pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {

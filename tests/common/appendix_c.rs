@@ -56,7 +56,7 @@ pub fn eigensolution(change: &ModalChange) -> Result<Perturbed, Error> {
     let modes = solve(pencil.a(), pencil.g(), pencil.a().nrows())?;
     // Rows of the shape matrix are the old modes, so its transpose is the cross-orthogonality of new with old.
     let partners = pair_modes(&modes.shapes().transpose())?;
-    let partners = partners.analysis_mode();
+    let partners = &partners.analysis_mode;
     let mut shapes = modes.shapes().select_columns(partners);
     for (j, mut shape) in shapes.column_iter_mut().enumerate() {
         let separation = shape[j].abs();

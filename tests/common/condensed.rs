@@ -97,7 +97,7 @@ pub fn condensation_errors(
     let assurance = modal_assurance(whole.shapes(), condensed.shapes())?;
     let (whole_hz, pairing) = (whole.frequencies_hz(), pair_modes(&assurance)?);
     let error = |(mode, condensed_hz): (usize, f64)| {
-        let partner = pairing.analysis_mode()[mode];
+        let partner = pairing.analysis_mode[mode];
         CondensationError {
             whole_hz: whole_hz[partner],
             frequency: condensed_hz / whole_hz[partner] - 1.0,

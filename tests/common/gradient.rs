@@ -34,7 +34,7 @@ pub fn gradient(model: &Model, state: &State) -> Result<Vec<f64>, Error> {
             sensitivity[(i, r)] = sensitivity[(r, i)];
         }
     }
-    for (j, &i) in state.pairing.analysis_mode().iter().enumerate() {
+    for (j, &i) in state.pairing.analysis_mode.iter().enumerate() {
         if state.errors.frequency > 0.0 {
             let ratio = (k[i] / model.test().omega_squared()[j]).sqrt();
             sensitivity[(i, i)] = (ratio - 1.0) * ratio / (2.0 * k[i] * state.errors.frequency);
@@ -51,14 +51,14 @@ pub fn gradient(model: &Model, state: &State) -> Result<Vec<f64>, Error> {
 fn shape_pull(model: &Model, state: &State) -> DMatrix<f64> {
     let shapes = state.modes.shapes();
     let mut slopes = DMatrix::zeros(shapes.nrows(), shapes.ncols());
-    let pairs = state.pairing.analysis_mode().iter().enumerate();
+    let pairs = state.pairing.analysis_mode.iter().enumerate();
     for (j, &i) in pairs.filter(|_| state.errors.shape > 0.0) {
         // With u = ±v/|v_m| and the test's w, both of unit largest component: ∂e_v/∂v = ±(u − w)/(d e_v |v_m|), and what
         // the scale takes away at component m.
         let (v, w, sign) = (
             shapes.column(i),
             model.test().shapes().column(j),
-            state.pairing.sign()[j],
+            state.pairing.sign[j],
         );
         let (m, largest) = (v.iamax(), v.amax());
         let mut slope = v * (sign / largest) - w / w.amax();

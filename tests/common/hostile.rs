@@ -177,14 +177,11 @@ impl Draws {
         let (modes, signs) = (self.about(test), self.about(test));
         let outside = self.below(8) / 7;
         let analysis_mode = (0..modes).map(|_| self.below(analysis + outside)).collect();
-        let sign = |_| {
-            if self.below(9) == 0 {
-                self.number()
-            } else {
-                1.0
-            }
-        };
-        Pairing::new(analysis_mode, (0..signs).map(sign).collect())
+        let sign = (0..signs).map(|_| [-1.0, 1.0][self.below(2)]).collect();
+        Ok(Pairing {
+            analysis_mode,
+            sign,
+        })
     }
 
     /// Analysis modes, test modes and what pairs them.

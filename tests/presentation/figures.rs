@@ -207,7 +207,7 @@ fn mode_agreement_is_complete_before_and_nearly_the_identity_after() {
                 // Nine modes of nine DOF hold every shape: Bessel's inequality is an equality.
                 let column = cross.column(j);
                 assert_relative_eq!(column.norm(), 1.0, max_relative = MATRIX_ROUND_OFF);
-                assert_eq!(column.icamax(), check.pairing.analysis_mode()[j]);
+                assert_eq!(column.icamax(), check.pairing.analysis_mode[j]);
                 for i in 0..9 {
                     let (v, w) = (
                         check.modes.shapes().column(i),
@@ -215,12 +215,12 @@ fn mode_agreement_is_complete_before_and_nearly_the_identity_after() {
                     );
                     let partner = check
                         .pairing
-                        .analysis_mode()
+                        .analysis_mode
                         .iter()
                         .position(|&mode| mode == i)
                         .expect("all are paired");
                     let weighted: f64 = (0..9).map(|d| v[d] * masses[d] * w[d]).sum();
-                    let weighted = check.pairing.sign()[partner] * weighted;
+                    let weighted = check.pairing.sign[partner] * weighted;
                     assert!((cross[(i, j)] - weighted).abs() < MATRIX_ROUND_OFF);
                     let mac = v.dot(&w).powi(2) / (v.dot(&v) * w.dot(&w));
                     assert!((assurance[(i, j)] - mac).abs() < MATRIX_ROUND_OFF);
@@ -264,7 +264,7 @@ fn derivatives_are_central_differences_and_give_the_factors_of_the_table() {
             ]
             .map(|(weight, step)| (weight, frequencies(step)));
             for j in 0..9 {
-                let i = start.pairing.analysis_mode()[j];
+                let i = start.pairing.analysis_mode[j];
                 let sum: f64 = stencil.iter().map(|(weight, f)| weight * f[i].ln()).sum();
                 let difference = sum / (12.0 * STEP);
                 let derivative = frequency[(e, j)];

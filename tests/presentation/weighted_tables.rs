@@ -179,7 +179,7 @@ fn a_job_names_its_suspects() {
         factors[4] = 0.3;
         let right = prepared.analyze(&factors).expect("modes");
         let right = right.model().exact();
-        for (j, &i) in right.pairing.analysis_mode().iter().enumerate() {
+        for (j, &i) in right.pairing.analysis_mode.iter().enumerate() {
             alter(&mut prepared.test, |squares, _| {
                 squares[j] = right.modes.omega_squared()[i];
             });

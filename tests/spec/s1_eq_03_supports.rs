@@ -152,7 +152,7 @@ fn free_chain_on_a_soft_suspension_is_found_again_without_its_rigid_body_mode() 
     assert!(
         last.check
             .pairing
-            .analysis_mode()
+            .analysis_mode
             .iter()
             .all(|&mode| mode != 0)
     );

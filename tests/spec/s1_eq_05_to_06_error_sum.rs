@@ -17,7 +17,10 @@ use proptest::prelude::*;
 
 /// Analysis modes that are the test modes' partners in order, with the test's signs.
 fn in_order(count: usize) -> Pairing {
-    Pairing::new((0..count).collect(), vec![1.0; count]).unwrap()
+    Pairing {
+        analysis_mode: (0..count).collect(),
+        sign: vec![1.0; count],
+    }
 }
 
 properties! {
@@ -54,7 +57,7 @@ properties! {
             signs[mode] = sign;
             alter(&mut scaled_test, |_, shapes| shapes.column_mut(mode).scale_mut(test_scale));
         }
-        let found = errors(&scaled, &Pairing::new((0..test.len()).collect(), signs).unwrap(), &scaled_test).unwrap();
+        let found = errors(&scaled, &Pairing { analysis_mode: (0..test.len()).collect(), sign: signs }, &scaled_test).unwrap();
         prop_assert_eq!(found.frequency, expected.frequency);
         prop_assert!((found.shape - expected.shape).abs() <= ROUND_OFF);
     }
@@ -68,7 +71,7 @@ properties! {
         let expected = errors(&analysis, &in_order(test.len()), &test).unwrap();
         let order: Vec<usize> = change.order.iter().copied().filter(|&i| i < test.len()).collect();
         let reordered = Modes::new(test.omega_squared().select_rows(&order), test.shapes().select_columns(&order)).expect("modes");
-        let pairing = Pairing::new(order, vec![1.0; test.len()]).unwrap();
+        let pairing = Pairing { analysis_mode: order, sign: vec![1.0; test.len()] };
         let found = errors(&analysis, &pairing, &reordered).unwrap();
         prop_assert!((found.frequency - expected.frequency).abs() <= ROUND_OFF);
         prop_assert!((found.shape - expected.shape).abs() <= ROUND_OFF);
@@ -107,7 +110,10 @@ fn errors_by_hand() {
     // (1, 0), and (1, -3) against (-1, 4), turned, is (-1/3, 1) against (-1/4, 1): (1/4 + 1/144)/2.
     let analysis = Modes::new(dvector![3.24, 1.21], dmatrix![1.0, 2.0; -3.0, 1.0]).expect("modes");
     let test = Modes::new(dvector![1.0, 4.0], dmatrix![1.0, -1.0; 0.0, 4.0]).expect("modes");
-    let pairing = Pairing::new(vec![1, 0], vec![1.0, -1.0]).unwrap();
+    let pairing = Pairing {
+        analysis_mode: vec![1, 0],
+        sign: vec![1.0, -1.0],
+    };
     let found = errors(&analysis, &pairing, &test).unwrap();
     assert!((found.frequency - 0.02_f64.sqrt()).abs() <= ROUND_OFF);
     assert!((found.shape - (37.0 / 288.0_f64).sqrt()).abs() <= ROUND_OFF);

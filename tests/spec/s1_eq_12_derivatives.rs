@@ -148,7 +148,7 @@ properties! {
         let sum: f64 = found.iter().sum();
         let ratios: Vec<f64> = (0..count)
             .map(|j| {
-                let i = state.pairing.analysis_mode()[j];
+                let i = state.pairing.analysis_mode[j];
                 (state.modes.omega_squared()[i] / problem.test().omega_squared()[j]).sqrt()
             })
             .collect();

@@ -226,7 +226,7 @@ properties! {
             let places = pairs_by_sorting(&alike);
             // Where two modes are half and half of each other, either continues either.
             prop_assume!((0..3).all(|mode| alike[(places[mode], mode)].abs() > 0.8));
-            prop_assert_eq!(state.pairing.analysis_mode(), [0, 1, 2]);
+            prop_assert_eq!(state.pairing.analysis_mode, [0, 1, 2]);
             for (mode, &place) in places.iter().enumerate() {
                 let ratio = state.modes.omega_squared()[mode] / squares[place];
                 prop_assert!((ratio - 1.0).abs() <= bar, "{name} {mode}: {ratio}");

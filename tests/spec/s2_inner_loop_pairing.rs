@@ -117,15 +117,15 @@ properties! {
             let alike = inner.last.modes.shapes().tr_mul(there.modes.shapes());
             let now = &inner.last.pairing;
             let (partners, signs) = now
-                .analysis_mode()
+                .analysis_mode
                 .iter()
-                .zip(now.sign())
+                .zip(&now.sign)
                 .map(|(&i, sign)| {
                     let same = alike.row(i).transpose().iamax();
                     (same, sign * alike[(i, same)].signum())
                 })
                 .unzip();
-            let pairing = Pairing::new(partners, signs).unwrap();
+            let pairing = Pairing { analysis_mode: partners, sign: signs };
             errors(&there.modes, &pairing, model.test()).unwrap().sum() - found
         };
         for (parameter, change) in model.error_changes(&inner.last).unwrap().into_iter().enumerate() {

@@ -474,7 +474,10 @@ fn pair_all(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
     let modes: Vec<usize> = partners.into_iter().flatten().collect();
     let signs = modes.iter().enumerate();
     let signs = signs.map(|(test, &mode)| 1.0_f64.copysign(cross[(mode, test)]));
-    Pairing::new(modes.clone(), signs.collect())
+    Ok(Pairing {
+        sign: signs.collect(),
+        analysis_mode: modes.clone(),
+    })
 }
 
 /// Twelve masses in a row on springs that differ; three springs are parameters, and two masses if so asked.

@@ -54,7 +54,7 @@ properties! {
             prop_assert_eq!(check.modes.len(), truth.len());
             let (all, paired) = (check.modes.frequencies_hz(), ExactResult::from(check).frequencies_hz);
             prop_assert_eq!(paired.len(), truth.len());
-            for (frequency, &i) in paired.iter().zip(check.pairing.analysis_mode()) {
+            for (frequency, &i) in paired.iter().zip(&check.pairing.analysis_mode) {
                 prop_assert_eq!(*frequency, all[i]);
             }
         }

@@ -178,7 +178,7 @@ fn frequencies_stand_in_the_order_of_the_test_modes() {
         .unwrap()
         .exact()
         .clone();
-    assert_eq!(found.pairing.analysis_mode(), [2, 1, 0]);
+    assert_eq!(found.pairing.analysis_mode, [2, 1, 0]);
     assert_eq!(
         ExactResult::from(&found).frequencies_hz,
         test.frequencies_hz()

@@ -73,7 +73,7 @@ properties! {
         // The method's own needs a test mode, and an analysis mode for each.
         let closeness = if closeness.ncols() > closeness.nrows() { closeness.transpose() } else { closeness };
         let closeness = closeness.abs().resize_horizontally(closeness.ncols().max(1), 0.5).resize_vertically(closeness.nrows().max(1), 0.5);
-        let closest_first: Vec<Option<usize>> = pair_modes(&closeness).unwrap().analysis_mode().iter().copied().map(Some).collect();
+        let closest_first: Vec<Option<usize>> = pair_modes(&closeness).unwrap().analysis_mode.iter().copied().map(Some).collect();
         let pairs = pair_optimally(&closeness, 0.0).unwrap();
         prop_assert!(total(&closeness, &pairs) >= total(&closeness, &closest_first) - ROUND_OFF * 6.0);
     }
@@ -85,7 +85,7 @@ fn two_test_modes_that_look_like_one_analysis_mode_are_both_paired() {
     let closeness = dmatrix![0.91, 0.90; 0.88, 0.05];
     let closest_first = pair_modes(&closeness)
         .expect("pairs")
-        .analysis_mode()
+        .analysis_mode
         .to_vec();
     assert_eq!(closest_first, [0, 1]);
     assert_eq!(

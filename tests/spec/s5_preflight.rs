@@ -259,7 +259,7 @@ fn the_common_factor_is_the_median_of_the_ratios_of_pairs() {
         let analysis = solve(&model.stiffness, &model.mass, model.mass.nrows()).unwrap();
         let assurance = modal_assurance(analysis.shapes(), specimen.test.shapes()).unwrap();
         let (test, all) = (wrong.test.frequencies_hz(), analysis.frequencies_hz());
-        let pairs = pair_modes(&assurance).unwrap().analysis_mode().to_vec();
+        let pairs = pair_modes(&assurance).unwrap().analysis_mode.to_vec();
         let mut ratios: Vec<f64> = test
             .iter()
             .zip(pairs)

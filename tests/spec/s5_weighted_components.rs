@@ -217,7 +217,7 @@ fn residuals_with_a_covariance_are_those_of_generalized_least_squares() {
         // Free columns: the shapes that a test mode is compared with, in its rows.
         let (mut plain, mut free) = (DVector::zeros(28), Vec::new());
         let State { modes, pairing, .. } = model.model().exact();
-        for (j, &i) in pairing.analysis_mode().iter().enumerate() {
+        for (j, &i) in pairing.analysis_mode.iter().enumerate() {
             let ratio = modes.omega_squared()[i] / test.omega_squared()[j];
             plain[7 * j] = weights[j].frequency * (ratio.sqrt() - 1.0);
             let tested = test.shapes().column(j);
@@ -226,7 +226,7 @@ fn residuals_with_a_covariance_are_those_of_generalized_least_squares() {
                 .copy_from(&(-weights[j].shape / tested.amax() * tested));
             let together = groups.iter().find(|group: &&Vec<usize>| group.contains(&j));
             for test in together.cloned().unwrap_or(vec![j]) {
-                let partner = pairing.analysis_mode()[test];
+                let partner = pairing.analysis_mode[test];
                 let mut column = DVector::zeros(28);
                 let shape = modes.shapes().column(partner);
                 column.rows_mut(7 * j + 1, 6).copy_from(&shape);

@@ -203,7 +203,7 @@ fn in_basis(model: &SensorModel) -> [DMatrix<f64>; 2] {
 /// Squared frequencies of the modes that answer the test modes.
 fn paired(state: &State) -> Vec<f64> {
     let mode = |&i: &usize| state.modes.omega_squared()[i];
-    state.pairing.analysis_mode().iter().map(mode).collect()
+    state.pairing.analysis_mode.iter().map(mode).collect()
 }
 
 /// Largest relative distance of two lists of numbers.

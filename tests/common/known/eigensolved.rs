@@ -23,11 +23,11 @@ pub fn exact_state(model: &Model, factors: &[f64]) -> Result<State, Error> {
     let found = solve(&stiffness, &DMatrix::identity(size, size), size)?;
     // Rows of the shapes are the exact modes, so their transpose is the cross-orthogonality of the new modes with these.
     let places = pair_modes(&found.shapes().transpose())?;
-    let mut generalized = found.shapes().select_columns(places.analysis_mode());
-    for (mut shape, sign) in generalized.column_iter_mut().zip(places.sign()) {
+    let mut generalized = found.shapes().select_columns(&places.analysis_mode);
+    for (mut shape, sign) in generalized.column_iter_mut().zip(&places.sign) {
         shape *= *sign;
     }
-    let squares = found.omega_squared().select_rows(places.analysis_mode());
+    let squares = found.omega_squared().select_rows(&places.analysis_mode);
     let modes = Modes::new(squares, model.exact().modes.shapes() * &generalized)?;
     let pairing = pair_modes(&generalized.tr_mul(model.cross()))?;
     Ok(State {

@@ -213,7 +213,7 @@ fn modes_left_out_are_close_and_exchanged_by_the_wrong_gages() {
     let cross = cross_orthogonality(&modes, &truth, &first.mass).expect("they fit");
     let answers = pair_modes(&cross)
         .expect("enough modes")
-        .analysis_mode()
+        .analysis_mode
         .to_vec();
     let mut expected: Vec<usize> = (0..12).collect();
     expected.swap(7, 8);

@@ -114,7 +114,7 @@ fn compared(case: &Case) -> (CaseResult, History) {
             .iter()
             .map(|iteration| iteration.errors.sum())
             .collect();
-        let modes = pass.check.pairing.analysis_mode();
+        let modes = &pass.check.pairing.analysis_mode;
         let squares: Vec<f64> = modes
             .iter()
             .map(|&mode| pass.check.modes.omega_squared()[mode])

@@ -433,7 +433,7 @@ fn what_shapes_do_not_decide_is_paired_by_frequency_and_said() {
     assert_eq!(loaded.undecided, [0, 1, 2]);
     let model = loaded.analyze(&[1.0; 2]).expect("a model");
     let exact = model.model().exact();
-    assert_eq!(exact.pairing.analysis_mode(), [0, 1, 2]);
+    assert_eq!(exact.pairing.analysis_mode, [0, 1, 2]);
     let trust = Trust::before(&loaded).expect("an account");
     assert_eq!(trust.undecided, [1, 2, 3]);
     let all = unbroken(&render::text(&[trust_table(&trust)]));

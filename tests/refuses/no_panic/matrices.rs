@@ -67,7 +67,7 @@ pub const MATRICES: &[Entry] = &[
     }),
     ("sorting::pair_modes", |d| {
         let (rows, columns) = (d.size(), d.size());
-        pair_modes(&d.matrix(rows, columns)).map(|found| found.sign().to_vec())
+        pair_modes(&d.matrix(rows, columns)).map(|found| found.sign)
     }),
     ("orthogonalize::generalized_mass", |d| {
         let size = d.size();
