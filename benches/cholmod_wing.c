@@ -1,4 +1,4 @@
-/* The analysis of benches/large by CHOLMOD, BLAS, LAPACK and ARPACK, on the same matrices and in one thread.
+/* The analysis of benches/large by CHOLMOD, BLAS and ARPACK, on the same matrices and in one thread.
  *
  *     cargo bench --bench large -- --write FOLDER --cholmod cc 1k 10k
  *
@@ -7,9 +7,8 @@
  *     cc -O3 -march=native -I/usr/include/suitesparse -o cholmod_wing benches/cholmod_wing.c -lcholmod -larpack -lopenblas -lm
  *     OMP_THREAD_LIMIT=1 OPENBLAS_NUM_THREADS=1 ./cholmod_wing FOLDER/1k
  *
- * It prints rows of paper/costs.csv. Ordering and pattern are made once and not timed, as in the programs that it is compared
- * with. Loads go forward through the factor alone and the shapes backward, which takes CHOLMOD less time than solving for all
- * of the loads. The modes of the whole model are timed with the ordering, which is CHOLMOD's own choice there, and not counted.
+ * It prints rows of paper/costs.csv. The factorization alone is timed in an order by METIS found before; the modes of the whole model
+ * with assembly and ordering, which is CHOLMOD's own choice there, and not counted.
  */
 
 #include <arpack/arpack.h>
@@ -23,13 +22,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { MODES = 10, KRYLOV = 41, BATCH = 64, MOST_DOF = 12, MOST_WIDTH = 64 };
-
-void dpotrf_(const char *, const int *, double *, const int *, int *, size_t);
-void dpotri_(const char *, const int *, double *, const int *, int *, size_t);
-void dsygvx_(const int *, const char *, const char *, const char *, const int *, double *, const int *, double *, const int *,
-             const double *, const double *, const int *, const int *, const double *, int *, double *, double *, const int *,
-             double *, const int *, int *, int *, int *, size_t, size_t, size_t);
+enum { KRYLOV = 41, BATCH = 64, MOST_DOF = 12, MOST_WIDTH = 64 };
 
 static void fail(const char *what) {
     fprintf(stderr, "cholmod_wing: %s\n", what);
@@ -133,11 +126,10 @@ static Elements read_elements(const char *folder, const char *kind, int groups) 
 static cholmod_common common;
 static cholmod_sparse *stiffness, *mass;
 static cholmod_factor *factor;
-static cholmod_dense *loads, *forward, *turned, *space; /* In the order of elimination. */
 static Elements kinds[2];
-static Array point_mass, tested, place, value, expected, expected_shares, mass_place, mass_value, whole_expected;
-static int points, groups, width, count;
-static double *flexibility, *point_stiffness, *roots, *both, *combined, *shapes, *sums, whole_roots[KRYLOV];
+static Array expected, expected_shares, mass_place, mass_value;
+static int groups, width, count;
+static double *shapes, *sums, roots[KRYLOV];
 
 /* Row and column of an entry of the elements' matrices, if it is of the lower triangle and neither is held. */
 static int is_stored(const Elements *of, int64_t at, int *row, int *column) {
@@ -191,46 +183,6 @@ static void factorize(void) {
         fail("CHOLMOD finds no factor");
 }
 
-static void find_flexibility(void) {
-    memcpy(forward->x, loads->x, loads->nzmax * sizeof(double));
-    cholmod_super_lsolve(factor, forward, space, &common);
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, points, count, 1.0, forward->x, count, 0.0, flexibility, points);
-}
-
-static void condense(void) {
-    int info[2];
-    memcpy(point_stiffness, flexibility, sizeof(double) * points * points);
-    dpotrf_("L", &points, point_stiffness, &points, &info[0], 1);
-    dpotri_("L", &points, point_stiffness, &points, &info[1], 1);
-    if (info[0] || info[1])
-        fail("the flexibility is not definite");
-}
-
-static void find_modes(void) {
-    int found, info, one = 1, modes = MODES, length = 40 * points;
-    double zero = 0.0, *a = memory(points * points, 8), *b = memory(points * points, 8), *work = memory(length, 8);
-    memcpy(a, point_stiffness, sizeof(double) * points * points);
-    memcpy(b, point_mass.number, sizeof(double) * points * points);
-    int *more = memory(6 * points, sizeof *more);
-    dsygvx_(&one, "V", "I", "L", &points, a, &points, b, &points, &zero, &zero, &one, &modes, &zero, &found, roots, both, &points,
-            work, &length, more, more + 5 * points, &info, 1, 1, 1);
-    if (info || found != MODES)
-        fail("LAPACK finds no modes");
-    free(a), free(b), free(work), free(more);
-}
-
-/* Deflections of the structure in the modes and the test shapes, a row for every degree of freedom and one of zeros. */
-static void find_shapes(void) {
-    cblas_dsymm(CblasColMajor, CblasLeft, CblasLower, points, width, 1.0, point_stiffness, points, both, points, 0.0, combined,
-                points);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, count, width, points, 1.0, forward->x, count, combined, points, 0.0,
-                turned->x, count);
-    cholmod_super_ltsolve(factor, turned, space, &common);
-    for (int place = 0; place < count; place++)
-        for (int shape = 0; shape < width; shape++)
-            shapes[((int *)factor->Perm)[place] * (int64_t)width + shape] = ((double *)turned->x)[place + (size_t)count * shape];
-}
-
 /* V_e^t K_e V_e summed by group. */
 static void find_shares(void) {
     static double moved[BATCH * MOST_DOF * MOST_WIDTH], forces[BATCH * MOST_DOF * MOST_WIDTH];
@@ -260,9 +212,11 @@ static void find_shares(void) {
     }
 }
 
-static void find_whole_modes(void) {
+/* The lowest modes with a factorization in CHOLMOD's own order; their shapes, a row for every degree of freedom and one of zeros. */
+static void find_modes(void) {
     int ido = 0, info = 0, parameters[11] = {1, 0, 100000, 1, 0, 0, 3}, places[11], length = KRYLOV * (KRYLOV + 8);
-    int whole = whole_expected.shape[0], chosen[KRYLOV] = {0};
+    int chosen[KRYLOV] = {0};
+    assemble();
     double *start = memory(count, 8), *basis = memory((size_t)count * KRYLOV, 8), *work = memory(3 * (size_t)count, 8);
     double *small = memory(length, 8), one[2] = {1.0, 0.0}, zero[2] = {0.0, 0.0};
     cholmod_dense in = {count, 1, count, count, NULL, NULL, CHOLMOD_REAL, CHOLMOD_DOUBLE}, out = in;
@@ -270,7 +224,7 @@ static void find_whole_modes(void) {
     cholmod_factor *own = cholmod_analyze(stiffness, &common);
     cholmod_factorize(stiffness, own, &common);
     do {
-        dsaupd_c(&ido, "G", count, "LM", whole, DBL_EPSILON, start, KRYLOV, basis, count, parameters, places, work, small, length, &info);
+        dsaupd_c(&ido, "G", count, "LM", width, DBL_EPSILON, start, KRYLOV, basis, count, parameters, places, work, small, length, &info);
         in.x = work + places[0] - 1, out.x = work + places[1] - 1;
         if (ido == -1 || ido == 2)
             cholmod_sdmult(mass, 0, one, zero, &in, &out, &common);
@@ -284,47 +238,33 @@ static void find_whole_modes(void) {
         }
     } while (ido != 99);
     if (info == 0)
-        dseupd_c(1, "A", chosen, whole_roots, basis, count, 0.0, "G", count, "LM", whole, DBL_EPSILON, start, KRYLOV, basis, count,
+        dseupd_c(1, "A", chosen, roots, basis, count, 0.0, "G", count, "LM", width, DBL_EPSILON, start, KRYLOV, basis, count,
                  parameters, places, work, small, length, &info);
     if (info)
         fail("ARPACK finds no modes");
+    for (int dof = 0; dof < count; dof++)
+        for (int shape = 0; shape < width; shape++)
+            shapes[dof * (int64_t)width + shape] = basis[dof + (size_t)count * shape];
     cholmod_free_factor(&own, &common);
     cholmod_free_dense(&solved, &common), cholmod_free_dense(&one_space, &common), cholmod_free_dense(&other_space, &common);
     free(start), free(basis), free(work), free(small);
 }
 
 static void read_problem(const char *folder) {
-    point_mass = read_array(folder, "mass"), tested = read_array(folder, "test_shapes");
-    place = read_array(folder, "t_place"), value = read_array(folder, "t_value");
     expected = read_array(folder, "frequencies"), expected_shares = read_array(folder, "shares");
     mass_place = read_array(folder, "mass_place"), mass_value = read_array(folder, "mass_value");
-    whole_expected = read_array(folder, "whole_frequencies");
-    groups = expected_shares.shape[0], points = point_mass.shape[0], width = MODES + tested.shape[1];
+    groups = expected_shares.shape[0], width = expected.shape[0];
     kinds[0] = read_elements(folder, "rod", groups), kinds[1] = read_elements(folder, "panel", groups);
     for (Elements *of = kinds; of < kinds + 2; of++)
         for (int64_t at = 0; at < of->count * of->size; at++)
             count = of->dof[at] >= count ? of->dof[at] + 1 : count;
-    if (width > MOST_WIDTH || whole_expected.shape[0] > KRYLOV / 2)
+    if (width > MOST_WIDTH || width > KRYLOV / 2)
         fail("too many shapes");
 }
 
-/* The loads in the order of elimination, and space for everything that is timed. */
+/* The mass, and space for everything that is timed. */
 static void prepare(void) {
-    int *turns = memory(count, sizeof *turns), shapes_tested = width - MODES;
-    for (int turn = 0; turn < count; turn++)
-        turns[((int *)factor->Perm)[turn]] = turn;
-    loads = cholmod_zeros(count, points, CHOLMOD_REAL, &common);
-    for (int64_t at = 0; at < value.shape[0]; at++)
-        ((double *)loads->x)[turns[place.integer[2 * at]] + count * place.integer[2 * at + 1]] = value.number[at];
-    free(turns);
-    forward = cholmod_zeros(count, points, CHOLMOD_REAL, &common);
-    turned = cholmod_zeros(count, width, CHOLMOD_REAL, &common);
-    space = cholmod_zeros(factor->maxesize, points, CHOLMOD_REAL, &common);
-    flexibility = memory(points * points, 8), point_stiffness = memory(points * points, 8), roots = memory(points, 8);
-    both = memory(points * width, 8), combined = memory(points * width, 8);
     shapes = memory((count + 1) * (size_t)width, 8), sums = memory(groups * width * width, 8);
-    for (int at = 0; at < points * shapes_tested; at++)
-        both[points * MODES + at / shapes_tested + at % shapes_tested * points] = tested.number[at];
     cholmod_triplet *triplet = cholmod_allocate_triplet(count, count, mass_value.shape[0], 0, CHOLMOD_REAL, &common);
     for (size_t at = 0; at < triplet->nzmax; at++, triplet->nnz++) {
         ((int *)triplet->i)[at] = mass_place.integer[2 * at], ((int *)triplet->j)[at] = mass_place.integer[2 * at + 1];
@@ -337,15 +277,13 @@ static void prepare(void) {
 /* The largest relative difference of frequencies, and of shares of the modes from those that were written. */
 static double apart(void) {
     double most = 0.0;
-    for (int mode = 0; mode < MODES; mode++) {
+    for (int mode = 0; mode < width; mode++) {
         most = fmax(most, fabs(sqrt(roots[mode]) / (2.0 * M_PI * expected.number[mode]) - 1.0));
         for (int group = 0; group < groups; group++) {
-            double share = expected_shares.number[group * expected_shares.shape[1] + mode];
+            double share = expected_shares.number[group * width + mode];
             most = fmax(most, fabs(sums[(group * width + mode) * width + mode] - share) / roots[mode]);
         }
     }
-    for (int mode = 0; mode < whole_expected.shape[0]; mode++)
-        most = fmax(most, fabs(sqrt(whole_roots[mode]) / (2.0 * M_PI * whole_expected.number[mode]) - 1.0));
     return most;
 }
 
@@ -369,16 +307,14 @@ int main(int many, char **arguments) {
     common.nmethods = 0;
     forget_most_memory();
     prepare();
-    double factorization = least(factorize), solution = least(find_flexibility);
-    double analysis = factorization + solution + least(condense) + least(find_modes) + least(find_shapes) + least(find_shares);
-    double held = most_memory(), vibration = least(find_whole_modes), difference = apart();
+    double factorization = least(factorize), vibration = least(find_modes), analysis = vibration + least(find_shares);
+    double held = most_memory(), difference = apart();
     fprintf(stderr, "CHOLMOD, %d DOF: frequencies and shares agree to %.1e\n", count, difference);
     if (!(difference < 1e-8))
         fail("frequencies or shares are not the same");
     print("assembly and factorization by CHOLMOD", "ms", 1e3 * factorization);
-    print("flexibility by CHOLMOD", "ms", 1e3 * solution);
-    print("analysis by CHOLMOD", "ms", 1e3 * analysis);
     print("20 modes by CHOLMOD (not counted)", "ms", 1e3 * vibration);
+    print("analysis by CHOLMOD", "ms", 1e3 * analysis);
     print("most memory of the CHOLMOD process", "MB", held);
     print("entries of the factor by METIS through CHOLMOD", "million", stored[1]);
     print("entries of the factor by AMD through CHOLMOD", "million", stored[0]);

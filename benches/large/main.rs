@@ -1,4 +1,4 @@
-//! The cost of every stage on wings from 1.4 thousand to a million structural DOF: time, peak memory, and how both grow.
+//! The cost of every stage of an analysis on wings from 1.4 thousand to a million structural DOF: time, peak memory, and how both grow.
 //!
 //! `cargo bench --bench large` measures the two smallest of the wings, `cargo bench --bench large -- 1k 10k 100k 1M` those
 //! named. With `--write FOLDER` the problems are written there for other programs, which do the same in the same run: `--scipy python3`
@@ -57,19 +57,12 @@ fn main() {
         let known = MESHES.map(|(name, _)| name).join(", ");
         let wing =
             Wing::named(name).unwrap_or_else(|| panic!("expected one of {known}, found {name}"));
-        let (mut stages, known, modal) = stages::of(&wing);
+        let (stages, analyzed) = stages::of(&wing);
         let folder = folder.as_ref().map(|folder| Path::new(folder).join(name));
         if let Some(folder) = &folder {
-            numpy::write(folder, &known.model, &modal).expect("the folder can be written");
+            numpy::write(folder, &analyzed).expect("the folder can be written");
         }
-        if *name == MESHES[0].0 {
-            print_papers_costs(&stages::papers_costs(&known, &stages));
-        }
-        drop((known, modal));
-        let (mass, frequencies) = stages::whole_modes(&wing, &mut stages);
-        if let Some(folder) = &folder {
-            numpy::write_whole(folder, &mass, &frequencies).expect("the folder can be written");
-        }
+        drop(analyzed);
         let mut rows = rows_of(&stages);
         if let (Some(rivals), Some(folder)) = (&rivals, &folder) {
             rows.extend(rivals.measured(folder, stages.dof));
@@ -144,19 +137,6 @@ fn store(file: &Path, dof: usize, measured: &[Cost]) -> std::io::Result<()> {
     }
     let lines = rows.iter().map(|row| row.join(",") + "\n");
     std::fs::write(file, lines.collect::<String>())
-}
-
-/// The paper's seconds and today's milliseconds.
-fn print_papers_costs(costs: &[(&str, f64, f64)]) {
-    println!("| | then, s | now, ms | ratio |\n|---|---|---|---|");
-    for (what, then, now) in costs {
-        println!(
-            "| {what} | {then} | {:.3} | {:.0} |",
-            1000.0 * now,
-            then / now
-        );
-    }
-    println!();
 }
 
 /// Time and peak memory of every stage, and the exponents of growth from one wing to the next.

@@ -1,11 +1,8 @@
 //! Arrays in NumPy's format 1.0, and a wing's problem written with them for other programs.
 
-use corfem::method::analysis::Analysis;
+use crate::stages::Analyzed;
 use corfem::method::appendix_a::element_matrices;
-use corfem::method::model::Model;
 use corfem::method::structure::ElementKind;
-use corfem::sparse::{LargeModel, SparseMatrix};
-use nalgebra::DMatrix;
 use std::fs::{File, create_dir_all};
 use std::io::{BufWriter, Result, Write};
 use std::path::Path;
@@ -44,24 +41,16 @@ fn integers(path: &Path, shape: &[usize], values: impl Iterator<Item = usize>) -
     )
 }
 
-fn matrix(path: &Path, matrix: &DMatrix<f64>) -> Result<()> {
-    numbers(
-        path,
-        &[matrix.nrows(), matrix.ncols()],
-        matrix.transpose().iter().copied(),
-    )
-}
-
-/// Writes what an analysis begins with, and the frequencies and the sum of shares that it ends with.
+/// Writes what an analysis begins with, and the frequencies and shares that it ends with.
 ///
 /// Of rods and panels each: unit matrices (n × m × m) filled up with zeros, DOF (n × m) with -1 where one is held, size and
 /// group.
-pub fn write(folder: &Path, model: &LargeModel, modal: &Model) -> Result<()> {
+pub fn write(folder: &Path, analyzed: &Analyzed) -> Result<()> {
     create_dir_all(folder)?;
     let at = |name: &str| folder.join(format!("{name}.npy"));
-    let structure = model.structure();
+    let structure = &analyzed.wing.structure().expect("a wing");
     let mut group_of = vec![0; structure.elements().len()];
-    for (group, parameter) in model.parameters().iter().enumerate() {
+    for (group, parameter) in analyzed.wing.parameters().iter().enumerate() {
         parameter
             .elements
             .iter()
@@ -99,36 +88,7 @@ pub fn write(folder: &Path, model: &LargeModel, modal: &Model) -> Result<()> {
             of_kind().map(|((row, _), _)| group_of[row]),
         )?;
     }
-    let entries = || model.load_distribution().entries().iter().copied();
-    let count = entries().count();
-    integers(
-        &at("t_place"),
-        &[count, 2],
-        entries().flat_map(|(row, column, _)| [row, column]),
-    )?;
-    numbers(&at("t_value"), &[count], entries().map(|(.., value)| value))?;
-    matrix(&at("mass"), model.mass())?;
-    matrix(&at("test_shapes"), modal.test().shapes())?;
-    let frequencies = modal.exact().modes.frequencies_hz();
-    numbers(
-        &at("frequencies"),
-        &[frequencies.len()],
-        frequencies.into_iter(),
-    )?;
-    let (count, modes) = (modal.shares().len(), modal.exact().modes.len());
-    let diagonals = modal
-        .shares()
-        .iter()
-        .flat_map(|share| share.diagonal().data.as_vec().clone());
-    numbers(&at("shares"), &[count, modes], diagonals)
-}
-
-/// Writes the mass of the whole model, and the frequencies of its lowest modes.
-pub fn write_whole(folder: &Path, mass: &SparseMatrix, frequencies: &[f64]) -> Result<()> {
-    let (at, entries) = (
-        |name: &str| folder.join(format!("{name}.npy")),
-        mass.entries(),
-    );
+    let entries = analyzed.mass.entries();
     integers(
         &at("mass_place"),
         &[entries.len(), 2],
@@ -139,9 +99,15 @@ pub fn write_whole(folder: &Path, mass: &SparseMatrix, frequencies: &[f64]) -> R
         &[entries.len()],
         entries.iter().map(|entry| entry.2),
     )?;
+    let frequencies = analyzed.modes.frequencies_hz();
     numbers(
-        &at("whole_frequencies"),
+        &at("frequencies"),
         &[frequencies.len()],
         frequencies.iter().copied(),
-    )
+    )?;
+    let shares = analyzed.model.shares();
+    let diagonals = shares
+        .iter()
+        .flat_map(|share| share.matrix().diagonal().data.as_vec().clone());
+    numbers(&at("shares"), &[shares.len(), frequencies.len()], diagonals)
 }

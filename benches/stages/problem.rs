@@ -7,9 +7,8 @@ use crate::known::wing::Wing;
 use corfem::method::analysis::Analysis;
 use corfem::method::appendix_a::{ElementMatrix, element_matrices};
 use corfem::method::inner_loop::{InnerSettings, run};
+use corfem::method::model::FiniteElementModel;
 use corfem::method::modes::{Modes, solve};
-use corfem::sparse::LargeModel;
-use corfem::sparse::factorization::StructuralStiffness;
 use corfem::torque_box::Case;
 use std::hint::black_box;
 
@@ -20,11 +19,11 @@ pub const STRUCTURES: [&str; 2] = ["box", "wing"];
 pub type Stage = (&'static str, Box<dyn FnMut()>);
 
 /// Case 2 with its nine modes, or the wing with ten and an inner loop to an error sum of 5 %.
-fn problem(structure: &str) -> (LargeModel, Modes, usize, InnerSettings) {
+fn problem(structure: &str) -> (FiniteElementModel, Modes, usize, InnerSettings) {
     if structure == "box" {
         let case = Case::new(2).expect("a case");
         return (
-            LargeModel::of(&case.model().expect("a model")).expect("a plan"),
+            case.model().expect("a model"),
             case.test_modes().expect("test modes"),
             9,
             case.settings.inner,
@@ -53,14 +52,6 @@ pub fn stages(structure: &str) -> Vec<Stage> {
     let (model, test): (&'static _, &'static _) =
         (Box::leak(Box::new(model)), Box::leak(Box::new(test)));
     let ones: &'static [f64] = vec![1.0; model.parameters().len()].leak();
-    let sizes = model.sizes(ones).expect("sizes");
-    let plan = || {
-        let elements = model.elements().to_vec();
-        StructuralStiffness::new(model.structure(), elements).expect("a plan")
-    };
-    let planned = plan();
-    let factorize = move || planned.factorized(&sizes).expect("it is held");
-    let structural = factorize();
     let condensed = model.condense(ones).expect("it condenses");
     let analyze = move || model.analyze(ones, test, Some(modes)).expect("analyzed");
     let modal = &*Box::leak(Box::new(analyze()));
@@ -77,14 +68,7 @@ pub fn stages(structure: &str) -> Vec<Stage> {
         stage("element matrices", move || {
             element_matrices(model.structure()).collect::<Vec<ElementMatrix>>()
         }),
-        stage("ordering and pattern", plan),
-        stage("assembly and factorization", factorize),
-        stage("flexibility", move || {
-            structural
-                .flexibility(model.load_distribution())
-                .expect("a flexibility")
-        }),
-        stage("condensed model: these two and K_D", move || {
+        stage("condensation", move || {
             model.condense(ones).expect("it condenses")
         }),
         stage("modes", move || {

@@ -1,7 +1,6 @@
-//! Whole models made of elements, and the lumped masses of these.
+//! Entries of elements in the matrices of a whole model: stiffness, and lumped masses.
 
-use super::{Deformations, LargeModel};
-use super::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
+use super::SparseMatrix;
 use crate::method::appendix_a::ElementMatrix;
 use crate::method::elements::unit_stiffness;
 use crate::method::error::Error;
@@ -84,10 +83,7 @@ pub(crate) fn moving_mass_entries(
 ///
 /// # Errors
 /// The errors of [`SparseMatrix::new`] for entries beyond the range of numbers.
-pub(crate) fn resisting(
-    structure: &Structure,
-    elements: &[ElementMatrix],
-) -> Result<SparseMatrix, Error> {
+pub fn resisting(structure: &Structure, elements: &[ElementMatrix]) -> Result<SparseMatrix, Error> {
     let count = structure.free_dof().len();
     let whole = structure.elements().iter().zip(structure.corners());
     let of_element = |(matrix, (element, corners)): (&ElementMatrix, (&Element, &Vec<Point>))| {
@@ -100,46 +96,4 @@ pub(crate) fn resisting(
     };
     let parts = elements.iter().zip(whole).flat_map(of_element);
     SparseMatrix::new("stiffness of the elements", count, count, parts.collect())
-}
-
-impl WholeModel {
-    /// A finite element model at all its structural degrees of freedom, and the matrix $T^t$ that reads its dynamic ones:
-    ///
-    /// $$ K = \sum_e s_e K_e, \qquad M = T M_{points} T^t . $$
-    ///
-    /// It may hang free.
-    ///
-    /// # Errors
-    /// [`Error::Range`] for bounds that exclude the start, and what [`WholeModel::new`] refuses.
-    pub fn of(model: &LargeModel) -> Result<(Self, SparseMatrix), Error> {
-        let elements: Vec<ElementMatrix> =
-            model.elements().iter().map(Deformations::matrix).collect();
-        let (structure, t) = (model.structure(), model.load_distribution());
-        let (count, points) = (structure.free_dof().len(), model.mass());
-        let size = |row: usize| structure.elements()[row].size;
-        let sparse = |what, entries| SparseMatrix::new(what, count, count, entries);
-        let parameters = model.parameters().iter().zip(model.rows());
-        let parameters = parameters.zip(model.factor_ranges()?);
-        let parameters = parameters.map(|((parameter, rows), range)| {
-            let member = |&row: &usize| (model.elements()[row].clone(), size(row));
-            WholeParameter {
-                name: parameter.name.clone(),
-                share: WholeShare::Elements(rows.iter().map(member).collect()),
-                range,
-            }
-        });
-        let couplings = (0..t.columns())
-            .flat_map(|i| (0..t.columns()).map(move |j| (i, j)))
-            .filter(|&at| points[at] != 0.0);
-        let moving = |(i, j): (usize, usize)| {
-            moving_mass_entries(&t.motion(i), &t.motion(j), points[(i, j)])
-        };
-        let mass = sparse("mass", couplings.flat_map(moving).collect())?;
-        let stiffness = |row: usize| stiffness_entries(&elements[row], size(row));
-        let stiffness = (0..elements.len()).flat_map(stiffness).collect();
-        let stiffness = sparse("stiffness", stiffness)?;
-        let whole = Self::new(stiffness, mass, parameters.collect())?
-            .with_resisting(resisting(structure, &elements)?)?;
-        Ok((whole, t.transposed()))
-    }
 }

@@ -116,7 +116,9 @@ impl SparseMatrix {
         entries.map(|&(row, _, value)| (row, value)).collect()
     }
 
-    pub(super) fn transposed(&self) -> Self {
+    /// The transpose.
+    #[doc(hidden)]
+    pub fn transposed(&self) -> Self {
         let mut entries: Vec<_> = self
             .entries
             .iter()

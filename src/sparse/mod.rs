@@ -5,7 +5,6 @@
 
 mod assurance;
 mod checks;
-mod condensation;
 mod deformations;
 #[doc(hidden)]
 pub mod elements;
@@ -30,9 +29,6 @@ pub use checks::check_solution;
 pub(crate) use checks::{
     add_squares, finite, places_above, solve_lower, start_vector, take_product, transposed_product,
 };
-#[doc(hidden)]
-pub use condensation::LargeCondensation;
-pub use condensation::LargeModel;
 #[doc(hidden)]
 pub use deformations::Deformations;
 #[doc(hidden)]

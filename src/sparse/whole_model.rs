@@ -112,7 +112,8 @@ impl WholeModel {
     ///
     /// # Errors
     /// [`Error::WrongShape`] for one of another size.
-    pub(crate) fn with_resisting(self, resisting: SparseMatrix) -> Result<Self, Error> {
+    #[doc(hidden)]
+    pub fn with_resisting(self, resisting: SparseMatrix) -> Result<Self, Error> {
         check_length(
             "stiffness of the elements",
             resisting.rows(),

@@ -1,7 +1,6 @@
 //! How much a factorization stores and computes, by its order of elimination.
 
-use corfem::sparse::Deformations;
-use corfem::sparse::factorization::StructuralStiffness;
+use corfem::method::appendix_a::ElementMatrix;
 use faer::Side;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
@@ -20,14 +19,13 @@ pub struct Fill {
     pub operations: f64,
 }
 
-/// The fill by the stiffness's order of elimination.
-pub fn of_factor(stiffness: &StructuralStiffness) -> Fill {
-    let (order, elements) = (stiffness.order(), stiffness.elements());
+/// The fill of a matrix of elements by an order of elimination.
+pub fn of_order(order: &[usize], elements: &[ElementMatrix]) -> Fill {
     let count = order.len();
     let mut turn = vec![0; count];
     (order.iter().enumerate()).for_each(|(place, &dof)| turn[dof] = place);
-    let coupled = |element: &Deformations| {
-        let turns: Vec<usize> = element.dof().iter().map(|&dof| turn[dof]).collect();
+    let coupled = |element: &ElementMatrix| {
+        let turns: Vec<usize> = element.dof.iter().map(|&dof| turn[dof]).collect();
         let all = turns
             .iter()
             .flat_map(|&row| turns.iter().map(move |&column| (row, column)));

@@ -3,12 +3,12 @@
 pub use crate::common::known::weighed::lumped_mass;
 use crate::common::known::wing::Wing;
 use corfem::chain::rods;
-use corfem::method::appendix_a::{ElementMatrix, assemble, element_matrices};
+use corfem::method::appendix_a::{assemble, element_matrices};
 use corfem::method::error::Error;
 use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::method::step::Bounds;
-use corfem::method::structure::{Element, ElementKind, Grid, Material, StructuralDof, Structure};
-use corfem::sparse::factorization::Factor;
+use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
+use corfem::sparse::{Factor, SparseMatrix};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
@@ -125,25 +125,15 @@ pub fn dense(structure: &Structure) -> DMatrix<f64> {
 
 /// The stiffness of a structure, factorized.
 pub fn factorized(structure: &Structure) -> Result<Factor, Error> {
-    let matrices: Vec<_> = element_matrices(structure).collect();
-    Factor::of_stiffness(&matrices, &sizes(structure), structure.free_dof())
+    of_dense(&dense(structure))
 }
 
-/// A stiffness matrix as a structure of one element, with as many free DOF as rows.
-pub fn as_element(stiffness: &DMatrix<f64>) -> (Vec<ElementMatrix>, Vec<StructuralDof>) {
-    let count = stiffness.nrows();
-    let element = ElementMatrix {
-        label: 1,
-        dof: (0..count).collect(),
-        unit: stiffness.clone(),
-    };
-    let free = (0..count)
-        .map(|row| StructuralDof {
-            grid: row / 3 + 1,
-            direction: row % 3,
-        })
-        .collect();
-    (vec![element], free)
+/// A stiffness, factorized.
+pub fn of_dense(stiffness: &DMatrix<f64>) -> Result<Factor, Error> {
+    Factor::new(
+        "stiffness",
+        &SparseMatrix::of_dense("stiffness", stiffness)?,
+    )
 }
 
 /// A stiffness scaled to unit diagonal, and the scale.

@@ -11,9 +11,6 @@ pub const MATRIX_ROUND_OFF: f64 = 1e-11;
 pub const CONDITIONED_ROUND_OFF: f64 = 1e-14;
 /// A difference of a hundred-millionth of its terms, relative: what is left of sixteen digits, and some.
 pub const DIFFERENCE_ROUND_OFF: f64 = 1e-6;
-/// Two routes to the free motion of a mechanism, of its largest component: inverse iteration sheds the other motions to
-/// 1e-10 a step.
-pub const SAME_MOTION: f64 = 1e-6;
 /// Part of the mean over all free motions above which a DOF takes part in them: the one that moves most in some of
 /// them may have less than the mean over all, one that is held has nothing but round-off.
 pub const TAKES_PART: f64 = 1e-2;

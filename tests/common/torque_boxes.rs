@@ -1,5 +1,6 @@
 //! The paper's torque box as a subject of properties.
 
+use crate::common::structures::of_dense;
 use corfem::method::appendix_a::assemble;
 use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::sparse::factorization::Factor;
@@ -71,10 +72,8 @@ pub fn reconstruction() -> impl Strategy<Value = Reconstruction> {
 
 /// The structural stiffness of a model at given sizes, dense and factorized.
 pub fn stiffness(model: &FiniteElementModel, sizes: &[f64]) -> (DMatrix<f64>, Factor) {
-    let free = model.structure().free_dof();
-    let matrices = model.element_matrices();
-    (
-        assemble(matrices, sizes, free.len()).expect("a size each"),
-        Factor::of_stiffness(matrices, sizes, free).expect("nothing free"),
-    )
+    let count = model.structure().free_dof().len();
+    let dense = assemble(model.element_matrices(), sizes, count).expect("a size each");
+    let factor = of_dense(&dense).expect("nothing free");
+    (dense, factor)
 }

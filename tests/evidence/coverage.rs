@@ -11,11 +11,11 @@ use crate::common::whole_models::{masses, shear_building, springs};
 use crate::readers::job_errors::{placed, with};
 use corfem::files::error::FileError;
 use corfem::job::{JobResult, LoadedJob, run};
-use corfem::method::model::Parameter;
+use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::method::modes::Modes;
 use corfem::method::step::Bounds;
 use corfem::present::table::{Cell, Digits, Table, numbers, percents};
-use corfem::sparse::{LargeModel, WholeModel, WholeParameter, WholeShare};
+use corfem::sparse::{WholeModel, WholeParameter, WholeShare};
 use corfem::torque_box::error::CaseError;
 use corfem::weighted::comparison::Comparison;
 use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop, gauss_newton};
@@ -284,7 +284,7 @@ fn case_2_by_bays() -> Result<Known, CaseError> {
         ));
         truth.push(known.truth[bay[0] - 1]);
     }
-    let model = LargeModel::new(structure.clone(), t.clone(), mass.clone(), parameters);
+    let model = FiniteElementModel::new(structure.clone(), t.clone(), mass.clone(), parameters);
     let model = Weighed(model?);
     Ok(Known {
         name: "Case 2 by bays".to_owned(),

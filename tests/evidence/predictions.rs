@@ -12,7 +12,6 @@ use corfem::method::model::DynamicModel;
 use corfem::method::modes::{Modes, solve};
 use corfem::method::perturbation::{Perturbed, first_order, recursive_1};
 use corfem::method::sorting::{cross_orthogonality, pair_modes};
-use corfem::sparse::LargeModel;
 use corfem::torque_box::error::CaseError;
 use nalgebra::{DMatrix, DVector};
 
@@ -82,9 +81,9 @@ fn taylor(k: &DVector<f64>, beta: &DMatrix<f64>, of_roots: bool) -> Perturbed {
 /// The predictions of steps from a model's first factors, all one, toward given ones: fractions `steps` of the way.
 ///
 /// # Errors
-/// Those of [`LargeModel::matrices`], [`solve`] and [`pair_modes`].
+/// Those of [`Weighed::matrices`], [`solve`] and [`pair_modes`].
 pub fn predictions(
-    model: &Weighed<LargeModel>,
+    model: &Weighed,
     toward: &[f64],
     steps: &[f64],
     exact: Exact,

@@ -4,7 +4,7 @@ use crate::common::known::delta_wing::{DeltaWing, correlation};
 use crate::common::known::weighed::Weighed;
 use corfem::job::preflight::{Finding, SeenModes, preflight_at_sensors};
 use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, FiniteElementModel};
+use corfem::method::model::DynamicModel;
 use corfem::method::modes::{Modes, solve};
 use corfem::method::outer_loop::Settings;
 use corfem::method::step::Bounds;
@@ -56,12 +56,7 @@ impl Specimen {
         )?)
     }
 
-    fn of(
-        name: &str,
-        model: &Weighed<FiniteElementModel>,
-        test: Modes,
-        settings: Settings,
-    ) -> Result<Self, Error> {
+    fn of(name: &str, model: &Weighed, test: Modes, settings: Settings) -> Result<Self, Error> {
         let (name, ranges) = (name.to_owned(), model.factor_ranges()?);
         let model = model.matrices(&vec![1.0; ranges.len()])?;
         Ok(Self {

@@ -4,6 +4,7 @@
 
 use crate::common::loops::Eigensolved;
 use crate::common::structures::lumped_mass;
+use crate::common::structures::of_dense;
 use corfem::method::analysis::Analysis;
 use corfem::method::appendix_a::assemble;
 use corfem::method::appendix_b::{balance, generalized_mass, orthogonalize};
@@ -19,8 +20,6 @@ use corfem::method::perturbation::{Perturbed, recursive_1};
 use corfem::method::sorting::{cross_orthogonality, pair_modes};
 use corfem::method::step::{StepRule, unlimited_factor};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use corfem::sparse::SparseMatrix;
-use corfem::sparse::factorization::Factor;
 use corfem::torque_box::Case;
 use nalgebra::{Complex, DMatrix, DVector, Vector3};
 use serde_json::{Map, Value, json};
@@ -154,16 +153,18 @@ fn analysis(given: &Value) -> Value {
     );
     let (elements, free) = (model.element_matrices(), model.structure().free_dof());
     let sizes = model.sizes(&factors).expect("sizes");
-    let factor = Factor::of_stiffness(elements, &sizes, free).expect("held");
+    let stiffness = assemble(elements, &sizes, free.len()).expect("sizes");
+    let factor = of_dense(&stiffness).expect("held");
     let deflections = factor.solve(&loads).expect("loads");
-    let t = SparseMatrix::of_dense("load distribution", model.load_distribution()).expect("finite");
+    let t = model.load_distribution();
+    let flexibility = t.tr_mul(&factor.solve(t).expect("loads"));
     let condensed = model.condense(&factors).expect("held");
     let DynamicModel { mass, shares, .. } = matrices(&model, &factors);
     json!({
-        "structural_stiffness": rows(&assemble(elements, &sizes, free.len()).expect("sizes")),
+        "structural_stiffness": rows(&stiffness),
         "deflections": rows(&deflections),
         "dynamic_deflections": rows(&model.load_distribution().tr_mul(&deflections)),
-        "dynamic_flexibility": rows(&factor.flexibility(&t).expect("fits")),
+        "dynamic_flexibility": rows(&flexibility),
         "dynamic_stiffness": rows(&condensed.stiffness),
         "transformation": rows(&condensed.transformation),
         "shares": shares.iter().map(rows).collect::<Vec<_>>(),
@@ -206,8 +207,8 @@ fn comparison(given: &Value) -> Value {
     let errors = errors(&analysis, &pairing, &test).expect("errors");
     json!({
         "cross_orthogonality": rows(&cross),
-        "analysis_mode": pairing.analysis_mode(),
-        "sign": pairing.sign(),
+        "analysis_mode": pairing.analysis_mode,
+        "sign": pairing.sign,
         "frequency_error": errors.frequency,
         "shape_error": errors.shape,
     })

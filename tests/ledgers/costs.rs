@@ -5,12 +5,8 @@ use crate::common::log_log_slope;
 use crate::ledgers::tables::table;
 use std::sync::LazyLock;
 
-pub const ANALYSIS: &str = "analysis with all shares";
-const CONDENSED: &str = "condensed model: these two and $K_D$";
-const FACTOR: &str = "assembly and factorization";
-const FLEXIBILITY: &str = "flexibility by forward substitution";
-const MODES: &str = "modes: 10 of 108";
-const SHAPES: &str = "shapes of the structure: 10 solutions";
+const ANALYSIS: &str = "analysis with all shares";
+const FACTOR: &str = "ordering and factorization";
 const WHOLE_MODES: &str = "20 modes of the whole model (counted)";
 const NEEDED: &str = "entries of the factor without padding";
 const BY_METIS: &str = "entries of the factor by METIS through CHOLMOD";
@@ -38,7 +34,7 @@ fn numbers(line: &[String]) -> Vec<Option<f64>> {
 }
 
 /// What a stage costs at a size, if it was measured: the first line of that name, which is of time or of a count.
-pub fn cost(stage: &str, size: usize) -> Option<f64> {
+fn cost(stage: &str, size: usize) -> Option<f64> {
     let line = LINES.iter().find(|line| line[0] == stage);
     numbers(line.unwrap_or_else(|| panic!("{stage}")))[size]
 }
@@ -115,46 +111,25 @@ fn bounds() -> String {
     let percent = |one, other| move |size| Some(100.0 * ratio(one, other)(size)?);
     let each = |stage| move |size: usize| Some(1e3 * cost(stage, size)? / sizes()[size]);
     let entries = |size| cost("entries of the factor", size);
-    // Millions a millisecond are thousand millions a second; an entry has eight bytes and is read forward and backward.
+    // Millions a millisecond are thousand millions a second.
     let rate = ratio("operations of the factorization", FACTOR);
-    let traffic = |size| Some(16.0 * entries(size)? / cost(SHAPES, size)?);
-    let rest = |size| {
-        let others = [CONDENSED, MODES, SHAPES].map(|stage| each(stage)(size));
-        Some(each(ANALYSIS)(size)? - others.into_iter().sum::<Option<f64>>()?)
-    };
-    let rows: [(&str, Bound<'_>); 11] = [
+    let rows: [(&str, Bound<'_>); 6] = [
         ("entries of the factor for every DOF", &|size| {
             Some(1e6 * entries(size)? / sizes()[size])
         }),
-        ("assembly and factorization, GFLOP/s", &rate),
+        ("ordering and factorization, GFLOP/s", &rate),
         ("the same, % of a product of dense matrices", &|size| {
             Some(100.0 * rate(size)? / cost("product of dense matrices", size)?)
         }),
         ("the same, % of an analysis", &percent(FACTOR, ANALYSIS)),
         (
-            "condensed model, % of an analysis",
-            &percent(CONDENSED, ANALYSIS),
+            "20 modes of the whole model, % of an analysis",
+            &percent(WHOLE_MODES, ANALYSIS),
         ),
-        (
-            "modes of the 108 points, % of an analysis",
-            &percent(MODES, ANALYSIS),
-        ),
-        (
-            "shapes of the structure: reading of the factor, GB/s",
-            &traffic,
-        ),
-        ("the same, % of reading memory from end to end", &|size| {
-            Some(100.0 * traffic(size)? / cost("reading of memory", size)?)
-        }),
         (
             "element matrices, µs for every DOF",
             &each("element matrices (once)"),
         ),
-        (
-            "ordering and pattern, µs for every DOF",
-            &each("ordering and pattern (once)"),
-        ),
-        ("shares, the rest of an analysis, µs for every DOF", &rest),
     ];
     at_sizes(
         "what bounds a stage",
@@ -165,10 +140,8 @@ fn bounds() -> String {
 /// How many times as long other programs take for the same, and how much more the factor stores than by their order of elimination.
 fn beside_others() -> String {
     let stages = [
-        (FACTOR, FACTOR, ""),
-        (FLEXIBILITY, "flexibility", ""),
-        (ANALYSIS, "analysis", ""),
         (WHOLE_MODES, "20 modes", " (not counted)"),
+        (ANALYSIS, "analysis", ""),
     ];
     let mut rows = Vec::new();
     for (stage, what, end) in stages {

@@ -1,7 +1,6 @@
 //! The computed tables and sentences of README.md and `paper/*.md`, made from the goldens.
 
 use crate::evidence::coverage::SEEDS;
-use crate::ledgers::costs::{ANALYSIS, cost};
 use crate::ledgers::{alternative, costs, files_below};
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -979,24 +978,9 @@ pub fn sentences() -> Vec<(&'static str, String)> {
     let [least, most, after] = left_behind(&["7", "12", "13", "14"]);
     let [report_least, report_most, report_after] = left_behind(&["12", "13", "14"]);
     let (readme, results, wing) = ("README.md", "paper/results.md", "paper/delta_wing.md");
-    let slower = |program, size| {
-        let other = cost(&format!("analysis by {program}"), size).expect("measured");
-        other / cost(ANALYSIS, size).expect("measured")
-    };
-    let by_cholmod = [0, 1, 2].map(|size| slower("CHOLMOD", size));
     vec![
         (readme, alternative::sentence()),
         ("paper/cost.md", alternative::tailplane()),
-        (
-            readme,
-            format!(
-                "SciPy takes {:.1} to {:.1} times as long, CHOLMOD {:.1} to {:.1} times",
-                slower("SciPy", 0),
-                slower("SciPy", 2),
-                by_cholmod.into_iter().fold(f64::INFINITY, f64::min),
-                largest(&by_cholmod),
-            ),
-        ),
         (
             readme,
             format!(

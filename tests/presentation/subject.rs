@@ -371,11 +371,12 @@ fn more_than_twelve_modes_are_drawn_in_several_figures() {
         .into_iter()
         .chain(subject.stages.iter_mut().map(|stage| &mut stage.check))
     {
-        let pairs = places
-            .iter()
-            .map(|&mode| check.pairing.analysis_mode()[mode]);
-        let signs = places.iter().map(|&mode| check.pairing.sign()[mode]);
-        check.pairing = Pairing::new(pairs.collect(), signs.collect()).expect("a sign each");
+        let pairs = places.iter().map(|&mode| check.pairing.analysis_mode[mode]);
+        let signs = places.iter().map(|&mode| check.pairing.sign[mode]);
+        check.pairing = Pairing {
+            analysis_mode: pairs.collect(),
+            sign: signs.collect(),
+        };
         check.frequencies_hz = places
             .iter()
             .map(|&mode| check.frequencies_hz[mode])

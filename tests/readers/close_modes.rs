@@ -132,13 +132,7 @@ fn turned_shapes_of_close_modes_are_no_error() {
         );
         let report = Report::from_job(&loaded, Some(&result)).expect("a report");
         let agreement = report.agreement(report.corrected()).expect("agreement");
-        for (mode, &partner) in report
-            .corrected()
-            .pairing
-            .analysis_mode()
-            .iter()
-            .enumerate()
-        {
+        for (mode, &partner) in report.corrected().pairing.analysis_mode.iter().enumerate() {
             assert!(
                 agreement.assurance[(partner, mode)] > 1.0 - 1e-9,
                 "mode {mode}"

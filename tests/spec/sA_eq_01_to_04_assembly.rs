@@ -4,13 +4,12 @@ use crate::common::matrices::relative_distance;
 use crate::common::said;
 use crate::common::strategies::positive_definite;
 use crate::common::structures::{
-    as_element, condition, dense, factorized, grid, rod, sizes_of, spring_chain, unit_material,
+    condition, dense, factorized, grid, of_dense, rod, sizes_of, spring_chain, unit_material,
 };
 use crate::common::tolerances::{CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF};
 use corfem::method::appendix_a::{assemble, element_matrices};
 use corfem::method::elements::unit_stiffness;
 use corfem::method::structure::{Element, ElementKind, Structure};
-use corfem::sparse::factorization::Factor;
 use corfem::torque_box::Case;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
@@ -101,9 +100,8 @@ properties! {
     fn sparse_and_dense_deflections_agree(number in 1..=4_usize, sizes in sizes_of(39), loads in loads(36)) {
         let model = Case::new(number).unwrap().model().unwrap();
         let matrices = model.element_matrices();
-        let factor = Factor::of_stiffness(matrices, &sizes, model.structure().free_dof()).unwrap();
-        let found = factor.solve(&loads).unwrap();
         let stiffness = assemble(matrices, &sizes, 36).unwrap();
+        let found = of_dense(&stiffness).unwrap().solve(&loads).unwrap();
         let expected = stiffness.clone().cholesky().unwrap().solve(&loads);
         let bar = CONDITIONED_ROUND_OFF * condition(&stiffness);
         prop_assert!(relative_distance(&found, &expected) <= bar, "{:e}", relative_distance(&found, &expected));
@@ -127,8 +125,7 @@ properties! {
 
     #[test]
     fn a_positive_definite_matrix_of_condition_1e10_is_solved((stiffness, _) in positive_definite(9, 10.0), loads in loads(9)) {
-        let (elements, free) = as_element(&stiffness);
-        let found = Factor::of_stiffness(&elements, &[1.0], &free).unwrap().solve(&loads).unwrap();
+        let found = of_dense(&stiffness).unwrap().solve(&loads).unwrap();
         // What a backward stable solution leaves, whatever the condition.
         let residual = (&stiffness * &found - &loads).amax();
         prop_assert!(residual <= MATRIX_ROUND_OFF * stiffness.amax() * found.amax());
@@ -144,24 +141,13 @@ properties! {
 fn wrong_sizes_and_loads_are_refused_by_name() {
     let structure = spring_chain(&[1.0, 2.0, 3.0], [true, false]);
     let matrices: Vec<_> = element_matrices(&structure).collect();
-    let factor = |sizes: &[f64]| Factor::of_stiffness(&matrices, sizes, structure.free_dof());
     for sizes in [vec![1.0; 2], vec![1.0; 4]] {
         let words = format!("element sizes: {} x 1 instead of 3 x 1", sizes.len());
-        assert_eq!(said(factor(&sizes)), words);
         assert_eq!(said(assemble(&matrices, &sizes, 3)), words);
     }
     assert_eq!(
         said(assemble(&matrices, &[1.0; 3], 2)),
         "degrees of freedom: 3 given or asked for; there must be 0 to 2"
-    );
-    for value in [0.0, -2.0, f64::NAN, f64::INFINITY] {
-        let words = format!("size of element 2 is {value}; it must be positive and finite");
-        assert_eq!(said(factor(&[1.0, value, 3.0])), words);
-    }
-    let nothing = Factor::of_stiffness(&matrices, &[1.0, 2.0, 3.0], &[]);
-    assert_eq!(
-        said(nothing),
-        "free degrees of freedom: 0 given or asked for; there must be at least 1"
     );
     let factor = factorized(&structure).unwrap();
     for (loads, words) in [

@@ -10,7 +10,6 @@ use crate::method::linear_algebra::symmetric_eigen;
 use crate::method::structure::{DIRECTIONS, Structure};
 use crate::sparse::SparseMatrix;
 use crate::sparse::elements::{resisting, stiffness_entries};
-use crate::sparse::factorization::Factor;
 use crate::sparse::whole_modes::{MassDof, WholeModes, whole_modes};
 
 /// Largest ratio of the stiffness of two elements. An assembled entry holds 16 digits of the stiffer one; at a ratio of
@@ -38,10 +37,14 @@ pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
     let resisting = resisting(&structure, &elements)?;
     let found = whole_modes(&stiffness, at, most, &resisting, |row| row_name(row, free)).map_err(
         |error| match error {
-            // The factorization of the elements names the grid of a DOF with neither stiffness nor mass.
-            Error::NotPositiveDefinite { .. } => Factor::of_stiffness(&elements, &sizes, free)
-                .err()
-                .unwrap_or(error),
+            // A motion with neither stiffness nor mass.
+            Error::NotPositiveDefinite {
+                what: "mass of rigid-body motions",
+                row,
+            } => Error::SingularStiffness {
+                grid: free[row].grid,
+                direction: DIRECTIONS[free[row].direction],
+            },
             other => other,
         },
     )?;

@@ -1,16 +1,14 @@
-//! The one factorization: of the structural stiffness, and of every other symmetric matrix, with its inertia.
+//! The one factorization, of every symmetric matrix, with its inertia.
 //! Tour: [chapter 6](crate::tour::chapter_06_condensation).
 
 mod plan;
-mod stiffness;
 
 pub(in crate::sparse) use plan::FactorizationPlan;
-pub use stiffness::StructuralStiffness;
 
 use crate::method::error::Error;
-use crate::method::linear_algebra::{check_finite, check_length, check_shape};
+use crate::method::linear_algebra::check_matrix;
 use crate::sparse::finite;
-use crate::sparse::{SparseMatrix, add_squares, check_solution, start_vector};
+use crate::sparse::{SparseMatrix, check_solution, start_vector};
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::{
     solve_unit_lower_triangular_in_place, solve_unit_upper_triangular_in_place,
@@ -26,8 +24,6 @@ const INVERSE_ITERATIONS: usize = 4;
 /// If the first estimate of the smallest eigenvalue exceeds the limit by this factor, it is enough: it is too large by at most
 /// 1/(component of the start vector along the weakest motion).
 const CLEARLY_HELD: f64 = 1e6;
-/// Rows of $W$ that are multiplied at once: as many as a processor's cache holds.
-const PANEL: usize = 512;
 
 /// A symmetric matrix, factorized once and solved many times:
 ///
@@ -74,75 +70,47 @@ impl Factor {
         terms: &[(f64, &SparseMatrix)],
     ) -> Result<Self, Error> {
         let mut entries = plan.entries_of(terms);
-        let size = |entry: f64| if entry == 0.0 { 1.0 } else { entry.abs() };
-        let scale = plan.scale(&mut entries, size);
-        let factor = Self::of_entries(plan, what, &entries, scale)?;
-        factor.check(what, &entries)?;
-        Ok(factor)
-    }
-
-    /// The factor of scaled entries, not checked yet.
-    fn of_entries(
-        plan: &Arc<FactorizationPlan>,
-        what: &'static str,
-        entries: &[f64],
-        scale: DVector<f64>,
-    ) -> Result<Self, Error> {
-        let (values, zero) = plan.factor(entries)?;
+        let scale = plan.scale(&mut entries);
+        let (values, zero) = plan.factor(&entries)?;
         let blocks = plan.blocks(&values).map(|block| block.val());
         let pivots = blocks.flat_map(|block| (0..block.ncols()).map(move |at| block[(at, at)]));
         let pivots: Vec<f64> = pivots.collect();
         if let Some(at) = zero {
-            return Err(Error::NotPositiveDefinite {
-                what,
-                row: plan.order[at],
-            });
+            let row = plan.order[at];
+            return Err(Error::NotPositiveDefinite { what, row });
         }
-        Ok(Self {
+        let factor = Self {
             plan: Arc::clone(plan),
             values,
             scale,
             pivots,
-        })
+        };
+        // A factor that does not solve its own scaled matrix is refused.
+        let product = |x: &DVector<f64>| plan.times(&entries, x);
+        let loads = product(&start_vector(factor.scale.len()));
+        let found = factor.solved(DMatrix::from_rows(&[loads.transpose()]));
+        check_solution(what, product, &loads, &found.row(0).transpose())?;
+        Ok(factor)
     }
 
-    /// Refuses a factor that does not solve its own scaled matrix.
-    fn check(&self, what: &'static str, entries: &[f64]) -> Result<(), Error> {
-        let (product, loads) = self.probe(entries);
-        let found = self.solved(DMatrix::from_rows(&[loads.transpose()]));
-        check_solution(what, product, &loads, &found.row(0).transpose())
-    }
-
-    /// The product with the scaled matrix of these entries, and the loads of a probe.
-    fn probe<'a>(
-        &'a self,
-        entries: &'a [f64],
-    ) -> (impl Fn(&DVector<f64>) -> DVector<f64>, DVector<f64>) {
-        let product = |x: &DVector<f64>| self.plan.times(entries, x);
-        let loads = product(&start_vector(self.scale.len()));
-        (product, loads)
-    }
-
-    /// True if every eigenvalue of the scaled matrix is above a limit; refuses a factor that does not solve that matrix. Both come
-    /// from one solution with two loads, which reads the factor once.
-    fn is_proved_above(
-        &self,
-        limit: f64,
-        what: &'static str,
-        entries: &[f64],
-    ) -> Result<bool, Error> {
-        if self.negative_count() > 0 {
-            return Ok(false);
-        }
-        let (product, loads) = self.probe(entries);
-        let start = start_vector(loads.len());
-        let both = DMatrix::from_rows(&[start.transpose(), loads.transpose()]);
-        let found = self.solved(both);
-        let is_above = self.is_first_above(found.rows(0, 1).into_owned(), limit);
-        if is_above {
-            check_solution(what, product, &loads, &found.row(1).transpose())?;
-        }
-        Ok(is_above)
+    /// Rows in the order in which they are eliminated.
+    ///
+    /// # Example
+    ///
+    /// ```rust
+    /// use corfem::sparse::SparseMatrix;
+    /// use corfem::sparse::factorization::Factor;
+    /// use nalgebra::DMatrix;
+    ///
+    /// // Of rows that nothing couples each is eliminated once.
+    /// let matrix = SparseMatrix::of_dense("matrix", &DMatrix::identity(3, 3))?;
+    /// let mut order = Factor::new("matrix", &matrix)?.order().to_vec();
+    /// order.sort_unstable();
+    /// assert_eq!(order, [0, 1, 2]);
+    /// # Ok::<(), corfem::method::error::Error>(())
+    /// ```
+    pub fn order(&self) -> &[usize] {
+        &self.plan.order
     }
 
     /// $A^{-1} R$ for every column of $R$ (rows × m): of a stiffness (lbf/in) the deflections $q_S = K_S^{-1} Q_S$ (A.2) in inches
@@ -151,66 +119,19 @@ impl Factor {
     /// # Errors
     /// [`Error::WrongShape`] unless $R$ has a row per row of the matrix; [`Error::Value`].
     pub fn solve(&self, right: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-        check_shape("loads", right, self.scale.len(), right.ncols())?;
-        check_finite("loads", right)?;
-        self.solve_transposed(right)
-            .map(|deflections| deflections.transpose())
-    }
-
-    /// Deflections as by [`Self::solve`], transposed (m × rows), so that those of one DOF lie together.
-    pub(crate) fn solve_transposed(&self, loads: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-        let (count, turn) = (loads.ncols(), &self.plan.turn);
-        let (mut rows, mut is_loaded) = (vec![0.0; loads.len()], vec![false; loads.nrows()]);
-        for (&turn, loads) in turn.iter().zip(loads.row_iter()) {
+        let (count, turn) = (right.ncols(), &self.plan.turn);
+        check_matrix("loads", right, self.scale.len(), count)?;
+        let (mut rows, mut is_loaded) = (vec![0.0; right.len()], vec![false; right.nrows()]);
+        for (&turn, loads) in turn.iter().zip(right.row_iter()) {
             is_loaded[turn] = loads.iter().any(|&load| load != 0.0);
             let row = rows[turn * count..].iter_mut().zip(loads.iter());
             row.for_each(|(value, load)| *value = load * self.scale[turn]);
         }
-        self.forward(
-            &mut rows,
-            count,
-            &Reach::of_all_rows(self.reached(is_loaded)),
-        );
+        self.forward(&mut rows, count, &self.reached(is_loaded));
         self.backward(&mut rows, count);
         let at =
-            |column: usize, dof: usize| self.scale[turn[dof]] * rows[turn[dof] * count + column];
-        finite("deflections", DMatrix::from_fn(count, loads.nrows(), at))
-    }
-
-    /// The flexibility $T^t K_S^{-1} T$ (A.5, d × d, in/lbf) of a positive definite stiffness by forward substitution alone:
-    ///
-    /// $$ T^t K_S^{-1} T = W^t W, \qquad W = D^{-1/2} L^{-1} S T $$
-    ///
-    /// Where no dynamic DOF's loads reach, $W$ is zero and nothing is done.
-    ///
-    /// # Errors
-    /// [`Error::WrongShape`] unless $T$ has a row per free DOF; [`Error::Value`].
-    pub fn flexibility(&self, load_distribution: &SparseMatrix) -> Result<DMatrix<f64>, Error> {
-        let size = self.scale.len();
-        check_length("load distribution", load_distribution.rows(), size)?;
-        let count = load_distribution.columns();
-        let loads = load_distribution.entries().iter();
-        let loads = loads.map(|&(dof, column, value)| (self.plan.turn[dof], column, value));
-        let mut is_loaded = vec![false; size];
-        loads.clone().for_each(|(turn, ..)| is_loaded[turn] = true);
-        let reach = Reach::of_reached_rows(self.reached(is_loaded));
-        let mut rows = vec![0.0; reach.place[size] * count];
-        for (turn, column, coefficient) in loads {
-            rows[reach.place[turn] * count + column] = coefficient * self.scale[turn];
-        }
-        self.forward(&mut rows, count, &reach);
-        let pivots = self.pivots.iter().zip(&reach.is_reached);
-        let pivots: Vec<f64> = pivots.filter(|at| *at.1).map(|at| *at.0).collect();
-        let mut sum = DMatrix::zeros(count, count);
-        for (rows, pivots) in rows.chunks_mut(PANEL * count).zip(pivots.chunks(PANEL)) {
-            for (row, pivot) in rows.chunks_mut(count).zip(pivots) {
-                let weight = 1.0 / pivot.sqrt();
-                row.iter_mut().for_each(|value| *value *= weight);
-            }
-            add_squares(&mut sum, rows);
-        }
-        sum.fill_upper_triangle_with_lower_triangle();
-        finite("dynamic flexibility", sum)
+            |dof: usize, column: usize| self.scale[turn[dof]] * rows[turn[dof] * count + column];
+        finite("deflections", DMatrix::from_fn(right.nrows(), count, at))
     }
 
     /// Rows to which loads on some of them lead in forward substitution.
@@ -230,16 +151,15 @@ impl Factor {
 
     /// $L^{-1}$ times right-hand sides in place, `count` values for each DOF that is kept in the order of elimination; blocks of DOF that
     /// are not reached are left alone.
-    fn forward(&self, rows: &mut [f64], count: usize, reach: &Reach) {
+    fn forward(&self, rows: &mut [f64], count: usize, is_reached: &[bool]) {
         let mut scratch = Vec::new();
         for block in self.plan.blocks(&self.values) {
             let end = block.start() + block.val().ncols();
-            if !reach.is_reached[block.start()] {
+            if !is_reached[block.start()] {
                 continue;
             }
-            let (first, end) = (reach.place[block.start()], reach.place[end]);
             let (done, later) = rows.split_at_mut(end * count);
-            let own = &mut done[first * count..];
+            let own = &mut done[block.start() * count..];
             let mut own = MatMut::from_column_major_slice_mut(own, count, block.val().ncols());
             let (diagonal, below) = block.val().split_at_row(block.val().ncols());
             solve_unit_lower_triangular_in_place(diagonal, own.as_mut().transpose_mut(), Par::Seq);
@@ -259,8 +179,7 @@ impl Factor {
                 .iter()
                 .zip(scratch.chunks_exact(count.max(1)))
             {
-                let row = reach.place[row] - end;
-                let values = later[row * count..].iter_mut().zip(change);
+                let values = later[(row - end) * count..].iter_mut().zip(change);
                 values.for_each(|(value, change)| *value -= change);
             }
         }
@@ -295,9 +214,8 @@ impl Factor {
 
     /// The solutions of the scaled problem for rows of loads, both in the order of elimination.
     fn solved(&self, mut loads: DMatrix<f64>) -> DMatrix<f64> {
-        let all = Reach::of_all_rows(vec![true; self.scale.len()]);
         let count = loads.nrows();
-        self.forward(loads.as_mut_slice(), count, &all);
+        self.forward(loads.as_mut_slice(), count, &vec![true; self.scale.len()]);
         self.backward(loads.as_mut_slice(), count);
         loads
     }
@@ -331,63 +249,19 @@ impl Factor {
         }
     }
 
-    /// True if every eigenvalue of the matrix scaled to unit diagonal is above a limit that is not negative.
+    /// True if every eigenvalue of the matrix scaled to unit diagonal is above a limit that is not negative, by inverse iteration.
     ///
     /// Small pivots do not tell that: after a small one the next is as wrong as round-off divided by it.
     pub(super) fn is_above(&self, limit: f64) -> bool {
-        self.negative_count() == 0 && self.is_first_above(self.first_motion(), limit)
-    }
-
-    /// Answer of [`Self::is_above`] without negative pivots and with the first step of inverse iteration done.
-    fn is_first_above(&self, first: DMatrix<f64>, limit: f64) -> bool {
-        self.weakest_motion(first, CLEARLY_HELD * limit).0 > limit
-    }
-
-    /// The first step of inverse iteration.
-    fn first_motion(&self) -> DMatrix<f64> {
         let start = start_vector(self.scale.len());
-        self.solved(DMatrix::from_rows(&[start.transpose()]))
-    }
-
-    /// Smallest eigenvalue and its vector of the scaled matrix, by inverse iteration after its first step; no more than the first
-    /// estimate if that is above `enough`.
-    fn weakest_motion(&self, first: DMatrix<f64>, enough: f64) -> (f64, DMatrix<f64>) {
-        let mut motion = first;
+        let mut motion = self.solved(DMatrix::from_rows(&[start.transpose()]));
         let mut smallest = 1.0 / motion.normalize_mut();
         for _ in 1..INVERSE_ITERATIONS {
-            if smallest <= enough {
+            if smallest <= CLEARLY_HELD * limit {
                 motion = self.solved(motion);
                 smallest = 1.0 / motion.normalize_mut();
             }
         }
-        (smallest, motion)
-    }
-}
-
-/// Rows that forward substitution reaches, in the order of elimination.
-struct Reach {
-    is_reached: Vec<bool>,
-    /// Number of rows that are kept before each, and at the end of all that are kept.
-    place: Vec<usize>,
-}
-
-impl Reach {
-    /// Reach with every row kept.
-    fn of_all_rows(is_reached: Vec<bool>) -> Self {
-        let place = (0..=is_reached.len()).collect();
-        Self { is_reached, place }
-    }
-
-    /// Reach with only the reached rows kept.
-    fn of_reached_rows(is_reached: Vec<bool>) -> Self {
-        let count = |kept: &mut usize, is_reached: &bool| {
-            *kept += usize::from(*is_reached);
-            Some(*kept)
-        };
-        let kept = is_reached.iter().scan(0, count);
-        Self {
-            place: [0].into_iter().chain(kept).collect(),
-            is_reached,
-        }
+        self.negative_count() == 0 && smallest > limit
     }
 }

@@ -1,8 +1,8 @@
 //! The plan of a factorization: everything that does not change with the sizes.
 
-use crate::method::error::{Error, check_count};
+use crate::method::error::Error;
 use crate::sparse::SparseMatrix;
-use crate::sparse::ordering::Mesh;
+use crate::sparse::ordering::nested_dissection;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::{LdltError, LdltRegularization};
 use faer::sparse::linalg::SupernodalThreshold;
@@ -13,7 +13,7 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Par, Side, Spec};
-use nalgebra::{DVector, Vector3};
+use nalgebra::DVector;
 use std::mem::take;
 use std::ops::Range;
 use std::sync::Mutex;
@@ -34,53 +34,22 @@ pub struct FactorizationPlan {
 }
 
 impl FactorizationPlan {
-    /// The plan for elements at these DOF, by nested dissection of where the free DOF are.
+    /// The plan for sums of symmetric matrices of one size. Neighbors coupled to the same rows, as those of one grid are, are one point
+    /// of the mesh.
     ///
     /// # Errors
-    /// [`Error::Count`] for more entries than are counted here; [`Error::Failed`] when there is no memory for it.
-    pub(super) fn of_elements<'a>(
-        elements: impl Iterator<Item = &'a [usize]>,
-        position: &[Vector3<f64>],
-    ) -> Result<Self, Error> {
-        let mut touching = vec![Vec::new(); position.len()];
-        elements.for_each(|dof| dof.iter().for_each(|&row| touching[row].push(dof)));
-        Self::of_matrices(
-            position.len(),
-            |row| touching[row].concat(),
-            |row| position[row],
-        )
-    }
-
-    /// The plan for sums of square matrices of one size.
+    /// [`Error::Failed`] when there is no memory for it.
     pub(in crate::sparse) fn of_sum(matrices: &[&SparseMatrix]) -> Result<Self, Error> {
-        let coupled = |row: usize| {
-            matrices
-                .iter()
-                .flat_map(|matrix| matrix.column(row))
-                .map(|entry| entry.0)
-                .collect()
-        };
-        Self::of_matrices(matrices[0].rows(), coupled, |_| Vector3::zeros())
-    }
-
-    /// The plan for symmetric matrices that couple every row to those listed, which have a position each. Neighbors coupled to the same
-    /// rows, as those of one grid are, are one point of the mesh.
-    ///
-    /// # Errors
-    /// [`Error::Count`] and [`Error::Failed`], as in [`Self::of_elements`].
-    fn of_matrices(
-        count: usize,
-        coupled: impl Fn(usize) -> Vec<usize>,
-        position: impl Fn(usize) -> Vector3<f64>,
-    ) -> Result<Self, Error> {
+        let count = matrices[0].rows();
         let column = |row: usize| {
-            let mut rows = [coupled(row), vec![row]].concat();
+            let coupled = matrices.iter().flat_map(|matrix| matrix.column(row));
+            let mut rows: Vec<usize> = coupled.map(|entry| entry.0).chain([row]).collect();
             rows.sort_unstable();
             rows.dedup();
             rows
         };
         let columns: Vec<Vec<usize>> = (0..count).map(column).collect();
-        let order = order_of(&columns, position);
+        let order = order_of(&columns);
         let mut turn = vec![0; count];
         order
             .iter()
@@ -97,9 +66,6 @@ impl FactorizationPlan {
             rows[column_starts[column]..].sort_unstable();
             column_starts.push(rows.len());
         }
-        // Their places are kept in four bytes each.
-        let what = "entries of the stiffness";
-        check_count(what, rows.len(), 0, u32::MAX as usize)?;
         let pattern = SymbolicSparseColMat::new_checked(count, count, column_starts, None, rows);
         let parameters = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
@@ -128,24 +94,6 @@ impl FactorizationPlan {
         })
     }
 
-    /// Place of an entry of the lower triangle among all, counted in the order of elimination.
-    pub(super) fn place(&self, row: usize, column: usize) -> Option<usize> {
-        let (rows, range) = self.column(column);
-        rows.binary_search(&row)
-            .ok()
-            .map(|place| range.start + place)
-    }
-
-    /// Number of entries of the lower triangle.
-    pub(super) fn entry_count(&self) -> usize {
-        self.pattern.row_idx().len()
-    }
-
-    /// The places of the diagonal.
-    pub(super) fn diagonal(&self) -> &[usize] {
-        &self.pattern.col_ptr()[..self.order.len()]
-    }
-
     /// The factor of given values by blocks of columns with the same rows, which the plan always asks for.
     pub(super) fn blocks<'a>(
         &'a self,
@@ -164,7 +112,7 @@ impl FactorizationPlan {
 
     /// The lower triangle's entries of a sum of symmetric matrices, each times its number, for which the plan was made.
     pub(super) fn entries_of(&self, terms: &[(f64, &SparseMatrix)]) -> Vec<f64> {
-        let mut values = vec![0.0; self.entry_count()];
+        let mut values = vec![0.0; self.pattern.row_idx().len()];
         // Places of the rows that the present column has.
         let mut places = vec![0; self.turn.len()];
         for (number, matrix) in terms {
@@ -203,10 +151,13 @@ impl FactorizationPlan {
         product
     }
 
-    /// Scales entries so that the given size of those of the diagonal becomes one, and returns the scale.
-    pub(super) fn scale(&self, entries: &mut [f64], size: impl Fn(f64) -> f64) -> DVector<f64> {
-        let sizes = self.diagonal().iter().map(|&at| size(entries[at]));
-        let scale = DVector::from_iterator(self.order.len(), sizes.map(|size| 1.0 / size.sqrt()));
+    /// Scales entries so that those of the diagonal become one in size, and returns the scale.
+    pub(super) fn scale(&self, entries: &mut [f64]) -> DVector<f64> {
+        let size = |column: usize| match entries[self.pattern.col_ptr()[column]] {
+            0.0 => 1.0,
+            entry => 1.0 / entry.abs().sqrt(),
+        };
+        let scale = DVector::from_fn(self.order.len(), |column, _| size(column));
         for column in 0..scale.len() {
             let (rows, range) = self.column(column);
             rows.iter()
@@ -251,7 +202,7 @@ impl FactorizationPlan {
 
 /// Order of elimination of rows that are coupled to those in their columns. Neighbors coupled to the same rows, as those of one grid
 /// are, are one point of the mesh.
-fn order_of(columns: &[Vec<usize>], position: impl Fn(usize) -> Vector3<f64>) -> Vec<usize> {
+fn order_of(columns: &[Vec<usize>]) -> Vec<usize> {
     let points: Vec<&[Vec<usize>]> = columns.chunk_by(|a, b| a == b).collect();
     let point_of: Vec<usize> = points
         .iter()
@@ -264,14 +215,7 @@ fn order_of(columns: &[Vec<usize>], position: impl Fn(usize) -> Vector3<f64>) ->
         near.dedup();
         near
     };
-    let places = (0..points.len())
-        .map(|point| position(first_row(point)))
-        .collect();
-    let order = Mesh {
-        points: places,
-        near: points.iter().map(near).collect(),
-    }
-    .nested_dissection();
+    let order = nested_dissection(&points.iter().map(near).collect::<Vec<_>>());
     order
         .into_iter()
         .flat_map(|point| first_row(point)..first_row(point + 1))

@@ -3,12 +3,12 @@
 pub mod delta_wing;
 pub mod eigensolved;
 pub mod weighed;
+pub mod whole;
 pub mod wing;
 
 use corfem::method::error::Error;
 use corfem::method::modes::Modes;
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::sparse::LargeModel;
 use corfem::torque_box::Case;
 use corfem::torque_box::error::CaseError;
 use corfem::torque_box::wing_box::TEST_GAGE;
@@ -28,7 +28,7 @@ pub struct Known {
     /// What it is.
     pub name: String,
     /// The first model.
-    pub model: Weighed<LargeModel>,
+    pub model: Weighed,
     /// Its test modes, without noise.
     pub test: Modes,
     /// The factors that make the model right.
@@ -49,7 +49,7 @@ impl Known {
             .collect();
         Ok(Self {
             name: format!("Case {number}"),
-            model: Weighed(LargeModel::of(&case.model()?)?),
+            model: Weighed(case.model()?),
             test: case.test_modes()?,
             truth,
         })
@@ -64,11 +64,17 @@ impl Known {
         let truth = GROUPS.iter().map(Group::true_factor).collect();
         Ok(Self {
             name: "Delta wing".to_owned(),
-            model: Weighed(LargeModel::of(&first_model(&wing)?.0)?),
+            model: first_model(&wing)?,
             test: test_modes(&wing)?,
             truth,
         })
     }
+}
+
+/// Factors from 0.75 to 1.3 that the groups of a wing want.
+pub fn planted_factors(count: usize) -> Vec<f64> {
+    let pattern = [1.0, 1.2, 0.8, 1.1, 0.75, 1.0, 1.3, 0.9];
+    pattern.into_iter().cycle().take(count).collect()
 }
 
 /// A wing whose groups want factors from 0.75 to 1.3, with the lowest modes of the right wing as its test.
@@ -77,12 +83,7 @@ impl Known {
 /// Those of [`Wing::model`] and its modes.
 pub fn planted(wing: &Wing) -> Result<Known, Error> {
     let model = Weighed(wing.model()?);
-    let pattern = [1.0, 1.2, 0.8, 1.1, 0.75, 1.0, 1.3, 0.9];
-    let truth: Vec<f64> = pattern
-        .into_iter()
-        .cycle()
-        .take(model.parameters().len())
-        .collect();
+    let truth = planted_factors(model.parameters().len());
     let test = model.modes(&truth)?.lowest(WING_MODES)?;
     Ok(Known {
         name: "Wing".to_owned(),

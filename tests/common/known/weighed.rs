@@ -1,13 +1,15 @@
 //! Models whose elements have masses of their own, which the crate's have not: they are condensed with the stiffness, anew at all factors.
 
+use corfem::method::appendix_a::{Condensed, ElementMatrix, generalized_stiffness};
 use corfem::method::error::Error;
 use corfem::method::linear_algebra::symmetric_part;
-use corfem::method::model::{DynamicModel, FiniteElementModel, Model, ScaledStructure};
+use corfem::method::model::{DynamicModel, FiniteElementModel, Model};
 use corfem::method::modes::{Modes, solve};
 use corfem::method::structure::Structure;
-use corfem::sparse::LargeModel;
 use corfem::sparse::elements::lumped_masses;
+use corfem::sparse::{Factor, SparseMatrix};
 use nalgebra::{DMatrix, DVector};
+use std::collections::HashMap;
 use std::ops::Deref;
 
 /// Lumped masses of the elements of a structure at its free DOF, lbf·s²/in.
@@ -21,71 +23,75 @@ pub fn lumped_mass(structure: &Structure) -> DVector<f64> {
     mass
 }
 
-/// A model that condenses its structure to dynamic DOF.
-pub trait Condensing: Deref<Target = ScaledStructure> {
-    /// Its matrices with the mass at its points alone.
-    ///
-    /// # Errors
-    /// What the model refuses.
-    fn at_points(&self, factors: &[f64]) -> Result<DynamicModel, Error>;
-
-    /// The transformation $B^t$ (free SDOF × d).
-    ///
-    /// # Errors
-    /// What the model refuses.
-    fn transformation(&self, factors: &[f64]) -> Result<DMatrix<f64>, Error>;
-}
-
-impl Condensing for FiniteElementModel {
-    fn at_points(&self, factors: &[f64]) -> Result<DynamicModel, Error> {
-        self.matrices(factors)
-    }
-
-    fn transformation(&self, factors: &[f64]) -> Result<DMatrix<f64>, Error> {
-        Ok(self.condense(factors)?.transformation)
-    }
-}
-
-impl Condensing for LargeModel {
-    fn at_points(&self, factors: &[f64]) -> Result<DynamicModel, Error> {
-        self.matrices(factors)
-    }
-
-    fn transformation(&self, factors: &[f64]) -> Result<DMatrix<f64>, Error> {
-        let identity = DMatrix::identity(self.mass().nrows(), self.mass().nrows());
-        self.condense(factors)?.structural_shapes(&identity)
-    }
-}
-
 /// A model weighed part by part: where its elements have masses, those of their first sizes, $B M_S B^t$, are all its mass.
 #[derive(Debug, Clone)]
-pub struct Weighed<M>(pub M);
+pub struct Weighed(pub FiniteElementModel);
 
-impl<M> Deref for Weighed<M> {
-    type Target = M;
+impl Deref for Weighed {
+    type Target = FiniteElementModel;
 
-    fn deref(&self) -> &M {
+    fn deref(&self) -> &FiniteElementModel {
         &self.0
     }
 }
 
-impl<M: Condensing> Weighed<M> {
+impl Weighed {
+    /// $K_D$ and $B^t$ by a sparse factor, for the structures here are larger than the paper's.
+    fn condensed(&self, sizes: &[f64]) -> Result<Condensed, Error> {
+        let (t, what) = (self.load_distribution(), "structural stiffness");
+        let elements = self.element_matrices().iter().zip(sizes);
+        let entries = elements.flat_map(|(ElementMatrix { dof, unit, .. }, &size)| {
+            let places = (0..dof.len()).flat_map(|a| (0..dof.len()).map(move |b| (a, b)));
+            places.map(move |(a, b)| (dof[a], dof[b], size * unit[(a, b)]))
+        });
+        let stiffness = SparseMatrix::new(what, t.nrows(), t.nrows(), entries.collect())?;
+        let deflections = Factor::new(what, &stiffness)?.solve(t)?;
+        let flexibility = symmetric_part(&t.tr_mul(&deflections)).cholesky();
+        let stiffness = flexibility.ok_or(Error::no_convergence(what))?.inverse();
+        Ok(Condensed {
+            transformation: deflections * &stiffness,
+            stiffness: symmetric_part(&stiffness),
+        })
+    }
+
+    /// The mass at the points: theirs, or that of the elements.
+    fn mass_through(&self, b: &DMatrix<f64>) -> DMatrix<f64> {
+        let lumped = lumped_mass(self.structure());
+        if lumped.amax() == 0.0 {
+            return self.mass().clone();
+        }
+        let mut forces = b.clone();
+        for (mut row, mass) in forces.row_iter_mut().zip(&lumped) {
+            row *= *mass;
+        }
+        symmetric_part(&b.tr_mul(&forces))
+    }
+
     /// $K_D$, $M_D$ and the shares at factors.
     ///
     /// # Errors
     /// What the model refuses.
     pub fn matrices(&self, factors: &[f64]) -> Result<DynamicModel, Error> {
-        let mut matrices = self.0.at_points(factors)?;
-        let lumped = lumped_mass(self.0.structure());
-        if lumped.amax() > 0.0 {
-            let b = self.0.transformation(factors)?;
-            let mut forces = b.clone();
-            for (mut row, mass) in forces.row_iter_mut().zip(&lumped) {
-                row *= *mass;
-            }
-            matrices.mass = symmetric_part(&b.tr_mul(&forces));
-        }
-        Ok(matrices)
+        let sizes = self.sizes(factors)?;
+        let Condensed {
+            stiffness,
+            transformation: b,
+        } = self.condensed(&sizes)?;
+        let elements = self.element_matrices().iter().zip(&sizes);
+        let by_label: HashMap<usize, (&ElementMatrix, &f64)> = elements
+            .map(|(element, size)| (element.label, (element, size)))
+            .collect();
+        let share = |label: &usize| {
+            let (element, size) = by_label[label];
+            generalized_stiffness(element, *size, &b)
+        };
+        let parameters = self.parameters().iter();
+        let shares = parameters.map(|parameter| parameter.elements.iter().map(share).sum());
+        Ok(DynamicModel {
+            shares: shares.collect(),
+            mass: self.mass_through(&b),
+            stiffness,
+        })
     }
 
     /// The analysis at factors beside test modes.
@@ -106,9 +112,8 @@ impl<M: Condensing> Weighed<M> {
     /// # Errors
     /// What the model and [`solve`] refuse.
     pub fn modes(&self, factors: &[f64]) -> Result<Modes, Error> {
-        let DynamicModel {
-            stiffness, mass, ..
-        } = self.matrices(factors)?;
-        solve(&stiffness, &mass, mass.nrows())
+        let condensed = self.condensed(&self.sizes(factors)?)?;
+        let mass = self.mass_through(&condensed.transformation);
+        solve(&condensed.stiffness, &mass, mass.nrows())
     }
 }

@@ -3,11 +3,11 @@
 //! Rods lie between neighboring grids, a shear panel in every cell of a rib or spar, membranes on both surfaces; the root is held.
 //! So no grid can move freely, whatever the numbers are. $x$ points aft, $y$ outboard, $z$ up; ribs lie along the stream.
 
+use super::whole::of_elements;
 use corfem::method::error::Error;
-use corfem::method::model::Parameter;
+use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use corfem::sparse::LargeModel;
-use corfem::sparse::SparseMatrix;
+use corfem::sparse::{SparseMatrix, WholeModel};
 use nalgebra::{DMatrix, Vector3};
 
 /// Sorts of members, each of which is divided into zones along the span.
@@ -194,47 +194,63 @@ impl Wing {
             .collect()
     }
 
-    /// $T$, a list of rows and entries per measured point: the deflection $z$ of the wing there, the mean of both surfaces.
-    fn load_distribution(
-        &self,
-        structure: &Structure,
-        points: &[[usize; 2]],
-    ) -> Vec<Vec<(usize, f64)>> {
-        let entry = |place| Some((structure.free_dof_index(self.grid(place), 2)?, 0.5));
-        let surfaces =
-            |&[rib, line]: &[usize; 2]| [0, self.bays[2]].map(|level| entry([rib, line, level]));
-        points
-            .iter()
-            .map(|point| surfaces(point).into_iter().flatten().collect())
+    /// $T$: the deflection $z$ of the wing at every measured point, the mean of both surfaces.
+    ///
+    /// # Errors
+    /// Those of [`SparseMatrix::new`].
+    fn load_distribution(&self, structure: &Structure) -> Result<SparseMatrix, Error> {
+        let points = self.points();
+        let entries = points.iter().enumerate().flat_map(|(at, &[rib, line])| {
+            [0, self.bays[2]].into_iter().filter_map(move |level| {
+                let row = structure.free_dof_index(self.grid([rib, line, level]), 2)?;
+                Some((row, at, 0.5))
+            })
+        });
+        let count = structure.free_dof().len();
+        SparseMatrix::new("load distribution", count, points.len(), entries.collect())
+    }
+
+    /// The mass of the measured points.
+    fn point_mass(&self) -> DMatrix<f64> {
+        let count = self.points().len();
+        DMatrix::from_diagonal_element(count, count, self.mass / count as f64)
+    }
+
+    /// A parameter per group.
+    pub fn parameters(&self) -> Vec<Parameter> {
+        let (ribs, zones) = (self.bays[0], self.zones);
+        let mut groups = vec![Vec::new(); SORTS.len() * zones];
+        for (sort, bay, element) in self.members() {
+            groups[sort * zones + bay * zones / ribs].push(element.label);
+        }
+        let name = |group: usize| format!("{} {}", SORTS[group / zones], group % zones + 1);
+        let groups = groups.iter().enumerate();
+        groups
+            .map(|(group, labels)| Parameter::group(&name(group), labels))
             .collect()
     }
 
     /// The wing as a model: a parameter per group, the measured points as dynamic DOF with the mass on them.
     ///
     /// # Errors
-    /// Those of [`Self::structure`] and [`LargeModel::new`].
-    pub fn model(&self) -> Result<LargeModel, Error> {
-        let (ribs, zones) = (self.bays[0], self.zones);
-        let (structure, points) = (self.structure()?, self.points());
-        let loads = SparseMatrix::of_columns(
-            "load distribution",
-            structure.free_dof().len(),
-            &self.load_distribution(&structure, &points),
-        )?;
-        let mass = DMatrix::from_diagonal_element(
-            points.len(),
-            points.len(),
-            self.mass / points.len() as f64,
+    /// Those of [`Self::structure`] and [`FiniteElementModel::new`].
+    pub fn model(&self) -> Result<FiniteElementModel, Error> {
+        let structure = self.structure()?;
+        let t = self.load_distribution(&structure)?.dense();
+        FiniteElementModel::new(structure, t, self.point_mass(), self.parameters())
+    }
+
+    /// The same model at all its degrees of freedom, and what reads the measured points.
+    ///
+    /// # Errors
+    /// Those of [`Self::structure`] and of the whole model.
+    pub fn whole(&self) -> Result<(WholeModel, SparseMatrix), Error> {
+        let (structure, parameters) = (self.structure()?, self.parameters());
+        let (t, ranges) = (
+            self.load_distribution(&structure)?,
+            vec![None; parameters.len()],
         );
-        let mut groups = vec![Vec::new(); SORTS.len() * zones];
-        for (sort, bay, element) in self.members() {
-            groups[sort * zones + bay * zones / ribs].push(element.label);
-        }
-        let name = |group: usize| format!("{} {}", SORTS[group / zones], group % zones + 1);
-        let parameters = groups
-            .iter()
-            .enumerate()
-            .map(|(group, labels)| Parameter::group(&name(group), labels));
-        LargeModel::new(structure, loads, mass, parameters.collect())
+        let whole = of_elements(&structure, &t, &self.point_mass(), &parameters, &ranges)?;
+        Ok((whole, t.transposed()))
     }
 }

@@ -101,10 +101,7 @@ fn history_is_three_passes_to_the_tolerances() {
     assert!(passes[1].inner.last.errors.sum() < settings().later_inner_tolerance);
     let last = &passes[2].check;
     assert!(last.errors.sum() < 0.005);
-    assert_eq!(
-        last.pairing.analysis_mode(),
-        TEST_MODES.map(|mode| mode - 1)
-    );
+    assert_eq!(last.pairing.analysis_mode, TEST_MODES.map(|mode| mode - 1));
     assert_eq!(run.correlation.best_factors, passes[2].factors);
     let initial = &run.correlation.initial.errors;
     assert_eq!(

@@ -1,9 +1,9 @@
 //! `corfem deck` and `corfem modes` from outside.
 
+use crate::common::known::whole;
 use crate::common::tolerances::DECK_ROUNDING;
 use crate::presentation::program::cli::{corfem, numbers, text};
 use crate::readers::job_concerns::HARDLY_HELD;
-use corfem::sparse::{LargeModel, WholeModel};
 use corfem::torque_box::{Case, run_case};
 use serde_json::Value;
 
@@ -18,8 +18,7 @@ fn a_deck_of_a_pass_has_the_frequencies_of_that_pass() {
     let path = path.to_str().expect("UTF-8");
     let case = Case::new(2).expect("a case");
     let passes = run_case(&case, |_, _| ()).expect("a run").correlation;
-    let model = LargeModel::of(&case.model().expect("a model")).expect("a plan");
-    let (model, _) = WholeModel::of(&model).expect("a whole model");
+    let (model, _) = whole::of(&case.model().expect("a model")).expect("a whole model");
     let stages = [
         ("0", vec![1.0; 15]),
         ("1", passes.passes[0].factors.clone()),

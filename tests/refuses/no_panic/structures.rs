@@ -2,31 +2,24 @@
 
 use super::{Entry, entries, modes};
 use crate::common::draws::Draws;
+use crate::common::structures::of_dense;
 use crate::common::whole_models::sparse;
 use corfem::method::analysis::Analysis;
 use corfem::method::appendix_a::{
     self, ElementMatrix, assemble, element_matrices, generalized_stiffness,
 };
 use corfem::method::elements::membrane::triangle;
-use corfem::method::elements::shear::{
-    corner_forces, energy_coefficient, gauss_legendre, mean_plane,
-};
+use corfem::method::elements::shear::{corner_forces, energy_coefficient, mean_plane};
 use corfem::method::elements::{membrane, rod, shear, unit_stiffness};
 use corfem::method::error::Error;
-use corfem::method::model::{FiniteElementModel, ScaledStructure};
+use corfem::method::model::FiniteElementModel;
 use corfem::method::step::Bounds;
 use corfem::method::structure::{ElementKind, Material, Point, Structure, check_corners};
-use corfem::sparse::elements::{corner_volumes, lumped_masses};
-use corfem::sparse::factorization::{Factor, StructuralStiffness};
-use corfem::sparse::{Deformations, LargeModel, WholeModel};
+use corfem::sparse::elements::{corner_volumes, lumped_masses, resisting};
+use corfem::sparse::{Deformations, Factor};
 
 fn deformations(elements: &[ElementMatrix]) -> Result<Vec<Deformations>, Error> {
     elements.iter().map(Deformations::of).collect()
-}
-
-/// The ways to deform of a structure's own elements.
-fn own_deformations(structure: &Structure) -> Result<Vec<Deformations>, Error> {
-    deformations(&element_matrices(structure).collect::<Vec<_>>())
 }
 
 /// A kind of element and as many corners as it has.
@@ -123,12 +116,6 @@ pub const STRUCTURES: &[Entry] = &[
         energy_coefficient(&d.corners(), &d.material());
         Ok(Vec::new())
     }),
-    ("shear::gauss_legendre", |d| {
-        Ok(gauss_legendre(d.below(40))
-            .into_iter()
-            .flat_map(|(point, weight)| [point, weight])
-            .collect())
-    }),
     ("Structure::new", |d| {
         let structure = d.structure()?;
         let grids = structure.grids().to_vec();
@@ -138,11 +125,6 @@ pub const STRUCTURES: &[Entry] = &[
         let (structure, grid, direction) = (d.structure()?, d.size(), d.size());
         structure.free_dof_index(grid, direction);
         Ok(Vec::new())
-    }),
-    ("Structure::position", |d| {
-        let (structure, grid) = (d.structure()?, d.size());
-        let found = structure.position(grid).into_iter();
-        Ok(found.flat_map(|at| [at.x, at.y, at.z]).collect())
     }),
     ("appendix_a::element_matrices", |d| {
         element_matrices(&d.structure()?).for_each(drop);
@@ -162,14 +144,11 @@ pub const STRUCTURES: &[Entry] = &[
         }
         Ok(Vec::new())
     }),
-    ("Factor::of_stiffness", |d| {
-        let (elements, sizes, free) = d.elements()?;
-        Factor::of_stiffness(&elements, &sizes, &free).map(|_| Vec::new())
-    }),
     ("Factor::solve", |d| {
         let (elements, sizes, free) = d.elements()?;
         let (rows, columns) = (d.about(free.len()), d.size());
-        Factor::of_stiffness(&elements, &sizes, &free)?
+        let stiffness = assemble(&elements, &sizes, free.len())?;
+        of_dense(&stiffness)?
             .solve(&d.matrix(rows, columns))
             .map(|found| entries(&found))
     }),
@@ -193,31 +172,6 @@ pub const STRUCTURES: &[Entry] = &[
             .flat_map(|element| entries(&element.matrix().unit))
             .collect())
     }),
-    ("StructuralStiffness::new", |d| {
-        let structure = d.structure()?;
-        let (elements, ..) = d.elements()?;
-        StructuralStiffness::new(&structure, deformations(&elements)?).map(|_| Vec::new())
-    }),
-    ("StructuralStiffness::order", |d| {
-        let structure = d.structure()?;
-        let elements = own_deformations(&structure)?;
-        let stiffness = StructuralStiffness::new(&structure, elements)?;
-        Ok(stiffness.order().iter().map(|&dof| dof as f64).collect())
-    }),
-    ("StructuralStiffness::factorized", |d| {
-        let structure = d.structure()?;
-        let elements = own_deformations(&structure)?;
-        let (_, sizes, _) = d.elements()?;
-        let stiffness = StructuralStiffness::new(&structure, elements)?;
-        stiffness.factorized(&sizes).map(|_| Vec::new())
-    }),
-    ("Factor::flexibility", |d| {
-        let (elements, sizes, free) = d.elements()?;
-        let loads = sparse(&d.load_distribution(free.len()))?;
-        Factor::of_stiffness(&elements, &sizes, &free)?
-            .flexibility(&loads)
-            .map(|found| entries(&found))
-    }),
     ("Factor::new", |d| {
         let size = d.size();
         let matrix = sparse(&d.symmetric(size))?;
@@ -230,9 +184,6 @@ pub const STRUCTURES: &[Entry] = &[
         let found = appendix_a::condense(&structural, &load_distribution)?;
         Ok([entries(&found.stiffness), entries(&found.transformation)].concat())
     }),
-    ("ScaledStructure::new", |d| {
-        ScaledStructure::new(d.structure()?, d.parameters()).map(|_| Vec::new())
-    }),
     ("FiniteElementModel::new", |d| {
         let structure = d.structure()?;
         let load_distribution = d.load_distribution(structure.free_dof().len());
@@ -240,34 +191,13 @@ pub const STRUCTURES: &[Entry] = &[
         FiniteElementModel::new(structure, load_distribution, mass, d.parameters())
             .map(|_| Vec::new())
     }),
-    ("LargeModel::new", |d| {
+    ("elements::resisting", |d| {
         let structure = d.structure()?;
-        let loads = sparse(&d.load_distribution(structure.free_dof().len()))?;
-        let mass = d.symmetric(loads.columns());
-        LargeModel::new(structure, loads, mass, d.parameters()).map(|_| Vec::new())
+        let elements: Vec<_> = element_matrices(&structure).collect();
+        let found = resisting(&structure, &elements)?;
+        Ok(found.entries().iter().map(|entry| entry.2).collect())
     }),
-    ("LargeModel::elements", |d| {
-        let (model, _) = d.finite_element()?;
-        let model = LargeModel::of(&model)?;
-        Ok(vec![model.elements().len() as f64])
-    }),
-    ("WholeModel::of", |d| {
-        let (model, factors) = d.finite_element()?;
-        let (whole, sensors) = WholeModel::of(&LargeModel::of(&model)?)?;
-        let (stiffness, mass) = whole.at(&factors)?;
-        let all = [stiffness, mass, sensors];
-        let numbers = all.iter().flat_map(|matrix| matrix.entries());
-        Ok(numbers.map(|entry| entry.2).collect())
-    }),
-    ("LargeCondensation::structural_shapes", |d| {
-        let (model, factors) = d.finite_element()?;
-        let (rows, columns) = (d.about(model.mass().nrows()), d.size());
-        LargeModel::of(&model)?
-            .condense(&factors)?
-            .structural_shapes(&d.matrix(rows, columns))
-            .map(|found| entries(&found))
-    }),
-    ("ScaledStructure::factor_ranges", |d| {
+    ("FiniteElementModel::factor_ranges", |d| {
         let (model, factors) = d.finite_element()?;
         let ranges = model
             .factor_ranges()
@@ -279,7 +209,7 @@ pub const STRUCTURES: &[Entry] = &[
             .take(2 * ranges.len())
             .collect())
     }),
-    ("ScaledStructure::sizes", |d| {
+    ("FiniteElementModel::sizes", |d| {
         let (model, factors) = d.finite_element()?;
         model.sizes(&factors)
     }),

@@ -1,13 +1,14 @@
 //! Rigid-body modes are the null space of the stiffness, whatever its stiffest part.
 
 use crate::common::draws::Draws;
+use crate::common::known::whole::of_elements;
 use crate::common::tolerances::DIFFERENCE_ROUND_OFF;
 use crate::common::whole_models::{masses, springs};
 use corfem::chain::rods;
 use corfem::files::deck::{self, BulkData};
 use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use corfem::sparse::{LargeModel, RigidBodies, SparseMatrix, WholeModel, lowest_modes};
+use corfem::sparse::{RigidBodies, SparseMatrix, WholeModel, lowest_modes};
 use nalgebra::{DMatrix, Vector3};
 
 /// Whole model of a structure with a mass at its first degree of freedom.
@@ -16,10 +17,8 @@ fn whole(structure: Structure, point: f64) -> WholeModel {
     let t = SparseMatrix::new("T", count, 1, vec![(0, 0, 1.0)]).expect("T");
     let first = structure.elements()[0].label;
     let mass = DMatrix::from_element(1, 1, point);
-    let model = LargeModel::new(structure, t, mass, vec![Parameter::element(first, None)]);
-    WholeModel::of(&model.expect("a model"))
-        .expect("a whole model")
-        .0
+    let parameters = [Parameter::element(first, None)];
+    of_elements(&structure, &t, &mass, &parameters, &[None]).expect("a whole model")
 }
 
 #[test]

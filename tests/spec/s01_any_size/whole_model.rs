@@ -3,6 +3,7 @@
 use crate::common::condensed::analyze_condensed;
 use crate::common::known::delta_wing::DeltaWing;
 use crate::common::known::delta_wing::correlation::GROUPS;
+use crate::common::known::whole;
 use crate::common::measured::equal_weights;
 use crate::common::strategies::symmetric;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, RECOVERED_STORY, ROUND_OFF, SAME_ANALYSIS};
@@ -19,8 +20,8 @@ use corfem::method::sorting::pair_modes;
 use corfem::method::step::StepRule;
 use corfem::method::structure::{Element, Grid, Material, Structure};
 use corfem::sparse::{
-    BasisSize, CountedModes, Deformations, LargeModel, SparseMatrix, WholeModel, WholeParameter,
-    WholeShare, lowest_modes, modal_assurance,
+    BasisSize, CountedModes, Deformations, SparseMatrix, WholeModel, WholeParameter, WholeShare,
+    lowest_modes, modal_assurance,
 };
 use corfem::torque_box::Case;
 use corfem::weighted::comparison::Comparison;
@@ -62,7 +63,7 @@ fn a_mode_that_no_sensor_sees_is_like_no_test_mode() {
     // Whichever of the two springs is the stiffer.
     for factor in [1.0, 1.3, 9.0] {
         let state = found.at(&[factor]).expect("a state");
-        assert_eq!(state.pairing.analysis_mode(), [0], "{factor}");
+        assert_eq!(state.pairing.analysis_mode, [0], "{factor}");
     }
 }
 
@@ -373,12 +374,12 @@ fn test_shapes_at_sensors_are_scaled_to_their_modes() {
     for (j, scale) in scales.iter().enumerate() {
         let shape = first.test().shapes().column(j);
         let pairing = &first.exact().pairing;
-        let mode = pairing.sign()[j]
+        let mode = pairing.sign[j]
             * first
                 .exact()
                 .modes
                 .shapes()
-                .column(pairing.analysis_mode()[j]);
+                .column(pairing.analysis_mode[j]);
         assert!((&mode - shape).dot(&shape).abs() < ROUND_OFF * shape.norm_squared());
         assert!(
             (other.test().shapes().column(j) - scale.signum() * shape).norm()
@@ -393,8 +394,7 @@ fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
     let case = Case::new(2).expect("Case 2");
     let model = case.model().expect("a model");
     let test = case.test_modes().expect("test modes");
-    let (whole, sensors) =
-        WholeModel::of(&LargeModel::of(&model).expect("a plan")).expect("a whole model");
+    let (whole, sensors) = whole::of(&model).expect("a whole model");
     let factors: Vec<f64> = (0..model.parameters().len())
         .map(|e| 0.8 + 0.03 * e as f64)
         .collect();

@@ -2,7 +2,9 @@
 
 use crate::common::known::wing::{MESHES, SORTS, Wing};
 use crate::common::structures::{factorized, wings};
-use crate::common::tolerances::{COARSE_WING, ELEMENT_ROUND_OFF, ROUND_OFF, SLENDER_BEAM};
+use crate::common::tolerances::{
+    COARSE_WING, ELEMENT_ROUND_OFF, ROUND_OFF, SLENDER_BEAM, TWO_PROGRAMS,
+};
 use approx::assert_relative_eq;
 use corfem::method::structure::{ElementKind, Material, Structure};
 use corfem::sparse::elements::corner_volumes;
@@ -43,7 +45,7 @@ fn measured_sizes_are_those_of_their_names() {
         let wing = Wing::named(name).expect("it is known");
         let model = wing.model().expect("a wing");
         assert_eq!(model.structure().free_dof().len(), free_dof(*bays));
-        assert_eq!(model.load_distribution().columns(), 108);
+        assert_eq!(model.load_distribution().ncols(), 108);
         assert_eq!(model.parameters().len(), 25);
     }
     assert_eq!(Wing::named("1k"), Some(Wing::default()));
@@ -195,6 +197,28 @@ fn lowest_modes_hardly_depend_on_the_mesh() {
     }
 }
 
+/// All its mass is on the measured points, so that condensation to them costs nothing.
+#[test]
+fn whole_wing_has_the_modes_of_its_points() {
+    let wing = Wing {
+        bays: [9, 4, 1],
+        measured: [9, 3],
+        ..Wing::default()
+    };
+    let expected = wing.model().expect("a wing").modes(&[1.0; 25]);
+    let expected = expected.expect("modes").lowest(8).expect("eight");
+    let (whole, points) = wing.whole().expect("a wing");
+    let found = whole.modes(&[1.0; 25], 8).expect("modes").vibrations;
+    for (a, b) in found.frequencies_hz().iter().zip(expected.frequencies_hz()) {
+        assert_relative_eq!(*a, b, max_relative = TWO_PROGRAMS);
+    }
+    let seen = points.times(found.shapes()).expect("they fit");
+    for (a, b) in seen.column_iter().zip(expected.shapes().column_iter()) {
+        let apart = (a * a.dot(&b).signum() - b).amax();
+        assert!(apart <= TWO_PROGRAMS * b.amax(), "{apart:e}");
+    }
+}
+
 properties! {
     #![proptest_config(crate::common::config())]
     #[test]
@@ -234,7 +258,7 @@ properties! {
     #[test]
     fn measured_is_the_mean_of_both_surfaces_up_to_the_tip(wing in wings()) {
         let model = wing.model().expect("a wing");
-        let (t, free) = (model.load_distribution().dense(), model.structure().free_dof());
+        let (t, free) = (model.load_distribution(), model.structure().free_dof());
         for column in t.column_iter() {
             let rows: Vec<usize> = (0..t.nrows()).filter(|&row| column[row] != 0.0).collect();
             prop_assert_eq!(rows.len(), 2);

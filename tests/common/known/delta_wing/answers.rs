@@ -65,7 +65,8 @@ impl DeltaWing {
         let structure = self.structure()?;
         let elements: Vec<_> = element_matrices(&structure).collect();
         let sizes: Vec<f64> = structure.elements().iter().map(|e| e.size).collect();
-        let stiffness = Factor::of_stiffness(&elements, &sizes, structure.free_dof())?;
+        let dense = assemble(&elements, &sizes, structure.free_dof().len())?;
+        let stiffness = Factor::new("stiffness", &SparseMatrix::of_dense("stiffness", &dense)?)?;
         Ok((structure, elements, sizes, stiffness))
     }
 

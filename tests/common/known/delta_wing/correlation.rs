@@ -120,7 +120,7 @@ pub fn measured_grids(structure: &Structure) -> Vec<usize> {
 ///
 /// # Errors
 /// Those of [`DeltaWing::structure`] and [`FiniteElementModel::new`].
-pub fn first_model(wing: &DeltaWing) -> Result<Weighed<FiniteElementModel>, Error> {
+pub fn first_model(wing: &DeltaWing) -> Result<Weighed, Error> {
     let right = wing.structure()?;
     let elements = right.elements().iter().map(|element| {
         let wrong = GROUPS.iter().find(|g| g.elements.contains(&element.label));
