@@ -18,7 +18,6 @@ use super::step::{Bounds, REFERENCE_GAGE, StepRule};
 use super::structure::{DIRECTIONS, Structure};
 use nalgebra::DMatrix;
 use std::collections::HashMap;
-use std::ops::Deref;
 
 /// Elements whose stiffness is scaled by one factor: a single one, or a substructure.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,124 +52,10 @@ impl Parameter {
     }
 }
 
-/// A structure and what may change of it.
+/// A structure and what may change of it, with its load distribution $T$ (A.3) and the mass $M$ of its dynamic points.
 ///
 /// A parameter scales stiffness alone: in the paper the mass is known and never changes. A gage that a correlation finds is
 /// therefore a statement about stiffness and does not make the element heavier.
-#[derive(Debug, Clone)]
-pub struct ScaledStructure {
-    structure: Structure,
-    parameters: Vec<Parameter>,
-    /// Rows of every parameter's elements.
-    rows: Vec<Vec<usize>>,
-}
-
-impl ScaledStructure {
-    /// A structure with parameters.
-    ///
-    /// # Errors
-    /// [`Error::Count`] without parameters, or for one without elements; [`Error::Unknown`] for an element that is not there;
-    /// [`Error::Duplicate`] for one in two parameters.
-    pub fn new(structure: Structure, parameters: Vec<Parameter>) -> Result<Self, Error> {
-        at_least_one("parameters", parameters.len())?;
-        let labels = structure.elements().iter().map(|element| element.label);
-        let row_of: HashMap<usize, usize> = labels.zip(0..).collect();
-        let (mut rows, mut first_with) = (Vec::new(), HashMap::new());
-        for Parameter { name, elements, .. } in &parameters {
-            at_least_one("elements of a parameter", elements.len())?;
-            let mut own = Vec::new();
-            for &label in elements {
-                let (owner, what) = (format!("parameter {name}"), "element");
-                let missing = Error::Unknown { owner, what, label };
-                own.push(*row_of.get(&label).ok_or(missing)?);
-                if let Some(first) = first_with.insert(label, name) {
-                    let owner = format!("parameters {first} and {name}");
-                    return Err(Error::Duplicate { owner, what, label });
-                }
-            }
-            rows.push(own);
-        }
-        Ok(Self {
-            structure,
-            parameters,
-            rows,
-        })
-    }
-
-    /// The structure with its first sizes.
-    pub fn structure(&self) -> &Structure {
-        &self.structure
-    }
-
-    /// Parameters: what may change.
-    pub fn parameters(&self) -> &[Parameter] {
-        &self.parameters
-    }
-
-    /// Rows of every parameter's elements.
-    pub(crate) fn rows(&self) -> &[Vec<usize>] {
-        &self.rows
-    }
-
-    /// Bounds on each parameter's factor: its own, and those that keep all its elements within its size bounds.
-    ///
-    /// # Errors
-    /// [`Error::Range`] when no factor meets both, or when the first sizes lie outside.
-    pub fn factor_ranges(&self) -> Result<Vec<Option<Bounds>>, Error> {
-        let parameters = self.parameters.iter().zip(&self.rows);
-        let ranges = parameters.map(|(parameter, rows)| {
-            let of_sizes = rows.iter().filter_map(|&row| {
-                let (range, size) = (parameter.size_range?, self.structure.elements()[row].size);
-                let (lower, upper) = (range.lower / size, range.upper / size);
-                Some(Bounds { lower, upper })
-            });
-            let both = |a: Bounds, b: Bounds| Bounds {
-                lower: a.lower.max(b.lower),
-                upper: a.upper.min(b.upper),
-            };
-            let all = parameter.factor_range.into_iter().chain(of_sizes);
-            let range = all.reduce(both);
-            let what = format!("factor of parameter {}", parameter.name);
-            let around_one = |Bounds { lower, upper }| match Bounds::positive(&what, lower, upper)?
-            {
-                range if range.contains(1.0) => Ok(range),
-                _ => Err(Error::Range { what, lower, upper }),
-            };
-            range.map(around_one).transpose()
-        });
-        ranges.collect()
-    }
-
-    /// Gages (in) and areas (in²) of all elements at the parameters' factors, in the structure's order.
-    ///
-    /// # Errors
-    /// [`Error::WrongShape`] for another number of factors; [`Error::Value`] for a factor or size that is not positive and finite.
-    pub fn sizes(&self, factors: &[f64]) -> Result<Vec<f64>, Error> {
-        check_length("parameter factors", factors.len(), self.parameters.len())?;
-        let elements = self.structure.elements().iter();
-        let mut sizes: Vec<f64> = elements.map(|element| element.size).collect();
-        for ((parameter, rows), &factor) in self.parameters.iter().zip(&self.rows).zip(factors) {
-            let owner = || format!("parameter {}", parameter.name);
-            positive("factor", owner, factor)?;
-            for &row in rows {
-                sizes[row] *= factor;
-                positive("scaled size", owner, sizes[row])?;
-            }
-        }
-        Ok(sizes)
-    }
-
-    /// Mean size of every parameter's elements.
-    pub(crate) fn mean_sizes(&self, sizes: &[f64]) -> Vec<f64> {
-        let means = self.rows.iter().map(|rows| {
-            let sum: f64 = rows.iter().map(|&row| sizes[row]).sum();
-            sum / rows.len() as f64
-        });
-        means.collect()
-    }
-}
-
-/// A [`ScaledStructure`] with its load distribution $T$ (A.3) and the mass $M$ of its dynamic points: what an analysis needs.
 ///
 /// # Example
 ///
@@ -209,18 +94,13 @@ impl ScaledStructure {
 /// ```
 #[derive(Debug, Clone)]
 pub struct FiniteElementModel {
-    scaled: ScaledStructure,
+    structure: Structure,
+    parameters: Vec<Parameter>,
+    /// Rows of every parameter's elements.
+    rows: Vec<Vec<usize>>,
     pub(crate) element_matrices: Vec<ElementMatrix>,
     load_distribution: DMatrix<f64>,
     mass: DMatrix<f64>,
-}
-
-impl Deref for FiniteElementModel {
-    type Target = ScaledStructure;
-
-    fn deref(&self) -> &ScaledStructure {
-        &self.scaled
-    }
 }
 
 impl FiniteElementModel {
@@ -229,8 +109,9 @@ impl FiniteElementModel {
     /// `load_distribution` is $T$ (free SDOF × d), `mass` the dynamic mass $M$ (d × d, lbf·s²/in).
     ///
     /// # Errors
-    /// [`Error::WrongShape`] and [`Error::Value`] for a $T$ or element stiffness that does not fit or is not finite;
-    /// [`Error::NotPositiveDefinite`] for the mass; what [`ScaledStructure::new`] refuses.
+    /// [`Error::Count`] without parameters, or for one without elements; [`Error::Unknown`] for an element that is not there;
+    /// [`Error::Duplicate`] for one in two parameters; [`Error::WrongShape`] and [`Error::Value`] for a $T$ or element stiffness that
+    /// does not fit or is not finite; [`Error::NotPositiveDefinite`] for the mass.
     pub fn new(
         structure: Structure,
         load_distribution: DMatrix<f64>,
@@ -247,11 +128,23 @@ impl FiniteElementModel {
             check_finite("element stiffness", &element.unit)?;
         }
         Ok(Self {
-            scaled: ScaledStructure::new(structure, parameters)?,
+            rows: rows_of(&structure, &parameters)?,
+            structure,
+            parameters,
             element_matrices,
             load_distribution,
             mass,
         })
+    }
+
+    /// The structure with its first sizes.
+    pub fn structure(&self) -> &Structure {
+        &self.structure
+    }
+
+    /// Parameters: what may change.
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.parameters
     }
 
     /// Unit matrices of the elements at the free DOF.
@@ -267,6 +160,53 @@ impl FiniteElementModel {
     /// The dynamic mass $M$, lbf·s²/in (d × d).
     pub fn mass(&self) -> &DMatrix<f64> {
         &self.mass
+    }
+
+    /// Bounds on each parameter's factor: its own, and those that keep all its elements within its size bounds.
+    ///
+    /// # Errors
+    /// [`Error::Range`] when no factor meets both, or when the first sizes lie outside.
+    pub fn factor_ranges(&self) -> Result<Vec<Option<Bounds>>, Error> {
+        let parameters = self.parameters.iter().zip(&self.rows);
+        let ranges = parameters.map(|(parameter, rows)| {
+            let of_sizes = rows.iter().filter_map(|&row| {
+                let (range, size) = (parameter.size_range?, self.structure.elements()[row].size);
+                let (lower, upper) = (range.lower / size, range.upper / size);
+                Some(Bounds { lower, upper })
+            });
+            let all = parameter.factor_range.into_iter().chain(of_sizes);
+            let Some(Bounds { lower, upper }) = all.reduce(|a, b| Bounds {
+                lower: a.lower.max(b.lower),
+                upper: a.upper.min(b.upper),
+            }) else {
+                return Ok(None);
+            };
+            let what = format!("factor of parameter {}", parameter.name);
+            match Bounds::positive(&what, lower, upper)? {
+                range if range.contains(1.0) => Ok(Some(range)),
+                _ => Err(Error::Range { what, lower, upper }),
+            }
+        });
+        ranges.collect()
+    }
+
+    /// Gages (in) and areas (in²) of all elements at the parameters' factors, in the structure's order.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] for another number of factors; [`Error::Value`] for a factor or size that is not positive and finite.
+    pub fn sizes(&self, factors: &[f64]) -> Result<Vec<f64>, Error> {
+        check_length("parameter factors", factors.len(), self.parameters.len())?;
+        let elements = self.structure.elements().iter();
+        let mut sizes: Vec<f64> = elements.map(|element| element.size).collect();
+        for ((parameter, rows), &factor) in self.parameters.iter().zip(&self.rows).zip(factors) {
+            let owner = || format!("parameter {}", parameter.name);
+            positive("factor", owner, factor)?;
+            for &row in rows {
+                sizes[row] *= factor;
+                positive("scaled size", owner, sizes[row])?;
+            }
+        }
+        Ok(sizes)
     }
 
     /// $K_D$ and $B^t$ at the given parameter factors: $K_S$ anew.
@@ -322,7 +262,12 @@ impl FiniteElementModel {
         analysis_modes: Option<usize>,
     ) -> Result<Model, Error> {
         let mut model = self.matrices(factors)?.analyze(test, analysis_modes)?;
-        model.gages = self.mean_sizes(&self.sizes(factors)?);
+        let sizes = self.sizes(factors)?;
+        let means = self.rows.iter().map(|rows| {
+            let sum: f64 = rows.iter().map(|&row| sizes[row]).sum();
+            sum / rows.len() as f64
+        });
+        model.gages = means.collect();
         Ok(model)
     }
 
@@ -354,6 +299,29 @@ impl FiniteElementModel {
     }
 }
 
+/// Rows of every parameter's elements.
+fn rows_of(structure: &Structure, parameters: &[Parameter]) -> Result<Vec<Vec<usize>>, Error> {
+    at_least_one("parameters", parameters.len())?;
+    let labels = structure.elements().iter().map(|element| element.label);
+    let row_of: HashMap<usize, usize> = labels.zip(0..).collect();
+    let (mut rows, mut first_with, what) = (Vec::new(), HashMap::new(), "element");
+    for Parameter { name, elements, .. } in parameters {
+        at_least_one("elements of a parameter", elements.len())?;
+        let mut own = Vec::new();
+        for &label in elements {
+            let owner = format!("parameter {name}");
+            let missing = Error::Unknown { owner, what, label };
+            own.push(*row_of.get(&label).ok_or(missing)?);
+            if let Some(first) = first_with.insert(label, name) {
+                let owner = format!("parameters {first} and {name}");
+                return Err(Error::Duplicate { owner, what, label });
+            }
+        }
+        rows.push(own);
+    }
+    Ok(rows)
+}
+
 /// A model given by its matrices at the dynamic DOF, whatever made them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DynamicModel {
@@ -378,11 +346,37 @@ impl DynamicModel {
             check_shape("parameter share", share, dof_count, dof_count)?;
             check_symmetric("parameter share", share)?;
         }
+        let modes = solve(
+            &self.stiffness,
+            &self.mass,
+            analysis_modes.unwrap_or(dof_count),
+        )?;
+        check_shape("test mode shapes", &test.shapes, dof_count, test.len())?;
+        let test = test.scaled_with(&self.mass)?;
         let through = |v: &DMatrix<f64>| {
             let share = |share| symmetric_part(&v.tr_mul(&(share * v)));
-            Ok(self.shares.iter().map(share).collect())
+            self.shares.iter().map(share).collect::<Vec<_>>()
         };
-        Model::seen((&self.stiffness, &self.mass), test, analysis_modes, through)
+        let omega = test.omega_squared.map(f64::sqrt);
+        let own = &omega * omega.transpose();
+        let relative = |share: DMatrix<f64>| share.component_div(&own);
+        let cross = cross_orthogonality(&modes, &test, &self.mass)?;
+        let pairing = pair_modes(&cross)?;
+        let (shares, count) = (through(&modes.shapes), self.shares.len());
+        Ok(Model {
+            test_shares: through(&test.shapes).into_iter().map(relative).collect(),
+            gages: vec![REFERENCE_GAGE; count],
+            exact: State {
+                factors: vec![1.0; count],
+                generalized_shapes: DMatrix::identity(modes.len(), modes.len()),
+                errors: errors(&modes, &pairing, &test)?,
+                modes,
+                pairing,
+            },
+            test,
+            cross,
+            shares,
+        })
     }
 }
 
@@ -398,42 +392,6 @@ pub struct Model {
 }
 
 impl Model {
-    /// The model of stiffness and mass, where `through` returns $V^t K_e V$ of every parameter for given shapes (d × m).
-    ///
-    /// # Errors
-    /// As [`DynamicModel::analyze`].
-    pub(crate) fn seen(
-        (stiffness, mass): (&DMatrix<f64>, &DMatrix<f64>),
-        test: &Modes,
-        analysis_modes: Option<usize>,
-        through: impl Fn(&DMatrix<f64>) -> Result<Vec<DMatrix<f64>>, Error>,
-    ) -> Result<Self, Error> {
-        let dof_count = stiffness.nrows();
-        let modes = solve(stiffness, mass, analysis_modes.unwrap_or(dof_count))?;
-        check_shape("test mode shapes", &test.shapes, dof_count, test.len())?;
-        let test = test.scaled_with(mass)?;
-        let omega = test.omega_squared.map(f64::sqrt);
-        let relative = |share: DMatrix<f64>| share.component_div(&(&omega * omega.transpose()));
-        let test_shares = through(&test.shapes)?.into_iter().map(relative).collect();
-        let cross = cross_orthogonality(&modes, &test, mass)?;
-        let pairing = pair_modes(&cross)?;
-        let shares = through(&modes.shapes)?;
-        Ok(Self {
-            gages: vec![REFERENCE_GAGE; shares.len()],
-            exact: State {
-                factors: vec![1.0; shares.len()],
-                generalized_shapes: DMatrix::identity(modes.len(), modes.len()),
-                errors: errors(&modes, &pairing, &test)?,
-                modes,
-                pairing,
-            },
-            test,
-            cross,
-            shares,
-            test_shares,
-        })
-    }
-
     /// The test modes, scaled to unit generalized mass with the model's mass.
     pub fn test(&self) -> &Modes {
         &self.test
