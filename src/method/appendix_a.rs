@@ -10,7 +10,7 @@ use super::structure::Structure;
 use nalgebra::DMatrix;
 
 /// Pivot of the flexibility relative to its diagonal below which a dynamic DOF is a combination of others.
-pub(crate) const SMALLEST_FLEXIBILITY_PIVOT: f64 = 1e-13;
+const SMALLEST_PIVOT: f64 = 1e-13;
 
 /// Stiffness of one element of unit size at the free structural DOF it touches.
 #[derive(Debug, Clone, PartialEq)]
@@ -144,30 +144,23 @@ pub fn condense(
     let scaled = lower.solve_lower_triangular_unchecked(&DMatrix::from_diagonal(&scale));
     let is_held = 1.0 / scaled.norm_squared() > round_off(scale.len());
     if !is_held {
-        let (what, row) = (
-            "structural stiffness",
-            lower.diagonal().component_div(&scale).imin(),
-        );
+        let row = lower.diagonal().component_div(&scale).imin();
+        let what = "structural stiffness";
         return Err(Error::NotPositiveDefinite { what, row });
     }
     // With K_S = L Lᵗ and W = L⁻¹ T: Tᵗ K_S⁻¹ T = Wᵗ W, and K_S⁻¹ T = L⁻ᵗ W.
     let half = lower.solve_lower_triangular_unchecked(load_distribution);
-    let stiffness = dynamic_stiffness(&half.tr_mul(&half))?;
+    let flexibility = half.tr_mul(&half);
+    let dynamic = cholesky("dynamic flexibility", &flexibility, SMALLEST_PIVOT)?;
+    let identity = DMatrix::identity(dynamic_count, dynamic_count);
+    let inverse = dynamic.solve_lower_triangular_unchecked(&identity);
+    let stiffness = inverse.tr_mul(&inverse);
     let mut deflections = half;
     lower.tr_solve_lower_triangular_unchecked_mut(&mut deflections);
     Ok(Condensed {
         transformation: deflections * &stiffness,
         stiffness,
     })
-}
-
-/// Dynamic stiffness $K_D$ (lbf/in) of its inverse, the flexibility (in/lbf), both d × d.
-pub(crate) fn dynamic_stiffness(flexibility: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-    let what = "dynamic flexibility";
-    let lower = cholesky(what, flexibility, SMALLEST_FLEXIBILITY_PIVOT)?;
-    let identity = DMatrix::identity(lower.nrows(), lower.nrows());
-    let inverse_factor = lower.solve_lower_triangular_unchecked(&identity);
-    Ok(inverse_factor.tr_mul(&inverse_factor))
 }
 
 /// Share of an element in the stiffness for shapes at the structural DOF, $s_e V_e^t K_e V_e$ (A.9), where $V_e$ are the rows of
