@@ -128,7 +128,6 @@ pub struct Structure {
     grids: Vec<Grid>,
     elements: Vec<Element>,
     corners: Vec<Vec<Point>>,
-    positions: HashMap<usize, Point>,
     free: Vec<StructuralDof>,
     row_of: HashMap<StructuralDof, usize>,
 }
@@ -205,7 +204,6 @@ impl Structure {
             grids,
             elements,
             corners,
-            positions,
             free,
             row_of,
         })
@@ -234,11 +232,6 @@ impl Structure {
     /// Row of a grid's direction among the free DOF; `None` if it is constrained or the grid does not exist.
     pub fn free_dof_index(&self, grid: usize, direction: usize) -> Option<usize> {
         self.row_of.get(&StructuralDof { grid, direction }).copied()
-    }
-
-    /// Position of the grid of a number, in.
-    pub fn position(&self, grid: usize) -> Option<Point> {
-        self.positions.get(&grid).copied()
     }
 }
 

@@ -246,10 +246,9 @@ impl BulkData {
         let elements = self.elements.iter().zip(structure.corners());
         let of_point = |point: &PointMass| {
             let along = |dof: StructuralDof| Vector3::ith(dof.direction, point.mass);
-            Some((
-                structure.position(point.grid)?,
-                point.dof().map(along).sum(),
-            ))
+            let mut grids = structure.grids().iter();
+            let grid = grids.find(|grid| grid.label == point.grid)?;
+            Some((grid.position, point.dof().map(along).sum()))
         };
         let points = self.masses.iter().filter_map(of_point);
         Ok(elements.flat_map(of_element).chain(points).collect())
