@@ -11,6 +11,7 @@ pub mod elements;
 #[doc(hidden)]
 pub mod factorization;
 mod lowest_modes;
+mod mass_changes;
 mod matrix;
 mod ordering;
 #[doc(hidden)]
@@ -36,12 +37,12 @@ pub use factorization::Factor;
 pub use lowest_modes::{CountedModes, lowest_modes};
 #[doc(hidden)]
 pub use lowest_modes::{FINITE, MOST_DENSE_ROWS};
+#[doc(hidden)]
+pub use mass_changes::normalize_with_mass;
 pub use matrix::SparseMatrix;
 #[doc(hidden)]
 pub use rigid_bodies::RigidBodies;
 pub(crate) use sensor_model::check_weights;
-#[doc(hidden)]
-pub use sensor_model::normalize_with_mass;
 pub use sensor_model::{ModeWeight, Pair, ParameterMatrix, SensorModel};
 pub use whole_model::{BasisSize, WholeModel, WholeParameter, WholeShare};
 

@@ -2,24 +2,22 @@
 //! changes of stiffness and of mass, weights of the test modes, and any rule of pairing.
 
 use super::assurance::cosines;
+use super::mass_changes::{
+    Change, apart_from_rigid_bodies, normalize_with_mass, with_rigid_bodies,
+};
 use crate::method::analysis::{
     Analysis, DERIVATIVE_STEP, State, changes_by, without_close_couplings,
 };
-use crate::method::appendix_c::{Number, Pencil};
-use crate::method::error::{Error, positive, require};
-use crate::method::error_sum::{Errors, ModeError, mode_errors};
+use crate::method::appendix_c::Pencil;
+use crate::method::error::{Error, require};
+use crate::method::error_sum::{Errors, ModeError, errors, mode_errors};
 use crate::method::linear_algebra::{check_length, check_shape, symmetric_part};
 use crate::method::model::Model;
-use crate::method::modes::{Modes, mode, solve};
-use crate::method::perturbation::{
-    MOST_ORDERS, Perturbed, ROOT_TOLERANCE, Settled, first_order, recursive_1_converged,
-};
+use crate::method::modes::{Modes, solve};
+use crate::method::perturbation::{Perturbed, first_order, recursive_1_converged};
 use crate::method::sorting::{Pairing, pair_modes};
 use crate::method::step::{REFERENCE_GAGE, StepRule};
 use nalgebra::{DMatrix, DVector};
-
-/// Orders in a row that must leave the roots alone for a recursion with changes of mass to count as converged.
-const QUIET_ORDERS: usize = 2;
 
 /// Part of the stiffness or mass that one parameter scales: at d DOF (d × d), or in n shapes as $V^t K_e V$ or $V^t M_e V$ (n × n).
 #[derive(Debug, Clone, PartialEq)]
@@ -161,14 +159,14 @@ impl SensorModel {
         omega_squared.extend(further.residual.omega_squared.iter().copied());
         basis.extend(further.residual.shapes.column_iter());
         basis.extend(further.rigid_body.column_iter());
-        let (weights, count) = (vec![ModeWeight::ONE; test.len()], modes.len());
+        let count = modes.len();
         Ok(Self {
             test_shares: shares.iter().map(on_test).collect(),
             gages: vec![REFERENCE_GAGE; shares.len()],
             exact: State {
                 factors: vec![1.0; shares.len()],
                 generalized_shapes: DMatrix::identity(basis.ncols(), count),
-                errors: weighted_errors(&modes, &pairing, &scaled, &weights)?,
+                errors: errors(&modes, &pairing, &scaled)?,
                 modes,
                 pairing,
             },
@@ -177,7 +175,7 @@ impl SensorModel {
             omega_squared,
             basis,
             pair,
-            weights,
+            weights: vec![ModeWeight::ONE; test.len()],
             shares,
         })
     }
@@ -202,7 +200,7 @@ impl SensorModel {
         &self.shares
     }
 
-    /// The same model with weights of the test modes: in all errors $w_i e_i$ stands for $e_i$ of (5) and (6).
+    /// Model with weights of the test modes: in all errors $w_i e_i$ stands for $e_i$ of (5) and (6).
     ///
     /// # Errors
     /// [`Error::WrongShape`] unless there is one weight per test mode; [`Error::Value`] for one that is negative or not finite, and when
@@ -216,17 +214,19 @@ impl SensorModel {
 
     /// Distance of paired modes from the test modes, with the weights.
     pub(crate) fn errors_of(&self, modes: &Modes, pairing: &Pairing) -> Result<Errors, Error> {
-        weighted_errors(modes, pairing, &self.test, &self.weights)
+        let each = mode_errors(modes, pairing, &self.test)?;
+        let weighted = |(error, weight): (&ModeError, &ModeWeight)| ModeError {
+            frequency: weight.frequency * error.frequency,
+            shape: weight.shape * error.shape,
+        };
+        let each = each.iter().zip(&self.weights).map(weighted);
+        Errors::of(&each.collect::<Vec<_>>())
     }
 
     /// The largest part of a test mode's stiffness or mass that each parameter has.
     pub(crate) fn largest_parts(&self) -> Vec<f64> {
         let largest = |share: &DMatrix<f64>| share.diagonal().amax();
         self.test_shares.iter().map(largest).collect()
-    }
-
-    fn has_mass(&self) -> bool {
-        self.shares.iter().any(ParameterMatrix::is_mass)
     }
 
     /// The change of all parameters together.
@@ -335,125 +335,11 @@ impl From<&Model> for SensorModel {
     }
 }
 
-/// SRSS errors with every test mode's errors multiplied by its weights; there is one weight a test mode.
-fn weighted_errors(
-    modes: &Modes,
-    pairing: &Pairing,
-    test: &Modes,
-    weights: &[ModeWeight],
-) -> Result<Errors, Error> {
-    let each = mode_errors(modes, pairing, test)?;
-    let weighted = |(error, weight): (&ModeError, &ModeWeight)| ModeError {
-        frequency: weight.frequency * error.frequency,
-        shape: weight.shape * error.shape,
-    };
-    Errors::of(&each.iter().zip(weights).map(weighted).collect::<Vec<_>>())
-}
-
-/// A change of all parameters, seen through the vibrations of the basis.
-struct Change {
-    /// $\beta = \sum_{stiffness} (s_e - 1) V^t K_e V$.
-    beta: DMatrix<f64>,
-    /// $\alpha = \sum_{mass} (s_e - 1) V^t M_e V$, less what rigid-body modes carry.
-    alpha: DMatrix<f64>,
-    /// The identity, or what [`apart_from_rigid_bodies`] makes of it.
-    apart: DMatrix<f64>,
-}
-
-/// Shapes in terms of the basis (N × N) that a change of mass, `alpha` $= V^t \Delta M V$ (N × N), leaves apart: the `count` vibrations and
-/// the rigid-body modes $R$ behind them.
-///
-/// Rigid-body modes strain nothing, and stay what they are; vibrations stay orthogonal to them by carrying some of them along,
-///
-/// $$ V - R q, \qquad (I + \alpha_{RR}) q = \alpha_{RV} . $$
-///
-/// The stiffness is that in $V$, the change of mass $\alpha_{VV} - \alpha_{VR} q$, and the roots $1/\omega^2$ of rigid-body modes, which would be infinite, are not needed.
-fn apart_from_rigid_bodies(
-    mut apart: DMatrix<f64>,
-    alpha: &DMatrix<f64>,
-    count: usize,
-) -> Result<DMatrix<f64>, Error> {
-    let rigid = alpha.nrows() - count;
-    let own = DMatrix::identity(rigid, rigid) + alpha.view((count, count), (rigid, rigid));
-    let factor = own.cholesky().ok_or(Error::NotPositiveDefinite {
-        what: "mass of the rigid-body modes",
-        row: 0,
-    })?;
-    let along = factor.solve(&alpha.view((count, 0), (rigid, count)).into_owned());
-    apart
-        .view_mut((count, 0), (rigid, count))
-        .copy_from(&-along);
-    let mut orthonormal = apart.view_mut((count, count), (rigid, rigid));
-    factor
-        .l()
-        .tr_solve_lower_triangular_unchecked_mut(&mut orthonormal);
-    Ok(apart)
-}
-
-/// Generalized shapes of vibrations and rigid-body modes (N × N) from those of the vibrations (n × n).
-fn with_rigid_bodies(apart: &DMatrix<f64>, vibrations: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut both = DMatrix::identity(apart.nrows(), apart.nrows());
-    both.view_mut((0, 0), vibrations.shape())
-        .copy_from(vibrations);
-    apart * both
-}
-
 /// Turns the columns of shapes at all DOF whose counterparts at the sensors the sign rule has turned.
 pub(crate) fn turn_alike(whole: &mut DMatrix<f64>, seen: &DMatrix<f64>, signed: &DMatrix<f64>) {
     let is_turned = |mode: &usize| signed.column(*mode) != seen.column(*mode);
     for mode in (0..signed.ncols()).filter(is_turned) {
         whole.column_mut(mode).neg_mut();
-    }
-}
-
-/// Scales every generalized shape to unit changed generalized mass, $p_j^t(I + \alpha)p_j = 1$, keeping its sign.
-///
-/// `alpha` $= V^t \Delta M V$ (n × n); the shapes $V p$ are then orthonormal in the changed mass.
-///
-/// # Errors
-/// [`Error::WrongShape`]; [`Error::Value`] naming the mode whose changed generalized mass is not positive.
-pub fn normalize_with_mass(shapes: &mut DMatrix<f64>, alpha: &DMatrix<f64>) -> Result<(), Error> {
-    let size = shapes.nrows();
-    check_shape("generalized mass change", alpha, size, size)?;
-    let moved = alpha * &*shapes;
-    for (place, mut shape) in shapes.column_iter_mut().enumerate() {
-        let mass = shape.norm_squared() + shape.dot(&moved.column(place));
-        positive("changed generalized mass", || mode(place), mass)?;
-        shape /= mass.sqrt();
-    }
-    Ok(())
-}
-
-impl<T: Number> Pencil<T> {
-    /// Recursive 1 until two orders in a row change no root by more than [`ROOT_TOLERANCE`] (relative), at most to order
-    /// [`MOST_ORDERS`].
-    ///
-    /// One quiet order is not enough: roots of two modes that only a change of mass couples move in every second order.
-    ///
-    /// # Errors
-    /// [`Error::Value`] for a root that is not finite; [`Error::UnsettledRoots`] and [`Error::CoalescingModes`] as for a change of
-    /// [stiffness alone](crate::method::perturbation::recursive_1_converged).
-    pub fn recursive_1_converged(&self) -> Result<Settled<T>, Error> {
-        let mut perturbed = self.order_zero()?;
-        let (mut order, mut last_change, mut quiet_orders) = (0, 1.0, 0);
-        while order < MOST_ORDERS && quiet_orders < QUIET_ORDERS {
-            let before = perturbed.roots.clone();
-            perturbed = self.next_order(perturbed)?;
-            order += 1;
-            // Round-off in the largest root is no change of a root that is smaller still.
-            let floor = f64::EPSILON * before.map(T::modulus).max();
-            let change = |old: T, new: T| (new - old).modulus() / old.modulus().max(floor);
-            last_change = before.zip_map(&perturbed.roots, change).fold(0.0, f64::max);
-            // The roots of first order are those of order zero.
-            let is_quiet = last_change < ROOT_TOLERANCE && order > 1;
-            quiet_orders = if is_quiet { quiet_orders + 1 } else { 0 };
-        }
-        Settled {
-            perturbed,
-            order,
-            last_change,
-        }
-        .check()
     }
 }
 
@@ -467,16 +353,12 @@ impl Analysis for SensorModel {
     fn at(&self, factors: &[f64]) -> Result<State, Error> {
         let Change { beta, alpha, apart } = self.change(factors)?;
         let k = &self.omega_squared;
-        let perturbed = match self.has_mass() {
-            true => {
-                Pencil::of_vibrations(k, &beta, &alpha)?
-                    .recursive_1_converged()?
-                    .perturbed
-            }
-            false => recursive_1_converged(k, &beta)?.perturbed,
+        let settled = match self.shares.iter().any(ParameterMatrix::is_mass) {
+            true => Pencil::of_vibrations(k, &beta, &alpha)?.recursive_1_converged()?,
+            false => recursive_1_converged(k, &beta)?,
         };
-        perturbed.check_roots()?;
-        let Perturbed { roots, mut shapes } = perturbed;
+        settled.perturbed.check_roots()?;
+        let Perturbed { roots, mut shapes } = settled.perturbed;
         normalize_with_mass(&mut shapes, &alpha)?;
         let generalized = with_rigid_bodies(&apart, &shapes);
         let generalized_shapes = generalized.columns(0, k.len()).into_owned();
