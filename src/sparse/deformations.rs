@@ -94,32 +94,13 @@ impl Deformations {
         self.stiffness.iter().copied().zip(shapes)
     }
 
-    /// The lower triangle of $s_e K_e$, column by column, in place of what the vector has.
-    pub(super) fn triangle(&self, size: f64, into: &mut Vec<f64>) {
-        let order = self.dof.len();
-        into.clear();
-        into.resize(order * (order + 1) / 2, 0.0);
-        for (stiffness, shape) in self.ways() {
-            let mut rest = into.as_mut_slice();
-            for (column, motion) in shape.iter().enumerate() {
-                let (entries, later) = rest.split_at_mut(order - column);
-                let force = size * stiffness * motion;
-                let below = entries.iter_mut().zip(&shape[column..]);
-                below.for_each(|(entry, motion)| *entry += force * motion);
-                rest = later;
-            }
-        }
-    }
-
     /// The element by its matrix again.
     pub fn matrix(&self) -> ElementMatrix {
-        let (order, mut triangle) = (self.dof.len(), Vec::new());
-        self.triangle(1.0, &mut triangle);
-        let mut unit = DMatrix::zeros(order, order);
-        let places = (0..order).flat_map(|column| (column..order).map(move |row| (row, column)));
-        places
-            .zip(triangle)
-            .for_each(|(place, entry)| unit[place] = entry);
+        let mut unit = DMatrix::zeros(self.dof.len(), self.dof.len());
+        for (stiffness, shape) in self.ways() {
+            let shape = DVector::from_column_slice(shape);
+            unit.syger(stiffness, &shape, &shape, 1.0);
+        }
         unit.fill_upper_triangle_with_lower_triangle();
         ElementMatrix {
             label: self.label,
