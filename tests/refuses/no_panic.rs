@@ -139,6 +139,7 @@ fn every_public_function_of_the_method_is_called() {
         "sparse/checks.rs",
         "sparse/deformations.rs",
         "sparse/elements.rs",
+        "sparse/mass_changes.rs",
         "sparse/sensor_model.rs",
         "weighted/comparison.rs",
     ];

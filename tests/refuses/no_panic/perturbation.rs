@@ -76,7 +76,7 @@ pub const PERTURBATION: &[Entry] = &[
             .map(|entry| nalgebra::Complex::new(entry, 0.1 * entry));
         complex_modes::solve(&d.symmetric(size), &g).map(|_| Vec::new())
     }),
-    ("sensor_model::normalize_with_mass", |d| {
+    ("mass_changes::normalize_with_mass", |d| {
         let size = d.size();
         let mut shapes = d.symmetric(size);
         normalize_with_mass(&mut shapes, &d.symmetric(size)).map(|()| entries(&shapes))
