@@ -5,8 +5,6 @@ pub mod deck;
 pub mod disk;
 pub mod error;
 pub mod matrices;
-#[doc(hidden)]
-pub mod nastran95;
 pub mod test_data;
 
 use std::io::{Error, ErrorKind, Read};

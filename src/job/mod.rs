@@ -16,8 +16,6 @@ mod matrices;
 pub mod metrics;
 mod model;
 #[doc(hidden)]
-pub mod nastran95;
-#[doc(hidden)]
 pub mod preflight;
 mod loaded;
 mod repeats;

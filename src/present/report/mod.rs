@@ -63,8 +63,6 @@ pub struct Report {
     pub name: String,
     /// The title that readers see.
     pub title: String,
-    /// The program that did the finite element analyses.
-    pub solver: String,
     /// Names of the parameters.
     pub parameters: Vec<String>,
     /// Bounds on their factors, if any.
@@ -192,7 +190,6 @@ impl Report {
         Self {
             name: name.to_owned(),
             title: name.to_owned(),
-            solver: crate::torque_box::BUILT_IN.to_owned(),
             parameters: parameters.to_vec(),
             ranges: vec![None; parameters.len()],
             deviations: None,

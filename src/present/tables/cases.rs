@@ -1,6 +1,5 @@
 //! The paper's Tables 3 to 8 and 13 from runs of its cases, each number beside the published one.
 
-use super::report::solver_note;
 use super::stages::{self, ErrorStage};
 use super::unlimited::unlimited_table;
 use super::{MODE_ERRORS, PERCENT, RMS_PERCENT, remarks};
@@ -77,11 +76,6 @@ pub fn frequency_table(result: &CaseResult) -> Result<Table, PresentError> {
         )
     };
     let table = named(result, paper.as_ref(), "frequencies", "Mode");
-    let table = table.notes(solver_note(
-        result.solver,
-        "",
-        ", of the test configuration too;",
-    ));
     let (test_hz, stages) = (
         result.test.frequencies_hz(),
         checks.map(stage).collect::<Vec<_>>(),
