@@ -169,7 +169,7 @@ fn a_study_needs_samples_and_a_folder_or_one_sample() {
         &["--sample", "0"],
         // More than can be kept, more threads than any machine has cores, and neither with an end.
         &["--samples", "18446744073709551615", "--folder", "x"],
-        &["--samples", "10000001", "--folder", "x"],
+        &["--samples", "1000001", "--folder", "x"],
         &["--samples", "1", "--folder", "x", "--threads", "20000"],
         &["--samples", "1", "--folder", "x", "--threads", "1025"],
     ] {
