@@ -16,7 +16,7 @@ use crate::weighted::next_step::NextStep;
 use crate::weighted::noise::Noise;
 use serde::Serialize;
 
-/// How many times the next largest demand the largest must be to be reported as an anomaly.
+/// Ratio of the largest demand to the next from which on it is reported as an anomaly.
 ///
 /// The demand is the unlimited factor by the reading gage, the fall of the error per change of gage in inches: a gage a hundred times
 /// too small does not make it a hundred times smaller, as it does the fall per relative change. On 900 other boxes it names the faulty
@@ -34,7 +34,7 @@ pub struct Anomaly {
     pub ratio: f64,
 }
 
-/// What became of a case.
+/// Outcome of a case.
 #[derive(Debug, Clone)]
 pub struct CaseResult {
     /// The case.
@@ -80,13 +80,13 @@ impl CaseResult {
             .map_or(&[], |pass| &pass.inner.first_unlimited_factors)
     }
 
-    /// Whether the run is that of the paper's Case 4: a single iteration that is to detect a modeling error, and corrects
+    /// True if the run is that of the paper's Case 4: a single iteration that is to detect a modeling error, and corrects
     /// nothing.
     pub fn is_detection(&self) -> bool {
         (self.case.number, self.case.settings.inner.iterations) == (4, 1)
     }
 
-    /// Whether the case did what the paper asked of it: Cases 1 to 3 correlate; Case 4, a single iteration, names a
+    /// True if the case did what the paper asked of it: Cases 1 to 3 correlate; Case 4, a single iteration, names a
     /// faulty element.
     pub fn succeeded(&self) -> bool {
         if self.is_detection() {

@@ -30,8 +30,6 @@ pub mod loops;
 pub mod matrices;
 pub mod measured;
 pub mod nastran95;
-#[path = "../../paper/nastran95.rs"]
-pub mod nastran95_program;
 pub mod outer_loop;
 pub mod pairings;
 pub mod panels;

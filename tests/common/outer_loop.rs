@@ -1,4 +1,7 @@
-//! The stored answers of the outer loop through NASTRAN-95.
+//! The outer loop through NASTRAN-95: the program that does it, and its stored answers.
+
+#[path = "../../paper/nastran95.rs"]
+pub mod program;
 
 use corfem::method::analysis::State;
 use corfem::torque_box::CASES;

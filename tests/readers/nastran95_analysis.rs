@@ -3,7 +3,7 @@
 #![cfg(unix)]
 
 use crate::common::fake_solver::{fake, output5, solver};
-use crate::common::nastran95_program::Matrices;
+use crate::common::outer_loop::program::Matrices;
 use crate::common::structures::lumped_mass;
 use crate::common::tolerances::MATRIX_ROUND_OFF;
 use corfem::files::deck::BulkData;

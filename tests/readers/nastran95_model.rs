@@ -3,7 +3,7 @@
 #![cfg(unix)]
 
 use crate::common::fake_solver::{fake, solver};
-use crate::common::nastran95_program::{HEADING, correlate_case};
+use crate::common::outer_loop::program::{HEADING, correlate_case};
 use crate::common::outer_loop::{paired_hz, read_cases};
 use crate::common::tolerances::{GOLDEN_RELATIVE, MATRIX_ROUND_OFF};
 use crate::readers::nastran95_analysis::disordered;

@@ -3,7 +3,7 @@
 #![cfg(unix)]
 
 use crate::common::fake_solver::output5;
-use crate::common::nastran95_program::read_output5;
+use crate::common::outer_loop::program::read_output5;
 use nalgebra::DMatrix;
 
 #[test]

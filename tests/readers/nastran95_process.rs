@@ -3,7 +3,7 @@
 #![cfg(unix)]
 
 use crate::common::fake_solver::{fake, solver};
-use crate::common::nastran95_program::{Nastran95, case_numbers, default_folder, status};
+use crate::common::outer_loop::program::{Nastran95, case_numbers, default_folder, status};
 use crate::common::signals::send;
 use corfem::files::error::FileError;
 use corfem::torque_box::CASES;

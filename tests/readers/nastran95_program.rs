@@ -5,7 +5,7 @@ use crate::common::known::delta_wing::correlation::{
     correlate_wing_with, first_model, settings, test_modes,
 };
 use crate::common::known::weighed::Weighed;
-use crate::common::nastran95_program::{Nastran95, correlate_case, default_folder};
+use crate::common::outer_loop::program::{Nastran95, correlate_case, default_folder};
 use crate::common::outer_loop::{assert_near, paired_hz, stored, stored_wing};
 use crate::common::tolerances::{
     NASTRAN_AGAIN, NASTRAN_EIGENVALUE, NASTRAN_FREQUENCY, NASTRAN_GAGE, NASTRAN_PRINTED_EIGENVALUE,

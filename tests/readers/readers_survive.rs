@@ -5,7 +5,7 @@
 //! reader with that word in its name, all of them without, and says how many and in what time. `CORFEM_SEED=100000` goes on behind them.
 
 use crate::common::draws::Draws;
-use crate::common::nastran95_program::read_output5;
+use crate::common::outer_loop::program::read_output5;
 use crate::common::test_files::{write_csv, write_universal};
 use corfem::files::deck::{modes, read as read_deck, rewrite};
 use corfem::files::matrices::read as read_matrix;
