@@ -59,9 +59,11 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 /// A job that explains its entries.
+#[doc(hidden)]
 pub const TEMPLATE: &str = include_str!("template.toml");
 
 /// A test as a table that explains itself.
+#[doc(hidden)]
 pub const TEST_TEMPLATE: &str = include_str!("template.csv");
 
 /// Content of a job file; [`TEMPLATE`] explains every entry.

@@ -24,6 +24,7 @@ mod subspace;
 pub mod whole_modes;
 mod whole_model;
 
+#[doc(hidden)]
 pub use assurance::modal_assurance;
 #[doc(hidden)]
 pub use checks::check_solution;
@@ -31,23 +32,23 @@ pub(crate) use checks::{
     add_squares, finite, places_above, solve_lower, start_vector, take_product, transposed_product,
 };
 #[doc(hidden)]
-pub use condensation::LargeCondensation;
-pub use condensation::LargeModel;
+pub use condensation::{LargeCondensation, LargeModel};
 #[doc(hidden)]
 pub use deformations::Deformations;
 #[doc(hidden)]
 pub use factorization::Factor;
-pub use lowest_modes::{CountedModes, lowest_modes};
 #[doc(hidden)]
-pub use lowest_modes::{FINITE, MOST_DENSE_ROWS};
+pub use lowest_modes::{CountedModes, FINITE, MOST_DENSE_ROWS, lowest_modes};
 pub use matrix::SparseMatrix;
 #[doc(hidden)]
 pub use rigid_bodies::RigidBodies;
+pub use sensor_model::SensorModel;
 pub(crate) use sensor_model::check_weights;
 #[doc(hidden)]
-pub use sensor_model::normalize_with_mass;
-pub use sensor_model::{ModeWeight, Pair, ParameterMatrix, SensorModel};
-pub use whole_model::{BasisSize, WholeModel, WholeParameter, WholeShare};
+pub use sensor_model::{ModeWeight, Pair, ParameterMatrix, normalize_with_mass};
+#[doc(hidden)]
+pub use whole_model::{BasisSize, WholeShare};
+pub use whole_model::{WholeModel, WholeParameter};
 
 use crate::method::modes::Modes;
 use nalgebra::{DMatrix, DVector};
