@@ -8,7 +8,7 @@
 //!
 //! NASTRAN-95 must be installed as `golden/nastran95/README.md` says; the environment variable `NASTRAN95` names another folder with
 //! `bin/nastrn` and `rf/`. Gages, frequencies and errors of every pass are printed as in `golden/nastran95/outer_loop.toml`. After an
-//! error, which goes to standard error, or a request to stop by a signal the status is 2; no file is left and nothing runs on.
+//! error, which goes to standard error, or SIGINT or SIGTERM the status is 2; no file is left and nothing runs on.
 //!
 //! [`correlate_case`] is what a caller of the library writes: [`correlate`] is handed a function that is given factors and returns an
 //! analysis. Here that function writes a deck at the present gages, runs it once, and reads every element's stiffness from the
