@@ -28,7 +28,7 @@ use corfem::files::{error::FileError, escaped};
 use corfem::method::analysis::State;
 use corfem::method::appendix_a::assemble;
 use corfem::method::error::Error;
-use corfem::method::model::FiniteElementModel;
+use corfem::method::model::{FiniteElementModel, Model};
 use corfem::method::modes::Modes;
 use corfem::method::outer_loop::{Correlation, correlate};
 use corfem::method::structure::{Element, Grid};
@@ -54,6 +54,7 @@ use std::time::{Duration, Instant};
 /// The error of a run is a sentence for its user, whatever made it.
 pub type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 
+// A test takes this file as a module.
 #[allow(dead_code)]
 fn main() -> ExitCode {
     ExitCode::from(status(std::env::args().skip(1)))
@@ -130,10 +131,13 @@ pub fn correlate_case(
     let (model, tested) = (case.model()?, case.model_with(&[TEST_GAGE; PANEL_COUNT])?);
     let ones = vec![1.0; tested.parameters().len()];
     let test = elements(&tested, &ones)?.modes(&ones)?;
-    let analyze = |factors: &[f64]| Ok(elements(&model, factors)?.analyze(factors, &test, None)?);
+    // The loops know nothing of the program: they ask for the analysis at factors, and this is it.
+    let analyze = |factors: &[f64]| -> Outcome<Model> {
+        let model = elements(&model, factors)?;
+        Ok(model.analyze(factors, &test, None)?)
+    };
     let ranges = model.factor_ranges()?;
-    let correlation = correlate(analyze, &ranges, &case.settings, |_, _| true);
-    let correlation = correlation.map_err(|error: Box<dyn std::error::Error>| error)?;
+    let correlation = correlate(analyze, &ranges, &case.settings, |_, _| true)?;
     let passes = correlation.passes.iter();
     let gages = passes.map(|pass| Ok(model.sizes(&pass.factors)?[..PANEL_COUNT].to_vec()));
     Ok(History {
