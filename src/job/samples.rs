@@ -8,9 +8,6 @@ use crate::weighted::intervals::is_at_end;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Bars of a histogram.
-const BARS: usize = 24;
-
 /// The samples of a file.
 #[derive(Debug)]
 pub struct Samples {
@@ -33,10 +30,6 @@ pub struct Spread {
     pub deviation: f64,
     /// The quantiles of 2.5, 50 and 97.5 %, linear between neighbors in order.
     pub quantiles: [f64; 3],
-    /// Least and largest.
-    pub ends: [f64; 2],
-    /// Number of samples in each of equal intervals between the least and the largest.
-    pub bars: Vec<usize>,
 }
 
 /// The statistics of the samples.
@@ -124,27 +117,21 @@ impl Samples {
 /// The statistics of one parameter within its range; none without values.
 fn spread(mut values: Vec<f64>, range: Option<Bounds>) -> Option<Spread> {
     values.sort_unstable_by(f64::total_cmp);
-    let (count, ends) = (values.len(), [*values.first()?, *values.last()?]);
+    let count = values.len();
+    let last = count.checked_sub(1)?;
     let mean = values.iter().sum::<f64>() / count as f64;
     let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
     let quantile = |part: f64| {
-        let at = part * (count - 1) as f64;
+        let at = part * last as f64;
         let (below, above) = (values[at.floor() as usize], values[at.ceil() as usize]);
         below + at.fract() * (above - below)
     };
-    let mut bars = vec![0; BARS];
-    for value in &values {
-        // Equal values divide zero by zero; NaN casts to 0, the first bar.
-        bars[((BARS as f64 * (value - ends[0]) / (ends[1] - ends[0])) as usize).min(BARS - 1)] += 1;
-    }
     let at_end = |value: &&f64| range.is_some_and(|range| is_at_end(range, **value));
     Some(Spread {
         count,
         at_bound: values.iter().filter(at_end).count(),
         mean,
-        deviation: (squares / (count.max(2) - 1) as f64).sqrt(),
+        deviation: (squares / last.max(1) as f64).sqrt(),
         quantiles: [0.025, 0.5, 0.975].map(quantile),
-        ends,
-        bars,
     })
 }

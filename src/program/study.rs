@@ -9,7 +9,6 @@ use clap::Args;
 use corfem::files::disk::{TryLockError, make_folder, open_or_create};
 use corfem::files::error::FileError;
 use corfem::job::{Samples, Study, Vary};
-use corfem::present::figures::histogram;
 use corfem::present::tables::job::{study_table, trust_table};
 use corfem::present::{PresentError, json, render};
 use serde_json::json;
@@ -34,7 +33,7 @@ pub struct StudyArguments {
     /// Variations: noise (the test, by its standard deviations), start (the first factors), subset (sensors or modes left out)
     #[arg(long, value_delimiter = ',', default_value = "noise", value_parser = named::<Vary>)]
     vary: Vec<Vary>,
-    /// Results folder (samples.csv, summary.csv, histogram.svg), created if new; an unfinished study in it is resumed
+    /// Results folder (samples.csv, summary.csv), created if new; an unfinished study in it is resumed
     #[arg(long, value_name = "DIR", required_unless_present = "sample")]
     folder: Option<PathBuf>,
     /// Number of samples to run at a time; the number of cores if not given
@@ -71,14 +70,9 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<bool, PresentErr
         }
         let summary = samples.summary(&study, last);
         let tables = [trust_table(trust), study_table(&study, &summary)];
-        let figure = histogram::draw("histogram", &tables[1].title, &summary)?;
-        let files = [
-            ("summary.csv", render::csv(&tables)),
-            ("histogram.svg", figure),
-        ];
-        let files = files.map(|(name, text)| (name.to_owned(), text.into_bytes()));
+        let file = ("summary.csv".to_owned(), render::csv(&tables).into_bytes());
         let run = format!("study {}, inputs {}", file_name(job), study.identity);
-        write_files(folder, &files, &run)?;
+        write_files(folder, &[file], &run)?;
         let document = || json::own_document(json!({ "trust": trust, "tables": tables }));
         output.write(&tables, document)?;
     } else {
