@@ -27,7 +27,7 @@
 //! - [`weighted`]: residuals in units of their standard deviations, noise on test modes, weighted steps, and what the test
 //!   sees of the parameters.
 //! - [`torque_box`]: the paper's wing torque box, its four cases, its tables. [`chain`] has the smallest structures, for examples.
-//! - [`files`]: NASTRAN decks, matrices, tests, and analyses by NASTRAN-95.
+//! - [`files`]: NASTRAN decks, matrices, tests.
 //! - [`job`]: a user's structure, from its files to the corrected model and its [`verdict`](job::verdict), with a pre-flight that
 //!   names mistakes in model and test before the first step.
 //! - [`tour`]: ten chapters that teach the method, with code that runs. Read this first if the paper is new to you.

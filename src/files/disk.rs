@@ -10,7 +10,6 @@ use std::fs::{File, OpenOptions, create_dir};
 use std::io::{self, Error, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
-use std::process::Stdio;
 
 /// Counts an operation, and fails in its place when the environment asks for that.
 fn begin(operation: &str, path: &Path) -> io::Result<()> {
@@ -97,26 +96,12 @@ impl<F: Write> Write for Opened<F> {
     }
 }
 
-impl From<OpenFile> for Stdio {
-    fn from(opened: OpenFile) -> Self {
-        opened.file.into()
-    }
-}
-
 /// A file to read.
 ///
 /// # Errors
 /// The operating system's error.
 pub fn open(path: &Path) -> io::Result<OpenFile> {
     Opened::new("open", path, || File::open(path))
-}
-
-/// A new and empty file to write; one that is there is emptied.
-///
-/// # Errors
-/// The operating system's error.
-pub fn create(path: &Path) -> io::Result<OpenFile> {
-    Opened::new("create", path, || File::create(path))
 }
 
 /// A device or pipe to write to.
@@ -174,18 +159,6 @@ pub fn process_status() -> String {
 pub fn make_folder(path: &Path) -> io::Result<()> {
     begin("create", path)?;
     create_dir(path)
-}
-
-/// A new folder among the system's temporary files, on Unix for this user alone; it is removed with its contents.
-///
-/// # Errors
-/// The operating system's error.
-pub fn scratch_folder(prefix: &str) -> io::Result<tempfile::TempDir> {
-    begin("create", &std::env::temp_dir())?;
-    let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
-    builder.prefix(prefix).tempdir()
 }
 
 /// Checks that files can be made in a folder: it makes one without a name for a moment.

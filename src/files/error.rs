@@ -1,10 +1,10 @@
-//! Errors of files of other programs, and of the programs themselves.
+//! Errors of files of other programs.
 
 use crate::files::deck::Unread;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// An error of a deck, of a run of NASTRAN-95 or of a file.
+/// An error of a deck, a job or a file.
 ///
 /// The message above a variant is the documentation of its fields. Lines count from one.
 #[derive(Debug, Error)]
@@ -79,27 +79,6 @@ pub enum FileError {
     /// A request to stop a correlation.
     #[error("the correlation was stopped by request")]
     Interrupted,
-    /// NASTRAN-95 is not in the given folder.
-    #[error(
-        "NASTRAN-95: no folder with bin/nastrn and rf/ at {path}; name it with --nastran or the environment variable \
-         NASTRAN95"
-    )]
-    SolverMissing { path: PathBuf },
-    /// NASTRAN-95 did not end in time and was stopped.
-    #[error("NASTRAN-95 was stopped: it was still running after {seconds} s")]
-    SolverTimeLimit { seconds: f64 },
-    /// A request to stop while NASTRAN-95 was running.
-    #[error("NASTRAN-95 was stopped by request")]
-    SolverInterrupted,
-    /// NASTRAN-95 ended with an error status or a signal.
-    #[error("NASTRAN-95 ended with {status}: {message}")]
-    SolverCrashed { status: String, message: String },
-    /// NASTRAN-95 refused its input.
-    #[error("NASTRAN-95 refused its input: {message}")]
-    SolverFatal { message: String },
-    /// Results of NASTRAN-95 that are not what the deck asks for.
-    #[error("NASTRAN-95: {reason}")]
-    SolverAnswer { reason: String },
     /// A file that the operating system refuses to read, write, run or remove; `named` says where it is named, if it is.
     #[error("cannot {action} {}{named}: {}", .path.display(), why(action, source))]
     File {
@@ -126,12 +105,6 @@ impl FileError {
             .get(at)
             .map_or_else(end, |line| is_not(line.trim(), what));
         Self::line(file, at + 1, reason)
-    }
-
-    pub(crate) fn answer(reason: impl Into<String>) -> Self {
-        Self::SolverAnswer {
-            reason: reason.into(),
-        }
     }
 
     pub(crate) fn refused(of: impl ToString, reason: impl Into<String>) -> Self {

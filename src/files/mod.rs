@@ -5,8 +5,6 @@ pub mod deck;
 pub mod disk;
 pub mod error;
 pub mod matrices;
-#[doc(hidden)]
-pub mod nastran95;
 pub mod test_data;
 
 use std::io::{Error, ErrorKind, Read};
@@ -56,8 +54,7 @@ pub fn one_line(text: &str) -> String {
 }
 
 /// A text on one line that a spreadsheet shows as text: a leading apostrophe keeps it from reading a formula. Numbers stay numbers.
-#[doc(hidden)]
-pub fn inert(text: &str) -> String {
+pub(crate) fn inert(text: &str) -> String {
     let is_formula = text.starts_with(['=', '+', '-', '@']) && text.parse::<f64>().is_err();
     if is_formula { "'" } else { "" }.to_owned() + &one_line(text)
 }

@@ -16,8 +16,6 @@ mod matrices;
 pub mod metrics;
 mod model;
 #[doc(hidden)]
-pub mod nastran95;
-#[doc(hidden)]
 pub mod preflight;
 mod loaded;
 mod repeats;
@@ -61,9 +59,11 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 /// A job that explains its entries.
+#[doc(hidden)]
 pub const TEMPLATE: &str = include_str!("template.toml");
 
 /// A test as a table that explains itself.
+#[doc(hidden)]
 pub const TEST_TEMPLATE: &str = include_str!("template.csv");
 
 /// Content of a job file; [`TEMPLATE`] explains every entry.

@@ -8,11 +8,11 @@ use crate::files::test_data::quoted;
 use crate::method::modes::Modes;
 use crate::sparse::random::{split_mix_64, uniform};
 use crate::weighted::noise::{Noise, with_noise_by_mode};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use std::path::Path;
 
 /// Part of a job that differs from sample to sample.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Vary {
     /// The test: every frequency and component by its standard deviation, see [`LoadedJob::deviations`].
@@ -92,16 +92,13 @@ impl Study {
         let (mut job, mut data, ranges) = (job.clone(), data.clone(), source.whole.ranges());
         // One generator per purpose, so that each draws the same whatever else varies.
         let generator = |what: Vary| {
-            let parts = [self.seed, sample, what as u64];
-            let state = parts
-                .into_iter()
-                .fold(0, |state, part| split_mix_64(&mut (state ^ part)));
+            let parts = [self.seed, sample, what as u64].into_iter();
+            let state = parts.fold(0, |state, part| split_mix_64(&mut (state ^ part)));
             self.vary.contains(&what).then_some(state)
         };
         if let Some(seed) = generator(Vary::Noise) {
-            let noise: Vec<Noise> = (0..data.frequencies_hz.len())
-                .map(|mode| self.loaded.deviations(mode))
-                .collect();
+            let modes = 0..data.frequencies_hz.len();
+            let noise: Vec<Noise> = modes.map(|mode| self.loaded.deviations(mode)).collect();
             // Frequencies without shapes draw as if they had one.
             let rows = data.shapes.nrows();
             let mut shapes = data.shapes.clone().resize_vertically(rows.max(1), 1.0);
@@ -121,9 +118,9 @@ impl Study {
                 data.shapes.set_column(mode, &shape);
             }
         }
-        generator(Vary::Subset)
-            .into_iter()
-            .for_each(|state| self.leave_out(&mut job, state));
+        if let Some(state) = generator(Vary::Subset) {
+            self.leave_out(&mut job, state);
+        }
         let mut start = self.loaded.ones();
         if let Some(mut state) = generator(Vary::Start) {
             for (factor, range) in start.iter_mut().zip(&ranges) {
@@ -222,13 +219,10 @@ impl Study {
                 )
             }
             Err(error) => (
-                format!("{FAILED},,,{}", ",".repeat(self.parameters().count())),
+                format!("failed,,,{}", ",".repeat(self.parameters().count())),
                 Some(error),
             ),
         };
         Ok((format!("{sample},{numbers},{}\n", self.identity), failure))
     }
 }
-
-/// The outcome of a sample that failed.
-pub(super) const FAILED: &str = "failed";

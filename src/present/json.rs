@@ -71,7 +71,6 @@ fn in_units(units: &'static str, content: impl Serialize) -> Result<String, Pres
 #[derive(Serialize)]
 struct ReportValue<'a> {
     name: &'a str,
-    solver: &'a str,
     converged: bool,
     trust: &'a Option<Trust>,
     verdict: &'a Option<Verdict>,
@@ -150,7 +149,6 @@ pub fn report(report: &Report) -> Result<Value, PresentError> {
     let factors = report.factors();
     let value = ReportValue {
         name: &report.title,
-        solver: &report.solver,
         converged: report.converged(),
         trust: &report.trust,
         verdict: &report.verdict,

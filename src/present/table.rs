@@ -132,7 +132,7 @@ impl Table {
     }
 
     /// True if a column has sentences.
-    pub fn has_sentences(&self) -> bool {
+    pub(crate) fn has_sentences(&self) -> bool {
         let mut cells = self.rows.iter().flat_map(|row| &row.cells);
         cells.any(|cell| matches!(cell, Cell::Sentence(_)))
     }
@@ -140,7 +140,7 @@ impl Table {
 
 impl Row {
     /// True if any number has a published one behind it.
-    pub fn is_published(&self) -> bool {
+    pub(crate) fn is_published(&self) -> bool {
         self.cells.iter().any(|cell| cell.published().is_some())
     }
 }

@@ -75,7 +75,7 @@ pub fn verdict_in_words(
 
 /// [`verdict_in_words`] on a case, with the parameters that its test cannot tell apart, and the change that a weighted step would
 /// still make.
-pub fn case_in_words(result: &CaseResult) -> String {
+pub(crate) fn case_in_words(result: &CaseResult) -> String {
     let names = &result.parameter_names;
     let mut words = verdict_in_words(&Verdict::of_case(result), None, names, &[]);
     let Some(next) = &result.next_step else {

@@ -1,15 +1,14 @@
-//! `corfem cases`: the paper's cases, by the built-in elements or by NASTRAN-95.
+//! `corfem cases`: the paper's cases.
 
 use super::output::{OutputArguments, note, reconstruction};
 use super::progress;
 use super::settings::SettingsArguments;
-use super::solver::{Solver, SolverArguments};
 use clap::Args;
 use corfem::method::error::Error;
 use corfem::present::table::counted;
 use corfem::present::{PresentError, json, overview::overview, tables};
 use corfem::torque_box::wing_box::Reconstruction;
-use corfem::torque_box::{CASES, Case, CaseResult, Grouping, run_case_with};
+use corfem::torque_box::{CASES, Case, CaseResult, Grouping, run_case};
 use std::path::PathBuf;
 
 #[derive(Debug, Default, Args)]
@@ -29,8 +28,6 @@ pub struct CasesArguments {
     /// Scale covers, spars and ribs as groups instead of every panel on its own
     #[arg(long)]
     groups: bool,
-    #[command(flatten)]
-    solver: SolverArguments,
     #[command(flatten)]
     settings: SettingsArguments,
 }
@@ -67,31 +64,24 @@ fn chosen(
 /// Runs the cases asked for and writes the report; true if all of them succeeded.
 pub fn cases(arguments: &CasesArguments, quiet: bool) -> Result<bool, PresentError> {
     let reconstruction = reconstruction(arguments.box_file.as_deref())?;
-    let solver = Solver::from_arguments(&arguments.solver)?;
     let is_brief = arguments.cases.is_empty() && !arguments.all && arguments.output.is_text();
     let bar = progress::spinner(quiet || !is_brief);
     let mut results = Vec::new();
     for case in chosen(arguments, &reconstruction)? {
         let number = case.number;
-        let elements = |model: &_, factors: &[f64]| solver.elements(model, factors);
-        results.push(run_case_with(
-            &case,
-            solver.name(),
-            elements,
-            |pass, done| {
-                let words = format!(
-                    "case {number}, pass {pass}: {}, error sum {:.4} by perturbation, {:.4} exact",
-                    counted(done.inner.iterations.len(), "iteration", "iterations"),
-                    done.inner.last.errors.sum(),
-                    done.check.errors.sum(),
-                );
-                match is_brief {
-                    true => bar.set_message(words),
-                    false if quiet => (),
-                    false => note(words),
-                }
-            },
-        )?);
+        results.push(run_case(&case, |pass, done| {
+            let words = format!(
+                "case {number}, pass {pass}: {}, error sum {:.4} by perturbation, {:.4} exact",
+                counted(done.inner.iterations.len(), "iteration", "iterations"),
+                done.inner.last.errors.sum(),
+                done.check.errors.sum(),
+            );
+            match is_brief {
+                true => bar.set_message(words),
+                false if quiet => (),
+                false => note(words),
+            }
+        })?);
     }
     bar.finish_and_clear();
     if is_brief {

@@ -20,7 +20,7 @@ const REPLACED: [(&str, &[&str]); 5] = [
             "corrected.bdf",
         ],
     ),
-    ("study", &["summary.csv", "histogram.svg"]),
+    ("study", &["summary.csv"]),
     ("report", &["report.html"]),
     ("figures", &[".svg"]),
     ("dump", &["dump.json", ".mtx"]),

@@ -11,7 +11,6 @@ mod place;
 mod progress;
 mod settings;
 mod signals;
-mod solver;
 mod studies;
 mod study;
 

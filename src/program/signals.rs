@@ -1,10 +1,10 @@
-//! The signals that ask a program to stop: postponed while files are written or another program runs, then obeyed.
+//! The signals that ask a program to stop: postponed while files are written, then obeyed.
 
 use corfem::files::disk::process_status;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::SeqCst};
-use std::sync::{Arc, Once};
 
 #[cfg(unix)]
 const SIGNALS: [i32; 3] = [SIGINT, SIGTERM, signal_hook::consts::SIGHUP];
@@ -13,64 +13,35 @@ const SIGNALS: [i32; 2] = [SIGINT, SIGTERM];
 
 /// True while the signals end the program at once, as they do by default.
 static FREE: AtomicBool = AtomicBool::new(true);
-/// Number of holders that postpone the signals.
-static HOLDERS: AtomicUsize = AtomicUsize::new(0);
 /// The last signal that came while they were postponed; 0 for none.
 static CAME: AtomicUsize = AtomicUsize::new(0);
 
 /// Signals are postponed as long as any of these lives; one that came meanwhile then ends the program.
 pub struct PostponedSignals(());
 
-/// Postpones the signals.
-pub fn postpone() -> PostponedSignals {
-    take_over();
-    HOLDERS.fetch_add(1, SeqCst);
-    FREE.store(false, SeqCst);
-    PostponedSignals(())
-}
-
 /// Postpones the first signal, which sets the flag; a second one ends the program at once.
 pub fn postpone_first() -> (Arc<AtomicBool>, PostponedSignals) {
     let stop = Arc::new(AtomicBool::new(false));
-    set_on_signal(&stop);
     for signal in asked_for() {
+        // A program that cannot be told to stop still does its work.
+        let _ = flag::register_conditional_default(signal, &FREE);
+        let _ = flag::register_usize(signal, &CAME, signal as usize);
+        let _ = flag::register(signal, Arc::clone(&stop));
         // Registered behind the handler that reads it, so that it counts from the next signal on.
         let _ = flag::register(signal, &FREE);
     }
-    (stop, postpone())
-}
-
-/// Takes the signals over from the operating system, once.
-fn take_over() {
-    static ONCE: Once = Once::new();
-    ONCE.call_once(|| {
-        for signal in asked_for() {
-            // A program that cannot be told to stop still does its work.
-            let _ = flag::register_conditional_default(signal, &FREE);
-            let _ = flag::register_usize(signal, &CAME, signal as usize);
-        }
-    });
+    FREE.store(false, SeqCst);
+    (stop, PostponedSignals(()))
 }
 
 impl Drop for PostponedSignals {
     fn drop(&mut self) {
-        if HOLDERS.fetch_sub(1, SeqCst) > 1 {
-            return;
-        }
         FREE.store(true, SeqCst);
         // A signal's number fits the type it came from.
         let came = CAME.load(SeqCst) as i32;
         if came != 0 {
             let _ = signal_hook::low_level::emulate_default_handler(came);
         }
-    }
-}
-
-/// Sets the flag when one of the signals comes while they are postponed.
-pub fn set_on_signal(stop: &Arc<AtomicBool>) {
-    take_over();
-    for signal in asked_for() {
-        let _ = flag::register(signal, Arc::clone(stop));
     }
 }
 

@@ -24,6 +24,7 @@ mod subspace;
 pub mod whole_modes;
 mod whole_model;
 
+#[doc(hidden)]
 pub use assurance::modal_assurance;
 #[doc(hidden)]
 pub use checks::check_solution;
@@ -34,17 +35,20 @@ pub(crate) use checks::{
 pub use deformations::Deformations;
 #[doc(hidden)]
 pub use factorization::Factor;
-pub use lowest_modes::{CountedModes, lowest_modes};
 #[doc(hidden)]
-pub use lowest_modes::{FINITE, MOST_DENSE_ROWS};
+pub use lowest_modes::{CountedModes, FINITE, MOST_DENSE_ROWS, lowest_modes};
 #[doc(hidden)]
 pub use mass_changes::normalize_with_mass;
 pub use matrix::SparseMatrix;
 #[doc(hidden)]
 pub use rigid_bodies::RigidBodies;
+pub use sensor_model::SensorModel;
 pub(crate) use sensor_model::check_weights;
-pub use sensor_model::{ModeWeight, Pair, ParameterMatrix, SensorModel};
-pub use whole_model::{BasisSize, WholeModel, WholeParameter, WholeShare};
+#[doc(hidden)]
+pub use sensor_model::{ModeWeight, Pair, ParameterMatrix};
+#[doc(hidden)]
+pub use whole_model::{BasisSize, WholeShare};
+pub use whole_model::{WholeModel, WholeParameter};
 
 use crate::method::modes::Modes;
 use nalgebra::{DMatrix, DVector};

@@ -12,7 +12,7 @@ pub mod table_1;
 pub mod wing_box;
 
 #[doc(hidden)]
-pub use run::{ANOMALY_RATIO, Anomaly, BUILT_IN, run_case_with, stands_out};
+pub use run::{ANOMALY_RATIO, Anomaly, stands_out};
 pub use run::{CaseResult, run_case};
 
 use crate::method::inner_loop::InnerSettings;

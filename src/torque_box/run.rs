@@ -4,7 +4,7 @@ use super::{Case, Grouping};
 use crate::method::error::Error;
 use crate::method::error_sum::{ModeError, mode_errors};
 use crate::method::inner_loop::first_factors;
-use crate::method::model::{FiniteElementModel, Model};
+use crate::method::model::Model;
 use crate::method::modes::Modes;
 use crate::method::outer_loop::{Correlation, Pass, correlate};
 use crate::method::step::{Bounds, StepRule};
@@ -16,15 +16,12 @@ use crate::weighted::next_step::NextStep;
 use crate::weighted::noise::Noise;
 use serde::Serialize;
 
-/// How many times the next largest demand the largest must be to be reported as an anomaly.
+/// Ratio of the largest demand to the next from which on it is reported as an anomaly.
 ///
 /// The demand is the unlimited factor by the reading gage, the fall of the error per change of gage in inches: a gage a hundred times
 /// too small does not make it a hundred times smaller, as it does the fall per relative change. On 900 other boxes it names the faulty
 /// element of Case 4 on about seven of ten, and no element in Cases 1 to 3 (`paper/localization.md`).
 pub const ANOMALY_RATIO: f64 = 4.0;
-
-/// The finite element analysis of a run unless another is given: the crate's own elements.
-pub const BUILT_IN: &str = "built-in";
 
 /// A parameter whose demand stands far above all others: a modeling error, in all likelihood.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -37,13 +34,11 @@ pub struct Anomaly {
     pub ratio: f64,
 }
 
-/// What became of a case.
+/// Outcome of a case.
 #[derive(Debug, Clone)]
 pub struct CaseResult {
     /// The case.
     pub case: Case,
-    /// What did the finite element analyses: [`BUILT_IN`] or another program.
-    pub solver: &'static str,
     /// Its test modes.
     pub test: Modes,
     /// Its whole history.
@@ -85,13 +80,13 @@ impl CaseResult {
             .map_or(&[], |pass| &pass.inner.first_unlimited_factors)
     }
 
-    /// Whether the run is that of the paper's Case 4: a single iteration that is to detect a modeling error, and corrects
+    /// True if the run is that of the paper's Case 4: a single iteration that is to detect a modeling error, and corrects
     /// nothing.
-    pub fn is_detection(&self) -> bool {
+    pub(crate) fn is_detection(&self) -> bool {
         (self.case.number, self.case.settings.inner.iterations) == (4, 1)
     }
 
-    /// Whether the case did what the paper asked of it: Cases 1 to 3 correlate; Case 4, a single iteration, names a
+    /// True if the case did what the paper asked of it: Cases 1 to 3 correlate; Case 4, a single iteration, names a
     /// faulty element.
     pub fn succeeded(&self) -> bool {
         if self.is_detection() {
@@ -105,36 +100,18 @@ impl CaseResult {
 /// Correlates a case and looks where a weighted step would go from there; `progress` is called after every pass.
 ///
 /// # Errors
-/// Those of the model, the analysis and the loops.
+/// The errors of the model, the analysis and the loops.
 pub fn run_case(
     case: &Case,
     mut progress: impl FnMut(usize, &Pass),
 ) -> Result<CaseResult, CaseError> {
-    run_case_with(case, BUILT_IN, |model, _| Ok(model.clone()), &mut progress)
-}
-
-/// Correlates a case with another finite element analysis than the crate's own: `solver` is its name for the report,
-/// `elements` is given the model and the factors on its parameters, and returns the model with that program's element
-/// stiffness. The test modes come from it too, as in the paper, so that what is peculiar to an
-/// element is the same on both sides.
-///
-/// # Errors
-/// Those of `elements` and of [`run_case`].
-pub fn run_case_with<E: From<CaseError> + From<Error>>(
-    case: &Case,
-    solver: &'static str,
-    mut elements: impl FnMut(&FiniteElementModel, &[f64]) -> Result<FiniteElementModel, E>,
-    mut progress: impl FnMut(usize, &Pass),
-) -> Result<CaseResult, E> {
-    let (model, tested) = (case.model()?, case.test_model()?);
-    let ones = vec![1.0; tested.parameters().len()];
-    let test = elements(&tested, &ones)?.modes(&ones)?;
+    let (model, test) = (case.model()?, case.test_modes()?);
     let by_gage = case.settings_by(StepRule::Gage).inner;
     let ranges = model.factor_ranges()?;
     let (mut demands, mut seen) = (None, Vec::new());
     let correlation = correlate(
-        |factors| -> Result<Model, E> {
-            let analysis = elements(&model, factors)?.analyze(factors, &test, None)?;
+        |factors| -> Result<Model, CaseError> {
+            let analysis = model.analyze(factors, &test, None)?;
             if demands.is_none() {
                 demands = Some(first_factors(&analysis, &by_gage)?);
                 let shares = analysis.test_shares().iter();
@@ -167,15 +144,16 @@ pub fn run_case_with<E: From<CaseError> + From<Error>>(
     });
     let (best, check) = (&correlation.best_factors, correlation.best_check());
     let best_errors = mode_errors(&check.modes, &check.pairing, &test)?;
-    let next_step = correlation.converged.then(|| -> Result<NextStep, E> {
-        let there = elements(&model, best)?.analyze(best, &test, None)?;
-        let there = Comparison::from(&there);
-        Ok(NextStep::at(&there, Noise::USUAL, PRIOR_DEVIATION)?)
-    });
+    let next_step = correlation
+        .converged
+        .then(|| -> Result<NextStep, CaseError> {
+            let there = model.analyze(best, &test, None)?;
+            let there = Comparison::from(&there);
+            Ok(NextStep::at(&there, Noise::USUAL, PRIOR_DEVIATION)?)
+        });
     Ok(CaseResult {
         next_step: next_step.transpose()?,
         case: case.clone(),
-        solver,
         test,
         correlation,
         parameter_names,

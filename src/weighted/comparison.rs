@@ -20,6 +20,7 @@ use std::f64::consts::TAU;
 pub(crate) const HALF_THE_DIGITS: f64 = 1e-8;
 
 /// A frequency of the test without a shape, and the mode of the model that it is compared with.
+#[doc(hidden)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoneFrequency {
     /// Hz.

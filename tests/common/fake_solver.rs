@@ -1,6 +1,6 @@
 //! NASTRAN-95 played by a small shell script, and its answers written as module OUTPUT5 writes them.
 
-use corfem::job::nastran95::Nastran95;
+use crate::common::outer_loop::program::Nastran95;
 use nalgebra::DMatrix;
 use std::fmt::Write;
 use std::os::unix::fs::PermissionsExt;

@@ -1,4 +1,7 @@
-//! The stored answers of the outer loop through NASTRAN-95.
+//! The outer loop through NASTRAN-95: the program that does it, and its stored answers.
+
+#[path = "../../paper/nastran95.rs"]
+pub mod program;
 
 use corfem::method::analysis::State;
 use corfem::torque_box::CASES;
@@ -61,16 +64,14 @@ pub fn stored_wing() -> StoredWing {
 }
 
 pub fn stored() -> Vec<StoredCase> {
-    let text = include_str!("../../golden/nastran95/outer_loop.toml");
-    let stored: Stored = toml::from_str(text).expect("the golden reads");
-    assert_eq!(
-        stored
-            .case
-            .iter()
-            .map(|case| case.number)
-            .collect::<Vec<_>>(),
-        CASES
-    );
+    let cases = read_cases(include_str!("../../golden/nastran95/outer_loop.toml"));
+    assert!(cases.iter().map(|case| case.number).eq(CASES));
+    cases
+}
+
+/// Cases of a text such as the golden's.
+pub fn read_cases(text: &str) -> Vec<StoredCase> {
+    let stored: Stored = toml::from_str(text).expect("it reads");
     stored.case
 }
 

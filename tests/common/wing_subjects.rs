@@ -37,7 +37,6 @@ pub fn wing_subject(wing: &DeltaWing, run: &WingCorrelation) -> Result<Report, P
     let first = model.analyze(&[1.0; GROUPS.len()], &run.test, None)?;
     Ok(Report {
         title: "Delta wing with wrong gages".to_owned(),
-        solver: run.solver.to_owned(),
         ranges: model.factor_ranges()?,
         supports: held.map(|grid| grid.position).collect(),
         sensors: measured_grids(structure).into_iter().map(sensor).collect(),

@@ -3,74 +3,12 @@
 
 use crate::common::drawings::words;
 use crate::common::golden::{Numbers, assert_golden};
-use corfem::job::{Spread, Summary};
 use corfem::method::error_sum::Errors;
 use corfem::method::step::Bounds;
 use corfem::present::figures::error_history::{self, PassHistory};
 use corfem::present::figures::factors::{DrawnFactor, Factors};
-use corfem::present::figures::histogram;
 use corfem::present::figures::matrices::{HeatMap, draw_by_twos};
 use nalgebra::DMatrix;
-
-/// A spread between two ends; what the figure does not draw is left at zero.
-pub fn spread(ends: [f64; 2], quantiles: [f64; 3], bars: &[usize]) -> Spread {
-    Spread {
-        count: 0,
-        at_bound: 0,
-        mean: 0.0,
-        deviation: 0.0,
-        quantiles,
-        ends,
-        bars: bars.to_vec(),
-    }
-}
-
-pub fn summary(spreads: Vec<(&str, Option<Spread>)>) -> Summary {
-    let spreads = spreads
-        .into_iter()
-        .map(|(name, spread)| (name.to_owned(), spread))
-        .collect();
-    Summary {
-        spreads,
-        within: 0,
-        outside: 0,
-        failed: Vec::new(),
-    }
-}
-
-#[test]
-fn histograms_of_few_samples() {
-    let summary = summary(vec![
-        (
-            "spar web",
-            Some(spread([0.8, 1.3], [0.82, 1.01, 1.29], &[1, 0, 4, 2, 3])),
-        ),
-        ("all alike", Some(spread([1.25, 1.25], [1.25; 3], &[7]))),
-        ("every sample failed", None),
-        (
-            "far apart",
-            Some(spread([-12.0, 30.0], [-11.0, 2.0, 29.0], &[9, 3, 1])),
-        ),
-        (
-            "close",
-            Some(spread([0.999, 1.0], [0.9991, 0.9995, 0.9999], &[2, 2])),
-        ),
-    ]);
-    let drawn = histogram::draw("histogram", "Samples", &summary).expect("drawn");
-    // As many decimals as tell the ends apart: of a thousandth four, of forty none.
-    assert!(
-        words(&drawn)
-            .iter()
-            .any(|word| word.starts_with("0.999") && word.len() == 6),
-        "{:?}",
-        words(&drawn)
-    );
-    assert!(
-        words(&drawn).iter().any(|word| word == "20")
-            && !words(&drawn).iter().any(|word| word == "20.0")
-    );
-    assert_golden("drawing_histogram", &drawn, Numbers::DRAWN);
-}
 
 fn factor(name: &str, value: f64) -> DrawnFactor {
     DrawnFactor {

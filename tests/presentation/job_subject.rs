@@ -8,7 +8,6 @@ use crate::common::known::wing::Wing;
 use crate::common::tolerances::{CENTRAL_DIFFERENCE_GRADIENT, ROUND_OFF};
 use crate::common::whole_models::of_dense;
 use crate::presentation::figures::{results, wings};
-use crate::presentation::figures_made_up::{spread, summary};
 use crate::readers::job_errors::{placed, with};
 use crate::readers::job_prepared::prepared;
 use approx::assert_relative_eq;
@@ -177,7 +176,7 @@ fn a_study_counts_what_failed_among_its_samples() {
         within: 4,
         outside: 1,
         failed: vec![2, 6],
-        ..summary(vec![("a", None)])
+        spreads: vec![("a".to_owned(), None)],
     };
     let notes = study_table(&study, &summary).notes;
     assert_eq!(
@@ -193,14 +192,22 @@ fn a_study_counts_the_samples_at_a_bound() {
     let (_folder, path) = placed(&rods());
     let study = Study::new(&path, 3, &[Vary::Noise], &[]).expect("a study");
     let of = |at_bound| {
-        let spread = spread([0.8, 0.8], [0.8; 3], &[7]);
         Some(Spread {
             count: 7,
             at_bound,
-            ..spread
+            mean: 0.8,
+            deviation: 0.0,
+            quantiles: [0.8; 3],
         })
     };
-    let summary = summary(vec![("all", of(7)), ("some", of(2))]);
+    let summary = Summary {
+        spreads: [("all", 7), ("some", 2)]
+            .map(|(name, at_bound)| (name.to_owned(), of(at_bound)))
+            .into(),
+        within: 7,
+        outside: 0,
+        failed: Vec::new(),
+    };
     let table = study_table(&study, &summary);
     let cells = |row: usize| -> Vec<String> {
         table.rows[row]

@@ -13,7 +13,6 @@ pub mod figures_legible;
 pub mod figures_made_up;
 pub mod figures_structure;
 pub mod frame;
-pub mod histogram;
 pub mod job_subject;
 pub mod matrix_tables;
 pub mod noisy_tables;

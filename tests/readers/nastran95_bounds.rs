@@ -35,12 +35,7 @@ fn what_is_no_file_or_too_large_is_not_read() {
         let home = fake(script);
         let mut solver = solver(&home);
         solver.output_limit = 10_000;
-        let error = solver.run("").expect_err(script);
-        assert!(
-            matches!(&error, FileError::SolverAnswer { .. }),
-            "{script}: {error}"
-        );
-        error.to_string()
+        solver.run("").expect_err(script).to_string()
     };
     for name in ["ftn15", "printed"] {
         let is_file = format!("NASTRAN-95: its {name} is not a regular file");
@@ -68,11 +63,11 @@ fn a_folder_that_is_gone_is_no_run_without_output() {
     let error = solver(&fake("rm -rf \"$DIRCTY\"; touch \"$DIRCTY\""))
         .run("")
         .expect_err("its folder is a file");
-    let FileError::File {
+    let Some(FileError::File {
         path,
         action: "read",
         ..
-    } = &error
+    }) = error.downcast_ref()
     else {
         panic!("{error}")
     };

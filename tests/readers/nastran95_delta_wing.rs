@@ -1,4 +1,4 @@
-//! The delta wing's correlation through NASTRAN-95: its stored answers against the crate, and how its report names it.
+//! The delta wing's correlation through NASTRAN-95: its stored answers against the crate.
 //!
 //! `golden/nastran95/delta_wing.toml` is what its correlation with NASTRAN-95 found; `golden/nastran95/README.md` says how
 //! it was made and what to expect of it.
@@ -9,15 +9,10 @@ use crate::common::known::delta_wing::correlation::{
 };
 use crate::common::outer_loop::{assert_near, paired_hz, stored_wing};
 use crate::common::tolerances::{NASTRAN_AGAIN, NASTRAN_FREQUENCY, NASTRAN_GAGE};
-use crate::common::wing_subjects::wing_subject;
-use crate::evidence::delta_wing_tables::delta_wing_tables;
 use corfem::files::error::FileError;
-use corfem::job::nastran95::NAME;
 use corfem::method::analysis::Analysis;
 use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
-use corfem::present::json;
-use corfem::torque_box::BUILT_IN;
 use std::sync::LazyLock;
 
 static RUN: LazyLock<WingCorrelation> =
@@ -111,7 +106,6 @@ fn another_analysis_is_asked_for_every_model() {
     let run = correlate_wing_with(
         &wing(),
         &settings(),
-        "another program",
         |model, factors| {
             asked.push(factors.to_vec());
             Ok::<_, Error>(model.clone())
@@ -119,7 +113,7 @@ fn another_analysis_is_asked_for_every_model() {
         |pass, _| told.push(pass),
     )
     .expect("it runs");
-    assert_eq!((run.solver, RUN.solver), ("another program", BUILT_IN));
+    assert_eq!(run.correlation.passes.len(), RUN.correlation.passes.len());
     assert_eq!(told, [1, 2, 3]);
     // For the shares of the first model, at the start of the loop, and after every pass.
     let mut expected = vec![vec![1.0; GROUPS.len()]; 2];
@@ -139,78 +133,15 @@ fn what_an_analysis_cannot_do_is_the_correlations_error() {
         let error = correlate_wing_with(
             &wing(),
             &settings(),
-            NAME,
             |model: &FiniteElementModel, _: &[f64]| {
                 if left == 0 {
-                    return Err(FileError::SolverInterrupted);
+                    return Err(FileError::Interrupted);
                 }
                 left -= 1;
                 Ok(model.clone())
             },
             |_, _| {},
         );
-        assert!(
-            matches!(error, Err(FileError::SolverInterrupted)),
-            "{answered}"
-        );
-    }
-}
-
-#[test]
-fn reports_name_another_solver() {
-    let other = WingCorrelation {
-        solver: NAME,
-        ..RUN.clone()
-    };
-    let noted = |run: &WingCorrelation| {
-        let tables = delta_wing_tables(&wing(), run).expect("tables");
-        let notes = tables.into_iter().map(|table| (table.name, table.notes));
-        notes.collect::<Vec<_>>()
-    };
-    let note =
-        "Finite element analyses of the model by NASTRAN-95; everything else by this program.";
-    let mut expected = noted(&RUN);
-    assert_eq!(
-        (expected[4].0.as_str(), expected[4].1.len()),
-        ("delta_wing_modes", 1)
-    );
-    expected[4].1.insert(0, note.to_owned());
-    assert_eq!(noted(&other), expected);
-    for run in [&*RUN, &other] {
-        let subject = wing_subject(&wing(), run).expect("a subject");
-        let json = json::report(&subject).expect("a value");
-        assert_eq!(json["solver"], run.solver);
-    }
-}
-
-#[cfg(unix)]
-#[test]
-fn the_command_asks_the_solver_it_is_given() {
-    use crate::common::fake_solver::fake;
-    let home = fake("exit 9");
-    let slow = fake("sleep 60");
-    let slow = slow.path().to_str().expect("a name");
-    for (extra, message) in [
-        (&[][..], "exit status: 9"),
-        (
-            &["--nastran", slow, "--time-limit", "1"],
-            "still running after 1 s",
-        ),
-        (
-            &["--nastran", "no/such/folder"],
-            "no folder with bin/nastrn and rf/ at no/such/folder",
-        ),
-    ] {
-        let output = assert_cmd::Command::cargo_bin("corfem")
-            .expect("the program is built")
-            .args(["cases", "1", "--solver", "nastran95"])
-            .args(extra)
-            .env("NASTRAN95", home.path())
-            .output()
-            .expect("it starts");
-        let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(2), "{stderr}");
-        assert!(stderr.contains(message), "{stderr}");
-        assert!(output.stdout.is_empty());
+        assert!(matches!(error, Err(FileError::Interrupted)), "{answered}");
     }
 }

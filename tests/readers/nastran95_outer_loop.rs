@@ -1,6 +1,6 @@
 //! The outer loop through NASTRAN-95: its stored answers against the crate.
 //!
-//! `golden/nastran95/outer_loop.toml` is what `corfem cases --solver nastran95` found; `golden/nastran95/README.md` says how it
+//! `golden/nastran95/outer_loop.toml` is what `cargo run --example nastran95` found; `golden/nastran95/README.md` says how it
 //! was made and what to expect of it.
 
 use crate::common::outer_loop::{assert_near, paired_hz, stored};

@@ -5,19 +5,18 @@ use crate::common::known::delta_wing::correlation::{
     correlate_wing_with, first_model, settings, test_modes,
 };
 use crate::common::known::weighed::Weighed;
+use crate::common::outer_loop::program::{Nastran95, correlate_case, default_folder};
 use crate::common::outer_loop::{assert_near, paired_hz, stored, stored_wing};
 use crate::common::tolerances::{
     NASTRAN_AGAIN, NASTRAN_EIGENVALUE, NASTRAN_FREQUENCY, NASTRAN_GAGE, NASTRAN_PRINTED_EIGENVALUE,
     NASTRAN_SINGLE_PRECISION, SAME_HISTORY,
 };
 use corfem::files::deck::{self, BulkData, Task};
-use corfem::job::nastran95::{NAME, Nastran95, default_folder};
 use corfem::method::analysis::Analysis;
 use corfem::method::model::{DynamicModel, FiniteElementModel};
 use corfem::method::modes::solve;
-use corfem::present::PresentError;
+use corfem::torque_box::Case;
 use corfem::torque_box::wing_box::{PANEL_COUNT, dynamic_points};
-use corfem::torque_box::{Case, run_case_with};
 use nalgebra::DMatrix;
 
 /// The program, which these tests need: `cargo test nastran -- --include-ignored` runs them too.
@@ -58,13 +57,8 @@ fn nastran_answers_as_stored() {
         }
     }
     let case = Case::new(2).expect("a case");
-    let run = run_case_with(
-        &case,
-        NAME,
-        |model, factors| Ok::<_, PresentError>(nastran.elements(model, factors)?),
-        |_, _| (),
-    )
-    .expect("a run");
+    let by_nastran = |model: &_, factors: &[f64]| nastran.elements(model, factors);
+    let run = correlate_case(&case, by_nastran).expect("a run");
     let expected = &stored()[1].passes[1];
     assert_near(
         &run.pass_gages[1],
@@ -207,8 +201,7 @@ fn nastran_corrects_the_delta_wing_as_stored() {
     let run = correlate_wing_with(
         &DeltaWing::embedded(),
         &settings(),
-        NAME,
-        |model, factors| Ok::<_, PresentError>(nastran.elements(model, factors)?),
+        |model, factors| nastran.elements(model, factors),
         |_, _| (),
     )
     .expect("a run");

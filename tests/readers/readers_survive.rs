@@ -5,10 +5,10 @@
 //! reader with that word in its name, all of them without, and says how many and in what time. `CORFEM_SEED=100000` goes on behind them.
 
 use crate::common::draws::Draws;
+use crate::common::outer_loop::program::read_output5;
 use crate::common::test_files::{write_csv, write_universal};
 use corfem::files::deck::{modes, read as read_deck, rewrite};
 use corfem::files::matrices::read as read_matrix;
-use corfem::files::nastran95::read_output5;
 use corfem::files::test_data::read as read_test;
 use corfem::job::{Job, LoadedJob};
 use corfem::torque_box::published::PublishedTable;

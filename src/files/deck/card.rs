@@ -95,7 +95,7 @@ impl Card {
     }
 
     /// A real number; `None` for a blank.
-    pub fn optional_real(&self, field: usize) -> Result<Option<f64>, FileError> {
+    pub(crate) fn optional_real(&self, field: usize) -> Result<Option<f64>, FileError> {
         match (self.text(field), parse_real(self.text(field))) {
             ("", _) => Ok(None),
             (_, Some(value)) => Ok(Some(value)),
@@ -172,7 +172,7 @@ impl Card {
     }
 
     /// The entry that a field refers to by its number, which must exist; `card` is the name of the card it is on.
-    pub fn referred<'a, T>(
+    pub(crate) fn referred<'a, T>(
         &self,
         field: usize,
         all: &'a BTreeMap<usize, T>,

@@ -96,7 +96,7 @@ impl ElementCards {
     }
 
     /// The card with the size and the material of an element: its property's, which must exist, or its own.
-    pub fn holder<'a>(
+    pub(crate) fn holder<'a>(
         &'a self,
         connection: &'a Kept<Option<usize>>,
     ) -> Result<Holder<'a>, FileError> {

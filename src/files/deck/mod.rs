@@ -42,6 +42,7 @@ pub use modes::modes;
 pub use read::{Deck, read};
 #[doc(hidden)]
 pub use read::{Reason, Unread};
+#[doc(hidden)]
 pub use rewrite::rewrite;
 #[doc(hidden)]
 pub use write::{Task, write};

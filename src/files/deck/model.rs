@@ -1,14 +1,14 @@
 //! The model that a deck describes: grids, elements, ties and masses, whatever the order and the format of its cards.
 
 use crate::files::error::FileError;
-use crate::method::error::{at_least_one, require};
-use crate::method::linear_algebra::check_length;
+use crate::method::error::{Error, at_least_one, require};
+use crate::method::linear_algebra::{check_length, check_shape, check_symmetric};
 use crate::method::model::FiniteElementModel;
 use crate::method::structure::{DIRECTIONS, Element, Grid, Point, StructuralDof, Structure};
 use crate::sparse::SparseMatrix;
 use crate::sparse::elements::{corner_volumes, lumped_masses};
 use crate::sparse::whole_modes::MassDof;
-use nalgebra::{DVector, Vector3};
+use nalgebra::{DMatrix, DVector, Vector3};
 use std::collections::{BTreeMap, HashMap};
 
 /// Direction of the DOF that stands for a dynamic point: z.
@@ -81,6 +81,25 @@ pub struct BulkData {
 /// Position of a mass, and the amounts of it that move along x, y and z.
 pub type PlacedMass = (Vector3<f64>, Vector3<f64>);
 
+impl FiniteElementModel {
+    /// Model with element matrices of another origin, such as the program that was given its deck: stiffness for unit size at each
+    /// element's free DOF, lbf/in, in the structure's order.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] and [`Error::Value`] for matrices that do not fit or are not symmetric and finite.
+    pub fn with_unit_stiffness(&self, units: Vec<DMatrix<f64>>) -> Result<Self, Error> {
+        check_length("element matrices", units.len(), self.element_matrices.len())?;
+        let mut model = self.clone();
+        for (element, unit) in model.element_matrices.iter_mut().zip(units) {
+            let dof_count = element.dof.len();
+            check_shape("element stiffness", &unit, dof_count, dof_count)?;
+            check_symmetric("element stiffness", &unit)?;
+            element.unit = unit;
+        }
+        Ok(model)
+    }
+}
+
 impl BulkData {
     /// A structure alone, without ties and point masses.
     pub fn from_structure(structure: &Structure) -> Self {
@@ -102,8 +121,8 @@ impl BulkData {
     /// $$ -u_m + \sum_s T_{sm} u_s = 0 $$
     ///
     /// # Errors
-    /// [`Error::WrongShape`](crate::method::error::Error::WrongShape) unless there is a factor per parameter and a point per dynamic
-    /// DOF; [`Error::Value`](crate::method::error::Error::Value) for a factor that is not
+    /// [`Error::WrongShape`] unless there is a factor per parameter and a point per dynamic
+    /// DOF; [`Error::Value`] for a factor that is not
     /// positive, or a mass matrix that is not diagonal.
     pub fn from_model(
         model: &FiniteElementModel,
@@ -161,7 +180,7 @@ impl BulkData {
     }
 
     /// The first number after the next multiple of a hundred above every grid, element and mass.
-    pub(crate) fn first_free_label(&self) -> usize {
+    pub fn first_free_label(&self) -> usize {
         let grids = self.grids.iter().map(|grid| grid.label);
         let elements = self.elements.iter().map(|element| element.label);
         let masses = self.masses.iter().map(|mass| mass.label);

@@ -32,7 +32,7 @@ pub fn parse_real(text: &str) -> Option<f64> {
 }
 
 /// The reals of a line in columns of one width, or `None` unless each of them holds one; the last may be narrower.
-pub(crate) fn parse_reals(line: &str, width: usize) -> Option<Vec<f64>> {
+pub fn parse_reals(line: &str, width: usize) -> Option<Vec<f64>> {
     let columns = line.as_bytes().chunks(width);
     columns
         .map(|column| parse_real(std::str::from_utf8(column).ok()?.trim()))

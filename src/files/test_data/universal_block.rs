@@ -27,7 +27,7 @@ impl<'a> Block<'a> {
         }
     }
 
-    pub fn is_done(&self) -> bool {
+    pub(crate) fn is_done(&self) -> bool {
         self.lines.iter().all(|line| line.trim().is_empty())
     }
 
@@ -40,7 +40,7 @@ impl<'a> Block<'a> {
     }
 
     /// The number in the file of the line read last.
-    pub fn last_number(&self) -> usize {
+    pub(crate) fn last_number(&self) -> usize {
         self.number - 1
     }
 
@@ -49,7 +49,7 @@ impl<'a> Block<'a> {
         FileError::line(self.file, self.last_number(), reason)
     }
 
-    pub fn is_not(&self, found: impl ToString, what: &str) -> FileError {
+    pub(crate) fn is_not(&self, found: impl ToString, what: &str) -> FileError {
         self.wrong(is_not(&found.to_string(), what))
     }
 

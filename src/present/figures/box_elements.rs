@@ -111,7 +111,7 @@ pub fn draw(case: &Case) -> Result<String, PresentError> {
 ///
 /// # Errors
 /// The errors of [`Case::model`]; [`PresentError::Drawing`].
-pub fn draw_gages(result: &CaseResult) -> Result<String, PresentError> {
+pub(crate) fn draw_gages(result: &CaseResult) -> Result<String, PresentError> {
     let model = result.case.model()?;
     let before = result.case.first_gages();
     let factors = result.correlation.best_factors.iter();

@@ -202,12 +202,6 @@ pub(super) fn corners((left, top): Place, (right, bottom): Place) -> [Place; 4] 
     [(left, top), (right, top), (right, bottom), (left, bottom)]
 }
 
-/// A bar of a bar chart between two opposite corners.
-pub(super) fn bar(area: &Area, from: Place, to: Place, fill: RGBColor) -> Drawn {
-    rectangle(area, from, to, fill)?;
-    polygon(area, &corners(from, to), None, Pen::solid(INK, 0.7))
-}
-
 pub(super) fn mark(area: &Area, at: Place, Mark(form, size, fill, pen): Mark) -> Drawn {
     let corners = match form {
         Form::Circle => {

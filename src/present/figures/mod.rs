@@ -14,7 +14,6 @@ pub mod error_history;
 pub mod factors;
 pub mod matrices;
 pub mod frame;
-pub mod histogram;
 pub mod mode_shapes;
 pub mod structure;
 pub mod report;

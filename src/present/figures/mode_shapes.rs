@@ -122,7 +122,7 @@ impl DrawnModes {
 
     /// The modes whose shape in the first model is at least as far from the test's as the mean over all; every mode where all are
     /// alike.
-    pub fn differing(&self) -> Self {
+    pub(crate) fn differing(&self) -> Self {
         let far = |mode: &DrawnMode| -> f64 {
             let known = self.frame.known.keys();
             known

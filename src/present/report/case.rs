@@ -47,7 +47,6 @@ impl Report {
         let sensor = |(row, &at)| up(format!("D{}", row + 1), at);
         Ok(Self {
             title: format!("Case {}", case.number),
-            solver: result.solver.to_owned(),
             ranges: model.factor_ranges()?,
             sensors: points.iter().enumerate().map(sensor).collect(),
             frame: bays

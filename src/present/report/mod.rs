@@ -24,6 +24,7 @@ use crate::weighted::starts::Minimum;
 use nalgebra::{DMatrix, Vector3};
 
 /// A row of the shapes.
+#[doc(hidden)]
 #[derive(Debug, Clone, PartialEq)]
 pub struct SensorPoint {
     /// What it is called.
@@ -48,6 +49,7 @@ pub struct Stage {
 }
 
 /// Derivatives at the first model by the relative stiffness or mass of each parameter.
+#[doc(hidden)]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Derivatives {
     /// $\partial \ln f_i/\partial \ln s_e$ of the mode paired with test mode $i$ (parameters × test modes, those without shapes last).
@@ -63,8 +65,6 @@ pub struct Report {
     pub name: String,
     /// The title that readers see.
     pub title: String,
-    /// The program that did the finite element analyses.
-    pub solver: String,
     /// Names of the parameters.
     pub parameters: Vec<String>,
     /// Bounds on their factors, if any.
@@ -117,6 +117,7 @@ pub struct Report {
 }
 
 /// How analysis modes (rows) and test modes (columns) agree.
+#[doc(hidden)]
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairAgreement {
     /// Modal assurance criterion, which uses no mass.
@@ -192,7 +193,6 @@ impl Report {
         Self {
             name: name.to_owned(),
             title: name.to_owned(),
-            solver: crate::torque_box::BUILT_IN.to_owned(),
             parameters: parameters.to_vec(),
             ranges: vec![None; parameters.len()],
             deviations: None,
@@ -244,7 +244,7 @@ impl Report {
     }
 
     /// The number of a test mode (its place from zero) in the test's file; its place from one where that is not known.
-    pub fn mode_number(&self, place: usize) -> usize {
+    pub(crate) fn mode_number(&self, place: usize) -> usize {
         self.mode_numbers.get(place).copied().unwrap_or(place + 1)
     }
 
@@ -306,7 +306,7 @@ impl Report {
     }
 
     /// Errors of a stage: of the exact solution it starts from, then after every iteration of its inner loop.
-    pub fn inner_errors(&self, stage: usize) -> Vec<Errors> {
+    pub(crate) fn inner_errors(&self, stage: usize) -> Vec<Errors> {
         let before = stage
             .checked_sub(1)
             .map_or(&self.initial, |before| &self.stages[before].check);

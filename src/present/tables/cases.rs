@@ -1,6 +1,5 @@
 //! The paper's Tables 3 to 8 and 13 from runs of its cases, each number beside the published one.
 
-use super::report::solver_note;
 use super::stages::{self, ErrorStage};
 use super::unlimited::unlimited_table;
 use super::{MODE_ERRORS, PERCENT, RMS_PERCENT, remarks};
@@ -77,11 +76,6 @@ pub fn frequency_table(result: &CaseResult) -> Result<Table, PresentError> {
         )
     };
     let table = named(result, paper.as_ref(), "frequencies", "Mode");
-    let table = table.notes(solver_note(
-        result.solver,
-        "",
-        ", of the test configuration too;",
-    ));
     let (test_hz, stages) = (
         result.test.frequencies_hz(),
         checks.map(stage).collect::<Vec<_>>(),
@@ -182,7 +176,7 @@ pub fn iteration_table(results: &[CaseResult]) -> Result<Table, PresentError> {
 }
 
 /// The settings that each case was run with.
-pub fn settings_table(results: &[CaseResult]) -> Table {
+pub(crate) fn settings_table(results: &[CaseResult]) -> Table {
     let mut table = Table::new("settings", "Settings of the loops", "Case")
         .headings(
             [
@@ -221,7 +215,7 @@ pub fn settings_table(results: &[CaseResult]) -> Table {
 }
 
 /// The outcome of every case, one line each.
-pub fn outcome_table(results: &[CaseResult]) -> Table {
+pub(crate) fn outcome_table(results: &[CaseResult]) -> Table {
     let note = "Correlated: the exact error sum is within the tolerance TOLO. Case 4 as published is one iteration that is to \
         detect a modeling error; its gages are not corrected.";
     let verdict = |result: &CaseResult| {
@@ -285,7 +279,7 @@ pub fn all_tables(results: &[CaseResult]) -> Result<Vec<Table>, PresentError> {
 }
 
 /// The tables of one case: frequencies, gages, and these after one weighted step; in Case 4 also what its single iteration asks for.
-pub fn tables_of(result: &CaseResult) -> Result<Vec<Table>, PresentError> {
+pub(crate) fn tables_of(result: &CaseResult) -> Result<Vec<Table>, PresentError> {
     let mut tables = vec![frequency_table(result)?, gage_table(result)?];
     tables.extend(next_step_table(result));
     if result.case.number == CASES[3] {

@@ -5,7 +5,6 @@ use crate::method::error::Error;
 use crate::method::step::Bounds;
 use crate::present::report::{PairAgreement, Report};
 use crate::present::table::{Cell, Digits, Table, numbers, percents};
-use crate::torque_box::BUILT_IN;
 use crate::weighted::comparison::ExactResult;
 use crate::weighted::identifiability::MOSTLY_PRIOR;
 
@@ -113,10 +112,8 @@ pub fn paired_table(report: &Report) -> Result<Table, Error> {
         "Others: the largest {measure} of either mode with any but its partner. Good: at least 0.95, others at most 0.05; \
         acceptable: 0.90 and 0.10.{by} MAC is not mass-weighted. Shape RMS: of components, largest one, over all modes."
     );
-    let solver = solver_note(&report.solver, " of the model", ";");
     Ok(table
         .column(verdict.0, "", verdict.1)
-        .notes(solver)
         .notes(is_shaped.then_some(note))
         .filled())
 }
@@ -297,13 +294,4 @@ pub fn derivative_table(report: &Report) -> Option<Table> {
         "points",
         numbers(derivatives.error_sum.iter().copied(), THREE),
     ))
-}
-
-/// A note on the program that did the finite element analyses, when it was not the crate itself.
-pub(super) fn solver_note(solver: &str, before: &str, after: &str) -> Option<String> {
-    (solver != BUILT_IN).then(|| {
-        format!(
-            "Finite element analyses{before} by {solver}{after} everything else by this program."
-        )
-    })
 }

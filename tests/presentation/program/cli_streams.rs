@@ -262,8 +262,6 @@ fn what_was_meant_is_suggested() {
             &["cases", "2", "1", "2"],
             "corfem: the cases asked for: case 2 is given twice",
         ),
-        (&["cases", "1", "--nastran", "x"], "--solver <SOLVER>"),
-        (&["cases", "1", "--time-limit", "9"], "--solver <SOLVER>"),
         (
             &["modes", "deck", "-c", "0"],
             "invalid value '0' for '--count <N>'",
@@ -281,23 +279,6 @@ fn what_was_meant_is_suggested() {
             text(&refused.stderr)
         );
     }
-}
-
-#[test]
-fn an_empty_variable_is_as_good_as_none() {
-    let with = |solver: &[&str]| {
-        let arguments = [&SHORT[..], solver].concat();
-        program(&arguments)
-            .env("NASTRAN95", "")
-            .env("HOME", "/no/such")
-            .output()
-            .expect("it starts")
-    };
-    assert_eq!(with(&[]).stdout, report());
-    assert!(
-        text(&with(&["--solver", "nastran95"]).stderr)
-            .contains("no folder with bin/nastrn and rf/ at /no/such/.cache/nastran95")
-    );
 }
 
 #[test]

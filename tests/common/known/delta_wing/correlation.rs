@@ -23,7 +23,6 @@ use corfem::method::outer_loop::{Correlation, Pass, Settings, correlate};
 use corfem::method::step::{Accumulation, StepRule};
 use corfem::method::structure::{Element, Material, Structure};
 use corfem::sparse::SparseMatrix;
-use corfem::torque_box::BUILT_IN;
 use nalgebra::DMatrix;
 
 /// Elements that are scaled together.
@@ -170,8 +169,6 @@ pub fn test_modes(wing: &DeltaWing) -> Result<Modes, Error> {
 /// The scenario run to its end.
 #[derive(Debug, Clone)]
 pub struct WingCorrelation {
-    /// What did the finite element analyses of the model: [`BUILT_IN`] or another program.
-    pub solver: &'static str,
     /// The test modes.
     pub test: Modes,
     /// The whole history.
@@ -189,17 +186,10 @@ pub fn correlate_wing(
     wing: &DeltaWing,
     progress: impl FnMut(usize, &Pass),
 ) -> Result<WingCorrelation, Error> {
-    correlate_wing_with(
-        wing,
-        &settings(),
-        BUILT_IN,
-        |model, _| Ok(model.clone()),
-        progress,
-    )
+    correlate_wing_with(wing, &settings(), |model, _| Ok(model.clone()), progress)
 }
 
-/// Corrects the model of wrong gages by given settings, with another finite element analysis than the crate's own: `solver` is its name
-/// for the report, `elements` is given the model and the factors on its 21 parameters, and returns the model with that
+/// Corrects the model of wrong gages by given settings, with another finite element analysis than the crate's own: `elements` is given the model and the factors on its 21 parameters, and returns the model with that
 /// program's element stiffness.
 ///
 /// The test modes stay those of [`test_modes`], by the crate's own elements at all 86 DOF: they play the test, and a
@@ -210,7 +200,6 @@ pub fn correlate_wing(
 pub fn correlate_wing_with<E: From<Error>>(
     wing: &DeltaWing,
     settings: &Settings,
-    solver: &'static str,
     mut elements: impl FnMut(&FiniteElementModel, &[f64]) -> Result<FiniteElementModel, E>,
     mut progress: impl FnMut(usize, &Pass),
 ) -> Result<WingCorrelation, E> {
@@ -237,7 +226,6 @@ pub fn correlate_wing_with<E: From<Error>>(
         },
     )?;
     Ok(WingCorrelation {
-        solver,
         test,
         correlation,
         shares,
