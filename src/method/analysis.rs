@@ -5,10 +5,10 @@
 
 use super::error::Error;
 use super::error_sum::Errors;
+use super::linear_algebra::Matrix;
 use super::modes::Modes;
 use super::sorting::Pairing;
 use super::step::StepRule;
-use nalgebra::DMatrix;
 
 /// Relative change of a parameter's stiffness for a derivative.
 pub const DERIVATIVE_STEP: f64 = 0.001;
@@ -27,7 +27,7 @@ pub struct State {
     /// The modes, each in the place of the exact mode that it continues.
     pub modes: Modes,
     /// Their shapes in terms of the exact modes, of unit generalized mass (n × n).
-    pub generalized_shapes: DMatrix<f64>,
+    pub generalized_shapes: Matrix,
     /// The mode that answers each test mode.
     pub pairing: Pairing,
     /// Distance from the test modes.
@@ -59,21 +59,20 @@ pub trait Analysis {
 /// $\Delta k_e$ (12) of every parameter by a rule, from its relative stiffness on the test modes (g × g) and its gage (in).
 pub(crate) fn changes_by(
     rule: StepRule,
-    test_shares: &[DMatrix<f64>],
+    test_shares: &[Matrix],
     state: &State,
     gages: &[f64],
     gage_factors: &[f64],
 ) -> Vec<f64> {
     let stored = test_shares.iter().zip(&state.factors);
-    let gages = gages.iter().zip(gage_factors);
     stored
-        .zip(gages)
+        .zip(gages.iter().zip(gage_factors))
         .map(|((share, s), (gage, g))| DERIVATIVE_STEP * rule.measure(share, *s, gage * g))
         .collect()
 }
 
 /// Change of stiffness or mass (n × n) without what couples modes closer than [`HELD_SEPARATION`], which keep their own shapes.
-pub fn without_close_couplings(omega_squared: &[f64], change: &DMatrix<f64>) -> DMatrix<f64> {
+pub fn without_close_couplings(omega_squared: &[f64], change: &Matrix) -> Matrix {
     let k = omega_squared;
     change.map_with_location(|i, j, entry| {
         let is_close = i != j && (k[i] - k[j]).abs() < HELD_SEPARATION * k[i].max(k[j]);

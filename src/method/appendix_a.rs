@@ -4,10 +4,9 @@
 use super::elements::unit_stiffness;
 use super::error::{Error, at_least_one, check_places};
 use super::linear_algebra::{
-    check_length, check_matrix, check_shape, cholesky, round_off, symmetric_part,
+    Matrix, check_length, check_matrix, check_shape, cholesky, round_off, symmetric_part,
 };
 use super::structure::Structure;
-use nalgebra::DMatrix;
 
 /// Pivot of the flexibility relative to its diagonal below which a dynamic DOF is a combination of others.
 const SMALLEST_PIVOT: f64 = 1e-13;
@@ -20,7 +19,7 @@ pub struct ElementMatrix {
     /// Rows among the free DOF, in the order of `unit`.
     pub dof: Vec<usize>,
     /// Stiffness for a gage of 1 in or an area of 1 in², lbf/in.
-    pub unit: DMatrix<f64>,
+    pub unit: Matrix,
 }
 
 /// Unit stiffness of every element, restricted to the free DOF, in the structure's order.
@@ -43,8 +42,8 @@ pub fn element_matrices(structure: &Structure) -> impl Iterator<Item = ElementMa
     elements.map(move |(element, corners)| {
         let of_grid = |&grid| (0..3).map(move |axis| structure.free_dof_index(grid, axis));
         let rows = element.grids.iter().flat_map(of_grid).enumerate();
-        let free = rows.filter_map(|(local, row)| Some((local, row?)));
-        let (local, dof): (Vec<usize>, Vec<usize>) = free.unzip();
+        let (local, dof): (Vec<usize>, Vec<usize>) =
+            rows.filter_map(|(local, row)| Some((local, row?))).unzip();
         let full = unit_stiffness(element.kind, corners, &element.material);
         ElementMatrix {
             label: element.label,
@@ -78,9 +77,9 @@ pub fn assemble(
     elements: &[ElementMatrix],
     sizes: &[f64],
     dof_count: usize,
-) -> Result<DMatrix<f64>, Error> {
+) -> Result<Matrix, Error> {
     check_length("element sizes", sizes.len(), elements.len())?;
-    let mut stiffness = DMatrix::zeros(dof_count, dof_count);
+    let mut stiffness = Matrix::zeros(dof_count, dof_count);
     for (ElementMatrix { dof, unit, .. }, size) in elements.iter().zip(sizes) {
         check_shape("element stiffness", unit, dof.len(), dof.len())?;
         check_places("degrees of freedom", dof, dof_count)?;
@@ -97,9 +96,9 @@ pub fn assemble(
 #[derive(Debug, Clone)]
 pub struct Condensed {
     /// $K_D$, lbf/in (d × d).
-    pub stiffness: DMatrix<f64>,
+    pub stiffness: Matrix,
     /// $B^t = K_S^{-1} T K_D$: structural deflections for unit dynamic ones (free SDOF × d).
-    pub transformation: DMatrix<f64>,
+    pub transformation: Matrix,
 }
 
 /// Dynamic stiffness and transformation of a structural stiffness $K_S$ (lbf/in, free SDOF × free SDOF) for a load
@@ -129,19 +128,21 @@ pub struct Condensed {
 /// assert!((condensed.transformation[0] - 1.0 / 3.0).abs() < 1e-14);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn condense(
-    stiffness: &DMatrix<f64>,
-    load_distribution: &DMatrix<f64>,
-) -> Result<Condensed, Error> {
-    let (what, dynamic_count) = ("load distribution", load_distribution.ncols());
+pub fn condense(stiffness: &Matrix, load_distribution: &Matrix) -> Result<Condensed, Error> {
+    let (free_count, dynamic_count) = (stiffness.nrows(), load_distribution.ncols());
     at_least_one("dynamic degrees of freedom", dynamic_count)?;
-    check_matrix(what, load_distribution, stiffness.nrows(), dynamic_count)?;
+    check_matrix(
+        "load distribution",
+        load_distribution,
+        free_count,
+        dynamic_count,
+    )?;
     let lower = cholesky("structural stiffness", stiffness, 0.0)?;
     // Scaled to unit diagonal, A = S K_S S, a stiffness that holds every motion has no eigenvalue within round-off of zero. The
     // smallest is at least 1 / trace(A⁻¹) = 1 / ‖L⁻¹ S⁻¹‖². The pivots do not tell, for one that follows a small one is as wrong as
     // round-off divided by it; the smallest pivot names the row.
     let scale = stiffness.diagonal().map(f64::sqrt);
-    let scaled = lower.solve_lower_triangular_unchecked(&DMatrix::from_diagonal(&scale));
+    let scaled = lower.solve_lower_triangular_unchecked(&Matrix::from_diagonal(&scale));
     let is_held = 1.0 / scaled.norm_squared() > round_off(scale.len());
     if !is_held {
         let row = lower.diagonal().component_div(&scale).imin();
@@ -152,8 +153,9 @@ pub fn condense(
     let half = lower.solve_lower_triangular_unchecked(load_distribution);
     let flexibility = half.tr_mul(&half);
     let dynamic = cholesky("dynamic flexibility", &flexibility, SMALLEST_PIVOT)?;
-    let identity = DMatrix::identity(dynamic_count, dynamic_count);
-    let inverse = dynamic.solve_lower_triangular_unchecked(&identity);
+    // And with the flexibility F = D Dᵗ: F⁻¹ = D⁻ᵗ D⁻¹.
+    let mut inverse = Matrix::identity(dynamic_count, dynamic_count);
+    dynamic.solve_lower_triangular_unchecked_mut(&mut inverse);
     let stiffness = inverse.tr_mul(&inverse);
     let mut deflections = half;
     lower.tr_solve_lower_triangular_unchecked_mut(&mut deflections);
@@ -170,8 +172,8 @@ pub fn condense(
 pub fn generalized_stiffness(
     element: &ElementMatrix,
     size: f64,
-    structural_shapes: &DMatrix<f64>,
-) -> DMatrix<f64> {
+    structural_shapes: &Matrix,
+) -> Matrix {
     let own = structural_shapes.select_rows(&element.dof);
     size * symmetric_part(&own.tr_mul(&(&element.unit * &own)))
 }

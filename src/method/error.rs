@@ -163,8 +163,13 @@ pub(crate) fn positive(
     owner: impl FnOnce() -> String,
     value: f64,
 ) -> Result<(), Error> {
-    let is_met = value > 0.0 && value.is_finite();
-    require(is_met, what, owner, value, "positive and finite")
+    require(
+        value > 0.0 && value.is_finite(),
+        what,
+        owner,
+        value,
+        "positive and finite",
+    )
 }
 
 /// Accepts a number of things from `least` to `most`.
@@ -191,9 +196,15 @@ pub(crate) fn check_places(
     places: &[usize],
     count: usize,
 ) -> Result<(), Error> {
-    let highest = places.iter().max();
-    let needed = highest.map_or(0, |place| place.saturating_add(1));
-    check_count(what, needed, 0, count)
+    check_count(
+        what,
+        places
+            .iter()
+            .max()
+            .map_or(0, |place| place.saturating_add(1)),
+        0,
+        count,
+    )
 }
 
 /// Accepts one or more.

@@ -32,9 +32,9 @@ pub fn mode_errors(
     let pairs = pairing.analysis_mode.iter().enumerate();
     let errors = pairs.map(|(j, &i)| {
         let (v, w) = (analysis.shapes.column(i), test.shapes.column(j));
-        let (largest, owner) = (v.amax(), || format!("analysis {}", mode(i)));
-        positive("largest component where it is compared", owner, largest)?;
-        let difference = v * (pairing.sign[j] / largest) - w * (1.0 / w.amax());
+        let owner = || format!("analysis {}", mode(i));
+        positive("largest component where it is compared", owner, v.amax())?;
+        let difference = v * (pairing.sign[j] / v.amax()) - w * (1.0 / w.amax());
         Ok(ModeError {
             frequency: (analysis.omega_squared[i] / test.omega_squared[j]).sqrt() - 1.0,
             shape: (difference.norm_squared() / dof_count as f64).sqrt(),
@@ -63,8 +63,10 @@ impl Errors {
     /// [`Error::Value`] for errors so large that their squares are not finite.
     pub fn of(each: &[ModeError]) -> Result<Self, Error> {
         let srss = |of: fn(&ModeError) -> f64| {
-            let squares = each.iter().map(|error| of(error).powi(2));
-            squares.sum::<f64>().sqrt()
+            each.iter()
+                .map(|error| of(error).powi(2))
+                .sum::<f64>()
+                .sqrt()
         };
         let errors = Self {
             frequency: srss(|error| error.frequency),
@@ -72,8 +74,14 @@ impl Errors {
             frequency_count: each.len(),
             shape_count: each.len(),
         };
-        let (sum, owner) = (errors.sum(), || "these modes".into());
-        require(sum.is_finite(), "error sum", owner, sum, "a finite number")?;
+        let sum = errors.sum();
+        require(
+            sum.is_finite(),
+            "error sum",
+            || "these modes".into(),
+            sum,
+            "a finite number",
+        )?;
         Ok(errors)
     }
 

@@ -169,15 +169,14 @@ pub fn run(
             first_unlimited_factors.clone_from(&direction.unlimited_factors);
         }
         let bounds = (base, total_ranges);
-        let step = lowering_step(analysis, &state, &factors, direction, bounds, settings);
-        let (iteration, lower): (Iteration, State) = match step {
-            Ok(Some(found)) => found,
-            Ok(None) => break Stop::LocalMinimum,
-            // An error in the first step names the modes that prevent any; later ones end the loop where it is.
-            Err(error) if error.is_of_close_modes() && !is_first => break Stop::LocalMinimum,
-            Err(error) => return Err(error),
-        };
-        state = lower;
+        let iteration: Iteration;
+        (iteration, state) =
+            match lowering_step(analysis, &state, &factors, direction, bounds, settings) {
+                Ok(Some(found)) => found,
+                // An error in the first step names the modes that prevent any; later ones end the loop where it is.
+                Err(error) if is_first || !error.is_of_close_modes() => return Err(error),
+                _ => break Stop::LocalMinimum,
+            };
         factors.clone_from(&iteration.factors);
         iterations.push(iteration);
         if state.errors.sum() < settings.tolerance {
@@ -220,12 +219,12 @@ fn direction(
         true => settings.first_relaxation,
         false => settings.relaxation,
     };
-    let changes = error_changes.iter().zip(&stiffness_changes);
-    let factors = changes.map(|(error, stiffness)| {
+    let factor = |(error, stiffness): (&f64, &f64)| {
         unlimited_factor(*error, *stiffness, state.errors.sum(), relaxation)
-    });
+    };
+    let changes = error_changes.iter().zip(&stiffness_changes);
     Ok(Iteration {
-        unlimited_factors: factors.collect(),
+        unlimited_factors: changes.map(factor).collect(),
         error_changes,
         stiffness_changes,
         halvings: 0,
@@ -241,7 +240,7 @@ fn lowering_step(
     analysis: &dyn Analysis,
     state: &State,
     factors: &[f64],
-    direction: Iteration,
+    mut iteration: Iteration,
     (base, total_ranges): (&[f64], &[Option<Bounds>]),
     settings: &InnerSettings,
 ) -> Result<Option<(Iteration, State)>, Error> {
@@ -249,21 +248,15 @@ fn lowering_step(
     for halvings in 0..=settings.halvings {
         let fraction = 0.5_f64.powi(halvings as i32);
         let limited = |e: usize| {
-            let (c, range) = (direction.unlimited_factors[e], settings.factor_range);
+            let (c, range) = (iteration.unlimited_factors[e], settings.factor_range);
             limited_factor(c, fraction, factors[e], base[e], range, total_ranges[e])
         };
-        let (next, limits): (Vec<f64>, Vec<Limit>) = (0..factors.len()).map(limited).unzip();
-        let rule = settings.accumulation;
+        (iteration.factors, iteration.limits) = (0..factors.len()).map(limited).unzip();
+        let (rule, next) = (settings.accumulation, &iteration.factors);
         let share = |e: usize| rule.next_share_factor(state.factors[e], factors[e], next[e]);
         match analysis.at(&(0..factors.len()).map(share).collect::<Vec<_>>()) {
             Ok(lower) if lower.errors.sum() < state.errors.sum() => {
-                let iteration = Iteration {
-                    halvings,
-                    factors: next,
-                    limits,
-                    errors: lower.errors,
-                    ..direction
-                };
+                (iteration.halvings, iteration.errors) = (halvings, lower.errors);
                 return Ok(Some((iteration, lower)));
             }
             // Uphill, or too far for the perturbation: a shorter step may do.

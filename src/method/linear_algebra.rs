@@ -8,6 +8,12 @@ use nalgebra::{ComplexField, DMatrix, DVector};
 /// A congruence transformation leaves about 1e-14; 1e-8 is a mistake in the data.
 const LARGEST_ASYMMETRY: f64 = 1e-8;
 
+/// A matrix, of real numbers where nothing is said.
+pub type Matrix<T = f64> = DMatrix<T>;
+
+/// A vector, of real numbers where nothing is said.
+pub type Vector<T = f64> = DVector<T>;
+
 /// A real or complex number.
 pub trait Number: ComplexField<RealField = f64> + Copy {}
 
@@ -17,14 +23,19 @@ impl<T: ComplexField<RealField = f64> + Copy> Number for T {}
 ///
 /// # Errors
 /// [`Error::Value`] naming the first such entry, column by column, and the sum of its parts.
-pub fn check_finite<T: Number>(what: &'static str, matrix: &DMatrix<T>) -> Result<(), Error> {
-    let Some(at) = matrix.iter().position(|entry| !entry.is_finite()) else {
-        return Ok(());
-    };
-    let owner = || format!("entry ({}, {})", at % matrix.nrows(), at / matrix.nrows());
-    // The part that is not finite outweighs the other.
-    let value = matrix[at].real() + matrix[at].imaginary();
-    require(false, what, owner, value, "a finite number")
+pub fn check_finite<T: Number>(what: &'static str, matrix: &Matrix<T>) -> Result<(), Error> {
+    let wrong = matrix.iter().position(|entry| !entry.is_finite());
+    wrong.map_or(Ok(()), |at| {
+        let owner = || format!("entry ({}, {})", at % matrix.nrows(), at / matrix.nrows());
+        // The part that is not finite outweighs the other.
+        require(
+            false,
+            what,
+            owner,
+            matrix[at].real() + matrix[at].imaginary(),
+            "a finite number",
+        )
+    })
 }
 
 /// Refuses matrices, real or complex, of another shape.
@@ -33,7 +44,7 @@ pub fn check_finite<T: Number>(what: &'static str, matrix: &DMatrix<T>) -> Resul
 /// [`Error::WrongShape`] with both shapes.
 pub fn check_shape<T>(
     what: &'static str,
-    matrix: &DMatrix<T>,
+    matrix: &Matrix<T>,
     expected_rows: usize,
     expected_columns: usize,
 ) -> Result<(), Error> {
@@ -53,7 +64,7 @@ pub fn check_shape<T>(
 /// Refuses matrices, real or complex, of another shape or with entries that are not finite.
 pub(crate) fn check_matrix<T: Number>(
     what: &'static str,
-    matrix: &DMatrix<T>,
+    matrix: &Matrix<T>,
     rows: usize,
     columns: usize,
 ) -> Result<(), Error> {
@@ -66,7 +77,7 @@ pub(crate) fn check_matrix<T: Number>(
 /// # Errors
 /// [`Error::WrongShape`] with both lengths as rows of one column.
 pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), Error> {
-    check_shape(what, &DMatrix::from_element(found, 1, ()), expected, 1)
+    check_shape(what, &Matrix::from_element(found, 1, ()), expected, 1)
 }
 
 /// Refuses matrices that are not square, finite and symmetric to working precision.
@@ -74,16 +85,23 @@ pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result
 /// # Errors
 /// [`Error::WrongShape`]; [`Error::Value`] for an entry that is not finite, or with the largest difference of an entry from its
 /// mirror over the largest entry.
-pub fn check_symmetric(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), Error> {
+pub fn check_symmetric(what: &'static str, matrix: &Matrix) -> Result<(), Error> {
     check_matrix(what, matrix, matrix.nrows(), matrix.nrows())?;
     let apart = (matrix - matrix.transpose()).amax() / matrix.amax();
-    let (is_met, owner) = (apart <= LARGEST_ASYMMETRY || apart.is_nan(), || what.into());
-    require(is_met, "relative asymmetry", owner, apart, "at most 1e-8")
+    // Only a matrix of zeros, or none, leaves no number.
+    let is_met = apart <= LARGEST_ASYMMETRY || apart.is_nan();
+    require(
+        is_met,
+        "relative asymmetry",
+        || what.into(),
+        apart,
+        "at most 1e-8",
+    )
 }
 
 /// Symmetric part $(A + A^t)/2$, without the round-off asymmetry of a congruence transformation. A matrix that is not square has none
 /// and comes back as it is.
-pub fn symmetric_part(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+pub fn symmetric_part(matrix: &Matrix) -> Matrix {
     if !matrix.is_square() {
         return matrix.clone();
     }
@@ -97,11 +115,7 @@ pub fn symmetric_part(matrix: &DMatrix<f64>) -> DMatrix<f64> {
 /// # Errors
 /// [`Error::WrongShape`] and [`Error::Value`] for a matrix that is not symmetric or finite; [`Error::NotPositiveDefinite`] naming the
 /// row of the first bad pivot.
-pub fn cholesky(
-    what: &'static str,
-    matrix: &DMatrix<f64>,
-    smallest_pivot: f64,
-) -> Result<DMatrix<f64>, Error> {
+pub fn cholesky(what: &'static str, matrix: &Matrix, smallest_pivot: f64) -> Result<Matrix, Error> {
     check_symmetric(what, matrix)?;
     let lower = match as_faer(matrix).llt(Side::Lower) {
         Ok(factor) => from_faer(factor.L()),
@@ -131,7 +145,7 @@ pub(crate) fn round_off(rows: usize) -> f64 {
 }
 
 /// Congruence $L^{-1} A L^{-t}$ for a lower triangular $L$ with nonzero diagonal.
-pub(crate) fn reduced<T: Number>(lower: &DMatrix<T>, matrix: &DMatrix<T>) -> DMatrix<T> {
+pub(crate) fn reduced<T: Number>(lower: &Matrix<T>, matrix: &Matrix<T>) -> Matrix<T> {
     let half = lower.solve_lower_triangular_unchecked(matrix).transpose();
     lower.solve_lower_triangular_unchecked(&half).transpose()
 }
@@ -143,10 +157,7 @@ pub(crate) fn reduced<T: Number>(lower: &DMatrix<T>, matrix: &DMatrix<T>) -> DMa
 /// # Errors
 /// [`Error::WrongShape`] and [`Error::Value`] for a matrix that is not symmetric or finite; [`Error::Count`] for an empty one;
 /// [`Error::Failed`] without convergence.
-pub fn symmetric_eigen(
-    what: &'static str,
-    matrix: &DMatrix<f64>,
-) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
+pub fn symmetric_eigen(what: &'static str, matrix: &Matrix) -> Result<(Vector, Matrix), Error> {
     check_symmetric(what, matrix)?;
     at_least_one(what, matrix.len())?;
     // Entries of order one: the squares of very large or small ones leave the range of numbers. A power of two is exact.
@@ -154,7 +165,7 @@ pub fn symmetric_eigen(
     let unit = exponent.clamp(-1000.0, 1000.0).exp2();
     let eigen = as_faer(&(matrix / unit)).self_adjoint_eigen(Side::Lower);
     let eigen = eigen.map_err(|_| Error::no_convergence(what))?;
-    let values = DVector::from_fn(matrix.nrows(), |i, _| unit * eigen.S()[i]);
+    let values = Vector::from_fn(matrix.nrows(), |i, _| unit * eigen.S()[i]);
     Ok((values, from_faer(eigen.U())))
 }
 
@@ -162,10 +173,10 @@ pub fn symmetric_eigen(
 /// `count`, scaled to $V^t L L^t V = I$, from the symmetric problem of $L^{-1} A L^{-t}$ for $L^t v$.
 pub(crate) fn pencil_eigen(
     what: &'static str,
-    matrix: &DMatrix<f64>,
-    lower: &DMatrix<f64>,
+    matrix: &Matrix,
+    lower: &Matrix,
     count: usize,
-) -> Result<(DVector<f64>, DMatrix<f64>), Error> {
+) -> Result<(Vector, Matrix), Error> {
     let (values, vectors) = symmetric_eigen(what, &symmetric_part(&reduced(lower, matrix)))?;
     let mut lowest = vectors.columns(0, count).into_owned();
     lower.tr_solve_lower_triangular_unchecked_mut(&mut lowest);
@@ -173,12 +184,12 @@ pub(crate) fn pencil_eigen(
 }
 
 /// Matrix, real or complex, as faer sees it.
-pub(crate) fn as_faer<T>(matrix: &DMatrix<T>) -> MatRef<'_, T> {
+pub(crate) fn as_faer<T>(matrix: &Matrix<T>) -> MatRef<'_, T> {
     MatRef::from_column_major_slice(matrix.as_slice(), matrix.nrows(), matrix.ncols())
 }
 
 /// Matrix back from faer.
-pub(crate) fn from_faer(matrix: MatRef<f64>) -> DMatrix<f64> {
+pub(crate) fn from_faer(matrix: MatRef<f64>) -> Matrix {
     let entry = |row, column| matrix[(row, column)];
-    DMatrix::from_fn(matrix.nrows(), matrix.ncols(), entry)
+    Matrix::from_fn(matrix.nrows(), matrix.ncols(), entry)
 }

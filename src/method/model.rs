@@ -8,7 +8,7 @@ use super::appendix_a::{
 use super::error::{Error, at_least_one, positive};
 use super::error_sum::errors;
 use super::linear_algebra::{
-    check_finite, check_length, check_matrix, check_shape, check_symmetric, cholesky,
+    Matrix, check_finite, check_length, check_matrix, check_shape, check_symmetric, cholesky,
     symmetric_part,
 };
 use super::modes::{Modes, solve};
@@ -16,7 +16,6 @@ use super::perturbation::{first_order, recursive_1_converged};
 use super::sorting::{cross_orthogonality, pair_modes};
 use super::step::{Bounds, REFERENCE_GAGE, StepRule};
 use super::structure::{DIRECTIONS, Structure};
-use nalgebra::DMatrix;
 use std::collections::HashMap;
 
 /// Elements whose stiffness is scaled by one factor: a single one, or a substructure.
@@ -99,8 +98,8 @@ pub struct FiniteElementModel {
     /// Rows of every parameter's elements.
     rows: Vec<Vec<usize>>,
     pub(crate) element_matrices: Vec<ElementMatrix>,
-    load_distribution: DMatrix<f64>,
-    mass: DMatrix<f64>,
+    load_distribution: Matrix,
+    mass: Matrix,
 }
 
 impl FiniteElementModel {
@@ -114,21 +113,37 @@ impl FiniteElementModel {
     /// does not fit or is not finite; [`Error::NotPositiveDefinite`] for the mass.
     pub fn new(
         structure: Structure,
-        load_distribution: DMatrix<f64>,
-        mass: DMatrix<f64>,
+        load_distribution: Matrix,
+        mass: Matrix,
         parameters: Vec<Parameter>,
     ) -> Result<Self, Error> {
-        let (free, dynamic) = (structure.free_dof().len(), load_distribution.ncols());
+        let (free, dynamic) = (structure.free_dof().len(), mass.nrows());
         at_least_one("dynamic degrees of freedom", dynamic)?;
         check_matrix("load distribution", &load_distribution, free, dynamic)?;
-        check_shape("dynamic mass", &mass, dynamic, dynamic)?;
         cholesky("dynamic mass", &mass, 0.0)?;
         let element_matrices: Vec<_> = element_matrices(&structure).collect();
         for element in &element_matrices {
             check_finite("element stiffness", &element.unit)?;
         }
+        at_least_one("parameters", parameters.len())?;
+        let labels = structure.elements().iter().map(|element| element.label);
+        let row_of: HashMap<usize, usize> = labels.zip(0..).collect();
+        let (mut rows, mut first_with, what) = (Vec::new(), HashMap::new(), "element");
+        for Parameter { name, elements, .. } in &parameters {
+            at_least_one("elements of a parameter", elements.len())?;
+            let row = |&label: &usize| {
+                if let Some(first) = first_with.insert(label, name) {
+                    let owner = format!("parameters {first} and {name}");
+                    return Err(Error::Duplicate { owner, what, label });
+                }
+                let owner = format!("parameter {name}");
+                let missing = Error::Unknown { owner, what, label };
+                row_of.get(&label).copied().ok_or(missing)
+            };
+            rows.push(elements.iter().map(row).collect::<Result<_, _>>()?);
+        }
         Ok(Self {
-            rows: rows_of(&structure, &parameters)?,
+            rows,
             structure,
             parameters,
             element_matrices,
@@ -153,12 +168,12 @@ impl FiniteElementModel {
     }
 
     /// The load distribution $T$ (free SDOF × d).
-    pub fn load_distribution(&self) -> &DMatrix<f64> {
+    pub fn load_distribution(&self) -> &Matrix {
         &self.load_distribution
     }
 
     /// The dynamic mass $M$, lbf·s²/in (d × d).
-    pub fn mass(&self) -> &DMatrix<f64> {
+    pub fn mass(&self) -> &Matrix {
         &self.mass
     }
 
@@ -167,8 +182,7 @@ impl FiniteElementModel {
     /// # Errors
     /// [`Error::Range`] when no factor meets both, or when the first sizes lie outside.
     pub fn factor_ranges(&self) -> Result<Vec<Option<Bounds>>, Error> {
-        let parameters = self.parameters.iter().zip(&self.rows);
-        let ranges = parameters.map(|(parameter, rows)| {
+        let range = |(parameter, rows): (&Parameter, &Vec<usize>)| {
             let of_sizes = rows.iter().filter_map(|&row| {
                 let (range, size) = (parameter.size_range?, self.structure.elements()[row].size);
                 let (lower, upper) = (range.lower / size, range.upper / size);
@@ -186,8 +200,8 @@ impl FiniteElementModel {
                 range if range.contains(1.0) => Ok(Some(range)),
                 _ => Err(Error::Range { what, lower, upper }),
             }
-        });
-        ranges.collect()
+        };
+        self.parameters.iter().zip(&self.rows).map(range).collect()
     }
 
     /// Gages (in) and areas (in²) of all elements at the parameters' factors, in the structure's order.
@@ -263,11 +277,9 @@ impl FiniteElementModel {
     ) -> Result<Model, Error> {
         let mut model = self.matrices(factors)?.analyze(test, analysis_modes)?;
         let sizes = self.sizes(factors)?;
-        let means = self.rows.iter().map(|rows| {
-            let sum: f64 = rows.iter().map(|&row| sizes[row]).sum();
-            sum / rows.len() as f64
-        });
-        model.gages = means.collect();
+        let sum = |rows: &Vec<usize>| rows.iter().map(|&row| sizes[row]).sum::<f64>();
+        let mean = |rows| sum(rows) / rows.len() as f64;
+        model.gages = self.rows.iter().map(mean).collect();
         Ok(model)
     }
 
@@ -280,9 +292,9 @@ impl FiniteElementModel {
         let (sizes, condensed) = (self.sizes(factors)?, self.condense(factors)?);
         let (elements, b) = (&self.element_matrices, &condensed.transformation);
         let share = |&row: &usize| generalized_stiffness(&elements[row], sizes[row], b);
-        let shares = self.rows.iter().map(|rows| rows.iter().map(share).sum());
+        let sum = |rows: &Vec<usize>| rows.iter().map(share).sum();
         Ok(DynamicModel {
-            shares: shares.collect(),
+            shares: self.rows.iter().map(sum).collect(),
             stiffness: condensed.stiffness,
             mass: self.mass.clone(),
         })
@@ -299,38 +311,15 @@ impl FiniteElementModel {
     }
 }
 
-/// Rows of every parameter's elements.
-fn rows_of(structure: &Structure, parameters: &[Parameter]) -> Result<Vec<Vec<usize>>, Error> {
-    at_least_one("parameters", parameters.len())?;
-    let labels = structure.elements().iter().map(|element| element.label);
-    let row_of: HashMap<usize, usize> = labels.zip(0..).collect();
-    let (mut rows, mut first_with, what) = (Vec::new(), HashMap::new(), "element");
-    for Parameter { name, elements, .. } in parameters {
-        at_least_one("elements of a parameter", elements.len())?;
-        let mut own = Vec::new();
-        for &label in elements {
-            let owner = format!("parameter {name}");
-            let missing = Error::Unknown { owner, what, label };
-            own.push(*row_of.get(&label).ok_or(missing)?);
-            if let Some(first) = first_with.insert(label, name) {
-                let owner = format!("parameters {first} and {name}");
-                return Err(Error::Duplicate { owner, what, label });
-            }
-        }
-        rows.push(own);
-    }
-    Ok(rows)
-}
-
 /// A model given by its matrices at the dynamic DOF, whatever made them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DynamicModel {
     /// Dynamic stiffness $K_D$, lbf/in (d × d).
-    pub stiffness: DMatrix<f64>,
+    pub stiffness: Matrix,
     /// Dynamic mass $M$, lbf·s²/in (d × d).
-    pub mass: DMatrix<f64>,
+    pub mass: Matrix,
     /// Each parameter's present share of the stiffness, $B K_e B^t$ (A.9), lbf/in (d × d).
-    pub shares: Vec<DMatrix<f64>>,
+    pub shares: Vec<Matrix>,
 }
 
 impl DynamicModel {
@@ -353,29 +342,29 @@ impl DynamicModel {
         )?;
         check_shape("test mode shapes", &test.shapes, dof_count, test.len())?;
         let test = test.scaled_with(&self.mass)?;
-        let through = |v: &DMatrix<f64>| {
-            let share = |share| symmetric_part(&v.tr_mul(&(share * v)));
-            self.shares.iter().map(share).collect::<Vec<_>>()
-        };
+        let through = |share: &Matrix, v: &Matrix| symmetric_part(&v.tr_mul(&(share * v)));
         let omega = test.omega_squared.map(f64::sqrt);
         let own = &omega * omega.transpose();
-        let relative = |share: DMatrix<f64>| share.component_div(&own);
+        let relative = |share| through(share, &test.shapes).component_div(&own);
         let cross = cross_orthogonality(&modes, &test, &self.mass)?;
-        let pairing = pair_modes(&cross)?;
-        let (shares, count) = (through(&modes.shapes), self.shares.len());
+        let (pairing, count) = (pair_modes(&cross)?, self.shares.len());
         Ok(Model {
-            test_shares: through(&test.shapes).into_iter().map(relative).collect(),
+            shares: self
+                .shares
+                .iter()
+                .map(|share| through(share, &modes.shapes))
+                .collect(),
+            test_shares: self.shares.iter().map(relative).collect(),
             gages: vec![REFERENCE_GAGE; count],
             exact: State {
                 factors: vec![1.0; count],
-                generalized_shapes: DMatrix::identity(modes.len(), modes.len()),
+                generalized_shapes: Matrix::identity(modes.len(), modes.len()),
                 errors: errors(&modes, &pairing, &test)?,
                 modes,
                 pairing,
             },
             test,
             cross,
-            shares,
         })
     }
 }
@@ -385,9 +374,9 @@ impl DynamicModel {
 pub struct Model {
     exact: State,
     test: Modes,
-    cross: DMatrix<f64>,
-    shares: Vec<DMatrix<f64>>,
-    test_shares: Vec<DMatrix<f64>>,
+    cross: Matrix,
+    shares: Vec<Matrix>,
+    test_shares: Vec<Matrix>,
     pub(crate) gages: Vec<f64>,
 }
 
@@ -398,18 +387,18 @@ impl Model {
     }
 
     /// Cross-orthogonality of the exact modes with the test modes (4), n × g.
-    pub fn cross(&self) -> &DMatrix<f64> {
+    pub fn cross(&self) -> &Matrix {
         &self.cross
     }
 
     /// Generalized stiffness $V^t K_e V$ of every parameter, rad²/s² (n × n).
-    pub fn shares(&self) -> &[DMatrix<f64>] {
+    pub fn shares(&self) -> &[Matrix] {
         &self.shares
     }
 
     /// Generalized stiffness of every parameter on the test modes, relative to the test's own,
     /// $V_{Gi}^t K_e V_{Gj}/(\omega_{Gi} \omega_{Gj})$ (g × g).
-    pub fn test_shares(&self) -> &[DMatrix<f64>] {
+    pub fn test_shares(&self) -> &[Matrix] {
         &self.test_shares
     }
 
@@ -428,7 +417,7 @@ impl Analysis for Model {
     fn at(&self, factors: &[f64]) -> Result<State, Error> {
         check_length("parameter factors", factors.len(), self.shares.len())?;
         let (v, k) = (&self.exact.modes.shapes, &self.exact.modes.omega_squared);
-        let mut beta = DMatrix::zeros(k.len(), k.len());
+        let mut beta = Matrix::zeros(k.len(), k.len());
         for (share, s) in self.shares.iter().zip(factors) {
             beta += (s - 1.0) * share;
         }
@@ -457,8 +446,7 @@ impl Analysis for Model {
         let k = &state.modes.omega_squared;
         check_shape("shapes of the state", p, self.exact.modes.len(), k.len())?;
         check_length("parameter factors", state.factors.len(), self.shares.len())?;
-        let parameters = self.shares.iter().zip(&state.factors);
-        let changes = parameters.map(|(share, s)| {
+        let change = |(share, s): (&Matrix, &f64)| {
             let beta = DERIVATIVE_STEP * *s * p.tr_mul(&(share * p));
             let perturbed = first_order(k, &without_close_couplings(k.as_slice(), &beta))?;
             // First order has refused what is no mode.
@@ -468,8 +456,8 @@ impl Analysis for Model {
             };
             let errors = errors(&modes, &state.pairing, &self.test)?;
             Ok(errors.sum() - state.errors.sum())
-        });
-        changes.collect()
+        };
+        self.shares.iter().zip(&state.factors).map(change).collect()
     }
 
     fn stiffness_changes(&self, state: &State, gage_factors: &[f64], rule: StepRule) -> Vec<f64> {

@@ -2,8 +2,9 @@
 //! Tour: [chapter 1](crate::tour::chapter_01_two_springs).
 
 use super::error::{Error, at_least_one, check_count, positive};
-use super::linear_algebra::{check_matrix, check_shape, check_symmetric, cholesky, pencil_eigen};
-use nalgebra::{DMatrix, DVector};
+use super::linear_algebra::{
+    Matrix, Vector, check_matrix, check_shape, check_symmetric, cholesky, pencil_eigen,
+};
 use std::f64::consts::TAU;
 
 /// Components within this fraction of the largest count as equally large for the sign rule, so that round-off
@@ -21,9 +22,9 @@ pub(crate) const SIGN_TIE: f64 = 1e-6;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modes {
     /// Squared circular frequencies $\omega_i^2$, rad²/s².
-    pub(crate) omega_squared: DVector<f64>,
+    pub(crate) omega_squared: Vector,
     /// Mode shapes, one per column (d × n).
-    pub(crate) shapes: DMatrix<f64>,
+    pub(crate) shapes: Matrix,
 }
 
 impl Modes {
@@ -32,7 +33,7 @@ impl Modes {
     /// # Errors
     /// [`Error::Count`] without modes; [`Error::WrongShape`] unless every shape has a frequency; [`Error::Value`] for an entry that is
     /// not finite, a squared frequency that is not positive or a shape that is zero.
-    pub fn new(omega_squared: DVector<f64>, shapes: DMatrix<f64>) -> Result<Self, Error> {
+    pub fn new(omega_squared: Vector, shapes: Matrix) -> Result<Self, Error> {
         at_least_one("modes", omega_squared.len())?;
         check_matrix("mode shapes", &shapes, shapes.nrows(), omega_squared.len())?;
         for (place, (&square, shape)) in omega_squared.iter().zip(shapes.column_iter()).enumerate()
@@ -47,7 +48,7 @@ impl Modes {
     }
 
     /// Computed modes, each with the sign by the rule ([`apply_sign_rule`]).
-    pub(crate) fn signed(omega_squared: DVector<f64>, mut shapes: DMatrix<f64>) -> Self {
+    pub(crate) fn signed(omega_squared: Vector, mut shapes: Matrix) -> Self {
         apply_sign_rule(&mut shapes);
         Self {
             omega_squared,
@@ -59,21 +60,24 @@ impl Modes {
     ///
     /// # Errors
     /// [`Error::Value`] for a frequency that is not positive; what [`Self::new`] refuses.
-    pub fn from_measured(frequencies_hz: &[f64], shapes: &DMatrix<f64>) -> Result<Self, Error> {
+    pub fn from_measured(frequencies_hz: &[f64], shapes: &Matrix) -> Result<Self, Error> {
         for (place, &frequency) in frequencies_hz.iter().enumerate() {
             positive("frequency", || mode(place), frequency)?;
         }
-        let frequencies = DVector::from_column_slice(frequencies_hz);
-        Self::new(frequencies.map(|f| (TAU * f).powi(2)), shapes.clone())
+        let squares = frequencies_hz.iter().map(|f| (TAU * f).powi(2));
+        Self::new(
+            Vector::from_iterator(frequencies_hz.len(), squares),
+            shapes.clone(),
+        )
     }
 
     /// Squared circular frequencies $\omega_i^2$, rad²/s².
-    pub fn omega_squared(&self) -> &DVector<f64> {
+    pub fn omega_squared(&self) -> &Vector {
         &self.omega_squared
     }
 
     /// Mode shapes, one per column (d × n).
-    pub fn shapes(&self) -> &DMatrix<f64> {
+    pub fn shapes(&self) -> &Matrix {
         &self.shapes
     }
 
@@ -85,8 +89,10 @@ impl Modes {
 
     /// Frequencies $f_i = \omega_i / 2\pi$, Hz (10).
     pub fn frequencies_hz(&self) -> Vec<f64> {
-        let squares = self.omega_squared.iter();
-        squares.map(|square| square.sqrt() / TAU).collect()
+        self.omega_squared
+            .iter()
+            .map(|square| square.sqrt() / TAU)
+            .collect()
     }
 
     /// The modes of the given places, in that order; a place may not exceed [`Self::len`].
@@ -107,12 +113,11 @@ impl Modes {
     }
 
     /// Generalized masses $v_i^t M v_i$, which are positive.
-    pub(crate) fn generalized_masses(&self, mass: &DMatrix<f64>) -> Result<Vec<f64>, Error> {
+    pub(crate) fn generalized_masses(&self, mass: &Matrix) -> Result<Vec<f64>, Error> {
         let dof_count = self.shapes.nrows();
         check_shape("dynamic mass", mass, dof_count, dof_count)?;
-        let weighted = mass * &self.shapes;
-        let masses = (0..self.len()).map(|place| {
-            let own = self.shapes.column(place).dot(&weighted.column(place));
+        let masses = self.shapes.column_iter().enumerate().map(|(place, shape)| {
+            let own = shape.dot(&(mass * shape));
             positive("generalized mass", || mode(place), own).map(|()| own)
         });
         masses.collect()
@@ -124,7 +129,7 @@ impl Modes {
     /// # Errors
     /// [`Error::WrongShape`] for a mass (d × d, lbf·s²/in) that does not fit the shapes; [`Error::Value`] for a generalized mass that is
     /// not positive.
-    pub fn scaled_with(&self, mass: &DMatrix<f64>) -> Result<Self, Error> {
+    pub fn scaled_with(&self, mass: &Matrix) -> Result<Self, Error> {
         let (mut scaled, own) = (self.clone(), self.generalized_masses(mass)?);
         for (mut shape, generalized_mass) in scaled.shapes.column_iter_mut().zip(own) {
             shape /= generalized_mass.sqrt();
@@ -164,29 +169,33 @@ pub(crate) fn mode(place: usize) -> String {
 /// assert!((modes.shapes()[(0, 0)] - 0.5_f64.sqrt()).abs() < 1e-14);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn solve(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, count: usize) -> Result<Modes, Error> {
+pub fn solve(stiffness: &Matrix, mass: &Matrix, count: usize) -> Result<Modes, Error> {
     check_symmetric("dynamic stiffness", stiffness)?;
     check_shape("dynamic mass", mass, stiffness.nrows(), stiffness.nrows())?;
     check_count("modes", count, 1, stiffness.nrows())?;
     let lower = cholesky("dynamic mass", mass, 0.0)?;
     let (omega_squared, shapes) = pencil_eigen("dynamic stiffness", stiffness, &lower, count)?;
-    for (mode, &value) in omega_squared.iter().enumerate() {
-        if value <= 0.0 {
-            return Err(Error::NotAVibration { mode, value });
-        }
+    // They ascend.
+    let (mode, value) = (0, omega_squared[0]);
+    if value <= 0.0 {
+        return Err(Error::NotAVibration { mode, value });
     }
-    let lowest = omega_squared.rows(0, count).into_owned();
-    Ok(Modes::signed(lowest, shapes))
+    Ok(Modes::signed(
+        omega_squared.rows(0, count).into_owned(),
+        shapes,
+    ))
 }
 
 /// Sign rule: makes the first of the largest components of every column positive.
-pub fn apply_sign_rule(shapes: &mut DMatrix<f64>) {
+pub fn apply_sign_rule(shapes: &mut Matrix) {
     for mut shape in shapes.column_iter_mut() {
         let largest = shape.amax();
-        let first = shape
+        let is_largest = |component: &&f64| component.abs() >= (1.0 - SIGN_TIE) * largest;
+        if shape
             .iter()
-            .find(|component| component.abs() >= (1.0 - SIGN_TIE) * largest);
-        if first.is_some_and(|&component| component < 0.0) {
+            .find(is_largest)
+            .is_some_and(|&first| first < 0.0)
+        {
             shape.neg_mut();
         }
     }

@@ -191,16 +191,16 @@ pub fn correlate<A: Analysis, E: From<Error>>(
     }
     // Whether a result is within tolerance comes before how large its error sum is.
     let rank = |state: &State| (!settings.are_met_by(&state.errors), state.errors.sum());
-    let mut best = None;
-    let mut lowest = rank(&initial);
+    let (mut best, mut lowest) = (None, rank(&initial));
+    factors.fill(1.0);
     for (number, pass) in passes.iter().enumerate() {
         if rank(&pass.check) < lowest {
             (best, lowest) = (Some(number), rank(&pass.check));
+            factors.clone_from(&pass.factors);
         }
     }
-    let ones = vec![1.0; total_ranges.len()];
     Ok(Correlation {
-        best_factors: best.map_or(ones, |best| passes[best].factors.clone()),
+        best_factors: factors,
         converged: !lowest.0,
         initial,
         passes,

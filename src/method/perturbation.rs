@@ -10,8 +10,7 @@
 //! [`appendix_c`](crate::method::appendix_c) has the same with changes of mass, and unsymmetric and complex pencils.
 
 use super::error::{Error, at_least_one, check_count};
-use super::linear_algebra::{Number, check_finite, check_matrix};
-use nalgebra::{DMatrix, DVector};
+use super::linear_algebra::{Matrix, Number, Vector, check_finite, check_matrix};
 
 /// Denominator relative to the generalized stiffness below which two modes count as coalescing.
 pub const SMALLEST_SEPARATION: f64 = 1e-9;
@@ -34,9 +33,9 @@ const SAME_ROOT: f64 = 1e-3;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Perturbed<T = f64> {
     /// Changed roots $\gamma_i = \lambda_i + \Delta\lambda_i = 1/\omega_i^2$, s².
-    pub roots: DVector<T>,
+    pub roots: Vector<T>,
     /// Generalized shapes $p$ (n × n): column $j$ is mode $j$ in terms of the modes before the change, $p_{jj} = 1$.
-    pub shapes: DMatrix<T>,
+    pub shapes: Matrix<T>,
 }
 
 impl Perturbed {
@@ -113,10 +112,7 @@ impl<T: Number> Settled<T> {
 /// assert!((found.roots[0] - 0.5).abs() < 1e-15 && (found.shapes[(1, 0)] + 0.1).abs() < 1e-15);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn first_order(
-    generalized_stiffness: &DVector<f64>,
-    beta: &DMatrix<f64>,
-) -> Result<Perturbed, Error> {
+pub fn first_order(generalized_stiffness: &Vector, beta: &Matrix) -> Result<Perturbed, Error> {
     let (k, size) = (generalized_stiffness, generalized_stiffness.len());
     at_least_one("modes", size)?;
     check_matrix("generalized stiffness change", beta, size, size)?;
@@ -127,7 +123,7 @@ pub fn first_order(
     }
     let mut now = Perturbed {
         roots: (k + beta.diagonal()).map(f64::recip),
-        shapes: DMatrix::identity(size, size),
+        shapes: Matrix::identity(size, size),
     };
     now.check_roots()?;
     update_shapes(k, beta, beta, &mut now)?;
@@ -160,8 +156,8 @@ pub fn first_order(
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
 pub fn recursive_1(
-    generalized_stiffness: &DVector<f64>,
-    beta: &DMatrix<f64>,
+    generalized_stiffness: &Vector,
+    beta: &Matrix,
     order: usize,
 ) -> Result<Perturbed, Error> {
     Ok(settle(generalized_stiffness, beta, 0.0, order)?.perturbed)
@@ -188,19 +184,14 @@ pub fn recursive_1(
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
 pub fn recursive_1_converged(
-    generalized_stiffness: &DVector<f64>,
-    beta: &DMatrix<f64>,
+    generalized_stiffness: &Vector,
+    beta: &Matrix,
 ) -> Result<Settled, Error> {
     settle(generalized_stiffness, beta, ROOT_TOLERANCE, MOST_ORDERS)?.check()
 }
 
 /// Recursive 1 to an order, or until no root changes by as much as `tolerance`.
-fn settle(
-    k: &DVector<f64>,
-    beta: &DMatrix<f64>,
-    tolerance: f64,
-    orders: usize,
-) -> Result<Settled, Error> {
+fn settle(k: &Vector, beta: &Matrix, tolerance: f64, orders: usize) -> Result<Settled, Error> {
     check_count("order", orders, 1, usize::MAX)?;
     let mut perturbed = first_order(k, beta)?;
     let mut coupling = beta.clone();
@@ -232,9 +223,9 @@ fn settle(
 /// Shapes from the present roots and the sums over the others, $p_{ij} = -S_{ij}/(k_{ii} + \beta_{ii} - 1/\gamma_j)$: zero
 /// where nothing couples the modes, refused where something does and the denominator vanishes.
 fn update_shapes(
-    k: &DVector<f64>,
-    beta: &DMatrix<f64>,
-    sums: &DMatrix<f64>,
+    k: &Vector,
+    beta: &Matrix,
+    sums: &Matrix,
     now: &mut Perturbed,
 ) -> Result<(), Error> {
     for j in 0..k.len() {

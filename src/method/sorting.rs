@@ -2,9 +2,8 @@
 //! Tour: [chapter 3](crate::tour::chapter_03_error_sum).
 
 use super::error::{Error, check_count, check_places};
-use super::linear_algebra::{check_finite, check_length, check_shape};
+use super::linear_algebra::{Matrix, check_finite, check_length, check_shape};
 use super::modes::Modes;
-use nalgebra::DMatrix;
 
 /// Pairs of an analysis mode with every test mode.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,11 +16,10 @@ pub struct Pairing {
 
 impl Pairing {
     /// Pairs with the signs of their entries in the cross-orthogonality (n × g).
-    pub(crate) fn signed(analysis_mode: Vec<usize>, cross: &DMatrix<f64>) -> Self {
-        let pairs = analysis_mode.iter().enumerate();
-        let sign = pairs.map(|(j, &i)| if cross[(i, j)] < 0.0 { -1.0 } else { 1.0 });
+    pub(crate) fn signed(analysis_mode: Vec<usize>, cross: &Matrix) -> Self {
+        let sign = |(j, &i): (usize, &usize)| if cross[(i, j)] < 0.0 { -1.0 } else { 1.0 };
         Self {
-            sign: sign.collect(),
+            sign: analysis_mode.iter().enumerate().map(sign).collect(),
             analysis_mode,
         }
     }
@@ -69,11 +67,7 @@ impl Pairing {
 /// assert_eq!(cross, dmatrix![0.0, -1.0; 1.0, 0.0]);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn cross_orthogonality(
-    analysis: &Modes,
-    test: &Modes,
-    mass: &DMatrix<f64>,
-) -> Result<DMatrix<f64>, Error> {
+pub fn cross_orthogonality(analysis: &Modes, test: &Modes, mass: &Matrix) -> Result<Matrix, Error> {
     let (v, w, dof_count) = (&analysis.shapes, &test.shapes, mass.nrows());
     check_shape("dynamic mass", mass, dof_count, dof_count)?;
     check_shape("analysis mode shapes", v, dof_count, v.ncols())?;
@@ -101,13 +95,14 @@ pub fn cross_orthogonality(
 /// assert_eq!((pairing.analysis_mode, pairing.sign), (vec![1, 0], vec![1.0, -1.0]));
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
+pub fn pair_modes(cross: &Matrix) -> Result<Pairing, Error> {
     let (analysis_count, test_count) = cross.shape();
     check_count("test modes", test_count, 1, analysis_count)?;
     check_finite("cross-orthogonality", cross)?;
     let from_one = |(i, j): (usize, usize)| (1.0 - cross[(i, j)].abs()).abs();
-    let of_test = |j| (0..analysis_count).map(move |i| (i, j));
-    let mut pairs: Vec<_> = (0..test_count).flat_map(of_test).collect();
+    let mut pairs: Vec<_> = (0..test_count)
+        .flat_map(|j| (0..analysis_count).map(move |i| (i, j)))
+        .collect();
     // The sort is stable, so ties stay in the order of test modes, then analysis modes.
     pairs.sort_by(|&a, &b| from_one(a).total_cmp(&from_one(b)));
     let mut partner = vec![None; test_count];
@@ -116,6 +111,8 @@ pub fn pair_modes(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
             partner[j] = Some(i);
         }
     }
-    let analysis_mode = partner.into_iter().flatten().collect();
-    Ok(Pairing::signed(analysis_mode, cross))
+    Ok(Pairing::signed(
+        partner.into_iter().flatten().collect(),
+        cross,
+    ))
 }

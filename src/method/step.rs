@@ -2,7 +2,7 @@
 //! Tour: [chapter 4](crate::tour::chapter_04_step).
 
 use super::error::Error;
-use nalgebra::DMatrix;
+use super::linear_algebra::Matrix;
 use serde::{Deserialize, Serialize};
 
 /// Gage in which a change of gage is measured by the step, in.
@@ -70,7 +70,7 @@ pub enum StepRule {
 impl StepRule {
     /// $\Delta k_e$ for a relative change of one, dimensionless: of a parameter with the stiffness `test_share` relative to the test's
     /// (g × g), at the factor $s_e$ on it, of the present `gage` (in).
-    pub fn measure(self, test_share: &DMatrix<f64>, share_factor: f64, gage: f64) -> f64 {
+    pub fn measure(self, test_share: &Matrix, share_factor: f64, gage: f64) -> f64 {
         match self {
             Self::Matrix => share_factor * test_share.norm(),
             Self::Own => {

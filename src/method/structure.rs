@@ -61,13 +61,18 @@ impl Material {
     /// Refuses moduli, Poisson's ratio or density out of their range.
     pub(crate) fn check(&self, owner: impl Fn() -> String) -> Result<(), Error> {
         positive("Young's modulus", &owner, self.youngs_modulus)?;
-        let nu = self.poissons_ratio;
-        let (is_met, expected) = (nu > -1.0 && nu <= 0.5, "more than -1 and at most 0.5");
-        require(is_met, "Poisson's ratio", &owner, nu, expected)?;
+        let (nu, density) = (self.poissons_ratio, self.density);
+        let is_met = nu > -1.0 && nu <= 0.5;
+        require(
+            is_met,
+            "Poisson's ratio",
+            &owner,
+            nu,
+            "more than -1 and at most 0.5",
+        )?;
         positive("shear modulus", &owner, self.shear_modulus)?;
-        let (density, expected) = (self.density, "positive and finite");
         let is_met = density >= 0.0 && density.is_finite();
-        require(is_met, "density", &owner, density, expected)
+        require(is_met, "density", owner, density, "positive and finite")
     }
 }
 
@@ -163,20 +168,17 @@ impl Structure {
             what,
             label,
         };
-        for &Grid {
-            label: grid,
-            position,
-            constrained,
-        } in &grids
-        {
-            if positions.insert(grid, position).is_some() {
+        for point in &grids {
+            let grid = point.label;
+            if positions.insert(grid, point.position).is_some() {
                 return Err(twice("grid", grid));
             }
-            for (direction, &value) in position.iter().enumerate() {
+            for (direction, &value) in point.position.iter().enumerate() {
                 let owner = || format!("grid {grid}");
                 require(value.is_finite(), "coordinate", owner, value, "finite")?;
-                let dof = StructuralDof { grid, direction };
-                free.extend((!constrained[direction]).then_some(dof));
+                if !point.constrained[direction] {
+                    free.push(StructuralDof { grid, direction });
+                }
             }
         }
         let (mut seen, mut corners) = (HashSet::new(), Vec::new());
@@ -187,15 +189,12 @@ impl Structure {
             }
             positive("gage or area", owner, element.size)?;
             element.material.check(owner)?;
-            let mut own = Vec::new();
-            for &label in &element.grids {
-                let missing = || Error::Unknown {
-                    owner: owner(),
-                    what: "grid",
-                    label,
-                };
-                own.push(*positions.get(&label).ok_or_else(missing)?);
-            }
+            let corner = |&label: &usize| {
+                let (owner, what) = (owner(), "grid");
+                let missing = Error::Unknown { owner, what, label };
+                positions.get(&label).copied().ok_or(missing)
+            };
+            let own: Vec<_> = element.grids.iter().map(corner).collect::<Result<_, _>>()?;
             check_corners(element.label, element.kind, &own)?;
             corners.push(own);
         }
@@ -244,17 +243,14 @@ pub fn check_corners(label: usize, kind: ElementKind, corners: &[Point]) -> Resu
     let count = kind.corner_count();
     check_count("corners of an element", corners.len(), count, count)?;
     let side = |a: usize, b: usize| corners[b % count] - corners[a % count];
-    let require = |what: &str, ratio: f64, least: f64| {
+    let require = |what: &str, ratio: f64, least: f64| match ratio > least {
+        true => Ok(()),
         // All corners in one place leave no number.
-        if ratio > least {
-            return Ok(());
-        }
-        let (element, what) = (label, what.to_owned());
-        Err(Error::Degenerate {
-            element,
-            what,
+        false => Err(Error::Degenerate {
+            element: label,
+            what: what.into(),
             ratio,
-        })
+        }),
     };
     if kind == ElementKind::Rod {
         let ratio = side(0, 1).norm() / (corners[0].norm() + corners[1].norm());
@@ -269,14 +265,14 @@ pub fn check_corners(label: usize, kind: ElementKind, corners: &[Point]) -> Resu
     let longest = across.iter().map(Point::norm).fold(0.0, f64::max);
     let ratio = 0.5 * normal.norm() / longest.powi(2);
     require("its corners have no area", ratio, SMALLEST_AREA_RATIO)?;
-    for corner in (0..count).filter(|_| count == 4) {
-        let turn = side(corner, corner + 1).cross(&side(corner, corner + 3));
-        let what = format!(
-            "its interior angle at corner {} is 180 degrees or more",
-            corner + 1
-        );
-        let ratio = turn.dot(&normal) / normal.norm_squared();
-        require(&what, ratio, SMALLEST_AREA_RATIO)?;
-    }
-    Ok(())
+    // Every angle of a triangle is less.
+    (1..=count).try_for_each(|corner| {
+        let turn = side(corner - 1, corner).cross(&side(corner - 1, corner + count - 2));
+        let what = format!("its interior angle at corner {corner} is 180 degrees or more");
+        require(
+            &what,
+            turn.dot(&normal) / normal.norm_squared(),
+            SMALLEST_AREA_RATIO,
+        )
+    })
 }

@@ -115,7 +115,7 @@ fn matrices_that_do_not_fit_are_refused_by_name() {
         (
             identity(),
             DMatrix::identity(2, 2),
-            "dynamic mass: 2 x 2 instead of 3 x 3",
+            "load distribution: 3 x 3 instead of 3 x 2",
         ),
         (
             nan,

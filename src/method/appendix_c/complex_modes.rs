@@ -2,9 +2,9 @@
 //! aerodynamic terms.
 
 use crate::method::error::{Error, at_least_one, require};
-use crate::method::linear_algebra::{as_faer, check_matrix, cholesky, reduced};
+use crate::method::linear_algebra::{Matrix, Vector, as_faer, check_matrix, cholesky, reduced};
 use crate::method::modes::{Modes, SIGN_TIE, mode};
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::Complex;
 
 /// Neighboring magnitudes that differ by less than this fraction count as equal for the order of modes, so that
 /// round-off does not choose the order of a conjugate pair.
@@ -18,11 +18,11 @@ const SMALLEST_COSINE: f64 = 1e-7;
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeftRightModes<T> {
     /// Roots $\lambda_i$ of $(K\lambda - G)v = 0$, s²; $1/\omega_i^2$ for a vibration.
-    pub roots: DVector<T>,
+    pub roots: Vector<T>,
     /// Right shapes $V$, solutions of $(K\lambda - G)v = 0$ (C.1), one per column.
-    pub right: DMatrix<T>,
+    pub right: Matrix<T>,
     /// Left shapes $U$, solutions of $(K\lambda - G)^t u = 0$ (C.2), one per column.
-    pub left: DMatrix<T>,
+    pub left: Matrix<T>,
 }
 
 impl From<&Modes> for LeftRightModes<f64> {
@@ -63,15 +63,16 @@ impl From<&Modes> for LeftRightModes<f64> {
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
 pub fn solve(
-    stiffness: &DMatrix<f64>,
-    g: &DMatrix<Complex<f64>>,
+    stiffness: &Matrix,
+    g: &Matrix<Complex<f64>>,
 ) -> Result<LeftRightModes<Complex<f64>>, Error> {
     let (what, size) = ("mass and aerodynamic terms", stiffness.nrows());
     at_least_one("degrees of freedom", size)?;
     let lower = cholesky("stiffness", stiffness, 0.0)?.map(Complex::from);
     check_matrix(what, g, size, size)?;
-    let eigen = as_faer(&reduced(&lower, g)).eigen();
-    let eigen = eigen.map_err(|_| Error::no_convergence(what))?;
+    let eigen = as_faer(&reduced(&lower, g))
+        .eigen()
+        .map_err(|_| Error::no_convergence(what))?;
     let root = |i: usize| eigen.S()[i];
     let mut order: Vec<usize> = (0..size).collect();
     order.sort_by(|&a, &b| root(b).norm().total_cmp(&root(a).norm()));
@@ -80,29 +81,34 @@ pub fn solve(
         equal.sort_by(|&a, &b| root(a).arg().total_cmp(&root(b).arg()));
     }
     // Shapes Y of unit length, each turned so that the first largest component of its v is real and positive.
-    let mut y = DMatrix::from_fn(size, size, |row, j| eigen.U()[(row, order[j])]);
-    for mut shape in y.column_iter_mut() {
+    let mut right = Matrix::from_fn(size, size, |row, j| eigen.U()[(row, order[j])]);
+    for mut shape in right.column_iter_mut() {
         let mut v = shape.clone_owned();
         lower.tr_solve_lower_triangular_unchecked_mut(&mut v);
         let largest = v.map(Complex::norm).max();
-        let is_largest = |value: &&Complex<f64>| value.norm() >= (1.0 - SIGN_TIE) * largest;
-        let first = v.iter().find(is_largest).copied();
+        let first = v
+            .iter()
+            .find(|value| value.norm() >= (1.0 - SIGN_TIE) * largest);
         let phase = first.map_or(Complex::from(1.0), |value| value / value.norm());
         shape /= phase * shape.norm();
     }
     // Left shapes of shapes that depend on each other are infinitely long.
-    let endless = DMatrix::from_element(size, size, Complex::from(f64::INFINITY));
-    let inverse = y.clone().try_inverse().unwrap_or(endless);
-    let (mut right, mut left) = (y, inverse.transpose());
+    let endless = Matrix::from_element(size, size, Complex::from(f64::INFINITY));
+    let mut left = right.clone().try_inverse().unwrap_or(endless).transpose();
     for (place, shape) in left.column_iter().enumerate() {
-        let (cosine, owner) = (1.0 / shape.norm(), || mode(place));
-        let what = "cosine of left and right shapes";
-        require(cosine > SMALLEST_COSINE, what, owner, cosine, "above 1e-7")?;
+        let (what, cosine) = ("cosine of left and right shapes", 1.0 / shape.norm());
+        require(
+            cosine > SMALLEST_COSINE,
+            what,
+            || mode(place),
+            cosine,
+            "above 1e-7",
+        )?;
     }
     lower.tr_solve_lower_triangular_unchecked_mut(&mut right);
     lower.tr_solve_lower_triangular_unchecked_mut(&mut left);
     Ok(LeftRightModes {
-        roots: DVector::from_fn(size, |j, _| root(order[j])),
+        roots: Vector::from_fn(size, |j, _| root(order[j])),
         right,
         left,
     })

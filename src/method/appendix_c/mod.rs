@@ -16,10 +16,9 @@ pub mod complex_modes;
 pub use super::linear_algebra::Number;
 
 use super::error::{Error, at_least_one, require};
-use super::linear_algebra::{check_finite, check_matrix, check_shape};
+use super::linear_algebra::{Matrix, Vector, check_finite, check_matrix, check_shape};
 use super::perturbation::{Perturbed, SMALLEST_SEPARATION};
 use complex_modes::LeftRightModes;
-use nalgebra::{DMatrix, DVector};
 
 /// Generalized stiffness between a left and another right mode, relative to their own, above which shapes count as not
 /// biorthogonal. Round-off leaves about 1e-14 times their condition.
@@ -28,8 +27,8 @@ const LARGEST_COUPLING: f64 = 1e-8;
 /// Pencil after a change of $K$ and of $G$, seen through the modes before it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pencil<T> {
-    a: DMatrix<T>,
-    g: DMatrix<T>,
+    a: Matrix<T>,
+    g: Matrix<T>,
 }
 
 impl Pencil<f64> {
@@ -39,17 +38,17 @@ impl Pencil<f64> {
     /// # Errors
     /// [`Error::Count`] without modes; [`Error::WrongShape`] and [`Error::Value`] for what does not fit or is not finite.
     pub fn of_vibrations(
-        omega_squared: &DVector<f64>,
-        beta: &DMatrix<f64>,
-        alpha: &DMatrix<f64>,
+        omega_squared: &Vector,
+        beta: &Matrix,
+        alpha: &Matrix,
     ) -> Result<Self, Error> {
         let size = omega_squared.len();
         at_least_one("modes", size)?;
         check_matrix("generalized stiffness change", beta, size, size)?;
         check_matrix("generalized mass change", alpha, size, size)?;
         Ok(Self {
-            a: DMatrix::from_diagonal(omega_squared) + beta,
-            g: DMatrix::identity(size, size) + alpha,
+            a: Matrix::from_diagonal(omega_squared) + beta,
+            g: Matrix::identity(size, size) + alpha,
         })
     }
 }
@@ -61,41 +60,44 @@ impl<T: Number> Pencil<T> {
     /// [`Error::WrongShape`] and [`Error::Value`] for input that does not fit or is not finite; [`Error::Value`] when $U^t K V$ is not
     /// diagonal (C.10).
     pub fn new(
-        stiffness: &DMatrix<T>,
+        stiffness: &Matrix<T>,
         modes: &LeftRightModes<T>,
-        stiffness_change: &DMatrix<T>,
-        g_change: &DMatrix<T>,
+        stiffness_change: &Matrix<T>,
+        g_change: &Matrix<T>,
     ) -> Result<Self, Error> {
         let (dof_count, count) = modes.right.shape();
         check_shape("left shapes", &modes.left, dof_count, count)?;
-        let through_modes = |what, matrix: &DMatrix<T>| {
+        let through_modes = |what, matrix: &Matrix<T>| {
             check_matrix(what, matrix, dof_count, dof_count)?;
             Ok(modes.left.tr_mul(&(matrix * &modes.right)))
         };
         let k = through_modes("stiffness", stiffness)?;
         for (i, j) in (0..count).flat_map(|j| (0..count).map(move |i| (i, j))) {
             let found = k[(i, j)].modulus() / (k[(i, i)] * k[(j, j)]).modulus().sqrt();
-            let (what, owner) = ("coupling of left and right shapes", || {
-                format!("modes {i} and {j}")
-            });
             let is_met = i == j || found <= LARGEST_COUPLING;
-            require(is_met, what, owner, found, "zero")?;
+            let owner = || format!("modes {i} and {j}");
+            require(
+                is_met,
+                "coupling of left and right shapes",
+                owner,
+                found,
+                "zero",
+            )?;
         }
-        let k = DMatrix::from_diagonal(&k.diagonal());
-        let own_g = &k * DMatrix::from_diagonal(&modes.roots);
+        let k = Matrix::from_diagonal(&k.diagonal());
         Ok(Self {
+            g: &k * Matrix::from_diagonal(&modes.roots) + through_modes("change of G", g_change)?,
             a: k + through_modes("stiffness change", stiffness_change)?,
-            g: own_g + through_modes("change of G", g_change)?,
         })
     }
 
     /// $A = k + \beta$ (n × n).
-    pub fn a(&self) -> &DMatrix<T> {
+    pub fn a(&self) -> &Matrix<T> {
         &self.a
     }
 
     /// $G = k\Lambda + \alpha$ (n × n).
-    pub fn g(&self) -> &DMatrix<T> {
+    pub fn g(&self) -> &Matrix<T> {
         &self.g
     }
 
@@ -151,7 +153,7 @@ impl<T: Number> Pencil<T> {
 
     /// Order zero: the shapes before the change, and Rayleigh's quotients on them for roots.
     pub(crate) fn order_zero(&self) -> Result<Perturbed<T>, Error> {
-        self.with_explicit_roots(DMatrix::identity(self.g.nrows(), self.g.nrows()))
+        self.with_explicit_roots(Matrix::identity(self.g.nrows(), self.g.nrows()))
     }
 
     /// One more order of Recursive 1.
@@ -241,7 +243,7 @@ impl<T: Number> Pencil<T> {
     }
 
     /// Given shapes with their roots, $\gamma_i = g_i/a_i$ with the diagonals $g$ of $Gp$ and $a$ of $Ap$ (C.24).
-    fn with_explicit_roots(&self, shapes: DMatrix<T>) -> Result<Perturbed<T>, Error> {
+    fn with_explicit_roots(&self, shapes: Matrix<T>) -> Result<Perturbed<T>, Error> {
         let (a, g) = (&self.a * &shapes, &self.g * &shapes);
         let roots = g.diagonal().component_div(&a.diagonal());
         finite(Perturbed { roots, shapes })
@@ -250,7 +252,7 @@ impl<T: Number> Pencil<T> {
 
 /// Accepts roots and shapes that are finite; the root of a mode without stiffness is not.
 fn finite<T: Number>(found: Perturbed<T>) -> Result<Perturbed<T>, Error> {
-    let roots = DMatrix::from_columns(std::slice::from_ref(&found.roots));
+    let roots = Matrix::from_columns(std::slice::from_ref(&found.roots));
     check_finite("perturbed roots", &roots)?;
     check_finite("perturbed generalized shapes", &found.shapes)?;
     Ok(found)

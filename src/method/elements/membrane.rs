@@ -1,7 +1,8 @@
 //! The constant-strain triangle in plane stress, and the membrane panel of four that overlap.
 
+use crate::method::linear_algebra::Matrix;
 use crate::method::structure::{Material, Point};
-use nalgebra::{DMatrix, Matrix3};
+use nalgebra::Matrix3;
 
 /// Stiffness of a constant-strain triangle of unit thickness, lbf/in per inch of gage (9 × 9).
 ///
@@ -27,7 +28,7 @@ use nalgebra::{DMatrix, Matrix3};
 /// assert!((stiffness[(3, 3)] - 0.5).abs() < 1e-15);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn triangle(corners: &[Point], material: &Material) -> DMatrix<f64> {
+pub fn triangle(corners: &[Point], material: &Material) -> Matrix {
     let [a, b, c] = [0, 1, 2].map(|n| corners[n]);
     let normal = (b - a).cross(&(c - a));
     let area = 0.5 * normal.norm();
@@ -36,7 +37,7 @@ pub fn triangle(corners: &[Point], material: &Material) -> DMatrix<f64> {
     // side opposite to it.
     let i = (b - a).normalize();
     let j = k.cross(&i);
-    let mut strain = DMatrix::zeros(3, 9);
+    let mut strain = Matrix::zeros(3, 9);
     for n in 0..3 {
         let opposite = corners[(n + 2) % 3] - corners[(n + 1) % 3];
         let gradient = k.cross(&opposite) / (2.0 * area);
@@ -83,8 +84,8 @@ const TRIANGLES: [[usize; 3]; 4] = [[0, 1, 3], [1, 2, 0], [2, 3, 1], [3, 0, 2]];
 /// assert!((stretch.dot(&(stiffness * &stretch)) - 1.0).abs() < 1e-14);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn membrane(corners: &[Point], material: &Material) -> DMatrix<f64> {
-    let mut stiffness = DMatrix::zeros(12, 12);
+pub fn membrane(corners: &[Point], material: &Material) -> Matrix {
+    let mut stiffness = Matrix::zeros(12, 12);
     for nodes in TRIANGLES {
         let part = triangle(&nodes.map(|n| corners[n]), material);
         for (a, &row_node) in nodes.iter().enumerate() {

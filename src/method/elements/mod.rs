@@ -8,11 +8,11 @@ pub mod membrane;
 pub mod shear;
 
 use super::structure::{ElementKind, Material, Point};
-use nalgebra::{DMatrix, DVector};
+use crate::method::linear_algebra::{Matrix, Vector};
 
 /// Stiffness of an element of any kind and unit size, lbf/in per in (gage) or per in² (area), for the corners of a
 /// [`Structure`](crate::method::structure::Structure): 6 × 6 for a rod, 9 × 9 for a triangle, 12 × 12 for a panel.
-pub fn unit_stiffness(kind: ElementKind, corners: &[Point], material: &Material) -> DMatrix<f64> {
+pub fn unit_stiffness(kind: ElementKind, corners: &[Point], material: &Material) -> Matrix {
     match kind {
         ElementKind::Rod => rod(corners, material.youngs_modulus),
         ElementKind::Triangle => membrane::triangle(corners, material),
@@ -38,10 +38,10 @@ pub fn unit_stiffness(kind: ElementKind, corners: &[Point], material: &Material)
 /// let stiffness = rod(&[Vector3::zeros(), 10.0 * Vector3::x()], 1.0e7);
 /// assert_eq!([(0, 0), (3, 0), (1, 1)].map(|entry| stiffness[entry]), [1.0e6, -1.0e6, 0.0]);
 /// ```
-pub fn rod(ends: &[Point], youngs_modulus: f64) -> DMatrix<f64> {
+pub fn rod(ends: &[Point], youngs_modulus: f64) -> Matrix {
     let along = ends[1] - ends[0];
     let length = along.norm();
     let n = along / length;
-    let b = DVector::from_iterator(6, (-n).iter().chain(n.iter()).copied());
+    let b = Vector::from_iterator(6, (-n).iter().chain(n.iter()).copied());
     (youngs_modulus / length) * &b * b.transpose()
 }

@@ -1,7 +1,8 @@
 //! The Garvey shear panel.
 
+use crate::method::linear_algebra::{Matrix, Vector};
 use crate::method::structure::{Material, Point};
-use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+use nalgebra::{Matrix2, Vector2};
 
 /// Gauss-Legendre rule of twelve points, by its positive half: points $s_k$, of which the negatives are points too, and weights $w_k$ of
 /// $\int_{-1}^{1} f(s) \thinspace ds \approx \sum_k w_k f(s_k)$, exact for polynomials up to degree 23. On strongly distorted panels it
@@ -39,7 +40,7 @@ pub const GAUSS_LEGENDRE: [(f64, f64); 6] = [
 /// assert!((&stiffness * stretch).norm() < 1e-14);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn shear_panel(corners: &[Point], material: &Material) -> DMatrix<f64> {
+pub fn shear_panel(corners: &[Point], material: &Material) -> Matrix {
     let a = corner_forces(corners);
     (0.5 / energy_coefficient(corners, material)) * &a * a.transpose()
 }
@@ -71,14 +72,14 @@ pub fn mean_plane(corners: &[Point]) -> [Vector2<f64>; 4] {
 ///    f_2 = \frac{X_2 Y_3}{2\big(\tau - X_2 (Y_3 - Y_4)\big)} d_{24} = -f_4 . $$
 ///
 /// They act along the true diagonals, so that force and moment vanish exactly, even on a warped panel.
-pub fn corner_forces(corners: &[Point]) -> DVector<f64> {
+pub fn corner_forces(corners: &[Point]) -> Vector {
     let [_, c2, c3, c4] = mean_plane(corners);
     let [d13, d24] = [corners[2] - corners[0], corners[3] - corners[1]];
     let x2 = c2.x;
     let tau = c4.x * c3.y - c3.x * c4.y;
     let f1 = -0.5 * x2 * c4.y / tau * d13;
     let f2 = 0.5 * x2 * c3.y / (tau - x2 * (c3.y - c4.y)) * d24;
-    DVector::from_iterator(12, [f1, f2, -f1, -f2].iter().flatten().copied())
+    Vector::from_iterator(12, [f1, f2, -f1, -f2].iter().flatten().copied())
 }
 
 /// Strain energy of a unit-thickness panel for a unit mean shear flow on side 1-2, in²·(in²/lbf).

@@ -69,15 +69,15 @@ pub const MATRICES: &[Entry] = &[
         let (rows, columns) = (d.size(), d.size());
         pair_modes(&d.matrix(rows, columns)).map(|found| found.sign)
     }),
-    ("orthogonalize::generalized_mass", |d| {
+    ("appendix_b::generalized_mass", |d| {
         let size = d.size();
         generalized_mass(d.modes(size)?.shapes(), &d.symmetric(size)).map(|found| entries(&found))
     }),
-    ("orthogonalize::orthogonalize", |d| {
+    ("appendix_b::orthogonalize", |d| {
         let size = d.size();
         orthogonalize(&d.modes(size)?, &d.symmetric(size)).map(|found| modes(&found.modes))
     }),
-    ("balance::balance", |d| {
+    ("appendix_b::balance", |d| {
         let (size, rigid) = (d.size(), d.size());
         let (set, mut stiffness, mass) = (d.modes(size)?, d.symmetric(size), d.symmetric(size));
         let mut motions = d.matrix(size, rigid);
@@ -90,7 +90,7 @@ pub const MATRICES: &[Entry] = &[
         }
         balance(&set, &stiffness, &mass, &motions).map(|found| entries(&found.shapes))
     }),
-    ("examine::examine", |d| {
+    ("appendix_b::examine", |d| {
         let size = d.size();
         let limits = MovementLimits {
             balance: d.number(),
@@ -105,7 +105,7 @@ pub const MATRICES: &[Entry] = &[
         examine(&d.modes(size)?, &d.symmetric(size), Supports::Held, &limits)
             .map(|found| modes(&found.modes))
     }),
-    ("balance::rigid_body_vectors", |d| {
+    ("appendix_b::rigid_body_vectors", |d| {
         let corners = d.corners();
         let points = corners.map(|position| MeasuringPoint {
             position,

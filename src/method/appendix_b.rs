@@ -1,0 +1,467 @@
+//! Appendix B: measured modes made fit for correlation.
+//! Tour: [chapter 9](crate::tour::chapter_09_noise).
+//!
+//! Measured modes violate equilibrium and orthogonality by the errors of the test. Three steps, in order:
+//!
+//! 1. [`balance`] adds to every shape the rigid-body motion that brings its forces and moments to zero (B.1 to B.4);
+//!    [`rigid_body_vectors`] writes those motions for given measuring points.
+//! 2. [`orthogonalize`] solves for the combinations of the shapes that are orthogonal in mass (B.5 to B.7).
+//! 3. [`examine`] does both, reports how far each mode moved, and leaves out the modes that moved past the limits.
+//!
+//! Only free and softly suspended structures are balanced: where supports hold the structure, their reactions balance
+//! the forces, which are then not zero at the dynamic DOF.
+
+use super::error::{Error, at_least_one, positive, require};
+use super::linear_algebra::{
+    Matrix, check_finite, check_matrix, check_shape, check_symmetric, cholesky, pencil_eigen,
+    symmetric_part,
+};
+use super::modes::{Modes, solve};
+use super::sorting::pair_modes;
+use nalgebra::{Unit, Vector3};
+
+/// Rigid-body stiffness, relative to $\omega^2$ times the rigid-body mass, above which a structure counts as supported:
+/// soft suspensions have modes below a fifth of every test frequency, supported structures a ratio of one or more.
+pub const LARGEST_SUSPENSION_RATIO: f64 = 0.04;
+
+/// Fraction of the generalized mass of a rigid-body vector or a shape, independent of those before it, below which it counts as
+/// dependent: the squared sine of the angle between it and their span. Round-off leaves about 1e-15; a reference axis a thousand
+/// lengths away leaves 1e-7.
+const SMALLEST_INDEPENDENT_PART: f64 = 1e-12;
+
+/// Test shapes whose forces and moments balance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Balanced {
+    /// Balanced shapes $v_i + \Phi r_i$ (d × n), at the scale of the raw ones.
+    pub shapes: Matrix,
+    /// Coefficients $r$ of the rigid-body vectors (m × n); a rotation has a translation's unit per inch.
+    pub coefficients: Matrix,
+    /// Each change relative to its shape in the mass norm, $\sqrt{(\Phi r_i)^t M \Phi r_i} /\sqrt{v_i^t M v_i}$.
+    pub change: Vec<f64>,
+}
+
+/// Adds to every test shape the rigid-body motion that balances its forces and moments.
+///
+/// With $R_i = \omega_i^2 M - K$ and the rigid-body vectors in the columns of $\Phi$, the coefficients solve
+///
+/// $$ \Phi^t R_i  (v_i + \Phi r_i) = 0, $$
+///
+/// for the symmetric case, $\Phi = (\lbrace 1 \rbrace, \lbrace x \rbrace)$, (B.3) and (B.4). On a free structure $K\Phi = 0$, and the
+/// balanced shape is the part of the raw one orthogonal in mass to every rigid-body motion. The equations are solved in
+/// the suspension modes $\hat\Phi = \Phi L^{-t} Y$ ($L L^t = \Phi^t M \Phi$), mass-orthonormal and with diagonal $K$:
+///
+/// $$ \hat\Phi^t K \hat\Phi = \mathrm{diag}(\mu), \qquad
+///    \hat r_{ki} = -\frac{\hat\phi_k^t R_i v_i}{\omega_i^2 - \mu_k}, \qquad r_i = L^{-t} Y \hat r_i. $$
+///
+/// `stiffness` in lbf/in and `mass` in lbf·s²/in (d × d), suspension springs included and aerodynamic forces left out
+/// (`paper/interpretation.md`); `rigid_body` $= \Phi$ (d × m), see [`rigid_body_vectors`].
+///
+/// # Errors
+/// [`Error::WrongShape`] and [`Error::Value`] for data that does not fit or is not finite; [`Error::NotPositiveDefinite`] when the
+/// balance equations are singular; [`Error::Supported`] when some $\lvert\mu_k\rvert$ exceeds [`LARGEST_SUSPENSION_RATIO`] of a mode's
+/// $\omega_i^2$: the structure is held, or the mode is itself a rigid-body mode on the suspension.
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::appendix_b::balance;
+/// use corfem::method::modes::Modes;
+/// use nalgebra::{DMatrix, dmatrix, dvector};
+///
+/// // Two free unit masses on a spring move against each other; measured with 0.05 of both together.
+/// let raw = Modes::new(dvector![2.0], dmatrix![1.0; -0.9])?;
+/// let stiffness = dmatrix![1.0, -1.0; -1.0, 1.0];
+/// let balanced = balance(&raw, &stiffness, &DMatrix::identity(2, 2), &dmatrix![1.0; 1.0])?;
+/// assert!((balanced.shapes - dmatrix![0.95; -0.95]).amax() < 1e-14);
+/// assert!((balanced.coefficients[0] + 0.05).abs() < 1e-14);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
+pub fn balance(
+    raw: &Modes,
+    stiffness: &Matrix,
+    mass: &Matrix,
+    rigid_body: &Matrix,
+) -> Result<Balanced, Error> {
+    let (dof_count, motion_count) = (mass.nrows(), rigid_body.ncols());
+    cholesky("dynamic mass", mass, 0.0)?;
+    let size = raw.generalized_masses(mass)?;
+    check_shape("dynamic stiffness", stiffness, dof_count, dof_count)?;
+    check_symmetric("dynamic stiffness", stiffness)?;
+    at_least_one("rigid-body vectors", motion_count)?;
+    check_matrix("rigid-body vectors", rigid_body, dof_count, motion_count)?;
+    let through = |matrix: &Matrix| rigid_body.tr_mul(&(matrix * rigid_body));
+    let lower = cholesky("rigid-body mass", &through(mass), SMALLEST_INDEPENDENT_PART)?;
+    // μ, zero on a free structure, and L⁻ᵗ Y (m × m).
+    let (mu, from_suspension) = pencil_eigen(
+        "rigid-body stiffness",
+        &through(stiffness),
+        &lower,
+        motion_count,
+    )?;
+    let (omega_squared, limit) = (&raw.omega_squared, LARGEST_SUSPENSION_RATIO);
+    for (mode, square) in omega_squared.iter().enumerate() {
+        let ratio = mu.amax() / square;
+        if ratio > limit {
+            return Err(Error::Supported { mode, ratio, limit });
+        }
+    }
+    let motions = rigid_body * &from_suspension;
+    let inertia = motions.tr_mul(&(mass * &raw.shapes));
+    let elastic = motions.tr_mul(&(stiffness * &raw.shapes));
+    let amplitudes = Matrix::from_fn(motion_count, raw.len(), |k, i| {
+        (elastic[(k, i)] - omega_squared[i] * inertia[(k, i)]) / (omega_squared[i] - mu[k])
+    });
+    let shapes = &raw.shapes + motions * &amplitudes;
+    check_finite("balanced test mode shapes", &shapes)?;
+    Ok(Balanced {
+        change: amplitudes
+            .column_iter()
+            .zip(size)
+            .map(|(added, size)| added.norm() / size.sqrt())
+            .collect(),
+        coefficients: from_suspension * &amplitudes,
+        shapes,
+    })
+}
+
+/// A dynamic degree of freedom: a measuring point and the direction measured there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeasuringPoint {
+    /// Position, in: x aft, y outboard, z up, from the reference axes.
+    pub position: Vector3<f64>,
+    /// Direction of motion.
+    pub direction: Unit<Vector3<f64>>,
+}
+
+/// A rigid-body motion, named by the force or moment that does work on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Motion {
+    /// Translation along x: drag.
+    ForeAft,
+    /// Translation along y: side force.
+    Side,
+    /// Translation along z: vertical force.
+    Plunge,
+    /// Rotation about x: rolling moment.
+    Roll,
+    /// Rotation about y: pitching moment.
+    Pitch,
+    /// Rotation about z: yawing moment.
+    Yaw,
+}
+
+/// The motions of the symmetric boundary condition: with z alone measured, $\lbrace 1 \rbrace$ and $\lbrace x \rbrace$ of (B.1) and (B.2).
+/// Where x is measured, add [`Motion::ForeAft`], which is symmetric too.
+pub const SYMMETRIC: [Motion; 2] = [Motion::Plunge, Motion::Pitch];
+
+/// The motions of the antisymmetric boundary condition. Where z alone is measured only [`Motion::Roll`] is seen, and
+/// the other two must be left out.
+pub const ANTISYMMETRIC: [Motion; 3] = [Motion::Side, Motion::Roll, Motion::Yaw];
+
+impl Motion {
+    /// Displacement of a point (in) under 1 in of translation, or per radian of rotation in the linear theory.
+    ///
+    /// Yaw turns x towards y, roll y towards z, and pitch x towards z, which lifts the tail.
+    pub fn displacement(self, position: Vector3<f64>) -> Vector3<f64> {
+        match self {
+            Self::ForeAft => Vector3::x(),
+            Self::Side => Vector3::y(),
+            Self::Plunge => Vector3::z(),
+            Self::Roll => Vector3::new(0.0, -position.z, position.y),
+            Self::Pitch => Vector3::new(-position.z, 0.0, position.x),
+            Self::Yaw => Vector3::new(-position.y, position.x, 0.0),
+        }
+    }
+}
+
+/// Rigid-body vectors $\Phi_{ij} = n_i \cdot u_j(x_i)$ (dynamic DOF × motions): what motion $j$ shows at DOF $i$.
+/// Translations have no unit, rotations are in inches per radian.
+///
+/// # Errors
+/// [`Error::Count`] without motions or without DOF; [`Error::Value`] for a position that is not finite.
+pub fn rigid_body_vectors(motions: &[Motion], dofs: &[MeasuringPoint]) -> Result<Matrix, Error> {
+    at_least_one("rigid-body motions", motions.len())?;
+    at_least_one("dynamic degrees of freedom", dofs.len())?;
+    let vectors = Matrix::from_fn(dofs.len(), motions.len(), |i, j| {
+        dofs[i]
+            .direction
+            .dot(&motions[j].displacement(dofs[i].position))
+    });
+    check_finite("rigid-body vectors", &vectors).map(|()| vectors)
+}
+
+/// Overlap of unit shapes that is the round-off of a product over some hundreds of DOF and counts as none: it would
+/// turn two modes of one frequency by any angle.
+const OVERLAP_ROUND_OFF: f64 = 1e-12;
+
+/// Movement of a mode by orthogonalization.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Movement {
+    /// Change of frequency relative to the raw one, $(f - f_G)/f_G$.
+    pub frequency: f64,
+    /// Mass norm of the change of shape, $\sqrt{(w - v)^t M (w - v)}$ with both scaled to unit generalized mass and
+    /// signed alike: $2\sin(\theta/2)$ for an angle $\theta$ between them, about the fraction of other modes mixed in.
+    pub shape: f64,
+}
+
+/// Orthogonal test modes and how far each one moved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Orthogonalized {
+    /// The modes, $V^t M V = I$, in the order and with the signs of the raw ones.
+    pub modes: Modes,
+    /// Overlaps of the raw shapes: $m_1$ (B.6) with every shape scaled to unit generalized mass (n × n).
+    pub overlap: Matrix,
+    /// Each mode's movement.
+    pub movement: Vec<Movement>,
+}
+
+/// Generalized mass $m_1 = V^t M V$ (B.6), n × n, of shapes in columns (d × n) of any scale. Its off-diagonal entries
+/// are the integrals of (B.5), which vanish for orthogonal modes.
+///
+/// # Errors
+/// [`Error::WrongShape`] when shapes and mass do not fit; [`Error::Value`] for a product that is not finite.
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::appendix_b::generalized_mass;
+/// use nalgebra::{DMatrix, dmatrix};
+///
+/// // Both masses together, and against each other: orthogonal, with 1 + 1 each.
+/// let mass = generalized_mass(&dmatrix![1.0, 1.0; 1.0, -1.0], &DMatrix::identity(2, 2))?;
+/// assert_eq!(mass, dmatrix![2.0, 0.0; 0.0, 2.0]);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
+pub fn generalized_mass(shapes: &Matrix, mass: &Matrix) -> Result<Matrix, Error> {
+    check_shape("dynamic mass", mass, shapes.nrows(), shapes.nrows())?;
+    let overlaps = shapes.tr_mul(&(mass * shapes));
+    check_finite("generalized mass", &overlaps).map(|()| overlaps)
+}
+
+/// Combinations of the test shapes that are orthogonal in mass, and their frequencies (B.7).
+///
+/// In the raw shapes, scaled to unit generalized mass, the equations of motion are the symmetric-definite eigenproblem
+///
+/// $$ \mathrm{diag}(\omega_{Gi}^2  m_{1,ii})  q = \omega^2  m_1  q, \qquad q^t m_1 q = 1. $$
+///
+/// with the test frequencies $\omega_{Gi}$. Each new shape $V q$ takes the place and sign of the raw one it is paired
+/// with. An overlap $e$ of two modes moves shapes by the order of $e$ and frequencies, mostly the higher, by that of
+/// $e^2$; the sum of $1/\omega^2$ never changes. `mass` in lbf·s²/in (d × d).
+///
+/// # Errors
+/// [`Error::WrongShape`] and [`Error::Value`] for data that does not fit or is not finite; [`Error::NotPositiveDefinite`] for the mass, or
+/// a shape that is a combination of those before it.
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::appendix_b::{generalized_mass, orthogonalize};
+/// use corfem::method::modes::Modes;
+/// use nalgebra::{DMatrix, dmatrix, dvector};
+///
+/// // The second shape has a tenth of the first in it.
+/// let raw = Modes::new(dvector![1.0, 4.0], dmatrix![1.0, 0.1; 0.0, 1.0])?;
+/// let mass = DMatrix::identity(2, 2);
+/// let modes = orthogonalize(&raw, &mass)?.modes;
+/// assert!((generalized_mass(modes.shapes(), &mass)? - &mass).amax() < 1e-14);
+/// // The sum of 1/ω² is that of the raw modes, 1 + 1/4.
+/// assert!((modes.omega_squared().map(f64::recip).sum() - 1.25).abs() < 1e-14);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
+pub fn orthogonalize(raw: &Modes, mass: &Matrix) -> Result<Orthogonalized, Error> {
+    cholesky("dynamic mass", mass, 0.0)?;
+    let unit = raw.scaled_with(mass)?.shapes;
+    let overlap = symmetric_part(&generalized_mass(&unit, mass)?)
+        .map(|m| if m.abs() < OVERLAP_ROUND_OFF { 0.0 } else { m });
+    cholesky(
+        "overlap of the test shapes",
+        &overlap,
+        SMALLEST_INDEPENDENT_PART,
+    )?;
+    let combined = solve(
+        &Matrix::from_diagonal(&raw.omega_squared),
+        &overlap,
+        raw.len(),
+    )?;
+    let combined = pair_modes(&combined.shapes.tr_mul(&overlap))?.paired(&combined)?;
+    let modes = Modes {
+        shapes: &unit * combined.shapes,
+        omega_squared: combined.omega_squared,
+    };
+    let difference = &modes.shapes - unit;
+    let moved = |mode: usize| Movement {
+        frequency: (modes.omega_squared[mode] / raw.omega_squared[mode]).sqrt() - 1.0,
+        shape: difference
+            .column(mode)
+            .dot(&(mass * difference.column(mode)))
+            .sqrt(),
+    };
+    Ok(Orthogonalized {
+        movement: (0..raw.len()).map(moved).collect(),
+        modes,
+        overlap,
+    })
+}
+
+/// Movements beyond which a mode is deleted, in fractions chosen by engineering judgment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MovementLimits {
+    /// Change of shape by balancing, [`Balanced::change`]; between 0 and 1.
+    pub balance: f64,
+    /// Change of frequency by orthogonalization, up or down, [`Movement::frequency`].
+    pub frequency: f64,
+    /// Change of shape by orthogonalization, [`Movement::shape`].
+    pub shape: f64,
+}
+
+impl Default for MovementLimits {
+    /// 10 % of shape for each step, the customary bound on the off-diagonal generalized masses of test modes, and 2 %
+    /// of frequency, several times what a resonance is measured to.
+    fn default() -> Self {
+        Self {
+            balance: 0.10,
+            frequency: 0.02,
+            shape: 0.10,
+        }
+    }
+}
+
+/// Supports of the tested structure.
+#[derive(Debug, Clone, Copy)]
+pub enum Supports<'a> {
+    /// By supports, whose reactions balance the forces: the modes are not balanced.
+    Held,
+    /// Not at all, or by a soft suspension: the modes are balanced first.
+    Free {
+        /// Dynamic stiffness with the suspension's springs, lbf/in (d × d).
+        stiffness: &'a Matrix,
+        /// Rigid-body vectors (d × m), see [`rigid_body_vectors`].
+        rigid_body: &'a Matrix,
+    },
+}
+
+/// Verdict on a test mode: kept, or why not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ModeVerdict {
+    /// Kept.
+    Kept,
+    /// Deleted: balancing changed its shape by more than the limit.
+    Unbalanced,
+    /// Deleted: with it among the modes, orthogonalization moved some mode past a limit.
+    NotOrthogonal,
+}
+
+/// Report on one test mode.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ModeReport {
+    /// Relative change of shape by balancing; none when the structure was held.
+    pub balance: Option<f64>,
+    /// Movement by orthogonalization among the modes not yet deleted; none when balancing deleted it.
+    pub movement: Option<Movement>,
+    /// Kept or deleted.
+    pub verdict: ModeVerdict,
+}
+
+/// Test modes fit for correlation, and the report on all of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Examination {
+    /// The modes kept, balanced and orthonormal, in the order of the raw ones.
+    pub modes: Modes,
+    /// Places of these among the raw modes, from zero.
+    pub kept: Vec<usize>,
+    /// One report for every raw mode.
+    pub reports: Vec<ModeReport>,
+}
+
+/// Balances the test modes, orthogonalizes them, and deletes those that do not fit.
+///
+/// A mode that balancing changes by more than its limit is deleted at once. Orthogonalization moves good modes with a
+/// wrong one that overlaps them, and may move them farther. So while any mode moves past a limit, the one is deleted
+/// that overlaps most with all others together, $\max_i \sum_{j \ne i} m_{1,ij}^2$ (on a tie the one that moved
+/// farthest, the higher of two), and the rest are orthogonalized anew from their balanced shapes. This finds a single
+/// wrong mode anywhere in the spectrum; several that are mixed with each other are not always told from good ones.
+///
+/// # Errors
+/// [`Error::Value`] for a bad limit; [`Error::Count`] when no mode is left; what [`balance`] and [`orthogonalize`] refuse.
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::appendix_b::{MovementLimits, Supports, examine};
+/// use corfem::method::modes::Modes;
+/// use nalgebra::{DMatrix, dmatrix, dvector};
+///
+/// // The third shape has a fifth of either of the others in it.
+/// let shapes = dmatrix![1.0, 0.0, 0.2; 0.0, 1.0, 0.2; 0.0, 0.0, 1.0];
+/// let raw = Modes::new(dvector![1.0, 4.0, 9.0], shapes)?;
+/// let mass = DMatrix::identity(3, 3);
+/// let examination = examine(&raw, &mass, Supports::Held, &MovementLimits::default())?;
+/// assert_eq!(examination.kept, [0, 1]);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
+pub fn examine(
+    raw: &Modes,
+    mass: &Matrix,
+    supports: Supports,
+    limits: &MovementLimits,
+) -> Result<Examination, Error> {
+    let owner = || "the movement limits".to_owned();
+    let is_met = limits.balance > 0.0 && limits.balance < 1.0;
+    require(
+        is_met,
+        "balance",
+        owner,
+        limits.balance,
+        "a number between 0 and 1",
+    )?;
+    positive("frequency", owner, limits.frequency)?;
+    positive("shape", owner, limits.shape)?;
+    let (mut balanced, mut change) = (raw.clone(), vec![None; raw.len()]);
+    if let Supports::Free {
+        stiffness,
+        rigid_body,
+    } = supports
+    {
+        let found = balance(raw, stiffness, mass, rigid_body)?;
+        balanced.shapes = found.shapes;
+        change = found.change.into_iter().map(Some).collect();
+    }
+    let report = |balance: Option<f64>| ModeReport {
+        balance,
+        movement: None,
+        verdict: match balance {
+            Some(change) if change > limits.balance => ModeVerdict::Unbalanced,
+            _ => ModeVerdict::Kept,
+        },
+    };
+    let mut reports: Vec<_> = change.into_iter().map(report).collect();
+    let is_kept = |&mode: &usize| reports[mode].verdict == ModeVerdict::Kept;
+    let mut kept: Vec<usize> = (0..raw.len()).filter(is_kept).collect();
+    loop {
+        at_least_one("test modes within the limits", kept.len())?;
+        let found = orthogonalize(&balanced.select(&kept), mass)?;
+        for (&mode, &movement) in kept.iter().zip(&found.movement) {
+            reports[mode].movement = Some(movement);
+        }
+        // The larger movement in units of its limit.
+        let excess = |place: usize| {
+            let Movement { frequency, shape } = found.movement[place];
+            (frequency.abs() / limits.frequency).max(shape / limits.shape)
+        };
+        if (0..kept.len()).all(|place| excess(place) <= 1.0) {
+            return Ok(Examination {
+                modes: found.modes,
+                kept,
+                reports,
+            });
+        }
+        let m = &found.overlap;
+        let overlaps = |i: usize| m.column(i).norm_squared() - m[(i, i)].powi(2);
+        let rank = |&a: &usize, &b: &usize| {
+            let most = overlaps(a).total_cmp(&overlaps(b));
+            most.then(excess(a).total_cmp(&excess(b)))
+        };
+        let deleted = kept.remove((0..kept.len()).max_by(rank).unwrap_or(0));
+        reports[deleted].verdict = ModeVerdict::NotOrthogonal;
+    }
+}
