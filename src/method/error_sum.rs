@@ -5,10 +5,9 @@ use super::error::{Error, positive, require};
 use super::linear_algebra::check_shape;
 use super::modes::{Modes, mode};
 use super::sorting::Pairing;
-use serde::Serialize;
 
 /// Errors of one test mode.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ModeError {
     /// Relative difference of its frequency, with its sign.
     pub frequency: f64,

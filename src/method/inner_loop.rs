@@ -54,14 +54,10 @@ impl InnerSettings {
     pub(crate) fn check(&self) -> Result<(), Error> {
         let Bounds { lower, upper } = self.factor_range;
         Bounds::positive("factor limits", lower, upper)?;
-        for (what, value) in [
-            ("first_relaxation", self.first_relaxation),
-            ("relaxation", self.relaxation),
-            ("tolerance", self.tolerance),
-        ] {
-            positive(what, || "the inner loop".into(), value)?;
-        }
-        Ok(())
+        let owner = || "the inner loop".into();
+        positive("first_relaxation", owner, self.first_relaxation)?;
+        positive("relaxation", owner, self.relaxation)?;
+        positive("tolerance", owner, self.tolerance)
     }
 }
 
@@ -155,42 +151,42 @@ pub fn run(
     for range in total_ranges.iter().flatten() {
         Bounds::positive("parameter limits", range.lower, range.upper)?;
     }
-    let mut factors = vec![1.0; base.len()];
-    let mut state = analysis.at(&factors)?;
-    let start = state.errors;
-    let (mut iterations, mut first_unlimited_factors) = (Vec::new(), Vec::new());
-    let stop = loop {
-        if iterations.len() == settings.iterations {
-            break Stop::Iterations;
-        }
-        let is_first = iterations.is_empty();
-        let direction = direction(analysis, &state, &factors, is_first, settings)?;
-        if is_first {
-            first_unlimited_factors.clone_from(&direction.unlimited_factors);
-        }
-        let bounds = (base, total_ranges);
-        let iteration: Iteration;
-        (iteration, state) =
-            match lowering_step(analysis, &state, &factors, direction, bounds, settings) {
-                Ok(Some(found)) => found,
-                // An error in the first step names the modes that prevent any; later ones end the loop where it is.
-                Err(error) if is_first || !error.is_of_close_modes() => return Err(error),
-                _ => break Stop::LocalMinimum,
-            };
-        factors.clone_from(&iteration.factors);
-        iterations.push(iteration);
-        if state.errors.sum() < settings.tolerance {
-            break Stop::Tolerance;
-        }
-    };
-    Ok(InnerRun {
-        start,
-        iterations,
-        last: state,
+    let factors = vec![1.0; base.len()];
+    let last = analysis.at(&factors)?;
+    let mut run = InnerRun {
+        start: last.errors,
+        iterations: Vec::new(),
+        last,
         factors,
-        first_unlimited_factors,
-        stop,
-    })
+        first_unlimited_factors: Vec::new(),
+        stop: Stop::Iterations,
+    };
+    while run.iterations.len() < settings.iterations {
+        let is_first = run.iterations.is_empty();
+        let direction = direction(analysis, &run.last, &run.factors, is_first, settings)?;
+        if is_first {
+            run.first_unlimited_factors
+                .clone_from(&direction.unlimited_factors);
+        }
+        match lowering_step(analysis, &run, direction, base, total_ranges, settings) {
+            Ok(Some((iteration, lower))) => {
+                run.last = lower;
+                run.factors.clone_from(&iteration.factors);
+                run.iterations.push(iteration);
+            }
+            // An error in the first step names the modes that prevent any; later ones end the loop where it is.
+            Err(error) if is_first || !error.is_of_close_modes() => return Err(error),
+            _ => {
+                run.stop = Stop::LocalMinimum;
+                break;
+            }
+        }
+        if run.last.errors.sum() < settings.tolerance {
+            run.stop = Stop::Tolerance;
+            break;
+        }
+    }
+    Ok(run)
 }
 
 /// Factors of (13) before any bound that the first iteration from the last exact modes asks for.
@@ -215,9 +211,10 @@ fn direction(
 ) -> Result<Iteration, Error> {
     let error_changes = analysis.error_changes(state)?;
     let stiffness_changes = analysis.stiffness_changes(state, factors, settings.step);
-    let relaxation = match is_first {
-        true => settings.first_relaxation,
-        false => settings.relaxation,
+    let relaxation = if is_first {
+        settings.first_relaxation
+    } else {
+        settings.relaxation
     };
     let factor = |(error, stiffness): (&f64, &f64)| {
         unlimited_factor(*error, *stiffness, state.errors.sum(), relaxation)
@@ -238,10 +235,10 @@ fn direction(
 /// every trial, returns the last error.
 fn lowering_step(
     analysis: &dyn Analysis,
-    state: &State,
-    factors: &[f64],
+    InnerRun { last, factors, .. }: &InnerRun,
     mut iteration: Iteration,
-    (base, total_ranges): (&[f64], &[Option<Bounds>]),
+    base: &[f64],
+    total_ranges: &[Option<Bounds>],
     settings: &InnerSettings,
 ) -> Result<Option<(Iteration, State)>, Error> {
     let (mut is_too_far, mut refusal) = (false, None);
@@ -253,9 +250,9 @@ fn lowering_step(
         };
         (iteration.factors, iteration.limits) = (0..factors.len()).map(limited).unzip();
         let (rule, next) = (settings.accumulation, &iteration.factors);
-        let share = |e: usize| rule.next_share_factor(state.factors[e], factors[e], next[e]);
+        let share = |e: usize| rule.next_share_factor(last.factors[e], factors[e], next[e]);
         match analysis.at(&(0..factors.len()).map(share).collect::<Vec<_>>()) {
-            Ok(lower) if lower.errors.sum() < state.errors.sum() => {
+            Ok(lower) if lower.errors.sum() < last.errors.sum() => {
                 (iteration.halvings, iteration.errors) = (halvings, lower.errors);
                 return Ok(Some((iteration, lower)));
             }

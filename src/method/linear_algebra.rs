@@ -1,6 +1,7 @@
 //! Dense decompositions of the method, through faer, with the checks that faer leaves to its caller.
 
 use super::error::{Error, at_least_one, require};
+use faer::linalg::cholesky::llt::factor::LltError;
 use faer::{MatRef, Side};
 use nalgebra::{ComplexField, DMatrix, DVector};
 
@@ -117,20 +118,19 @@ pub fn symmetric_part(matrix: &Matrix) -> Matrix {
 /// row of the first bad pivot.
 pub fn cholesky(what: &'static str, matrix: &Matrix, smallest_pivot: f64) -> Result<Matrix, Error> {
     check_symmetric(what, matrix)?;
-    let lower = match as_faer(matrix).llt(Side::Lower) {
-        Ok(factor) => from_faer(factor.L()),
-        Err(faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }) => {
-            // A pivot before it may have been too small already.
-            let before = matrix.view((0, 0), (index, index)).into_owned();
-            cholesky(what, &before, smallest_pivot)?;
-            return Err(Error::NotPositiveDefinite { what, row: index });
-        }
-    };
+    let refused = |row| Error::NotPositiveDefinite { what, row };
+    let factor = as_faer(matrix).llt(Side::Lower);
+    let lower = factor.map_err(|LltError::NonPositivePivot { index }| {
+        // A pivot before it may have been too small already.
+        let before = matrix.view((0, 0), (index, index)).into_owned();
+        cholesky(what, &before, smallest_pivot)
+            .err()
+            .unwrap_or(refused(index))
+    })?;
+    let lower = from_faer(lower.L());
     let is_bad = |&i: &usize| lower[(i, i)].powi(2) <= smallest_pivot * matrix[(i, i)];
     let bad = (0..matrix.nrows()).find(is_bad);
-    bad.map_or(Ok(lower), |row| {
-        Err(Error::NotPositiveDefinite { what, row })
-    })
+    bad.map_or(Ok(lower), |row| Err(refused(row)))
 }
 
 /// Round-off in place of a zero eigenvalue of a semidefinite matrix of $n$ rows with unit diagonal: $32 \varepsilon \sqrt n$.
@@ -163,8 +163,9 @@ pub fn symmetric_eigen(what: &'static str, matrix: &Matrix) -> Result<(Vector, M
     // Entries of order one: the squares of very large or small ones leave the range of numbers. A power of two is exact.
     let exponent = matrix.amax().log2().floor();
     let unit = exponent.clamp(-1000.0, 1000.0).exp2();
-    let eigen = as_faer(&(matrix / unit)).self_adjoint_eigen(Side::Lower);
-    let eigen = eigen.map_err(|_| Error::no_convergence(what))?;
+    let eigen = as_faer(&(matrix / unit))
+        .self_adjoint_eigen(Side::Lower)
+        .map_err(|_| Error::no_convergence(what))?;
     let values = Vector::from_fn(matrix.nrows(), |i, _| unit * eigen.S()[i]);
     Ok((values, from_faer(eigen.U())))
 }
@@ -190,6 +191,7 @@ pub(crate) fn as_faer<T>(matrix: &Matrix<T>) -> MatRef<'_, T> {
 
 /// Matrix back from faer.
 pub(crate) fn from_faer(matrix: MatRef<f64>) -> Matrix {
-    let entry = |row, column| matrix[(row, column)];
-    Matrix::from_fn(matrix.nrows(), matrix.ncols(), entry)
+    Matrix::from_fn(matrix.nrows(), matrix.ncols(), |row, column| {
+        matrix[(row, column)]
+    })
 }

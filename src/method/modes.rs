@@ -116,11 +116,12 @@ impl Modes {
     pub(crate) fn generalized_masses(&self, mass: &Matrix) -> Result<Vec<f64>, Error> {
         let dof_count = self.shapes.nrows();
         check_shape("dynamic mass", mass, dof_count, dof_count)?;
-        let masses = self.shapes.column_iter().enumerate().map(|(place, shape)| {
-            let own = shape.dot(&(mass * shape));
+        let weighted = mass * &self.shapes;
+        let own = |place| {
+            let own = self.shapes.column(place).dot(&weighted.column(place));
             positive("generalized mass", || mode(place), own).map(|()| own)
-        });
-        masses.collect()
+        };
+        (0..self.len()).map(own).collect()
     }
 
     /// Modes with every shape scaled to unit generalized mass, $v^t M v = 1$ (3). Orthogonality is not enforced;

@@ -48,15 +48,11 @@ impl Default for Settings {
 impl Settings {
     fn check(&self) -> Result<(), Error> {
         self.inner.check()?;
-        for (what, value) in [
-            ("later_inner_tolerance", self.later_inner_tolerance),
-            ("error_sum_tolerance", self.error_sum_tolerance),
-            ("frequency_tolerance", self.frequency_tolerance),
-            ("shape_tolerance", self.shape_tolerance),
-        ] {
-            positive(what, || "the outer loop".into(), value)?;
-        }
-        Ok(())
+        let owner = || "the outer loop".into();
+        positive("later_inner_tolerance", owner, self.later_inner_tolerance)?;
+        positive("error_sum_tolerance", owner, self.error_sum_tolerance)?;
+        positive("frequency_tolerance", owner, self.frequency_tolerance)?;
+        positive("shape_tolerance", owner, self.shape_tolerance)
     }
 
     /// Settings for another number of test modes than the nine that the paper's were found with: errors of the same root mean

@@ -65,12 +65,12 @@ impl<T: Number> Settled<T> {
     /// Accepts a recursion whose roots have settled, or nearly so, on as many modes as there are: a strong change can lead two modes to
     /// one, and then another is missed.
     pub(crate) fn check(self) -> Result<Self, Error> {
-        let (last_change, orders) = (self.last_change, self.order);
         // NaN has not settled either.
-        if last_change.is_nan() || last_change > LARGEST_UNSETTLED_CHANGE {
+        let is_settled = self.last_change <= LARGEST_UNSETTLED_CHANGE;
+        if !is_settled {
             return Err(Error::UnsettledRoots {
-                orders,
-                last_change,
+                orders: self.order,
+                last_change: self.last_change,
             });
         }
         let Perturbed { roots, shapes } = &self.perturbed;

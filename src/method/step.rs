@@ -105,7 +105,7 @@ pub fn unlimited_factor(
 }
 
 /// Limit of a parameter's factor in an iteration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Limit {
     /// Nothing: the factor is the computed one.

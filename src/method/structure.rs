@@ -3,7 +3,6 @@
 
 use super::error::{Error, at_least_one, check_count, positive, require};
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
 use std::collections::{HashMap, HashSet};
 
 /// Names of the three directions of a grid point's motion, in the order of its DOF.
@@ -77,7 +76,7 @@ impl Material {
 }
 
 /// Kind of an element: what it is made of and what it resists.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ElementKind {
     /// Axial member between two grids; its size is a cross section (area), in².
     Rod,

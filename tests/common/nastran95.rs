@@ -151,7 +151,7 @@ pub fn snap_factor(corners: &[Vector3<f64>], material: &Material) -> f64 {
         no_sides_parallel_energy, parallelogram_energy, sides_12_34_parallel_energy,
         sides_14_23_parallel_energy,
     };
-    let flat = corfem::method::elements::shear::mean_plane(corners);
+    let flat = corfem::method::elements::mean_plane(corners);
     let [_, c2, c3, c4] = flat;
     let tangent = 0.01;
     let parallel_12_34 = (c3.y - c4.y).abs() < tangent * (c3.x - c4.x).abs();
@@ -163,5 +163,5 @@ pub fn snap_factor(corners: &[Vector3<f64>], material: &Material) -> f64 {
         (false, true) => sides_14_23_parallel_energy,
         (false, false) => no_sides_parallel_energy,
     };
-    corfem::method::elements::shear::energy_coefficient(corners, material) / energy(&flat, material)
+    corfem::method::elements::energy_coefficient(corners, material) / energy(&flat, material)
 }

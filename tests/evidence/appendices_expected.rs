@@ -10,8 +10,8 @@ use crate::common::tolerances::{
 use approx::assert_relative_eq;
 use corfem::method::analysis::Analysis;
 use corfem::method::appendix_b::{balance, orthogonalize};
+use corfem::method::appendix_c::LeftRightModes;
 use corfem::method::appendix_c::Pencil;
-use corfem::method::appendix_c::complex_modes::LeftRightModes;
 use corfem::method::modes::Modes;
 use corfem::method::perturbation::Perturbed;
 use corfem::torque_box::Case;

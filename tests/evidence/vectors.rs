@@ -9,7 +9,7 @@ use corfem::method::analysis::Analysis;
 use corfem::method::appendix_a::assemble;
 use corfem::method::appendix_b::{balance, generalized_mass, orthogonalize};
 use corfem::method::appendix_c::Pencil;
-use corfem::method::appendix_c::complex_modes::{self, LeftRightModes};
+use corfem::method::appendix_c::{self, LeftRightModes};
 use corfem::method::error_sum::errors;
 use corfem::method::inner_loop::run;
 use corfem::method::linear_algebra::symmetric_part;
@@ -263,7 +263,7 @@ fn with_mass(given: &Value) -> Value {
 
 fn left_and_right(given: &Value) -> Value {
     let real = |key: &str| matrix(&given[key]);
-    let modes = complex_modes::solve(&real("stiffness"), &complex(given, "g")).expect("solved");
+    let modes = appendix_c::solve(&real("stiffness"), &complex(given, "g")).expect("solved");
     let [stiffness, stiffness_change, g_change] =
         ["stiffness", "stiffness_change", "g_change"].map(|key| complex(given, key));
     let none = DMatrix::zeros(stiffness.nrows(), stiffness.ncols());

@@ -8,7 +8,7 @@ use crate::common::tolerances::{
     NASTRAN_EIGENVALUE, NASTRAN_FREQUENCY, NASTRAN_GAGE, NASTRAN_GAGE_CASE_1,
     NASTRAN_SINGLE_PRECISION, PRINTED_SNAP_FACTOR,
 };
-use corfem::method::elements::shear::{energy_coefficient, mean_plane};
+use corfem::method::elements::{energy_coefficient, mean_plane};
 use corfem::method::modes::solve;
 use corfem::method::structure::{Element, ElementKind, Material};
 use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};

@@ -3,8 +3,8 @@
 use crate::common::appendix_c::{ModalChange, four_modes};
 use crate::common::said;
 use crate::common::tolerances::{CANCELLED_DIFFERENCE, ROUND_OFF};
+use corfem::method::appendix_c::LeftRightModes;
 use corfem::method::appendix_c::Pencil;
-use corfem::method::appendix_c::complex_modes::LeftRightModes;
 use corfem::method::error::Error;
 use corfem::method::perturbation::Perturbed;
 use corfem::sparse::normalize_with_mass;

@@ -41,7 +41,7 @@ fn shapes_and_mass_must_fit() {
             modes(2, 1),
             modes(3, 2),
             identity(3),
-            "analysis mode shapes: 2 x 1 instead of 3 x 1",
+            "dynamic mass: 3 x 3 instead of 2 x 2",
         ),
         (
             modes(3, 1),

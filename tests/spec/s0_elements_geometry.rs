@@ -4,7 +4,7 @@ use crate::common::closed_forms::analytical::area;
 use crate::common::panels::{flat_panel, panel_sample, placed};
 use crate::common::strategies::{point, rotation};
 use crate::common::tolerances::{ELEMENT_ROUND_OFF, ROUND_OFF};
-use corfem::method::elements::shear::mean_plane;
+use corfem::method::elements::mean_plane;
 use corfem::method::error::Error;
 use corfem::method::structure::{ElementKind, Point, check_corners};
 use nalgebra::{Matrix3, Vector2, Vector3};

@@ -3,8 +3,8 @@
 use crate::common::matrices::relative_distance;
 use crate::common::panels::{flat_panel, material, placed, warped_panel};
 use crate::common::tolerances::{ELEMENT_ROUND_OFF, ROUND_OFF};
-use corfem::method::elements::membrane::{membrane, triangle};
 use corfem::method::elements::rod;
+use corfem::method::elements::{membrane, triangle};
 use corfem::method::structure::Material;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use proptest::prelude::*;

@@ -14,7 +14,7 @@ use crate::common::tolerances::{
     CLOSED_FORM_GENERAL, ELEMENT_ROUND_OFF, QUADRATURE_DISTORTED, QUADRATURE_TRAPEZOID, ROUND_OFF,
 };
 use approx::assert_relative_eq;
-use corfem::method::elements::shear::{corner_forces, energy_coefficient, mean_plane, shear_panel};
+use corfem::method::elements::{corner_forces, energy_coefficient, mean_plane, shear_panel};
 use corfem::method::structure::Material;
 use nalgebra::{DVector, Vector2, Vector3};
 use proptest::prelude::*;

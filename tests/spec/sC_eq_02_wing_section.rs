@@ -8,7 +8,7 @@ use crate::common::complex_pencils::{
 use crate::common::log_log_slope;
 use crate::common::tolerances::{COMPLEX_EIGEN_ROUND_OFF, EIGEN_ROUND_OFF, ORDER_SLACK, ROUND_OFF};
 use corfem::method::appendix_c::Pencil;
-use corfem::method::appendix_c::complex_modes::{LeftRightModes, solve};
+use corfem::method::appendix_c::{LeftRightModes, solve};
 use corfem::method::error::Error;
 use nalgebra::{Complex, DMatrix, DVector};
 

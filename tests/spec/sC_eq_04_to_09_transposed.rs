@@ -2,7 +2,7 @@
 
 use crate::common::complex_pencils::{Complexes, aeroelastic_section, amax, complex, through};
 use crate::common::tolerances::{COMPLEX_EIGEN_ROUND_OFF, WRONG_FORM};
-use corfem::method::appendix_c::complex_modes::{LeftRightModes, solve};
+use corfem::method::appendix_c::{LeftRightModes, solve};
 use nalgebra::{Complex, DMatrix};
 
 /// A wing section with aileron in a flow: stiffness, and G complex and unsymmetric.

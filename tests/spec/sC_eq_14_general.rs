@@ -1,12 +1,12 @@
 //! Appendix C in full on real numbers: equal to the plain path where that applies, and mass changes beside stiffness.
 
 use crate::common::appendix_c::{
-    ModalChange, ascending, eigensolution, errors, four_modes, rules, separate_change,
-    three_mass_chain,
+    ModalChange, ascending, eigensolution, errors, four_modes, on_either_side, rules,
+    separate_change, three_mass_chain,
 };
 use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF};
+use corfem::method::appendix_c::LeftRightModes;
 use corfem::method::appendix_c::Pencil;
-use corfem::method::appendix_c::complex_modes::LeftRightModes;
 use corfem::method::perturbation::{
     ROOT_TOLERANCE, first_order, recursive_1, recursive_1_converged,
 };
@@ -90,7 +90,7 @@ fn mass_added_to_a_chain_lowers_its_frequencies_as_the_eigensolution_says() {
     let stiffness = three_mass_chain([1.0, 1.0, 1.0], [1.0, 1.0, 3.0]);
     let mass = DMatrix::from_diagonal(&dvector![1.0, 1.5, 0.8]);
     let modes = corfem::method::modes::solve(&stiffness, &mass, 3).unwrap();
-    let base = LeftRightModes::from(&modes);
+    let base = on_either_side(&modes);
     assert_eq!(base.left, base.right);
     assert_eq!(&base.right, modes.shapes());
     let share_change = three_mass_chain([0.05, 0.0, 0.0], [0.0, 0.1, -0.2]);

@@ -18,8 +18,8 @@ use crate::common::appendix_c::{
 use crate::common::log_log_slope;
 use crate::common::tolerances::{EIGEN_ROUND_OFF, ORDER_SLACK, ROUND_OFF, SECOND_ORDER_REMAINDER};
 use crate::common::vibrations::full_change;
+use corfem::method::appendix_c::LeftRightModes;
 use corfem::method::appendix_c::Pencil;
-use corfem::method::appendix_c::complex_modes::LeftRightModes;
 use corfem::method::error::Error;
 use corfem::method::perturbation::{
     LARGEST_UNSETTLED_CHANGE, MOST_ORDERS, Perturbed, ROOT_TOLERANCE, first_order, recursive_1,

@@ -14,7 +14,7 @@ pub fn area([a, b, c, d]: &Flat) -> f64 {
 }
 
 /// Energy coefficient $Z$ of a shear panel whose opposite sides are all parallel, as
-/// [`corfem::method::elements::shear::energy_coefficient`] for unit thickness, in⁴/lbf.
+/// [`corfem::method::elements::energy_coefficient`] for unit thickness, in⁴/lbf.
 ///
 /// $$ Z = \frac{A}{2G}\Big(1 + \frac{2 D^2}{1+\nu}\Big), \qquad
 ///    D = -\frac12\Big(\frac{X_4}{Y_4} + \frac{X_3 - X_2}{Y_3} + \frac{Y_3 - Y_4}{X_3 - X_4}\Big) $$

@@ -1,8 +1,9 @@
 //! Appendix C.
 
 use super::{Answer, Entry, entries};
-use corfem::method::appendix_c::Pencil;
-use corfem::method::appendix_c::complex_modes::{self, LeftRightModes};
+use crate::common::appendix_c::on_either_side;
+
+use corfem::method::appendix_c::{self, LeftRightModes, Pencil};
 use corfem::method::error::Error;
 use corfem::method::modes::solve;
 use corfem::method::perturbation::{Perturbed, first_order, recursive_1, recursive_1_converged};
@@ -38,7 +39,7 @@ pub const PERTURBATION: &[Entry] = &[
         let (stiffness, change, g_change) =
             (d.symmetric(size), d.symmetric(size), d.symmetric(size));
         let modes = match solve(&stiffness, &DMatrix::identity(size, size), size) {
-            Ok(modes) if d.below(4) > 0 => LeftRightModes::from(&modes),
+            Ok(modes) if d.below(4) > 0 => on_either_side(&modes),
             _ => LeftRightModes {
                 roots: d.vector(size),
                 right: d.symmetric(size),
@@ -69,12 +70,12 @@ pub const PERTURBATION: &[Entry] = &[
     ("Pencil::original", |d| {
         perturbed(d.change().pencil()?.original())
     }),
-    ("complex_modes::solve", |d| {
+    ("appendix_c::solve", |d| {
         let size = d.size();
         let g = d
             .symmetric(size)
             .map(|entry| nalgebra::Complex::new(entry, 0.1 * entry));
-        complex_modes::solve(&d.symmetric(size), &g).map(|_| Vec::new())
+        appendix_c::solve(&d.symmetric(size), &g).map(|_| Vec::new())
     }),
     ("mass_changes::normalize_with_mass", |d| {
         let size = d.size();

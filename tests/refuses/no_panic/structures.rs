@@ -8,9 +8,10 @@ use corfem::method::analysis::Analysis;
 use corfem::method::appendix_a::{
     self, ElementMatrix, assemble, element_matrices, generalized_stiffness,
 };
-use corfem::method::elements::membrane::triangle;
-use corfem::method::elements::shear::{corner_forces, energy_coefficient, mean_plane};
-use corfem::method::elements::{membrane, rod, shear, unit_stiffness};
+use corfem::method::elements::{
+    corner_forces, energy_coefficient, mean_plane, membrane, rod, shear_panel, triangle,
+    unit_stiffness,
+};
 use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
 use corfem::method::step::Bounds;
@@ -45,16 +46,16 @@ pub const STRUCTURES: &[Entry] = &[
         rod(&d.corners()[..2], d.number());
         Ok(Vec::new())
     }),
-    ("membrane::triangle", |d| {
+    ("elements::triangle", |d| {
         triangle(&d.corners()[..3], &d.material());
         Ok(Vec::new())
     }),
-    ("membrane::membrane", |d| {
-        membrane::membrane(&d.corners(), &d.material());
+    ("elements::membrane", |d| {
+        membrane(&d.corners(), &d.material());
         Ok(Vec::new())
     }),
-    ("shear::shear_panel", |d| {
-        shear::shear_panel(&d.corners(), &d.material());
+    ("elements::shear_panel", |d| {
+        shear_panel(&d.corners(), &d.material());
         Ok(Vec::new())
     }),
     ("structure::check_corners", |d| {
@@ -102,17 +103,17 @@ pub const STRUCTURES: &[Entry] = &[
         .contains(d.number());
         Ok(Vec::new())
     }),
-    ("shear::mean_plane", |d| {
+    ("elements::mean_plane", |d| {
         let corners = d.corners();
         mean_plane(&corners);
         check_corners(1, ElementKind::ShearPanel, &corners)?;
         Ok(mean_plane(&corners).iter().flatten().copied().collect())
     }),
-    ("shear::corner_forces", |d| {
+    ("elements::corner_forces", |d| {
         corner_forces(&d.corners());
         Ok(Vec::new())
     }),
-    ("shear::energy_coefficient", |d| {
+    ("elements::energy_coefficient", |d| {
         energy_coefficient(&d.corners(), &d.material());
         Ok(Vec::new())
     }),

@@ -1,8 +1,135 @@
-//! The Garvey shear panel.
+//! Element stiffness matrices in global axes, for unit gage or area.
+//! Tour: [chapter 7](crate::tour::chapter_07_box).
+//!
+//! Each function takes corner positions in inches and a material, and returns the stiffness at the x, y, z translations
+//! of the corners in the order given. Stiffness is proportional to gage or area.
 
-use crate::method::linear_algebra::{Matrix, Vector};
-use crate::method::structure::{Material, Point};
-use nalgebra::{Matrix2, Vector2};
+use super::linear_algebra::{Matrix, Vector};
+use super::structure::{ElementKind, Material, Point};
+use nalgebra::{Matrix2, Matrix3, Vector2};
+
+/// Stiffness of an element of any kind and unit size, lbf/in per in (gage) or per in² (area), for the corners of a
+/// [`Structure`](crate::method::structure::Structure): 6 × 6 for a rod, 9 × 9 for a triangle, 12 × 12 for a panel.
+pub fn unit_stiffness(kind: ElementKind, corners: &[Point], material: &Material) -> Matrix {
+    match kind {
+        ElementKind::Rod => rod(corners, material.youngs_modulus),
+        ElementKind::Triangle => triangle(corners, material),
+        ElementKind::ShearPanel => shear_panel(corners, material),
+        ElementKind::Membrane => membrane(corners, material),
+    }
+}
+
+/// Stiffness of a rod, an axial member, of unit cross section, lbf/in per in² of area (6 × 6; x, y, z of each end).
+///
+/// $$ K = \frac{E}{L} b b^t, \qquad b = (-n, n), \qquad n = (x_2 - x_1)/L $$
+///
+/// `youngs_modulus` in lbf/in², `ends` in inches. Rank one: it resists only stretching. Source: Przemieniecki, *Theory
+/// of Matrix Structural Analysis*, section 5.2. Ends that coincide have no such stiffness: its entries are not finite numbers.
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::elements::rod;
+/// use nalgebra::Vector3;
+///
+/// // E/L = 1e7 / 10 along the rod, nothing across it.
+/// let stiffness = rod(&[Vector3::zeros(), 10.0 * Vector3::x()], 1.0e7);
+/// assert_eq!([(0, 0), (3, 0), (1, 1)].map(|entry| stiffness[entry]), [1.0e6, -1.0e6, 0.0]);
+/// ```
+pub fn rod(ends: &[Point], youngs_modulus: f64) -> Matrix {
+    let along = ends[1] - ends[0];
+    let length = along.norm();
+    let n = along / length;
+    let b = Vector::from_iterator(6, (-n).iter().chain(n.iter()).copied());
+    (youngs_modulus / length) * &b * b.transpose()
+}
+
+/// Stiffness of a constant-strain triangle of unit thickness, lbf/in per inch of gage (9 × 9).
+///
+/// $$ K = A B^t D B, \qquad D = \frac{E}{1-\nu^2}
+///    \begin{pmatrix} 1 & \nu & 0 \newline \nu & 1 & 0 \newline 0 & 0 & G(1-\nu^2)/E \end{pmatrix} $$
+///
+/// $B$ maps the nine translations (x, y, z of each corner, inches) to the three strains in the triangle's plane; motion
+/// out of the plane meets no resistance. Rank three. Source: Turner, Clough, Martin and Topp, *Journal of the
+/// Aeronautical Sciences* 23 (1956), 805.
+///
+/// Corners on a line have no such stiffness: their entries are not finite numbers.
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::elements::triangle;
+/// use corfem::method::structure::Material;
+/// use nalgebra::Vector3;
+///
+/// // Corner 2 moves along x by one: strain 1 in an area of 1/2, with E = 1 and no Poisson's ratio.
+/// let corners = [Vector3::zeros(), Vector3::x(), Vector3::y()];
+/// let stiffness = triangle(&corners, &Material::isotropic(1.0, 0.0)?);
+/// assert!((stiffness[(3, 3)] - 0.5).abs() < 1e-15);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
+pub fn triangle(corners: &[Point], material: &Material) -> Matrix {
+    let [a, b, c] = [0, 1, 2].map(|n| corners[n]);
+    let normal = (b - a).cross(&(c - a));
+    let area = 0.5 * normal.norm();
+    let k = normal / (2.0 * area);
+    // B in a frame with its first axis along the first side. The gradient of corner n's shape function is k × s/(2A), with s the
+    // side opposite to it.
+    let i = (b - a).normalize();
+    let j = k.cross(&i);
+    let mut strain = Matrix::zeros(3, 9);
+    for n in 0..3 {
+        let opposite = corners[(n + 2) % 3] - corners[(n + 1) % 3];
+        let gradient = k.cross(&opposite) / (2.0 * area);
+        let (dx, dy) = (gradient.dot(&i), gradient.dot(&j));
+        for axis in 0..3 {
+            strain[(0, 3 * n + axis)] = dx * i[axis];
+            strain[(1, 3 * n + axis)] = dy * j[axis];
+            strain[(2, 3 * n + axis)] = dy * i[axis] + dx * j[axis];
+        }
+    }
+    let (nu, g) = (material.poissons_ratio, material.shear_modulus);
+    let e = material.youngs_modulus / (1.0 - nu * nu);
+    let elasticity = Matrix3::new(e, nu * e, 0.0, nu * e, e, 0.0, 0.0, 0.0, g);
+    area * strain.transpose() * (elasticity * &strain)
+}
+
+/// Stiffness of a membrane panel of unit thickness, lbf/in per inch of gage (12 × 12).
+///
+/// $$ K = \tfrac12 \big( K_{124} + K_{231} + K_{342} + K_{413} \big) $$
+///
+/// Two triangulations lie over each other, each with half the thickness, so that neither diagonal is favored. Every
+/// triangle keeps its true corners in space, so that a rigid-body motion costs no energy even when the panel is warped.
+/// Rank 5 when flat, 6 when warped. Source: the QDMEM element of NASTRAN, NASA SP-222; formulas rederived.
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::elements::membrane;
+/// use corfem::method::structure::Material;
+/// use nalgebra::{DVector, Vector3};
+///
+/// let (o, x, y) = (Vector3::zeros(), Vector3::x(), Vector3::y());
+/// let stiffness = membrane(&[o, x, x + y, y], &Material::isotropic(1.0, 0.0)?);
+/// // A unit square stretched by one along x holds twice the energy E A = 1.
+/// let stretch = DVector::from_iterator(12, [o, x, x, o].iter().flatten().copied());
+/// assert!((stretch.dot(&(stiffness * &stretch)) - 1.0).abs() < 1e-14);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
+pub fn membrane(corners: &[Point], material: &Material) -> Matrix {
+    let mut stiffness = Matrix::zeros(12, 12);
+    // Each of the two diagonals splits the quadrilateral once.
+    for nodes in [[0, 1, 3], [1, 2, 0], [2, 3, 1], [3, 0, 2]] {
+        let part = triangle(&nodes.map(|n| corners[n]), material);
+        for (a, &row_node) in nodes.iter().enumerate() {
+            for (b, &column_node) in nodes.iter().enumerate() {
+                let mut block = stiffness.fixed_view_mut::<3, 3>(3 * row_node, 3 * column_node);
+                block += 0.5 * part.fixed_view::<3, 3>(3 * a, 3 * b);
+            }
+        }
+    }
+    stiffness
+}
 
 /// Gauss-Legendre rule of twelve points, by its positive half: points $s_k$, of which the negatives are points too, and weights $w_k$ of
 /// $\int_{-1}^{1} f(s) \thinspace ds \approx \sum_k w_k f(s_k)$, exact for polynomials up to degree 23. On strongly distorted panels it
@@ -27,7 +154,7 @@ pub const GAUSS_LEGENDRE: [(f64, f64); 6] = [
 /// # Example
 ///
 /// ```rust
-/// use corfem::method::elements::shear::shear_panel;
+/// use corfem::method::elements::shear_panel;
 /// use corfem::method::structure::Material;
 /// use nalgebra::{DVector, Vector3};
 ///
