@@ -197,8 +197,8 @@ pub fn run(
 pub fn first_factors(analysis: &dyn Analysis, settings: &InnerSettings) -> Result<Vec<f64>, Error> {
     settings.check()?;
     let ones = vec![1.0; analysis.exact().factors.len()];
-    let first = direction(analysis, &analysis.at(&ones)?, &ones, true, settings)?;
-    Ok(first.unlimited_factors)
+    direction(analysis, &analysis.at(&ones)?, &ones, true, settings)
+        .map(|first| first.unlimited_factors)
 }
 
 /// Derivatives (12) and the factors of (13) at a state: an iteration whose step is yet to come.

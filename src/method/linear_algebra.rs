@@ -161,8 +161,7 @@ pub fn symmetric_eigen(what: &'static str, matrix: &Matrix) -> Result<(Vector, M
     check_symmetric(what, matrix)?;
     at_least_one(what, matrix.len())?;
     // Entries of order one: the squares of very large or small ones leave the range of numbers. A power of two is exact.
-    let exponent = matrix.amax().log2().floor();
-    let unit = exponent.clamp(-1000.0, 1000.0).exp2();
+    let unit = matrix.amax().log2().floor().clamp(-1000.0, 1000.0).exp2();
     let eigen = as_faer(&(matrix / unit))
         .self_adjoint_eigen(Side::Lower)
         .map_err(|_| Error::no_convergence(what))?;

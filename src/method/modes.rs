@@ -64,11 +64,8 @@ impl Modes {
         for (place, &frequency) in frequencies_hz.iter().enumerate() {
             positive("frequency", || mode(place), frequency)?;
         }
-        let squares = frequencies_hz.iter().map(|f| (TAU * f).powi(2));
-        Self::new(
-            Vector::from_iterator(frequencies_hz.len(), squares),
-            shapes.clone(),
-        )
+        let frequencies = Vector::from_column_slice(frequencies_hz);
+        Self::new(frequencies.map(|f| (TAU * f).powi(2)), shapes.clone())
     }
 
     /// Squared circular frequencies $\omega_i^2$, rad²/s².
