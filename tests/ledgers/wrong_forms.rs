@@ -346,14 +346,25 @@ fn copy(forms: &[Form], folder: &Path) {
     for part in ["src", "tests/common", "tests/spec", "golden", "paper"] {
         files.extend(files_below(&root().join(part)));
     }
-    // Failures that properties of an earlier run have kept are those of its wrong forms.
-    if folder.join("tests").is_dir() {
-        let old = files_below(&folder.join("tests")).into_iter();
-        old.filter(|file| {
-            file.extension()
-                .is_some_and(|end| end == "proptest-regressions")
-        })
-        .for_each(|file| fs::remove_file(file).expect("it can be removed"));
+    // Failures that properties of an earlier run have kept are those of its wrong forms, and a file that is gone would be a second one of
+    // its module.
+    for part in ["src", "tests"].map(|part| folder.join(part)) {
+        for file in part
+            .is_dir()
+            .then(|| files_below(&part))
+            .into_iter()
+            .flatten()
+        {
+            let path = file.strip_prefix(folder).expect("below the folder");
+            let is_gone = !changed.contains_key(path) && !root().join(path).exists();
+            if is_gone
+                || path
+                    .extension()
+                    .is_some_and(|end| end == "proptest-regressions")
+            {
+                fs::remove_file(&file).expect("it can be removed");
+            }
+        }
     }
     for file in files {
         let path = file.strip_prefix(root()).expect("below the root");
