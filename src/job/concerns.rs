@@ -135,10 +135,9 @@ impl LoadedJob {
         let mut modes: Vec<usize> = left_out.chain(&self.modes).copied().collect();
         modes.sort_unstable();
         modes.dedup();
-        let (stiffness, mass) = whole.at(&self.ones())?;
-        let found = whole.modes_at_most(&stiffness, &mass, 2 * self.analysis_modes)?;
-        let rigid_body_modes = found.rigid_body.ncols();
-        let weak = found.doubtful.iter().map(|&(row, held)| {
+        let first = self.first_analysis()?;
+        let (rigid_body_modes, doubtful) = first.rigid_bodies();
+        let weak = doubtful.iter().map(|&(row, held)| {
             let name = self.source.row_name(row);
             Concern::doubt(
                 format!("weak-{}", hyphened(&name)),
@@ -153,7 +152,7 @@ impl LoadedJob {
         let Modes {
             omega_squared: squares,
             shapes,
-        } = found.vibrations;
+        } = first.shapes(2 * self.analysis_modes);
         let along = |(place, sensor): (usize, &PlacedSensor)| {
             let own = sensor.direction;
             let others = (own / 3 * 3..own / 3 * 3 + 3).filter(move |other| *other != own);

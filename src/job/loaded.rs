@@ -3,7 +3,7 @@
 use super::matrices::from_matrices;
 use super::model::from_deck;
 use super::sensors::{PlacedSensor, place};
-use super::{Compare, Job, Method, ModelSource, read};
+use super::{Job, Method, ModelSource, read};
 use crate::files::error::FileError;
 use crate::files::read_bytes;
 use crate::files::test_data::TestData;
@@ -13,7 +13,10 @@ use crate::method::analysis::State;
 use crate::method::error::{Error, at_least_one, check_count};
 use crate::method::modes::Modes;
 use crate::method::sorting::Pairing;
-use crate::sparse::{BasisSize, FINITE, SparseMatrix, modal_assurance, no_modes};
+use crate::sparse::{
+    BasisSize, Deflections, FINITE, Pair, SensorModel, SparseMatrix, Whole, modal_assurance,
+    no_modes,
+};
 use crate::weighted::close_modes::{assurance_of_roots, indistinct_groups};
 use crate::weighted::comparison::{Comparison, LoneFrequency};
 use nalgebra::DMatrix;
@@ -57,8 +60,8 @@ pub struct LoadedJob {
     pub analysis_modes: usize,
     /// The shapes of these partners as the sensors see them; none before the first analysis.
     partner_shapes: Option<DMatrix<f64>>,
-    /// The first model, kept with the settings, the number of modes and the test it was analyzed with.
-    first: Option<(Compare, usize, Modes, Comparison)>,
+    /// The first analysis.
+    first: Option<Arc<dyn Whole>>,
 }
 
 /// Residual vectors a parameter, unless the job says how many: more add less than the lowest mode left out.
@@ -186,7 +189,7 @@ impl LoadedJob {
 
     /// Leaves out the test modes that resemble no mode of the first model.
     fn leave_out_unpaired(&mut self) -> Result<(), FileError> {
-        let mut first = self.analyze(&self.ones());
+        let mut first = self.first_analysis();
         // The usual number may be more than the model has.
         if let Err(Error::Count {
             what: FINITE,
@@ -197,24 +200,19 @@ impl LoadedJob {
             && available > 0
         {
             self.analysis_modes = available;
-            first = self.analyze(&self.ones());
+            first = self.first_analysis();
         }
-        let modes = match &first {
-            Ok(first) => first.model.exact.modes.clone(),
+        let first = first?;
+        let modes = first.modes(self.analysis_modes)?;
+        self.first = Some(first);
+        match self.analyze(&self.ones()) {
             // Even with more test modes than the model has modes, the pairs can be judged.
             Err(Error::Count {
                 what: "test modes", ..
-            }) => {
-                let mut modes = self
-                    .source
-                    .whole
-                    .modes(&self.ones(), self.analysis_modes)?
-                    .vibrations;
-                modes.shapes = self.sensors.times(&modes.shapes)?;
-                modes
-            }
-            Err(_) => return first.map(drop).map_err(FileError::from),
-        };
+            })
+            | Ok(_) => (),
+            Err(other) => return Err(other.into()),
+        }
         let partners = self.alone.iter().map(|(_, lone)| lone.partner);
         let partners: Vec<usize> = partners.filter(|mode| *mode < modes.len()).collect();
         self.partner_shapes = Some(modes.shapes.select_columns(&partners));
@@ -235,12 +233,6 @@ impl LoadedJob {
         self.unpaired = left
             .map(|mode| (self.modes[mode], assurance.column(mode).max()))
             .collect();
-        if kept.is_empty() || self.unpaired.is_empty() {
-            let (compare, test) = (self.job.compare.clone(), self.test.clone());
-            self.first = first
-                .ok()
-                .map(|first| (compare, self.analysis_modes, test, first));
-        }
         let twice = self.alone.iter().find_map(|(mode, lone)| {
             let other = partners.iter().position(|own| *own == Some(lone.partner))?;
             Some((mode + 1, self.modes[other] + 1, lone.partner + 1))
@@ -302,7 +294,6 @@ impl LoadedJob {
         let hertz = &self.data.frequencies_hz;
         again.modes.sort_by(|&a, &b| hertz[a].total_cmp(&hertz[b]));
         again.test = measured(&self.data, &self.placed, &again.modes)?;
-        again.first = None;
         Ok(again)
     }
 
@@ -325,6 +316,9 @@ impl LoadedJob {
             let most = self.source.whole.dof_count();
             far.analysis_modes = (2 * self.analysis_modes).min(most);
         }
+        far.first = far
+            .first
+            .filter(|first| first.modes(far.analysis_modes).is_ok());
         match far.analyze(&far.ones()) {
             Ok(first) => Ok((far, first)),
             Err(Error::Count { .. }) => Ok((self.clone(), self.analyze(&self.ones())?)),
@@ -384,31 +378,32 @@ impl LoadedJob {
         vec![1.0; self.source.whole.parameters().len()]
     }
 
+    /// The first analysis, with as many modes as the pre-flight looks at.
+    pub(super) fn first_analysis(&self) -> Result<Arc<dyn Whole>, Error> {
+        let anew = || {
+            let (least, most) = (self.analysis_modes, 2 * self.analysis_modes);
+            let whole = &self.source.whole;
+            whole.exactly(&self.ones(), &self.sensors, least, most)
+        };
+        self.first.clone().map_or_else(anew, Ok)
+    }
+
     /// The modal model of the loops at the given parameter factors.
     ///
     /// # Errors
     /// Those of [`crate::sparse::WholeModel::analyze`].
     pub fn analyze(&self, factors: &[f64]) -> Result<Comparison, Error> {
-        if let Some((compare, count, test, first)) = &self.first
-            && (compare, *count, test) == (&self.job.compare, self.analysis_modes, &self.test)
-            && factors.iter().all(|&factor| factor == 1.0)
-        {
-            return Ok(first.clone());
-        }
-        let whole = &self.source.whole;
-        let model = whole.analyze(
-            factors,
-            &self.sensors,
-            (&self.test, pair_by_assignment),
-            BasisSize {
-                modes: self.analysis_modes,
-                residual_vectors: self
-                    .job
-                    .compare
-                    .residual_vectors
-                    .unwrap_or(RESIDUAL_VECTORS),
-            },
-        )?;
+        let (whole, test) = (&self.source.whole, (&self.test, pair_by_assignment as Pair));
+        let size = BasisSize {
+            modes: self.analysis_modes,
+            residual_vectors: self.residual_vectors(),
+        };
+        let model = if factors.iter().all(|&factor| factor == 1.0) {
+            let deflections = Deflections::Each(size.residual_vectors);
+            SensorModel::of_whole(self.first_analysis()?, size.modes, test, deflections)
+        } else {
+            whole.analyze(factors, &self.sensors, test, size)
+        }?;
         // Gauss-Newton steps have weights of their own.
         match self.job.compare.method {
             Method::Paper => Ok(model.weighted(&self.own_weights())?.into()),
@@ -423,6 +418,18 @@ impl LoadedJob {
                     None => Ok(comparison),
                 }
             }
+        }
+    }
+
+    /// Residual vectors a parameter behind the modes, in which the paper's loops follow changes. Weighted steps have deflections of their own.
+    fn residual_vectors(&self) -> usize {
+        match self.job.compare.method {
+            Method::Paper => self
+                .job
+                .compare
+                .residual_vectors
+                .unwrap_or(RESIDUAL_VECTORS),
+            Method::GaussNewton => 0,
         }
     }
 

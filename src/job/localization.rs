@@ -3,7 +3,7 @@
 use crate::method::analysis::Analysis;
 use crate::method::error::Error;
 use crate::method::inner_loop::{InnerSettings, first_factors};
-use crate::sparse::ModeWeight;
+use crate::sparse::{ModeWeight, SensorModel};
 use crate::weighted::comparison::Comparison;
 use crate::weighted::residuals::{residuals, residuals_of};
 use serde::Serialize;
@@ -53,12 +53,10 @@ pub fn by_single_fit(
     weights: &[ModeWeight],
 ) -> Result<Vec<Suspect>, Error> {
     let first = 0.5 * residuals(comparison, weights)?.norm_squared();
-    let (model, count) = (&comparison.model, comparison.model.shares.len());
-    let objective = |parameter: usize, log: f64| {
-        let mut factors = vec![1.0; count];
-        factors[parameter] = 10.0_f64.powf(log);
+    let count = comparison.model.shares.len();
+    let objective = |model: &SensorModel, log: f64| {
         let squares = || {
-            let (modes, pairing) = model.far(&factors)?;
+            let (modes, pairing) = model.far(&[10.0_f64.powf(log)])?;
             let residuals = residuals_of(&modes, &pairing, comparison, weights);
             Ok::<_, Error>(0.5 * residuals.norm_squared())
         };
@@ -68,11 +66,12 @@ pub fn by_single_fit(
     // Other pairs alone are no evidence against a parameter.
     let start = match count == 0 {
         true => first,
-        false => first.min(objective(0, 0.0)),
+        false => first.min(objective(&comparison.model.alone(0)?, 0.0)),
     };
     let best = |parameter: usize| {
+        let model = comparison.model.alone(parameter)?;
         let better = |best: (f64, f64), log: f64| {
-            let value = objective(parameter, log);
+            let value = objective(&model, log);
             if value < best.0 { (value, log) } else { best }
         };
         let everywhere = (-PLACES..=PLACES).map(|place| SPACING * f64::from(place));
@@ -85,13 +84,14 @@ pub fn by_single_fit(
                 .fold(best, better);
         }
         let (lowest, log) = best;
-        Suspect {
+        Ok(Suspect {
             parameter,
             factor: 10.0_f64.powf(log),
             evidence: start - lowest,
-        }
+        })
     };
-    Ok(ranked((0..count).map(best)))
+    let suspects: Vec<_> = (0..count).map(best).collect::<Result<_, Error>>()?;
+    Ok(ranked(suspects.into_iter()))
 }
 
 fn ranked(suspects: impl Iterator<Item = Suspect>) -> Vec<Suspect> {

@@ -25,7 +25,7 @@ pub struct GridLayout {
 }
 
 /// A model and its degrees of freedom.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct ModelSource {
     /// Matrices of the model.
     pub whole: WholeModel,
@@ -188,8 +188,8 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
             priors.push(prior(job, rule)?);
         }
     }
-    let whole = WholeModel::new(stiffness, mass, parameters)?
-        .with_resisting(resisting(&structure, &elements)?)?;
+    let resisting = Some(resisting(&structure, &elements)?);
+    let whole = WholeModel::with_resisting(stiffness, mass, parameters, resisting)?;
     let grids = bulk.grids.iter();
     let motions = grids
         .clone()

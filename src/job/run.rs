@@ -21,6 +21,9 @@ use crate::weighted::noise::Noise;
 use crate::weighted::residuals::{DEVIATIONS, jacobian, residuals};
 use crate::weighted::starts::{Minimum, from_several_starts};
 
+/// Distance from the optimum, in deviations, at which weighted steps stop: no interval shows it.
+const TOLERANCE: f64 = 1e-3;
+
 /// How the factors were found.
 #[derive(Debug, Clone)]
 pub enum History {
@@ -69,6 +72,7 @@ impl LoadedJob {
     fn weighted_settings(&self) -> WeightedSettings {
         WeightedSettings {
             prior_deviations: self.source.priors.clone(),
+            tolerance: TOLERANCE,
             ..WeightedSettings::default()
         }
     }
@@ -220,9 +224,12 @@ pub fn run(
         let (model, factors) = (&result.last, &result.factors);
         let settings = loaded.weighted_settings();
         let widening = result.misfit.widening();
+        let exact = jacobian(model, &weights)?;
+        let basis = model.model.spread(6 * loaded.modes.len() + 30)?;
+        let basis = model.in_basis(basis, &exact, &weights)?;
         let follow = |at: &[f64]| {
             let change: Vec<f64> = at.iter().zip(factors).map(|(at, from)| at / from).collect();
-            model.followed(&change)
+            basis.followed(&change)
         };
         result.intervals = intervals(&follow, factors, &ranges, &weights, &settings, widening)?;
     }
@@ -249,7 +256,7 @@ pub(super) fn run_from(
         progress(&format!("test modes compared: {}", joined.modes.len()));
         part = run_part(&joined, part.trust, &part.factors, progress, go_on)?;
         part.analyses += analyses + 1;
-        part.first = joined.analyze(start)?;
+        part.first = joined.analyze(start)?.with_slopes()?;
         part.seen[0] = sees(&joined, &part.first)?;
     }
     let loaded = &part.loaded;
@@ -288,7 +295,7 @@ fn run_part(
     let analyses = std::cell::Cell::new(0);
     let analyze = |factors: &[f64]| {
         analyses.set(analyses.get() + 1);
-        loaded.analyze(factors)
+        loaded.analyze(factors)?.with_slopes()
     };
     let first = analyze(start)?;
     let analyze = |factors: &[f64]| {
@@ -402,7 +409,10 @@ fn run_part(
             }
         }
     };
-    let last = analyze(&factors)?;
+    let last = match &history {
+        History::GaussNewton(Some((run, ..))) => run.last.clone(),
+        _ => analyze(&factors)?,
+    };
     let seen = first.largest_parts();
     let judged = Judged {
         seen: &seen,

@@ -81,6 +81,8 @@ struct ReportValue<'a> {
     standard_deviations: &'a Option<Vec<Option<f64>>>,
     prior_shares: &'a Option<Vec<f64>>,
     misfit: &'a Option<Misfit>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    analyses: Option<usize>,
     minima: &'a [Minimum],
     failed_starts: usize,
     at_bound: Vec<bool>,
@@ -159,6 +161,7 @@ pub fn report(report: &Report) -> Result<Value, PresentError> {
         standard_deviations: &report.deviations,
         prior_shares: &report.prior_shares,
         misfit: &report.misfit,
+        analyses: report.analyses,
         minima: &report.minima,
         failed_starts: report.failed_starts,
         at_bound: factors.iter().enumerate().map(at_bound).collect(),

@@ -2,12 +2,14 @@
 
 use super::random::random_block;
 use crate::method::error::Error;
-use crate::method::linear_algebra::{as_faer, check_finite, check_length};
+use crate::method::linear_algebra::{as_faer, check_finite, check_length, from_faer};
+use faer::linalg::cholesky::llt::factor::LltError;
 use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular;
 use faer::linalg::matmul::triangular::BlockStructure;
+use faer::linalg::solvers::{DenseSolveCore, Llt, Solve};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
-use faer::{Accum, MatMut, MatRef, Par};
+use faer::{Accum, MatMut, MatRef, Par, Side};
 use nalgebra::{DMatrix, DVector};
 
 /// Checks a factorization of a symmetric matrix $A$ by the solution $y$ that it found of $A y = b$, to
@@ -103,4 +105,40 @@ pub(crate) fn solve_lower(lower: &DMatrix<f64>, mut right: DMatrix<f64>) -> DMat
     let solved = MatMut::from_column_major_slice_mut(right.as_mut_slice(), rows, columns);
     solve_lower_triangular_in_place(as_faer(lower), solved, Par::Seq);
     right
+}
+
+/// Solution of $A x = b$ for a symmetric positive definite $A$.
+///
+/// # Errors
+/// [`Error::NotPositiveDefinite`].
+pub(crate) fn solve_positive(
+    what: &'static str,
+    matrix: &DMatrix<f64>,
+    right: &DVector<f64>,
+) -> Result<DVector<f64>, Error> {
+    let factor = positive_factor(what, matrix)?;
+    let mut solved = right.clone();
+    let count = right.len();
+    let column = MatMut::from_column_major_slice_mut(solved.as_mut_slice(), count, 1);
+    factor.solve_in_place(column);
+    Ok(solved)
+}
+
+/// Inverse of a symmetric positive definite matrix.
+///
+/// # Errors
+/// [`Error::NotPositiveDefinite`].
+pub(crate) fn inverse_of_positive(
+    what: &'static str,
+    matrix: &DMatrix<f64>,
+) -> Result<DMatrix<f64>, Error> {
+    let inverse = positive_factor(what, matrix)?.inverse();
+    Ok(from_faer(inverse.as_ref()))
+}
+
+fn positive_factor(what: &'static str, matrix: &DMatrix<f64>) -> Result<Llt<f64>, Error> {
+    let factor = as_faer(matrix).llt(Side::Lower);
+    factor.map_err(
+        |LltError::NonPositivePivot { index }| Error::NotPositiveDefinite { what, row: index },
+    )
 }

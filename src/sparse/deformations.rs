@@ -94,6 +94,33 @@ impl Deformations {
         self.stiffness.iter().copied().zip(shapes)
     }
 
+    /// Adds the forces of $s_e K_e$ in shapes given transposed (m × DOF) to those at some rows (m × rows), ascending, among which are all
+    /// of the element's.
+    pub(super) fn add_loads(
+        &self,
+        size: f64,
+        transposed_shapes: &DMatrix<f64>,
+        rows: &[usize],
+        into: &mut DMatrix<f64>,
+    ) {
+        let places: Vec<_> = self
+            .dof
+            .iter()
+            .filter_map(|row| rows.binary_search(row).ok())
+            .collect();
+        let mut amplitude = DVector::zeros(transposed_shapes.nrows());
+        for (stiffness, shape) in self.ways() {
+            amplitude.fill(0.0);
+            for (&dof, &motion) in self.dof.iter().zip(shape) {
+                amplitude.axpy(motion, &transposed_shapes.column(dof), 1.0);
+            }
+            for (&place, &motion) in places.iter().zip(shape) {
+                let force = size * stiffness * motion;
+                into.column_mut(place).axpy(force, &amplitude, 1.0);
+            }
+        }
+    }
+
     /// The element by its matrix again.
     pub fn matrix(&self) -> ElementMatrix {
         let mut unit = DMatrix::zeros(self.dof.len(), self.dof.len());

@@ -87,8 +87,11 @@ pub fn resisting(structure: &Structure, elements: &[ElementMatrix]) -> Result<Sp
     let count = structure.free_dof().len();
     let whole = structure.elements().iter().zip(structure.corners());
     let of_element = |(matrix, (element, corners)): (&ElementMatrix, (&Element, &Vec<Point>))| {
-        let whole = unit_stiffness(element.kind, corners, &element.material);
-        let largest = whole.amax().max(matrix.unit.amax());
+        // Of an element free of supports it is at hand.
+        let largest = match matrix.dof.len() == 3 * corners.len() {
+            true => matrix.unit.amax(),
+            false => unit_stiffness(element.kind, corners, &element.material).amax(),
+        };
         let parts = stiffness_entries(matrix, 1.0 / largest).collect::<Vec<_>>();
         parts
             .into_iter()

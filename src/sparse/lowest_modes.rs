@@ -4,7 +4,9 @@
 use super::deformations::take_deformation;
 use super::matrix::GIVEN;
 use super::subspace::{Directions, Found, Growth, Solve, Wanted, subspace};
-use super::{Factor, RigidBodies, SparseMatrix, places_above, solve_lower};
+use super::{
+    Factor, RigidBodies, SparseMatrix, places_above, solve_lower, take_product, transposed_product,
+};
 use crate::method::error::{Error, at_least_one, check_count};
 use crate::method::linear_algebra::{
     check_finite, check_length, cholesky, symmetric_eigen, symmetric_part,
@@ -39,6 +41,8 @@ pub struct CountedModes {
     pub vibrations: Modes,
     /// Motions that are hardly told from rigid-body modes ([`RigidBodies::doubtful`]).
     pub doubtful: Vec<(usize, f64)>,
+    /// The lowest squared frequency of vibrations above those; none where there are no others.
+    pub next: Option<f64>,
     /// Number of loads for which the factor was solved to find the vibrations.
     pub solutions: usize,
 }
@@ -74,30 +78,32 @@ pub fn lowest_modes(
     mass.check_symmetric("mass")?;
     check_length("mass", mass.rows(), stiffness.rows())?;
     check_count("modes", count, 1, stiffness.rows())?;
-    let (found, _) = modes_at_most(stiffness, mass, count, stiffness)?;
+    let plan = Arc::new(FactorizationPlan::of_sum(&[stiffness, mass])?);
+    let (found, _) = modes_at_most(stiffness, mass, count, stiffness, &plan)?;
     check_count(FINITE, count, 1, found.vibrations.len())?;
     Ok(found)
 }
 
 /// Modes as by [`lowest_modes`] of symmetric matrices of one size, or all modes where they are fewer than `most`, with the
-/// flexibility that found them, which serves other loads too. The null space of `resisting` is that of the stiffness.
+/// flexibility that found them, which serves other loads too. The null space of `resisting` is that of the stiffness; `plan` is for both
+/// matrices together.
 pub(super) fn modes_at_most(
     stiffness: &SparseMatrix,
     mass: &SparseMatrix,
     most: usize,
     resisting: &SparseMatrix,
+    plan: &Arc<FactorizationPlan>,
 ) -> Result<(CountedModes, Flexibility), Error> {
     let count = most.min(stiffness.rows());
     at_least_one("modes", count)?;
     at_least_one("degrees of freedom with mass", mass.entries().len())?;
-    let plan = Arc::new(FactorizationPlan::of_sum(&[stiffness, mass])?);
-    let factor_at = |what, shift| Factor::of_sum(&plan, what, &[(1.0, stiffness), (shift, mass)]);
+    let factor_at = |what, shift| Factor::of_sum(plan, what, &[(1.0, stiffness), (shift, mass)]);
     let held = factor_at("stiffness", 0.0).ok();
     let (flexibility, doubtful) = match held.filter(|factor| factor.is_above(GIVEN)) {
         Some(factor) => (Flexibility::held(factor), Vec::new()),
         None => {
             let bodies = RigidBodies::of("stiffness", resisting)?;
-            let flexibility = Flexibility::of(&plan, stiffness, mass, &bodies)?;
+            let flexibility = Flexibility::of(plan, stiffness, mass, &bodies)?;
             (flexibility, bodies.doubtful)
         }
     };
@@ -125,6 +131,7 @@ pub(super) fn modes_at_most(
             }
         }
         let found = CountedModes {
+            next: omega_squared.as_slice().get(needed).copied(),
             vibrations: Modes {
                 omega_squared,
                 shapes,
@@ -148,6 +155,7 @@ type At<'a> = &'a dyn Fn(&'static str, f64) -> Result<Factor, Error>;
 ///
 /// $K_g$ is the stiffness with one spring to the ground for every rigid-body mode. Balanced loads put no force into these springs, so
 /// that their stiffness does not matter, and no shift takes digits from the frequencies.
+#[derive(Debug)]
 pub(super) struct Flexibility {
     factor: Factor,
     /// $R$, of unit generalized mass, with $M R$ (rows × r).
@@ -208,7 +216,8 @@ impl Flexibility {
         if self.rigid.len() == 0 {
             return self.factor.solve(loads);
         }
-        let balanced = loads - weighted * shapes.tr_mul(loads);
+        let mut balanced = loads.clone();
+        take_product(&mut balanced, weighted, &transposed_product(shapes, loads));
         let mut deflections = self.factor.solve(&balanced)?;
         // One pass leaves the round-off of what it takes away; a second one is enough.
         for _ in 0..2 {
@@ -292,7 +301,7 @@ fn frequencies(mass: &SparseMatrix, found: Found) -> Result<(DVector<f64>, DMatr
     let unit = found.shapes.column_iter().map(|shape| 1.0 / shape.amax());
     let unit = DMatrix::from_diagonal(&DVector::from_iterator(found.roots.len(), unit));
     let (shapes, forces) = (found.shapes * &unit, found.forces * unit);
-    let gram = symmetric_part(&shapes.tr_mul(&mass.times(&shapes)?));
+    let gram = symmetric_part(&transposed_product(&shapes, &mass.times(&shapes)?));
     let lower = cholesky("generalized mass", &gram, 0.0)?;
     let orthogonal = |columns: DMatrix<f64>| solve_lower(&lower, columns.transpose()).transpose();
     let (shapes, forces) = (orthogonal(shapes), orthogonal(forces));

@@ -7,6 +7,9 @@ use nalgebra::{DMatrix, DVector};
 /// Largest difference between two entries that should be equal, relative to the largest of the matrix: files carry twelve digits.
 pub(super) const GIVEN: f64 = 1e-11;
 
+/// Columns that a product takes at once, so that the entries are read once for all of them.
+const AT_ONCE: usize = 8;
+
 /// A real matrix by its nonzero entries, column by column and in each from the first row down; no place is given twice.
 ///
 /// A symmetric one has both triangles.
@@ -27,21 +30,14 @@ impl SparseMatrix {
         what: &'static str,
         rows: usize,
         columns: usize,
-        mut entries: Vec<(usize, usize, f64)>,
+        entries: Vec<(usize, usize, f64)>,
     ) -> Result<Self, Error> {
         at_least_one(what, rows.min(columns))?;
         for &(row, column, _) in &entries {
             check_count("rows of a matrix", row.saturating_add(1), 1, rows)?;
             check_count("columns of a matrix", column.saturating_add(1), 1, columns)?;
         }
-        entries.sort_by_key(|&(row, column, _)| (column, row));
-        entries.dedup_by(|next, kept| {
-            let is_same = (next.0, next.1) == (kept.0, kept.1);
-            if is_same {
-                kept.2 += next.2;
-            }
-            is_same
-        });
+        let mut entries = summed(entries);
         entries.retain(|entry| entry.2 != 0.0);
         entries.shrink_to_fit();
         if let Some((row, column, value)) = entries.iter().find(|entry| !entry.2.is_finite()) {
@@ -53,6 +49,60 @@ impl SparseMatrix {
             columns,
             entries,
         })
+    }
+
+    /// The matrix with zeros at the places of these entries where it has none.
+    pub(super) fn with_places_of<'a>(
+        mut self,
+        entries: impl Iterator<Item = &'a (usize, usize, f64)>,
+    ) -> Self {
+        let starts = self.starts();
+        let new = entries.filter(|entry| self.place(&starts, entry).is_none());
+        let new: Vec<_> = new.map(|entry| (entry.0, entry.1, 0.0)).collect();
+        if !new.is_empty() {
+            self.entries = summed([self.entries, new].concat());
+        }
+        self
+    }
+
+    /// Places of the first entry of every column, and of the end.
+    fn starts(&self) -> Vec<usize> {
+        let mut starts = vec![0; self.columns + 1];
+        self.entries
+            .iter()
+            .for_each(|entry| starts[entry.1 + 1] += 1);
+        for column in 0..self.columns {
+            starts[column + 1] += starts[column];
+        }
+        starts
+    }
+
+    /// Place of an entry's row and column among all, if there is one.
+    fn place(&self, starts: &[usize], entry: &(usize, usize, f64)) -> Option<usize> {
+        let own = starts[entry.1]..starts[entry.1 + 1];
+        let found = self.entries[own.clone()].binary_search_by_key(&entry.0, |own| own.0);
+        found.ok().map(|place| own.start + place)
+    }
+
+    /// Places and values of entries, of which the matrix has all.
+    pub(super) fn places_of(
+        &self,
+        entries: &[(usize, usize, f64)],
+    ) -> Result<Vec<(u32, f64)>, Error> {
+        let starts = self.starts();
+        let place = |entry: &(usize, usize, f64)| {
+            Some((u32::try_from(self.place(&starts, entry)?).ok()?, entry.2))
+        };
+        let places: Vec<_> = entries.iter().filter_map(place).collect();
+        check_count("entries of a matrix", entries.len(), 0, places.len())?;
+        Ok(places)
+    }
+
+    /// Adds values, each times a number, at places among the entries.
+    pub(super) fn add(&mut self, number: f64, values: &[(u32, f64)]) {
+        for &(place, value) in values {
+            self.entries[place as usize].2 += number * value;
+        }
     }
 
     /// A matrix from the rows and values of every column.
@@ -138,10 +188,26 @@ impl SparseMatrix {
     /// [`Error::WrongShape`] when they do not fit.
     pub fn times(&self, right: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         check_shape("right factor", right, self.columns, right.ncols())?;
-        let mut product = DMatrix::zeros(self.rows, right.ncols());
-        for (mut product, right) in product.column_iter_mut().zip(right.column_iter()) {
+        let count = right.ncols();
+        let mut product = DMatrix::zeros(self.rows, count);
+        let mut from = vec![[0.0; AT_ONCE]; self.columns];
+        let mut into = vec![[0.0; AT_ONCE]; self.rows];
+        for first in (0..count).step_by(AT_ONCE) {
+            let columns = first..count.min(first + AT_ONCE);
+            for (k, column) in columns.clone().enumerate() {
+                let own = right.column(column);
+                let values = from.iter_mut().zip(own.iter());
+                values.for_each(|(from, value)| from[k] = *value);
+            }
+            into.fill([0.0; AT_ONCE]);
             for &(row, column, value) in &self.entries {
-                product[row] += value * right[column];
+                let both = into[row].iter_mut().zip(&from[column]);
+                both.for_each(|(into, from)| *into += value * from);
+            }
+            for (k, column) in columns.enumerate() {
+                let mut product = product.column_mut(column);
+                let values = into.iter().zip(product.iter_mut());
+                values.for_each(|(into, value)| *value = into[k]);
             }
         }
         Ok(product)
@@ -238,4 +304,17 @@ impl SparseMatrix {
             .for_each(|&(row, column, value)| dense[(row, column)] = value);
         dense
     }
+}
+
+/// Entries column by column and in each from the first row down, those at one place as their sum.
+fn summed(mut entries: Vec<(usize, usize, f64)>) -> Vec<(usize, usize, f64)> {
+    entries.sort_by_key(|&(row, column, _)| (column, row));
+    entries.dedup_by(|next, kept| {
+        let is_same = (next.0, next.1) == (kept.0, kept.1);
+        if is_same {
+            kept.2 += next.2;
+        }
+        is_same
+    });
+    entries
 }

@@ -14,6 +14,7 @@ mod lowest_modes;
 mod mass_changes;
 mod matrix;
 mod ordering;
+mod place;
 #[doc(hidden)]
 pub mod random;
 mod residual_vectors;
@@ -29,7 +30,8 @@ pub use assurance::modal_assurance;
 #[doc(hidden)]
 pub use checks::check_solution;
 pub(crate) use checks::{
-    add_squares, finite, places_above, solve_lower, start_vector, take_product, transposed_product,
+    add_squares, finite, inverse_of_positive, places_above, solve_lower, solve_positive,
+    start_vector, take_product, transposed_product,
 };
 #[doc(hidden)]
 pub use deformations::Deformations;
@@ -43,7 +45,7 @@ pub use matrix::SparseMatrix;
 #[doc(hidden)]
 pub use rigid_bodies::RigidBodies;
 pub use sensor_model::SensorModel;
-pub(crate) use sensor_model::check_weights;
+pub(crate) use sensor_model::{Deflections, Whole, check_weights};
 #[doc(hidden)]
 pub use sensor_model::{ModeWeight, Pair, ParameterMatrix};
 #[doc(hidden)]

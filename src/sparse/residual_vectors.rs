@@ -1,7 +1,7 @@
 //! Residual vectors: static deflections that the lowest modes lack, as further shapes in which changes are followed.
 
 use super::matrix::GIVEN;
-use super::{SparseMatrix, places_above};
+use super::{SparseMatrix, WholeParameter, places_above, take_product, transposed_product};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::Modes;
@@ -13,22 +13,27 @@ use nalgebra::{DMatrix, DVector};
 /// A change of the part loads mode $i$ by $P v_i$; over $\omega_i$, or times $\omega_i$ for a mass, so that modes count alike. Of the
 /// columns $L$ these are the combinations $L y$ of largest $y^t V^t L y$, one a deformation for a part that has fewer.
 pub(super) fn leading_loads(
-    part: &SparseMatrix,
+    parameter: &WholeParameter,
     modes: &Modes,
-    is_mass: bool,
     most: usize,
 ) -> Result<DMatrix<f64>, Error> {
-    let power = if is_mass { 0.5 } else { -0.5 };
+    let power = if parameter.is_mass() { 0.5 } else { -0.5 };
     let scale = DMatrix::from_diagonal(&modes.omega_squared.map(|square| square.powf(power)));
-    let shapes = &modes.shapes * scale;
-    let loads = part.times(&shapes)?;
+    let transposed = scale * modes.shapes.transpose();
+    let (rows, loads) = parameter.loads(1.0, &transposed);
+    let energy = &loads * transposed.select_columns(&rows).transpose();
     let (energies, vectors) = symmetric_eigen(
         "energy of a parameter in the modes",
-        &symmetric_part(&shapes.tr_mul(&loads)),
+        &symmetric_part(&energy),
     )?;
     let digits = GIVEN * energies.amax();
     let leading = places_above(&energies, digits);
-    Ok(loads * vectors.select_columns(leading.iter().rev().take(most)))
+    let vectors = vectors.select_columns(leading.iter().rev().take(most));
+    let mut all = DMatrix::zeros(modes.shapes.nrows(), vectors.ncols());
+    for (&row, combined) in rows.iter().zip((vectors.transpose() * loads).column_iter()) {
+        all.row_mut(row).tr_copy_from(&combined);
+    }
+    Ok(all)
 }
 
 /// Shapes of unit generalized mass, orthogonal to `vibrations` $V$ and each other in mass and in stiffness, that span static
@@ -55,13 +60,16 @@ pub(super) fn residual_vectors(
         return Ok(none);
     }
     let energies = |shapes: &DMatrix<f64>| -> Result<DMatrix<f64>, Error> {
-        Ok(symmetric_part(&shapes.tr_mul(&stiffness.times(shapes)?)))
+        Ok(symmetric_part(&transposed_product(
+            shapes,
+            &stiffness.times(shapes)?,
+        )))
     };
     let first = energies(&deflections)?.diagonal();
     // Once leaves the round-off of what was taken away, twice is enough.
     for _ in 0..2 {
-        let shares = vibrations.shapes.tr_mul(&mass.times(&deflections)?);
-        deflections -= &vibrations.shapes * shares;
+        let shares = transposed_product(&vibrations.shapes, &mass.times(&deflections)?);
+        take_product(&mut deflections, &vibrations.shapes, &shares);
     }
     let rest = energies(&deflections)?.diagonal();
     let new = places_above(&rest.component_div(&first), GIVEN);
@@ -76,7 +84,10 @@ pub(super) fn residual_vectors(
     let own = places_above(&sizes, GIVEN);
     let scale = DMatrix::from_diagonal(&sizes.select_rows(&own).map(|size| 1.0 / size.sqrt()));
     let deflections = deflections * vectors.select_columns(&own) * scale;
-    let inertia = symmetric_part(&deflections.tr_mul(&mass.times(&deflections)?));
+    let inertia = symmetric_part(&transposed_product(
+        &deflections,
+        &mass.times(&deflections)?,
+    ));
     let (roots, vectors) = symmetric_eigen("mass of deflections", &inertia)?;
     let moving = places_above(&roots, GIVEN / vibrations.omega_squared[0]).into_iter();
     let moving: Vec<usize> = moving.rev().collect();

@@ -5,19 +5,23 @@ use super::assurance::cosines;
 use super::mass_changes::{
     Change, apart_from_rigid_bodies, normalize_with_mass, with_rigid_bodies,
 };
+use super::transposed_product;
 use crate::method::analysis::{
     Analysis, DERIVATIVE_STEP, State, changes_by, without_close_couplings,
 };
 use crate::method::appendix_c::Pencil;
 use crate::method::error::{Error, require};
 use crate::method::error_sum::{Errors, ModeError, errors, mode_errors};
-use crate::method::linear_algebra::{check_length, check_shape, symmetric_part};
+use crate::method::linear_algebra::{check_length, check_shape, symmetric_eigen, symmetric_part};
 use crate::method::model::Model;
 use crate::method::modes::{Modes, solve};
 use crate::method::perturbation::{Perturbed, first_order, recursive_1_converged};
 use crate::method::sorting::{Pairing, pair_modes};
 use crate::method::step::{REFERENCE_GAGE, StepRule};
 use nalgebra::{DMatrix, DVector};
+use std::borrow::Cow;
+use std::fmt::Debug;
+use std::sync::Arc;
 
 /// Part of the stiffness or mass that one parameter scales: at d DOF (d × d), or in n shapes as $V^t K_e V$ or $V^t M_e V$ (n × n).
 #[derive(Debug, Clone, PartialEq)]
@@ -105,13 +109,71 @@ pub struct SensorModel {
     pub(crate) cross: DMatrix<f64>,
     pub(crate) pair: Pair,
     weights: Vec<ModeWeight>,
-    /// Generalized stiffness or mass of every parameter in the basis.
-    pub(crate) shares: Vec<ParameterMatrix>,
+    /// Generalized stiffness or mass of every parameter in the basis, or in that from which this one was turned.
+    pub(crate) shares: Arc<Vec<ParameterMatrix>>,
+    /// Turn from that basis, if there was one.
+    turn: Option<Turn>,
     test_shares: Vec<DMatrix<f64>>,
     gages: Vec<f64>,
+    /// The analysis that it is of, if it is one of a whole model.
+    place: Option<Arc<dyn Whole>>,
+    /// Parts that the modes left out have in the slopes of each exact mode's shape (d × p), of those that are compared, where they are
+    /// known.
+    pub(crate) beyond: Vec<Option<DMatrix<f64>>>,
+}
+
+/// Turn of a basis by a change of the parameters.
+#[derive(Debug, Clone)]
+struct Turn {
+    /// The shapes in terms of the basis before (N × N).
+    shapes: DMatrix<f64>,
+    /// Factor of every parameter on its share.
+    factors: Vec<f64>,
+}
+
+/// Deflections that stand behind the modes in a basis.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Deflections<'a> {
+    /// At most so many leading ones of every parameter.
+    Each(usize),
+    /// Leading ones of one parameter, whose share alone is looked at.
+    Own(usize),
+    /// So many of all parameters together.
+    All(usize),
+    /// Deflections of some modes under a change along these logarithms of factors, and so many of all parameters in these modes, of which
+    /// each has a weight.
+    Along {
+        direction: &'a [f64],
+        modes: &'a [usize],
+        further: usize,
+        weights: &'a [f64],
+    },
+}
+
+/// An exact analysis of a whole model, as far as a model at sensors needs it.
+pub(crate) trait Whole: Debug + Send + Sync {
+    /// The lowest modes at the sensors.
+    fn modes(&self, count: usize) -> Result<Modes, Error>;
+
+    /// The lowest shapes at all degrees of freedom (DOF × n), at most so many.
+    fn shapes(&self, count: usize) -> Modes;
+
+    /// Number of rigid-body modes, and motions that are hardly told from them.
+    fn rigid_bodies(&self) -> (usize, &[(usize, f64)]);
+
+    /// Shapes of a basis behind a number of modes, and the shares in all of them.
+    fn basis(
+        &self,
+        count: usize,
+        deflections: Deflections,
+    ) -> Result<(Further, Vec<ParameterMatrix>), Error>;
+
+    /// Parts that all but a number of modes have in the slopes of these modes at the sensors (d × p each).
+    fn slopes_beyond(&self, count: usize, modes: &[usize]) -> Result<Vec<DMatrix<f64>>, Error>;
 }
 
 /// Shapes of a basis beyond the exact modes: residual vectors with their squared frequencies, and rigid-body modes, at the sensors.
+#[derive(Debug)]
 pub(crate) struct Further {
     pub residual: Modes,
     pub rigid_body: DMatrix<f64>,
@@ -131,6 +193,41 @@ impl SensorModel {
         pair: Pair,
         shares: Vec<ParameterMatrix>,
     ) -> Result<Self, Error> {
+        let mut model = Self::turned(modes, further, test, pair, (Arc::new(shares), None))?;
+        model.test_shares = model
+            .shares
+            .iter()
+            .map(|share| model.on_test(share))
+            .collect();
+        Ok(model)
+    }
+
+    /// A parameter's share of the test modes' stiffness or mass (g × g).
+    fn on_test(&self, share: &ParameterMatrix) -> DMatrix<f64> {
+        let Pairing {
+            analysis_mode,
+            sign,
+        } = &self.exact.pairing;
+        let omega = self.test.omega_squared.map(f64::sqrt);
+        let matrix = share.matrix();
+        let entry = |j: usize, k: usize| {
+            let own = sign[j] * sign[k] * matrix[(analysis_mode[j], analysis_mode[k])];
+            if share.is_mass() {
+                own
+            } else {
+                own / (omega[j] * omega[k])
+            }
+        };
+        DMatrix::from_fn(sign.len(), sign.len(), entry)
+    }
+
+    fn turned(
+        modes: Modes,
+        further: &Further,
+        test: &Modes,
+        pair: Pair,
+        (shares, turn): (Arc<Vec<ParameterMatrix>>, Option<Turn>),
+    ) -> Result<Self, Error> {
         let cross = cosines(&modes.shapes, &test.shapes)?;
         let pairing = pair(&cross)?;
         let mut scaled = test.clone();
@@ -138,30 +235,13 @@ impl SensorModel {
             let partner = modes.shapes.column(pairing.analysis_mode[j]);
             shape *= pairing.sign[j] * partner.dot(&shape) / shape.norm_squared();
         }
-        let Pairing {
-            analysis_mode,
-            sign,
-        } = &pairing;
-        let omega = scaled.omega_squared.map(f64::sqrt);
-        let on_test = |share: &ParameterMatrix| {
-            let matrix = share.matrix();
-            let entry = |j: usize, k: usize| {
-                let own = sign[j] * sign[k] * matrix[(analysis_mode[j], analysis_mode[k])];
-                if share.is_mass() {
-                    own
-                } else {
-                    own / (omega[j] * omega[k])
-                }
-            };
-            DMatrix::from_fn(sign.len(), sign.len(), entry)
-        };
         let (mut omega_squared, mut basis) = (modes.omega_squared.clone(), modes.shapes.clone());
         omega_squared.extend(further.residual.omega_squared.iter().copied());
         basis.extend(further.residual.shapes.column_iter());
         basis.extend(further.rigid_body.column_iter());
         let count = modes.len();
         Ok(Self {
-            test_shares: shares.iter().map(on_test).collect(),
+            test_shares: Vec::new(),
             gages: vec![REFERENCE_GAGE; shares.len()],
             exact: State {
                 factors: vec![1.0; shares.len()],
@@ -172,12 +252,95 @@ impl SensorModel {
             },
             cross: cross.resize_vertically(basis.ncols(), 0.0),
             test: scaled,
+            beyond: vec![None; count],
+            place: None,
             omega_squared,
             basis,
             pair,
             weights: vec![ModeWeight::ONE; test.len()],
             shares,
+            turn,
         })
+    }
+
+    /// The model of the lowest modes of an analysis, with deflections behind them in the basis.
+    pub(crate) fn of_whole(
+        place: Arc<dyn Whole>,
+        count: usize,
+        (test, pair): (&Modes, Pair),
+        deflections: Deflections,
+    ) -> Result<Self, Error> {
+        let (modes, (further, shares)) = (place.modes(count)?, place.basis(count, deflections)?);
+        let mut model = Self::at_sensors(modes, &further, test, pair, shares)?;
+        model.place = Some(place);
+        Ok(model)
+    }
+
+    /// The analysis, where it is at hand.
+    pub(crate) fn whole(&self) -> Option<&dyn Whole> {
+        self.place.as_deref()
+    }
+
+    /// The model with exact slopes of the shapes that are compared, where no residual vectors stand for them in its basis.
+    pub(crate) fn with_slopes(mut self) -> Result<Self, Error> {
+        if let Some(place) = &self.place
+            && self.omega_squared.len() == self.exact.modes.len()
+            && self.beyond.iter().all(Option::is_none)
+        {
+            let compared = &self.exact.pairing.analysis_mode;
+            let slopes = place.slopes_beyond(self.exact.modes.len(), compared)?;
+            for (&mode, slopes) in compared.iter().zip(slopes) {
+                self.beyond[mode] = Some(slopes);
+            }
+        }
+        Ok(self)
+    }
+
+    /// The model in a basis with the deflections of the compared modes under a change along these logarithms of factors, and so many
+    /// of all parameters; itself where the analysis is not at hand.
+    pub(crate) fn along(
+        &self,
+        direction: &[f64],
+        further: usize,
+        weights: &[f64],
+    ) -> Result<Self, Error> {
+        let modes = &self.exact.pairing.analysis_mode;
+        self.in_basis(Deflections::Along {
+            direction,
+            modes,
+            further,
+            weights,
+        })
+    }
+
+    /// The model of one parameter alone in a basis with its own deflections.
+    pub(crate) fn alone(&self, e: usize) -> Result<Self, Error> {
+        match &self.place {
+            Some(_) => self.in_basis(Deflections::Own(e)),
+            None => Ok(Self {
+                shares: Arc::new(vec![self.shares[e].clone()]),
+                ..self.clone()
+            }),
+        }
+    }
+
+    /// The model in a basis with so many deflections of all parameters.
+    pub(crate) fn spread(&self, most: usize) -> Result<Self, Error> {
+        self.in_basis(Deflections::All(most))
+    }
+
+    fn in_basis(&self, deflections: Deflections) -> Result<Self, Error> {
+        let Some(place) = &self.place else {
+            return Ok(self.clone());
+        };
+        let (further, shares) = place.basis(self.exact.modes.len(), deflections)?;
+        Self::at_sensors(
+            self.exact.modes.clone(),
+            &further,
+            &self.test,
+            self.pair,
+            shares,
+        )
     }
 
     /// The test modes, each of the scale of the mode that it is paired with.
@@ -234,10 +397,13 @@ impl SensorModel {
         check_length("parameter factors", factors.len(), self.shares.len())?;
         let (count, size) = (self.omega_squared.len(), self.basis.ncols());
         let (mut beta, mut alpha) = (DMatrix::zeros(size, size), DMatrix::zeros(size, size));
-        for (share, s) in self.shares.iter().zip(factors) {
-            match share {
-                ParameterMatrix::Stiffness(matrix) => beta += (s - 1.0) * matrix,
-                ParameterMatrix::Mass(matrix) => alpha += (s - 1.0) * matrix,
+        for (e, s) in factors.iter().enumerate().filter(|(_, s)| **s != 1.0) {
+            let add = |sum: &mut DMatrix<f64>, matrix: &DMatrix<f64>| {
+                sum.zip_apply(matrix, |sum, own| *sum += (s - 1.0) * own);
+            };
+            match &*self.share(e) {
+                ParameterMatrix::Stiffness(matrix) => add(&mut beta, matrix),
+                ParameterMatrix::Mass(matrix) => add(&mut alpha, matrix),
             }
         }
         let (apart, rigid) = (DMatrix::identity(size, size), size - count);
@@ -272,17 +438,74 @@ impl SensorModel {
             },
             rigid_body: rest(all, self.basis.ncols() - all),
         };
-        let transposed = generalized.transpose();
-        let through = |matrix: &DMatrix<f64>, factor: f64| {
-            symmetric_part(&(factor * &transposed * (matrix * &generalized)))
+        let turn = match &self.turn {
+            None => Turn {
+                shapes: generalized.clone(),
+                factors: factors.to_vec(),
+            },
+            Some(turn) => Turn {
+                shapes: &turn.shapes * &generalized,
+                factors: turn
+                    .factors
+                    .iter()
+                    .zip(factors)
+                    .map(|(a, b)| a * b)
+                    .collect(),
+            },
         };
-        let shares = self.shares.iter().zip(factors);
-        let shares = shares.map(|(share, &factor)| share.map(|matrix| through(matrix, factor)));
-        let shares = shares.collect();
-        let mut model = Self::at_sensors(modes, &further, &self.test, self.pair, shares)?;
+        let shares = (Arc::clone(&self.shares), Some(turn));
+        let mut model = Self::turned(modes, &further, &self.test, self.pair, shares)?;
         model.gages.clone_from(&self.gages);
         model.weights.clone_from(&self.weights);
         Ok((model, generalized))
+    }
+
+    /// A parameter's share in the present basis.
+    fn share(&self, e: usize) -> Cow<'_, ParameterMatrix> {
+        let Some(Turn { shapes, factors }) = &self.turn else {
+            return Cow::Borrowed(&self.shares[e]);
+        };
+        let through = |matrix: &DMatrix<f64>| {
+            symmetric_part(&(factors[e] * transposed_product(shapes, &(matrix * shapes))))
+        };
+        Cow::Owned(self.shares[e].map(through))
+    }
+
+    /// Shares of the parameters that couple every shape of the basis with some modes, $\beta_{ri}$, or $-\omega_i^2 \alpha_{ri}$ of a mass: one
+    /// matrix (N × p) a mode.
+    pub(crate) fn couplings(&self, modes: &[usize]) -> Vec<DMatrix<f64>> {
+        let (size, count) = (self.basis.ncols(), self.shares.len());
+        // Side by side, so that every share is read once.
+        let mut all = DMatrix::zeros(size, count * modes.len());
+        let own = self
+            .turn
+            .as_ref()
+            .map(|turn| turn.shapes.select_columns(modes));
+        for (e, share) in self.shares.iter().enumerate() {
+            let (mut columns, mut scale) = (all.columns_mut(e * modes.len(), modes.len()), 1.0);
+            match (&own, &self.turn) {
+                (Some(own), Some(turn)) => {
+                    columns.gemm(1.0, share.matrix(), own, 0.0);
+                    scale = turn.factors[e];
+                }
+                _ => columns.copy_from(&share.matrix().select_columns(modes)),
+            }
+            for (mut column, &mode) in columns.column_iter_mut().zip(modes) {
+                let root = if share.is_mass() {
+                    -self.omega_squared[mode]
+                } else {
+                    1.0
+                };
+                column *= scale * root;
+            }
+        }
+        let all = match &self.turn {
+            None => all,
+            Some(turn) => transposed_product(&turn.shapes, &all),
+        };
+        let of_mode =
+            |place: usize| DMatrix::from_fn(size, count, |r, e| all[(r, e * modes.len() + place)]);
+        (0..modes.len()).map(of_mode).collect()
     }
 
     /// Vibrations at factors by an eigensolution in the basis, ascending, and the shapes of all its changed shapes (N × N).
@@ -290,8 +513,16 @@ impl SensorModel {
         let Change { beta, alpha, apart } = self.change(factors)?;
         let (k, size) = (&self.omega_squared, self.omega_squared.len());
         let stiffness = symmetric_part(&(DMatrix::from_diagonal(k) + beta));
-        let mass = symmetric_part(&(DMatrix::identity(size, size) + alpha));
-        let vibrations = solve(&stiffness, &mass, size)?;
+        let vibrations = match self.shares.iter().any(ParameterMatrix::is_mass) {
+            true => {
+                let mass = symmetric_part(&(DMatrix::identity(size, size) + alpha));
+                solve(&stiffness, &mass, size)?
+            }
+            false => {
+                let (squares, shapes) = symmetric_eigen("stiffness in the basis", &stiffness)?;
+                Modes::new(squares, shapes)?
+            }
+        };
         let generalized = with_rigid_bodies(&apart, &vibrations.shapes);
         Ok((vibrations, generalized))
     }
@@ -327,9 +558,12 @@ impl From<&Model> for SensorModel {
             cross: model.cross().clone(),
             pair: pair_modes,
             weights: vec![ModeWeight::ONE; model.test().len()],
-            shares: shares.map(ParameterMatrix::Stiffness).collect(),
+            shares: Arc::new(shares.map(ParameterMatrix::Stiffness).collect()),
+            turn: None,
             test_shares: model.test_shares().to_vec(),
             gages: model.gages().to_vec(),
+            beyond: vec![None; exact.modes.len()],
+            place: None,
             exact,
         }
     }

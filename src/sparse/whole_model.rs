@@ -2,15 +2,17 @@
 
 use super::deformations::{Deformations, sum_of_stiffness};
 use super::elements::stiffness_entries;
+use super::factorization::FactorizationPlan;
 use super::lowest_modes::{CountedModes, FINITE, Flexibility, modes_at_most};
-use super::residual_vectors::{leading_loads, residual_vectors};
-use super::sensor_model::{Further, Pair, ParameterMatrix, SensorModel, turn_alike};
-use super::{RigidBodies, SparseMatrix, no_modes};
+use super::place::Place;
+use super::sensor_model::{Deflections, Pair, ParameterMatrix, SensorModel, Whole};
+use super::{RigidBodies, SparseMatrix};
 use crate::method::error::{Error, check_count, check_places, positive};
 use crate::method::linear_algebra::check_length;
 use crate::method::modes::Modes;
 use crate::method::step::Bounds;
 use nalgebra::DMatrix;
+use std::sync::Arc;
 
 /// Part of the whole model's matrices.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,11 +56,20 @@ pub struct BasisSize {
 /// A structure at all its degrees of freedom.
 ///
 /// $$ K = K_1 + \sum_e (s_e - 1) K_e, \qquad M = M_1 + \sum_e (s_e - 1) M_e $$
-#[derive(Debug, Clone, PartialEq)]
-pub struct WholeModel {
-    stiffness: SparseMatrix,
-    mass: SparseMatrix,
+///
+/// Where all these matrices have entries, and in which order the degrees of freedom are eliminated, is found once. A clone shares it.
+#[derive(Debug, Clone)]
+pub struct WholeModel(Arc<Parts>);
+
+/// Matrices of a model and what does not change with its factors.
+#[derive(Debug)]
+struct Parts {
+    /// The first stiffness and mass, wherever any of the parameters has an entry.
+    first: [SparseMatrix; 2],
     parameters: Vec<WholeParameter>,
+    /// Of every parameter its entries and their places among those of the matrix that it is a part of.
+    entries: Vec<Vec<(u32, f64)>>,
+    plan: Arc<FactorizationPlan>,
     /// A matrix with the null space of $K$ at any factors, if one better than $K$ is known.
     resisting: Option<SparseMatrix>,
 }
@@ -75,6 +86,20 @@ impl WholeModel {
         mass: SparseMatrix,
         parameters: Vec<WholeParameter>,
     ) -> Result<Self, Error> {
+        Self::with_resisting(stiffness, mass, parameters, None)
+    }
+
+    /// A model with a symmetric matrix whose null space is that of the stiffness at any factors, for rigid-body modes.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; [`Error::WrongShape`] for such a matrix of another size.
+    #[doc(hidden)]
+    pub fn with_resisting(
+        stiffness: SparseMatrix,
+        mass: SparseMatrix,
+        parameters: Vec<WholeParameter>,
+        resisting: Option<SparseMatrix>,
+    ) -> Result<Self, Error> {
         let count = stiffness.rows();
         let check = |what, matrix: &SparseMatrix| {
             check_length(what, matrix.rows(), count)?;
@@ -82,6 +107,9 @@ impl WholeModel {
         };
         check("stiffness", &stiffness)?;
         check("mass", &mass)?;
+        if let Some(resisting) = &resisting {
+            check_length("stiffness of the elements", resisting.rows(), count)?;
+        }
         for WholeParameter { name, share, range } in &parameters {
             match share {
                 WholeShare::Stiffness(matrix) => check("stiffness of a parameter", matrix)?,
@@ -100,29 +128,27 @@ impl WholeModel {
                 }
             }
         }
-        Ok(Self {
-            stiffness,
-            mass,
+        let parts: Vec<_> = parameters.iter().map(WholeParameter::entries).collect();
+        let of_matrix = |is_mass: bool, matrix: SparseMatrix| {
+            let own = parameters.iter().zip(&parts);
+            let own = own.filter(|(parameter, _)| parameter.is_mass() == is_mass);
+            matrix.with_places_of(own.flat_map(|(_, entries)| entries))
+        };
+        let first = [of_matrix(false, stiffness), of_matrix(true, mass)];
+        let places = |(parameter, entries): (&WholeParameter, &Vec<_>)| {
+            let matrix = &first[usize::from(parameter.is_mass())];
+            matrix.places_of(entries)
+        };
+        let entries = parameters.iter().zip(&parts).map(places);
+        let entries = entries.collect::<Result<_, Error>>()?;
+        let plan = Arc::new(FactorizationPlan::of_sum(&[&first[0], &first[1]])?);
+        Ok(Self(Arc::new(Parts {
+            first,
+            entries,
             parameters,
-            resisting: None,
-        })
-    }
-
-    /// The same model with a symmetric matrix whose null space is that of the stiffness at any factors, for rigid-body modes.
-    ///
-    /// # Errors
-    /// [`Error::WrongShape`] for one of another size.
-    #[doc(hidden)]
-    pub fn with_resisting(self, resisting: SparseMatrix) -> Result<Self, Error> {
-        check_length(
-            "stiffness of the elements",
-            resisting.rows(),
-            self.dof_count(),
-        )?;
-        Ok(Self {
-            resisting: Some(resisting),
-            ..self
-        })
+            plan,
+            resisting,
+        })))
     }
 
     /// The rigid-body motions of the first model, as its matrices tell them.
@@ -130,28 +156,28 @@ impl WholeModel {
     /// # Errors
     /// Those of [`RigidBodies::of`].
     pub fn rigid_bodies(&self) -> Result<RigidBodies, Error> {
-        RigidBodies::of(
-            "stiffness",
-            self.resisting.as_ref().unwrap_or(&self.stiffness),
-        )
+        RigidBodies::of("stiffness", self.resisting(&self.0.first[0]))
     }
 
     /// Number of degrees of freedom.
     pub fn dof_count(&self) -> usize {
-        self.stiffness.rows()
+        self.0.first[0].rows()
+    }
+
+    /// The matrix that tells rigid-body motions at a stiffness.
+    fn resisting<'a>(&'a self, stiffness: &'a SparseMatrix) -> &'a SparseMatrix {
+        self.0.resisting.as_ref().unwrap_or(stiffness)
     }
 
     /// What may change.
     pub fn parameters(&self) -> &[WholeParameter] {
-        &self.parameters
+        &self.0.parameters
     }
 
     /// The bounds on every parameter's factor.
     pub fn ranges(&self) -> Vec<Option<Bounds>> {
-        self.parameters
-            .iter()
-            .map(|parameter| parameter.range)
-            .collect()
+        let parameters = self.parameters().iter();
+        parameters.map(|parameter| parameter.range).collect()
     }
 
     /// Stiffness and mass at the given parameter factors.
@@ -159,26 +185,17 @@ impl WholeModel {
     /// # Errors
     /// [`Error::WrongShape`] unless there is one factor per parameter; [`Error::Value`] for a factor that is not.
     pub fn at(&self, factors: &[f64]) -> Result<(SparseMatrix, SparseMatrix), Error> {
-        check_length("parameter factors", factors.len(), self.parameters.len())?;
-        let (mut stiffness, mut mass) = (
-            self.stiffness.entries().to_vec(),
-            self.mass.entries().to_vec(),
-        );
-        for (parameter, &factor) in self.parameters.iter().zip(factors) {
+        check_length("parameter factors", factors.len(), self.parameters().len())?;
+        let mut both = self.0.first.clone();
+        let parts = self.parameters().iter().zip(&self.0.entries);
+        for ((parameter, entries), &factor) in parts.zip(factors) {
             positive("factor", || format!("parameter {}", parameter.name), factor)?;
-            let change = factor - 1.0;
-            match &parameter.share {
-                _ if change == 0.0 => {}
-                WholeShare::Stiffness(matrix) => stiffness.extend(matrix.times_number(change)),
-                WholeShare::Elements(members) => {
-                    stiffness.extend(entries_of(members, change));
-                }
-                WholeShare::Mass(matrix) => mass.extend(matrix.times_number(change)),
+            if factor != 1.0 {
+                both[usize::from(parameter.is_mass())].add(factor - 1.0, entries);
             }
         }
-        let sum =
-            |what, entries| SparseMatrix::new(what, self.dof_count(), self.dof_count(), entries);
-        Ok((sum("stiffness", stiffness)?, sum("mass", mass)?))
+        let [stiffness, mass] = both;
+        Ok((stiffness, mass))
     }
 
     /// The `count` lowest vibrations at the given factors, and the rigid-body modes.
@@ -187,31 +204,21 @@ impl WholeModel {
     /// Those of [`Self::at`] and [`lowest_modes`](super::lowest_modes()).
     pub fn modes(&self, factors: &[f64], count: usize) -> Result<CountedModes, Error> {
         let (stiffness, mass) = self.at(factors)?;
-        Ok(self.modes_of(&stiffness, &mass, count)?.0)
+        Ok(self.modes_of(&stiffness, &mass, count, count)?.0)
     }
 
-    fn modes_of(
+    pub(super) fn modes_of(
         &self,
         stiffness: &SparseMatrix,
         mass: &SparseMatrix,
-        count: usize,
-    ) -> Result<(CountedModes, Flexibility), Error> {
-        check_count("modes", count, 1, self.dof_count())?;
-        let resisting = self.resisting.as_ref().unwrap_or(stiffness);
-        let found = modes_at_most(stiffness, mass, count, resisting)?;
-        check_count(FINITE, count, 1, found.0.vibrations.len())?;
-        Ok(found)
-    }
-
-    /// The same, or all modes where they are fewer than `most`.
-    pub(crate) fn modes_at_most(
-        &self,
-        stiffness: &SparseMatrix,
-        mass: &SparseMatrix,
+        least: usize,
         most: usize,
-    ) -> Result<CountedModes, Error> {
-        let resisting = self.resisting.as_ref().unwrap_or(stiffness);
-        Ok(modes_at_most(stiffness, mass, most, resisting)?.0)
+    ) -> Result<(CountedModes, Flexibility), Error> {
+        check_count("modes", least, 1, self.dof_count())?;
+        let resisting = self.resisting(stiffness);
+        let found = modes_at_most(stiffness, mass, most, resisting, &self.0.plan)?;
+        check_count(FINITE, least, 1, found.0.vibrations.len())?;
+        Ok(found)
     }
 
     /// Analysis for the loops without any condensation: the lowest modes of the whole model as the sensors see them, and every
@@ -263,63 +270,27 @@ impl WholeModel {
         (test, pair): (&Modes, Pair),
         size: BasisSize,
     ) -> Result<SensorModel, Error> {
-        let (stiffness, mass) = self.at(factors)?;
-        let (mut found, flexibility) = self.modes_of(&stiffness, &mass, size.modes)?;
-        let vibrations = &mut found.vibrations;
-        let seen = sensors.times(&vibrations.shapes)?;
-        let modes = Modes::signed(vibrations.omega_squared.clone(), seen.clone());
-        turn_alike(&mut vibrations.shapes, &seen, &modes.shapes);
-        let (residual, rigid_body) = self.further(
-            &stiffness,
-            &mass,
-            (&found, &flexibility),
-            size.residual_vectors,
-        )?;
-        let mut basis = found.vibrations.shapes;
-        basis.extend(residual.shapes.column_iter());
-        basis.extend(rigid_body.column_iter());
-        let shares = self.shares(factors, &basis)?;
-        let further = Further {
-            residual: Modes {
-                shapes: sensors.times(&residual.shapes)?,
-                ..residual
-            },
-            rigid_body: sensors.times(&rigid_body)?,
-        };
-        SensorModel::at_sensors(modes, &further, test, pair, shares)
+        let whole = self.exactly(factors, sensors, size.modes, size.modes.max(2 * test.len()))?;
+        let deflections = Deflections::Each(size.residual_vectors);
+        let model = SensorModel::of_whole(whole, size.modes, (test, pair), deflections)?;
+        match size.residual_vectors {
+            0 => model.with_slopes(),
+            _ => Ok(model),
+        }
     }
 
-    /// Shapes of the basis that are no modes of it: at most `most` residual vectors a parameter, and rigid-body modes.
-    fn further(
+    /// Exact analysis seen by sensors that further looks can be taken at, with at least and at most so many modes.
+    ///
+    /// # Errors
+    /// As [`Self::analyze`].
+    pub(crate) fn exactly(
         &self,
-        stiffness: &SparseMatrix,
-        mass: &SparseMatrix,
-        (found, flexibility): (&CountedModes, &Flexibility),
+        factors: &[f64],
+        sensors: &SparseMatrix,
+        least: usize,
         most: usize,
-    ) -> Result<(Modes, DMatrix<f64>), Error> {
-        let is_mass = |parameter: &WholeParameter| matches!(parameter.share, WholeShare::Mass(_));
-        let mut loads = DMatrix::zeros(self.dof_count(), 0);
-        for parameter in self.parameters.iter().filter(|_| most > 0) {
-            let elements;
-            let part = match &parameter.share {
-                WholeShare::Stiffness(matrix) | WholeShare::Mass(matrix) => matrix,
-                WholeShare::Elements(members) => {
-                    let (what, count) = ("stiffness of a parameter", self.dof_count());
-                    elements = SparseMatrix::new(what, count, count, entries_of(members, 1.0))?;
-                    &elements
-                }
-            };
-            let leading = leading_loads(part, &found.vibrations, is_mass(parameter), most)?;
-            loads.extend(leading.column_iter());
-        }
-        let deflections = flexibility.solve(&loads)?;
-        let further = residual_vectors(stiffness, mass, &found.vibrations, deflections)?;
-        let has_mass = self.parameters.iter().any(is_mass);
-        let rigid_body = match has_mass {
-            true => found.rigid_body.clone(),
-            false => no_modes(self.dof_count()).shapes,
-        };
-        Ok((further, rigid_body))
+    ) -> Result<Arc<dyn Whole>, Error> {
+        Ok(Arc::new(Place::new(self, factors, sensors, least, most)?))
     }
 
     /// Every parameter's present share in shapes $V$ at all DOF, $s_e V^t K_e V$ or $s_e V^t M_e V$.
@@ -329,22 +300,82 @@ impl WholeModel {
         shapes: &DMatrix<f64>,
     ) -> Result<Vec<ParameterMatrix>, Error> {
         let transposed = shapes.transpose();
-        let share = |(parameter, &factor): (&WholeParameter, &f64)| {
-            Ok(match &parameter.share {
-                WholeShare::Stiffness(matrix) => {
-                    ParameterMatrix::Stiffness(factor * matrix.through(&transposed)?)
-                }
-                WholeShare::Elements(members) => {
-                    let present = members
-                        .iter()
-                        .map(|(element, size)| (element, factor * size));
-                    ParameterMatrix::Stiffness(sum_of_stiffness(&transposed, present))
-                }
-                WholeShare::Mass(matrix) => {
-                    ParameterMatrix::Mass(factor * matrix.through(&transposed)?)
-                }
-            })
+        let both = self.parameters().iter().zip(factors);
+        both.map(|(parameter, &factor)| parameter.seen_by(factor, &transposed))
+            .collect()
+    }
+}
+
+impl WholeParameter {
+    /// True of a part of the mass.
+    pub(super) fn is_mass(&self) -> bool {
+        matches!(self.share, WholeShare::Mass(_))
+    }
+
+    /// The entries (row, column, value) of its part of the first matrices; places may be given twice.
+    fn entries(&self) -> Vec<(usize, usize, f64)> {
+        match &self.share {
+            WholeShare::Stiffness(matrix) | WholeShare::Mass(matrix) => matrix.entries().to_vec(),
+            WholeShare::Elements(members) => entries_of(members, 1.0),
+        }
+    }
+
+    /// The part at a factor, in shapes given transposed (m × DOF), m × m.
+    pub(super) fn seen_by(
+        &self,
+        factor: f64,
+        transposed_shapes: &DMatrix<f64>,
+    ) -> Result<ParameterMatrix, Error> {
+        Ok(match &self.share {
+            WholeShare::Stiffness(matrix) => {
+                ParameterMatrix::Stiffness(factor * matrix.through(transposed_shapes)?)
+            }
+            WholeShare::Elements(members) => {
+                let present = members
+                    .iter()
+                    .map(|(element, size)| (element, factor * size));
+                ParameterMatrix::Stiffness(sum_of_stiffness(transposed_shapes, present))
+            }
+            WholeShare::Mass(matrix) => {
+                ParameterMatrix::Mass(factor * matrix.through(transposed_shapes)?)
+            }
+        })
+    }
+
+    /// Loads of the part at a factor in shapes given transposed (m × DOF): the rows where there are any, and the loads there (m × rows).
+    pub(super) fn loads(
+        &self,
+        factor: f64,
+        transposed_shapes: &DMatrix<f64>,
+    ) -> (Vec<usize>, DMatrix<f64>) {
+        let count = transposed_shapes.nrows();
+        let mut rows: Vec<usize> = match &self.share {
+            WholeShare::Stiffness(matrix) | WholeShare::Mass(matrix) => {
+                matrix.entries().iter().map(|entry| entry.0).collect()
+            }
+            WholeShare::Elements(members) => {
+                let dof = members.iter().flat_map(|(element, _)| element.dof());
+                dof.copied().collect()
+            }
         };
-        self.parameters.iter().zip(factors).map(share).collect()
+        rows.sort_unstable();
+        rows.dedup();
+        let mut loads = DMatrix::zeros(count, rows.len());
+        let mut add = |row: usize, value: f64, at: usize| {
+            if let Ok(place) = rows.binary_search(&row) {
+                let from = transposed_shapes.column(at);
+                loads.column_mut(place).axpy(factor * value, &from, 1.0);
+            }
+        };
+        match &self.share {
+            WholeShare::Stiffness(matrix) | WholeShare::Mass(matrix) => matrix
+                .entries()
+                .iter()
+                .for_each(|&(row, column, value)| add(row, value, column)),
+            WholeShare::Elements(members) => members.iter().for_each(|(element, size)| {
+                element.add_loads(size * factor, transposed_shapes, &rows, &mut loads);
+            }),
+        }
+        (rows, loads)
     }
 }

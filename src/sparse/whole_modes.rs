@@ -1,6 +1,7 @@
 //! Modes at the degrees of freedom that have mass.
 
 use super::elements::moving_mass_entries;
+use super::factorization::FactorizationPlan;
 use super::lowest_modes::{CountedModes, modes_at_most};
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
@@ -8,6 +9,7 @@ use crate::method::modes::Modes;
 use crate::method::structure::StructuralDof;
 use crate::sparse::SparseMatrix;
 use nalgebra::DVector;
+use std::sync::Arc;
 
 /// The degrees of freedom that move with mass.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,7 +57,8 @@ pub fn whole_modes(
         moving_mass_entries(&motion, &motion, mass)
     });
     let mass = SparseMatrix::new("mass", rows, rows, entries.collect())?;
-    let (found, _) = modes_at_most(stiffness, &mass, most, resisting)?;
+    let plan = Arc::new(FactorizationPlan::of_sum(&[stiffness, &mass])?);
+    let (found, _) = modes_at_most(stiffness, &mass, most, resisting, &plan)?;
     let CountedModes {
         rigid_body,
         vibrations,

@@ -2,19 +2,20 @@
 //! the errors of components.
 
 use super::close_modes::turned;
-#[cfg(feature = "program")]
-use crate::method::analysis::Analysis;
 use crate::method::analysis::State;
+#[cfg(feature = "program")]
+use crate::method::analysis::{Analysis, DERIVATIVE_STEP};
 use crate::method::error::{Error, check_count, positive, require};
 use crate::method::error_sum::{Errors, ModeError, mode_errors};
 use crate::method::linear_algebra::{check_shape, cholesky};
 use crate::method::model::Model;
 use crate::method::modes::Modes;
 use crate::method::sorting::{Pairing, pair_modes};
-use crate::sparse::{ParameterMatrix, SensorModel};
-use nalgebra::DMatrix;
+use crate::sparse::{ModeWeight, ParameterMatrix, SensorModel};
+use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// Part of a variance that must be left when those before have explained what they can of it.
 pub(crate) const HALF_THE_DIGITS: f64 = 1e-8;
@@ -81,6 +82,17 @@ pub struct Comparison {
     pub(crate) model: SensorModel,
     /// Knowledge of the test beside its modes.
     pub(crate) test: Test,
+    /// Correction of the residuals in a basis to first order, as long as weights stay the same.
+    pub(crate) correction: Option<Correction>,
+}
+
+/// Difference of exact slopes of residuals from those in a basis, and the logarithms of the factors since the place where it is so.
+#[derive(Debug, Clone)]
+pub(crate) struct Correction {
+    /// Exact Jacobian less that in the basis (residuals × p).
+    pub slopes: Arc<DMatrix<f64>>,
+    /// Change of every parameter's logarithm.
+    pub moved: DVector<f64>,
 }
 
 impl From<SensorModel> for Comparison {
@@ -94,6 +106,7 @@ impl From<SensorModel> for Comparison {
                 lone: Vec::new(),
                 covariance: None,
             },
+            correction: None,
             model,
         }
     }
@@ -197,7 +210,52 @@ impl Comparison {
                 .zip(became)
                 .for_each(|(lone, mode)| lone.partner = mode);
         }
-        Ok(Self { model, test })
+        let correction = self.correction.as_ref().map(|correction| Correction {
+            moved: correction
+                .moved
+                .zip_map(&DVector::from_column_slice(factors), |moved, factor| {
+                    moved + factor.ln()
+                }),
+            slopes: Arc::clone(&correction.slopes),
+        });
+        Ok(Self {
+            model,
+            test,
+            correction,
+        })
+    }
+
+    /// This comparison with exact slopes ([`SensorModel::with_slopes`]).
+    pub(crate) fn with_slopes(self) -> Result<Self, Error> {
+        Ok(Self {
+            model: self.model.with_slopes()?,
+            ..self
+        })
+    }
+
+    /// This comparison in another basis for the same modes.
+    pub(crate) fn with_model(&self, model: SensorModel) -> Self {
+        Self {
+            model,
+            test: self.test.clone(),
+            correction: None,
+        }
+    }
+
+    /// The comparison in another basis, with slopes corrected to those of this one, `jacobian`, in which these weights are.
+    pub(crate) fn in_basis(
+        &self,
+        model: SensorModel,
+        jacobian: &DMatrix<f64>,
+        weights: &[ModeWeight],
+    ) -> Result<Self, Error> {
+        let mut other = self.with_model(model);
+        let slopes = jacobian - super::residuals::jacobian(&other, weights)?;
+        other.correction = Some(Correction {
+            moved: DVector::zeros(slopes.ncols()),
+            slopes: Arc::new(slopes),
+        });
+        Ok(other)
     }
 
     /// The exact modes with those of every group turned to the test's.
@@ -259,7 +317,15 @@ impl Comparison {
             let errors = self.model.errors_of(modes, &state.pairing)?;
             Ok(sum(errors, modes) - before)
         };
-        let changed = self.model.changed_modes(&state)?;
+        let mut changed = self.model.changed_modes(&state)?;
+        for (e, modes) in changed.iter_mut().enumerate() {
+            for (slopes, mut shape) in self.model.beyond.iter().zip(modes.shapes.column_iter_mut())
+            {
+                if let Some(slopes) = slopes {
+                    shape.axpy(DERIVATIVE_STEP, &slopes.column(e), 1.0);
+                }
+            }
+        }
         changed.iter().map(change).collect()
     }
 

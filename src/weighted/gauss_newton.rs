@@ -1,12 +1,12 @@
 //! Bounded Gauss–Newton steps with Levenberg and Marquardt's damping, one exact analysis each.
 
 use super::comparison::{Comparison, ExactResult};
-use super::identifiability::{Identifiability, PRIOR_DEVIATION, identifiability};
+use super::identifiability::{Identifiability, PRIOR_DEVIATION, identifiability, information};
 use super::residuals::{jacobian, residuals};
 use crate::method::error::{Error, positive};
 use crate::method::linear_algebra::check_length;
 use crate::method::step::Bounds;
-use crate::sparse::ModeWeight;
+use crate::sparse::{ModeWeight, solve_positive};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
@@ -14,6 +14,12 @@ use serde::{Deserialize, Serialize};
 const FIRST_DAMPING: f64 = 1e-3;
 /// Longest step in the logarithm of any factor: $e$ times as soft or stiff.
 const LONGEST_STEP: f64 = 1.0;
+/// Part of the fall that a basis promised by which the exact one may differ before the next basis gets further deflections.
+const WRONG_PROMISE: f64 = 0.1;
+/// Part of the fall of the first step that the last one in a basis may leave: the exact objective decides what it is worth.
+const LEFT: f64 = 1e-3;
+/// Rounding of an objective, relative to it, as a sum of a thousand squares has it.
+const OBJECTIVE_DIGITS: f64 = 16.0 * f64::EPSILON;
 /// A step that moves no logarithm by more is none.
 const SHORTEST_STEP: f64 = 1e-9;
 
@@ -24,7 +30,8 @@ pub struct WeightedSettings {
     /// Standard deviations $\tau$ of the factors' logarithms before the test, one a parameter or one for all; their inverses are Tikhonov's
     /// weights toward one.
     pub prior_deviations: Vec<f64>,
-    /// Stop when no parameter alone would move by more than this part of its standard deviation.
+    /// Stop when no parameter alone would move by more than this part of its standard deviation, or all together by more than a step of
+    /// this size in deviations.
     pub tolerance: f64,
     /// Most trial steps, taken or not: one exact analysis each.
     pub trials: usize,
@@ -91,12 +98,15 @@ pub struct WeightedCorrelation {
     pub stop: WeightedStop,
     /// Identifiability of the parameters there.
     pub identifiability: Identifiability,
+    /// The model there.
+    pub last: Comparison,
 }
 
 /// Place where a correlation stands.
 struct Iterate {
     factors: Vec<f64>,
     comparison: Comparison,
+    residuals: DVector<f64>,
     jacobian: DMatrix<f64>,
     objective: f64,
     gradient: DVector<f64>,
@@ -115,8 +125,11 @@ struct Iterate {
 /// quadratic model promised, $\mu$ is multiplied by $\max(\frac{1}{3}, 1 - (2\rho - 1)^3)$ then, and by 2, 4, 8, ... in
 /// rejections on end. A step to where `analyze` fails is rejected as well. Test modes are paired anew at every place.
 ///
-/// The first trial from every place goes to where the same steps end in the basis of its model, without another analysis: where the
-/// lowest modes and residual vectors tell all, that is the end. The exact objective decides there too.
+/// The trial from every place goes to where such steps end in a basis, without another analysis: the modes and the deflections of the
+/// compared ones along the first step, with slopes corrected to the exact ones. Where a model has all its modes, that is the end. The
+/// exact objective decides. A basis that promised another fall than there was is followed by one with deflections of all parameters, in
+/// which $\mu \thinspace \mathrm{diag} A$ holds the factors at the place. Steps end where the fall that is promised is that of a step
+/// shorter than the tolerance, or the round-off of the objective.
 ///
 /// `analyze` and `ranges` are those of [`crate::method::outer_loop::correlate`]. Source: Marquardt, *SIAM Journal* 11
 /// (1963), 431; Nielsen, *Damping Parameter in Marquardt's Method*, IMM-REP-1999-05, Technical University of Denmark
@@ -132,7 +145,7 @@ pub fn gauss_newton<E: From<Error>>(
     weights: &[ModeWeight],
     settings: &WeightedSettings,
 ) -> Result<WeightedCorrelation, E> {
-    Problem::new(first.len(), ranges, weights, settings)?.steps(&mut analyze, true, first)
+    Problem::new(first.len(), ranges, weights, settings)?.correlation(&mut analyze, first)
 }
 
 /// Problem that the steps of a correlation share.
@@ -143,6 +156,8 @@ pub(super) struct Problem<'a> {
     priors: Vec<f64>,
     /// $1/\tau^2$ of every parameter.
     tikhonov: DVector<f64>,
+    /// Logarithms from which a term of the objective holds the steps, and its curvature for each.
+    held: Option<(DVector<f64>, DVector<f64>)>,
 }
 
 impl<'a> Problem<'a> {
@@ -166,6 +181,7 @@ impl<'a> Problem<'a> {
         let tikhonov = priors.iter().map(|prior| prior.powi(-2));
         Ok(Self {
             tikhonov: DVector::from_iterator(count, tikhonov),
+            held: None,
             ranges,
             weights,
             settings,
@@ -189,78 +205,78 @@ impl<'a> Problem<'a> {
             factors.len(),
             comparison.model.shares.len(),
         )?;
-        let logs = DVector::from_iterator(factors.len(), factors.iter().map(|factor| factor.ln()));
         let residuals = residuals(&comparison, self.weights)?;
         let jacobian = jacobian(&comparison, self.weights)?;
-        let pull = self.tikhonov.component_mul(&logs);
-        Ok(Iterate {
-            objective: 0.5 * (residuals.norm_squared() + pull.dot(&logs)),
-            gradient: jacobian.tr_mul(&residuals) + pull,
-            curvature: jacobian.tr_mul(&jacobian) + DMatrix::from_diagonal(&self.tikhonov),
+        let mut place = Iterate {
+            objective: 0.5 * residuals.norm_squared(),
+            gradient: jacobian.tr_mul(&residuals),
+            curvature: information(&jacobian, &self.tikhonov),
             factors,
             comparison,
+            residuals,
             jacobian,
-        })
+        };
+        let logs = place.logs();
+        let mut pull = |from: &DVector<f64>, curvature: &DVector<f64>| {
+            let pull = from.component_mul(curvature);
+            place.objective += 0.5 * pull.dot(from);
+            place.gradient += pull;
+        };
+        pull(&logs, &self.tikhonov);
+        if let Some((from, curvature)) = &self.held {
+            pull(&(logs - from), curvature);
+            place.curvature += DMatrix::from_diagonal(curvature);
+        }
+        Ok(place)
     }
 
-    /// Steps from `first`; those whose analyses are exact look ahead in the basis of each.
-    pub(super) fn steps<E: From<Error>>(
+    /// The history of the steps from `first`, an exact analysis each.
+    fn correlation<E: From<Error>>(
         &self,
         analyze: &mut dyn FnMut(&[f64]) -> Result<Comparison, E>,
-        is_exact: bool,
         first: &[f64],
     ) -> Result<WeightedCorrelation, E> {
         let mut place = self.place_at(analyze, first.to_vec())?;
-        let initial = place.comparison.result()?;
-        let mut is_new = is_exact;
-        let (mut iterations, mut trials) = (Vec::new(), 0);
-        let (mut damping, mut growth) = (FIRST_DAMPING, 2.0);
+        let (initial, mut iterations) = (place.comparison.result()?, Vec::new());
+        let (mut trials, mut further, mut damping) = (0, 0, Damping::FIRST);
+        let most = 6 * place.comparison.model.test.len() + 30;
         let stop = loop {
-            let room = place.room(self.ranges);
-            let free = place.free(&room);
-            let is_flat = |&e: &usize| {
-                let deviations = place.curvature[(e, e)].sqrt();
-                place.gradient[e].abs() <= self.settings.tolerance * deviations
+            let step = match self.step(&place, damping.now)? {
+                Ok(step) => step,
+                Err(stop) => break stop,
             };
-            if free.iter().all(is_flat) {
+            let promised = place.promised_fall(&step);
+            let digits = OBJECTIVE_DIGITS * place.objective;
+            if promised <= digits.max(0.5 * self.settings.tolerance.powi(2)) {
                 break WeightedStop::Gradient;
             }
             if trials == self.settings.trials {
                 break WeightedStop::Trials;
             }
-            if std::mem::take(&mut is_new)
-                && let Some(ahead) = self.ahead(&place)
-            {
-                trials += 1;
-                if let Ok(next) = self.place_at(analyze, ahead)
-                    && next.objective < place.objective
-                {
-                    (place, is_new) = (next, is_exact);
-                    iterations.push(place.iteration()?);
-                }
-                continue;
-            }
-            let mut step = bounded_step(&place.curvature, &place.gradient, free, &room, damping)?;
-            step *= (LONGEST_STEP / step.amax()).min(1.0);
-            if step.amax() <= SHORTEST_STEP {
-                break WeightedStop::Step;
-            }
             trials += 1;
-            let both = place.factors.iter().zip(&step);
-            let trial = both.map(|(factor, step)| factor * step.exp()).collect();
+            // As long as the basis has told the truth, it is followed to its end.
+            let (held, left) = match further {
+                0 => (0.0, 0.0),
+                _ => (damping.now, LEFT * promised),
+            };
+            let ahead = self.ahead(&place, &step, (held, left), further);
+            let (promised, trial) = ahead.unwrap_or_else(|| (promised, place.after(&step)));
             // A place without a model is no better than this one, nor is one where the objective has not fallen.
             let next = self.place_at(analyze, trial).ok();
-            let promised = place.promised_fall(&step);
-            let fall = |next: &Iterate| place.objective - next.objective;
-            let Some(next) = next.filter(|next| fall(next) > 0.0 && promised > 0.0) else {
-                (damping, growth) = (damping * growth, 2.0 * growth);
-                continue;
-            };
-            let ratio = fall(&next) / promised;
-            (place, is_new) = (next, is_exact);
-            iterations.push(place.iteration()?);
-            damping *= (1.0 - (2.0 * ratio - 1.0).powi(3)).max(1.0 / 3.0);
-            growth = 2.0;
+            let fall = next
+                .as_ref()
+                .map_or(f64::NEG_INFINITY, |next| place.objective - next.objective);
+            if (fall - promised).abs() > WRONG_PROMISE * promised {
+                further = most;
+            }
+            match next.filter(|_| fall > 0.0) {
+                Some(next) => {
+                    place = next;
+                    damping.after(fall / promised);
+                    iterations.push(place.iteration()?);
+                }
+                None => damping.more(),
+            }
         };
         Ok(WeightedCorrelation {
             initial,
@@ -268,21 +284,131 @@ impl<'a> Problem<'a> {
             identifiability: identifiability(&place.jacobian, &self.priors)?,
             factors: place.factors,
             objective: place.objective,
+            last: place.comparison,
             analyses: trials + 1,
             stop,
         })
     }
 
-    /// Factors where the steps from a place end in the basis of its model; none if nowhere else.
-    fn ahead(&self, place: &Iterate) -> Option<Vec<f64>> {
+    /// The lowest objective that steps in one basis find from `first`, and the factors there, but for a fall that may be `left`.
+    pub(super) fn lowest(
+        &self,
+        analyze: &mut dyn FnMut(&[f64]) -> Result<Comparison, Error>,
+        first: &[f64],
+        left: f64,
+    ) -> Result<(f64, Vec<f64>), Error> {
+        let mut place = self.place_at(analyze, first.to_vec())?;
+        let mut damping = Damping::FIRST;
+        for _ in 0..self.settings.trials {
+            let Ok(step) = self.step(&place, damping.now)? else {
+                break;
+            };
+            let promised = place.promised_fall(&step);
+            if promised <= left {
+                break;
+            }
+            let next = self.place_at(analyze, place.after(&step)).ok();
+            match next.filter(|next| next.objective < place.objective && promised > 0.0) {
+                Some(next) => {
+                    damping.after((place.objective - next.objective) / promised);
+                    place = next;
+                }
+                None => damping.more(),
+            }
+        }
+        Ok((place.objective, place.factors))
+    }
+
+    /// The damped step from a place within the room of every logarithm, or the reason why there is none.
+    fn step(
+        &self,
+        place: &Iterate,
+        damping: f64,
+    ) -> Result<Result<DVector<f64>, WeightedStop>, Error> {
+        let room = place.room(self.ranges);
+        let free = place.free(&room);
+        let is_flat = |&e: &usize| {
+            let deviations = place.curvature[(e, e)].sqrt();
+            place.gradient[e].abs() <= self.settings.tolerance * deviations
+        };
+        if free.iter().all(is_flat) {
+            return Ok(Err(WeightedStop::Gradient));
+        }
+        let mut step = bounded_step(&place.curvature, &place.gradient, free, &room, damping)?;
+        step *= (LONGEST_STEP / step.amax()).min(1.0);
+        Ok(match step.amax() <= SHORTEST_STEP {
+            true => Err(WeightedStop::Step),
+            false => Ok(step),
+        })
+    }
+
+    /// The objective and the factors where the steps from a place end in a basis of the modes and their deflections along a step, and so
+    /// many `further` ones; none if nowhere else. `damping` times the curvature holds every parameter at the place.
+    fn ahead(
+        &self,
+        place: &Iterate,
+        step: &DVector<f64>,
+        (damping, left): (f64, f64),
+        further: usize,
+    ) -> Option<(f64, Vec<f64>)> {
+        let basis = place
+            .comparison
+            .model
+            .along(step.as_slice(), further, &place.misfits())
+            .ok()?;
+        let basis = place
+            .comparison
+            .in_basis(basis, &place.jacobian, self.weights)
+            .ok()?;
         let mut follow = |factors: &[f64]| {
             let both = factors.iter().zip(&place.factors);
             let change: Vec<f64> = both.map(|(factor, from)| factor / from).collect();
-            place.comparison.followed(&change)
+            basis.followed(&change)
         };
-        let found = self.steps::<Error>(&mut follow, false, &place.factors);
-        let found = found.ok().filter(|found| !found.iterations.is_empty())?;
-        Some(found.factors)
+        let (logs, holding) = (place.logs(), damping * place.curvature.diagonal());
+        let held = Problem {
+            held: Some((logs.clone(), holding.clone())),
+            priors: self.priors.clone(),
+            tikhonov: self.tikhonov.clone(),
+            ..*self
+        };
+        let (objective, factors) = held.lowest(&mut follow, &place.factors, left).ok()?;
+        let moved = factors
+            .iter()
+            .zip(&logs)
+            .map(|(factor, log)| factor.ln() - log);
+        let held: f64 = moved
+            .zip(&holding)
+            .map(|(moved, holding)| 0.5 * holding * moved * moved)
+            .sum();
+        let promised = place.objective - (objective - held);
+        (promised > 0.0).then_some((promised, factors))
+    }
+}
+
+/// Levenberg and Marquardt's damping.
+#[derive(Clone, Copy)]
+struct Damping {
+    now: f64,
+    growth: f64,
+}
+
+impl Damping {
+    const FIRST: Self = Self {
+        now: FIRST_DAMPING,
+        growth: 2.0,
+    };
+
+    /// Less or more after a fall that is some part of the promised one.
+    fn after(&mut self, ratio: f64) {
+        self.now *= (1.0 - (2.0 * ratio - 1.0).powi(3)).clamp(1.0 / 3.0, 2.0);
+        self.growth = 2.0;
+    }
+
+    /// More, after a step that led nowhere.
+    fn more(&mut self) {
+        self.now *= self.growth;
+        self.growth *= 2.0;
     }
 }
 
@@ -293,6 +419,29 @@ impl Iterate {
             check: self.comparison.result()?,
             objective: self.objective,
         })
+    }
+
+    fn logs(&self) -> DVector<f64> {
+        DVector::from_iterator(
+            self.factors.len(),
+            self.factors.iter().map(|factor| factor.ln()),
+        )
+    }
+
+    /// Size of the residuals of every test mode with a shape.
+    fn misfits(&self) -> Vec<f64> {
+        let rows = 1 + self.comparison.model.test.shapes.nrows();
+        let own = self.residuals.as_slice().chunks(rows);
+        let size = |own: &[f64]| own.iter().map(|value| value * value).sum::<f64>().sqrt();
+        own.take(self.comparison.model.test.len())
+            .map(size)
+            .collect()
+    }
+
+    /// Factors after a step of their logarithms.
+    fn after(&self, step: &DVector<f64>) -> Vec<f64> {
+        let both = self.factors.iter().zip(step);
+        both.map(|(factor, step)| factor * step.exp()).collect()
     }
 
     /// Room of every logarithm within the bounds.
@@ -337,11 +486,7 @@ fn bounded_step(
         let right = -(gradient + curvature * &step).select_rows(&free);
         let mut left = curvature.select_rows(&free).select_columns(&free);
         (0..free.len()).for_each(|e| left[(e, e)] *= 1.0 + damping);
-        let factor = left.cholesky().ok_or(Error::NotPositiveDefinite {
-            what: "damped curvature",
-            row: 0,
-        })?;
-        let solved = factor.solve(&right);
+        let solved = solve_positive("damped curvature", &left, &right)?;
         let within = |place: &usize| room[free[*place]].contains(solved[*place]);
         let (inside, beyond): (Vec<usize>, Vec<usize>) = (0..free.len()).partition(within);
         if beyond.is_empty() {

@@ -2,6 +2,7 @@
 
 use crate::method::error::{Error, at_least_one, positive};
 use crate::method::linear_algebra::{as_faer, check_finite, check_length};
+use crate::sparse::{inverse_of_positive, transposed_product};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
@@ -59,12 +60,9 @@ pub fn identifiability(jacobian: &DMatrix<f64>, priors: &[f64]) -> Result<Identi
     }
     check_finite("Jacobian", jacobian)?;
     at_least_one("parameters or residuals", jacobian.len())?;
-    let mut singular_values = jacobian
-        .clone()
-        .svd(false, false)
-        .singular_values
-        .as_slice()
-        .to_vec();
+    let singular_values = as_faer(jacobian).singular_values();
+    let mut singular_values =
+        singular_values.map_err(|_| Error::no_convergence("singular values of the Jacobian"))?;
     singular_values.resize(count, 0.0);
     let smallest = singular_values[count - 1];
     let lengths: Vec<f64> = jacobian.column_iter().map(|column| column.norm()).collect();
@@ -73,16 +71,12 @@ pub fn identifiability(jacobian: &DMatrix<f64>, priors: &[f64]) -> Result<Identi
         .filter(|&e| lengths[e] <= BLIND_FRACTION * longest)
         .collect();
     let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b)));
-    let cosine = |(a, b)| jacobian.column(a).dot(&jacobian.column(b)) / (lengths[a] * lengths[b]);
+    let gram = transposed_product(jacobian, jacobian);
+    let cosine = |(a, b)| gram[(a, b)] / (lengths[a] * lengths[b]);
     let parallel = pairs.map(|(a, b)| (a, b, cosine((a, b))));
     let priors = DVector::from_column_slice(priors);
-    let information =
-        jacobian.tr_mul(jacobian) + DMatrix::from_diagonal(&priors.map(|prior| prior.powi(-2)));
-    let factor = information.cholesky().ok_or(Error::NotPositiveDefinite {
-        what: "information",
-        row: 0,
-    })?;
-    let covariance = factor.inverse();
+    let information = gram.clone() + DMatrix::from_diagonal(&priors.map(|prior| prior.powi(-2)));
+    let covariance = inverse_of_positive("information", &information)?;
     let deviations: Vec<f64> = covariance
         .diagonal()
         .iter()
@@ -108,6 +102,11 @@ pub fn identifiability(jacobian: &DMatrix<f64>, priors: &[f64]) -> Result<Identi
         covariance,
         deviations,
     })
+}
+
+/// $J^t J + \mathrm{diag}(\tau^{-2})$, the inverse of the covariance, from the inverse squares of the prior deviations.
+pub(super) fn information(jacobian: &DMatrix<f64>, tikhonov: &DVector<f64>) -> DMatrix<f64> {
+    transposed_product(jacobian, jacobian) + DMatrix::from_diagonal(tikhonov)
 }
 
 /// Columns, in prior deviations, in the order of QR with column pivoting, while what those before cannot imitate is longer than one.

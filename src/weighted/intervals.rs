@@ -2,11 +2,12 @@
 
 use super::comparison::Comparison;
 use super::gauss_newton::{Problem, WeightedSettings};
-use super::identifiability::{NORMAL_95, identifiability};
+use super::identifiability::{NORMAL_95, identifiability, information};
 use super::residuals::{jacobian, residuals};
 use crate::method::error::Error;
 use crate::method::step::Bounds;
-use crate::sparse::ModeWeight;
+use crate::sparse::{ModeWeight, solve_positive};
+use nalgebra::DVector;
 use statrs::function::erf::erfc;
 
 /// Part of the tests in which an interval by slopes may miss the truth before the objective itself is asked.
@@ -16,8 +17,10 @@ const MOST_MISSED: f64 = 0.07;
 const CLOSE: f64 = 0.02;
 /// Most tries for an end; an interval without one is withheld.
 const TRIES: usize = 30;
-/// The lowest objective beside a fixed factor need not be found better than that: half its square in the rise.
-const GRADIENT: f64 = 1e-2;
+/// Most parameters whose intervals are followed beyond their slopes: each takes some eigensolutions in a basis.
+pub(crate) const MOST_FOLLOWED: usize = 200;
+/// Fall of the objective beside a fixed factor that may be left: at the ends it moves the root of twice the rise by a thousandth of itself.
+const LEFT: f64 = 4e-3;
 
 /// 95 % intervals about the factors at the optimum of weighted steps, `widening` times as wide (in logarithms) as by the weights. None of
 /// a parameter at a bound, and of one that is known mostly from the prior.
@@ -25,8 +28,10 @@ const GRADIENT: f64 = 1e-2;
 /// By the slopes, with the covariance $C$ of the logarithms ([`identifiability`]), the interval is $c_e e^{\pm 1.96 s_e}$. It holds as far as
 /// $s_e$ is the same within it. Where it changes along the way, on which the other logarithms move by $C_{ie}/C_{ee}$ of the one, an end is
 /// $r = \int \mathrm dt/s_e(t)$ deviations away, here by Simpson's rule, and the truth beyond it in a part $\Phi(-r)$ of the tests. Where both
-/// parts together exceed 7 %, the ends are where the objective itself, the lowest that the other parameters allow, is higher by
+/// parts together exceed 7 %, and there are no more than 200 parameters, the ends are where the objective itself, the lowest that the other parameters allow, is higher by
 /// $\frac12 1.96^2$ (the profile likelihood). An end that is not found withholds the interval.
+///
+/// No end is beyond the prior's own 95 % interval, $e^{\pm 1.96 \tau}$, unless the factor is.
 ///
 /// `analyze` need be no other analysis: a job follows the modes in the basis of its best model.
 ///
@@ -45,60 +50,88 @@ pub fn intervals(
     let priors = settings.priors(factors.len());
     let (model, reach) = (analyze(factors)?, NORMAL_95 * widening);
     let seen = identifiability(&jacobian(&model, weights)?, &priors)?;
+    let tikhonov = priors.iter().map(|prior| prior.powi(-2));
+    let tikhonov = DVector::from_iterator(priors.len(), tikhonov);
     let pulls = factors.iter().zip(&priors);
     let pull: f64 = pulls
         .map(|(factor, prior)| (factor.ln() / prior).powi(2))
         .sum();
     let least = 0.5 * (residuals(&model, weights)?.norm_squared() + pull);
     let root = |objective: f64| (2.0 * (objective - least)).max(0.0).sqrt();
-    let settings = WeightedSettings {
-        tolerance: GRADIENT,
-        ..settings.clone()
-    };
     let interval = |e: usize| -> Option<Bounds> {
         if ranges[e].is_some_and(|range| is_at_end(range, factors[e])) || seen.is_mostly_prior(e) {
             return None;
         }
-        let along = |log: f64| -> Vec<f64> {
-            let share = |i: usize| seen.covariance[(i, e)] / seen.covariance[(e, e)];
-            let moved = |(i, factor): (usize, &f64)| factor * (share(i) * log).exp();
-            factors.iter().enumerate().map(moved).collect()
+        // Logarithms of all factors for a change of this one, which is held there.
+        let path = seen.covariance.column(e) / seen.covariance[(e, e)];
+        let along = |path: &DVector<f64>, log: f64| -> Vec<f64> {
+            let moved = |(factor, share): (&f64, &f64)| factor * (share * log).exp();
+            factors.iter().zip(path).map(moved).collect()
         };
         let by_slope = reach * seen.deviations[e];
         // The deviation at the optimum over that elsewhere; nothing is told where there is no model.
         let ratio = |log: f64| {
-            let there = analyze(&along(log)).and_then(|model| jacobian(&model, weights));
-            let there = there.and_then(|jacobian| identifiability(&jacobian, &priors));
-            there.map_or(0.0, |there| seen.deviations[e] / there.deviations[e])
+            let there = deviation(analyze, &along(&path, log), e, weights, &tikhonov);
+            there.map_or(0.0, |there| seen.deviations[e] / there)
         };
         let missed = |log: f64| {
             let mean = (1.0 + 4.0 * ratio(0.5 * log) + ratio(log)) / 6.0;
             0.5 * erfc(NORMAL_95 * mean / 2.0_f64.sqrt())
         };
-        let logs = if missed(-by_slope) + missed(by_slope) <= MOST_MISSED {
+        let is_straight = || missed(-by_slope) + missed(by_slope) <= MOST_MISSED;
+        let logs = if factors.len() > MOST_FOLLOWED || is_straight() {
             [-by_slope, by_slope]
         } else {
+            // The next place begins on the way to the last one found.
+            let mut best = path.clone();
             let mut rise = |log: f64| {
-                let first = along(log);
+                let first = along(&best, log);
                 let mut ranges = ranges.to_vec();
                 ranges[e] = Some(Bounds {
                     lower: first[e],
                     upper: first[e] * (1.0 + 4.0 * f64::EPSILON),
                 });
-                let problem = Problem::new(first.len(), &ranges, weights, &settings);
-                let found =
-                    problem.and_then(|of| of.steps(&mut |at: &[f64]| analyze(at), true, &first));
-                found.ok().map(|found| root(found.objective) - reach)
+                let problem = Problem::new(first.len(), &ranges, weights, settings);
+                let analyze = &mut |at: &[f64]| analyze(at);
+                let (objective, found) = problem
+                    .and_then(|of| of.lowest(analyze, &first, LEFT))
+                    .ok()?;
+                let moved = found.iter().zip(factors);
+                best.iter_mut()
+                    .zip(moved)
+                    .for_each(|(best, (found, factor))| *best = (found / factor).ln() / log);
+                Some(root(objective) - reach)
             };
             [
                 end(&mut rise, -by_slope, reach)?,
                 end(&mut rise, by_slope, reach)?,
             ]
         };
-        let [lower, upper] = logs.map(|log| factors[e] * log.exp());
-        Some(Bounds { lower, upper })
+        Some(within_prior(factors[e].ln(), logs, NORMAL_95 * priors[e]))
     };
     Ok((0..factors.len()).map(interval).collect())
+}
+
+/// The deviation of a parameter's logarithm at factors.
+fn deviation(
+    analyze: &dyn Fn(&[f64]) -> Result<Comparison, Error>,
+    factors: &[f64],
+    e: usize,
+    weights: &[ModeWeight],
+    tikhonov: &DVector<f64>,
+) -> Result<f64, Error> {
+    let information = information(&jacobian(&analyze(factors)?, weights)?, tikhonov);
+    let mut own = DVector::zeros(factors.len());
+    own[e] = 1.0;
+    Ok(solve_positive("information", &information, &own)?[e].sqrt())
+}
+
+/// Ends of an interval at these distances of a logarithm, no farther from zero than a `prior` unless the logarithm itself is.
+fn within_prior(log: f64, ends: [f64; 2], prior: f64) -> Bounds {
+    Bounds {
+        lower: (log + ends[0]).max((-prior).min(log)).exp(),
+        upper: (log + ends[1]).min(prior.max(log)).exp(),
+    }
 }
 
 /// Place where `rise`, less than zero at zero, is zero to within [`CLOSE`] of `reach`: from `first` outward, then between.

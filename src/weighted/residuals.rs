@@ -5,11 +5,12 @@ use crate::method::error::Error;
 use crate::method::modes::Modes;
 use crate::method::perturbation::SMALLEST_SEPARATION;
 use crate::method::sorting::Pairing;
-use crate::sparse::{ModeWeight, ParameterMatrix, SensorModel, check_weights, finite, solve_lower};
+use crate::sparse::{ModeWeight, SensorModel, check_weights, finite, solve_lower};
 use crate::weighted::close_modes::{Nearest, members, nearest};
-use crate::weighted::comparison::{Comparison, Test};
+use crate::weighted::comparison::{Comparison, Correction, Test};
 use crate::weighted::noise::Noise;
 use nalgebra::{DMatrix, DVector, Dyn, QR, RowDVector};
+use std::collections::HashMap;
 
 /// Standard deviations unless others are known: 0.5 % of a frequency, 2 % of a shape's largest component. They are about twice
 /// [`Noise::USUAL`], for what repeats in a test and is wrong all the same: supports, the place of a sensor.
@@ -37,10 +38,17 @@ pub const DEVIATIONS: Noise = Noise {
 ///
 /// Source: Golub and Pereyra, *SIAM Journal on Numerical Analysis* 10 (1973), 413.
 pub fn residuals(comparison: &Comparison, weights: &[ModeWeight]) -> Result<DVector<f64>, Error> {
-    let Comparison { model, test } = comparison;
+    let Comparison {
+        model,
+        test,
+        correction,
+    } = comparison;
     check_weights(weights, model.test.len() + test.lone.len())?;
     let State { modes, pairing, .. } = &model.exact;
-    let residuals = residuals_of(modes, pairing, comparison, weights);
+    let mut residuals = residuals_of(modes, pairing, comparison, weights);
+    if let Some(Correction { slopes, moved }) = correction {
+        residuals += &**slopes * moved;
+    }
     let column = DMatrix::from_column_slice(residuals.len(), 1, residuals.as_slice());
     finite("residuals", column).map(|_| residuals)
 }
@@ -134,7 +142,7 @@ impl<'a> Whitening<'a> {
 /// the test shape of unit largest component.
 fn compared(
     shapes: &DMatrix<f64>,
-    Comparison { model, test }: &Comparison,
+    Comparison { model, test, .. }: &Comparison,
     members: &[usize],
     j: usize,
 ) -> (DMatrix<f64>, Nearest) {
@@ -174,6 +182,7 @@ pub fn jacobian(comparison: &Comparison, weights: &[ModeWeight]) -> Result<DMatr
     let Comparison {
         model,
         test: Test { together, lone, .. },
+        correction,
     } = comparison;
     let (test, State { modes, pairing, .. }) = (&model.test, &model.exact);
     check_weights(weights, test.len() + lone.len())?;
@@ -183,8 +192,20 @@ pub fn jacobian(comparison: &Comparison, weights: &[ModeWeight]) -> Result<DMatr
     let excess = whitening
         .as_ref()
         .map(|of| of.excess(&correlated(modes, pairing, comparison, weights)));
+    let partners = lone.iter().map(|lone| &lone.partner);
+    let partners: Vec<usize> = pairing
+        .analysis_mode
+        .iter()
+        .chain(partners)
+        .copied()
+        .collect();
+    let couplings: HashMap<_, _> = partners
+        .iter()
+        .copied()
+        .zip(model.couplings(&partners))
+        .collect();
     let (mut jacobian, mut column) = (DMatrix::zeros(rows * test.len() + lone.len(), count), 0..);
-    for (j, &i) in pairing.analysis_mode.iter().enumerate() {
+    for j in 0..test.len() {
         let members = members(pairing, together, j);
         let (shapes, nearest) = compared(&model.basis, comparison, &members, j);
         let Nearest {
@@ -195,7 +216,18 @@ pub fn jacobian(comparison: &Comparison, weights: &[ModeWeight]) -> Result<DMatr
         let v = shapes.select_columns(&members);
         let mut shape = DMatrix::zeros(rows - 1, count);
         for (place, &i) in members.iter().enumerate() {
-            let moved = &shapes * slopes.added(i, &members);
+            let couplings = couplings[&i].clone();
+            if place == 0 {
+                let ratio = (slopes.k[i] / test.omega_squared[j]).sqrt();
+                let own = slopes.of_frequency(&weights[j], ratio, i, &couplings);
+                jacobian.set_row(rows * j, &own);
+            }
+            let mut moved = &shapes * slopes.added(i, &members, couplings);
+            if let Some(beyond) = &model.beyond[i] {
+                let weights = comparison.test.component_weights.column(j);
+                let both = moved.column_iter_mut().zip(beyond.column_iter());
+                both.for_each(|(mut moved, beyond)| moved += beyond.component_mul(&weights));
+            }
             let out = &moved - &v * (&inverse * &moved);
             let turned = inverse.row(place).transpose() * (apart.transpose() * moved);
             let (weight, column) = (weights[j].shape, column.next().unwrap_or_default());
@@ -203,61 +235,59 @@ pub fn jacobian(comparison: &Comparison, weights: &[ModeWeight]) -> Result<DMatr
             shape += (weight * shares[place] - excess) * out - weight * turned;
         }
         jacobian.rows_mut(rows * j + 1, rows - 1).copy_from(&shape);
-        let ratio = (slopes.k[i] / test.omega_squared[j]).sqrt();
-        jacobian.set_row(rows * j, &slopes.of_frequency(&weights[j], ratio, i));
     }
     for (place, (lone, weight)) in lone.iter().zip(&weights[test.len()..]).enumerate() {
-        let row = slopes.of_frequency(weight, 1.0 + lone.error(modes), lone.partner);
+        let (ratio, i) = (1.0 + lone.error(modes), lone.partner);
+        let row = slopes.of_frequency(weight, ratio, i, &couplings[&i]);
         jacobian.set_row(rows * test.len() + place, &row);
     }
-    let jacobian = match whitening {
+    let mut jacobian = match whitening {
         Some(of) => of.independent(&jacobian),
         None => jacobian,
     };
+    if let Some(correction) = correction {
+        jacobian += &*correction.slopes;
+    }
     finite("Jacobian", jacobian)
 }
 
 /// Slopes of modes by the logarithm of every parameter's factor, in the basis of a model.
-struct Slopes<'a> {
-    shares: &'a [ParameterMatrix],
+struct Slopes {
     /// Squared circular frequencies of all shapes of the basis, zero of rigid-body modes.
     k: DVector<f64>,
 }
 
-impl<'a> Slopes<'a> {
-    fn new(model: &'a SensorModel) -> Self {
+impl Slopes {
+    fn new(model: &SensorModel) -> Self {
         let size = model.basis.ncols();
         Self {
-            shares: &model.shares,
             k: model.omega_squared.clone().resize_vertically(size, 0.0),
         }
     }
 
-    /// $\beta_{ri}$ of a parameter, or what a mass has in its place.
-    fn change(&self, r: usize, i: usize, share: &ParameterMatrix) -> f64 {
-        match share {
-            ParameterMatrix::Stiffness(beta) => beta[(r, i)],
-            ParameterMatrix::Mass(alpha) => -self.k[i] * alpha[(r, i)],
-        }
-    }
-
-    /// Slopes (1 × p) of the frequency of mode i, which is `ratio` times the test's.
-    fn of_frequency(&self, weight: &ModeWeight, ratio: f64, i: usize) -> RowDVector<f64> {
+    /// Slopes (1 × p) of the frequency of mode i, which is `ratio` times the test's, from its couplings.
+    fn of_frequency(
+        &self,
+        weight: &ModeWeight,
+        ratio: f64,
+        i: usize,
+        couplings: &DMatrix<f64>,
+    ) -> RowDVector<f64> {
         let scale = weight.frequency * ratio / (2.0 * self.k[i]);
-        let slope = |share| scale * self.change(i, i, share);
-        RowDVector::from_iterator(self.shares.len(), self.shares.iter().map(slope))
+        scale * couplings.row(i)
     }
 
     /// The share of every other shape of the basis that each parameter adds to mode i (N × p), but of the `members` of its group.
-    fn added(&self, i: usize, members: &[usize]) -> DMatrix<f64> {
+    fn added(&self, i: usize, members: &[usize], mut couplings: DMatrix<f64>) -> DMatrix<f64> {
         let k = &self.k;
-        DMatrix::from_fn(k.len(), self.shares.len(), |r, e| {
+        for (r, mut row) in couplings.row_iter_mut().enumerate() {
             let (apart, held) = (k[i] - k[r], SMALLEST_SEPARATION * k[i].max(k[r]));
             if apart.abs() > held && !members.contains(&r) {
-                self.change(r, i, &self.shares[e]) / apart
+                row /= apart;
             } else {
-                0.0
+                row.fill(0.0);
             }
-        })
+        }
+        couplings
     }
 }

@@ -317,3 +317,6 @@ pub const FAR_RECURSION: f64 = 1e-3;
 /// Factors where the loops lead, relative, before and after they are written anew, and error sums there: round-off of 1e-13 in masses or
 /// springs moves them by up to 1e-10.
 pub const SAME_LOOPS: f64 = 1e-9;
+/// Slopes of residuals relative to the largest, beside central differences of exact analyses: a thousandth of what the modes left out
+/// add is allowed, and shapes are found to 1e-8, over a step of 1e-4.
+pub const EXACT_SLOPES: f64 = 2e-3;

@@ -80,7 +80,12 @@ fn growth(what: &str, usual: &str, is_wanted: fn(&[String]) -> bool) -> String {
         0 | 1 => String::new(),
         _ => format!("{:.2}", log_log_slope(points)).replace("-0.00", "0.00"),
     };
-    let wanted = LINES[1..].iter().filter(|line| is_wanted(line));
+    // A row that was never measured says nothing.
+    let is_measured = |line: &&Vec<String>| numbers(line).iter().any(Option::is_some);
+    let wanted = LINES[1..]
+        .iter()
+        .filter(|line| is_wanted(line))
+        .filter(is_measured);
     let rows = wanted.map(|line| match line[1] == usual {
         true => (line[0].clone(), line),
         false => (format!("{}, {}", line[0], line[1]), line),
@@ -163,9 +168,12 @@ fn at_each(bound: Bound<'_>) -> Vec<Option<f64>> {
 
 /// A table of numbers at every size.
 fn at_sizes(what: &str, rows: impl IntoIterator<Item = (String, Vec<Option<f64>>)>) -> String {
-    table(&head(what), rows, |values| {
-        values.into_iter().map(written).collect()
-    })
+    let is_measured = |(_, values): &(String, Vec<Option<f64>>)| values.iter().any(Option::is_some);
+    table(
+        &head(what),
+        rows.into_iter().filter(is_measured),
+        |values| values.into_iter().map(written).collect(),
+    )
 }
 
 /// The tables of `paper/cost.md`.

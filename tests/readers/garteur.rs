@@ -50,13 +50,13 @@ fn the_corrected_airplane_is_nearer_and_still_not_explained() {
     assert!(corrected < 0.2 * first);
     // Far beyond what eight numbers right but for their deviations make.
     assert!(corrected > 10.0 * 8.0 && !RESULT.verdict.is_within);
-    // A stop by the length of the step is not called a minimum.
+    // The minimum is one, and no explanation.
     let History::GaussNewton(Some((run, ..))) = &RESULT.history else {
         panic!("by weighted steps")
     };
     assert_eq!(
         (run.stop, RESULT.verdict.outcome),
-        (WeightedStop::Step, Outcome::ShortSteps)
+        (WeightedStop::Gradient, Outcome::LocalMinimum)
     );
     let named = |name: &str| RESULT.trust.blind.iter().any(|blind| blind == name);
     assert!(

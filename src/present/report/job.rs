@@ -23,8 +23,10 @@ impl Report {
         let whole = &loaded.source.whole;
         let names: Vec<String> = loaded.parameter_names().map(str::to_owned).collect();
         let ones = vec![1.0; names.len()];
-        let first =
-            result.map_or_else(|| loaded.analyze(&ones), |result| Ok(result.first.clone()))?;
+        let first = result.map_or_else(
+            || loaded.analyze(&ones)?.with_slopes(),
+            |result| Ok(result.first.clone()),
+        )?;
         let stem = loaded.job.stem();
         let geometry = &loaded.source.geometry;
         let corners = |grids: &Vec<usize>| {
@@ -113,6 +115,7 @@ impl Report {
             ),
             misfit: Some(result.misfit),
             is_judged_by_noise: loaded.job.compare.method == Method::GaussNewton,
+            analyses: Some(result.analyses),
             minima,
             failed_starts,
             moved: moved(loaded, result),
@@ -168,7 +171,11 @@ fn moved(loaded: &LoadedJob, result: &JobResult) -> Option<[Vec<Vec<Vector3<f64>
     let whole = |factors: &[f64], Comparison { model, .. }: &Comparison| {
         let pairs = &model.exact.pairing.analysis_mode;
         let count = pairs.iter().max().map_or(0, |mode| mode + 1);
-        let all = source.whole.modes(factors, count).ok()?.vibrations.shapes;
+        let anew = || Some(source.whole.modes(factors, count).ok()?.vibrations.shapes);
+        let all = match model.whole() {
+            Some(whole) => whole.shapes(count).shapes,
+            None => anew()?,
+        };
         let seen = sensors.times(&all).ok()?;
         // Give them the scale and sign of the shapes that are compared.
         let mut paired = all.select_columns(pairs);

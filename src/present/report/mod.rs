@@ -77,6 +77,8 @@ pub struct Report {
     pub misfit: Option<Misfit>,
     /// Whether that decides the verdict, and not the tolerances.
     pub is_judged_by_noise: bool,
+    /// Number of exact analyses that the result took.
+    pub analyses: Option<usize>,
     /// The minima that noise allows, of several starts.
     pub minima: Vec<Minimum>,
     /// How many of the starts failed.
@@ -199,6 +201,7 @@ impl Report {
             prior_shares: None,
             misfit: None,
             is_judged_by_noise: false,
+            analyses: None,
             minima: Vec::new(),
             failed_starts: 0,
             truth: Vec::new(),

@@ -122,16 +122,22 @@ impl Factor {
         let (count, turn) = (right.ncols(), &self.plan.turn);
         check_matrix("loads", right, self.scale.len(), count)?;
         let (mut rows, mut is_loaded) = (vec![0.0; right.len()], vec![false; right.nrows()]);
-        for (&turn, loads) in turn.iter().zip(right.row_iter()) {
-            is_loaded[turn] = loads.iter().any(|&load| load != 0.0);
-            let row = rows[turn * count..].iter_mut().zip(loads.iter());
-            row.for_each(|(value, load)| *value = load * self.scale[turn]);
+        for (column, loads) in right.column_iter().enumerate() {
+            let loads = turn.iter().zip(loads.iter());
+            for (&turn, &load) in loads.filter(|(_, load)| **load != 0.0) {
+                is_loaded[turn] = true;
+                rows[turn * count + column] = load * self.scale[turn];
+            }
         }
         self.forward(&mut rows, count, &self.reached(is_loaded));
         self.backward(&mut rows, count);
-        let at =
-            |dof: usize, column: usize| self.scale[turn[dof]] * rows[turn[dof] * count + column];
-        finite("deflections", DMatrix::from_fn(right.nrows(), count, at))
+        let mut deflections = DMatrix::zeros(right.nrows(), count);
+        for (column, mut deflections) in deflections.column_iter_mut().enumerate() {
+            for (value, &turn) in deflections.iter_mut().zip(turn) {
+                *value = self.scale[turn] * rows[turn * count + column];
+            }
+        }
+        finite("deflections", deflections)
     }
 
     /// Rows to which loads on some of them lead in forward substitution.

@@ -72,10 +72,10 @@ pub fn of_elements(
     let mass = mass.chain(lumped.map(|(row, mass)| (row, row, mass)));
     let sparse = |what, entries| SparseMatrix::new(what, count, count, entries);
     let (stiffness, mass) = (stiffness.collect(), mass.collect());
-    WholeModel::new(
+    WholeModel::with_resisting(
         sparse("stiffness", stiffness)?,
         sparse("mass", mass)?,
         parameters.collect::<Result<_, Error>>()?,
-    )?
-    .with_resisting(resisting(structure, &matrices)?)
+        Some(resisting(structure, &matrices)?),
+    )
 }

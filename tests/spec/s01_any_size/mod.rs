@@ -3,6 +3,7 @@
 pub mod clusters;
 pub mod condensation;
 pub mod deformations;
+pub mod exact_slopes;
 pub mod factorization;
 pub mod free_modes;
 pub mod residual_vectors;

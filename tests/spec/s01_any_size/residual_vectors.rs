@@ -221,12 +221,8 @@ fn a_net_of_300_degrees_of_freedom_comes_back_at_the_usual_number_of_modes() {
         ..WeightedSettings::default()
     };
     let weights = equal_weights(DEVIATIONS, MODES[0]);
-    let run = |further| {
-        let analyze =
-            |factors: &[f64]| Ok::<_, Error>(Comparison::from(net.analyze(factors, further)));
-        gauss_newton(analyze, &[1.0; 15], &[None; 15], &weights, &settings).unwrap()
-    };
-    let found = run(4);
+    let analyze = |factors: &[f64]| Ok::<_, Error>(Comparison::from(net.analyze(factors, 0)));
+    let found = gauss_newton(analyze, &[1.0; 15], &[None; 15], &weights, &settings).unwrap();
     let worst = |factors: &[f64]| {
         let off = factors
             .iter()
@@ -236,9 +232,5 @@ fn a_net_of_300_degrees_of_freedom_comes_back_at_the_usual_number_of_modes() {
     };
     assert_eq!(found.stop, WeightedStop::Gradient);
     assert!(worst(&found.factors) < 1e-5);
-    assert!(4 * found.analyses <= 5 * SCIPY_ANALYSES);
-    // The modes alone stop short, by length, and far from the truth.
-    let without = run(0);
-    assert_eq!(without.stop, WeightedStop::Step);
-    assert!(worst(&without.factors) > 0.1);
+    assert!(found.analyses <= SCIPY_ANALYSES);
 }

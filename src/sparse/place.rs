@@ -1,0 +1,389 @@
+//! An exact analysis of a whole model that can tell more than its modes: their exact slopes at the sensors, and further shapes in which a
+//! change is followed.
+
+use super::lowest_modes::{FINITE, Flexibility};
+use super::random::random_block;
+use super::residual_vectors::{leading_loads, residual_vectors};
+use super::sensor_model::{Deflections, Further, ParameterMatrix, Whole, turn_alike};
+use super::{SparseMatrix, WholeModel, WholeParameter, no_modes, take_product, transposed_product};
+use crate::method::error::{Error, check_count};
+use crate::method::modes::Modes;
+use nalgebra::DMatrix;
+use std::f64::consts::PI;
+
+/// Largest error of what the modes left out add to a slope, relative to it.
+const SLOPE_ERROR: f64 = 1e-3;
+/// Most terms of the series for it: a mode left out within 3 % of one that is compared needs as many.
+const MOST_TERMS: usize = 12;
+/// Most deflections of one parameter's own: more add less than the lowest mode left out.
+const MOST_EACH: usize = 4;
+/// Sensors whose deflections are held at once.
+const SENSORS_AT_ONCE: usize = 32;
+
+/// An exact analysis: the matrices at some factors, their factor and the lowest modes at all degrees of freedom.
+#[derive(Debug)]
+pub(super) struct Place {
+    whole: WholeModel,
+    factors: Vec<f64>,
+    stiffness: SparseMatrix,
+    mass: SparseMatrix,
+    flexibility: Flexibility,
+    /// The modes at all degrees of freedom, their shapes times the mass, and what the sensors see of them.
+    vibrations: Modes,
+    weighted: DMatrix<f64>,
+    modes: Modes,
+    /// The lowest squared frequency of the vibrations left out; none where there are no others.
+    next: Option<f64>,
+    rigid_body: DMatrix<f64>,
+    doubtful: Vec<(usize, f64)>,
+    sensors: SparseMatrix,
+}
+
+impl Place {
+    /// The analysis of a model at factors, with at most so many modes, but no fewer than `least`.
+    pub(super) fn new(
+        whole: &WholeModel,
+        factors: &[f64],
+        sensors: &SparseMatrix,
+        least: usize,
+        most: usize,
+    ) -> Result<Self, Error> {
+        let (stiffness, mass) = whole.at(factors)?;
+        let (found, flexibility) = whole.modes_of(&stiffness, &mass, least, most)?;
+        let mut vibrations = found.vibrations;
+        let seen = sensors.times(&vibrations.shapes)?;
+        let modes = Modes::signed(vibrations.omega_squared.clone(), seen.clone());
+        turn_alike(&mut vibrations.shapes, &seen, &modes.shapes);
+        Ok(Self {
+            modes,
+            weighted: mass.times(&vibrations.shapes)?,
+            next: found.next,
+            rigid_body: found.rigid_body,
+            doubtful: found.doubtful,
+            whole: whole.clone(),
+            factors: factors.to_vec(),
+            sensors: sensors.clone(),
+            stiffness,
+            mass,
+            flexibility,
+            vibrations,
+        })
+    }
+
+    /// Deflections without the modes, whose parts are taken out.
+    fn take_modes(&self, mut deflections: DMatrix<f64>) -> DMatrix<f64> {
+        let shares = transposed_product(&self.weighted, &deflections);
+        take_product(&mut deflections, &self.vibrations.shapes, &shares);
+        deflections
+    }
+
+    /// Some of the modes as the sensors see them.
+    fn some_modes(&self, from: usize, to: usize) -> Modes {
+        self.modes.select(&(from..to).collect::<Vec<_>>())
+    }
+
+    /// Loads (DOF × m) that make the deflections.
+    fn loads(&self, deflections: Deflections) -> Result<DMatrix<f64>, Error> {
+        match deflections {
+            Deflections::Each(most) => self.leading_loads(most),
+            Deflections::Own(e) => self.own_loads(e, MOST_EACH),
+            Deflections::All(most) => {
+                let modes: Vec<usize> = (0..self.vibrations.len()).collect();
+                self.loads_of_all(most, &modes, &vec![1.0; modes.len()])
+            }
+            Deflections::Along {
+                direction,
+                modes,
+                further,
+                weights,
+            } => {
+                let mut loads = self.loads_along(direction, modes);
+                let further = self.loads_of_all(further, modes, weights)?;
+                loads.extend(further.column_iter());
+                Ok(loads)
+            }
+        }
+    }
+
+    /// Leading loads of one parameter, at most so many.
+    fn own_loads(&self, e: usize, most: usize) -> Result<DMatrix<f64>, Error> {
+        leading_loads(&self.whole.parameters()[e], &self.vibrations, most)
+    }
+
+    /// Leading loads of every parameter.
+    fn leading_loads(&self, most: usize) -> Result<DMatrix<f64>, Error> {
+        let mut loads = DMatrix::zeros(self.whole.dof_count(), 0);
+        for e in (0..self.factors.len()).filter(|_| most > 0) {
+            loads.extend(self.own_loads(e, most)?.column_iter());
+        }
+        Ok(loads)
+    }
+
+    /// At most so many loads under changes of any parameters: each parameter's leading ones where two of each are not too many, else
+    /// combinations of all that have much of the energy.
+    ///
+    /// With the loads of every parameter in every mode over its $\omega$ in $L$, random combinations $L Y$ are replaced by
+    /// $L L^t K^{-1} L Y$, in which those of most energy in their deflections prevail. Source: Halko, Martinsson and Tropp, *SIAM Review*
+    /// 53 (2011), 217.
+    fn loads_of_all(
+        &self,
+        most: usize,
+        modes: &[usize],
+        weights: &[f64],
+    ) -> Result<DMatrix<f64>, Error> {
+        let each = most / self.factors.len().max(1);
+        if each > 1 || most == 0 {
+            return self.leading_loads(each.min(MOST_EACH));
+        }
+        let mut parts = self.loads_of(modes);
+        for part in &mut parts {
+            let each = part.loads.row_iter_mut().zip(modes).zip(weights);
+            each.for_each(|((mut loads, &mode), weight)| {
+                loads *= weight / self.vibrations.omega_squared[mode].sqrt();
+            });
+        }
+        let combined = |weights: &[DMatrix<f64>]| {
+            let mut sum = DMatrix::zeros(most, self.whole.dof_count());
+            for (part, weights) in parts.iter().zip(weights) {
+                let loads = weights * &part.loads;
+                for (&row, loads) in part.rows.iter().zip(loads.column_iter()) {
+                    let mut sum = sum.column_mut(row);
+                    sum += loads;
+                }
+            }
+            sum.transpose()
+        };
+        let mut state = 0;
+        let random = parts
+            .iter()
+            .map(|_| random_block(most, modes.len(), &mut state));
+        let random = combined(&random.collect::<Vec<_>>());
+        let deflections = self.take_modes(self.flexibility.solve(&random)?);
+        let transposed = deflections.transpose();
+        let weights = parts
+            .iter()
+            .map(|part| transposed.select_columns(&part.rows) * part.loads.transpose());
+        Ok(combined(&weights.collect::<Vec<_>>()))
+    }
+
+    /// Loads of some modes under a change of all parameters in the direction of these logarithms of factors (DOF × m).
+    fn loads_along(&self, direction: &[f64], modes: &[usize]) -> DMatrix<f64> {
+        let mut sum = DMatrix::zeros(self.whole.dof_count(), modes.len());
+        for (part, along) in self.loads_of(modes).iter().zip(direction) {
+            for (&row, loads) in part.rows.iter().zip(part.loads.column_iter()) {
+                let mut sum = sum.row_mut(row);
+                sum += *along * loads.transpose();
+            }
+        }
+        sum
+    }
+
+    /// Loads of some modes under a change of the logarithm of each parameter's factor.
+    fn loads_of(&self, modes: &[usize]) -> Vec<Part> {
+        let transposed = self.vibrations.shapes.select_columns(modes).transpose();
+        let part = |(parameter, &factor): (&WholeParameter, &f64)| {
+            let (rows, mut loads) = parameter.loads(factor, &transposed);
+            if parameter.is_mass() {
+                for (mut loads, &mode) in loads.row_iter_mut().zip(modes) {
+                    loads *= -self.vibrations.omega_squared[mode];
+                }
+            }
+            Part { rows, loads }
+        };
+        self.whole
+            .parameters()
+            .iter()
+            .zip(&self.factors)
+            .map(part)
+            .collect()
+    }
+
+    /// $(K^{-1} M)^t K^{-1}$ times loads, without the modes, for every term t.
+    fn deflections(&self, loads: &DMatrix<f64>, terms: usize) -> Result<Vec<DMatrix<f64>>, Error> {
+        let mut all: Vec<DMatrix<f64>> = Vec::new();
+        for _ in 0..terms {
+            let next = match all.last() {
+                None => self.flexibility.solve(loads)?,
+                Some(last) => self.flexibility.solve(&self.mass.times(last)?)?,
+            };
+            all.push(self.take_modes(next));
+        }
+        Ok(all)
+    }
+}
+
+impl Whole for Place {
+    fn modes(&self, count: usize) -> Result<Modes, Error> {
+        check_count(FINITE, count, 1, self.modes.len())?;
+        Ok(self.some_modes(0, count))
+    }
+
+    fn shapes(&self, count: usize) -> Modes {
+        let count = count.min(self.vibrations.len());
+        self.vibrations.select(&(0..count).collect::<Vec<_>>())
+    }
+
+    fn rigid_bodies(&self) -> (usize, &[(usize, f64)]) {
+        (self.rigid_body.ncols(), &self.doubtful)
+    }
+
+    fn basis(
+        &self,
+        count: usize,
+        deflections: Deflections,
+    ) -> Result<(Further, Vec<ParameterMatrix>), Error> {
+        let parameters = match deflections {
+            Deflections::Own(e) => e..e + 1,
+            _ => 0..self.factors.len(),
+        };
+        // The loops' basis is what its size says.
+        let own = match deflections {
+            Deflections::Each(_) => count,
+            _ => self.modes.len(),
+        };
+        let vibrations = self.shapes(own);
+        let deflections = self.flexibility.solve(&self.loads(deflections)?)?;
+        let residual = residual_vectors(&self.stiffness, &self.mass, &vibrations, deflections)?;
+        // Only a change of mass couples rigid-body modes with vibrations.
+        let has_mass = self.whole.parameters().iter().any(WholeParameter::is_mass);
+        let rigid_body = match has_mass {
+            true => self.rigid_body.clone(),
+            false => no_modes(self.whole.dof_count()).shapes,
+        };
+        let mut basis = vibrations.shapes;
+        basis.extend(residual.shapes.column_iter());
+        basis.extend(rigid_body.column_iter());
+        let transposed = basis.transpose();
+        let share = |e: usize| self.whole.parameters()[e].seen_by(self.factors[e], &transposed);
+        let shares = parameters.map(share).collect::<Result<_, Error>>()?;
+        let mut behind = self.some_modes(count, own);
+        let squares = residual.omega_squared.iter().copied();
+        behind.omega_squared.extend(squares);
+        let seen = self.sensors.times(&residual.shapes)?;
+        behind.shapes.extend(seen.column_iter());
+        let further = Further {
+            residual: behind,
+            rigid_body: self.sensors.times(&rigid_body)?,
+        };
+        Ok((further, shares))
+    }
+
+    /// Of a mode i, the column of parameter e is the sum over the modes found beyond `count`, as in [`jacobian`](crate::weighted::residuals::jacobian),
+    /// and over all others
+    ///
+    /// $$ -R \sum_t a_t (K^{-1} M)^t K^{-1} f_{ei}, \qquad \sum_t a_t x^t \approx \frac{1}{1 - \lambda_i x} $$
+    ///
+    /// with the modes taken out of every term. $f_{ei}$ is the load of parameter e in mode i, $R$ reads the sensors. The sum is that of
+    /// the exact slope where the series is the fraction at $x = 1/\lambda_r$ of every mode r left out ([`coefficients`]). It is taken from
+    /// the sensors' side, $K^{-1} R^t$ and so on, or from the loads', whichever are fewer: no factor but that of $K$ is needed, and no
+    /// solution a parameter where these are many.
+    fn slopes_beyond(&self, count: usize, modes: &[usize]) -> Result<Vec<DMatrix<f64>>, Error> {
+        let (sensors, parts) = (self.sensors.rows(), self.loads_of(modes));
+        let roots: Vec<f64> = modes
+            .iter()
+            .map(|&mode| self.vibrations.omega_squared[mode])
+            .collect();
+        let highest = roots.iter().copied().fold(0.0, f64::max);
+        let terms = terms(highest, self.next);
+        let series: Vec<_> = roots
+            .iter()
+            .map(|&root| coefficients(root, self.next, terms))
+            .collect();
+        let mut slopes = vec![DMatrix::zeros(sensors, parts.len()); modes.len()];
+        let beyond = self.some_modes(count, self.modes.len());
+        let shapes = self.vibrations.shapes.columns(count, beyond.len());
+        for (e, part) in parts.iter().enumerate() {
+            let couplings = &part.loads * shapes.select_rows(&part.rows);
+            for ((slopes, root), own) in slopes.iter_mut().zip(&roots).zip(couplings.row_iter()) {
+                let apart = beyond.omega_squared.map(|other| root - other);
+                let shares = own.transpose().component_div(&apart);
+                slopes.set_column(e, &(&beyond.shapes * shares));
+            }
+        }
+        if parts.len() * modes.len() < sensors {
+            for (place, (slopes, series)) in slopes.iter_mut().zip(&series).enumerate() {
+                let mut loads = DMatrix::zeros(self.whole.dof_count(), parts.len());
+                for (part, mut loads) in parts.iter().zip(loads.column_iter_mut()) {
+                    part.rows
+                        .iter()
+                        .zip(part.loads.row(place).iter())
+                        .for_each(|(&row, load)| loads[row] = *load);
+                }
+                let all = self.deflections(&loads, terms)?;
+                for (deflections, factor) in all.iter().zip(series) {
+                    *slopes -= *factor * self.sensors.times(deflections)?;
+                }
+            }
+            return Ok(slopes);
+        }
+        let reading = self.sensors.transposed();
+        for first in (0..sensors).step_by(SENSORS_AT_ONCE) {
+            let some = first..sensors.min(first + SENSORS_AT_ONCE);
+            let mut loads = DMatrix::zeros(self.whole.dof_count(), some.len());
+            for (place, sensor) in some.clone().enumerate() {
+                reading
+                    .motion(sensor)
+                    .iter()
+                    .for_each(|&(row, value)| loads[(row, place)] = value);
+            }
+            let all = self.deflections(&loads, terms)?;
+            for (t, deflections) in all.iter().enumerate() {
+                let transposed = deflections.transpose();
+                for (e, part) in parts.iter().enumerate() {
+                    let read = transposed.select_columns(&part.rows) * part.loads.transpose();
+                    for (i, (slopes, series)) in slopes.iter_mut().zip(&series).enumerate() {
+                        let mut slopes = slopes.column_mut(e);
+                        slopes
+                            .rows_mut(first, some.len())
+                            .axpy(-series[t], &read.column(i), 1.0);
+                    }
+                }
+            }
+        }
+        Ok(slopes)
+    }
+}
+
+/// Loads of a parameter: the rows where there are any, and those of every mode there (modes × rows).
+struct Part {
+    rows: Vec<usize>,
+    loads: DMatrix<f64>,
+}
+
+/// Terms that [`coefficients`] need for a root, for an error of [`SLOPE_ERROR`].
+fn terms(root: f64, next: Option<f64>) -> usize {
+    let Some(next) = next.filter(|next| *next > root) else {
+        return if next.is_some() { MOST_TERMS } else { 1 };
+    };
+    let needed = (1.0 / SLOPE_ERROR).acosh() / (2.0 * next / root - 1.0).acosh();
+    (needed.ceil() as usize).clamp(1, MOST_TERMS)
+}
+
+/// Coefficients $a_t$ of the polynomial in $x$ that is $1/(1 - \lambda x)$ at Chebyshev's points between zero and the inverse of the
+/// `next` root, which is above $\lambda$: with $\rho$ their ratio it errs there by no more than
+///
+/// $$ \frac{1}{T_n(2/\rho - 1)} $$
+///
+/// of its value, $T_n$ being Chebyshev's polynomial of as many terms as there are. With $y = \lambda x$ and $w$ the product of $y - y_k$ over
+/// the points, one at $y = 1$, it is $(1 - w(y))/(1 - y)$.
+fn coefficients(root: f64, next: Option<f64>, terms: usize) -> Vec<f64> {
+    let ratio = next.map_or(0.0, |next| (root / next).min(1.0));
+    let mut product = vec![1.0];
+    for k in 0..terms {
+        let angle = PI * (2 * k + 1) as f64 / (2 * terms) as f64;
+        let point = 0.5 * ratio * (1.0 + angle.cos());
+        let mut longer = vec![0.0; product.len() + 1];
+        for (power, value) in product.iter().enumerate() {
+            longer[power] -= point * value / (1.0 - point);
+            longer[power + 1] += value / (1.0 - point);
+        }
+        product = longer;
+    }
+    let mut sum = 1.0;
+    let own = product.iter().take(terms).enumerate();
+    own.map(|(power, value)| {
+        sum -= value;
+        sum * root.powi(power as i32)
+    })
+    .collect()
+}
