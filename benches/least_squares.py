@@ -187,7 +187,8 @@ def by_program(program, of, method):
     found = json.loads(done.stdout)
     if isinstance(of, Case):
         found = found["cases"][0]["correlation"]
-    return answer(len(found["passes"]) + 1, seconds, of, np.array(found["factors"]))
+    analyses = found.get("analyses", len(found["passes"]) + 1)
+    return answer(analyses, seconds, of, np.array(found["factors"]))
 
 
 def main(arguments):
