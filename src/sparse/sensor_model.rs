@@ -277,6 +277,7 @@ impl SensorModel {
     }
 
     /// The analysis, where it is at hand.
+    #[cfg(feature = "program")]
     pub(crate) fn whole(&self) -> Option<&dyn Whole> {
         self.place.as_deref()
     }

@@ -76,6 +76,15 @@ fn finished(name: &str) -> (LoadedJob, &'static JobResult) {
     (prepared, finished)
 }
 
+/// The worked jobs end after no more exact analyses than these, the first among them.
+#[test]
+fn worked_jobs_take_few_exact_analyses() {
+    for (name, most) in [("box", 4), ("building", 2), ("wing", 3)] {
+        let taken = worked(name).analyses;
+        assert!(taken <= most, "{name}: {taken}");
+    }
+}
+
 /// A job's model condensed to its sensors and its test, which no job compares any more.
 fn condensed(
     name: &str,

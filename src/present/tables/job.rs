@@ -12,6 +12,7 @@ use crate::method::step::Bounds;
 use crate::present::report::Report;
 use crate::present::table::{Cell, Digits, Table, counted, numbers, percents};
 use crate::weighted::identifiability::Identifiability;
+use crate::weighted::intervals::MOST_FOLLOWED;
 use crate::weighted::residuals::residuals;
 
 /// Most parameters in the table of suspects.
@@ -254,6 +255,9 @@ pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileE
     let withheld = "Without an interval: factors at a bound or known mostly from the prior, and all that are not at the optimum of \
                     weighted steps.";
     let is_withheld = intervals.iter().any(Option::is_none);
+    let is_by_slope = names.len() > MOST_FOLLOWED && intervals.iter().any(Option::is_some);
+    let by_slope =
+        format!("Intervals of more than {MOST_FOLLOWED} parameters are by slopes alone.");
     let learned = after.learned.iter().map(|learned| 1.0 - learned);
     let deviations =
         |seen: &Identifiability| percents(seen.deviations.clone(), Digits::Significant(3));
@@ -272,6 +276,7 @@ pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileE
             .column("prior's share", "%", percents(learned, Digits::Fixed(1)))
             .notes([apart])
             .notes(is_withheld.then(|| withheld.to_owned()))
+            .notes(is_by_slope.then_some(by_slope))
             .filled(),
     )
 }
