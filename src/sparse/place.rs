@@ -82,14 +82,15 @@ impl Place {
         self.modes.select(&(from..to).collect::<Vec<_>>())
     }
 
-    /// Loads (DOF × m) that make the deflections.
-    fn loads(&self, deflections: Deflections) -> Result<DMatrix<f64>, Error> {
+    /// Loads (DOF × m) that make the deflections behind these vibrations.
+    fn loads(&self, deflections: Deflections, vibrations: &Modes) -> Result<DMatrix<f64>, Error> {
         match deflections {
-            Deflections::Each(most) => self.leading_loads(most),
-            Deflections::Own(e) => self.own_loads(e, MOST_EACH),
+            Deflections::Each(most) => self.leading_loads(most, vibrations),
+            Deflections::Own(e) => self.own_loads(e, MOST_EACH, vibrations),
             Deflections::All(most) => {
-                let modes: Vec<usize> = (0..self.vibrations.len()).collect();
-                self.loads_of_all(most, &modes, &vec![1.0; modes.len()])
+                let modes: Vec<usize> = (0..vibrations.len()).collect();
+                let parts = || self.loads_of(&modes);
+                self.loads_of_all(most, parts, &modes, &vec![1.0; modes.len()])
             }
             Deflections::Along {
                 direction,
@@ -97,30 +98,34 @@ impl Place {
                 further,
                 weights,
             } => {
-                let mut loads = self.loads_along(direction, modes);
-                let further = self.loads_of_all(further, modes, weights)?;
+                let (parts, count) = (self.loads_of(modes), modes.len());
+                let along = direction
+                    .iter()
+                    .map(|along| DMatrix::from_diagonal_element(count, count, *along));
+                let mut loads = self.combined(&parts, count, along);
+                let further = self.loads_of_all(further, || parts, modes, weights)?;
                 loads.extend(further.column_iter());
                 Ok(loads)
             }
         }
     }
 
-    /// Leading loads of one parameter, at most so many.
-    fn own_loads(&self, e: usize, most: usize) -> Result<DMatrix<f64>, Error> {
-        leading_loads(&self.whole.parameters()[e], &self.vibrations, most)
+    /// Leading loads of one parameter in vibrations, at most so many.
+    fn own_loads(&self, e: usize, most: usize, vibrations: &Modes) -> Result<DMatrix<f64>, Error> {
+        leading_loads(&self.whole.parameters()[e], vibrations, most)
     }
 
-    /// Leading loads of every parameter.
-    fn leading_loads(&self, most: usize) -> Result<DMatrix<f64>, Error> {
+    /// Leading loads of every parameter in vibrations.
+    fn leading_loads(&self, most: usize, vibrations: &Modes) -> Result<DMatrix<f64>, Error> {
         let mut loads = DMatrix::zeros(self.whole.dof_count(), 0);
         for e in (0..self.factors.len()).filter(|_| most > 0) {
-            loads.extend(self.own_loads(e, most)?.column_iter());
+            loads.extend(self.own_loads(e, most, vibrations)?.column_iter());
         }
         Ok(loads)
     }
 
     /// At most so many loads under changes of any parameters: each parameter's leading ones where two of each are not too many, else
-    /// combinations of all that have much of the energy.
+    /// combinations of their loads in some modes, made where they are needed, that have much of the energy.
     ///
     /// With the loads of every parameter in every mode over its $\omega$ in $L$, random combinations $L Y$ are replaced by
     /// $L L^t K^{-1} L Y$, in which those of most energy in their deflections prevail. Source: Halko, Martinsson and Tropp, *SIAM Review*
@@ -128,54 +133,50 @@ impl Place {
     fn loads_of_all(
         &self,
         most: usize,
+        parts: impl FnOnce() -> Vec<Part>,
         modes: &[usize],
         weights: &[f64],
     ) -> Result<DMatrix<f64>, Error> {
         let each = most / self.factors.len().max(1);
         if each > 1 || most == 0 {
-            return self.leading_loads(each.min(MOST_EACH));
+            return self.leading_loads(each.min(MOST_EACH), &self.vibrations);
         }
-        let mut parts = self.loads_of(modes);
+        let mut parts = parts();
         for part in &mut parts {
             let each = part.loads.row_iter_mut().zip(modes).zip(weights);
             each.for_each(|((mut loads, &mode), weight)| {
                 loads *= weight / self.vibrations.omega_squared[mode].sqrt();
             });
         }
-        let combined = |weights: &[DMatrix<f64>]| {
-            let mut sum = DMatrix::zeros(most, self.whole.dof_count());
-            for (part, weights) in parts.iter().zip(weights) {
-                let loads = weights * &part.loads;
-                for (&row, loads) in part.rows.iter().zip(loads.column_iter()) {
-                    let mut sum = sum.column_mut(row);
-                    sum += loads;
-                }
-            }
-            sum.transpose()
-        };
         let mut state = 0;
         let random = parts
             .iter()
             .map(|_| random_block(most, modes.len(), &mut state));
-        let random = combined(&random.collect::<Vec<_>>());
+        let random = self.combined(&parts, most, random);
         let deflections = self.take_modes(self.flexibility.solve(&random)?);
         let transposed = deflections.transpose();
         let weights = parts
             .iter()
             .map(|part| transposed.select_columns(&part.rows) * part.loads.transpose());
-        Ok(combined(&weights.collect::<Vec<_>>()))
+        Ok(self.combined(&parts, most, weights))
     }
 
-    /// Loads of some modes under a change of all parameters in the direction of these logarithms of factors (DOF × m).
-    fn loads_along(&self, direction: &[f64], modes: &[usize]) -> DMatrix<f64> {
-        let mut sum = DMatrix::zeros(self.whole.dof_count(), modes.len());
-        for (part, along) in self.loads_of(modes).iter().zip(direction) {
-            for (&row, loads) in part.rows.iter().zip(part.loads.column_iter()) {
-                let mut sum = sum.row_mut(row);
-                sum += *along * loads.transpose();
+    /// Sum over the parameters of combinations of their loads, by weights (`count` × modes) for each (DOF × `count`).
+    fn combined(
+        &self,
+        parts: &[Part],
+        count: usize,
+        weights: impl Iterator<Item = DMatrix<f64>>,
+    ) -> DMatrix<f64> {
+        let mut sum = DMatrix::zeros(count, self.whole.dof_count());
+        for (part, weights) in parts.iter().zip(weights) {
+            let loads = weights * &part.loads;
+            for (&row, loads) in part.rows.iter().zip(loads.column_iter()) {
+                let mut sum = sum.column_mut(row);
+                sum += loads;
             }
         }
-        sum
+        sum.transpose()
     }
 
     /// Loads of some modes under a change of the logarithm of each parameter's factor.
@@ -242,7 +243,9 @@ impl Whole for Place {
             _ => self.modes.len(),
         };
         let vibrations = self.shapes(own);
-        let deflections = self.flexibility.solve(&self.loads(deflections)?)?;
+        let deflections = self
+            .flexibility
+            .solve(&self.loads(deflections, &vibrations)?)?;
         let residual = residual_vectors(&self.stiffness, &self.mass, &vibrations, deflections)?;
         // Only a change of mass couples rigid-body modes with vibrations.
         let has_mass = self.whole.parameters().iter().any(WholeParameter::is_mass);

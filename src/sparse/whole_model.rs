@@ -270,7 +270,12 @@ impl WholeModel {
         (test, pair): (&Modes, Pair),
         size: BasisSize,
     ) -> Result<SensorModel, Error> {
-        let whole = self.exactly(factors, sensors, size.modes, size.modes.max(2 * test.len()))?;
+        // Only exact slopes want more modes than the basis has.
+        let most = match size.residual_vectors {
+            0 => size.modes.max(2 * test.len()),
+            _ => size.modes,
+        };
+        let whole = self.exactly(factors, sensors, size.modes, most)?;
         let deflections = Deflections::Each(size.residual_vectors);
         let model = SensorModel::of_whole(whole, size.modes, (test, pair), deflections)?;
         match size.residual_vectors {

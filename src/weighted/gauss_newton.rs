@@ -216,7 +216,7 @@ impl<'a> Problem<'a> {
             residuals,
             jacobian,
         };
-        let logs = place.logs();
+        let logs = logs_of(&place.factors);
         let mut pull = |from: &DVector<f64>, curvature: &DVector<f64>| {
             let pull = from.component_mul(curvature);
             place.objective += 0.5 * pull.dot(from);
@@ -365,7 +365,10 @@ impl<'a> Problem<'a> {
             let change: Vec<f64> = both.map(|(factor, from)| factor / from).collect();
             basis.followed(&change)
         };
-        let (logs, holding) = (place.logs(), damping * place.curvature.diagonal());
+        let (logs, holding) = (
+            logs_of(&place.factors),
+            damping * place.curvature.diagonal(),
+        );
         let held = Problem {
             held: Some((logs.clone(), holding.clone())),
             priors: self.priors.clone(),
@@ -373,17 +376,15 @@ impl<'a> Problem<'a> {
             ..*self
         };
         let (objective, factors) = held.lowest(&mut follow, &place.factors, left).ok()?;
-        let moved = factors
-            .iter()
-            .zip(&logs)
-            .map(|(factor, log)| factor.ln() - log);
-        let held: f64 = moved
-            .zip(&holding)
-            .map(|(moved, holding)| 0.5 * holding * moved * moved)
-            .sum();
+        let moved = logs_of(&factors) - &logs;
+        let held = 0.5 * moved.component_mul(&moved).dot(&holding);
         let promised = place.objective - (objective - held);
         (promised > 0.0).then_some((promised, factors))
     }
+}
+
+fn logs_of(factors: &[f64]) -> DVector<f64> {
+    DVector::from_iterator(factors.len(), factors.iter().map(|factor| factor.ln()))
 }
 
 /// Levenberg and Marquardt's damping.
@@ -419,13 +420,6 @@ impl Iterate {
             check: self.comparison.result()?,
             objective: self.objective,
         })
-    }
-
-    fn logs(&self) -> DVector<f64> {
-        DVector::from_iterator(
-            self.factors.len(),
-            self.factors.iter().map(|factor| factor.ln()),
-        )
     }
 
     /// Size of the residuals of every test mode with a shape.

@@ -75,7 +75,7 @@ pub fn identifiability(jacobian: &DMatrix<f64>, priors: &[f64]) -> Result<Identi
     let cosine = |(a, b)| gram[(a, b)] / (lengths[a] * lengths[b]);
     let parallel = pairs.map(|(a, b)| (a, b, cosine((a, b))));
     let priors = DVector::from_column_slice(priors);
-    let information = gram.clone() + DMatrix::from_diagonal(&priors.map(|prior| prior.powi(-2)));
+    let information = &gram + DMatrix::from_diagonal(&priors.map(|prior| prior.powi(-2)));
     let covariance = inverse_of_positive("information", &information)?;
     let deviations: Vec<f64> = covariance
         .diagonal()
