@@ -1,17 +1,18 @@
-//! Doubts about a job before its first step.
+//! Doubts about a job before its first step, and remarks.
 
-use super::loaded::measured;
-use super::preflight::{
-    Finding, FindingNames, LARGEST_TOLERANCE, SeenModes, hyphened, preflight_at_sensors,
-};
+use super::concern::{Concern, Kind, Trust};
+use super::preflight::{LARGEST_TOLERANCE, Names, SeenModes, preflight_at_sensors};
+use super::prepared::{FLOOR, LeftOut};
 use super::sensors::{PlacedSensor, motion};
-use super::{Concern, LoadedJob, Method};
+use super::{LoadedJob, Method, PreparedJob};
+use crate::files::deck::{Reason, Unread};
 use crate::files::error::FileError;
 use crate::method::modes::Modes;
 use crate::sparse::rigid_bodies::is_rounded;
 use crate::sparse::{Factor, SparseMatrix, WholeShare};
 use crate::weighted::comparison::LoneFrequency;
 use crate::weighted::noise::Noise;
+use crate::weighted::residuals::DEVIATIONS;
 use nalgebra::Vector3;
 
 /// Modal phase collinearity below which a complex test mode is doubtful as a real one.
@@ -21,144 +22,138 @@ const COLLINEAR: f64 = 0.95;
 /// of length is 2.54, and sensors sit on the structure.
 const LARGEST_SPAN: f64 = 2.0;
 
-impl LoadedJob {
-    /// Concerns before the first step, from findings of the pre-flight, complex test modes and data that the readers left aside; and the
-    /// number of rigid-body modes that the analysis for them has found.
+/// A concern about several things, if there are any.
+fn about_any(kind: Kind, about: &[impl ToString]) -> Option<Concern> {
+    (!about.is_empty()).then(|| Concern::new(kind, about, &[]))
+}
+
+/// Places from zero as numbers from one.
+fn numbers(places: impl IntoIterator<Item = usize>) -> Vec<usize> {
+    places.into_iter().map(|place| place + 1).collect()
+}
+
+impl Trust {
+    /// Everything that there is reason to say of a job before its first step.
     ///
     /// # Errors
-    /// The errors of [`preflight_at_sensors`] and of the analysis that it needs.
-    pub fn concerns(&self) -> Result<(Vec<Concern>, usize), FileError> {
-        let (mut all, rigid_body_modes) = self.preflight_concerns()?;
-        if !self.alone.is_empty() {
-            let pair = |(mode, lone): &(usize, LoneFrequency)| {
-                format!("{} with the model's {}", mode + 1, lone.partner + 1)
-            };
-            let pairs: Vec<String> = self.alone.iter().map(pair).collect();
-            all.push(Concern::remark(
-                "frequencies-alone",
-                format!(
-                    "Test modes without shapes are paired by number, which nothing checks: {}. The model's modes are followed by shape from there.",
-                    pairs.join(", ")
-                ),
-            ));
-        }
-        let together = self.together().into_iter().filter(|group| group.len() > 1);
-        for group in together.filter(|_| self.job.compare.method == Method::GaussNewton) {
-            let numbers: Vec<String> = group
-                .iter()
-                .map(|&place| (self.modes[place] + 1).to_string())
-                .collect();
-            all.push(Concern::remark(
-                format!("close-modes-{}", numbers.join("-")),
-                format!(
-                    "The frequencies of test modes {} are no further apart than their deviations tell: their shapes are compared as one subspace.",
-                    numbers.join(" and ")
-                ),
-            ));
-        }
-        let own = self.own_weights();
-        let divides = |weight: f64| ![0.0, 1.0].contains(&weight);
-        if self.job.compare.method == Method::GaussNewton
-            && own
-                .iter()
-                .any(|own| divides(own.frequency) || divides(own.shape))
-        {
-            all.push(Concern::remark(
-                "own-weights",
-                "The job's weights count as dividing the standard deviations: chi-squared and intervals hold for deviations so divided.",
-            ));
-        }
-        let tests = self.data.scatter.ncols();
-        if tests > 0 {
-            let used = match self.covariance() {
-                Some(_) => "their covariance counts".to_owned(),
-                None => format!(
-                    "their variances alone count, for a covariance of {} numbers needs {} tests and no weights of the job's own",
-                    self.free_numbers(),
-                    self.free_numbers() + 3
-                ),
-            };
-            all.push(Concern::remark(
-                "repeats",
-                format!("The test is the mean of {tests}; {used}. What all of them have wrong does not scatter."),
-            ));
-        }
-        all.extend(self.part_concerns()?);
-        all.extend(self.data_concerns());
-        Ok((all, rigid_body_modes))
+    /// The errors of [`preflight_at_sensors`] and of the analysis that it needs; [`FileError::Refused`] for a mass that is not finite.
+    pub fn before(prepared: &PreparedJob) -> Result<Self, FileError> {
+        let loaded = &prepared.loaded;
+        let mut all = prepared.preflight_concerns()?;
+        all.extend(prepared.pairing_concerns());
+        all.extend(prepared.noise_concerns());
+        all.extend(loaded.part_concerns()?);
+        all.extend(loaded.data_concerns());
+        all.extend(loaded.mass_concerns()?);
+        all.extend(about_any(Kind::NotUsed, &loaded.unused()));
+        Ok(Self::new(all))
     }
+}
 
-    /// Remarks on complex test modes and on what the readers of the test left aside or did not convert.
-    fn data_concerns(&self) -> Vec<Concern> {
-        let mut all = Vec::new();
-        for (mode, phase) in self.data.phase_collinearity.iter().enumerate() {
-            if *phase < COLLINEAR {
-                let mode = mode + 1;
-                all.push(Concern::remark(
-                    format!("complex-{mode}"),
-                    format!("Test mode {mode} is complex: its phase collinearity is {phase:.2}."),
-                ));
-            }
+impl LeftOut {
+    /// What is said of the mode.
+    pub(super) fn concern(&self) -> Concern {
+        let is_unlike = self.assurance < FLOOR;
+        let kind = if is_unlike {
+            Kind::Unlike
+        } else {
+            Kind::PartnerTaken
+        };
+        Concern::new(kind, &[self.mode + 1], &[self.assurance])
+    }
+}
+
+impl PreparedJob {
+    /// Remarks on which test modes are compared with which modes of the model.
+    fn pairing_concerns(&self) -> Vec<Concern> {
+        let loaded = &self.loaded;
+        let mut all: Vec<Concern> = self.unpaired.iter().map(LeftOut::concern).collect();
+        let pair = |(mode, lone): &(usize, LoneFrequency)| {
+            format!("{} with the model's {}", mode + 1, lone.partner + 1)
+        };
+        let alone: Vec<String> = self.alone().iter().map(pair).collect();
+        let modes = 1..=loaded.data.frequencies_hz.len();
+        let left: Vec<usize> = modes.filter(|mode| !loaded.job.selects(*mode)).collect();
+        all.extend(about_any(
+            Kind::Undecided,
+            &numbers(self.undecided.iter().copied()),
+        ));
+        all.extend(about_any(Kind::FrequenciesAlone, &alone));
+        all.extend(about_any(Kind::NotSelected, &left));
+        if loaded.job.compare.method == Method::GaussNewton {
+            let close = self.together().into_iter().filter(|group| group.len() > 1);
+            all.extend(close.map(|group| {
+                let modes = numbers(group.into_iter().map(|place| self.modes[place]));
+                Concern::new(Kind::CloseModes, &modes, &[])
+            }));
         }
-        if !self.data.incomplete.is_empty() {
-            all.push(Concern::remark(
-                "not-in-every-mode",
-                format!(
-                    "Sensors left out because some mode of the file has no value at them: {}.",
-                    self.data.incomplete.join(", ")
-                ),
-            ));
-        }
-        if !self.data.skipped.is_empty() {
-            let numbers: Vec<String> = self.data.skipped.iter().map(usize::to_string).collect();
-            all.push(Concern::remark(
-                "datasets-not-read",
-                format!(
-                    "Datasets of the Universal File that are not read: {}.",
-                    numbers.join(", ")
-                ),
-            ));
-        }
-        all.extend(self.data.units.iter().map(|units| {
-            Concern::remark(
-                "units-of-test",
-                format!("The test's file is in units of {units}; nothing is converted."),
-            )
-        }));
+        let rigid = self.first.rigid_bodies().0;
+        let measure = [self.analysis_modes as f64, rigid as f64];
+        all.push(Concern::plain(Kind::AnalysisModes, &measure));
         all
     }
 
-    /// Findings of the pre-flight in all modes of the test, and the number of the model's rigid-body modes.
-    fn preflight_concerns(&self) -> Result<(Vec<Concern>, usize), FileError> {
-        let whole = &self.source.whole;
-        let left_out = self.unpaired.iter().map(|(mode, _)| mode);
-        let mut modes: Vec<usize> = left_out.chain(&self.modes).copied().collect();
+    /// Remarks on what the test is weighted by.
+    fn noise_concerns(&self) -> Vec<Concern> {
+        let loaded = &self.loaded;
+        let lacks =
+            |component: usize, mode: usize| loaded.given_deviations(mode)[component].is_none();
+        let percent = |deviation: f64, what: &str| format!("{} % of {what}", 100.0 * deviation);
+        let frequencies = self.compared().any(|mode| lacks(0, mode));
+        let shapes = self.modes.iter().any(|&mode| lacks(1, mode));
+        let assumed: Vec<String> = [
+            frequencies.then(|| percent(DEVIATIONS.frequency, "frequencies")),
+            shapes.then(|| percent(DEVIATIONS.shape, "shapes")),
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
+        let mut all: Vec<Concern> = about_any(Kind::AssumedDeviations, &assumed)
+            .into_iter()
+            .collect();
+        let divides = |weight: f64| ![0.0, 1.0].contains(&weight);
+        let own = self.own_weights();
+        let mut own = own.iter().flat_map(|own| [own.frequency, own.shape]);
+        if loaded.job.compare.method == Method::GaussNewton && own.any(divides) {
+            all.push(Concern::plain(Kind::OwnWeights, &[]));
+        }
+        let tests = loaded.data.scatter.ncols() as f64;
+        let free = self.free_numbers() as f64;
+        if tests > 0.0 {
+            all.push(match self.covariance() {
+                Some(_) => Concern::plain(Kind::Covariance, &[tests]),
+                None => Concern::plain(Kind::Variances, &[tests, free, free + 3.0]),
+            });
+        }
+        all
+    }
+
+    /// What the pre-flight finds in all modes of the test.
+    fn preflight_concerns(&self) -> Result<Vec<Concern>, FileError> {
+        let loaded = &self.loaded;
+        let whole = &loaded.source.whole;
+        let left_out = self.unpaired.iter().map(|left| left.mode);
+        let mut modes: Vec<usize> = left_out.chain(self.modes.iter().copied()).collect();
         modes.sort_unstable();
         modes.dedup();
-        let first = self.first_analysis()?;
-        let (rigid_body_modes, doubtful) = first.rigid_bodies();
-        let weak = doubtful.iter().map(|&(row, held)| {
-            let name = self.source.row_name(row);
-            Concern::doubt(
-                format!("weak-{}", hyphened(&name)),
-                hardly_held(&name, held),
-            )
-        });
+        let (_, doubtful) = self.first.rigid_bodies();
+        let weak = doubtful.iter();
+        let weak = weak.map(|&(row, held)| hardly_held(&loaded.source.row_name(row), held));
         let mut concerns: Vec<Concern> = weak.collect();
         if modes.is_empty() {
-            return Ok((concerns, rigid_body_modes));
+            return Ok(concerns);
         }
-        let test = measured(&self.data, &self.placed, &modes)?;
+        let test = loaded.measured(&modes)?;
         let Modes {
             omega_squared: squares,
             shapes,
-        } = first.shapes(2 * self.analysis_modes);
+        } = self.first.shapes(2 * self.analysis_modes);
         let along = |(place, sensor): (usize, &PlacedSensor)| {
             let own = sensor.direction;
             let others = (own / 3 * 3..own / 3 * 3 + 3).filter(move |other| *other != own);
             let read = |other: usize| {
                 let axis = Vector3::ith(other % 3, 1.0);
-                let motion = motion(&self.source, sensor.grid, other, axis);
+                let motion = motion(&loaded.source, sensor.grid, other, axis);
                 let rows = motion.map(|(row, coefficient)| shapes.row(row) * coefficient);
                 rows.reduce(|sum, row| sum + row)
                     .map(|readings| (place, other, readings))
@@ -166,32 +161,80 @@ impl LoadedJob {
             others.filter_map(read).collect::<Vec<_>>()
         };
         let seen = SeenModes {
-            directions: self.placed.iter().enumerate().flat_map(along).collect(),
-            shares: whole.shares(&self.ones(), &shapes)?,
-            modes: Modes::new(squares, self.sensors.times(&shapes)?)?,
+            directions: loaded.placed.iter().enumerate().flat_map(along).collect(),
+            shares: whole.shares(&loaded.ones(), &shapes)?,
+            modes: Modes::new(squares, loaded.sensors.times(&shapes)?)?,
         };
-        let ranges = whole.ranges();
-        let mut found = preflight_at_sensors(&seen, &test, &self.job.correlation, &ranges)?;
-        found.extend(self.percent_deviations(&modes));
-        let names = FindingNames {
-            sensors: self
+        concerns.extend(loaded.percent_deviations(&modes));
+        let names = Names {
+            sensors: loaded
                 .placed
                 .iter()
                 .map(|sensor| sensor.name.clone())
                 .collect(),
-            parameters: self.parameter_names().map(str::to_owned).collect(),
+            parameters: loaded.parameter_names().map(str::to_owned).collect(),
             modes,
         };
-        concerns.extend(found.iter().map(|finding| finding.concern(&names)));
-        concerns.extend(self.places_concern());
-        let has_doubt = concerns.iter().any(|concern| concern.is_doubt);
+        let (settings, ranges) = (&loaded.job.correlation, whole.ranges());
+        concerns.extend(preflight_at_sensors(
+            &seen, &test, settings, &ranges, &names,
+        )?);
+        concerns.extend(loaded.places_concern());
+        let has_doubt = concerns.iter().any(Concern::stands);
         if self.is_without_pairs() && !has_doubt {
-            concerns.push(Concern::doubt(
-                "no-pair",
-                "No test mode resembles a mode of the model: another structure, other sensors, or several mistakes at once?",
-            ));
+            concerns.push(Concern::plain(Kind::NoPair, &[]));
         }
-        Ok((concerns, rigid_body_modes))
+        Ok(concerns)
+    }
+}
+
+impl LoadedJob {
+    /// Remarks on complex test modes and on what the readers of the test left aside or did not convert.
+    fn data_concerns(&self) -> Vec<Concern> {
+        let data = &self.data;
+        let phases = data.phase_collinearity.iter().enumerate();
+        let complex = phases.filter(|(_, phase)| **phase < COLLINEAR);
+        let complex =
+            complex.map(|(mode, phase)| Concern::new(Kind::Complex, &[mode + 1], &[*phase]));
+        let mut all: Vec<Concern> = complex.collect();
+        all.extend(about_any(Kind::NotInEveryMode, &data.incomplete));
+        all.extend(about_any(Kind::DatasetsNotRead, &data.skipped));
+        let units = data.units.iter();
+        all.extend(units.map(|units| Concern::new(Kind::UnitsOfTest, &[units], &[])));
+        all
+    }
+
+    /// Remarks on the total mass and its center.
+    fn mass_concerns(&self) -> Result<Vec<Concern>, FileError> {
+        let (mass, center) = self.source.mass_and_center()?;
+        let mass: [f64; 3] = mass.into();
+        let said = mass.map(|along| format!("{along:.5e}"));
+        let kind = match said.iter().all(|along| *along == said[0]) {
+            true => Kind::Mass,
+            false => Kind::MassByDirection,
+        };
+        let mass = (mass != [0.0; 3]).then(|| Concern::plain(kind, &mass));
+        let center = center.map(|center| {
+            let far = center.amax();
+            // What is left of sums that cancel is no distance.
+            let rounded = center.map(|part| if part.abs() < 1e-9 * far { 0.0 } else { part });
+            Concern::plain(Kind::CenterOfMass, rounded.as_slice())
+        });
+        Ok(mass.into_iter().chain(center).collect())
+    }
+
+    /// Cards, sensors and entries of the job's file that nothing uses.
+    fn unused(&self) -> Vec<String> {
+        let cards = self.source.deck.iter().flat_map(|(_, deck)| &deck.unread);
+        let cards = cards.filter(|card| card.reason != Reason::WithoutPart);
+        let sensors = self.data.sensors.len() - self.placed.len();
+        let sensors = (sensors > 0).then(|| format!("{sensors} of the test's sensors"));
+        let entries = self.unused_entries();
+        cards
+            .map(Unread::place)
+            .chain(sensors)
+            .chain(entries)
+            .collect()
     }
 
     /// Parameters' matrices that are not part of the first stiffness or mass, or given twice.
@@ -214,33 +257,22 @@ impl LoadedJob {
             .collect();
         let mut all = Vec::new();
         for (place, (name, part, whole)) in parts.iter().enumerate() {
-            let identifier = hyphened(name);
             if !is_part(part, whole)? {
-                all.push(Concern::doubt(
-                    format!("not-part-{identifier}"),
-                    format!("The matrix of parameter \"{name}\" is not part of the first model's, which without it has negative energy."),
-                ));
+                all.push(Concern::new(Kind::NotPart, &[name], &[]));
             }
             for (other, twin, _) in &parts[..place] {
                 let is_same =
                     |sign: f64| twin.times_number(sign).eq(part.entries().iter().copied());
-                let how = [
-                    (1.0, "the same matrix"),
-                    (-1.0, "matrices of opposite sign"),
-                ];
-                for (_, how) in how.into_iter().filter(|(sign, _)| is_same(*sign)) {
-                    all.push(Concern::doubt(
-                        format!("twin-{}-{identifier}", hyphened(other)),
-                        format!("Parameters \"{other}\" and \"{name}\" have {how}."),
-                    ));
-                }
+                let kinds = [(1.0, Kind::Twin), (-1.0, Kind::OppositeTwin)];
+                let same = kinds.into_iter().filter(|(sign, _)| is_same(*sign));
+                all.extend(same.map(|(_, kind)| Concern::new(kind, &[other, name], &[])));
             }
         }
         Ok(all)
     }
 
     /// Standard deviations that are given in percent.
-    fn percent_deviations(&self, modes: &[usize]) -> Vec<Finding> {
+    fn percent_deviations(&self, modes: &[usize]) -> Vec<Concern> {
         let largest = |of: fn(&Noise) -> f64| {
             let all = modes.iter().map(|&mode| of(&self.deviations(mode)));
             all.fold(0.0, f64::max)
@@ -253,7 +285,7 @@ impl LoadedJob {
             .into_iter()
             .filter(|(_, value)| *value > LARGEST_TOLERANCE);
         large
-            .map(|(setting, value)| Finding::Percent { setting, value })
+            .map(|(setting, value)| Concern::percent(setting, value))
             .collect()
     }
 
@@ -276,25 +308,17 @@ impl LoadedJob {
             extent(self.source.geometry.places.values().copied().collect())?,
         );
         let ratio = test / model;
-        (ratio > LARGEST_SPAN).then(|| {
-            Concern::doubt(
-                "unit-of-places",
-                format!("The sensors' places span {ratio:.1} times what the model's do: another unit of length?"),
-            )
-        })
+        (ratio > LARGEST_SPAN).then(|| Concern::plain(Kind::UnitOfPlaces, &[ratio]))
     }
 }
 
-/// One sentence about a motion that can hardly be told from a rigid-body mode.
-pub(crate) fn hardly_held(name: &str, resistance: f64) -> String {
-    let kind = if is_rounded(resistance) {
-        "rigid-body mode"
-    } else {
-        "vibration"
+/// The doubt about a motion that can hardly be told from a rigid-body mode.
+pub(crate) fn hardly_held(name: &str, resistance: f64) -> Concern {
+    let counted = match is_rounded(resistance) {
+        true => "rigid-body mode",
+        false => "vibration",
     };
-    format!(
-        "A motion of {name} is resisted by {resistance:.0e} of the stiffness there, which the digits of the matrix hardly tell from nothing: it counts as a {kind}."
-    )
+    Concern::new(Kind::Weak, &[name, counted], &[resistance])
 }
 
 /// True unless the whole without a part is known to have a negative eigenvalue.

@@ -1,38 +1,30 @@
-//! Model and test joined: the start of a job's correlation.
+//! What a job names, read and matched: its first value.
 
 use super::matrices::from_matrices;
 use super::model::from_deck;
 use super::sensors::{PlacedSensor, place};
-use super::{Job, Method, ModelSource, read};
+use super::{Job, Method, ModelSource, PreparedJob, read};
+use crate::files::deck::rewrite;
 use crate::files::error::FileError;
 use crate::files::read_bytes;
 use crate::files::test_data::TestData;
-use crate::job::assignment::pair_optimally;
-use crate::job::expansion::mass_by_modes;
-use crate::method::analysis::State;
-use crate::method::error::{Error, at_least_one, check_count};
+use crate::method::error::{Error, at_least_one};
 use crate::method::modes::Modes;
-use crate::method::sorting::Pairing;
-use crate::sparse::{
-    BasisSize, Deflections, FINITE, Pair, SensorModel, SparseMatrix, Whole, modal_assurance,
-    no_modes,
-};
-use crate::weighted::close_modes::{assurance_of_roots, indistinct_groups};
-use crate::weighted::comparison::{Comparison, LoneFrequency};
-use nalgebra::DMatrix;
+use crate::method::structure::{Element, Material};
+use crate::sparse::{SparseMatrix, Whole, WholeParameter, WholeShare, no_modes};
+use crate::weighted::comparison::LoneFrequency;
+use crate::weighted::noise::Noise;
+use crate::weighted::residuals::DEVIATIONS;
 use sha2::{Digest, Sha256};
 use std::path::Path;
 use std::sync::Arc;
-
-/// Modal assurance below which a test mode counts as without a partner.
-pub(super) const FLOOR: f64 = 0.5;
 
 /// A job with everything it names read and matched.
 #[derive(Debug, Clone)]
 pub struct LoadedJob {
     /// What the job's file says.
     pub job: Job,
-    /// What reports call the structure.
+    /// Name of the structure in reports.
     pub title: String,
     /// The model, which all samples of a study share.
     pub source: Arc<ModelSource>,
@@ -40,38 +32,20 @@ pub struct LoadedJob {
     pub data: TestData,
     /// Its sensors on the model.
     pub placed: Vec<PlacedSensor>,
-    /// Reads them off the model (sensors × DOF).
+    /// Matrix that reads them off the model (sensors × DOF).
     pub sensors: SparseMatrix,
-    /// The test modes to compare, at the placed sensors.
-    pub test: Modes,
-    /// Their places in the test's file, from zero, ascending in frequency.
-    pub modes: Vec<usize>,
-    /// Test modes, from zero, of which a frequency alone is compared, ascending, with their partners in the first model.
-    pub alone: Vec<(usize, LoneFrequency)>,
-    /// Test modes, from zero, that resemble no mode of the first model, with their largest modal assurance.
-    pub unpaired: Vec<(usize, f64)>,
-    /// Test modes, from zero, that were left out at first and are compared since.
-    pub joined: Vec<usize>,
-    /// Test modes, from zero, that several modes of the first model resemble equally, and which are paired in the order of frequencies.
-    pub undecided: Vec<usize>,
-    /// Identifiers of the doubts that the user answers for.
-    pub accepted: Vec<String>,
-    /// How many modes of the model are taken.
-    pub analysis_modes: usize,
-    /// The shapes of these partners as the sensors see them; none before the first analysis.
-    partner_shapes: Option<DMatrix<f64>>,
-    /// The first analysis.
-    first: Option<Arc<dyn Whole>>,
+    /// Numbers of the test modes that the job selects.
+    numbers: Vec<usize>,
+    /// Selected test modes, from zero, of which a frequency alone is known, ascending, with their partners in the first model.
+    alone: Vec<(usize, LoneFrequency)>,
 }
 
-/// Residual vectors a parameter, unless the job says how many: more add less than the lowest mode left out.
-const RESIDUAL_VECTORS: usize = 4;
-
 impl LoadedJob {
-    /// Reads a job and what it names, places the sensors, and pairs the test modes with those of the first model.
+    /// Reads a job and what it names, and places the sensors.
     ///
     /// # Errors
-    /// Those of the files; [`FileError::Refused`] for modes that the test does not have or that are named twice; those of the first analysis and of [`LoadedJob::weights`].
+    /// The errors of the files; [`FileError::Refused`] for modes that the test does not have or that are named twice, and for partners
+    /// that do not fit.
     pub fn new(path: &Path) -> Result<Self, FileError> {
         let job = read(path)?;
         let data = job.measured()?;
@@ -79,7 +53,7 @@ impl LoadedJob {
         Self::with(job, data, source)
     }
 
-    /// The same with all files read, for a test that is not on file, such as a sample of a study.
+    /// A job whose files are read, for a test that is not on file, such as a sample of a study.
     pub(super) fn with(
         job: Job,
         data: TestData,
@@ -98,62 +72,80 @@ impl LoadedJob {
         })?;
         at_least_one("test modes", numbers.len())?;
         job.once(numbers.iter(), "test.modes: mode")?;
-        job.once(
-            source
-                .whole
-                .parameters()
-                .iter()
-                .map(|parameter| &parameter.name),
-            "parameter",
-        )?;
-        let several = job
-            .compare
-            .starts
-            .filter(|&starts| starts > 1 && job.compare.method == Method::Paper);
-        job.refuse_if(several, |starts| {
-            format!("compare.starts is {starts}, but method \"paper\" has one start")
-        })?;
-        let mut modes: Vec<usize> = numbers.iter().map(|mode| mode - 1).collect();
-        modes.sort_by(|&a, &b| data.frequencies_hz[a].total_cmp(&data.frequencies_hz[b]));
+        let parameters = source.whole.parameters().iter();
+        job.once(parameters.map(|parameter| &parameter.name), "parameter")?;
+        let named = numbers.len();
+        let lists = [
+            ("frequency_weights", &job.compare.frequency_weights),
+            ("shape_weights", &job.compare.shape_weights),
+        ];
+        for (what, list) in lists {
+            let other = list.as_ref().map(Vec::len).filter(|count| *count != named);
+            job.refuse_if(other, |count| {
+                format!("compare.{what}: {count} given for {named} test modes")
+            })?;
+        }
         let alone = lone_frequencies(&job, &data, &numbers)?;
-        modes.retain(|mode| !data.alone.contains(mode));
-        let test = match &modes[..] {
-            [] => no_modes(sensors.rows()),
-            modes => measured(&data, &placed, modes)?,
-        };
-        let partners = alone.iter().map(|(_, lone)| lone.partner + 1);
-        let highest = partners.max().unwrap_or(0);
-        let usual = numbers.len().max(highest);
-        let usual = usual + (usual / 2).max(4);
-        let most = source.whole.dof_count();
-        let analysis_modes = job.compare.analysis_modes.unwrap_or(usual.min(most));
-        let beyond = (highest > analysis_modes).then_some(highest);
-        job.refuse_if(beyond, |highest| {
-            format!(
-                "test.partners: mode {highest} of the model is not among the {analysis_modes} taken; see compare.analysis_modes"
-            )
-        })?;
-        let mut loaded = Self {
+        Ok(Self {
             title: job.title.clone().unwrap_or_else(|| job.stem()),
             job,
             source,
             data,
             placed,
             sensors,
-            test,
-            modes,
+            numbers,
             alone,
-            unpaired: Vec::new(),
-            joined: Vec::new(),
-            undecided: Vec::new(),
-            accepted: Vec::new(),
-            analysis_modes,
-            partner_shapes: None,
-            first: None,
-        };
-        loaded.leave_out_unpaired()?;
-        loaded.weights()?;
-        Ok(loaded)
+        })
+    }
+
+    /// The same job with the first model's modes and the test modes' partners among them.
+    ///
+    /// # Errors
+    /// The errors of the first analysis; [`FileError::Refused`] for settings that do not go together and weights that are not one a
+    /// test mode.
+    pub fn prepare(self) -> Result<PreparedJob, FileError> {
+        PreparedJob::new(self)
+    }
+
+    /// Selected test modes with shapes, from zero, ascending in frequency.
+    pub(super) fn shaped(&self) -> Vec<usize> {
+        let hertz = &self.data.frequencies_hz;
+        let selected = self.numbers.iter().map(|mode| mode - 1);
+        let mut modes: Vec<usize> = selected
+            .filter(|mode| !self.data.alone.contains(mode))
+            .collect();
+        modes.sort_by(|&a, &b| hertz[a].total_cmp(&hertz[b]));
+        modes
+    }
+
+    /// Selected test modes without shapes, from zero, ascending, with their partners in the first model.
+    pub(super) fn alone(&self) -> &[(usize, LoneFrequency)] {
+        &self.alone
+    }
+
+    /// Number of modes to take where the job does not say: half as many again as test modes or partners, and at least four more.
+    pub(super) fn usual_modes(&self) -> usize {
+        let partners = self.alone.iter().map(|(_, lone)| lone.partner + 1);
+        let usual = self.numbers.len().max(partners.max().unwrap_or(0));
+        usual + (usual / 2).max(4)
+    }
+
+    /// Test modes (from zero, by their places in the file) at the placed sensors.
+    ///
+    /// # Errors
+    /// The errors of [`Modes::from_measured`].
+    pub(super) fn measured(&self, modes: &[usize]) -> Result<Modes, Error> {
+        if modes.is_empty() {
+            return Ok(no_modes(self.sensors.rows()));
+        }
+        let rows: Vec<usize> = self.placed.iter().map(|sensor| sensor.row).collect();
+        let mut shapes = self.data.shapes.select_rows(&rows).select_columns(modes);
+        shapes
+            .row_iter_mut()
+            .zip(&self.placed)
+            .for_each(|(mut row, sensor)| row *= sensor.sign);
+        let hertz = modes.iter().map(|&mode| self.data.frequencies_hz[mode]);
+        Modes::from_measured(&hertz.collect::<Vec<_>>(), &shapes)
     }
 
     /// The first 128 bits, in hexadecimal, of the SHA-256 digest (FIPS 180-4) of the program's version with what the command line
@@ -187,176 +179,72 @@ impl LoadedJob {
             .collect())
     }
 
-    /// Leaves out the test modes that resemble no mode of the first model.
-    fn leave_out_unpaired(&mut self) -> Result<(), FileError> {
-        let mut first = self.first_analysis();
-        // The usual number may be more than the model has.
-        if let Err(Error::Count {
-            what: FINITE,
-            most: available,
-            ..
-        }) = first
-            && self.job.compare.analysis_modes.is_none()
-            && available > 0
-        {
-            self.analysis_modes = available;
-            first = self.first_analysis();
+    /// Standard deviations of a mode of the test's file, from zero: the test's own, else the job's, else 0.5 % and 2 %.
+    pub fn deviations(&self, mode: usize) -> Noise {
+        let [frequency, shape] = self.given_deviations(mode);
+        Noise {
+            frequency: frequency.unwrap_or(DEVIATIONS.frequency),
+            shape: shape.unwrap_or(DEVIATIONS.shape),
         }
-        let first = first?;
-        let modes = first.modes(self.analysis_modes)?;
-        self.first = Some(first);
-        match self.analyze(&self.ones()) {
-            // Even with more test modes than the model has modes, the pairs can be judged.
-            Err(Error::Count {
-                what: "test modes", ..
-            })
-            | Ok(_) => (),
-            Err(other) => return Err(other.into()),
-        }
-        let partners = self.alone.iter().map(|(_, lone)| lone.partner);
-        let partners: Vec<usize> = partners.filter(|mode| *mode < modes.len()).collect();
-        self.partner_shapes = Some(modes.shapes.select_columns(&partners));
-        let assurance = decided(&assurance_of_roots(&modes, &self.test.shapes)?);
-        self.undecided = (0..assurance.ncols())
-            .filter(|&mode| {
-                let column = assurance.column(mode);
-                let most = column.max();
-                column.iter().filter(|close| **close == most).count() > 1
-            })
-            .map(|mode| self.modes[mode])
-            .collect();
-        let partners = pair_optimally(&assurance, FLOOR)?;
-        let kept: Vec<usize> = (0..partners.len())
-            .filter(|&mode| partners[mode].is_some())
-            .collect();
-        let left = (0..partners.len()).filter(|&mode| partners[mode].is_none());
-        self.unpaired = left
-            .map(|mode| (self.modes[mode], assurance.column(mode).max()))
-            .collect();
-        let twice = self.alone.iter().find_map(|(mode, lone)| {
-            let other = partners.iter().position(|own| *own == Some(lone.partner))?;
-            Some((mode + 1, self.modes[other] + 1, lone.partner + 1))
-        });
-        self.job.refuse_if(twice, |(mode, other, partner)| {
-            format!(
-                "test.partners: mode {partner} of the model is the partner of test mode {mode}, which has a frequency alone, and by its \
-                 shape of test mode {other}"
-            )
-        })?;
-        // Without any pair all stay, for the pre-flight to name the mistake.
-        if !kept.is_empty() {
-            self.test = self.test.select(&kept);
-            self.modes = kept.into_iter().map(|mode| self.modes[mode]).collect();
-        }
-        Ok(())
     }
 
-    /// Selected test modes, from zero, that are not compared, with their largest modal assurance with these modes.
-    pub(super) fn unlike(&self, modes: &Modes) -> Result<Vec<(usize, f64)>, FileError> {
-        let left: Vec<usize> = self.unpaired.iter().map(|(mode, _)| *mode).collect();
-        let left = left.into_iter().filter(|mode| !self.modes.contains(mode));
-        let of_mode = |mode: usize| {
-            let test = measured(&self.data, &self.placed, &[mode])?;
-            Ok((mode, assurance_of_roots(modes, &test.shapes)?.max()))
-        };
-        left.map(of_mode).collect()
+    /// Those of its frequency and of its shape that the test or the job gives; of components' own the root of their mean square.
+    pub(super) fn given_deviations(&self, mode: usize) -> [Option<f64>; 2] {
+        let (data, compare) = (&self.data, &self.job.compare);
+        let own = |own: &Option<Vec<f64>>| own.as_ref().and_then(|own| own.get(mode).copied());
+        let components = data.component_deviation.get(&mode);
+        let mean = components.map(|all| (all.norm_squared() / all.len() as f64).sqrt());
+        [
+            own(&data.frequency_deviation).or(compare.frequency_deviation),
+            mean.or(own(&data.shape_deviation))
+                .or(compare.shape_deviation),
+        ]
     }
 
-    /// The same job that also compares the test modes left out so far that resemble a mode of this model, each one of its own; none
-    /// where none does.
-    pub(super) fn joined_by(&self, modes: &Modes) -> Result<Option<Self>, FileError> {
-        let left = self.unlike(modes)?;
-        if left.is_empty() {
-            return Ok(None);
-        }
-        let left = left.iter().map(|(mode, _)| mode);
-        let all: Vec<usize> = self.modes.iter().chain(left).copied().collect();
-        let test = measured(&self.data, &self.placed, &all)?;
-        let partners = pair_optimally(&assurance_of_roots(modes, &test.shapes)?, FLOOR)?;
-        let (compared, left) = partners.split_at(self.modes.len());
-        let left = left.iter().zip(&all[self.modes.len()..]);
-        let joined: Vec<usize> = left
-            .filter(|(partner, _)| partner.is_some())
-            .map(|(_, mode)| *mode)
-            .collect();
-        if joined.is_empty() || compared.contains(&None) {
-            return Ok(None);
-        }
-        let mut again = self.comparing_too(&joined)?;
-        again.joined.extend(joined);
-        Ok(Some(again))
-    }
-
-    /// The same job that also compares these test modes.
-    fn comparing_too(&self, left: &[usize]) -> Result<Self, FileError> {
-        let mut again = self.clone();
-        again.modes.extend(left);
-        let hertz = &self.data.frequencies_hz;
-        again.modes.sort_by(|&a, &b| hertz[a].total_cmp(&hertz[b]));
-        again.test = measured(&self.data, &self.placed, &again.modes)?;
-        Ok(again)
-    }
-
-    /// The same job for a look far from the first model, with that model: it compares every selected test mode, those too that resemble no
-    /// mode of it, and takes twice as many modes unless the job says how many. Where one parameter is grossly wrong, the modes that
-    /// tell of it are neither like those of the model nor made of its lowest.
+    /// The deck with elements and point masses scaled by `factors` and every other byte as it was; none for a model of matrices.
     ///
-    /// A model that has fewer modes is looked at as the job has it.
+    /// A factor on stiffness changes an element's size and takes its density down by as much; one on mass changes its density.
     ///
     /// # Errors
-    /// Those of the test's shapes and of [`LoadedJob::analyze`].
-    pub fn far_from_first(&self) -> Result<(Self, Comparison), FileError> {
-        let left = self.unpaired.iter().map(|(mode, _)| *mode);
-        let left: Vec<usize> = left.filter(|mode| !self.modes.contains(mode)).collect();
-        let mut far = match left.is_empty() {
-            true => self.clone(),
-            false => self.comparing_too(&left)?,
+    /// Those of [`rewrite`].
+    pub fn corrected_deck(&self, factors: &[f64]) -> Result<Option<Vec<u8>>, FileError> {
+        let Some((bytes, deck)) = &self.source.deck else {
+            return Ok(None);
         };
-        if self.job.compare.analysis_modes.is_none() {
-            let most = self.source.whole.dof_count();
-            far.analysis_modes = (2 * self.analysis_modes).min(most);
+        let (mut elements, mut masses) = (deck.model.elements.clone(), deck.model.masses.clone());
+        let parameters = self.source.whole.parameters().iter();
+        let parameters = parameters.zip(&self.source.members).zip(factors);
+        for ((WholeParameter { share, .. }, [members, points]), factor) in parameters {
+            for point in masses
+                .iter_mut()
+                .filter(|point| points.binary_search(&point.label).is_ok())
+            {
+                point.mass *= factor;
+            }
+            for element in elements
+                .iter_mut()
+                .filter(|element| members.binary_search(&element.label).is_ok())
+            {
+                let Element {
+                    size,
+                    material: Material { density, .. },
+                    ..
+                } = element;
+                match share {
+                    WholeShare::Stiffness(_) | WholeShare::Elements(_) => {
+                        (*size, *density) = (*size * factor, *density / factor)
+                    }
+                    WholeShare::Mass(_) => *density *= factor,
+                }
+            }
         }
-        far.first = far
-            .first
-            .filter(|first| first.modes(far.analysis_modes).is_ok());
-        match far.analyze(&far.ones()) {
-            Ok(first) => Ok((far, first)),
-            Err(Error::Count { .. }) => Ok((self.clone(), self.analyze(&self.ones())?)),
-            Err(other) => Err(other.into()),
-        }
-    }
-
-    /// Whether no test mode with a shape has a partner.
-    pub(super) fn is_without_pairs(&self) -> bool {
-        let is_unpaired = |mode: &usize| self.unpaired.iter().any(|(other, _)| other == mode);
-        !self.modes.is_empty() && self.modes.iter().all(is_unpaired)
-    }
-
-    /// Refuses a correlation in which no test mode has a partner.
-    ///
-    /// # Errors
-    /// [`FileError::Refused`].
-    pub(super) fn check_paired(&self) -> Result<(), FileError> {
-        let best = self.unpaired.iter().map(|(_, best)| *best);
-        let best = best.reduce(f64::max).filter(|_| self.is_without_pairs());
-        self.job.refuse_if(best, |best| {
-            format!(
-                "no mode of the model is like a test mode: their modal assurance is {best:.3} at most, less than {FLOOR}; \
-                 corfem check looks for the mistake"
-            )
-        })
-    }
-
-    /// The mass at the sensors that cross-orthogonality is to be measured with: that of the modes of a model that the test modes are
-    /// paired with, whatever other modes are taken; none where these are too alike at the sensors, or a test shape has no part of them.
-    pub fn mass_at_sensors(&self, comparison: &Comparison) -> Option<DMatrix<f64>> {
-        let (exact, test) = (&comparison.model.exact, &comparison.model.test);
-        let paired = exact
-            .modes
-            .shapes
-            .select_columns(&exact.pairing.analysis_mode);
-        let mass = mass_by_modes(&paired).ok()?;
-        test.scaled_with(&mass).ok().map(|_| mass)
+        let name = self
+            .job
+            .model
+            .deck
+            .as_ref()
+            .map_or_else(String::new, |path| path.display().to_string());
+        rewrite(&name, bytes, &elements, &masses).map(Some)
     }
 
     /// Names of the parameters.
@@ -373,115 +261,62 @@ impl LoadedJob {
         })
     }
 
+    /// The whole model's first analysis, with twice as many modes as these where there are.
+    pub(super) fn analyzed(&self, modes: usize) -> Result<Arc<dyn Whole>, Error> {
+        let whole = &self.source.whole;
+        whole.exactly(&self.ones(), &self.sensors, modes, 2 * modes)
+    }
+
     /// The first factors.
     pub(super) fn ones(&self) -> Vec<f64> {
         vec![1.0; self.source.whole.parameters().len()]
     }
 
-    /// The first analysis, with as many modes as the pre-flight looks at.
-    pub(super) fn first_analysis(&self) -> Result<Arc<dyn Whole>, Error> {
-        let anew = || {
-            let (least, most) = (self.analysis_modes, 2 * self.analysis_modes);
-            let whole = &self.source.whole;
-            whole.exactly(&self.ones(), &self.sensors, least, most)
-        };
-        self.first.clone().map_or_else(anew, Ok)
-    }
-
-    /// The modal model of the loops at the given parameter factors.
-    ///
-    /// # Errors
-    /// Those of [`crate::sparse::WholeModel::analyze`].
-    pub fn analyze(&self, factors: &[f64]) -> Result<Comparison, Error> {
-        let (whole, test) = (&self.source.whole, (&self.test, pair_by_assignment as Pair));
-        let size = BasisSize {
-            modes: self.analysis_modes,
-            residual_vectors: self.residual_vectors(),
-        };
-        let model = if factors.iter().all(|&factor| factor == 1.0) {
-            let deflections = Deflections::Each(size.residual_vectors);
-            SensorModel::of_whole(self.first_analysis()?, size.modes, test, deflections)
-        } else {
-            whole.analyze(factors, &self.sensors, test, size)
-        }?;
-        // Gauss-Newton steps have weights of their own.
-        match self.job.compare.method {
-            Method::Paper => Ok(model.weighted(&self.own_weights())?.into()),
-            Method::GaussNewton => {
-                let lone = self.followed(&model.exact)?;
-                let comparison = Comparison::from(model)
-                    .with_groups(self.together())?
-                    .with_component_weights(self.component_weights())?
-                    .with_lone_frequencies(lone)?;
-                match self.covariance() {
-                    Some(covariance) => comparison.with_covariance(&covariance),
-                    None => Ok(comparison),
-                }
-            }
-        }
-    }
-
-    /// Residual vectors a parameter behind the modes, in which the paper's loops follow changes. Weighted steps have deflections of their own.
-    fn residual_vectors(&self) -> usize {
-        match self.job.compare.method {
-            Method::Paper => self
-                .job
-                .compare
-                .residual_vectors
-                .unwrap_or(RESIDUAL_VECTORS),
-            Method::GaussNewton => 0,
-        }
-    }
-
-    /// One over the deviations of components where the test gives them, times the mode's ([`LoadedJob::deviations`]), else one. They are
-    /// fractions of the largest component of all sensors, which need not be among those placed.
-    fn component_weights(&self) -> DMatrix<f64> {
-        let rows: Vec<usize> = self.placed.iter().map(|sensor| sensor.row).collect();
-        let mut weights = DMatrix::from_element(self.sensors.rows(), self.modes.len(), 1.0);
-        for (mut weights, mode) in weights.column_iter_mut().zip(&self.modes) {
-            if let Some(deviations) = self.data.component_deviation.get(mode) {
-                let shape = self.data.shapes.column(*mode);
-                let largest = shape.select_rows(&rows).amax() / shape.amax();
-                let scale = self.deviations(*mode).shape * largest;
-                weights.copy_from(&deviations.select_rows(&rows).map(|own| scale / own));
-            }
-        }
-        weights
-    }
-
-    /// Groups of the test modes with shapes that their frequencies' deviations do not tell apart ([`indistinct_groups`]), by place.
-    pub fn together(&self) -> Vec<Vec<usize>> {
-        let hertz = self
-            .modes
-            .iter()
-            .map(|&mode| self.data.frequencies_hz[mode]);
-        let deviations = self
-            .modes
-            .iter()
-            .map(|&mode| self.deviations(mode).frequency);
-        indistinct_groups(&hertz.collect::<Vec<_>>(), &deviations.collect::<Vec<_>>())
-    }
-
-    /// The frequencies without shapes, each with the mode of this model that its partner in the first has become: those of the largest
-    /// sum of modal assurance with the partners, except modes that a test mode's shape has chosen.
-    fn followed(&self, exact: &State) -> Result<Vec<LoneFrequency>, Error> {
-        let mut all: Vec<LoneFrequency> = self.alone.iter().map(|(_, lone)| *lone).collect();
-        if let Some(first) = self
-            .partner_shapes
-            .as_ref()
-            .filter(|first| first.ncols() > 0)
-        {
-            let mut assurance = decided(&modal_assurance(&exact.modes.shapes, first)?);
-            for &mode in &exact.pairing.analysis_mode {
-                assurance.row_mut(mode).fill(-1.0);
-            }
-            for (lone, partner) in all.iter_mut().zip(pair_optimally(&assurance, 0.0)?) {
-                lone.partner = partner.unwrap_or(lone.partner);
-            }
-        }
-        Ok(all)
+    /// Entries that the job's file gives and that nothing uses, each with what it is of.
+    pub(super) fn unused_entries(&self) -> Vec<String> {
+        let (job, data) = (&self.job, &self.data);
+        let is_deck = self.source.deck.is_some();
+        let is_weighted = job.compare.method == Method::GaussNewton;
+        let far = self.placed.iter().all(|sensor| sensor.distance.is_none());
+        let unused = [
+            ("model.ignore", !is_deck, "of decks"),
+            ("model.rows", is_deck, "of matrices"),
+            ("sensors.distance", far, "of sensors whose place is known"),
+            (
+                "compare.seed",
+                job.compare.starts.is_none_or(|starts| starts == 1),
+                "of several starts",
+            ),
+            (
+                "compare.frequency_deviation",
+                data.frequency_deviation.is_some(),
+                "of a test without its own",
+            ),
+            (
+                "compare.shape_deviation",
+                data.shape_deviation.is_some(),
+                "of a test without its own",
+            ),
+            ("correlation.error_sum_tolerance", is_weighted, PAPER),
+            ("correlation.frequency_tolerance", is_weighted, PAPER),
+            ("correlation.shape_tolerance", is_weighted, PAPER),
+            ("correlation.later_inner_tolerance", is_weighted, PAPER),
+            ("correlation.most_passes", is_weighted, PAPER),
+            ("correlation.inner.step", is_weighted, PAPER),
+            ("correlation.inner.factor_range", is_weighted, PAPER),
+            ("correlation.inner.tolerance", is_weighted, PAPER),
+        ];
+        let given = |(entry, is_unused, _): &(&str, bool, &str)| *is_unused && job.gives(entry);
+        unused
+            .into_iter()
+            .filter(given)
+            .map(|(entry, _, of)| format!("{entry} ({of})"))
+            .collect()
     }
 }
+
+/// What takes the entries of `[correlation]`.
+const PAPER: &str = "of the paper's loops";
 
 /// The selected test modes without shapes with their partners: those that the job names, else of the same place in ascending order.
 fn lone_frequencies(
@@ -495,15 +330,6 @@ fn lone_frequencies(
         .copied()
         .filter(|mode| job.selects(mode + 1))
         .collect();
-    let of_paper = alone
-        .first()
-        .filter(|_| job.compare.method == Method::Paper);
-    job.refuse_if(of_paper, |mode| {
-        format!(
-            "test mode {} has a frequency alone, and compare.method \"paper\" compares shapes; \"gauss_newton\" needs none",
-            mode + 1
-        )
-    })?;
     let named = job.test.partners.as_deref();
     let other = named
         .map(<[usize]>::len)
@@ -548,38 +374,4 @@ fn load(job: &Job) -> Result<ModelSource, FileError> {
         (None, Some(stiffness), Some(mass)) => from_matrices(job, stiffness, mass),
         _ => Err(job.refused("[model] must name either a deck, or both stiffness and mass")),
     }
-}
-
-/// The test modes at the sensors placed.
-pub(super) fn measured(
-    data: &TestData,
-    placed: &[PlacedSensor],
-    modes: &[usize],
-) -> Result<Modes, Error> {
-    let rows: Vec<usize> = placed.iter().map(|sensor| sensor.row).collect();
-    let mut shapes = data.shapes.select_rows(&rows).select_columns(modes);
-    shapes
-        .row_iter_mut()
-        .zip(placed)
-        .for_each(|(mut row, sensor)| row *= sensor.sign);
-    let frequencies: Vec<f64> = modes
-        .iter()
-        .map(|&mode| data.frequencies_hz[mode])
-        .collect();
-    Modes::from_measured(&frequencies, &shapes)
-}
-
-/// Squared closeness to the digits that shapes decide: a sum of products of up to four thousand sensors is rounded by less than
-/// $2^{-40}$. Equal ones then tie, and a tie goes by the order of the modes, which ascend in frequency.
-fn decided(closeness: &DMatrix<f64>) -> DMatrix<f64> {
-    let digits = 40.0_f64.exp2();
-    closeness.map(|close| (digits * close).round() / digits)
-}
-
-/// The pairs with the largest sum of squared closeness, every test mode with one.
-fn pair_by_assignment(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
-    let partners = pair_optimally(&decided(&cross.component_mul(cross)), 0.0)?;
-    check_count("test modes", cross.ncols(), 0, cross.nrows())?;
-    let analysis_mode = partners.into_iter().flatten().collect();
-    Ok(Pairing::signed(analysis_mode, cross))
 }

@@ -1,7 +1,8 @@
 //! A job: the model, the test and the settings of a correlation of the user's own structure, as one TOML file names them.
 //!
-//! [`read`] reads the file alone; [`LoadedJob::new`] reads what it names, puts model and test together, and is what a correlation
-//! starts from. [`TEMPLATE`] is a job with every entry explained.
+//! Each step makes a value that the next one takes: [`LoadedJob::new`] reads what the file names and places the sensors;
+//! [`LoadedJob::prepare`] analyses the first model and pairs the test modes with its modes; [`run`] looks for the factors and judges
+//! them. [`TEMPLATE`] is a job with every entry explained.
 
 #[doc(hidden)]
 pub mod assignment;
@@ -17,36 +18,38 @@ pub mod metrics;
 mod model;
 #[doc(hidden)]
 pub mod preflight;
-mod loaded;
 mod repeats;
-mod run;
 mod samples;
 mod sensors;
 mod study;
-mod trust;
+// The four values of a job, in their order, and what is said of them.
+mod loaded;
+mod prepared;
+mod correlated;
+mod judged;
+pub mod concern;
 pub mod verdict;
 
+pub use concern::{Concern, Kind, Trust};
 #[cfg(feature = "program")]
 pub(crate) use concerns::hardly_held;
 #[doc(hidden)]
+pub use correlated::{CorrelatedJob, History, WeightedHistory};
+#[doc(hidden)]
 pub use entries::removed_step;
+pub use judged::{JobResult, run};
 pub use loaded::LoadedJob;
 #[doc(hidden)]
 pub use matrices::matrix_modes;
 #[doc(hidden)]
 pub use model::{GridLayout, ModelSource};
-#[doc(hidden)]
-pub use run::History;
-pub use run::{JobResult, run};
+pub use prepared::{LeftOut, PreparedJob};
 #[doc(hidden)]
 pub use samples::{Samples, Spread, Summary};
 #[doc(hidden)]
 pub use sensors::PlacedSensor;
 #[doc(hidden)]
 pub use study::{Study, Vary};
-#[doc(hidden)]
-pub use trust::NotCompared;
-pub use trust::{Concern, Trust};
 
 use crate::files::deck::decoded;
 use crate::files::error::{FileError, is_not};

@@ -1,7 +1,7 @@
 //! Repeated tests: their mean, and the standard deviations and the covariance that their scatter gives.
 
-use super::loaded::FLOOR;
-use super::{Job, LoadedJob};
+use super::prepared::FLOOR;
+use super::{Job, PreparedJob};
 use crate::files::error::FileError;
 use crate::files::test_data::{self, Sensor, TestData};
 use crate::method::linear_algebra::{cholesky, symmetric_eigen, symmetric_part};
@@ -165,7 +165,7 @@ fn deviations(
     Ok(variances.map(|variance| (variance / count).sqrt()))
 }
 
-impl LoadedJob {
+impl PreparedJob {
     /// Covariance of the weighted residuals of repeated tests, where there are enough of them; none where variances are all that is
     /// known, and the residuals count as independent.
     ///
@@ -174,7 +174,10 @@ impl LoadedJob {
     /// shape's own direction, in which nothing is left, gets the variance one, which the free scale takes away again. Weights of the job's
     /// own leave the residuals independent.
     pub(super) fn covariance(&self) -> Option<DMatrix<f64>> {
-        let (sensors, tests) = (self.data.sensors.len(), self.data.scatter.ncols());
+        let (sensors, tests) = (
+            self.loaded.data.sensors.len(),
+            self.loaded.data.scatter.ncols(),
+        );
         let numbers = self.free_numbers();
         let is_own = self.own_weights().iter().any(|own| *own != ModeWeight::ONE);
         if is_own || tests < numbers + 3 {
@@ -184,19 +187,24 @@ impl LoadedJob {
         type MeasuredNumber = (usize, f64, Option<(usize, f64)>);
         let mut rows: Vec<MeasuredNumber> = Vec::new();
         for (place, mode) in self.compared().enumerate() {
-            let (row, noise) = (mode * (1 + sensors), self.deviations(mode));
+            let (row, noise) = (mode * (1 + sensors), self.loaded.deviations(mode));
             rows.push((row, 1.0 / noise.frequency, None));
-            let own = self.data.component_deviation.get(&mode);
-            for sensor in self.placed.iter().filter(|_| place < self.modes.len()) {
+            let own = self.loaded.data.component_deviation.get(&mode);
+            for sensor in self
+                .loaded
+                .placed
+                .iter()
+                .filter(|_| place < self.modes.len())
+            {
                 let deviation = own.map_or(noise.shape, |own| own[sensor.row]);
-                let component = self.data.shapes[(sensor.row, mode)];
+                let component = self.loaded.data.shapes[(sensor.row, mode)];
                 let of_shape = Some((place, component));
                 rows.push((row + 1 + sensor.row, sensor.sign / deviation, of_shape));
             }
         }
         let apart = DMatrix::from_fn(rows.len(), tests, |number, test| {
             let (row, scale, _) = rows[number];
-            scale * self.data.scatter[(row, test)]
+            scale * self.loaded.data.scatter[(row, test)]
         });
         let mut along = DMatrix::from_fn(rows.len(), self.modes.len(), |number, mode| {
             let (_, scale, of_shape) = rows[number];
@@ -224,7 +232,7 @@ impl LoadedJob {
     /// The least over the fitted parameters is chi-squared by the covariance of what is left, $\nu$ of the $p$ numbers, and one over
     /// that of $R$ tests is right in the mean with $R - \nu - 2$ for $R - p - 2$. The parameters' own deviations need the latter.
     pub(super) fn estimate_scale(&self, freedom: f64) -> f64 {
-        let room = self.data.scatter.ncols() as f64 - 2.0;
+        let room = self.loaded.data.scatter.ncols() as f64 - 2.0;
         let all = self.free_numbers() as f64;
         match self.covariance() {
             Some(_) => (room - freedom) / (room - all),
@@ -234,7 +242,7 @@ impl LoadedJob {
 
     /// Count of the test's numbers for a covariance: all that are compared, less a scale a shape.
     pub(super) fn free_numbers(&self) -> usize {
-        let of_shape = self.placed.len().saturating_sub(1);
-        self.modes.len() * (1 + of_shape) + self.alone.len()
+        let of_shape = self.loaded.placed.len().saturating_sub(1);
+        self.modes.len() * (1 + of_shape) + self.alone().len()
     }
 }

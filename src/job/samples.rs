@@ -99,7 +99,7 @@ impl Samples {
         let rows = rows.map(|(sample, line)| (*sample, line.split(',').collect::<Vec<_>>()));
         let (failed, ran): (Vec<_>, Vec<_>) = rows.partition(|(_, cells)| cells[2].is_empty());
         let within = ran.iter().filter(|(_, cells)| cells[2] == "true").count();
-        let ranges = study.loaded.source.whole.ranges();
+        let ranges = study.prepared.loaded.source.whole.ranges();
         let parameters = study.parameters().zip(ranges).enumerate();
         let spreads = parameters.map(|(place, (name, range))| {
             let values = ran.iter().flat_map(|(_, cells)| cells[place + 5].parse());

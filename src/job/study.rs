@@ -1,8 +1,8 @@
 //! Many runs of one job: each sample depends on the study's seed and its own number alone, not on what ran before.
 
-use super::run::run_from;
+use super::correlated::{Caller, CorrelatedJob};
 use super::verdict::Outcome;
-use super::{Job, JobResult, LoadedJob, Trust};
+use super::{Job, JobResult, LoadedJob, PreparedJob, Trust};
 use crate::files::error::FileError;
 use crate::files::test_data::quoted;
 use crate::method::modes::Modes;
@@ -27,7 +27,7 @@ pub enum Vary {
 #[derive(Debug, Clone)]
 pub struct Study {
     /// The job as it is.
-    pub loaded: LoadedJob,
+    pub prepared: PreparedJob,
     /// Doubts and remarks on the job before its first step.
     pub trust: Trust,
     /// The seed.
@@ -50,16 +50,16 @@ impl Study {
         vary: &[Vary],
         accepted: &[String],
     ) -> Result<Self, FileError> {
-        let mut loaded = LoadedJob::new(path)?;
-        loaded.accepted = accepted.to_vec();
+        let prepared = LoadedJob::new(path)?.prepare()?;
+        let loaded = &prepared.loaded;
         loaded.require_parameters()?;
         let mut vary = vary.to_vec();
         vary.sort_unstable();
         vary.dedup();
         let identity = loaded.identity(&format!("{seed} {vary:?}"))?;
-        let trust = Trust::before(&loaded)?;
+        let trust = Trust::before(&prepared)?.accepting(accepted)?;
         Ok(Self {
-            loaded,
+            prepared,
             trust,
             seed,
             vary,
@@ -69,7 +69,7 @@ impl Study {
 
     /// Names of the parameters.
     pub fn parameters(&self) -> impl Iterator<Item = &str> {
-        self.loaded.parameter_names()
+        self.prepared.loaded.parameter_names()
     }
 
     /// The line above the samples.
@@ -84,11 +84,11 @@ impl Study {
     /// The job of a sample, and its first factors.
     ///
     /// # Errors
-    /// The errors of [`with_noise_by_mode`] and [`LoadedJob::new`].
-    pub fn draw(&self, sample: u64) -> Result<(LoadedJob, Vec<f64>), FileError> {
+    /// The errors of [`with_noise_by_mode`] and [`LoadedJob::prepare`].
+    pub fn draw(&self, sample: u64) -> Result<(PreparedJob, Vec<f64>), FileError> {
         let LoadedJob {
             job, data, source, ..
-        } = &self.loaded;
+        } = &*self.prepared.loaded;
         let (mut job, mut data, ranges) = (job.clone(), data.clone(), source.whole.ranges());
         // One generator per purpose, so that each draws the same whatever else varies.
         let generator = |what: Vary| {
@@ -98,7 +98,9 @@ impl Study {
         };
         if let Some(seed) = generator(Vary::Noise) {
             let modes = 0..data.frequencies_hz.len();
-            let noise: Vec<Noise> = modes.map(|mode| self.loaded.deviations(mode)).collect();
+            let noise: Vec<Noise> = modes
+                .map(|mode| self.prepared.loaded.deviations(mode))
+                .collect();
             // Frequencies without shapes draw as if they had one.
             let rows = data.shapes.nrows();
             let mut shapes = data.shapes.clone().resize_vertically(rows.max(1), 1.0);
@@ -121,14 +123,15 @@ impl Study {
         if let Some(state) = generator(Vary::Subset) {
             self.leave_out(&mut job, state);
         }
-        let mut start = self.loaded.ones();
+        let mut start = self.prepared.loaded.ones();
         if let Some(mut state) = generator(Vary::Start) {
             for (factor, range) in start.iter_mut().zip(&ranges) {
                 let drawn = 0.5 * 4.0_f64.powf(uniform(&mut state));
                 *factor = range.map_or(drawn, |range| drawn.clamp(range.lower, range.upper));
             }
         }
-        Ok((LoadedJob::with(job, data, source.clone())?, start))
+        let loaded = LoadedJob::with(job, data, source.clone())?;
+        Ok((loaded.prepare()?, start))
     }
 
     /// Leaves out of a job up to half of its sensors or of its modes.
@@ -139,9 +142,9 @@ impl Study {
             .test
             .modes
             .clone()
-            .unwrap_or_else(|| (1..=self.loaded.data.frequencies_hz.len()).collect());
+            .unwrap_or_else(|| (1..=self.prepared.loaded.data.frequencies_hz.len()).collect());
         let count = if is_sensors {
-            self.loaded.placed.len()
+            self.prepared.loaded.placed.len()
         } else {
             numbers.len()
         };
@@ -155,9 +158,10 @@ impl Study {
         let (out, kept) = places.split_at_mut(out);
         kept.sort_unstable();
         if is_sensors {
-            job.sensors
-                .leave_out
-                .extend(out.iter().map(|&row| self.loaded.placed[row].name.clone()));
+            job.sensors.leave_out.extend(
+                out.iter()
+                    .map(|&row| self.prepared.loaded.placed[row].name.clone()),
+            );
             return;
         }
         job.test.modes = Some(kept.iter().map(|&place| numbers[place]).collect());
@@ -188,16 +192,21 @@ impl Study {
         sample: u64,
         go_on: impl Fn() -> bool,
     ) -> Result<(String, Option<FileError>), FileError> {
-        let run = |(loaded, start): (LoadedJob, Vec<f64>)| {
-            run_from(&loaded, self.trust.clone(), &start, &mut |_| {}, &go_on)
+        let caller = Caller {
+            progress: &|_| {},
+            go_on: &go_on,
+        };
+        let run = |(prepared, start): (PreparedJob, Vec<f64>)| {
+            prepared.correlate(&start, &caller)?.judge(&self.trust)
         };
         let (numbers, failure) = match self.draw(sample).and_then(run) {
-            Ok(found) if found.trust.is_interrupted => return Err(FileError::Interrupted),
+            Ok(result) if result.found.is_interrupted => return Err(FileError::Interrupted),
             Ok(JobResult {
                 trust,
                 verdict,
-                analyses,
-                factors,
+                found: CorrelatedJob {
+                    analyses, factors, ..
+                },
                 ..
             }) => {
                 let outcome = match verdict.outcome {
@@ -212,7 +221,7 @@ impl Study {
                 (
                     format!(
                         "{outcome},{},{},{analyses}{factors}",
-                        verdict.is_within && trust.not_compared.is_empty(),
+                        verdict.is_within && trust.are_all_compared(),
                         verdict.error_sum
                     ),
                     None,

@@ -11,7 +11,7 @@ use super::tables::deck::{not_read, unit_shapes};
 use crate::files::deck::Unread;
 use crate::files::test_data::DIRECTIONS;
 use crate::job::verdict::Verdict;
-use crate::job::{Trust, hardly_held};
+use crate::job::{Concern, Trust, hardly_held};
 use crate::method::inner_loop::Iteration;
 use crate::method::step::Bounds;
 use crate::method::step::Limit;
@@ -297,7 +297,7 @@ pub fn deck_modes(
     let doubtful = modes
         .doubtful
         .iter()
-        .map(|(name, held)| hardly_held(name, *held));
+        .map(|(name, held)| Concern::words(&hardly_held(name, *held)));
     own_document(json!({
         "dof": dof.collect::<Value>(),
         "rigid_body_modes": modes.rigid_body,

@@ -8,7 +8,9 @@ use super::{progress, signals};
 use clap::Args;
 use corfem::files::error::FileError;
 use corfem::files::escaped;
-use corfem::job::{LoadedJob, Method, TEMPLATE, TEST_TEMPLATE, Trust, run};
+use corfem::job::{
+    CorrelatedJob, JobResult, LoadedJob, Method, PreparedJob, TEMPLATE, TEST_TEMPLATE, Trust, run,
+};
 use corfem::present::page::report_page;
 use corfem::present::report::Report;
 use corfem::present::table::Table;
@@ -109,18 +111,17 @@ pub fn check_job(
     quiet: bool,
 ) -> Result<bool, PresentError> {
     let (trust, tables) = progress::during(quiet, "looking at the job", || {
-        let mut loaded = LoadedJob::new(job)?;
-        loaded.accepted.clone_from(accept);
-        let trust = Trust::before(&loaded)?;
+        let prepared = LoadedJob::new(job)?.prepare()?;
+        let trust = Trust::before(&prepared)?.accepting(accept)?;
         let report = Report {
             trust: Some(trust.clone()),
-            ..Report::from_job(&loaded, None)?
+            ..Report::from_job(&prepared, None)?
         };
         let tables = [
             trust_table(&trust),
-            places_table(&loaded, None)?,
+            places_table(&prepared.loaded, None)?,
             paired_table(&report)?,
-            suspects_table(&loaded)?,
+            suspects_table(&prepared)?,
         ];
         Ok::<_, PresentError>((trust, tables))
     })?;
@@ -131,25 +132,11 @@ pub fn check_job(
 
 /// Corrects the model of a job and writes the report; true if it is within tolerance.
 pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, PresentError> {
-    let mut loaded = LoadedJob::new(&arguments.job)?;
-    if let Some(starts) = arguments.starts {
-        let compare = &mut loaded.job.compare;
-        compare.method = Method::GaussNewton;
-        compare.starts = Some(starts as usize);
-        compare.seed = arguments.seed.unwrap_or(compare.seed);
-    }
-    loaded.accepted.clone_from(&arguments.accept);
-    for card in loaded.source.deck.iter().flat_map(|(_, deck)| &deck.unread) {
-        note(format_args!("corfem: {}: {}", loaded.title, not_read(card)));
-    }
-    let bar = progress::spinner(quiet);
     // Postponed until the report is written, so that a request to stop ends the program with the best so far.
     let (stop, _postponed) = signals::postpone_first();
     let go_on = || !stop.load(Ordering::SeqCst);
-    let result = run(&loaded, |words| bar.set_message(words.to_owned()), go_on);
-    bar.finish_and_clear();
-    let result = result?;
-    let report = Report::from_job(&loaded, Some(&result))?;
+    let (prepared, result) = corrected(arguments, quiet, go_on)?;
+    let report = Report::from_job(&prepared, Some(&result))?;
     // The verdict stands under the history, at the end.
     let [paired, factors, history] = [
         paired_table(&report)?,
@@ -157,7 +144,7 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
         history_table(&report),
     ];
     let trust = trust_table(&result.trust);
-    let seen = seen_table(&loaded, &result)?;
+    let seen = seen_table(&result);
     let minima = minima_table(&report);
     let head = [trust, paired, factors, seen.clone()].into_iter();
     let tables: Vec<Table> = head.chain(minima.clone()).chain([history]).collect();
@@ -165,47 +152,88 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
     arguments.output.write(&tables, document)?;
     if let Some(folder) = &arguments.folder {
         let places = [
-            places_table(&loaded, Some(&result))?,
-            inputs_table(&loaded)?,
+            places_table(&prepared.loaded, Some(&result))?,
+            inputs_table(&prepared),
         ];
         let extra: Vec<Table> = [seen].into_iter().chain(minima).chain(places).collect();
-        let mut command = format!("corfem correlate {}", arguments.job.display());
-        let starts = arguments.starts.map(|starts| format!(" --starts {starts}"));
-        let seed = arguments.seed.map(|seed| format!(" --seed {seed}"));
-        let accepted = arguments
-            .accept
-            .iter()
-            .map(|doubt| format!(" --accept {doubt}"));
-        command.extend(starts.into_iter().chain(seed).chain(accepted));
-        // Any folder gets the same page.
-        command += " --folder FOLDER";
-        let identity = loaded.identity(&format!("{:?} {:?}", arguments.starts, arguments.seed))?;
-        let run = format!("correlate {}, inputs {identity}", file_name(&arguments.job));
-        let mut files = vec![
-            (
-                "report.html".to_owned(),
-                report_page(&report, &extra, &command, &loaded.job.text)?.into_bytes(),
-            ),
-            (
-                "factors.csv".to_owned(),
-                render::csv(&[tables[0].clone(), factor_table(&report)]).into_bytes(),
-            ),
+        let page = report_page(
+            &report,
+            &extra,
+            &command(arguments),
+            &prepared.loaded.job.text,
+        )?;
+        let factors = render::csv(&[tables[0].clone(), factor_table(&report)]);
+        let files = vec![
+            ("report.html".to_owned(), page.into_bytes()),
+            ("factors.csv".to_owned(), factors.into_bytes()),
             ("correlation.json".to_owned(), document()?.into_bytes()),
         ];
-        // A deck that cannot be written must not lose the report of a long correlation.
-        let deck = loaded.corrected_deck(&result.factors);
-        files.extend(
-            deck.as_ref()
-                .ok()
-                .cloned()
-                .flatten()
-                .map(|deck| ("corrected.bdf".to_owned(), deck)),
-        );
-        write_files(folder, &files, &run)?;
-        deck?;
+        write_results(arguments, folder, files, &result.found)?;
     }
-    if result.trust.is_interrupted {
+    if result.found.is_interrupted {
         note("corfem: stopped by request; the best factors so far are given");
     }
-    Ok(result.verdict.is_within && result.trust.is_clear() && !result.trust.is_interrupted)
+    Ok(result.verdict.is_within && result.trust.is_clear())
+}
+
+/// Reads, prepares and runs a job.
+fn corrected(
+    arguments: &CorrelateArguments,
+    quiet: bool,
+    go_on: impl Fn() -> bool,
+) -> Result<(PreparedJob, JobResult), PresentError> {
+    let mut loaded = LoadedJob::new(&arguments.job)?;
+    if let Some(starts) = arguments.starts {
+        let compare = &mut loaded.job.compare;
+        compare.method = Method::GaussNewton;
+        compare.starts = Some(starts as usize);
+        compare.seed = arguments.seed.unwrap_or(compare.seed);
+    }
+    for card in loaded.source.deck.iter().flat_map(|(_, deck)| &deck.unread) {
+        note(format_args!("corfem: {}: {}", loaded.title, not_read(card)));
+    }
+    let bar = progress::spinner(quiet);
+    let progress = |words: &str| bar.set_message(words.to_owned());
+    let finish = || {
+        let prepared = loaded.prepare()?;
+        let trust = Trust::before(&prepared)?.accepting(&arguments.accept)?;
+        let result = run(&prepared, &trust, progress, go_on)?;
+        Ok((prepared, result))
+    };
+    let finished = finish();
+    bar.finish_and_clear();
+    finished
+}
+
+/// The command of a report, which is the same page in any folder.
+fn command(arguments: &CorrelateArguments) -> String {
+    let starts = arguments.starts.map(|starts| format!(" --starts {starts}"));
+    let seed = arguments.seed.map(|seed| format!(" --seed {seed}"));
+    let accepted = arguments
+        .accept
+        .iter()
+        .map(|doubt| format!(" --accept {doubt}"));
+    let options: String = starts.into_iter().chain(seed).chain(accepted).collect();
+    format!(
+        "corfem correlate {}{options} --folder FOLDER",
+        arguments.job.display()
+    )
+}
+
+/// Writes the files of a result and its corrected deck; a deck that cannot be written does not lose the others of a long correlation.
+fn write_results(
+    arguments: &CorrelateArguments,
+    folder: &Path,
+    mut files: Vec<(String, Vec<u8>)>,
+    found: &CorrelatedJob,
+) -> Result<(), PresentError> {
+    let loaded = &found.prepared.loaded;
+    let identity = loaded.identity(&format!("{:?} {:?}", arguments.starts, arguments.seed))?;
+    let run = format!("correlate {}, inputs {identity}", file_name(&arguments.job));
+    let deck = loaded.corrected_deck(&found.factors);
+    let bytes = deck.as_ref().ok().cloned().flatten();
+    files.extend(bytes.map(|bytes| ("corrected.bdf".to_owned(), bytes)));
+    write_files(folder, &files, &run)?;
+    deck?;
+    Ok(())
 }

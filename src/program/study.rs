@@ -78,8 +78,8 @@ pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<bool, PresentErr
     } else {
         let (line, failure) = study.run(arguments.sample.unwrap_or(1), || !stop.load(SeqCst))?;
         // The line belongs to a file of samples; doubts about all of them go to standard error.
-        let doubts = trust.concerns.iter().filter(|doubt| doubt.stands());
-        let doubts = doubts.map(|doubt| format!("doubt {}: {}", doubt.identifier, doubt.words));
+        let doubts = trust.all().iter().filter(|doubt| doubt.stands());
+        let doubts = doubts.map(|doubt| format!("doubt {}: {}", doubt.identifier(), doubt.words()));
         let failure = failure.map(|failure| failure.to_string());
         failure
             .into_iter()

@@ -4,9 +4,10 @@ use crate::common::known::delta_wing::DeltaWing;
 use crate::common::known::delta_wing::correlation::{first_model, measured_grids};
 use crate::common::test_files::{write_csv, write_universal};
 use corfem::files::deck::{self, BulkData, Task};
+use corfem::files::error::FileError;
 use corfem::files::matrices::write_matrix_market;
 use corfem::files::test_data::{Sensor, TestData};
-use corfem::job::{JobResult, LoadedJob, run};
+use corfem::job::{JobResult, LoadedJob, PreparedJob, Trust};
 use corfem::method::modes::Modes;
 use corfem::sparse::{SparseMatrix, WholeModel, WholeShare};
 use corfem::torque_box::Case;
@@ -67,9 +68,23 @@ pub fn folder_of(name: &str) -> PathBuf {
         .join(name)
 }
 
+/// A job read, with its first analysis and its pairs.
+pub fn prepare(path: &Path) -> Result<PreparedJob, FileError> {
+    LoadedJob::new(path)?.prepare()
+}
+
+/// What comes of a job, after a look at what is doubtful of it.
+pub fn run(
+    prepared: &PreparedJob,
+    progress: impl FnMut(&str),
+    go_on: impl Fn() -> bool,
+) -> Result<JobResult, FileError> {
+    corfem::job::run(prepared, &Trust::before(prepared)?, progress, go_on)
+}
+
 /// A job of `tests/jobs`.
-pub fn loaded(name: &str) -> LoadedJob {
-    let loaded = LoadedJob::new(&folder_of(name).join("job.toml"));
+pub fn loaded(name: &str) -> PreparedJob {
+    let loaded = prepare(&folder_of(name).join("job.toml"));
     loaded.unwrap_or_else(|error| panic!("{error}"))
 }
 

@@ -3,6 +3,7 @@
 
 use super::PERCENT;
 use crate::common::jobs::{Files, building, of_whole};
+use crate::common::jobs::{prepare, run};
 use crate::common::known::Known;
 use crate::common::known::weighed::Weighed;
 use crate::common::measured::equal_weights;
@@ -10,7 +11,7 @@ use crate::common::test_files::write_csv;
 use crate::common::whole_models::{masses, shear_building, springs};
 use crate::readers::job_errors::{placed, with};
 use corfem::files::error::FileError;
-use corfem::job::{JobResult, LoadedJob, run};
+use corfem::job::{JobResult, PreparedJob};
 use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::method::modes::Modes;
 use corfem::method::step::Bounds;
@@ -209,10 +210,10 @@ fn of_known(known: Known) -> Subject {
 /// A job, run as a user runs it.
 fn of_job(name: &str, files: Files, truth: &[f64]) -> Result<Subject, FileError> {
     let (_folder, path) = placed(&files);
-    let loaded = LoadedJob::new(&path)?;
+    let loaded = prepare(&path)?;
     Ok(Subject {
         name: name.to_owned(),
-        parameters: loaded.parameter_names().map(str::to_owned).collect(),
+        parameters: loaded.loaded.parameter_names().map(str::to_owned).collect(),
         truth: truth.to_vec(),
         test: Box::new(move |times, seed| {
             let (_folder, path) = placed(&noisy(&loaded, &files, times, seed)?);
@@ -223,7 +224,7 @@ fn of_job(name: &str, files: Files, truth: &[f64]) -> Result<Subject, FileError>
                 verdict,
                 trust,
                 ..
-            } = run(&LoadedJob::new(&path)?, |_| {}, || true)?;
+            } = run(&prepare(&path)?, |_| {}, || true)?;
             Ok(Found {
                 intervals,
                 learned: seen.learned,
@@ -236,14 +237,14 @@ fn of_job(name: &str, files: Files, truth: &[f64]) -> Result<Subject, FileError>
 
 /// The files of a job whose test has so many times the noise that it declares.
 fn noisy(
-    loaded: &LoadedJob,
+    loaded: &PreparedJob,
     files: &Files,
     times: f64,
     seed: u64,
 ) -> Result<Files, Box<dyn Error>> {
-    let mut data = loaded.data.clone();
+    let mut data = loaded.loaded.data.clone();
     let exact = Modes::from_measured(&data.frequencies_hz, &data.shapes)?;
-    let noise = (0..exact.len()).map(|mode| loaded.deviations(mode));
+    let noise = (0..exact.len()).map(|mode| loaded.loaded.deviations(mode));
     let noise: Vec<Noise> = noise
         .map(|noise| Noise {
             shape: times * noise.shape,

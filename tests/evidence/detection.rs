@@ -168,7 +168,7 @@ pub fn job_rates(kind: Kind, tests: u64) -> JobRates {
         rates.fit[0] += usize::from(place == Some(0));
         rates.fit[1] += usize::from(place.is_some_and(|place| place < 3));
         let first = loaded.analyze(&vec![1.0; parts.len()]).expect("modes");
-        let settings = loaded.job.correlation.for_modes(MODES).inner;
+        let settings = loaded.loaded.job.correlation.for_modes(MODES).inner;
         let largest = by_factor(first.model(), &settings).expect("factors");
         rates.factor += usize::from(largest[0].parameter == culprit);
     }

@@ -2,7 +2,8 @@
 
 use crate::common::known::delta_wing::{DeltaWing, correlation};
 use crate::common::known::weighed::Weighed;
-use corfem::job::preflight::{Finding, SeenModes, preflight_at_sensors};
+use corfem::job::Concern;
+use corfem::job::preflight::{Names, SeenModes, preflight_at_sensors};
 use corfem::method::error::Error;
 use corfem::method::model::DynamicModel;
 use corfem::method::modes::{Modes, solve};
@@ -72,7 +73,7 @@ impl Specimen {
     ///
     /// # Errors
     /// Those of [`solve`] and [`preflight_at_sensors`].
-    pub fn findings(&self) -> Result<Vec<Finding>, Error> {
+    pub fn findings(&self) -> Result<Vec<Concern>, Error> {
         let DynamicModel {
             stiffness,
             mass,
@@ -86,6 +87,7 @@ impl Specimen {
             directions: Vec::new(),
             modes,
         };
-        preflight_at_sensors(&seen, &self.test, &self.settings, &self.ranges)
+        let names = Names::default();
+        preflight_at_sensors(&seen, &self.test, &self.settings, &self.ranges, &names)
     }
 }

@@ -1,6 +1,7 @@
 //! What a report knows of a job, of a case and of a wing, and what its tables say of sensors, doubts and suspects.
 
 use crate::common::jobs::rods;
+use crate::common::jobs::run;
 use crate::common::known::delta_wing::DeltaWing;
 use crate::common::known::delta_wing::correlation::{first_model, measured_grids};
 use crate::common::known::planted;
@@ -11,7 +12,7 @@ use crate::presentation::figures::{results, wings};
 use crate::readers::job_errors::{placed, with};
 use crate::readers::job_prepared::prepared;
 use approx::assert_relative_eq;
-use corfem::job::{Spread, Study, Summary, Trust, Vary, run};
+use corfem::job::{Spread, Study, Summary, Trust, Vary};
 use corfem::method::analysis::Analysis;
 use corfem::method::error::Error;
 use corfem::method::modes::solve;
@@ -23,6 +24,7 @@ use corfem::present::tables::job::{places_table, study_table, suspects_table, tr
 use corfem::sparse::{BasisSize, ParameterMatrix};
 use corfem::weighted::comparison::Comparison;
 use nalgebra::{DMatrix, Vector3};
+use std::sync::Arc;
 
 fn at(x: f64) -> Vector3<f64> {
     Vector3::new(x, 0.0, 0.0)
@@ -47,7 +49,7 @@ fn a_job_has_the_rods_the_grids_and_the_wall_of_its_deck() {
         [(1, at(0.0)), (2, at(10.0)), (3, at(20.0)), (4, at(30.0))]
     );
     assert_eq!(subject.supports, [at(0.0)]);
-    assert_eq!(subject.ranges, prepared.source.whole.ranges());
+    assert_eq!(subject.ranges, prepared.loaded.source.whole.ranges());
     assert_eq!(
         subject.ranges,
         [
@@ -88,17 +90,15 @@ fn a_job_has_the_rods_the_grids_and_the_wall_of_its_deck() {
     );
     // Without elements the lines of the test are drawn, but for one with an end that stands nowhere.
     let mut lined = prepared.clone();
-    std::sync::Arc::make_mut(&mut lined.source)
-        .geometry
-        .elements
-        .clear();
-    lined.data.lines = vec![[1, 2], [2, 99]];
+    let own = Arc::make_mut(&mut lined.loaded);
+    Arc::make_mut(&mut own.source).geometry.elements.clear();
+    own.data.lines = vec![[1, 2], [2, 99]];
     assert_eq!(
         Report::from_job(&lined, None).expect("a subject").frame,
         [vec![at(0.0), at(10.0)]]
     );
     let mut turned = prepared.clone();
-    turned.placed[0].direction = 3;
+    Arc::make_mut(&mut turned.loaded).placed[0].direction = 3;
     let subject = Report::from_job(&turned, None).expect("a subject");
     assert_eq!(
         subject.sensors[0].direction,
@@ -125,7 +125,7 @@ fn a_job_has_converged_when_its_verdict_says_so_and_has_one_stage_when_it_was_st
             (finished.verdict.is_within, subject.converged()),
             (is_within, is_within)
         );
-        assert_eq!(subject.factors(), finished.factors);
+        assert_eq!(subject.factors(), finished.found.factors);
     }
     let prepared = prepared(&each);
     let finished = run(&prepared, |_| {}, || false).expect("it runs");
@@ -133,16 +133,17 @@ fn a_job_has_converged_when_its_verdict_says_so_and_has_one_stage_when_it_was_st
     assert_eq!((subject.best, subject.stages.len()), (Some(0), 1));
     assert_eq!(
         (subject.stages[0].stop.as_str(), &subject.stages[0].factors),
-        ("request", &finished.factors)
+        ("request", &finished.found.factors)
     );
 }
 
 #[test]
 fn sensors_that_point_the_other_way_askew_or_nowhere_are_told() {
     let mut prepared = prepared(&rods());
-    prepared.placed[1].sign = -1.0;
-    prepared.placed[2].axis = Vector3::new(0.6, 0.0, -0.8);
-    let table = places_table(&prepared, None).expect("a table");
+    let loaded = Arc::make_mut(&mut prepared.loaded);
+    loaded.placed[1].sign = -1.0;
+    loaded.placed[2].axis = Vector3::new(0.6, 0.0, -0.8);
+    let table = places_table(loaded, None).expect("a table");
     let directions: Vec<String> = table
         .rows
         .iter()
@@ -150,15 +151,15 @@ fn sensors_that_point_the_other_way_askew_or_nowhere_are_told() {
         .collect();
     assert_eq!(directions, ["x", "-x", "x (0.60 0.00 -0.80)"]);
     assert!(table.notes.is_empty());
-    prepared.placed.pop();
-    let table = places_table(&prepared, None).expect("a table");
+    loaded.placed.pop();
+    let table = places_table(loaded, None).expect("a table");
     assert_eq!(table.notes, ["1 of the test's 3 sensors are not used."]);
 }
 
 #[test]
 fn a_mode_is_doubtful_when_it_is_complex_beyond_the_limit() {
     let mut prepared = prepared(&rods());
-    prepared.data.phase_collinearity = vec![0.95, 0.94, 0.99];
+    Arc::make_mut(&mut prepared.loaded).data.phase_collinearity = vec![0.95, 0.94, 0.99];
     let doubts = text(&[trust_table(&Trust::before(&prepared).expect("an account"))]);
     assert!(
         doubts.contains("Test mode 2 is complex: its phase collinearity is 0.94."),
@@ -231,10 +232,14 @@ fn suspects_have_their_own_unlimited_factors() {
     ));
     let table = suspects_table(&prepared).expect("a table");
     let first = prepared.analyze(&[1.0; 3]).expect("analyzed");
-    let settings = prepared.job.correlation.for_modes(prepared.modes.len());
+    let settings = prepared
+        .loaded
+        .job
+        .correlation
+        .for_modes(prepared.modes.len());
     let slopes = corfem::job::localization::by_factor(first.model(), &settings.inner);
     let slopes = slopes.expect("factors");
-    let parameters = prepared.source.whole.parameters();
+    let parameters = prepared.loaded.source.whole.parameters();
     assert_eq!(table.rows.len(), 3);
     for row in &table.rows {
         let parameter = parameters

@@ -175,7 +175,7 @@ fn a_job_names_its_suspects() {
     let job = |name: &str| {
         let mut prepared = loaded(name);
         // The test as it would be were the fifth parameter alone wrong: a third of what it is in the model.
-        let mut factors = vec![1.0; prepared.source.whole.parameters().len()];
+        let mut factors = vec![1.0; prepared.loaded.source.whole.parameters().len()];
         factors[4] = 0.3;
         let right = prepared.analyze(&factors).expect("modes");
         let right = right.model().exact();
@@ -193,7 +193,7 @@ fn a_job_names_its_suspects() {
     // The building's ten modes are all there are; the wing's 25 of many give the culprit, and its factor roughly.
     for (name, has_all_modes) in [("building", true), ("wing", false)] {
         let (prepared, table) = job(name);
-        let parameters = prepared.source.whole.parameters();
+        let parameters = prepared.loaded.source.whole.parameters();
         assert_eq!(table.rows.len(), parameters.len().min(MOST_SUSPECTS));
         assert_eq!(
             table.notes.len(),

@@ -2,10 +2,11 @@
 
 use super::job_errors::placed;
 use crate::common::jobs::Files;
+use crate::common::jobs::{prepare, run};
 use crate::common::test_files::write_csv;
 use corfem::files::test_data::{Sensor, TestData};
 use corfem::job::verdict::Outcome;
-use corfem::job::{JobResult, LoadedJob, run};
+use corfem::job::{JobResult, Kind, PreparedJob};
 use corfem::present::report::Report;
 use corfem::present::tables::report::paired_table;
 use nalgebra::DMatrix;
@@ -94,9 +95,9 @@ fn towers([split, truth, angle]: [f64; 3]) -> Files {
     files.map(|(name, text)| (name.to_owned(), text)).to_vec()
 }
 
-fn corrected(files: &Files) -> (LoadedJob, JobResult) {
+fn corrected(files: &Files) -> (PreparedJob, JobResult) {
     let (_folder, path) = placed(files);
-    let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
     let result = run(&loaded, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
     (loaded, result)
 }
@@ -107,28 +108,20 @@ fn turned_shapes_of_close_modes_are_no_error() {
     for (split, angle) in [(1.0, 0.6), (1.0, 0.785), (1.002, -0.4)] {
         let (loaded, result) = corrected(&towers([split, 1.014, angle]));
         assert_eq!(loaded.together(), [vec![0, 1], vec![2, 3], vec![4, 5]]);
-        let doubts: Vec<_> = result
-            .trust
-            .concerns
-            .iter()
-            .filter(|concern| concern.is_doubt)
-            .collect();
-        assert!(doubts.is_empty(), "{doubts:?}");
-        let named = result
-            .trust
-            .concerns
-            .iter()
-            .any(|concern| concern.identifier == "close-modes-3-4");
+        assert!(!result.trust.has_doubt(), "{:?}", result.trust);
+        let mut close = result.trust.of(Kind::CloseModes);
+        let named = close.any(|concern| concern.identifier() == "close-modes-3-4");
         assert!(named && result.trust.is_clear());
         assert_eq!(result.verdict.outcome, Outcome::Tolerance);
         // Turned shapes leave nothing: every factor follows the frequencies of both towers.
         assert!(
             result
+                .found
                 .factors
                 .iter()
                 .all(|factor| (factor - 1.007).abs() < 0.01),
             "{:?}",
-            result.factors
+            result.found.factors
         );
         let report = Report::from_job(&loaded, Some(&result)).expect("a report");
         let agreement = report.agreement(report.corrected()).expect("agreement");
@@ -150,6 +143,6 @@ fn modes_that_the_test_tells_apart_are_compared_alone() {
         loaded.together(),
         (0..6).map(|mode| vec![mode]).collect::<Vec<_>>()
     );
-    let factors = &result.factors;
+    let factors = &result.found.factors;
     assert!((factors[1] / factors[0] - 1.2).abs() < 1e-3, "{factors:?}");
 }

@@ -2,9 +2,10 @@
 #![cfg(unix)]
 
 use super::job_errors::placed;
+use crate::common::jobs::prepare;
 use crate::common::jobs::{building, rods};
 use corfem::files::{MOST_BYTES, read_bytes};
-use corfem::job::LoadedJob;
+
 use std::fs::{File, remove_file};
 use std::os::unix::fs::symlink;
 use std::path::Path;
@@ -55,7 +56,7 @@ fn every_file_of_a_job_is_a_regular_file_of_bounded_length() {
             for kind in 0..4 {
                 let (folder, path) = placed(&files);
                 let reason = endless(&folder.path().join(name), kind);
-                let error = LoadedJob::new(&path).map(drop).expect_err(name).to_string();
+                let error = prepare(&path).map(drop).expect_err(name).to_string();
                 assert!(
                     error.starts_with("cannot read ") && error.contains(name),
                     "{error}"

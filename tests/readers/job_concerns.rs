@@ -4,17 +4,25 @@ use super::job_errors::{placed, with};
 use super::job_prepared::{measured_building, prepared};
 use crate::common::draws::Draws;
 use crate::common::jobs::{Files, torque_box};
+use crate::common::jobs::{prepare, run};
 use crate::common::test_files::write_csv;
 use corfem::files::test_data::{self, TestData};
-use corfem::job::{LoadedJob, Trust, run};
+use corfem::job::concern::Grade;
+use corfem::job::{Concern, Kind, LoadedJob, Trust};
+use std::sync::Arc;
 
 /// The identifiers of a job's doubts.
 fn doubts(files: &Files) -> Vec<String> {
     let (_folder, path) = placed(files);
-    let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
-    let (concerns, _) = loaded.concerns().unwrap_or_else(|error| panic!("{error}"));
-    let doubts = concerns.into_iter().filter(|concern| concern.is_doubt);
-    doubts.map(|concern| concern.identifier).collect()
+    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let trust = Trust::before(&loaded).unwrap_or_else(|error| panic!("{error}"));
+    let doubts = trust.all().iter().filter(|concern| concern.stands());
+    doubts.map(Concern::identifier).collect()
+}
+
+/// The number of rigid-body modes that an account tells.
+pub fn rigid_bodies(trust: &Trust) -> f64 {
+    trust.of(Kind::AnalysisModes).next().expect("said").measure[1]
 }
 
 /// A building of ten stories, and its test after an edit.
@@ -61,7 +69,7 @@ fn gross_mistakes_are_named_before_anything_fails() {
             .enumerate()
             .for_each(|(row, mut readings)| readings *= if row == 4 { 1e5 } else { 1.0 });
     }));
-    let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
     let error = run(&loaded, |_| {}, || true)
         .expect_err("refused")
         .to_string();
@@ -82,8 +90,8 @@ fn a_test_of_which_no_mode_resembles_one_of_the_model_is_doubtful() {
                 .apply(|reading| *reading = draws.between(-1.0, 1.0))
         });
         let (_folder, path) = placed(&unlike);
-        let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
-        if loaded.modes.len() < loaded.data.frequencies_hz.len() {
+        let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+        if loaded.modes.len() < loaded.loaded.data.frequencies_hz.len() {
             continue;
         }
         let found = doubts(&unlike);
@@ -104,11 +112,16 @@ fn a_test_half_of_whose_modes_have_partners_is_correlated_with_these() {
         }
     });
     let (_folder, path) = placed(&half);
-    let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!((loaded.modes.len(), loaded.unpaired.len()), (2, 2));
     let result = run(&loaded, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
-    let left = result.trust.not_compared.iter().map(|left| left.mode);
-    assert_eq!(left.collect::<Vec<_>>(), [3, 4]);
+    let left = result
+        .trust
+        .all()
+        .iter()
+        .filter(|left| left.grade() == Grade::LeftOut);
+    let left: Vec<String> = left.map(Concern::identifier).collect();
+    assert_eq!(left, ["not-compared-3", "not-compared-4"]);
 }
 
 #[test]
@@ -171,9 +184,9 @@ fn a_motion_hardly_told_from_a_rigid_body_mode_is_named_by_its_row() {
     // Two such floors on nothing are told from it.
     files[1].1 = HARDLY_HELD.replace(".0000005", "");
     let (_folder, path) = placed(&files);
-    let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
     let trust = Trust::before(&loaded).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(trust.rigid_body_modes, 1);
+    assert_eq!(rigid_bodies(&trust), 1.0);
 }
 
 /// Below the rounding of a double it is a rigid-body mode that is doubtful, above it a vibration.
@@ -186,11 +199,9 @@ fn a_motion_hardly_resisted_counts_as_what_it_is_called() {
         let mut files = measured_building(2, 1);
         files[1].1 = HARDLY_HELD.replace("100000.0000005", own);
         let (_folder, path) = placed(&files);
-        let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
-        let (concerns, _) = loaded.concerns().unwrap_or_else(|error| panic!("{error}"));
-        let mut concerns = concerns.iter();
-        let weak = concerns.find(|concern| concern.identifier.starts_with("weak-"));
-        let words = &weak.expect("a concern").words;
+        let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+        let trust = Trust::before(&loaded).unwrap_or_else(|error| panic!("{error}"));
+        let words = trust.of(Kind::Weak).next().expect("a concern").words();
         assert!(words.ends_with(&format!("counts as a {kind}.")), "{words}");
     }
 }
@@ -220,9 +231,9 @@ fn deviations_in_percent_are_named_in_every_test() {
 #[test]
 fn places_in_another_unit_are_named_wherever_the_sensors_are() {
     let mut draws = Draws(6);
-    let loaded = prepared(&torque_box());
+    let loaded = prepared(&torque_box()).loaded;
     for test in 0..30 {
-        let mut few = loaded.clone();
+        let mut few = LoadedJob::clone(&loaded);
         while few.placed.len() > 3 && draws.unit() < 0.8 {
             few.placed.remove(draws.below(few.placed.len()));
         }
@@ -242,15 +253,14 @@ fn places_in_another_unit_are_named_wherever_the_sensors_are() {
 #[test]
 fn places_in_another_unit_are_named() {
     let with_unit = |factor: f64| {
-        let mut loaded = prepared(&torque_box());
+        let mut prepared = prepared(&torque_box());
+        let loaded = Arc::make_mut(&mut prepared.loaded);
         for sensor in &mut loaded.placed {
             sensor.distance = Some(0.0);
             loaded.data.sensors[sensor.row].place = sensor.place.map(|place| factor * place);
         }
-        let (concerns, _) = loaded.concerns().unwrap_or_else(|error| panic!("{error}"));
-        concerns
-            .into_iter()
-            .any(|concern| concern.is_doubt && concern.identifier == "unit-of-places")
+        let trust = Trust::before(&prepared).unwrap_or_else(|error| panic!("{error}"));
+        trust.of(Kind::UnitOfPlaces).any(Concern::stands)
     };
     assert!(with_unit(25.4));
     assert!(!with_unit(1.0));

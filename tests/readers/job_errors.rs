@@ -1,11 +1,13 @@
 //! Mistakes in jobs: every one is named with its entry, its value and what would be right.
 
 use crate::common::jobs::{Files, building, rods};
+use crate::common::jobs::{prepare, run};
 use crate::common::tolerances::{ROUND_OFF, WEIGHTED_FACTOR};
-use corfem::job::{LoadedJob, Study, Trust, Vary, run};
+use corfem::job::{Kind, LeftOut, PreparedJob, Study, Trust, Vary};
 use corfem::method::analysis::Analysis;
 use corfem::method::outer_loop::Settings;
 use std::path::PathBuf;
+use std::sync::Arc;
 use tempfile::TempDir;
 
 /// A job in a folder of its own.
@@ -33,7 +35,7 @@ pub fn with(mut files: Files, file: &str, old: &str, new: &str) -> Files {
 /// What is said of a job, without its folder.
 pub fn said(files: &Files) -> String {
     let (folder, path) = placed(files);
-    let error = LoadedJob::new(&path)
+    let error = prepare(&path)
         .and_then(|prepared| run(&prepared, |_| {}, || true))
         .map(drop);
     let error = error.expect_err("a mistake").to_string();
@@ -56,7 +58,7 @@ const COMPARE: &str = "[compare]";
 fn the_small_jobs_are_right_before_their_mistakes() {
     for files in [rods(), building()] {
         let (_folder, path) = placed(&files);
-        LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+        prepare(&path).unwrap_or_else(|error| panic!("{error}"));
     }
 }
 
@@ -101,10 +103,7 @@ fn a_job_names_its_model_once_and_whole() {
     );
     let (folder, path) = placed(&rods());
     std::fs::remove_file(&path).expect("removed");
-    let missing = LoadedJob::new(&path)
-        .map(drop)
-        .expect_err("no job")
-        .to_string();
+    let missing = prepare(&path).map(drop).expect_err("no job").to_string();
     assert!(
         missing.starts_with(&format!(
             "cannot read {}/job.toml: no such file",
@@ -234,8 +233,9 @@ fn bounds_on_sizes_are_bounds_on_the_factor() {
         "elements = [3]",
     );
     let (_folder, path) = placed(&files);
-    let range = LoadedJob::new(&path)
+    let range = prepare(&path)
         .unwrap_or_else(|error| panic!("{error}"))
+        .loaded
         .source
         .whole
         .ranges()[0]
@@ -247,7 +247,7 @@ fn bounds_on_sizes_are_bounds_on_the_factor() {
     );
     let narrow = with(files, "job.toml", "lower_size = 0.06", "lower_size = 0.01");
     let (_folder, path) = placed(&narrow);
-    let range = LoadedJob::new(&path).expect("a job").source.whole.ranges()[0].expect("a range");
+    let range = prepare(&path).expect("a job").loaded.source.whole.ranges()[0].expect("a range");
     assert_eq!(range.lower, 0.5);
 }
 
@@ -255,9 +255,11 @@ fn bounds_on_sizes_are_bounds_on_the_factor() {
 fn properties_materials_masses_and_each_say_what_they_scale() {
     let members = |old: &str, new: &str| {
         let (_folder, path) = placed(&with(rods(), "job.toml", old, new));
-        let source = LoadedJob::new(&path)
+        let source = prepare(&path)
             .unwrap_or_else(|error| panic!("{new}: {error}"))
-            .source;
+            .loaded
+            .source
+            .clone();
         let names: Vec<String> = source
             .whole
             .parameters()
@@ -317,11 +319,17 @@ fn point_masses_count_once_and_are_in_the_corrected_deck() {
             deck,
         );
         let (_folder, path) = placed(&files);
-        LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"))
+        prepare(&path).unwrap_or_else(|error| panic!("{error}"))
     };
     let given = "CMASS2,12,1.,2,1";
     let (once, twice) = (masses("[12]", given), masses("[12, \"12-12\", 12]", given));
-    let heavier = |job: &LoadedJob| job.source.whole.at(&[1.0, 1.25]).expect("its matrices");
+    let heavier = |job: &PreparedJob| {
+        job.loaded
+            .source
+            .whole
+            .at(&[1.0, 1.25])
+            .expect("its matrices")
+    };
     assert_eq!(heavier(&once), heavier(&twice));
     for (deck, corrected) in [
         (given, "CMASS2,12,1.25,2,1"),
@@ -336,8 +344,9 @@ fn point_masses_count_once_and_are_in_the_corrected_deck() {
         ),
     ] {
         let job = masses("[12]", deck);
-        let first = &job.source.deck.as_ref().expect("a deck").0;
+        let first = &job.loaded.source.deck.as_ref().expect("a deck").0;
         let text = job
+            .loaded
             .corrected_deck(&[1.25, 1.0])
             .expect("it rewrites")
             .expect("a deck");
@@ -353,9 +362,9 @@ fn a_job_without_parameters_is_looked_at_and_not_run() {
     let job = &mut files[0].1;
     job.truncate(job.find("[[parameter]]").expect("parameters"));
     let (_folder, path) = placed(&files);
-    let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(
-        (loaded.test.len(), loaded.parameter_names().count()),
+        (loaded.test.len(), loaded.loaded.parameter_names().count()),
         (3, 0)
     );
     let none = "a job needs at least one [[parameter]]";
@@ -569,10 +578,10 @@ fn a_test_mode_that_is_none_of_the_models_is_left_out_and_named() {
         .map(|(line, more)| format!("{line}{more}\n"))
         .collect();
     let (_folder, path) = placed(&files);
-    let prepared = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    let prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(prepared.modes, [0, 1, 2]);
     assert!(
-        matches!(prepared.unpaired[..], [(3, assurance)] if assurance > 0.0 && assurance <= 1.0)
+        matches!(prepared.unpaired[..], [LeftOut { mode: 3, assurance }] if assurance > 0.0 && assurance <= 1.0)
     );
 }
 
@@ -612,19 +621,13 @@ fn weights_are_one_a_test_mode_and_some_may_be_zero() {
         "[compare]\nshape_weights = [0, 0, 0]",
     );
     let (_folder, path) = placed(&frequencies);
-    let prepared = LoadedJob::new(&path).expect("a job");
+    let prepared = prepare(&path).expect("a job");
     let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
     // Without shapes the frequencies come as close as two factors allow.
-    let [first, last] =
-        [&finished.first, &finished.last].map(|model| model.model().exact().errors.frequency);
+    let [first, last] = [&finished.found.first, &finished.found.last]
+        .map(|model| model.model().exact().errors.frequency);
     assert!(last < first, "{last} after {first}");
-    assert!(
-        prepared
-            .weights()
-            .expect("weights")
-            .iter()
-            .all(|weight| weight.shape == 0.0)
-    );
+    assert!(prepared.weights().iter().all(|weight| weight.shape == 0.0));
 }
 
 /// By the paper's rule: ones change nothing, and what a mode of weight zero is measured as is in no error.
@@ -636,9 +639,12 @@ fn the_papers_error_sum_takes_the_weights_of_a_job() {
     };
     let ran = |files: &Files| {
         let (_folder, path) = placed(files);
-        let prepared = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+        let prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
         let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
-        (finished.first.model().exact().errors, finished.factors)
+        (
+            finished.found.first.model().exact().errors,
+            finished.found.factors,
+        )
     };
     let ones = ran(&paper("shape_weights = [1, 1, 1]"));
     assert_eq!(ones, ran(&paper("")));
@@ -691,8 +697,10 @@ fn the_papers_error_sum_takes_the_weights_of_a_job() {
 fn what_a_deck_has_and_its_model_has_not_is_a_remark() {
     let remarks = |files: &Files| {
         let (_folder, path) = placed(files);
-        let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
-        Trust::before(&loaded).expect("an account").ignored
+        let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+        Trust::before(&loaded)
+            .expect("an account")
+            .about(Kind::NotUsed)
     };
     let loads = with(rods(), "model.bdf", "MAT1,1,", "FORCE,9,4,,1.,1.\nMAT1,1,");
     assert_eq!(remarks(&loads), [""; 0]);
@@ -714,13 +722,11 @@ fn what_a_deck_has_and_its_model_has_not_is_a_remark() {
 #[test]
 fn a_sensor_left_out_for_a_mode_without_it_is_a_remark() {
     let (_folder, path) = placed(&rods());
-    let mut loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
-    loaded.data.incomplete = vec!["7 y".to_owned(), "9 z".to_owned()];
-    let (all, _) = loaded.concerns().expect("concerns");
-    let found = all
-        .iter()
-        .find(|concern| concern.identifier == "not-in-every-mode");
-    let found = found.map(|concern| (concern.is_doubt, &concern.words[..]));
+    let mut prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let data = &mut Arc::make_mut(&mut prepared.loaded).data;
+    data.incomplete = vec!["7 y".to_owned(), "9 z".to_owned()];
+    let trust = Trust::before(&prepared).expect("concerns");
+    let found = trust.of(Kind::NotInEveryMode).next().expect("said");
     let words = "Sensors left out because some mode of the file has no value at them: 7 y, 9 z.";
-    assert_eq!(found, Some((false, words)));
+    assert_eq!((found.stands(), &found.words()[..]), (false, words));
 }

@@ -1,8 +1,8 @@
 //! Models of a job that are matrices: which row is which grid and direction, and mistakes in saying so.
 
 use super::job_errors::{placed, said, with};
+use crate::common::jobs::prepare;
 use crate::common::jobs::{Files, building, rods};
-use corfem::job::LoadedJob;
 
 #[test]
 fn rows_of_matrices_are_a_table_of_grids_and_directions() {
@@ -34,8 +34,9 @@ fn rows_of_matrices_are_a_table_of_grids_and_directions() {
         "\n# the second floor\n2,x,",
     ));
     assert_eq!(
-        LoadedJob::new(&path)
+        prepare(&path)
             .unwrap_or_else(|error| panic!("{error}"))
+            .loaded
             .source
             .motions
             .len(),
@@ -113,8 +114,8 @@ fn named_matrices(mass: &[(usize, f64)]) -> Files {
 #[test]
 fn matrices_that_name_their_rows_are_put_into_the_order_of_the_stiffness() {
     let (_folder, path) = placed(&named_matrices(&[(4, 3.0), (3, 2.0)]));
-    let prepared = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
-    let (_, mass) = prepared.source.whole.at(&[1.0]).expect("matrices");
+    let prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let (_, mass) = prepared.loaded.source.whole.at(&[1.0]).expect("matrices");
     assert_eq!(
         mass.entries(),
         [(1, 1, 2.0), (2, 2, 3.0)],
@@ -172,9 +173,11 @@ fn a_table_of_rows_orders_matrices_that_name_theirs() {
         .for_each(|(_, text)| text.clone_from(&rows));
     files.push(("mass.pch".to_owned(), format!("DMIG,M,0,6,2,0\n{dmig}")));
     let (_folder, path) = placed(&files);
-    let source = LoadedJob::new(&path)
+    let source = prepare(&path)
         .unwrap_or_else(|error| panic!("{error}"))
-        .source;
+        .loaded
+        .source
+        .clone();
     let (_, mass) = source.whole.at(&[1.0; 10]).expect("matrices");
     assert_eq!(
         mass.entries()

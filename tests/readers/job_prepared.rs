@@ -3,21 +3,22 @@
 use super::job_errors::{placed, said, with};
 use super::test_data_axes::{PART, matrix, row};
 use super::test_data_universal::{dataset, real_mode};
+use crate::common::jobs::prepare;
 use crate::common::jobs::{Files, building, rods};
 use crate::common::test_files::write_csv;
 use crate::common::tolerances::ROUND_OFF;
 use crate::common::whole_models::shear_building;
 use corfem::files::matrices::write_matrix_market;
 use corfem::files::test_data::{Sensor, TestData};
-use corfem::job::LoadedJob;
+use corfem::job::PreparedJob;
 use corfem::method::analysis::Analysis;
 use corfem::present::report::Report;
 use nalgebra::{DMatrix, dmatrix};
 
 /// A job that has no mistake, ready to run.
-pub fn prepared(files: &Files) -> LoadedJob {
+pub fn prepared(files: &Files) -> PreparedJob {
     let (_folder, path) = placed(files);
-    LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"))
+    prepare(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A building whose stories are scaled as one, with its lowest modes measured at every floor.
@@ -57,8 +58,8 @@ pub fn measured_building(stories: usize, modes: usize) -> Files {
 
 #[test]
 fn a_job_without_a_title_is_called_by_its_file() {
-    assert_eq!(prepared(&rods()).title, "job");
-    assert_eq!(prepared(&building()).title, "ten-story building");
+    assert_eq!(prepared(&rods()).loaded.title, "job");
+    assert_eq!(prepared(&building()).loaded.title, "ten-story building");
 }
 
 /// Half as many again as test modes, four more at least, and no more than there are.
@@ -148,8 +149,14 @@ fn a_sensor_of_rotations_measures_a_rotation() {
         _ => (name, text),
     });
     let (plain, turned) = (prepared(&building()), prepared(&turned.collect()));
-    assert!(turned.placed.iter().all(|sensor| sensor.direction == 3));
-    assert_eq!(plain.sensors, turned.sensors);
+    assert!(
+        turned
+            .loaded
+            .placed
+            .iter()
+            .all(|sensor| sensor.direction == 3)
+    );
+    assert_eq!(plain.loaded.sensors, turned.loaded.sensors);
 }
 
 /// Axes of the test that are oblique to the model's: a sensor sees the part of each motion that is along its own.
@@ -172,7 +179,7 @@ fn a_sensor_reads_the_part_of_a_motion_along_its_axis() {
     };
     (files[1].1, files[2].1) = (diagonal(1e4, 2e4), diagonal(1.0, 1.0));
     (files[3].1, files[4].1) = ("1,x\n1,y\n".to_owned(), test);
-    let sensors = prepared(&files).sensors.dense();
+    let sensors = prepared(&files).loaded.sensors.dense();
     assert!((sensors - dmatrix![0.6, 0.8; -0.8, 0.6]).amax() < ROUND_OFF);
 }
 
@@ -185,7 +192,10 @@ fn a_sensor_may_be_as_far_as_its_job_allows_and_is_placed_once() {
         "[sensors]\nby = \"nearest\"\ndistance = 1.0",
     );
     let far = prepared(&with(nearest, "test.csv", "+,10.0,", "+,11.0,"));
-    assert_eq!((far.placed[0].grid, far.placed[0].distance), (2, Some(1.0)));
+    assert_eq!(
+        (far.loaded.placed[0].grid, far.loaded.placed[0].distance),
+        (2, Some(1.0))
+    );
     let no_number = with(
         rods(),
         "job.toml",

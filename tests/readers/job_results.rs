@@ -2,6 +2,7 @@
 
 use super::job_errors::{placed, with};
 use super::job_prepared::prepared;
+use crate::common::jobs::run;
 use crate::common::jobs::{Files, building, rods};
 use crate::common::test_files::write_csv;
 use crate::common::tolerances::{
@@ -9,7 +10,7 @@ use crate::common::tolerances::{
 };
 use corfem::files::deck;
 use corfem::job::verdict::Outcome;
-use corfem::job::{History, JobResult, Study, Vary, run};
+use corfem::job::{Concern, History, JobResult, Study, Vary};
 use corfem::method::modes::Modes;
 use corfem::method::step::Bounds;
 use corfem::present::page::report_page;
@@ -48,11 +49,11 @@ fn exact(files: Files) -> Files {
 #[test]
 fn every_rod_is_found_within_tolerance() {
     let found = ran(&with(rods(), "job.toml", B, EACH));
-    for (factor, truth) in found.factors.iter().zip([0.8, 1.1, 1.0]) {
+    for (factor, truth) in found.found.factors.iter().zip([0.8, 1.1, 1.0]) {
         assert!(
             (factor / truth - 1.0).abs() < WEIGHTED_FACTOR,
             "{:?}",
-            found.factors
+            found.found.factors
         );
     }
     assert_eq!(
@@ -65,7 +66,7 @@ fn every_rod_is_found_within_tolerance() {
 fn several_starts_name_their_minima_in_every_output() {
     let files = with(rods(), "job.toml", "[compare]", "[compare]\nstarts = 4");
     let found = ran(&files);
-    let report = Report::from_job(&found.loaded, Some(&found)).expect("a report");
+    let report = Report::from_job(&found.found.prepared, Some(&found)).expect("a report");
     let table = minima_table(&report).expect("minima");
     let labels: Vec<&str> = table.rows.iter().map(|row| &row.label[..]).collect();
     assert_eq!(labels, ["chi-squared", "starts", "a", "b"]);
@@ -77,7 +78,10 @@ fn several_starts_name_their_minima_in_every_output() {
         .iter()
         .map(|of| of["starts"].as_u64().expect("a count"));
     assert_eq!((minima.len(), starts.sum::<u64>()), (1, 4));
-    assert_eq!(minima[0]["factors"][0].as_f64(), Some(found.factors[0]));
+    assert_eq!(
+        minima[0]["factors"][0].as_f64(),
+        Some(found.found.factors[0])
+    );
     let misfit = found.misfit.chi_squared;
     let chi_squared = minima[0]["chi_squared"].as_f64().expect("a number");
     assert!((chi_squared / misfit - 1.0).abs() < MATRIX_ROUND_OFF);
@@ -85,10 +89,10 @@ fn several_starts_name_their_minima_in_every_output() {
     assert!(page.contains("Minima that noise allows"));
     assert!(text.contains("0 starts failed.") && document["failed_starts"] == 0);
     let mut failing = found;
-    if let History::GaussNewton(Some((_, _, failed))) = &mut failing.history {
-        *failed = 2;
+    if let History::GaussNewton(Some(steps)) = &mut failing.found.history {
+        steps.failed = 2;
     }
-    let report = Report::from_job(&failing.loaded, Some(&failing)).expect("a report");
+    let report = Report::from_job(&failing.found.prepared, Some(&failing)).expect("a report");
     let table = minima_table(&report).expect("minima");
     assert!(render::text(std::slice::from_ref(&table)).contains("2 starts failed."));
     assert_eq!(
@@ -98,7 +102,7 @@ fn several_starts_name_their_minima_in_every_output() {
     let page = report_page(&report, &[table], "corfem correlate job.toml", "").expect("a page");
     assert!(page.contains("2 starts failed."));
     let one = ran(&rods());
-    let report = Report::from_job(&one.loaded, Some(&one)).expect("a report");
+    let report = Report::from_job(&one.found.prepared, Some(&one)).expect("a report");
     assert!(minima_table(&report).is_none());
 }
 
@@ -107,14 +111,14 @@ fn several_starts_name_their_minima_in_every_output() {
 fn a_verdict_tells_what_is_good_from_what_cannot_be_better() {
     let outcome = |files: &Files| {
         let found = ran(files);
-        let History::GaussNewton(Some((run, ..))) = found.history else {
+        let History::GaussNewton(Some(steps)) = found.found.history else {
             panic!("by steps")
         };
         assert_eq!(
             found.verdict.is_within,
             found.verdict.outcome == Outcome::Tolerance
         );
-        (found.verdict.outcome, run.iterations.is_empty())
+        (found.verdict.outcome, steps.best.iterations.is_empty())
     };
     assert_eq!(outcome(&exact(rods())), (Outcome::Tolerance, true));
     assert_eq!(
@@ -132,7 +136,7 @@ fn intervals(found: &JobResult) -> Vec<Option<Bounds>> {
 fn no_interval_stands_where_the_papers_rule_stops() {
     let paper = with(rods(), "job.toml", "gauss_newton", "paper");
     let found = ran(&paper);
-    assert!(matches!(found.history, History::Paper(_)));
+    assert!(matches!(found.found.history, History::Paper(_)));
     assert!(intervals(&found).iter().all(Option::is_none));
 }
 
@@ -155,14 +159,14 @@ fn a_prior_is_the_parameters_own_or_that_of_all() {
         A,
         "elements = [1]\nprior_deviation = 1e-6",
     ));
-    assert_eq!(found.loaded.source.priors, [1e-6, 0.5, 0.5]);
+    assert_eq!(found.found.prepared.loaded.source.priors, [1e-6, 0.5, 0.5]);
     let seen = &found.seen[1];
-    assert!((found.factors[0] - 1.0).abs() < 1e-6 && seen.learned[0] < 1e-3);
+    assert!((found.found.factors[0] - 1.0).abs() < 1e-6 && seen.learned[0] < 1e-3);
     for e in [1, 2] {
         let kept = (seen.deviations[e] / 0.5).powi(2);
         assert!((seen.learned[e] - (1.0 - kept)).abs() < ROUND_OFF && seen.learned[e] > 0.9);
     }
-    let remarks = found.trust.all().into_iter().map(|concern| concern.words);
+    let remarks = found.trust.all().iter().map(Concern::words);
     let said = "Known more from the prior than from the test: a.";
     assert!(remarks.into_iter().any(|words| words == said));
     assert!(found.intervals[0].is_none());
@@ -173,8 +177,7 @@ fn a_prior_is_the_parameters_own_or_that_of_all() {
 fn own_weights_and_the_papers_settings_are_said() {
     let words = |entries: &str| -> String {
         let files = with(rods(), "job.toml", "[compare]", entries);
-        let all = ran(&files).trust.all().into_iter();
-        all.map(|concern| concern.words).collect()
+        ran(&files).trust.all().iter().map(Concern::words).collect()
     };
     for (entries, divides, unused) in [
         ("[compare]", false, false),
@@ -218,14 +221,18 @@ fn the_chi_squared_of_a_right_model_is_its_degrees_of_freedom_in_the_mean() {
         "[compare]\nmethod = \"gauss_newton\"\n",
     );
     let loaded = prepared(&files);
-    let exact = Modes::from_measured(&loaded.data.frequencies_hz, &loaded.data.shapes).unwrap();
+    let exact = Modes::from_measured(
+        &loaded.loaded.data.frequencies_hz,
+        &loaded.loaded.data.shapes,
+    )
+    .unwrap();
     let noise: Vec<_> = (0..exact.len())
-        .map(|mode| loaded.deviations(mode))
+        .map(|mode| loaded.loaded.deviations(mode))
         .collect();
     let [mut chi_squared, mut degrees] = [0.0; 2];
     for seed in 0..300 {
         let noisy = with_noise_by_mode(&exact, &noise, seed).unwrap();
-        let mut data = loaded.data.clone();
+        let mut data = loaded.loaded.data.clone();
         (data.frequencies_hz, data.shapes) = (noisy.frequencies_hz(), noisy.shapes().clone());
         let mut files = files.clone();
         let test = files.iter_mut().find(|(name, _)| name == "test.csv");
@@ -250,8 +257,10 @@ fn a_stopped_correlation_gives_the_best_that_it_has_told() {
         };
         let found = run(&prepared, |words| told.push(words.to_owned()), go_on)
             .unwrap_or_else(|error| panic!("{error}"));
-        assert!(found.trust.is_interrupted && matches!(found.history, History::GaussNewton(None)));
-        let sum = residuals(&found.last, &prepared.weights().expect("weights"))
+        assert!(
+            found.found.is_interrupted && matches!(found.found.history, History::GaussNewton(None))
+        );
+        let sum = residuals(&found.found.last, &prepared.weights())
             .expect("residuals")
             .norm_squared();
         assert_eq!(told.last(), Some(&format!("sum of squares {sum:.4e}")));
@@ -268,15 +277,18 @@ fn a_stopped_correlation_gives_the_best_that_it_has_told() {
     };
     let (count, first) = stopped_after(1);
     assert_eq!(
-        (count, &first.factors[..], first.verdict.outcome),
+        (count, &first.found.factors[..], first.verdict.outcome),
         (1, &[1.0; 3][..], Outcome::Request)
     );
     let (count, second) = stopped_after(2);
-    assert!(count > 1 && second.factors != first.factors, "{count} told");
+    assert!(
+        count > 1 && second.found.factors != first.found.factors,
+        "{count} told"
+    );
     let exact = self::prepared(&exact(rods()));
     let found = run(&exact, |_| {}, || false).expect("it runs");
     assert_eq!(
-        (found.trust.is_interrupted, found.verdict.outcome),
+        (found.found.is_interrupted, found.verdict.outcome),
         (true, Outcome::Tolerance)
     );
 }
@@ -292,7 +304,7 @@ fn a_pass_of_the_papers_loop_is_told_by_its_errors_in_percent() {
     ));
     let found = run(&prepared, |words| told.push(words.to_owned()), || true)
         .unwrap_or_else(|error| panic!("{error}"));
-    let History::Paper(run) = found.history else {
+    let History::Paper(run) = found.found.history else {
         panic!("by the paper's loops")
     };
     assert_eq!(told.len(), run.passes.len());
@@ -373,6 +385,7 @@ fn a_corrected_deck_has_factors_in_sizes_and_densities() {
     );
     let corrected = |files: &Files, factors: &[f64]| {
         let bytes = prepared(files)
+            .loaded
             .corrected_deck(factors)
             .expect("it can be written")
             .expect("a deck");

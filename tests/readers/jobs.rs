@@ -6,13 +6,14 @@ use crate::common::jobs::{
     Files, STORIES, building, delta_wing, folder_of, loaded, rods, torque_box, torque_box_truth,
     worked,
 };
+use crate::common::jobs::{prepare, run};
 use crate::common::known::delta_wing::correlation::GROUPS;
 use crate::common::test_files::write_universal;
 use crate::common::tolerances::{
     CONDENSED_GAGES, JOB_BOX, JOB_RESULTS, JOB_WING, PLACED_WITHIN, WEIGHTED_FACTOR,
     WEIGHTED_STORY, WHOLE_SHAPE,
 };
-use corfem::job::{History, JobResult, LoadedJob, Method, run};
+use corfem::job::{History, JobResult, Method, PreparedJob};
 use corfem::method::analysis::Analysis;
 use corfem::method::error::Error;
 use corfem::method::model::Model;
@@ -24,6 +25,7 @@ use corfem::present::tables::report::{factor_table, history_table, paired_table,
 use corfem::weighted::comparison::Comparison;
 use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
 use nalgebra::Vector3;
+use std::sync::Arc;
 
 const NUMBERS: Numbers = Numbers {
     relative: JOB_RESULTS,
@@ -54,19 +56,19 @@ fn check_files(name: &str, files: &Files) {
     }
 }
 
-fn finished(name: &str) -> (LoadedJob, &'static JobResult) {
+fn finished(name: &str) -> (PreparedJob, &'static JobResult) {
     let (prepared, finished) = (loaded(name), worked(name));
     let subject = Report::from_job(&prepared, Some(finished)).expect("a subject");
     let mut tables = vec![
         trust_table(&finished.trust),
-        places_table(&prepared, Some(finished)).expect("sensors"),
+        places_table(&prepared.loaded, Some(finished)).expect("sensors"),
     ];
     tables.extend([
         paired_table(&subject).expect("modes"),
         factor_table(&subject),
         history_table(&subject),
     ]);
-    tables.push(seen_table(&prepared, finished).expect("a table"));
+    tables.push(seen_table(finished));
     let text = render::text(&tables);
     assert!(
         text.lines().all(|line| line.chars().count() <= 100),
@@ -80,7 +82,7 @@ fn finished(name: &str) -> (LoadedJob, &'static JobResult) {
 #[test]
 fn worked_jobs_take_few_exact_analyses() {
     for (name, most) in [("box", 4), ("building", 2), ("wing", 3)] {
-        let taken = worked(name).analyses;
+        let taken = worked(name).found.analyses;
         assert!(taken <= most, "{name}: {taken}");
     }
 }
@@ -89,13 +91,13 @@ fn worked_jobs_take_few_exact_analyses() {
 fn condensed(
     name: &str,
 ) -> (
-    LoadedJob,
-    impl Fn(&LoadedJob, &[f64]) -> Result<Model, Error>,
+    PreparedJob,
+    impl Fn(&PreparedJob, &[f64]) -> Result<Model, Error>,
 ) {
     let prepared = loaded(name);
-    let analyze = |job: &LoadedJob, factors: &[f64]| {
-        let whole = &job.source.whole;
-        analyze_condensed(whole, factors, &job.sensors, &job.test, None)
+    let analyze = |job: &PreparedJob, factors: &[f64]| {
+        let whole = &job.loaded.source.whole;
+        analyze_condensed(whole, factors, &job.loaded.sensors, &job.test, None)
     };
     (prepared, analyze)
 }
@@ -105,7 +107,7 @@ fn condensed(
 fn condensed_to_five_floors_the_building_is_not_found() {
     let (job, analyze) = condensed("building");
     let analyze = |factors: &[f64]| analyze(&job, factors);
-    let settings = job.job.correlation.for_modes(job.modes.len());
+    let settings = job.loaded.job.correlation.for_modes(job.modes.len());
     let found = correlate(analyze, &[None; 10], &settings, |_, _| true).expect("it runs");
     // The error sum that nine modes of the same errors would have.
     let errors = &found.best_check().errors;
@@ -136,12 +138,12 @@ fn sensors_along_axes_of_their_own_find_the_same_rods() {
     }
     let path = folder.path().join("job.toml");
     let finished = || {
-        let prepared = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+        let prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
         let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
-        (prepared, finished.factors)
+        (prepared, finished.found.factors)
     };
     let (prepared, expected) = finished();
-    let text = write_universal(&prepared.data);
+    let text = write_universal(&prepared.loaded.data);
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     let nodes = lines
         .iter()
@@ -176,6 +178,7 @@ fn sensors_along_axes_of_their_own_find_the_same_rods() {
     .expect("written");
     let (prepared, found) = finished();
     let directions: Vec<usize> = prepared
+        .loaded
         .placed
         .iter()
         .map(|sensor| sensor.direction)
@@ -187,12 +190,12 @@ fn sensors_along_axes_of_their_own_find_the_same_rods() {
             "{found:?} {expected:?}"
         );
     }
-    let dense = prepared.sensors.dense();
+    let dense = prepared.loaded.sensors.dense();
     assert_eq!(
         (0..3).map(|row| dense[(row, row)]).collect::<Vec<_>>(),
         [-1.0, 1.0, 1.0]
     );
-    let table = places_table(&prepared, None).expect("a table");
+    let table = places_table(&prepared.loaded, None).expect("a table");
     let own: Vec<String> = table
         .rows
         .iter()
@@ -219,6 +222,7 @@ fn the_first_model_is_the_one_that_was_prepared() {
     let modes_of = |comparison: &Comparison| comparison.model().exact().modes.clone();
     assert_eq!((modes_of(&first).len(), modes_of(&other).len()), (10, 7));
     let near = fewer
+        .loaded
         .source
         .whole
         .modes(&[1.0; 10], 10)
@@ -226,13 +230,13 @@ fn the_first_model_is_the_one_that_was_prepared() {
         .vibrations;
     assert_eq!(modes_of(&first).frequencies_hz(), near.frequencies_hz());
     let mut by_paper = prepared.clone();
-    by_paper.job.compare.method = Method::Paper;
+    Arc::make_mut(&mut by_paper.loaded).job.compare.method = Method::Paper;
     let finished = run(&by_paper, |_| {}, || true).expect("it runs");
-    let History::Paper(run) = &finished.history else {
+    let History::Paper(run) = &finished.found.history else {
         panic!("by the paper's loops")
     };
     // One a pass; the first is that of the start, and the last that of the best pass.
-    assert_eq!(finished.analyses, 1 + run.passes.len() + 1);
+    assert_eq!(finished.found.analyses, 1 + run.passes.len() + 1);
 }
 
 /// All that the wing's sensors do not see is condensed well: both ways find the same.
@@ -243,11 +247,17 @@ fn condensed_the_wing_has_the_same_gages() {
         |factors| Ok::<_, Error>(Comparison::from(&analyze(&job, factors)?)),
         &[1.0; GROUPS.len()],
         &[None; GROUPS.len()],
-        &job.weights().expect("weights"),
+        &job.weights(),
         &WeightedSettings::default(),
     )
     .expect("it runs");
-    for (a, b) in finished("wing").1.factors.iter().zip(&condensed.factors) {
+    for (a, b) in finished("wing")
+        .1
+        .found
+        .factors
+        .iter()
+        .zip(&condensed.factors)
+    {
         assert!((a / b - 1.0).abs() < CONDENSED_GAGES, "{a} {b}");
     }
 }
@@ -256,8 +266,8 @@ fn condensed_the_wing_has_the_same_gages() {
 fn the_building_is_found_story_by_story_from_five_floors() {
     check_files("building", &building());
     let (_, found) = finished("building");
-    assert!(found.analyses <= 6, "{}", found.analyses);
-    for (story, (found, truth)) in found.factors.iter().zip(&STORIES).enumerate() {
+    assert!(found.found.analyses <= 6, "{}", found.found.analyses);
+    for (story, (found, truth)) in found.found.factors.iter().zip(&STORIES).enumerate() {
         assert!(
             (found / truth - 1.0).abs() < WEIGHTED_STORY,
             "story {}: {found} for {truth}",
@@ -270,8 +280,8 @@ fn the_building_is_found_story_by_story_from_five_floors() {
 fn the_wing_is_found_from_ten_modes_at_its_upper_grids() {
     check_files("wing", &delta_wing());
     let (prepared, found) = finished("wing");
-    assert!(found.analyses <= 4, "{}", found.analyses);
-    assert!(prepared.placed.iter().all(|sensor| {
+    assert!(found.found.analyses <= 4, "{}", found.found.analyses);
+    assert!(prepared.loaded.placed.iter().all(|sensor| {
         sensor
             .distance
             .is_some_and(|distance| distance < PLACED_WITHIN)
@@ -295,17 +305,17 @@ fn the_wing_is_found_from_ten_modes_at_its_upper_grids() {
         [[2, 1, 1, 2], [2, 2, 2, 1], [3, 1, 2, 1], [3, 2, 1, 2]]
     );
     assert!(history_table(&exchanged).notes[0].contains("in pass 2 test mode 1 from 1 to 2"));
-    for (group, found) in GROUPS.iter().zip(&found.factors) {
+    for (group, found) in GROUPS.iter().zip(&found.found.factors) {
         let error = found * group.first_over_true - 1.0;
         assert!(error.abs() < JOB_WING, "{}: {error}", group.name);
     }
 }
 
 /// How the grids move in a picture: along the sensors as is compared, and in the test nearly as in the corrected model.
-fn shapes_at_all_grids_are_those_of_the_sensors(prepared: &LoadedJob, found: &JobResult) {
+fn shapes_at_all_grids_are_those_of_the_sensors(prepared: &PreparedJob, found: &JobResult) {
     let subject = Report::from_job(prepared, Some(found)).expect("a subject");
     let moved = subject.moved.as_ref().expect("the whole model");
-    let states = [&found.first, &found.last].map(|comparison| {
+    let states = [&found.found.first, &found.found.last].map(|comparison| {
         let exact = comparison.model().exact();
         exact.pairing.paired(&exact.modes).expect("modes")
     });
@@ -318,7 +328,7 @@ fn shapes_at_all_grids_are_those_of_the_sensors(prepared: &LoadedJob, found: &Jo
     };
     for mode in 0..subject.test.len() {
         let (test, last) = (&moved[0][mode], &moved[2][mode]);
-        for (sensor, point) in prepared.placed.iter().zip(&subject.sensors) {
+        for (sensor, point) in prepared.loaded.placed.iter().zip(&subject.sensors) {
             for (state, shapes) in moved[1..].iter().zip(&states) {
                 let along = state[mode][row(sensor.grid)].dot(&point.direction);
                 let compared = shapes.shapes()[(sensor.row, mode)];
@@ -360,7 +370,7 @@ fn the_box_is_corrected_from_noisy_modes_by_its_deck() {
         .sum();
     let end: f64 = torque_box_truth()
         .iter()
-        .zip(&found.factors)
+        .zip(&found.found.factors)
         .map(|(truth, found)| (found / truth).ln().powi(2))
         .sum();
     assert!(end < JOB_BOX * start, "{end} of {start}");

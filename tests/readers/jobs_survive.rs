@@ -4,10 +4,11 @@
 
 use crate::common::draws::Draws;
 use crate::common::jobs::{Files, building, rods};
+use crate::common::jobs::{prepare, run};
 use crate::readers::job_errors::placed;
 use crate::readers::job_prepared::measured_building;
 use crate::readers::readers_survive::asked;
-use corfem::job::{LoadedJob, TEMPLATE, Trust, run};
+use corfem::job::{TEMPLATE, Trust};
 use corfem::present::page::report_page;
 use corfem::present::report::Report;
 use corfem::present::tables::job::{places_table, seen_table, suspects_table, trust_table};
@@ -116,12 +117,12 @@ fn mutated(files: &Files, draws: &mut Draws) -> Vec<(String, Vec<u8>)> {
 
 /// Everything that `check` and `correlate` print of a job, which a request stops after some analyses.
 fn corrected(path: &std::path::Path) -> Result<bool, PresentError> {
-    let loaded = LoadedJob::new(path)?;
+    let loaded = prepare(path)?;
     let trust = Trust::before(&loaded)?;
     let before = Report::from_job(&loaded, None)?;
     let tables = [
         trust_table(&trust),
-        places_table(&loaded, None)?,
+        places_table(&loaded.loaded, None)?,
         paired_table(&before)?,
         suspects_table(&loaded)?,
     ];
@@ -141,14 +142,15 @@ fn corrected(path: &std::path::Path) -> Result<bool, PresentError> {
         paired_table(&report)?,
         factor_table(&report),
         history_table(&report),
-        seen_table(&loaded, &result)?,
-        places_table(&loaded, Some(&result))?,
+        seen_table(&result),
+        places_table(&loaded.loaded, Some(&result))?,
     ];
     assert!(!render::csv(&tables).is_empty() && !render::text(&tables).is_empty());
     json::own_document(json::report(&report)?)?;
     report_page(&report, &tables[4..], "corfem", "")?;
-    loaded.corrected_deck(&result.factors)?;
+    loaded.loaded.corrected_deck(&result.found.factors)?;
     Ok(result
+        .found
         .factors
         .iter()
         .all(|factor| factor.is_finite() && *factor > 0.0))

@@ -2,9 +2,10 @@
 
 use super::job_errors::{placed, said, with};
 use crate::common::jobs::{Files, STORIES, building};
+use crate::common::jobs::{prepare, run};
 use crate::common::tolerances::{ROUND_OFF, WEIGHTED_FACTOR};
 use corfem::files::test_data;
-use corfem::job::{JobResult, LoadedJob, Trust, run};
+use corfem::job::{JobResult, Kind, Trust};
 
 /// The building by weighted steps, whose test lacks the shapes of these modes (from one).
 fn without_shapes(modes: &[usize]) -> Files {
@@ -34,7 +35,7 @@ fn without_shapes(modes: &[usize]) -> Files {
 
 fn result(files: &Files) -> JobResult {
     let (_folder, path) = placed(files);
-    LoadedJob::new(&path)
+    prepare(&path)
         .and_then(|loaded| run(&loaded, |_| {}, || true))
         .unwrap_or_else(|error| panic!("{error}"))
 }
@@ -70,42 +71,42 @@ fn a_table_may_be_frequencies_alone() {
 #[test]
 fn frequencies_without_shapes_count_as_frequencies_and_nowhere_else() {
     let found = result(&without_shapes(&[2, 4]));
-    let (exact, loaded) = (found.first.result().expect("errors"), &found.loaded);
+    let (exact, loaded) = (
+        found.found.first.result().expect("errors"),
+        &found.found.prepared,
+    );
     assert_eq!(loaded.modes, [0, 2, 4]);
     let partners = loaded
-        .alone
+        .alone()
         .iter()
         .map(|(mode, lone)| (*mode, lone.partner));
     assert_eq!(partners.collect::<Vec<_>>(), [(1, 1), (3, 3)]);
     // By hand: the frequencies of all five modes, the shapes of three.
     let hertz = exact.modes.frequencies_hz();
-    let squares = (0..5).map(|mode| (hertz[mode] / loaded.data.frequencies_hz[mode] - 1.0).powi(2));
+    let squares =
+        (0..5).map(|mode| (hertz[mode] / loaded.loaded.data.frequencies_hz[mode] - 1.0).powi(2));
     let frequency = squares.sum::<f64>().sqrt();
     assert!((exact.errors.frequency - frequency).abs() <= ROUND_OFF * frequency);
     let with_all = result(&without_shapes(&[]));
-    let with_all = with_all.first.result().expect("errors");
+    let with_all = with_all.found.first.result().expect("errors");
     assert!(exact.errors.shape < with_all.errors.shape);
     let counts = (exact.errors.shape_count, exact.errors.frequency_count);
     assert_eq!(counts, (3, 5));
-    let residuals =
-        corfem::weighted::residuals::residuals(&found.first, &loaded.weights().expect("weights"));
+    let residuals = corfem::weighted::residuals::residuals(&found.found.first, &loaded.weights());
     assert_eq!(residuals.expect("residuals").len(), 3 * (1 + 5) + 2);
     // What is left of the test still finds every story.
-    for (factor, story) in found.factors.iter().zip(STORIES) {
+    for (factor, story) in found.found.factors.iter().zip(STORIES) {
         assert!(
             (factor / story - 1.0).abs() <= WEIGHTED_FACTOR,
             "{factor} {story}"
         );
     }
     let trust = Trust::before(loaded).expect("trust");
-    let said = trust.all();
-    let alone = said
-        .iter()
-        .find(|concern| concern.identifier == "frequencies-alone");
+    let alone = trust.of(Kind::FrequenciesAlone).next();
     assert!(
         alone
             .expect("said")
-            .words
+            .words()
             .contains("2 with the model's 2, 4 with the model's 4")
     );
 }
@@ -118,17 +119,22 @@ fn a_whole_test_may_be_frequencies() {
         .find(|(name, _)| name == "test.csv")
         .expect("a test");
     let (_folder, path) = placed(&without_shapes(&[]));
-    let hertz = LoadedJob::new(&path).expect("a job").data.frequencies_hz;
+    let hertz = prepare(&path)
+        .expect("a job")
+        .loaded
+        .data
+        .frequencies_hz
+        .clone();
     let cells: Vec<String> = hertz.iter().map(f64::to_string).collect();
     test.1 = format!(
         "frequency_hz,{}\n,mode 1,mode 2,mode 3,mode 4,mode 5\n",
         cells.join(",")
     );
     let found = result(&files);
-    assert!(found.loaded.placed.is_empty() && found.loaded.modes.is_empty());
+    assert!(found.found.prepared.loaded.placed.is_empty() && found.found.prepared.modes.is_empty());
     assert!(found.verdict.is_within && found.verdict.worst.shape.is_none());
-    let [before, after] =
-        [&found.first, &found.last].map(|comparison| comparison.result().expect("errors").errors);
+    let [before, after] = [&found.found.first, &found.found.last]
+        .map(|comparison| comparison.result().expect("errors").errors);
     assert!(
         after.frequency < 0.01 * before.frequency,
         "{after:?} {before:?}"
@@ -147,10 +153,10 @@ fn the_job_may_name_the_partners_of_frequencies() {
         with(files.clone(), "job.toml", "file = \"test.csv\"", &entry)
     };
     let (_folder, path) = placed(&named("[0, 6, 0, 4, 0]"));
-    let loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(
         loaded
-            .alone
+            .alone()
             .iter()
             .map(|(_, lone)| lone.partner)
             .collect::<Vec<_>>(),

@@ -5,12 +5,13 @@
 //! reader with that word in its name, all of them without, and says how many and in what time. `CORFEM_SEED=100000` goes on behind them.
 
 use crate::common::draws::Draws;
+use crate::common::jobs::prepare;
 use crate::common::outer_loop::program::read_output5;
 use crate::common::test_files::{write_csv, write_universal};
 use corfem::files::deck::{modes, read as read_deck, rewrite};
 use corfem::files::matrices::read as read_matrix;
 use corfem::files::test_data::read as read_test;
-use corfem::job::{Job, LoadedJob};
+use corfem::job::Job;
 use corfem::torque_box::published::PublishedTable;
 use corfem::torque_box::wing_box::Reconstruction;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -70,7 +71,7 @@ fn prepares(job: &[u8], rows: &[u8]) -> bool {
     let path = folder.path().join("job.toml");
     std::fs::write(&path, text).expect("written");
     std::fs::write(folder.path().join("rows.csv"), rows).expect("written");
-    LoadedJob::new(&path).is_ok()
+    prepare(&path).is_ok()
 }
 
 const JOB: &[u8] = include_bytes!("../jobs/building/job.toml");

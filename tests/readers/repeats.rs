@@ -3,10 +3,11 @@
 use super::job_errors::{placed, said, with};
 use crate::common::draws::Draws;
 use crate::common::jobs::{Files, building};
+use crate::common::jobs::{prepare, run};
 use crate::common::test_files::write_csv;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, STANDARD_ERRORS};
 use corfem::files::test_data::TestData;
-use corfem::job::{LoadedJob, Trust, run};
+use corfem::job::{Concern, Kind, PreparedJob, Trust};
 use corfem::method::analysis::{Analysis, State};
 use corfem::method::modes::Modes;
 use corfem::weighted::noise::{Noise, with_noise};
@@ -16,7 +17,7 @@ use nalgebra::DMatrix;
 /// The building's exact test.
 fn exact() -> TestData {
     let (_folder, path) = placed(&building());
-    LoadedJob::new(&path).unwrap().data
+    prepare(&path).unwrap().loaded.data.clone()
 }
 
 /// The same with noise, scaled and signed anyhow as an identification leaves it.
@@ -50,9 +51,9 @@ fn repeated(tests: &[TestData], modes: &str) -> Files {
     files
 }
 
-fn loaded(files: &Files) -> LoadedJob {
+fn loaded(files: &Files) -> PreparedJob {
     let (_folder, path) = placed(files);
-    LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"))
+    prepare(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
 const ALL: &str = "[1, 2, 3, 4, 5]";
@@ -61,7 +62,7 @@ const ALL: &str = "[1, 2, 3, 4, 5]";
 fn neither_scale_nor_sign_nor_order_of_repeats_matters() {
     let exact = exact();
     let tests: Vec<TestData> = (1..=6).map(|seed| noisy(&exact, seed)).collect();
-    let one = loaded(&repeated(&tests, ALL)).data;
+    let one = loaded(&repeated(&tests, ALL)).loaded.data.clone();
     let mut others: Vec<TestData> = tests.into_iter().rev().collect();
     for (place, test) in others.iter_mut().enumerate() {
         test.shapes *= [-0.3, 12.0][place % 2];
@@ -69,7 +70,7 @@ fn neither_scale_nor_sign_nor_order_of_repeats_matters() {
         test.sensors.swap(place % 5, 4);
         test.shapes.swap_rows(place % 5, 4);
     }
-    let two = loaded(&repeated(&others, ALL)).data;
+    let two = loaded(&repeated(&others, ALL)).loaded.data.clone();
     let row = |name: &str| {
         one.sensors
             .iter()
@@ -148,11 +149,8 @@ fn correlated(exact: &TestData, seed: u64) -> TestData {
 }
 
 /// Whether a covariance has made a job's residuals independent: the first is then not the weighted error of the first frequency.
-fn is_whitened(loaded: &LoadedJob) -> bool {
-    let (comparison, weights) = (
-        loaded.analyze(&[1.0; 10]).unwrap(),
-        loaded.weights().unwrap(),
-    );
+fn is_whitened(loaded: &PreparedJob) -> bool {
+    let (comparison, weights) = (loaded.analyze(&[1.0; 10]).unwrap(), loaded.weights());
     let State { modes, pairing, .. } = comparison.model().exact();
     let hertz = pairing.paired(modes).unwrap().frequencies_hz();
     let error = hertz[0] / comparison.model().test().frequencies_hz()[0] - 1.0;
@@ -169,8 +167,8 @@ fn with_enough_repeats_their_covariance_counts() {
         let files = repeated(tests, "[1, 2]");
         let loaded = loaded(&files);
         let trust = Trust::before(&loaded).unwrap();
-        let of = |concern: &&corfem::job::Concern| concern.identifier == "repeats";
-        let words = trust.all().iter().find(of).unwrap().words.clone();
+        let of = |concern: &&Concern| concern.identifier() == "repeats";
+        let words = trust.all().iter().find(of).unwrap().words();
         let expected = if counts {
             "their covariance counts"
         } else {
@@ -178,7 +176,7 @@ fn with_enough_repeats_their_covariance_counts() {
         };
         assert!(words.contains(expected), "{words}");
         assert_eq!(is_whitened(&loaded), counts);
-        assert!(trust.assumed.is_empty(), "{:?}", trust.assumed);
+        assert_eq!(trust.about(Kind::AssumedDeviations), [""; 0]);
         // Weights of the job's own leave variances.
         let own = with(
             files,
@@ -262,22 +260,19 @@ fn a_covariance_is_that_of_what_is_compared() {
         let off = relative.add_scalar(-1.0);
         let deviation = (off.norm_squared() / (13.0 * 10.0)).sqrt();
         apart.set_row(5 * place, &(off / deviation).row(0));
-        let deviations = &loaded.data.component_deviation[&mode];
+        let deviations = &loaded.loaded.data.component_deviation[&mode];
         for (number, floor) in [0, 1, 3, 4].into_iter().enumerate() {
             let row = 5 * place + 1 + number;
-            let scatter = loaded.data.scatter.row(6 * mode + 1 + floor);
+            let scatter = loaded.loaded.data.scatter.row(6 * mode + 1 + floor);
             apart.set_row(row, &(scatter / deviations[floor]));
-            along[(row, place)] = loaded.data.shapes[(floor, mode)] / deviations[floor];
+            along[(row, place)] = loaded.loaded.data.shapes[(floor, mode)] / deviations[floor];
         }
     }
     along
         .column_iter_mut()
         .for_each(|mut own| _ = own.normalize_mut());
     let covariance = &apart * apart.transpose() / (13.0 * 3.0) + &along * along.transpose();
-    let (comparison, weights) = (
-        loaded.analyze(&[1.0; 10]).unwrap(),
-        loaded.weights().unwrap(),
-    );
+    let (comparison, weights) = (loaded.analyze(&[1.0; 10]).unwrap(), loaded.weights());
     let found = residuals(&comparison, &weights).unwrap();
     assert_eq!(found.len(), 10);
     let by_hand = |covariance: &DMatrix<f64>| {

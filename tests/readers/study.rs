@@ -106,12 +106,15 @@ fn noise_start_and_subset_are_drawn_independently() {
     for sample in 1..=40 {
         let [noise, start, subset, together] = [&noise, &start_alone, &subset, &together]
             .map(|study| study.draw(sample).expect("a draw"));
-        assert_eq!((&noise.0.data, &start.1), (&together.0.data, &together.1));
-        assert_eq!(start.0.test, start_alone.loaded.test);
-        assert_eq!(subset.0.job, together.0.job);
+        assert_eq!(
+            (&noise.0.loaded.data, &start.1),
+            (&together.0.loaded.data, &together.1)
+        );
+        assert_eq!(start.0.test, start_alone.prepared.test);
+        assert_eq!(subset.0.loaded.job, together.0.loaded.job);
         assert_eq!((noise.1, subset.1), (vec![1.0; 10], vec![1.0; 10]));
         assert!(start.1.iter().all(|factor| (0.5..2.0).contains(factor)));
-        let (sensors, modes) = (subset.0.placed.len(), subset.0.test.len());
+        let (sensors, modes) = (subset.0.loaded.placed.len(), subset.0.test.len());
         assert!(
             sensors == 5 || modes == 5,
             "{sensors} sensors, {modes} modes"
@@ -138,11 +141,11 @@ fn a_subset_of_the_modes_takes_their_weights_along() {
         |(name, text): (String, String)| (name, text.replace("method = \"gauss_newton\"", weights));
     let place = Place::of(rods().into_iter().map(edit).collect());
     let study = place.study(1, &[Vary::Subset]);
-    let whole = study.loaded.weights().expect("weights");
+    let whole = study.prepared.weights();
     let mut fewer = 0;
     for sample in 1..=20 {
         let (prepared, _) = study.draw(sample).expect("a draw");
-        let weights = prepared.weights().expect("weights");
+        let weights = prepared.weights();
         assert_eq!(
             weights,
             prepared
@@ -206,7 +209,7 @@ fn factors_scatter_as_one_correlation_says_they_do() {
         |(name, text): (String, String)| (name, text.replace("analysis_modes = 10", precise));
     let place = Place::of(building().into_iter().map(edit).collect());
     let study = place.study(3, &[Vary::Noise]);
-    let found = corfem::job::run(&study.loaded, |_| {}, || true).expect("it runs");
+    let found = crate::common::jobs::run(&study.prepared, |_| {}, || true).expect("it runs");
     let text = lines(&study, COUNT).concat();
     let summary = summary(&study, &text, COUNT).expect("a summary");
     assert_eq!(
@@ -220,7 +223,8 @@ fn factors_scatter_as_one_correlation_says_they_do() {
             "{name}: {spread:?}"
         );
         // Of the logarithm of a factor, and a sample's own deviation has an error of one in the root of 2 (n - 1).
-        let ratio = spread.deviation / (found.factors[story] * found.seen[1].deviations[story]);
+        let ratio =
+            spread.deviation / (found.found.factors[story] * found.seen[1].deviations[story]);
         let most = STANDARD_ERRORS / (2.0 * (COUNT - 1) as f64).sqrt();
         assert!((ratio - 1.0).abs() < most, "{name}: {ratio}");
     }

@@ -55,7 +55,12 @@ fn any_sensor_and_any_mode_may_be_left_out() {
     let (mut left, mut counts) = ([[[0; 2]; 5]; 2], [[0; 5]; 2]);
     for sample in 1..=60 {
         let (prepared, _) = study.draw(sample).expect("a draw");
-        let sensors: Vec<usize> = prepared.placed.iter().map(|sensor| sensor.row).collect();
+        let sensors: Vec<usize> = prepared
+            .loaded
+            .placed
+            .iter()
+            .map(|sensor| sensor.row)
+            .collect();
         let (what, there) = if sensors.len() < 5 {
             (0, &sensors)
         } else {
@@ -155,8 +160,15 @@ fn a_seed_draws_the_same_numbers_for_ever() {
         for (found, expected) in start.iter().zip(starts) {
             assert!((found - expected).abs() <= ROUND_OFF, "{sample}: {start:?}");
         }
-        let exact = &study.loaded.data.frequencies_hz;
-        for ((drawn, exact), variate) in drawn.data.frequencies_hz.iter().zip(exact).zip(noise) {
+        let exact = &study.prepared.loaded.data.frequencies_hz;
+        for ((drawn, exact), variate) in drawn
+            .loaded
+            .data
+            .frequencies_hz
+            .iter()
+            .zip(exact)
+            .zip(noise)
+        {
             let found = (drawn / exact - 1.0) / 0.004;
             assert!(
                 (found - variate).abs() <= MATRIX_ROUND_OFF,
@@ -176,7 +188,12 @@ fn a_seed_draws_the_same_numbers_for_ever() {
         (6, false, &[0, 1, 4]),
     ] {
         let (drawn, _) = study.draw(sample).expect("a draw");
-        let sensors: Vec<usize> = drawn.placed.iter().map(|sensor| sensor.row).collect();
+        let sensors: Vec<usize> = drawn
+            .loaded
+            .placed
+            .iter()
+            .map(|sensor| sensor.row)
+            .collect();
         let found = if is_sensors { &sensors } else { &drawn.modes };
         assert_eq!(
             (&found[..], sensors.len() < 5),

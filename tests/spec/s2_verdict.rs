@@ -1,13 +1,14 @@
 //! The verdict on a correlation.
 
 use crate::common::jobs::{Files, building, of_matrices};
+use crate::common::jobs::{prepare, run};
 use crate::common::loops::{chain_problem, correlate_chain, verdict_of};
 use crate::common::structures::spring_stiffness;
 use crate::common::tolerances::ROUND_OFF;
 use crate::common::vibrations::{Chain, chain_and_truth};
 use crate::readers::job_errors::{placed, with};
 use corfem::job::verdict::{Outcome, Verdict};
-use corfem::job::{History, JobResult, LoadedJob, run};
+use corfem::job::{History, JobResult};
 use corfem::method::error_sum::{ModeError, errors, mode_errors};
 use corfem::method::modes::{Modes, solve};
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
@@ -129,7 +130,7 @@ fn what_no_frequency_without_a_shape_sees_is_unseen() {
         "file = \"test.csv\"\npartners = [0, 3]\n[compare]\nanalysis_modes = 3",
     );
     let found = of_job(&without_last_shape(files));
-    assert_eq!(found.loaded.modes, [0]);
+    assert_eq!(found.found.prepared.modes, [0]);
     assert_eq!(found.verdict.unseen, [3]);
 }
 
@@ -149,7 +150,7 @@ fn without_last_shape(mut files: Files) -> Files {
 
 fn of_job(files: &Files) -> JobResult {
     let (_folder, path) = placed(files);
-    LoadedJob::new(&path)
+    prepare(&path)
         .and_then(|loaded| run(&loaded, |_| {}, || true))
         .unwrap_or_else(|error| panic!("{error}"))
 }
@@ -159,8 +160,8 @@ fn of_job(files: &Files) -> JobResult {
 fn a_job_tells_the_error_sum_that_nine_modes_would_have() {
     let method = "[compare]\nmethod = \"paper\"";
     let found = of_job(&with(building(), "job.toml", "[compare]", method));
-    let History::Paper(run) = &found.history else {
-        panic!("{:?}", found.history)
+    let History::Paper(run) = &found.found.history else {
+        panic!("{:?}", found.found.history)
     };
     let sum = 3.0 / 5_f64.sqrt() * run.best_check().errors.sum();
     assert!((found.verdict.error_sum / sum - 1.0).abs() <= ROUND_OFF);

@@ -3,18 +3,12 @@
 use crate::common::alter;
 use crate::common::tolerances::{DEPENDENT_SHAPES, ROUND_OFF};
 use crate::evidence::specimen::Specimen;
-use crate::spec::s5_preflight::{case, chain, findings, wing, with_shapes};
-use corfem::job::preflight::{
-    Change, FACTORS, Finding, FindingNames, FrequenciesExchanged, LARGEST_TOLERANCE,
-};
+use crate::spec::s5_preflight::{case, chain, findings, is_of, wing, with_shapes};
+use corfem::job::preflight::{Change, FACTORS, LARGEST_TOLERANCE, Names};
+use corfem::job::{Concern, Kind};
 use corfem::method::model::DynamicModel;
 use corfem::method::outer_loop::Settings;
 use corfem::method::step::Bounds;
-
-/// A finding as a sentence, where nothing has a name.
-fn words(finding: &Finding) -> String {
-    finding.concern(&FindingNames::default()).words
-}
 
 #[test]
 fn exchanged_frequencies_are_named_where_models_are_closer_than_modes() {
@@ -24,19 +18,21 @@ fn exchanged_frequencies_are_named_where_models_are_closer_than_modes() {
             alter(&mut wrong.test, |squares, _| {
                 squares.swap_rows(first, first + 1)
             });
-            match findings(&wrong)[..] {
-                [
-                    Finding::FrequenciesExchanged(FrequenciesExchanged {
-                        modes,
-                        before,
-                        after,
-                    }),
-                ] => {
-                    assert_eq!(modes, [first, first + 1]);
-                    assert!(after < before);
-                }
-                ref other => panic!("{} {first}: {other:?}", specimen.name),
-            }
+            let found = findings(&wrong);
+            let [
+                Concern {
+                    kind: Kind::FrequenciesExchanged,
+                    about,
+                    measure,
+                    ..
+                },
+            ] = &found[..]
+            else {
+                panic!("{} {first}: {found:?}", specimen.name)
+            };
+            let modes = [first + 1, first + 2].map(|mode| mode.to_string());
+            assert_eq!(about[..], modes);
+            assert!(measure[1] < measure[0]);
         }
     }
 }
@@ -49,19 +45,14 @@ fn a_mode_measured_twice_is_told() {
         alter(&mut wrong.test, |_, shapes| {
             shapes.set_column(4, &(-3.0 * copy))
         });
-        let same = |wrong: &Specimen| match findings(wrong)[..] {
-            [
-                Finding::NearlySame {
-                    modes,
-                    assurance,
-                    frequency_ratio,
-                },
-            ] => {
-                assert_eq!(modes, [1, 4], "{}", specimen.name);
-                assert!((assurance - 1.0).abs() < ROUND_OFF);
-                (frequency_ratio, words(&findings(wrong)[0]))
-            }
-            ref other => panic!("{}: {other:?}", specimen.name),
+        let same = |wrong: &Specimen| {
+            let found = findings(wrong);
+            let [concern] = &found[..] else {
+                panic!("{}: {found:?}", specimen.name)
+            };
+            assert_eq!(concern.about, ["2", "5"], "{}", specimen.name);
+            assert!((concern.measure[0] - 1.0).abs() < ROUND_OFF);
+            (concern.measure[1], concern.words())
         };
         let (ratio, words) = same(&wrong);
         assert!(ratio > 1.1 && !words.contains("twice"));
@@ -95,22 +86,16 @@ fn more_modes_than_points_are_told_and_nothing_else() {
     };
     let found = findings(&few);
     let (last, others) = found.split_last().expect("a finding");
-    let Finding::TooManyModes {
-        modes,
-        points: 4,
-        distinct: 4,
-        smallest,
-    } = *last
-    else {
+    let [modes, points, distinct, smallest] = last.measure[..] else {
         panic!("{found:?}")
     };
-    assert!(
-        others
-            .iter()
-            .all(|finding| matches!(finding, Finding::NearlySame { .. })),
-        "{found:?}"
+    let are_copies = |own: &Concern| [Kind::Alike, Kind::MeasuredTwice].contains(&own.kind);
+    assert!(others.iter().all(are_copies), "{found:?}");
+    assert_eq!(
+        (last.kind, points, distinct),
+        (Kind::TooManyModes, 4.0, 4.0)
     );
-    assert!(modes + others.len() == 8 && smallest < DEPENDENT_SHAPES);
+    assert!(modes as usize + others.len() == 8 && smallest < DEPENDENT_SHAPES);
 }
 
 #[test]
@@ -121,11 +106,11 @@ fn two_mistakes_at_once_are_both_named() {
     });
     alter(&mut wrong.test, |_, shapes| shapes.row_mut(3).neg_mut());
     let found = findings(&wrong);
-    assert!(
-        matches!(&found[..], [Finding::CommonFactor(factor), Finding::Suspected { change, .. }]
-        if factor.named == Some(FACTORS[0]) && *change == Change::Reversed(3)),
-        "{found:?}"
-    );
+    let [factor, change] = &found[..] else {
+        panic!("{found:?}")
+    };
+    assert_eq!(factor.about, [FACTORS[0].name, FACTORS[0].mistake]);
+    assert!(is_of(change, &Change::Reversed(3)), "{change:?}");
 }
 
 #[test]
@@ -151,7 +136,8 @@ fn tolerances_in_percent_and_bounds_that_exclude_the_start_are_named() {
         settings.inner.tolerance = 2.5;
         settings.shape_tolerance = 4.0;
         settings.frequency_tolerance = LARGEST_TOLERANCE;
-        let percent = |setting, value| Finding::Percent { setting, value };
+        let percent =
+            |setting: &str, value| Concern::new(Kind::Percent, &[setting], &[value, 100.0 * value]);
         assert_eq!(
             found(&settings, &ranges),
             [
@@ -183,16 +169,9 @@ fn tolerances_in_percent_and_bounds_that_exclude_the_start_are_named() {
             upper: 150.0,
         });
         wrong[5] = None;
-        let range = Bounds {
-            lower: 55.0,
-            upper: 150.0,
-        };
         let expected = [
-            Finding::ExcludesStart {
-                parameter: 2,
-                range,
-            },
-            Finding::Unbounded(vec![5]),
+            Concern::new(Kind::ExcludesStart, &[3], &[55.0, 150.0]),
+            Concern::new(Kind::Unbounded, &[6], &[]),
         ];
         assert_eq!(found(&right.settings, &wrong), expected);
     }
@@ -211,7 +190,12 @@ fn findings_are_said_with_places_from_one() {
         lower: 55.0,
         upper: 150.0,
     });
-    let said: Vec<String> = wrong.findings().unwrap().iter().map(words).collect();
+    let said: Vec<String> = wrong
+        .findings()
+        .unwrap()
+        .iter()
+        .map(Concern::words)
+        .collect();
     let all = said.join("\n");
     for words in [
         "times the model's, near 2π: the test is in rad/s?",
@@ -223,16 +207,6 @@ fn findings_are_said_with_places_from_one() {
     ] {
         assert!(all.contains(words), "{words} in {all}");
     }
-    let exchanged = FrequenciesExchanged {
-        modes: [0, 4],
-        before: 0.123,
-        after: 0.045,
-    };
-    assert_eq!(
-        words(&Finding::FrequenciesExchanged(exchanged)),
-        "Frequencies of test modes 1 and 5 exchanged? It would lower the mean deviation of the ratios from 12.3 to 4.5 %."
-    );
-    assert!(words(&Finding::Unbounded((0..15).collect())).ends_with("bounds: 1 to 15."));
     for (change, question) in [
         (Change::Exchanged([0, 4]), "Sensors 1 and 5 exchanged? "),
         (
@@ -240,8 +214,7 @@ fn findings_are_said_with_places_from_one() {
             "Points in another order (3, 1, 2)? ",
         ),
     ] {
-        let evidence = 7.0;
-        let said = words(&Finding::Suspected { change, evidence });
+        let said = change.concern(7.0, &Names::default()).words();
         assert!(said.starts_with(question), "{said}");
     }
 }

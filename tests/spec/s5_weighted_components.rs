@@ -3,6 +3,7 @@
 
 use crate::common::draws::Draws;
 use crate::common::jobs::{Files, building};
+use crate::common::jobs::{prepare, run};
 use crate::common::measured::equal_weights;
 use crate::common::test_files::write_csv;
 use crate::common::tolerances::{
@@ -13,7 +14,7 @@ use crate::common::whole_models::shear_building;
 use crate::readers::job_errors::placed;
 use crate::spec::s5_weighted::at;
 use corfem::files::test_data::TestData;
-use corfem::job::{JobResult, LoadedJob, run};
+use corfem::job::{JobResult, Kind};
 use corfem::method::analysis::{Analysis, State};
 use corfem::method::linear_algebra::symmetric_part;
 use corfem::method::model::DynamicModel;
@@ -113,7 +114,7 @@ fn intervals_hold_the_truth_where_every_component_has_its_own_deviation() {
 /// The building's test with other deviations.
 fn job(change: impl FnOnce(&mut TestData)) -> JobResult {
     let (_folder, path) = placed(&building());
-    let mut data = LoadedJob::new(&path).unwrap().data;
+    let mut data = prepare(&path).unwrap().loaded.data.clone();
     change(&mut data);
     corrected(data)
 }
@@ -123,7 +124,7 @@ fn corrected(data: TestData) -> JobResult {
     let test = files.iter_mut().find(|(name, _)| name == "test.csv");
     test.unwrap().1 = write_csv(&data);
     let (_folder, path) = placed(&files);
-    let loaded = LoadedJob::new(&path).unwrap();
+    let loaded = prepare(&path).unwrap();
     run(&loaded, |_| {}, || true).unwrap()
 }
 
@@ -147,12 +148,17 @@ fn equal_deviations_of_components_are_the_deviation_of_the_shape() {
         // A column takes the place of the row's number.
         data.shape_deviation = Some(vec![0.4; 5]);
     });
-    for (one, two) in of_shapes.factors.iter().zip(&of_components.factors) {
+    for (one, two) in of_shapes
+        .found
+        .factors
+        .iter()
+        .zip(&of_components.found.factors)
+    {
         assert!((one / two - 1.0).abs() < WEIGHTED_FACTOR, "{one} {two}");
     }
     let [one, two] = [&of_shapes, &of_components].map(|of| of.misfit.chi_squared);
     assert!((one / two - 1.0).abs() < WEIGHTED_FACTOR, "{one} {two}");
-    let others = of_components.trust.assumed;
+    let others = of_components.trust.about(Kind::AssumedDeviations);
     assert_eq!(others.len(), 1, "frequencies alone are assumed: {others:?}");
 }
 
@@ -180,7 +186,7 @@ fn a_component_of_boundless_deviation_is_as_one_without_a_sensor() {
         data.shapes = data.shapes.clone().remove_row(row);
         data.sensors.remove(row);
     });
-    for (one, two) in vague.factors.iter().zip(&without.factors) {
+    for (one, two) in vague.found.factors.iter().zip(&without.found.factors) {
         assert!((one / two - 1.0).abs() < WEIGHTED_FACTOR, "{one} {two}");
     }
 }

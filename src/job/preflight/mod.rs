@@ -14,9 +14,9 @@ mod words;
 pub use frequencies::{CommonFactor, FACTORS, FrequenciesExchanged, NamedFactor};
 pub use readings::SeenModes;
 pub use shapes::Change;
-pub use words::FindingNames;
-pub(super) use words::hyphened;
+pub use words::Names;
 
+use crate::job::concern::{Concern, Kind};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::Modes;
@@ -39,153 +39,142 @@ pub const LEAST_SINGULAR: f64 = 0.3;
 /// Tolerance beyond which a percentage was probably meant: a fifth of the frequency, or of the largest component.
 pub const LARGEST_TOLERANCE: f64 = 0.2;
 
-/// Something that looks wrong. Places count from zero here and from one in the words of [`Finding::concern`].
-#[derive(Debug, Clone, PartialEq)]
-#[allow(
-    missing_docs,
-    reason = "a variant's own sentence says what its fields are"
-)]
-pub enum Finding {
-    /// All frequencies are wrong by one factor.
-    CommonFactor(CommonFactor),
-    /// One mistake in the readings explains the shapes; it makes them more likely by ten to the power of `evidence`.
-    Suspected { change: Change, evidence: f64 },
-    /// Two frequencies belong to each other's shapes.
-    FrequenciesExchanged(FrequenciesExchanged),
-    /// Two test modes have nearly the same shape, by their modal assurance. Where the second frequency over the first is close to
-    /// one, the mode was measured twice.
-    NearlySame {
-        modes: [usize; 2],
-        assurance: f64,
-        frequency_ratio: f64,
-    },
-    /// There are more test modes than their shapes at the measured points tell apart: `distinct` is how many singular values of the
-    /// shapes, of unit length, are not small.
-    TooManyModes {
-        modes: usize,
-        points: usize,
-        distinct: usize,
-        smallest: f64,
-    },
-    /// The value of a tolerance or of a standard deviation looks like percent.
-    Percent { setting: &'static str, value: f64 },
-    /// The bounds on a parameter's factor exclude its first value.
-    ExcludesStart { parameter: usize, range: Bounds },
-    /// Parameters without bounds.
-    Unbounded(Vec<usize>),
+/// Two test modes of nearly the same shape.
+struct Copies {
+    modes: [usize; 2],
+    assurance: f64,
+    /// The second frequency over the first.
+    frequency_ratio: f64,
 }
 
-/// The places of test modes without near copies of earlier ones, and a finding for each such copy.
-fn distinct_shapes(test: &Modes) -> Result<(Vec<usize>, Vec<Finding>), Error> {
+impl Copies {
+    /// True if their frequencies too are one mode's.
+    fn is_measured_twice(&self) -> bool {
+        (self.frequency_ratio - 1.0).abs() < SAME_FREQUENCY
+    }
+
+    /// A doubt where a mode was measured twice, and else a remark: few sensors may see two modes alike.
+    fn concern(&self, names: &Names) -> Concern {
+        let kind = match self.is_measured_twice() {
+            true => Kind::MeasuredTwice,
+            false => Kind::Alike,
+        };
+        let modes = self.modes.map(|mode| names.mode(mode));
+        Concern::new(kind, &modes, &[self.assurance, self.frequency_ratio])
+    }
+}
+
+/// The places of test modes without near copies of earlier ones, and each such copy.
+fn distinct_shapes(test: &Modes) -> Result<(Vec<usize>, Vec<Copies>), Error> {
     let assurance = modal_assurance(&test.shapes, &test.shapes)?;
     let frequencies = test.frequencies_hz();
-    let (mut apart, mut findings): (Vec<usize>, Vec<Finding>) = (Vec::new(), Vec::new());
+    let (mut apart, mut copies) = (Vec::<usize>::new(), Vec::new());
     for b in 0..test.len() {
         let Some(&a) = apart.iter().find(|&&a| assurance[(a, b)] >= NEARLY_SAME) else {
             apart.push(b);
             continue;
         };
         let (assurance, frequency_ratio) = (assurance[(a, b)], frequencies[b] / frequencies[a]);
-        findings.push(Finding::NearlySame {
+        copies.push(Copies {
             modes: [a, b],
             assurance,
             frequency_ratio,
         });
     }
-    Ok((apart, findings))
+    Ok((apart, copies))
 }
 
-/// Adds the findings from the frequencies of test modes and of their partners.
+/// Concerns about the frequencies of test modes (at these places) and of their partners.
 fn judge_frequencies(
     test: &Modes,
     analysis_hz: &[f64],
     pairing: &Pairing,
     places: &[usize],
-    findings: &mut Vec<Finding>,
-) {
+    names: &Names,
+) -> Vec<Concern> {
     let mut test = test.frequencies_hz();
     let partners = pairing.analysis_mode.iter();
     let analysis: Vec<f64> = partners.map(|&mode| analysis_hz[mode]).collect();
     // Modes are numbered as their frequencies ascend: only where these do not may two be exchanged.
     let found = frequencies::exchanged(&test, &analysis)
         .filter(|found| test[found.modes[0]] > test[found.modes[1]]);
-    if let Some(found) = found {
+    let exchanged = found.map(|found| {
         let [a, b] = found.modes;
         test.swap(a, b);
-        let modes = [places[a], places[b]];
-        findings.push(Finding::FrequenciesExchanged(FrequenciesExchanged {
-            modes,
-            ..found
-        }));
-    }
-    findings.extend(frequencies::common_factor(&test, &analysis).map(Finding::CommonFactor));
+        let modes = found.modes.map(|mode| names.mode(places[mode]));
+        let percent = [100.0 * found.before, 100.0 * found.after];
+        Concern::new(Kind::FrequenciesExchanged, &modes, &percent)
+    });
+    let common = frequencies::common_factor(&test, &analysis).map(|common| {
+        let measure = [common.median, common.deviation];
+        match common.named {
+            None => Concern::plain(Kind::UnnamedFactor, &measure),
+            Some(named) => Concern::new(Kind::NamedFactor, &[named.name, named.mistake], &measure),
+        }
+    });
+    exchanged.into_iter().chain(common).collect()
 }
 
 /// Checks a test against a model's modes at its sensors; no condensed model is needed, so structures may hang free.
 ///
 /// # Errors
-/// Those of the comparison of shapes.
+/// The errors of the comparison of shapes.
 pub fn preflight_at_sensors(
     seen: &SeenModes,
     test: &Modes,
     settings: &Settings,
     ranges: &[Option<Bounds>],
-) -> Result<Vec<Finding>, Error> {
+    names: &Names,
+) -> Result<Vec<Concern>, Error> {
     // A mode measured twice has no second partner. A sensor that drowns all others makes shapes alike, but not frequencies.
     let copies = distinct_shapes(test)?.1;
-    let is_copy = |mode: usize| {
-        let is_of = |finding: &Finding| {
-            matches!(finding, Finding::NearlySame { modes, frequency_ratio, .. }
-                if modes[1] == mode && (frequency_ratio - 1.0).abs() < SAME_FREQUENCY)
-        };
-        copies.iter().any(is_of)
+    let is_copy = |mode: &usize| {
+        let mut twice = copies.iter().filter(|copies| copies.is_measured_twice());
+        twice.any(|copies| copies.modes[1] == *mode)
     };
-    let once: Vec<usize> = (0..test.len()).filter(|mode| !is_copy(*mode)).collect();
+    let once: Vec<usize> = (0..test.len()).filter(|mode| !is_copy(mode)).collect();
     let suspected = explain(seen, &test.shapes.select_columns(&once))?;
     let mut test = test.clone();
     if let Some((change, _)) = &suspected {
         test.shapes = changed(&test.shapes, change);
     }
-    let (places, mut findings) = distinct_shapes(&test)?;
+    let (places, copies) = distinct_shapes(&test)?;
+    let mut concerns: Vec<Concern> = copies.iter().map(|copies| copies.concern(names)).collect();
     let test = test.select(&places);
     // At one sensor all shapes are alike, and say nothing of partners.
     if test.shapes.nrows() > 1 && test.len() <= seen.modes.len() {
         let pairing = pair_modes(&modal_assurance(&seen.modes.shapes, &test.shapes)?)?;
         let analysis = seen.modes.frequencies_hz();
-        judge_frequencies(&test, &analysis, &pairing, &places, &mut findings);
+        concerns.extend(judge_frequencies(
+            &test, &analysis, &pairing, &places, names,
+        ));
     }
-    findings.extend(suspected.map(|(change, evidence)| Finding::Suspected { change, evidence }));
-    let points = test.shapes.nrows();
-    if test.len() > points {
+    concerns.extend(suspected.map(|(change, evidence)| change.concern(evidence, names)));
+    if test.len() > test.shapes.nrows() {
         let mut unit = test;
         unit.shapes.column_iter_mut().for_each(|mut shape| {
             shape.normalize_mut();
         });
-        findings.extend(too_many_modes(&unit.shapes)?);
+        concerns.extend(too_many_modes(&unit.shapes)?);
     }
-    findings.extend(check_settings(settings, ranges));
-    Ok(findings)
+    concerns.extend(check_settings(settings, ranges, names));
+    Ok(concerns)
 }
 
-/// Test modes, whose shapes have unit length, that the points do not distinguish.
-fn too_many_modes(shapes: &DMatrix<f64>) -> Result<Option<Finding>, Error> {
+/// A remark on test modes, whose shapes have unit length, that the points do not distinguish.
+fn too_many_modes(shapes: &DMatrix<f64>) -> Result<Option<Concern>, Error> {
     let (points, modes) = shapes.shape();
     let overlap = symmetric_part(&shapes.tr_mul(shapes));
     let (squares, _) = symmetric_eigen("overlap of test modes", &overlap)?;
     let smallest = squares[0].max(0.0).sqrt();
-    let distinct = squares
-        .iter()
-        .filter(|square| **square >= LEAST_SINGULAR.powi(2))
-        .count();
-    Ok((distinct < modes).then_some(Finding::TooManyModes {
-        modes,
-        points,
-        distinct,
-        smallest,
-    }))
+    let least = LEAST_SINGULAR.powi(2);
+    let distinct = squares.iter().filter(|square| **square >= least).count();
+    let measure = [modes as f64, points as f64, distinct as f64, smallest];
+    Ok((distinct < modes).then(|| Concern::plain(Kind::TooManyModes, &measure)))
 }
 
-fn check_settings(settings: &Settings, ranges: &[Option<Bounds>]) -> Vec<Finding> {
+/// Concerns about tolerances that look like percent and about bounds.
+fn check_settings(settings: &Settings, ranges: &[Option<Bounds>], names: &Names) -> Vec<Concern> {
     let tolerances = [
         ("inner.tolerance", settings.inner.tolerance),
         ("later_inner_tolerance", settings.later_inner_tolerance),
@@ -196,14 +185,20 @@ fn check_settings(settings: &Settings, ranges: &[Option<Bounds>]) -> Vec<Finding
     let large = tolerances
         .into_iter()
         .filter(|(_, value)| *value > LARGEST_TOLERANCE);
-    let percent = large.map(|(setting, value)| Finding::Percent { setting, value });
+    let percent = large.map(|(setting, value)| Concern::percent(setting, value));
     let excluding = ranges.iter().enumerate().filter_map(|(parameter, range)| {
-        let range = range.filter(|range| !range.contains(1.0))?;
-        Some(Finding::ExcludesStart { parameter, range })
+        let Bounds { lower, upper } = range.filter(|range| !range.contains(1.0))?;
+        let parameter = names.parameter(parameter);
+        Some(Concern::new(
+            Kind::ExcludesStart,
+            &[parameter],
+            &[lower, upper],
+        ))
     });
-    let unbounded: Vec<usize> = (0..ranges.len())
-        .filter(|&parameter| ranges[parameter].is_none())
+    let unbounded = (0..ranges.len()).filter(|&parameter| ranges[parameter].is_none());
+    let unbounded: Vec<String> = unbounded
+        .map(|parameter| names.parameter(parameter))
         .collect();
-    let unbounded = (!unbounded.is_empty()).then_some(Finding::Unbounded(unbounded));
+    let unbounded = (!unbounded.is_empty()).then(|| Concern::new(Kind::Unbounded, &unbounded, &[]));
     percent.chain(excluding).chain(unbounded).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::{Derivatives, Report, SensorPoint, Stage};
 use crate::job::expansion::expand;
-use crate::job::{History, JobResult, LoadedJob, Method, PlacedSensor};
+use crate::job::{CorrelatedJob, History, JobResult, Method, PlacedSensor, PreparedJob};
 use crate::method::error::Error;
 use crate::method::modes::Modes;
 use crate::method::step::Bounds;
@@ -17,15 +17,20 @@ impl Report {
     ///
     /// # Errors
     /// Those of the first analysis.
-    pub fn from_job(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Self, PresentError> {
+    pub fn from_job(
+        prepared: &PreparedJob,
+        result: Option<&JobResult>,
+    ) -> Result<Self, PresentError> {
         // With the test modes that were compared at the end.
-        let loaded = result.map_or(loaded, |result| &result.loaded);
+        let found = result.map(|result| &result.found);
+        let prepared = found.map_or(prepared, |found| &found.prepared);
+        let loaded = &prepared.loaded;
         let whole = &loaded.source.whole;
         let names: Vec<String> = loaded.parameter_names().map(str::to_owned).collect();
         let ones = vec![1.0; names.len()];
-        let first = result.map_or_else(
-            || loaded.analyze(&ones)?.with_slopes(),
-            |result| Ok(result.first.clone()),
+        let first = found.map_or_else(
+            || prepared.analyze(&ones)?.with_slopes(),
+            |found| Ok(found.first.clone()),
         )?;
         let stem = loaded.job.stem();
         let geometry = &loaded.source.geometry;
@@ -57,13 +62,13 @@ impl Report {
             (0..3).all(|direction| !loaded.source.motions.contains_key(&(**grid, direction)))
         };
         let (test, initial) = (&first.model.test, first.result()?);
-        let stages = result.map(stopped).transpose()?;
-        let base = match result.map(|result| &result.history) {
+        let stages = found.map(stopped).transpose()?;
+        let base = match found.map(|found| &found.history) {
             Some(History::Paper(run)) => {
                 Self::from_correlation(&stem, &names, test, &initial, Some(run))
             }
-            Some(History::GaussNewton(Some((run, ..)))) => {
-                Self::from_weighted(&stem, &names, (test, &initial), run)
+            Some(History::GaussNewton(Some(found))) => {
+                Self::from_weighted(&stem, &names, (test, &initial), &found.best)
             }
             history => Self {
                 best: history.map(|_| 0),
@@ -73,7 +78,7 @@ impl Report {
         };
         let report = Self {
             title: loaded.title.clone(),
-            mode_numbers: loaded.compared().map(|mode| mode + 1).collect(),
+            mode_numbers: prepared.compared().map(|mode| mode + 1).collect(),
             ranges: whole.ranges(),
             sensors: loaded.placed.iter().map(sensor_point).collect(),
             frame,
@@ -88,39 +93,47 @@ impl Report {
                 .filter(still)
                 .map(|grid| geometry.places[grid])
                 .collect(),
-            mass: loaded.mass_at_sensors(result.map_or(&first, |result| &result.last)),
+            mass: prepared.mass_at_sensors(found.map_or(&first, |found| &found.last)),
             derivatives: Some(Derivatives::at(&first)?),
             ..base
         };
-        let Some(result) = result else {
+        let Some(JobResult {
+            found,
+            trust,
+            verdict,
+            seen,
+            misfit,
+            intervals,
+        }) = result
+        else {
             return Ok(report);
         };
         // The deviation of the factor itself, from that of its logarithm, where there is an interval.
         let deviation = |(interval, factor): (Option<Bounds>, &f64)| {
             interval.map(|of| factor * (of.upper / of.lower).ln() / (2.0 * NORMAL_95))
         };
-        let intervals = result.intervals.iter().copied();
-        let (minima, failed_starts) = match &result.history {
-            History::GaussNewton(Some((_, minima, failed))) => (minima.clone(), *failed),
+        let intervals = intervals.iter().copied();
+        let (minima, failed_starts) = match &found.history {
+            History::GaussNewton(Some(all)) => (all.minima.clone(), all.failed),
             _ => Default::default(),
         };
         Ok(Self {
-            deviations: Some(intervals.zip(&result.factors).map(deviation).collect()),
+            deviations: Some(intervals.zip(&found.factors).map(deviation).collect()),
             prior_shares: Some(
-                result.seen[1]
+                seen[1]
                     .learned
                     .iter()
                     .map(|learned| 1.0 - learned)
                     .collect(),
             ),
-            misfit: Some(result.misfit),
+            misfit: Some(*misfit),
             is_judged_by_noise: loaded.job.compare.method == Method::GaussNewton,
-            analyses: Some(result.analyses),
+            analyses: Some(found.analyses),
             minima,
             failed_starts,
-            moved: moved(loaded, result),
-            verdict: Some(result.verdict.clone()),
-            trust: Some(result.trust.clone()),
+            moved: moved(found),
+            verdict: Some(verdict.clone()),
+            trust: Some(trust.clone()),
             ..report
         })
     }
@@ -163,11 +176,12 @@ impl Report {
 
 /// How the grids move, see [`Report::moved`]: the models as their own shapes at all degrees of freedom, the test as the nearest
 /// combination of the corrected model's modes. None where the sensors cannot tell these apart.
-fn moved(loaded: &LoadedJob, result: &JobResult) -> Option<[Vec<Vec<Vector3<f64>>>; 3]> {
-    let LoadedJob {
-        source, sensors, ..
-    } = loaded;
-    let ones = vec![1.0; result.factors.len()];
+fn moved(found: &CorrelatedJob) -> Option<[Vec<Vec<Vector3<f64>>>; 3]> {
+    let (source, sensors) = (
+        &found.prepared.loaded.source,
+        &found.prepared.loaded.sensors,
+    );
+    let ones = vec![1.0; found.factors.len()];
     let whole = |factors: &[f64], Comparison { model, .. }: &Comparison| {
         let pairs = &model.exact.pairing.analysis_mode;
         let count = pairs.iter().max().map_or(0, |mode| mode + 1);
@@ -188,9 +202,9 @@ fn moved(loaded: &LoadedJob, result: &JobResult) -> Option<[Vec<Vec<Vector3<f64>
         }
         Some((paired, all, seen))
     };
-    let (first, ..) = whole(&ones, &result.first)?;
-    let (last, all, seen) = whole(&result.factors, &result.last)?;
-    let test = expand(&all, &seen, &result.first.model.test.shapes).ok()?;
+    let (first, ..) = whole(&ones, &found.first)?;
+    let (last, all, seen) = whole(&found.factors, &found.last)?;
+    let test = expand(&all, &seen, &found.first.model.test.shapes).ok()?;
     let at = |shape: DVectorView<f64>, grid: usize| {
         Vector3::from_fn(|direction, _| {
             let motion = source.motions.get(&(grid, direction)).into_iter().flatten();
@@ -230,8 +244,8 @@ fn joined(mut places: Vec<Vector3<f64>>) -> Vec<Vec<Vector3<f64>>> {
 }
 
 /// The best stage of a stopped run.
-fn stopped(result: &JobResult) -> Result<Stage, Error> {
-    let (factors, check) = (result.factors.clone(), result.last.result()?);
+fn stopped(found: &CorrelatedJob) -> Result<Stage, Error> {
+    let (factors, check) = (found.factors.clone(), found.last.result()?);
     Ok(Stage {
         factors,
         check,

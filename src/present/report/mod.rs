@@ -3,8 +3,9 @@
 mod job;
 mod case;
 
-use crate::job::Trust;
+use crate::job::concern::Grade;
 use crate::job::verdict::Verdict;
+use crate::job::{Kind, Trust};
 use crate::method::analysis::DERIVATIVE_STEP;
 use crate::method::error::Error;
 use crate::method::error_sum::Errors;
@@ -256,19 +257,25 @@ impl Report {
         let against = self
             .trust
             .iter()
-            .filter(|trust| !trust.is_clear())
+            .filter(|trust| trust.stands_against())
             .map(|trust| {
-                let doubts = trust.concerns.iter().filter(|concern| concern.stands());
-                let modes = trust.not_compared.iter().map(|left| left.mode);
-                let names: Vec<String> = doubts
-                    .map(|doubt| format!("doubt {}", doubt.identifier))
-                    .chain(modes.map(|mode| format!("test mode {mode} not compared")))
-                    .collect();
+                let names = trust
+                    .all()
+                    .iter()
+                    .filter_map(|concern| match concern.grade() {
+                        _ if concern.stands() => Some(format!("doubt {}", concern.identifier())),
+                        Grade::LeftOut => {
+                            Some(format!("test mode {} not compared", concern.about[0]))
+                        }
+                        _ => None,
+                    });
+                let names: Vec<String> = names.collect();
                 format!("Not to be trusted as it stands ({}). ", names.join(", "))
             });
         let judged = self.misfit.as_ref().filter(|_| self.is_judged_by_noise);
         let judged = judged.zip(self.trust.as_ref());
-        let judged = judged.map(|(misfit, trust)| misfit.in_words(&trust.assumed));
+        let judged =
+            judged.map(|(misfit, trust)| misfit.in_words(&trust.about(Kind::AssumedDeviations)));
         let verdict = self.verdict.iter();
         let words = verdict.map(|verdict| {
             verdict_in_words(

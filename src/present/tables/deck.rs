@@ -45,7 +45,7 @@ pub fn deck_tables(unread: &[Unread], modes: &WholeModes, count: usize) -> Vec<T
             modes
                 .doubtful
                 .iter()
-                .map(|(name, held)| hardly_held(name, *held)),
+                .map(|(name, held)| hardly_held(name, *held).words()),
         );
     let ignored = Table::new(
         "ignored",

@@ -3,10 +3,12 @@
 
 use crate::files::error::FileError;
 use crate::files::test_data::DIRECTIONS;
+use crate::job::concern::Grade;
 use crate::job::localization::{by_factor, by_single_fit};
 use crate::job::metrics::coordinate_assurance;
 use crate::job::{
-    Concern, JobResult, LoadedJob, Method, NotCompared, PlacedSensor, Study, Summary, Trust, Vary,
+    Concern, JobResult, Kind, LoadedJob, Method, PlacedSensor, PreparedJob, Study, Summary, Trust,
+    Vary,
 };
 use crate::method::step::Bounds;
 use crate::present::report::Report;
@@ -52,7 +54,7 @@ pub fn places_table(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Ta
         );
     let models = result
         .into_iter()
-        .flat_map(|result| [&result.first, &result.last])
+        .flat_map(|result| [&result.found.first, &result.found.last])
         .filter(|model| model.model.test.len() > 0);
     for (name, model) in ["first COMAC", "corrected COMAC"].into_iter().zip(models) {
         let pairs: Vec<Option<usize>> = model
@@ -88,8 +90,8 @@ pub fn places_table(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Ta
 /// The inputs of a job: its files, its method for the factors, and the weights of the compared test modes.
 ///
 /// # Errors
-/// The errors of [`LoadedJob::weights`].
-pub fn inputs_table(loaded: &LoadedJob) -> Result<Table, FileError> {
+pub fn inputs_table(prepared: &PreparedJob) -> Table {
+    let loaded = &prepared.loaded;
     let compare = &loaded.job.compare;
     let files: Vec<String> = loaded
         .job
@@ -104,9 +106,9 @@ pub fn inputs_table(loaded: &LoadedJob) -> Result<Table, FileError> {
         rows.push(("starts".to_owned(), compare.starts.unwrap_or(1).to_string()));
         rows.push(("seed".to_owned(), compare.seed.to_string()));
     }
-    let weights = loaded.weights()?;
+    let weights = prepared.weights();
     let digits = Digits::Significant(4);
-    rows.extend(loaded.compared().zip(&weights).map(|(mode, weight)| {
+    rows.extend(prepared.compared().zip(&weights).map(|(mode, weight)| {
         let [frequency, shape] = [weight.frequency, weight.shape].map(|it| digits.write(it));
         (
             format!("weights of test mode {}", mode + 1),
@@ -114,62 +116,50 @@ pub fn inputs_table(loaded: &LoadedJob) -> Result<Table, FileError> {
         )
     }));
     let (labels, words): (Vec<String>, Vec<String>) = rows.into_iter().unzip();
-    Ok(Table::new("inputs", "What it was run with", "Input")
+    Table::new("inputs", "What it was run with", "Input")
         .labels(labels)
-        .column("Value", "", words.into_iter().map(Cell::Sentence)))
+        .column("Value", "", words.into_iter().map(Cell::Sentence))
 }
 
 /// Doubts about a job or its result, and remarks, most important first.
 pub fn trust_table(trust: &Trust) -> Table {
-    let all = trust.all();
-    let left_out: Vec<String> = trust
-        .not_compared
-        .iter()
-        .map(NotCompared::identifier)
-        .collect();
-    let kind = |concern: &Concern| match concern {
-        concern if concern.stands() => "doubt",
-        Concern { is_doubt: true, .. } => "doubt, accepted",
-        concern if left_out.contains(&concern.identifier) => "left out",
-        _ => "remark",
+    let all = || trust.all().iter();
+    let kind = |concern: &Concern| match concern.grade() {
+        Grade::Doubt if concern.is_accepted => "doubt, accepted",
+        Grade::Doubt => "doubt",
+        Grade::LeftOut => "left out",
+        Grade::Remark => "remark",
     };
+    let standing = "A doubt names a mistake; --accept IDENTIFIER answers for it.";
     Table::new("trust", "What to know before trusting this", "Identifier")
-        .labels(all.iter().map(|concern| &concern.identifier))
-        .column(
-            "Kind",
-            "",
-            all.iter().map(|concern| Cell::text(kind(concern))),
-        )
+        .labels(all().map(Concern::identifier))
+        .column("Kind", "", all().map(|concern| Cell::text(kind(concern))))
         .column(
             "Finding",
             "",
-            all.iter()
-                .map(|concern| Cell::Sentence(concern.words.clone())),
+            all().map(|concern| Cell::Sentence(concern.words())),
         )
-        .notes(
-            all.iter()
-                .any(Concern::stands)
-                .then(|| "A doubt names a mistake; --accept IDENTIFIER answers for it.".to_owned()),
-        )
+        .notes(trust.has_doubt().then(|| standing.to_owned()))
 }
 
 /// Parameters that may be the one that is wrong, by how much of the test's chi-squared each alone can take away, at most
 /// [`MOST_SUSPECTS`]; beside it the paper's unlimited factor of the first iteration.
 ///
 /// # Errors
-/// The errors of [`LoadedJob::weights`] and of the rankings.
-pub fn suspects_table(loaded: &LoadedJob) -> Result<Table, FileError> {
+/// The errors of the rankings.
+pub fn suspects_table(prepared: &PreparedJob) -> Result<Table, FileError> {
+    let loaded = &prepared.loaded;
     let parameters = loaded.source.whole.parameters();
     let title = "Suspects: what one parameter alone explains";
     if parameters.is_empty() {
         return Ok(Table::new("suspects", title, "Parameter")
             .notes(["The job has no parameters.".to_owned()]));
     }
-    let (far, first) = loaded.far_from_first()?;
-    let weights = far.weights()?;
+    let (far, first) = prepared.far_from_first()?;
+    let weights = far.weights();
     let suspects = by_single_fit(&first, &weights)?;
     // The paper's step needs shapes.
-    let slopes = match &loaded.alone[..] {
+    let slopes = match prepared.alone() {
         [] => by_factor(
             &first.model,
             &loaded.job.correlation.for_modes(far.modes.len()).inner,
@@ -230,7 +220,8 @@ pub fn suspects_table(loaded: &LoadedJob) -> Result<Table, FileError> {
 
 /// The parameters as the test sees them, at the first model and at the best factors: 95 % intervals, and the blind and the parallel
 /// ones.
-pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileError> {
+pub fn seen_table(result: &JobResult) -> Table {
+    let loaded = &result.found.prepared.loaded;
     let names: Vec<&str> = loaded.parameter_names().collect();
     let [before, after] = &result.seen;
     let intervals = &result.intervals;
@@ -241,7 +232,7 @@ pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileE
         after.subset.len(),
         after.singular_values.first().copied().unwrap_or_default(),
         after.singular_values.last().copied().unwrap_or_default(),
-        match &result.trust.assumed[..] {
+        match &result.trust.about(Kind::AssumedDeviations)[..] {
             [] => String::new(),
             assumed => format!(", assumed: {}", assumed.join(" and ")),
         },
@@ -261,24 +252,22 @@ pub fn seen_table(loaded: &LoadedJob, result: &JobResult) -> Result<Table, FileE
     let learned = after.learned.iter().map(|learned| 1.0 - learned);
     let deviations =
         |seen: &Identifiability| percents(seen.deviations.clone(), Digits::Significant(3));
-    Ok(
-        Table::new("seen", "What the test sees of the parameters", "Parameter")
-            .labels(&names)
-            .column(
-                "factor",
-                "",
-                numbers(result.factors.iter().copied(), Digits::Fixed(4)),
-            )
-            .column("least (95 %)", "", ends(|interval| interval.lower))
-            .column("most (95 %)", "", ends(|interval| interval.upper))
-            .column("deviation", "%", deviations(after))
-            .column("deviation before", "%", deviations(before))
-            .column("prior's share", "%", percents(learned, Digits::Fixed(1)))
-            .notes([apart])
-            .notes(is_withheld.then(|| withheld.to_owned()))
-            .notes(is_by_slope.then_some(by_slope))
-            .filled(),
-    )
+    Table::new("seen", "What the test sees of the parameters", "Parameter")
+        .labels(&names)
+        .column(
+            "factor",
+            "",
+            numbers(result.found.factors.iter().copied(), Digits::Fixed(4)),
+        )
+        .column("least (95 %)", "", ends(|interval| interval.lower))
+        .column("most (95 %)", "", ends(|interval| interval.upper))
+        .column("deviation", "%", deviations(after))
+        .column("deviation before", "%", deviations(before))
+        .column("prior's share", "%", percents(learned, Digits::Fixed(1)))
+        .notes([apart])
+        .notes(is_withheld.then(|| withheld.to_owned()))
+        .notes(is_by_slope.then_some(by_slope))
+        .filled()
 }
 
 /// The minima that noise allows, one column each, with their chi-squared, the number of starts that end there, and their factors;
@@ -331,7 +320,7 @@ pub fn study_table(study: &Study, summary: &Summary) -> Table {
     };
     let mut table = Table::new(
         "study",
-        format!("{}: factors over many runs", study.loaded.title),
+        format!("{}: factors over many runs", study.prepared.loaded.title),
         "Parameter",
     )
     .headings(["mean", "deviation", "2.5 %", "median", "97.5 %"], "")

@@ -1,9 +1,10 @@
 //! `corfem init` from outside: a job and a test that explain themselves, and that the readers take.
 
 use crate::common::jobs::folder_of;
+use crate::common::jobs::prepare;
 use crate::presentation::program::cli::{corfem, text};
 use crate::presentation::program::cli_jobs::{Reported, reported, words};
-use corfem::job::{Job, LoadedJob, read};
+use corfem::job::{Job, read};
 use std::fs;
 
 #[test]
@@ -42,7 +43,7 @@ fn init_writes_a_job_that_reads_and_nothing_over_another() {
     let text = text.replace("\"test.unv\"", &format!("{:?}", wing("test.unv")));
     let text = text.replace("# by = \"grid\"", "by = \"nearest\"");
     fs::write(&path, text).expect("written");
-    LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    prepare(&path).unwrap_or_else(|error| panic!("{error}"));
 }
 
 /// The names of a struct's fields, as the reader itself lists them when it finds another.

@@ -1,0 +1,591 @@
+//! Concerns, which lower the trust in a job's result: each has a kind, names and numbers, and one table makes it a sentence.
+
+use crate::files::error::FileError;
+use serde::ser::SerializeStruct;
+use serde::{Serialize, Serializer};
+use sha2::{Digest, Sha256};
+
+/// A kind of fact that a reader must know before trusting a result, in the order in which all outputs say them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[allow(missing_docs, reason = "the table below has a sentence for each")]
+pub enum Kind {
+    Interrupted,
+    Weak,
+    MeasuredTwice,
+    FrequenciesExchanged,
+    NamedFactor,
+    UnnamedFactor,
+    Reversed,
+    Exchanged,
+    Reordered,
+    Gain,
+    Dead,
+    Direction,
+    Percent,
+    ExcludesStart,
+    UnitOfPlaces,
+    NoPair,
+    NotPart,
+    Twin,
+    OppositeTwin,
+    Unlike,
+    PartnerTaken,
+    Parallel,
+    Undecided,
+    Joined,
+    Blind,
+    MostlyPrior,
+    AtBound,
+    AssumedDeviations,
+    NotUsed,
+    NotSelected,
+    AnalysisModes,
+    Mass,
+    MassByDirection,
+    CenterOfMass,
+    ChiSquared,
+    Alike,
+    TooManyModes,
+    Unbounded,
+    FrequenciesAlone,
+    CloseModes,
+    OwnWeights,
+    Covariance,
+    Variances,
+    Complex,
+    NotInEveryMode,
+    DatasetsNotRead,
+    UnitsOfTest,
+}
+
+/// The effect of a concern on a result.
+#[doc(hidden)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Grade {
+    /// It names a mistake.
+    Doubt,
+    /// A selected test mode is not compared.
+    LeftOut,
+    /// It limits what is known.
+    Remark,
+}
+
+/// The table: what a concern of each kind does, its identifier, and its sentence.
+///
+/// `{a}` and `{b}` are the first names that a concern is about, `{all}` all of them, `{some}` the first eight, `{and}` joins them by that
+/// word, `{id}` by hyphens; `{x}`, `{y}`, `{z}` and `{w}` are its numbers, `{x.3}` with three decimals, `{xe}` as a power of ten, `{x6}` with
+/// six significant digits.
+const TABLE: [(Kind, Grade, &str, &str); 47] = {
+    use Grade::{Doubt, LeftOut, Remark};
+    use Kind::*;
+    [
+        (
+            Interrupted,
+            Remark,
+            "interrupted",
+            "Stopped by request; these are the best factors so far.",
+        ),
+        (
+            Weak,
+            Doubt,
+            "weak-{a}",
+            "A motion of {a} is resisted by {xe} of the stiffness there, which the digits of the matrix hardly tell from nothing: \
+             it counts as a {b}.",
+        ),
+        (
+            MeasuredTwice,
+            Doubt,
+            "same-{id}",
+            "Test modes {and} are nearly the same shape, modal assurance {x.3}; measured twice?",
+        ),
+        (
+            FrequenciesExchanged,
+            Doubt,
+            "frequencies-exchanged-{id}",
+            "Frequencies of test modes {and} exchanged? It would lower the mean deviation of the ratios from {x.1} to {y.1} %.",
+        ),
+        (
+            NamedFactor,
+            Doubt,
+            "common-factor",
+            "Test frequencies are {x.4} times the model's, near {a}: {b}?",
+        ),
+        (
+            UnnamedFactor,
+            Doubt,
+            "common-factor",
+            "Test frequencies are {x.4} times the model's, by no mistake known here.",
+        ),
+        (
+            Reversed,
+            Doubt,
+            "reversed-{id}",
+            "Sensor {a} reversed? {likely}",
+        ),
+        (
+            Exchanged,
+            Doubt,
+            "exchanged-{id}",
+            "Sensors {and} exchanged? {likely}",
+        ),
+        (
+            Reordered,
+            Doubt,
+            "reordered",
+            "Points in another order ({all})? {likely}",
+        ),
+        (
+            Gain,
+            Doubt,
+            "gain-{id}",
+            "Sensor {a} reads {y.3} times too much? {likely}",
+        ),
+        (Dead, Doubt, "dead-{id}", "Sensor {a} dead? {likely}"),
+        (
+            Direction,
+            Doubt,
+            "direction-{a}",
+            "Sensor {a} measures along {b}? {likely}",
+        ),
+        (
+            Percent,
+            Doubt,
+            "percent-{a}",
+            "Setting {a} is {x}, that is {y} %: a percentage where a fraction is meant?",
+        ),
+        (
+            ExcludesStart,
+            Doubt,
+            "excludes-start-{id}",
+            "Bounds on the factor of parameter {a}, {x} to {y}, exclude its first value.",
+        ),
+        (
+            UnitOfPlaces,
+            Doubt,
+            "unit-of-places",
+            "The sensors' places span {x.1} times what the model's do: another unit of length?",
+        ),
+        (
+            NoPair,
+            Doubt,
+            "no-pair",
+            "No test mode resembles a mode of the model: another structure, other sensors, or several mistakes at once?",
+        ),
+        (
+            NotPart,
+            Doubt,
+            "not-part-{id}",
+            "The matrix of parameter \"{a}\" is not part of the first model's, which without it has negative energy.",
+        ),
+        (
+            Twin,
+            Doubt,
+            "twin-{id}",
+            "Parameters \"{a}\" and \"{b}\" have the same matrix.",
+        ),
+        (
+            OppositeTwin,
+            Doubt,
+            "twin-{id}",
+            "Parameters \"{a}\" and \"{b}\" have matrices of opposite sign.",
+        ),
+        (
+            Unlike,
+            LeftOut,
+            "not-compared-{a}",
+            "Test mode {a} is not compared: it resembles no mode of the model (modal assurance {x.2} at most).",
+        ),
+        (
+            PartnerTaken,
+            LeftOut,
+            "not-compared-{a}",
+            "Test mode {a} is not compared: the mode of the model that it resembles belongs to another test mode (modal assurance \
+             {x.2} at most).",
+        ),
+        (
+            Parallel,
+            Remark,
+            "parallel-{id}",
+            "The test cannot tell {and} apart; only their combination is known.",
+        ),
+        (
+            Undecided,
+            Remark,
+            "undecided",
+            "Shapes do not decide which modes of the model are those of test modes {all}; they are paired in the order of \
+             frequencies.",
+        ),
+        (
+            Joined,
+            Remark,
+            "joined",
+            "Test modes left out at first and compared since: {all}. The passes shown are those since.",
+        ),
+        (
+            Blind,
+            Remark,
+            "blind",
+            "Hardly seen by the test, and so not to be trusted: {some}.",
+        ),
+        (
+            MostlyPrior,
+            Remark,
+            "mostly-prior",
+            "Known more from the prior than from the test: {some}.",
+        ),
+        (AtBound, Remark, "at-bound", "At a bound: {some}."),
+        (
+            AssumedDeviations,
+            Remark,
+            "assumed-deviations",
+            "Standard deviations assumed: {and}.",
+        ),
+        (
+            NotUsed,
+            Remark,
+            "not-used",
+            "Not used of the inputs: {all}.",
+        ),
+        (
+            NotSelected,
+            Remark,
+            "not-selected",
+            "Test modes that the job does not select: {all}.",
+        ),
+        (
+            AnalysisModes,
+            Remark,
+            "analysis-modes",
+            "Modes of the model taken: the lowest {x}, beside {y} rigid-body modes.",
+        ),
+        (Mass, Remark, "mass", "Total mass {x6}."),
+        (
+            MassByDirection,
+            Remark,
+            "mass",
+            "Mass that moves along x {x6}, along y {y6}, along z {z6}.",
+        ),
+        (
+            CenterOfMass,
+            Remark,
+            "center-of-mass",
+            "Center of gravity ({x6}, {y6}, {z6}).",
+        ),
+        (
+            ChiSquared,
+            Remark,
+            "chi-squared",
+            "Chi-squared is {x.1} for {y.1} degrees of freedom; noise alone leaves at most {z.1} in 999 of 1000 tests.",
+        ),
+        (
+            Alike,
+            Remark,
+            "same-{id}",
+            "Test modes {and} are nearly the same shape, modal assurance {x.3}.",
+        ),
+        (
+            TooManyModes,
+            Remark,
+            "too-many-modes",
+            "{x} test modes at {y} points: only {z} are told apart, the smallest singular value is {w.3}.",
+        ),
+        (
+            Unbounded,
+            Remark,
+            "unbounded",
+            "Parameters without bounds: {some}.",
+        ),
+        (
+            FrequenciesAlone,
+            Remark,
+            "frequencies-alone",
+            "Test modes without shapes are paired by number, which nothing checks: {all}. The model's modes are followed by shape \
+             from there.",
+        ),
+        (
+            CloseModes,
+            Remark,
+            "close-modes-{id}",
+            "The frequencies of test modes {and} are no further apart than their deviations tell: their shapes are compared as one \
+             subspace.",
+        ),
+        (
+            OwnWeights,
+            Remark,
+            "own-weights",
+            "The job's weights count as dividing the standard deviations: chi-squared and intervals hold for deviations so divided.",
+        ),
+        (
+            Covariance,
+            Remark,
+            "repeats",
+            "The test is the mean of {x}; their covariance counts. What all of them have wrong does not scatter.",
+        ),
+        (
+            Variances,
+            Remark,
+            "repeats",
+            "The test is the mean of {x}; their variances alone count, for a covariance of {y} numbers needs {z} tests and no \
+             weights of the job's own. What all of them have wrong does not scatter.",
+        ),
+        (
+            Complex,
+            Remark,
+            "complex-{a}",
+            "Test mode {a} is complex: its phase collinearity is {x.2}.",
+        ),
+        (
+            NotInEveryMode,
+            Remark,
+            "not-in-every-mode",
+            "Sensors left out because some mode of the file has no value at them: {all}.",
+        ),
+        (
+            DatasetsNotRead,
+            Remark,
+            "datasets-not-read",
+            "Datasets of the Universal File that are not read: {all}.",
+        ),
+        (
+            UnitsOfTest,
+            Remark,
+            "units-of-test",
+            "The test's file is in units of {a}; nothing is converted.",
+        ),
+    ]
+};
+
+/// The sentence behind `{likely}`.
+const LIKELY: &str = "The test's shapes would be 10^{x.0} times as likely, with noise of 1 % and a model 30 % wrong.";
+
+// Every kind has its row, at its own place.
+const _: () = {
+    let mut row = 0;
+    while row < TABLE.len() {
+        assert!(TABLE[row].0 as usize == row);
+        row += 1;
+    }
+    assert!(TABLE.len() == Kind::UnitsOfTest as usize + 1);
+};
+
+/// Most characters of an identifier, so that a table of 80 columns has room for its sentence.
+const LONGEST: usize = 40;
+
+/// Most names that a sentence lists.
+const MOST_LISTED: usize = 8;
+
+/// Something that a reader must know before trusting a result.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Concern {
+    /// Its kind.
+    pub kind: Kind,
+    /// The sensors, parameters or entries that it is about, by name, or the test modes by number.
+    pub about: Vec<String>,
+    /// The numbers that its sentence tells.
+    pub measure: Vec<f64>,
+    /// True if the user answers for it, by its identifier.
+    pub is_accepted: bool,
+}
+
+impl Concern {
+    /// A concern that nobody answers for yet.
+    pub fn new(kind: Kind, about: &[impl ToString], measure: &[f64]) -> Self {
+        Self {
+            kind,
+            about: about.iter().map(ToString::to_string).collect(),
+            measure: measure.to_vec(),
+            is_accepted: false,
+        }
+    }
+
+    /// A doubt about a setting that looks like percent.
+    pub(super) fn percent(setting: &str, value: f64) -> Self {
+        Self::new(Kind::Percent, &[setting], &[value, 100.0 * value])
+    }
+
+    /// A concern about nothing in particular.
+    pub(super) fn plain(kind: Kind, measure: &[f64]) -> Self {
+        Self::new(kind, &[""; 0], measure)
+    }
+
+    /// The name of it on the command line: words, numbers and names joined by hyphens, at most forty characters. A longer one ends in four
+    /// hexadecimal digits of its SHA-256 digest, which tell it from others of the same beginning.
+    pub fn identifier(&self) -> String {
+        let (.., identifier, _) = TABLE[self.kind as usize];
+        let whole = self.filled(identifier).replace(char::is_whitespace, "-");
+        if whole.chars().count() <= LONGEST {
+            return whole;
+        }
+        let digest = Sha256::digest(&whole);
+        let start: String = whole.chars().take(LONGEST - 5).collect();
+        format!("{start}-{:02x}{:02x}", digest[0], digest[1])
+    }
+
+    /// A sentence that says it.
+    pub fn words(&self) -> String {
+        let (.., words) = TABLE[self.kind as usize];
+        self.filled(&words.replace("{likely}", LIKELY))
+    }
+
+    /// The effect that it has on a result.
+    #[doc(hidden)]
+    pub fn grade(&self) -> Grade {
+        TABLE[self.kind as usize].1
+    }
+
+    /// True if it names a mistake that nobody answers for.
+    pub fn stands(&self) -> bool {
+        self.grade() == Grade::Doubt && !self.is_accepted
+    }
+
+    /// A template of the table with names and numbers in it.
+    fn filled(&self, template: &str) -> String {
+        let mut parts = template.split(['{', '}']);
+        let mut words = parts.next().unwrap_or_default().to_owned();
+        while let Some(field) = parts.next() {
+            words += &self.field(field);
+            words += parts.next().unwrap_or_default();
+        }
+        words
+    }
+
+    /// The text for a field of a template.
+    fn field(&self, field: &str) -> String {
+        let about = &self.about[..];
+        let name = |place: usize| about.get(place).cloned().unwrap_or_default();
+        let more = about.len().saturating_sub(MOST_LISTED);
+        match field {
+            "a" => return name(0),
+            "b" => return name(1),
+            "id" => return about.join("-"),
+            "and" => return about.join(" and "),
+            "some" if more > 1 => {
+                return format!("{} and {more} more", about[..MOST_LISTED].join(", "));
+            }
+            "all" | "some" => return about.join(", "),
+            _ => (),
+        }
+        let (place, digits) = field.split_at(1);
+        let place = ["x", "y", "z", "w"]
+            .into_iter()
+            .position(|own| own == place);
+        let number = place.and_then(|place| self.measure.get(place).copied());
+        let number = number.unwrap_or(f64::NAN);
+        match digits {
+            "" => number.to_string(),
+            "e" => format!("{number:.0e}"),
+            "6" => format!("{number:.5e}")
+                .parse()
+                .unwrap_or(number)
+                .to_string(),
+            _ => {
+                let decimals = digits[1..].parse().unwrap_or_default();
+                format!("{number:.decimals$}")
+            }
+        }
+    }
+}
+
+impl Serialize for Concern {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let grade = self.grade();
+        let mut fields = serializer.serialize_struct("Concern", 7)?;
+        fields.serialize_field("identifier", &self.identifier())?;
+        fields.serialize_field("kind", &self.kind)?;
+        fields.serialize_field("about", &self.about)?;
+        fields.serialize_field("measure", &self.measure)?;
+        fields.serialize_field("is_doubt", &(grade == Grade::Doubt))?;
+        fields.serialize_field("is_accepted", &self.is_accepted)?;
+        fields.serialize_field("words", &self.words())?;
+        fields.end()
+    }
+}
+
+/// Everything that may lower the trust in a job's result, what matters most first.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[serde(transparent)]
+pub struct Trust {
+    concerns: Vec<Concern>,
+}
+
+impl Trust {
+    /// The concerns in the order of their kinds.
+    pub fn new(mut concerns: Vec<Concern>) -> Self {
+        concerns.sort_by_key(|concern| concern.kind);
+        Self { concerns }
+    }
+
+    /// The concerns, what matters most first.
+    pub fn all(&self) -> &[Concern] {
+        &self.concerns
+    }
+
+    /// The concerns of one kind.
+    pub fn of(&self, kind: Kind) -> impl Iterator<Item = &Concern> {
+        self.concerns
+            .iter()
+            .filter(move |concern| concern.kind == kind)
+    }
+
+    /// Names and numbers that the concerns of one kind are about.
+    pub fn about(&self, kind: Kind) -> Vec<String> {
+        self.of(kind)
+            .flat_map(|concern| concern.about.clone())
+            .collect()
+    }
+
+    /// The account after a run, with what is known since; test modes are left out by what it ended with.
+    pub(super) fn after(&self, concerns: Vec<Concern>) -> Self {
+        let before = self.concerns.iter();
+        let before = before.filter(|concern| concern.grade() != Grade::LeftOut);
+        Self::new(before.cloned().chain(concerns).collect())
+    }
+
+    /// The account after the user answers for the doubts of these identifiers.
+    ///
+    /// # Errors
+    /// [`FileError::Refused`] for an identifier that names no doubt, with those that there are.
+    pub fn accepting(mut self, accepted: &[String]) -> Result<Self, FileError> {
+        let is_doubt = |concern: &Concern| concern.grade() == Grade::Doubt;
+        let doubts: Vec<String> = self
+            .concerns
+            .iter()
+            .filter(|own| is_doubt(own))
+            .map(Concern::identifier)
+            .collect();
+        if let Some(unknown) = accepted.iter().find(|own| !doubts.contains(own)) {
+            let reason = match &doubts[..] {
+                [] => "nothing is doubtful".to_owned(),
+                _ => format!("the doubts are {}", doubts.join(", ")),
+            };
+            return Err(FileError::refused(format!("--accept {unknown}"), reason));
+        }
+        for concern in self.concerns.iter_mut().filter(|own| is_doubt(own)) {
+            concern.is_accepted = accepted.contains(&concern.identifier());
+        }
+        Ok(self)
+    }
+
+    /// True if a doubt stands that nobody answers for.
+    pub fn has_doubt(&self) -> bool {
+        self.concerns.iter().any(Concern::stands)
+    }
+
+    /// True if a doubt or a selected mode that is not compared stands against the result.
+    pub(crate) fn stands_against(&self) -> bool {
+        self.has_doubt() || !self.are_all_compared()
+    }
+
+    /// True if every selected test mode is compared.
+    pub(super) fn are_all_compared(&self) -> bool {
+        let is_left = |concern: &Concern| concern.grade() == Grade::LeftOut;
+        !self.concerns.iter().any(is_left)
+    }
+
+    /// True if nothing stands against the result: neither a doubt, nor a selected mode that is not compared, nor a request to stop.
+    pub fn is_clear(&self) -> bool {
+        let is_interrupted = self.of(Kind::Interrupted).next().is_some();
+        !self.stands_against() && !is_interrupted
+    }
+}
