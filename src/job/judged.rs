@@ -113,7 +113,7 @@ impl CorrelatedJob {
             Some((_, true)) => Outcome::Nothing,
             None => Outcome::Request,
             Some((WeightedStop::Trials, _)) => Outcome::Cap,
-            Some((WeightedStop::Step, _)) => Outcome::ShortSteps,
+            Some((WeightedStop::Wall, _)) => Outcome::Wall,
             _ => Outcome::LocalMinimum,
         };
         let errors = self.last.mode_errors()?;

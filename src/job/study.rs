@@ -212,7 +212,7 @@ impl Study {
                 let outcome = match verdict.outcome {
                     Outcome::Tolerance => "tolerance",
                     Outcome::LocalMinimum => "local minimum",
-                    Outcome::ShortSteps => "short steps",
+                    Outcome::Wall => "wall",
                     Outcome::Cap => "cap",
                     Outcome::Request => "request",
                     Outcome::Nothing => "nothing",

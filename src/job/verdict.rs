@@ -22,8 +22,8 @@ pub enum Outcome {
     Tolerance,
     /// No step lowered the error sum any more.
     LocalMinimum,
-    /// Steps became too short to tell whether one lowers it, which is no proof of a minimum.
-    ShortSteps,
+    /// Weighted steps ended where the objective rises ahead of them though its slopes promise a fall, as where pairs of modes change.
+    Wall,
     /// The passes allowed were used up, or the iterations of the only one.
     Cap,
     /// The caller asked to stop.

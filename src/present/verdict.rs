@@ -18,7 +18,9 @@ pub fn verdict_in_words(
     let end = match verdict.outcome {
         Outcome::Tolerance => "",
         Outcome::LocalMinimum => " No further step lowered it.",
-        Outcome::ShortSteps => " Steps became too short to lower it, which need not be a minimum.",
+        Outcome::Wall => {
+            " Steps ended short of a minimum, where pairs of modes change ahead of them."
+        }
         Outcome::Cap => " The iterations or passes allowed ran out.",
         Outcome::Request => " It was stopped by request.",
         Outcome::Nothing => " No step from the first model lowered it, or none was allowed.",

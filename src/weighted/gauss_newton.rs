@@ -62,10 +62,10 @@ impl WeightedSettings {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum WeightedStop {
-    /// The gradient is within tolerance, but for what it presses against bounds.
+    /// A step that nothing damps promises a fall within tolerance, but for what the gradient presses against bounds.
     Gradient,
-    /// The step is.
-    Step,
+    /// Only short steps promise as little: ahead the objective rises where it should fall, as where pairs of modes change.
+    Wall,
     /// The trials allowed were used up.
     Trials,
 }
@@ -128,8 +128,9 @@ struct Iterate {
 /// The trial from every place goes to where such steps end in a basis, without another analysis: the modes and the deflections of the
 /// compared ones along the first step, with slopes corrected to the exact ones. Where a model has all its modes, that is the end. The
 /// exact objective decides. A basis that promised another fall than there was is followed by one with deflections of all parameters, in
-/// which $\mu \thinspace \mathrm{diag} A$ holds the factors at the place. Steps end where the fall that is promised is that of a step
-/// shorter than the tolerance, or the round-off of the objective.
+/// which $\mu \thinspace \mathrm{diag} A$ holds the factors at the place. Steps end where the fall that is promised without damping is
+/// that of a step shorter than the tolerance, or the round-off of the objective; and short of that at a wall, where rejections have damped
+/// them until they promise no more.
 ///
 /// `analyze` and `ranges` are those of [`crate::method::outer_loop::correlate`]. Source: Marquardt, *SIAM Journal* 11
 /// (1963), 431; Nielsen, *Damping Parameter in Marquardt's Method*, IMM-REP-1999-05, Technical University of Denmark
@@ -241,15 +242,17 @@ impl<'a> Problem<'a> {
         let (mut trials, mut further, mut damping) = (0, 0, Damping::FIRST);
         let most = 6 * place.comparison.model.test.len() + 30;
         let stop = loop {
-            let step = match self.step(&place, damping.now)? {
-                Ok(step) => step,
-                Err(stop) => break stop,
-            };
-            let promised = place.promised_fall(&step);
             let digits = OBJECTIVE_DIGITS * place.objective;
-            if promised <= digits.max(0.5 * self.settings.tolerance.powi(2)) {
+            let least = digits.max(0.5 * self.settings.tolerance.powi(2));
+            let whole = self.step(&place, 0.0)?;
+            if whole.is_none_or(|step| place.promised_fall(&step) <= least) {
                 break WeightedStop::Gradient;
             }
+            let step = self.step(&place, damping.now)?;
+            let promise = |step: DVector<f64>| (place.promised_fall(&step), step);
+            let Some((promised, step)) = step.map(promise).filter(|(fall, _)| *fall > least) else {
+                break WeightedStop::Wall;
+            };
             if trials == self.settings.trials {
                 break WeightedStop::Trials;
             }
@@ -300,7 +303,7 @@ impl<'a> Problem<'a> {
         let mut place = self.place_at(analyze, first.to_vec())?;
         let mut damping = Damping::FIRST;
         for _ in 0..self.settings.trials {
-            let Ok(step) = self.step(&place, damping.now)? else {
+            let Some(step) = self.step(&place, damping.now)? else {
                 break;
             };
             let promised = place.promised_fall(&step);
@@ -319,12 +322,8 @@ impl<'a> Problem<'a> {
         Ok((place.objective, place.factors))
     }
 
-    /// The damped step from a place within the room of every logarithm, or the reason why there is none.
-    fn step(
-        &self,
-        place: &Iterate,
-        damping: f64,
-    ) -> Result<Result<DVector<f64>, WeightedStop>, Error> {
+    /// The damped step from a place within the room of every logarithm, if there is one.
+    fn step(&self, place: &Iterate, damping: f64) -> Result<Option<DVector<f64>>, Error> {
         let room = place.room(self.ranges);
         let free = place.free(&room);
         let is_flat = |&e: &usize| {
@@ -332,14 +331,11 @@ impl<'a> Problem<'a> {
             place.gradient[e].abs() <= self.settings.tolerance * deviations
         };
         if free.iter().all(is_flat) {
-            return Ok(Err(WeightedStop::Gradient));
+            return Ok(None);
         }
         let mut step = bounded_step(&place.curvature, &place.gradient, free, &room, damping)?;
         step *= (LONGEST_STEP / step.amax()).min(1.0);
-        Ok(match step.amax() <= SHORTEST_STEP {
-            true => Err(WeightedStop::Step),
-            false => Ok(step),
-        })
+        Ok((step.amax() > SHORTEST_STEP).then_some(step))
     }
 
     /// The objective and the factors where the steps from a place end in a basis of the modes and their deflections along a step, and so

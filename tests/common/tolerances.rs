@@ -279,6 +279,8 @@ pub const JOB_RESULTS: f64 = 1e-4;
 pub const JOB_WING: f64 = 0.002;
 /// Squared logarithms of the box's gages that are left of what was wrong, from noisy modes.
 pub const JOB_BOX: f64 = 0.25;
+/// Distance of a job's factors from their optimum, in deviations: that at which its steps stop.
+pub const OPTIMUM: f64 = 1e-3;
 /// Gages of the delta wing by its condensed and by its whole model: condensation raises its ten modes by up to 6e-5, which the least
 /// seen of its groups magnify some thirty times.
 pub const CONDENSED_GAGES: f64 = 2e-3;

@@ -783,7 +783,7 @@ fn noise() -> [(&'static str, String); 6] {
     ]
 }
 
-/// The tables of counted and of approximate analyses in `paper/cost.md`.
+/// The tables of counted and of approximate analyses in `paper/perturbation.md`.
 fn analyses() -> [(&'static str, String); 2] {
     let structures = ["Case 1", "Case 2", "Case 3", "Delta wing", "Wing"];
     let reached = structures.into_iter().flat_map(|structure| {

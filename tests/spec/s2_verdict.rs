@@ -262,7 +262,7 @@ fn advice_goes_by_the_outcome() {
             "Look for a mistake in the test's units",
         ),
         (Outcome::LocalMinimum, vec![0], "Try wider bounds"),
-        (Outcome::ShortSteps, vec![0], "need not be a minimum"),
+        (Outcome::Wall, vec![0], "short of a minimum"),
         (
             Outcome::LocalMinimum,
             vec![],

@@ -52,8 +52,11 @@ impl Names {
             ]
         });
         let is_free = |one: &[f64; 4]| {
+            // Letters are placed to whole pixels, which moves two of them by up to one against each other.
+            let before = |end: f64, start: f64| end + 1.0 <= start;
             let meets = |other: &[f64; 4]| {
-                one[0] < other[2] && other[0] < one[2] && one[1] < other[3] && other[1] < one[3]
+                !(before(one[2], other[0]) || before(other[2], one[0]))
+                    && !(before(one[3], other[1]) || before(other[3], one[1]))
             };
             one[0] > 4.0
                 && one[2] < WIDTH - 4.0

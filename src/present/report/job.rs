@@ -147,7 +147,7 @@ impl Report {
     ) -> Self {
         let stop = match run.stop {
             WeightedStop::Gradient => "gradient",
-            WeightedStop::Step => "step",
+            WeightedStop::Wall => "wall",
             WeightedStop::Trials => "trials",
         };
         let last = run.iterations.len().saturating_sub(1);
