@@ -3,7 +3,7 @@
 //!
 //! [`Model`](crate::method::model::Model) answers them as the paper does. Any other analysis that answers them can be correlated.
 
-use super::error::Error;
+use super::error::Result;
 use super::error_sum::Errors;
 use super::linear_algebra::Matrix;
 use super::modes::Modes;
@@ -42,15 +42,17 @@ pub trait Analysis {
     /// The modes at these factors on the stored stiffness, all changes since the exact modes taken at once (9 to 11).
     ///
     /// # Errors
-    /// [`Error::WrongShape`] unless there is a factor for every parameter; [`Error::LostRoot`], [`Error::CoalescingModes`] or
-    /// [`Error::UnsettledRoots`] for a change that the perturbation cannot follow.
-    fn at(&self, factors: &[f64]) -> Result<State, Error>;
+    /// [`Error::WrongShape`](super::error::Error::WrongShape) unless there is a factor for every parameter;
+    /// [`Error::NotAVibration`](super::error::Error::NotAVibration), [`Error::CoalescingModes`](super::error::Error::CoalescingModes) or
+    /// [`Error::UnsettledRoots`](super::error::Error::UnsettledRoots) for a change that the perturbation cannot follow.
+    fn at(&self, factors: &[f64]) -> Result<State>;
 
     /// $\Delta e_e = e_f + e_v - e_S$ (12) of every parameter at a state, for 0.1 % of its present stiffness.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] for a state of another model; [`Error::LostRoot`] when a change takes a root's sign.
-    fn error_changes(&self, state: &State) -> Result<Vec<f64>, Error>;
+    /// [`Error::WrongShape`](super::error::Error::WrongShape) for a state of another model;
+    /// [`Error::NotAVibration`](super::error::Error::NotAVibration) when a change takes a root's sign.
+    fn error_changes(&self, state: &State) -> Result<Vec<f64>>;
 
     /// $\Delta k_e$ (12) of every parameter at a state, dimensionless, with the factors $g_e$ on gages since the exact modes.
     fn stiffness_changes(&self, state: &State, gage_factors: &[f64], rule: StepRule) -> Vec<f64>;

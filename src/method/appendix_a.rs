@@ -2,7 +2,7 @@
 //! Tour: [chapter 6](crate::tour::chapter_06_condensation).
 
 use super::elements::unit_stiffness;
-use super::error::{Error, at_least_one, check_places};
+use super::error::{Error, Result, at_least_one, check_places};
 use super::linear_algebra::{
     Matrix, check_length, check_matrix, check_shape, cholesky, round_off, symmetric_part,
 };
@@ -73,11 +73,7 @@ pub fn element_matrices(structure: &Structure) -> impl Iterator<Item = ElementMa
 /// assert_eq!(stiffness, dmatrix![150.0, -50.0; -50.0, 50.0]);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn assemble(
-    elements: &[ElementMatrix],
-    sizes: &[f64],
-    dof_count: usize,
-) -> Result<Matrix, Error> {
+pub fn assemble(elements: &[ElementMatrix], sizes: &[f64], dof_count: usize) -> Result<Matrix> {
     check_length("element sizes", sizes.len(), elements.len())?;
     let mut stiffness = Matrix::zeros(dof_count, dof_count);
     for (ElementMatrix { dof, unit, .. }, size) in elements.iter().zip(sizes) {
@@ -128,7 +124,7 @@ pub struct Condensed {
 /// assert!((condensed.transformation[0] - 1.0 / 3.0).abs() < 1e-14);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn condense(stiffness: &Matrix, load_distribution: &Matrix) -> Result<Condensed, Error> {
+pub fn condense(stiffness: &Matrix, load_distribution: &Matrix) -> Result<Condensed> {
     let (free_count, dynamic_count) = (stiffness.nrows(), load_distribution.ncols());
     at_least_one("dynamic degrees of freedom", dynamic_count)?;
     check_matrix(
@@ -154,11 +150,10 @@ pub fn condense(stiffness: &Matrix, load_distribution: &Matrix) -> Result<Conden
     let flexibility = half.tr_mul(&half);
     let dynamic = cholesky("dynamic flexibility", &flexibility, SMALLEST_PIVOT)?;
     // And with the flexibility F = D Dᵗ: F⁻¹ = D⁻ᵗ D⁻¹.
-    let mut inverse = Matrix::identity(dynamic_count, dynamic_count);
-    dynamic.solve_lower_triangular_unchecked_mut(&mut inverse);
+    let identity = Matrix::identity(dynamic_count, dynamic_count);
+    let inverse = dynamic.solve_lower_triangular_unchecked(&identity);
     let stiffness = inverse.tr_mul(&inverse);
-    let mut deflections = half;
-    lower.tr_solve_lower_triangular_unchecked_mut(&mut deflections);
+    let deflections = lower.tr_solve_lower_triangular_unchecked(&half);
     Ok(Condensed {
         transformation: deflections * &stiffness,
         stiffness,

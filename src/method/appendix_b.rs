@@ -11,12 +11,12 @@
 //! Only free and softly suspended structures are balanced: where supports hold the structure, their reactions balance
 //! the forces, which are then not zero at the dynamic DOF.
 
-use super::error::{Error, at_least_one, positive, require};
+use super::error::{Error, Result, at_least_one, positive, require};
 use super::linear_algebra::{
     Matrix, check_finite, check_matrix, check_shape, check_symmetric, cholesky, pencil_eigen,
     symmetric_part,
 };
-use super::modes::{Modes, solve};
+use super::modes::{Modes, generalized_mass, solve};
 use super::sorting::pair_modes;
 use nalgebra::{Unit, Vector3};
 
@@ -81,13 +81,12 @@ pub fn balance(
     stiffness: &Matrix,
     mass: &Matrix,
     rigid_body: &Matrix,
-) -> Result<Balanced, Error> {
+) -> Result<Balanced> {
     let (dof_count, motion_count) = (mass.nrows(), rigid_body.ncols());
     cholesky("dynamic mass", mass, 0.0)?;
-    let size = raw.generalized_masses(mass)?;
+    let size = generalized_mass(&raw.shapes, mass)?.diagonal();
     check_shape("dynamic stiffness", stiffness, dof_count, dof_count)?;
     check_symmetric("dynamic stiffness", stiffness)?;
-    at_least_one("rigid-body vectors", motion_count)?;
     check_matrix("rigid-body vectors", rigid_body, dof_count, motion_count)?;
     let through = |matrix: &Matrix| rigid_body.tr_mul(&(matrix * rigid_body));
     let lower = cholesky("rigid-body mass", &through(mass), SMALLEST_INDEPENDENT_PART)?;
@@ -114,10 +113,8 @@ pub fn balance(
     let shapes = &raw.shapes + motions * &amplitudes;
     check_finite("balanced test mode shapes", &shapes)?;
     Ok(Balanced {
-        change: amplitudes
-            .column_iter()
-            .zip(size)
-            .map(|(added, size)| added.norm() / size.sqrt())
+        change: (0..raw.len())
+            .map(|i| amplitudes.column(i).norm() / size[i].sqrt())
             .collect(),
         coefficients: from_suspension * &amplitudes,
         shapes,
@@ -167,9 +164,9 @@ impl Motion {
             Self::ForeAft => Vector3::x(),
             Self::Side => Vector3::y(),
             Self::Plunge => Vector3::z(),
-            Self::Roll => Vector3::new(0.0, -position.z, position.y),
-            Self::Pitch => Vector3::new(-position.z, 0.0, position.x),
-            Self::Yaw => Vector3::new(-position.y, position.x, 0.0),
+            Self::Roll => Vector3::x().cross(&position),
+            Self::Pitch => position.cross(&Vector3::y()),
+            Self::Yaw => Vector3::z().cross(&position),
         }
     }
 }
@@ -179,7 +176,7 @@ impl Motion {
 ///
 /// # Errors
 /// [`Error::Count`] without motions or without DOF; [`Error::Value`] for a position that is not finite.
-pub fn rigid_body_vectors(motions: &[Motion], dofs: &[MeasuringPoint]) -> Result<Matrix, Error> {
+pub fn rigid_body_vectors(motions: &[Motion], dofs: &[MeasuringPoint]) -> Result<Matrix> {
     at_least_one("rigid-body motions", motions.len())?;
     at_least_one("dynamic degrees of freedom", dofs.len())?;
     let vectors = Matrix::from_fn(dofs.len(), motions.len(), |i, j| {
@@ -215,29 +212,6 @@ pub struct Orthogonalized {
     pub movement: Vec<Movement>,
 }
 
-/// Generalized mass $m_1 = V^t M V$ (B.6), n × n, of shapes in columns (d × n) of any scale. Its off-diagonal entries
-/// are the integrals of (B.5), which vanish for orthogonal modes.
-///
-/// # Errors
-/// [`Error::WrongShape`] when shapes and mass do not fit; [`Error::Value`] for a product that is not finite.
-///
-/// # Example
-///
-/// ```rust
-/// use corfem::method::appendix_b::generalized_mass;
-/// use nalgebra::{DMatrix, dmatrix};
-///
-/// // Both masses together, and against each other: orthogonal, with 1 + 1 each.
-/// let mass = generalized_mass(&dmatrix![1.0, 1.0; 1.0, -1.0], &DMatrix::identity(2, 2))?;
-/// assert_eq!(mass, dmatrix![2.0, 0.0; 0.0, 2.0]);
-/// # Ok::<(), corfem::method::error::Error>(())
-/// ```
-pub fn generalized_mass(shapes: &Matrix, mass: &Matrix) -> Result<Matrix, Error> {
-    check_shape("dynamic mass", mass, shapes.nrows(), shapes.nrows())?;
-    let overlaps = shapes.tr_mul(&(mass * shapes));
-    check_finite("generalized mass", &overlaps).map(|()| overlaps)
-}
-
 /// Combinations of the test shapes that are orthogonal in mass, and their frequencies (B.7).
 ///
 /// In the raw shapes, scaled to unit generalized mass, the equations of motion are the symmetric-definite eigenproblem
@@ -255,8 +229,8 @@ pub fn generalized_mass(shapes: &Matrix, mass: &Matrix) -> Result<Matrix, Error>
 /// # Example
 ///
 /// ```rust
-/// use corfem::method::appendix_b::{generalized_mass, orthogonalize};
-/// use corfem::method::modes::Modes;
+/// use corfem::method::appendix_b::orthogonalize;
+/// use corfem::method::modes::{Modes, generalized_mass};
 /// use nalgebra::{DMatrix, dmatrix, dvector};
 ///
 /// // The second shape has a tenth of the first in it.
@@ -268,7 +242,7 @@ pub fn generalized_mass(shapes: &Matrix, mass: &Matrix) -> Result<Matrix, Error>
 /// assert!((modes.omega_squared().map(f64::recip).sum() - 1.25).abs() < 1e-14);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn orthogonalize(raw: &Modes, mass: &Matrix) -> Result<Orthogonalized, Error> {
+pub fn orthogonalize(raw: &Modes, mass: &Matrix) -> Result<Orthogonalized> {
     cholesky("dynamic mass", mass, 0.0)?;
     let unit = raw.scaled_with(mass)?.shapes;
     let overlap = symmetric_part(&generalized_mass(&unit, mass)?)
@@ -288,13 +262,10 @@ pub fn orthogonalize(raw: &Modes, mass: &Matrix) -> Result<Orthogonalized, Error
         shapes: &unit * combined.shapes,
         omega_squared: combined.omega_squared,
     };
-    let difference = &modes.shapes - unit;
+    let difference = generalized_mass(&(&modes.shapes - unit), mass)?.diagonal();
     let moved = |mode: usize| Movement {
         frequency: (modes.omega_squared[mode] / raw.omega_squared[mode]).sqrt() - 1.0,
-        shape: difference
-            .column(mode)
-            .dot(&(mass * difference.column(mode)))
-            .sqrt(),
+        shape: difference[mode].sqrt(),
     };
     Ok(Orthogonalized {
         movement: (0..raw.len()).map(moved).collect(),
@@ -354,8 +325,8 @@ pub enum ModeVerdict {
 /// Report on one test mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ModeReport {
-    /// Relative change of shape by balancing; none when the structure was held.
-    pub balance: Option<f64>,
+    /// Relative change of shape by balancing; zero when the structure was held.
+    pub balance: f64,
     /// Movement by orthogonalization among the modes not yet deleted; none when balancing deleted it.
     pub movement: Option<Movement>,
     /// Kept or deleted.
@@ -404,7 +375,7 @@ pub fn examine(
     mass: &Matrix,
     supports: Supports,
     limits: &MovementLimits,
-) -> Result<Examination, Error> {
+) -> Result<Examination> {
     let owner = || "the movement limits".to_owned();
     let is_met = limits.balance > 0.0 && limits.balance < 1.0;
     require(
@@ -416,7 +387,7 @@ pub fn examine(
     )?;
     positive("frequency", owner, limits.frequency)?;
     positive("shape", owner, limits.shape)?;
-    let (mut balanced, mut change) = (raw.clone(), vec![None; raw.len()]);
+    let (mut balanced, mut change) = (raw.clone(), vec![0.0; raw.len()]);
     if let Supports::Free {
         stiffness,
         rigid_body,
@@ -424,14 +395,15 @@ pub fn examine(
     {
         let found = balance(raw, stiffness, mass, rigid_body)?;
         balanced.shapes = found.shapes;
-        change = found.change.into_iter().map(Some).collect();
+        change = found.change;
     }
-    let report = |balance: Option<f64>| ModeReport {
-        balance,
+    let report = |change: f64| ModeReport {
+        balance: change,
         movement: None,
-        verdict: match balance {
-            Some(change) if change > limits.balance => ModeVerdict::Unbalanced,
-            _ => ModeVerdict::Kept,
+        verdict: if change > limits.balance {
+            ModeVerdict::Unbalanced
+        } else {
+            ModeVerdict::Kept
         },
     };
     let mut reports: Vec<_> = change.into_iter().map(report).collect();

@@ -13,11 +13,11 @@
 
 pub use super::linear_algebra::Number;
 
-use super::error::{Error, at_least_one, require};
+use super::error::{Error, Result, at_least_one, require};
 use super::linear_algebra::{
     Matrix, Vector, as_faer, check_finite, check_matrix, check_shape, cholesky, reduced,
 };
-use super::modes::{SIGN_TIE, mode};
+use super::modes::{apply_sign_rule, mode};
 use super::perturbation::{Perturbed, SMALLEST_SEPARATION};
 use nalgebra::Complex;
 
@@ -67,10 +67,7 @@ pub struct LeftRightModes<T> {
 /// assert!((modes.roots[0] - Complex::new(0.25, 0.5)).norm() < 1e-15);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn solve(
-    stiffness: &Matrix,
-    g: &Matrix<Complex<f64>>,
-) -> Result<LeftRightModes<Complex<f64>>, Error> {
+pub fn solve(stiffness: &Matrix, g: &Matrix<Complex<f64>>) -> Result<LeftRightModes<Complex<f64>>> {
     let (what, size) = ("mass and aerodynamic terms", stiffness.nrows());
     at_least_one("degrees of freedom", size)?;
     let lower = cholesky("stiffness", stiffness, 0.0)?.map(Complex::from);
@@ -85,21 +82,16 @@ pub fn solve(
     for equal in order.chunk_by_mut(is_tie) {
         equal.sort_by(|&a, &b| root(a).arg().total_cmp(&root(b).arg()));
     }
-    // Shapes Y of unit length, each turned so that the first largest component of its v is real and positive.
     let mut right = Matrix::from_fn(size, size, |row, j| eigen.U()[(row, order[j])]);
     for mut shape in right.column_iter_mut() {
-        let mut v = shape.clone_owned();
-        lower.tr_solve_lower_triangular_unchecked_mut(&mut v);
-        let largest = v.map(Complex::norm).max();
-        let first = v
-            .iter()
-            .find(|value| value.norm() >= (1.0 - SIGN_TIE) * largest);
-        let phase = first.map_or(Complex::from(1.0), |value| value / value.norm());
-        shape /= phase * shape.norm();
+        shape.normalize_mut();
     }
+    lower.tr_solve_lower_triangular_unchecked_mut(&mut right);
+    apply_sign_rule(&mut right);
+    let y = lower.tr_mul(&right);
     // Left shapes of shapes that depend on each other are infinitely long.
     let endless = Matrix::from_element(size, size, Complex::from(f64::INFINITY));
-    let mut left = right.clone().try_inverse().unwrap_or(endless).transpose();
+    let mut left = y.try_inverse().unwrap_or(endless).transpose();
     for (place, shape) in left.column_iter().enumerate() {
         let (what, cosine) = ("cosine of left and right shapes", 1.0 / shape.norm());
         require(
@@ -110,7 +102,6 @@ pub fn solve(
             "above 1e-7",
         )?;
     }
-    lower.tr_solve_lower_triangular_unchecked_mut(&mut right);
     lower.tr_solve_lower_triangular_unchecked_mut(&mut left);
     Ok(LeftRightModes {
         roots: Vector::from_fn(size, |j, _| root(order[j])),
@@ -136,11 +127,7 @@ impl Pencil<f64> {
     ///
     /// # Errors
     /// [`Error::Count`] without modes; [`Error::WrongShape`] and [`Error::Value`] for what does not fit or is not finite.
-    pub fn of_vibrations(
-        omega_squared: &Vector,
-        beta: &Matrix,
-        alpha: &Matrix,
-    ) -> Result<Self, Error> {
+    pub fn of_vibrations(omega_squared: &Vector, beta: &Matrix, alpha: &Matrix) -> Result<Self> {
         let size = omega_squared.len();
         at_least_one("modes", size)?;
         check_matrix("generalized stiffness change", beta, size, size)?;
@@ -163,7 +150,7 @@ impl<T: Number> Pencil<T> {
         modes: &LeftRightModes<T>,
         stiffness_change: &Matrix<T>,
         g_change: &Matrix<T>,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self> {
         let (dof_count, count) = modes.right.shape();
         check_shape("left shapes", &modes.left, dof_count, count)?;
         let through_modes = |what, matrix: &Matrix<T>| {
@@ -227,7 +214,7 @@ impl<T: Number> Pencil<T> {
     /// assert_eq!(pencil.first_order()?.roots[0], 1.0 / 2.0);
     /// # Ok::<(), corfem::method::error::Error>(())
     /// ```
-    pub fn first_order(&self) -> Result<Perturbed<T>, Error> {
+    pub fn first_order(&self) -> Result<Perturbed<T>> {
         self.recursive_1(1)
     }
 
@@ -242,18 +229,18 @@ impl<T: Number> Pencil<T> {
     /// # Errors
     /// [`Error::Count`] for order zero; [`Error::Value`] for a root that is not finite; [`Error::CoalescingModes`] when the denominator
     /// of coupled modes vanishes.
-    pub fn recursive_1(&self, order: usize) -> Result<Perturbed<T>, Error> {
+    pub fn recursive_1(&self, order: usize) -> Result<Perturbed<T>> {
         at_least_one("order", order)?;
         (0..order).try_fold(self.order_zero()?, |now, _| self.next_order(now))
     }
 
     /// Order zero: the shapes before the change, and Rayleigh's quotients on them for roots.
-    pub(crate) fn order_zero(&self) -> Result<Perturbed<T>, Error> {
+    pub(crate) fn order_zero(&self) -> Result<Perturbed<T>> {
         self.with_explicit_roots(Matrix::identity(self.g.nrows(), self.g.nrows()))
     }
 
     /// One more order of Recursive 1.
-    pub(crate) fn next_order(&self, mut now: Perturbed<T>) -> Result<Perturbed<T>, Error> {
+    pub(crate) fn next_order(&self, mut now: Perturbed<T>) -> Result<Perturbed<T>> {
         let (mut a, mut g, size) = (self.a.clone(), self.g.clone(), self.g.nrows());
         a.fill_diagonal(T::zero());
         g.fill_diagonal(T::zero());
@@ -268,7 +255,13 @@ impl<T: Number> Pencil<T> {
                 now.shapes[(i, j)] = match -sum(i) {
                     numerator if numerator == T::zero() => numerator,
                     numerator if separation > SMALLEST_SEPARATION => numerator / difference,
-                    _ => return Err(Error::coalescing(i, j, separation)),
+                    _ => {
+                        return Err(Error::CoalescingModes {
+                            first: i,
+                            second: j,
+                            separation,
+                        });
+                    }
                 };
             }
             now.roots[j] = (self.g[(j, j)] - sum(j)) / self.a[(j, j)];
@@ -297,7 +290,7 @@ impl<T: Number> Pencil<T> {
     /// assert!((pencil.recursive_2(2)?.roots[0] - 1.0 / 1.97).abs() < 1e-15);
     /// # Ok::<(), corfem::method::error::Error>(())
     /// ```
-    pub fn recursive_2(&self, order: usize) -> Result<Perturbed<T>, Error> {
+    pub fn recursive_2(&self, order: usize) -> Result<Perturbed<T>> {
         at_least_one("order", order)?;
         let (mut now, size) = (self.first_order()?, self.g.nrows());
         for _ in 2..=order {
@@ -307,7 +300,11 @@ impl<T: Number> Pencil<T> {
                 // The shape satisfies all equations but its own.
                 let rows = (&self.a * now.roots[j] - &self.g).remove_row(j);
                 let others = rows.clone().remove_column(j).lu().solve(&-rows.column(j));
-                let others = others.ok_or(Error::coalescing(j, j, 0.0))?;
+                let others = others.ok_or(Error::CoalescingModes {
+                    first: j,
+                    second: j,
+                    separation: 0.0,
+                })?;
                 now.shapes.set_column(j, &others.insert_row(j, T::one()));
             }
             now = finite(now)?;
@@ -334,12 +331,12 @@ impl<T: Number> Pencil<T> {
     /// assert_eq!(found.shapes, pencil.first_order()?.shapes);
     /// # Ok::<(), corfem::method::error::Error>(())
     /// ```
-    pub fn original(&self) -> Result<Perturbed<T>, Error> {
+    pub fn original(&self) -> Result<Perturbed<T>> {
         self.with_explicit_roots(self.first_order()?.shapes)
     }
 
     /// Given shapes with their roots, $\gamma_i = g_i/a_i$ with the diagonals $g$ of $Gp$ and $a$ of $Ap$ (C.24).
-    fn with_explicit_roots(&self, shapes: Matrix<T>) -> Result<Perturbed<T>, Error> {
+    fn with_explicit_roots(&self, shapes: Matrix<T>) -> Result<Perturbed<T>> {
         let (a, g) = (&self.a * &shapes, &self.g * &shapes);
         let roots = g.diagonal().component_div(&a.diagonal());
         finite(Perturbed { roots, shapes })
@@ -347,9 +344,8 @@ impl<T: Number> Pencil<T> {
 }
 
 /// Accepts roots and shapes that are finite; the root of a mode without stiffness is not.
-fn finite<T: Number>(found: Perturbed<T>) -> Result<Perturbed<T>, Error> {
-    let roots = Matrix::from_columns(std::slice::from_ref(&found.roots));
-    check_finite("perturbed roots", &roots)?;
+fn finite<T: Number>(found: Perturbed<T>) -> Result<Perturbed<T>> {
+    check_finite("perturbed roots", &Matrix::from_diagonal(&found.roots))?;
     check_finite("perturbed generalized shapes", &found.shapes)?;
     Ok(found)
 }

@@ -6,7 +6,7 @@
 
 use super::linear_algebra::{Matrix, Vector};
 use super::structure::{ElementKind, Material, Point};
-use nalgebra::{Matrix2, Matrix3, Vector2};
+use nalgebra::{Matrix3, Vector2};
 
 /// Stiffness of an element of any kind and unit size, lbf/in per in (gage) or per in² (area), for the corners of a
 /// [`Structure`](crate::method::structure::Structure): 6 × 6 for a rod, 9 × 9 for a triangle, 12 × 12 for a panel.
@@ -221,19 +221,27 @@ pub fn corner_forces(corners: &[Point]) -> Vector {
 /// quadrature serves every panel.
 pub fn energy_coefficient(corners: &[Point], material: &Material) -> f64 {
     let flat = mean_plane(corners);
-    let homogeneous = flat.map(|corner| corner.push(1.0));
-    let side: [_; 4] = std::array::from_fn(|k| homogeneous[k].cross(&homogeneous[(k + 1) % 4]));
-    let p = side[0].cross(&side[2]);
-    let q = side[1].cross(&side[3]);
+    let [h1, h2, h3, h4] = flat.map(|corner| corner.push(1.0));
+    let p = h1.cross(&h2).cross(&h3.cross(&h4));
+    let q = h2.cross(&h3).cross(&h4.cross(&h1));
     let line = p.cross(&q);
-    let first_two = line.dot(&homogeneous[0]) * line.dot(&homogeneous[1]);
+    let first_two = line.dot(&h1) * line.dot(&h2);
+    // The bilinear map of the square, s and t from −1 to 1, onto the panel is c + s a + t b + s t d.
+    let [c1, c2, c3, c4] = flat.map(|corner| 0.25 * corner);
+    let (c, a, b, d) = (
+        c1 + c2 + c3 + c4,
+        c2 + c3 - c1 - c4,
+        c3 + c4 - c1 - c2,
+        c1 + c3 - c2 - c4,
+    );
     let rule = GAUSS_LEGENDRE
         .into_iter()
         .flat_map(|(s, weight)| [(-s, weight), (s, weight)]);
     let mut energy = 0.0;
     for (s, ws) in rule.clone() {
         for (t, wt) in rule.clone() {
-            let (point, jacobian) = bilinear(&flat, s, t);
+            let point = c + s * a + t * b + s * t * d;
+            let jacobian = (a + t * d).perp(&(b + s * d));
             let flow = first_two / line.dot(&point.push(1.0)).powi(2);
             // Directions to P and Q, which may lie at infinity, unscaled.
             let [to_p, to_q] = [p, q].map(|end| end.xy() - end.z * point);
@@ -243,17 +251,4 @@ pub fn energy_coefficient(corners: &[Point], material: &Material) -> f64 {
         }
     }
     energy
-}
-
-/// Point and area ratio of the bilinear map of the square from −1 to 1 onto the panel.
-fn bilinear(corners: &[Vector2<f64>; 4], s: f64, t: f64) -> (Vector2<f64>, f64) {
-    let signs = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-    let mut point = Vector2::zeros();
-    let mut slope = Matrix2::zeros();
-    for (corner, (a, b)) in corners.iter().zip(signs) {
-        point += 0.25 * (1.0 + a * s) * (1.0 + b * t) * corner;
-        slope.set_column(0, &(slope.column(0) + 0.25 * a * (1.0 + b * t) * corner));
-        slope.set_column(1, &(slope.column(1) + 0.25 * b * (1.0 + a * s) * corner));
-    }
-    (point, slope.determinant())
 }

@@ -2,6 +2,9 @@
 
 use thiserror::Error;
 
+/// Result of a step of the method.
+pub type Result<T, E = Error> = std::result::Result<T, E>;
+
 /// Reasons why a constructor refuses its input or the paper's steps cannot go on.
 ///
 /// The message above a variant is the documentation of its fields. Modes, degrees of freedom, rows and columns count from zero.
@@ -62,13 +65,6 @@ pub enum Error {
         what: &'static str,
         label: usize,
     },
-    /// Corners without a length, an area or a convex shape between them, with the ratio that shows it.
-    #[error("element {element}: {what} ({ratio:.3e} of its size)")]
-    Degenerate {
-        element: usize,
-        what: String,
-        ratio: f64,
-    },
     /// A motion that nothing resists, of a grid along a direction, `x`, `y` or `z`.
     #[error("nothing holds grid {grid} along {direction}")]
     SingularStiffness { grid: usize, direction: char },
@@ -77,8 +73,11 @@ pub enum Error {
         "{what} is not positive definite: row {row} (from zero) is a combination of those before it, or not positive"
     )]
     NotPositiveDefinite { what: &'static str, row: usize },
-    /// A mode that is not a vibration; the value is its squared circular frequency.
-    #[error("mode {mode} (from zero) is no vibration: its eigenvalue is {value:.6e} rad^2/s^2")]
+    /// A mode that is not a vibration, as after a change that is too large; the value is $\omega^2$, rad²/s², or the root
+    /// $1/\omega^2$, s².
+    #[error(
+        "mode {mode} (from zero) is no vibration: its eigenvalue is {value:.6e}; it must be positive and finite"
+    )]
     NotAVibration { mode: usize, value: f64 },
     /// Two modes that a change brings together, so that a denominator of the perturbation vanishes: that of row `first` for mode
     /// `second`, over the generalized stiffness.
@@ -90,11 +89,6 @@ pub enum Error {
         second: usize,
         separation: f64,
     },
-    /// A change so large that a root, s², is no longer positive and finite.
-    #[error(
-        "the change takes the root of mode {mode} (from zero) to {value:.3e}; it must stay positive and finite"
-    )]
-    LostRoot { mode: usize, value: f64 },
     /// A recursion that has not settled in the most orders allowed.
     #[error(
         "the roots still change by {last_change:.1e} after {orders} orders; they must settle to 1e-6"
@@ -113,16 +107,6 @@ pub enum Error {
 }
 
 impl Error {
-    /// Error of two modes that come together.
-    pub(crate) fn coalescing(first: usize, second: usize, separation: f64) -> Self {
-        let separation = separation.abs();
-        Self::CoalescingModes {
-            first,
-            second,
-            separation,
-        }
-    }
-
     /// Error of an iterative library routine that did not converge.
     pub fn no_convergence(what: &'static str) -> Self {
         let why = "the library's routine did not converge".into();
@@ -145,7 +129,7 @@ pub(crate) fn require(
     owner: impl FnOnce() -> String,
     value: f64,
     expected: &'static str,
-) -> Result<(), Error> {
+) -> Result<()> {
     if is_met {
         return Ok(());
     }
@@ -162,7 +146,7 @@ pub(crate) fn positive(
     what: &'static str,
     owner: impl FnOnce() -> String,
     value: f64,
-) -> Result<(), Error> {
+) -> Result<()> {
     require(
         value > 0.0 && value.is_finite(),
         what,
@@ -178,7 +162,7 @@ pub(crate) fn check_count(
     found: usize,
     least: usize,
     most: usize,
-) -> Result<(), Error> {
+) -> Result<()> {
     if (least..=most).contains(&found) {
         return Ok(());
     }
@@ -191,23 +175,13 @@ pub(crate) fn check_count(
 }
 
 /// Accepts places, counted from zero, among `count` things.
-pub(crate) fn check_places(
-    what: &'static str,
-    places: &[usize],
-    count: usize,
-) -> Result<(), Error> {
-    check_count(
-        what,
-        places
-            .iter()
-            .max()
-            .map_or(0, |place| place.saturating_add(1)),
-        0,
-        count,
-    )
+pub(crate) fn check_places(what: &'static str, places: &[usize], count: usize) -> Result<()> {
+    places
+        .iter()
+        .try_for_each(|place| check_count(what, place.saturating_add(1), 1, count))
 }
 
 /// Accepts one or more.
-pub(crate) fn at_least_one(what: &'static str, count: usize) -> Result<(), Error> {
+pub(crate) fn at_least_one(what: &'static str, count: usize) -> Result<()> {
     check_count(what, count, 1, usize::MAX)
 }

@@ -1,7 +1,7 @@
 //! The error sum (5, 6): how far the analysis modes are from the test modes.
 //! Tour: [chapter 3](crate::tour::chapter_03_error_sum).
 
-use super::error::{Error, positive, require};
+use super::error::{Result, positive, require};
 use super::linear_algebra::check_shape;
 use super::modes::{Modes, mode};
 use super::sorting::Pairing;
@@ -18,28 +18,27 @@ pub struct ModeError {
 /// Errors of every test mode, whose squares (5) and (6) add up.
 ///
 /// # Errors
-/// [`Error::WrongShape`] for test shapes at other DOF, [`Error::Count`] for modes other than those paired; [`Error::Value`] for an
-/// analysis mode that moves at none of the DOF compared.
-pub fn mode_errors(
-    analysis: &Modes,
-    pairing: &Pairing,
-    test: &Modes,
-) -> Result<Vec<ModeError>, Error> {
-    let dof_count = analysis.shapes.nrows();
-    check_shape("test mode shapes", &test.shapes, dof_count, test.len())?;
-    pairing.check(analysis, test.len())?;
-    let pairs = pairing.analysis_mode.iter().enumerate();
-    let errors = pairs.map(|(j, &i)| {
-        let (v, w) = (analysis.shapes.column(i), test.shapes.column(j));
-        let owner = || format!("analysis {}", mode(i));
+/// [`Error::WrongShape`](super::error::Error::WrongShape) for test shapes at other DOF, [`Error::Count`](super::error::Error::Count) for
+/// modes other than those paired; [`Error::Value`](super::error::Error::Value) for an analysis mode that moves at none of the DOF compared.
+pub fn mode_errors(analysis: &Modes, pairing: &Pairing, test: &Modes) -> Result<Vec<ModeError>> {
+    let (paired, dof_count) = (pairing.paired(analysis)?, analysis.shapes.nrows());
+    check_shape(
+        "test mode shapes",
+        &test.shapes,
+        dof_count,
+        pairing.sign.len(),
+    )?;
+    let error = |j: usize| {
+        let (v, w) = (paired.shapes.column(j), test.shapes.column(j));
+        let owner = || format!("analysis {}", mode(pairing.analysis_mode[j]));
         positive("largest component where it is compared", owner, v.amax())?;
-        let difference = v * (pairing.sign[j] / v.amax()) - w * (1.0 / w.amax());
+        let difference = v * (1.0 / v.amax()) - w * (1.0 / w.amax());
         Ok(ModeError {
-            frequency: (analysis.omega_squared[i] / test.omega_squared[j]).sqrt() - 1.0,
+            frequency: (paired.omega_squared[j] / test.omega_squared[j]).sqrt() - 1.0,
             shape: (difference.norm_squared() / dof_count as f64).sqrt(),
         })
-    });
-    errors.collect()
+    };
+    (0..test.len()).map(error).collect()
 }
 
 /// Square-root-of-sum-of-squares (SRSS) errors over the test modes.
@@ -59,8 +58,8 @@ impl Errors {
     /// Sums over the errors of test modes.
     ///
     /// # Errors
-    /// [`Error::Value`] for errors so large that their squares are not finite.
-    pub fn of(each: &[ModeError]) -> Result<Self, Error> {
+    /// [`Error::Value`](super::error::Error::Value) for errors so large that their squares are not finite.
+    pub fn of(each: &[ModeError]) -> Result<Self> {
         let srss = |of: fn(&ModeError) -> f64| {
             each.iter()
                 .map(|error| of(error).powi(2))
@@ -109,8 +108,9 @@ impl Errors {
 /// error is relative: the paper prints a difference but its tables hold the relative one (`paper/errata.md`).
 ///
 /// # Errors
-/// [`Error::WrongShape`] for test shapes at other DOF, [`Error::Count`] for modes other than those paired; [`Error::Value`] for an
-/// analysis mode that moves at none of the DOF compared, and for errors whose squares are not finite.
+/// [`Error::WrongShape`](super::error::Error::WrongShape) for test shapes at other DOF, [`Error::Count`](super::error::Error::Count) for
+/// modes other than those paired; [`Error::Value`](super::error::Error::Value) for an analysis mode that moves at none of the DOF compared,
+/// and for errors whose squares are not finite.
 ///
 /// # Example
 ///
@@ -129,6 +129,6 @@ impl Errors {
 /// assert!((errors.frequency - 0.5).abs() < 1e-15 && errors.shape == 0.0);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn errors(analysis: &Modes, pairing: &Pairing, test: &Modes) -> Result<Errors, Error> {
+pub fn errors(analysis: &Modes, pairing: &Pairing, test: &Modes) -> Result<Errors> {
     Errors::of(&mode_errors(analysis, pairing, test)?)
 }

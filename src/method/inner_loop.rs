@@ -2,15 +2,14 @@
 //! Tour: [chapter 5](crate::tour::chapter_05_inner_loop).
 
 use super::analysis::{Analysis, State};
-use super::error::{Error, positive};
+use super::error::{Error, Result, positive};
 use super::error_sum::Errors;
 use super::linear_algebra::check_length;
 use super::step::{Accumulation, Bounds, Limit, StepRule, limited_factor, unlimited_factor};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// Settings of the inner loop: how it steps and when it stops.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct InnerSettings {
     /// Relaxation $R$ of the first iteration of a pass.
     pub first_relaxation: f64,
@@ -44,14 +43,14 @@ impl Default for InnerSettings {
             tolerance: 0.025,
             halvings: 5,
             iterations: 30,
-            step: StepRule::default(),
-            accumulation: Accumulation::default(),
+            step: StepRule::Matrix,
+            accumulation: Accumulation::Sum,
         }
     }
 }
 
 impl InnerSettings {
-    pub(crate) fn check(&self) -> Result<(), Error> {
+    fn check(&self) -> Result<()> {
         let Bounds { lower, upper } = self.factor_range;
         Bounds::positive("factor limits", lower, upper)?;
         let owner = || "the inner loop".into();
@@ -115,7 +114,7 @@ pub struct InnerRun {
 /// one step is tried even when the start is within tolerance, for the outer loop decides whether to begin.
 ///
 /// # Errors
-/// [`Error::Value`], [`Error::Range`] and [`Error::WrongShape`] for settings, bounds and lists; [`Error::LostRoot`] for a parameter of
+/// [`Error::Value`], [`Error::Range`] and [`Error::WrongShape`] for settings, bounds and lists; [`Error::NotAVibration`] for a parameter of
 /// which no derivative can be taken.
 /// A step too far for the perturbation is halved like one that raises $e_S$; [`Error::CoalescingModes`] or
 /// [`Error::UnsettledRoots`] is returned when the first and all its halvings are.
@@ -145,7 +144,7 @@ pub fn run(
     base: &[f64],
     total_ranges: &[Option<Bounds>],
     settings: &InnerSettings,
-) -> Result<InnerRun, Error> {
+) -> Result<InnerRun> {
     settings.check()?;
     check_length("parameter limits", total_ranges.len(), base.len())?;
     for range in total_ranges.iter().flatten() {
@@ -192,13 +191,12 @@ pub fn run(
 /// Factors of (13) before any bound that the first iteration from the last exact modes asks for.
 ///
 /// # Errors
-/// [`Error::Value`] and [`Error::Range`] for settings; [`Error::LostRoot`] and [`Error::CoalescingModes`] for a parameter of which no
+/// [`Error::Value`] and [`Error::Range`] for settings; [`Error::NotAVibration`] and [`Error::CoalescingModes`] for a parameter of which no
 /// derivative can be taken.
-pub fn first_factors(analysis: &dyn Analysis, settings: &InnerSettings) -> Result<Vec<f64>, Error> {
+pub fn first_factors(analysis: &dyn Analysis, settings: &InnerSettings) -> Result<Vec<f64>> {
     settings.check()?;
-    let ones = vec![1.0; analysis.exact().factors.len()];
-    direction(analysis, &analysis.at(&ones)?, &ones, true, settings)
-        .map(|first| first.unlimited_factors)
+    let state = analysis.at(&analysis.exact().factors)?;
+    Ok(direction(analysis, &state, &state.factors, true, settings)?.unlimited_factors)
 }
 
 /// Derivatives (12) and the factors of (13) at a state: an iteration whose step is yet to come.
@@ -208,7 +206,7 @@ fn direction(
     factors: &[f64],
     is_first: bool,
     settings: &InnerSettings,
-) -> Result<Iteration, Error> {
+) -> Result<Iteration> {
     let error_changes = analysis.error_changes(state)?;
     let stiffness_changes = analysis.stiffness_changes(state, factors, settings.step);
     let relaxation = if is_first {
@@ -240,7 +238,7 @@ fn lowering_step(
     base: &[f64],
     total_ranges: &[Option<Bounds>],
     settings: &InnerSettings,
-) -> Result<Option<(Iteration, State)>, Error> {
+) -> Result<Option<(Iteration, State)>> {
     let (mut is_too_far, mut refusal) = (false, None);
     for halvings in 0..=settings.halvings {
         let fraction = 0.5_f64.powi(halvings as i32);
@@ -257,7 +255,7 @@ fn lowering_step(
                 return Ok(Some((iteration, lower)));
             }
             // Uphill, or too far for the perturbation: a shorter step may do.
-            Ok(_) | Err(Error::LostRoot { .. } | Error::NotAVibration { .. }) => is_too_far = true,
+            Ok(_) | Err(Error::NotAVibration { .. }) => is_too_far = true,
             Err(error) if error.is_of_close_modes() => refusal = Some(error),
             Err(other) => return Err(other),
         }

@@ -1,6 +1,6 @@
 //! Dense decompositions of the method, through faer, with the checks that faer leaves to its caller.
 
-use super::error::{Error, at_least_one, require};
+use super::error::{Error, Result, at_least_one, require};
 use faer::linalg::cholesky::llt::factor::LltError;
 use faer::{MatRef, Side};
 use nalgebra::{ComplexField, DMatrix, DVector};
@@ -24,19 +24,14 @@ impl<T: ComplexField<RealField = f64> + Copy> Number for T {}
 ///
 /// # Errors
 /// [`Error::Value`] naming the first such entry, column by column, and the sum of its parts.
-pub fn check_finite<T: Number>(what: &'static str, matrix: &Matrix<T>) -> Result<(), Error> {
-    let wrong = matrix.iter().position(|entry| !entry.is_finite());
-    wrong.map_or(Ok(()), |at| {
+pub fn check_finite<T: Number>(what: &'static str, matrix: &Matrix<T>) -> Result<()> {
+    for (at, entry) in matrix.iter().enumerate() {
         let owner = || format!("entry ({}, {})", at % matrix.nrows(), at / matrix.nrows());
         // The part that is not finite outweighs the other.
-        require(
-            false,
-            what,
-            owner,
-            matrix[at].real() + matrix[at].imaginary(),
-            "a finite number",
-        )
-    })
+        let value = entry.real() + entry.imaginary();
+        require(entry.is_finite(), what, owner, value, "a finite number")?;
+    }
+    Ok(())
 }
 
 /// Refuses matrices, real or complex, of another shape.
@@ -48,7 +43,7 @@ pub fn check_shape<T>(
     matrix: &Matrix<T>,
     expected_rows: usize,
     expected_columns: usize,
-) -> Result<(), Error> {
+) -> Result<()> {
     let (rows, columns) = matrix.shape();
     if (rows, columns) == (expected_rows, expected_columns) {
         return Ok(());
@@ -68,7 +63,7 @@ pub(crate) fn check_matrix<T: Number>(
     matrix: &Matrix<T>,
     rows: usize,
     columns: usize,
-) -> Result<(), Error> {
+) -> Result<()> {
     check_shape(what, matrix, rows, columns)?;
     check_finite(what, matrix)
 }
@@ -77,7 +72,7 @@ pub(crate) fn check_matrix<T: Number>(
 ///
 /// # Errors
 /// [`Error::WrongShape`] with both lengths as rows of one column.
-pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), Error> {
+pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result<()> {
     check_shape(what, &Matrix::from_element(found, 1, ()), expected, 1)
 }
 
@@ -86,7 +81,7 @@ pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result
 /// # Errors
 /// [`Error::WrongShape`]; [`Error::Value`] for an entry that is not finite, or with the largest difference of an entry from its
 /// mirror over the largest entry.
-pub fn check_symmetric(what: &'static str, matrix: &Matrix) -> Result<(), Error> {
+pub fn check_symmetric(what: &'static str, matrix: &Matrix) -> Result<()> {
     check_matrix(what, matrix, matrix.nrows(), matrix.nrows())?;
     let apart = (matrix - matrix.transpose()).amax() / matrix.amax();
     // Only a matrix of zeros, or none, leaves no number.
@@ -116,7 +111,7 @@ pub fn symmetric_part(matrix: &Matrix) -> Matrix {
 /// # Errors
 /// [`Error::WrongShape`] and [`Error::Value`] for a matrix that is not symmetric or finite; [`Error::NotPositiveDefinite`] naming the
 /// row of the first bad pivot.
-pub fn cholesky(what: &'static str, matrix: &Matrix, smallest_pivot: f64) -> Result<Matrix, Error> {
+pub fn cholesky(what: &'static str, matrix: &Matrix, smallest_pivot: f64) -> Result<Matrix> {
     check_symmetric(what, matrix)?;
     let refused = |row| Error::NotPositiveDefinite { what, row };
     let factor = as_faer(matrix).llt(Side::Lower);
@@ -157,7 +152,7 @@ pub(crate) fn reduced<T: Number>(lower: &Matrix<T>, matrix: &Matrix<T>) -> Matri
 /// # Errors
 /// [`Error::WrongShape`] and [`Error::Value`] for a matrix that is not symmetric or finite; [`Error::Count`] for an empty one;
 /// [`Error::Failed`] without convergence.
-pub fn symmetric_eigen(what: &'static str, matrix: &Matrix) -> Result<(Vector, Matrix), Error> {
+pub fn symmetric_eigen(what: &'static str, matrix: &Matrix) -> Result<(Vector, Matrix)> {
     check_symmetric(what, matrix)?;
     at_least_one(what, matrix.len())?;
     // Entries of order one: the squares of very large or small ones leave the range of numbers. A power of two is exact.
@@ -176,10 +171,9 @@ pub(crate) fn pencil_eigen(
     matrix: &Matrix,
     lower: &Matrix,
     count: usize,
-) -> Result<(Vector, Matrix), Error> {
+) -> Result<(Vector, Matrix)> {
     let (values, vectors) = symmetric_eigen(what, &symmetric_part(&reduced(lower, matrix)))?;
-    let mut lowest = vectors.columns(0, count).into_owned();
-    lower.tr_solve_lower_triangular_unchecked_mut(&mut lowest);
+    let lowest = lower.tr_solve_lower_triangular_unchecked(&vectors.columns(0, count));
     Ok((values, lowest))
 }
 

@@ -5,7 +5,7 @@ use super::analysis::{Analysis, DERIVATIVE_STEP, State, changes_by, without_clos
 use super::appendix_a::{
     Condensed, ElementMatrix, assemble, condense, element_matrices, generalized_stiffness,
 };
-use super::error::{Error, at_least_one, positive};
+use super::error::{Error, Result, at_least_one, positive};
 use super::error_sum::errors;
 use super::linear_algebra::{
     Matrix, check_finite, check_length, check_matrix, check_shape, check_symmetric, cholesky,
@@ -32,18 +32,10 @@ pub struct Parameter {
 }
 
 impl Parameter {
-    /// The stiffness of one element, named by its number.
-    pub fn element(label: usize, size_range: Option<Bounds>) -> Self {
+    /// The stiffness of one element, which may be named by its number, or of a group, without bounds.
+    pub fn new(name: impl ToString, elements: &[usize]) -> Self {
         Self {
-            size_range,
-            ..Self::group(&label.to_string(), &[label])
-        }
-    }
-
-    /// The stiffness of a group of elements.
-    pub fn group(name: &str, elements: &[usize]) -> Self {
-        Self {
-            name: name.into(),
+            name: name.to_string(),
             elements: elements.to_vec(),
             size_range: None,
             factor_range: None,
@@ -78,7 +70,7 @@ impl Parameter {
 /// let structure = Structure::new(grids.to_vec(), rods.to_vec())?;
 /// let t = DMatrix::identity(2, 2); // measured are the structure's own two DOF
 /// let mass = DMatrix::from_diagonal_element(2, 2, 0.01);
-/// let parameters = [1, 2].map(|rod| Parameter::element(rod, None));
+/// let parameters = [1, 2].map(|rod| Parameter::new(rod, &[rod]));
 /// let model = FiniteElementModel::new(structure, t, mass, parameters.to_vec())?;
 ///
 /// // Frequencies in hertz; shapes of any scale, one a column.
@@ -116,7 +108,7 @@ impl FiniteElementModel {
         load_distribution: Matrix,
         mass: Matrix,
         parameters: Vec<Parameter>,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self> {
         let (free, dynamic) = (structure.free_dof().len(), mass.nrows());
         at_least_one("dynamic degrees of freedom", dynamic)?;
         check_matrix("load distribution", &load_distribution, free, dynamic)?;
@@ -181,7 +173,7 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// [`Error::Range`] when no factor meets both, or when the first sizes lie outside.
-    pub fn factor_ranges(&self) -> Result<Vec<Option<Bounds>>, Error> {
+    pub fn factor_ranges(&self) -> Result<Vec<Option<Bounds>>> {
         let range = |(parameter, rows): (&Parameter, &Vec<usize>)| {
             let of_sizes = rows.iter().filter_map(|&row| {
                 let (range, size) = (parameter.size_range?, self.structure.elements()[row].size);
@@ -208,7 +200,7 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// [`Error::WrongShape`] for another number of factors; [`Error::Value`] for a factor or size that is not positive and finite.
-    pub fn sizes(&self, factors: &[f64]) -> Result<Vec<f64>, Error> {
+    pub fn sizes(&self, factors: &[f64]) -> Result<Vec<f64>> {
         check_length("parameter factors", factors.len(), self.parameters.len())?;
         let elements = self.structure.elements().iter();
         let mut sizes: Vec<f64> = elements.map(|element| element.size).collect();
@@ -228,7 +220,7 @@ impl FiniteElementModel {
     /// # Errors
     /// [`Error::WrongShape`] and [`Error::Value`] for a bad list of factors; [`Error::SingularStiffness`] naming the grid and direction
     /// that nothing holds; [`Error::NotPositiveDefinite`] when a dynamic DOF is a combination of others.
-    pub fn condense(&self, factors: &[f64]) -> Result<Condensed, Error> {
+    pub fn condense(&self, factors: &[f64]) -> Result<Condensed> {
         let free = self.structure.free_dof();
         let structural = assemble(&self.element_matrices, &self.sizes(factors)?, free.len())?;
         condense(&structural, &self.load_distribution).map_err(|error| match error {
@@ -262,7 +254,7 @@ impl FiniteElementModel {
     /// use nalgebra::{dmatrix, dvector};
     ///
     /// // A unit mass on a spring of 4 beside a test mode of ω² = 9: a frequency of 2 for 3.
-    /// let (spring, parameters) = (rods(&[4.0], [true, false])?, vec![Parameter::element(1, None)]);
+    /// let (spring, parameters) = (rods(&[4.0], [true, false])?, vec![Parameter::new(1, &[1])]);
     /// let model = FiniteElementModel::new(spring, dmatrix![1.0], dmatrix![1.0], parameters)?;
     /// let test = Modes::new(dvector![9.0], dmatrix![1.0])?;
     /// let analysis = model.analyze(&[1.0], &test, None)?;
@@ -274,11 +266,11 @@ impl FiniteElementModel {
         factors: &[f64],
         test: &Modes,
         analysis_modes: Option<usize>,
-    ) -> Result<Model, Error> {
+    ) -> Result<Model> {
         let mut model = self.matrices(factors)?.analyze(test, analysis_modes)?;
         let sizes = self.sizes(factors)?;
-        let sum = |rows: &Vec<usize>| rows.iter().map(|&row| sizes[row]).sum::<f64>();
-        let mean = |rows| sum(rows) / rows.len() as f64;
+        let mean =
+            |rows: &Vec<usize>| rows.iter().map(|&row| sizes[row]).sum::<f64>() / rows.len() as f64;
         model.gages = self.rows.iter().map(mean).collect();
         Ok(model)
     }
@@ -288,7 +280,7 @@ impl FiniteElementModel {
     /// # Errors
     /// [`Error::WrongShape`] and [`Error::Value`] for a bad list of factors; [`Error::SingularStiffness`] and
     /// [`Error::NotPositiveDefinite`] for a motion that nothing holds.
-    pub fn matrices(&self, factors: &[f64]) -> Result<DynamicModel, Error> {
+    pub fn matrices(&self, factors: &[f64]) -> Result<DynamicModel> {
         let (sizes, condensed) = (self.sizes(factors)?, self.condense(factors)?);
         let (elements, b) = (&self.element_matrices, &condensed.transformation);
         let share = |&row: &usize| generalized_stiffness(&elements[row], sizes[row], b);
@@ -305,7 +297,7 @@ impl FiniteElementModel {
     /// # Errors
     /// [`Error::WrongShape`] and [`Error::Value`] for a bad list of factors; [`Error::SingularStiffness`] and
     /// [`Error::NotPositiveDefinite`] for a motion that nothing holds; [`Error::NotAVibration`] for a mode with $\omega^2 \le 0$.
-    pub fn modes(&self, factors: &[f64]) -> Result<Modes, Error> {
+    pub fn modes(&self, factors: &[f64]) -> Result<Modes> {
         let stiffness = self.condense(factors)?.stiffness;
         solve(&stiffness, &self.mass, self.mass.nrows())
     }
@@ -329,7 +321,7 @@ impl DynamicModel {
     /// [`Error::WrongShape`] and [`Error::Value`] for matrices or test modes that do not fit, or are not symmetric and finite;
     /// [`Error::NotPositiveDefinite`] for the mass; [`Error::NotAVibration`] for a mode with $\omega^2 \le 0$; [`Error::Count`] for no
     /// modes or more than there are, of the model or the test.
-    pub fn analyze(&self, test: &Modes, analysis_modes: Option<usize>) -> Result<Model, Error> {
+    pub fn analyze(&self, test: &Modes, analysis_modes: Option<usize>) -> Result<Model> {
         let dof_count = self.stiffness.nrows();
         for share in &self.shares {
             check_shape("parameter share", share, dof_count, dof_count)?;
@@ -414,7 +406,7 @@ impl Analysis for Model {
     }
 
     /// Recursive 1 (C.22) carried until its roots have settled, for $\beta = \sum_e (s_e - 1) V^t K_e V$.
-    fn at(&self, factors: &[f64]) -> Result<State, Error> {
+    fn at(&self, factors: &[f64]) -> Result<State> {
         check_length("parameter factors", factors.len(), self.shares.len())?;
         let (v, k) = (&self.exact.modes.shapes, &self.exact.modes.omega_squared);
         let mut beta = Matrix::zeros(k.len(), k.len());
@@ -441,7 +433,7 @@ impl Analysis for Model {
 
     /// For each parameter, $\beta = 0.001 s_e V^t K_e V$ with the present modes $V$; roots and shapes follow by first order
     /// (C.20, C.21) and the error sum is taken anew with the present pairing.
-    fn error_changes(&self, state: &State) -> Result<Vec<f64>, Error> {
+    fn error_changes(&self, state: &State) -> Result<Vec<f64>> {
         let (p, v) = (&state.generalized_shapes, &state.modes.shapes);
         let k = &state.modes.omega_squared;
         check_shape("shapes of the state", p, self.exact.modes.len(), k.len())?;

@@ -1,15 +1,16 @@
 //! Natural modes: the symmetric-definite eigenproblem, its order, scale and sign.
 //! Tour: [chapter 1](crate::tour::chapter_01_two_springs).
 
-use super::error::{Error, at_least_one, check_count, positive};
+use super::error::{Error, Result, at_least_one, check_count, positive};
 use super::linear_algebra::{
-    Matrix, Vector, check_matrix, check_shape, check_symmetric, cholesky, pencil_eigen,
+    Matrix, Number, Vector, check_finite, check_matrix, check_shape, check_symmetric, cholesky,
+    pencil_eigen,
 };
 use std::f64::consts::TAU;
 
 /// Components within this fraction of the largest count as equally large for the sign rule, so that round-off
 /// in a symmetric shape does not choose its sign.
-pub(crate) const SIGN_TIE: f64 = 1e-6;
+const SIGN_TIE: f64 = 1e-6;
 
 /// Modes, measured or computed, in any order and of any scale. Every squared frequency is positive, and every shape has a component
 /// that is not zero:
@@ -33,12 +34,11 @@ impl Modes {
     /// # Errors
     /// [`Error::Count`] without modes; [`Error::WrongShape`] unless every shape has a frequency; [`Error::Value`] for an entry that is
     /// not finite, a squared frequency that is not positive or a shape that is zero.
-    pub fn new(omega_squared: Vector, shapes: Matrix) -> Result<Self, Error> {
+    pub fn new(omega_squared: Vector, shapes: Matrix) -> Result<Self> {
         at_least_one("modes", omega_squared.len())?;
         check_matrix("mode shapes", &shapes, shapes.nrows(), omega_squared.len())?;
-        for (place, (&square, shape)) in omega_squared.iter().zip(shapes.column_iter()).enumerate()
-        {
-            positive("squared frequency", || mode(place), square)?;
+        check_vibrations(&omega_squared)?;
+        for (place, shape) in shapes.column_iter().enumerate() {
             positive("largest component", || mode(place), shape.amax())?;
         }
         Ok(Self {
@@ -60,7 +60,7 @@ impl Modes {
     ///
     /// # Errors
     /// [`Error::Value`] for a frequency that is not positive; what [`Self::new`] refuses.
-    pub fn from_measured(frequencies_hz: &[f64], shapes: &Matrix) -> Result<Self, Error> {
+    pub fn from_measured(frequencies_hz: &[f64], shapes: &Matrix) -> Result<Self> {
         for (place, &frequency) in frequencies_hz.iter().enumerate() {
             positive("frequency", || mode(place), frequency)?;
         }
@@ -104,21 +104,9 @@ impl Modes {
     ///
     /// # Errors
     /// [`Error::Count`] for none, or more than there are.
-    pub fn lowest(&self, count: usize) -> Result<Self, Error> {
+    pub fn lowest(&self, count: usize) -> Result<Self> {
         check_count("modes", count, 1, self.len())?;
         Ok(self.select(&(0..count).collect::<Vec<_>>()))
-    }
-
-    /// Generalized masses $v_i^t M v_i$, which are positive.
-    pub(crate) fn generalized_masses(&self, mass: &Matrix) -> Result<Vec<f64>, Error> {
-        let dof_count = self.shapes.nrows();
-        check_shape("dynamic mass", mass, dof_count, dof_count)?;
-        let weighted = mass * &self.shapes;
-        let own = |place| {
-            let own = self.shapes.column(place).dot(&weighted.column(place));
-            positive("generalized mass", || mode(place), own).map(|()| own)
-        };
-        (0..self.len()).map(own).collect()
     }
 
     /// Modes with every shape scaled to unit generalized mass, $v^t M v = 1$ (3). Orthogonality is not enforced;
@@ -127,13 +115,38 @@ impl Modes {
     /// # Errors
     /// [`Error::WrongShape`] for a mass (d × d, lbf·s²/in) that does not fit the shapes; [`Error::Value`] for a generalized mass that is
     /// not positive.
-    pub fn scaled_with(&self, mass: &Matrix) -> Result<Self, Error> {
-        let (mut scaled, own) = (self.clone(), self.generalized_masses(mass)?);
-        for (mut shape, generalized_mass) in scaled.shapes.column_iter_mut().zip(own) {
-            shape /= generalized_mass.sqrt();
+    pub fn scaled_with(&self, mass: &Matrix) -> Result<Self> {
+        let own = generalized_mass(&self.shapes, mass)?.diagonal();
+        let mut scaled = self.clone();
+        for (place, mut shape) in scaled.shapes.column_iter_mut().enumerate() {
+            positive("generalized mass", || mode(place), own[place])?;
+            shape /= own[place].sqrt();
         }
         Ok(scaled)
     }
+}
+
+/// Generalized mass $m_1 = V^t M V$ (B.6), n × n, of shapes in columns (d × n) of any scale. Its off-diagonal entries
+/// are the integrals of (B.5), which vanish for orthogonal modes.
+///
+/// # Errors
+/// [`Error::WrongShape`] when shapes and mass do not fit; [`Error::Value`] for a product that is not finite.
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::modes::generalized_mass;
+/// use nalgebra::{DMatrix, dmatrix};
+///
+/// // Both masses together, and against each other: orthogonal, with 1 + 1 each.
+/// let mass = generalized_mass(&dmatrix![1.0, 1.0; 1.0, -1.0], &DMatrix::identity(2, 2))?;
+/// assert_eq!(mass, dmatrix![2.0, 0.0; 0.0, 2.0]);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
+pub fn generalized_mass(shapes: &Matrix, mass: &Matrix) -> Result<Matrix> {
+    check_shape("dynamic mass", mass, shapes.nrows(), shapes.nrows())?;
+    let overlaps = shapes.tr_mul(&(mass * shapes));
+    check_finite("generalized mass", &overlaps).map(|()| overlaps)
 }
 
 /// Name of a mode in errors.
@@ -167,34 +180,35 @@ pub(crate) fn mode(place: usize) -> String {
 /// assert!((modes.shapes()[(0, 0)] - 0.5_f64.sqrt()).abs() < 1e-14);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn solve(stiffness: &Matrix, mass: &Matrix, count: usize) -> Result<Modes, Error> {
+pub fn solve(stiffness: &Matrix, mass: &Matrix, count: usize) -> Result<Modes> {
     check_symmetric("dynamic stiffness", stiffness)?;
     check_shape("dynamic mass", mass, stiffness.nrows(), stiffness.nrows())?;
     check_count("modes", count, 1, stiffness.nrows())?;
     let lower = cholesky("dynamic mass", mass, 0.0)?;
     let (omega_squared, shapes) = pencil_eigen("dynamic stiffness", stiffness, &lower, count)?;
-    // They ascend.
-    let (mode, value) = (0, omega_squared[0]);
-    if value <= 0.0 {
-        return Err(Error::NotAVibration { mode, value });
-    }
+    check_vibrations(&omega_squared)?;
     Ok(Modes::signed(
         omega_squared.rows(0, count).into_owned(),
         shapes,
     ))
 }
 
-/// Sign rule: makes the first of the largest components of every column positive.
-pub fn apply_sign_rule(shapes: &mut Matrix) {
+/// Refuses squared frequencies or roots that are not positive and finite.
+pub(crate) fn check_vibrations(squares: &Vector) -> Result<()> {
+    for (mode, &value) in squares.iter().enumerate() {
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(Error::NotAVibration { mode, value });
+        }
+    }
+    Ok(())
+}
+
+/// Sign rule: makes the first of the largest components of every column, real or complex, real and positive.
+pub fn apply_sign_rule<T: Number>(shapes: &mut Matrix<T>) {
     for mut shape in shapes.column_iter_mut() {
-        let largest = shape.amax();
-        let is_largest = |component: &&f64| component.abs() >= (1.0 - SIGN_TIE) * largest;
-        if shape
-            .iter()
-            .find(is_largest)
-            .is_some_and(|&first| first < 0.0)
-        {
-            shape.neg_mut();
+        let least = (1.0 - SIGN_TIE) * shape.map(T::modulus).max();
+        if let Some(&first) = shape.iter().find(|component| component.modulus() >= least) {
+            shape /= first.signum();
         }
     }
 }

@@ -9,8 +9,9 @@
 //!
 //! [`appendix_c`](crate::method::appendix_c) has the same with changes of mass, and unsymmetric and complex pencils.
 
-use super::error::{Error, at_least_one, check_count};
+use super::error::{Error, Result, at_least_one};
 use super::linear_algebra::{Matrix, Number, Vector, check_finite, check_matrix};
+use super::modes::check_vibrations;
 
 /// Denominator relative to the generalized stiffness below which two modes count as coalescing.
 pub const SMALLEST_SEPARATION: f64 = 1e-9;
@@ -38,18 +39,6 @@ pub struct Perturbed<T = f64> {
     pub shapes: Matrix<T>,
 }
 
-impl Perturbed {
-    /// Refuses roots that are not positive and finite.
-    pub(crate) fn check_roots(&self) -> Result<(), Error> {
-        for (mode, &value) in self.roots.iter().enumerate() {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(Error::LostRoot { mode, value });
-            }
-        }
-        Ok(())
-    }
-}
-
 /// Result of a recursion that goes on until its roots settle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settled<T = f64> {
@@ -64,7 +53,7 @@ pub struct Settled<T = f64> {
 impl<T: Number> Settled<T> {
     /// Accepts a recursion whose roots have settled, or nearly so, on as many modes as there are: a strong change can lead two modes to
     /// one, and then another is missed.
-    pub(crate) fn check(self) -> Result<Self, Error> {
+    pub(crate) fn check(self) -> Result<Self> {
         // NaN has not settled either.
         let is_settled = self.last_change <= LARGEST_UNSETTLED_CHANGE;
         if !is_settled {
@@ -80,7 +69,11 @@ impl<T: Number> Settled<T> {
                 let cosine = p.dotc(&q).modulus() / (p.norm() * q.norm());
                 let separation = (roots[second] / roots[first] - T::one()).modulus();
                 if 1.0 - cosine < SAME_SHAPE && separation < SAME_ROOT {
-                    return Err(Error::coalescing(first, second, separation));
+                    return Err(Error::CoalescingModes {
+                        first,
+                        second,
+                        separation,
+                    });
                 }
             }
         }
@@ -98,7 +91,7 @@ impl<T: Number> Settled<T> {
 ///
 /// # Errors
 /// [`Error::NotAVibration`] for a $k_{ii}$ that is not positive, [`Error::WrongShape`] and [`Error::Value`] for a change that does not
-/// fit or is not finite; [`Error::LostRoot`] when $k_{ii} + \beta_{ii} \le 0$; [`Error::CoalescingModes`] when the denominator of
+/// fit or is not finite; [`Error::NotAVibration`] when $k_{ii} + \beta_{ii} \le 0$; [`Error::CoalescingModes`] when the denominator of
 /// coupled modes vanishes.
 ///
 /// # Example
@@ -112,20 +105,16 @@ impl<T: Number> Settled<T> {
 /// assert!((found.roots[0] - 0.5).abs() < 1e-15 && (found.shapes[(1, 0)] + 0.1).abs() < 1e-15);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn first_order(generalized_stiffness: &Vector, beta: &Matrix) -> Result<Perturbed, Error> {
+pub fn first_order(generalized_stiffness: &Vector, beta: &Matrix) -> Result<Perturbed> {
     let (k, size) = (generalized_stiffness, generalized_stiffness.len());
     at_least_one("modes", size)?;
     check_matrix("generalized stiffness change", beta, size, size)?;
-    for (mode, &value) in k.iter().enumerate() {
-        if value <= 0.0 || !value.is_finite() {
-            return Err(Error::NotAVibration { mode, value });
-        }
-    }
+    check_vibrations(k)?;
     let mut now = Perturbed {
         roots: (k + beta.diagonal()).map(f64::recip),
         shapes: Matrix::identity(size, size),
     };
-    now.check_roots()?;
+    check_vibrations(&now.roots)?;
     update_shapes(k, beta, beta, &mut now)?;
     Ok(now)
 }
@@ -159,7 +148,7 @@ pub fn recursive_1(
     generalized_stiffness: &Vector,
     beta: &Matrix,
     order: usize,
-) -> Result<Perturbed, Error> {
+) -> Result<Perturbed> {
     Ok(settle(generalized_stiffness, beta, 0.0, order)?.perturbed)
 }
 
@@ -183,16 +172,13 @@ pub fn recursive_1(
 /// assert!(found.order < 15, "{}", found.order);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn recursive_1_converged(
-    generalized_stiffness: &Vector,
-    beta: &Matrix,
-) -> Result<Settled, Error> {
+pub fn recursive_1_converged(generalized_stiffness: &Vector, beta: &Matrix) -> Result<Settled> {
     settle(generalized_stiffness, beta, ROOT_TOLERANCE, MOST_ORDERS)?.check()
 }
 
 /// Recursive 1 to an order, or until no root changes by as much as `tolerance`.
-fn settle(k: &Vector, beta: &Matrix, tolerance: f64, orders: usize) -> Result<Settled, Error> {
-    check_count("order", orders, 1, usize::MAX)?;
+fn settle(k: &Vector, beta: &Matrix, tolerance: f64, orders: usize) -> Result<Settled> {
+    at_least_one("order", orders)?;
     let mut perturbed = first_order(k, beta)?;
     let mut coupling = beta.clone();
     coupling.fill_diagonal(0.0);
@@ -210,7 +196,7 @@ fn settle(k: &Vector, beta: &Matrix, tolerance: f64, orders: usize) -> Result<Se
             last_change = (root / *gamma - 1.0).abs().max(last_change);
             *gamma = root;
         }
-        perturbed.check_roots()?;
+        check_vibrations(&perturbed.roots)?;
         order += 1;
     }
     Ok(Settled {
@@ -222,20 +208,22 @@ fn settle(k: &Vector, beta: &Matrix, tolerance: f64, orders: usize) -> Result<Se
 
 /// Shapes from the present roots and the sums over the others, $p_{ij} = -S_{ij}/(k_{ii} + \beta_{ii} - 1/\gamma_j)$: zero
 /// where nothing couples the modes, refused where something does and the denominator vanishes.
-fn update_shapes(
-    k: &Vector,
-    beta: &Matrix,
-    sums: &Matrix,
-    now: &mut Perturbed,
-) -> Result<(), Error> {
+fn update_shapes(k: &Vector, beta: &Matrix, sums: &Matrix, now: &mut Perturbed) -> Result<()> {
     for j in 0..k.len() {
         for i in (0..k.len()).filter(|&i| i != j) {
             let own = k[i] + beta[(i, i)];
             let difference = own - 1.0 / now.roots[j];
+            let separation = (difference / own).abs();
             now.shapes[(i, j)] = match sums[(i, j)] {
                 0.0 => 0.0,
-                sum if difference.abs() > SMALLEST_SEPARATION * own => -sum / difference,
-                _ => return Err(Error::coalescing(i, j, difference / own)),
+                sum if separation > SMALLEST_SEPARATION => -sum / difference,
+                _ => {
+                    return Err(Error::CoalescingModes {
+                        first: i,
+                        second: j,
+                        separation,
+                    });
+                }
             };
         }
     }

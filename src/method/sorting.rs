@@ -1,7 +1,7 @@
 //! Mode sorting (4): the pairing of every test mode with the analysis mode that answers it.
 //! Tour: [chapter 3](crate::tour::chapter_03_error_sum).
 
-use super::error::{Error, check_count, check_places};
+use super::error::{Result, check_count, check_places};
 use super::linear_algebra::{Matrix, check_finite, check_length, check_shape};
 use super::modes::Modes;
 
@@ -24,23 +24,17 @@ impl Pairing {
         }
     }
 
-    /// Refuses analysis modes other than those paired, and another number of test modes or signs.
-    pub(crate) fn check(&self, analysis: &Modes, test_count: usize) -> Result<(), Error> {
-        check_length("paired modes", self.analysis_mode.len(), test_count)?;
-        check_length("signs of paired modes", self.sign.len(), test_count)?;
-        check_places("paired analysis modes", &self.analysis_mode, analysis.len())
-    }
-
     /// The paired analysis modes, in the order and with the signs of the test modes.
     ///
     /// # Errors
-    /// [`Error::Count`] for a pairing of other modes; [`Error::WrongShape`] unless every one has a sign.
-    pub fn paired(&self, analysis: &Modes) -> Result<Modes, Error> {
-        self.check(analysis, self.analysis_mode.len())?;
+    /// [`Error::Count`](super::error::Error::Count) for a pairing of other modes; [`Error::WrongShape`](super::error::Error::WrongShape)
+    /// unless every one has a sign.
+    pub fn paired(&self, analysis: &Modes) -> Result<Modes> {
+        let count = self.analysis_mode.len();
+        check_length("signs of paired modes", self.sign.len(), count)?;
+        check_places("paired analysis modes", &self.analysis_mode, analysis.len())?;
         let mut paired = analysis.select(&self.analysis_mode);
-        for (mut shape, &sign) in paired.shapes.column_iter_mut().zip(&self.sign) {
-            shape *= sign;
-        }
+        paired.shapes *= Matrix::from_diagonal(&self.sign.clone().into());
         Ok(paired)
     }
 }
@@ -50,7 +44,7 @@ impl Pairing {
 /// With mass-orthonormal shapes every entry lies between −1 and 1.
 ///
 /// # Errors
-/// [`Error::WrongShape`] when shapes and mass do not fit.
+/// [`Error::WrongShape`](super::error::Error::WrongShape) when shapes and mass do not fit.
 ///
 /// # Example
 ///
@@ -67,7 +61,7 @@ impl Pairing {
 /// assert_eq!(cross, dmatrix![0.0, -1.0; 1.0, 0.0]);
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn cross_orthogonality(analysis: &Modes, test: &Modes, mass: &Matrix) -> Result<Matrix, Error> {
+pub fn cross_orthogonality(analysis: &Modes, test: &Modes, mass: &Matrix) -> Result<Matrix> {
     let (v, w) = (&analysis.shapes, &test.shapes);
     check_shape("dynamic mass", mass, v.nrows(), v.nrows())?;
     check_shape("test mode shapes", w, v.nrows(), w.ncols())?;
@@ -81,7 +75,8 @@ pub fn cross_orthogonality(analysis: &Modes, test: &Modes, mass: &Matrix) -> Res
 /// to the lower analysis mode. The sign of a pair is that of its $m_{ij}$.
 ///
 /// # Errors
-/// [`Error::Count`] without test modes, or with more of them than analysis modes; [`Error::Value`] for an entry that is not finite.
+/// [`Error::Count`](super::error::Error::Count) without test modes, or with more of them than analysis modes;
+/// [`Error::Value`](super::error::Error::Value) for an entry that is not finite.
 ///
 /// # Example
 ///
@@ -94,7 +89,7 @@ pub fn cross_orthogonality(analysis: &Modes, test: &Modes, mass: &Matrix) -> Res
 /// assert_eq!((pairing.analysis_mode, pairing.sign), (vec![1, 0], vec![1.0, -1.0]));
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
-pub fn pair_modes(cross: &Matrix) -> Result<Pairing, Error> {
+pub fn pair_modes(cross: &Matrix) -> Result<Pairing> {
     let (analysis_count, test_count) = cross.shape();
     check_count("test modes", test_count, 1, analysis_count)?;
     check_finite("cross-orthogonality", cross)?;

@@ -1,7 +1,7 @@
 //! The step (13): from derivatives to stiffness change factors, and the bounds that limit them.
 //! Tour: [chapter 4](crate::tour::chapter_04_step).
 
-use super::error::Error;
+use super::error::{Error, Result};
 use super::linear_algebra::Matrix;
 use serde::{Deserialize, Serialize};
 
@@ -25,7 +25,7 @@ impl Bounds {
     ///
     /// # Errors
     /// [`Error::Range`] unless $0 < \text{lower} < \text{upper}$, both finite.
-    pub fn positive(what: &str, lower: f64, upper: f64) -> Result<Self, Error> {
+    pub fn positive(what: &str, lower: f64, upper: f64) -> Result<Self> {
         if lower > 0.0 && upper > lower && upper.is_finite() {
             return Ok(Self { lower, upper });
         }
@@ -52,12 +52,11 @@ impl Bounds {
 /// The paper's sentence can be read in several ways, and its tables do not decide between them (`paper/interpretation.md`). With
 /// $\kappa_{ij} = s_e V_{Gi}^t K_e V_{Gj}/(\omega_{Gi} \omega_{Gj})$, the element's stiffness on the test modes relative to the
 /// test's own:
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StepRule {
     /// $\lVert \kappa \rVert_F$, the coupling of modes included: the library's own. With all
     /// modes it is $\lVert K_G^{-1/2} \Delta K K_G^{-1/2} \rVert_F$ with the test's stiffness $K_G$, whatever the basis.
-    #[default]
     Matrix,
     /// $(\sum_i \kappa_{ii}^2)^{1/2}$, the diagonal alone.
     Own,
@@ -141,12 +140,11 @@ pub fn limited_factor(
 }
 
 /// Way in which the changes of an inner loop's iterations come together on the stiffness stored since the last exact modes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Accumulation {
     /// Changes add, $K_e \big(1 + \sum (c - 1)\big)$ and at least [`LEAST_SHARE`] of $K_e$, while gages multiply: the paper's, by its
     /// Tables 9 to 12.
-    #[default]
     Sum,
     /// Changes multiply as gages do: $K_e c_1 c_2$ after two steps.
     Product,

@@ -1,7 +1,7 @@
 //! The structure: grid points, materials, elements, and which motions are constrained.
 //! Tour: [chapter 7](crate::tour::chapter_07_box).
 
-use super::error::{Error, at_least_one, check_count, positive, require};
+use super::error::{Error, Result, at_least_one, check_count, positive, require};
 use nalgebra::Vector3;
 use std::collections::{HashMap, HashSet};
 
@@ -46,7 +46,7 @@ impl Material {
     ///
     /// # Errors
     /// [`Error::Value`] unless $E > 0$ and $-1 < \nu \le 1/2$.
-    pub fn isotropic(youngs_modulus: f64, poissons_ratio: f64) -> Result<Self, Error> {
+    pub fn isotropic(youngs_modulus: f64, poissons_ratio: f64) -> Result<Self> {
         let shear_modulus = youngs_modulus / (2.0 * (1.0 + poissons_ratio));
         let material = Self {
             youngs_modulus,
@@ -58,17 +58,12 @@ impl Material {
     }
 
     /// Refuses moduli, Poisson's ratio or density out of their range.
-    pub(crate) fn check(&self, owner: impl Fn() -> String) -> Result<(), Error> {
+    pub(crate) fn check(&self, owner: impl Fn() -> String) -> Result<()> {
         positive("Young's modulus", &owner, self.youngs_modulus)?;
         let (nu, density) = (self.poissons_ratio, self.density);
         let is_met = nu > -1.0 && nu <= 0.5;
-        require(
-            is_met,
-            "Poisson's ratio",
-            &owner,
-            nu,
-            "more than -1 and at most 0.5",
-        )?;
+        let expected = "more than -1 and at most 0.5";
+        require(is_met, "Poisson's ratio", &owner, nu, expected)?;
         positive("shear modulus", &owner, self.shear_modulus)?;
         let is_met = density >= 0.0 && density.is_finite();
         require(is_met, "density", owner, density, "positive and finite")
@@ -141,7 +136,7 @@ impl Structure {
     ///
     /// # Errors
     /// [`Error::Count`] without elements; [`Error::Duplicate`] for a grid or element that is given twice; [`Error::Unknown`] for an
-    /// element's grid that is not there; [`Error::Value`] for a coordinate, size or material out of its range; [`Error::Degenerate`] for
+    /// element's grid that is not there; [`Error::Value`] for a coordinate, size or material out of its range and for
     /// corners that [`check_corners`] refuses.
     ///
     /// # Example
@@ -159,7 +154,7 @@ impl Structure {
     /// assert_eq!(structure.free_dof().len(), 1);
     /// # Ok::<(), corfem::method::error::Error>(())
     /// ```
-    pub fn new(grids: Vec<Grid>, elements: Vec<Element>) -> Result<Self, Error> {
+    pub fn new(grids: Vec<Grid>, elements: Vec<Element>) -> Result<Self> {
         at_least_one("elements", elements.len())?;
         let (mut positions, mut free) = (HashMap::new(), Vec::new());
         let twice = |what, label| Error::Duplicate {
@@ -236,42 +231,37 @@ impl Structure {
 /// Refuses corners that have no length or area between them, and a panel that is not convex in its mean plane.
 ///
 /// # Errors
-/// [`Error::Count`] for another number of corners than the kind has; [`Error::Degenerate`] for a rod whose ends coincide to working
+/// [`Error::Count`] for another number of corners than the kind has; [`Error::Value`] for a rod whose ends coincide to working
 /// precision, a triangle whose corners lie on a line, a panel with parallel diagonals or an interior angle of 180° or more.
-pub fn check_corners(label: usize, kind: ElementKind, corners: &[Point]) -> Result<(), Error> {
+pub fn check_corners(label: usize, kind: ElementKind, corners: &[Point]) -> Result<()> {
     let count = kind.corner_count();
     check_count("corners of an element", corners.len(), count, count)?;
     let side = |a: usize, b: usize| corners[b % count] - corners[a % count];
-    let require = |what: &str, ratio: f64, least: f64| match ratio > least {
-        true => Ok(()),
-        // All corners in one place leave no number.
-        false => Err(Error::Degenerate {
-            element: label,
-            what: what.into(),
-            ratio,
-        }),
-    };
+    let owner = || format!("element {label}");
     if kind == ElementKind::Rod {
         let ratio = side(0, 1).norm() / (corners[0].norm() + corners[1].norm());
-        return require("the rod has no length", ratio, SMALLEST_LENGTH_RATIO);
+        let is_met = ratio > SMALLEST_LENGTH_RATIO;
+        return require(is_met, "relative length", owner, ratio, "above 1e-12");
     }
-    // The sides of a triangle, the diagonals of a panel.
-    let across = match count {
-        3 => vec![side(0, 1), side(0, 2), side(1, 2)],
-        _ => vec![side(0, 2), side(1, 3)],
-    };
-    let normal = across[0].cross(&across[1]);
-    let longest = across.iter().map(Point::norm).fold(0.0, f64::max);
+    // The diagonals of a panel, or two sides of a triangle, whose third is side 2-3.
+    let (d13, d24) = (side(0, 2), side(1, 3));
+    let normal = d13.cross(&d24);
+    let longest = d13.norm().max(d24.norm()).max(side(1, 2).norm());
     let ratio = 0.5 * normal.norm() / longest.powi(2);
-    require("its corners have no area", ratio, SMALLEST_AREA_RATIO)?;
+    let is_met = ratio > SMALLEST_AREA_RATIO;
+    require(is_met, "relative area", owner, ratio, "above 1e-10")?;
     // Every angle of a triangle is less.
     (1..=count).try_for_each(|corner| {
         let turn = side(corner - 1, corner).cross(&side(corner - 1, corner + count - 2));
-        let what = format!("its interior angle at corner {corner} is 180 degrees or more");
+        let ratio = turn.dot(&normal) / normal.norm_squared();
+        let owner = || format!("corner {corner} of element {label}");
+        let convex = "above 1e-10, its interior angle below 180 degrees";
         require(
-            &what,
-            turn.dot(&normal) / normal.norm_squared(),
-            SMALLEST_AREA_RATIO,
+            ratio > SMALLEST_AREA_RATIO,
+            "relative area",
+            owner,
+            ratio,
+            convex,
         )
     })
 }

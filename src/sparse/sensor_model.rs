@@ -14,7 +14,7 @@ use crate::method::error::{Error, require};
 use crate::method::error_sum::{Errors, ModeError, errors, mode_errors};
 use crate::method::linear_algebra::{check_length, check_shape, symmetric_eigen, symmetric_part};
 use crate::method::model::Model;
-use crate::method::modes::{Modes, solve};
+use crate::method::modes::{Modes, check_vibrations, solve};
 use crate::method::perturbation::{Perturbed, first_order, recursive_1_converged};
 use crate::method::sorting::{Pairing, pair_modes};
 use crate::method::step::{REFERENCE_GAGE, StepRule};
@@ -592,7 +592,7 @@ impl Analysis for SensorModel {
             true => Pencil::of_vibrations(k, &beta, &alpha)?.recursive_1_converged()?,
             false => recursive_1_converged(k, &beta)?,
         };
-        settled.perturbed.check_roots()?;
+        check_vibrations(&settled.perturbed.roots)?;
         let Perturbed { roots, mut shapes } = settled.perturbed;
         normalize_with_mass(&mut shapes, &alpha)?;
         let generalized = with_rigid_bodies(&apart, &shapes);
@@ -630,7 +630,7 @@ impl SensorModel {
     /// Modes of a state after a thousandth of each parameter's present stiffness or mass is added, by first order.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] for the state of another model; [`Error::LostRoot`] where a thousandth is too much.
+    /// [`Error::WrongShape`] for the state of another model; [`Error::NotAVibration`] where a thousandth is too much.
     pub(crate) fn changed_modes(&self, state: &State) -> Result<Vec<Modes>, Error> {
         let (p, k) = (&state.generalized_shapes, &state.modes.omega_squared);
         let (count, size) = (self.omega_squared.len(), self.basis.ncols());
@@ -643,7 +643,7 @@ impl SensorModel {
             let now = &state.modes.shapes;
             let (roots, shapes) = if share.is_mass() {
                 let perturbed = Pencil::of_vibrations(k, &(0.0 * &own), &own)?.first_order()?;
-                perturbed.check_roots()?;
+                check_vibrations(&perturbed.roots)?;
                 let Perturbed { roots, shapes } = perturbed;
                 // With ω² = 0 the first order of a rigid-body mode in a vibration is -α_Ri.
                 (

@@ -172,7 +172,10 @@ impl Case {
             return self
                 .panels
                 .iter()
-                .map(|panel| Parameter::element(panel.label, self.gage_range))
+                .map(|panel| Parameter {
+                    size_range: self.gage_range,
+                    ..Parameter::new(panel.label, &[panel.label])
+                })
                 .collect();
         }
         // A group may have panels at both gage bounds, and no panel may leave them by more than their ratio.
@@ -183,7 +186,7 @@ impl Case {
         let factor_range = self.gage_range.map(ratio);
         let group = |&(name, elements): &(_, _)| Parameter {
             factor_range,
-            ..Parameter::group(name, elements)
+            ..Parameter::new(name, elements)
         };
         SUBSTRUCTURES.iter().map(group).collect()
     }

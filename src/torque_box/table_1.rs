@@ -7,6 +7,7 @@
 
 use crate::method::appendix_c::Pencil;
 use crate::method::error::{Error, require};
+use crate::method::modes::check_vibrations;
 use crate::method::perturbation::{first_order, recursive_1};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 
@@ -88,7 +89,7 @@ impl TwoMasses {
             Formula::Recursive1 { order } => recursive_1(&k, &beta, order),
             Formula::Recursive2 { order } => pencil.recursive_2(order),
         }?;
-        perturbed.check_roots()?;
+        check_vibrations(&perturbed.roots)?;
         Ok([0, 1].map(|i| perturbed.roots[i] / exact[i] - 1.0))
     }
 }

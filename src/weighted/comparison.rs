@@ -307,7 +307,7 @@ impl Comparison {
     /// Changes $\Delta e_e$ (12) of the error sum over all numbers that are compared, at the exact modes.
     ///
     /// # Errors
-    /// [`Error::CoalescingModes`] and [`Error::LostRoot`] where a thousandth of a parameter is too much.
+    /// [`Error::CoalescingModes`] and [`Error::NotAVibration`] where a thousandth of a parameter is too much.
     #[cfg(feature = "program")]
     pub(crate) fn error_changes(&self) -> Result<Vec<f64>, Error> {
         let state = self.model.at(&vec![1.0; self.model.shares.len()])?;

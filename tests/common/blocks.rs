@@ -66,7 +66,7 @@ pub struct SolvedInBlocks {
 ///
 /// # Errors
 /// [`Error::Setting`] for a separation outside 0 to 1 or no orders; those of [`check_symmetric`] and [`cholesky`] for the
-/// changes; [`Error::LostStiffness`], [`Error::LostRoot`], [`Error::UnsettledRoots`]; [`Error::CoalescingModes`] when the
+/// changes; [`Error::LostStiffness`], [`Error::NotAVibration`], [`Error::UnsettledRoots`]; [`Error::CoalescingModes`] when the
 /// recursion itself brings roots together that were apart.
 pub fn close_roots(
     change: &ModalChange,
@@ -100,7 +100,7 @@ pub fn close_roots(
         .iter()
         .position(|&root| !(root > 0.0 && root.is_finite()))
     {
-        return Err(Error::LostRoot {
+        return Err(Error::NotAVibration {
             mode,
             value: solved.roots[mode],
         });
@@ -244,7 +244,7 @@ fn solve_in(
         let within = |matrix: &DMatrix<f64>| symmetric_part(&span.tr_mul(&(matrix * &span)));
         let modes =
             solve(&within(stiffness), &within(mass), block.len()).map_err(|error| match error {
-                Error::NotAVibration { mode, value } => Error::LostRoot {
+                Error::NotAVibration { mode, value } => Error::NotAVibration {
                     mode: block[mode],
                     value: value.recip(),
                 },

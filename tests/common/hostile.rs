@@ -332,7 +332,7 @@ impl Draws {
             Parameter {
                 size_range,
                 factor_range,
-                ..Parameter::group("drawn", &[member])
+                ..Parameter::new("drawn", &[member])
             }
         };
         (0..1 + self.below(2))

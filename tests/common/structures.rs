@@ -57,7 +57,7 @@ pub fn spring_chain(springs: &[f64], constrained: [bool; 2]) -> Structure {
 pub fn group(name: &str, elements: &[usize], size_range: Option<Bounds>) -> Parameter {
     Parameter {
         size_range,
-        ..Parameter::group(name, elements)
+        ..Parameter::new(name, elements)
     }
 }
 

@@ -25,7 +25,7 @@ pub fn with_every_element(case: &Case) -> FiniteElementModel {
     with_parameters(
         case,
         (1..=39)
-            .map(|label| Parameter::element(label, None))
+            .map(|label| Parameter::new(label, &[label]))
             .collect(),
     )
 }

@@ -279,10 +279,7 @@ fn case_2_by_bays() -> Result<Known, CaseError> {
         .map(|(element, truth)| (element.clone(), *truth))
         .unzip();
     for bay in BAYS {
-        parameters.push(Parameter::group(
-            &format!("{} and {}", bay[0], bay[1]),
-            &bay,
-        ));
+        parameters.push(Parameter::new(format!("{} and {}", bay[0], bay[1]), &bay));
         truth.push(known.truth[bay[0] - 1]);
     }
     let model = FiniteElementModel::new(structure.clone(), t.clone(), mass.clone(), parameters);

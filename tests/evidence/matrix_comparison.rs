@@ -97,7 +97,7 @@ pub fn compare_matrices(case: &Case, test_modes: usize) -> Result<MatrixComparis
     let test = all.lowest(test_modes)?;
     let model = case.model()?;
     let ranges = model.factor_ranges()?;
-    let settings = case.settings_by(StepRule::default());
+    let settings = case.settings_by(StepRule::Matrix);
     let correlation = correlate(
         |factors| model.analyze(factors, &test, None),
         &ranges,

@@ -159,7 +159,7 @@ fn correlated(
     test: &Modes,
 ) -> Result<Found, CaseError> {
     let ranges = model.factor_ranges()?;
-    let settings = case.settings_by(StepRule::default());
+    let settings = case.settings_by(StepRule::Matrix);
     let correlation = correlate(
         |factors| model.analyze(factors, test, None),
         &ranges,

@@ -7,14 +7,14 @@ use crate::common::structures::lumped_mass;
 use crate::common::structures::of_dense;
 use corfem::method::analysis::Analysis;
 use corfem::method::appendix_a::assemble;
-use corfem::method::appendix_b::{balance, generalized_mass, orthogonalize};
+use corfem::method::appendix_b::{balance, orthogonalize};
 use corfem::method::appendix_c::Pencil;
 use corfem::method::appendix_c::{self, LeftRightModes};
 use corfem::method::error_sum::errors;
 use corfem::method::inner_loop::run;
 use corfem::method::linear_algebra::symmetric_part;
 use corfem::method::model::{DynamicModel, FiniteElementModel, Parameter};
-use corfem::method::modes::{Modes, solve};
+use corfem::method::modes::{Modes, generalized_mass, solve};
 use corfem::method::outer_loop::Settings;
 use corfem::method::perturbation::{Perturbed, recursive_1};
 use corfem::method::sorting::{cross_orthogonality, pair_modes};
@@ -130,7 +130,7 @@ fn model(given: &Value) -> FiniteElementModel {
     for entry in entries("load_distribution") {
         t[(count(&entry[0]), count(&entry[1]))] = entry[2].as_f64().expect("a number");
     }
-    let parameters = (0..count(&given["parameters"])).map(|label| Parameter::element(label, None));
+    let parameters = (0..count(&given["parameters"])).map(|label| Parameter::new(label, &[label]));
     FiniteElementModel::new(structure, t, matrix(&given["mass"]), parameters.collect())
         .expect("a model")
 }

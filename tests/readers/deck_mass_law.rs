@@ -45,8 +45,8 @@ pub fn whole_box([covers, webs, rods]: [f64; 3], points: &[f64]) -> FiniteElemen
         DMatrix::identity(DOF, DOF),
         DMatrix::from_diagonal(&points.to_vec().into()),
         vec![
-            Parameter::group("covers", &COVERS),
-            Parameter::group("webs", &WEBS),
+            Parameter::new("covers", &COVERS),
+            Parameter::new("webs", &WEBS),
         ],
     )
     .expect("a model")

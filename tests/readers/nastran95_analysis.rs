@@ -152,8 +152,8 @@ pub fn disordered() -> FiniteElementModel {
         t,
         mass,
         vec![
-            Parameter::element(40, None),
-            Parameter::group("others", &[4, 12, 6]),
+            Parameter::new(40, &[40]),
+            Parameter::new("others", &[4, 12, 6]),
         ],
     )
     .expect("a model")

@@ -133,7 +133,7 @@ fn a_root_that_is_no_number_is_refused_by_every_formula() {
         .map(said)
     };
     let words = |row: usize, value: &str| {
-        format!("perturbed roots of entry ({row}, 0) is {value}; it must be a finite number")
+        format!("perturbed roots of entry ({row}, {row}) is {value}; it must be a finite number")
     };
     assert_eq!(
         lost(|change| change.beta[(2, 2)] = -6.0),

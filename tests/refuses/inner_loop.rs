@@ -164,7 +164,7 @@ fn assert_lost_root(problem: &dyn Analysis) {
     ];
     for refused in refusals {
         assert!(
-            matches!(refused, Err(Error::LostRoot { mode: 0, .. })),
+            matches!(refused, Err(Error::NotAVibration { mode: 0, .. })),
             "{refused:?}"
         );
     }

@@ -31,7 +31,7 @@ fn rod_of(length: f64, area: f64, material: Material) -> Result<Structure, Error
 fn an_element_too_stiff_for_a_number_is_refused() {
     let stiff = Material::isotropic(1e308, 0.25).expect("a material");
     let model = |length: f64| {
-        let (one, parameters) = (DMatrix::identity(1, 1), vec![Parameter::element(7, None)]);
+        let (one, parameters) = (DMatrix::identity(1, 1), vec![Parameter::new(7, &[7])]);
         FiniteElementModel::new(rod_of(length, 1.0, stiff)?, one.clone(), one, parameters)
     };
     assert!(model(1.0).is_ok());

@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, dmatrix};
 
 fn with_mass(t: DMatrix<f64>, mass: DMatrix<f64>) -> Result<FiniteElementModel, Error> {
     let structure = spring_chain(&[2.0, 4.0, 8.0], [true, false]);
-    FiniteElementModel::new(structure, t, mass, vec![Parameter::element(1, None)])
+    FiniteElementModel::new(structure, t, mass, vec![Parameter::new(1, &[1])])
 }
 
 #[test]
@@ -35,7 +35,7 @@ fn bounds_that_no_factor_or_not_the_start_satisfies_are_refused_by_their_paramet
 
 #[test]
 fn parameters_that_cannot_be_are_refused_by_name() {
-    let one = || Parameter::element(1, None);
+    let one = || Parameter::new(1, &[1]);
     let wing = |elements: &[usize]| group("wing", elements, None);
     let tail = || group("tail", &[3, 2], None);
     for (parameters, words) in [
@@ -63,11 +63,7 @@ fn parameters_that_cannot_be_are_refused_by_name() {
 
 #[test]
 fn factors_that_cannot_be_are_refused_by_their_parameter() {
-    let model = chain(vec![
-        group("wing", &[1, 2], None),
-        Parameter::element(3, None),
-    ])
-    .unwrap();
+    let model = chain(vec![group("wing", &[1, 2], None), Parameter::new(3, &[3])]).unwrap();
     for factors in [vec![1.0], vec![1.0; 3]] {
         let words = format!("parameter factors: {} x 1 instead of 2 x 1", factors.len());
         assert_eq!(said(model.sizes(&factors)), words);
@@ -143,7 +139,7 @@ fn a_structure_that_nothing_holds_is_refused_by_a_direction() {
         spring_chain(&[1.0], [false, false]),
         DMatrix::identity(2, 1),
     );
-    let parameters = vec![Parameter::element(1, None)];
+    let parameters = vec![Parameter::new(1, &[1])];
     let model = FiniteElementModel::new(free, t, DMatrix::identity(1, 1), parameters).unwrap();
     let refused = model.matrices(&[1.0]);
     assert!(
@@ -158,7 +154,7 @@ fn a_structure_that_nothing_holds_is_refused_by_a_direction() {
 /// Element matrices of another program.
 #[test]
 fn element_matrices_that_do_not_fit_are_refused() {
-    let model = chain(vec![Parameter::element(1, None)]).unwrap();
+    let model = chain(vec![Parameter::new(1, &[1])]).unwrap();
     let with = |units: Vec<DMatrix<f64>>| said(model.with_unit_stiffness(units));
     let one = || DMatrix::identity(1, 1);
     let two = || DMatrix::identity(2, 2);

@@ -95,12 +95,12 @@ fn pairs_that_are_not_those_of_the_modes_have_no_error() {
     assert_eq!(errors(3, vec![0, 1]).expect("they fit").len(), 2);
     for (dof, pairing, words) in [
         (4, vec![0, 1], "test mode shapes: 4 x 2 instead of 3 x 2"),
-        (3, vec![0], "paired modes: 1 x 1 instead of 2 x 1"),
-        (3, vec![0, 1, 1], "paired modes: 3 x 1 instead of 2 x 1"),
+        (3, vec![0], "test mode shapes: 3 x 2 instead of 3 x 1"),
+        (3, vec![0, 1, 1], "test mode shapes: 3 x 2 instead of 3 x 3"),
         (
             3,
             vec![0, 2],
-            "paired analysis modes: 3 given or asked for; there must be 0 to 2",
+            "paired analysis modes: 3 given or asked for; there must be 1 to 2",
         ),
     ] {
         assert_eq!(said(errors(dof, pairing)), words);
@@ -122,6 +122,6 @@ fn pairs_of_no_modes_are_refused() {
     );
     assert_eq!(
         paired(&[2], &[1.0]),
-        "paired analysis modes: 3 given or asked for; there must be 0 to 2"
+        "paired analysis modes: 3 given or asked for; there must be 1 to 2"
     );
 }

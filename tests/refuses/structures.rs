@@ -27,7 +27,7 @@ fn named(error: Error) -> (usize, char) {
 /// A model of the structure with its first DOF as the dynamic one.
 fn model_of(structure: &Structure) -> FiniteElementModel {
     let (one, count) = (DMatrix::identity(1, 1), structure.free_dof().len());
-    let parameters = vec![Parameter::element(1, None)];
+    let parameters = vec![Parameter::new(1, &[1])];
     let t = DMatrix::identity(count, 1);
     FiniteElementModel::new(structure.clone(), t, one, parameters).expect("a model")
 }

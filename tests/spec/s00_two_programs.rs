@@ -38,7 +38,7 @@ fn random_model() -> impl Strategy<Value = FiniteElementModel> {
             element.material.density = density;
         }
         let structure = Structure::new(bare.grids().to_vec(), elements).ok()?;
-        let parameters = (1..=39).map(|label| Parameter::element(label, None));
+        let parameters = (1..=39).map(|label| Parameter::new(label, &[label]));
         let (t, mass) = (
             load_distribution(&case.reconstruction).ok()?,
             case.reconstruction.mass(),

@@ -150,19 +150,19 @@ fn a_rod_needs_length_beyond_the_round_off_of_its_ends() {
     for length in [0.0, 1.5e-12, -1.5e-12, f64::NAN] {
         let refused = along(length);
         assert!(
-            matches!(&refused, Err(Error::Degenerate { element: 7, what, ratio })
-                if what == "the rod has no length" && (ratio.is_nan() || *ratio <= 1e-12)),
+            matches!(&refused, Err(Error::Value { what: "relative length", owner, value, .. })
+                if owner == "element 7" && (value.is_nan() || *value <= 1e-12)),
             "{length:e}: {refused:?}"
         );
     }
     assert!(along(3e-12).is_ok());
     assert_eq!(
         said(along(0.0)),
-        "element 7: the rod has no length (0.000e0 of its size)"
+        "relative length of element 7 is 0; it must be above 1e-12"
     );
     // Both ends at the origin leave no size either.
     assert_eq!(
         said(check_corners(7, ElementKind::Rod, &[Vector3::zeros(); 2])),
-        "element 7: the rod has no length (NaN of its size)"
+        "relative length of element 7 is NaN; it must be above 1e-12"
     );
 }

@@ -12,25 +12,26 @@ use proptest::prelude::*;
 
 const PANELS: [ElementKind; 2] = [ElementKind::ShearPanel, ElementKind::Membrane];
 
-/// What the corners of element 7 are refused with, and the ratio that shows it.
+/// Whose corners are refused, and the ratio that shows it.
 fn refusal(kind: ElementKind, corners: &[Point]) -> Option<(String, f64)> {
     match check_corners(7, kind, corners) {
         Ok(()) => None,
-        Err(Error::Degenerate {
-            element: 7,
-            what,
-            ratio,
-        }) => Some((what, ratio)),
+        Err(Error::Value {
+            what: "relative area",
+            owner,
+            value,
+            ..
+        }) => Some((owner, value)),
         Err(other) => panic!("{other:?}"),
     }
 }
 
 /// The words for a corner from one.
 fn angle(corner: usize) -> String {
-    format!("its interior angle at corner {corner} is 180 degrees or more")
+    format!("corner {corner} of element 7")
 }
 
-const NO_AREA: &str = "its corners have no area";
+const NO_AREA: &str = "element 7";
 
 /// Whether the corners are refused for an area that is this part of the square of their size.
 fn has_no_area(kind: ElementKind, corners: &[Point], expected: f64) -> bool {

@@ -73,7 +73,7 @@ fn chain(areas: [f64; 5], support: Support) -> Result<FiniteElementModel, Error>
         DMatrix::identity(free.len(), free.len()),
         DMatrix::from_diagonal(&DVector::from_vec(masses)),
         (1..=5)
-            .map(|label| Parameter::element(label, None))
+            .map(|label| Parameter::new(label, &[label]))
             .collect(),
     )
 }
@@ -168,7 +168,7 @@ fn chain_that_nothing_holds_is_refused() {
     let free = Structure::new(grids.collect(), model.structure().elements().to_vec())
         .expect("a structure");
     let mass = DMatrix::from_diagonal(&DVector::from_row_slice(&MASSES));
-    let parameters = vec![Parameter::element(1, None)];
+    let parameters = vec![Parameter::new(1, &[1])];
     let model =
         FiniteElementModel::new(free, DMatrix::identity(6, 6), mass, parameters).expect("a model");
     let error = model.matrices(&[1.0]).expect_err("it moves as a whole");

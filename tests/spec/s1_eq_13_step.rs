@@ -7,6 +7,7 @@ use crate::common::tolerances::ROUND_OFF;
 use crate::common::vibrations::chain_and_truth;
 use corfem::method::analysis::{Analysis, State};
 use corfem::method::error::Error;
+use corfem::method::inner_loop::InnerSettings;
 use corfem::method::model::{DynamicModel, FiniteElementModel, Model, Parameter};
 use corfem::method::modes::Modes;
 use corfem::method::step::{
@@ -145,7 +146,7 @@ fn matrix_is_the_librarys_own_rule_by_hand() {
         &factors_by_hand(0.5, 0.8, StepRule::Matrix),
         [1.0 - 0.8 / first, 1.0 + 0.4 / second, 1.0],
     );
-    assert_eq!(StepRule::default(), StepRule::Matrix);
+    assert_eq!(InnerSettings::default().step, StepRule::Matrix);
 }
 
 #[test]
@@ -167,7 +168,7 @@ fn relative_is_the_change_itself_by_hand() {
 fn gage_is_in_hundredths_of_an_inch_by_hand() {
     let rods = spring_chain(&[0.02, 0.005, 0.01], [true, false]);
     let parameters = (1..=3)
-        .map(|label| Parameter::element(label, None))
+        .map(|label| Parameter::new(label, &[label]))
         .collect();
     let identity = DMatrix::identity(3, 3);
     let model = FiniteElementModel::new(rods, identity.clone(), identity, parameters).unwrap();
@@ -275,7 +276,7 @@ fn changes_add_on_the_shares_or_multiply_with_the_gages() {
         Accumulation::Sum.next_share_factor(0.4504, 1.0, 0.55),
         LEAST_SHARE
     );
-    assert_eq!(Accumulation::default(), Accumulation::Sum);
+    assert_eq!(InnerSettings::default().accumulation, Accumulation::Sum);
 }
 
 #[test]

@@ -27,7 +27,7 @@ fn first_pass_of(
     let case = Case::new(number).unwrap();
     let ranges = case.model().unwrap().factor_ranges().unwrap();
     let mut settings = case.settings.inner.clone();
-    settings.step = StepRule::default();
+    settings.step = StepRule::Matrix;
     change(&mut settings);
     run(analysis, &[1.0; 15], &ranges, &settings).unwrap()
 }

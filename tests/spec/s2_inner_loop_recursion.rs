@@ -111,7 +111,7 @@ fn mass_that_is_taken_whole_loses_the_root() {
     for (factor, root) in [(0.0, 0.0), (-0.5, -0.125)] {
         assert_refused(
             model.at(&[factor]),
-            Error::LostRoot {
+            Error::NotAVibration {
                 mode: 1,
                 value: root,
             },

@@ -111,7 +111,7 @@ fn a_step_too_far_for_the_perturbation_is_halved() {
         let factors = factors.map(|c| 1.0 + fraction * (c.clamp(0.05, 20.0) - 1.0));
         problem.at(&factors.collect::<Vec<_>>())
     };
-    assert!(matches!(at(1.0), Err(Error::LostRoot { mode: 2, .. })));
+    assert!(matches!(at(1.0), Err(Error::NotAVibration { mode: 2, .. })));
     assert!(at(0.5).unwrap().errors.sum() > run.start.sum());
     assert_eq!(at(0.25).unwrap().errors, run.last.errors);
 }

@@ -244,7 +244,7 @@ impl Analysis for WithMasses {
         let Perturbed { roots, mut shapes } = pencil.recursive_1_converged()?.perturbed;
         if let Some(mode) = roots.iter().position(|root| *root <= 0.0) {
             let value = roots[mode];
-            return Err(Error::LostRoot { mode, value });
+            return Err(Error::NotAVibration { mode, value });
         }
         normalize_with_mass(&mut shapes, &alpha)?;
         let modes = Modes::new(roots.map(f64::recip), modes.shapes() * &shapes)?;
@@ -381,7 +381,7 @@ impl Run {
         let masses = DMatrix::from_diagonal(&(1e-4 * dvector![1.0, 1.2, 0.9, 1.1, 0.7]));
         let parameters = [&[1][..], &[3, 4], &[5], &[7, 8]].map(|labels| Parameter {
             size_range: is_bounded.then_some(bounds),
-            ..Parameter::group("rods", labels)
+            ..Parameter::new("rods", labels)
         });
         let structure = rods(&areas, [true, false])?;
         let model = FiniteElementModel::new(structure, distribution, masses, parameters.to_vec())?;

@@ -12,7 +12,7 @@ use proptest::prelude::*;
 fn condensed_chain(springs: &[f64]) -> (FiniteElementModel, Modes) {
     let mut t = DMatrix::zeros(5, 2);
     (t[(1, 0)], t[(4, 1)]) = (1.0, 1.0);
-    let parameters = (1..=5).map(|spring| Parameter::element(spring, None));
+    let parameters = (1..=5).map(|spring| Parameter::new(spring, &[spring]));
     let structure = rods(springs, [true, false]).expect("a chain");
     let mass = DMatrix::identity(2, 2);
     let model = FiniteElementModel::new(structure, t, mass, parameters.collect());

@@ -53,7 +53,7 @@ fn frame() -> impl Strategy<Value = Given> {
             // Areas within a factor of three, so that no rod is beyond what the test sees.
             let structure = linkage(apex, areas.map(|area| area.powf(0.25)), true);
             let mass = DMatrix::from_diagonal(&DVector::from_vec(masses));
-            let rods = (1..=4).map(|rod| Parameter::element(rod, None)).collect();
+            let rods = (1..=4).map(|rod| Parameter::new(rod, &[rod])).collect();
             let model = FiniteElementModel::new(structure, DMatrix::identity(4, 4), mass, rods)
                 .expect("a model");
             let test = model.modes(&truth).expect("modes");
@@ -420,7 +420,7 @@ fn a_parameter_without_effect_changes_nothing() {
                 grids: vec![13, 14],
                 ..rod
             });
-            given.parameters.push(Parameter::element(ADDED, None));
+            given.parameters.push(Parameter::new(ADDED, &[ADDED]));
         },
         in_place,
     );

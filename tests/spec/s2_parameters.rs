@@ -30,7 +30,7 @@ properties! {
     /// A group's factor is that factor on each of its elements, and its share the sum of theirs.
     #[test]
     fn a_group_is_its_elements_together(case in case(), factors in factors(4)) {
-        let groups = with_parameters(&case, SUBSTRUCTURES.map(|(name, elements)| Parameter::group(name, elements)).to_vec());
+        let groups = with_parameters(&case, SUBSTRUCTURES.map(|(name, elements)| Parameter::new(name, elements)).to_vec());
         let single = with_every_element(&case);
         let mut each = vec![1.0; 39];
         for ((_, elements), factor) in SUBSTRUCTURES.iter().zip(&factors) {
@@ -76,7 +76,7 @@ properties! {
 
 #[test]
 fn a_model_keeps_what_it_was_made_of() {
-    let parameters = vec![Parameter::element(2, None), group("ends", &[1, 3], None)];
+    let parameters = vec![Parameter::new(2, &[2]), group("ends", &[1, 3], None)];
     let model = chain(parameters.clone()).unwrap();
     assert_eq!(model.parameters(), parameters);
     let Parameter { name, elements, .. } = &model.parameters()[0];
@@ -85,7 +85,14 @@ fn a_model_keeps_what_it_was_made_of() {
         lower: 1.0,
         upper: 5.0,
     };
-    assert_eq!(Parameter::element(2, Some(range)).size_range, Some(range));
+    assert_eq!(
+        Parameter {
+            size_range: Some(range),
+            ..Parameter::new(2, &[2])
+        }
+        .size_range,
+        Some(range)
+    );
     assert_eq!(model.structure().elements().len(), 3);
     let labels: Vec<usize> = model
         .element_matrices()
@@ -111,9 +118,15 @@ fn a_model_keeps_what_it_was_made_of() {
 fn factor_ranges_are_size_bounds_over_first_sizes() {
     let bounds = |lower, upper| Some(Bounds { lower, upper });
     let model = chain(vec![
-        Parameter::element(1, bounds(1.0, 3.0)),
-        Parameter::element(2, None),
-        Parameter::element(3, bounds(4.0, 8.0)),
+        Parameter {
+            size_range: bounds(1.0, 3.0),
+            ..Parameter::new(1, &[1])
+        },
+        Parameter::new(2, &[2]),
+        Parameter {
+            size_range: bounds(4.0, 8.0),
+            ..Parameter::new(3, &[3])
+        },
     ]);
     let found = model.unwrap().factor_ranges().unwrap();
     assert_eq!(found, [bounds(0.5, 1.5), None, bounds(0.5, 1.0)]);
@@ -123,7 +136,7 @@ fn factor_ranges_are_size_bounds_over_first_sizes() {
     };
     let factor_alone = Parameter {
         factor_range: bounds(0.1, 7.0),
-        ..Parameter::element(3, None)
+        ..Parameter::new(3, &[3])
     };
     let found = chain(vec![both, factor_alone]).unwrap().factor_ranges();
     assert_eq!(found.unwrap(), [bounds(0.5, 1.25), bounds(0.1, 7.0)]);

@@ -156,8 +156,8 @@ fn the_size_of_a_group_is_the_mean_of_its_elements() {
     assert_ne!(panel.size, rod.size);
     let expected = [panel.size + rod.size, 3.0 * other.size];
     let parameters = vec![
-        Parameter::group("two", &[panel.label, rod.label]),
-        Parameter::element(other.label, None),
+        Parameter::new("two", &[panel.label, rod.label]),
+        Parameter::new(other.label, &[other.label]),
     ];
     let (model, test) = (
         with_parameters(&case, parameters),

@@ -58,7 +58,7 @@ fn the_box(density: f64) -> FiniteElementModel {
         element.material.density = density;
     }
     let grids = model.structure().grids().to_vec();
-    let all = (1..=ELEMENTS).map(|label| Parameter::element(label, None));
+    let all = (1..=ELEMENTS).map(|label| Parameter::new(label, &[label]));
     FiniteElementModel::new(
         Structure::new(grids, elements).expect("a structure"),
         model.load_distribution().clone(),

@@ -245,7 +245,7 @@ fn bad_input_is_refused() {
         (
             free(),
             DMatrix::zeros(3, 0),
-            "rigid-body vectors: 0 given or asked for; there must be at least 1",
+            "rigid-body stiffness: 0 given or asked for; there must be at least 1",
         ),
         (
             free(),

@@ -8,8 +8,8 @@ use crate::common::tolerances::{
 };
 use crate::common::{alter, not_definite, said};
 use approx::assert_relative_eq;
-use corfem::method::appendix_b::{generalized_mass, orthogonalize};
-use corfem::method::modes::Modes;
+use corfem::method::appendix_b::orthogonalize;
+use corfem::method::modes::{Modes, generalized_mass};
 use corfem::sparse::modal_assurance;
 use nalgebra::{DMatrix, DVector, SymmetricEigen, dmatrix};
 use proptest::prelude::*;

@@ -4,8 +4,8 @@ use crate::common::appendix_b::modes;
 use crate::common::tolerances::{ORTHOGONAL_INPUT, ROUND_OFF};
 use crate::common::{not_definite, said};
 use approx::assert_relative_eq;
-use corfem::method::appendix_b::{generalized_mass, orthogonalize};
-use corfem::method::modes::Modes;
+use corfem::method::appendix_b::orthogonalize;
+use corfem::method::modes::{Modes, generalized_mass};
 use nalgebra::{DMatrix, DVector, dmatrix};
 use std::f64::consts::PI;
 
@@ -116,7 +116,9 @@ fn bad_input_is_refused() {
         matrix
     };
     let fits = "it must be positive and finite";
-    let squared = |bad: f64| format!("squared frequency of mode 1 (from zero) is {bad}; {fits}");
+    let squared = |bad: f64| {
+        format!("mode 1 (from zero) is no vibration: its eigenvalue is {bad:.6e}; {fits}")
+    };
     let still = with(identity(2), (1, 1), 0.0);
     let (skew, massless) = (
         with(identity(3), (2, 0), 1.0),

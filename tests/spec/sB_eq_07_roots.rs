@@ -2,8 +2,8 @@
 
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF, WRONG_FORM};
 use approx::assert_relative_eq;
-use corfem::method::appendix_b::{generalized_mass, orthogonalize};
-use corfem::method::modes::Modes;
+use corfem::method::appendix_b::orthogonalize;
+use corfem::method::modes::{Modes, generalized_mass};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 
 #[test]

@@ -6,10 +6,9 @@ use crate::common::tolerances::{BALANCE_RESIDUAL, EXACT_MODE_RESIDUAL, ORTHOGONA
 use crate::common::{alter, not_definite, said};
 use approx::assert_relative_eq;
 use corfem::method::appendix_b::{
-    ModeVerdict, MovementLimits, SYMMETRIC, Supports, examine, generalized_mass, orthogonalize,
-    rigid_body_vectors,
+    ModeVerdict, MovementLimits, SYMMETRIC, Supports, examine, orthogonalize, rigid_body_vectors,
 };
-use corfem::method::modes::{Modes, solve};
+use corfem::method::modes::{Modes, generalized_mass, solve};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
@@ -35,7 +34,7 @@ properties! {
         prop_assert!(relative_difference(exact.shapes(), found.modes.shapes()) <= ORTHOGONAL_INPUT);
         for (mode, report) in found.reports.iter().enumerate() {
             prop_assert_eq!(report.verdict, ModeVerdict::Kept);
-            prop_assert_eq!(report.balance, None);
+            prop_assert_eq!(report.balance, 0.0);
             let movement = report.movement.unwrap();
             prop_assert!(movement.shape <= ORTHOGONAL_INPUT && movement.frequency.abs() <= ORTHOGONAL_INPUT);
             assert_relative_eq!(found.modes.omega_squared()[mode], exact.omega_squared()[mode], max_relative = ORTHOGONAL_INPUT);
@@ -54,7 +53,7 @@ properties! {
         prop_assert!(relative_difference(exact.shapes(), found.modes.shapes()) <= EXACT_MODE_RESIDUAL * spread);
         for report in &found.reports {
             prop_assert_eq!(report.verdict, ModeVerdict::Kept);
-            prop_assert!(report.balance.unwrap() <= EXACT_MODE_RESIDUAL * spread);
+            prop_assert!(report.balance <= EXACT_MODE_RESIDUAL * spread);
             prop_assert!(report.movement.unwrap().shape <= EXACT_MODE_RESIDUAL * spread);
         }
     }
@@ -96,7 +95,7 @@ properties! {
         prop_assert_eq!(found.reports.len(), exact.len());
         let report = found.reports[mode];
         prop_assert_eq!((report.verdict, report.movement), (ModeVerdict::Unbalanced, None));
-        prop_assert!(report.balance.unwrap() >= 0.18);
+        prop_assert!(report.balance >= 0.18);
         let spread = exact.omega_squared().max() / exact.omega_squared().min();
         prop_assert!(
             relative_difference(without(&exact, mode).shapes(), found.modes.shapes()) <= EXACT_MODE_RESIDUAL * spread
@@ -136,7 +135,7 @@ properties! {
         for &mode in &found.kept {
             let report = found.reports[mode];
             prop_assert_eq!(report.verdict, ModeVerdict::Kept);
-            prop_assert!(report.balance.unwrap() <= limits.balance);
+            prop_assert!(report.balance <= limits.balance);
             let movement = report.movement.unwrap();
             prop_assert!(movement.shape <= limits.shape && movement.frequency.abs() <= limits.frequency);
         }

@@ -26,7 +26,7 @@ fn a_balance_at_its_limit_is_allowed_and_past_it_not() {
     };
     let found = examine(&raw, &mass, supports, &at).unwrap();
     assert_eq!(found.kept, [0]);
-    assert_eq!(found.reports[0].balance, Some(change));
+    assert_eq!(found.reports[0].balance, change);
     assert_relative_eq!(
         *found.modes.shapes(),
         dmatrix![1.0; -2.0; 1.0] / 6.0_f64.sqrt(),
@@ -55,7 +55,7 @@ fn balancing_uses_the_suspension_that_is_given() {
     };
     let found = examine(&raw, &mass, supports, &MovementLimits::default()).unwrap();
     let balanced = balance(&raw, &stiffness, &mass, &rigid_body).unwrap();
-    assert_eq!(found.reports[0].balance, Some(balanced.change[0]));
+    assert_eq!(found.reports[0].balance, balanced.change[0]);
     let shape = balanced.shapes.column(0).normalize();
     assert_relative_eq!(
         found.modes.shapes().column(0).into_owned(),

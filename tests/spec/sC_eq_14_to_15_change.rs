@@ -107,8 +107,7 @@ properties! {
                     prop_assert!(shapes.iter().all(|component| component.is_finite()));
                 }
                 Err(
-                    Error::LostRoot { .. }
-                    | Error::CoalescingModes { .. }
+                    Error::CoalescingModes { .. }
                     | Error::UnsettledRoots { .. }
                     | Error::NotAVibration { .. },
                 ) => {}

@@ -88,7 +88,7 @@ properties! {
             Err(error) => prop_assert!(
                 matches!(
                     error,
-                    Error::LostRoot { .. }
+                    Error::NotAVibration { .. }
                         | Error::NotPositiveDefinite { .. }
                         | Error::CoalescingModes { .. }
                         | Error::UnsettledRoots { .. }

@@ -133,7 +133,7 @@ impl Derivatives {
     /// Derivatives at a model: $V_i^t K_e V_i/2\omega_i^2$, or $-V_i^t M_e V_i/2$ of a mass.
     ///
     /// # Errors
-    /// [`Error::CoalescingModes`] and [`Error::LostRoot`] where a thousandth of a parameter is too much.
+    /// [`Error::CoalescingModes`] and [`Error::NotAVibration`] where a thousandth of a parameter is too much.
     pub fn at(comparison: &Comparison) -> Result<Self, Error> {
         let first = comparison.model();
         let changes = comparison.error_changes()?;

@@ -226,7 +226,7 @@ impl Wing {
         let name = |group: usize| format!("{} {}", SORTS[group / zones], group % zones + 1);
         let groups = groups.iter().enumerate();
         groups
-            .map(|(group, labels)| Parameter::group(&name(group), labels))
+            .map(|(group, labels)| Parameter::new(name(group), labels))
             .collect()
     }
 

@@ -7,10 +7,10 @@ use crate::common::tolerances::{
 use crate::evidence::noisy_modes::{Found, NOISY_CASE, NoisyModes, NoisyRun, SEEDS, noisy_modes};
 use corfem::method::analysis::Analysis;
 use corfem::method::appendix_b::{
-    LARGEST_SUSPENSION_RATIO, MovementLimits, Supports, examine, generalized_mass, orthogonalize,
+    LARGEST_SUSPENSION_RATIO, MovementLimits, Supports, examine, orthogonalize,
 };
 use corfem::method::error::Error;
-use corfem::method::modes::Modes;
+use corfem::method::modes::{Modes, generalized_mass};
 use corfem::method::step::StepRule;
 use corfem::sparse::random::split_mix_64;
 use corfem::torque_box::wing_box::dynamic_points;
@@ -252,7 +252,7 @@ fn without_noise_it_is_the_case_itself_by_the_librarys_own_rule() {
     let first = &study().runs[0];
     assert_eq!((first.seed, &first.kept), (None, &(0..9).collect()));
     let mut case = case();
-    case.settings.inner.step = StepRule::default();
+    case.settings.inner.step = StepRule::Matrix;
     let result = run_case(&case, |_, _| {}).unwrap();
     let passes = &result.correlation.passes;
     let best = (0..passes.len()).min_by(|a, b| {

@@ -3,14 +3,14 @@
 use super::{Entry, chain, entries, modes};
 use corfem::method::analysis::Analysis;
 use corfem::method::appendix_b::{
-    MeasuringPoint, Motion, MovementLimits, Supports, balance, examine, generalized_mass,
-    orthogonalize, rigid_body_vectors,
+    MeasuringPoint, Motion, MovementLimits, Supports, balance, examine, orthogonalize,
+    rigid_body_vectors,
 };
 use corfem::method::linear_algebra::{
     check_finite, check_length, check_shape, check_symmetric, cholesky, symmetric_eigen,
     symmetric_part,
 };
-use corfem::method::modes::{Modes, apply_sign_rule, solve};
+use corfem::method::modes::{Modes, apply_sign_rule, generalized_mass, solve};
 use corfem::method::sorting::{cross_orthogonality, pair_modes};
 use corfem::sparse::{check_solution, modal_assurance};
 use nalgebra::{DMatrix, Vector3};
@@ -69,7 +69,7 @@ pub const MATRICES: &[Entry] = &[
         let (rows, columns) = (d.size(), d.size());
         pair_modes(&d.matrix(rows, columns)).map(|found| found.sign)
     }),
-    ("appendix_b::generalized_mass", |d| {
+    ("modes::generalized_mass", |d| {
         let size = d.size();
         generalized_mass(d.modes(size)?.shapes(), &d.symmetric(size)).map(|found| entries(&found))
     }),

@@ -17,7 +17,7 @@ fn whole(structure: Structure, point: f64) -> WholeModel {
     let t = SparseMatrix::new("T", count, 1, vec![(0, 0, 1.0)]).expect("T");
     let first = structure.elements()[0].label;
     let mass = DMatrix::from_element(1, 1, point);
-    let parameters = [Parameter::element(first, None)];
+    let parameters = [Parameter::new(first, &[first])];
     of_elements(&structure, &t, &mass, &parameters, &[None]).expect("a whole model")
 }
 
@@ -135,8 +135,7 @@ fn a_thousand_structures_have_neither_one_too_many_nor_one_too_few() {
             let point = 1e-6 * units[2] * units[0].powi(3);
             let t = DMatrix::from_fn(structure.free_dof().len(), 1, |row, _| f64::from(row == 0));
             let mass = DMatrix::from_element(1, 1, point);
-            let model =
-                FiniteElementModel::new(structure, t, mass, vec![Parameter::element(1, None)]);
+            let model = FiniteElementModel::new(structure, t, mass, vec![Parameter::new(1, &[1])]);
             let model = model.expect("a model");
             let deck = BulkData::from_model(&model, &[1.0], &[Vector3::zeros()]).expect("a deck");
             let found = deck::modes(&deck, 3).unwrap_or_else(|error| panic!("{number}: {error}"));

@@ -145,7 +145,7 @@ pub fn first_model(wing: &DeltaWing) -> Result<Weighed, Error> {
     let loads = SparseMatrix::of_columns("load distribution", rows, &columns)?;
     let parameters = GROUPS
         .iter()
-        .map(|g| Parameter::group(g.name, g.elements))
+        .map(|g| Parameter::new(g.name, g.elements))
         .collect();
     FiniteElementModel::new(structure, loads.dense(), mass, parameters).map(Weighed)
 }
