@@ -31,6 +31,7 @@ pub enum Kind {
     OppositeTwin,
     Unlike,
     PartnerTaken,
+    WouldHarm,
     Parallel,
     Undecided,
     Joined,
@@ -76,7 +77,7 @@ pub enum Grade {
 /// `{a}` and `{b}` are the first names that a concern is about, `{all}` all of them, `{some}` the first eight, `{and}` joins them by that
 /// word, `{id}` by hyphens; `{x}`, `{y}`, `{z}` and `{w}` are its numbers, `{x.3}` with three decimals, `{xe}` as a power of ten, `{x6}` with
 /// six significant digits.
-const TABLE: [(Kind, Grade, &str, &str); 47] = {
+const TABLE: [(Kind, Grade, &str, &str); 48] = {
     use Grade::{Doubt, LeftOut, Remark};
     use Kind::*;
     [
@@ -202,6 +203,13 @@ const TABLE: [(Kind, Grade, &str, &str); 47] = {
             "not-compared-{a}",
             "Test mode {a} is not compared: the mode of the model that it resembles belongs to another test mode (modal assurance \
              {x.2} at most).",
+        ),
+        (
+            WouldHarm,
+            LeftOut,
+            "not-compared-{a}",
+            "Test mode {a} is not compared: it resembles a mode of the model (modal assurance {x.2}), and compared it makes the others \
+             worse.",
         ),
         (
             Parallel,

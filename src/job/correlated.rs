@@ -11,6 +11,10 @@ use crate::weighted::residuals::residuals;
 use crate::weighted::starts::{Minimum, from_several_starts};
 use std::cell::{Cell, RefCell};
 
+/// Most by which chi-squared of the numbers that two results compare may rise from one to the next: the square of three deviations, which
+/// a right mode more exceeds in three of a thousand tests and a wrong one by far.
+const MOST_RISE: f64 = 9.0;
+
 /// The way in which the factors were found.
 #[derive(Debug, Clone)]
 pub enum History {
@@ -48,8 +52,8 @@ pub struct CorrelatedJob {
     pub analyses: usize,
     /// True if the run was stopped by request.
     pub is_interrupted: bool,
-    /// True if a test mode was about to be compared too.
-    pub(super) has_joined: bool,
+    /// The job with a test mode that was left out, and the first factors on the way where it resembled a mode of the model.
+    joining: Option<(PreparedJob, Vec<f64>)>,
 }
 
 /// What a caller hears and says while factors are looked for.
@@ -64,20 +68,23 @@ pub(super) struct Caller<'a> {
 struct Part<'a> {
     prepared: &'a PreparedJob,
     start: &'a [f64],
+    /// Number of starts, the others drawn.
+    starts: usize,
     caller: &'a Caller<'a>,
     /// The model at the start.
     first: Comparison,
     analyses: Cell<usize>,
     is_interrupted: Cell<bool>,
-    has_joined: Cell<bool>,
+    joining: RefCell<Option<(PreparedJob, Vec<f64>)>>,
 }
 
 impl PreparedJob {
     /// Looks for the factors, from the first model or from other factors.
     ///
-    /// A test mode that is left out is looked at again after every pass of the paper's loops and every weighted step, of several starts at
-    /// their best. One that resembles a mode of the model by then is compared from there on, and the passes before, which did not count it,
-    /// are not shown.
+    /// A test mode that is left out is looked at again at every place that the steps reach, of several starts at their best, and at their
+    /// end. The run is repeated from the first place where it resembles a mode of the model, with it compared. What comes of that takes the
+    /// place of the run without it only if it explains the numbers that both compare no worse ([`MOST_RISE`]); the passes before are
+    /// then not shown. A mode that would make others worse stays left out.
     ///
     /// # Errors
     /// [`FileError::Refused`] for a test in which no mode has a partner; the errors of the analyses and of the loops.
@@ -86,35 +93,87 @@ impl PreparedJob {
         start: &[f64],
         caller: &Caller,
     ) -> Result<CorrelatedJob, FileError> {
-        let mut found = Part::new(self, start, caller)?.run()?;
+        let starts = self.loaded.job.compare.starts;
+        let starts = starts.filter(|_| start == self.loaded.ones()).unwrap_or(1);
+        let mut found = Part::new(self, (start, starts), caller)?.run()?;
         while !found.is_interrupted
-            && let Some(joined) = found.prepared.joined_by(&found.last.model.exact.modes)?
+            && let Some((joined, place)) = found.joins()?
         {
             (caller.progress)(&format!("test modes compared: {}", joined.modes.len()));
-            let before = found.analyses;
-            found = Part::new(&joined, &found.factors, caller)?.run()?;
-            found.first = joined.analyze(start)?.with_slopes()?;
-            found.analyses += before + 1;
+            let mut next = Part::new(&joined, (&place, 1), caller)?.run()?;
+            if starts > 1 {
+                next = next.or_lower(Part::new(&joined, (start, starts), caller)?.run()?);
+            }
+            let analyses = found.analyses + next.analyses + 1;
+            if next.is_interrupted || found.is_no_better_than(&next)? {
+                next.first = joined.analyze(start)?.with_slopes()?;
+                found = next;
+            } else {
+                let refused = joined.joined.iter();
+                let refused = refused.filter(|mode| !found.prepared.joined.contains(mode));
+                found.prepared.refused.extend(refused);
+                found.joining = None;
+            }
+            found.analyses = analyses;
         }
         Ok(found)
+    }
+}
+
+impl CorrelatedJob {
+    /// The job with the test modes that join, and the factors where they do: the first place on the way that a mode left out resembled,
+    /// or else the end.
+    fn joins(&self) -> Result<Option<(PreparedJob, Vec<f64>)>, FileError> {
+        let on_the_way = self.joining.clone();
+        let at_end = || {
+            let joined = self.prepared.joined_by(&self.last)?;
+            Ok(joined.map(|joined| (joined, self.factors.clone())))
+        };
+        on_the_way.map_or_else(at_end, |found| Ok(Some(found)))
+    }
+
+    /// The lower of two results of weighted steps with the same test modes, with the minima that the other's starts have found.
+    fn or_lower(self, other: Self) -> Self {
+        let analyses = self.analyses + other.analyses;
+        let objective = |found: &Self| match &found.history {
+            History::GaussNewton(Some(steps)) => steps.best.objective,
+            _ => f64::INFINITY,
+        };
+        let is_lower = objective(&other) <= objective(&self);
+        let mut lower = if is_lower { other.clone() } else { self };
+        if let (History::GaussNewton(Some(own)), History::GaussNewton(Some(steps))) =
+            (&mut lower.history, other.history)
+        {
+            (own.minima, own.failed) = (steps.minima, steps.failed);
+        }
+        Self { analyses, ..lower }
+    }
+
+    /// True if another result explains the numbers that this one compares no worse.
+    fn is_no_better_than(&self, other: &Self) -> Result<bool, FileError> {
+        let weights = self.prepared.weights();
+        let there = self.prepared.analyze(&other.factors)?;
+        let own = residuals(&self.last, &weights)?.norm_squared();
+        Ok(residuals(&there, &weights)?.norm_squared() <= own + MOST_RISE)
     }
 }
 
 impl<'a> Part<'a> {
     fn new(
         prepared: &'a PreparedJob,
-        start: &'a [f64],
+        (start, starts): (&'a [f64], usize),
         caller: &'a Caller,
     ) -> Result<Self, FileError> {
         prepared.check_paired()?;
         Ok(Self {
             prepared,
             start,
+            starts,
             caller,
             first: prepared.analyze(start)?.with_slopes()?,
             analyses: Cell::new(1),
             is_interrupted: Cell::new(false),
-            has_joined: Cell::new(false),
+            joining: RefCell::new(None),
         })
     }
 
@@ -134,6 +193,16 @@ impl<'a> Part<'a> {
         !is_over
     }
 
+    /// Keeps the first place where a test mode left out resembles a mode of the model.
+    fn look_at(&self, model: &Comparison, factors: &[f64]) -> Result<(), FileError> {
+        let mut joining = self.joining.borrow_mut();
+        if joining.is_none() {
+            let joined = self.prepared.joined_by(model)?;
+            *joining = joined.map(|joined| (joined, factors.to_vec()));
+        }
+        Ok(())
+    }
+
     fn run(self) -> Result<CorrelatedJob, FileError> {
         let (history, factors) = match self.prepared.loaded.job.compare.method {
             Method::Paper => self.by_loops()?,
@@ -151,7 +220,7 @@ impl<'a> Part<'a> {
             last,
             analyses: self.analyses.get(),
             is_interrupted: self.is_interrupted.get(),
-            has_joined: self.has_joined.get(),
+            joining: self.joining.into_inner(),
         })
     }
 
@@ -178,40 +247,39 @@ impl<'a> Part<'a> {
                 percent(errors.frequency_rms()),
                 percent(errors.shape_rms())
             ));
-            let joins = prepared.joined_by(&pass.check.modes);
-            self.has_joined.set(matches!(joins, Ok(Some(_))));
-            self.may_go_on() && !self.has_joined.get()
+            self.may_go_on()
         };
-        let analyze = |factors: &[f64]| self.analyze(&total(factors)).map(Comparison::into_model);
+        let analyze = |factors: &[f64]| {
+            let factors = total(factors);
+            let model = self.analyze(&factors)?;
+            self.look_at(&model, &factors)?;
+            Ok::<_, FileError>(model.into_model())
+        };
         let settings = job.correlation.for_modes(prepared.modes.len());
         let run = correlate(analyze, &ranges, &settings, report_pass);
-        let mut run = run.map_err(|error: Error| match error.is_of_close_modes() {
-            true => job.refused(format!(
+        let mut run = run.map_err(|error| match error {
+            FileError::Method(error) if error.is_of_close_modes() => job.refused(format!(
                 "the paper's loops need modes that stay apart: {error}; compare.method = \"gauss_newton\" needs none"
             )),
-            false => error.into(),
+            other => other,
         })?;
         for pass in &mut run.passes {
             pass.factors = total(&pass.factors);
         }
         run.best_factors = total(&run.best_factors);
-        // A mode that has come in did so after the last pass, which need not be the best of those without it.
-        let last = run.passes.last().filter(|_| self.has_joined.get());
-        let factors = last.map_or(&run.best_factors, |pass| &pass.factors).clone();
+        let factors = run.best_factors.clone();
         Ok((History::Paper(Box::new(run)), factors))
     }
 
-    /// Weighted Gauss–Newton steps, of the job's number of starts from the first model, else of this one.
+    /// Weighted Gauss–Newton steps from the start, and from others where there are several.
     fn by_weighted_steps(&self) -> Result<(History, Vec<f64>), FileError> {
         let (prepared, job) = (self.prepared, &self.prepared.loaded.job);
         let (weights, ranges) = (prepared.weights(), prepared.loaded.source.whole.ranges());
         let settings = prepared.weighted_settings();
         let ones = prepared.loaded.ones();
-        let starts = job.compare.starts.filter(|_| self.start == ones);
-        let starts = starts.unwrap_or(1);
         let best: RefCell<Option<(f64, Vec<f64>)>> = RefCell::new(None);
         let analyze = |factors: &[f64]| {
-            if self.has_joined.get() || self.is_interrupted.get() {
+            if self.is_interrupted.get() {
                 return Err(FileError::Interrupted);
             }
             let model = self.analyze(factors)?;
@@ -221,15 +289,16 @@ impl<'a> Part<'a> {
                 *best = Some((objective, factors.to_vec()));
                 (self.caller.progress)(&format!("sum of squares {objective:.4e}"));
                 // Other starts may lead elsewhere: their best is looked at.
-                let joins = || prepared.joined_by(&model.model.exact.modes);
-                self.has_joined.set(starts == 1 && joins()?.is_some());
+                if self.starts == 1 {
+                    self.look_at(&model, factors)?;
+                }
             }
-            match !self.has_joined.get() && self.may_go_on() {
+            match self.may_go_on() {
                 true => Ok(model),
                 false => Err(FileError::Interrupted),
             }
         };
-        let found = match starts {
+        let found = match self.starts {
             1 => gauss_newton(analyze, self.start, &ranges, &weights, &settings)
                 .map(|run| (run, Vec::new(), 0)),
             _ => from_several_starts(
@@ -237,11 +306,11 @@ impl<'a> Part<'a> {
                 &ranges,
                 &weights,
                 &settings,
-                starts,
+                self.starts,
                 job.compare.seed,
             ),
         };
-        let is_whole = !self.has_joined.get() && !self.is_interrupted.get();
+        let is_whole = !self.is_interrupted.get();
         match found {
             Ok((best, minima, failed)) if is_whole => {
                 let factors = best.factors.clone();

@@ -104,7 +104,7 @@ impl CorrelatedJob {
             History::Paper(run) => {
                 let best = run.best_check();
                 let errors = mode_errors(&best.modes, &best.pairing, &self.prepared.test)?;
-                let is_stopped = self.is_interrupted || self.has_joined;
+                let is_stopped = self.is_interrupted;
                 return Ok(judged.of_loops(run, &errors, sum_of_nine_modes, is_stopped));
             }
             History::GaussNewton(found) => found.as_ref().map(|found| &found.best),
@@ -160,7 +160,13 @@ impl CorrelatedJob {
         concerns.extend(some.map(|(kind, names)| Concern::new(kind, &names, &[])));
         concerns.extend((!joined.is_empty()).then(|| Concern::new(Kind::Joined, &joined, &[])));
         let left = prepared.unlike(&self.last.model.exact.modes)?;
-        concerns.extend(left.iter().map(|left| left.concern()));
+        concerns.extend(left.iter().map(|left| {
+            let mut concern = left.concern();
+            if prepared.refused.contains(&left.mode) {
+                concern.kind = Kind::WouldHarm;
+            }
+            concern
+        }));
         Ok(concerns)
     }
 }

@@ -25,6 +25,7 @@ mod study;
 // The four values of a job, in their order, and what is said of them.
 mod loaded;
 mod prepared;
+mod reach;
 mod correlated;
 mod judged;
 pub mod concern;

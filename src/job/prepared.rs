@@ -48,6 +48,8 @@ pub struct PreparedJob {
     pub unpaired: Vec<LeftOut>,
     /// Test modes, from zero, that were left out at first and are compared since.
     pub joined: Vec<usize>,
+    /// Test modes, from zero, that would make others worse, and so stay left out.
+    pub(super) refused: Vec<usize>,
     /// Test modes, from zero, that several modes of the first model resemble equally, and which are paired in the order of frequencies.
     pub undecided: Vec<usize>,
     /// Number of modes of the model that are taken.
@@ -87,6 +89,7 @@ impl PreparedJob {
             modes,
             unpaired: Vec::new(),
             joined: Vec::new(),
+            refused: Vec::new(),
             undecided: Vec::new(),
             analysis_modes,
             first,
@@ -160,17 +163,25 @@ impl PreparedJob {
         left.filter(|mode| !self.modes.contains(mode))
     }
 
-    /// The same job that also compares the test modes left out so far that resemble a mode of this model, each one of its own; none
-    /// where none does.
-    pub(super) fn joined_by(&self, modes: &Modes) -> Result<Option<Self>, FileError> {
-        let left = self.unlike(modes)?;
-        if left.is_empty() {
+    /// The same job that also compares the test modes left out so far that resemble a mode of this model which can have their frequency,
+    /// each one of its own; none where none does.
+    pub(super) fn joined_by(&self, model: &Comparison) -> Result<Option<Self>, FileError> {
+        let left = self.not_compared();
+        let left = left.filter(|mode| !self.refused.contains(mode));
+        let all: Vec<usize> = self.modes.iter().copied().chain(left).collect();
+        if all.len() == self.modes.len() {
             return Ok(None);
         }
-        let left = left.iter().map(|left| &left.mode);
-        let all: Vec<usize> = self.modes.iter().chain(left).copied().collect();
         let test = self.loaded.measured(&all)?;
-        let partners = pair_optimally(&assurance_of_roots(modes, &test.shapes)?, FLOOR)?;
+        let mut assurance = assurance_of_roots(&model.model.exact.modes, &test.shapes)?;
+        for (mode, reach) in self.reach(model).into_iter().enumerate() {
+            for place in self.modes.len()..all.len() {
+                if !self.is_within(reach, all[place]) {
+                    assurance[(mode, place)] = 0.0;
+                }
+            }
+        }
+        let partners = pair_optimally(&assurance, FLOOR)?;
         let (compared, left) = partners.split_at(self.modes.len());
         let left = left.iter().zip(&all[self.modes.len()..]);
         let joined: Vec<usize> = left

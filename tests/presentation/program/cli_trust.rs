@@ -42,6 +42,7 @@ const KINDS: [Kind; Kind::UnitsOfTest as usize + 1] = {
         OppositeTwin,
         Unlike,
         PartnerTaken,
+        WouldHarm,
         Parallel,
         Undecided,
         Joined,

@@ -1,0 +1,62 @@
+//! Frequencies that a mode of the model can have within the bounds and the priors of the parameters.
+
+use super::PreparedJob;
+use crate::method::step::Bounds;
+use crate::sparse::ParameterMatrix;
+use crate::weighted::comparison::Comparison;
+
+/// Deviations of a prior, or of a measured frequency, within which all but one in sixteen thousand lie.
+const FAR: f64 = 4.0;
+
+impl PreparedJob {
+    /// Least and largest frequency (Hz) of every mode of a model for which factors within their bounds, or where there are none within
+    /// four deviations of their priors, can make up by its own shape (Rayleigh's quotient):
+    ///
+    /// $$ \frac{\omega'^2}{\omega^2} = \frac{1 + \sum_e s_e (x_e/c_e - 1)}{1 + \sum_e m_e (x_e/c_e - 1)}, \qquad
+    /// s_e = \frac{v^t K_e v}{\omega^2}, \quad m_e = v^t M_e v , $$
+    ///
+    /// at the factors $c$ with $K_e$, $M_e$ scaled by them.
+    pub(super) fn reach(&self, model: &Comparison) -> Vec<Bounds> {
+        let source = &self.loaded.source;
+        let ranges = source.whole.ranges();
+        let (exact, shares) = (&model.model.exact, &model.model.shares);
+        let room = |e: usize| {
+            let prior = (FAR * source.priors[e]).exp();
+            let (lower, upper) = (1.0 / prior, prior);
+            let range = ranges[e].unwrap_or(Bounds { lower, upper });
+            let now = exact.factors[e];
+            [range.lower / now - 1.0, range.upper / now - 1.0]
+        };
+        let hertz = exact.modes.frequencies_hz();
+        let of_mode = |(mode, hertz): (usize, f64)| {
+            let square = exact.modes.omega_squared[mode];
+            let (mut soft, mut stiff) = ([1.0; 2], [1.0; 2]);
+            for (e, share) in shares.iter().enumerate() {
+                let [down, up] = room(e);
+                match share {
+                    ParameterMatrix::Stiffness(share) => {
+                        soft[0] += share[(mode, mode)] / square * down;
+                        stiff[0] += share[(mode, mode)] / square * up;
+                    }
+                    ParameterMatrix::Mass(share) => {
+                        soft[1] += share[(mode, mode)] * up;
+                        stiff[1] += share[(mode, mode)] * down;
+                    }
+                }
+            }
+            let root = |of: [f64; 2]| (of[0].max(0.0) / of[1].max(f64::MIN_POSITIVE)).sqrt();
+            Bounds {
+                lower: hertz * root(soft),
+                upper: hertz * root(stiff),
+            }
+        };
+        hertz.into_iter().enumerate().map(of_mode).collect()
+    }
+
+    /// True if a measured frequency (Hz) of a test mode lies within reach, but for its own deviation.
+    pub(super) fn is_within(&self, reach: Bounds, mode: usize) -> bool {
+        let noise = FAR * self.loaded.deviations(mode).frequency;
+        let hertz = self.loaded.data.frequencies_hz[mode];
+        (reach.lower * (1.0 - noise)..=reach.upper * (1.0 + noise)).contains(&hertz)
+    }
+}
