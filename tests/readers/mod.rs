@@ -20,6 +20,7 @@ pub mod job_errors;
 pub mod job_matrices;
 pub mod job_prepared;
 pub mod job_results;
+mod joins;
 pub mod jobs;
 mod jobs_survive;
 pub mod lone_frequencies;

@@ -1,0 +1,79 @@
+//! A later result takes the place of an earlier one only if it explains the numbers of both no worse.
+
+use super::job_errors::placed;
+use crate::common::draws::Draws;
+use crate::common::jobs::{STORIES, building, prepare, run};
+use crate::common::test_files::write_csv;
+use corfem::files::test_data::{self, TestData};
+use corfem::job::concern::Grade;
+use corfem::job::{Concern, JobResult};
+
+/// What comes of the building's job with another test.
+fn corrected(edit: impl FnOnce(&mut TestData)) -> JobResult {
+    let mut files = building();
+    let text = &mut files.last_mut().expect("the test").1;
+    let mut data = test_data::read("test.csv", text.as_bytes()).expect("a test");
+    edit(&mut data);
+    *text = write_csv(&data);
+    let (_folder, path) = placed(&files);
+    let prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Largest distance of the factors from those of another result, in deviations.
+fn apart(result: &JobResult, from: &JobResult) -> f64 {
+    let both = result.found.factors.iter().zip(&from.found.factors);
+    let distance = both.map(|(one, other)| (one / other).ln().abs());
+    let deviations = &from.seen[1].deviations;
+    distance
+        .zip(deviations)
+        .map(|(apart, deviation)| apart / deviation)
+        .fold(0.0, f64::max)
+}
+
+/// The law: a random test mode, at any frequency, harms nothing and is named.
+#[test]
+fn a_random_mode_changes_no_factor_by_more_than_noise_and_is_named() {
+    let right = corrected(|_| {});
+    let mut draws = Draws(23);
+    let mut alike = 0;
+    for test in 0..24 {
+        let hertz =
+            right.found.prepared.loaded.data.frequencies_hz[0] * draws.between(-2.0, 4.0).exp();
+        let junk = [(); 5].map(|()| draws.between(-1.0, 1.0));
+        let found = corrected(|data| {
+            data.frequencies_hz.push(hertz);
+            data.shapes = data.shapes.clone().insert_column(5, 0.0);
+            data.shapes.set_column(5, &junk.into());
+        });
+        let away = apart(&found, &right);
+        assert!(away < 1.0, "test {test}: {away} deviations");
+        let left = found
+            .trust
+            .all()
+            .iter()
+            .find(|own| own.grade() == Grade::LeftOut);
+        assert_eq!(
+            left.map(Concern::identifier).as_deref(),
+            Some("not-compared-6"),
+            "test {test}"
+        );
+        alike += usize::from(left.is_some_and(|left| left.measure[0] >= 0.5));
+    }
+    assert!(alike > 3, "of {alike} the shape alone would make a pair");
+}
+
+/// The mirror: a right mode that the first model has no like of is compared in the end.
+#[test]
+fn a_right_mode_among_junk_is_compared() {
+    let found = corrected(|data| {
+        data.frequencies_hz.push(90.0);
+        data.shapes = data.shapes.clone().insert_column(5, 0.0);
+        data.shapes
+            .set_column(5, &[1.0, -1.0, 1.0, -1.0, 1.0].into());
+    });
+    assert_eq!(found.found.prepared.modes, [0, 1, 2, 3, 4]);
+    for (factor, story) in found.found.factors.iter().zip(STORIES) {
+        assert!((factor / story - 1.0).abs() < 0.01, "{factor} {story}");
+    }
+}
