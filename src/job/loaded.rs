@@ -9,13 +9,11 @@ use crate::files::read_bytes;
 use crate::files::test_data::TestData;
 use crate::job::assignment::pair_optimally;
 use crate::job::expansion::mass_by_modes;
-use crate::method::analysis::State;
 use crate::method::error::{Error, at_least_one, check_count};
 use crate::method::modes::Modes;
 use crate::method::sorting::Pairing;
 use crate::sparse::{
-    BasisSize, Deflections, FINITE, Pair, SensorModel, SparseMatrix, Whole, modal_assurance,
-    no_modes,
+    BasisSize, Deflections, FINITE, Pair, SensorModel, SparseMatrix, Whole, no_modes,
 };
 use crate::weighted::close_modes::{assurance_of_roots, indistinct_groups};
 use crate::weighted::comparison::{Comparison, LoneFrequency};
@@ -60,8 +58,8 @@ pub struct LoadedJob {
     pub analysis_modes: usize,
     /// The shapes of these partners as the sensors see them; none before the first analysis.
     partner_shapes: Option<DMatrix<f64>>,
-    /// The first analysis.
-    first: Option<Arc<dyn Whole>>,
+    /// Analyses at hand, the first among them, and their factors.
+    at_hand: Vec<(Vec<f64>, Arc<dyn Whole>)>,
 }
 
 /// Residual vectors a parameter, unless the job says how many: more add less than the lowest mode left out.
@@ -149,7 +147,7 @@ impl LoadedJob {
             accepted: Vec::new(),
             analysis_modes,
             partner_shapes: None,
-            first: None,
+            at_hand: Vec::new(),
         };
         loaded.leave_out_unpaired()?;
         loaded.weights()?;
@@ -204,7 +202,7 @@ impl LoadedJob {
         }
         let first = first?;
         let modes = first.modes(self.analysis_modes)?;
-        self.first = Some(first);
+        self.at_hand.push((self.ones(), first));
         match self.analyze(&self.ones()) {
             // Even with more test modes than the model has modes, the pairs can be judged.
             Err(Error::Count {
@@ -316,9 +314,8 @@ impl LoadedJob {
             let most = self.source.whole.dof_count();
             far.analysis_modes = (2 * self.analysis_modes).min(most);
         }
-        far.first = far
-            .first
-            .filter(|first| first.modes(far.analysis_modes).is_ok());
+        far.at_hand
+            .retain(|(_, first)| first.modes(far.analysis_modes).is_ok());
         match far.analyze(&far.ones()) {
             Ok(first) => Ok((far, first)),
             Err(Error::Count { .. }) => Ok((self.clone(), self.analyze(&self.ones())?)),
@@ -381,11 +378,27 @@ impl LoadedJob {
     /// The first analysis, with as many modes as the pre-flight looks at.
     pub(super) fn first_analysis(&self) -> Result<Arc<dyn Whole>, Error> {
         let anew = || {
-            let (least, most) = (self.analysis_modes, 2 * self.analysis_modes);
+            let counts = (self.analysis_modes, 2 * self.analysis_modes);
             let whole = &self.source.whole;
-            whole.exactly(&self.ones(), &self.sensors, least, most)
+            whole.exactly(&self.ones(), &self.sensors, counts, None)
         };
-        self.first.clone().map_or_else(anew, Ok)
+        self.known(&self.ones()).map_or_else(anew, Ok)
+    }
+
+    /// The analysis at factors, if it is at hand.
+    fn known(&self, factors: &[f64]) -> Option<Arc<dyn Whole>> {
+        let known = self.at_hand.iter().find(|(at, _)| at == factors);
+        known.map(|(_, place)| Arc::clone(place))
+    }
+
+    /// This job with analyses that it need not make again.
+    pub(super) fn with_analyses(mut self, made: [(&[f64], &Comparison); 2]) -> Self {
+        let places = made.into_iter().filter_map(|(factors, comparison)| {
+            let place = comparison.model.whole()?;
+            Some((factors.to_vec(), Arc::clone(place)))
+        });
+        self.at_hand.extend(places);
+        self
     }
 
     /// The modal model of the loops at the given parameter factors.
@@ -393,26 +406,40 @@ impl LoadedJob {
     /// # Errors
     /// Those of [`crate::sparse::WholeModel::analyze`].
     pub fn analyze(&self, factors: &[f64]) -> Result<Comparison, Error> {
+        self.analyze_near(factors, None)
+    }
+
+    /// The modal model at factors, its modes sought from shapes `near` them.
+    pub(super) fn analyze_near(
+        &self,
+        factors: &[f64],
+        near: Option<&DMatrix<f64>>,
+    ) -> Result<Comparison, Error> {
         let (whole, test) = (&self.source.whole, (&self.test, pair_by_assignment as Pair));
         let size = BasisSize {
             modes: self.analysis_modes,
             residual_vectors: self.residual_vectors(),
         };
-        let model = if factors.iter().all(|&factor| factor == 1.0) {
-            let deflections = Deflections::Each(size.residual_vectors);
-            SensorModel::of_whole(self.first_analysis()?, size.modes, test, deflections)
-        } else {
-            whole.analyze(factors, &self.sensors, test, size)
+        let model = match self.known(factors) {
+            Some(place) => {
+                let deflections = Deflections::Each(size.residual_vectors);
+                SensorModel::of_whole(place, size.modes, test, deflections)
+            }
+            None => whole.analyze_near(factors, &self.sensors, test, size, near),
         }?;
         // Gauss-Newton steps have weights of their own.
         match self.job.compare.method {
             Method::Paper => Ok(model.weighted(&self.own_weights())?.into()),
             Method::GaussNewton => {
-                let lone = self.followed(&model.exact)?;
-                let comparison = Comparison::from(model)
+                let lone = self.alone.iter().map(|(_, lone)| *lone);
+                let mut comparison = Comparison::from(model)
                     .with_groups(self.together())?
                     .with_component_weights(self.component_weights())?
-                    .with_lone_frequencies(lone)?;
+                    .with_lone_frequencies(lone.collect())?;
+                let shapes = self.partner_shapes.as_ref();
+                if let Some(shapes) = shapes.filter(|shapes| shapes.ncols() > 0) {
+                    comparison = comparison.followed_by_shape(shapes.clone())?;
+                }
                 match self.covariance() {
                     Some(covariance) => comparison.with_covariance(&covariance),
                     None => Ok(comparison),
@@ -460,26 +487,6 @@ impl LoadedJob {
             .iter()
             .map(|&mode| self.deviations(mode).frequency);
         indistinct_groups(&hertz.collect::<Vec<_>>(), &deviations.collect::<Vec<_>>())
-    }
-
-    /// The frequencies without shapes, each with the mode of this model that its partner in the first has become: those of the largest
-    /// sum of modal assurance with the partners, except modes that a test mode's shape has chosen.
-    fn followed(&self, exact: &State) -> Result<Vec<LoneFrequency>, Error> {
-        let mut all: Vec<LoneFrequency> = self.alone.iter().map(|(_, lone)| *lone).collect();
-        if let Some(first) = self
-            .partner_shapes
-            .as_ref()
-            .filter(|first| first.ncols() > 0)
-        {
-            let mut assurance = decided(&modal_assurance(&exact.modes.shapes, first)?);
-            for &mode in &exact.pairing.analysis_mode {
-                assurance.row_mut(mode).fill(-1.0);
-            }
-            for (lone, partner) in all.iter_mut().zip(pair_optimally(&assurance, 0.0)?) {
-                lone.partner = partner.unwrap_or(lone.partner);
-            }
-        }
-        Ok(all)
     }
 }
 

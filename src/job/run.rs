@@ -9,7 +9,7 @@ use crate::method::error_sum::mode_errors;
 use crate::method::outer_loop::{Correlation, Pass, correlate};
 use crate::method::step::Bounds;
 use crate::method::structure::{Element, Material};
-use crate::sparse::{ModeWeight, WholeParameter, WholeShare};
+use crate::sparse::{ModeWeight, WholeParameter, WholeShare, Work};
 use crate::weighted::comparison::Comparison;
 use crate::weighted::gauss_newton::{
     WeightedCorrelation, WeightedSettings, WeightedStop, gauss_newton,
@@ -59,6 +59,8 @@ pub struct JobResult {
     pub intervals: Vec<Option<Bounds>>,
     /// Exact analyses made, the first and the last among them.
     pub analyses: usize,
+    /// Work that they took, with that of the look before.
+    pub work: Work,
 }
 
 impl LoadedJob {
@@ -232,6 +234,7 @@ pub fn run(
             basis.followed(&change)
         };
         result.intervals = intervals(&follow, factors, &ranges, &weights, &settings, widening)?;
+        result.work = result.loaded.source.whole.work();
     }
     Ok(result)
 }
@@ -252,10 +255,13 @@ pub(super) fn run_from(
     while !part.trust.is_interrupted
         && let Some(joined) = part.loaded.joined_by(&part.last.model.exact.modes)?
     {
-        let analyses = part.analyses;
+        // Where the next part begins is at hand.
+        let analyses = part.analyses - 1;
+        let made = [(start, &part.first), (&part.factors[..], &part.last)];
+        let joined = joined.with_analyses(made);
         progress(&format!("test modes compared: {}", joined.modes.len()));
         part = run_part(&joined, part.trust, &part.factors, progress, go_on)?;
-        part.analyses += analyses + 1;
+        part.analyses += analyses;
         part.first = joined.analyze(start)?.with_slopes()?;
         part.seen[0] = sees(&joined, &part.first)?;
     }
@@ -293,11 +299,19 @@ fn run_part(
     let ones = vec![1.0; ranges.len()];
     let weighted = loaded.weighted_settings();
     let analyses = std::cell::Cell::new(0);
+    // The modes of one analysis begin the search for the next.
+    let near = std::cell::RefCell::new(None);
     let analyze = |factors: &[f64]| {
         analyses.set(analyses.get() + 1);
-        loaded.analyze(factors)?.with_slopes()
+        let found = loaded.analyze_near(factors, near.borrow().as_ref())?;
+        let shapes = found
+            .model
+            .whole()
+            .map(|whole| whole.shapes(usize::MAX).shapes);
+        near.replace(shapes);
+        Ok::<_, Error>(found)
     };
-    let first = analyze(start)?;
+    let first = analyze(start)?.with_slopes()?;
     let analyze = |factors: &[f64]| {
         if factors == start {
             Ok(first.clone())
@@ -411,7 +425,7 @@ fn run_part(
     };
     let last = match &history {
         History::GaussNewton(Some((run, ..))) => run.last.clone(),
-        _ => analyze(&factors)?,
+        _ => analyze(&factors)?.with_slopes()?,
     };
     let seen = first.largest_parts();
     let judged = Judged {
@@ -466,5 +480,6 @@ fn run_part(
         first,
         last,
         analyses,
+        work: loaded.source.whole.work(),
     })
 }

@@ -116,6 +116,7 @@ impl Report {
             misfit: Some(result.misfit),
             is_judged_by_noise: loaded.job.compare.method == Method::GaussNewton,
             analyses: Some(result.analyses),
+            work: Some(result.work),
             minima,
             failed_starts,
             moved: moved(loaded, result),
