@@ -92,12 +92,12 @@ pub fn write(folder: &Path, analyzed: &Analyzed) -> Result<()> {
     integers(
         &at("mass_place"),
         &[entries.len(), 2],
-        entries.iter().flat_map(|&(row, column, _)| [row, column]),
+        entries.clone().flat_map(|(row, column, _)| [row, column]),
     )?;
     numbers(
         &at("mass_value"),
         &[entries.len()],
-        entries.iter().map(|entry| entry.2),
+        entries.clone().map(|entry| entry.2),
     )?;
     let frequencies = analyzed.modes.frequencies_hz();
     numbers(

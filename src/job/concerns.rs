@@ -261,8 +261,7 @@ impl LoadedJob {
                 all.push(Concern::new(Kind::NotPart, &[name], &[]));
             }
             for (other, twin, _) in &parts[..place] {
-                let is_same =
-                    |sign: f64| twin.times_number(sign).eq(part.entries().iter().copied());
+                let is_same = |sign: f64| twin.times_number(sign).eq(part.entries());
                 let kinds = [(1.0, Kind::Twin), (-1.0, Kind::OppositeTwin)];
                 let same = kinds.into_iter().filter(|(sign, _)| is_same(*sign));
                 all.extend(same.map(|(_, kind)| Concern::new(kind, &[other, name], &[])));
@@ -325,15 +324,11 @@ pub(crate) fn hardly_held(name: &str, resistance: f64) -> Concern {
 fn is_part(part: &SparseMatrix, whole: &SparseMatrix) -> Result<bool, FileError> {
     let count = whole.rows();
     let mut sums = vec![0.0; count];
-    for &(row, _, entry) in whole.entries().iter().chain(part.entries()) {
+    for (row, _, entry) in whole.entries().chain(part.entries()) {
         sums[row] += entry.abs();
     }
     let shift = f64::from(f32::EPSILON) * sums.iter().copied().fold(0.0, f64::max);
-    let entries = whole
-        .entries()
-        .iter()
-        .copied()
-        .chain(part.times_number(-1.0));
+    let entries = whole.entries().chain(part.times_number(-1.0));
     let entries = entries.chain((0..count).map(|row| (row, row, shift)));
     let rest = SparseMatrix::new("rest", count, count, entries.collect())?;
     // If the rest cannot be factorized, no parameter is blamed.

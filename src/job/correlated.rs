@@ -5,10 +5,12 @@ use crate::files::error::FileError;
 use crate::method::error::Error;
 use crate::method::outer_loop::{Correlation, Pass, correlate};
 use crate::method::step::Bounds;
+use crate::sparse::Work;
 use crate::weighted::comparison::Comparison;
 use crate::weighted::gauss_newton::{WeightedCorrelation, gauss_newton};
 use crate::weighted::residuals::residuals;
 use crate::weighted::starts::{Minimum, from_several_starts};
+use nalgebra::DMatrix;
 use std::cell::{Cell, RefCell};
 
 /// Most by which chi-squared of the numbers that two results compare may rise from one to the next: the square of three deviations, which
@@ -50,6 +52,8 @@ pub struct CorrelatedJob {
     pub last: Comparison,
     /// Number of exact analyses made, the first and the last among them.
     pub analyses: usize,
+    /// Work that they took, with that of the look before.
+    pub work: Work,
     /// True if the run was stopped by request.
     pub is_interrupted: bool,
     /// The job with a test mode that was left out, and the first factors on the way where it resembled a mode of the model.
@@ -73,6 +77,8 @@ struct Part<'a> {
     caller: &'a Caller<'a>,
     /// The model at the start.
     first: Comparison,
+    /// Shapes of the last analysis, from which the next search begins.
+    near: RefCell<Option<DMatrix<f64>>>,
     analyses: Cell<usize>,
     is_interrupted: Cell<bool>,
     joining: RefCell<Option<(PreparedJob, Vec<f64>)>>,
@@ -100,6 +106,9 @@ impl PreparedJob {
             && let Some((joined, place)) = found.joins()?
         {
             (caller.progress)(&format!("test modes compared: {}", joined.modes.len()));
+            // Where the next part may begin is at hand.
+            let made = [(start, &found.first), (&found.factors[..], &found.last)];
+            let joined = joined.with_analyses(made);
             let mut next = Part::new(&joined, (&place, 1), caller)?.run()?;
             if starts > 1 {
                 next = next.or_lower(Part::new(&joined, (start, starts), caller)?.run()?);
@@ -171,6 +180,7 @@ impl<'a> Part<'a> {
             starts,
             caller,
             first: prepared.analyze(start)?.with_slopes()?,
+            near: RefCell::new(None),
             analyses: Cell::new(1),
             is_interrupted: Cell::new(false),
             joining: RefCell::new(None),
@@ -183,7 +193,12 @@ impl<'a> Part<'a> {
             return Ok(self.first.clone());
         }
         self.analyses.set(self.analyses.get() + 1);
-        self.prepared.analyze(factors)?.with_slopes()
+        let near = self.near.take();
+        let found = self.prepared.analyze_near(factors, near.as_ref())?;
+        let whole = found.model.whole();
+        self.near
+            .replace(whole.map(|whole| whole.shapes(usize::MAX).shapes));
+        Ok(found)
     }
 
     /// True if the caller lets it continue, who is asked no more once he does not.
@@ -210,7 +225,7 @@ impl<'a> Part<'a> {
         };
         let last = match &history {
             History::GaussNewton(Some(found)) => found.best.last.clone(),
-            _ => self.analyze(&factors)?,
+            _ => self.analyze(&factors)?.with_slopes()?,
         };
         Ok(CorrelatedJob {
             prepared: self.prepared.clone(),
@@ -219,6 +234,7 @@ impl<'a> Part<'a> {
             first: self.first,
             last,
             analyses: self.analyses.get(),
+            work: self.prepared.loaded.source.whole.work(),
             is_interrupted: self.is_interrupted.get(),
             joining: self.joining.into_inner(),
         })

@@ -197,6 +197,7 @@ impl JobResult {
         };
         let widening = self.misfit.widening();
         self.intervals = intervals(&follow, factors, &ranges, &weights, &settings, widening)?;
+        self.found.work = prepared.loaded.source.whole.work();
         Ok(self)
     }
 }

@@ -264,7 +264,7 @@ impl LoadedJob {
     /// The whole model's first analysis, with twice as many modes as these where there are.
     pub(super) fn analyzed(&self, modes: usize) -> Result<Arc<dyn Whole>, Error> {
         let whole = &self.source.whole;
-        whole.exactly(&self.ones(), &self.sensors, modes, 2 * modes)
+        whole.exactly(&self.ones(), &self.sensors, (modes, 2 * modes), None)
     }
 
     /// The first factors.

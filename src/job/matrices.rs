@@ -198,8 +198,7 @@ fn on_rows(
     let place = |row: usize| row_of[&degree_of_freedom(&labels[row])];
     let entries = matrix
         .entries()
-        .iter()
-        .map(|&(row, column, value)| (place(row), place(column), value));
+        .map(|(row, column, value)| (place(row), place(column), value));
     Ok(SparseMatrix::new(
         "matrix by labels",
         row_of.len(),

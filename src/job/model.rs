@@ -73,13 +73,13 @@ impl ModelSource {
                 let label_of: BTreeMap<usize, (usize, usize)> =
                     self.motions.iter().map(own).collect();
                 let (_, mass) = self.whole.at(&vec![1.0; self.whole.parameters().len()])?;
-                let of_entry = |&(row, column, value): &(usize, usize, f64)| {
+                let of_entry = |(row, column, value): (usize, usize, f64)| {
                     let (grid, direction) = label_of[&row];
                     let is_along = direction < 3 && label_of[&column].1 == direction;
                     let place = self.geometry.places.get(&grid).copied();
                     is_along.then(|| (place, Vector3::ith(direction, value)))
                 };
-                mass.entries().iter().filter_map(of_entry).collect()
+                mass.entries().filter_map(of_entry).collect()
             }
         };
         let total: Vector3<f64> = placed.iter().map(|(_, mass)| mass).sum();

@@ -4,13 +4,10 @@ use super::assignment::pair_optimally;
 use super::expansion::mass_by_modes;
 use super::{LoadedJob, Method};
 use crate::files::error::FileError;
-use crate::method::analysis::State;
 use crate::method::error::{Error, check_count};
 use crate::method::modes::Modes;
 use crate::method::sorting::Pairing;
-use crate::sparse::{
-    BasisSize, Deflections, FINITE, ModeWeight, Pair, SensorModel, Whole, modal_assurance,
-};
+use crate::sparse::{BasisSize, Deflections, FINITE, ModeWeight, Pair, SensorModel, Whole};
 use crate::weighted::close_modes::{assurance_of_roots, indistinct_groups};
 use crate::weighted::comparison::{Comparison, LoneFrequency};
 use crate::weighted::gauss_newton::WeightedSettings;
@@ -56,6 +53,8 @@ pub struct PreparedJob {
     pub analysis_modes: usize,
     /// The first analysis, with as many modes as the pre-flight looks at.
     pub(super) first: Arc<dyn Whole>,
+    /// Analyses at hand where a run begins that compares more modes, with their factors.
+    at_hand: Vec<(Vec<f64>, Arc<dyn Whole>)>,
     /// Shapes of the partners of frequencies alone, as the sensors see them.
     partner_shapes: DMatrix<f64>,
 }
@@ -92,6 +91,7 @@ impl PreparedJob {
             refused: Vec::new(),
             undecided: Vec::new(),
             analysis_modes,
+            at_hand: vec![(loaded.ones(), Arc::clone(&first))],
             first,
             partner_shapes: exact.shapes.select_columns(&partners),
             loaded: Arc::new(loaded),
@@ -312,11 +312,30 @@ impl PreparedJob {
         self.compared().map(weight).collect()
     }
 
+    /// This job with analyses that it need not make again.
+    pub(super) fn with_analyses(mut self, made: [(&[f64], &Comparison); 2]) -> Self {
+        let places = made.into_iter().filter_map(|(factors, comparison)| {
+            let place = comparison.model.whole()?;
+            Some((factors.to_vec(), Arc::clone(place)))
+        });
+        self.at_hand.extend(places);
+        self
+    }
+
     /// The modal model of the loops at the given parameter factors.
     ///
     /// # Errors
-    /// Those of [`crate::sparse::WholeModel::analyze`].
+    /// The errors of [`crate::sparse::WholeModel::analyze`].
     pub fn analyze(&self, factors: &[f64]) -> Result<Comparison, Error> {
+        self.analyze_near(factors, None)
+    }
+
+    /// The modal model at factors, its modes sought from shapes `near` them.
+    pub(super) fn analyze_near(
+        &self,
+        factors: &[f64],
+        near: Option<&DMatrix<f64>>,
+    ) -> Result<Comparison, Error> {
         let (whole, test) = (
             &self.loaded.source.whole,
             (&self.test, pair_by_assignment as Pair),
@@ -325,21 +344,26 @@ impl PreparedJob {
             modes: self.analysis_modes,
             residual_vectors: self.residual_vectors(),
         };
-        let model = if factors.iter().all(|&factor| factor == 1.0) {
-            let deflections = Deflections::Each(size.residual_vectors);
-            SensorModel::of_whole(self.first.clone(), size.modes, test, deflections)
-        } else {
-            whole.analyze(factors, &self.loaded.sensors, test, size)
+        let mut known = self.at_hand.iter().filter(|(at, _)| at == factors);
+        let model = match known.next() {
+            Some((_, place)) => {
+                let deflections = Deflections::Each(size.residual_vectors);
+                SensorModel::of_whole(Arc::clone(place), size.modes, test, deflections)
+            }
+            None => whole.analyze_near(factors, &self.loaded.sensors, test, size, near),
         }?;
         // Gauss-Newton steps have weights of their own.
         match self.loaded.job.compare.method {
             Method::Paper => Ok(model.weighted(&self.own_weights())?.into()),
             Method::GaussNewton => {
-                let lone = self.followed(&model.exact)?;
-                let comparison = Comparison::from(model)
+                let lone = self.alone().iter().map(|(_, lone)| *lone);
+                let mut comparison = Comparison::from(model)
                     .with_groups(self.together())?
                     .with_component_weights(self.component_weights())?
-                    .with_lone_frequencies(lone)?;
+                    .with_lone_frequencies(lone.collect())?;
+                if self.partner_shapes.ncols() > 0 {
+                    comparison = comparison.followed_by_shape(self.partner_shapes.clone())?;
+                }
                 match self.covariance() {
                     Some(covariance) => comparison.with_covariance(&covariance),
                     None => Ok(comparison),
@@ -388,23 +412,6 @@ impl PreparedJob {
             .iter()
             .map(|&mode| self.loaded.deviations(mode).frequency);
         indistinct_groups(&hertz.collect::<Vec<_>>(), &deviations.collect::<Vec<_>>())
-    }
-
-    /// The frequencies without shapes, each with the mode of this model that its partner in the first has become: those of the largest
-    /// sum of modal assurance with the partners, except modes that a test mode's shape has chosen.
-    fn followed(&self, exact: &State) -> Result<Vec<LoneFrequency>, Error> {
-        let mut all: Vec<LoneFrequency> = self.alone().iter().map(|(_, lone)| *lone).collect();
-        let first = &self.partner_shapes;
-        if first.ncols() > 0 {
-            let mut assurance = decided(&modal_assurance(&exact.modes.shapes, first)?);
-            for &mode in &exact.pairing.analysis_mode {
-                assurance.row_mut(mode).fill(-1.0);
-            }
-            for (lone, partner) in all.iter_mut().zip(pair_optimally(&assurance, 0.0)?) {
-                lone.partner = partner.unwrap_or(lone.partner);
-            }
-        }
-        Ok(all)
     }
 }
 

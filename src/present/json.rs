@@ -15,6 +15,7 @@ use crate::job::{Concern, Trust, hardly_held};
 use crate::method::inner_loop::Iteration;
 use crate::method::step::Bounds;
 use crate::method::step::Limit;
+use crate::sparse::Work;
 use crate::sparse::whole_modes::WholeModes;
 use crate::torque_box::CaseResult;
 use crate::torque_box::wing_box::TEST_GAGE;
@@ -83,6 +84,8 @@ struct ReportValue<'a> {
     misfit: &'a Option<Misfit>,
     #[serde(skip_serializing_if = "Option::is_none")]
     analyses: Option<usize>,
+    #[serde(flatten)]
+    work: Option<Work>,
     minima: &'a [Minimum],
     failed_starts: usize,
     at_bound: Vec<bool>,
@@ -162,6 +165,7 @@ pub fn report(report: &Report) -> Result<Value, PresentError> {
         prior_shares: &report.prior_shares,
         misfit: &report.misfit,
         analyses: report.analyses,
+        work: report.work,
         minima: &report.minima,
         failed_starts: report.failed_starts,
         at_bound: factors.iter().enumerate().map(at_bound).collect(),

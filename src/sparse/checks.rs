@@ -5,11 +5,9 @@ use crate::method::error::Error;
 use crate::method::linear_algebra::{as_faer, check_finite, check_length, from_faer};
 use faer::linalg::cholesky::llt::factor::LltError;
 use faer::linalg::matmul::matmul;
-use faer::linalg::matmul::triangular;
-use faer::linalg::matmul::triangular::BlockStructure;
 use faer::linalg::solvers::{DenseSolveCore, Llt, Solve};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
-use faer::{Accum, MatMut, MatRef, Par, Side};
+use faer::{Accum, MatMut, Par, Side};
 use nalgebra::{DMatrix, DVector};
 
 /// Checks a factorization of a symmetric matrix $A$ by the solution $y$ that it found of $A y = b$, to
@@ -50,25 +48,6 @@ pub(crate) fn places_above(numbers: &DVector<f64>, limit: f64) -> Vec<usize> {
     (0..numbers.len())
         .filter(|&place| numbers[place] > limit)
         .collect()
-}
-
-/// Adds the lower triangle of $\sum c c^t$ to a matrix (m × m), of columns $c$ (m) one behind the other.
-pub(crate) fn add_squares(sum: &mut DMatrix<f64>, columns: &[f64]) {
-    let count = sum.nrows();
-    let columns = MatRef::from_column_major_slice(columns, count, columns.len() / count.max(1));
-    let sum = MatMut::from_column_major_slice_mut(sum.as_mut_slice(), count, count);
-    let (lower, full) = (BlockStructure::TriangularLower, BlockStructure::Rectangular);
-    triangular::matmul(
-        sum,
-        lower,
-        Accum::Add,
-        columns,
-        full,
-        columns.transpose(),
-        full,
-        1.0,
-        Par::Seq,
-    );
 }
 
 /// $A^t B$ of matrices of many rows.

@@ -1,6 +1,5 @@
 //! Elements by the few ways in which they deform.
 
-use super::add_squares;
 use crate::method::appendix_a::ElementMatrix;
 use crate::method::error::Error;
 use crate::method::linear_algebra::{check_shape, check_symmetric, symmetric_eigen};
@@ -8,8 +7,6 @@ use nalgebra::{DMatrix, DVector};
 
 /// Stiffness of a way to deform, relative to the element's largest, below which it is the round-off of a rigid motion.
 const SMALLEST_DEFORMATION: f64 = 1e-14;
-/// Amplitudes of ways to deform that are multiplied at once: as many numbers as a processor's cache holds.
-const AMPLITUDES_AT_ONCE: usize = 32_768;
 
 /// An [`ElementMatrix`] by the few ways in which its element deforms, a rod and a shear panel in one, a membrane in five or, warped,
 /// six:
@@ -94,33 +91,6 @@ impl Deformations {
         self.stiffness.iter().copied().zip(shapes)
     }
 
-    /// Adds the forces of $s_e K_e$ in shapes given transposed (m × DOF) to those at some rows (m × rows), ascending, among which are all
-    /// of the element's.
-    pub(super) fn add_loads(
-        &self,
-        size: f64,
-        transposed_shapes: &DMatrix<f64>,
-        rows: &[usize],
-        into: &mut DMatrix<f64>,
-    ) {
-        let places: Vec<_> = self
-            .dof
-            .iter()
-            .filter_map(|row| rows.binary_search(row).ok())
-            .collect();
-        let mut amplitude = DVector::zeros(transposed_shapes.nrows());
-        for (stiffness, shape) in self.ways() {
-            amplitude.fill(0.0);
-            for (&dof, &motion) in self.dof.iter().zip(shape) {
-                amplitude.axpy(motion, &transposed_shapes.column(dof), 1.0);
-            }
-            for (&place, &motion) in places.iter().zip(shape) {
-                let force = size * stiffness * motion;
-                into.column_mut(place).axpy(force, &amplitude, 1.0);
-            }
-        }
-    }
-
     /// The element by its matrix again.
     pub fn matrix(&self) -> ElementMatrix {
         let mut unit = DMatrix::zeros(self.dof.len(), self.dof.len());
@@ -135,48 +105,6 @@ impl Deformations {
             unit,
         }
     }
-}
-
-/// Generalized stiffness of elements of given sizes, $\sum_e s_e V_e^t K_e V_e$ (m × m, lbf/in for deflections in inches), where
-/// $V_e$ are the columns of `transposed_shapes` (m × free SDOF) at an element's own DOF.
-///
-/// For `transposed_shapes` $= B$ it is their share of $K_D$, $\sum_e s_e B K_e B^t$ (A.9); the shares sum to $K_D$ exactly. For
-/// $V_S = B^t V$ it is that share seen through dynamic shapes $V$. Of an element it is $\sum_r k_r (V_e^t w_r)(V_e^t w_r)^t$.
-pub(crate) fn sum_of_stiffness<'a>(
-    transposed_shapes: &DMatrix<f64>,
-    members: impl Iterator<Item = (&'a Deformations, f64)>,
-) -> DMatrix<f64> {
-    let (count, shapes) = (transposed_shapes.nrows(), transposed_shapes.as_slice());
-    let mut sum = DMatrix::zeros(count, count);
-    let mut amplitudes = Vec::new();
-    for (element, size) in members {
-        for (stiffness, shape) in element.ways() {
-            let (start, weight) = (amplitudes.len(), (size * stiffness.abs()).sqrt());
-            amplitudes.resize(start + count, 0.0);
-            let amplitude = &mut amplitudes[start..];
-            for (&dof, &motion) in element
-                .dof
-                .iter()
-                .zip(shape)
-                .filter(|(_, motion)| **motion != 0.0)
-            {
-                let (weight, motions) = (weight * motion, &shapes[dof * count..][..count]);
-                let sums = amplitude.iter_mut().zip(motions);
-                sums.for_each(|(sum, motion)| *sum += weight * motion);
-            }
-            if stiffness < 0.0 {
-                let taken = DVector::from_vec(amplitudes.split_off(start));
-                sum.syger(-1.0, &taken, &taken, 1.0);
-            }
-        }
-        if amplitudes.len() >= AMPLITUDES_AT_ONCE {
-            add_squares(&mut sum, &amplitudes);
-            amplitudes.clear();
-        }
-    }
-    add_squares(&mut sum, &amplitudes);
-    sum.fill_upper_triangle_with_lower_triangle();
-    sum
 }
 
 /// Subtracts $a a^t/p$ from a symmetric matrix, with its largest pivot $p$ and the column $a$ of it, and returns the pivot, if one

@@ -73,6 +73,15 @@ pub(crate) fn moving_mass_entries(
     pairs.map(|(a, b)| (a.0, b.0, mass * a.1 * b.1)).collect()
 }
 
+/// The largest entry of an element's stiffness at unit size, held degrees of freedom included.
+pub(crate) fn largest_entry(matrix: &ElementMatrix, element: &Element, corners: &[Point]) -> f64 {
+    // Of an element free of supports it is at hand.
+    match matrix.dof.len() == 3 * corners.len() {
+        true => matrix.unit.amax(),
+        false => unit_stiffness(element.kind, corners, &element.material).amax(),
+    }
+}
+
 /// Each element's stiffness in units of its own largest entry, summed over the structure. Every $K_e$ is semidefinite, so that the null
 /// space is that of any $\sum_e s_e K_e$,
 ///
@@ -87,11 +96,7 @@ pub fn resisting(structure: &Structure, elements: &[ElementMatrix]) -> Result<Sp
     let count = structure.free_dof().len();
     let whole = structure.elements().iter().zip(structure.corners());
     let of_element = |(matrix, (element, corners)): (&ElementMatrix, (&Element, &Vec<Point>))| {
-        // Of an element free of supports it is at hand.
-        let largest = match matrix.dof.len() == 3 * corners.len() {
-            true => matrix.unit.amax(),
-            false => unit_stiffness(element.kind, corners, &element.material).amax(),
-        };
+        let largest = largest_entry(matrix, element, corners);
         let parts = stiffness_entries(matrix, 1.0 / largest).collect::<Vec<_>>();
         parts
             .into_iter()

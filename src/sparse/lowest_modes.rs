@@ -79,44 +79,50 @@ pub fn lowest_modes(
     check_length("mass", mass.rows(), stiffness.rows())?;
     check_count("modes", count, 1, stiffness.rows())?;
     let plan = Arc::new(FactorizationPlan::of_sum(&[stiffness, mass])?);
-    let (found, _) = modes_at_most(stiffness, mass, count, stiffness, &plan)?;
+    let bodies = || RigidBodies::by(&plan, "stiffness", stiffness);
+    let (found, _) = modes_at_most((stiffness, mass), (count, count), None, &bodies, &plan)?;
     check_count(FINITE, count, 1, found.vibrations.len())?;
     Ok(found)
 }
 
-/// Modes as by [`lowest_modes`] of symmetric matrices of one size, or all modes where they are fewer than `most`, with the
-/// flexibility that found them, which serves other loads too. The null space of `resisting` is that of the stiffness; `plan` is for both
-/// matrices together.
+/// Modes as by [`lowest_modes`] of symmetric matrices of one size, or all modes where they are fewer than `most`, of which the first
+/// `exact` are found to round-off and the others nearly, with the flexibility that found them, which serves other loads too. `bodies`
+/// finds the null space of the stiffness where there may be one; `plan` is for both matrices together.
+///
+/// Shapes `near` the modes, such as those of a model with other factors, begin the search in place of random ones. They cannot hide a
+/// mode: where the inertia counts others, the search begins anew at random.
 pub(super) fn modes_at_most(
-    stiffness: &SparseMatrix,
-    mass: &SparseMatrix,
-    most: usize,
-    resisting: &SparseMatrix,
+    (stiffness, mass): (&SparseMatrix, &SparseMatrix),
+    (exact, most): (usize, usize),
+    mut near: Option<&DMatrix<f64>>,
+    bodies: &dyn Fn() -> Result<RigidBodies, Error>,
     plan: &Arc<FactorizationPlan>,
 ) -> Result<(CountedModes, Flexibility), Error> {
     let count = most.min(stiffness.rows());
     at_least_one("modes", count)?;
     at_least_one("degrees of freedom with mass", mass.entries().len())?;
+    plan.count_eigensolution();
+    let (flexibility, doubtful) = flexibility((stiffness, mass), bodies, plan)?;
     let factor_at = |what, shift| Factor::of_sum(plan, what, &[(1.0, stiffness), (shift, mass)]);
-    let held = factor_at("stiffness", 0.0).ok();
-    let (flexibility, doubtful) = match held.filter(|factor| factor.is_above(GIVEN)) {
-        Some(factor) => (Flexibility::held(factor), Vec::new()),
-        None => {
-            let bodies = RigidBodies::of("stiffness", resisting)?;
-            let flexibility = Flexibility::of(plan, stiffness, mass, &bodies)?;
-            (flexibility, bodies.doubtful)
-        }
-    };
     let rigid = flexibility.rigid.len();
     let (mut wanted, mut block, mut solutions) = (count + BEYOND, BLOCK, 0);
     loop {
-        let found = largest(&flexibility, mass, wanted, block, &mut solutions)?;
+        let found = largest(
+            &flexibility,
+            mass,
+            near,
+            (exact, wanted, block),
+            &mut solutions,
+        )?;
         let is_all = found.is_all;
         let (omega_squared, shapes) = frequencies(mass, found)?;
         let needed = omega_squared.len().min(count);
         if needed > 0 {
             let (bound, counted, found) = numbers(&factor_at, &omega_squared, needed, is_all)?;
             let found = rigid + found;
+            if counted != found && near.take().is_some() {
+                continue;
+            }
             if counted != found {
                 // A block as wide as all modes below the bound holds every copy of a repeated root, if all are wanted.
                 if block.min(wanted) >= counted {
@@ -142,6 +148,23 @@ pub(super) fn modes_at_most(
             solutions,
         };
         return Ok((found, flexibility));
+    }
+}
+
+/// The flexibility of a pencil, and motions that are hardly told from rigid-body modes.
+pub(super) fn flexibility(
+    (stiffness, mass): (&SparseMatrix, &SparseMatrix),
+    bodies: &dyn Fn() -> Result<RigidBodies, Error>,
+    plan: &Arc<FactorizationPlan>,
+) -> Result<(Flexibility, Vec<(usize, f64)>), Error> {
+    let held = Factor::of_sum(plan, "stiffness", &[(1.0, stiffness)]).ok();
+    match held.filter(|factor| factor.is_above(GIVEN)) {
+        Some(factor) => Ok((Flexibility::held(factor), Vec::new())),
+        None => {
+            let bodies = bodies()?;
+            let flexibility = Flexibility::of(plan, stiffness, mass, &bodies)?;
+            Ok((flexibility, bodies.doubtful))
+        }
     }
 }
 
@@ -231,8 +254,8 @@ impl Flexibility {
 fn largest(
     flexibility: &Flexibility,
     mass: &SparseMatrix,
-    wanted: usize,
-    block: usize,
+    near: Option<&DMatrix<f64>>,
+    (exact, wanted, block): (usize, usize, usize),
     solutions: &mut usize,
 ) -> Result<Found, Error> {
     let keep = wanted + block;
@@ -246,12 +269,9 @@ fn largest(
     } else {
         subspace(
             &mut solve,
-            &flexibility.rigid,
-            mass,
-            Wanted {
-                exact: wanted - BEYOND,
-                wanted,
-            },
+            (&flexibility.rigid, mass),
+            near,
+            Wanted { exact, wanted },
             Growth { block, keep, most },
         )
     }

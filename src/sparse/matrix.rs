@@ -3,21 +3,27 @@
 use crate::method::error::{Error, at_least_one, check_count, require};
 use crate::method::linear_algebra::{check_length, check_shape, symmetric_part};
 use nalgebra::{DMatrix, DVector};
+use std::mem::swap;
+use std::sync::Arc;
 
 /// Largest difference between two entries that should be equal, relative to the largest of the matrix: files carry twelve digits.
 pub(super) const GIVEN: f64 = 1e-11;
 
 /// Columns that a product takes at once, so that the entries are read once for all of them.
 const AT_ONCE: usize = 8;
+/// Bits of a row or column by which entries are sorted at once.
+const SORTED_BITS: u32 = 11;
 
 /// A real matrix by its nonzero entries, column by column and in each from the first row down; no place is given twice.
 ///
-/// A symmetric one has both triangles.
+/// A symmetric one has both triangles. Clones share the places.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SparseMatrix {
     rows: usize,
     columns: usize,
-    entries: Vec<(usize, usize, f64)>,
+    /// Row and column of every entry.
+    places: Arc<Vec<[u32; 2]>>,
+    values: Vec<f64>,
 }
 
 impl SparseMatrix {
@@ -25,7 +31,7 @@ impl SparseMatrix {
     /// left out.
     ///
     /// # Errors
-    /// [`Error::Count`] without rows or columns; [`Error::Count`] for a place outside; [`Error::Value`].
+    /// [`Error::Count`] without rows or columns, and for more than $2^{32} - 1$; [`Error::Count`] for a place outside; [`Error::Value`].
     pub fn new(
         what: &'static str,
         rows: usize,
@@ -33,44 +39,53 @@ impl SparseMatrix {
         entries: Vec<(usize, usize, f64)>,
     ) -> Result<Self, Error> {
         at_least_one(what, rows.min(columns))?;
+        check_count("rows of a matrix", rows, 1, u32::MAX as usize)?;
+        check_count("columns of a matrix", columns, 1, u32::MAX as usize)?;
         for &(row, column, _) in &entries {
             check_count("rows of a matrix", row.saturating_add(1), 1, rows)?;
             check_count("columns of a matrix", column.saturating_add(1), 1, columns)?;
         }
-        let mut entries = summed(entries);
+        let mut entries = summed(entries, rows, columns);
         entries.retain(|entry| entry.2 != 0.0);
-        entries.shrink_to_fit();
         if let Some((row, column, value)) = entries.iter().find(|entry| !entry.2.is_finite()) {
             let owner = || format!("entry ({row}, {column})");
             require(false, what, owner, *value, "a finite number")?;
         }
-        Ok(Self {
+        Ok(Self::of_sorted(rows, columns, &entries))
+    }
+
+    fn of_sorted(rows: usize, columns: usize, entries: &[(usize, usize, f64)]) -> Self {
+        let place = |&(row, column, _): &(usize, usize, f64)| [row as u32, column as u32];
+        Self {
             rows,
             columns,
-            entries,
-        })
+            places: Arc::new(entries.iter().map(place).collect()),
+            values: entries.iter().map(|entry| entry.2).collect(),
+        }
     }
 
     /// The matrix with zeros at the places of these entries where it has none.
-    pub(super) fn with_places_of<'a>(
-        mut self,
-        entries: impl Iterator<Item = &'a (usize, usize, f64)>,
-    ) -> Self {
+    pub(super) fn with_places_of(self, entries: impl Iterator<Item = (usize, usize, f64)>) -> Self {
         let starts = self.starts();
-        let new = entries.filter(|entry| self.place(&starts, entry).is_none());
-        let new: Vec<_> = new.map(|entry| (entry.0, entry.1, 0.0)).collect();
-        if !new.is_empty() {
-            self.entries = summed([self.entries, new].concat());
+        let new = entries.filter(|&entry| self.place(&starts, entry).is_none());
+        let mut new: Vec<_> = new.map(|entry| (entry.0, entry.1, 0.0)).collect();
+        if new.is_empty() {
+            return self;
         }
-        self
+        new.extend(self.entries());
+        Self::of_sorted(
+            self.rows,
+            self.columns,
+            &summed(new, self.rows, self.columns),
+        )
     }
 
     /// Places of the first entry of every column, and of the end.
-    fn starts(&self) -> Vec<usize> {
+    pub(super) fn starts(&self) -> Vec<usize> {
         let mut starts = vec![0; self.columns + 1];
-        self.entries
+        self.places
             .iter()
-            .for_each(|entry| starts[entry.1 + 1] += 1);
+            .for_each(|place| starts[place[1] as usize + 1] += 1);
         for column in 0..self.columns {
             starts[column + 1] += starts[column];
         }
@@ -78,30 +93,18 @@ impl SparseMatrix {
     }
 
     /// Place of an entry's row and column among all, if there is one.
-    fn place(&self, starts: &[usize], entry: &(usize, usize, f64)) -> Option<usize> {
+    pub(super) fn place(&self, starts: &[usize], entry: (usize, usize, f64)) -> Option<u32> {
         let own = starts[entry.1]..starts[entry.1 + 1];
-        let found = self.entries[own.clone()].binary_search_by_key(&entry.0, |own| own.0);
-        found.ok().map(|place| own.start + place)
-    }
-
-    /// Places and values of entries, of which the matrix has all.
-    pub(super) fn places_of(
-        &self,
-        entries: &[(usize, usize, f64)],
-    ) -> Result<Vec<(u32, f64)>, Error> {
-        let starts = self.starts();
-        let place = |entry: &(usize, usize, f64)| {
-            Some((u32::try_from(self.place(&starts, entry)?).ok()?, entry.2))
-        };
-        let places: Vec<_> = entries.iter().filter_map(place).collect();
-        check_count("entries of a matrix", entries.len(), 0, places.len())?;
-        Ok(places)
+        let found = self.places[own.clone()].binary_search_by_key(&entry.0, |own| own[0] as usize);
+        found
+            .ok()
+            .and_then(|place| u32::try_from(own.start + place).ok())
     }
 
     /// Adds values, each times a number, at places among the entries.
-    pub(super) fn add(&mut self, number: f64, values: &[(u32, f64)]) {
-        for &(place, value) in values {
-            self.entries[place as usize].2 += number * value;
+    pub(super) fn add(&mut self, number: f64, places: &[u32], values: &Self) {
+        for (&place, value) in places.iter().zip(&values.values) {
+            self.values[place as usize] += number * value;
         }
     }
 
@@ -143,43 +146,45 @@ impl SparseMatrix {
     }
 
     /// Row, column (from zero) and value of every entry, column by column.
-    pub fn entries(&self) -> &[(usize, usize, f64)] {
-        &self.entries
+    pub fn entries(&self) -> impl ExactSizeIterator<Item = (usize, usize, f64)> + Clone {
+        let both = self.places.iter().zip(&self.values);
+        both.map(|(&[row, column], &value)| (row as usize, column as usize, value))
     }
 
-    /// The entries of one column.
-    pub(super) fn column(&self, column: usize) -> &[(usize, usize, f64)] {
-        let before = self.entries.partition_point(|entry| entry.1 < column);
-        let from = &self.entries[before..];
-        let beyond = from.iter().position(|entry| entry.1 > column);
-        &from[..beyond.unwrap_or(from.len())]
+    /// The rows and values of one column.
+    pub(super) fn column(&self, column: usize) -> impl Iterator<Item = (usize, f64)> + Clone {
+        let up_to = |end: usize| {
+            self.places
+                .partition_point(|place| (place[1] as usize) < end)
+        };
+        let own = up_to(column)..up_to(column + 1);
+        let both = self.places[own.clone()].iter().zip(&self.values[own]);
+        both.map(|(place, &value)| (place[0] as usize, value))
     }
 
     /// True if the matrix is square and every entry exactly that of the other triangle.
     pub fn is_symmetric(&self) -> bool {
-        *self == self.transposed()
-    }
-
-    /// The rows and values of one column.
-    pub(super) fn motion(&self, column: usize) -> Vec<(usize, f64)> {
-        let entries = self.column(column).iter();
-        entries.map(|&(row, _, value)| (row, value)).collect()
+        if self.rows != self.columns {
+            return false;
+        }
+        // The mirrors of the entries, column by column, are those of every row from the left.
+        let mut next = self.starts();
+        self.entries().all(|(row, column, value)| {
+            let mirror = next[row];
+            next[row] += 1;
+            self.places.get(mirror) == Some(&[column as u32, row as u32])
+                && self.values[mirror] == value
+        })
     }
 
     /// The transpose.
     #[doc(hidden)]
     pub fn transposed(&self) -> Self {
-        let mut entries: Vec<_> = self
-            .entries
-            .iter()
-            .map(|&(row, column, value)| (column, row, value))
-            .collect();
-        entries.sort_by_key(|&(row, column, _)| (column, row));
-        Self {
-            rows: self.columns,
-            columns: self.rows,
-            entries,
-        }
+        let turned = self
+            .entries()
+            .map(|(row, column, value)| (column, row, value));
+        let entries = sorted(turned.collect(), self.columns, self.rows);
+        Self::of_sorted(self.columns, self.rows, &entries)
     }
 
     /// The product with a dense matrix (columns × m), rows × m.
@@ -190,6 +195,14 @@ impl SparseMatrix {
         check_shape("right factor", right, self.columns, right.ncols())?;
         let count = right.ncols();
         let mut product = DMatrix::zeros(self.rows, count);
+        // Few entries, as of lumped masses, take less than to turn the columns to rows.
+        if self.values.len() <= self.columns {
+            for (mut product, right) in product.column_iter_mut().zip(right.column_iter()) {
+                self.entries()
+                    .for_each(|(row, column, value)| product[row] += value * right[column]);
+            }
+            return Ok(product);
+        }
         let mut from = vec![[0.0; AT_ONCE]; self.columns];
         let mut into = vec![[0.0; AT_ONCE]; self.rows];
         for first in (0..count).step_by(AT_ONCE) {
@@ -200,7 +213,7 @@ impl SparseMatrix {
                 values.for_each(|(from, value)| from[k] = *value);
             }
             into.fill([0.0; AT_ONCE]);
-            for &(row, column, value) in &self.entries {
+            for (row, column, value) in self.entries() {
                 let both = into[row].iter_mut().zip(&from[column]);
                 both.for_each(|(into, from)| *into += value * from);
             }
@@ -215,13 +228,24 @@ impl SparseMatrix {
 
     /// The matrix's entries times a number.
     pub(crate) fn times_number(&self, number: f64) -> impl Iterator<Item = (usize, usize, f64)> {
-        self.entries
-            .iter()
-            .map(move |&(row, column, value)| (row, column, number * value))
+        self.entries()
+            .map(move |(row, column, value)| (row, column, number * value))
     }
 
-    /// $V^t A V$ of a symmetric matrix for the transposed shapes $V^t$ (m × rows), m × m: only the rows of $V$ where the matrix has
-    /// entries are looked at.
+    /// $V^t A$ for transposed shapes $V^t$ (m × rows), m × columns.
+    pub(super) fn loads(&self, transposed_shapes: &DMatrix<f64>) -> DMatrix<f64> {
+        let modes = transposed_shapes.nrows();
+        let mut loads = DMatrix::zeros(modes, self.columns);
+        let (from, into) = (transposed_shapes.as_slice(), loads.as_mut_slice());
+        for (row, column, value) in self.entries() {
+            let into = into[column * modes..][..modes].iter_mut();
+            let both = into.zip(&from[row * modes..][..modes]);
+            both.for_each(|(into, from)| *into += value * from);
+        }
+        loads
+    }
+
+    /// $V^t A V$ of a symmetric matrix for the transposed shapes $V^t$ (m × rows), m × m.
     ///
     /// # Errors
     /// [`Error::WrongShape`] when they do not fit.
@@ -229,15 +253,8 @@ impl SparseMatrix {
         let modes = transposed_shapes.nrows();
         check_shape("transposed shapes", transposed_shapes, modes, self.rows)?;
         check_shape("transposed shapes", transposed_shapes, modes, self.columns)?;
-        let (mut sum, mut forces) = (DMatrix::zeros(modes, modes), DVector::zeros(modes));
-        for column in self.entries.chunk_by(|a, b| a.1 == b.1) {
-            forces.fill(0.0);
-            column.iter().for_each(|&(row, _, value)| {
-                forces.axpy(value, &transposed_shapes.column(row), 1.0)
-            });
-            sum.ger(1.0, &forces, &transposed_shapes.column(column[0].1), 1.0);
-        }
-        Ok(symmetric_part(&sum))
+        let loads = self.loads(transposed_shapes);
+        Ok(symmetric_part(&(loads * transposed_shapes.transpose())))
     }
 
     /// Refuses a matrix that is not square and symmetric to within round-off, row by row.
@@ -259,28 +276,27 @@ impl SparseMatrix {
             .collect();
         let difference = Self::new(what, self.rows, self.columns, entries)?;
         let mut diagonal = vec![0.0; self.rows];
-        for entry in self.entries.iter().filter(|entry| entry.0 == entry.1) {
+        for entry in self.entries().filter(|entry| entry.0 == entry.1) {
             diagonal[entry.0] = entry.2.abs().sqrt();
         }
         let apart = |&(row, column, difference): &(usize, usize, f64)| {
-            let entries = self.column(column).iter().filter(|entry| entry.0 == row);
-            let scale = entries.fold(difference.abs(), |scale, entry| scale.max(entry.2.abs()));
+            let entries = self.column(column).filter(|entry| entry.0 == row);
+            let scale = entries.fold(difference.abs(), |scale, entry| scale.max(entry.1.abs()));
             difference.abs() / scale.max(diagonal[row] * diagonal[column])
         };
-        let mut differences = difference.entries.iter().filter(|entry| entry.2 != 0.0);
-        let Some(entry) = differences.find(|entry| apart(entry) > GIVEN) else {
+        let Some(entry) = difference.entries().find(|entry| apart(entry) > GIVEN) else {
             return Ok(());
         };
         let owner = || format!("{what}, entry ({}, {}) beside its mirror", entry.0, entry.1);
         let expected = "at most 1e-11: the matrix must be symmetric";
-        require(false, "relative difference", owner, apart(entry), expected)
+        require(false, "relative difference", owner, apart(&entry), expected)
     }
 
     /// The diagonal of a square matrix.
     pub(super) fn diagonal(&self) -> DVector<f64> {
         let mut diagonal = DVector::zeros(self.rows);
-        let own = self.entries.iter().filter(|entry| entry.0 == entry.1);
-        own.for_each(|&(row, _, value)| diagonal[row] = value);
+        let own = self.entries().filter(|entry| entry.0 == entry.1);
+        own.for_each(|(row, _, value)| diagonal[row] = value);
         diagonal
     }
 
@@ -299,16 +315,52 @@ impl SparseMatrix {
     /// The matrix as a dense one.
     pub fn dense(&self) -> DMatrix<f64> {
         let mut dense = DMatrix::zeros(self.rows, self.columns);
-        self.entries
-            .iter()
-            .for_each(|&(row, column, value)| dense[(row, column)] = value);
+        self.entries()
+            .for_each(|(row, column, value)| dense[(row, column)] = value);
         dense
     }
 }
 
-/// Entries column by column and in each from the first row down, those at one place as their sum.
-fn summed(mut entries: Vec<(usize, usize, f64)>) -> Vec<(usize, usize, f64)> {
-    entries.sort_by_key(|&(row, column, _)| (column, row));
+/// Entries column by column and in each from the first row down, those at one place in the order given.
+///
+/// Digit by digit, so that a file's promise of many rows takes no memory.
+fn sorted(
+    mut entries: Vec<(usize, usize, f64)>,
+    rows: usize,
+    columns: usize,
+) -> Vec<(usize, usize, f64)> {
+    let mut next = vec![(0, 0, 0.0); entries.len()];
+    for (size, is_of_column) in [(rows, false), (columns, true)] {
+        for shift in (0..usize::BITS - size.leading_zeros()).step_by(SORTED_BITS as usize) {
+            let digit = |entry: &(usize, usize, f64)| {
+                let key = if is_of_column { entry.1 } else { entry.0 };
+                key >> shift & ((1 << SORTED_BITS) - 1)
+            };
+            let mut places = vec![0; (1 << SORTED_BITS) + 1];
+            entries
+                .iter()
+                .for_each(|entry| places[digit(entry) + 1] += 1);
+            for place in 0..1 << SORTED_BITS {
+                places[place + 1] += places[place];
+            }
+            for entry in &entries {
+                let place = &mut places[digit(entry)];
+                next[*place] = *entry;
+                *place += 1;
+            }
+            swap(&mut entries, &mut next);
+        }
+    }
+    entries
+}
+
+/// Entries in the same order, those at one place as their sum.
+fn summed(
+    entries: Vec<(usize, usize, f64)>,
+    rows: usize,
+    columns: usize,
+) -> Vec<(usize, usize, f64)> {
+    let mut entries = sorted(entries, rows, columns);
     entries.dedup_by(|next, kept| {
         let is_same = (next.0, next.1) == (kept.0, kept.1);
         if is_same {

@@ -14,6 +14,7 @@ mod lowest_modes;
 mod mass_changes;
 mod matrix;
 mod ordering;
+mod part;
 mod place;
 #[doc(hidden)]
 pub mod random;
@@ -25,18 +26,19 @@ mod subspace;
 pub mod whole_modes;
 mod whole_model;
 
+pub(crate) use assurance::cosines;
 #[doc(hidden)]
 pub use assurance::modal_assurance;
 #[doc(hidden)]
 pub use checks::check_solution;
 pub(crate) use checks::{
-    add_squares, finite, inverse_of_positive, places_above, solve_lower, solve_positive,
-    start_vector, take_product, transposed_product,
+    finite, inverse_of_positive, places_above, solve_lower, solve_positive, start_vector,
+    take_product, transposed_product,
 };
 #[doc(hidden)]
 pub use deformations::Deformations;
 #[doc(hidden)]
-pub use factorization::Factor;
+pub use factorization::{Factor, Work};
 #[doc(hidden)]
 pub use lowest_modes::{CountedModes, FINITE, MOST_DENSE_ROWS, lowest_modes};
 #[doc(hidden)]

@@ -2,19 +2,22 @@
 //! change is followed.
 
 use super::lowest_modes::{FINITE, Flexibility};
+use super::part::Part;
 use super::random::random_block;
 use super::residual_vectors::{leading_loads, residual_vectors};
 use super::sensor_model::{Deflections, Further, ParameterMatrix, Whole, turn_alike};
-use super::{SparseMatrix, WholeModel, WholeParameter, no_modes, take_product, transposed_product};
+use super::{SparseMatrix, WholeModel, no_modes, take_product, transposed_product};
 use crate::method::error::{Error, check_count};
 use crate::method::modes::Modes;
 use nalgebra::DMatrix;
 use std::f64::consts::PI;
+use std::sync::{Arc, Mutex};
 
-/// Largest error of what the modes left out add to a slope, relative to it.
-const SLOPE_ERROR: f64 = 1e-3;
+/// Largest error of what the modes left out add to a slope, relative to it. It moves the end of weighted steps by at most as much times
+/// the root of chi-squared, in deviations: by less than a thousandth up to a chi-squared of a thousand.
+const SLOPE_ERROR: f64 = 3e-5;
 /// Most terms of the series for it: a mode left out within 3 % of one that is compared needs as many.
-const MOST_TERMS: usize = 12;
+const MOST_TERMS: usize = 20;
 /// Most deflections of one parameter's own: more add less than the lowest mode left out.
 const MOST_EACH: usize = 4;
 /// Sensors whose deflections are held at once.
@@ -27,7 +30,8 @@ pub(super) struct Place {
     factors: Vec<f64>,
     stiffness: SparseMatrix,
     mass: SparseMatrix,
-    flexibility: Flexibility,
+    /// The factor, unless its memory was given back.
+    flexibility: Mutex<Option<Arc<Flexibility>>>,
     /// The modes at all degrees of freedom, their shapes times the mass, and what the sensors see of them.
     vibrations: Modes,
     weighted: DMatrix<f64>,
@@ -40,16 +44,16 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// The analysis of a model at factors, with at most so many modes, but no fewer than `least`.
+    /// The analysis of a model at factors, with at least and at most so many modes, sought from those `near` that are known.
     pub(super) fn new(
         whole: &WholeModel,
         factors: &[f64],
         sensors: &SparseMatrix,
-        least: usize,
-        most: usize,
+        counts: (usize, usize),
+        near: Option<&DMatrix<f64>>,
     ) -> Result<Self, Error> {
         let (stiffness, mass) = whole.at(factors)?;
-        let (found, flexibility) = whole.modes_of(&stiffness, &mass, least, most)?;
+        let (found, flexibility) = whole.modes_of(&stiffness, &mass, counts, near)?;
         let mut vibrations = found.vibrations;
         let seen = sensors.times(&vibrations.shapes)?;
         let modes = Modes::signed(vibrations.omega_squared.clone(), seen.clone());
@@ -65,9 +69,22 @@ impl Place {
             sensors: sensors.clone(),
             stiffness,
             mass,
-            flexibility,
+            flexibility: Mutex::new(Some(Arc::new(flexibility))),
             vibrations,
         })
+    }
+
+    /// The flexibility, found again where its memory was given back.
+    fn flexibility(&self) -> Result<Arc<Flexibility>, Error> {
+        let known = self.flexibility.lock().ok().and_then(|own| own.clone());
+        if let Some(known) = known {
+            return Ok(known);
+        }
+        let found = Arc::new(self.whole.flexibility(&self.stiffness, &self.mass)?.0);
+        if let Ok(mut own) = self.flexibility.lock() {
+            *own = Some(Arc::clone(&found));
+        }
+        Ok(found)
     }
 
     /// Deflections without the modes, whose parts are taken out.
@@ -89,8 +106,8 @@ impl Place {
             Deflections::Own(e) => self.own_loads(e, MOST_EACH, vibrations),
             Deflections::All(most) => {
                 let modes: Vec<usize> = (0..vibrations.len()).collect();
-                let parts = || self.loads_of(&modes);
-                self.loads_of_all(most, parts, &modes, &vec![1.0; modes.len()])
+                let loads = || self.loads_of(&modes);
+                self.loads_of_all(most, loads, &modes, &vec![1.0; modes.len()])
             }
             Deflections::Along {
                 direction,
@@ -98,12 +115,12 @@ impl Place {
                 further,
                 weights,
             } => {
-                let (parts, count) = (self.loads_of(modes), modes.len());
+                let (own, count) = (self.loads_of(modes), modes.len());
                 let along = direction
                     .iter()
                     .map(|along| DMatrix::from_diagonal_element(count, count, *along));
-                let mut loads = self.combined(&parts, count, along);
-                let further = self.loads_of_all(further, || parts, modes, weights)?;
+                let mut loads = self.combined(&own, count, along);
+                let further = self.loads_of_all(further, || own, modes, weights)?;
                 loads.extend(further.column_iter());
                 Ok(loads)
             }
@@ -112,7 +129,7 @@ impl Place {
 
     /// Leading loads of one parameter in vibrations, at most so many.
     fn own_loads(&self, e: usize, most: usize, vibrations: &Modes) -> Result<DMatrix<f64>, Error> {
-        leading_loads(&self.whole.parameters()[e], vibrations, most)
+        leading_loads(&self.whole.parts()[e], vibrations, most)
     }
 
     /// Leading loads of every parameter in vibrations.
@@ -133,7 +150,7 @@ impl Place {
     fn loads_of_all(
         &self,
         most: usize,
-        parts: impl FnOnce() -> Vec<Part>,
+        loads: impl FnOnce() -> Vec<DMatrix<f64>>,
         modes: &[usize],
         weights: &[f64],
     ) -> Result<DMatrix<f64>, Error> {
@@ -141,36 +158,35 @@ impl Place {
         if each > 1 || most == 0 {
             return self.leading_loads(each.min(MOST_EACH), &self.vibrations);
         }
-        let mut parts = parts();
-        for part in &mut parts {
-            let each = part.loads.row_iter_mut().zip(modes).zip(weights);
+        let mut all = loads();
+        for own in &mut all {
+            let each = own.row_iter_mut().zip(modes).zip(weights);
             each.for_each(|((mut loads, &mode), weight)| {
                 loads *= weight / self.vibrations.omega_squared[mode].sqrt();
             });
         }
         let mut state = 0;
-        let random = parts
+        let random = all
             .iter()
             .map(|_| random_block(most, modes.len(), &mut state));
-        let random = self.combined(&parts, most, random);
-        let deflections = self.take_modes(self.flexibility.solve(&random)?);
-        let transposed = deflections.transpose();
-        let weights = parts
-            .iter()
-            .map(|part| transposed.select_columns(&part.rows) * part.loads.transpose());
-        Ok(self.combined(&parts, most, weights))
+        let random = self.combined(&all, most, random);
+        let deflections = self.take_modes(self.flexibility()?.solve(&random)?);
+        let own = self.whole.parts().iter().zip(&all);
+        let weights =
+            own.map(|(part, loads)| (loads * deflections.select_rows(&part.rows)).transpose());
+        Ok(self.combined(&all, most, weights))
     }
 
     /// Sum over the parameters of combinations of their loads, by weights (`count` × modes) for each (DOF × `count`).
     fn combined(
         &self,
-        parts: &[Part],
+        all: &[DMatrix<f64>],
         count: usize,
         weights: impl Iterator<Item = DMatrix<f64>>,
     ) -> DMatrix<f64> {
         let mut sum = DMatrix::zeros(count, self.whole.dof_count());
-        for (part, weights) in parts.iter().zip(weights) {
-            let loads = weights * &part.loads;
+        for ((part, loads), weights) in self.whole.parts().iter().zip(all).zip(weights) {
+            let loads = weights * loads;
             for (&row, loads) in part.rows.iter().zip(loads.column_iter()) {
                 let mut sum = sum.column_mut(row);
                 sum += loads;
@@ -179,37 +195,39 @@ impl Place {
         sum.transpose()
     }
 
-    /// Loads of some modes under a change of the logarithm of each parameter's factor.
-    fn loads_of(&self, modes: &[usize]) -> Vec<Part> {
-        let transposed = self.vibrations.shapes.select_columns(modes).transpose();
-        let part = |(parameter, &factor): (&WholeParameter, &f64)| {
-            let (rows, mut loads) = parameter.loads(factor, &transposed);
-            if parameter.is_mass() {
+    /// Loads of some modes under a change of the logarithm of each parameter's factor, at its rows (modes × rows).
+    fn loads_of(&self, modes: &[usize]) -> Vec<DMatrix<f64>> {
+        let shapes = self.vibrations.shapes.select_columns(modes);
+        let of_part = |(part, &factor): (&Part, &f64)| {
+            let own = shapes.select_rows(&part.rows).transpose();
+            let mut loads = part.loads(&(factor * own));
+            if part.is_mass {
                 for (mut loads, &mode) in loads.row_iter_mut().zip(modes) {
                     loads *= -self.vibrations.omega_squared[mode];
                 }
             }
-            Part { rows, loads }
+            loads
         };
-        self.whole
-            .parameters()
-            .iter()
-            .zip(&self.factors)
-            .map(part)
-            .collect()
+        let parts = self.whole.parts().iter();
+        parts.zip(&self.factors).map(of_part).collect()
     }
 
-    /// $(K^{-1} M)^t K^{-1}$ times loads, without the modes, for every term t.
-    fn deflections(&self, loads: &DMatrix<f64>, terms: usize) -> Result<Vec<DMatrix<f64>>, Error> {
-        let mut all: Vec<DMatrix<f64>> = Vec::new();
-        for _ in 0..terms {
-            let next = match all.last() {
-                None => self.flexibility.solve(loads)?,
-                Some(last) => self.flexibility.solve(&self.mass.times(last)?)?,
-            };
-            all.push(self.take_modes(next));
+    /// Hands out $(K^{-1} M)^t K^{-1}$ times loads, without the modes, for every term t.
+    fn deflections(
+        &self,
+        loads: DMatrix<f64>,
+        terms: usize,
+        mut take: impl FnMut(usize, &DMatrix<f64>) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let (flexibility, mut loads) = (self.flexibility()?, loads);
+        for t in 0..terms {
+            let deflections = self.take_modes(flexibility.solve(&loads)?);
+            take(t, &deflections)?;
+            if t + 1 < terms {
+                loads = self.mass.times(&deflections)?;
+            }
         }
-        Ok(all)
+        Ok(())
     }
 }
 
@@ -222,6 +240,12 @@ impl Whole for Place {
     fn shapes(&self, count: usize) -> Modes {
         let count = count.min(self.vibrations.len());
         self.vibrations.select(&(0..count).collect::<Vec<_>>())
+    }
+
+    fn release(&self) {
+        if let Ok(mut own) = self.flexibility.lock() {
+            *own = None;
+        }
     }
 
     fn rigid_bodies(&self) -> (usize, &[(usize, f64)]) {
@@ -243,12 +267,11 @@ impl Whole for Place {
             _ => self.modes.len(),
         };
         let vibrations = self.shapes(own);
-        let deflections = self
-            .flexibility
-            .solve(&self.loads(deflections, &vibrations)?)?;
+        let loads = self.loads(deflections, &vibrations)?;
+        let deflections = self.flexibility()?.solve(&loads)?;
         let residual = residual_vectors(&self.stiffness, &self.mass, &vibrations, deflections)?;
         // Only a change of mass couples rigid-body modes with vibrations.
-        let has_mass = self.whole.parameters().iter().any(WholeParameter::is_mass);
+        let has_mass = self.whole.parts().iter().any(|part| part.is_mass);
         let rigid_body = match has_mass {
             true => self.rigid_body.clone(),
             false => no_modes(self.whole.dof_count()).shapes,
@@ -256,8 +279,7 @@ impl Whole for Place {
         let mut basis = vibrations.shapes;
         basis.extend(residual.shapes.column_iter());
         basis.extend(rigid_body.column_iter());
-        let transposed = basis.transpose();
-        let share = |e: usize| self.whole.parameters()[e].seen_by(self.factors[e], &transposed);
+        let share = |e: usize| self.whole.parts()[e].seen_by(self.factors[e], &basis);
         let shares = parameters.map(share).collect::<Result<_, Error>>()?;
         let mut behind = self.some_modes(count, own);
         let squares = residual.omega_squared.iter().copied();
@@ -281,76 +303,94 @@ impl Whole for Place {
     /// the sensors' side, $K^{-1} R^t$ and so on, or from the loads', whichever are fewer: no factor but that of $K$ is needed, and no
     /// solution a parameter where these are many.
     fn slopes_beyond(&self, count: usize, modes: &[usize]) -> Result<Vec<DMatrix<f64>>, Error> {
-        let (sensors, parts) = (self.sensors.rows(), self.loads_of(modes));
+        let all = self.loads_of(modes);
         let roots: Vec<f64> = modes
             .iter()
             .map(|&mode| self.vibrations.omega_squared[mode])
             .collect();
-        let highest = roots.iter().copied().fold(0.0, f64::max);
-        let terms = terms(highest, self.next);
-        let series: Vec<_> = roots
-            .iter()
-            .map(|&root| coefficients(root, self.next, terms))
-            .collect();
-        let mut slopes = vec![DMatrix::zeros(sensors, parts.len()); modes.len()];
+        let mut slopes = vec![DMatrix::zeros(self.sensors.rows(), all.len()); modes.len()];
         let beyond = self.some_modes(count, self.modes.len());
         let shapes = self.vibrations.shapes.columns(count, beyond.len());
-        for (e, part) in parts.iter().enumerate() {
-            let couplings = &part.loads * shapes.select_rows(&part.rows);
+        for (e, (part, loads)) in self.whole.parts().iter().zip(&all).enumerate() {
+            let couplings = loads * shapes.select_rows(&part.rows);
             for ((slopes, root), own) in slopes.iter_mut().zip(&roots).zip(couplings.row_iter()) {
                 let apart = beyond.omega_squared.map(|other| root - other);
                 let shares = own.transpose().component_div(&apart);
                 slopes.set_column(e, &(&beyond.shapes * shares));
             }
         }
-        if parts.len() * modes.len() < sensors {
-            for (place, (slopes, series)) in slopes.iter_mut().zip(&series).enumerate() {
-                let mut loads = DMatrix::zeros(self.whole.dof_count(), parts.len());
-                for (part, mut loads) in parts.iter().zip(loads.column_iter_mut()) {
-                    part.rows
-                        .iter()
-                        .zip(part.loads.row(place).iter())
-                        .for_each(|(&row, load)| loads[row] = *load);
-                }
-                let all = self.deflections(&loads, terms)?;
-                for (deflections, factor) in all.iter().zip(series) {
-                    *slopes -= *factor * self.sensors.times(deflections)?;
-                }
-            }
-            return Ok(slopes);
-        }
-        let reading = self.sensors.transposed();
-        for first in (0..sensors).step_by(SENSORS_AT_ONCE) {
-            let some = first..sensors.min(first + SENSORS_AT_ONCE);
-            let mut loads = DMatrix::zeros(self.whole.dof_count(), some.len());
-            for (place, sensor) in some.clone().enumerate() {
-                reading
-                    .motion(sensor)
-                    .iter()
-                    .for_each(|&(row, value)| loads[(row, place)] = value);
-            }
-            let all = self.deflections(&loads, terms)?;
-            for (t, deflections) in all.iter().enumerate() {
-                let transposed = deflections.transpose();
-                for (e, part) in parts.iter().enumerate() {
-                    let read = transposed.select_columns(&part.rows) * part.loads.transpose();
-                    for (i, (slopes, series)) in slopes.iter_mut().zip(&series).enumerate() {
-                        let mut slopes = slopes.column_mut(e);
-                        slopes
-                            .rows_mut(first, some.len())
-                            .axpy(-series[t], &read.column(i), 1.0);
-                    }
-                }
-            }
+        let highest = roots.iter().copied().fold(0.0, f64::max);
+        let terms = terms(highest, self.next);
+        let series = roots.iter();
+        let series: Vec<_> = series
+            .map(|&root| coefficients(root, self.next, terms))
+            .collect();
+        if all.len() * modes.len() < self.sensors.rows() {
+            self.add_from_loads(&mut slopes, &all, &series)?;
+        } else {
+            self.add_from_sensors(&mut slopes, &all, &series)?;
         }
         Ok(slopes)
     }
 }
 
-/// Loads of a parameter: the rows where there are any, and those of every mode there (modes × rows).
-struct Part {
-    rows: Vec<usize>,
-    loads: DMatrix<f64>,
+impl Place {
+    /// Adds the series for every mode to its slopes by the deflections under the loads of every parameter.
+    fn add_from_loads(
+        &self,
+        slopes: &mut [DMatrix<f64>],
+        all: &[DMatrix<f64>],
+        series: &[Vec<f64>],
+    ) -> Result<(), Error> {
+        for (place, (slopes, series)) in slopes.iter_mut().zip(series).enumerate() {
+            let mut loads = DMatrix::zeros(self.whole.dof_count(), all.len());
+            for (e, (part, own)) in self.whole.parts().iter().zip(all).enumerate() {
+                for (at, &row) in part.rows.iter().enumerate() {
+                    loads[(row, e)] = own[(place, at)];
+                }
+            }
+            self.deflections(loads, series.len(), |t, deflections| {
+                *slopes -= series[t] * self.sensors.times(deflections)?;
+                Ok(())
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Adds the same series by the deflections under loads at the sensors.
+    fn add_from_sensors(
+        &self,
+        slopes: &mut [DMatrix<f64>],
+        all: &[DMatrix<f64>],
+        series: &[Vec<f64>],
+    ) -> Result<(), Error> {
+        let (sensors, reading) = (self.sensors.rows(), self.sensors.transposed());
+        let terms = series.first().map_or(0, Vec::len);
+        for first in (0..sensors).step_by(SENSORS_AT_ONCE) {
+            let some = first..sensors.min(first + SENSORS_AT_ONCE);
+            let mut loads = DMatrix::zeros(self.whole.dof_count(), some.len());
+            for (place, sensor) in some.clone().enumerate() {
+                reading
+                    .column(sensor)
+                    .for_each(|(row, value)| loads[(row, place)] = value);
+            }
+            self.deflections(loads, terms, |t, deflections| {
+                for (e, (part, own)) in self.whole.parts().iter().zip(all).enumerate() {
+                    let read = own * deflections.select_rows(&part.rows);
+                    for (i, (slopes, series)) in slopes.iter_mut().zip(series).enumerate() {
+                        let mut slopes = slopes.column_mut(e);
+                        slopes.rows_mut(first, some.len()).axpy(
+                            -series[t],
+                            &read.row(i).transpose(),
+                            1.0,
+                        );
+                    }
+                }
+                Ok(())
+            })?;
+        }
+        Ok(())
+    }
 }
 
 /// Terms that [`coefficients`] need for a root, for an error of [`SLOPE_ERROR`].

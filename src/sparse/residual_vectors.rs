@@ -1,7 +1,8 @@
 //! Residual vectors: static deflections that the lowest modes lack, as further shapes in which changes are followed.
 
 use super::matrix::GIVEN;
-use super::{SparseMatrix, WholeParameter, places_above, take_product, transposed_product};
+use super::part::Part;
+use super::{SparseMatrix, places_above, take_product, transposed_product};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::Modes;
@@ -13,15 +14,17 @@ use nalgebra::{DMatrix, DVector};
 /// A change of the part loads mode $i$ by $P v_i$; over $\omega_i$, or times $\omega_i$ for a mass, so that modes count alike. Of the
 /// columns $L$ these are the combinations $L y$ of largest $y^t V^t L y$, one a deformation for a part that has fewer.
 pub(super) fn leading_loads(
-    parameter: &WholeParameter,
+    part: &Part,
     modes: &Modes,
     most: usize,
 ) -> Result<DMatrix<f64>, Error> {
-    let power = if parameter.is_mass() { 0.5 } else { -0.5 };
-    let scale = DMatrix::from_diagonal(&modes.omega_squared.map(|square| square.powf(power)));
-    let transposed = scale * modes.shapes.transpose();
-    let (rows, loads) = parameter.loads(1.0, &transposed);
-    let energy = &loads * transposed.select_columns(&rows).transpose();
+    let power = if part.is_mass { 0.5 } else { -0.5 };
+    let mut own = modes.shapes.select_rows(&part.rows).transpose();
+    for (mut own, square) in own.row_iter_mut().zip(&modes.omega_squared) {
+        own *= square.powf(power);
+    }
+    let loads = part.loads(&own);
+    let energy = &loads * own.transpose();
     let (energies, vectors) = symmetric_eigen(
         "energy of a parameter in the modes",
         &symmetric_part(&energy),
@@ -30,7 +33,11 @@ pub(super) fn leading_loads(
     let leading = places_above(&energies, digits);
     let vectors = vectors.select_columns(leading.iter().rev().take(most));
     let mut all = DMatrix::zeros(modes.shapes.nrows(), vectors.ncols());
-    for (&row, combined) in rows.iter().zip((vectors.transpose() * loads).column_iter()) {
+    for (&row, combined) in part
+        .rows
+        .iter()
+        .zip((vectors.transpose() * loads).column_iter())
+    {
         all.row_mut(row).tr_copy_from(&combined);
     }
     Ok(all)

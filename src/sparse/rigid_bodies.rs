@@ -56,17 +56,29 @@ impl RigidBodies {
     /// # Errors
     /// [`Error::NotPositiveDefinite`] for a matrix that is not semidefinite; the errors of the factorization.
     pub fn of(what: &'static str, matrix: &SparseMatrix) -> Result<Self, Error> {
+        Self::by(
+            &Arc::new(FactorizationPlan::of_sum(&[matrix])?),
+            what,
+            matrix,
+        )
+    }
+
+    /// The null space by a plan for this matrix among others.
+    pub(super) fn by(
+        plan: &Arc<FactorizationPlan>,
+        what: &'static str,
+        matrix: &SparseMatrix,
+    ) -> Result<Self, Error> {
         let (count, entries) = (matrix.rows(), matrix.entries());
         let size = SparseMatrix::unit_scale(&matrix.diagonal());
         let unit = entries
-            .iter()
-            .map(|&(row, column, value)| (row, column, value / size[row] / size[column]));
+            .clone()
+            .map(|(row, column, value)| (row, column, value / size[row] / size[column]));
         let unit = SparseMatrix::new(what, count, count, unit.collect())?;
         let ones = (0..count).map(|row| (row, row, 1.0)).collect();
         let ones = SparseMatrix::new(what, count, count, ones)?;
-        let plan = Arc::new(FactorizationPlan::of_sum(&[&unit])?);
         let shifted =
-            |shift| Factor::of_sum(&plan, what, &[(1.0, &unit), (shift, &ones)])?.check_signs(what);
+            |shift| Factor::of_sum(plan, what, &[(1.0, &unit), (shift, &ones)])?.check_signs(what);
         let factor = shifted(round_off(count)).or_else(|_| shifted(GIVEN))?;
         let Limits { least, told, most } = Limits::of(entries);
         let (mut block, mut state) = (BLOCK.min(count), 0);
@@ -101,7 +113,7 @@ impl RigidBodies {
             // resists. A solution gives all its digits; a decomposition mixes in motions that strain little beside the stiffest.
             let ground = rows.iter().map(|&row| (row, row, 1.0)).collect();
             let ground = SparseMatrix::new(what, count, count, ground)?;
-            let held = Factor::of_sum(&plan, what, &[(1.0, &unit), (1.0, &ground)])?;
+            let held = Factor::of_sum(plan, what, &[(1.0, &unit), (1.0, &ground)])?;
             let mut displacements = DMatrix::zeros(count, rows.len());
             rows.iter()
                 .enumerate()
@@ -133,8 +145,8 @@ struct Limits {
 
 impl Limits {
     /// Limits for entries of a matrix, by the digits with which they are written.
-    fn of(entries: &[(usize, usize, f64)]) -> Self {
-        let numbers: Vec<usize> = entries.iter().map(|entry| digits(entry.2)).collect();
+    fn of(entries: impl Iterator<Item = (usize, usize, f64)>) -> Self {
+        let numbers: Vec<usize> = entries.map(|entry| digits(entry.2)).collect();
         let longest = numbers.iter().copied().max().unwrap_or(0);
         let as_long = numbers.iter().filter(|&&digits| digits + 1 >= longest);
         let is_written = DIGITS.contains(&longest) && 2 * as_long.count() >= numbers.len();
@@ -160,10 +172,10 @@ fn resistances(stiffness: &SparseMatrix, motions: &DMatrix<f64>) -> Result<Vec<f
     let forces = stiffness.times(motions)?;
     let resistance = |at: usize| {
         let motion = motions.column(at);
-        let part = |&(row, column, value): &(usize, usize, f64)| {
+        let part = |(row, column, value): (usize, usize, f64)| {
             (value * motion[row] * motion[column]).powi(2)
         };
-        let parts: f64 = stiffness.entries().iter().map(part).sum();
+        let parts: f64 = stiffness.entries().map(part).sum();
         // At a row without stiffness there is only the round-off of other rows.
         motion.dot(&forces.column(at)) / parts.sqrt().max(f64::EPSILON)
     };

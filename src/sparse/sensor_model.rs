@@ -19,7 +19,6 @@ use crate::method::perturbation::{Perturbed, first_order, recursive_1_converged}
 use crate::method::sorting::{Pairing, pair_modes};
 use crate::method::step::{REFERENCE_GAGE, StepRule};
 use nalgebra::{DMatrix, DVector};
-use std::borrow::Cow;
 use std::fmt::Debug;
 use std::sync::Arc;
 
@@ -158,6 +157,9 @@ pub(crate) trait Whole: Debug + Send + Sync {
     /// The lowest shapes at all degrees of freedom (DOF × n), at most so many.
     fn shapes(&self, count: usize) -> Modes;
 
+    /// Gives back memory that can be filled again.
+    fn release(&self);
+
     /// Number of rigid-body modes, and motions that are hardly told from them.
     fn rigid_bodies(&self) -> (usize, &[(usize, f64)]);
 
@@ -278,8 +280,15 @@ impl SensorModel {
 
     /// The analysis, where it is at hand.
     #[cfg(feature = "program")]
-    pub(crate) fn whole(&self) -> Option<&dyn Whole> {
-        self.place.as_deref()
+    pub(crate) fn whole(&self) -> Option<&Arc<dyn Whole>> {
+        self.place.as_ref()
+    }
+
+    /// Gives back the memory of a factor, which bases and slopes make again.
+    pub(crate) fn release(&self) {
+        if let Some(place) = &self.place {
+            place.release();
+        }
     }
 
     /// The model with exact slopes of the shapes that are compared, where no residual vectors stand for them in its basis.
@@ -402,7 +411,7 @@ impl SensorModel {
             let add = |sum: &mut DMatrix<f64>, matrix: &DMatrix<f64>| {
                 sum.zip_apply(matrix, |sum, own| *sum += (s - 1.0) * own);
             };
-            match &*self.share(e) {
+            match &self.shares[e] {
                 ParameterMatrix::Stiffness(matrix) => add(&mut beta, matrix),
                 ParameterMatrix::Mass(matrix) => add(&mut alpha, matrix),
             }
@@ -420,7 +429,8 @@ impl SensorModel {
     }
 
     /// The model that follows from this one at `factors` on its shares, exact in its basis: the modes of $k + \beta$ with $I + \alpha$ in
-    /// place of an analysis, paired anew as by sensors; and the exact modes' shapes in terms of this basis.
+    /// place of an analysis, paired anew as by sensors; and the exact modes' shapes in terms of this basis, which is none that followed
+    /// from another itself.
     pub(crate) fn followed(&self, factors: &[f64]) -> Result<(Self, DMatrix<f64>), Error> {
         let (vibrations, mut generalized) = self.solved(factors)?;
         let (count, all) = (self.exact.modes.len(), self.omega_squared.len());
@@ -439,37 +449,15 @@ impl SensorModel {
             },
             rigid_body: rest(all, self.basis.ncols() - all),
         };
-        let turn = match &self.turn {
-            None => Turn {
-                shapes: generalized.clone(),
-                factors: factors.to_vec(),
-            },
-            Some(turn) => Turn {
-                shapes: &turn.shapes * &generalized,
-                factors: turn
-                    .factors
-                    .iter()
-                    .zip(factors)
-                    .map(|(a, b)| a * b)
-                    .collect(),
-            },
+        let turn = Turn {
+            shapes: generalized.clone(),
+            factors: factors.to_vec(),
         };
         let shares = (Arc::clone(&self.shares), Some(turn));
         let mut model = Self::turned(modes, &further, &self.test, self.pair, shares)?;
         model.gages.clone_from(&self.gages);
         model.weights.clone_from(&self.weights);
         Ok((model, generalized))
-    }
-
-    /// A parameter's share in the present basis.
-    fn share(&self, e: usize) -> Cow<'_, ParameterMatrix> {
-        let Some(Turn { shapes, factors }) = &self.turn else {
-            return Cow::Borrowed(&self.shares[e]);
-        };
-        let through = |matrix: &DMatrix<f64>| {
-            symmetric_part(&(factors[e] * transposed_product(shapes, &(matrix * shapes))))
-        };
-        Cow::Owned(self.shares[e].map(through))
     }
 
     /// Shares of the parameters that couple every shape of the basis with some modes, $\beta_{ri}$, or $-\omega_i^2 \alpha_{ri}$ of a mass: one

@@ -55,8 +55,14 @@ impl Directions {
     }
 
     fn extend(&mut self, next: &Self) {
-        self.shapes.extend(next.shapes.column_iter());
-        self.weighted.extend(next.weighted.column_iter());
+        for (all, next) in [
+            (&mut self.shapes, &next.shapes),
+            (&mut self.weighted, &next.weighted),
+        ] {
+            let before = all.ncols();
+            all.resize_horizontally_mut(before + next.ncols(), 0.0);
+            all.columns_mut(before, next.ncols()).copy_from(next);
+        }
     }
 
     fn combined(&self, vectors: &DMatrix<f64>) -> Self {
@@ -152,7 +158,8 @@ pub(super) struct Growth {
     pub(super) most: usize,
 }
 
-/// The largest roots and their shapes. `solve` is $K^{-1}$ beside the `rigid` bodies.
+/// The largest roots and their shapes. `solve` is $K^{-1}$ beside the `rigid` bodies. The first directions are combinations of the
+/// shapes `near`, if there are any.
 ///
 /// With the directions $V$ found so far and the next $Q$, every block gives the next columns of $H$ in
 ///
@@ -164,8 +171,8 @@ pub(super) struct Growth {
 /// Source: Wu and Simon, *Thick-Restart Lanczos Method for Large Symmetric Eigenvalue Problems*, SIAM J. Matrix Anal. Appl. 22 (2000).
 pub(super) fn subspace(
     solve: Solve,
-    rigid: &Directions,
-    mass: &SparseMatrix,
+    (rigid, mass): (&Directions, &SparseMatrix),
+    near: Option<&DMatrix<f64>>,
     Wanted { exact, wanted }: Wanted,
     Growth { block, keep, most }: Growth,
 ) -> Result<Found, Error> {
@@ -182,7 +189,13 @@ pub(super) fn subspace(
     };
     let mut basis = Directions::none(rows);
     let mut small = DMatrix::zeros(0, 0);
-    let mut next = fresh(&basis, solve)?;
+    let mut next = match near {
+        Some(near) => {
+            let mixed = near * random_block(near.ncols(), block, &mut 0);
+            rigid.split(mass, mixed)?.next
+        }
+        None => fresh(&basis, solve)?,
+    };
     let mut goal = most;
     for _ in 0..MOST_LOOKS {
         let mut rest = DMatrix::zeros(0, 0);

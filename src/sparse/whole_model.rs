@@ -1,9 +1,10 @@
 //! A model given by sparse matrices, whatever made them, and what the loops are handed of it.
 
-use super::deformations::{Deformations, sum_of_stiffness};
+use super::deformations::Deformations;
 use super::elements::stiffness_entries;
-use super::factorization::FactorizationPlan;
-use super::lowest_modes::{CountedModes, FINITE, Flexibility, modes_at_most};
+use super::factorization::{FactorizationPlan, Work};
+use super::lowest_modes::{CountedModes, FINITE, Flexibility, flexibility, modes_at_most};
+use super::part::Part;
 use super::place::Place;
 use super::sensor_model::{Deflections, Pair, ParameterMatrix, SensorModel, Whole};
 use super::{RigidBodies, SparseMatrix};
@@ -12,7 +13,7 @@ use crate::method::linear_algebra::check_length;
 use crate::method::modes::Modes;
 use crate::method::step::Bounds;
 use nalgebra::DMatrix;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Part of the whole model's matrices.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,14 +24,6 @@ pub enum WholeShare {
     Elements(Vec<(Deformations, f64)>),
     /// Of the mass, lbf·s²/in.
     Mass(SparseMatrix),
-}
-
-/// The entries (row, column, value) of elements of these sizes, each times a number.
-fn entries_of(members: &[(Deformations, f64)], number: f64) -> Vec<(usize, usize, f64)> {
-    let of_element = |(element, size): &(Deformations, f64)| {
-        stiffness_entries(&element.matrix(), number * size).collect::<Vec<_>>()
-    };
-    members.iter().flat_map(of_element).collect()
 }
 
 /// What may change: a part of the stiffness or mass that is scaled by one factor.
@@ -67,11 +60,13 @@ struct Parts {
     /// The first stiffness and mass, wherever any of the parameters has an entry.
     first: [SparseMatrix; 2],
     parameters: Vec<WholeParameter>,
-    /// Of every parameter its entries and their places among those of the matrix that it is a part of.
-    entries: Vec<Vec<(u32, f64)>>,
+    /// The parameters' parts of them.
+    own: Vec<Part>,
     plan: Arc<FactorizationPlan>,
     /// A matrix with the null space of $K$ at any factors, if one better than $K$ is known.
     resisting: Option<SparseMatrix>,
+    /// The null space where it is that of `resisting`, once it was asked for.
+    bodies: OnceLock<RigidBodies>,
 }
 
 impl WholeModel {
@@ -128,26 +123,33 @@ impl WholeModel {
                 }
             }
         }
-        let parts: Vec<_> = parameters.iter().map(WholeParameter::entries).collect();
+        let parts = parameters
+            .iter()
+            .map(|parameter| Part::of(parameter.is_mass(), parameter.entries(), count));
+        let parts = parts.collect::<Result<Vec<_>, Error>>()?;
         let of_matrix = |is_mass: bool, matrix: SparseMatrix| {
-            let own = parameters.iter().zip(&parts);
-            let own = own.filter(|(parameter, _)| parameter.is_mass() == is_mass);
-            matrix.with_places_of(own.flat_map(|(_, entries)| entries))
+            let own = parts.iter().filter(|part| part.is_mass == is_mass);
+            matrix.with_places_of(own.flat_map(Part::entries))
         };
         let first = [of_matrix(false, stiffness), of_matrix(true, mass)];
-        let places = |(parameter, entries): (&WholeParameter, &Vec<_>)| {
-            let matrix = &first[usize::from(parameter.is_mass())];
-            matrix.places_of(entries)
+        let starts = [first[0].starts(), first[1].starts()];
+        let placed = |part: Part| {
+            let at = usize::from(part.is_mass);
+            part.placed(&first[at], &starts[at])
         };
-        let entries = parameters.iter().zip(&parts).map(places);
-        let entries = entries.collect::<Result<_, Error>>()?;
-        let plan = Arc::new(FactorizationPlan::of_sum(&[&first[0], &first[1]])?);
+        let own = parts
+            .into_iter()
+            .map(placed)
+            .collect::<Result<_, Error>>()?;
+        let all: Vec<&SparseMatrix> = first.iter().chain(&resisting).collect();
+        let plan = Arc::new(FactorizationPlan::of_sum(&all)?);
         Ok(Self(Arc::new(Parts {
             first,
-            entries,
+            own,
             parameters,
             plan,
             resisting,
+            bodies: OnceLock::new(),
         })))
     }
 
@@ -156,7 +158,24 @@ impl WholeModel {
     /// # Errors
     /// Those of [`RigidBodies::of`].
     pub fn rigid_bodies(&self) -> Result<RigidBodies, Error> {
-        RigidBodies::of("stiffness", self.resisting(&self.0.first[0]))
+        self.bodies(&self.0.first[0])
+    }
+
+    /// The rigid-body motions at a stiffness: the same ones at any where the elements tell them.
+    fn bodies(&self, stiffness: &SparseMatrix) -> Result<RigidBodies, Error> {
+        let Some(resisting) = &self.0.resisting else {
+            return RigidBodies::by(&self.0.plan, "stiffness", stiffness);
+        };
+        if let Some(known) = self.0.bodies.get() {
+            return Ok(known.clone());
+        }
+        let bodies = RigidBodies::by(&self.0.plan, "stiffness", resisting)?;
+        Ok(self.0.bodies.get_or_init(|| bodies).clone())
+    }
+
+    /// Work that analyses of this model have taken so far.
+    pub fn work(&self) -> Work {
+        self.0.plan.work()
     }
 
     /// Number of degrees of freedom.
@@ -164,14 +183,14 @@ impl WholeModel {
         self.0.first[0].rows()
     }
 
-    /// The matrix that tells rigid-body motions at a stiffness.
-    fn resisting<'a>(&'a self, stiffness: &'a SparseMatrix) -> &'a SparseMatrix {
-        self.0.resisting.as_ref().unwrap_or(stiffness)
-    }
-
     /// What may change.
     pub fn parameters(&self) -> &[WholeParameter] {
         &self.0.parameters
+    }
+
+    /// The parameters' parts of the first matrices.
+    pub(super) fn parts(&self) -> &[Part] {
+        &self.0.own
     }
 
     /// The bounds on every parameter's factor.
@@ -187,11 +206,11 @@ impl WholeModel {
     pub fn at(&self, factors: &[f64]) -> Result<(SparseMatrix, SparseMatrix), Error> {
         check_length("parameter factors", factors.len(), self.parameters().len())?;
         let mut both = self.0.first.clone();
-        let parts = self.parameters().iter().zip(&self.0.entries);
-        for ((parameter, entries), &factor) in parts.zip(factors) {
+        let parts = self.parameters().iter().zip(self.parts());
+        for ((parameter, part), &factor) in parts.zip(factors) {
             positive("factor", || format!("parameter {}", parameter.name), factor)?;
             if factor != 1.0 {
-                both[usize::from(parameter.is_mass())].add(factor - 1.0, entries);
+                part.add_to(&mut both[usize::from(part.is_mass)], factor - 1.0);
             }
         }
         let [stiffness, mass] = both;
@@ -204,21 +223,37 @@ impl WholeModel {
     /// Those of [`Self::at`] and [`lowest_modes`](super::lowest_modes()).
     pub fn modes(&self, factors: &[f64], count: usize) -> Result<CountedModes, Error> {
         let (stiffness, mass) = self.at(factors)?;
-        Ok(self.modes_of(&stiffness, &mass, count, count)?.0)
+        Ok(self.modes_of(&stiffness, &mass, (count, count), None)?.0)
     }
 
+    /// The modes of matrices at some factors, at least and at most so many, sought from those `near` that are known.
     pub(super) fn modes_of(
         &self,
         stiffness: &SparseMatrix,
         mass: &SparseMatrix,
-        least: usize,
-        most: usize,
+        (least, most): (usize, usize),
+        near: Option<&DMatrix<f64>>,
     ) -> Result<(CountedModes, Flexibility), Error> {
         check_count("modes", least, 1, self.dof_count())?;
-        let resisting = self.resisting(stiffness);
-        let found = modes_at_most(stiffness, mass, most, resisting, &self.0.plan)?;
+        let bodies = || self.bodies(stiffness);
+        let found = modes_at_most(
+            (stiffness, mass),
+            (least, most),
+            near,
+            &bodies,
+            &self.0.plan,
+        )?;
         check_count(FINITE, least, 1, found.0.vibrations.len())?;
         Ok(found)
+    }
+
+    /// The flexibility at a stiffness and mass, and motions that are hardly told from rigid-body modes.
+    pub(super) fn flexibility(
+        &self,
+        stiffness: &SparseMatrix,
+        mass: &SparseMatrix,
+    ) -> Result<(Flexibility, Vec<(usize, f64)>), Error> {
+        flexibility((stiffness, mass), &|| self.bodies(stiffness), &self.0.plan)
     }
 
     /// Analysis for the loops without any condensation: the lowest modes of the whole model as the sensors see them, and every
@@ -270,21 +305,34 @@ impl WholeModel {
         (test, pair): (&Modes, Pair),
         size: BasisSize,
     ) -> Result<SensorModel, Error> {
-        // Only exact slopes want more modes than the basis has.
-        let most = match size.residual_vectors {
-            0 => size.modes.max(2 * test.len()),
-            _ => size.modes,
-        };
-        let whole = self.exactly(factors, sensors, size.modes, most)?;
-        let deflections = Deflections::Each(size.residual_vectors);
-        let model = SensorModel::of_whole(whole, size.modes, (test, pair), deflections)?;
+        let model = self.analyze_near(factors, sensors, (test, pair), size, None)?;
         match size.residual_vectors {
             0 => model.with_slopes(),
             _ => Ok(model),
         }
     }
 
-    /// Exact analysis seen by sensors that further looks can be taken at, with at least and at most so many modes.
+    /// The analysis of [`Self::analyze`] without slopes, its modes sought from shapes `near` them.
+    pub(crate) fn analyze_near(
+        &self,
+        factors: &[f64],
+        sensors: &SparseMatrix,
+        (test, pair): (&Modes, Pair),
+        size: BasisSize,
+        near: Option<&DMatrix<f64>>,
+    ) -> Result<SensorModel, Error> {
+        // Only exact slopes want more modes than the basis has.
+        let most = match size.residual_vectors {
+            0 => size.modes.max(2 * test.len()),
+            _ => size.modes,
+        };
+        let whole = self.exactly(factors, sensors, (size.modes, most), near)?;
+        let deflections = Deflections::Each(size.residual_vectors);
+        SensorModel::of_whole(whole, size.modes, (test, pair), deflections)
+    }
+
+    /// Exact analysis seen by sensors that further looks can be taken at, with at least and at most so many modes, sought from shapes
+    /// `near` them.
     ///
     /// # Errors
     /// As [`Self::analyze`].
@@ -292,10 +340,10 @@ impl WholeModel {
         &self,
         factors: &[f64],
         sensors: &SparseMatrix,
-        least: usize,
-        most: usize,
+        counts: (usize, usize),
+        near: Option<&DMatrix<f64>>,
     ) -> Result<Arc<dyn Whole>, Error> {
-        Ok(Arc::new(Place::new(self, factors, sensors, least, most)?))
+        Ok(Arc::new(Place::new(self, factors, sensors, counts, near)?))
     }
 
     /// Every parameter's present share in shapes $V$ at all DOF, $s_e V^t K_e V$ or $s_e V^t M_e V$.
@@ -304,9 +352,8 @@ impl WholeModel {
         factors: &[f64],
         shapes: &DMatrix<f64>,
     ) -> Result<Vec<ParameterMatrix>, Error> {
-        let transposed = shapes.transpose();
-        let both = self.parameters().iter().zip(factors);
-        both.map(|(parameter, &factor)| parameter.seen_by(factor, &transposed))
+        let both = self.parts().iter().zip(factors);
+        both.map(|(part, &factor)| part.seen_by(factor, shapes))
             .collect()
     }
 }
@@ -320,67 +367,13 @@ impl WholeParameter {
     /// The entries (row, column, value) of its part of the first matrices; places may be given twice.
     fn entries(&self) -> Vec<(usize, usize, f64)> {
         match &self.share {
-            WholeShare::Stiffness(matrix) | WholeShare::Mass(matrix) => matrix.entries().to_vec(),
-            WholeShare::Elements(members) => entries_of(members, 1.0),
-        }
-    }
-
-    /// The part at a factor, in shapes given transposed (m × DOF), m × m.
-    pub(super) fn seen_by(
-        &self,
-        factor: f64,
-        transposed_shapes: &DMatrix<f64>,
-    ) -> Result<ParameterMatrix, Error> {
-        Ok(match &self.share {
-            WholeShare::Stiffness(matrix) => {
-                ParameterMatrix::Stiffness(factor * matrix.through(transposed_shapes)?)
-            }
+            WholeShare::Stiffness(matrix) | WholeShare::Mass(matrix) => matrix.entries().collect(),
             WholeShare::Elements(members) => {
-                let present = members
-                    .iter()
-                    .map(|(element, size)| (element, factor * size));
-                ParameterMatrix::Stiffness(sum_of_stiffness(transposed_shapes, present))
+                let of_element = |(element, size): &(Deformations, f64)| {
+                    stiffness_entries(&element.matrix(), *size).collect::<Vec<_>>()
+                };
+                members.iter().flat_map(of_element).collect()
             }
-            WholeShare::Mass(matrix) => {
-                ParameterMatrix::Mass(factor * matrix.through(transposed_shapes)?)
-            }
-        })
-    }
-
-    /// Loads of the part at a factor in shapes given transposed (m × DOF): the rows where there are any, and the loads there (m × rows).
-    pub(super) fn loads(
-        &self,
-        factor: f64,
-        transposed_shapes: &DMatrix<f64>,
-    ) -> (Vec<usize>, DMatrix<f64>) {
-        let count = transposed_shapes.nrows();
-        let mut rows: Vec<usize> = match &self.share {
-            WholeShare::Stiffness(matrix) | WholeShare::Mass(matrix) => {
-                matrix.entries().iter().map(|entry| entry.0).collect()
-            }
-            WholeShare::Elements(members) => {
-                let dof = members.iter().flat_map(|(element, _)| element.dof());
-                dof.copied().collect()
-            }
-        };
-        rows.sort_unstable();
-        rows.dedup();
-        let mut loads = DMatrix::zeros(count, rows.len());
-        let mut add = |row: usize, value: f64, at: usize| {
-            if let Ok(place) = rows.binary_search(&row) {
-                let from = transposed_shapes.column(at);
-                loads.column_mut(place).axpy(factor * value, &from, 1.0);
-            }
-        };
-        match &self.share {
-            WholeShare::Stiffness(matrix) | WholeShare::Mass(matrix) => matrix
-                .entries()
-                .iter()
-                .for_each(|&(row, column, value)| add(row, value, column)),
-            WholeShare::Elements(members) => members.iter().for_each(|(element, size)| {
-                element.add_loads(size * factor, transposed_shapes, &rows, &mut loads);
-            }),
         }
-        (rows, loads)
     }
 }

@@ -7,7 +7,7 @@ use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::modes::Modes;
 use crate::method::structure::StructuralDof;
-use crate::sparse::SparseMatrix;
+use crate::sparse::{RigidBodies, SparseMatrix};
 use nalgebra::DVector;
 use std::sync::Arc;
 
@@ -37,8 +37,8 @@ pub struct WholeModes {
 }
 
 /// The lowest vibrations of finite frequency of $K_S$ (free SDOF × free SDOF, lbf/in) and $T M T^t$ at the DOF that have mass, counted
-/// as by [`lowest_modes`](super::lowest_modes()): `most` of them, or all if there are fewer. The null space of `resisting` is that of $K_S$,
-/// whose rows are called `name`.
+/// as by [`lowest_modes`](super::lowest_modes()): `most` of them, or all if there are fewer. The null space of the matrix that `resisting` makes
+/// is that of $K_S$, whose rows are called `name`.
 ///
 /// # Errors
 /// [`Error::WrongShape`] for a $T$ or masses that do not fit; the errors of [`lowest_modes`](super::lowest_modes()).
@@ -46,19 +46,20 @@ pub fn whole_modes(
     stiffness: &SparseMatrix,
     at: MassDof,
     most: usize,
-    resisting: &SparseMatrix,
+    resisting: impl Fn() -> Result<SparseMatrix, Error>,
     name: impl Fn(usize) -> String,
 ) -> Result<WholeModes, Error> {
     let (t, rows) = (&at.load_distribution, stiffness.rows());
     check_length("load distribution", t.rows(), rows)?;
     check_length("masses", at.mass.len(), t.columns())?;
     let entries = at.mass.iter().enumerate().flat_map(|(column, &mass)| {
-        let motion = t.motion(column);
+        let motion: Vec<_> = t.column(column).collect();
         moving_mass_entries(&motion, &motion, mass)
     });
     let mass = SparseMatrix::new("mass", rows, rows, entries.collect())?;
     let plan = Arc::new(FactorizationPlan::of_sum(&[stiffness, &mass])?);
-    let (found, _) = modes_at_most(stiffness, &mass, most, resisting, &plan)?;
+    let bodies = || RigidBodies::of("stiffness", &resisting()?);
+    let (found, _) = modes_at_most((stiffness, &mass), (most, most), None, &bodies, &plan)?;
     let CountedModes {
         rigid_body,
         vibrations,

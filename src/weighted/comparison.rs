@@ -11,7 +11,7 @@ use crate::method::linear_algebra::{check_shape, cholesky};
 use crate::method::model::Model;
 use crate::method::modes::Modes;
 use crate::method::sorting::{Pairing, pair_modes};
-use crate::sparse::{ModeWeight, ParameterMatrix, SensorModel};
+use crate::sparse::{ModeWeight, ParameterMatrix, SensorModel, cosines};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -71,6 +71,8 @@ pub struct Test {
     pub(crate) component_weights: DMatrix<f64>,
     /// Frequencies without shapes.
     pub(crate) lone: Vec<LoneFrequency>,
+    /// The shapes of their partners in the first model (d × lone), by which these are followed.
+    pub(crate) partner_shapes: Option<DMatrix<f64>>,
     /// Cholesky factor of the covariance of the weighted residuals; none where they are independent.
     pub(crate) covariance: Option<DMatrix<f64>>,
 }
@@ -104,6 +106,7 @@ impl From<SensorModel> for Comparison {
                 together: Vec::new(),
                 component_weights: DMatrix::from_element(dof, modes, 1.0),
                 lone: Vec::new(),
+                partner_shapes: None,
                 covariance: None,
             },
             correction: None,
@@ -181,6 +184,25 @@ impl Comparison {
         Ok(self)
     }
 
+    /// This comparison with partners of the frequencies without shapes that are most like these shapes (d × frequencies): the modes of the
+    /// largest sum of modal assurance with them, except modes that a test mode's shape has chosen.
+    ///
+    /// # Errors
+    /// [`Error::WrongShape`] for shapes at other sensors; the errors of the pairing.
+    pub(crate) fn followed_by_shape(mut self, shapes: DMatrix<f64>) -> Result<Self, Error> {
+        let exact = &self.model.exact;
+        let mut cross = cosines(&exact.modes.shapes, &shapes)?;
+        for &mode in &exact.pairing.analysis_mode {
+            cross.row_mut(mode).fill(0.0);
+        }
+        let partners = (self.model.pair)(&cross)?.analysis_mode;
+        for (lone, partner) in self.test.lone.iter_mut().zip(partners) {
+            lone.partner = partner;
+        }
+        self.test.partner_shapes = Some(shapes);
+        Ok(self)
+    }
+
     /// This comparison with the covariance of its weighted residuals (N × N, in their order), which then are not independent.
     ///
     /// # Errors
@@ -199,7 +221,7 @@ impl Comparison {
     pub(crate) fn followed(&self, factors: &[f64]) -> Result<Self, Error> {
         let (model, generalized) = self.model.followed(factors)?;
         let mut test = self.test.clone();
-        if !test.lone.is_empty() {
+        if !test.lone.is_empty() && test.partner_shapes.is_none() {
             // What a partner has become is most of it in the coordinates of the modes, in which the mass is one.
             let partners: Vec<usize> = test.lone.iter().map(|lone| lone.partner).collect();
             let exact = generalized.columns(0, model.exact.modes.len());
@@ -211,18 +233,19 @@ impl Comparison {
                 .for_each(|(lone, mode)| lone.partner = mode);
         }
         let correction = self.correction.as_ref().map(|correction| Correction {
-            moved: correction
-                .moved
-                .zip_map(&DVector::from_column_slice(factors), |moved, factor| {
-                    moved + factor.ln()
-                }),
+            moved: DVector::from_column_slice(factors).map(f64::ln),
             slopes: Arc::clone(&correction.slopes),
         });
-        Ok(Self {
+        let shapes = test.partner_shapes.take();
+        let followed = Self {
             model,
             test,
             correction,
-        })
+        };
+        match shapes {
+            Some(shapes) => followed.followed_by_shape(shapes),
+            None => Ok(followed),
+        }
     }
 
     /// This comparison with exact slopes ([`SensorModel::with_slopes`]).

@@ -190,45 +190,59 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// The exact analysis at factors brought within their bounds.
+    /// The exact analysis at factors brought within their bounds; none where the objective is not below a number.
     fn place_at<E: From<Error>>(
         &self,
         analyze: &mut dyn FnMut(&[f64]) -> Result<Comparison, E>,
         factors: Vec<f64>,
-    ) -> Result<Iterate, E> {
+        below: f64,
+    ) -> Result<Option<Iterate>, E> {
         let within = |(&factor, range): (&f64, &Option<Bounds>)| {
             range.map_or(factor, |range| factor.clamp(range.lower, range.upper))
         };
         let factors: Vec<f64> = factors.iter().zip(self.ranges).map(within).collect();
         let comparison = analyze(&factors)?;
-        check_length(
-            "parameter factors",
-            factors.len(),
-            comparison.model.shares.len(),
-        )?;
+        let count = comparison.model.shares.len();
+        check_length("parameter factors", factors.len(), count)?;
         let residuals = residuals(&comparison, self.weights)?;
+        let logs = logs_of(&factors);
+        let mut pull = logs.component_mul(&self.tikhonov);
+        let mut objective = 0.5 * (residuals.norm_squared() + pull.dot(&logs));
+        if let Some((from, curvature)) = &self.held {
+            let moved = logs - from;
+            let held = moved.component_mul(curvature);
+            objective += 0.5 * held.dot(&moved);
+            pull += held;
+        }
+        if objective >= below {
+            return Ok(None);
+        }
+        // Slopes are needed of a place that is kept alone.
+        let comparison = comparison.with_slopes()?;
         let jacobian = jacobian(&comparison, self.weights)?;
-        let mut place = Iterate {
-            objective: 0.5 * residuals.norm_squared(),
-            gradient: jacobian.tr_mul(&residuals),
-            curvature: information(&jacobian, &self.tikhonov),
+        let mut curvature = information(&jacobian, &self.tikhonov);
+        if let Some((_, held)) = &self.held {
+            curvature += DMatrix::from_diagonal(held);
+        }
+        Ok(Some(Iterate {
+            gradient: jacobian.tr_mul(&residuals) + pull,
+            objective,
+            curvature,
             factors,
             comparison,
             residuals,
             jacobian,
-        };
-        let logs = logs_of(&place.factors);
-        let mut pull = |from: &DVector<f64>, curvature: &DVector<f64>| {
-            let pull = from.component_mul(curvature);
-            place.objective += 0.5 * pull.dot(from);
-            place.gradient += pull;
-        };
-        pull(&logs, &self.tikhonov);
-        if let Some((from, curvature)) = &self.held {
-            pull(&(logs - from), curvature);
-            place.curvature += DMatrix::from_diagonal(curvature);
-        }
-        Ok(place)
+        }))
+    }
+
+    /// The exact analysis at the first factors.
+    fn first_at<E: From<Error>>(
+        &self,
+        analyze: &mut dyn FnMut(&[f64]) -> Result<Comparison, E>,
+        first: &[f64],
+    ) -> Result<Iterate, E> {
+        let place = self.place_at(analyze, first.to_vec(), f64::INFINITY)?;
+        Ok(place.ok_or(Error::no_convergence("weighted steps"))?)
     }
 
     /// The history of the steps from `first`, an exact analysis each.
@@ -237,7 +251,7 @@ impl<'a> Problem<'a> {
         analyze: &mut dyn FnMut(&[f64]) -> Result<Comparison, E>,
         first: &[f64],
     ) -> Result<WeightedCorrelation, E> {
-        let mut place = self.place_at(analyze, first.to_vec())?;
+        let mut place = self.first_at(analyze, first)?;
         let (initial, mut iterations) = (place.comparison.result()?, Vec::new());
         let (mut trials, mut further, mut damping) = (0, 0, Damping::FIRST);
         let most = 6 * place.comparison.model.test.len() + 30;
@@ -264,15 +278,17 @@ impl<'a> Problem<'a> {
             };
             let ahead = self.ahead(&place, &step, (held, left), further);
             let (promised, trial) = ahead.unwrap_or_else(|| (promised, place.after(&step)));
+            place.comparison.model.release();
             // A place without a model is no better than this one, nor is one where the objective has not fallen.
-            let next = self.place_at(analyze, trial).ok();
+            let next = self.place_at(analyze, trial, place.objective);
+            let next = next.ok().flatten();
             let fall = next
                 .as_ref()
-                .map_or(f64::NEG_INFINITY, |next| place.objective - next.objective);
+                .map_or(0.0, |next| place.objective - next.objective);
             if (fall - promised).abs() > WRONG_PROMISE * promised {
                 further = most;
             }
-            match next.filter(|_| fall > 0.0) {
+            match next {
                 Some(next) => {
                     place = next;
                     damping.after(fall / promised);
@@ -293,25 +309,26 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// The lowest objective that steps in one basis find from `first`, and the factors there, but for a fall that may be `left`.
+    /// The lowest objective that steps in one basis find from `first`, and the factors there, but for a fall that may be `left`, and as
+    /// far as to an objective that is low `enough`.
     pub(super) fn lowest(
         &self,
         analyze: &mut dyn FnMut(&[f64]) -> Result<Comparison, Error>,
         first: &[f64],
-        left: f64,
+        (left, enough): (f64, f64),
     ) -> Result<(f64, Vec<f64>), Error> {
-        let mut place = self.place_at(analyze, first.to_vec())?;
+        let mut place = self.first_at(analyze, first)?;
         let mut damping = Damping::FIRST;
         for _ in 0..self.settings.trials {
             let Some(step) = self.step(&place, damping.now)? else {
                 break;
             };
             let promised = place.promised_fall(&step);
-            if promised <= left {
+            if promised <= left || place.objective < enough {
                 break;
             }
-            let next = self.place_at(analyze, place.after(&step)).ok();
-            match next.filter(|next| next.objective < place.objective && promised > 0.0) {
+            let next = self.place_at(analyze, place.after(&step), place.objective);
+            match next.ok().flatten().filter(|_| promised > 0.0) {
                 Some(next) => {
                     damping.after((place.objective - next.objective) / promised);
                     place = next;
@@ -371,7 +388,7 @@ impl<'a> Problem<'a> {
             tikhonov: self.tikhonov.clone(),
             ..*self
         };
-        let (objective, factors) = held.lowest(&mut follow, &place.factors, left).ok()?;
+        let (objective, factors) = held.lowest(&mut follow, &place.factors, (left, 0.0)).ok()?;
         let moved = logs_of(&factors) - &logs;
         let held = 0.5 * moved.component_mul(&moved).dot(&holding);
         let promised = place.objective - (objective - held);

@@ -12,11 +12,15 @@ use statrs::function::erf::erfc;
 
 /// Part of the tests in which an interval by slopes may miss the truth before the objective itself is asked.
 const MOST_MISSED: f64 = 0.07;
+/// Difference of two deviations, relative to one of them, up to which that between them is their mean.
+const ALIKE: f64 = 0.05;
 /// Largest distance of the root of twice the rise of the objective from [`NORMAL_95`], relative to it, at an end that is sought: 94.6 to
 /// 95.4 %.
 const CLOSE: f64 = 0.02;
 /// Most tries for an end; an interval without one is withheld.
 const TRIES: usize = 30;
+/// Distance of two places, relative to that of the farther one from the optimum, between which the objective jumps past an end.
+const JUMP: f64 = 1e-4;
 /// Most parameters whose intervals are followed beyond their slopes: each takes some eigensolutions in a basis.
 pub(crate) const MOST_FOLLOWED: usize = 200;
 /// Fall of the objective beside a fixed factor that may be left: at the ends it moves the root of twice the rise by a thousandth of itself.
@@ -27,9 +31,11 @@ const LEFT: f64 = 4e-3;
 ///
 /// By the slopes, with the covariance $C$ of the logarithms ([`identifiability`]), the interval is $c_e e^{\pm 1.96 s_e}$. It holds as far as
 /// $s_e$ is the same within it. Where it changes along the way, on which the other logarithms move by $C_{ie}/C_{ee}$ of the one, an end is
-/// $r = \int \mathrm dt/s_e(t)$ deviations away, here by Simpson's rule, and the truth beyond it in a part $\Phi(-r)$ of the tests. Where both
+/// $r = \int \mathrm dt/s_e(t)$ deviations away, here by Simpson's rule or, of deviations within 5 %, their mean, and the truth beyond it
+/// in a part $\Phi(-r)$ of the tests. Where both
 /// parts together exceed 7 %, and there are no more than 200 parameters, the ends are where the objective itself, the lowest that the other parameters allow, is higher by
-/// $\frac12 1.96^2$ (the profile likelihood). An end that is not found withholds the interval.
+/// $\frac12 1.96^2$ (the profile likelihood). An end that is not found withholds the interval, and so does an objective lower than at the
+/// factors, which then are no minimum.
 ///
 /// No end is beyond the prior's own 95 % interval, $e^{\pm 1.96 \tau}$, unless the factor is.
 ///
@@ -75,7 +81,11 @@ pub fn intervals(
             there.map_or(0.0, |there| seen.deviations[e] / there)
         };
         let missed = |log: f64| {
-            let mean = (1.0 + 4.0 * ratio(0.5 * log) + ratio(log)) / 6.0;
+            let end = ratio(log);
+            let mean = match (end - 1.0).abs() <= ALIKE {
+                true => 0.5 * (1.0 + end),
+                false => (1.0 + 4.0 * ratio(0.5 * log) + end) / 6.0,
+            };
             0.5 * erfc(NORMAL_95 * mean / 2.0_f64.sqrt())
         };
         let is_straight = || missed(-by_slope) + missed(by_slope) <= MOST_MISSED;
@@ -93,9 +103,13 @@ pub fn intervals(
                 });
                 let problem = Problem::new(first.len(), &ranges, weights, settings);
                 let analyze = &mut |at: &[f64]| analyze(at);
+                let enough = (LEFT, least - LEFT);
                 let (objective, found) = problem
-                    .and_then(|of| of.lowest(analyze, &first, LEFT))
+                    .and_then(|of| of.lowest(analyze, &first, enough))
                     .ok()?;
+                if objective < enough.1 {
+                    return None;
+                }
                 let moved = found.iter().zip(factors);
                 best.iter_mut()
                     .zip(moved)
@@ -154,6 +168,9 @@ fn end(rise: &mut dyn FnMut(f64) -> Option<f64>, first: f64, reach: f64) -> Opti
             inner = next;
         } else {
             outer = next;
+        }
+        if (outer.0 - inner.0).abs() <= JUMP * outer.0.abs() {
+            return None;
         }
     }
     None

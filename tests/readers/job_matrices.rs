@@ -117,7 +117,7 @@ fn matrices_that_name_their_rows_are_put_into_the_order_of_the_stiffness() {
     let prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
     let (_, mass) = prepared.loaded.source.whole.at(&[1.0]).expect("matrices");
     assert_eq!(
-        mass.entries(),
+        mass.entries().collect::<Vec<_>>(),
         [(1, 1, 2.0), (2, 2, 3.0)],
         "grid 2 has none"
     );
@@ -181,6 +181,7 @@ fn a_table_of_rows_orders_matrices_that_name_theirs() {
     let (_, mass) = source.whole.at(&[1.0; 10]).expect("matrices");
     assert_eq!(
         mass.entries()
+            .collect::<Vec<_>>()
             .iter()
             .map(|entry| entry.2)
             .collect::<Vec<_>>(),

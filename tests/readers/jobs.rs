@@ -79,12 +79,22 @@ fn finished(name: &str) -> (PreparedJob, &'static JobResult) {
     (prepared, finished)
 }
 
-/// The worked jobs end after no more exact analyses than these, the first among them.
+/// The worked jobs end after no more exact analyses than these, the first among them, searches for modes (the box's first asks for more
+/// modes than it has), and factorizations. Their structures are ordered once.
 #[test]
 fn worked_jobs_take_few_exact_analyses() {
-    for (name, most) in [("box", 4), ("building", 2), ("wing", 3)] {
-        let taken = worked(name).found.analyses;
-        assert!(taken <= most, "{name}: {taken}");
+    let most = [
+        ("box", 4, 5, 10),
+        ("building", 2, 2, 4),
+        ("garteur", 22, 22, 174),
+        ("wing", 3, 3, 6),
+    ];
+    for (name, analyses, eigensolutions, factorizations) in most {
+        let (taken, work) = (worked(name).found.analyses, &worked(name).found.work);
+        assert!(taken <= analyses, "{name}: {taken}");
+        assert!(work.eigensolutions <= eigensolutions, "{name}: {work:?}");
+        assert!(work.factorizations <= factorizations, "{name}: {work:?}");
+        assert_eq!(work.orderings, 1, "{name}");
     }
 }
 

@@ -41,9 +41,9 @@ fn by_name(found: &LabeledMatrix) -> BTreeMap<(String, String), f64> {
         Some(labels) => format!("{}-{}", labels[place].0, labels[place].1),
         None => (place + 1).to_string(),
     };
-    let entries = found.matrix.entries().iter();
+    let entries = found.matrix.entries();
     entries
-        .map(|&(row, column, value)| {
+        .map(|(row, column, value)| {
             (
                 (name(&found.rows, row), name(&found.columns, column)),
                 value,
@@ -145,7 +145,7 @@ fn strings_with_nastrans_words_read() {
         .matrix;
     assert_eq!((a.rows(), a.columns()), (70, 3));
     assert_eq!(
-        a.entries(),
+        a.entries().collect::<Vec<_>>(),
         [
             (1, 0, -1e-300),
             (2, 0, 2.5),
@@ -159,7 +159,7 @@ fn strings_with_nastrans_words_read() {
         .matrix;
     assert_eq!((b.rows(), b.columns()), (70000, 2));
     assert_eq!(
-        b.entries(),
+        b.entries().collect::<Vec<_>>(),
         [(65989, 1, 1.0), (65990, 1, -2.0), (69998, 1, 3.0)]
     );
     let error = read("m", text.as_bytes(), Some("C"))
@@ -178,6 +178,7 @@ fn strings_with_nastrans_words_read() {
             .expect("zeros")
             .matrix
             .entries()
+            .collect::<Vec<_>>()
             .is_empty()
     );
 }
@@ -200,14 +201,16 @@ fn a_matrix_before_the_one_asked_for_is_passed_over() {
         read("m", text.as_bytes(), Some("B"))
             .expect("a matrix")
             .matrix
-            .entries(),
+            .entries()
+            .collect::<Vec<_>>(),
         [(0, 0, 2.0)]
     );
     assert_eq!(
         read("m", text.as_bytes(), Some("A"))
             .expect("a matrix")
             .matrix
-            .entries(),
+            .entries()
+            .collect::<Vec<_>>(),
         [(0, 0, 1.0)]
     );
     let none = read("m", text.as_bytes(), Some("C"))
@@ -234,7 +237,8 @@ fn one_triangle_of_a_symmetric_matrix_is_mirrored() {
             read("m", text(&second).as_bytes(), None)
                 .expect("a matrix")
                 .matrix
-                .entries(),
+                .entries()
+                .collect::<Vec<_>>(),
             whole
         );
     }
@@ -247,7 +251,8 @@ fn one_triangle_of_a_symmetric_matrix_is_mirrored() {
         read("m", upper.as_bytes(), None)
             .expect("a matrix")
             .matrix
-            .entries(),
+            .entries()
+            .collect::<Vec<_>>(),
         whole
     );
 }
@@ -264,7 +269,7 @@ fn fields_without_blanks_and_scalar_points_of_dmig_read() {
     let found = read("m", text.as_bytes(), Some("K")).expect("a matrix");
     assert_eq!(found.rows, Some(vec![(7, 0), (12_345_678, 2)]));
     assert_eq!(
-        found.matrix.entries(),
+        found.matrix.entries().collect::<Vec<_>>(),
         [(0, 0, 1.5), (1, 0, -2e-3), (0, 1, -2e-3), (1, 1, 100.0)]
     );
     let error = read("m", text.as_bytes(), Some("C"))
@@ -279,14 +284,17 @@ fn fields_without_blanks_and_scalar_points_of_dmig_read() {
     let found = read("m", text.as_bytes(), None).expect("a matrix");
     assert_eq!(found.rows, Some(vec![(2, 1), (3, 1), (4, 1)]));
     assert_eq!(
-        found.matrix.entries(),
+        found.matrix.entries().collect::<Vec<_>>(),
         [(0, 0, 2.0), (1, 0, 3.0), (2, 0, 4.0)]
     );
     // Fields of eight characters that touch.
     let text = "DMIG    K       0       1       1       0\nDMIG    K       12345678       3        12345679       1-1.234-3\n";
     let found = read("m", text.as_bytes(), None).expect("a matrix");
     assert_eq!(found.rows, Some(vec![(12_345_678, 3), (12_345_679, 1)]));
-    assert_eq!(found.matrix.entries(), [(1, 0, -1.234e-3)]);
+    assert_eq!(
+        found.matrix.entries().collect::<Vec<_>>(),
+        [(1, 0, -1.234e-3)]
+    );
 }
 
 /// What the crate writes, and what SciPy reads from it.

@@ -122,8 +122,16 @@ fn a_promise_takes_no_memory() {
     let text = format!(
         "%%MatrixMarket matrix coordinate real general\n{most} {most} 1\n{most} {most} 1D0\n"
     );
+    assert!(read("m", text.as_bytes(), None).is_err());
+    let most = 4_000_000_000_usize;
+    let text = format!(
+        "%%MatrixMarket matrix coordinate real general\n{most} {most} 1\n{most} {most} 1D0\n"
+    );
     let matrix = read("m", text.as_bytes(), None).expect("one entry").matrix;
-    assert_eq!(matrix.entries(), [(most - 1, most - 1, 1.0)]);
+    assert_eq!(
+        matrix.entries().collect::<Vec<_>>(),
+        [(most - 1, most - 1, 1.0)]
+    );
 }
 
 #[test]
@@ -204,6 +212,7 @@ fn output4_is_refused_by_line() {
             .expect("the other one")
             .matrix
             .entries()
+            .collect::<Vec<_>>()
             .is_empty()
     );
 }

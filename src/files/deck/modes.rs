@@ -4,12 +4,11 @@ use super::model::BulkData;
 use crate::files::error::FileError;
 use crate::files::test_data::row_name;
 use crate::method::appendix_a::{ElementMatrix, element_matrices};
-use crate::method::elements::unit_stiffness;
 use crate::method::error::Error;
 use crate::method::linear_algebra::symmetric_eigen;
 use crate::method::structure::{DIRECTIONS, Structure};
 use crate::sparse::SparseMatrix;
-use crate::sparse::elements::{resisting, stiffness_entries};
+use crate::sparse::elements::{largest_entry, resisting, stiffness_entries};
 use crate::sparse::whole_modes::{MassDof, WholeModes, whole_modes};
 
 /// Largest ratio of the stiffness of two elements. An assembled entry holds 16 digits of the stiffer one; at a ratio of
@@ -34,8 +33,8 @@ pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
     let entries = elements.iter().zip(&sizes);
     let entries = entries.flat_map(|(element, &size)| stiffness_entries(element, size));
     let stiffness = SparseMatrix::new("stiffness", free.len(), free.len(), entries.collect())?;
-    let resisting = resisting(&structure, &elements)?;
-    let found = whole_modes(&stiffness, at, most, &resisting, |row| row_name(row, free)).map_err(
+    let resisting = || resisting(&structure, &elements);
+    let found = whole_modes(&stiffness, at, most, resisting, |row| row_name(row, free)).map_err(
         |error| match error {
             // A motion with neither stiffness nor mass.
             Error::NotPositiveDefinite {
@@ -65,8 +64,8 @@ fn check_stiffness(structure: &Structure, elements: &[ElementMatrix]) -> Result<
         if matrix.dof.is_empty() {
             continue;
         }
-        let unit = unit_stiffness(element.kind, corners, &element.material);
-        let own = (element.size * unit.amax(), element.label);
+        let largest = largest_entry(matrix, element, corners);
+        let own = (element.size * largest, element.label);
         let [low, high] = extremes.unwrap_or([own; 2]);
         extremes = Some([
             if own.0 < low.0 { own } else { low },

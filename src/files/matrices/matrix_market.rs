@@ -152,8 +152,8 @@ pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
 /// symmetric one the lower triangle.
 pub fn write_matrix_market(matrix: &SparseMatrix) -> String {
     let is_symmetric = matrix.is_symmetric();
-    let stored = |entry: &&(usize, usize, f64)| !is_symmetric || entry.0 >= entry.1;
-    let entries: Vec<_> = matrix.entries().iter().filter(stored).collect();
+    let stored = |entry: &(usize, usize, f64)| !is_symmetric || entry.0 >= entry.1;
+    let entries: Vec<_> = matrix.entries().filter(stored).collect();
     let symmetry = if is_symmetric { "symmetric" } else { "general" };
     let (rows, columns, count) = (matrix.rows(), matrix.columns(), entries.len());
     let mut text =

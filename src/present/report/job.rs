@@ -129,6 +129,7 @@ impl Report {
             misfit: Some(*misfit),
             is_judged_by_noise: loaded.job.compare.method == Method::GaussNewton,
             analyses: Some(found.analyses),
+            work: Some(found.work),
             minima,
             failed_starts,
             moved: moved(found),

@@ -16,7 +16,7 @@ use crate::method::sorting::cross_orthogonality;
 use crate::method::step::Bounds;
 use crate::method::structure::Structure;
 use crate::present::verdict::verdict_in_words;
-use crate::sparse::{ParameterMatrix, modal_assurance};
+use crate::sparse::{ParameterMatrix, Work, modal_assurance};
 use crate::weighted::close_modes::turned;
 use crate::weighted::comparison::{Comparison, ExactResult};
 use crate::weighted::intervals::is_at_end;
@@ -80,6 +80,8 @@ pub struct Report {
     pub is_judged_by_noise: bool,
     /// Number of exact analyses that the result took.
     pub analyses: Option<usize>,
+    /// Work that they took.
+    pub work: Option<Work>,
     /// The minima that noise allows, of several starts.
     pub minima: Vec<Minimum>,
     /// How many of the starts failed.
@@ -203,6 +205,7 @@ impl Report {
             misfit: None,
             is_judged_by_noise: false,
             analyses: None,
+            work: None,
             minima: Vec::new(),
             failed_starts: 0,
             truth: Vec::new(),

@@ -4,6 +4,7 @@
 mod plan;
 
 pub(in crate::sparse) use plan::FactorizationPlan;
+pub use plan::Work;
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_matrix;
@@ -122,19 +123,19 @@ impl Factor {
         let (count, turn) = (right.ncols(), &self.plan.turn);
         check_matrix("loads", right, self.scale.len(), count)?;
         let (mut rows, mut is_loaded) = (vec![0.0; right.len()], vec![false; right.nrows()]);
-        for (column, loads) in right.column_iter().enumerate() {
-            let loads = turn.iter().zip(loads.iter());
-            for (&turn, &load) in loads.filter(|(_, load)| **load != 0.0) {
-                is_loaded[turn] = true;
-                rows[turn * count + column] = load * self.scale[turn];
+        for (row, &turn) in turn.iter().enumerate() {
+            for (column, value) in rows[turn * count..][..count].iter_mut().enumerate() {
+                let load = right[(row, column)];
+                is_loaded[turn] |= load != 0.0;
+                *value = load * self.scale[turn];
             }
         }
         self.forward(&mut rows, count, &self.reached(is_loaded));
         self.backward(&mut rows, count);
         let mut deflections = DMatrix::zeros(right.nrows(), count);
-        for (column, mut deflections) in deflections.column_iter_mut().enumerate() {
-            for (value, &turn) in deflections.iter_mut().zip(turn) {
-                *value = self.scale[turn] * rows[turn * count + column];
+        for (row, &turn) in turn.iter().enumerate() {
+            for (column, value) in rows[turn * count..][..count].iter().enumerate() {
+                deflections[(row, column)] = self.scale[turn] * value;
             }
         }
         finite("deflections", deflections)

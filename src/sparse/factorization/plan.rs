@@ -14,9 +14,11 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Par, Side, Spec};
 use nalgebra::DVector;
+use serde::Serialize;
 use std::mem::take;
 use std::ops::Range;
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// Parts of a factorization that do not change with the sizes: the order in which the DOF are eliminated, and the places where the
 /// stiffness and its factor have entries.
@@ -31,6 +33,20 @@ pub struct FactorizationPlan {
     symbolic: SymbolicCholesky<usize>,
     /// Memory of the last factor that is no longer needed: new memory costs a large factorization an eighth of its time.
     spare: Mutex<Vec<f64>>,
+    /// Factorizations and eigensolutions made so far.
+    factorizations: AtomicUsize,
+    eigensolutions: AtomicUsize,
+}
+
+/// Work that analyses of a structure have taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Work {
+    /// Orders of elimination found.
+    pub orderings: usize,
+    /// Numerical factorizations, those that count modes among them.
+    pub factorizations: usize,
+    /// Searches for modes.
+    pub eigensolutions: usize,
 }
 
 impl FactorizationPlan {
@@ -91,7 +107,23 @@ impl FactorizationPlan {
             pattern,
             symbolic,
             spare: Mutex::default(),
+            factorizations: AtomicUsize::new(0),
+            eigensolutions: AtomicUsize::new(0),
         })
+    }
+
+    /// Counts a search for modes.
+    pub(in crate::sparse) fn count_eigensolution(&self) {
+        self.eigensolutions.fetch_add(1, Relaxed);
+    }
+
+    /// Work done by this plan.
+    pub(in crate::sparse) fn work(&self) -> Work {
+        Work {
+            orderings: 1,
+            factorizations: self.factorizations.load(Relaxed),
+            eigensolutions: self.eigensolutions.load(Relaxed),
+        }
     }
 
     /// The factor of given values by blocks of columns with the same rows, which the plan always asks for.
@@ -116,15 +148,19 @@ impl FactorizationPlan {
         // Places of the rows that the present column has.
         let mut places = vec![0; self.turn.len()];
         for (number, matrix) in terms {
-            for entries in matrix.entries().chunk_by(|a, b| a.1 == b.1) {
-                let column = self.turn[entries[0].1];
-                let (rows, range) = self.column(column);
-                rows.iter()
-                    .zip(range)
-                    .for_each(|(&row, place)| places[row] = place);
-                let entries = entries.iter().map(|entry| (self.turn[entry.0], entry.2));
-                let below = entries.filter(|(row, _)| *row >= column);
-                below.for_each(|(row, value)| values[places[row]] += number * value);
+            let mut last = usize::MAX;
+            for (row, column, value) in matrix.entries() {
+                let (row, own) = (self.turn[row], self.turn[column]);
+                if last != own {
+                    let (rows, range) = self.column(own);
+                    rows.iter()
+                        .zip(range)
+                        .for_each(|(&row, place)| places[row] = place);
+                    last = own;
+                }
+                if row >= own {
+                    values[places[row]] += number * value;
+                }
             }
         }
         values
@@ -177,6 +213,7 @@ impl FactorizationPlan {
     /// $L$ and $D$ of given entries, and where a pivot is zero, in one thread whatever the library's global setting: its parallel kernels
     /// have open reports of wrong results on large matrices.
     pub(super) fn factor(&self, entries: &[f64]) -> Result<(Vec<f64>, Option<usize>), Error> {
+        self.factorizations.fetch_add(1, Relaxed);
         let (symbolic, one) = (&self.symbolic, Par::Seq);
         let mut values = self
             .spare

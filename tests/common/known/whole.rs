@@ -61,7 +61,7 @@ pub fn of_elements(
         })
     };
     let parameters = parameters.iter().zip(ranges).map(parameter);
-    let motion = |column: usize| t.entries().iter().filter(move |entry| entry.1 == column);
+    let motion = |column: usize| t.entries().filter(move |entry| entry.1 == column);
     let coupled = (0..t.columns()).flat_map(|i| (0..t.columns()).map(move |j| (i, j)));
     let mass = coupled
         .filter(|&at| points[at] != 0.0)

@@ -196,7 +196,7 @@ pub const STRUCTURES: &[Entry] = &[
         let structure = d.structure()?;
         let elements: Vec<_> = element_matrices(&structure).collect();
         let found = resisting(&structure, &elements)?;
-        Ok(found.entries().iter().map(|entry| entry.2).collect())
+        Ok(found.entries().map(|entry| entry.2).collect())
     }),
     ("FiniteElementModel::factor_ranges", |d| {
         let (model, factors) = d.finite_element()?;

@@ -273,7 +273,10 @@ fn a_load_distribution_says_what_is_wrong_with_it() {
     );
     let t = DMatrix::from_row_slice(3, 2, &[1.0, 0.0, 0.0, 0.0, 0.5, 2.0]);
     let sparse = SparseMatrix::of_dense("load distribution", &t).expect("finite");
-    assert_eq!(sparse.entries(), [(0, 0, 1.0), (2, 0, 0.5), (2, 1, 2.0)]);
+    assert_eq!(
+        sparse.entries().collect::<Vec<_>>(),
+        [(0, 0, 1.0), (2, 0, 0.5), (2, 1, 2.0)]
+    );
     assert_eq!((sparse.dense(), sparse.rows()), (t, 3));
 }
 

@@ -179,7 +179,7 @@ fn what_counts_as_free_by_the_round_off_of_its_numbers_is_not_doubtful_too() {
             })
             .collect();
         let entries = springs(18, &tree);
-        let written = entries.entries().iter().map(|&(row, column, value)| {
+        let written = entries.entries().map(|(row, column, value)| {
             let part = format!("{value:.6e}").parse().expect("a number");
             (row, column, part)
         });
@@ -200,7 +200,7 @@ fn a_resistance_that_twelve_digits_do_not_tell_from_none_is_doubtful() {
     let found = RigidBodies::of("stiffness", &stiffness).expect("a null space");
     assert_eq!((found.rows.len(), found.doubtful.len()), (0, 1));
     // The same matrix written with eleven digits is free.
-    let written = stiffness.entries().iter().map(|&(row, column, value)| {
+    let written = stiffness.entries().map(|(row, column, value)| {
         (
             row,
             column,
@@ -269,7 +269,7 @@ fn resistance_that_may_be_the_rounding_of_a_file_is_doubtful() {
         let tree = (1..20).map(|row| (draws.below(row), Some(row), draws.between(1e4, 9e4)));
         let free = springs(20, &tree.collect::<Vec<_>>());
         // Single precision: seven digits.
-        let written = free.entries().iter().map(|&(row, column, value)| {
+        let written = free.entries().map(|(row, column, value)| {
             (
                 row,
                 column,

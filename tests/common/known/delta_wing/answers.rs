@@ -55,7 +55,7 @@ impl DeltaWing {
                 mass,
             },
             usize::MAX,
-            &stiffness,
+            || Ok(stiffness.clone()),
             |row| row_name(row, &[]),
         )
     }
