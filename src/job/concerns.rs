@@ -1,15 +1,12 @@
 //! Doubts about a job before its first step.
 
 use super::loaded::measured;
-use super::preflight::{
-    Finding, FindingNames, LARGEST_TOLERANCE, SeenModes, hyphened, preflight_at_sensors,
-};
+use super::preflight::{Finding, FindingNames, LARGEST_TOLERANCE, SeenModes, preflight_at_sensors};
 use super::sensors::{PlacedSensor, motion};
 use super::{Concern, LoadedJob, Method};
 use crate::files::error::FileError;
 use crate::method::modes::Modes;
-use crate::sparse::rigid_bodies::is_rounded;
-use crate::sparse::{Factor, SparseMatrix, WholeShare};
+use crate::sparse::rigid_bodies::BodyFinding;
 use crate::weighted::comparison::LoneFrequency;
 use crate::weighted::noise::Noise;
 use nalgebra::Vector3;
@@ -84,6 +81,7 @@ impl LoadedJob {
             ));
         }
         all.extend(self.part_concerns()?);
+        all.extend(self.unseen_concerns()?);
         all.extend(self.data_concerns());
         Ok((all, rigid_body_modes))
     }
@@ -136,15 +134,17 @@ impl LoadedJob {
         modes.sort_unstable();
         modes.dedup();
         let first = self.first_analysis()?;
-        let (rigid_body_modes, doubtful) = first.rigid_bodies();
-        let weak = doubtful.iter().map(|&(row, held)| {
-            let name = self.source.row_name(row);
-            Concern::doubt(
-                format!("weak-{}", hyphened(&name)),
-                hardly_held(&name, held),
-            )
-        });
-        let mut concerns: Vec<Concern> = weak.collect();
+        let rigid_body_modes = whole.rigid_bodies()?.rigid();
+        let bodies = whole.body_findings(|row| self.source.row_name(row))?;
+        let concern = |BodyFinding {
+                           identifier,
+                           is_doubt,
+                           words,
+                       }| Concern {
+            is_doubt,
+            ..Concern::remark(identifier, words)
+        };
+        let mut concerns: Vec<Concern> = bodies.into_iter().map(concern).collect();
         if modes.is_empty() {
             return Ok((concerns, rigid_body_modes));
         }
@@ -194,51 +194,6 @@ impl LoadedJob {
         Ok((concerns, rigid_body_modes))
     }
 
-    /// Parameters' matrices that are not part of the first stiffness or mass, or given twice.
-    ///
-    /// A part leaves a semidefinite rest, which has no negative pivots (Sylvester's law of inertia). Entries rounded to single
-    /// precision, by at most $\epsilon$ of each, move no eigenvalue below
-    /// $-\epsilon \max_i \sum_j (\lvert K_{ij} \rvert + \lvert K_{e,ij} \rvert)$ (Gershgorin), which is added to the diagonal.
-    fn part_concerns(&self) -> Result<Vec<Concern>, FileError> {
-        let (stiffness, mass) = self.source.whole.at(&self.ones())?;
-        let parts: Vec<(&str, &SparseMatrix, &SparseMatrix)> = self
-            .source
-            .whole
-            .parameters()
-            .iter()
-            .filter_map(|parameter| match &parameter.share {
-                WholeShare::Stiffness(part) => Some((&parameter.name[..], part, &stiffness)),
-                WholeShare::Mass(part) => Some((&parameter.name[..], part, &mass)),
-                WholeShare::Elements(_) => None,
-            })
-            .collect();
-        let mut all = Vec::new();
-        for (place, (name, part, whole)) in parts.iter().enumerate() {
-            let identifier = hyphened(name);
-            if !is_part(part, whole)? {
-                all.push(Concern::doubt(
-                    format!("not-part-{identifier}"),
-                    format!("The matrix of parameter \"{name}\" is not part of the first model's, which without it has negative energy."),
-                ));
-            }
-            for (other, twin, _) in &parts[..place] {
-                let is_same =
-                    |sign: f64| twin.times_number(sign).eq(part.entries().iter().copied());
-                let how = [
-                    (1.0, "the same matrix"),
-                    (-1.0, "matrices of opposite sign"),
-                ];
-                for (_, how) in how.into_iter().filter(|(sign, _)| is_same(*sign)) {
-                    all.push(Concern::doubt(
-                        format!("twin-{}-{identifier}", hyphened(other)),
-                        format!("Parameters \"{other}\" and \"{name}\" have {how}."),
-                    ));
-                }
-            }
-        }
-        Ok(all)
-    }
-
     /// Standard deviations that are given in percent.
     fn percent_deviations(&self, modes: &[usize]) -> Vec<Finding> {
         let largest = |of: fn(&Noise) -> f64| {
@@ -283,35 +238,4 @@ impl LoadedJob {
             )
         })
     }
-}
-
-/// One sentence about a motion that can hardly be told from a rigid-body mode.
-pub(crate) fn hardly_held(name: &str, resistance: f64) -> String {
-    let kind = if is_rounded(resistance) {
-        "rigid-body mode"
-    } else {
-        "vibration"
-    };
-    format!(
-        "A motion of {name} is resisted by {resistance:.0e} of the stiffness there, which the digits of the matrix hardly tell from nothing: it counts as a {kind}."
-    )
-}
-
-/// True unless the whole without a part is known to have a negative eigenvalue.
-fn is_part(part: &SparseMatrix, whole: &SparseMatrix) -> Result<bool, FileError> {
-    let count = whole.rows();
-    let mut sums = vec![0.0; count];
-    for &(row, _, entry) in whole.entries().iter().chain(part.entries()) {
-        sums[row] += entry.abs();
-    }
-    let shift = f64::from(f32::EPSILON) * sums.iter().copied().fold(0.0, f64::max);
-    let entries = whole
-        .entries()
-        .iter()
-        .copied()
-        .chain(part.times_number(-1.0));
-    let entries = entries.chain((0..count).map(|row| (row, row, shift)));
-    let rest = SparseMatrix::new("rest", count, count, entries.collect())?;
-    // If the rest cannot be factorized, no parameter is blamed.
-    Ok(!Factor::new("rest", &rest).is_ok_and(|factor| factor.negative_count() > 0))
 }

@@ -1,8 +1,10 @@
 //! Model and test joined: the start of a job's correlation.
 
+use super::bodies::explained;
 use super::matrices::from_matrices;
 use super::model::from_deck;
 use super::sensors::{PlacedSensor, place};
+use super::unseen::{decided, pairs};
 use super::{Job, Method, ModelSource, read};
 use crate::files::error::FileError;
 use crate::files::read_bytes;
@@ -86,6 +88,7 @@ impl LoadedJob {
         source: Arc<ModelSource>,
     ) -> Result<Self, FileError> {
         let (placed, sensors) = place(&job, &data, &source)?;
+        let (source, sensors) = watched(source, sensors, &data)?;
         let available = data.frequencies_hz.len();
         let numbers = job
             .test
@@ -202,7 +205,13 @@ impl LoadedJob {
             self.analysis_modes = available;
             first = self.first_analysis();
         }
-        let first = first?;
+        let first = first.map_err(|error| {
+            let name = |row| self.source.row_name(row);
+            match explained(&error, self.source.whole.rounding(), name) {
+                Some(reason) => self.job.refused(reason),
+                None => error.into(),
+            }
+        })?;
         let modes = first.modes(self.analysis_modes)?;
         self.first = Some(first);
         match self.analyze(&self.ones()) {
@@ -225,7 +234,7 @@ impl LoadedJob {
             })
             .map(|mode| self.modes[mode])
             .collect();
-        let partners = pair_optimally(&assurance, FLOOR)?;
+        let partners = pairs(&assurance, &modes.shapes, FLOOR)?;
         let kept: Vec<usize> = (0..partners.len())
             .filter(|&mode| partners[mode].is_some())
             .collect();
@@ -272,7 +281,8 @@ impl LoadedJob {
         let left = left.iter().map(|(mode, _)| mode);
         let all: Vec<usize> = self.modes.iter().chain(left).copied().collect();
         let test = measured(&self.data, &self.placed, &all)?;
-        let partners = pair_optimally(&assurance_of_roots(modes, &test.shapes)?, FLOOR)?;
+        let assurance = assurance_of_roots(modes, &test.shapes)?;
+        let partners = pairs(&assurance, &modes.shapes, FLOOR)?;
         let (compared, left) = partners.split_at(self.modes.len());
         let left = left.iter().zip(&all[self.modes.len()..]);
         let joined: Vec<usize> = left
@@ -355,8 +365,30 @@ impl LoadedJob {
             .modes
             .shapes
             .select_columns(&exact.pairing.analysis_mode);
+        if !self.is_invertible(&paired, &test.shapes) {
+            return None;
+        }
         let mass = mass_by_modes(&paired).ok()?;
         test.scaled_with(&mass).ok().map(|_| mass)
+    }
+
+    /// True if what the test's noise adds to a cross-orthogonality with these modes is below one by two deviations. A reading's deviation
+    /// over the length of its shape is over the least singular value of the modes, of unit length, in the part of a mode of the test
+    /// that they hardly tell apart.
+    fn is_invertible(&self, paired: &DMatrix<f64>, test: &DMatrix<f64>) -> bool {
+        let mut unit = paired.clone();
+        unit.column_iter_mut().for_each(|mut shape| {
+            shape.normalize_mut();
+        });
+        let least = match unit.is_empty() {
+            true => None,
+            false => unit.try_svd(false, false, f64::EPSILON, 10_000),
+        };
+        let least = least.map_or(0.0, |found| found.singular_values.min());
+        let noise = test.column_iter().zip(&self.modes);
+        let noise =
+            noise.map(|(shape, &mode)| self.deviations(mode).shape * shape.amax() / shape.norm());
+        2.0 * noise.fold(0.0, f64::max) < least
     }
 
     /// Names of the parameters.
@@ -541,13 +573,31 @@ fn lone_frequencies(
         .collect())
 }
 
+/// The model without parts that no sensor sees; the whole where frequencies alone are paired by their numbers among all modes.
+fn watched(
+    source: Arc<ModelSource>,
+    sensors: SparseMatrix,
+    data: &TestData,
+) -> Result<(Arc<ModelSource>, SparseMatrix), FileError> {
+    let watched = match data.alone.is_empty() {
+        true => source.watched(&sensors)?,
+        false => None,
+    };
+    Ok(match watched {
+        Some((watched, sensors)) => (Arc::new(watched), sensors),
+        None => (source, sensors),
+    })
+}
+
 /// Reads the model of a job.
 fn load(job: &Job) -> Result<ModelSource, FileError> {
-    match (&job.model.deck, &job.model.stiffness, &job.model.mass) {
+    let mut source = match (&job.model.deck, &job.model.stiffness, &job.model.mass) {
         (Some(deck), None, None) => from_deck(job, &job.beside(deck)),
         (None, Some(stiffness), Some(mass)) => from_matrices(job, stiffness, mass),
         _ => Err(job.refused("[model] must name either a deck, or both stiffness and mass")),
-    }
+    }?;
+    source.mass = source.mass_and_center()?;
+    Ok(source)
 }
 
 /// The test modes at the sensors placed.
@@ -569,16 +619,9 @@ pub(super) fn measured(
     Modes::from_measured(&frequencies, &shapes)
 }
 
-/// Squared closeness to the digits that shapes decide: a sum of products of up to four thousand sensors is rounded by less than
-/// $2^{-40}$. Equal ones then tie, and a tie goes by the order of the modes, which ascend in frequency.
-fn decided(closeness: &DMatrix<f64>) -> DMatrix<f64> {
-    let digits = 40.0_f64.exp2();
-    closeness.map(|close| (digits * close).round() / digits)
-}
-
-/// The pairs with the largest sum of squared closeness, every test mode with one.
-fn pair_by_assignment(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
-    let partners = pair_optimally(&decided(&cross.component_mul(cross)), 0.0)?;
+/// The pairs of largest closeness, less what modes that are hardly seen pay, every test mode with one.
+fn pair_by_assignment(cross: &DMatrix<f64>, readings: &DMatrix<f64>) -> Result<Pairing, Error> {
+    let partners = pairs(&cross.component_mul(cross), readings, 0.0)?;
     check_count("test modes", cross.ncols(), 0, cross.nrows())?;
     let analysis_mode = partners.into_iter().flatten().collect();
     Ok(Pairing::signed(analysis_mode, cross))

@@ -5,6 +5,7 @@
 
 #[doc(hidden)]
 pub mod assignment;
+mod bodies;
 mod concerns;
 mod entries;
 #[doc(hidden)]
@@ -15,6 +16,7 @@ mod matrices;
 #[doc(hidden)]
 pub mod metrics;
 mod model;
+mod parts;
 #[doc(hidden)]
 pub mod preflight;
 mod loaded;
@@ -24,10 +26,9 @@ mod samples;
 mod sensors;
 mod study;
 mod trust;
+mod unseen;
 pub mod verdict;
 
-#[cfg(feature = "program")]
-pub(crate) use concerns::hardly_held;
 #[doc(hidden)]
 pub use entries::removed_step;
 pub use loaded::LoadedJob;
@@ -102,6 +103,7 @@ struct ModelFiles {
     stiffness: Option<PathBuf>,
     mass: Option<PathBuf>,
     rows: Option<PathBuf>,
+    rigid_bodies: Option<usize>,
 }
 
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]

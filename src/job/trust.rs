@@ -142,7 +142,7 @@ impl Trust {
                 DEVIATIONS.shape,
             ),
         ];
-        let (mass, center) = loaded.source.mass_and_center()?;
+        let (mass, center) = loaded.source.mass;
         let cards = loaded.source.deck.iter().flat_map(|(_, deck)| &deck.unread);
         let cards = cards.filter(|card| card.reason != Reason::WithoutPart);
         let sensors = loaded.data.sensors.len() - loaded.placed.len();

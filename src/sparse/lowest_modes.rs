@@ -5,7 +5,8 @@ use super::deformations::take_deformation;
 use super::matrix::GIVEN;
 use super::subspace::{Directions, Found, Growth, Solve, Wanted, subspace};
 use super::{
-    Factor, RigidBodies, SparseMatrix, places_above, solve_lower, take_product, transposed_product,
+    Factor, RigidBodies, SparseMatrix, Support, places_above, solve_lower, take_product,
+    transposed_product,
 };
 use crate::method::error::{Error, at_least_one, check_count};
 use crate::method::linear_algebra::{
@@ -39,8 +40,6 @@ pub struct CountedModes {
     pub rigid_body: DMatrix<f64>,
     /// Vibrations of finite frequency, ascending, of unit generalized mass.
     pub vibrations: Modes,
-    /// Motions that are hardly told from rigid-body modes ([`RigidBodies::doubtful`]).
-    pub doubtful: Vec<(usize, f64)>,
     /// The lowest squared frequency of vibrations above those; none where there are no others.
     pub next: Option<f64>,
     /// Number of loads for which the factor was solved to find the vibrations.
@@ -79,34 +78,27 @@ pub fn lowest_modes(
     check_length("mass", mass.rows(), stiffness.rows())?;
     check_count("modes", count, 1, stiffness.rows())?;
     let plan = Arc::new(FactorizationPlan::of_sum(&[stiffness, mass])?);
-    let (found, _) = modes_at_most(stiffness, mass, count, stiffness, &plan)?;
+    let bodies = RigidBodies::of("stiffness", stiffness, &Support::default())?;
+    let (found, _) = modes_at_most(stiffness, mass, count, &bodies, &plan)?;
     check_count(FINITE, count, 1, found.vibrations.len())?;
     Ok(found)
 }
 
 /// Modes as by [`lowest_modes`] of symmetric matrices of one size, or all modes where they are fewer than `most`, with the
-/// flexibility that found them, which serves other loads too. The null space of `resisting` is that of the stiffness; `plan` is for both
-/// matrices together.
+/// flexibility that found them, which serves other loads too. `bodies` are the null space of the stiffness; `plan` is for both matrices
+/// together.
 pub(super) fn modes_at_most(
     stiffness: &SparseMatrix,
     mass: &SparseMatrix,
     most: usize,
-    resisting: &SparseMatrix,
+    bodies: &RigidBodies,
     plan: &Arc<FactorizationPlan>,
 ) -> Result<(CountedModes, Flexibility), Error> {
     let count = most.min(stiffness.rows());
     at_least_one("modes", count)?;
     at_least_one("degrees of freedom with mass", mass.entries().len())?;
     let factor_at = |what, shift| Factor::of_sum(plan, what, &[(1.0, stiffness), (shift, mass)]);
-    let held = factor_at("stiffness", 0.0).ok();
-    let (flexibility, doubtful) = match held.filter(|factor| factor.is_above(GIVEN)) {
-        Some(factor) => (Flexibility::held(factor), Vec::new()),
-        None => {
-            let bodies = RigidBodies::of("stiffness", resisting)?;
-            let flexibility = Flexibility::of(plan, stiffness, mass, &bodies)?;
-            (flexibility, bodies.doubtful)
-        }
-    };
+    let flexibility = Flexibility::of(plan, stiffness, mass, bodies)?;
     let rigid = flexibility.rigid.len();
     let (mut wanted, mut block, mut solutions) = (count + BEYOND, BLOCK, 0);
     loop {
@@ -138,7 +130,6 @@ pub(super) fn modes_at_most(
             }
             .select(&(0..needed).collect::<Vec<_>>()),
             rigid_body: flexibility.rigid.shapes.clone(),
-            doubtful,
             solutions,
         };
         return Ok((found, flexibility));

@@ -7,6 +7,9 @@ use nalgebra::{DMatrix, DVector};
 /// Largest difference between two entries that should be equal, relative to the largest of the matrix: files carry twelve digits.
 pub(super) const GIVEN: f64 = 1e-11;
 
+/// Part of an entry by which assembling rounds it: a sum of some thirty parts.
+pub(super) const ASSEMBLED: f64 = 30.0 * f64::EPSILON;
+
 /// Columns that a product takes at once, so that the entries are read once for all of them.
 const AT_ONCE: usize = 8;
 
@@ -18,6 +21,7 @@ pub struct SparseMatrix {
     rows: usize,
     columns: usize,
     entries: Vec<(usize, usize, f64)>,
+    rounding: f64,
 }
 
 impl SparseMatrix {
@@ -48,7 +52,19 @@ impl SparseMatrix {
             rows,
             columns,
             entries,
+            rounding: ASSEMBLED,
         })
+    }
+
+    /// The matrix of entries each rounded by up to this part of it when a file was written, and never less than assembling rounds.
+    pub(crate) fn with_rounding(self, part: f64) -> Self {
+        let rounding = part.max(ASSEMBLED);
+        Self { rounding, ..self }
+    }
+
+    /// The largest part of an entry by which it is rounded.
+    pub(crate) fn rounding(&self) -> f64 {
+        self.rounding
     }
 
     /// The matrix with zeros at the places of these entries where it has none.
@@ -179,6 +195,7 @@ impl SparseMatrix {
             rows: self.columns,
             columns: self.rows,
             entries,
+            rounding: self.rounding,
         }
     }
 
@@ -294,6 +311,42 @@ impl SparseMatrix {
                 entry.abs().sqrt()
             }
         })
+    }
+
+    /// The matrix at some of its rows, ascending, and the same columns.
+    ///
+    /// # Errors
+    /// [`Error::Count`] without rows.
+    pub(crate) fn at_rows(&self, rows: &[usize]) -> Result<Self, Error> {
+        Ok(self
+            .at_columns(rows)?
+            .transposed()
+            .at_columns(rows)?
+            .transposed())
+    }
+
+    /// The largest entry in size, and the squares of all entries over it.
+    pub(super) fn squares(&self) -> (f64, Self) {
+        let sizes = self.entries.iter().map(|entry| entry.2.abs());
+        let largest = sizes.fold(f64::MIN_POSITIVE, f64::max);
+        let mut squares = self.clone();
+        for entry in &mut squares.entries {
+            entry.2 = (entry.2 / largest).powi(2);
+        }
+        (largest, squares)
+    }
+
+    /// The matrix at some of its columns, ascending.
+    ///
+    /// # Errors
+    /// [`Error::Count`] without columns.
+    pub(crate) fn at_columns(&self, columns: &[usize]) -> Result<Self, Error> {
+        let place = |&(row, column, value): &(usize, usize, f64)| {
+            Some((row, columns.binary_search(&column).ok()?, value))
+        };
+        let entries = self.entries.iter().filter_map(place).collect();
+        let part = Self::new("part of a matrix", self.rows, columns.len(), entries)?;
+        Ok(part.with_rounding(self.rounding))
     }
 
     /// The matrix as a dense one.

@@ -2,7 +2,6 @@
 
 use crate::files::deck::{Reason, Unread};
 use crate::files::test_data::row_name;
-use crate::job::hardly_held;
 use crate::present::table::{Cell, Digits, Table, counted, numbers};
 use crate::sparse::whole_modes::WholeModes;
 
@@ -41,12 +40,7 @@ pub fn deck_tables(unread: &[Unread], modes: &WholeModes, count: usize) -> Vec<T
         .column("Generalized mass", "", numbers(masses, MASS))
         .notes(others.into_iter().map(not_read))
         .notes(rigid)
-        .notes(
-            modes
-                .doubtful
-                .iter()
-                .map(|(name, held)| hardly_held(name, *held)),
-        );
+        .notes(modes.doubtful.iter().cloned());
     let ignored = Table::new(
         "ignored",
         "Cards left out by request: these modes lack what they say",

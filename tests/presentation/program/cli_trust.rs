@@ -551,7 +551,7 @@ fn every_concern_of_the_test_jobs_begins_with_a_capital_letter_and_ends_as_a_sen
         "not-part-p3",
         "percent-frequency_deviation",
         "twin-p0-p1",
-        "twin-p0-p2",
+        "negative-p2",
     ] {
         assert!(identifiers.contains(expected), "{identifiers:?}");
     }
