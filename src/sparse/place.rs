@@ -243,7 +243,7 @@ impl Whole for Place {
 
     fn unseen(&self) -> Vec<f64> {
         let seen = self.modes.len();
-        let highest = self.modes.omega_squared.iter().last();
+        let highest = self.modes.omega_squared.iter().next_back();
         let all = self.vibrations.omega_squared.iter().skip(seen);
         let below = all.filter(|root| highest.is_none_or(|highest| *root < highest));
         below.map(|root| root.sqrt() / TAU).collect()
