@@ -11,7 +11,8 @@ use sha2::{Digest, Sha256};
 #[allow(missing_docs, reason = "the table below has a sentence for each")]
 pub enum Kind {
     Interrupted,
-    Weak,
+    Mechanisms,
+    FreeByDigits,
     MeasuredTwice,
     FrequenciesExchanged,
     NamedFactor,
@@ -26,9 +27,11 @@ pub enum Kind {
     ExcludesStart,
     UnitOfPlaces,
     NoPair,
+    NegativePart,
     NotPart,
     Twin,
-    OppositeTwin,
+    SumOfStiffness,
+    SumOfMass,
     Unlike,
     PartnerTaken,
     WouldHarm,
@@ -46,6 +49,12 @@ pub enum Kind {
     MassByDirection,
     CenterOfMass,
     ChiSquared,
+    UnseenModes,
+    PartsWithoutSensor,
+    LooseWithoutSensor,
+    HeldDirection,
+    SuspensionHidden,
+    PartNotChecked,
     Alike,
     TooManyModes,
     Unbounded,
@@ -77,7 +86,7 @@ pub enum Grade {
 /// `{a}` and `{b}` are the first names that a concern is about, `{all}` all of them, `{some}` the first eight, `{and}` joins them by that
 /// word, `{id}` by hyphens; `{x}`, `{y}`, `{z}` and `{w}` are its numbers, `{x.3}` with three decimals, `{xe}` as a power of ten, `{x6}` with
 /// six significant digits.
-const TABLE: [(Kind, Grade, &str, &str); 48] = {
+const TABLE: [(Kind, Grade, &str, &str); 57] = {
     use Grade::{Doubt, LeftOut, Remark};
     use Kind::*;
     [
@@ -88,11 +97,16 @@ const TABLE: [(Kind, Grade, &str, &str); 48] = {
             "Stopped by request; these are the best factors so far.",
         ),
         (
-            Weak,
+            Mechanisms,
             Doubt,
-            "weak-{a}",
-            "A motion of {a} is resisted by {xe} of the stiffness there, which the digits of the matrix hardly tell from nothing: \
-             it counts as a {b}.",
+            "mechanisms",
+            "Motions of {some} are none of a rigid body, and the digits of the stiffness do not tell that anything resists them: mechanisms, or springs too soft for it. They count as free; model.rigid_bodies decides.",
+        ),
+        (
+            FreeByDigits,
+            Doubt,
+            "free-by-digits",
+            "Free by {a} of the stiffness: {x}; a suspension below {ye} Hz would not show. Places of the rows, or model.rigid_bodies, decide.",
         ),
         (
             MeasuredTwice,
@@ -174,6 +188,12 @@ const TABLE: [(Kind, Grade, &str, &str); 48] = {
             "No test mode resembles a mode of the model: another structure, other sensors, or several mistakes at once?",
         ),
         (
+            NegativePart,
+            Doubt,
+            "negative-{id}",
+            "The matrix of parameter \"{a}\" has negative energy, more than its digits explain.",
+        ),
+        (
             NotPart,
             Doubt,
             "not-part-{id}",
@@ -186,10 +206,16 @@ const TABLE: [(Kind, Grade, &str, &str); 48] = {
             "Parameters \"{a}\" and \"{b}\" have the same matrix.",
         ),
         (
-            OppositeTwin,
+            SumOfStiffness,
             Doubt,
-            "twin-{id}",
-            "Parameters \"{a}\" and \"{b}\" have matrices of opposite sign.",
+            "sum-of-stiffness",
+            "The parameters' matrices together are more than the first stiffness, most by {some}: is a part in two of them?",
+        ),
+        (
+            SumOfMass,
+            Doubt,
+            "sum-of-mass",
+            "The parameters' matrices together are more than the first mass, most by {some}: is a part in two of them?",
         ),
         (
             Unlike,
@@ -285,6 +311,42 @@ const TABLE: [(Kind, Grade, &str, &str); 48] = {
             Remark,
             "chi-squared",
             "Chi-squared is {x.1} for {y.1} degrees of freedom; noise alone leaves at most {z.1} in 999 of 1000 tests.",
+        ),
+        (
+            UnseenModes,
+            Remark,
+            "unseen-modes",
+            "Modes of the model that no sensor sees, and that take no part: {x}, at {some} Hz.",
+        ),
+        (
+            PartsWithoutSensor,
+            Remark,
+            "parts-without-sensor",
+            "In parts of the model without a sensor, which are left out: {x} degrees of freedom, {some}.",
+        ),
+        (
+            LooseWithoutSensor,
+            Remark,
+            "loose-without-sensor",
+            "Mechanisms in parts of the model without a sensor, which nothing resists: {some}.",
+        ),
+        (
+            HeldDirection,
+            Remark,
+            "held-direction",
+            "Motions of a rigid body that are free: {x}; one that is not meets most force at {a}: held on purpose?",
+        ),
+        (
+            SuspensionHidden,
+            Remark,
+            "free-by-digits",
+            "Free by {a} of the stiffness: {x}; a suspension below {ye} Hz would not show. Places of the rows, or model.rigid_bodies, decide.",
+        ),
+        (
+            PartNotChecked,
+            Remark,
+            "part-not-checked-{a}",
+            "Whether parameter \"{a}\" is part of the first model was not checked: {b}.",
         ),
         (
             Alike,

@@ -7,9 +7,9 @@ use super::sensors::{PlacedSensor, motion};
 use super::{LoadedJob, Method, PreparedJob};
 use crate::files::deck::{Reason, Unread};
 use crate::files::error::FileError;
+use crate::method::error::Error;
 use crate::method::modes::Modes;
-use crate::sparse::rigid_bodies::is_rounded;
-use crate::sparse::{Factor, SparseMatrix, WholeShare};
+use crate::sparse::rigid_bodies::BodyFinding;
 use crate::weighted::comparison::LoneFrequency;
 use crate::weighted::noise::Noise;
 use crate::weighted::residuals::DEVIATIONS;
@@ -40,11 +40,12 @@ impl Trust {
     pub fn before(prepared: &PreparedJob) -> Result<Self, FileError> {
         let loaded = &prepared.loaded;
         let mut all = prepared.preflight_concerns()?;
-        all.extend(prepared.pairing_concerns());
+        all.extend(prepared.pairing_concerns()?);
+        all.extend(prepared.unseen_concerns());
         all.extend(prepared.noise_concerns());
         all.extend(loaded.part_concerns()?);
         all.extend(loaded.data_concerns());
-        all.extend(loaded.mass_concerns()?);
+        all.extend(loaded.mass_concerns());
         all.extend(about_any(Kind::NotUsed, &loaded.unused()));
         Ok(Self::new(all))
     }
@@ -65,7 +66,7 @@ impl LeftOut {
 
 impl PreparedJob {
     /// Remarks on which test modes are compared with which modes of the model.
-    fn pairing_concerns(&self) -> Vec<Concern> {
+    fn pairing_concerns(&self) -> Result<Vec<Concern>, Error> {
         let loaded = &self.loaded;
         let mut all: Vec<Concern> = self.unpaired.iter().map(LeftOut::concern).collect();
         let pair = |(mode, lone): &(usize, LoneFrequency)| {
@@ -87,10 +88,10 @@ impl PreparedJob {
                 Concern::new(Kind::CloseModes, &modes, &[])
             }));
         }
-        let rigid = self.first.rigid_bodies().0;
+        let rigid = loaded.source.whole.rigid_bodies()?.rigid();
         let measure = [self.analysis_modes as f64, rigid as f64];
         all.push(Concern::plain(Kind::AnalysisModes, &measure));
-        all
+        Ok(all)
     }
 
     /// Remarks on what the test is weighted by.
@@ -136,10 +137,8 @@ impl PreparedJob {
         let mut modes: Vec<usize> = left_out.chain(self.modes.iter().copied()).collect();
         modes.sort_unstable();
         modes.dedup();
-        let (_, doubtful) = self.first.rigid_bodies();
-        let weak = doubtful.iter();
-        let weak = weak.map(|&(row, held)| hardly_held(&loaded.source.row_name(row), held));
-        let mut concerns: Vec<Concern> = weak.collect();
+        let bodies = whole.body_findings(|row| loaded.source.row_name(row))?;
+        let mut concerns: Vec<Concern> = bodies.iter().map(of_bodies).collect();
         if modes.is_empty() {
             return Ok(concerns);
         }
@@ -205,8 +204,8 @@ impl LoadedJob {
     }
 
     /// Remarks on the total mass and its center.
-    fn mass_concerns(&self) -> Result<Vec<Concern>, FileError> {
-        let (mass, center) = self.source.mass_and_center()?;
+    fn mass_concerns(&self) -> Vec<Concern> {
+        let (mass, center) = self.source.mass;
         let mass: [f64; 3] = mass.into();
         let said = mass.map(|along| format!("{along:.5e}"));
         let kind = match said.iter().all(|along| *along == said[0]) {
@@ -220,7 +219,7 @@ impl LoadedJob {
             let rounded = center.map(|part| if part.abs() < 1e-9 * far { 0.0 } else { part });
             Concern::plain(Kind::CenterOfMass, rounded.as_slice())
         });
-        Ok(mass.into_iter().chain(center).collect())
+        mass.into_iter().chain(center).collect()
     }
 
     /// Cards, sensors and entries of the job's file that nothing uses.
@@ -235,39 +234,6 @@ impl LoadedJob {
             .chain(sensors)
             .chain(entries)
             .collect()
-    }
-
-    /// Parameters' matrices that are not part of the first stiffness or mass, or given twice.
-    ///
-    /// A part leaves a semidefinite rest, which has no negative pivots (Sylvester's law of inertia). Entries rounded to single
-    /// precision, by at most $\epsilon$ of each, move no eigenvalue below
-    /// $-\epsilon \max_i \sum_j (\lvert K_{ij} \rvert + \lvert K_{e,ij} \rvert)$ (Gershgorin), which is added to the diagonal.
-    fn part_concerns(&self) -> Result<Vec<Concern>, FileError> {
-        let (stiffness, mass) = self.source.whole.at(&self.ones())?;
-        let parts: Vec<(&str, &SparseMatrix, &SparseMatrix)> = self
-            .source
-            .whole
-            .parameters()
-            .iter()
-            .filter_map(|parameter| match &parameter.share {
-                WholeShare::Stiffness(part) => Some((&parameter.name[..], part, &stiffness)),
-                WholeShare::Mass(part) => Some((&parameter.name[..], part, &mass)),
-                WholeShare::Elements(_) => None,
-            })
-            .collect();
-        let mut all = Vec::new();
-        for (place, (name, part, whole)) in parts.iter().enumerate() {
-            if !is_part(part, whole)? {
-                all.push(Concern::new(Kind::NotPart, &[name], &[]));
-            }
-            for (other, twin, _) in &parts[..place] {
-                let is_same = |sign: f64| twin.times_number(sign).eq(part.entries());
-                let kinds = [(1.0, Kind::Twin), (-1.0, Kind::OppositeTwin)];
-                let same = kinds.into_iter().filter(|(sign, _)| is_same(*sign));
-                all.extend(same.map(|(_, kind)| Concern::new(kind, &[other, name], &[])));
-            }
-        }
-        Ok(all)
     }
 
     /// Standard deviations that are given in percent.
@@ -311,26 +277,24 @@ impl LoadedJob {
     }
 }
 
-/// The doubt about a motion that can hardly be told from a rigid-body mode.
-pub(crate) fn hardly_held(name: &str, resistance: f64) -> Concern {
-    let counted = match is_rounded(resistance) {
-        true => "rigid-body mode",
-        false => "vibration",
-    };
-    Concern::new(Kind::Weak, &[name, counted], &[resistance])
-}
-
-/// True unless the whole without a part is known to have a negative eigenvalue.
-fn is_part(part: &SparseMatrix, whole: &SparseMatrix) -> Result<bool, FileError> {
-    let count = whole.rows();
-    let mut sums = vec![0.0; count];
-    for (row, _, entry) in whole.entries().chain(part.entries()) {
-        sums[row] += entry.abs();
+/// What the digits of a stiffness leave open, as a concern.
+pub(crate) fn of_bodies(finding: &BodyFinding) -> Concern {
+    match finding {
+        BodyFinding::Mechanisms(rows) => Concern::new(Kind::Mechanisms, rows, &[]),
+        BodyFinding::Held { row, free } => {
+            Concern::new(Kind::HeldDirection, &[row], &[*free as f64])
+        }
+        BodyFinding::ByDigits {
+            count,
+            digits,
+            hidden_hz,
+            is_sure,
+        } => {
+            let kind = match is_sure {
+                true => Kind::SuspensionHidden,
+                false => Kind::FreeByDigits,
+            };
+            Concern::new(kind, &[digits], &[*count as f64, *hidden_hz])
+        }
     }
-    let shift = f64::from(f32::EPSILON) * sums.iter().copied().fold(0.0, f64::max);
-    let entries = whole.entries().chain(part.times_number(-1.0));
-    let entries = entries.chain((0..count).map(|row| (row, row, shift)));
-    let rest = SparseMatrix::new("rest", count, count, entries.collect())?;
-    // If the rest cannot be factorized, no parameter is blamed.
-    Ok(!Factor::new("rest", &rest).is_ok_and(|factor| factor.negative_count() > 0))
 }

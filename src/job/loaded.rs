@@ -60,6 +60,7 @@ impl LoadedJob {
         source: Arc<ModelSource>,
     ) -> Result<Self, FileError> {
         let (placed, sensors) = place(&job, &data, &source)?;
+        let (source, sensors) = watched(source, sensors, &data)?;
         let available = data.frequencies_hz.len();
         let numbers = job
             .test
@@ -367,11 +368,29 @@ fn lone_frequencies(
         .collect())
 }
 
+/// The model without parts that no sensor sees; the whole where frequencies alone are paired by their numbers among all modes.
+fn watched(
+    source: Arc<ModelSource>,
+    sensors: SparseMatrix,
+    data: &TestData,
+) -> Result<(Arc<ModelSource>, SparseMatrix), FileError> {
+    let watched = match data.alone.is_empty() {
+        true => source.watched(&sensors)?,
+        false => None,
+    };
+    Ok(match watched {
+        Some((watched, sensors)) => (Arc::new(watched), sensors),
+        None => (source, sensors),
+    })
+}
+
 /// Reads the model of a job.
 fn load(job: &Job) -> Result<ModelSource, FileError> {
-    match (&job.model.deck, &job.model.stiffness, &job.model.mass) {
+    let mut source = match (&job.model.deck, &job.model.stiffness, &job.model.mass) {
         (Some(deck), None, None) => from_deck(job, &job.beside(deck)),
         (None, Some(stiffness), Some(mass)) => from_matrices(job, stiffness, mass),
         _ => Err(job.refused("[model] must name either a deck, or both stiffness and mass")),
-    }
+    }?;
+    source.mass = source.mass_and_center()?;
+    Ok(source)
 }

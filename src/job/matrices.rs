@@ -1,16 +1,19 @@
 //! A model given by matrices: its files, and the degree of freedom of every row.
 
+use super::bodies::explained;
 use super::model::{GridLayout, ModelSource, prior, range};
 use super::{Job, Scales};
 use crate::files::deck::decoded;
 use crate::files::error::{FileError, is_not};
-use crate::files::matrices::{self, LabeledMatrix};
+use crate::files::matrices::{self, Digits, LabeledMatrix};
 use crate::files::test_data::{DIRECTIONS, cells, row_name, separator};
 use crate::method::error::Error;
 use crate::method::modes::Modes;
 use crate::method::structure::StructuralDof;
-use crate::sparse::whole_modes::{WholeModes, named};
-use crate::sparse::{FINITE, SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes};
+use crate::sparse::whole_modes::WholeModes;
+use crate::sparse::{
+    FINITE, Places, SparseMatrix, Support, WholeModel, WholeParameter, WholeShare,
+};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -27,9 +30,9 @@ pub(super) fn from_matrices(
         .rows
         .as_ref()
         .map(|labels| labels.iter().map(degree_of_freedom).collect());
-    let (labels, places) = match (&job.model.rows, &own) {
+    let (labels, places, rounding) = match (&job.model.rows, &own) {
         (Some(file), _) => read_rows(job, &job.beside(file))?,
-        (None, Some(labels)) => (labels.clone(), BTreeMap::new()),
+        (None, Some(labels)) => (labels.clone(), BTreeMap::new(), 0.0),
         (None, None) => {
             return Err(job.refused("model.rows is missing: these matrices do not name their rows"));
         }
@@ -80,7 +83,14 @@ pub(super) fn from_matrices(
         });
         priors.push(prior(job, rule)?);
     }
-    let whole = WholeModel::new(stiffness.matrix, mass, parameters)?;
+    let placed = |(grid, direction): &(usize, usize)| Some((*places.get(grid)?, *direction));
+    let placed: Option<Vec<_>> = labels.iter().map(placed).collect();
+    let support = Support {
+        places: placed.map(|rows| Places::new(&rows, rounding)),
+        count: job.model.rigid_bodies,
+        resisting: None,
+    };
+    let whole = WholeModel::supported(stiffness.matrix, mass, parameters, support)?;
     let motions = labels
         .into_iter()
         .enumerate()
@@ -98,6 +108,9 @@ pub(super) fn from_matrices(
         members,
         priors,
         deck: None,
+        mass: Default::default(),
+        left_out: Default::default(),
+        loose: Vec::new(),
     })
 }
 
@@ -105,8 +118,8 @@ pub(super) fn from_matrices(
 /// chooses one of several matrices.
 ///
 /// # Errors
-/// The errors of the files and of [`lowest_modes`].
-pub fn matrix_modes(stiffness: &Path, mass: &Path, most: usize) -> Result<WholeModes, FileError> {
+/// The errors of the files and of [`WholeModel::modes`].
+pub fn matrix_modes(file: &Path, mass: &Path, most: usize) -> Result<WholeModes, FileError> {
     let job = Job {
         path: "modes".into(),
         ..Job::default()
@@ -115,7 +128,7 @@ pub fn matrix_modes(stiffness: &Path, mass: &Path, most: usize) -> Result<WholeM
         rows,
         matrix: stiffness,
         ..
-    } = matrix(&job, stiffness, "--stiffness")?;
+    } = matrix(&job, file, "--stiffness")?;
     let labels: Vec<_> = rows.iter().flatten().map(degree_of_freedom).collect();
     let row_of = (0..)
         .zip(&labels)
@@ -123,24 +136,32 @@ pub fn matrix_modes(stiffness: &Path, mass: &Path, most: usize) -> Result<WholeM
         .collect();
     let mass = on_rows(&job, (mass, "--mass"), &row_of)?;
     let most = most.min(stiffness.rows());
-    let found = match lowest_modes(&stiffness, &mass, most) {
-        Err(Error::Count {
-            what: FINITE,
-            most: available,
-            ..
-        }) if available > 0 => lowest_modes(&stiffness, &mass, available)?,
-        found => found?,
-    };
     let dof = labels
         .into_iter()
         .map(|(grid, direction)| StructuralDof { grid, direction });
     let dof: Vec<_> = dof.collect();
+    let name = |row: usize| row_name(row, &dof);
+    let whole = WholeModel::new(stiffness, mass, Vec::new())?;
+    let found = match whole.modes(&[], most) {
+        Err(Error::Count {
+            what: FINITE,
+            most: available,
+            ..
+        }) if available > 0 => whole.modes(&[], available)?,
+        Err(error) => {
+            return Err(match explained(&error, whole.rounding(), name) {
+                Some(reason) => FileError::refused(file.display(), reason),
+                None => error.into(),
+            });
+        }
+        Ok(found) => found,
+    };
     let Modes {
         omega_squared,
         shapes,
     } = found.vibrations;
     Ok(WholeModes {
-        doubtful: named(&found.doubtful, |row| row_name(row, &dof)),
+        doubtful: whole.body_findings(name)?,
         dof,
         modes: Modes::signed(omega_squared, shapes),
         rigid_body: found.rigid_body.ncols(),
@@ -199,18 +220,19 @@ fn on_rows(
     let entries = matrix
         .entries()
         .map(|(row, column, value)| (place(row), place(column), value));
-    Ok(SparseMatrix::new(
+    let all = SparseMatrix::new(
         "matrix by labels",
         row_of.len(),
         row_of.len(),
         entries.collect(),
-    )?)
+    )?;
+    Ok(all.with_rounding(matrix.rounding()))
 }
 
 /// Grid and direction.
 type LabeledRow = (usize, usize);
-/// Labels and places of a model's rows.
-type Rows = (Vec<LabeledRow>, BTreeMap<usize, Vector3<f64>>);
+/// Labels and places of a model's rows, and the largest part of a coordinate by which it is rounded.
+type Rows = (Vec<LabeledRow>, BTreeMap<usize, Vector3<f64>>, f64);
 
 /// Reads a table `grid,direction,x,y,z`.
 fn read_rows(job: &Job, file: &Path) -> Result<Rows, FileError> {
@@ -218,7 +240,7 @@ fn read_rows(job: &Job, file: &Path) -> Result<Rows, FileError> {
     let lines = (1..)
         .zip(text.lines())
         .filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'));
-    let (mut labels, mut places) = (Vec::new(), BTreeMap::new());
+    let (mut labels, mut places, mut digits) = (Vec::new(), BTreeMap::new(), Digits::default());
     for (number, line) in lines {
         let cells = cells(line, separator(line));
         let titles = cells.join(",").to_lowercase();
@@ -229,12 +251,13 @@ fn read_rows(job: &Job, file: &Path) -> Result<Rows, FileError> {
         let wrong = || FileError::line(&file.display().to_string(), number, is_not(line, what));
         let (label, place) = row(&cells).ok_or_else(wrong)?;
         labels.push(label);
+        cells.iter().skip(2).for_each(|number| digits.add(number));
         if place.is_some_and(|place| *places.entry(label.0).or_insert(place) != place) {
             let reason = format!("grid {} was given at another place before", label.0);
             return Err(FileError::line(&file.display().to_string(), number, reason));
         }
     }
-    Ok((labels, places))
+    Ok((labels, places, digits.rounding()))
 }
 
 /// Grid and direction of a row, and its place if it has one.

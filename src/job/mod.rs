@@ -6,6 +6,7 @@
 
 #[doc(hidden)]
 pub mod assignment;
+mod bodies;
 mod concerns;
 mod entries;
 #[doc(hidden)]
@@ -16,6 +17,7 @@ mod matrices;
 #[doc(hidden)]
 pub mod metrics;
 mod model;
+mod parts;
 #[doc(hidden)]
 pub mod preflight;
 mod repeats;
@@ -24,6 +26,7 @@ mod sensors;
 mod study;
 // The four values of a job, in their order, and what is said of them.
 mod loaded;
+mod unseen;
 mod prepared;
 mod reach;
 mod correlated;
@@ -33,7 +36,7 @@ pub mod verdict;
 
 pub use concern::{Concern, Kind, Trust};
 #[cfg(feature = "program")]
-pub(crate) use concerns::hardly_held;
+pub(crate) use concerns::of_bodies;
 #[doc(hidden)]
 pub use correlated::{CorrelatedJob, History, WeightedHistory};
 #[doc(hidden)]
@@ -106,6 +109,7 @@ struct ModelFiles {
     stiffness: Option<PathBuf>,
     mass: Option<PathBuf>,
     rows: Option<PathBuf>,
+    rigid_bodies: Option<usize>,
 }
 
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]

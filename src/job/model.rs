@@ -8,11 +8,11 @@ use crate::method::appendix_a::element_matrices;
 use crate::method::error::Error;
 use crate::method::step::Bounds;
 use crate::method::structure::StructuralDof;
-use crate::sparse::elements::{lumped_masses, moving_mass_entries, resisting, stiffness_entries};
-use crate::sparse::{Deformations, SparseMatrix, WholeModel, WholeParameter, WholeShare};
+use crate::sparse::elements::{lumped_masses, moving_mass_entries, stiffness_entries, support};
+use crate::sparse::{Deformations, SparseMatrix, Support, WholeModel, WholeParameter, WholeShare};
 use crate::weighted::identifiability::PRIOR_DEVIATION;
 use nalgebra::Vector3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Positions of a model's grids, and the grids that elements join.
@@ -39,6 +39,12 @@ pub struct ModelSource {
     pub members: Vec<[Vec<usize>; 2]>,
     /// Standard deviation of the logarithm of every parameter's factor before the test.
     pub priors: Vec<f64>,
+    /// Mass that moves along x, y and z, and its center, if all of it has a place.
+    pub mass: (Vector3<f64>, Option<Vector3<f64>>),
+    /// Number of rows left out, in parts of the model that no sensor sees, and names of the first.
+    pub left_out: (usize, Vec<String>),
+    /// Names of the first of them that nothing resists.
+    pub loose: Vec<String>,
 }
 
 impl ModelSource {
@@ -55,6 +61,42 @@ impl ModelSource {
             .iter()
             .find(moves)
             .map_or_else(|| format!("row {}", row + 1), name)
+    }
+
+    /// The model without the parts in which no sensor reads a row, and the sensors on it: to them these parts do not exist.
+    pub(super) fn watched(
+        &self,
+        sensors: &SparseMatrix,
+    ) -> Result<Option<(Self, SparseMatrix)>, FileError> {
+        let rows = self.whole.rows_with_sensor(sensors);
+        if rows.len() == self.whole.dof_count() {
+            return Ok(None);
+        }
+        let place = |&(row, coefficient): &(usize, f64)| {
+            Some((rows.binary_search(&row).ok()?, coefficient))
+        };
+        let motion = |(at, own): (&(usize, usize), &Vec<(usize, f64)>)| {
+            let own: Vec<_> = own.iter().filter_map(place).collect();
+            (!own.is_empty()).then_some((*at, own))
+        };
+        let left = (0..self.whole.dof_count()).filter(|row| rows.binary_search(row).is_err());
+        let (stiffness, _) = self.whole.at(&vec![1.0; self.whole.parameters().len()])?;
+        let stiff: BTreeSet<usize> = stiffness
+            .entries()
+            .filter(|entry| entry.2 != 0.0)
+            .map(|entry| entry.0)
+            .collect();
+        let is_loose = |row: &usize| !stiff.contains(row);
+        let named = |row: usize| self.row_name(row);
+        let names = left.clone().map(named).collect();
+        let watched = Self {
+            whole: self.whole.at_rows(&rows)?,
+            motions: self.motions.iter().filter_map(motion).collect(),
+            left_out: (self.whole.dof_count() - rows.len(), names),
+            loose: left.filter(is_loose).map(named).collect(),
+            ..self.clone()
+        };
+        Ok(Some((watched, sensors.at_columns(&rows)?)))
     }
 
     /// Mass that moves along x, y and z, and its center, if all of it has a place.
@@ -188,8 +230,11 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
             priors.push(prior(job, rule)?);
         }
     }
-    let resisting = Some(resisting(&structure, &elements)?);
-    let whole = WholeModel::with_resisting(stiffness, mass, parameters, resisting)?;
+    let support = Support {
+        count: job.model.rigid_bodies,
+        ..support(&structure, &elements)?
+    };
+    let whole = WholeModel::supported(stiffness, mass, parameters, support)?;
     let grids = bulk.grids.iter();
     let motions = grids
         .clone()
@@ -220,6 +265,9 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
         members,
         priors,
         deck: Some((bytes, deck)),
+        mass: Default::default(),
+        left_out: Default::default(),
+        loose: Vec::new(),
     })
 }
 

@@ -1,7 +1,8 @@
 //! A job with the first model's modes and the test modes' partners among them: its second value, from which a correlation starts.
 
-use super::assignment::pair_optimally;
+use super::bodies::explained;
 use super::expansion::mass_by_modes;
+use super::unseen::{decided, pairs};
 use super::{LoadedJob, Method};
 use crate::files::error::FileError;
 use crate::method::error::{Error, check_count};
@@ -116,7 +117,7 @@ impl PreparedJob {
         };
         let tied = (0..assurance.ncols()).filter(is_tied);
         self.undecided = tied.map(|mode| self.modes[mode]).collect();
-        let partners = pair_optimally(&assurance, FLOOR)?;
+        let partners = pairs(&assurance, &exact.shapes, FLOOR)?;
         let (kept, left): (Vec<usize>, Vec<usize>) =
             (0..partners.len()).partition(|&mode| partners[mode].is_some());
         let left_out = |mode: usize| LeftOut {
@@ -181,7 +182,8 @@ impl PreparedJob {
                 }
             }
         }
-        let partners = pair_optimally(&assurance, FLOOR)?;
+        let readings = &model.model.exact.modes.shapes;
+        let partners = pairs(&assurance, readings, FLOOR)?;
         let (compared, left) = partners.split_at(self.modes.len());
         let left = left.iter().zip(&all[self.modes.len()..]);
         let joined: Vec<usize> = left
@@ -261,8 +263,31 @@ impl PreparedJob {
             .modes
             .shapes
             .select_columns(&exact.pairing.analysis_mode);
+        if !self.is_invertible(&paired, &test.shapes) {
+            return None;
+        }
         let mass = mass_by_modes(&paired).ok()?;
         test.scaled_with(&mass).ok().map(|_| mass)
+    }
+
+    /// True if what the test's noise adds to a cross-orthogonality with these modes is below one by two deviations. A reading's deviation
+    /// over the length of its shape is over the least singular value of the modes, of unit length, in the part of a mode of the test
+    /// that they hardly tell apart.
+    fn is_invertible(&self, paired: &DMatrix<f64>, test: &DMatrix<f64>) -> bool {
+        let mut unit = paired.clone();
+        unit.column_iter_mut().for_each(|mut shape| {
+            shape.normalize_mut();
+        });
+        let least = match unit.is_empty() {
+            true => None,
+            false => unit.try_svd(false, false, f64::EPSILON, 10_000),
+        };
+        let least = least.map_or(0.0, |found| found.singular_values.min());
+        let noise = test
+            .column_iter()
+            .zip(&self.modes)
+            .map(|(shape, &mode)| self.loaded.deviations(mode).shape * shape.amax() / shape.norm());
+        2.0 * noise.fold(0.0, f64::max) < least
     }
 
     /// Test modes that are compared, from zero: those with shapes, then those without.
@@ -434,20 +459,22 @@ fn first_analysis(loaded: &LoadedJob) -> Result<(usize, Arc<dyn Whole>), FileErr
             most: available,
             ..
         }) if asked.is_none() && available > 0 => Ok((available, loaded.analyzed(available)?)),
-        first => Ok((modes, first?)),
+        first => {
+            let refused = |error| {
+                let name = |row| loaded.source.row_name(row);
+                match explained(&error, loaded.source.whole.rounding(), name) {
+                    Some(reason) => loaded.job.refused(reason),
+                    None => error.into(),
+                }
+            };
+            Ok((modes, first.map_err(refused)?))
+        }
     }
 }
 
-/// Squared closeness to the digits that shapes decide: a sum of products of up to four thousand sensors is rounded by less than
-/// $2^{-40}$. Equal ones then tie, and a tie goes by the order of the modes, which ascend in frequency.
-fn decided(closeness: &DMatrix<f64>) -> DMatrix<f64> {
-    let digits = 40.0_f64.exp2();
-    closeness.map(|close| (digits * close).round() / digits)
-}
-
-/// The pairs with the largest sum of squared closeness, every test mode with one.
-fn pair_by_assignment(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
-    let partners = pair_optimally(&decided(&cross.component_mul(cross)), 0.0)?;
+/// The pairs of largest closeness, less what modes that are hardly seen pay, every test mode with one.
+fn pair_by_assignment(cross: &DMatrix<f64>, readings: &DMatrix<f64>) -> Result<Pairing, Error> {
+    let partners = pairs(&cross.component_mul(cross), readings, 0.0)?;
     check_count("test modes", cross.ncols(), 0, cross.nrows())?;
     let analysis_mode = partners.into_iter().flatten().collect();
     Ok(Pairing::signed(analysis_mode, cross))

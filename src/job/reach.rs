@@ -12,7 +12,7 @@ impl PreparedJob {
     /// Least and largest frequency (Hz) of every mode of a model for which factors within their bounds, or where there are none within
     /// four deviations of their priors, can make up by its own shape (Rayleigh's quotient):
     ///
-    /// $$ \frac{\omega'^2}{\omega^2} = \frac{1 + \sum_e s_e (x_e/c_e - 1)}{1 + \sum_e m_e (x_e/c_e - 1)}, \qquad
+    /// $$ \frac{\hat\omega^2}{\omega^2} = \frac{1 + \sum_e s_e (x_e/c_e - 1)}{1 + \sum_e m_e (x_e/c_e - 1)}, \qquad
     /// s_e = \frac{v^t K_e v}{\omega^2}, \quad m_e = v^t M_e v , $$
     ///
     /// at the factors $c$ with $K_e$, $M_e$ scaled by them.

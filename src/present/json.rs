@@ -11,7 +11,7 @@ use super::tables::deck::{not_read, unit_shapes};
 use crate::files::deck::Unread;
 use crate::files::test_data::DIRECTIONS;
 use crate::job::verdict::Verdict;
-use crate::job::{Concern, Trust, hardly_held};
+use crate::job::{Trust, of_bodies};
 use crate::method::inner_loop::Iteration;
 use crate::method::step::Bounds;
 use crate::method::step::Limit;
@@ -298,14 +298,10 @@ pub fn deck_modes(
         .dof
         .iter()
         .map(|dof| json!({"grid": dof.grid, "direction": DIRECTIONS[dof.direction]}));
-    let doubtful = modes
-        .doubtful
-        .iter()
-        .map(|(name, held)| Concern::words(&hardly_held(name, *held)));
     own_document(json!({
         "dof": dof.collect::<Value>(),
         "rigid_body_modes": modes.rigid_body,
-        "doubtful": doubtful.collect::<Value>(),
+        "doubtful": modes.doubtful.iter().map(of_bodies).collect::<Vec<_>>(),
         "frequencies_hz": modes.modes.frequencies_hz().into_iter().take(count).collect::<Value>(),
         "generalized_masses": masses,
         "shapes": shapes,

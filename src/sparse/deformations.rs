@@ -80,6 +80,29 @@ impl Deformations {
         &self.dof
     }
 
+    /// The element at those of its rows that are among some, ascending, and counted there.
+    pub(super) fn at_rows(&self, rows: &[usize]) -> Self {
+        let places: Vec<_> = self
+            .dof
+            .iter()
+            .map(|row| rows.binary_search(row).ok())
+            .collect();
+        let kept = |(place, motion): (&Option<usize>, &f64)| place.map(|_| *motion);
+        let of_way = |(_, shape): (f64, &[f64])| {
+            places
+                .iter()
+                .zip(shape)
+                .filter_map(kept)
+                .collect::<Vec<_>>()
+        };
+        Self {
+            label: self.label,
+            stiffness: self.stiffness.clone(),
+            shapes: self.ways().flat_map(of_way).collect(),
+            dof: places.iter().copied().flatten().collect(),
+        }
+    }
+
     /// Number of ways in which the element deforms.
     pub fn count(&self) -> usize {
         self.stiffness.len()

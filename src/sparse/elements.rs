@@ -1,10 +1,12 @@
 //! Entries of elements in the matrices of a whole model: stiffness, and lumped masses.
 
-use super::SparseMatrix;
+use super::{Places, SparseMatrix, Support};
 use crate::method::appendix_a::ElementMatrix;
 use crate::method::elements::unit_stiffness;
 use crate::method::error::Error;
-use crate::method::structure::{Element, ElementKind, Point, Structure};
+use crate::method::structure::{Element, ElementKind, Point, StructuralDof, Structure};
+use nalgebra::Vector3;
+use std::collections::BTreeMap;
 
 /// Row, column and value of every entry of $s_e K_e$.
 pub(crate) fn stiffness_entries(
@@ -90,9 +92,26 @@ pub(crate) fn largest_entry(matrix: &ElementMatrix, element: &Element, corners: 
 /// and no element is stiffer than another. The largest entry is that of the element free of supports; entries at the free ones that
 /// are only the round-off of its direction are dropped.
 ///
+/// The places of the free degrees of freedom, which make the elements, are as exact as these.
+///
 /// # Errors
 /// The errors of [`SparseMatrix::new`] for entries beyond the range of numbers.
-pub fn resisting(structure: &Structure, elements: &[ElementMatrix]) -> Result<SparseMatrix, Error> {
+pub fn support(structure: &Structure, elements: &[ElementMatrix]) -> Result<Support, Error> {
+    let place_of: BTreeMap<usize, Vector3<f64>> = structure
+        .grids()
+        .iter()
+        .map(|grid| (grid.label, grid.position))
+        .collect();
+    let row = |dof: &StructuralDof| (place_of[&dof.grid], dof.direction);
+    let rows: Vec<_> = structure.free_dof().iter().map(row).collect();
+    Ok(Support {
+        resisting: Some(resisting(structure, elements)?),
+        places: Some(Places::new(&rows, 0.0)),
+        count: None,
+    })
+}
+
+fn resisting(structure: &Structure, elements: &[ElementMatrix]) -> Result<SparseMatrix, Error> {
     let count = structure.free_dof().len();
     let whole = structure.elements().iter().zip(structure.corners());
     let of_element = |(matrix, (element, corners)): (&ElementMatrix, (&Element, &Vec<Point>))| {

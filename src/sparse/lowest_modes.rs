@@ -5,7 +5,8 @@ use super::deformations::take_deformation;
 use super::matrix::GIVEN;
 use super::subspace::{Directions, Found, Growth, Solve, Wanted, subspace};
 use super::{
-    Factor, RigidBodies, SparseMatrix, places_above, solve_lower, take_product, transposed_product,
+    Factor, RigidBodies, SparseMatrix, Support, places_above, solve_lower, take_product,
+    transposed_product,
 };
 use crate::method::error::{Error, at_least_one, check_count};
 use crate::method::linear_algebra::{
@@ -39,8 +40,6 @@ pub struct CountedModes {
     pub rigid_body: DMatrix<f64>,
     /// Vibrations of finite frequency, ascending, of unit generalized mass.
     pub vibrations: Modes,
-    /// Motions that are hardly told from rigid-body modes ([`RigidBodies::doubtful`]).
-    pub doubtful: Vec<(usize, f64)>,
     /// The lowest squared frequency of vibrations above those; none where there are no others.
     pub next: Option<f64>,
     /// Number of loads for which the factor was solved to find the vibrations.
@@ -79,7 +78,7 @@ pub fn lowest_modes(
     check_length("mass", mass.rows(), stiffness.rows())?;
     check_count("modes", count, 1, stiffness.rows())?;
     let plan = Arc::new(FactorizationPlan::of_sum(&[stiffness, mass])?);
-    let bodies = || RigidBodies::by(&plan, "stiffness", stiffness);
+    let bodies = RigidBodies::of("stiffness", stiffness, &Support::default())?;
     let (found, _) = modes_at_most((stiffness, mass), (count, count), None, &bodies, &plan)?;
     check_count(FINITE, count, 1, found.vibrations.len())?;
     Ok(found)
@@ -87,7 +86,7 @@ pub fn lowest_modes(
 
 /// Modes as by [`lowest_modes`] of symmetric matrices of one size, or all modes where they are fewer than `most`, of which the first
 /// `exact` are found to round-off and the others nearly, with the flexibility that found them, which serves other loads too. `bodies`
-/// finds the null space of the stiffness where there may be one; `plan` is for both matrices together.
+/// are the null space of the stiffness; `plan` is for both matrices together.
 ///
 /// Shapes `near` the modes, such as those of a model with other factors, begin the search in place of random ones. They cannot hide a
 /// mode: where the inertia counts others, the search begins anew at random.
@@ -95,15 +94,15 @@ pub(super) fn modes_at_most(
     (stiffness, mass): (&SparseMatrix, &SparseMatrix),
     (exact, most): (usize, usize),
     mut near: Option<&DMatrix<f64>>,
-    bodies: &dyn Fn() -> Result<RigidBodies, Error>,
+    bodies: &RigidBodies,
     plan: &Arc<FactorizationPlan>,
 ) -> Result<(CountedModes, Flexibility), Error> {
     let count = most.min(stiffness.rows());
     at_least_one("modes", count)?;
     at_least_one("degrees of freedom with mass", mass.entries().len())?;
     plan.count_eigensolution();
-    let (flexibility, doubtful) = flexibility((stiffness, mass), bodies, plan)?;
     let factor_at = |what, shift| Factor::of_sum(plan, what, &[(1.0, stiffness), (shift, mass)]);
+    let flexibility = Flexibility::of(plan, stiffness, mass, bodies)?;
     let rigid = flexibility.rigid.len();
     let (mut wanted, mut block, mut solutions) = (count + BEYOND, BLOCK, 0);
     loop {
@@ -144,27 +143,9 @@ pub(super) fn modes_at_most(
             }
             .select(&(0..needed).collect::<Vec<_>>()),
             rigid_body: flexibility.rigid.shapes.clone(),
-            doubtful,
             solutions,
         };
         return Ok((found, flexibility));
-    }
-}
-
-/// The flexibility of a pencil, and motions that are hardly told from rigid-body modes.
-pub(super) fn flexibility(
-    (stiffness, mass): (&SparseMatrix, &SparseMatrix),
-    bodies: &dyn Fn() -> Result<RigidBodies, Error>,
-    plan: &Arc<FactorizationPlan>,
-) -> Result<(Flexibility, Vec<(usize, f64)>), Error> {
-    let held = Factor::of_sum(plan, "stiffness", &[(1.0, stiffness)]).ok();
-    match held.filter(|factor| factor.is_above(GIVEN)) {
-        Some(factor) => Ok((Flexibility::held(factor), Vec::new())),
-        None => {
-            let bodies = bodies()?;
-            let flexibility = Flexibility::of(plan, stiffness, mass, &bodies)?;
-            Ok((flexibility, bodies.doubtful))
-        }
     }
 }
 
@@ -191,11 +172,11 @@ impl Flexibility {
         Self { factor, rigid }
     }
 
-    fn of(
+    pub(super) fn of(
         plan: &Arc<FactorizationPlan>,
         stiffness: &SparseMatrix,
         mass: &SparseMatrix,
-        RigidBodies { motions, rows, .. }: &RigidBodies,
+        RigidBodies { rows, .. }: &RigidBodies,
     ) -> Result<Self, Error> {
         let diagonal = stiffness.diagonal();
         let spring = |row: usize| {
@@ -213,7 +194,13 @@ impl Flexibility {
         if rows.is_empty() {
             return Ok(Self::held(factor));
         }
-        let gram = symmetric_part(&motions.tr_mul(&mass.times(motions)?));
+        // With one of its springs displaced by one, the structure moves by motions that nothing resists.
+        let mut loads = DMatrix::zeros(mass.rows(), rows.len());
+        for (at, &row) in rows.iter().enumerate() {
+            loads[(row, at)] = spring(row);
+        }
+        let motions = factor.solve(&loads)?;
+        let gram = symmetric_part(&motions.tr_mul(&mass.times(&motions)?));
         let size = gram
             .diagonal()
             .map(|mass| mass.max(f64::MIN_POSITIVE).sqrt());

@@ -9,6 +9,9 @@ use std::sync::Arc;
 /// Largest difference between two entries that should be equal, relative to the largest of the matrix: files carry twelve digits.
 pub(super) const GIVEN: f64 = 1e-11;
 
+/// Part of an entry by which assembling rounds it: a sum of some thirty parts.
+pub(super) const ASSEMBLED: f64 = 30.0 * f64::EPSILON;
+
 /// Columns that a product takes at once, so that the entries are read once for all of them.
 const AT_ONCE: usize = 8;
 /// Bits of a row or column by which entries are sorted at once.
@@ -24,6 +27,7 @@ pub struct SparseMatrix {
     /// Row and column of every entry.
     places: Arc<Vec<[u32; 2]>>,
     values: Vec<f64>,
+    rounding: f64,
 }
 
 impl SparseMatrix {
@@ -61,7 +65,19 @@ impl SparseMatrix {
             columns,
             places: Arc::new(entries.iter().map(place).collect()),
             values: entries.iter().map(|entry| entry.2).collect(),
+            rounding: ASSEMBLED,
         }
+    }
+
+    /// The matrix of entries each rounded by up to this part of it when a file was written, and never less than assembling rounds.
+    pub(crate) fn with_rounding(self, part: f64) -> Self {
+        let rounding = part.max(ASSEMBLED);
+        Self { rounding, ..self }
+    }
+
+    /// The largest part of an entry by which it is rounded.
+    pub(crate) fn rounding(&self) -> f64 {
+        self.rounding
     }
 
     /// The matrix with zeros at the places of these entries where it has none.
@@ -184,7 +200,7 @@ impl SparseMatrix {
             .entries()
             .map(|(row, column, value)| (column, row, value));
         let entries = sorted(turned.collect(), self.columns, self.rows);
-        Self::of_sorted(self.columns, self.rows, &entries)
+        Self::of_sorted(self.columns, self.rows, &entries).with_rounding(self.rounding)
     }
 
     /// The product with a dense matrix (columns × m), rows × m.
@@ -310,6 +326,42 @@ impl SparseMatrix {
                 entry.abs().sqrt()
             }
         })
+    }
+
+    /// The matrix at some of its rows, ascending, and the same columns.
+    ///
+    /// # Errors
+    /// [`Error::Count`] without rows.
+    pub(crate) fn at_rows(&self, rows: &[usize]) -> Result<Self, Error> {
+        Ok(self
+            .at_columns(rows)?
+            .transposed()
+            .at_columns(rows)?
+            .transposed())
+    }
+
+    /// The largest entry in size, and the squares of all entries over it.
+    pub(super) fn squares(&self) -> (f64, Self) {
+        let sizes = self.values.iter().map(|value| value.abs());
+        let largest = sizes.fold(f64::MIN_POSITIVE, f64::max);
+        let mut squares = self.clone();
+        for value in &mut squares.values {
+            *value = (*value / largest).powi(2);
+        }
+        (largest, squares)
+    }
+
+    /// The matrix at some of its columns, ascending.
+    ///
+    /// # Errors
+    /// [`Error::Count`] without columns.
+    pub(crate) fn at_columns(&self, columns: &[usize]) -> Result<Self, Error> {
+        let place = |(row, column, value): (usize, usize, f64)| {
+            Some((row, columns.binary_search(&column).ok()?, value))
+        };
+        let entries = self.entries().filter_map(place).collect();
+        let part = Self::new("part of a matrix", self.rows, columns.len(), entries)?;
+        Ok(part.with_rounding(self.rounding))
     }
 
     /// The matrix as a dense one.

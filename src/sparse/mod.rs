@@ -4,6 +4,7 @@
 //! specification.
 
 mod assurance;
+pub(crate) mod brackets;
 mod checks;
 mod deformations;
 #[doc(hidden)]
@@ -22,6 +23,7 @@ mod residual_vectors;
 pub(crate) mod rigid_bodies;
 mod sensor_model;
 mod subspace;
+pub(crate) mod visibility;
 #[doc(hidden)]
 pub mod whole_modes;
 mod whole_model;
@@ -45,7 +47,7 @@ pub use lowest_modes::{CountedModes, FINITE, MOST_DENSE_ROWS, lowest_modes};
 pub use mass_changes::normalize_with_mass;
 pub use matrix::SparseMatrix;
 #[doc(hidden)]
-pub use rigid_bodies::RigidBodies;
+pub use rigid_bodies::{BodyFinding, Places, RigidBodies, Support};
 pub use sensor_model::SensorModel;
 pub(crate) use sensor_model::{Deflections, Whole, check_weights};
 #[doc(hidden)]

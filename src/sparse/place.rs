@@ -6,11 +6,12 @@ use super::part::Part;
 use super::random::random_block;
 use super::residual_vectors::{leading_loads, residual_vectors};
 use super::sensor_model::{Deflections, Further, ParameterMatrix, Whole, turn_alike};
+use super::visibility::visible;
 use super::{SparseMatrix, WholeModel, no_modes, take_product, transposed_product};
 use crate::method::error::{Error, check_count};
 use crate::method::modes::Modes;
 use nalgebra::DMatrix;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 use std::sync::{Arc, Mutex};
 
 /// Largest error of what the modes left out add to a slope, relative to it. It moves the end of weighted steps by at most as much times
@@ -32,19 +33,22 @@ pub(super) struct Place {
     mass: SparseMatrix,
     /// The factor, unless its memory was given back.
     flexibility: Mutex<Option<Arc<Flexibility>>>,
-    /// The modes at all degrees of freedom, their shapes times the mass, and what the sensors see of them.
+    /// The modes at all degrees of freedom, those first that the sensors see, and their shapes times the mass.
     vibrations: Modes,
     weighted: DMatrix<f64>,
+    /// Modes that the sensors see, as they see them.
     modes: Modes,
     /// The lowest squared frequency of the vibrations left out; none where there are no others.
     next: Option<f64>,
     rigid_body: DMatrix<f64>,
-    doubtful: Vec<(usize, f64)>,
     sensors: SparseMatrix,
 }
 
 impl Place {
-    /// The analysis of a model at factors, with at least and at most so many modes, sought from those `near` that are known.
+    /// The analysis of a model at factors, with at most so many modes that the sensors see, but no fewer than at least, sought from those
+    /// `near` that are known.
+    ///
+    /// Twice as many modes are taken until enough of them are seen.
     pub(super) fn new(
         whole: &WholeModel,
         factors: &[f64],
@@ -53,17 +57,32 @@ impl Place {
         near: Option<&DMatrix<f64>>,
     ) -> Result<Self, Error> {
         let (stiffness, mass) = whole.at(factors)?;
-        let (found, flexibility) = whole.modes_of(&stiffness, &mass, counts, near)?;
-        let mut vibrations = found.vibrations;
+        let (least, most) = counts;
+        let mut taken = most;
+        let (found, rigid_body, flexibility) = loop {
+            let asked = (least.min(taken), taken);
+            let (found, flexibility) = whole.modes_of(&stiffness, &mass, asked, near)?;
+            let is_all = found.next.is_none();
+            let all = (found.vibrations, found.next);
+            let visible = visible([&stiffness, &mass], sensors, all, most)?;
+            // A last group left out is missed only where modes are too few without it.
+            let is_enough = visible.seen == visible.modes.len() && visible.seen >= least;
+            if is_all || is_enough || visible.seen >= most {
+                break (visible, found.rigid_body, flexibility);
+            }
+            taken *= 2;
+        };
+        check_count(FINITE, least, 1, found.seen)?;
+        let mut vibrations = found.modes;
         let seen = sensors.times(&vibrations.shapes)?;
         let modes = Modes::signed(vibrations.omega_squared.clone(), seen.clone());
         turn_alike(&mut vibrations.shapes, &seen, &modes.shapes);
+        let modes = modes.select(&(0..found.seen).collect::<Vec<_>>());
         Ok(Self {
             modes,
             weighted: mass.times(&vibrations.shapes)?,
             next: found.next,
-            rigid_body: found.rigid_body,
-            doubtful: found.doubtful,
+            rigid_body,
             whole: whole.clone(),
             factors: factors.to_vec(),
             sensors: sensors.clone(),
@@ -80,7 +99,7 @@ impl Place {
         if let Some(known) = known {
             return Ok(known);
         }
-        let found = Arc::new(self.whole.flexibility(&self.stiffness, &self.mass)?.0);
+        let found = Arc::new(self.whole.flexibility(&self.stiffness, &self.mass)?);
         if let Ok(mut own) = self.flexibility.lock() {
             *own = Some(Arc::clone(&found));
         }
@@ -238,7 +257,7 @@ impl Whole for Place {
     }
 
     fn shapes(&self, count: usize) -> Modes {
-        let count = count.min(self.vibrations.len());
+        let count = count.min(self.modes.len());
         self.vibrations.select(&(0..count).collect::<Vec<_>>())
     }
 
@@ -248,8 +267,12 @@ impl Whole for Place {
         }
     }
 
-    fn rigid_bodies(&self) -> (usize, &[(usize, f64)]) {
-        (self.rigid_body.ncols(), &self.doubtful)
+    fn unseen(&self) -> Vec<f64> {
+        let seen = self.modes.len();
+        let highest = self.modes.omega_squared.iter().next_back();
+        let all = self.vibrations.omega_squared.iter().skip(seen);
+        let below = all.filter(|root| highest.is_none_or(|highest| *root < highest));
+        below.map(|root| root.sqrt() / TAU).collect()
     }
 
     fn basis(
@@ -269,7 +292,12 @@ impl Whole for Place {
         let vibrations = self.shapes(own);
         let loads = self.loads(deflections, &vibrations)?;
         let deflections = self.flexibility()?.solve(&loads)?;
-        let residual = residual_vectors(&self.stiffness, &self.mass, &vibrations, deflections)?;
+        // What is left has no part of modes that the sensors do not see.
+        let without = match own == self.modes.len() {
+            true => &self.vibrations,
+            false => &vibrations,
+        };
+        let residual = residual_vectors(&self.stiffness, &self.mass, without, deflections)?;
         // Only a change of mass couples rigid-body modes with vibrations.
         let has_mass = self.whole.parts().iter().any(|part| part.is_mass);
         let rigid_body = match has_mass {

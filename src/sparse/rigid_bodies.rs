@@ -1,28 +1,69 @@
-//! The motions that a stiffness does not resist, counted whatever the stiffest of its parts.
+//! The motions that a stiffness does not resist as far as its numbers tell, and which of them are those of a rigid body.
 
+use super::brackets::{bracket, slack};
 use super::factorization::FactorizationPlan;
-use super::matrix::GIVEN;
+use super::matrix::ASSEMBLED;
 use super::random::random_block;
-use super::{Factor, SparseMatrix};
+use super::{Factor, SparseMatrix, places_above};
 use crate::method::error::Error;
-use crate::method::linear_algebra::{round_off, symmetric_eigen, symmetric_part};
-use nalgebra::DMatrix;
-use std::ops::RangeInclusive;
+use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
+use nalgebra::{DMatrix, DVector, Vector3};
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Strain energy, relative to the root of the sum of its terms' squares, that counts as zero: an entry is the sum of some thirty
-/// parts, each rounded, then scaled and multiplied.
-const ROUNDED: f64 = 32.0 * f64::EPSILON;
-/// Stricter limit of that energy, above which a motion is reported as doubtful. Thirty independent roundings add up to about their
-/// root, which is less; more hints at some resistance.
-const DOUBTFUL: f64 = 8.0 * f64::EPSILON;
-/// Digits of numbers that a program has rounded; shorter ones are somebody's own and taken as exact.
-const DIGITS: RangeInclusive<usize> = 6..=12;
-/// Steps of inverse iteration. In each a motion whose resistance is $k$ shifts loses a factor of $1 + k$ beside those that nothing
-/// resists, and its energy counts by the square: of ten shifts six leave less than $10 \cdot 11^{-12}$ shifts.
+/// Steps of inverse iteration. In each a motion whose resistance is $k$ slacks loses a factor of $1 + k$ beside those that nothing
+/// resists: of [`GAP`] slacks six leave less than the round-off of doubles.
 const STEPS: usize = 6;
-/// Motions sought at first: more than one body has.
-const BLOCK: usize = 8;
+/// Motions sought beyond those counted, so that these converge by the resistance of motions further up.
+const BEYOND: usize = 8;
+/// Slacks up to which there is no other motion where a count is sure: a gap in the spectrum that no rounding of the file makes.
+const GAP: f64 = 30.0;
+
+/// Motions of a rigid body at the rows of a matrix.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Places {
+    /// Three translations and three rotations about the middle (rows × 6).
+    motions: DMatrix<f64>,
+    /// Their largest errors by the rounding of the places.
+    errors: DMatrix<f64>,
+}
+
+impl Places {
+    /// The motions at rows of which each has a place and a direction, 0 to 5; `rounding` is the largest part of the farthest coordinate
+    /// by which one is rounded.
+    pub fn new(rows: &[(Vector3<f64>, usize)], rounding: f64) -> Self {
+        let middle = rows.iter().map(|row| row.0).sum::<Vector3<f64>>() / rows.len().max(1) as f64;
+        let farthest = rows.iter().map(|row| row.0.amax()).fold(0.0, f64::max);
+        let mut motions = DMatrix::zeros(rows.len(), 6);
+        let mut errors = motions.clone();
+        for (row, &(place, direction)) in rows.iter().enumerate() {
+            motions[(row, direction)] = 1.0;
+            for axis in (0..3).filter(|_| direction < 3) {
+                let turned = Vector3::ith(axis, 1.0).cross(&(place - middle));
+                motions[(row, 3 + axis)] = turned[direction];
+                errors[(row, 3 + axis)] = rounding.max(ASSEMBLED) * farthest;
+            }
+        }
+        Self { motions, errors }
+    }
+
+    /// The motions at some of the rows.
+    pub(super) fn at(&self, rows: &[usize]) -> Self {
+        let [motions, errors] = [&self.motions, &self.errors].map(|all| all.select_rows(rows));
+        Self { motions, errors }
+    }
+}
+
+/// Knowledge of a structure's free motions beside its stiffness.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Support {
+    /// A matrix with the null space of the stiffness at any factors, if one better than the stiffness is known.
+    pub resisting: Option<SparseMatrix>,
+    /// Motions of a rigid body, if all rows have places.
+    pub places: Option<Places>,
+    /// The number of motions that nothing resists, if somebody says it.
+    pub count: Option<usize>,
+}
 
 /// The null space of a semidefinite stiffness.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,36 +72,37 @@ pub struct RigidBodies {
     pub motions: DMatrix<f64>,
     /// Rows at which one of the motions is one and the others are zero.
     pub rows: Vec<usize>,
-    /// Motions whose resistance can hardly be told from none: the row that moves most, and the resistance relative to the size of
-    /// its terms. They count as vibrations, except where the rounding of doubles may be all of the resistance.
-    pub doubtful: Vec<(usize, f64)>,
-}
-
-/// True if a resistance, relative to the size of its terms, is within the rounding of doubles.
-pub(crate) fn is_rounded(resistance: f64) -> bool {
-    resistance <= ROUNDED
+    /// Rows that move most in those of the motions that are none of a rigid body: mechanisms.
+    pub mechanisms: Vec<usize>,
+    /// The row with most force in a motion of a rigid body that is held while others are free.
+    pub held: Option<usize>,
+    /// True if places, or somebody, tell how many motions are free.
+    pub is_told: bool,
+    /// True if thirty times the rounding leaves as many.
+    pub is_sure: bool,
+    /// The largest part of an entry by which it is rounded.
+    pub rounding: f64,
+    /// $u D$ ([`slack`]).
+    slack: DVector<f64>,
 }
 
 impl RigidBodies {
-    /// The null space of a symmetric matrix $K$ as far as its numbers tell.
+    /// The null space of a symmetric matrix $K$ of which each entry is rounded by up to a part $u$.
     ///
-    /// In units of displacement that give $K$ a unit diagonal, so that no ratio of stiffness on the diagonal counts, the weakest motions
-    /// $y$ are found by inverse iteration. Entries rounded independently by a part $u$ leave an energy with a standard deviation of
+    /// The exact matrix is within $K \pm u D$ ([`slack`]). If $K + u D$ has a negative pivot, that is not semidefinite. If $K - u D$ has n,
+    /// no more than n motions are free, and as many count as free unless `support` has a number. Where places are known, those
+    /// combinations $R t$ of rigid motions are free of which rounding explains every force,
     ///
-    /// $$ u \sqrt{\sum_{ij} K_{ij}^2 y_i^2 y_j^2}, $$
+    /// $$ \lvert K R t \rvert \le \lvert K \rvert (u \lvert R \rvert + \lvert \delta R \rvert), $$
     ///
-    /// and a motion whose energy $y^t K y$ is within it counts as free. Numbers that were written with $n$ digits, six to twelve, as at
-    /// least half of them then show, have $u \le 10^{1 - n} / \sqrt{12}$: at twelve digits so much is round-off, at fewer up to three times
-    /// as much is doubtful. A negative energy is itself a draw of the round-off, which is taken to be within four of the largest such draw.
+    /// $t$ being the singular vectors of $K R$ in units of the right side; other motions among the n are mechanisms.
     ///
     /// # Errors
-    /// [`Error::NotPositiveDefinite`] for a matrix that is not semidefinite; the errors of the factorization.
-    pub fn of(what: &'static str, matrix: &SparseMatrix) -> Result<Self, Error> {
-        Self::by(
-            &Arc::new(FactorizationPlan::of_sum(&[matrix])?),
-            what,
-            matrix,
-        )
+    /// [`Error::NotPositiveDefinite`] for a matrix that is not semidefinite whatever its rounding; [`Error::Count`] for a number of motions
+    /// beyond n; the errors of the factorization.
+    pub fn of(what: &'static str, matrix: &SparseMatrix, support: &Support) -> Result<Self, Error> {
+        let plan = Arc::new(FactorizationPlan::of_sum(&[matrix])?);
+        Self::by(&plan, what, matrix, support)
     }
 
     /// The null space by a plan for this matrix among others.
@@ -68,118 +110,213 @@ impl RigidBodies {
         plan: &Arc<FactorizationPlan>,
         what: &'static str,
         matrix: &SparseMatrix,
+        support: &Support,
     ) -> Result<Self, Error> {
-        let (count, entries) = (matrix.rows(), matrix.entries());
-        let size = SparseMatrix::unit_scale(&matrix.diagonal());
-        let unit = entries
-            .clone()
-            .map(|(row, column, value)| (row, column, value / size[row] / size[column]));
-        let unit = SparseMatrix::new(what, count, count, unit.collect())?;
-        let ones = (0..count).map(|row| (row, row, 1.0)).collect();
-        let ones = SparseMatrix::new(what, count, count, ones)?;
-        let shifted =
-            |shift| Factor::of_sum(plan, what, &[(1.0, &unit), (shift, &ones)])?.check_signs(what);
-        let factor = shifted(round_off(count)).or_else(|_| shifted(GIVEN))?;
-        let Limits { least, told, most } = Limits::of(entries);
-        let (mut block, mut state) = (BLOCK.min(count), 0);
-        loop {
-            let mut weakest = random_block(count, block, &mut state);
-            for _ in 0..STEPS {
-                weakest = factor.solve(&weakest)?.qr().q();
-            }
-            let energies = symmetric_part(&weakest.tr_mul(&unit.times(&weakest)?));
-            weakest *= symmetric_eigen(what, &energies)?.1;
-            let resisted = resistances(&unit, &weakest)?;
-            let negative = resisted.iter().fold(0.0_f64, |most, part| most.max(-part));
-            let draws = 4.0 * negative;
-            let (limit, told) = (least.max(draws), told.max(draws));
-            let free: Vec<usize> = (0..block).filter(|&at| resisted[at] <= limit).collect();
-            if free.len() == block && block < count {
-                block = (2 * block).min(count);
-                continue;
-            }
-            let doubtful = (0..block).filter(|&at| resisted[at] > told && resisted[at] <= most);
-            let doubtful = doubtful
-                .map(|at| {
-                    (
-                        weakest.column(at).component_div(&size).iamax(),
-                        resisted[at],
-                    )
-                })
-                .collect();
-            let free = weakest.select_columns(&free);
-            let rows = moving_rows(&free);
-            // Held by springs at these rows, one of which is displaced by one, the structure moves by a motion that nothing
-            // resists. A solution gives all its digits; a decomposition mixes in motions that strain little beside the stiffest.
-            let ground = rows.iter().map(|&row| (row, row, 1.0)).collect();
-            let ground = SparseMatrix::new(what, count, count, ground)?;
-            let held = Factor::of_sum(plan, what, &[(1.0, &unit), (1.0, &ground)])?;
-            let mut displacements = DMatrix::zeros(count, rows.len());
-            rows.iter()
-                .enumerate()
-                .for_each(|(at, &row)| displacements[(row, at)] = 1.0);
-            let mut motions = held.solve(&displacements)?;
-            for mut motion in motions.column_iter_mut() {
-                motion.component_div_assign(&size);
-            }
-            let own = motions.select_rows(&rows).try_inverse();
-            let own = own.ok_or(Error::no_convergence("rigid-body modes"))?;
-            return Ok(Self {
-                motions: motions * own,
-                rows,
-                doubtful,
+        let (rows, rounding) = (matrix.rows(), matrix.rounding());
+        let sizes = SparseMatrix::unit_scale(&matrix.diagonal());
+        // A row without entries has nothing that could be rounded; with any slack its motion counts.
+        let slack = slack(matrix, &sizes).map(|own| if own == 0.0 { rounding } else { own });
+        let root = slack.map(f64::sqrt);
+        let entries = matrix.entries();
+        let entries = entries.map(|(i, j, value)| (i, j, value / root[i] / root[j]));
+        // In units of displacement that give every row a slack of one.
+        let unit = SparseMatrix::new(what, rows, rows, entries.collect())?;
+        let ones = DVector::from_element(rows, 1.0);
+        let at = |number: f64| bracket(plan, what, &[(1.0, &unit)], (number, &ones));
+        let most = at(-1.0)?.negative_count();
+        let count = support.count.unwrap_or(most);
+        if count > most {
+            let (what, found) = ("motions that the stiffness leaves free", count);
+            return Err(Error::Count {
+                what,
+                found,
+                least: 0,
+                most,
             });
         }
-    }
-}
-
-/// Resistances relative to the size of their terms.
-struct Limits {
-    /// Resistance up to which a motion counts as free.
-    least: f64,
-    /// Resistance above which a motion is not certainly free.
-    told: f64,
-    /// Resistance above which a motion is certainly held.
-    most: f64,
-}
-
-impl Limits {
-    /// Limits for entries of a matrix, by the digits with which they are written.
-    fn of(entries: impl Iterator<Item = (usize, usize, f64)>) -> Self {
-        let numbers: Vec<usize> = entries.map(|entry| digits(entry.2)).collect();
-        let longest = numbers.iter().copied().max().unwrap_or(0);
-        let as_long = numbers.iter().filter(|&&digits| digits + 1 >= longest);
-        let is_written = DIGITS.contains(&longest) && 2 * as_long.count() >= numbers.len();
-        let part_of = |digits: usize| 10_f64.powf(1.0 - digits as f64) / 12_f64.sqrt();
-        if is_written {
-            Self {
-                least: part_of(*DIGITS.end()),
-                told: part_of(*DIGITS.end()),
-                most: (3.0 * part_of(longest)).max(GIVEN),
-            }
-        } else {
-            Self {
-                least: ROUNDED,
-                told: DOUBTFUL,
-                most: GIVEN,
-            }
-        }
-    }
-}
-
-/// Energies $y^t K y$ of motions relative to the root of the sum of their terms' squares.
-fn resistances(stiffness: &SparseMatrix, motions: &DMatrix<f64>) -> Result<Vec<f64>, Error> {
-    let forces = stiffness.times(motions)?;
-    let resistance = |at: usize| {
-        let motion = motions.column(at);
-        let part = |(row, column, value): (usize, usize, f64)| {
-            (value * motion[row] * motion[column]).powi(2)
+        let mut found = Self {
+            motions: DMatrix::zeros(rows, 0),
+            rows: Vec::new(),
+            mechanisms: Vec::new(),
+            held: None,
+            is_told: support.count.is_some() || support.places.is_some(),
+            is_sure: true,
+            rounding,
+            slack,
         };
-        let parts: f64 = stiffness.entries().map(part).sum();
-        // At a row without stiffness there is only the round-off of other rows.
-        motion.dot(&forces.column(at)) / parts.sqrt().max(f64::EPSILON)
-    };
-    Ok((0..motions.ncols()).map(resistance).collect())
+        if most == 0 {
+            // Nothing is negative at the upper end of the bracket either.
+            return Ok(found);
+        }
+        let weakest = weakest(&unit, &at(1.0)?.check_signs(what)?, count)?;
+        match &support.places {
+            _ if support.count.is_some() => (),
+            Some(places) => found.judge(&unit, places, &root, &weakest)?,
+            None => found.is_sure = at(-GAP)?.negative_count() == most,
+        }
+        found.rows = moving_rows(&weakest);
+        // Held by springs at these rows, one of which is displaced by one, the structure moves by a motion that nothing
+        // resists. A solution gives all its digits; a decomposition mixes in motions that strain little beside the stiffest.
+        let diagonal = unit.diagonal();
+        let mut ground = DVector::zeros(rows);
+        let mut displacements = DMatrix::zeros(rows, count);
+        for (at, &row) in found.rows.iter().enumerate() {
+            ground[row] = diagonal[row].max(1.0);
+            displacements[(row, at)] = ground[row];
+        }
+        let held = bracket(plan, what, &[(1.0, &unit)], (1.0, &ground))?;
+        let mut motions = held.solve(&displacements)?;
+        for mut motion in motions.column_iter_mut() {
+            motion.component_div_assign(&root);
+        }
+        let own = motions.select_rows(&found.rows).try_inverse();
+        found.motions = motions * own.ok_or(Error::no_convergence("rigid-body modes"))?;
+        Ok(found)
+    }
+
+    /// Tells the motions of a rigid body among the weakest (rows × n, orthonormal) from mechanisms, of a matrix in units of a `root`.
+    fn judge(
+        &mut self,
+        unit: &SparseMatrix,
+        places: &Places,
+        root: &DVector<f64>,
+        weakest: &DMatrix<f64>,
+    ) -> Result<(), Error> {
+        let weighted = |motions: &DMatrix<f64>| {
+            DMatrix::from_fn(motions.nrows(), 6, |row, at| root[row] * motions[(row, at)])
+        };
+        let (motions, errors) = (weighted(&places.motions), weighted(&places.errors));
+        let lengths = motions.column_iter().map(|motion| motion.norm());
+        let lengths: Vec<f64> = lengths
+            .map(|length| if length > 0.0 { 1.0 / length } else { 0.0 })
+            .collect();
+        let lengths = DMatrix::from_diagonal(&DVector::from(lengths));
+        let (motions, errors) = (motions * &lengths, errors * lengths);
+        // Motions that are the same at the rows count once: their Gram matrix is rounded by no more than sums are.
+        let (sizes, vectors) =
+            symmetric_eigen("rigid motions", &symmetric_part(&motions.tr_mul(&motions)))?;
+        let apart = vectors.select_columns(&places_above(&sizes, ASSEMBLED));
+        let (motions, errors) = (motions * &apart, errors * apart.abs());
+        let slack = (self.rounding * motions.abs() + errors).column_sum();
+        let mut explained: DVector<f64> = DVector::zeros(slack.len());
+        unit.entries()
+            .for_each(|(row, column, value)| explained[row] += value.abs() * slack[column]);
+        let mut forces = unit.times(&motions)?;
+        for (mut forces, explained) in forces.row_iter_mut().zip(&explained) {
+            forces /= explained.max(f64::MIN_POSITIVE);
+        }
+        let (_, turn) = symmetric_eigen(
+            "forces of rigid motions",
+            &symmetric_part(&forces.tr_mul(&forces)),
+        )?;
+        let (forces, motions) = (forces * &turn, motions * turn);
+        let is_free = |at: &usize| forces.column(*at).amax() <= 1.0;
+        let (free, held): (Vec<usize>, Vec<usize>) = (0..forces.ncols()).partition(is_free);
+        if let Some(&most) = held.last().filter(|_| !free.is_empty()) {
+            self.held = Some(forces.column(most).iamax());
+        }
+        let count = weakest.ncols().saturating_sub(free.len());
+        // What of the weakest motions is none of a free rigid body.
+        let free = motions.select_columns(&free).qr().q();
+        let rest = weakest - &free * free.tr_mul(weakest);
+        let (_, vectors) = symmetric_eigen("mechanisms", &symmetric_part(&rest.tr_mul(&rest)))?;
+        let rest = rest * vectors.columns(vectors.ncols() - count, count);
+        self.mechanisms = moving_rows(&rest);
+        Ok(())
+    }
+
+    /// Number of motions of a rigid body among those that are free.
+    pub fn rigid(&self) -> usize {
+        self.rows.len() - self.mechanisms.len()
+    }
+
+    /// What the digits of the stiffness leave open, with the mass and the rows' names.
+    pub(crate) fn findings(
+        &self,
+        mass: &SparseMatrix,
+        name: impl Fn(usize) -> String,
+    ) -> Vec<BodyFinding> {
+        let names = |rows: &[usize]| rows.iter().map(|&row| name(row)).collect();
+        let mut all = Vec::new();
+        if !self.mechanisms.is_empty() {
+            all.push(BodyFinding::Mechanisms(names(&self.mechanisms)));
+        }
+        if let Some(row) = self.held {
+            all.push(BodyFinding::Held {
+                row: name(row),
+                free: self.rigid(),
+            });
+        }
+        if !self.rows.is_empty() && !self.is_told {
+            all.push(BodyFinding::ByDigits {
+                count: self.rows.len(),
+                digits: digits(self.rounding),
+                hidden_hz: self.hidden(mass).sqrt() / TAU,
+                is_sure: self.is_sure,
+            });
+        }
+        all
+    }
+
+    /// A bound on the squared frequency of a suspension that the rounding of the stiffness would hide, with the mass: of the motions'
+    /// slack $S$ and mass $M_r$ the trace of $M_r^{-1} S$, rad²/s².
+    pub(crate) fn hidden(&self, mass: &SparseMatrix) -> f64 {
+        let mut weighted = self.motions.clone();
+        weighted
+            .column_iter_mut()
+            .for_each(|mut motion| motion.component_mul_assign(&self.slack));
+        let slack = self.motions.tr_mul(&weighted);
+        let mass = mass
+            .times(&self.motions)
+            .ok()
+            .and_then(|forces| symmetric_part(&self.motions.tr_mul(&forces)).cholesky());
+        mass.map_or(f64::INFINITY, |mass| mass.solve(&slack).trace())
+    }
+}
+
+/// Digits of numbers that are rounded by up to a part $u = \frac{1}{2} \cdot 10^{1 - n}$ of them, in words.
+pub(crate) fn digits(part: f64) -> String {
+    match (1.0 - (2.0 * part).log10()).round() {
+        _ if part <= ASSEMBLED => "the digits of a double".to_owned(),
+        count => format!("{count} digits"),
+    }
+}
+
+/// Something that the digits of a stiffness leave open about the motions that it leaves free.
+#[derive(Debug, Clone, PartialEq)]
+pub enum BodyFinding {
+    /// Motions of these rows are none of a rigid body.
+    Mechanisms(Vec<String>),
+    /// So many motions of a rigid body are free, and another meets most force at this row.
+    Held {
+        /// The row.
+        row: String,
+        /// The number of those that are free.
+        free: usize,
+    },
+    /// Places do not tell which motions are free.
+    ByDigits {
+        /// The number of motions.
+        count: usize,
+        /// The digits that leave them free, in words.
+        digits: String,
+        /// A frequency below which a suspension would not show, Hz.
+        hidden_hz: f64,
+        /// True if the digits of a double leave as many free.
+        is_sure: bool,
+    },
+}
+
+/// Motions (rows × `count`) of least energy, orthonormal, by inverse iteration with a factor of the matrix and a slack of one.
+fn weakest(unit: &SparseMatrix, factor: &Factor, count: usize) -> Result<DMatrix<f64>, Error> {
+    let block = (count + BEYOND).min(unit.rows());
+    let mut weakest = random_block(unit.rows(), block, &mut 0);
+    for _ in 0..STEPS {
+        weakest = factor.solve(&weakest)?.qr().q();
+    }
+    let energies = symmetric_part(&weakest.tr_mul(&unit.times(&weakest)?));
+    let (_, vectors) = symmetric_eigen("resistance of motions", &energies)?;
+    Ok(weakest * vectors.columns(0, count))
 }
 
 /// The row that moves most in motions, then the one that moves most in what the first leaves free, as many as there are motions.
@@ -199,11 +336,4 @@ fn moving_rows(motions: &DMatrix<f64>) -> Vec<usize> {
         rows.push(row);
     }
     rows
-}
-
-/// Significant decimal digits of a number as short as it can be written.
-fn digits(number: f64) -> usize {
-    let text = format!("{:e}", number.abs());
-    text.find('e')
-        .map_or(0, |end| text[..end].len() - usize::from(text.contains('.')))
 }

@@ -91,7 +91,7 @@ pub(crate) fn check_weights(weights: &[ModeWeight], modes: usize) -> Result<(), 
 }
 
 /// Rule that pairs test modes with analysis modes by their closeness (n × g), such as [`pair_modes`].
-pub type Pair = fn(&DMatrix<f64>) -> Result<Pairing, Error>;
+pub type Pair = fn(&DMatrix<f64>, &DMatrix<f64>) -> Result<Pairing, Error>;
 
 /// A model seen through its exact modes at sensors, beside the test modes.
 #[derive(Debug, Clone)]
@@ -160,8 +160,8 @@ pub(crate) trait Whole: Debug + Send + Sync {
     /// Gives back memory that can be filled again.
     fn release(&self);
 
-    /// Number of rigid-body modes, and motions that are hardly told from them.
-    fn rigid_bodies(&self) -> (usize, &[(usize, f64)]);
+    /// Frequencies of modes found that no sensor sees, ascending, Hz.
+    fn unseen(&self) -> Vec<f64>;
 
     /// Shapes of a basis behind a number of modes, and the shares in all of them.
     fn basis(
@@ -231,7 +231,7 @@ impl SensorModel {
         (shares, turn): (Arc<Vec<ParameterMatrix>>, Option<Turn>),
     ) -> Result<Self, Error> {
         let cross = cosines(&modes.shapes, &test.shapes)?;
-        let pairing = pair(&cross)?;
+        let pairing = pair(&cross, &modes.shapes)?;
         let mut scaled = test.clone();
         for (j, mut shape) in scaled.shapes.column_iter_mut().enumerate() {
             let partner = modes.shapes.column(pairing.analysis_mode[j]);
@@ -528,8 +528,14 @@ impl SensorModel {
         };
         let is_plain = count == self.exact.modes.len();
         let pairing = match is_plain {
-            true => (self.pair)(&generalized.columns(0, count).tr_mul(&self.cross))?,
-            false => (self.pair)(&cosines(&modes.shapes, &self.test.shapes)?)?,
+            true => {
+                let cross = generalized.columns(0, count).tr_mul(&self.cross);
+                (self.pair)(&cross, &modes.shapes)?
+            }
+            false => {
+                let cross = cosines(&modes.shapes, &self.test.shapes)?;
+                (self.pair)(&cross, &modes.shapes)?
+            }
         };
         Ok((modes, pairing))
     }
@@ -545,7 +551,7 @@ impl From<&Model> for SensorModel {
             omega_squared: exact.modes.omega_squared.clone(),
             basis: exact.modes.shapes.clone(),
             cross: model.cross().clone(),
-            pair: pair_modes,
+            pair: |cross, _| pair_modes(cross),
             weights: vec![ModeWeight::ONE; model.test().len()],
             shares: Arc::new(shares.map(ParameterMatrix::Stiffness).collect()),
             turn: None,
@@ -586,11 +592,13 @@ impl Analysis for SensorModel {
         let generalized = with_rigid_bodies(&apart, &shapes);
         let generalized_shapes = generalized.columns(0, k.len()).into_owned();
         let close = generalized_shapes.tr_mul(&self.cross);
-        let pairing = (self.pair)(&close.rows(0, self.exact.modes.len()).into_owned())?;
         let modes = Modes {
             omega_squared: roots.map(f64::recip),
             shapes: &self.basis * &generalized_shapes,
         };
+        let count = self.exact.modes.len();
+        let readings = modes.shapes.columns(0, count).into_owned();
+        let pairing = (self.pair)(&close.rows(0, count).into_owned(), &readings)?;
         let errors = self.errors_of(&modes, &pairing)?;
         Ok(State {
             factors: factors.to_vec(),

@@ -3,11 +3,14 @@
 use super::deformations::Deformations;
 use super::elements::stiffness_entries;
 use super::factorization::{FactorizationPlan, Work};
-use super::lowest_modes::{CountedModes, FINITE, Flexibility, flexibility, modes_at_most};
+use super::lowest_modes::{CountedModes, FINITE, Flexibility, modes_at_most};
+use super::matrix::ASSEMBLED;
 use super::part::Part;
 use super::place::Place;
+use super::rigid_bodies::BodyFinding;
 use super::sensor_model::{Deflections, Pair, ParameterMatrix, SensorModel, Whole};
-use super::{RigidBodies, SparseMatrix};
+use super::visibility::rows_with_sensor;
+use super::{RigidBodies, SparseMatrix, Support};
 use crate::method::error::{Error, check_count, check_places, positive};
 use crate::method::linear_algebra::check_length;
 use crate::method::modes::Modes;
@@ -63,9 +66,7 @@ struct Parts {
     /// The parameters' parts of them.
     own: Vec<Part>,
     plan: Arc<FactorizationPlan>,
-    /// A matrix with the null space of $K$ at any factors, if one better than $K$ is known.
-    resisting: Option<SparseMatrix>,
-    /// The null space where it is that of `resisting`, once it was asked for.
+    support: Support,
     bodies: OnceLock<RigidBodies>,
 }
 
@@ -81,19 +82,19 @@ impl WholeModel {
         mass: SparseMatrix,
         parameters: Vec<WholeParameter>,
     ) -> Result<Self, Error> {
-        Self::with_resisting(stiffness, mass, parameters, None)
+        Self::supported(stiffness, mass, parameters, Support::default())
     }
 
-    /// A model with a symmetric matrix whose null space is that of the stiffness at any factors, for rigid-body modes.
+    /// A model of which more is known about its free motions.
     ///
     /// # Errors
-    /// As [`Self::new`]; [`Error::WrongShape`] for such a matrix of another size.
+    /// As [`Self::new`]; [`Error::WrongShape`] for a resisting matrix of another size.
     #[doc(hidden)]
-    pub fn with_resisting(
+    pub fn supported(
         stiffness: SparseMatrix,
         mass: SparseMatrix,
         parameters: Vec<WholeParameter>,
-        resisting: Option<SparseMatrix>,
+        support: Support,
     ) -> Result<Self, Error> {
         let count = stiffness.rows();
         let check = |what, matrix: &SparseMatrix| {
@@ -102,7 +103,7 @@ impl WholeModel {
         };
         check("stiffness", &stiffness)?;
         check("mass", &mass)?;
-        if let Some(resisting) = &resisting {
+        if let Some(resisting) = &support.resisting {
             check_length("stiffness of the elements", resisting.rows(), count)?;
         }
         for WholeParameter { name, share, range } in &parameters {
@@ -141,41 +142,115 @@ impl WholeModel {
             .into_iter()
             .map(placed)
             .collect::<Result<_, Error>>()?;
-        let all: Vec<&SparseMatrix> = first.iter().chain(&resisting).collect();
+        let all: Vec<&SparseMatrix> = first.iter().chain(&support.resisting).collect();
         let plan = Arc::new(FactorizationPlan::of_sum(&all)?);
         Ok(Self(Arc::new(Parts {
             first,
             own,
             parameters,
             plan,
-            resisting,
+            support,
             bodies: OnceLock::new(),
         })))
     }
 
-    /// The rigid-body motions of the first model, as its matrices tell them.
+    /// The motions that the stiffness leaves free, at the first factors and at any others: all parts of it are semidefinite.
     ///
     /// # Errors
-    /// Those of [`RigidBodies::of`].
-    pub fn rigid_bodies(&self) -> Result<RigidBodies, Error> {
-        self.bodies(&self.0.first[0])
-    }
-
-    /// The rigid-body motions at a stiffness: the same ones at any where the elements tell them.
-    fn bodies(&self, stiffness: &SparseMatrix) -> Result<RigidBodies, Error> {
-        let Some(resisting) = &self.0.resisting else {
-            return RigidBodies::by(&self.0.plan, "stiffness", stiffness);
-        };
-        if let Some(known) = self.0.bodies.get() {
-            return Ok(known.clone());
+    /// Errors of [`RigidBodies::of`].
+    pub fn rigid_bodies(&self) -> Result<&RigidBodies, Error> {
+        let Parts {
+            first,
+            support,
+            bodies,
+            plan,
+            ..
+        } = &*self.0;
+        if let Some(bodies) = bodies.get() {
+            return Ok(bodies);
         }
-        let bodies = RigidBodies::by(&self.0.plan, "stiffness", resisting)?;
-        Ok(self.0.bodies.get_or_init(|| bodies).clone())
+        let stiffness = support.resisting.as_ref().unwrap_or(&first[0]);
+        let found = RigidBodies::by(plan, "stiffness", stiffness, support)?;
+        Ok(bodies.get_or_init(|| found))
     }
 
     /// Work that analyses of this model have taken so far.
     pub fn work(&self) -> Work {
         self.0.plan.work()
+    }
+
+    /// The largest part of an entry of the first stiffness by which it is rounded.
+    pub(crate) fn rounding(&self) -> f64 {
+        self.0.first[0].rounding()
+    }
+
+    /// Sentences about these motions, with the rows' names.
+    ///
+    /// # Errors
+    /// As [`Self::rigid_bodies`].
+    pub(crate) fn body_findings(
+        &self,
+        name: impl Fn(usize) -> String,
+    ) -> Result<Vec<BodyFinding>, Error> {
+        Ok(self.rigid_bodies()?.findings(&self.0.first[1], name))
+    }
+
+    /// Rows in those parts of the model in which a sensor reads a row. What two parameters couple may cancel, but not at all factors;
+    /// couplings below the rounding of doubles are none.
+    pub(crate) fn rows_with_sensor(&self, sensors: &SparseMatrix) -> Vec<usize> {
+        let Parts {
+            first, parameters, ..
+        } = &*self.0;
+        let mut couplings = Vec::new();
+        for (matrix, is_mass) in first.iter().zip([false, true]) {
+            let sizes = SparseMatrix::unit_scale(&matrix.diagonal());
+            let parts = parameters
+                .iter()
+                .filter(|parameter| parameter.is_mass() == is_mass);
+            let parts = parts.flat_map(WholeParameter::entries);
+            let all = matrix.entries().chain(parts);
+            let told = all.filter(|&(row, column, value)| {
+                value.abs() > ASSEMBLED * sizes[row] * sizes[column]
+            });
+            couplings.extend(told.map(|(row, column, _)| (row, column)));
+        }
+        rows_with_sensor(couplings.into_iter(), sensors)
+    }
+
+    /// The model at some of its rows, ascending, with which no other is coupled.
+    ///
+    /// # Errors
+    /// Errors of [`Self::supported`].
+    pub(crate) fn at_rows(&self, rows: &[usize]) -> Result<Self, Error> {
+        let Parts {
+            first,
+            parameters,
+            support,
+            ..
+        } = &*self.0;
+        let part = |matrix: &SparseMatrix| matrix.at_rows(rows);
+        let of = |parameter: &WholeParameter| -> Result<WholeParameter, Error> {
+            let share = match &parameter.share {
+                WholeShare::Stiffness(matrix) => WholeShare::Stiffness(part(matrix)?),
+                WholeShare::Mass(matrix) => WholeShare::Mass(part(matrix)?),
+                WholeShare::Elements(members) => {
+                    let own =
+                        |(element, size): &(Deformations, f64)| (element.at_rows(rows), *size);
+                    WholeShare::Elements(members.iter().map(own).collect())
+                }
+            };
+            Ok(WholeParameter {
+                share,
+                ..parameter.clone()
+            })
+        };
+        let support = Support {
+            resisting: support.resisting.as_ref().map(part).transpose()?,
+            places: support.places.as_ref().map(|places| places.at(rows)),
+            count: support.count,
+        };
+        let parameters = parameters.iter().map(of).collect::<Result<_, Error>>()?;
+        Self::supported(part(&first[0])?, part(&first[1])?, parameters, support)
     }
 
     /// Number of degrees of freedom.
@@ -235,25 +310,24 @@ impl WholeModel {
         near: Option<&DMatrix<f64>>,
     ) -> Result<(CountedModes, Flexibility), Error> {
         check_count("modes", least, 1, self.dof_count())?;
-        let bodies = || self.bodies(stiffness);
         let found = modes_at_most(
             (stiffness, mass),
             (least, most),
             near,
-            &bodies,
+            self.rigid_bodies()?,
             &self.0.plan,
         )?;
         check_count(FINITE, least, 1, found.0.vibrations.len())?;
         Ok(found)
     }
 
-    /// The flexibility at a stiffness and mass, and motions that are hardly told from rigid-body modes.
+    /// The flexibility at a stiffness and mass.
     pub(super) fn flexibility(
         &self,
         stiffness: &SparseMatrix,
         mass: &SparseMatrix,
-    ) -> Result<(Flexibility, Vec<(usize, f64)>), Error> {
-        flexibility((stiffness, mass), &|| self.bodies(stiffness), &self.0.plan)
+    ) -> Result<Flexibility, Error> {
+        Flexibility::of(&self.0.plan, stiffness, mass, self.rigid_bodies()?)
     }
 
     /// Analysis for the loops without any condensation: the lowest modes of the whole model as the sensors see them, and every
@@ -285,7 +359,7 @@ impl WholeModel {
     ///
     /// let test = solve(&stiffness(3.0), &one, 2)?;
     /// let (sensors, size) = (sparse(one)?, BasisSize { modes: 2, residual_vectors: 0 });
-    /// let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, pair_modes), size);
+    /// let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, |cross, _| pair_modes(cross)), size);
     ///
     /// // The basis: its shapes at the sensors, their squared frequencies, and the spring's share.
     /// let first = analyze(&[1.0])?;

@@ -7,7 +7,8 @@ use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::modes::Modes;
 use crate::method::structure::StructuralDof;
-use crate::sparse::{RigidBodies, SparseMatrix};
+use crate::sparse::rigid_bodies::BodyFinding;
+use crate::sparse::{RigidBodies, SparseMatrix, Support};
 use nalgebra::DVector;
 use std::sync::Arc;
 
@@ -31,14 +32,13 @@ pub struct WholeModes {
     pub modes: Modes,
     /// Number of rigid-body modes beside them.
     pub rigid_body: usize,
-    /// Names of rows whose motions can hardly be told from rigid-body modes, and the resistance to each
-    /// ([`RigidBodies::doubtful`](super::RigidBodies::doubtful)).
-    pub doubtful: Vec<(String, f64)>,
+    /// Sentences about free motions that the digits of the stiffness leave open ([`RigidBodies::findings`]).
+    pub doubtful: Vec<BodyFinding>,
 }
 
 /// The lowest vibrations of finite frequency of $K_S$ (free SDOF × free SDOF, lbf/in) and $T M T^t$ at the DOF that have mass, counted
-/// as by [`lowest_modes`](super::lowest_modes()): `most` of them, or all if there are fewer. The null space of the matrix that `resisting` makes
-/// is that of $K_S$, whose rows are called `name`.
+/// as by [`lowest_modes`](super::lowest_modes()): `most` of them, or all if there are fewer. `support` is that of $K_S$, whose rows are
+/// called `name`.
 ///
 /// # Errors
 /// [`Error::WrongShape`] for a $T$ or masses that do not fit; the errors of [`lowest_modes`](super::lowest_modes()).
@@ -46,7 +46,7 @@ pub fn whole_modes(
     stiffness: &SparseMatrix,
     at: MassDof,
     most: usize,
-    resisting: impl Fn() -> Result<SparseMatrix, Error>,
+    support: &Support,
     name: impl Fn(usize) -> String,
 ) -> Result<WholeModes, Error> {
     let (t, rows) = (&at.load_distribution, stiffness.rows());
@@ -58,26 +58,18 @@ pub fn whole_modes(
     });
     let mass = SparseMatrix::new("mass", rows, rows, entries.collect())?;
     let plan = Arc::new(FactorizationPlan::of_sum(&[stiffness, &mass])?);
-    let bodies = || RigidBodies::of("stiffness", &resisting()?);
-    let (found, _) = modes_at_most((stiffness, &mass), (most, most), None, &bodies, &plan)?;
-    let CountedModes {
-        rigid_body,
-        vibrations,
-        doubtful,
-        ..
-    } = found;
+    let bodies = RigidBodies::of(
+        "stiffness",
+        support.resisting.as_ref().unwrap_or(stiffness),
+        support,
+    )?;
+    let (CountedModes { vibrations, .. }, _) =
+        modes_at_most((stiffness, &mass), (most, most), None, &bodies, &plan)?;
     let shapes = t.transposed().times(&vibrations.shapes)?;
     Ok(WholeModes {
         dof: at.dof,
         modes: Modes::signed(vibrations.omega_squared, shapes),
-        rigid_body: rigid_body.ncols(),
-        doubtful: named(&doubtful, name),
+        rigid_body: bodies.rigid(),
+        doubtful: bodies.findings(&mass, name),
     })
-}
-
-/// Rows' names in place of their numbers.
-pub(crate) fn named(rows: &[(usize, f64)], name: impl Fn(usize) -> String) -> Vec<(String, f64)> {
-    rows.iter()
-        .map(|&(row, value)| (name(row), value))
-        .collect()
 }

@@ -195,7 +195,7 @@ impl Comparison {
         for &mode in &exact.pairing.analysis_mode {
             cross.row_mut(mode).fill(0.0);
         }
-        let partners = (self.model.pair)(&cross)?.analysis_mode;
+        let partners = (self.model.pair)(&cross, &exact.modes.shapes)?.analysis_mode;
         for (lone, partner) in self.test.lone.iter_mut().zip(partners) {
             lone.partner = partner;
         }

@@ -20,6 +20,7 @@ pub mod draws;
 pub mod fake_solver;
 pub mod fill;
 pub mod golden;
+pub mod free_structures;
 pub mod gradient;
 pub mod ground_tests;
 pub mod hostile;

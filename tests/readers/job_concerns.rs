@@ -152,14 +152,14 @@ fn a_matrix_that_is_no_part_of_the_first_model_is_named() {
         for line in lines {
             let (place, value) = line.rsplit_once(' ').expect("a value");
             let value: f64 = value.parse().expect("a number");
-            text.push(format!("{place} {:e}", factor * value));
+            text.push(format!("{place} {:.6e}", factor * value));
         }
         ("more.mtx".to_owned(), text.join("\n") + "\n")
     };
     let job = |factor: f64| [ten_times.clone(), vec![more(factor)]].concat();
     assert_eq!(doubts(&job(10.0)), ["not-part-all"]);
     assert_eq!(doubts(&job(1.001)), ["not-part-all"]);
-    // Rounded to single precision it still is a part.
+    // With the seven digits that are written it still is a part.
     assert_eq!(doubts(&job(1.0 + 5e-8)), [""; 0]);
     assert_eq!(doubts(&job(0.5)), [""; 0]);
     let again = |matrix: &str| {
@@ -169,41 +169,65 @@ fn a_matrix_that_is_no_part_of_the_first_model_is_named() {
     };
     assert_eq!(doubts(&again("stiffness.mtx")), ["twin-all-again"]);
     let of_opposite_sign = [again("more.mtx"), vec![more(-1.0)]].concat();
-    assert_eq!(doubts(&of_opposite_sign), ["twin-all-again"]);
+    assert_eq!(doubts(&of_opposite_sign), ["negative-again"]);
 }
 
-/// Two floors on a ground so soft that sixteen digits of the matrix tell it from none, and twelve would not.
-pub const HARDLY_HELD: &str = "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 100000.0000005\n2 1 -1e5\n2 2 1e5\n";
+/// Two floors on a ground of two units of the last of thirteen digits, half of one for each floor.
+pub const HARDLY_HELD: &str = "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 100000.0000001\n2 1 -1e5\n2 2 1e5\n";
 
-#[test]
-fn a_motion_hardly_told_from_a_rigid_body_mode_is_named_by_its_row() {
+/// The concerns about free motions of two floors with this stiffness and these lines of the job, and how many are free.
+fn free(stiffness: &str, lines: &str) -> (Vec<(String, bool)>, usize) {
     let mut files = measured_building(2, 1);
-    files[1].1 = HARDLY_HELD.to_owned();
-    let found = doubts(&files);
-    assert!(found.contains(&"weak-2-x".to_owned()), "{found:?}");
-    // Two such floors on nothing are told from it.
-    files[1].1 = HARDLY_HELD.replace(".0000005", "");
+    files[1].1 = stiffness.to_owned();
+    files[0].1 = files[0]
+        .1
+        .replacen("[test]", &format!("{lines}\n[test]"), 1);
     let (_folder, path) = placed(&files);
     let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
     let trust = Trust::before(&loaded).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(rigid_bodies(&trust), 1.0);
+    let all = trust.all().iter();
+    let all = all.filter(|concern| concern.identifier() == "free-by-digits");
+    let all = all.map(|concern| (concern.identifier(), concern.stands()));
+    (all.collect(), rigid_bodies(&trust) as usize)
 }
 
-/// Below the rounding of a double it is a rigid-body mode that is doubtful, above it a vibration.
 #[test]
-fn a_motion_hardly_resisted_counts_as_what_it_is_called() {
-    for (own, kind) in [
-        ("100000.0000005", "vibration"),
-        ("100000.0000000008", "rigid-body mode"),
-    ] {
-        let mut files = measured_building(2, 1);
-        files[1].1 = HARDLY_HELD.replace("100000.0000005", own);
-        let (_folder, path) = placed(&files);
-        let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
-        let trust = Trust::before(&loaded).unwrap_or_else(|error| panic!("{error}"));
-        let words = trust.of(Kind::Weak).next().expect("a concern").words();
-        assert!(words.ends_with(&format!("counts as a {kind}.")), "{words}");
-    }
+fn a_resistance_that_rounding_may_be_counts_as_none_and_is_named() {
+    let remark = vec![("free-by-digits".to_owned(), false)];
+    assert_eq!(free(HARDLY_HELD, ""), (remark.clone(), 1));
+    // Somebody says it.
+    assert_eq!(free(HARDLY_HELD, "rigid_bodies = 1"), (Vec::new(), 1));
+    assert_eq!(free(HARDLY_HELD, "rigid_bodies = 0"), (Vec::new(), 0));
+    // Five units of the last digit are no rounding, and numbers of one digit are exact.
+    let held = HARDLY_HELD.replace("0000001", "0000005");
+    assert_eq!(free(&held, ""), (Vec::new(), 0));
+    assert_eq!(free(&HARDLY_HELD.replace(".0000001", ""), ""), (remark, 1));
+}
+
+#[test]
+fn more_rigid_bodies_than_the_digits_allow_are_refused_by_key_and_value() {
+    let files = measured_building(2, 1);
+    let two = with(
+        files.clone(),
+        "job.toml",
+        "[test]",
+        "rigid_bodies = 2\n[test]",
+    );
+    let said = super::job_errors::said(&two);
+    assert!(
+        said.contains(
+            "model.rigid_bodies is 2, but the digits of a double of model.stiffness leave at most 0"
+        ),
+        "{said}"
+    );
+    let mut negative = files;
+    negative[1].1 = HARDLY_HELD.replace("100000.0000001", "99999.123456");
+    let said = super::job_errors::said(&negative);
+    let expected = "model.stiffness has negative energy in a motion of ";
+    assert!(
+        said.contains(expected) && said.contains("more than 11 digits explain"),
+        "{said}"
+    );
 }
 
 /// Of thirty tests whose deviations were written in percent, half a percent or less of a frequency and up to five of a shape, all.

@@ -63,7 +63,7 @@ impl Uncoupled<'_> {
         let found = whole.analyze(
             &[1.0],
             &sensors,
-            (&test, pair_modes),
+            (&test, |cross, _| pair_modes(cross)),
             BasisSize {
                 modes: mass.nrows(),
                 residual_vectors: 0,

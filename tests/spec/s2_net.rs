@@ -339,7 +339,7 @@ impl Run {
 
     fn at_sensors(&self, system: &System, sensing: &Sensing) -> Result<Correlation, Error> {
         let (model, pair): (_, Pair) = match sensing.is_greedy {
-            true => (system.whole()?, pair_modes),
+            true => (system.whole()?, |cross, _| pair_modes(cross)),
             false => (system.whole()?, pair_all),
         };
         let sensors = sensors_at(&sensing.rows, model.dof_count());
@@ -469,7 +469,7 @@ fn weight(mode: usize) -> ModeWeight {
 }
 
 /// The pairing of all modes at once, as a job's.
-fn pair_all(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
+fn pair_all(cross: &DMatrix<f64>, _: &DMatrix<f64>) -> Result<Pairing, Error> {
     let partners = pair_optimally(&cross.component_mul(cross), 0.0)?;
     let modes: Vec<usize> = partners.into_iter().flatten().collect();
     let signs = modes.iter().enumerate();

@@ -140,7 +140,7 @@ pub fn analyze(
     model.analyze(
         factors,
         sensors,
-        (test, pair_modes),
+        (test, |cross, _| pair_modes(cross)),
         BasisSize {
             modes: POINTS,
             residual_vectors: 0,

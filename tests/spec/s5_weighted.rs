@@ -109,7 +109,7 @@ fn the_jacobian_is_the_derivative_of_exact_analyses() {
             let model = first.analyze(
                 factors,
                 &sensors,
-                (&test, pair_modes),
+                (&test, |cross, _| pair_modes(cross)),
                 BasisSize {
                     modes: 9,
                     residual_vectors: 0,

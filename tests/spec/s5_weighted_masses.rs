@@ -83,7 +83,10 @@ impl Net {
     }
 
     fn analyze(&self, factors: &[f64]) -> Result<SensorModel, Error> {
-        let test = (&self.test, pair_modes as _);
+        let test = (
+            &self.test,
+            (|cross, _| pair_modes(cross)) as corfem::sparse::Pair,
+        );
         self.model.analyze(
             factors,
             &self.sensors,

@@ -8,7 +8,7 @@ use crate::method::error::Error;
 use crate::method::linear_algebra::symmetric_eigen;
 use crate::method::structure::{DIRECTIONS, Structure};
 use crate::sparse::SparseMatrix;
-use crate::sparse::elements::{largest_entry, resisting, stiffness_entries};
+use crate::sparse::elements::{largest_entry, stiffness_entries, support};
 use crate::sparse::whole_modes::{MassDof, WholeModes, whole_modes};
 
 /// Largest ratio of the stiffness of two elements. An assembled entry holds 16 digits of the stiffer one; at a ratio of
@@ -33,8 +33,8 @@ pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
     let entries = elements.iter().zip(&sizes);
     let entries = entries.flat_map(|(element, &size)| stiffness_entries(element, size));
     let stiffness = SparseMatrix::new("stiffness", free.len(), free.len(), entries.collect())?;
-    let resisting = || resisting(&structure, &elements);
-    let found = whole_modes(&stiffness, at, most, resisting, |row| row_name(row, free)).map_err(
+    let support = support(&structure, &elements)?;
+    let found = whole_modes(&stiffness, at, most, &support, |row| row_name(row, free)).map_err(
         |error| match error {
             // A motion with neither stiffness nor mass.
             Error::NotPositiveDefinite {

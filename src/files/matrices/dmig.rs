@@ -1,6 +1,6 @@
 //! DMIG cards of bulk data: matrices at grids and components, as NASTRAN takes and punches them.
 
-use super::{FoundMatrices, LabeledMatrix, is_wanted};
+use super::{Digits, FoundMatrices, LabeledMatrix, is_wanted};
 use crate::files::deck::{Card, cards};
 use crate::files::error::FileError;
 use crate::sparse::SparseMatrix;
@@ -61,7 +61,7 @@ fn matrix(header: &Card, cards: &[&Card]) -> Result<LabeledMatrix, FileError> {
         5,
         "the type of a real matrix (1 or 2)",
     )?;
-    let (mut entries, mut places) = (Vec::new(), HashSet::new());
+    let (mut entries, mut places, mut digits) = (Vec::new(), HashSet::new(), Digits::default());
     let [mut rows, mut columns] = [BTreeSet::new(), BTreeSet::new()];
     for card in cards {
         let column = label(card, 3)?;
@@ -77,6 +77,7 @@ fn matrix(header: &Card, cards: &[&Card]) -> Result<LabeledMatrix, FileError> {
                 .optional_real(start + 2)?
                 .ok_or_else(|| card.wrong(start + 2, "a real number"))?;
             card.absent(start + 3, "complex matrices")?;
+            digits.add(card.text(start + 2));
             let place = if is_symmetric {
                 (row.min(column), row.max(column))
             } else {
@@ -107,7 +108,7 @@ fn matrix(header: &Card, cards: &[&Card]) -> Result<LabeledMatrix, FileError> {
     Ok(LabeledMatrix {
         rows: Some(rows),
         columns: Some(columns),
-        matrix,
+        matrix: matrix.with_rounding(digits.rounding()),
     })
 }
 

@@ -1,5 +1,6 @@
 //! The exchange format of the Matrix Market (Boisvert, Pozo, Remington, NISTIR 5935, 1996).
 
+use super::Digits;
 use crate::files::error::{FileError, is_not};
 use crate::sparse::SparseMatrix;
 use std::fmt::Write;
@@ -88,7 +89,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
     let first_row = |column: usize| mirror.map_or(0, |factor| column + usize::from(factor == -1.0));
     let mut places =
         (0..columns).flat_map(|column| (first_row(column)..rows).map(move |row| (row, column)));
-    let (mut entries, mut read) = (Vec::new(), 0);
+    let (mut entries, mut read, mut digits) = (Vec::new(), 0, Digits::default());
     for (number, line) in lines {
         let words: Vec<&str> = line.split_whitespace().collect();
         let (row, column, word) = match words[..] {
@@ -125,6 +126,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
         let value = value
             .filter(|value| value.is_finite())
             .ok_or_else(|| wrong(number, "a real number", word))?;
+        digits.add(word);
         entries.push((row, column, value));
         if let Some(factor) = mirror.filter(|_| row != column) {
             entries.push((column, row, factor * value));
@@ -140,12 +142,8 @@ pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
         let reason = format!("the file ends after entry {read}; the line of sizes promises more");
         return Err(FileError::line(file, end, reason));
     }
-    Ok(SparseMatrix::new(
-        "matrix of a file",
-        rows,
-        columns,
-        entries,
-    )?)
+    let matrix = SparseMatrix::new("matrix of a file", rows, columns, entries)?;
+    Ok(matrix.with_rounding(digits.rounding()))
 }
 
 /// A matrix in the coordinate format, every number by the fewest digits that read back as exactly that number; of a

@@ -2,10 +2,12 @@
 //!
 //! Memory is bounded by a file's own size: no room is reserved for what a header promises.
 
+mod digits;
 mod dmig;
 mod matrix_market;
 mod output4;
 
+pub(crate) use digits::Digits;
 #[doc(hidden)]
 pub use matrix_market::write_matrix_market;
 

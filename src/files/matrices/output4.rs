@@ -1,6 +1,6 @@
 //! The text that NASTRAN's module OUTPUT4 writes, dense or sparse.
 
-use super::{FoundMatrices, LabeledMatrix, is_wanted};
+use super::{Digits, FoundMatrices, LabeledMatrix, is_wanted};
 use crate::files::deck::number::parse_reals;
 use crate::files::error::FileError;
 use crate::sparse::SparseMatrix;
@@ -129,7 +129,7 @@ impl Lines<'_> {
             .filter(|width| *width > 0);
         let width =
             width.ok_or_else(|| self.wrong(*at, "a header with a format such as 1P,5E16.9"))?;
-        let (mut entries, mut last_column) = (Vec::new(), 0);
+        let (mut entries, mut last_column, mut digits) = (Vec::new(), 0, Digits::default());
         loop {
             *at += 1;
             let [column, first, words] = [0, 1, 2].map(|place| self.integer(*at, place));
@@ -146,7 +146,12 @@ impl Lines<'_> {
             last_column = column;
             let (head, before, mut next_row, mut strings) = (*at, entries.len(), 1, Vec::new());
             if first > 0 {
-                self.numbers(at, width, (first, rows, column), &mut entries)?;
+                self.numbers(
+                    at,
+                    width,
+                    (first, rows, column),
+                    (&mut entries, &mut digits),
+                )?;
             }
             while first == 0 && self.is_string(*at + 1) {
                 *at += 1;
@@ -165,7 +170,8 @@ impl Lines<'_> {
                     string,
                     "the header of a string below the last one",
                 )?;
-                let count = self.numbers(at, width, (row, rows, column), &mut entries)?;
+                let count =
+                    self.numbers(at, width, (row, rows, column), (&mut entries, &mut digits))?;
                 next_row = row + count;
                 strings.push((string, words, count));
             }
@@ -196,12 +202,8 @@ impl Lines<'_> {
         {
             entries.extend(mirrored);
         }
-        Ok(SparseMatrix::new(
-            "matrix of OUTPUT4",
-            rows,
-            columns,
-            entries,
-        )?)
+        let matrix = SparseMatrix::new("matrix of OUTPUT4", rows, columns, entries)?;
+        Ok(matrix.with_rounding(digits.rounding()))
     }
 
     /// Takes the numbers after this line from a row of a column on, and returns how many there are.
@@ -210,12 +212,14 @@ impl Lines<'_> {
         at: &mut usize,
         width: usize,
         (first, rows, column): (usize, usize, usize),
-        entries: &mut Vec<(usize, usize, f64)>,
+        (entries, digits): (&mut Vec<(usize, usize, f64)>, &mut Digits),
     ) -> Result<usize, FileError> {
         let mut row = first;
         while let Some(line) = self.lines.get(*at + 1).filter(|line| line.contains('.')) {
             *at += 1;
             let reals = parse_reals(line, width);
+            let columns = line.as_bytes().chunks(width);
+            columns.for_each(|column| digits.add(&String::from_utf8_lossy(column)));
             for value in reals
                 .ok_or_else(|| self.wrong(*at, "a line of real numbers in the header's format"))?
             {

@@ -186,7 +186,16 @@ fn moved(found: &CorrelatedJob) -> Option<[Vec<Vec<Vector3<f64>>>; 3]> {
     let whole = |factors: &[f64], Comparison { model, .. }: &Comparison| {
         let pairs = &model.exact.pairing.analysis_mode;
         let count = pairs.iter().max().map_or(0, |mode| mode + 1);
-        let anew = || Some(source.whole.modes(factors, count).ok()?.vibrations.shapes);
+        let anew = || {
+            Some(
+                source
+                    .whole
+                    .exactly(factors, sensors, (count, count), None)
+                    .ok()?
+                    .shapes(count)
+                    .shapes,
+            )
+        };
         let all = match model.whole() {
             Some(whole) => whole.shapes(count).shapes,
             None => anew()?,

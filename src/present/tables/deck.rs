@@ -2,7 +2,7 @@
 
 use crate::files::deck::{Reason, Unread};
 use crate::files::test_data::row_name;
-use crate::job::hardly_held;
+use crate::job::of_bodies;
 use crate::present::table::{Cell, Digits, Table, counted, numbers};
 use crate::sparse::whole_modes::WholeModes;
 
@@ -45,7 +45,7 @@ pub fn deck_tables(unread: &[Unread], modes: &WholeModes, count: usize) -> Vec<T
             modes
                 .doubtful
                 .iter()
-                .map(|(name, held)| hardly_held(name, *held).words()),
+                .map(|finding| of_bodies(finding).words()),
         );
     let ignored = Table::new(
         "ignored",

@@ -19,13 +19,6 @@ use nalgebra::{DMatrix, DVector};
 use std::mem::take;
 use std::sync::Arc;
 
-/// Steps of inverse iteration toward the weakest motion. Each reduces the other motions by the ratio of the two
-/// smallest eigenvalues; when the matrix is singular the first step already gains ten decades.
-const INVERSE_ITERATIONS: usize = 4;
-/// If the first estimate of the smallest eigenvalue exceeds the limit by this factor, it is enough: it is too large by at most
-/// 1/(component of the start vector along the weakest motion).
-const CLEARLY_HELD: f64 = 1e6;
-
 /// A symmetric matrix, factorized once and solved many times:
 ///
 /// $$ A = S^{-1} L D L^t S^{-1} $$
@@ -246,6 +239,21 @@ impl Factor {
         self.pivots.iter().filter(is_negative).count()
     }
 
+    /// A motion of negative energy: $S L^{-t} e_p$, whose energy is the most negative pivot p.
+    pub(super) fn negative_motion(&self) -> Option<DVector<f64>> {
+        let pivots = self.pivots.iter().enumerate();
+        let (at, &pivot) = pivots
+            .min_by(|a, b| a.1.total_cmp(b.1))
+            .filter(|(_, pivot)| **pivot < 0.0)?;
+        let mut rows = vec![0.0; self.pivots.len()];
+        rows[at] = pivot;
+        self.backward(&mut rows, 1);
+        let turn = &self.plan.turn;
+        Some(DVector::from_fn(rows.len(), |row, _| {
+            self.scale[turn[row]] * rows[turn[row]]
+        }))
+    }
+
     /// The error that names the row of the smallest pivot.
     fn not_positive(&self, what: &'static str) -> Error {
         let rows = self.pivots.iter().zip(&self.plan.order);
@@ -254,21 +262,5 @@ impl Factor {
             what,
             row: smallest.map_or(0, |(_, &dof)| dof),
         }
-    }
-
-    /// True if every eigenvalue of the matrix scaled to unit diagonal is above a limit that is not negative, by inverse iteration.
-    ///
-    /// Small pivots do not tell that: after a small one the next is as wrong as round-off divided by it.
-    pub(super) fn is_above(&self, limit: f64) -> bool {
-        let start = start_vector(self.scale.len());
-        let mut motion = self.solved(DMatrix::from_rows(&[start.transpose()]));
-        let mut smallest = 1.0 / motion.normalize_mut();
-        for _ in 1..INVERSE_ITERATIONS {
-            if smallest <= CLEARLY_HELD * limit {
-                motion = self.solved(motion);
-                smallest = 1.0 / motion.normalize_mut();
-            }
-        }
-        self.negative_count() == 0 && smallest > limit
     }
 }

@@ -5,7 +5,7 @@ use corfem::method::error::Error;
 use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::method::step::Bounds;
 use corfem::method::structure::Structure;
-use corfem::sparse::elements::{lumped_masses, resisting};
+use corfem::sparse::elements::{lumped_masses, support};
 use corfem::sparse::{Deformations, SparseMatrix, WholeModel, WholeParameter, WholeShare};
 use nalgebra::DMatrix;
 use std::collections::HashMap;
@@ -72,10 +72,10 @@ pub fn of_elements(
     let mass = mass.chain(lumped.map(|(row, mass)| (row, row, mass)));
     let sparse = |what, entries| SparseMatrix::new(what, count, count, entries);
     let (stiffness, mass) = (stiffness.collect(), mass.collect());
-    WholeModel::with_resisting(
+    WholeModel::supported(
         sparse("stiffness", stiffness)?,
         sparse("mass", mass)?,
         parameters.collect::<Result<_, Error>>()?,
-        Some(resisting(structure, &matrices)?),
+        support(structure, &matrices)?,
     )
 }

@@ -16,7 +16,7 @@ use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
 use corfem::method::step::Bounds;
 use corfem::method::structure::{ElementKind, Material, Point, Structure, check_corners};
-use corfem::sparse::elements::{corner_volumes, lumped_masses, resisting};
+use corfem::sparse::elements::{corner_volumes, lumped_masses, support};
 use corfem::sparse::{Deformations, Factor};
 
 fn deformations(elements: &[ElementMatrix]) -> Result<Vec<Deformations>, Error> {
@@ -192,11 +192,12 @@ pub const STRUCTURES: &[Entry] = &[
         FiniteElementModel::new(structure, load_distribution, mass, d.parameters())
             .map(|_| Vec::new())
     }),
-    ("elements::resisting", |d| {
+    ("elements::support", |d| {
         let structure = d.structure()?;
         let elements: Vec<_> = element_matrices(&structure).collect();
-        let found = resisting(&structure, &elements)?;
-        Ok(found.entries().map(|entry| entry.2).collect())
+        let found = support(&structure, &elements)?;
+        let entries = found.resisting.iter().flat_map(|matrix| matrix.entries());
+        Ok(entries.map(|entry| entry.2).collect())
     }),
     ("FiniteElementModel::factor_ranges", |d| {
         let (model, factors) = d.finite_element()?;

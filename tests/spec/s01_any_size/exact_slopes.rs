@@ -73,7 +73,10 @@ impl Row {
             modes: MODES[1],
             residual_vectors: 0,
         };
-        let test = (&self.test, pair_modes as _);
+        let test = (
+            &self.test,
+            (|cross, _| pair_modes(cross)) as corfem::sparse::Pair,
+        );
         self.model
             .analyze(factors, &self.sensors, test, size)
             .expect("an analysis")

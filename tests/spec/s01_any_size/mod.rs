@@ -1,5 +1,6 @@
 //! The text and the machine: fast forms beside plain ones, of any size.
 
+pub mod brackets;
 pub mod clusters;
 pub mod condensation;
 pub mod deformations;

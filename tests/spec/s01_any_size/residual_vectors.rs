@@ -77,7 +77,10 @@ impl Net {
     }
 
     fn analyze(&self, factors: &[f64], further: usize) -> SensorModel {
-        let test = (&self.test, pair_modes as _);
+        let test = (
+            &self.test,
+            (|cross, _| pair_modes(cross)) as corfem::sparse::Pair,
+        );
         self.model
             .analyze(
                 factors,
@@ -144,7 +147,10 @@ fn every_spring_has_one_residual_vector() {
             .analyze(
                 &[1.0; 3],
                 &sensors,
-                (&test, pair_modes as _),
+                (
+                    &test,
+                    (|cross, _| pair_modes(cross)) as corfem::sparse::Pair,
+                ),
                 BasisSize {
                     modes: 4,
                     residual_vectors: 4,

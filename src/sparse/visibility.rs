@@ -1,0 +1,165 @@
+//! Modes that sensors see, and those that exist for nobody.
+
+use super::SparseMatrix;
+use super::matrix::ASSEMBLED;
+use crate::method::error::Error;
+use crate::method::modes::Modes;
+use nalgebra::{DMatrix, DVector};
+
+/// Part of what a sensor reads of other modes that counts as nothing: shapes are found to the root of the rounding of doubles, of which
+/// the square is in their frequencies.
+const NOTHING: f64 = 1e-8;
+/// Distance of neighboring squared frequencies, relative to the higher, that no solver tells from none.
+const SAME: f64 = 1e-8;
+/// Standard deviations of a rounding that none exceeds.
+const RARE: f64 = 4.0;
+
+/// Every mode's visibility, from zero to one: the largest part that a reading of it (sensors × n, unit mass) is of what this sensor reads
+/// of any mode, $\nu = \max_s \lvert (S v)_s \rvert / r_s$. A sensor that reads next to nothing of all is no measure: no $r_s$ is below
+/// 1e-8 of the largest.
+pub(crate) fn visibilities(readings: &DMatrix<f64>) -> Vec<f64> {
+    let sizes = sizes(readings);
+    let parts = readings.column_iter();
+    let parts = parts.map(|mode| mode.abs().component_div(&sizes).amax());
+    parts.collect()
+}
+
+/// The $r_s$ of [`visibilities`].
+fn sizes(readings: &DMatrix<f64>) -> DVector<f64> {
+    let least = (NOTHING * readings.amax()).max(f64::MIN_POSITIVE);
+    let largest = readings.row_iter().map(|row| row.amax().max(least));
+    DVector::from_iterator(readings.nrows(), largest)
+}
+
+/// Modes of a pencil, those first that sensors see.
+pub(super) struct Visible {
+    pub(super) modes: Modes,
+    /// Number of those that are seen.
+    pub(super) seen: usize,
+    /// The lowest squared frequency of the modes left out; none where there are no others.
+    pub(super) next: Option<f64>,
+}
+
+/// Sorts modes of unit generalized mass by what sensors $S$ see of them; of those seen at most so many stay.
+///
+/// Rounding of the entries by a part $u$ leaves the energy of two modes with a deviation $\sigma_{il}$,
+///
+/// $$ \sigma_{il}^2 = \frac{u^2}{3} \sum_{pq} (K_{pq}^2 + \omega_i^2 \omega_l^2 M_{pq}^2) v_{ip}^2 v_{lq}^2, $$
+///
+/// and mixes mode l into mode i by $\sigma_{il} / \lvert \omega_i^2 - \omega_l^2 \rvert$. A mode is unseen where no sensor reads more of
+/// it than four times what this brings in of others, or 1e-8 of what it reads of any. Modes that the solver's own rounding does not tell
+/// apart are one group, which is turned by the singular vectors of $S V$ if that leaves some unseen. A last group that may be cut off by
+/// the number taken is left out.
+///
+/// # Errors
+/// [`Error::WrongShape`] for matrices that do not fit.
+pub(super) fn visible(
+    pencil: [&SparseMatrix; 2],
+    sensors: &SparseMatrix,
+    (mut modes, mut next): (Modes, Option<f64>),
+    most: usize,
+) -> Result<Visible, Error> {
+    let unit = deviations(pencil, &modes)?;
+    let roots: Vec<f64> = modes.omega_squared.iter().copied().chain(next).collect();
+    let (all, last) = ((0..roots.len()).collect::<Vec<_>>(), modes.len() - 1);
+    let is_same = |a: &usize, b: &usize| {
+        let solved = RARE * ASSEMBLED * unit[(*a, last.min(*b))];
+        roots[*b] - roots[*a] <= solved.max(SAME * roots[*b])
+    };
+    let mut groups: Vec<&[usize]> = all.chunk_by(is_same).collect();
+    if next.is_some()
+        && let Some(&[cut, ..]) = groups.pop()
+    {
+        next = Some(roots[cut]);
+        modes = modes.select(&all[..cut]);
+    }
+    let readings = sensors.times(&modes.shapes)?;
+    let (sizes, rounding) = (
+        sizes(&readings),
+        pencil[0].rounding().max(pencil[1].rounding()),
+    );
+    let mixed = |i: usize, l: usize| {
+        let (apart, part) = ((roots[i] - roots[l]).abs(), rounding * unit[(i, l)]);
+        match apart > part.max(SAME * roots[i].max(roots[l])) {
+            true => RARE * part / apart,
+            false => 0.0,
+        }
+    };
+    let limits = DMatrix::from_fn(sizes.len(), modes.len(), |s, i| {
+        let of_others = (0..modes.len()).map(|l| (readings[(s, l)] * mixed(i, l)).powi(2));
+        of_others.sum::<f64>().sqrt().max(NOTHING * sizes[s])
+    });
+    let (mut seen, mut unseen) = (Vec::new(), Vec::new());
+    for group in groups {
+        let own = readings.select_columns(group);
+        let split = |own: &DMatrix<f64>| -> (Vec<usize>, Vec<usize>) {
+            let is_seen = |at: &usize| {
+                (0..sizes.len()).any(|s| own[(s, at - group[0])].abs() > limits[(s, *at)])
+            };
+            group.iter().copied().partition(is_seen)
+        };
+        // With as many rows as columns at least the singular vectors span the group.
+        let square = own
+            .clone()
+            .resize_vertically(own.nrows().max(group.len()), 0.0);
+        let found = square.try_svd(false, true, f64::EPSILON, 10_000);
+        let turn = found
+            .and_then(|found| found.v_t)
+            .map(|turn| turn.transpose());
+        let mut parts = split(&own);
+        if let Some(turn) = turn {
+            let turned = split(&(own * &turn));
+            if turned.0.len() < parts.0.len() {
+                parts = turned;
+                let shapes = modes.shapes.select_columns(group) * turn;
+                let into = group[0]..group[0] + group.len();
+                modes.shapes.columns_range_mut(into).copy_from(&shapes);
+            }
+        }
+        seen.extend(parts.0);
+        unseen.extend(parts.1);
+    }
+    if let Some(&first) = seen.get(most) {
+        next = Some(roots[first]);
+        seen.truncate(most);
+    }
+    let count = seen.len();
+    Ok(Visible {
+        modes: modes.select(&[seen, unseen].concat()),
+        seen: count,
+        next,
+    })
+}
+
+/// The $\sigma_{il}$ of [`visible`] for $u = 1$.
+fn deviations(pencil: [&SparseMatrix; 2], modes: &Modes) -> Result<DMatrix<f64>, Error> {
+    // Squares of very large or small numbers leave the range of numbers.
+    let size = modes.shapes.amax();
+    let squares = modes.shapes.map(|value| (value / size).powi(2));
+    let of = |matrix: &SparseMatrix| {
+        let (largest, parts) = matrix.squares();
+        let sums = squares.tr_mul(&parts.times(&squares)?);
+        Ok::<_, Error>(sums.map(|sum| largest * size * size * (sum / 3.0).sqrt()))
+    };
+    let frequencies = modes.omega_squared.map(f64::sqrt);
+    let mass = of(pencil[1])?.component_mul(&(&frequencies * frequencies.transpose()));
+    Ok(of(pencil[0])?.zip_map(&mass, f64::hypot))
+}
+
+/// Rows that couplings join, one by one or by others, to a row that a sensor reads.
+pub(super) fn rows_with_sensor(
+    couplings: impl Iterator<Item = (usize, usize)>,
+    sensors: &SparseMatrix,
+) -> Vec<usize> {
+    let mut near = vec![Vec::new(); sensors.columns()];
+    couplings.for_each(|(row, other)| near[row].push(other));
+    let mut next: Vec<usize> = sensors.entries().map(|entry| entry.1).collect();
+    let mut is_joined = vec![false; near.len()];
+    while let Some(row) = next.pop() {
+        if !is_joined[row] {
+            is_joined[row] = true;
+            next.append(&mut near[row]);
+        }
+    }
+    (0..near.len()).filter(|&row| is_joined[row]).collect()
+}
