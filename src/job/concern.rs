@@ -27,6 +27,7 @@ pub enum Kind {
     ExcludesStart,
     UnitOfPlaces,
     NoPair,
+    BeyondReach,
     NegativePart,
     NotPart,
     Twin,
@@ -35,6 +36,7 @@ pub enum Kind {
     Unlike,
     PartnerTaken,
     WouldHarm,
+    OutOfReach,
     Parallel,
     Undecided,
     Joined,
@@ -55,6 +57,7 @@ pub enum Kind {
     HeldDirection,
     SuspensionHidden,
     PartNotChecked,
+    FarApart,
     Alike,
     TooManyModes,
     Unbounded,
@@ -86,7 +89,7 @@ pub enum Grade {
 /// `{a}` and `{b}` are the first names that a concern is about, `{all}` all of them, `{some}` the first eight, `{and}` joins them by that
 /// word, `{id}` by hyphens; `{x}`, `{y}`, `{z}` and `{w}` are its numbers, `{x.3}` with three decimals, `{xe}` as a power of ten, `{x6}` with
 /// six significant digits.
-const TABLE: [(Kind, Grade, &str, &str); 57] = {
+const TABLE: [(Kind, Grade, &str, &str); 60] = {
     use Grade::{Doubt, LeftOut, Remark};
     use Kind::*;
     [
@@ -188,6 +191,12 @@ const TABLE: [(Kind, Grade, &str, &str); 57] = {
             "No test mode resembles a mode of the model: another structure, other sensors, or several mistakes at once?",
         ),
         (
+            BeyondReach,
+            Doubt,
+            "beyond-reach-{a}",
+            "Test mode {a} has {x} Hz, and its partner, mode {b} of the first model, can have {y.4} to {z.4} Hz within the bounds and priors of the parameters: another mode, or another unit?",
+        ),
+        (
             NegativePart,
             Doubt,
             "negative-{id}",
@@ -236,6 +245,12 @@ const TABLE: [(Kind, Grade, &str, &str); 57] = {
             "not-compared-{a}",
             "Test mode {a} is not compared: it resembles a mode of the model (modal assurance {x.2}), and compared it makes the others \
              worse.",
+        ),
+        (
+            OutOfReach,
+            LeftOut,
+            "not-compared-{a}",
+            "Test mode {a} is not compared: no mode of the model that it resembles (modal assurance {x.2} at most) can have its frequency within the bounds and priors of the parameters.",
         ),
         (
             Parallel,
@@ -347,6 +362,12 @@ const TABLE: [(Kind, Grade, &str, &str); 57] = {
             Remark,
             "part-not-checked-{a}",
             "Whether parameter \"{a}\" is part of the first model was not checked: {b}.",
+        ),
+        (
+            FarApart,
+            Remark,
+            "far-apart-{a}",
+            "Test mode {a} has {x} Hz, {z.2} times its partner's, mode {b} of the first model, {y.4} Hz.",
         ),
         (
             Alike,

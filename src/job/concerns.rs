@@ -41,6 +41,10 @@ impl Trust {
         let loaded = &prepared.loaded;
         let mut all = prepared.preflight_concerns()?;
         all.extend(prepared.pairing_concerns()?);
+        // A mistake in the readings or in all frequencies says more than each pair that it makes.
+        if !all.iter().any(Concern::stands) {
+            all.extend(prepared.frequency_concerns());
+        }
         all.extend(prepared.unseen_concerns());
         all.extend(prepared.noise_concerns());
         all.extend(loaded.part_concerns()?);
@@ -54,11 +58,10 @@ impl Trust {
 impl LeftOut {
     /// What is said of the mode.
     pub(super) fn concern(&self) -> Concern {
-        let is_unlike = self.assurance < FLOOR;
-        let kind = if is_unlike {
-            Kind::Unlike
-        } else {
-            Kind::PartnerTaken
+        let kind = match self.assurance < FLOOR {
+            true => Kind::Unlike,
+            false if self.is_beyond_reach => Kind::OutOfReach,
+            false => Kind::PartnerTaken,
         };
         Concern::new(kind, &[self.mode + 1], &[self.assurance])
     }

@@ -18,7 +18,7 @@ use std::cell::RefCell;
 /// The result of a job.
 #[derive(Debug, Clone)]
 pub struct JobResult {
-    /// What was found.
+    /// The correlated job.
     pub found: CorrelatedJob,
     /// Everything that may lower the trust in it.
     pub trust: Trust,
@@ -159,7 +159,7 @@ impl CorrelatedJob {
         let some = lists.into_iter().filter(|(_, names)| !names.is_empty());
         concerns.extend(some.map(|(kind, names)| Concern::new(kind, &names, &[])));
         concerns.extend((!joined.is_empty()).then(|| Concern::new(Kind::Joined, &joined, &[])));
-        let left = prepared.unlike(&self.last.model.exact.modes)?;
+        let left = prepared.unlike(&self.last)?;
         concerns.extend(left.iter().map(|left| {
             let mut concern = left.concern();
             if prepared.refused.contains(&left.mode) {

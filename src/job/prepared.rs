@@ -31,6 +31,8 @@ pub struct LeftOut {
     pub mode: usize,
     /// The largest modal assurance.
     pub assurance: f64,
+    /// True if no mode that it resembles can have its frequency.
+    pub is_beyond_reach: bool,
 }
 
 /// A job with its first analysis, and its test modes with their partners in it.
@@ -123,6 +125,7 @@ impl PreparedJob {
         let left_out = |mode: usize| LeftOut {
             mode: self.modes[mode],
             assurance: assurance.column(mode).max(),
+            is_beyond_reach: false,
         };
         self.unpaired = left.into_iter().map(left_out).collect();
         let twice = self.alone().iter().find_map(|(mode, lone)| {
@@ -148,12 +151,17 @@ impl PreparedJob {
         self.loaded.alone()
     }
 
-    /// Selected test modes that are not compared, with their largest modal assurance with these modes.
-    pub(super) fn unlike(&self, modes: &Modes) -> Result<Vec<LeftOut>, FileError> {
+    /// Selected test modes that are not compared, with their largest modal assurance with the modes of this model.
+    pub(super) fn unlike(&self, model: &Comparison) -> Result<Vec<LeftOut>, FileError> {
+        let (modes, reach) = (&model.model.exact.modes, self.reach(model));
         let of_mode = |mode: usize| {
             let test = self.loaded.measured(&[mode])?;
-            let assurance = assurance_of_roots(modes, &test.shapes)?.max();
-            Ok(LeftOut { mode, assurance })
+            let close = assurance_of_roots(modes, &test.shapes)?;
+            Ok(LeftOut {
+                mode,
+                assurance: close.max(),
+                is_beyond_reach: self.within(&close, &[mode], &reach).max() < FLOOR,
+            })
         };
         self.not_compared().map(of_mode).collect()
     }
@@ -174,16 +182,14 @@ impl PreparedJob {
             return Ok(None);
         }
         let test = self.loaded.measured(&all)?;
-        let mut assurance = assurance_of_roots(&model.model.exact.modes, &test.shapes)?;
-        for (mode, reach) in self.reach(model).into_iter().enumerate() {
-            for place in self.modes.len()..all.len() {
-                if !self.is_within(reach, all[place]) {
-                    assurance[(mode, place)] = 0.0;
-                }
-            }
+        let assurance = assurance_of_roots(&model.model.exact.modes, &test.shapes)?;
+        let mut within = self.within(&assurance, &all, &self.reach(model));
+        // Those that are compared have their partners whatever the steps have come to.
+        for place in 0..self.modes.len() {
+            within.set_column(place, &assurance.column(place));
         }
         let readings = &model.model.exact.modes.shapes;
-        let partners = pairs(&assurance, readings, FLOOR)?;
+        let partners = pairs(&within, readings, FLOOR)?;
         let (compared, left) = partners.split_at(self.modes.len());
         let left = left.iter().zip(&all[self.modes.len()..]);
         let joined: Vec<usize> = left

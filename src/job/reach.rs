@@ -1,12 +1,16 @@
 //! Frequencies that a mode of the model can have within the bounds and the priors of the parameters.
 
-use super::PreparedJob;
+use super::{Concern, Kind, PreparedJob};
 use crate::method::step::Bounds;
 use crate::sparse::ParameterMatrix;
 use crate::weighted::comparison::Comparison;
+use nalgebra::DMatrix;
 
 /// Deviations of a prior, or of a measured frequency, within which all but one in sixteen thousand lie.
 const FAR: f64 = 4.0;
+
+/// Ratio of two frequencies beyond which a stiffness is wrong more than twofold, or something else is.
+const FAR_APART: f64 = 1.5;
 
 impl PreparedJob {
     /// Least and largest frequency (Hz) of every mode of a model for which factors within their bounds, or where there are none within
@@ -51,6 +55,47 @@ impl PreparedJob {
             }
         };
         hertz.into_iter().enumerate().map(of_mode).collect()
+    }
+
+    /// Doubts about pairs of the first model that no factors can bring together, and remarks on those far apart, which a test in other
+    /// units has too.
+    pub(super) fn frequency_concerns(&self) -> Vec<Concern> {
+        // Where there are fewer modes than test modes there are no pairs.
+        let Ok(first) = self.analyze(&self.loaded.ones()) else {
+            return Vec::new();
+        };
+        let hertz = first.model.exact.modes.frequencies_hz();
+        let reach = self.reach(&first);
+        let by_shape = first.model.exact.pairing.analysis_mode.iter().copied();
+        let alone = first.lone().iter().map(|lone| lone.partner);
+        let pairs = self.compared().zip(by_shape.chain(alone));
+        let concern = |(test, partner): (usize, usize)| {
+            let (own, near) = (self.loaded.data.frequencies_hz[test], reach[partner]);
+            let about = [test + 1, partner + 1];
+            let ratio = own / hertz[partner];
+            if !self.is_within(near, test) {
+                let measure = [own, near.lower, near.upper];
+                return Some(Concern::new(Kind::BeyondReach, &about, &measure));
+            }
+            let is_far = ratio.max(1.0 / ratio) > FAR_APART;
+            is_far.then(|| Concern::new(Kind::FarApart, &about, &[own, hertz[partner], ratio]))
+        };
+        pairs.filter_map(concern).collect()
+    }
+
+    /// Modal assurance (n × g) of test modes with modes that can have their frequencies, and zero with others.
+    pub(super) fn within(
+        &self,
+        assurance: &DMatrix<f64>,
+        tests: &[usize],
+        reach: &[Bounds],
+    ) -> DMatrix<f64> {
+        assurance.map_with_location(|mode, test, close| {
+            match self.is_within(reach[mode], tests[test]) {
+                true => close,
+                false => 0.0,
+            }
+        })
     }
 
     /// True if a measured frequency (Hz) of a test mode lies within reach, but for its own deviation.

@@ -301,7 +301,7 @@ pub fn deck_modes(
     own_document(json!({
         "dof": dof.collect::<Value>(),
         "rigid_body_modes": modes.rigid_body,
-        "doubtful": modes.doubtful.iter().map(of_bodies).collect::<Vec<_>>(),
+        "doubtful": modes.doubtful.iter().map(|found| of_bodies(found).words()).collect::<Vec<_>>(),
         "frequencies_hz": modes.modes.frequencies_hz().into_iter().take(count).collect::<Value>(),
         "generalized_masses": masses,
         "shapes": shapes,

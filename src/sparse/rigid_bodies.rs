@@ -230,7 +230,7 @@ impl RigidBodies {
         self.rows.len() - self.mechanisms.len()
     }
 
-    /// What the digits of the stiffness leave open, with the mass and the rows' names.
+    /// Findings that the digits of the stiffness leave open, with the mass and the rows' names.
     pub(crate) fn findings(
         &self,
         mass: &SparseMatrix,

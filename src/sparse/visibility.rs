@@ -47,7 +47,7 @@ pub(super) struct Visible {
 /// $$ \sigma_{il}^2 = \frac{u^2}{3} \sum_{pq} (K_{pq}^2 + \omega_i^2 \omega_l^2 M_{pq}^2) v_{ip}^2 v_{lq}^2, $$
 ///
 /// and mixes mode l into mode i by $\sigma_{il} / \lvert \omega_i^2 - \omega_l^2 \rvert$. A mode is unseen where no sensor reads more of
-/// it than four times what this brings in of others, or 1e-8 of what it reads of any. Modes that the solver's own rounding does not tell
+/// it than four times what this brings in of others, 1e-8 of what it reads of any, or 1e-8 of its own largest component. Modes that the solver's own rounding does not tell
 /// apart are one group, which is turned by the singular vectors of $S V$ if that leaves some unseen. A last group that may be cut off by
 /// the number taken is left out.
 ///
@@ -85,9 +85,11 @@ pub(super) fn visible(
             false => 0.0,
         }
     };
+    let largest: Vec<f64> = modes.shapes.column_iter().map(|mode| mode.amax()).collect();
     let limits = DMatrix::from_fn(sizes.len(), modes.len(), |s, i| {
         let of_others = (0..modes.len()).map(|l| (readings[(s, l)] * mixed(i, l)).powi(2));
-        of_others.sum::<f64>().sqrt().max(NOTHING * sizes[s])
+        let nothing = NOTHING * sizes[s].max(largest[i]);
+        of_others.sum::<f64>().sqrt().max(nothing)
     });
     let (mut seen, mut unseen) = (Vec::new(), Vec::new());
     for group in groups {

@@ -581,7 +581,7 @@ fn a_test_mode_that_is_none_of_the_models_is_left_out_and_named() {
     let prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(prepared.modes, [0, 1, 2]);
     assert!(
-        matches!(prepared.unpaired[..], [LeftOut { mode: 3, assurance }] if assurance > 0.0 && assurance <= 1.0)
+        matches!(prepared.unpaired[..], [LeftOut { mode: 3, assurance, .. }] if assurance > 0.0 && assurance <= 1.0)
     );
 }
 

@@ -2,14 +2,14 @@
 
 use super::job_errors::placed;
 use crate::common::draws::Draws;
-use crate::common::jobs::{STORIES, building, prepare, run};
+use crate::common::jobs::{building, prepare, run};
 use crate::common::test_files::write_csv;
 use corfem::files::test_data::{self, TestData};
 use corfem::job::concern::Grade;
-use corfem::job::{Concern, JobResult};
+use corfem::job::{Concern, JobResult, PreparedJob};
 
-/// What comes of the building's job with another test.
-fn corrected(edit: impl FnOnce(&mut TestData)) -> JobResult {
+/// The building's job with another test.
+fn job(edit: impl FnOnce(&mut TestData)) -> PreparedJob {
     let mut files = building();
     let test = files.iter_mut().find(|(name, _)| name == "test.csv");
     let text = &mut test.expect("the test").1;
@@ -17,8 +17,11 @@ fn corrected(edit: impl FnOnce(&mut TestData)) -> JobResult {
     edit(&mut data);
     *text = write_csv(&data);
     let (_folder, path) = placed(&files);
-    let prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
-    run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"))
+    prepare(&path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn corrected(job: &PreparedJob) -> JobResult {
+    run(job, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Largest distance of the factors from those of another result, in deviations.
@@ -32,21 +35,28 @@ fn apart(result: &JobResult, from: &JobResult) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// The law: a random test mode, at any frequency, harms nothing and is named.
+/// The law: a random test mode that the first model has no like of, at any frequency, harms nothing and is named.
 #[test]
 fn a_random_mode_changes_no_factor_by_more_than_noise_and_is_named() {
-    let right = corrected(|_| {});
+    let right = corrected(&job(|_| {}));
     let mut draws = Draws(23);
-    let mut alike = 0;
-    for test in 0..24 {
+    let (mut left_out, mut alike) = (0, 0);
+    for test in 0..80 {
         let hertz =
             right.found.prepared.loaded.data.frequencies_hz[0] * draws.between(-2.0, 4.0).exp();
         let junk = [(); 5].map(|()| draws.between(-1.0, 1.0));
-        let found = corrected(|data| {
+        let job = job(|data| {
             data.frequencies_hz.push(hertz);
             data.shapes = data.shapes.clone().insert_column(5, 0.0);
             data.shapes.set_column(5, &junk.into());
         });
+        if !job.unpaired.iter().any(|left| left.mode == 5) {
+            continue;
+        }
+        left_out += 1;
+        let found = corrected(&job);
+        // The mirror: the right modes are compared, those too that join.
+        assert_eq!(found.found.prepared.modes, [0, 1, 2, 3, 4], "test {test}");
         let away = apart(&found, &right);
         assert!(away < 1.0, "test {test}: {away} deviations");
         let left = found
@@ -61,20 +71,8 @@ fn a_random_mode_changes_no_factor_by_more_than_noise_and_is_named() {
         );
         alike += usize::from(left.is_some_and(|left| left.measure[0] >= 0.5));
     }
-    assert!(alike > 3, "of {alike} the shape alone would make a pair");
-}
-
-/// The mirror: a right mode that the first model has no like of is compared in the end.
-#[test]
-fn a_right_mode_among_junk_is_compared() {
-    let found = corrected(|data| {
-        data.frequencies_hz.push(90.0);
-        data.shapes = data.shapes.clone().insert_column(5, 0.0);
-        data.shapes
-            .set_column(5, &[1.0, -1.0, 1.0, -1.0, 1.0].into());
-    });
-    assert_eq!(found.found.prepared.modes, [0, 1, 2, 3, 4]);
-    for (factor, story) in found.found.factors.iter().zip(STORIES) {
-        assert!((factor / story - 1.0).abs() < 0.01, "{factor} {story}");
-    }
+    assert!(
+        left_out > 20 && alike > 3,
+        "{alike} of {left_out} are like a mode in the end"
+    );
 }
