@@ -66,6 +66,18 @@ pub struct CountedModes {
 /// motion that has neither stiffness nor mass, or a matrix that is not semidefinite; [`Error::Failed`];
 /// [`Error::Failed`]; [`Error::WrongShape`] for matrices of two sizes; the errors of [`SparseMatrix::check_symmetric`].
 ///
+/// ```rust
+/// use corfem::sparse::{SparseMatrix, lowest_modes};
+///
+/// // Two masses on a spring, held nowhere: one rigid-body mode, and a vibration at the root of two.
+/// let matrix = |entries: &[(usize, usize, f64)]| SparseMatrix::new("matrix", 2, 2, entries.to_vec());
+/// let spring = matrix(&[(0, 0, 1.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 1.0)])?;
+/// let found = lowest_modes(&spring, &matrix(&[(0, 0, 1.0), (1, 1, 1.0)])?, 1)?;
+/// assert_eq!(found.rigid_body.ncols(), 1);
+/// assert!((found.vibrations.omega_squared()[0] - 2.0).abs() < 1e-12);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
+///
 /// Source: Bathe, *Finite Element Procedures* (1996), sections 11.2 and 11.6; Parlett, *The Symmetric Eigenvalue Problem* (1980),
 /// chapters 3, 13 and 15.
 pub fn lowest_modes(

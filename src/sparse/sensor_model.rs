@@ -39,14 +39,6 @@ impl ParameterMatrix {
         }
     }
 
-    /// A share of the same kind with another matrix made from this one's.
-    pub fn map(&self, change: impl FnOnce(&DMatrix<f64>) -> DMatrix<f64>) -> Self {
-        match self {
-            Self::Stiffness(matrix) => Self::Stiffness(change(matrix)),
-            Self::Mass(matrix) => Self::Mass(change(matrix)),
-        }
-    }
-
     fn is_mass(&self) -> bool {
         matches!(self, Self::Mass(_))
     }

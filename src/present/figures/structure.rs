@@ -55,8 +55,10 @@ impl Names {
             // Letters are placed to whole pixels, which moves two of them by up to one against each other.
             let before = |end: f64, start: f64| end + 1.0 <= start;
             let meets = |other: &[f64; 4]| {
-                !(before(one[2], other[0]) || before(other[2], one[0]))
-                    && !(before(one[3], other[1]) || before(other[3], one[1]))
+                !(before(one[2], other[0])
+                    || before(other[2], one[0])
+                    || before(one[3], other[1])
+                    || before(other[3], one[1]))
             };
             one[0] > 4.0
                 && one[2] < WIDTH - 4.0
