@@ -271,7 +271,6 @@ impl SensorModel {
     }
 
     /// The analysis, where it is at hand.
-    #[cfg(feature = "program")]
     pub(crate) fn whole(&self) -> Option<&Arc<dyn Whole>> {
         self.place.as_ref()
     }

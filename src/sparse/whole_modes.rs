@@ -32,7 +32,7 @@ pub struct WholeModes {
     pub modes: Modes,
     /// Number of rigid-body modes beside them.
     pub rigid_body: usize,
-    /// Sentences about free motions that the digits of the stiffness leave open ([`RigidBodies::findings`]).
+    /// Findings about free motions that the digits of the stiffness leave open.
     pub doubtful: Vec<BodyFinding>,
 }
 

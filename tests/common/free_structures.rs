@@ -124,7 +124,7 @@ fn beam(draws: &mut Draws, is_held: bool) -> Drawn {
 fn frame(draws: &mut Draws, is_held: bool) -> Drawn {
     let (bays, unit) = (2 + draws.below(6), [1.0, 1e3][draws.below(2)]);
     let [wide, high] = [(); 2].map(|()| draws.between(0.5, 3.0) * unit);
-    let (sin, cos) = draws.between(0.0, 6.28).sin_cos();
+    let (sin, cos) = draws.between(0.0, std::f64::consts::TAU).sin_cos();
     let place = |at: usize| {
         let (x, y) = ((at % 2) as f64 * wide, (at / 2) as f64 * high);
         Vector3::new(cos * x - sin * y, sin * x + cos * y, 0.0)
