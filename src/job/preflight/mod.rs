@@ -2,8 +2,8 @@
 //!
 //! The loops fit gages to whatever data they get: with one reversed sensor the gages are silently wrong. So a job's test is judged
 //! at its sensors by the modes of the whole model: each common mistake in the readings is undone on trial, and the one that
-//! explains the shapes best is named, if it does so well enough (`readings.rs` has the equations). Frequencies take no part in that;
-//! their ratios are judged after shapes have been paired.
+//! explains the shapes best is named, if it does so well enough (`readings.rs` has the equations). Frequencies tell modes of like shapes
+//! apart there; their ratios are judged after shapes have been paired.
 
 mod frequencies;
 mod order;
@@ -133,7 +133,7 @@ pub fn preflight_at_sensors(
         twice.any(|copies| copies.modes[1] == *mode)
     };
     let once: Vec<usize> = (0..test.len()).filter(|mode| !is_copy(mode)).collect();
-    let suspected = explain(seen, &test.shapes.select_columns(&once))?;
+    let suspected = explain(seen, &test.select(&once))?;
     let mut test = test.clone();
     if let Some((change, _)) = &suspected {
         test.shapes = changed(&test.shapes, change);

@@ -28,6 +28,10 @@ const MODEL_ERROR: f64 = 0.3;
 /// The same of stiffness that no parameter scales; what it does is bounded by
 /// $\lvert v_l^t \Delta K v_i \rvert \le \delta \sqrt{\lambda_l \lambda_i}$ (Cauchy and Schwarz).
 const OTHER_ERROR: f64 = 0.003;
+/// Standard deviation of a test's frequency, relative to it.
+const FREQUENCY_NOISE: f64 = 0.005;
+/// Most that a frequency costs a pair: beyond, something else is wrong with it, which shapes alone must tell.
+const MOST_BY_FREQUENCY: f64 = 20.0;
 /// Share of right tests in which a mistake may be named.
 const FALSE_ALARMS: f64 = 1e-3;
 /// A gain closer to one than this factor may be the model's.
@@ -59,10 +63,33 @@ struct Likelihood {
     /// $G_i^{-1} = L L^t$ of every mode i, and the column i of $L^{-1}$.
     ridges: Vec<(Cholesky<f64, Dyn>, DVector<f64>)>,
     noise: Vec<f64>,
+    /// The negative logarithm of the likelihood of every test mode's frequency (columns), if it came from each mode (rows).
+    frequencies: DMatrix<f64>,
+}
+
+/// $\frac{1}{2} z^2 + \ln t$ of every mode (rows) and frequency, with
+/// $z = \frac{1}{t} \ln \frac{f_j}{f_i}$ and $t^2 = \sigma_f^2 + \sum_e (\frac{1}{2} \delta_e s_{ei})^2$, where $s_{ei}$ is the share
+/// of parameter e in the squared frequency of mode i.
+fn costs_of_frequencies(seen: &SeenModes, test_hz: &[f64]) -> DMatrix<f64> {
+    let (squares, hertz) = (seen.modes.omega_squared(), seen.modes.frequencies_hz());
+    let deviation = |mode: usize| {
+        let share = |share: &ParameterMatrix| match share {
+            ParameterMatrix::Stiffness(share) => share[(mode, mode)] / squares[mode],
+            ParameterMatrix::Mass(share) => share[(mode, mode)],
+        };
+        let moved = seen.shares.iter().map(share);
+        let moved = moved.map(|share| (0.5 * MODEL_ERROR * share).powi(2));
+        (FREQUENCY_NOISE.powi(2) + moved.sum::<f64>()).sqrt()
+    };
+    let deviations: Vec<f64> = (0..hertz.len()).map(deviation).collect();
+    DMatrix::from_fn(hertz.len(), test_hz.len(), |mode, test| {
+        let apart = (test_hz[test] / hertz[mode]).ln() / deviations[mode];
+        (0.5 * apart * apart).min(MOST_BY_FREQUENCY) + deviations[mode].ln()
+    })
 }
 
 impl Likelihood {
-    fn new(seen: &SeenModes) -> Option<Self> {
+    fn new(seen: &SeenModes, test_hz: &[f64]) -> Option<Self> {
         let shapes = seen.modes.shapes().clone();
         let squares = seen.modes.omega_squared();
         let noise: Vec<f64> = shapes
@@ -114,6 +141,7 @@ impl Likelihood {
             priors,
             ridges: Vec::new(),
             noise,
+            frequencies: costs_of_frequencies(seen, test_hz),
         }
         .with(shapes)
     }
@@ -134,11 +162,12 @@ impl Likelihood {
             shapes,
             priors: self.priors.clone(),
             noise: self.noise.clone(),
+            frequencies: self.frequencies.clone(),
         })
     }
 
-    /// The negative logarithm of the likelihood of every shape (columns), if it came from each mode (rows), and the part $q_i$ of
-    /// that mode. It is Student's, whose tails leave room for noise above [`NOISE`] and for modes that the model does not have.
+    /// The negative logarithm of the likelihood of every test mode (columns), if it came from each mode (rows), and the part $q_i$ of
+    /// that mode. That of its shape is Student's, whose tails leave room for noise above [`NOISE`] and for modes that the model does not have.
     fn of_shapes(&self, test: &DMatrix<f64>) -> [DMatrix<f64>; 2] {
         let (products, freedom) = (self.shapes.tr_mul(test), test.nrows().max(2) as f64 - 1.0);
         let squares: Vec<f64> = test
@@ -155,7 +184,8 @@ impl Likelihood {
                 let left = (squares[shape] - half.norm_squared()).max(0.0);
                 let misfit = left / (self.noise[mode] * part).powi(2);
                 let misfit = if misfit.is_finite() { misfit } else { f64::MAX };
-                costs[(mode, shape)] = 0.5 * freedom * (misfit / freedom).ln_1p();
+                let by_shape = 0.5 * freedom * (misfit / freedom).ln_1p();
+                costs[(mode, shape)] = by_shape + self.frequencies[(mode, shape)];
                 parts[(mode, shape)] = part;
             }
         }
@@ -211,12 +241,10 @@ impl Likelihood {
 ///
 /// # Errors
 /// Those of [`pair_optimally`].
-pub(super) fn explain(
-    seen: &SeenModes,
-    test: &DMatrix<f64>,
-) -> Result<Option<(Change, f64)>, Error> {
-    let (sensors, _) = test.shape();
-    let Some(model) = Likelihood::new(seen).filter(|_| sensors > 2) else {
+pub(super) fn explain(seen: &SeenModes, test: &Modes) -> Result<Option<(Change, f64)>, Error> {
+    let (hertz, test) = (test.frequencies_hz(), test.shapes());
+    let sensors = test.nrows();
+    let Some(model) = Likelihood::new(seen, &hertz).filter(|_| sensors > 2) else {
         return Ok(None);
     };
     let before = model.misfit(test)?;
