@@ -4,14 +4,14 @@ use crate::common::alter;
 use crate::common::structures::spring_stiffness;
 use crate::common::tolerances::{FIRST_FREQUENCY_RATIO, ROUND_OFF};
 use crate::evidence::specimen::Specimen;
-use corfem::job::preflight::{Change, FACTORS, Names};
+use corfem::job::preflight::{Change, FACTORS, Names, SeenModes, preflight_at_sensors};
 use corfem::job::{Concern, Kind};
 use corfem::method::model::DynamicModel;
-use corfem::method::modes::solve;
+use corfem::method::modes::{Modes, solve};
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::sorting::pair_modes;
-use corfem::sparse::modal_assurance;
 use corfem::sparse::random::split_mix_64;
+use corfem::sparse::{ParameterMatrix, modal_assurance};
 use corfem::torque_box::Case;
 use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
 use corfem::weighted::noise::{Noise, with_noise};
@@ -307,6 +307,54 @@ fn ratios_that_scatter_have_no_common_factor() {
         assert!(
             found.iter().all(|own| !factors.contains(&own.kind)),
             "{found:?}"
+        );
+    }
+}
+
+/// Behind every mode stands another of fifty times its frequency, whose shape is the same but for the sign of one sensor: by shapes alone
+/// nobody could tell that sensor reversed from a test of the others.
+#[test]
+fn modes_far_off_in_frequency_do_not_explain_a_reversed_sensor() {
+    let chain = chain();
+    let model = &chain.model;
+    let count = model.mass.nrows();
+    let modes = solve(&model.stiffness, &model.mass, count).unwrap();
+    let twice = |matrix: &DMatrix<f64>, factor: f64| {
+        let mut both = DMatrix::zeros(2 * count, 2 * count);
+        both.view_mut((0, 0), (count, count)).copy_from(matrix);
+        let mut other = both.view_mut((count, count), (count, count));
+        other.copy_from(&(factor * matrix));
+        both
+    };
+    for sensor in 0..count {
+        let mut turned = modes.shapes().clone();
+        turned.row_mut(sensor).neg_mut();
+        let both = DMatrix::from_fn(count, 2 * count, |row, mode| match mode < count {
+            true => modes.shapes()[(row, mode)],
+            false => turned[(row, mode - count)],
+        });
+        let squares = modes.omega_squared();
+        let squares = DVector::from_fn(2 * count, |mode, _| match mode < count {
+            true => squares[mode],
+            false => 2500.0 * squares[mode - count],
+        });
+        let share = |share: &DMatrix<f64>| {
+            let own = modes.shapes().tr_mul(&(share * modes.shapes()));
+            ParameterMatrix::Stiffness(twice(&own, 2500.0))
+        };
+        let seen = SeenModes {
+            shares: model.shares.iter().map(share).collect(),
+            directions: Vec::new(),
+            modes: Modes::new(squares, both).unwrap(),
+        };
+        let mut test = chain.test.clone();
+        alter(&mut test, |_, shapes| shapes.row_mut(sensor).neg_mut());
+        let (settings, names) = (Settings::default(), Names::default());
+        let found = preflight_at_sensors(&seen, &test, &settings, &[], &names).unwrap();
+        let reversed = Change::Reversed(sensor);
+        assert!(
+            found.iter().any(|own| is_of(own, &reversed)),
+            "{sensor}: {found:?}"
         );
     }
 }
