@@ -2,7 +2,7 @@
 
 use super::concern::{Concern, Kind, Trust};
 use super::preflight::{LARGEST_TOLERANCE, Names, SeenModes, preflight_at_sensors};
-use super::prepared::{FLOOR, LeftOut};
+use super::prepared::LeftOut;
 use super::sensors::{PlacedSensor, motion};
 use super::{LoadedJob, Method, PreparedJob};
 use crate::files::deck::{Reason, Unread};
@@ -58,12 +58,7 @@ impl Trust {
 impl LeftOut {
     /// What is said of the mode.
     pub(super) fn concern(&self) -> Concern {
-        let kind = match self.assurance < FLOOR {
-            true => Kind::Unlike,
-            false if self.is_beyond_reach => Kind::OutOfReach,
-            false => Kind::PartnerTaken,
-        };
-        Concern::new(kind, &[self.mode + 1], &[self.assurance])
+        Concern::new(self.why, &[self.mode + 1], &[self.assurance])
     }
 }
 

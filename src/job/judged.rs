@@ -1,9 +1,9 @@
 //! A correlated job with everything that says how far to trust it: its last value.
 
-use super::PreparedJob;
 use super::concern::{Concern, Kind, Trust};
 use super::correlated::{Caller, CorrelatedJob, History};
 use super::verdict::{Judged, Outcome, Verdict, sum_of_nine_modes};
+use super::{LeftOut, PreparedJob};
 use crate::files::error::FileError;
 use crate::method::error_sum::mode_errors;
 use crate::method::step::Bounds;
@@ -160,13 +160,7 @@ impl CorrelatedJob {
         concerns.extend(some.map(|(kind, names)| Concern::new(kind, &names, &[])));
         concerns.extend((!joined.is_empty()).then(|| Concern::new(Kind::Joined, &joined, &[])));
         let left = prepared.unlike(&self.last)?;
-        concerns.extend(left.iter().map(|left| {
-            let mut concern = left.concern();
-            if prepared.refused.contains(&left.mode) {
-                concern.kind = Kind::WouldHarm;
-            }
-            concern
-        }));
+        concerns.extend(left.iter().map(LeftOut::concern));
         Ok(concerns)
     }
 }

@@ -3,7 +3,7 @@
 use super::bodies::explained;
 use super::expansion::mass_by_modes;
 use super::unseen::{decided, pairs};
-use super::{LoadedJob, Method};
+use super::{Kind, LoadedJob, Method};
 use crate::files::error::FileError;
 use crate::method::error::{Error, check_count};
 use crate::method::modes::Modes;
@@ -24,15 +24,15 @@ const RESIDUAL_VECTORS: usize = 4;
 /// Distance from the optimum, in deviations, at which weighted steps stop: no interval shows it.
 const TOLERANCE: f64 = 1e-3;
 
-/// A test mode that is not compared, and its largest modal assurance with any mode of the model.
+/// A test mode that is not compared, why, and its largest modal assurance with any mode of the model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeftOut {
     /// Its place in the test's file, from zero.
     pub mode: usize,
     /// The largest modal assurance.
     pub assurance: f64,
-    /// True if no mode that it resembles can have its frequency.
-    pub is_beyond_reach: bool,
+    /// The kind of concern that says why.
+    pub why: Kind,
 }
 
 /// A job with its first analysis, and its test modes with their partners in it.
@@ -122,10 +122,18 @@ impl PreparedJob {
         let partners = pairs(&assurance, &exact.shapes, FLOOR)?;
         let (kept, left): (Vec<usize>, Vec<usize>) =
             (0..partners.len()).partition(|&mode| partners[mode].is_some());
-        let left_out = |mode: usize| LeftOut {
-            mode: self.modes[mode],
-            assurance: assurance.column(mode).max(),
-            is_beyond_reach: false,
+        let left_out = |mode: usize| {
+            let assurance = assurance.column(mode).max();
+            let why = match assurance < FLOOR {
+                true => Kind::Unlike,
+                false => Kind::PartnerTaken,
+            };
+            let mode = self.modes[mode];
+            LeftOut {
+                mode,
+                assurance,
+                why,
+            }
         };
         self.unpaired = left.into_iter().map(left_out).collect();
         let twice = self.alone().iter().find_map(|(mode, lone)| {
@@ -157,10 +165,17 @@ impl PreparedJob {
         let of_mode = |mode: usize| {
             let test = self.loaded.measured(&[mode])?;
             let close = assurance_of_roots(modes, &test.shapes)?;
+            let assurance = close.max();
+            let why = match self.within(&close, &[mode], &reach).max() < FLOOR {
+                _ if self.refused.contains(&mode) => Kind::WouldHarm,
+                _ if assurance < FLOOR => Kind::Unlike,
+                true => Kind::OutOfReach,
+                false => Kind::PartnerTaken,
+            };
             Ok(LeftOut {
                 mode,
-                assurance: close.max(),
-                is_beyond_reach: self.within(&close, &[mode], &reach).max() < FLOOR,
+                assurance,
+                why,
             })
         };
         self.not_compared().map(of_mode).collect()
@@ -183,11 +198,7 @@ impl PreparedJob {
         }
         let test = self.loaded.measured(&all)?;
         let assurance = assurance_of_roots(&model.model.exact.modes, &test.shapes)?;
-        let mut within = self.within(&assurance, &all, &self.reach(model));
-        // Those that are compared have their partners whatever the steps have come to.
-        for place in 0..self.modes.len() {
-            within.set_column(place, &assurance.column(place));
-        }
+        let within = self.within(&assurance, &all, &self.reach(model));
         let readings = &model.model.exact.modes.shapes;
         let partners = pairs(&within, readings, FLOOR)?;
         let (compared, left) = partners.split_at(self.modes.len());

@@ -83,7 +83,8 @@ impl PreparedJob {
         pairs.filter_map(concern).collect()
     }
 
-    /// Modal assurance (n × g) of test modes with modes that can have their frequencies, and zero with others.
+    /// Modal assurance (n × g) of test modes with modes that can have their frequencies, and zero with others; those that are compared keep
+    /// all of it, whatever the steps have come to.
     pub(super) fn within(
         &self,
         assurance: &DMatrix<f64>,
@@ -91,7 +92,8 @@ impl PreparedJob {
         reach: &[Bounds],
     ) -> DMatrix<f64> {
         assurance.map_with_location(|mode, test, close| {
-            match self.is_within(reach[mode], tests[test]) {
+            let is_compared = self.modes.contains(&tests[test]);
+            match is_compared || self.is_within(reach[mode], tests[test]) {
                 true => close,
                 false => 0.0,
             }

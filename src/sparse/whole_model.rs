@@ -169,8 +169,7 @@ impl WholeModel {
         if let Some(bodies) = bodies.get() {
             return Ok(bodies);
         }
-        let stiffness = support.resisting.as_ref().unwrap_or(&first[0]);
-        let found = RigidBodies::by(plan, "stiffness", stiffness, support)?;
+        let found = RigidBodies::by(plan, "stiffness", &first[0], support)?;
         Ok(bodies.get_or_init(|| found))
     }
 

@@ -57,12 +57,10 @@ pub fn whole_modes(
         moving_mass_entries(&motion, &motion, mass)
     });
     let mass = SparseMatrix::new("mass", rows, rows, entries.collect())?;
-    let plan = Arc::new(FactorizationPlan::of_sum(&[stiffness, &mass])?);
-    let bodies = RigidBodies::of(
-        "stiffness",
-        support.resisting.as_ref().unwrap_or(stiffness),
-        support,
-    )?;
+    let matrices = [stiffness, &mass].into_iter().chain(&support.resisting);
+    let matrices: Vec<_> = matrices.collect();
+    let plan = Arc::new(FactorizationPlan::of_sum(&matrices)?);
+    let bodies = RigidBodies::by(&plan, "stiffness", stiffness, support)?;
     let (CountedModes { vibrations, .. }, _) =
         modes_at_most((stiffness, &mass), (most, most), None, &bodies, &plan)?;
     let shapes = t.transposed().times(&vibrations.shapes)?;
