@@ -62,6 +62,11 @@ pub const PLAYED: f64 = 1e-9;
 pub const TWO_PROGRAMS: f64 = 1e-9;
 /// Whole correlations of one problem put in two ways, where they end: round-off through dozens of iterations.
 pub const SAME_CORRELATION: f64 = 1e-9;
+/// Relative change of test frequencies by which a correlation's amplification of small differences is measured: a hundred round-offs of
+/// a mode, so that round-off does not blur it.
+pub const SHAKE: f64 = 1e-12;
+/// Amplification above which a drawn correlation can make [`SAME_CORRELATION`] of the round-off of its modes, which is 1e-13.
+pub const MOST_AMPLIFIED: f64 = 1e3;
 /// Error sums and steps on the way there, 6.3e-9 at worst (Case 2 by the norm), which the steps after them bring together again.
 pub const SAME_ON_THE_WAY: f64 = 1e-7;
 /// Corrections of matrices: chains of products with masses and stiffnesses of condition 100 each, relative to the largest
