@@ -38,6 +38,7 @@ pub enum Kind {
     WouldHarm,
     OutOfReach,
     Parallel,
+    Dependent,
     Undecided,
     Joined,
     Blind,
@@ -51,6 +52,13 @@ pub enum Kind {
     MassByDirection,
     CenterOfMass,
     ChiSquared,
+    BelowNoise,
+    NoOptimum,
+    NoMinimum,
+    NoEnd,
+    HeldOut,
+    HeldOutFrequency,
+    Unanswered,
     UnseenModes,
     PartsWithoutSensor,
     LooseWithoutSensor,
@@ -66,6 +74,7 @@ pub enum Kind {
     OwnWeights,
     Covariance,
     Variances,
+    Drift,
     Complex,
     NotInEveryMode,
     DatasetsNotRead,
@@ -89,7 +98,7 @@ pub enum Grade {
 /// `{a}` and `{b}` are the first names that a concern is about, `{all}` all of them, `{some}` the first eight, `{and}` joins them by that
 /// word, `{id}` by hyphens; `{x}`, `{y}`, `{z}` and `{w}` are its numbers, `{x.3}` with three decimals, `{xe}` as a power of ten, `{x6}` with
 /// six significant digits.
-const TABLE: [(Kind, Grade, &str, &str); 60] = {
+const TABLE: [(Kind, Grade, &str, &str); 69] = {
     use Grade::{Doubt, LeftOut, Remark};
     use Kind::*;
     [
@@ -259,6 +268,12 @@ const TABLE: [(Kind, Grade, &str, &str); 60] = {
             "The test cannot tell {and} apart; only their combination is known.",
         ),
         (
+            Dependent,
+            Remark,
+            "dependent-{id}",
+            "What {a} does to the test the others of {and} do together; only combinations of them are known.",
+        ),
+        (
             Undecided,
             Remark,
             "undecided",
@@ -326,6 +341,48 @@ const TABLE: [(Kind, Grade, &str, &str); 60] = {
             Remark,
             "chi-squared",
             "Chi-squared is {x.1} for {y.1} degrees of freedom; noise alone leaves at most {z.1} in 999 of 1000 tests.",
+        ),
+        (
+            BelowNoise,
+            Remark,
+            "below-noise",
+            "Noise alone would leave a chi-squared of {y.1} or more in 999 of 1000 tests, for {x.1} here: the test was computed, or its deviations are too large, and so are the intervals.",
+        ),
+        (
+            NoOptimum,
+            Remark,
+            "no-intervals",
+            "No parameter has an interval: they hold at the optimum of weighted steps, where no steps ended.",
+        ),
+        (
+            NoMinimum,
+            Remark,
+            "no-minimum",
+            "No interval of {some}: with another value the objective falls below that at the factors, which are then no minimum.",
+        ),
+        (
+            NoEnd,
+            Remark,
+            "no-end",
+            "No interval of {some}: as far as the modes can be followed, the objective does not rise by as much as at an end.",
+        ),
+        (
+            HeldOut,
+            Remark,
+            "held-out-{a}",
+            "Test mode {a} was not fitted: its frequency was off by {x.2} % and is by {y.2} %, its shape by {z.2} % and {w.2} % RMS.",
+        ),
+        (
+            HeldOutFrequency,
+            Remark,
+            "held-out-{a}",
+            "Test mode {a} was not fitted: its frequency was off by {x.2} % and is by {y.2} %.",
+        ),
+        (
+            Unanswered,
+            Remark,
+            "unanswered-modes",
+            "Modes of the model between the first and the last frequency of the test that no test mode answers, and the part of other modes' motion that sensors see of them: {some}.",
         ),
         (
             UnseenModes,
@@ -398,8 +455,8 @@ const TABLE: [(Kind, Grade, &str, &str); 60] = {
             CloseModes,
             Remark,
             "close-modes-{id}",
-            "The frequencies of test modes {and} are no further apart than their deviations tell: their shapes are compared as one \
-             subspace.",
+            "The frequencies of test modes {and}, or of their partners in the first model, are no further apart than the deviations \
+             tell: their shapes are compared as one subspace.",
         ),
         (
             OwnWeights,
@@ -419,6 +476,12 @@ const TABLE: [(Kind, Grade, &str, &str); 60] = {
             "repeats",
             "The test is the mean of {x}; their variances alone count, for a covariance of {y} numbers needs {z} tests and no \
              weights of the job's own. What all of them have wrong does not scatter.",
+        ),
+        (
+            Drift,
+            Remark,
+            "drift",
+            "The repeated tests drift: each is like the one before, with a correlation of {x.2}. Their deviations count as {y.1} times as large as if they were independent.",
         ),
         (
             Complex,
@@ -626,11 +689,19 @@ impl Trust {
             .collect()
     }
 
-    /// The account after a run, with what is known since; test modes are left out by what it ended with.
+    /// The account after a run, with what is known since; test modes are left out, and modes of the model unanswered, by what it ended
+    /// with.
     pub(super) fn after(&self, concerns: Vec<Concern>) -> Self {
         let before = self.concerns.iter();
-        let before = before.filter(|concern| concern.grade() != Grade::LeftOut);
+        let before = before.filter(|concern| {
+            concern.grade() != Grade::LeftOut && concern.kind != Kind::Unanswered
+        });
         Self::new(before.cloned().chain(concerns).collect())
+    }
+
+    /// The account with more concerns.
+    pub(super) fn and(&self, concerns: Vec<Concern>) -> Self {
+        Self::new(self.concerns.iter().cloned().chain(concerns).collect())
     }
 
     /// The account after the user answers for the doubts of these identifiers.

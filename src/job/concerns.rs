@@ -45,6 +45,9 @@ impl Trust {
         if !all.iter().any(Concern::stands) {
             all.extend(prepared.frequency_concerns());
         }
+        if !prepared.is_without_pairs() {
+            all.extend(prepared.unanswered(&prepared.analyze(&loaded.ones())?));
+        }
         all.extend(prepared.unseen_concerns());
         all.extend(prepared.noise_concerns());
         all.extend(loaded.part_concerns()?);
@@ -80,9 +83,9 @@ impl PreparedJob {
         all.extend(about_any(Kind::FrequenciesAlone, &alone));
         all.extend(about_any(Kind::NotSelected, &left));
         if loaded.job.compare.method == Method::GaussNewton {
-            let close = self.together().into_iter().filter(|group| group.len() > 1);
+            let close = self.together().iter().filter(|group| group.len() > 1);
             all.extend(close.map(|group| {
-                let modes = numbers(group.into_iter().map(|place| self.modes[place]));
+                let modes = numbers(group.iter().map(|place| self.modes[*place]));
                 Concern::new(Kind::CloseModes, &modes, &[])
             }));
         }
@@ -194,6 +197,10 @@ impl LoadedJob {
         let complex =
             complex.map(|(mode, phase)| Concern::new(Kind::Complex, &[mode + 1], &[*phase]));
         let mut all: Vec<Concern> = complex.collect();
+        all.extend(data.drift.map(|lag| {
+            let wider = ((1.0 + lag) / (1.0 - lag)).sqrt();
+            Concern::plain(Kind::Drift, &[lag, wider])
+        }));
         all.extend(about_any(Kind::NotInEveryMode, &data.incomplete));
         all.extend(about_any(Kind::DatasetsNotRead, &data.skipped));
         let units = data.units.iter();

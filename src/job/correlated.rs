@@ -8,14 +8,19 @@ use crate::method::step::Bounds;
 use crate::sparse::Work;
 use crate::weighted::comparison::Comparison;
 use crate::weighted::gauss_newton::{WeightedCorrelation, gauss_newton};
+use crate::weighted::intervals::MOST_FOLLOWED;
+use crate::weighted::lower_place::{LOWER, lower_place};
 use crate::weighted::residuals::residuals;
-use crate::weighted::starts::{Minimum, from_several_starts};
+use crate::weighted::starts::{Minimum, StartEnd, from_several_starts};
 use nalgebra::DMatrix;
 use std::cell::{Cell, RefCell};
 
 /// Most by which chi-squared of the numbers that two results compare may rise from one to the next: the square of three deviations, which
 /// a right mode more exceeds in three of a thousand tests and a wrong one by far.
 const MOST_RISE: f64 = 9.0;
+
+/// Most ends of one run that a lower place is gone to from.
+const MOST_LEFT: usize = 5;
 
 /// The way in which the factors were found.
 #[derive(Debug, Clone)]
@@ -33,8 +38,8 @@ pub struct WeightedHistory {
     pub best: WeightedCorrelation,
     /// The minima that noise allows of several starts.
     pub minima: Vec<Minimum>,
-    /// Number of starts that failed.
-    pub failed: usize,
+    /// The end of every start, the model's own first; none where it failed.
+    pub starts: Vec<Option<StartEnd>>,
 }
 
 /// A job with the best factors found.
@@ -125,6 +130,15 @@ impl PreparedJob {
             }
             found.analyses = analyses;
         }
+        while !found.is_interrupted
+            && let Some(split) = found.prepared.split_by(&found.last)?
+        {
+            (caller.progress)("close modes of the model have parted: compared one by one");
+            let made = [(start, &found.first), (&found.factors[..], &found.last)];
+            let split = split.with_analyses(made);
+            let next = Part::new(&split, (&found.factors, 1), caller)?.run()?;
+            found = found.and_then(next, split.analyze(start)?.with_slopes()?);
+        }
         Ok(found)
     }
 }
@@ -141,6 +155,23 @@ impl CorrelatedJob {
         on_the_way.map_or_else(at_end, |found| Ok(Some(found)))
     }
 
+    /// The result of steps from where these have ended, with groups of test modes split, and the first model so compared.
+    fn and_then(self, next: Self, first: Comparison) -> Self {
+        let history = match (self.history, next.history) {
+            (History::GaussNewton(Some(before)), History::GaussNewton(Some(after))) => {
+                let best = before.best.and_then(after.best);
+                History::GaussNewton(Some(Box::new(WeightedHistory { best, ..*before })))
+            }
+            (_, after) => after,
+        };
+        Self {
+            history,
+            first,
+            analyses: self.analyses + next.analyses,
+            ..next
+        }
+    }
+
     /// The lower of two results of weighted steps with the same test modes, with the minima that the other's starts have found.
     fn or_lower(self, other: Self) -> Self {
         let analyses = self.analyses + other.analyses;
@@ -153,7 +184,7 @@ impl CorrelatedJob {
         if let (History::GaussNewton(Some(own)), History::GaussNewton(Some(steps))) =
             (&mut lower.history, other.history)
         {
-            (own.minima, own.failed) = (steps.minima, steps.failed);
+            (own.minima, own.starts) = (steps.minima, steps.starts);
         }
         Self { analyses, ..lower }
     }
@@ -294,7 +325,7 @@ impl<'a> Part<'a> {
         let settings = prepared.weighted_settings();
         let ones = prepared.loaded.ones();
         let best: RefCell<Option<(f64, Vec<f64>)>> = RefCell::new(None);
-        let analyze = |factors: &[f64]| {
+        let mut analyze = |factors: &[f64]| {
             if self.is_interrupted.get() {
                 return Err(FileError::Interrupted);
             }
@@ -315,10 +346,12 @@ impl<'a> Part<'a> {
             }
         };
         let found = match self.starts {
-            1 => gauss_newton(analyze, self.start, &ranges, &weights, &settings)
-                .map(|run| (run, Vec::new(), 0)),
+            1 => gauss_newton(&mut analyze, self.start, &ranges, &weights, &settings).map(|run| {
+                let end = run.end();
+                (run, Vec::new(), vec![Some(end)])
+            }),
             _ => from_several_starts(
-                analyze,
+                &mut analyze,
                 &ranges,
                 &weights,
                 &settings,
@@ -326,14 +359,35 @@ impl<'a> Part<'a> {
                 job.compare.seed,
             ),
         };
+        let found = found.and_then(|(mut run, minima, starts)| {
+            let most = if ranges.len() > MOST_FOLLOWED {
+                0
+            } else {
+                MOST_LEFT
+            };
+            for _ in 0..most {
+                let size = 2 * prepared.modes.len() + ranges.len().min(30);
+                let place =
+                    lower_place(&run, size, &ranges, &weights, &settings, job.compare.seed)?;
+                let Some(place) = place else {
+                    break;
+                };
+                match gauss_newton(&mut analyze, &place, &ranges, &weights, &settings) {
+                    Ok(next) if next.objective < run.objective - LOWER => run = run.and_then(next),
+                    Err(FileError::Interrupted) => return Err(FileError::Interrupted),
+                    _ => break,
+                }
+            }
+            Ok((run, minima, starts))
+        });
         let is_whole = !self.is_interrupted.get();
         match found {
-            Ok((best, minima, failed)) if is_whole => {
+            Ok((best, minima, starts)) if is_whole => {
                 let factors = best.factors.clone();
                 let found = WeightedHistory {
                     best,
                     minima,
-                    failed,
+                    starts,
                 };
                 Ok((History::GaussNewton(Some(Box::new(found))), factors))
             }

@@ -7,10 +7,10 @@ use super::{LeftOut, PreparedJob};
 use crate::files::error::FileError;
 use crate::method::error_sum::mode_errors;
 use crate::method::step::Bounds;
-use crate::weighted::comparison::Comparison;
+use crate::weighted::comparison::{Comparison, ModeErrors};
 use crate::weighted::gauss_newton::WeightedStop;
 use crate::weighted::identifiability::{Identifiability, identifiability};
-use crate::weighted::intervals::intervals;
+use crate::weighted::intervals::{Withheld, intervals};
 use crate::weighted::misfit::Misfit;
 use crate::weighted::residuals::jacobian;
 use std::cell::RefCell;
@@ -24,13 +24,14 @@ pub struct JobResult {
     pub trust: Trust,
     /// The verdict on the factors.
     pub verdict: Verdict,
-    /// What the test sees of the parameters, at the first model and at the best factors.
+    /// What the test sees of the parameters, at the first model and at the best factors, there with deviations of the measurement as much
+    /// larger as the residuals are too large for the noise.
     pub seen: [Identifiability; 2],
     /// The residuals at the best factors, compared with the noise.
     pub misfit: Misfit,
-    /// 95 % intervals about the factors, where they are true: around the optimum of weighted steps alone, not around the stop of the
-    /// paper's rule, of steps too short or of too many trials. Residuals that are too large for the noise widen them by as much.
-    pub intervals: Vec<Option<Bounds>>,
+    /// 95 % intervals about the factors, where they are true, or why there is none: around the optimum of weighted steps alone, not around
+    /// the stop of the paper's rule, of steps too short or of too many trials.
+    pub intervals: Vec<Result<Bounds, Withheld>>,
 }
 
 /// Runs a job, after a look at what is doubtful of it: correlates it from the first model and judges what was found, with `trust` from
@@ -60,16 +61,22 @@ impl CorrelatedJob {
     /// # Errors
     /// The errors of [`Misfit::of`] and [`identifiability`].
     pub(super) fn judge(self, trust: &Trust) -> Result<JobResult, FileError> {
-        let seen = [self.sees(&self.first)?, self.sees(&self.last)?];
         let mut verdict = self.verdict()?;
         let misfit = self.misfit(&verdict.at_bound)?;
-        // Weighted steps are judged by the noise that weighs them.
+        let seen = [
+            self.sees(&self.first, 1.0)?,
+            self.sees(&self.last, misfit.widening())?,
+        ];
+        // Weighted steps are judged by the noise that weighs them, where a wrong model would have failed.
         if matches!(self.history, History::GaussNewton(_)) && misfit.is_by_noise() {
-            (verdict.outcome, verdict.is_within) = (Outcome::Tolerance, true);
+            (verdict.outcome, verdict.is_within) = match misfit.can_fail() {
+                true => (Outcome::Tolerance, true),
+                false => (Outcome::Untested, false),
+            };
         }
         let after = self.concerns(&verdict, &seen[1], &misfit)?;
         Ok(JobResult {
-            intervals: vec![None; self.factors.len()],
+            intervals: vec![Err(Withheld::NoOptimum); self.factors.len()],
             found: self,
             trust: trust.after(after),
             verdict,
@@ -78,9 +85,9 @@ impl CorrelatedJob {
         })
     }
 
-    /// What the test sees of the parameters at a model.
-    fn sees(&self, model: &Comparison) -> Result<Identifiability, FileError> {
-        let jacobian = jacobian(model, &self.prepared.weights())?;
+    /// What the test sees of the parameters at a model, with deviations of the measurement so many times as large.
+    fn sees(&self, model: &Comparison, widening: f64) -> Result<Identifiability, FileError> {
+        let jacobian = jacobian(model, &self.prepared.weights())? / widening;
         let priors = &self.prepared.loaded.source.priors;
         Ok(identifiability(&jacobian, priors)?)
     }
@@ -146,11 +153,16 @@ impl CorrelatedJob {
             ],
         )];
         concerns.extend((self.is_interrupted).then(|| Concern::plain(Kind::Interrupted, &[])));
+        let below = [misfit.chi_squared, misfit.least_by_noise];
+        concerns
+            .extend((misfit.is_below_noise()).then(|| Concern::plain(Kind::BelowNoise, &below)));
         let groups = seen.parallel_groups();
         let parallel = groups
             .iter()
             .map(|group| Concern::new(Kind::Parallel, &of(group), &[]));
         concerns.extend(parallel);
+        let dependent = seen.dependent.iter();
+        concerns.extend(dependent.map(|group| Concern::new(Kind::Dependent, &of(group), &[])));
         let lists = [
             (Kind::Blind, of(&blind)),
             (Kind::MostlyPrior, of(&mostly_prior)),
@@ -159,9 +171,33 @@ impl CorrelatedJob {
         let some = lists.into_iter().filter(|(_, names)| !names.is_empty());
         concerns.extend(some.map(|(kind, names)| Concern::new(kind, &names, &[])));
         concerns.extend((!joined.is_empty()).then(|| Concern::new(Kind::Joined, &joined, &[])));
+        concerns.extend(self.held_out()?);
+        concerns.extend(prepared.unanswered(&self.last));
         let left = prepared.unlike(&self.last)?;
         concerns.extend(left.iter().map(LeftOut::concern));
         Ok(concerns)
+    }
+}
+
+impl CorrelatedJob {
+    /// Remarks on how far the test modes that are held out were off and are.
+    fn held_out(&self) -> Result<Vec<Concern>, FileError> {
+        let (first, last) = (self.first.mode_errors()?, self.last.mode_errors()?);
+        let held = &self.prepared.loaded.job.test.hold_out;
+        let both = self.prepared.compared().zip(first.iter().zip(&last));
+        let both = both.filter(|(mode, _)| held.contains(&(mode + 1)));
+        let concern = |(mode, (first, last)): (usize, (&ModeErrors, &ModeErrors))| {
+            let frequencies = [100.0 * first.frequency, 100.0 * last.frequency];
+            match (first.shape, last.shape) {
+                (Some(before), Some(after)) => {
+                    let shapes = [100.0 * before, 100.0 * after];
+                    let measure = [frequencies, shapes].concat();
+                    Concern::new(Kind::HeldOut, &[mode + 1], &measure)
+                }
+                _ => Concern::new(Kind::HeldOutFrequency, &[mode + 1], &frequencies),
+            }
+        };
+        Ok(both.map(concern).collect())
     }
 }
 
@@ -176,14 +212,14 @@ impl JobResult {
             _ => false,
         };
         if !is_optimum {
-            return Ok(self);
+            return Ok(self.with_reasons());
         }
         let (prepared, factors, model) =
             (&self.found.prepared, &self.found.factors, &self.found.last);
         let ranges = prepared.loaded.source.whole.ranges();
         let (weights, settings) = (prepared.weights(), prepared.weighted_settings());
         let exact = jacobian(model, &weights)?;
-        let basis = model.model.spread(6 * prepared.modes.len() + 30)?;
+        let basis = model.model.spread(prepared.deflections())?;
         let basis = model.in_basis(basis, &exact, &weights)?;
         let follow = |at: &[f64]| {
             let change: Vec<f64> = at.iter().zip(factors).map(|(at, from)| at / from).collect();
@@ -192,6 +228,25 @@ impl JobResult {
         let widening = self.misfit.widening();
         self.intervals = intervals(&follow, factors, &ranges, &weights, &settings, widening)?;
         self.found.work = prepared.loaded.source.whole.work();
-        Ok(self)
+        Ok(self.with_reasons())
+    }
+
+    /// The same with remarks on why parameters have no interval, unless these are known already.
+    fn with_reasons(mut self) -> Self {
+        let loaded = &self.found.prepared.loaded;
+        let reason = |(withheld, kind): (Withheld, Kind)| {
+            let names = loaded.parameter_names().zip(&self.intervals);
+            let names = names.filter(|(_, interval)| **interval == Err(withheld));
+            let names: Vec<&str> = names.map(|(name, _)| name).collect();
+            (!names.is_empty()).then(|| Concern::new(kind, &names, &[]))
+        };
+        let reasons = [
+            (Withheld::NoOptimum, Kind::NoOptimum),
+            (Withheld::Lower, Kind::NoMinimum),
+            (Withheld::NoEnd, Kind::NoEnd),
+        ];
+        let reasons = reasons.into_iter().filter_map(reason).collect();
+        self.trust = self.trust.and(reasons);
+        self
     }
 }

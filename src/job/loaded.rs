@@ -73,6 +73,16 @@ impl LoadedJob {
         })?;
         at_least_one("test modes", numbers.len())?;
         job.once(numbers.iter(), "test.modes: mode")?;
+        let held = &job.test.hold_out;
+        job.once(held.iter(), "test.hold_out: mode")?;
+        let unknown = held.iter().find(|mode| !numbers.contains(mode));
+        job.refuse_if(unknown, |mode| {
+            format!("test.hold_out: mode {mode} is none of the test modes that are compared")
+        })?;
+        let is_none_left = (held.len() == numbers.len()).then_some(());
+        job.refuse_if(is_none_left, |()| {
+            "test.hold_out: a mode at least must be left to fit".into()
+        })?;
         let parameters = source.whole.parameters().iter();
         job.once(parameters.map(|parameter| &parameter.name), "parameter")?;
         let named = numbers.len();

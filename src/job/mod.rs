@@ -118,6 +118,7 @@ struct TestFile {
     file: Option<PathBuf>,
     repeats: Vec<PathBuf>,
     modes: Option<Vec<usize>>,
+    hold_out: Vec<usize>,
     partners: Option<Vec<usize>>,
 }
 

@@ -21,6 +21,9 @@ pub(super) const FLOOR: f64 = 0.5;
 /// Residual vectors a parameter, unless the job says how many: more add less than the lowest mode left out.
 const RESIDUAL_VECTORS: usize = 4;
 
+/// Deviation of a frequency, relative, by which roots that no solver tells apart are equal: two in a hundred million of a root.
+const EQUAL: f64 = 3e-9;
+
 /// Distance from the optimum, in deviations, at which weighted steps stop: no interval shows it.
 const TOLERANCE: f64 = 1e-3;
 
@@ -52,6 +55,8 @@ pub struct PreparedJob {
     pub(super) refused: Vec<usize>,
     /// Test modes, from zero, that several modes of the first model resemble equally, and which are paired in the order of frequencies.
     pub undecided: Vec<usize>,
+    /// Groups of the compared test modes with shapes, by place, that the test or the first model does not tell apart.
+    together: Vec<Vec<usize>>,
     /// Number of modes of the model that are taken.
     pub analysis_modes: usize,
     /// The first analysis, with as many modes as the pre-flight looks at.
@@ -93,6 +98,7 @@ impl PreparedJob {
             joined: Vec::new(),
             refused: Vec::new(),
             undecided: Vec::new(),
+            together: Vec::new(),
             analysis_modes,
             at_hand: vec![(loaded.ones(), Arc::clone(&first))],
             first,
@@ -151,7 +157,65 @@ impl PreparedJob {
             self.test = self.test.select(&kept);
             self.modes = kept.into_iter().map(|mode| self.modes[mode]).collect();
         }
+        self.together = self.indistinct(exact, |_| EQUAL)?;
         Ok(self)
+    }
+
+    /// Groups of the test modes with shapes, by place, whose frequencies are no further apart than the test's deviations tell, or those of
+    /// their partners among these modes than by other relative deviations ([`indistinct_groups`]).
+    fn indistinct(
+        &self,
+        exact: &Modes,
+        told: impl Fn(f64) -> f64,
+    ) -> Result<Vec<Vec<usize>>, FileError> {
+        let hertz: Vec<f64> = self
+            .modes
+            .iter()
+            .map(|&mode| self.loaded.data.frequencies_hz[mode])
+            .collect();
+        let deviations = self
+            .modes
+            .iter()
+            .map(|&mode| self.loaded.deviations(mode).frequency);
+        let deviations: Vec<f64> = deviations.collect();
+        let assurance = decided(&assurance_of_roots(exact, &self.test.shapes)?);
+        let partners = pairs(&assurance, &exact.shapes, FLOOR)?;
+        let roots = exact.frequencies_hz();
+        let of_model = partners.iter().zip(&hertz);
+        let of_model = of_model.map(|(partner, own)| partner.map_or(*own, |mode| roots[mode]));
+        let mut groups = indistinct_groups(&hertz, &deviations);
+        let of_root: Vec<f64> = deviations.into_iter().map(told).collect();
+        for more in indistinct_groups(&of_model.collect::<Vec<_>>(), &of_root) {
+            let (meeting, mut apart): (Vec<_>, Vec<_>) = groups
+                .into_iter()
+                .partition(|group: &Vec<usize>| group.iter().any(|mode| more.contains(mode)));
+            let mut joined = meeting.concat();
+            joined.sort_by(|&a, &b| hertz[a].total_cmp(&hertz[b]));
+            apart.push(joined);
+            groups = apart;
+        }
+        groups.sort_by(|a, b| hertz[a[0]].total_cmp(&hertz[b[0]]));
+        Ok(groups)
+    }
+
+    /// The same job with groups split whose modes a later model and the test tell apart; none where no group splits.
+    pub(super) fn split_by(&self, model: &Comparison) -> Result<Option<Self>, FileError> {
+        let apart = self.indistinct(&model.model.exact.modes, |deviation| deviation)?;
+        let split = |group: &Vec<usize>| -> Vec<Vec<usize>> {
+            let kept = |of: &Vec<usize>| -> Vec<usize> {
+                of.iter()
+                    .copied()
+                    .filter(|mode| group.contains(mode))
+                    .collect()
+            };
+            apart.iter().map(kept).filter(|of| !of.is_empty()).collect()
+        };
+        let together: Vec<Vec<usize>> = self.together.iter().flat_map(split).collect();
+        let is_split = together.len() > self.together.len();
+        Ok(is_split.then(|| Self {
+            together,
+            ..self.clone()
+        }))
     }
 
     /// Test modes, from zero, of which a frequency alone is compared, ascending, with their partners in the first model.
@@ -222,6 +286,7 @@ impl PreparedJob {
         let hertz = &self.loaded.data.frequencies_hz;
         again.modes.sort_by(|&a, &b| hertz[a].total_cmp(&hertz[b]));
         again.test = self.loaded.measured(&again.modes)?;
+        again.together = again.indistinct(&self.first.modes(self.analysis_modes)?, |_| EQUAL)?;
         Ok(again)
     }
 
@@ -313,6 +378,11 @@ impl PreparedJob {
         self.modes.iter().copied().chain(alone)
     }
 
+    /// Number of deflections in a basis that follows all parameters about an end.
+    pub(super) fn deflections(&self) -> usize {
+        6 * self.modes.len() + 30
+    }
+
     /// Settings of weighted steps with the job's priors.
     pub(super) fn weighted_settings(&self) -> WeightedSettings {
         WeightedSettings {
@@ -335,7 +405,7 @@ impl PreparedJob {
         own.zip(self.compared()).map(weight).collect()
     }
 
-    /// The job's own weights of the test modes, ones where it has none.
+    /// The job's own weights of the test modes, ones where it has none, and zeros of those that are held out.
     pub(super) fn own_weights(&self) -> Vec<ModeWeight> {
         let (numbers, compare) = (&self.loaded.job.test.modes, &self.loaded.job.compare);
         let of = |list: &Option<Vec<f64>>, mode: usize| {
@@ -347,9 +417,16 @@ impl PreparedJob {
                 .and_then(|(list, place)| list.get(place).copied())
                 .unwrap_or(1.0)
         };
-        let weight = |mode: usize| ModeWeight {
-            frequency: of(&compare.frequency_weights, mode),
-            shape: of(&compare.shape_weights, mode),
+        let held = &self.loaded.job.test.hold_out;
+        let weight = |mode: usize| match held.contains(&(mode + 1)) {
+            true => ModeWeight {
+                frequency: 0.0,
+                shape: 0.0,
+            },
+            false => ModeWeight {
+                frequency: of(&compare.frequency_weights, mode),
+                shape: of(&compare.shape_weights, mode),
+            },
         };
         self.compared().map(weight).collect()
     }
@@ -400,7 +477,7 @@ impl PreparedJob {
             Method::GaussNewton => {
                 let lone = self.alone().iter().map(|(_, lone)| *lone);
                 let mut comparison = Comparison::from(model)
-                    .with_groups(self.together())?
+                    .with_groups(self.together.clone())?
                     .with_component_weights(self.component_weights())?
                     .with_lone_frequencies(lone.collect())?;
                 if self.partner_shapes.ncols() > 0 {
@@ -443,17 +520,9 @@ impl PreparedJob {
         weights
     }
 
-    /// Groups of the test modes with shapes that their frequencies' deviations do not tell apart ([`indistinct_groups`]), by place.
-    pub fn together(&self) -> Vec<Vec<usize>> {
-        let hertz = self
-            .modes
-            .iter()
-            .map(|&mode| self.loaded.data.frequencies_hz[mode]);
-        let deviations = self
-            .modes
-            .iter()
-            .map(|&mode| self.loaded.deviations(mode).frequency);
-        indistinct_groups(&hertz.collect::<Vec<_>>(), &deviations.collect::<Vec<_>>())
+    /// Groups of the test modes with shapes, by place, that are compared as subspaces.
+    pub fn together(&self) -> &[Vec<usize>] {
+        &self.together
     }
 }
 

@@ -44,7 +44,7 @@ impl Job {
 /// Of $R$ tests the squares $q$ of a number's deviations from the mean give it the variance $q/(R (R - 3))$. One over it is right in the
 /// mean; $q/(R - 1)$ would make chi-squared too large by $(R - 1)/(R - 3)$. A shape of $d$ components has $d - 1$ free numbers, so
 /// theirs are larger by $d/(d - 1)$. Where fewer than [`OWN_VARIANCES`] tests or a number that is always the same leave none, all
-/// components of a shape, or all frequencies, have one variance.
+/// components of a shape, or all frequencies, have one variance. Tests of which each is like the one before ([`drift`]) tell less.
 ///
 /// # Errors
 /// [`FileError::Refused`] naming the file for sensors or modes that the first does not have, for shapes of modal assurance below
@@ -135,7 +135,42 @@ fn mean_of(job: &Job, tests: &[TestData]) -> Result<TestData, FileError> {
     let apart = data.scatter.select_rows(&frequencies);
     let own = deviations(job, &apart, modes, "frequencies")?;
     data.frequency_deviation = Some(own.data.into());
+    data.drift = drift(&data.scatter);
+    if let Some(lag) = data.drift {
+        // The mean of R numbers that are alike from one to the next by r has a variance (1 + r)/(1 - r) times as large.
+        let wider = ((1.0 + lag) / (1.0 - lag)).sqrt();
+        let frequencies = data.frequency_deviation.iter_mut().flatten();
+        frequencies.for_each(|deviation| *deviation *= wider);
+        let components = data.component_deviation.values_mut();
+        components.for_each(|deviations| *deviations *= wider);
+        data.scatter *= wider;
+    }
     Ok(data)
+}
+
+/// Standard deviations by which the likeness of neighboring tests exceeds that of independent ones at least where tests drift.
+const RARE: f64 = 3.0;
+/// Largest likeness that counts: tests that change by less than this leaves tell nothing of their mean.
+const MOST_ALIKE: f64 = 0.95;
+
+/// Correlation of a test's deviations from the mean (numbers × tests) with those of the next, if independent tests hardly have it by chance.
+///
+/// Every number counts as much. Independent tests have $-1/R$ in the mean, with a deviation of $1/\sqrt{R n}$ of $n$ numbers that are
+/// independent of one another; of numbers that scatter together $n$ is $(\sum \mu)^2/\sum \mu^2$ with the eigenvalues $\mu$ of their products.
+fn drift(scatter: &DMatrix<f64>) -> Option<f64> {
+    let mut unit = scatter.clone();
+    for mut row in unit.row_iter_mut().filter(|row| row.amax() > 0.0) {
+        let size = row.norm();
+        row /= size;
+    }
+    let (products, tests) = (unit.tr_mul(&unit), scatter.ncols() as f64);
+    let total = products.trace();
+    let next: f64 = (1..scatter.ncols())
+        .map(|test| products[(test - 1, test)])
+        .sum();
+    let lag = next / total + 1.0 / tests;
+    let numbers = total * total / products.norm_squared();
+    (lag * (tests * numbers).sqrt() > RARE).then(|| lag.min(MOST_ALIKE))
 }
 
 fn key(sensor: &Sensor) -> (&str, Option<usize>, usize) {

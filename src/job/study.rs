@@ -213,6 +213,7 @@ impl Study {
                     Outcome::Tolerance => "tolerance",
                     Outcome::LocalMinimum => "local minimum",
                     Outcome::Wall => "wall",
+                    Outcome::Untested => "untested",
                     Outcome::Cap => "cap",
                     Outcome::Request => "request",
                     Outcome::Nothing => "nothing",

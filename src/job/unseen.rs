@@ -4,6 +4,7 @@ use super::assignment::pair_optimally;
 use super::{Concern, Kind, PreparedJob};
 use crate::method::error::Error;
 use crate::sparse::visibility::visibilities;
+use crate::weighted::comparison::Comparison;
 use nalgebra::DMatrix;
 
 /// Deviation of a shape, of unit length, from that of its model's mode in the likelihood of a pair.
@@ -23,6 +24,42 @@ impl PreparedJob {
         let modes = (!hertz.is_empty())
             .then(|| Concern::new(Kind::UnseenModes, &hertz, &[hertz.len() as f64]));
         [parts, loose, modes].into_iter().flatten().collect()
+    }
+
+    /// A remark on the modes of a model between the first and the last frequency of the test that no test mode answers: the test may have
+    /// missed them.
+    pub(super) fn unanswered(&self, model: &Comparison) -> Option<Concern> {
+        let exact = &model.model.exact;
+        let hertz = exact.modes.frequencies_hz();
+        let tested = self
+            .compared()
+            .map(|mode| self.loaded.data.frequencies_hz[mode]);
+        let (first, last) = tested.fold((f64::INFINITY, 0.0_f64), |(first, last), hertz| {
+            (first.min(hertz), last.max(hertz))
+        });
+        let seen = visibilities(&exact.modes.shapes);
+        let lone = model.lone().iter().map(|lone| lone.partner);
+        let partners: Vec<usize> = exact
+            .pairing
+            .analysis_mode
+            .iter()
+            .copied()
+            .chain(lone)
+            .collect();
+        let is_lacking =
+            |mode: &usize| (first..=last).contains(&hertz[*mode]) && !partners.contains(mode);
+        let lacking: Vec<usize> = (0..hertz.len()).filter(is_lacking).collect();
+        let name = |&mode: &usize| {
+            format!(
+                "mode {} ({:.4} Hz, {:.2})",
+                mode + 1,
+                hertz[mode],
+                seen[mode]
+            )
+        };
+        let names: Vec<String> = lacking.iter().map(name).collect();
+        let measure: Vec<f64> = lacking.iter().map(|&mode| hertz[mode]).collect();
+        (!names.is_empty()).then(|| Concern::new(Kind::Unanswered, &names, &measure))
     }
 }
 

@@ -28,6 +28,8 @@ pub enum Outcome {
     Cap,
     /// The caller asked to stop.
     Request,
+    /// Noise may have left the residuals, and those of a wrong model as well: the test decides nothing.
+    Untested,
     /// Not one step was taken: the first was uphill with all its halvings, or no pass was allowed.
     Nothing,
 }

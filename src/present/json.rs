@@ -5,7 +5,7 @@
 //! that is not finite is `null`. Every function that writes a document has the errors of [`document`].
 
 use super::PresentError;
-use super::report::{Report, Stage};
+use super::report::{ModeResiduals, Report, Stage};
 use super::tables::cases::{outcome, published_iterations};
 use super::tables::deck::{not_read, unit_shapes};
 use crate::files::deck::Unread;
@@ -20,8 +20,9 @@ use crate::sparse::whole_modes::WholeModes;
 use crate::torque_box::CaseResult;
 use crate::torque_box::wing_box::TEST_GAGE;
 use crate::weighted::comparison::ExactResult;
+use crate::weighted::intervals::Withheld;
 use crate::weighted::misfit::Misfit;
-use crate::weighted::starts::Minimum;
+use crate::weighted::starts::{Minimum, StartEnd};
 use nalgebra::DMatrix;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -88,6 +89,9 @@ struct ReportValue<'a> {
     work: Option<Work>,
     minima: &'a [Minimum],
     failed_starts: usize,
+    starts: &'a [Option<StartEnd>],
+    intervals: Vec<Value>,
+    residuals: &'a [ModeResiduals],
     at_bound: Vec<bool>,
     best_pass: Option<usize>,
     test_mode_numbers: &'a [usize],
@@ -167,7 +171,10 @@ pub fn report(report: &Report) -> Result<Value, PresentError> {
         analyses: report.analyses,
         work: report.work,
         minima: &report.minima,
-        failed_starts: report.failed_starts,
+        failed_starts: report.failed_starts(),
+        starts: &report.starts,
+        intervals: report.intervals.iter().map(interval).collect(),
+        residuals: &report.residuals,
         at_bound: factors.iter().enumerate().map(at_bound).collect(),
         best_pass: report.best.map(|best| best + 1),
         test_mode_numbers: &report.mode_numbers,
@@ -202,6 +209,14 @@ fn agreement(report: &Report, check: &ExactResult) -> Result<AgreementValue, Pre
         modal_assurance: matrix_rows(&found.assurance),
         cross_orthogonality: found.orthogonality.as_ref().map(matrix_rows),
     })
+}
+
+/// The ends of a parameter's 95 % interval, or why they are withheld.
+fn interval(interval: &Result<Bounds, Withheld>) -> Value {
+    match interval {
+        Ok(ends) => json!(ends),
+        Err(withheld) => json!({ "withheld": withheld }),
+    }
 }
 
 /// A frequency of the test without a shape with its partners in the first and the corrected model; places count from one.

@@ -16,7 +16,7 @@ pub fn verdict_in_words(
         indices.iter().map(name).collect::<Vec<_>>().join(", ")
     };
     let end = match verdict.outcome {
-        Outcome::Tolerance => "",
+        Outcome::Tolerance | Outcome::Untested => "",
         Outcome::LocalMinimum => " No further step lowered it.",
         Outcome::Wall => {
             " Steps ended short of a minimum, where pairs of modes change ahead of them."
@@ -61,6 +61,9 @@ pub fn verdict_in_words(
     if !verdict.is_within {
         words += match verdict.outcome {
             Outcome::Cap => " Try more iterations or passes.",
+            Outcome::Untested => {
+                " Compare more modes or sensors, or group the parameters; the test confirms nothing."
+            }
             Outcome::Nothing => {
                 " Look for a mistake in the test's units, sensors or order of modes."
             }

@@ -102,6 +102,18 @@ pub struct WeightedCorrelation {
     pub last: Comparison,
 }
 
+impl WeightedCorrelation {
+    /// The history of these steps and of others from a lower place.
+    pub(crate) fn and_then(self, next: Self) -> Self {
+        Self {
+            initial: self.initial,
+            iterations: [self.iterations, next.iterations].concat(),
+            analyses: self.analyses + next.analyses,
+            ..next
+        }
+    }
+}
+
 /// Place where a correlation stands.
 struct Iterate {
     factors: Vec<f64>,
@@ -190,6 +202,14 @@ impl<'a> Problem<'a> {
         })
     }
 
+    /// The same with a term that holds the steps at these logarithms, with a curvature for each.
+    pub(super) fn held_at(self, logs: DVector<f64>, curvature: DVector<f64>) -> Self {
+        Self {
+            held: Some((logs, curvature)),
+            ..self
+        }
+    }
+
     /// The exact analysis at factors brought within their bounds; none where the objective is not below a number.
     fn place_at<E: From<Error>>(
         &self,
@@ -197,23 +217,13 @@ impl<'a> Problem<'a> {
         factors: Vec<f64>,
         below: f64,
     ) -> Result<Option<Iterate>, E> {
-        let within = |(&factor, range): (&f64, &Option<Bounds>)| {
-            range.map_or(factor, |range| factor.clamp(range.lower, range.upper))
-        };
-        let factors: Vec<f64> = factors.iter().zip(self.ranges).map(within).collect();
+        let factors = self.within(&factors);
         let comparison = analyze(&factors)?;
         let count = comparison.model.shares.len();
         check_length("parameter factors", factors.len(), count)?;
         let residuals = residuals(&comparison, self.weights)?;
-        let logs = logs_of(&factors);
-        let mut pull = logs.component_mul(&self.tikhonov);
-        let mut objective = 0.5 * (residuals.norm_squared() + pull.dot(&logs));
-        if let Some((from, curvature)) = &self.held {
-            let moved = logs - from;
-            let held = moved.component_mul(curvature);
-            objective += 0.5 * held.dot(&moved);
-            pull += held;
-        }
+        let (pull, held) = self.pull(&factors);
+        let objective = 0.5 * residuals.norm_squared() + held;
         if objective >= below {
             return Ok(None);
         }
@@ -233,6 +243,39 @@ impl<'a> Problem<'a> {
             residuals,
             jacobian,
         }))
+    }
+
+    /// Factors brought within their bounds.
+    fn within(&self, factors: &[f64]) -> Vec<f64> {
+        let within = |(&factor, range): (&f64, &Option<Bounds>)| {
+            range.map_or(factor, |range| factor.clamp(range.lower, range.upper))
+        };
+        factors.iter().zip(self.ranges).map(within).collect()
+    }
+
+    /// The gradient of the prior's part of the objective, and of what holds the steps, and both parts.
+    fn pull(&self, factors: &[f64]) -> (DVector<f64>, f64) {
+        let logs = logs_of(factors);
+        let mut pull = logs.component_mul(&self.tikhonov);
+        let mut part = 0.5 * pull.dot(&logs);
+        if let Some((from, curvature)) = &self.held {
+            let moved = logs - from;
+            let held = moved.component_mul(curvature);
+            part += 0.5 * held.dot(&moved);
+            pull += held;
+        }
+        (pull, part)
+    }
+
+    /// The objective at factors brought within their bounds.
+    pub(super) fn objective(
+        &self,
+        analyze: &mut dyn FnMut(&[f64]) -> Result<Comparison, Error>,
+        factors: &[f64],
+    ) -> Result<f64, Error> {
+        let factors = self.within(factors);
+        let residuals = residuals(&analyze(&factors)?, self.weights)?;
+        Ok(0.5 * residuals.norm_squared() + self.pull(&factors).1)
     }
 
     /// The exact analysis at the first factors.
@@ -396,7 +439,7 @@ impl<'a> Problem<'a> {
     }
 }
 
-fn logs_of(factors: &[f64]) -> DVector<f64> {
+pub(super) fn logs_of(factors: &[f64]) -> DVector<f64> {
     DVector::from_iterator(factors.len(), factors.iter().map(|factor| factor.ln()))
 }
 

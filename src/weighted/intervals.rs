@@ -1,13 +1,14 @@
 //! 95 % intervals of the factors around the optimum of weighted steps.
 
 use super::comparison::Comparison;
-use super::gauss_newton::{Problem, WeightedSettings};
+use super::gauss_newton::{Problem, WeightedSettings, logs_of};
 use super::identifiability::{NORMAL_95, identifiability, information};
 use super::residuals::{jacobian, residuals};
 use crate::method::error::Error;
 use crate::method::step::Bounds;
 use crate::sparse::{ModeWeight, solve_positive};
 use nalgebra::DVector;
+use serde::Serialize;
 use statrs::function::erf::erfc;
 
 /// Part of the tests in which an interval by slopes may miss the truth before the objective itself is asked.
@@ -26,8 +27,24 @@ pub(crate) const MOST_FOLLOWED: usize = 200;
 /// Fall of the objective beside a fixed factor that may be left: at the ends it moves the root of twice the rise by a thousandth of itself.
 const LEFT: f64 = 4e-3;
 
-/// 95 % intervals about the factors at the optimum of weighted steps, `widening` times as wide (in logarithms) as by the weights. None of
-/// a parameter at a bound, and of one that is known mostly from the prior.
+/// Reason why a parameter has no interval.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Withheld {
+    /// Steps have not ended at an optimum, or were not weighted.
+    NoOptimum,
+    /// The factor is at a bound.
+    AtBound,
+    /// The prior says more of it than the test.
+    MostlyPrior,
+    /// With another value of it the objective falls below that at the factors, which then are no minimum.
+    Lower,
+    /// No place was found where the objective has risen by as much as at an end.
+    NoEnd,
+}
+
+/// 95 % intervals about the factors at the optimum of weighted steps, with the deviations of the measurement `widening` times as large as
+/// by the weights, and the prior's as they are. None of a parameter at a bound, and of one that is known mostly from the prior.
 ///
 /// By the slopes, with the covariance $C$ of the logarithms ([`identifiability`]), the interval is $c_e e^{\pm 1.96 s_e}$. It holds as far as
 /// $s_e$ is the same within it. Where it changes along the way, on which the other logarithms move by $C_{ie}/C_{ee}$ of the one, an end is
@@ -37,7 +54,9 @@ const LEFT: f64 = 4e-3;
 /// $\frac12 1.96^2$ (the profile likelihood). An end that is not found withholds the interval, and so does an objective lower than at the
 /// factors, which then are no minimum.
 ///
-/// No end is beyond the prior's own 95 % interval, $e^{\pm 1.96 \tau}$, unless the factor is.
+/// With a widening $w$ that objective is $\frac{1}{2w^2}(\sum r^2 + \sum (x_e/\tau_e)^2) + \frac12(1 - w^{-2}) \sum ((x_e - \hat x_e)/\tau_e)^2$
+/// of the logarithms $x$: it has its minimum at the factors too, and all of the prior's curvature. No end is beyond the prior's own 95 %
+/// interval, $e^{\pm 1.96 \tau}$, unless the factor is.
 ///
 /// `analyze` need be no other analysis: a job follows the modes in the basis of its best model.
 ///
@@ -52,32 +71,43 @@ pub fn intervals(
     weights: &[ModeWeight],
     settings: &WeightedSettings,
     widening: f64,
-) -> Result<Vec<Option<Bounds>>, Error> {
-    let priors = settings.priors(factors.len());
-    let (model, reach) = (analyze(factors)?, NORMAL_95 * widening);
-    let seen = identifiability(&jacobian(&model, weights)?, &priors)?;
+) -> Result<Vec<Result<Bounds, Withheld>>, Error> {
+    let (model, priors) = (analyze(factors)?, settings.priors(factors.len()));
+    let weight = |own: &ModeWeight| ModeWeight {
+        frequency: own.frequency / widening,
+        shape: own.shape / widening,
+    };
+    let weights: Vec<ModeWeight> = weights.iter().map(weight).collect();
+    let seen = identifiability(&jacobian(&model, &weights)?, &priors)?;
     let tikhonov = priors.iter().map(|prior| prior.powi(-2));
     let tikhonov = DVector::from_iterator(priors.len(), tikhonov);
-    let pulls = factors.iter().zip(&priors);
-    let pull: f64 = pulls
-        .map(|(factor, prior)| (factor.ln() / prior).powi(2))
-        .sum();
-    let least = 0.5 * (residuals(&model, weights)?.norm_squared() + pull);
-    let root = |objective: f64| (2.0 * (objective - least)).max(0.0).sqrt();
-    let interval = |e: usize| -> Option<Bounds> {
-        if ranges[e].is_some_and(|range| is_at_end(range, factors[e])) || seen.is_mostly_prior(e) {
-            return None;
+    let logs = logs_of(factors);
+    let pull = tikhonov.dot(&logs.component_mul(&logs)) / widening.powi(2);
+    let profile = Profile {
+        analyze,
+        factors,
+        ranges,
+        weights: &weights,
+        settings: WeightedSettings {
+            prior_deviations: priors.iter().map(|prior| prior * widening).collect(),
+            ..settings.clone()
+        },
+        held: (1.0 - widening.powi(-2)) * &tikhonov,
+        least: 0.5 * (residuals(&model, &weights)?.norm_squared() + pull),
+    };
+    let interval = |e: usize| -> Result<Bounds, Withheld> {
+        if ranges[e].is_some_and(|range| is_at_end(range, factors[e])) {
+            return Err(Withheld::AtBound);
+        }
+        if seen.is_mostly_prior(e) {
+            return Err(Withheld::MostlyPrior);
         }
         // Logarithms of all factors for a change of this one, which is held there.
         let path = seen.covariance.column(e) / seen.covariance[(e, e)];
-        let along = |path: &DVector<f64>, log: f64| -> Vec<f64> {
-            let moved = |(factor, share): (&f64, &f64)| factor * (share * log).exp();
-            factors.iter().zip(path).map(moved).collect()
-        };
-        let by_slope = reach * seen.deviations[e];
+        let by_slope = NORMAL_95 * seen.deviations[e];
         // The deviation at the optimum over that elsewhere; nothing is told where there is no model.
         let ratio = |log: f64| {
-            let there = deviation(analyze, &along(&path, log), e, weights, &tikhonov);
+            let there = deviation(analyze, &along(factors, &path, log), e, &weights, &tikhonov);
             there.map_or(0.0, |there| seen.deviations[e] / there)
         };
         let missed = |log: f64| {
@@ -89,41 +119,60 @@ pub fn intervals(
             0.5 * erfc(NORMAL_95 * mean / 2.0_f64.sqrt())
         };
         let is_straight = || missed(-by_slope) + missed(by_slope) <= MOST_MISSED;
-        let logs = if factors.len() > MOST_FOLLOWED || is_straight() {
+        let ends = if factors.len() > MOST_FOLLOWED || is_straight() {
             [-by_slope, by_slope]
         } else {
             // The next place begins on the way to the last one found.
-            let mut best = path.clone();
-            let mut rise = |log: f64| {
-                let first = along(&best, log);
-                let mut ranges = ranges.to_vec();
-                ranges[e] = Some(Bounds {
-                    lower: first[e],
-                    upper: first[e] * (1.0 + 4.0 * f64::EPSILON),
-                });
-                let problem = Problem::new(first.len(), &ranges, weights, settings);
-                let analyze = &mut |at: &[f64]| analyze(at);
-                let enough = (LEFT, least - LEFT);
-                let (objective, found) = problem
-                    .and_then(|of| of.lowest(analyze, &first, enough))
-                    .ok()?;
-                if objective < enough.1 {
-                    return None;
-                }
-                let moved = found.iter().zip(factors);
-                best.iter_mut()
-                    .zip(moved)
-                    .for_each(|(best, (found, factor))| *best = (found / factor).ln() / log);
-                Some(root(objective) - reach)
-            };
-            [
-                end(&mut rise, -by_slope, reach)?,
-                end(&mut rise, by_slope, reach)?,
-            ]
+            let mut way = path.clone();
+            let mut rise = |log: f64| profile.rise(e, &mut way, log);
+            [end(&mut rise, -by_slope)?, end(&mut rise, by_slope)?]
         };
-        Some(within_prior(factors[e].ln(), logs, NORMAL_95 * priors[e]))
+        Ok(within_prior(logs[e], ends, NORMAL_95 * priors[e]))
     };
     Ok((0..factors.len()).map(interval).collect())
+}
+
+/// Factors whose logarithms have moved by these shares of one.
+fn along(factors: &[f64], path: &DVector<f64>, log: f64) -> Vec<f64> {
+    let moved = |(factor, share): (&f64, &f64)| factor * (share * log).exp();
+    factors.iter().zip(path).map(moved).collect()
+}
+
+/// The objective of an interval, as the lowest that the other parameters allow.
+struct Profile<'a> {
+    analyze: &'a dyn Fn(&[f64]) -> Result<Comparison, Error>,
+    factors: &'a [f64],
+    ranges: &'a [Option<Bounds>],
+    weights: &'a [ModeWeight],
+    settings: WeightedSettings,
+    /// Curvature of the term that holds the other logarithms at the factors.
+    held: DVector<f64>,
+    /// The objective at the factors.
+    least: f64,
+}
+
+impl Profile<'_> {
+    /// The root of twice the rise of the objective beside a logarithm that is moved by so much, less that at an end of an interval. The
+    /// search begins along a way, the shares by which all logarithms move, and leaves there the one that it has found.
+    fn rise(&self, e: usize, way: &mut DVector<f64>, log: f64) -> Result<f64, Withheld> {
+        let first = along(self.factors, way, log);
+        let mut ranges = self.ranges.to_vec();
+        ranges[e] = Some(Bounds {
+            lower: first[e],
+            upper: first[e] * (1.0 + 4.0 * f64::EPSILON),
+        });
+        let analyze = &mut |at: &[f64]| (self.analyze)(at);
+        let enough = self.least - LEFT;
+        let (objective, found) = Problem::new(first.len(), &ranges, self.weights, &self.settings)
+            .map(|problem| problem.held_at(logs_of(self.factors), self.held.clone()))
+            .and_then(|problem| problem.lowest(analyze, &first, (LEFT, enough)))
+            .map_err(|_| Withheld::NoEnd)?;
+        if objective < enough {
+            return Err(Withheld::Lower);
+        }
+        *way = (logs_of(&found) - logs_of(self.factors)) / log;
+        Ok((2.0 * (objective - self.least)).max(0.0).sqrt() - NORMAL_95)
+    }
 }
 
 /// The deviation of a parameter's logarithm at factors.
@@ -148,12 +197,12 @@ fn within_prior(log: f64, ends: [f64; 2], prior: f64) -> Bounds {
     }
 }
 
-/// Place where `rise`, less than zero at zero, is zero to within [`CLOSE`] of `reach`: from `first` outward, then between.
-fn end(rise: &mut dyn FnMut(f64) -> Option<f64>, first: f64, reach: f64) -> Option<f64> {
-    let (mut inner, mut outer) = ((0.0, -reach), (first, rise(first)?));
+/// Place where `rise`, less than zero at zero, is zero to within [`CLOSE`]: from `first` outward, then between.
+fn end(rise: &mut dyn FnMut(f64) -> Result<f64, Withheld>, first: f64) -> Result<f64, Withheld> {
+    let (mut inner, mut outer) = ((0.0, -NORMAL_95), (first, rise(first)?));
     for _ in 0..TRIES {
-        if outer.1.abs() <= CLOSE * reach {
-            return Some(outer.0);
+        if outer.1.abs() <= CLOSE * NORMAL_95 {
+            return Ok(outer.0);
         }
         if outer.1 < 0.0 {
             (inner, outer) = (outer, (1.5 * outer.0, rise(1.5 * outer.0)?));
@@ -161,8 +210,8 @@ fn end(rise: &mut dyn FnMut(f64) -> Option<f64>, first: f64, reach: f64) -> Opti
         }
         let log = inner.0 - inner.1 * (outer.0 - inner.0) / (outer.1 - inner.1);
         let next = (log, rise(log)?);
-        if next.1.abs() <= CLOSE * reach {
-            return Some(next.0);
+        if next.1.abs() <= CLOSE * NORMAL_95 {
+            return Ok(next.0);
         }
         if next.1 < 0.0 {
             inner = next;
@@ -170,10 +219,10 @@ fn end(rise: &mut dyn FnMut(f64) -> Option<f64>, first: f64, reach: f64) -> Opti
             outer = next;
         }
         if (outer.0 - inner.0).abs() <= JUMP * outer.0.abs() {
-            return None;
+            break;
         }
     }
-    None
+    Err(Withheld::NoEnd)
 }
 
 /// Distance from an end of its range, relative, within which a factor counts as at its bound.

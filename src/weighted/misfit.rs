@@ -15,6 +15,12 @@ const FALSE_ALARMS: f64 = 1e-3;
 const TOO_LARGE: f64 = 3.0;
 /// in all but this part of the tests.
 const MISSED: f64 = 0.01;
+/// Part of them that a test must show to judge at all: more often than not.
+const LEAST_POWER: f64 = 0.5;
+/// Part of a number by which less than one is left over by round-off.
+const SLIGHT: f64 = 1e-6;
+/// Relative difference of every frequency of a model that any test must refuse.
+const HALF_OFF: f64 = 0.5;
 
 /// How far the best model is from the test, in the standard deviations that test or job gives.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -25,8 +31,12 @@ pub struct Misfit {
     pub degrees_of_freedom: f64,
     /// The 99.9 % quantile of chi-squared of $\nu$ degrees of freedom, or of one where less than one is left.
     pub largest_by_noise: f64,
-    /// Part of the tests with three times the noise whose chi-squared is larger.
+    /// The 0.1 % quantile, of as many degrees of freedom: what noise leaves at least.
+    pub least_by_noise: f64,
+    /// Part of the tests with three times the noise whose chi-squared is larger than the 99.9 % quantile.
     pub power: f64,
+    /// Chi-squared of a model with every frequency half off and with shapes at right angles to the test's.
+    pub of_unlike: f64,
 }
 
 impl Misfit {
@@ -69,6 +79,11 @@ impl Misfit {
                 + usize::from(is_shape) * sensors.saturating_sub(size)
         };
         let numbers: usize = weights.iter().enumerate().map(compared).sum();
+        let unlike = |(mode, weight): (usize, &ModeWeight)| {
+            let shapes = (mode < test.len()).then(|| test.shapes.column(mode));
+            let size = shapes.map_or(0.0, |shape| (shape / shape.amax()).norm());
+            (HALF_OFF * weight.frequency).powi(2) + (size * weight.shape).powi(2)
+        };
         let degrees_of_freedom = numbers as f64 - fitted;
         let owner = || "the fit".into();
         let is_met = degrees_of_freedom.is_finite();
@@ -86,7 +101,9 @@ impl Misfit {
             chi_squared,
             degrees_of_freedom,
             largest_by_noise,
+            least_by_noise: law.inverse_cdf(FALSE_ALARMS),
             power: law.sf(largest_by_noise / TOO_LARGE.powi(2)),
+            of_unlike: weights.iter().enumerate().map(unlike).sum(),
         })
     }
 
@@ -96,13 +113,42 @@ impl Misfit {
             .then(|| (self.chi_squared / self.degrees_of_freedom).sqrt())
     }
 
-    /// How much wider than by the given deviations intervals are: by [`Self::times_the_noise`] where noise cannot have left as much.
+    /// How many times as large as given the deviations of the measurement count in intervals: [`Self::times_the_noise`] where noise
+    /// cannot have left as much.
     pub fn widening(&self) -> f64 {
         if self.is_by_noise() {
             1.0
         } else {
             (self.chi_squared / self.degrees_of_freedom.max(1.0)).sqrt()
         }
+    }
+
+    /// True if the residuals are smaller than noise leaves in 999 of 1000 tests: of a test that was computed, or by deviations that are too
+    /// large.
+    pub fn is_below_noise(&self) -> bool {
+        self.degrees_of_freedom >= 1.0 && self.chi_squared < self.least_by_noise
+    }
+
+    /// The reason why no model could have failed such a test, if none could.
+    fn untested(&self) -> Option<String> {
+        if self.degrees_of_freedom < 1.0 - SLIGHT {
+            Some("the fit leaves less than one number over".into())
+        } else if self.of_unlike <= self.largest_by_noise {
+            Some("by these deviations and weights a model with every frequency half off and other shapes would pass".into())
+        } else {
+            let percent = 100.0 * self.power;
+            (self.power < LEAST_POWER).then(|| {
+                format!(
+                    "of tests with three times this noise, so few numbers would show {percent:.0} %"
+                )
+            })
+        }
+    }
+
+    /// True if a wrong model would have failed: a number at least is left over, three times the noise would more often be seen than not,
+    /// and a model unlike the test would be refused.
+    pub fn can_fail(&self) -> bool {
+        self.untested().is_none()
     }
 
     /// True if noise may have left as much.
@@ -121,21 +167,22 @@ impl Misfit {
     /// The same after what it means, in noise of which `assumed` is supposed.
     pub fn in_words(&self, assumed: &[String]) -> String {
         let is_few = self.power < 1.0 - MISSED;
-        let mut words = match self.times_the_noise() {
+        let mut words = match self.untested() {
             _ if !self.is_by_noise() => format!(
                 "The model cannot explain this test: residuals are {:.1} times the noise.",
                 self.widening()
             ),
-            Some(times) => {
-                format!("As good as the noise allows: residuals are {times:.2} times the noise.")
-            }
-            None => "Nothing to judge by: the fit leaves less than one number over.".to_owned(),
+            Some(reason) => format!("Nothing to judge by: {reason}."),
+            None => format!(
+                "As good as the noise allows: residuals are {:.2} times the noise.",
+                self.times_the_noise().unwrap_or_default()
+            ),
         };
         if !assumed.is_empty() {
             words += &format!(" The noise is assumed: {}.", assumed.join(" and "));
         }
         words += &format!(" {}", self.in_numbers());
-        if is_few && self.is_by_noise() {
+        if is_few && self.is_by_noise() && self.can_fail() {
             words += &format!(
                 " Of tests with three times this noise, so few numbers would show {:.0} %.",
                 100.0 * self.power

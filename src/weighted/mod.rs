@@ -10,6 +10,7 @@ pub mod gauss_newton;
 pub mod identifiability;
 pub mod intervals;
 pub mod misfit;
+pub(crate) mod lower_place;
 #[doc(hidden)]
 pub mod next_step;
 #[doc(hidden)]

@@ -26,12 +26,23 @@ pub struct Minimum {
     pub starts: usize,
 }
 
+/// The end of the steps from one start.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct StartEnd {
+    /// The objective there.
+    pub objective: f64,
+    /// Exact analyses made.
+    pub analyses: usize,
+    /// Reason why they stopped.
+    pub stop: WeightedStop,
+}
+
 /// [`gauss_newton`] from factors of one, and from `starts` − 1 random places: factors from 0.5 to 2, log-uniformly by
-/// [`uniform`] from `seed`, brought within their bounds. Returns the best, the minima that noise allows, the best first, and how many
-/// starts failed. One that stops short of a gradient within tolerance makes no minimum of its own, unless it is the best.
+/// [`uniform`] from `seed`, brought within their bounds. Returns the best, the minima that noise allows, the best first, and how every
+/// start ended, none where it failed. One that stops short of a gradient within tolerance makes no minimum of its own, unless it is the best.
 ///
 /// Two ends are one minimum where $h^t A h/2$ is at most a thousandth, $h$ being the difference of their logarithms and $A$ the curvature
-/// at the better one. Noise allows a minimum if twice its objective is above twice the least by at most the 95 % quantile of chi-squared
+/// at either, or where steps from half way between them end in one minimum with both: ends of one valley. Noise allows a minimum if twice its objective is above twice the least by at most the 95 % quantile of chi-squared
 /// of as many degrees of freedom as parameters: what likelihood ratios exclude beyond that has no part in the region that holds the truth
 /// in 95 of 100 tests (Wilks, *Annals of Mathematical Statistics* 9 (1938), 60–62). The prior counts as measurements of the parameters.
 ///
@@ -44,18 +55,23 @@ pub fn from_several_starts<E: From<Error>>(
     settings: &WeightedSettings,
     starts: usize,
     seed: u64,
-) -> Result<(WeightedCorrelation, Vec<Minimum>, usize), E> {
+) -> Result<(WeightedCorrelation, Vec<Minimum>, Vec<Option<StartEnd>>), E> {
     at_least_one("starts", starts)?;
-    let (mut state, mut ends, mut failed) = (seed, Vec::new(), None);
-    let mut draw = || 0.5 * 4.0_f64.powf(uniform(&mut state));
+    let (mut state, mut ends, mut failed, mut all) = (seed, Vec::new(), None, Vec::new());
     for start in 0..starts {
-        let first: Vec<f64> = ranges
-            .iter()
-            .map(|_| if start == 0 { 1.0 } else { draw() })
-            .collect();
+        let first = match start {
+            0 => vec![1.0; ranges.len()],
+            _ => draw(ranges.len(), &mut state),
+        };
         match gauss_newton(&mut analyze, &first, ranges, weights, settings) {
-            Ok(found) => ends.push(found),
-            Err(error) => failed = Some(error),
+            Ok(found) => {
+                all.push(Some(found.end()));
+                ends.push(found);
+            }
+            Err(error) => {
+                all.push(None);
+                failed = Some(error);
+            }
         }
     }
     ends.sort_by(|a, b| a.objective.total_cmp(&b.objective));
@@ -65,29 +81,80 @@ pub fn from_several_starts<E: From<Error>>(
     let allowed = ChiSquared::new(ranges.len() as f64)
         .map_or(0.0, |chi_squared| 0.5 * chi_squared.inverse_cdf(0.95));
     let mut minima: Vec<(&WeightedCorrelation, usize)> = Vec::new();
+    let mut steps_from =
+        |first: &[f64]| gauss_newton(&mut analyze, first, ranges, weights, settings).ok();
     for end in &ends {
         let is_new = minima.is_empty()
             || end.stop == WeightedStop::Gradient && end.objective <= best.objective + allowed;
-        match minima.iter_mut().find(|(minimum, _)| is_same(minimum, end)) {
-            Some((_, starts)) => *starts += 1,
+        let mut known = minima.iter().map(|(minimum, _)| *minimum);
+        let place = known.clone().position(|minimum| is_same(minimum, end));
+        let mut of_valley =
+            || known.position(|minimum| are_joined(&mut steps_from, minimum, end, HALVINGS));
+        match place.or_else(|| if is_new { of_valley() } else { None }) {
+            Some(place) => minima[place].1 += 1,
             None if is_new => minima.push((end, 1)),
             None => (),
         }
     }
-    let minimum = |(end, starts): (&WeightedCorrelation, usize)| {
-        let priors = settings.priors(end.factors.len());
-        let pulls = end.factors.iter().zip(priors);
-        let pull: f64 = pulls
-            .map(|(factor, prior)| (factor.ln() / prior).powi(2))
-            .sum();
-        Minimum {
-            factors: end.factors.clone(),
-            chi_squared: 2.0 * end.objective - pull,
-            starts,
-        }
+    let minimum = |(end, starts): (&WeightedCorrelation, usize)| Minimum {
+        factors: end.factors.clone(),
+        chi_squared: 2.0 * end.objective - pull(&end.factors, settings),
+        starts,
     };
     let minima = minima.into_iter().map(minimum).collect();
-    Ok((best, minima, starts - ends.len()))
+    Ok((best, minima, all))
+}
+
+impl WeightedCorrelation {
+    /// How its steps ended.
+    pub(crate) fn end(&self) -> StartEnd {
+        StartEnd {
+            objective: self.objective,
+            analyses: self.analyses,
+            stop: self.stop,
+        }
+    }
+}
+
+/// Random factors from 0.5 to 2, log-uniform.
+pub(super) fn draw(count: usize, state: &mut u64) -> Vec<f64> {
+    let draw = |_| 0.5 * 4.0_f64.powf(uniform(state));
+    (0..count).map(draw).collect()
+}
+
+/// The prior's part of twice an objective.
+fn pull(factors: &[f64], settings: &WeightedSettings) -> f64 {
+    let priors = settings.priors(factors.len()).into_iter();
+    let pulls = factors.iter().zip(priors);
+    pulls
+        .map(|(factor, prior)| (factor.ln() / prior).powi(2))
+        .sum()
+}
+
+/// Most times that the way between two ends is halved.
+const HALVINGS: u32 = 6;
+
+/// True if two ends are of one valley: the same, or both of one with where steps from half way between them end.
+fn are_joined(
+    steps_from: &mut dyn FnMut(&[f64]) -> Option<WeightedCorrelation>,
+    one: &WeightedCorrelation,
+    other: &WeightedCorrelation,
+    halvings: u32,
+) -> bool {
+    if is_same(one, other) || is_same(other, one) {
+        return true;
+    }
+    let Some(halvings) = halvings.checked_sub(1) else {
+        return false;
+    };
+    let both = one.factors.iter().zip(&other.factors);
+    let middle: Vec<f64> = both.map(|(one, other)| (one * other).sqrt()).collect();
+    let level = one.objective.max(other.objective) + SAME_OBJECTIVE;
+    let between = steps_from(&middle).filter(|between| between.objective <= level);
+    between.is_some_and(|between| {
+        are_joined(steps_from, one, &between, halvings)
+            && are_joined(steps_from, &between, other, halvings)
+    })
 }
 
 /// True if steps have ended in a minimum again.

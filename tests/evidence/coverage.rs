@@ -20,7 +20,7 @@ use corfem::sparse::{WholeModel, WholeParameter, WholeShare};
 use corfem::torque_box::error::CaseError;
 use corfem::weighted::comparison::Comparison;
 use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop, gauss_newton};
-use corfem::weighted::intervals::intervals;
+use corfem::weighted::intervals::{Withheld, intervals};
 use corfem::weighted::misfit::Misfit;
 use corfem::weighted::noise::{Noise, with_noise, with_noise_by_mode};
 use std::error::Error;
@@ -195,8 +195,9 @@ fn of_known(known: Known) -> Subject {
                     &settings,
                     widening,
                 )?,
-                false => vec![None; count],
+                false => vec![Err(Withheld::NoOptimum); count],
             };
+            let intervals = intervals.into_iter().map(Result::ok).collect();
             Ok(Found {
                 intervals,
                 learned: found.identifiability.learned,
@@ -226,7 +227,7 @@ fn of_job(name: &str, files: Files, truth: &[f64]) -> Result<Subject, FileError>
                 ..
             } = run(&prepare(&path)?, |_| {}, || true)?;
             Ok(Found {
-                intervals,
+                intervals: intervals.into_iter().map(Result::ok).collect(),
                 learned: seen.learned,
                 misfit,
                 is_explained: verdict.is_within && trust.is_clear(),

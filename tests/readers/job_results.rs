@@ -1,6 +1,6 @@
 //! What a run of a job comes to: its verdict, what is told on the way, the best so far, bounds from any start, and the deck.
 
-use super::job_errors::{placed, with};
+use super::job_errors::{placed, said as said_of, with};
 use super::job_prepared::prepared;
 use crate::common::jobs::run;
 use crate::common::jobs::{Files, building, rods};
@@ -10,22 +10,32 @@ use crate::common::tolerances::{
 };
 use corfem::files::deck;
 use corfem::job::verdict::Outcome;
-use corfem::job::{Concern, History, JobResult, Study, Vary};
+use corfem::job::{Concern, History, JobResult, Kind, Study, Trust, Vary};
 use corfem::method::modes::Modes;
 use corfem::method::step::Bounds;
 use corfem::present::page::report_page;
 use corfem::present::report::Report;
 use corfem::present::tables::job::minima_table;
 use corfem::present::{json, render};
-use corfem::weighted::identifiability::NORMAL_95;
+use corfem::weighted::identifiability::{NORMAL_95, PRIOR_DEVIATION};
+use corfem::weighted::intervals::Withheld;
 use corfem::weighted::noise::with_noise_by_mode;
-use corfem::weighted::residuals::residuals;
+use corfem::weighted::residuals::{jacobian, residuals};
 use std::cell::Cell;
 
 const A: &str = "elements = [1]";
 const B: &str = "elements = [\"2-3\"]";
 /// Rods 2 and 3 one by one: what the test was made of can be found.
 const EACH: &str = "elements = [\"2-3\"]\neach = true";
+
+/// The job with the third frequency of its test two percent higher.
+fn third_higher(mut files: Files) -> Files {
+    let mut data = prepared(&files).loaded.data.clone();
+    data.frequencies_hz[2] *= 1.02;
+    let test = files.iter_mut().find(|(name, _)| name == "test.csv");
+    test.expect("a test").1 = write_csv(&data);
+    files
+}
 
 fn ran(files: &Files) -> JobResult {
     run(&prepared(files), |_| {}, || true).unwrap_or_else(|error| panic!("{error}"))
@@ -90,7 +100,7 @@ fn several_starts_name_their_minima_in_every_output() {
     assert!(text.contains("0 starts failed.") && document["failed_starts"] == 0);
     let mut failing = found;
     if let History::GaussNewton(Some(steps)) = &mut failing.found.history {
-        steps.failed = 2;
+        steps.starts = vec![None; 2];
     }
     let report = Report::from_job(&failing.found.prepared, Some(&failing)).expect("a report");
     let table = minima_table(&report).expect("minima");
@@ -104,6 +114,163 @@ fn several_starts_name_their_minima_in_every_output() {
     let one = ran(&rods());
     let report = Report::from_job(&one.found.prepared, Some(&one)).expect("a report");
     assert!(minima_table(&report).is_none());
+}
+
+/// A test is no test where any model would pass: with fewer numbers than factors, with so few that three times the noise would rather be
+/// overlooked, and with weights that let everything be.
+#[test]
+fn a_test_that_no_model_can_fail_confirms_nothing() {
+    let outcome = |entries: &str| {
+        let files = with(exact(rods()), "job.toml", "[compare]", entries);
+        let found = ran(&files);
+        let words = Report::from_job(&found.found.prepared, Some(&found))
+            .expect("a report")
+            .words();
+        (found.verdict.outcome, found.verdict.is_within, words)
+    };
+    let weights = |of: &str, weight: &str| format!("{of}_weights = [{weight}, {weight}, {weight}]");
+    let hidden = format!(
+        "[compare]\n{}\n{}",
+        weights("frequency", "1e-3"),
+        weights("shape", "1e-3")
+    );
+    let one = "[compare]\nfrequency_weights = [1, 0, 0]\nshape_weights = [0, 0, 0]";
+    let two = "[compare]\nfrequency_weights = [1, 1, 0]\nshape_weights = [0, 0, 0]\nprior_deviation = 1e-6";
+    for (entries, reason) in [
+        (
+            &hidden[..],
+            "a model with every frequency half off and other shapes would pass",
+        ),
+        (one, "the fit leaves less than one number over"),
+        (two, "so few numbers would show 46 %"),
+    ] {
+        let (outcome, is_within, words) = outcome(entries);
+        assert_eq!((outcome, is_within), (Outcome::Untested, false), "{words}");
+        assert!(
+            words.contains(reason) && words.contains("Nothing to judge by"),
+            "{words}"
+        );
+        assert!(words.contains("the test confirms nothing"), "{words}");
+    }
+    let (outcome, is_within, words) = outcome("[compare]");
+    assert_eq!((outcome, is_within), (Outcome::Tolerance, true), "{words}");
+}
+
+/// A mode that is held out has no part in the factors, however wrong its frequency, and is told of.
+#[test]
+fn a_mode_held_out_is_compared_and_not_fitted() {
+    let held = |files: Files| with(files, "job.toml", "[test]", "[test]\nhold_out = [3]");
+    let one = ran(&held(rods()));
+    let off = ran(&held(third_higher(rods())));
+    for (own, other) in one.found.factors.iter().zip(&off.found.factors) {
+        assert!((own / other - 1.0).abs() < ROUND_OFF);
+    }
+    let said = |found: &JobResult| {
+        found
+            .trust
+            .of(Kind::HeldOut)
+            .next()
+            .cloned()
+            .expect("it is said")
+    };
+    let (right, wrong) = (said(&one), said(&off));
+    assert_eq!(
+        (&right.about[..], right.measure.len()),
+        (&["3".to_owned()][..], 4)
+    );
+    let apart = (1.0 + right.measure[1] / 100.0) / (1.0 + wrong.measure[1] / 100.0);
+    assert!((apart - 1.02).abs() < 1e-6, "{apart}");
+    assert!(ran(&rods()).trust.of(Kind::HeldOut).next().is_none());
+    for (modes, says) in [
+        ("[4]", "mode 4 is none of the test modes"),
+        ("[1, 2, 3]", "a mode at least must be left"),
+        ("[1, 1]", "named twice"),
+    ] {
+        let files = with(
+            rods(),
+            "job.toml",
+            "[test]",
+            &format!("[test]\nhold_out = {modes}"),
+        );
+        let words = said_of(&files);
+        assert!(words.contains(says), "{words}");
+    }
+}
+
+/// The test without its second mode: the model's is named, with its frequency.
+#[test]
+fn modes_of_the_model_that_no_test_mode_answers_are_said() {
+    let unanswered = |entry: &str| {
+        let found = ran(&with(rods(), "job.toml", "[test]", entry));
+        let before = Trust::before(&found.found.prepared).expect("an account");
+        let [before, after] = [&before, &found.trust].map(|trust| trust.about(Kind::Unanswered));
+        assert_eq!(before.len(), after.len());
+        after
+    };
+    assert_eq!(unanswered("[test]"), Vec::<String>::new());
+    let named = unanswered("[test]\nmodes = [1, 3]");
+    assert!(
+        named.len() == 1 && named[0].starts_with("mode 2 ("),
+        "{named:?}"
+    );
+    // Beyond the last one nothing is missing.
+    assert_eq!(unanswered("[test]\nmodes = [1, 2]"), Vec::<String>::new());
+}
+
+/// Exact modes leave residuals of nothing, which noise would not.
+#[test]
+fn residuals_that_noise_would_not_leave_are_said() {
+    let below = |files: &Files| ran(files).trust.of(Kind::BelowNoise).next().is_some();
+    assert!(below(&exact(rods())));
+    assert!(!below(&alone(B)));
+}
+
+/// Interval ends, residuals by sensor and mode, and how every start ended stand in the document.
+#[test]
+fn the_document_has_the_ends_of_intervals_the_residuals_and_how_starts_ended() {
+    let found = ran(&with(
+        rods(),
+        "job.toml",
+        "[compare]",
+        "[compare]\nstarts = 3",
+    ));
+    let report = Report::from_job(&found.found.prepared, Some(&found)).expect("a report");
+    let document = json::report(&report).expect("a document");
+    for (said, interval) in document["intervals"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .zip(&found.intervals)
+    {
+        match interval {
+            Ok(ends) => {
+                assert_eq!(said["lower"].as_f64(), Some(ends.lower));
+                assert_eq!(said["upper"].as_f64(), Some(ends.upper));
+            }
+            Err(_) => assert!(said["withheld"].is_string(), "{said}"),
+        }
+    }
+    let all = residuals(&found.found.last, &found.found.prepared.weights()).unwrap();
+    let number = |value: &serde_json::Value| value.as_f64().expect("a number");
+    let told: Vec<f64> = document["residuals"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .flat_map(|mode| {
+            let shape = mode["shape"].as_array().expect("a list").iter().map(number);
+            std::iter::once(number(&mode["frequency"]))
+                .chain(shape)
+                .collect::<Vec<_>>()
+        })
+        .collect();
+    assert_eq!(told, all.as_slice());
+    let starts = document["starts"].as_array().expect("a list");
+    assert_eq!(starts.len(), 3);
+    assert!(
+        starts
+            .iter()
+            .all(|start| start["stop"] == "gradient" && start["analyses"].as_u64() > Some(1))
+    );
 }
 
 /// Without a step because none is needed, without a step because none is possible, and after the best that one factor can do.
@@ -128,7 +295,7 @@ fn a_verdict_tells_what_is_good_from_what_cannot_be_better() {
     assert_eq!(outcome(&alone(B)), (Outcome::LocalMinimum, false));
 }
 
-fn intervals(found: &JobResult) -> Vec<Option<Bounds>> {
+fn intervals(found: &JobResult) -> Vec<Result<Bounds, Withheld>> {
     found.intervals.clone()
 }
 
@@ -137,14 +304,16 @@ fn no_interval_stands_where_the_papers_rule_stops() {
     let paper = with(rods(), "job.toml", "gauss_newton", "paper");
     let found = ran(&paper);
     assert!(matches!(found.found.history, History::Paper(_)));
-    assert!(intervals(&found).iter().all(Option::is_none));
+    let withheld = Err(Withheld::NoOptimum);
+    assert!(intervals(&found).iter().all(|one| *one == withheld));
+    assert!(found.trust.of(Kind::NoOptimum).next().is_some());
 }
 
 #[test]
 fn no_interval_stands_at_a_bound() {
     let found = ran(&alone("elements = [1]\nlower = 1.0\nupper = 2.0"));
     assert_eq!(found.verdict.at_bound, [0]);
-    assert_eq!(intervals(&found), [None]);
+    assert_eq!(intervals(&found), [Err(Withheld::AtBound)]);
 }
 
 /// A prior of a millionth leaves its factor at one and keeps all of its variance; the others have the job's, and these the test decides.
@@ -169,7 +338,7 @@ fn a_prior_is_the_parameters_own_or_that_of_all() {
     let remarks = found.trust.all().iter().map(Concern::words);
     let said = "Known more from the prior than from the test: a.";
     assert!(remarks.into_iter().any(|words| words == said));
-    assert!(found.intervals[0].is_none());
+    assert_eq!(found.intervals[0], Err(Withheld::MostlyPrior));
 }
 
 /// What is weighed otherwise than by its deviation is said, and an entry that only the other method reads is not passed over.
@@ -199,14 +368,18 @@ fn own_weights_and_the_papers_settings_are_said() {
     }
 }
 
-/// One factor for rods that are 0.8 and 1.1 of the model's: no factor explains the test.
+/// One factor for rods that are 0.8 and 1.1 of the model's: no factor explains the test. The deviation that is told has the residuals in
+/// it, and the prior as it is.
 #[test]
-fn an_interval_is_as_much_wider_as_the_residuals_exceed_the_noise() {
+fn an_interval_is_that_of_as_much_noise_as_there_is() {
     let found = ran(&alone(B));
     let times = found.misfit.times_the_noise().unwrap();
     assert!(times > 1.0 && !found.misfit.is_by_noise(), "{times}");
     let interval = intervals(&found)[0].expect("an optimum");
-    let wide = 2.0 * NORMAL_95 * found.seen[1].deviations[0] * times;
+    let wide = 2.0 * NORMAL_95 * found.seen[1].deviations[0];
+    let slopes = jacobian(&found.found.last, &found.found.prepared.weights()).unwrap();
+    let alone = (times / slopes.norm()).powi(-2) + PRIOR_DEVIATION.powi(-2);
+    assert!((alone.sqrt() * found.seen[1].deviations[0] - 1.0).abs() < MATRIX_ROUND_OFF);
     let found = (interval.upper / interval.lower).ln();
     assert!((found - wide).abs() < ROUND_OFF * wide, "{found} {wide}");
 }

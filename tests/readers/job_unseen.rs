@@ -209,7 +209,7 @@ properties! {
         for (one, other) in alone.intervals.iter().zip(&beside.intervals) {
             let ends = |range: &corfem::method::step::Bounds| [range.lower, range.upper];
             let both = [one, other].map(|range| range.as_ref().map(ends));
-            prop_assert_eq!(both[0].is_some(), both[1].is_some());
+            prop_assert_eq!(both[0].is_ok(), both[1].is_ok());
             for (one, other) in both[0].into_iter().flatten().zip(both[1].into_iter().flatten()) {
                 prop_assert!((one / other - 1.0).abs() < SAME, "{one} {other}");
             }

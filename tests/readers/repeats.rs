@@ -99,6 +99,64 @@ fn neither_scale_nor_sign_nor_order_of_repeats_matters() {
     }
 }
 
+/// Twenty repeats, each with eight tenths of the noise of the one before, and twenty with noise of their own.
+#[test]
+fn repeats_that_drift_are_said_and_widen_the_deviations() {
+    const KEPT: f64 = 0.8;
+    let exact = exact();
+    let independent: Vec<TestData> = (1..=20).map(|seed| noisy(&exact, seed)).collect();
+    let unit = |data: &TestData, mode: usize| {
+        let shape = data.shapes.column(mode);
+        let along =
+            shape.dot(&exact.shapes.column(mode)) / exact.shapes.column(mode).norm_squared();
+        shape / along
+    };
+    let mut drifting = independent.clone();
+    for test in 1..drifting.len() {
+        let fresh = (1.0 - KEPT * KEPT).sqrt();
+        let before = drifting[test - 1].clone();
+        for mode in 0..exact.frequencies_hz.len() {
+            let next = |of: f64, last: f64, now: f64| of + KEPT * (last - of) + fresh * (now - of);
+            let right = exact.frequencies_hz[mode];
+            drifting[test].frequencies_hz[mode] = next(
+                right,
+                before.frequencies_hz[mode],
+                independent[test].frequencies_hz[mode],
+            );
+            let (last, now) = (unit(&before, mode), unit(&independent[test], mode));
+            let right = exact.shapes.column(mode);
+            let shape = right.zip_zip_map(&last, &now, next);
+            drifting[test].shapes.set_column(mode, &shape);
+        }
+    }
+    let lag = |tests: &[TestData]| {
+        let prepared = loaded(&repeated(tests, ALL));
+        let said = Trust::before(&prepared).unwrap();
+        let data = prepared.loaded.data.clone();
+        assert_eq!(
+            said.of(Kind::Drift).count(),
+            usize::from(data.drift.is_some())
+        );
+        (data.drift, data.frequency_deviation.unwrap())
+    };
+    let (none, own) = lag(&independent);
+    assert_eq!(none, None);
+    let (found, wide) = lag(&drifting);
+    let found = found.expect("they drift");
+    assert!((found - KEPT).abs() < 0.3, "{found}");
+    // As much wider as the mean of numbers that are alike from one to the next is less sure.
+    let mut shuffled = drifting.clone();
+    for place in 0..10 {
+        shuffled.swap(place, (7 * place + 3) % 20);
+    }
+    let (_, alone) = lag(&shuffled);
+    let wider = ((1.0 + found) / (1.0 - found)).sqrt();
+    for (wide, alone) in wide.iter().zip(&alone) {
+        assert!((wide / alone / wider - 1.0).abs() < MATRIX_ROUND_OFF);
+    }
+    assert_eq!(own.len(), wide.len());
+}
+
 /// Mean over many jobs of chi-squared over its degrees of freedom, with its standard error, by so many repeats of `test`.
 fn chi_squared(jobs: u64, repeats: u64, modes: &str, test: impl Fn(u64) -> TestData) -> (f64, f64) {
     let ratios: Vec<f64> = (0..jobs)

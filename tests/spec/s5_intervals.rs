@@ -8,9 +8,10 @@ use corfem::method::modes::Modes;
 use corfem::method::step::Bounds;
 use corfem::weighted::comparison::Comparison;
 use corfem::weighted::gauss_newton::{WeightedCorrelation, WeightedSettings, gauss_newton};
-use corfem::weighted::identifiability::NORMAL_95;
-use corfem::weighted::intervals::intervals;
+use corfem::weighted::identifiability::{NORMAL_95, PRIOR_DEVIATION, identifiability};
+use corfem::weighted::intervals::{Withheld, intervals};
 use corfem::weighted::noise::{Noise, with_noise};
+use corfem::weighted::residuals::jacobian;
 
 type Ranges = [Option<Bounds>; 15];
 
@@ -38,7 +39,12 @@ impl Noisy {
         gauss_newton(analyze, first, ranges, &weights, &settings).unwrap()
     }
 
-    fn intervals(&self, best: &[f64], ranges: &Ranges, widening: f64) -> Vec<Option<Bounds>> {
+    fn intervals(
+        &self,
+        best: &[f64],
+        ranges: &Ranges,
+        widening: f64,
+    ) -> Vec<Result<Bounds, Withheld>> {
         let (weights, settings) = (equal_weights(Noise::USUAL, 9), WeightedSettings::default());
         let analyze = |factors: &[f64]| self.analyze(factors);
         intervals(&analyze, best, ranges, &weights, &settings, widening).unwrap()
@@ -53,7 +59,7 @@ fn at_the_ends_of_an_interval_the_objective_is_as_much_higher() {
     let all = noisy.intervals(&best.factors, &free, 1.0);
     let [mut by_slope, mut by_objective] = [0; 2];
     for (e, interval) in all.iter().enumerate() {
-        let Some(Bounds { lower, upper }) = *interval else {
+        let Ok(Bounds { lower, upper }) = *interval else {
             continue;
         };
         let middle = (lower * upper / best.factors[e].powi(2)).ln();
@@ -82,26 +88,68 @@ fn at_the_ends_of_an_interval_the_objective_is_as_much_higher() {
     );
 }
 
-/// Panel 1 is seen well: its interval is by slopes, and as many times as wide as it is widened. A factor at a bound has none, nor one that
-/// only the prior knows.
+/// Panel 1 is seen well: its interval is by slopes, of deviations so many times as large and of the prior as it is. No interval is wider
+/// than the prior's, however large the deviations.
 #[test]
-fn intervals_widen_with_the_noise_and_are_withheld_where_none_is_true() {
+fn widening_scales_the_measurement_and_never_the_prior() {
     let (noisy, free) = (Noisy::new(3), [None; 15]);
     let best = noisy.optimum(&[1.0; 15], &free);
-    let width = |widening| {
-        let interval = noisy.intervals(&best.factors, &free, widening)[0].unwrap();
-        (interval.upper / interval.lower).ln()
+    let slopes = jacobian(
+        &noisy.analyze(&best.factors).unwrap(),
+        &equal_weights(Noise::USUAL, 9),
+    )
+    .unwrap();
+    let prior = 2.0 * NORMAL_95 * PRIOR_DEVIATION;
+    for widening in [1.0, 1.5, 4.0, 30.0] {
+        let all = noisy.intervals(&best.factors, &free, widening);
+        let seen = identifiability(&(&slopes / widening), &[PRIOR_DEVIATION; 15]).unwrap();
+        let width = |interval: &Bounds| (interval.upper / interval.lower).ln();
+        if widening < 2.0 {
+            let own = 2.0 * NORMAL_95 * seen.deviations[0];
+            let width = width(&all[0].unwrap());
+            assert!((width / own - 1.0).abs() < MATRIX_ROUND_OFF, "{widening}");
+        }
+        for (e, interval) in all.iter().enumerate() {
+            match interval {
+                Ok(interval) => assert!(width(interval) <= prior, "{widening}, {e}"),
+                Err(withheld) => assert_eq!(
+                    *withheld == Withheld::MostlyPrior,
+                    seen.is_mostly_prior(e),
+                    "{widening}, {e}: {withheld:?}"
+                ),
+            }
+        }
+    }
+}
+
+/// Where the factors are not the optimum, an end that is sought finds lower places instead.
+#[test]
+fn no_interval_stands_where_the_objective_falls_below_that_at_the_factors() {
+    let (noisy, free) = (Noisy::new(3), [None; 15]);
+    let best = noisy.optimum(&[1.0; 15], &free).factors;
+    let beside: Vec<f64> = (0..15).map(|e| best[e] * [0.93, 1.08][e % 2]).collect();
+    let withheld = |factors: &[f64]| {
+        let all = noisy.intervals(factors, &free, 1.0).into_iter();
+        all.filter(|interval| *interval == Err(Withheld::Lower))
+            .count()
     };
-    assert!((width(1.5) / width(1.0) - 1.5).abs() < MATRIX_ROUND_OFF);
-    let deviation = best.identifiability.deviations[0];
-    assert!((width(1.0) / (2.0 * NORMAL_95 * deviation) - 1.0).abs() < MATRIX_ROUND_OFF);
+    assert_eq!(withheld(&best), 0);
+    assert!(withheld(&beside) > 0);
+}
+
+/// A factor at a bound has none, nor one that only the prior knows.
+#[test]
+fn intervals_are_withheld_where_none_is_true() {
+    let (noisy, free) = (Noisy::new(3), [None; 15]);
+    let best = noisy.optimum(&[1.0; 15], &free);
     let mut ranges = free;
     ranges[0] = Some(Bounds {
         lower: 0.5 * best.factors[0],
         upper: 0.9 * best.factors[0],
     });
     let held = noisy.optimum(&[1.0; 15], &ranges);
-    assert_eq!(noisy.intervals(&held.factors, &ranges, 1.0)[0], None);
+    let at_bound = noisy.intervals(&held.factors, &ranges, 1.0)[0];
+    assert_eq!(at_bound, Err(Withheld::AtBound));
     // Case 2 leaves the ratio of both covers of a bay to the prior.
     let known = Known::of_case(2).unwrap();
     let noisy = Noisy {
@@ -113,7 +161,7 @@ fn intervals_widen_with_the_noise_and_are_withheld_where_none_is_true() {
     assert_eq!(all.len(), 15);
     for (e, interval) in all.iter().enumerate() {
         assert_eq!(
-            interval.is_none(),
+            *interval == Err(Withheld::MostlyPrior),
             best.identifiability.is_mostly_prior(e),
             "{e}"
         );

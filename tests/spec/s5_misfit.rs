@@ -107,7 +107,7 @@ fn a_verdict_says_what_noise_allows_what_no_noise_explains_and_what_so_few_numbe
         ),
         (
             few,
-            "in 999 of 1000 tests. Of tests with three times this noise, so few numbers would show 27 %.",
+            "Nothing to judge by: of tests with three times this noise, so few numbers would show 27 %.",
         ),
         (
             none,

@@ -17,7 +17,7 @@ use corfem::weighted::identifiability::identifiability;
 use corfem::weighted::next_step::NextStep;
 use corfem::weighted::noise::Noise;
 use corfem::weighted::residuals::{DEVIATIONS, jacobian};
-use corfem::weighted::starts::{Minimum, from_several_starts};
+use corfem::weighted::starts::{Minimum, StartEnd, from_several_starts};
 use nalgebra::{DMatrix, DVector, dmatrix};
 
 #[test]
@@ -122,6 +122,38 @@ fn all_minima_that_noise_allows_are_named_with_their_starts() {
     );
 }
 
+/// Of two springs in a row under a mass, whose frequency alone is known, the flexibilities add: a valley that bends, with one bottom.
+#[test]
+fn ends_of_one_valley_count_once() {
+    let first = DynamicModel {
+        stiffness: dmatrix![2.0, -1.0; -1.0, 1.0],
+        mass: DMatrix::from_diagonal(&DVector::from_vec(vec![1e-3, 1.0])),
+        shares: vec![dmatrix![1.0, 0.0; 0.0, 0.0], dmatrix![1.0, -1.0; -1.0, 1.0]],
+    };
+    let real = at(&first, &[1.3, 0.8]);
+    let test = solve(&real.stiffness, &real.mass, 2).unwrap();
+    let analyze = |factors: &[f64]| {
+        let model = at(&first, factors).analyze(&test, None);
+        model.map(|model| Comparison::from(&model))
+    };
+    let weight = |frequency| ModeWeight {
+        frequency,
+        shape: 0.0,
+    };
+    let settings = WeightedSettings {
+        prior_deviations: vec![1e3],
+        ..WeightedSettings::default()
+    };
+    let weights = [weight(200.0), weight(0.0)];
+    let (_, minima, ends) =
+        from_several_starts(analyze, &[None; 2], &weights, &settings, 12, 5).unwrap();
+    let [valley] = &minima[..] else {
+        panic!("{minima:?}")
+    };
+    assert_eq!(valley.starts, 12);
+    assert!(ends.iter().flatten().all(|end| end.objective < 1e-3));
+}
+
 /// Of three starts the second has no model, and later a trial has none: the others end where all of them do.
 #[test]
 fn a_start_or_a_trial_without_a_model_is_rejected_and_the_others_stand() {
@@ -142,14 +174,16 @@ fn a_start_or_a_trial_without_a_model_is_rejected_and_the_others_stand() {
         (found, failed)
     };
     let (all, _) = starts(3, &|_, _| false);
-    let (all, minima, none) = all.unwrap();
+    let failures = |ends: &[Option<StartEnd>]| ends.iter().filter(|end| end.is_none()).count();
+    let (all, minima, ends) = all.unwrap();
     let reached = |minima: &[Minimum]| minima.iter().map(|of| of.starts).collect::<Vec<_>>();
-    assert_eq!((reached(&minima), none), (vec![3], 0));
+    assert_eq!((reached(&minima), failures(&ends)), (vec![3], 0));
     // The second start comes after all analyses of the first.
     let of_one = starts(1, &|_, _| false).0.unwrap().0;
     let (without, failed) = starts(3, &|call, _| call == of_one.analyses + 1);
-    let (without, minima, counted) = without.unwrap();
-    assert_eq!((failed, counted, reached(&minima)), (1, 1, vec![2]));
+    let (without, minima, ends) = without.unwrap();
+    assert_eq!((failed, failures(&ends), reached(&minima)), (1, 1, vec![2]));
+    assert!(ends[1].is_none());
     assert_relative_eq!(
         &without.factors[..],
         &all.factors[..],

@@ -68,6 +68,8 @@ pub struct TestData {
     /// Deviations of repeated tests from their mean, one column a test: for every mode that of its frequency, a fraction of it,
     /// then those of its components, fractions of the largest; empty for a single test.
     pub scatter: DMatrix<f64>,
+    /// Correlation of each of repeated tests with the next, where it is not by chance; deviations and scatter are as much larger.
+    pub drift: Option<f64>,
     /// Modal phase collinearity of every mode that was complex before it was made real; empty when all were real.
     pub phase_collinearity: Vec<f64>,
     /// Lines of the wire frame of the test, as pairs of grid numbers.

@@ -1,6 +1,6 @@
 //! The user's own structure as a report.
 
-use super::{Derivatives, Report, SensorPoint, Stage};
+use super::{Derivatives, ModeResiduals, Report, SensorPoint, Stage};
 use crate::job::expansion::expand;
 use crate::job::{CorrelatedJob, History, JobResult, Method, PlacedSensor, PreparedJob};
 use crate::method::error::Error;
@@ -10,6 +10,8 @@ use crate::present::PresentError;
 use crate::weighted::comparison::{Comparison, ExactResult};
 use crate::weighted::gauss_newton::{WeightedCorrelation, WeightedStop};
 use crate::weighted::identifiability::NORMAL_95;
+use crate::weighted::intervals::Withheld;
+use crate::weighted::residuals::residuals;
 use nalgebra::{DMatrix, DVectorView, Vector3};
 
 impl Report {
@@ -109,16 +111,22 @@ impl Report {
             return Ok(report);
         };
         // The deviation of the factor itself, from that of its logarithm, where there is an interval.
-        let deviation = |(interval, factor): (Option<Bounds>, &f64)| {
-            interval.map(|of| factor * (of.upper / of.lower).ln() / (2.0 * NORMAL_95))
+        let deviation = |(interval, factor): (&Result<Bounds, Withheld>, &f64)| {
+            let interval = interval.as_ref().ok()?;
+            Some(factor * (interval.upper / interval.lower).ln() / (2.0 * NORMAL_95))
         };
-        let intervals = intervals.iter().copied();
-        let (minima, failed_starts) = match &found.history {
-            History::GaussNewton(Some(all)) => (all.minima.clone(), all.failed),
+        let (minima, starts) = match &found.history {
+            History::GaussNewton(Some(all)) => (all.minima.clone(), all.starts.clone()),
             _ => Default::default(),
         };
         Ok(Self {
-            deviations: Some(intervals.zip(&found.factors).map(deviation).collect()),
+            deviations: Some(
+                intervals
+                    .iter()
+                    .zip(&found.factors)
+                    .map(deviation)
+                    .collect(),
+            ),
             prior_shares: Some(
                 seen[1]
                     .learned
@@ -131,7 +139,9 @@ impl Report {
             analyses: Some(found.analyses),
             work: Some(found.work),
             minima,
-            failed_starts,
+            starts,
+            intervals: intervals.clone(),
+            residuals: mode_residuals(found)?,
             moved: moved(found),
             verdict: Some(verdict.clone()),
             trust: Some(trust.clone()),
@@ -173,6 +183,21 @@ impl Report {
             ..Self::from_correlation(name, names, test, initial, None)
         }
     }
+}
+
+/// The residuals at the best factors, mode by mode.
+fn mode_residuals(found: &CorrelatedJob) -> Result<Vec<ModeResiduals>, Error> {
+    let prepared = &found.prepared;
+    let all = residuals(&found.last, &prepared.weights())?;
+    let rows = 1 + found.last.model.test.shapes.nrows();
+    let (shaped, alone) = all.as_slice().split_at(rows * prepared.modes.len());
+    let each = shaped.chunks(rows).chain(alone.chunks(1));
+    let of_mode = |(mode, own): (usize, &[f64])| ModeResiduals {
+        mode: mode + 1,
+        frequency: own[0],
+        shape: own[1..].to_vec(),
+    };
+    Ok(prepared.compared().zip(each).map(of_mode).collect())
 }
 
 /// How the grids move, see [`Report::moved`]: the models as their own shapes at all degrees of freedom, the test as the nearest

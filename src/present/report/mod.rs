@@ -19,10 +19,11 @@ use crate::present::verdict::verdict_in_words;
 use crate::sparse::{ParameterMatrix, Work, modal_assurance};
 use crate::weighted::close_modes::turned;
 use crate::weighted::comparison::{Comparison, ExactResult};
-use crate::weighted::intervals::is_at_end;
+use crate::weighted::intervals::{Withheld, is_at_end};
 use crate::weighted::misfit::Misfit;
-use crate::weighted::starts::Minimum;
+use crate::weighted::starts::{Minimum, StartEnd};
 use nalgebra::{DMatrix, Vector3};
+use serde::Serialize;
 
 /// A row of the shapes.
 #[doc(hidden)]
@@ -47,6 +48,18 @@ pub struct Stage {
     pub inner: Option<InnerRun>,
     /// Why it ended, in words.
     pub stop: String,
+}
+
+/// Residuals of a test mode over their standard deviations.
+#[doc(hidden)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModeResiduals {
+    /// The test mode's number.
+    pub mode: usize,
+    /// That of its frequency, positive where the model's is higher.
+    pub frequency: f64,
+    /// Those of its shape at the sensors; none of a frequency alone.
+    pub shape: Vec<f64>,
 }
 
 /// Derivatives at the first model by the relative stiffness or mass of each parameter.
@@ -84,8 +97,12 @@ pub struct Report {
     pub work: Option<Work>,
     /// The minima that noise allows, of several starts.
     pub minima: Vec<Minimum>,
-    /// How many of the starts failed.
-    pub failed_starts: usize,
+    /// The end of every start of weighted steps; none where it failed.
+    pub starts: Vec<Option<StartEnd>>,
+    /// The interval of every parameter, or why it has none; none of a report without a result.
+    pub intervals: Vec<Result<Bounds, Withheld>>,
+    /// Residuals at the best factors over their standard deviations, of every test mode, those without shapes last.
+    pub residuals: Vec<ModeResiduals>,
     /// Factors that make the model right, where they are known.
     pub truth: Vec<f64>,
     /// Test modes, sensors × modes.
@@ -207,7 +224,9 @@ impl Report {
             analyses: None,
             work: None,
             minima: Vec::new(),
-            failed_starts: 0,
+            starts: Vec::new(),
+            intervals: Vec::new(),
+            residuals: Vec::new(),
             truth: Vec::new(),
             test: test.clone(),
             mode_numbers: (1..=test.len()).collect(),
@@ -289,6 +308,11 @@ impl Report {
             )
         });
         against.chain(words).collect()
+    }
+
+    /// Number of starts that failed.
+    pub(crate) fn failed_starts(&self) -> usize {
+        self.starts.iter().filter(|start| start.is_none()).count()
     }
 
     fn best_stage(&self) -> Option<&Stage> {

@@ -227,7 +227,7 @@ pub fn seen_table(result: &JobResult) -> Table {
     let intervals = &result.intervals;
     let apart = format!(
         "Of {}, the test tells {} apart (singular values {:.3e} to {:.3e}). Deviations are those of the logarithm of the factor, \
-         from the standard deviations of the measurement{}.",
+         from the standard deviations of the measurement{}{}.",
         counted(names.len(), "parameter", "parameters"),
         after.subset.len(),
         after.singular_values.first().copied().unwrap_or_default(),
@@ -236,17 +236,26 @@ pub fn seen_table(result: &JobResult) -> Table {
             [] => String::new(),
             assumed => format!(", assumed: {}", assumed.join(" and ")),
         },
+        match result.misfit.widening() {
+            1.0 => String::new(),
+            widening => format!(", at the best factors {widening:.2} times as large"),
+        },
     );
     let ends = |end: fn(&Bounds) -> f64| {
         let ends = intervals
             .iter()
-            .map(move |interval| interval.as_ref().map(end));
+            .map(move |interval| interval.as_ref().ok().map(end));
         numbers(ends, Digits::Fixed(4))
     };
-    let withheld = "Without an interval: factors at a bound or known mostly from the prior, and all that are not at the optimum of \
-                    weighted steps.";
-    let is_withheld = intervals.iter().any(Option::is_none);
-    let is_by_slope = names.len() > MOST_FOLLOWED && intervals.iter().any(Option::is_some);
+    let withheld = intervals.iter().filter(|interval| interval.is_err());
+    let withheld = match withheld.count() {
+        0 => None,
+        count => Some(format!(
+            "{} without an interval; the remarks say why.",
+            counted(count, "parameter", "parameters")
+        )),
+    };
+    let is_by_slope = names.len() > MOST_FOLLOWED && intervals.iter().any(Result::is_ok);
     let by_slope =
         format!("Intervals of more than {MOST_FOLLOWED} parameters are by slopes alone.");
     let learned = after.learned.iter().map(|learned| 1.0 - learned);
@@ -265,7 +274,7 @@ pub fn seen_table(result: &JobResult) -> Table {
         .column("deviation before", "%", deviations(before))
         .column("prior's share", "%", percents(learned, Digits::Fixed(1)))
         .notes([apart])
-        .notes(is_withheld.then(|| withheld.to_owned()))
+        .notes(withheld)
         .notes(is_by_slope.then_some(by_slope))
         .filled()
 }
@@ -278,7 +287,7 @@ pub fn minima_table(report: &Report) -> Option<Table> {
         .headings((1..=minima().count()).map(|place| place.to_string()), "")
         .notes([format!(
             "{} failed. Any other that ends in none of them came to no minimum, or to one that this test excludes.",
-            counted(report.failed_starts, "start", "starts")
+            counted(report.failed_starts(), "start", "starts")
         )]);
     let chi_squared = minima().map(|minimum| minimum.chi_squared);
     table.row("chi-squared", numbers(chi_squared, Digits::Fixed(2)));
