@@ -1,17 +1,17 @@
 //! What the inner loop refuses before it takes a step.
 
 use crate::common::appendix_c::{ModalChange, eigensolution};
-use crate::common::loops::chain_problem;
+use crate::common::loops::{chain_problem, inner_for_modes};
 use crate::common::said;
 use crate::common::vibrations::Chain;
 use crate::common::whole_models::of_dense;
-use corfem::method::analysis::Analysis;
+use corfem::method::analysis::{Analysis, State};
 use corfem::method::error::Error;
 use corfem::method::inner_loop::{InnerRun, InnerSettings, first_factors, run};
 use corfem::method::model::{DynamicModel, Model};
 use corfem::method::modes::Modes;
 use corfem::method::sorting::pair_modes;
-use corfem::method::step::Bounds;
+use corfem::method::step::{Bounds, StepRule};
 use corfem::sparse::{BasisSize, ParameterMatrix, SensorModel};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 
@@ -229,4 +229,51 @@ fn a_change_of_mass_that_the_recursion_does_not_settle_on_is_refused() {
         ),
         "{refused:?}"
     );
+}
+
+/// An analysis that ends in an error of its own farther than a tenth from the exact modes.
+struct Nearby(Model);
+
+impl Analysis for Nearby {
+    fn exact(&self) -> &State {
+        self.0.exact()
+    }
+
+    fn at(&self, factors: &[f64]) -> Result<State, Error> {
+        if factors.iter().any(|factor| (factor - 1.0).abs() > 0.1) {
+            return Err(Error::no_convergence("the caller's analysis"));
+        }
+        self.0.at(factors)
+    }
+
+    fn error_changes(&self, state: &State) -> Result<Vec<f64>, Error> {
+        self.0.error_changes(state)
+    }
+
+    fn stiffness_changes(&self, state: &State, gage_factors: &[f64], rule: StepRule) -> Vec<f64> {
+        self.0.stiffness_changes(state, gage_factors, rule)
+    }
+}
+
+/// Only modes that come together, or a root that is lost, say that a step is too long. Of any other error the loop knows no cause, and a
+/// shorter step that happens to escape it would hide it.
+#[test]
+fn an_error_that_no_shorter_step_explains_is_handed_on_at_once() {
+    let problem = Nearby(chain_problem(&Chain::uniform(2), &[1.3, 0.7]));
+    let by = |first_relaxation| {
+        let settings = InnerSettings {
+            first_relaxation,
+            iterations: 1,
+            ..InnerSettings::default()
+        };
+        let settings = inner_for_modes(settings, 2);
+        run(&problem, &[1.0; 2], &[None; 2], &settings)
+    };
+    assert_eq!(
+        said(by(0.8).map(drop)),
+        "the caller's analysis: the library's routine did not converge"
+    );
+    // An eighth of the step is three halvings, which the loop may take.
+    assert!(InnerSettings::default().halvings > 3);
+    assert_eq!(by(0.1).unwrap().iterations.len(), 1);
 }

@@ -5,7 +5,9 @@ use crate::common::gradient::gradient;
 use crate::common::loops::exact_state;
 use crate::common::tolerances::{CENTRAL_DIFFERENCE, CONVERGED_STATE, FIRST_ORDER_REMAINDER};
 use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
-use corfem::method::analysis::{Analysis, DERIVATIVE_STEP, HELD_SEPARATION, State};
+use corfem::method::analysis::{
+    Analysis, DERIVATIVE_STEP, HELD_SEPARATION, State, without_close_couplings,
+};
 use corfem::method::error_sum::{Errors, ModeError, mode_errors};
 use corfem::method::model::{DynamicModel, Model};
 use corfem::method::modes::solve;
@@ -249,4 +251,7 @@ fn close_modes_are_held_to_their_own_shapes() {
     let (inside, outside) = (0.99 * HELD_SEPARATION, 1.02 * HELD_SEPARATION);
     assert_eq!(changes(inside, 20.0), changes(inside, 0.0));
     assert_ne!(changes(outside, 20.0), changes(outside, 0.0));
+    // At the limit itself they are apart: one is a hundredth of a hundred.
+    let change = DMatrix::repeat(2, 2, 1.0);
+    assert_eq!(without_close_couplings(&[100.0, 99.0], &change), change);
 }

@@ -4,6 +4,7 @@ use crate::common::alter;
 use crate::common::loops::{chain_problem, correlate_chain, inner_for_modes};
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::vibrations::Chain;
+use approx::assert_relative_eq;
 use corfem::method::analysis::Analysis;
 use corfem::method::inner_loop::{InnerSettings, Stop, run};
 use corfem::method::outer_loop::{Settings, correlate};
@@ -256,4 +257,38 @@ fn of_equal_passes_the_first_is_best() {
         assert_ne!(pass.factors, [1.0; 3]);
     }
     assert_eq!(found.best_factors, [1.0; 3]);
+}
+
+/// Errors of nine modes are three root mean squares, and those of n modes are √n of them.
+#[test]
+fn settings_for_other_modes_are_met_by_the_same_root_mean_square() {
+    let nine = Settings::default();
+    let tolerances = |settings: &Settings| {
+        [
+            settings.inner.tolerance,
+            settings.later_inner_tolerance,
+            settings.error_sum_tolerance,
+            settings.frequency_tolerance,
+            settings.shape_tolerance,
+        ]
+    };
+    let relaxations = |settings: &Settings| {
+        let InnerSettings {
+            first_relaxation,
+            relaxation,
+            ..
+        } = settings.inner;
+        [first_relaxation, relaxation]
+    };
+    for count in [1, 4, 9, 36] {
+        let (settings, root) = (nine.for_modes(count), (count as f64).sqrt());
+        for (found, of_nine) in tolerances(&settings).iter().zip(tolerances(&nine)) {
+            assert_relative_eq!(found / root, of_nine / 3.0, max_relative = ROUND_OFF);
+        }
+        // The step (13) is in proportion to the error sum.
+        for (found, of_nine) in relaxations(&settings).iter().zip(relaxations(&nine)) {
+            assert_relative_eq!(found * root, of_nine * 3.0, max_relative = ROUND_OFF);
+        }
+    }
+    assert_eq!(nine.for_modes(0), nine.for_modes(1));
 }

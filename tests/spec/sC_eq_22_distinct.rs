@@ -1,6 +1,6 @@
 //! A recursion that has settled has every mode once.
 
-use crate::common::appendix_c::{change_of, of_stiffness};
+use crate::common::appendix_c::{ModalChange, change_of, of_stiffness};
 use crate::common::tolerances::SETTLED_ROOTS;
 use corfem::method::error::Error;
 use corfem::method::perturbation::recursive_1_converged;
@@ -53,4 +53,18 @@ fn one_mode_by_long_shapes_is_found_twice_too() {
         matches!(refused, Error::CoalescingModes { first: 0, second: 1, separation } if separation < 1e-6),
         "{refused:?}"
     );
+}
+
+/// Neighbors that a change of mass leaves oblique have long shapes that are no right angle apart, and are two modes.
+#[test]
+fn close_modes_that_a_change_of_mass_makes_oblique_are_two() {
+    // The matrices of which these are the shapes, at squared frequencies of 1 and 1.0005.
+    let shapes = dmatrix![1.0, 0.5; 0.5, 1.0];
+    let back = shapes.clone().try_inverse().expect("two shapes");
+    let stiffness = back.tr_mul(&(DMatrix::from_diagonal(&dvector![1.0, 1.0005]) * &back));
+    let mass = back.tr_mul(&back);
+    let unit = DMatrix::identity(2, 2);
+    let change = ModalChange::of_vibrations(&dvector![1.0, 1.0], stiffness - &unit, mass - &unit);
+    let found = change.pencil().unwrap().recursive_1_converged().unwrap();
+    assert!((found.perturbed.shapes - shapes).amax() <= SETTLED_ROOTS);
 }
