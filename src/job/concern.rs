@@ -448,7 +448,7 @@ const TABLE: [(Kind, Grade, &str, &str); 60] = {
 };
 
 /// The sentence behind `{likely}`.
-const LIKELY: &str = "The test's shapes would be 10^{x.0} times as likely, with noise of 1 % and a model 30 % wrong.";
+const LIKELY: &str = "The test's shapes would be 10^{x.0} times as likely, with its noise and a model 30 % wrong.";
 
 // Every kind has its row, at its own place.
 const _: () = {

@@ -144,7 +144,7 @@ impl PreparedJob {
         let Modes {
             omega_squared: squares,
             shapes,
-        } = self.first.shapes(2 * self.analysis_modes);
+        } = self.first.shapes(2 * loaded.usual_modes());
         let along = |(place, sensor): (usize, &PlacedSensor)| {
             let own = sensor.direction;
             let others = (own / 3 * 3..own / 3 * 3 + 3).filter(move |other| *other != own);
@@ -173,8 +173,15 @@ impl PreparedJob {
             modes,
         };
         let (settings, ranges) = (&loaded.job.correlation, whole.ranges());
+        // Assumed deviations are no less than a test's own, and declare none.
+        let declared = |&mode: &usize| {
+            let [frequency, shape] = loaded.given_deviations(mode).map(Option::unwrap_or_default);
+            Noise { frequency, shape }
+        };
+        let noise: Vec<Noise> = names.modes.iter().map(declared).collect();
+        let test = (&test, &noise[..]);
         concerns.extend(preflight_at_sensors(
-            &seen, &test, settings, &ranges, &names,
+            &seen, test, settings, &ranges, &names,
         )?);
         concerns.extend(loaded.places_concern());
         let has_doubt = concerns.iter().any(Concern::stands);

@@ -262,10 +262,11 @@ impl LoadedJob {
         })
     }
 
-    /// The whole model's first analysis, with twice as many modes as these where there are.
+    /// The whole model's first analysis, with these modes and those that the pre-flight looks at, which are twice the usual number whatever
+    /// the job takes.
     pub(super) fn analyzed(&self, modes: usize) -> Result<Arc<dyn Whole>, Error> {
-        let whole = &self.source.whole;
-        whole.exactly(&self.ones(), &self.sensors, (modes, 2 * modes), None)
+        let (whole, most) = (&self.source.whole, modes.max(2 * self.usual_modes()));
+        whole.exactly(&self.ones(), &self.sensors, (modes, most), None)
     }
 
     /// The first factors.

@@ -11,6 +11,7 @@ mod concerns;
 mod entries;
 #[doc(hidden)]
 pub mod expansion;
+mod likelihood;
 #[doc(hidden)]
 pub mod localization;
 mod matrices;

@@ -36,15 +36,15 @@ impl PreparedJob {
             let square = exact.modes.omega_squared[mode];
             let (mut soft, mut stiff) = ([1.0; 2], [1.0; 2]);
             for (e, share) in shares.iter().enumerate() {
-                let [down, up] = room(e);
+                let ([down, up], part) = (room(e), share.part(mode, square));
                 match share {
-                    ParameterMatrix::Stiffness(share) => {
-                        soft[0] += share[(mode, mode)] / square * down;
-                        stiff[0] += share[(mode, mode)] / square * up;
+                    ParameterMatrix::Stiffness(_) => {
+                        soft[0] += part * down;
+                        stiff[0] += part * up;
                     }
-                    ParameterMatrix::Mass(share) => {
-                        soft[1] += share[(mode, mode)] * up;
-                        stiff[1] += share[(mode, mode)] * down;
+                    ParameterMatrix::Mass(_) => {
+                        soft[1] += part * up;
+                        stiff[1] += part * down;
                     }
                 }
             }

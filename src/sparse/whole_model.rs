@@ -346,7 +346,7 @@ impl WholeModel {
     /// use corfem::method::modes::solve;
     /// use corfem::method::outer_loop::{Settings, correlate};
     /// use corfem::method::sorting::pair_modes;
-    /// use corfem::sparse::{BasisSize, ParameterMatrix, SparseMatrix, WholeModel, WholeParameter, WholeShare};
+    /// use corfem::sparse::{BasisSize, Pair, ParameterMatrix, SparseMatrix, WholeModel, WholeParameter, WholeShare};
     /// use nalgebra::{DMatrix, dmatrix};
     ///
     /// let sparse = |matrix| SparseMatrix::of_dense("matrix", &matrix);
@@ -358,7 +358,7 @@ impl WholeModel {
     ///
     /// let test = solve(&stiffness(3.0), &one, 2)?;
     /// let (sensors, size) = (sparse(one)?, BasisSize { modes: 2, residual_vectors: 0 });
-    /// let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, |cross, _| pair_modes(cross)), size);
+    /// let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, Pair::by(|of| pair_modes(of.cross))), size);
     ///
     /// // The basis: its shapes at the sensors, their squared frequencies, and the spring's share.
     /// let first = analyze(&[1.0])?;

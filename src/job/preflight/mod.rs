@@ -24,6 +24,7 @@ use crate::method::outer_loop::Settings;
 use crate::method::sorting::{Pairing, pair_modes};
 use crate::method::step::Bounds;
 use crate::sparse::modal_assurance;
+use crate::weighted::noise::Noise;
 use nalgebra::DMatrix;
 use readings::explain;
 use shapes::changed;
@@ -115,13 +116,14 @@ fn judge_frequencies(
     exchanged.into_iter().chain(common).collect()
 }
 
-/// Checks a test against a model's modes at its sensors; no condensed model is needed, so structures may hang free.
+/// Checks a test, with the deviations of every mode or none, against a model's modes at its sensors; no condensed model is needed, so structures
+/// may hang free.
 ///
 /// # Errors
 /// The errors of the comparison of shapes.
 pub fn preflight_at_sensors(
     seen: &SeenModes,
-    test: &Modes,
+    (test, noise): (&Modes, &[Noise]),
     settings: &Settings,
     ranges: &[Option<Bounds>],
     names: &Names,
@@ -133,7 +135,9 @@ pub fn preflight_at_sensors(
         twice.any(|copies| copies.modes[1] == *mode)
     };
     let once: Vec<usize> = (0..test.len()).filter(|mode| !is_copy(mode)).collect();
-    let suspected = explain(seen, &test.select(&once))?;
+    let of_once = once.iter().filter_map(|&mode| noise.get(mode).copied());
+    let of_once: Vec<Noise> = of_once.collect();
+    let suspected = explain(seen, (&test.select(&once), &of_once))?;
     let mut test = test.clone();
     if let Some((change, _)) = &suspected {
         test.shapes = changed(&test.shapes, change);
