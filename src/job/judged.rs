@@ -1,6 +1,6 @@
 //! A correlated job with everything that says how far to trust it: its last value.
 
-use super::concern::{Concern, Kind, Trust};
+use super::concern::{Check, Concern, Kind, Trust};
 use super::correlated::{Caller, CorrelatedJob, History};
 use super::verdict::{Judged, Outcome, Verdict, sum_of_nine_modes};
 use super::{LeftOut, PreparedJob};
@@ -137,14 +137,21 @@ impl CorrelatedJob {
         let all = 0..names.len();
         let mostly_prior: Vec<usize> = all.filter(|&e| seen.is_mostly_prior(e)).collect();
         let joined: Vec<usize> = prepared.joined.iter().map(|mode| mode + 1).collect();
+        let kind = match misfit.is_by_noise() {
+            true => Kind::ChiSquared,
+            false => Kind::Misfit,
+        };
         let mut concerns = vec![Concern::plain(
-            Kind::ChiSquared,
+            kind,
             &[
                 misfit.chi_squared,
                 misfit.degrees_of_freedom,
                 misfit.largest_by_noise,
             ],
         )];
+        let is_open = misfit.times_the_noise().is_none();
+        let none = "it leaves less than one number over to judge by";
+        concerns.extend(is_open.then(|| Check::Fit.skipped(none)));
         concerns.extend((self.is_interrupted).then(|| Concern::plain(Kind::Interrupted, &[])));
         let groups = seen.parallel_groups();
         let parallel = groups
@@ -176,7 +183,7 @@ impl JobResult {
             _ => false,
         };
         if !is_optimum {
-            return Ok(self);
+            return Ok(self.without_interval("they hold about a minimum of weighted steps alone"));
         }
         let (prepared, factors, model) =
             (&self.found.prepared, &self.found.factors, &self.found.last);
@@ -192,6 +199,26 @@ impl JobResult {
         let widening = self.misfit.widening();
         self.intervals = intervals(&follow, factors, &ranges, &weights, &settings, widening)?;
         self.found.work = prepared.loaded.source.whole.work();
-        Ok(self)
+        let names = self.found.prepared.loaded.parameter_names();
+        let without = self
+            .intervals
+            .iter()
+            .zip(names)
+            .filter(|(own, _)| own.is_none());
+        let without: Vec<&str> = without.map(|(_, name)| name).collect();
+        if without.is_empty() {
+            return Ok(self);
+        }
+        let reason = format!(
+            "a bound, the prior or a change of pairs is met before an end of {}",
+            without.join(", ")
+        );
+        Ok(self.without_interval(&reason))
+    }
+
+    fn without_interval(mut self, reason: &str) -> Self {
+        let skipped = Check::Intervals.skipped(reason);
+        self.trust = Trust::new([self.trust.all(), &[skipped]].concat());
+        self
     }
 }

@@ -1,5 +1,7 @@
 //! Frequencies that a mode of the model can have within the bounds and the priors of the parameters.
 
+use super::concern::Check;
+use super::preflight::FEWER;
 use super::{Concern, Kind, PreparedJob};
 use crate::method::step::Bounds;
 use crate::sparse::ParameterMatrix;
@@ -62,7 +64,7 @@ impl PreparedJob {
     pub(super) fn frequency_concerns(&self) -> Vec<Concern> {
         // Where there are fewer modes than test modes there are no pairs.
         let Ok(first) = self.analyze(&self.loaded.ones()) else {
-            return Vec::new();
+            return vec![Check::Reach.skipped(FEWER)];
         };
         let hertz = first.model.exact.modes.frequencies_hz();
         let reach = self.reach(&first);

@@ -310,6 +310,19 @@ pub enum BodyFinding {
     },
 }
 
+impl BodyFinding {
+    /// The same beside the lowest frequency found: where a suspension higher than that would not show, the count is not sure.
+    pub(crate) fn beside(mut self, lowest_hz: Option<f64>) -> Self {
+        if let Self::ByDigits {
+            hidden_hz, is_sure, ..
+        } = &mut self
+        {
+            *is_sure &= lowest_hz.is_some_and(|lowest| *hidden_hz < lowest);
+        }
+        self
+    }
+}
+
 /// Motions (rows × `count`) of least energy, orthonormal, by inverse iteration with a factor of the matrix and a slack of one.
 fn weakest(unit: &SparseMatrix, factor: &Factor, count: usize) -> Result<DMatrix<f64>, Error> {
     let block = (count + BEYOND).min(unit.rows());

@@ -135,9 +135,7 @@ pub struct Pair(Arc<Rule>);
 
 impl Pair {
     /// The rule of a function, such as [`pair_modes`] of the cosines.
-    pub fn by(
-        rule: impl Fn(Candidates) -> Result<Pairing, Error> + Send + Sync + 'static,
-    ) -> Self {
+    pub fn by(rule: impl Fn(Candidates) -> Result<Pairing, Error> + Send + Sync + 'static) -> Self {
         Self(Arc::new(rule))
     }
 

@@ -16,6 +16,7 @@ use crate::method::linear_algebra::check_length;
 use crate::method::modes::Modes;
 use crate::method::step::Bounds;
 use nalgebra::DMatrix;
+use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, OnceLock};
 
 /// Part of the whole model's matrices.
@@ -176,6 +177,11 @@ impl WholeModel {
     /// Work that analyses of this model have taken so far.
     pub fn work(&self) -> Work {
         self.0.plan.work()
+    }
+
+    /// Lets analyses fail once a flag is true, or no longer.
+    pub(crate) fn stop_at(&self, flag: Option<Arc<AtomicBool>>) {
+        self.0.plan.stop_at(flag);
     }
 
     /// The largest part of an entry of the first stiffness by which it is rounded.

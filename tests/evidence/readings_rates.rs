@@ -333,7 +333,8 @@ pub fn findings(
     };
     let test = Modes::new(squares, shapes).expect("modes");
     let (settings, names) = (Settings::default(), Names::default());
-    let found = preflight_at_sensors(&seen, (&test, &[]), &settings, &[], &names).expect("findings");
+    let found =
+        preflight_at_sensors(&seen, (&test, &[]), &settings, &[], &names).expect("findings");
     Some((found, expected))
 }
 

@@ -16,7 +16,7 @@ pub use readings::SeenModes;
 pub use shapes::Change;
 pub use words::Names;
 
-use crate::job::concern::{Concern, Kind};
+use crate::job::concern::{Check, Concern, Kind};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::Modes;
@@ -39,6 +39,9 @@ const SAME_FREQUENCY: f64 = 0.02;
 pub const LEAST_SINGULAR: f64 = 0.3;
 /// Tolerance beyond which a percentage was probably meant: a fifth of the frequency, or of the largest component.
 pub const LARGEST_TOLERANCE: f64 = 0.2;
+
+/// Why test modes have no partners that could be compared.
+pub(in crate::job) const FEWER: &str = "the model has fewer modes than the test";
 
 /// Two test modes of nearly the same shape.
 struct Copies {
@@ -129,7 +132,10 @@ pub fn preflight_at_sensors(
     names: &Names,
 ) -> Result<Vec<Concern>, Error> {
     // A mode measured twice has no second partner. A sensor that drowns all others makes shapes alike, but not frequencies.
-    let copies = distinct_shapes(test)?.1;
+    let copies = match test.shapes.nrows() {
+        1 => Vec::new(),
+        _ => distinct_shapes(test)?.1,
+    };
     let is_copy = |mode: &usize| {
         let mut twice = copies.iter().filter(|copies| copies.is_measured_twice());
         twice.any(|copies| copies.modes[1] == *mode)
@@ -137,16 +143,41 @@ pub fn preflight_at_sensors(
     let once: Vec<usize> = (0..test.len()).filter(|mode| !is_copy(mode)).collect();
     let of_once = once.iter().filter_map(|&mode| noise.get(mode).copied());
     let of_once: Vec<Noise> = of_once.collect();
-    let suspected = explain(seen, (&test.select(&once), &of_once))?;
+    let told = explain(seen, (&test.select(&once), &of_once))?;
+    let suspected = told.mistake;
     let mut test = test.clone();
     if let Some((change, _)) = &suspected {
         test.shapes = changed(&test.shapes, change);
     }
-    let (places, copies) = distinct_shapes(&test)?;
-    let mut concerns: Vec<Concern> = copies.iter().map(|copies| copies.concern(names)).collect();
-    let test = test.select(&places);
+    let mut concerns: Vec<Concern> = Vec::new();
+    concerns.extend(told.silent.map(|reason| Check::Readings.skipped(reason)));
+    let unnoticed: Vec<String> = told
+        .unnoticed
+        .iter()
+        .map(|&own| names.sensor(own))
+        .collect();
+    if !unnoticed.is_empty() {
+        let reason = format!("one reversed would not show at {}", unnoticed.join(", "));
+        concerns.push(Check::Readings.skipped(&reason));
+    }
+    let one = "the model moves in no other direction there";
+    let is_open = seen.directions.is_empty() || told.silent.is_some();
+    concerns.extend(is_open.then(|| Check::Directions.skipped(told.silent.unwrap_or(one))));
     // At one sensor all shapes are alike, and say nothing of partners.
-    if test.shapes.nrows() > 1 && test.len() <= seen.modes.len() {
+    let alike = "at one sensor all shapes are alike";
+    let is_one = test.shapes.nrows() == 1;
+    let (places, copies) = match is_one {
+        true => ((0..test.len()).collect(), Vec::new()),
+        false => distinct_shapes(&test)?,
+    };
+    concerns.extend(is_one.then(|| Check::Copies.skipped(alike)));
+    concerns.extend(copies.iter().map(|copies| copies.concern(names)));
+    let test = test.select(&places);
+    if is_one || test.len() > seen.modes.len() {
+        let reason = if is_one { alike } else { FEWER };
+        let both = [Check::CommonFactor, Check::OrderOfFrequencies];
+        concerns.extend(both.map(|check| check.skipped(reason)));
+    } else {
         let pairing = pair_modes(&modal_assurance(&seen.modes.shapes, &test.shapes)?)?;
         let analysis = seen.modes.frequencies_hz();
         concerns.extend(judge_frequencies(
@@ -178,7 +209,11 @@ fn too_many_modes(shapes: &DMatrix<f64>) -> Result<Option<Concern>, Error> {
 }
 
 /// Concerns about tolerances that look like percent and about bounds.
-fn check_settings(settings: &Settings, ranges: &[Option<Bounds>], names: &Names) -> Vec<Concern> {
+pub(in crate::job) fn check_settings(
+    settings: &Settings,
+    ranges: &[Option<Bounds>],
+    names: &Names,
+) -> Vec<Concern> {
     let tolerances = [
         ("inner.tolerance", settings.inner.tolerance),
         ("later_inner_tolerance", settings.later_inner_tolerance),

@@ -245,24 +245,41 @@ impl Likelihood {
     }
 }
 
-/// The single mistake that explains the test best, if it does so well enough, and by which factor it makes the test more likely, as
-/// a decimal logarithm.
+/// What readings tell of a test.
+#[derive(Default)]
+pub(super) struct Told {
+    /// The single mistake that explains the test best, if it does so well enough, and by which factor it makes the test more likely, as
+    /// a decimal logarithm.
+    pub(super) mistake: Option<(Change, f64)>,
+    /// Sensors that could be reversed in an exact test of the model without a word.
+    pub(super) unnoticed: Vec<usize>,
+    /// The reason why they tell nothing, if they do not.
+    pub(super) silent: Option<&'static str>,
+}
+
+/// What readings tell: the single mistake that explains the test best, and what no test could tell.
 ///
 /// A right test is more than $e^T$ times as likely with a given mistake as without in at most $e^{-T}$ of all tests (Markov's
 /// inequality), so H mistakes tried need $T = \ln(H / \alpha)$ for false alarms in a share $\alpha$.
 ///
 /// # Errors
 /// Those of [`pair_optimally`].
-pub(super) fn explain(
-    seen: &SeenModes,
-    (test, noise): (&Modes, &[Noise]),
-) -> Result<Option<(Change, f64)>, Error> {
+pub(super) fn explain(seen: &SeenModes, (test, noise): (&Modes, &[Noise])) -> Result<Told, Error> {
     let (hertz, test) = (test.frequencies_hz(), test.shapes());
     let sensors = test.nrows();
-    let Some(model) = Likelihood::new(seen, &hertz, noise).filter(|_| sensors > 2) else {
-        return Ok(None);
+    let silent = |reason| {
+        Ok(Told {
+            silent: Some(reason),
+            ..Told::default()
+        })
     };
-    let before = model.misfit(test)?;
+    if sensors <= 2 {
+        return silent("two sensors tell no mistake of one");
+    }
+    let Some(model) = Likelihood::new(seen, &hertz, noise) else {
+        return silent("the sensors do not tell the modes of the model apart");
+    };
+    let (before, partners) = model.of_test(test, |_, _| 0.0)?;
     let mut tried: Vec<(Change, f64)> = Vec::new();
     let mut others: Vec<(f64, usize)> = Vec::new();
     let try_change = |tried: &mut Vec<(Change, f64)>, change: Change, costs: f64| {
@@ -320,10 +337,29 @@ pub(super) fn explain(
     }
     let enough = (tried.len() as f64 / FALSE_ALARMS).ln();
     let best = tried.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
-    Ok(best
+    let mistake = best
         .map(|(change, after)| (change, before - after))
         .filter(|(_, gain)| *gain > enough)
-        .map(|(change, gain)| (change, gain / std::f64::consts::LN_10)))
+        .map(|(change, gain)| (change, gain / std::f64::consts::LN_10));
+    let shapes = partners
+        .iter()
+        .enumerate()
+        .map(|(place, partner)| match partner {
+            Some((mode, _)) => model.shapes.column(*mode).into_owned(),
+            None => test.column(place).into_owned(),
+        });
+    let exact = DMatrix::from_columns(&shapes.collect::<Vec<_>>());
+    let (right, mut unnoticed) = (model.misfit(&exact)?, Vec::new());
+    for sensor in 0..sensors {
+        if model.misfit(&changed(&exact, &Change::Reversed(sensor)))? - right <= enough {
+            unnoticed.push(sensor);
+        }
+    }
+    Ok(Told {
+        mistake,
+        unnoticed,
+        silent: None,
+    })
 }
 
 /// The order of the test's points that looks most like the model's: at first by the size of what every point does in the lowest

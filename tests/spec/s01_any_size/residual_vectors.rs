@@ -147,10 +147,7 @@ fn every_spring_has_one_residual_vector() {
             .analyze(
                 &[1.0; 3],
                 &sensors,
-                (
-                    &test,
-                    corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
-                ),
+                (&test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
                 BasisSize {
                     modes: 4,
                     residual_vectors: 4,

@@ -518,7 +518,10 @@ fn a_free_chain_is_corrected_without_its_rigid_body_mode() {
         model.analyze(
             factors,
             &sensors,
-            (&modes.vibrations, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+            (
+                &modes.vibrations,
+                corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+            ),
             BasisSize {
                 modes: count - 1,
                 residual_vectors: 0,
