@@ -831,7 +831,8 @@ impl Trust {
     }
 
     /// True if a doubt or a selected mode that is not compared stands against the result.
-    pub(crate) fn stands_against(&self) -> bool {
+    #[doc(hidden)]
+    pub fn stands_against(&self) -> bool {
         self.has_doubt() || !self.are_all_compared()
     }
 

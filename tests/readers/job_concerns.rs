@@ -26,7 +26,7 @@ pub fn rigid_bodies(trust: &Trust) -> f64 {
 }
 
 /// A building of ten stories, and its test after an edit.
-fn tested(edit: impl FnOnce(&mut TestData)) -> Files {
+pub fn tested(edit: impl FnOnce(&mut TestData)) -> Files {
     let mut files = measured_building(10, 4);
     let text = &mut files.last_mut().expect("the test").1;
     let mut data = test_data::read("test.csv", text.as_bytes()).expect("a test");

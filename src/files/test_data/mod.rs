@@ -72,7 +72,7 @@ pub struct TestData {
     pub phase_collinearity: Vec<f64>,
     /// Lines of the wire frame of the test, as pairs of grid numbers.
     pub lines: Vec<[usize; 2]>,
-    /// The numbers that the file gives its modes, in its order, if it numbers them.
+    /// The numbers that the file gives its modes, in its order, if they differ and are not 1, 2, 3 and so on.
     pub numbers: Vec<usize>,
     /// Lengths to a meter by the file's factor, and by the unit that it names, if both are known.
     pub lengths_to_meter: Option<[f64; 2]>,

@@ -335,6 +335,12 @@ impl FoundModes {
                 place,
             });
         }
+        // Numbers that are no others than the places, or that do not tell modes apart, say nothing.
+        let once: BTreeSet<usize> = data.numbers.iter().copied().collect();
+        let are_places = data.numbers.iter().copied().eq(1..=data.numbers.len());
+        if are_places || once.len() < data.numbers.len() || once.contains(&0) {
+            data.numbers.clear();
+        }
         data.skipped.sort_unstable();
         data.skipped.dedup();
         Ok(self.data)

@@ -18,7 +18,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Every kind of concern, in order.
-const KINDS: [Kind; Kind::UnitsOfTest as usize + 1] = {
+pub const KINDS: [Kind; Kind::UnitsOfTest as usize + 1] = {
     use Kind::*;
     [
         Interrupted,
