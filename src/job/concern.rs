@@ -92,7 +92,7 @@ pub enum Grade {
 
 /// The table: what a concern of each kind does, its identifier, and its sentence.
 ///
-/// `{a}` and `{b}` are the first names that a concern is about, `{all}` all of them, `{some}` the first eight, `{and}` joins them by that
+/// `{a}` and `{b}` are the first names that a concern is about, `{all}` all of them, `{rest}` all but the first, `{some}` the first eight, `{and}` joins them by that
 /// word, `{id}` by hyphens; `{x}`, `{y}`, `{z}` and `{w}` are its numbers, `{x.3}` with three decimals, `{xe}` as a power of ten, `{x6}` with
 /// six significant digits.
 const TABLE: [(Kind, Grade, &str, &str); 66] = {
@@ -279,8 +279,8 @@ const TABLE: [(Kind, Grade, &str, &str); 66] = {
         (
             NotChecked,
             Remark,
-            "not-checked-{a}",
-            "Not checked: {a}, for {b}.",
+            "not-checked-{b}",
+            "Not checked: {rest}, for {a}.",
         ),
         (
             PartNotChecked,
@@ -606,10 +606,11 @@ impl Check {
         ]
     };
 
-    /// The remark that it could not be made, for a reason.
-    pub(super) fn skipped(self, reason: &str) -> Concern {
-        let (_, name, ..) = Self::ALL[self as usize];
-        Concern::new(Kind::NotChecked, &[name, reason], &[])
+    /// The remark that checks could not be made, for a reason.
+    pub(super) fn skipped(checks: &[Self], reason: &str) -> Concern {
+        let names = checks.iter().map(|check| Self::ALL[*check as usize].1);
+        let about: Vec<&str> = [reason].into_iter().chain(names).collect();
+        Concern::new(Kind::NotChecked, &about, &[])
     }
 }
 
@@ -707,6 +708,7 @@ impl Concern {
             "some" if more > 1 => {
                 return format!("{} and {more} more", about[..MOST_LISTED].join(", "));
             }
+            "rest" => return about.get(1..).unwrap_or_default().join(", "),
             "all" | "some" => return about.join(", "),
             _ => (),
         }
@@ -776,7 +778,7 @@ impl Trust {
     pub fn answer(&self, check: Check) -> Answer {
         let (_, name, ends, open) = Check::ALL[check as usize];
         let is_open = |own: &Concern| {
-            let is_named = own.kind == Kind::NotChecked && own.about[0] == name;
+            let is_named = own.kind == Kind::NotChecked && own.about.iter().any(|own| own == name);
             is_named || open.contains(&own.kind)
         };
         match &self.concerns {

@@ -53,7 +53,10 @@ impl Trust {
         all.extend(prepared.pairing_concerns()?);
         // A mistake in the readings or in all frequencies says more than each pair that it makes.
         all.extend(match all.iter().any(Concern::stands) {
-            true => vec![Check::Reach.skipped("another doubt is answered first")],
+            true => vec![Check::skipped(
+                &[Check::Reach],
+                "another doubt is answered first",
+            )],
             false => prepared.frequency_concerns(),
         });
         all.extend(prepared.unseen_concerns());
@@ -152,7 +155,7 @@ impl PreparedJob {
         let mut concerns: Vec<Concern> = bodies.map(|finding| of_bodies(&finding)).collect();
         let is_said = loaded.job.model.rigid_bodies.is_some() && whole.rigid_bodies()?.rigid() > 0;
         let said = "model.rigid_bodies says how many there are";
-        concerns.extend(is_said.then(|| Check::FreeMotions.skipped(said)));
+        concerns.extend(is_said.then(|| Check::skipped(&[Check::FreeMotions], said)));
         concerns.extend(loaded.percent_deviations(&modes));
         concerns.extend(loaded.places_concerns());
         let (settings, ranges) = (&loaded.job.correlation, whole.ranges());
@@ -175,7 +178,7 @@ impl PreparedJob {
                 CommonFactor,
                 OrderOfFrequencies,
             ];
-            concerns.extend(none.map(|check| check.skipped("the test has no shapes")));
+            concerns.push(Check::skipped(&none, "the test has no shapes"));
             concerns.extend(check_settings(settings, &ranges, &names));
             return Ok(concerns);
         }
@@ -237,7 +240,7 @@ impl LoadedJob {
             all.extend(is_other.then(doubt));
         } else if data.units.is_some() {
             let own = "its file has a system of units of its own";
-            all.push(Check::Units.skipped(own));
+            all.push(Check::skipped(&[Check::Units], own));
         }
         let units = data.units.iter();
         all.extend(units.map(|units| Concern::new(Kind::UnitsOfTest, &[units], &[])));
@@ -312,7 +315,7 @@ impl LoadedJob {
         let known = || self.placed.iter().filter(|own| own.distance.is_some());
         if known().next().is_none() {
             let reason = "the places of sensors or of their grids are not given";
-            return vec![Check::Places.skipped(reason)];
+            return vec![Check::skipped(&[Check::Places], reason)];
         }
         let grids = &self.source.geometry.places;
         let is_elsewhere = |own: &&PlacedSensor| {

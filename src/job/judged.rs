@@ -151,7 +151,7 @@ impl CorrelatedJob {
         )];
         let is_open = misfit.times_the_noise().is_none();
         let none = "it leaves less than one number over to judge by";
-        concerns.extend(is_open.then(|| Check::Fit.skipped(none)));
+        concerns.extend(is_open.then(|| Check::skipped(&[Check::Fit], none)));
         concerns.extend((self.is_interrupted).then(|| Concern::plain(Kind::Interrupted, &[])));
         let groups = seen.parallel_groups();
         let parallel = groups
@@ -217,7 +217,7 @@ impl JobResult {
     }
 
     fn without_interval(mut self, reason: &str) -> Self {
-        let skipped = Check::Intervals.skipped(reason);
+        let skipped = Check::skipped(&[Check::Intervals], reason);
         self.trust = Trust::new([self.trust.all(), &[skipped]].concat());
         self
     }

@@ -4,6 +4,7 @@ use super::assignment::pair_optimally;
 use super::{LoadedJob, PreparedJob};
 use crate::method::error::{Error, check_count};
 use crate::method::sorting::Pairing;
+use crate::method::step::Bounds;
 use crate::sparse::visibility::visibilities;
 use crate::sparse::{Pair, SensorModel};
 use nalgebra::DMatrix;
@@ -109,6 +110,17 @@ pub(super) fn decided(closeness: &DMatrix<f64>) -> DMatrix<f64> {
 }
 
 impl LoadedJob {
+    /// Deviation of the logarithm of every parameter's factor before the test: its prior's, or that of any number within its bounds, of
+    /// which none is more likely than others, if that is less.
+    fn spreads(&self) -> Vec<f64> {
+        let ranges = self.source.whole.ranges();
+        let spread = |(prior, range): (&f64, &Option<Bounds>)| {
+            let within = range.map(|range| (range.upper / range.lower).ln() / 12.0_f64.sqrt());
+            within.map_or(*prior, |within| prior.min(within))
+        };
+        self.source.priors.iter().zip(&ranges).map(spread).collect()
+    }
+
     /// Frequencies (Hz) of test modes (from zero) with their deviations as fractions.
     pub(super) fn measured_frequencies(&self, modes: &[usize]) -> Vec<[f64; 2]> {
         let own = |&mode: &usize| {
@@ -122,14 +134,14 @@ impl LoadedJob {
 impl PreparedJob {
     /// What frequencies cost pairs of these test modes (from zero) with a model's modes ([`costs_of_frequencies`]).
     pub(super) fn costs_with(&self, model: &SensorModel, tests: &[usize]) -> DMatrix<f64> {
-        let (modes, priors) = (&model.exact.modes, &self.loaded.source.priors);
+        let (modes, priors) = (&model.exact.modes, self.loaded.spreads());
         let test = self.loaded.measured_frequencies(tests);
-        costs_of_frequencies(&modes.frequencies_hz(), &model.parts(), priors, &test)
+        costs_of_frequencies(&modes.frequencies_hz(), &model.parts(), &priors, &test)
     }
 
     /// Rule that gives every test mode that is compared the most likely partner.
     pub(super) fn pair(&self) -> Pair {
-        let priors = self.loaded.source.priors.clone();
+        let priors = self.loaded.spreads();
         let test = self.loaded.measured_frequencies(&self.modes);
         Pair::by(move |of| {
             let hertz = of.modes.frequencies_hz();

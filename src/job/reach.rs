@@ -64,7 +64,7 @@ impl PreparedJob {
     pub(super) fn frequency_concerns(&self) -> Vec<Concern> {
         // Where there are fewer modes than test modes there are no pairs.
         let Ok(first) = self.analyze(&self.loaded.ones()) else {
-            return vec![Check::Reach.skipped(FEWER)];
+            return vec![Check::skipped(&[Check::Reach], FEWER)];
         };
         let hertz = first.model.exact.modes.frequencies_hz();
         let reach = self.reach(&first);

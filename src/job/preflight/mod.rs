@@ -150,7 +150,10 @@ pub fn preflight_at_sensors(
         test.shapes = changed(&test.shapes, change);
     }
     let mut concerns: Vec<Concern> = Vec::new();
-    concerns.extend(told.silent.map(|reason| Check::Readings.skipped(reason)));
+    concerns.extend(
+        told.silent
+            .map(|reason| Check::skipped(&[Check::Readings], reason)),
+    );
     let unnoticed: Vec<String> = told
         .unnoticed
         .iter()
@@ -158,11 +161,12 @@ pub fn preflight_at_sensors(
         .collect();
     if !unnoticed.is_empty() {
         let reason = format!("one reversed would not show at {}", unnoticed.join(", "));
-        concerns.push(Check::Readings.skipped(&reason));
+        concerns.push(Check::skipped(&[Check::Readings], &reason));
     }
     let one = "the model moves in no other direction there";
     let is_open = seen.directions.is_empty() || told.silent.is_some();
-    concerns.extend(is_open.then(|| Check::Directions.skipped(told.silent.unwrap_or(one))));
+    concerns
+        .extend(is_open.then(|| Check::skipped(&[Check::Directions], told.silent.unwrap_or(one))));
     // At one sensor all shapes are alike, and say nothing of partners.
     let alike = "at one sensor all shapes are alike";
     let is_one = test.shapes.nrows() == 1;
@@ -170,13 +174,13 @@ pub fn preflight_at_sensors(
         true => ((0..test.len()).collect(), Vec::new()),
         false => distinct_shapes(&test)?,
     };
-    concerns.extend(is_one.then(|| Check::Copies.skipped(alike)));
+    concerns.extend(is_one.then(|| Check::skipped(&[Check::Copies], alike)));
     concerns.extend(copies.iter().map(|copies| copies.concern(names)));
     let test = test.select(&places);
     if is_one || test.len() > seen.modes.len() {
         let reason = if is_one { alike } else { FEWER };
         let both = [Check::CommonFactor, Check::OrderOfFrequencies];
-        concerns.extend(both.map(|check| check.skipped(reason)));
+        concerns.push(Check::skipped(&both, reason));
     } else {
         let pairing = pair_modes(&modal_assurance(&seen.modes.shapes, &test.shapes)?)?;
         let analysis = seen.modes.frequencies_hz();
