@@ -204,6 +204,9 @@ impl PreparedJob {
             shares: whole.shares(&loaded.ones(), &shapes)?,
             modes: Modes::new(squares, loaded.sensors.times(&shapes)?)?,
         };
+        let one = "the model moves in no other direction there";
+        let is_open = seen.directions.is_empty();
+        concerns.extend(is_open.then(|| Check::skipped(&[Check::Directions], one)));
         // Assumed deviations are no less than a test's own, and declare none.
         let declared = |&mode: &usize| {
             let [frequency, shape] = loaded.given_deviations(mode).map(Option::unwrap_or_default);
@@ -309,8 +312,8 @@ impl LoadedJob {
             .then(|| Concern::new(Kind::NumberedOtherwise, numbers, &[]))
     }
 
-    /// Doubts about places of sensors that span much more than the model does, or that are nearer to another grid than the one that the
-    /// test names, unless the job says how far a sensor may be.
+    /// Doubts about places of sensors that span much more than the model does, or that are twice as near to another grid as to the one
+    /// that the test names, unless the job says how far a sensor may be.
     pub fn places_concerns(&self) -> Vec<Concern> {
         let known = || self.placed.iter().filter(|own| own.distance.is_some());
         if known().next().is_none() {
@@ -323,9 +326,12 @@ impl LoadedJob {
             let (Some(at), Some(distance)) = (at, own.distance) else {
                 return false;
             };
-            let rounding = PLACE_DIGITS * at.amax();
-            let is_nearer = |place: &Vector3<f64>| (place - at).norm() + rounding < distance;
-            self.data.sensors[own.row].grid == Some(own.grid) && grids.values().any(is_nearer)
+            // Grids may be close, and sensors stand on a skin.
+            let is_nearer = |place: &Vector3<f64>| 2.0 * (place - at).norm() < distance;
+            let is_off = distance > PLACE_DIGITS * at.amax();
+            is_off
+                && self.data.sensors[own.row].grid == Some(own.grid)
+                && grids.values().any(is_nearer)
         };
         let elsewhere = known().filter(is_elsewhere).map(|own| &own.name);
         let elsewhere: Vec<&String> = match self.job.sensors.distance {

@@ -104,7 +104,8 @@ impl PreparedJob {
                 what: "test modes", ..
             }) => prepared.paired_with(&exact, None),
             Ok(model) => {
-                let costs = prepared.costs_with(&model.model, &prepared.modes);
+                let frequencies = prepared.frequencies(&prepared.modes);
+                let costs = frequencies.costs(&exact, &model.model.parts());
                 prepared.paired_with(&exact, Some(&costs))
             }
             Err(other) => Err(other.into()),
@@ -207,7 +208,8 @@ impl PreparedJob {
         let assurance = assurance_of_roots(&model.model.exact.modes, &test.shapes)?;
         let within = self.within(&assurance, &all, &self.reach(model));
         let readings = &model.model.exact.modes.shapes;
-        let costs = self.costs_with(&model.model, &all);
+        let frequencies = self.frequencies(&all);
+        let costs = frequencies.costs(&model.model.exact.modes, &model.model.parts());
         let partners = pairs(&within, readings, Some(&costs), FLOOR)?;
         let (compared, left) = partners.split_at(self.modes.len());
         let left = left.iter().zip(&all[self.modes.len()..]);

@@ -51,7 +51,7 @@ pub use rigid_bodies::{BodyFinding, Places, RigidBodies, Support};
 pub use sensor_model::SensorModel;
 #[doc(hidden)]
 pub use sensor_model::{Candidates, ModeWeight, Pair, ParameterMatrix};
-pub(crate) use sensor_model::{Deflections, Whole, check_weights};
+pub(crate) use sensor_model::{Deflections, Whole, check_weights, parts_of};
 #[doc(hidden)]
 pub use whole_model::{BasisSize, WholeShare};
 pub use whole_model::{WholeModel, WholeParameter};

@@ -52,29 +52,21 @@ impl ParameterMatrix {
     }
 }
 
-/// Parts (n × p) of shares in the modes at the head of their basis.
-fn own_parts(shares: &[ParameterMatrix], modes: &Modes) -> DMatrix<f64> {
-    DMatrix::from_fn(modes.len(), shares.len(), |mode, e| {
-        shares[e].part(mode, modes.omega_squared[mode])
-    })
-}
-
-/// Parts (n × p) of shares at factors in modes that are these sums of their shapes.
-fn parts_of(
+/// Parts (n × p) that shares have in the stiffness or mass of modes: those at the head of their basis, or sums of it at factors.
+pub(crate) fn parts_of(
     shares: &[ParameterMatrix],
-    (shapes, factors): (&DMatrix<f64>, &[f64]),
+    place: Option<(&DMatrix<f64>, &[f64])>,
     modes: &Modes,
 ) -> DMatrix<f64> {
-    let mut parts = DMatrix::zeros(modes.len(), shares.len());
-    for (e, share) in shares.iter().enumerate() {
-        let own = shapes.columns(0, modes.len());
-        let moved = share.matrix() * own;
-        for (mode, square) in modes.omega_squared.iter().enumerate() {
-            let size = if share.is_mass() { 1.0 } else { *square };
-            parts[(mode, e)] = factors[e] * own.column(mode).dot(&moved.column(mode)) / size;
-        }
-    }
-    parts
+    DMatrix::from_fn(modes.len(), shares.len(), |mode, e| {
+        let square = modes.omega_squared[mode];
+        let Some((shapes, factors)) = place else {
+            return shares[e].part(mode, square);
+        };
+        let (own, share) = (shapes.column(mode), &shares[e]);
+        let size = if share.is_mass() { 1.0 } else { square };
+        factors[e] * own.dot(&(share.matrix() * own)) / size
+    })
 }
 
 /// Factors on the errors of one test mode in the error sum.
@@ -288,10 +280,8 @@ impl SensorModel {
         (shares, turn): (Arc<Vec<ParameterMatrix>>, Option<Turn>),
     ) -> Result<Self, Error> {
         let cross = cosines(&modes.shapes, &test.shapes)?;
-        let parts = || match &turn {
-            Some(turn) => parts_of(&shares, (&turn.shapes, &turn.factors), &modes),
-            None => own_parts(&shares, &modes),
-        };
+        let place = turn.as_ref().map(|turn| (&turn.shapes, &turn.factors[..]));
+        let parts = || parts_of(&shares, place, &modes);
         let pairing = pair.of(Candidates {
             cross: &cross,
             modes: &modes,
@@ -429,7 +419,7 @@ impl SensorModel {
 
     /// Parts (n × p) that the parameters have in the stiffness or mass of the exact modes.
     pub(crate) fn parts(&self) -> DMatrix<f64> {
-        own_parts(&self.shares, &self.exact.modes)
+        parts_of(&self.shares, None, &self.exact.modes)
     }
 
     /// All shapes of the basis at the sensors: the exact modes, residual vectors, rigid-body modes.
@@ -592,7 +582,7 @@ impl SensorModel {
         modes: &Modes,
         place: (&DMatrix<f64>, &[f64]),
     ) -> Result<Pairing, Error> {
-        let parts = || parts_of(&self.shares, place, modes);
+        let parts = || parts_of(&self.shares, Some(place), modes);
         self.pair.of(Candidates {
             cross,
             modes,

@@ -5,6 +5,7 @@ use super::gauss_newton::{Problem, WeightedSettings};
 use super::identifiability::{NORMAL_95, identifiability, information};
 use super::residuals::{jacobian, residuals};
 use crate::method::error::Error;
+use crate::method::linear_algebra::check_length;
 use crate::method::step::Bounds;
 use crate::sparse::{ModeWeight, solve_positive};
 use nalgebra::DVector;
@@ -53,6 +54,7 @@ pub fn intervals(
     settings: &WeightedSettings,
     widening: f64,
 ) -> Result<Vec<Option<Bounds>>, Error> {
+    check_length("ranges", ranges.len(), factors.len())?;
     let priors = settings.priors(factors.len());
     let (model, reach) = (analyze(factors)?, NORMAL_95 * widening);
     let seen = identifiability(&jacobian(&model, weights)?, &priors)?;

@@ -5,6 +5,7 @@ use super::identifiability::identifiability;
 use super::residuals::{jacobian, residuals};
 use crate::method::error::Error;
 use crate::method::error::require;
+use crate::method::linear_algebra::check_length;
 use crate::sparse::ModeWeight;
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -46,10 +47,10 @@ impl Misfit {
         priors: &[f64],
         at_bound: &[usize],
     ) -> Result<Self, Error> {
+        let count = comparison.model.shares.len();
+        check_length("prior deviations", priors.len(), count)?;
         let chi_squared = residuals(comparison, weights)?.norm_squared();
-        let free: Vec<usize> = (0..comparison.model.shares.len())
-            .filter(|e| !at_bound.contains(e))
-            .collect();
+        let free: Vec<usize> = (0..count).filter(|e| !at_bound.contains(e)).collect();
         let jacobian = jacobian(comparison, weights)?.select_columns(&free);
         let priors: Vec<f64> = free.iter().map(|&e| priors[e]).collect();
         let fitted: f64 = if free.is_empty() {

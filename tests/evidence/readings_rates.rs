@@ -95,7 +95,7 @@ pub const KINDS: [Kind; 5] = [
 ];
 
 /// A normal number (Box and Muller).
-fn normal(state: &mut u64) -> f64 {
+pub fn normal(state: &mut u64) -> f64 {
     let radius = (-2.0 * (1.0 - uniform(state)).ln()).sqrt();
     radius * (std::f64::consts::TAU * uniform(state)).cos()
 }

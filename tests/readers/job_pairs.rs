@@ -37,8 +37,7 @@ fn net(draws: &mut Draws, parameters: usize) -> (WholeModel, Vec<DMatrix<f64>>, 
         }
         for other in others {
             let size = 10_f64.powf(draws.between(3.0, 4.3));
-            let part = draws.below(parameters);
-            parts[part] += springs(count, &[(row, other, size)]).dense();
+            parts[row % parameters] += springs(count, &[(row, other, size)]).dense();
         }
     }
     let mass: Vec<f64> = (0..count).map(|_| draws.between(1.0, 3.0)).collect();
@@ -214,13 +213,10 @@ fn a_hardly_seen_mode_takes_no_partner_from_one_that_is_seen() {
     assert_eq!(seen_by_little, 0);
 }
 
-/// What stands against a job, by identifier.
+/// The doubts about a job, by identifier.
 fn against(job: &PreparedJob) -> Vec<String> {
     let trust = Trust::before(job).unwrap_or_else(|error| panic!("{error}"));
-    let all = trust
-        .all()
-        .iter()
-        .filter(|own| own.grade() != Grade::Remark);
+    let all = trust.all().iter().filter(|own| own.grade() == Grade::Doubt);
     all.map(Concern::identifier).collect()
 }
 

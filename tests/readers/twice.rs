@@ -91,7 +91,7 @@ fn a_place_that_is_another_grids_is_doubted() {
     let near = with_places(torque_box(), |places| {
         places
             .iter_mut()
-            .for_each(|place| *place += Vector3::new(0.2, -0.1, 0.3));
+            .for_each(|place| *place += Vector3::new(0.02, -0.01, 0.03));
     });
     assert_eq!(about(&near, Kind::OtherGrid), [[""; 0]; 0]);
     assert_eq!(about(&torque_box(), Kind::OtherGrid), [[""; 0]; 0]);

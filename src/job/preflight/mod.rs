@@ -150,10 +150,8 @@ pub fn preflight_at_sensors(
         test.shapes = changed(&test.shapes, change);
     }
     let mut concerns: Vec<Concern> = Vec::new();
-    concerns.extend(
-        told.silent
-            .map(|reason| Check::skipped(&[Check::Readings], reason)),
-    );
+    let both = [Check::Readings, Check::Directions];
+    concerns.extend(told.silent.map(|reason| Check::skipped(&both, reason)));
     let unnoticed: Vec<String> = told
         .unnoticed
         .iter()
@@ -163,10 +161,6 @@ pub fn preflight_at_sensors(
         let reason = format!("one reversed would not show at {}", unnoticed.join(", "));
         concerns.push(Check::skipped(&[Check::Readings], &reason));
     }
-    let one = "the model moves in no other direction there";
-    let is_open = seen.directions.is_empty() || told.silent.is_some();
-    concerns
-        .extend(is_open.then(|| Check::skipped(&[Check::Directions], told.silent.unwrap_or(one))));
     // At one sensor all shapes are alike, and say nothing of partners.
     let alike = "at one sensor all shapes are alike";
     let is_one = test.shapes.nrows() == 1;

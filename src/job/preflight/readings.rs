@@ -17,10 +17,10 @@
 use super::order::{matched, unit};
 use super::shapes::{Change, changed};
 use crate::job::assignment::pair_optimally;
-use crate::job::likelihood::costs_of_frequencies;
+use crate::job::likelihood::Frequencies;
 use crate::method::error::Error;
 use crate::method::modes::Modes;
-use crate::sparse::{ParameterMatrix, solve_lower};
+use crate::sparse::{ParameterMatrix, parts_of, solve_lower};
 use crate::weighted::noise::Noise;
 use nalgebra::{Cholesky, DMatrix, DVector, DVectorView, Dyn, RowDVector};
 
@@ -74,14 +74,6 @@ struct Likelihood {
     frequencies: DMatrix<f64>,
 }
 
-/// Part that each parameter has in every mode of the model (n × p).
-fn parts(seen: &SeenModes) -> DMatrix<f64> {
-    let squares = seen.modes.omega_squared();
-    DMatrix::from_fn(squares.len(), seen.shares.len(), |mode, e| {
-        seen.shares[e].part(mode, squares[mode])
-    })
-}
-
 impl Likelihood {
     fn new(seen: &SeenModes, hertz: &[f64], noise: &[Noise]) -> Option<Self> {
         let own = |mode: usize| noise.get(mode).copied().unwrap_or(LEAST);
@@ -91,13 +83,12 @@ impl Likelihood {
         let common = (squares / deviations.len().max(1) as f64).sqrt();
         let test = hertz.iter().enumerate();
         let test = test.map(|(mode, hertz)| [*hertz, own(mode).frequency.max(LEAST.frequency)]);
-        let priors = vec![MODEL_ERROR; seen.shares.len()];
-        let frequencies = costs_of_frequencies(
-            &seen.modes.frequencies_hz(),
-            &parts(seen),
-            &priors,
-            &test.collect::<Vec<_>>(),
-        );
+        let frequencies = Frequencies {
+            test: test.collect(),
+            spreads: vec![MODEL_ERROR; seen.shares.len()],
+        };
+        let frequencies =
+            frequencies.costs(&seen.modes, &parts_of(&seen.shares, None, &seen.modes));
         let shapes = seen.modes.shapes().clone();
         let squares = seen.modes.omega_squared();
         let prior = |mode: usize| {
