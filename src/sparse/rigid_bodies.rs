@@ -103,6 +103,7 @@ impl RigidBodies {
     /// beyond n; the errors of the factorization.
     pub fn of(what: &'static str, matrix: &SparseMatrix, support: &Support) -> Result<Self, Error> {
         let own = support.resisting.as_ref().unwrap_or(matrix);
+        own.check_symmetric(what)?;
         let plan = Arc::new(FactorizationPlan::of_sum(&[own])?);
         Self::by(&plan, what, matrix, support)
     }

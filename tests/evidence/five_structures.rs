@@ -337,7 +337,7 @@ pub fn counts(structure: usize, mistake: Mistake, tests: usize) -> Counts {
         let stands: Vec<&Concern> = trust
             .all()
             .iter()
-            .filter(|own| own.grade() != Grade::Remark)
+            .filter(|own| own.grade() == Grade::Doubt)
             .collect();
         let (_, readings, ..) = Check::ALL[Check::Readings as usize];
         let is_open = trust.of(Kind::NotChecked).any(|own| {

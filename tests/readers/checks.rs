@@ -106,7 +106,7 @@ fn lone() -> Files {
         data.frequencies_hz[0] *= 1.1;
     });
     let mut files = files;
-    let text = "frequency_hz,1.5\nname,mode 1\n";
+    let text = "frequency_hz,1.5\n,mode 1\n";
     let test = files.iter_mut().find(|(name, _)| name == "test.csv");
     test.expect("a test").1 = text.to_owned();
     files

@@ -21,7 +21,7 @@ use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::Modes;
 use crate::method::outer_loop::Settings;
-use crate::method::sorting::{Pairing, pair_modes};
+use crate::method::sorting::pair_modes;
 use crate::method::step::Bounds;
 use crate::sparse::modal_assurance;
 use crate::weighted::noise::Noise;
@@ -92,13 +92,12 @@ fn distinct_shapes(test: &Modes) -> Result<(Vec<usize>, Vec<Copies>), Error> {
 fn judge_frequencies(
     test: &Modes,
     analysis_hz: &[f64],
-    pairing: &Pairing,
+    partners: &[usize],
     places: &[usize],
     names: &Names,
 ) -> Vec<Concern> {
     let mut test = test.frequencies_hz();
-    let partners = pairing.analysis_mode.iter();
-    let analysis: Vec<f64> = partners.map(|&mode| analysis_hz[mode]).collect();
+    let analysis: Vec<f64> = partners.iter().map(|&mode| analysis_hz[mode]).collect();
     // Modes are numbered as their frequencies ascend: only where these do not may two be exchanged.
     let found = frequencies::exchanged(&test, &analysis)
         .filter(|found| test[found.modes[0]] > test[found.modes[1]]);
@@ -176,10 +175,21 @@ pub fn preflight_at_sensors(
         let both = [Check::CommonFactor, Check::OrderOfFrequencies];
         concerns.push(Check::skipped(&both, reason));
     } else {
-        let pairing = pair_modes(&modal_assurance(&seen.modes.shapes, &test.shapes)?)?;
+        // By likelihood, as shapes of two modes may be one at the sensors; without it the closest.
+        let likely = |place: &usize| {
+            let at = once.binary_search(place).ok()?;
+            Some(told.partners.as_ref()?[at])
+        };
+        let partners: Vec<usize> = match places.iter().map(likely).collect() {
+            Some(partners) => partners,
+            None => {
+                let assurance = modal_assurance(&seen.modes.shapes, &test.shapes)?;
+                pair_modes(&assurance)?.analysis_mode
+            }
+        };
         let analysis = seen.modes.frequencies_hz();
         concerns.extend(judge_frequencies(
-            &test, &analysis, &pairing, &places, names,
+            &test, &analysis, &partners, &places, names,
         ));
     }
     concerns.extend(suspected.map(|(change, evidence)| change.concern(evidence, names)));

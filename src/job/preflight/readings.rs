@@ -244,6 +244,8 @@ pub(super) struct Told {
     pub(super) mistake: Option<(Change, f64)>,
     /// Sensors that could be reversed in an exact test of the model without a word.
     pub(super) unnoticed: Vec<usize>,
+    /// The mode of the model that every test mode most likely is, if all have one.
+    pub(super) partners: Option<Vec<usize>>,
     /// The reason why they tell nothing, if they do not.
     pub(super) silent: Option<&'static str>,
 }
@@ -346,8 +348,16 @@ pub(super) fn explain(seen: &SeenModes, (test, noise): (&Modes, &[Noise])) -> Re
             unnoticed.push(sensor);
         }
     }
+    let right = match &mistake {
+        Some((change, _)) => model.of_test(&changed(test, change), |_, _| 0.0)?.1,
+        None => partners,
+    };
+    let right = right
+        .into_iter()
+        .map(|partner| partner.map(|(mode, _)| mode));
     Ok(Told {
         mistake,
+        partners: right.collect(),
         unnoticed,
         silent: None,
     })
