@@ -175,22 +175,22 @@ pub fn preflight_at_sensors(
         let both = [Check::CommonFactor, Check::OrderOfFrequencies];
         concerns.push(Check::skipped(&both, reason));
     } else {
-        // By likelihood, as shapes of two modes may be one at the sensors; without it the closest.
+        let analysis = seen.modes.frequencies_hz();
+        let judge =
+            |partners: &[usize]| judge_frequencies(&test, &analysis, partners, &places, names);
         let likely = |place: &usize| {
             let at = once.binary_search(place).ok()?;
             Some(told.partners.as_ref()?[at])
         };
-        let partners: Vec<usize> = match places.iter().map(likely).collect() {
-            Some(partners) => partners,
-            None => {
-                let assurance = modal_assurance(&seen.modes.shapes, &test.shapes)?;
-                pair_modes(&assurance)?.analysis_mode
-            }
-        };
-        let analysis = seen.modes.frequencies_hz();
-        concerns.extend(judge_frequencies(
-            &test, &analysis, &partners, &places, names,
-        ));
+        let assurance = modal_assurance(&seen.modes.shapes, &test.shapes)?;
+        let mut found = judge(&pair_modes(&assurance)?.analysis_mode);
+        // Shapes of two modes may be one at the sensors: what the likely partners do not say too is their mistake.
+        if let Some(likely) = places.iter().map(likely).collect::<Option<Vec<_>>>() {
+            let is_order = |own: &Concern| own.kind == Kind::FrequenciesExchanged;
+            let also: Vec<bool> = judge(&likely).iter().map(is_order).collect();
+            found.retain(|own| also.contains(&is_order(own)));
+        }
+        concerns.extend(found);
     }
     concerns.extend(suspected.map(|(change, evidence)| change.concern(evidence, names)));
     if test.len() > test.shapes.nrows() {
