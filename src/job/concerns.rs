@@ -159,12 +159,9 @@ impl PreparedJob {
         concerns.extend(loaded.percent_deviations(&modes));
         concerns.extend(loaded.places_concerns());
         let (settings, ranges) = (&loaded.job.correlation, whole.ranges());
+        let sensors = loaded.placed.iter();
         let names = Names {
-            sensors: loaded
-                .placed
-                .iter()
-                .map(|sensor| sensor.name.clone())
-                .collect(),
+            sensors: sensors.map(|sensor| sensor.name.clone()).collect(),
             parameters: loaded.parameter_names().map(str::to_owned).collect(),
             modes,
         };

@@ -58,8 +58,7 @@ pub fn intervals(
     let priors = settings.priors(factors.len());
     let (model, reach) = (analyze(factors)?, NORMAL_95 * widening);
     let seen = identifiability(&jacobian(&model, weights)?, &priors)?;
-    let tikhonov = priors.iter().map(|prior| prior.powi(-2));
-    let tikhonov = DVector::from_iterator(priors.len(), tikhonov);
+    let tikhonov = DVector::from_iterator(priors.len(), priors.iter().map(|own| own.powi(-2)));
     let pulls = factors.iter().zip(&priors);
     let pull: f64 = pulls
         .map(|(factor, prior)| (factor.ln() / prior).powi(2))

@@ -273,6 +273,36 @@ pub(super) fn explain(seen: &SeenModes, (test, noise): (&Modes, &[Noise])) -> Re
         return silent("the sensors do not tell the modes of the model apart");
     };
     let (before, partners) = model.of_test(test, |_, _| 0.0)?;
+    let tried = tried(seen, &model, test)?;
+    let enough = (tried.len() as f64 / FALSE_ALARMS).ln();
+    let best = tried.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
+    let mistake = best
+        .map(|(change, after)| (change, before - after))
+        .filter(|(_, gain)| *gain > enough)
+        .map(|(change, gain)| (change, gain / std::f64::consts::LN_10));
+    let unnoticed = unnoticed(&model, &partners, enough)?;
+    let right = match &mistake {
+        Some((change, _)) => model.of_test(&changed(test, change), |_, _| 0.0)?.1,
+        None => partners,
+    };
+    let right = right
+        .into_iter()
+        .map(|partner| partner.map(|(mode, _)| mode));
+    Ok(Told {
+        mistake,
+        partners: right.collect(),
+        unnoticed,
+        silent: None,
+    })
+}
+
+/// Changes of a test, each with the negative logarithm of its likelihood with the change.
+fn tried(
+    seen: &SeenModes,
+    model: &Likelihood,
+    test: &DMatrix<f64>,
+) -> Result<Vec<(Change, f64)>, Error> {
+    let sensors = test.nrows();
     let mut tried: Vec<(Change, f64)> = Vec::new();
     let mut others: Vec<(f64, usize)> = Vec::new();
     let try_change = |tried: &mut Vec<(Change, f64)>, change: Change, costs: f64| {
@@ -325,42 +355,27 @@ pub(super) fn explain(seen: &SeenModes, (test, noise): (&Modes, &[Noise])) -> Re
     }
     // There are as many orders as the factorial says.
     let orders: f64 = (2..=sensors).map(|count| (count as f64).ln()).sum();
-    for order in [(0..sensors).rev().collect(), ordered(&model, test)?] {
+    for order in [(0..sensors).rev().collect(), ordered(model, test)?] {
         try_change(&mut tried, Change::Reordered(order), orders)?;
     }
-    let enough = (tried.len() as f64 / FALSE_ALARMS).ln();
-    let best = tried.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
-    let mistake = best
-        .map(|(change, after)| (change, before - after))
-        .filter(|(_, gain)| *gain > enough)
-        .map(|(change, gain)| (change, gain / std::f64::consts::LN_10));
-    let shapes = partners
-        .iter()
-        .enumerate()
-        .map(|(place, partner)| match partner {
-            Some((mode, _)) => model.shapes.column(*mode).into_owned(),
-            None => test.column(place).into_owned(),
-        });
-    let exact = DMatrix::from_columns(&shapes.collect::<Vec<_>>());
-    let (right, mut unnoticed) = (model.misfit(&exact)?, Vec::new());
-    for sensor in 0..sensors {
-        if model.misfit(&changed(&exact, &Change::Reversed(sensor)))? - right <= enough {
-            unnoticed.push(sensor);
+    Ok(tried)
+}
+
+/// Sensors that could be reversed in an exact test of these modes without a gain that is enough.
+fn unnoticed(model: &Likelihood, partners: &Partners, enough: f64) -> Result<Vec<usize>, Error> {
+    let all: Option<Vec<usize>> = partners.iter().map(|partner| Some((*partner)?.0)).collect();
+    let Some(modes) = all else {
+        return Ok(Vec::new());
+    };
+    let exact = model.shapes.select_columns(&modes);
+    let (right, mut found) = (model.misfit(&exact)?, Vec::new());
+    for sensor in 0..exact.nrows() {
+        let reversed = model.misfit(&changed(&exact, &Change::Reversed(sensor)))?;
+        if reversed - right <= enough {
+            found.push(sensor);
         }
     }
-    let right = match &mistake {
-        Some((change, _)) => model.of_test(&changed(test, change), |_, _| 0.0)?.1,
-        None => partners,
-    };
-    let right = right
-        .into_iter()
-        .map(|partner| partner.map(|(mode, _)| mode));
-    Ok(Told {
-        mistake,
-        partners: right.collect(),
-        unnoticed,
-        silent: None,
-    })
+    Ok(found)
 }
 
 /// The order of the test's points that looks most like the model's: at first by the size of what every point does in the lowest
