@@ -235,7 +235,8 @@ pub fn named(kind: Kind, slip: Slip, noise: f64) -> Option<(usize, usize)> {
             }
         };
         right += usize::from(found.iter().any(is_expected));
-        wrong += usize::from(found.iter().any(|concern| !is_expected(concern)));
+        let is_said = |concern: &Concern| concern.kind != Doubt::NotChecked;
+        wrong += usize::from(found.iter().any(|own| is_said(own) && !is_expected(own)));
     }
     Some((right, wrong))
 }
