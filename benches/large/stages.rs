@@ -115,7 +115,12 @@ pub fn of(wing: &Wing) -> (Stages, Analyzed) {
             modes: MODES,
             residual_vectors,
         };
-        let model = whole.analyze(&ones, &sensors, (&test, |cross, _| pair_modes(cross)), size);
+        let model = whole.analyze(
+            &ones,
+            &sensors,
+            (&test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+            size,
+        );
         model.expect("an analysis")
     };
     let model = stages.time("analysis with all shares", || analyze(0));

@@ -161,7 +161,7 @@ pub fn make_folder(path: &Path) -> io::Result<()> {
     create_dir(path)
 }
 
-/// Checks that files can be made in a folder: it makes one without a name for a moment.
+/// Checks that files can be made in a folder: it makes one without a name for a moment. Half-written files of killed runs are removed.
 ///
 /// # Errors
 /// The operating system's error.
@@ -172,7 +172,24 @@ pub fn probe(folder: &Path) -> io::Result<()> {
         folder
     };
     begin("create a file in", folder)?;
-    tempfile::tempfile_in(folder).map(drop)
+    tempfile::tempfile_in(folder)?;
+    remove_stale(folder);
+    Ok(())
+}
+
+/// Begins the names of files that are not yet whole.
+const STAGED: &str = ".corfem-";
+
+/// Removes files that an earlier run, killed, has left half-written: those that no run has locked. What cannot be removed stays.
+fn remove_stale(folder: &Path) {
+    for entry in read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        let is_staged = entry.file_name().to_string_lossy().starts_with(STAGED)
+            && symlink_metadata(&path).is_ok_and(|found| found.is_file());
+        if is_staged && File::open(&path).is_ok_and(|file| file.try_lock().is_ok()) {
+            let _ = std::fs::remove_file(&path);
+        }
+    }
 }
 
 /// Refuses to replace anything but a regular file, or a file that may not be written.
@@ -205,8 +222,10 @@ pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let stage = || builder.prefix(".corfem-").tempfile_in(folder);
+    let stage = || builder.prefix(STAGED).tempfile_in(folder);
     let mut staged = Opened::new("create", path, stage)?;
+    // A file system without locks keeps its stale files.
+    let _ = staged.as_file().try_lock();
     staged.write_all(bytes)?;
     begin("sync", path)?;
     staged.as_file().sync_all()?;

@@ -44,13 +44,23 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, Error> {
 /// A text with control characters other than line ends and tabs escaped, because a terminal would obey them.
 #[doc(hidden)]
 pub fn escaped(text: &str) -> String {
-    escape(text, |c| c.is_control() && c != '\n' && c != '\t')
+    escape(text, |c| is_obeyed(c) && c != '\n' && c != '\t')
+}
+
+/// True of a character that is obeyed and not shown: a control character, or one that turns the direction of what follows.
+fn is_obeyed(c: char) -> bool {
+    c.is_control() || turns(c)
+}
+
+/// True of a character that says in which direction text is read: letters behind it may stand before others.
+pub(crate) fn turns(c: char) -> bool {
+    matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
 /// A text on one line: line ends and tabs are escaped too, because they would break out of a table's row.
 #[doc(hidden)]
 pub fn one_line(text: &str) -> String {
-    escape(text, char::is_control)
+    escape(text, is_obeyed)
 }
 
 /// A text on one line that a spreadsheet shows as text: a leading apostrophe keeps it from reading a formula. Numbers stay numbers.

@@ -26,6 +26,9 @@ pub enum Kind {
     Percent,
     ExcludesStart,
     UnitOfPlaces,
+    OtherGrid,
+    NumberedOtherwise,
+    UnitsDisagree,
     NoPair,
     BeyondReach,
     NegativePart,
@@ -37,6 +40,8 @@ pub enum Kind {
     PartnerTaken,
     WouldHarm,
     OutOfReach,
+    NotChecked,
+    PartNotChecked,
     Parallel,
     Dependent,
     Undecided,
@@ -52,10 +57,8 @@ pub enum Kind {
     MassByDirection,
     CenterOfMass,
     ChiSquared,
+    Misfit,
     BelowNoise,
-    NoOptimum,
-    NoMinimum,
-    NoEnd,
     HeldOut,
     HeldOutFrequency,
     Unanswered,
@@ -64,7 +67,7 @@ pub enum Kind {
     LooseWithoutSensor,
     HeldDirection,
     SuspensionHidden,
-    PartNotChecked,
+    LargeDeviation,
     FarApart,
     Alike,
     TooManyModes,
@@ -95,10 +98,10 @@ pub enum Grade {
 
 /// The table: what a concern of each kind does, its identifier, and its sentence.
 ///
-/// `{a}` and `{b}` are the first names that a concern is about, `{all}` all of them, `{some}` the first eight, `{and}` joins them by that
+/// `{a}` and `{b}` are the first names that a concern is about, `{all}` all of them, `{rest}` all but the first, `{some}` the first eight, `{and}` joins them by that
 /// word, `{id}` by hyphens; `{x}`, `{y}`, `{z}` and `{w}` are its numbers, `{x.3}` with three decimals, `{xe}` as a power of ten, `{x6}` with
 /// six significant digits.
-const TABLE: [(Kind, Grade, &str, &str); 69] = {
+const TABLE: [(Kind, Grade, &str, &str); 72] = {
     use Grade::{Doubt, LeftOut, Remark};
     use Kind::*;
     [
@@ -194,6 +197,24 @@ const TABLE: [(Kind, Grade, &str, &str); 69] = {
             "The sensors' places span {x.1} times what the model's do: another unit of length?",
         ),
         (
+            OtherGrid,
+            Doubt,
+            "other-grid",
+            "By their places sensors {some} are nearer to other grids than to those that they name; is a place, a grid or a unit of length wrong? sensors.distance says how far a sensor may be.",
+        ),
+        (
+            NumberedOtherwise,
+            Doubt,
+            "numbered-otherwise",
+            "The test's file numbers its modes {some}; here they are counted from 1 in the order of the file, in test.modes too.",
+        ),
+        (
+            UnitsDisagree,
+            Doubt,
+            "units-disagree",
+            "The test's file says that it is in {a}, of {y6} to a meter, but its factor of length is {x6}.",
+        ),
+        (
             NoPair,
             Doubt,
             "no-pair",
@@ -262,6 +283,18 @@ const TABLE: [(Kind, Grade, &str, &str); 69] = {
             "Test mode {a} is not compared: no mode of the model that it resembles (modal assurance {x.2} at most) can have its frequency within the bounds and priors of the parameters.",
         ),
         (
+            NotChecked,
+            Remark,
+            "not-checked-{b}",
+            "Not checked: {rest}, for {a}.",
+        ),
+        (
+            PartNotChecked,
+            Remark,
+            "part-not-checked-{a}",
+            "Whether parameter \"{a}\" is part of the first model was not checked: {b}.",
+        ),
+        (
             Parallel,
             Remark,
             "parallel-{id}",
@@ -277,7 +310,7 @@ const TABLE: [(Kind, Grade, &str, &str); 69] = {
             Undecided,
             Remark,
             "undecided",
-            "Shapes do not decide which modes of the model are those of test modes {all}; they are paired in the order of \
+            "Shapes do not decide which modes of the model are those of test modes {all}; they are paired by their \
              frequencies.",
         ),
         (
@@ -343,28 +376,16 @@ const TABLE: [(Kind, Grade, &str, &str); 69] = {
             "Chi-squared is {x.1} for {y.1} degrees of freedom; noise alone leaves at most {z.1} in 999 of 1000 tests.",
         ),
         (
+            Misfit,
+            Remark,
+            "chi-squared",
+            "Chi-squared is {x.1} for {y.1} degrees of freedom; noise alone leaves at most {z.1} in 999 of 1000 tests.",
+        ),
+        (
             BelowNoise,
             Remark,
             "below-noise",
             "Noise alone would leave a chi-squared of {y.1} or more in 999 of 1000 tests, for {x.1} here: the test was computed, or its deviations are too large, and so are the intervals.",
-        ),
-        (
-            NoOptimum,
-            Remark,
-            "no-intervals",
-            "No parameter has an interval: they hold at the optimum of weighted steps, where no steps ended.",
-        ),
-        (
-            NoMinimum,
-            Remark,
-            "no-minimum",
-            "No interval of {some}: with another value the objective falls below that at the factors, which are then no minimum.",
-        ),
-        (
-            NoEnd,
-            Remark,
-            "no-end",
-            "No interval of {some}: as far as the modes can be followed, the objective does not rise by as much as at an end.",
         ),
         (
             HeldOut,
@@ -415,10 +436,10 @@ const TABLE: [(Kind, Grade, &str, &str); 69] = {
             "Free by {a} of the stiffness: {x}; a suspension below {ye} Hz would not show. Places of the rows, or model.rigid_bodies, decide.",
         ),
         (
-            PartNotChecked,
+            LargeDeviation,
             Remark,
-            "part-not-checked-{a}",
-            "Whether parameter \"{a}\" is part of the first model was not checked: {b}.",
+            "large-{a}",
+            "Setting {a} is {x}: a standard deviation of {y} % of a shape's largest component?",
         ),
         (
             FarApart,
@@ -511,7 +532,8 @@ const TABLE: [(Kind, Grade, &str, &str); 69] = {
 };
 
 /// The sentence behind `{likely}`.
-const LIKELY: &str = "The test's shapes would be 10^{x.0} times as likely, with noise of 1 % and a model 30 % wrong.";
+const LIKELY: &str =
+    "The test's shapes would be 10^{x.0} times as likely, with its noise and a model 30 % wrong.";
 
 // Every kind has its row, at its own place.
 const _: () = {
@@ -522,6 +544,117 @@ const _: () = {
     }
     assert!(TABLE.len() == Kind::UnitsOfTest as usize + 1);
 };
+
+/// A question that the look at a job before its first step, or the account after a run, asks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs, reason = "the list below has a name for each")]
+pub enum Check {
+    Readings,
+    Directions,
+    Copies,
+    CommonFactor,
+    OrderOfFrequencies,
+    ToldApart,
+    Percentages,
+    Bounds,
+    Places,
+    Numbers,
+    Units,
+    Pairs,
+    Reach,
+    FreeMotions,
+    Parts,
+    Collinearity,
+    Sight,
+    Fit,
+    Intervals,
+}
+
+/// The answer to a check.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Answer {
+    /// There is something to say.
+    Yes,
+    /// There is nothing.
+    No,
+    /// It cannot be told, and a remark says why.
+    NotChecked,
+}
+
+/// The list: every check, its name, the kinds of concern that it ends in, and those that say that it could not be made, beside
+/// [`Kind::NotChecked`] by its name.
+type Checked = (Check, &'static str, &'static [Kind], &'static [Kind]);
+
+impl Check {
+    /// All checks, in the order of their numbers.
+    pub const ALL: [Checked; 19] = {
+        use Check::*;
+        use Kind::*;
+        [
+            (
+                Readings,
+                "readings",
+                &[Reversed, Exchanged, Reordered, Gain, Dead],
+                &[],
+            ),
+            (Directions, "directions of sensors", &[Direction], &[]),
+            (Copies, "modes measured twice", &[MeasuredTwice, Alike], &[]),
+            (
+                CommonFactor,
+                "a factor of all frequencies",
+                &[NamedFactor, UnnamedFactor],
+                &[],
+            ),
+            (
+                OrderOfFrequencies,
+                "the order of frequencies",
+                &[FrequenciesExchanged],
+                &[],
+            ),
+            (ToldApart, "number of test modes", &[TooManyModes], &[]),
+            (Percentages, "percentages", &[Percent, LargeDeviation], &[]),
+            (Bounds, "bounds", &[ExcludesStart, Unbounded], &[]),
+            (Places, "places of sensors", &[UnitOfPlaces, OtherGrid], &[]),
+            (Numbers, "numbers of test modes", &[NumberedOtherwise], &[]),
+            (Units, "units of the test", &[UnitsDisagree], &[]),
+            (
+                Pairs,
+                "pairs",
+                &[NoPair, Unlike, PartnerTaken, WouldHarm, OutOfReach],
+                &[FrequenciesAlone, Undecided],
+            ),
+            (Reach, "frequencies in reach", &[BeyondReach, FarApart], &[]),
+            (
+                FreeMotions,
+                "free motions",
+                &[Mechanisms, LooseWithoutSensor, HeldDirection],
+                &[FreeByDigits, SuspensionHidden],
+            ),
+            (
+                Parts,
+                "parts of the model",
+                &[NegativePart, NotPart, Twin, SumOfStiffness, SumOfMass],
+                &[PartNotChecked],
+            ),
+            (Collinearity, "complex shapes", &[Complex], &[]),
+            (
+                Sight,
+                "what the test sees",
+                &[Parallel, Blind, MostlyPrior, AtBound],
+                &[],
+            ),
+            (Fit, "the fit", &[Misfit], &[]),
+            (Intervals, "intervals", &[], &[]),
+        ]
+    };
+
+    /// The remark that checks could not be made, for a reason.
+    pub(super) fn skipped(checks: &[Self], reason: &str) -> Concern {
+        let names = checks.iter().map(|check| Self::ALL[*check as usize].1);
+        let about: Vec<&str> = [reason].into_iter().chain(names).collect();
+        Concern::new(Kind::NotChecked, &about, &[])
+    }
+}
 
 /// Most characters of an identifier, so that a table of 80 columns has room for its sentence.
 const LONGEST: usize = 40;
@@ -617,6 +750,7 @@ impl Concern {
             "some" if more > 1 => {
                 return format!("{} and {more} more", about[..MOST_LISTED].join(", "));
             }
+            "rest" => return about.get(1..).unwrap_or_default().join(", "),
             "all" | "some" => return about.join(", "),
             _ => (),
         }
@@ -682,6 +816,20 @@ impl Trust {
             .filter(move |concern| concern.kind == kind)
     }
 
+    /// The answer to a check.
+    pub fn answer(&self, check: Check) -> Answer {
+        let (_, name, ends, open) = Check::ALL[check as usize];
+        let is_open = |own: &Concern| {
+            let is_named = own.kind == Kind::NotChecked && own.about.iter().any(|own| own == name);
+            is_named || open.contains(&own.kind)
+        };
+        match &self.concerns {
+            all if all.iter().any(|own| ends.contains(&own.kind)) => Answer::Yes,
+            all if all.iter().any(is_open) => Answer::NotChecked,
+            _ => Answer::No,
+        }
+    }
+
     /// Names and numbers that the concerns of one kind are about.
     pub fn about(&self, kind: Kind) -> Vec<String> {
         self.of(kind)
@@ -697,11 +845,6 @@ impl Trust {
             concern.grade() != Grade::LeftOut && concern.kind != Kind::Unanswered
         });
         Self::new(before.cloned().chain(concerns).collect())
-    }
-
-    /// The account with more concerns.
-    pub(super) fn and(&self, concerns: Vec<Concern>) -> Self {
-        Self::new(self.concerns.iter().cloned().chain(concerns).collect())
     }
 
     /// The account after the user answers for the doubts of these identifiers.
@@ -735,7 +878,8 @@ impl Trust {
     }
 
     /// True if a doubt or a selected mode that is not compared stands against the result.
-    pub(crate) fn stands_against(&self) -> bool {
+    #[doc(hidden)]
+    pub fn stands_against(&self) -> bool {
         self.has_doubt() || !self.are_all_compared()
     }
 

@@ -1,7 +1,7 @@
 //! Doubts about a job before its first step, and remarks.
 
-use super::concern::{Concern, Kind, Trust};
-use super::preflight::{LARGEST_TOLERANCE, Names, SeenModes, preflight_at_sensors};
+use super::concern::{Check, Concern, Kind, Trust};
+use super::preflight::{LARGEST_TOLERANCE, Names, SeenModes, check_settings, preflight_at_sensors};
 use super::prepared::LeftOut;
 use super::sensors::{PlacedSensor, motion};
 use super::{LoadedJob, Method, PreparedJob};
@@ -21,6 +21,16 @@ const COLLINEAR: f64 = 0.95;
 /// Span of the sensors' places over the model's from which they are in another unit: the least factor between two customary units
 /// of length is 2.54, and sensors sit on the structure.
 const LARGEST_SPAN: f64 = 2.0;
+
+/// Deviation of a shape's components, over its largest, from which on it must be meant in percent: noise alone does not leave a shape.
+const PERCENT: f64 = 5.0;
+
+/// Part of a coordinate that six digits leave open.
+const PLACE_DIGITS: f64 = 1e-5;
+
+/// Difference of a factor of length from that of its unit, relative to it, that its digits do not explain: an inch is 39.37 or 39.3701 to
+/// a meter.
+const UNIT_DIGITS: f64 = 1e-4;
 
 /// A concern about several things, if there are any.
 fn about_any(kind: Kind, about: &[impl ToString]) -> Option<Concern> {
@@ -42,9 +52,13 @@ impl Trust {
         let mut all = prepared.preflight_concerns()?;
         all.extend(prepared.pairing_concerns()?);
         // A mistake in the readings or in all frequencies says more than each pair that it makes.
-        if !all.iter().any(Concern::stands) {
-            all.extend(prepared.frequency_concerns());
-        }
+        all.extend(match all.iter().any(Concern::stands) {
+            true => vec![Check::skipped(
+                &[Check::Reach],
+                "another doubt is answered first",
+            )],
+            false => prepared.frequency_concerns(),
+        });
         if !prepared.is_without_pairs() {
             all.extend(prepared.unanswered(&prepared.analyze(&loaded.ones())?));
         }
@@ -139,15 +153,40 @@ impl PreparedJob {
         modes.sort_unstable();
         modes.dedup();
         let bodies = whole.body_findings(|row| loaded.source.row_name(row))?;
-        let mut concerns: Vec<Concern> = bodies.iter().map(of_bodies).collect();
+        let lowest = self.first.shapes(1).frequencies_hz().first().copied();
+        let bodies = bodies.into_iter().map(|finding| finding.beside(lowest));
+        let mut concerns: Vec<Concern> = bodies.map(|finding| of_bodies(&finding)).collect();
+        let is_said = loaded.job.model.rigid_bodies.is_some() && whole.rigid_bodies()?.rigid() > 0;
+        let said = "model.rigid_bodies says how many there are";
+        concerns.extend(is_said.then(|| Check::skipped(&[Check::FreeMotions], said)));
+        concerns.extend(loaded.percent_deviations(&modes));
+        concerns.extend(loaded.places_concerns());
+        let (settings, ranges) = (&loaded.job.correlation, whole.ranges());
+        let sensors = loaded.placed.iter();
+        let names = Names {
+            sensors: sensors.map(|sensor| sensor.name.clone()).collect(),
+            parameters: loaded.parameter_names().map(str::to_owned).collect(),
+            modes,
+        };
+        let modes = &names.modes;
         if modes.is_empty() {
+            use Check::*;
+            let none = [
+                Readings,
+                Directions,
+                Copies,
+                CommonFactor,
+                OrderOfFrequencies,
+            ];
+            concerns.push(Check::skipped(&none, "the test has no shapes"));
+            concerns.extend(check_settings(settings, &ranges, &names));
             return Ok(concerns);
         }
-        let test = loaded.measured(&modes)?;
+        let test = loaded.measured(modes)?;
         let Modes {
             omega_squared: squares,
             shapes,
-        } = self.first.shapes(2 * self.analysis_modes);
+        } = self.first.shapes(2 * loaded.usual_modes());
         let along = |(place, sensor): (usize, &PlacedSensor)| {
             let own = sensor.direction;
             let others = (own / 3 * 3..own / 3 * 3 + 3).filter(move |other| *other != own);
@@ -165,21 +204,19 @@ impl PreparedJob {
             shares: whole.shares(&loaded.ones(), &shapes)?,
             modes: Modes::new(squares, loaded.sensors.times(&shapes)?)?,
         };
-        concerns.extend(loaded.percent_deviations(&modes));
-        let names = Names {
-            sensors: loaded
-                .placed
-                .iter()
-                .map(|sensor| sensor.name.clone())
-                .collect(),
-            parameters: loaded.parameter_names().map(str::to_owned).collect(),
-            modes,
+        let one = "the model moves in no other direction there";
+        let is_open = seen.directions.is_empty();
+        concerns.extend(is_open.then(|| Check::skipped(&[Check::Directions], one)));
+        // Assumed deviations are no less than a test's own, and declare none.
+        let declared = |&mode: &usize| {
+            let [frequency, shape] = loaded.given_deviations(mode).map(Option::unwrap_or_default);
+            Noise { frequency, shape }
         };
-        let (settings, ranges) = (&loaded.job.correlation, whole.ranges());
+        let noise: Vec<Noise> = names.modes.iter().map(declared).collect();
+        let test = (&test, &noise[..]);
         concerns.extend(preflight_at_sensors(
-            &seen, &test, settings, &ranges, &names,
+            &seen, test, settings, &ranges, &names,
         )?);
-        concerns.extend(loaded.places_concern());
         let has_doubt = concerns.iter().any(Concern::stands);
         if self.is_without_pairs() && !has_doubt {
             concerns.push(Concern::plain(Kind::NoPair, &[]));
@@ -203,6 +240,15 @@ impl LoadedJob {
         }));
         all.extend(about_any(Kind::NotInEveryMode, &data.incomplete));
         all.extend(about_any(Kind::DatasetsNotRead, &data.skipped));
+        all.extend(self.numbers_concern());
+        if let (Some(units), Some([factor, known])) = (&data.units, data.lengths_to_meter) {
+            let is_other = (factor / known - 1.0).abs() > UNIT_DIGITS;
+            let doubt = || Concern::new(Kind::UnitsDisagree, &[units], &[factor, known]);
+            all.extend(is_other.then(doubt));
+        } else if data.units.is_some() {
+            let own = "its file has a system of units of its own";
+            all.push(Check::skipped(&[Check::Units], own));
+        }
         let units = data.units.iter();
         all.extend(units.map(|units| Concern::new(Kind::UnitsOfTest, &[units], &[])));
         all
@@ -254,13 +300,57 @@ impl LoadedJob {
         let large = both
             .into_iter()
             .filter(|(_, value)| *value > LARGEST_TOLERANCE);
-        large
-            .map(|(setting, value)| Concern::percent(setting, value))
+        let concern =
+            |(setting, value): (&str, f64)| match setting == "shape_deviation" && value < PERCENT {
+                true => Concern::new(Kind::LargeDeviation, &[setting], &[value, 100.0 * value]),
+                false => Concern::percent(setting, value),
+            };
+        large.map(concern).collect()
+    }
+
+    /// A doubt about the numbers that the test's file gives its modes, where they are in another order, or the job chooses by number.
+    fn numbers_concern(&self) -> Option<Concern> {
+        let numbers = &self.data.numbers;
+        let chooses = self.job.test.modes.is_some() && !numbers.is_empty();
+        (chooses || !numbers.is_sorted())
+            .then(|| Concern::new(Kind::NumberedOtherwise, numbers, &[]))
+    }
+
+    /// Doubts about places of sensors that span much more than the model does, or that are twice as near to another grid as to the one
+    /// that the test names, unless the job says how far a sensor may be.
+    pub fn places_concerns(&self) -> Vec<Concern> {
+        let known = || self.placed.iter().filter(|own| own.distance.is_some());
+        if known().next().is_none() {
+            let reason = "the places of sensors or of their grids are not given";
+            return vec![Check::skipped(&[Check::Places], reason)];
+        }
+        let grids = &self.source.geometry.places;
+        let is_elsewhere = |own: &&PlacedSensor| {
+            let at = self.data.sensors[own.row].place;
+            let (Some(at), Some(distance)) = (at, own.distance) else {
+                return false;
+            };
+            // Grids may be close, and sensors stand on a skin.
+            let is_nearer = |place: &Vector3<f64>| 2.0 * (place - at).norm() < distance;
+            let is_off = distance > PLACE_DIGITS * at.amax();
+            is_off
+                && self.data.sensors[own.row].grid == Some(own.grid)
+                && grids.values().any(is_nearer)
+        };
+        let elsewhere = known().filter(is_elsewhere).map(|own| &own.name);
+        let elsewhere: Vec<&String> = match self.job.sensors.distance {
+            None => elsewhere.collect(),
+            Some(_) => Vec::new(),
+        };
+        let unit = self.unit_of_places();
+        about_any(Kind::OtherGrid, &elsewhere)
+            .into_iter()
+            .chain(unit)
             .collect()
     }
 
     /// A doubt about the unit of the sensors' places where they span much more than the model does.
-    pub fn places_concern(&self) -> Option<Concern> {
+    fn unit_of_places(&self) -> Option<Concern> {
         let extent = |places: Vec<Vector3<f64>>| {
             let first = places.first()?;
             let (low, high) = places.iter().fold((*first, *first), |(low, high), place| {
@@ -283,7 +373,7 @@ impl LoadedJob {
 }
 
 /// What the digits of a stiffness leave open, as a concern.
-pub(crate) fn of_bodies(finding: &BodyFinding) -> Concern {
+pub fn of_bodies(finding: &BodyFinding) -> Concern {
     match finding {
         BodyFinding::Mechanisms(rows) => Concern::new(Kind::Mechanisms, rows, &[]),
         BodyFinding::Held { row, free } => {

@@ -225,7 +225,15 @@ impl<'a> Part<'a> {
         }
         self.analyses.set(self.analyses.get() + 1);
         let near = self.near.take();
-        let found = self.prepared.analyze_near(factors, near.as_ref())?;
+        // The last analysis, of the best factors so far, goes to its end.
+        let (loaded, may_stop) = (&self.prepared.loaded, !self.is_interrupted.get());
+        loaded
+            .source
+            .whole
+            .stop_at(loaded.stop.clone().filter(|_| may_stop));
+        let found = self.prepared.analyze_near(factors, near.as_ref());
+        loaded.source.whole.stop_at(None);
+        let found = found?;
         let whole = found.model.whole();
         self.near
             .replace(whole.map(|whole| whole.shapes(usize::MAX).shapes));
@@ -329,7 +337,11 @@ impl<'a> Part<'a> {
             if self.is_interrupted.get() {
                 return Err(FileError::Interrupted);
             }
-            let model = self.analyze(factors)?;
+            let stopped = |error: Error| match self.may_go_on() {
+                true => error.into(),
+                false => FileError::Interrupted,
+            };
+            let model = self.analyze(factors).map_err(stopped)?;
             let objective = residuals(&model, &weights)?.norm_squared();
             let mut best = best.borrow_mut();
             if best.as_ref().is_none_or(|(least, _)| objective < *least) {

@@ -1,6 +1,6 @@
 //! A correlated job with everything that says how far to trust it: its last value.
 
-use super::concern::{Concern, Kind, Trust};
+use super::concern::{Check, Concern, Kind, Trust};
 use super::correlated::{Caller, CorrelatedJob, History};
 use super::verdict::{Judged, Outcome, Verdict, sum_of_nine_modes};
 use super::{LeftOut, PreparedJob};
@@ -144,14 +144,20 @@ impl CorrelatedJob {
         let all = 0..names.len();
         let mostly_prior: Vec<usize> = all.filter(|&e| seen.is_mostly_prior(e)).collect();
         let joined: Vec<usize> = prepared.joined.iter().map(|mode| mode + 1).collect();
+        let kind = match misfit.is_by_noise() {
+            true => Kind::ChiSquared,
+            false => Kind::Misfit,
+        };
         let mut concerns = vec![Concern::plain(
-            Kind::ChiSquared,
+            kind,
             &[
                 misfit.chi_squared,
                 misfit.degrees_of_freedom,
                 misfit.largest_by_noise,
             ],
         )];
+        let untested = misfit.untested();
+        concerns.extend(untested.map(|reason| Check::skipped(&[Check::Fit], &reason)));
         concerns.extend((self.is_interrupted).then(|| Concern::plain(Kind::Interrupted, &[])));
         let below = [misfit.chi_squared, misfit.least_by_noise];
         concerns
@@ -231,22 +237,24 @@ impl JobResult {
         Ok(self.with_reasons())
     }
 
-    /// The same with remarks on why parameters have no interval, unless these are known already.
+    /// The same with a word on the parameters that have no interval.
     fn with_reasons(mut self) -> Self {
         let loaded = &self.found.prepared.loaded;
-        let reason = |(withheld, kind): (Withheld, Kind)| {
+        let reason = |withheld: &Withheld| {
             let names = loaded.parameter_names().zip(&self.intervals);
-            let names = names.filter(|(_, interval)| **interval == Err(withheld));
+            let names = names.filter(|(_, interval)| **interval == Err(*withheld));
             let names: Vec<&str> = names.map(|(name, _)| name).collect();
-            (!names.is_empty()).then(|| Concern::new(kind, &names, &[]))
+            match (names.is_empty(), withheld) {
+                (true, _) => None,
+                (_, Withheld::NoOptimum) => Some(withheld.words().to_owned()),
+                _ => Some(format!("{}: {}", withheld.words(), names.join(", "))),
+            }
         };
-        let reasons = [
-            (Withheld::NoOptimum, Kind::NoOptimum),
-            (Withheld::Lower, Kind::NoMinimum),
-            (Withheld::NoEnd, Kind::NoEnd),
-        ];
-        let reasons = reasons.into_iter().filter_map(reason).collect();
-        self.trust = self.trust.and(reasons);
+        let reasons: Vec<String> = Withheld::ALL.iter().filter_map(reason).collect();
+        if !reasons.is_empty() {
+            let skipped = Check::skipped(&[Check::Intervals], &reasons.join("; "));
+            self.trust = Trust::new([self.trust.all(), &[skipped]].concat());
+        }
         self
     }
 }

@@ -18,6 +18,7 @@ use crate::weighted::residuals::DEVIATIONS;
 use sha2::{Digest, Sha256};
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// A job with everything it names read and matched.
 #[derive(Debug, Clone)]
@@ -34,6 +35,8 @@ pub struct LoadedJob {
     pub placed: Vec<PlacedSensor>,
     /// Matrix that reads them off the model (sensors × DOF).
     pub sensors: SparseMatrix,
+    /// Ends, once true, an analysis of a factor's step under way; none to let each end.
+    pub stop: Option<Arc<AtomicBool>>,
     /// Numbers of the test modes that the job selects.
     numbers: Vec<usize>,
     /// Selected test modes, from zero, of which a frequency alone is known, ascending, with their partners in the first model.
@@ -104,6 +107,7 @@ impl LoadedJob {
             data,
             placed,
             sensors,
+            stop: None,
             numbers,
             alone,
         })
@@ -272,10 +276,11 @@ impl LoadedJob {
         })
     }
 
-    /// The whole model's first analysis, with twice as many modes as these where there are.
+    /// The whole model's first analysis, with these modes and those that the pre-flight looks at, which are twice the usual number whatever
+    /// the job takes.
     pub(super) fn analyzed(&self, modes: usize) -> Result<Arc<dyn Whole>, Error> {
-        let whole = &self.source.whole;
-        whole.exactly(&self.ones(), &self.sensors, (modes, 2 * modes), None)
+        let (whole, most) = (&self.source.whole, modes.max(2 * self.usual_modes()));
+        whole.exactly(&self.ones(), &self.sensors, (modes, most), None)
     }
 
     /// The first factors.

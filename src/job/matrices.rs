@@ -12,7 +12,7 @@ use crate::method::modes::Modes;
 use crate::method::structure::StructuralDof;
 use crate::sparse::whole_modes::WholeModes;
 use crate::sparse::{
-    FINITE, Places, SparseMatrix, Support, WholeModel, WholeParameter, WholeShare,
+    FINITE, Factor, Places, SparseMatrix, Support, WholeModel, WholeParameter, WholeShare,
 };
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
@@ -136,6 +136,7 @@ pub fn matrix_modes(file: &Path, mass: &Path, most: usize) -> Result<WholeModes,
         .collect();
     let mass = on_rows(&job, (mass, "--mass"), &row_of)?;
     let most = most.min(stiffness.rows());
+    let rows_with_mass = motions_with_mass(&mass);
     let dof = labels
         .into_iter()
         .map(|(grid, direction)| StructuralDof { grid, direction });
@@ -160,12 +161,33 @@ pub fn matrix_modes(file: &Path, mass: &Path, most: usize) -> Result<WholeModes,
         omega_squared,
         shapes,
     } = found.vibrations;
+    let modes = Modes::signed(omega_squared, shapes);
+    let lowest = modes.frequencies_hz().first().copied();
+    let doubtful = whole.body_findings(name)?.into_iter();
+    let rigid_body = found.rigid_body.ncols();
     Ok(WholeModes {
-        doubtful: whole.body_findings(name)?,
+        doubtful: doubtful.map(|finding| finding.beside(lowest)).collect(),
+        counted: rows_with_mass.map(|rows| rows - rigid_body),
         dof,
-        modes: Modes::signed(omega_squared, shapes),
-        rigid_body: found.rigid_body.ncols(),
+        modes,
+        rigid_body,
     })
+}
+
+/// Number of motions that have mass, if every row with an entry of it is one by itself: a definite mass.
+fn motions_with_mass(mass: &SparseMatrix) -> Option<usize> {
+    let mut rows: Vec<usize> = mass
+        .entries()
+        .filter(|own| own.2 != 0.0)
+        .map(|own| own.0)
+        .collect();
+    rows.dedup();
+    let own = mass
+        .at_rows(&rows)
+        .and_then(|own| own.at_columns(&rows))
+        .ok()?;
+    let is_definite = Factor::new("mass", &own).is_ok_and(|own| own.negative_count() == 0);
+    is_definite.then_some(rows.len())
 }
 
 /// Grid and direction of a grid and component.

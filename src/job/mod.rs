@@ -11,6 +11,7 @@ mod concerns;
 mod entries;
 #[doc(hidden)]
 pub mod expansion;
+mod likelihood;
 #[doc(hidden)]
 pub mod localization;
 mod matrices;
@@ -35,8 +36,8 @@ pub mod concern;
 pub mod verdict;
 
 pub use concern::{Concern, Kind, Trust};
-#[cfg(feature = "program")]
-pub(crate) use concerns::of_bodies;
+#[doc(hidden)]
+pub use concerns::of_bodies;
 #[doc(hidden)]
 pub use correlated::{CorrelatedJob, History, WeightedHistory};
 #[doc(hidden)]

@@ -2,13 +2,12 @@
 
 use super::bodies::explained;
 use super::expansion::mass_by_modes;
-use super::unseen::{decided, pairs};
+use super::likelihood::{decided, pairs};
 use super::{Kind, LoadedJob, Method};
 use crate::files::error::FileError;
-use crate::method::error::{Error, check_count};
+use crate::method::error::Error;
 use crate::method::modes::Modes;
-use crate::method::sorting::Pairing;
-use crate::sparse::{BasisSize, Deflections, FINITE, ModeWeight, Pair, SensorModel, Whole};
+use crate::sparse::{BasisSize, Deflections, FINITE, ModeWeight, SensorModel, Whole};
 use crate::weighted::close_modes::{assurance_of_roots, indistinct_groups};
 use crate::weighted::comparison::{Comparison, LoneFrequency};
 use crate::weighted::gauss_newton::WeightedSettings;
@@ -109,14 +108,23 @@ impl PreparedJob {
             // Even with more test modes than the model has modes, the pairs can be judged.
             Err(Error::Count {
                 what: "test modes", ..
-            })
-            | Ok(_) => prepared.paired_with(&exact),
+            }) => prepared.paired_with(&exact, None),
+            Ok(model) => {
+                let frequencies = prepared.frequencies(&prepared.modes);
+                let costs = frequencies.costs(&exact, &model.model.parts());
+                prepared.paired_with(&exact, Some(&costs))
+            }
             Err(other) => Err(other.into()),
         }
     }
 
-    /// The same job without the test modes that resemble no mode of the first model.
-    fn paired_with(mut self, exact: &Modes) -> Result<Self, FileError> {
+    /// The same job without the test modes that resemble no mode of the first model; `by_frequency` is what frequencies cost pairs, where
+    /// the model has enough modes for all.
+    fn paired_with(
+        mut self,
+        exact: &Modes,
+        by_frequency: Option<&DMatrix<f64>>,
+    ) -> Result<Self, FileError> {
         let assurance = decided(&assurance_of_roots(exact, &self.test.shapes)?);
         let is_tied = |mode: &usize| {
             let column = assurance.column(*mode);
@@ -125,7 +133,7 @@ impl PreparedJob {
         };
         let tied = (0..assurance.ncols()).filter(is_tied);
         self.undecided = tied.map(|mode| self.modes[mode]).collect();
-        let partners = pairs(&assurance, &exact.shapes, FLOOR)?;
+        let partners = pairs(&assurance, &exact.shapes, by_frequency, FLOOR)?;
         let (kept, left): (Vec<usize>, Vec<usize>) =
             (0..partners.len()).partition(|&mode| partners[mode].is_some());
         let left_out = |mode: usize| {
@@ -179,7 +187,7 @@ impl PreparedJob {
             .map(|&mode| self.loaded.deviations(mode).frequency);
         let deviations: Vec<f64> = deviations.collect();
         let assurance = decided(&assurance_of_roots(exact, &self.test.shapes)?);
-        let partners = pairs(&assurance, &exact.shapes, FLOOR)?;
+        let partners = pairs(&assurance, &exact.shapes, None, FLOOR)?;
         let roots = exact.frequencies_hz();
         let of_model = partners.iter().zip(&hertz);
         let of_model = of_model.map(|(partner, own)| partner.map_or(*own, |mode| roots[mode]));
@@ -264,7 +272,9 @@ impl PreparedJob {
         let assurance = assurance_of_roots(&model.model.exact.modes, &test.shapes)?;
         let within = self.within(&assurance, &all, &self.reach(model));
         let readings = &model.model.exact.modes.shapes;
-        let partners = pairs(&within, readings, FLOOR)?;
+        let frequencies = self.frequencies(&all);
+        let costs = frequencies.costs(&model.model.exact.modes, &model.model.parts());
+        let partners = pairs(&within, readings, Some(&costs), FLOOR)?;
         let (compared, left) = partners.split_at(self.modes.len());
         let left = left.iter().zip(&all[self.modes.len()..]);
         let joined: Vec<usize> = left
@@ -455,10 +465,7 @@ impl PreparedJob {
         factors: &[f64],
         near: Option<&DMatrix<f64>>,
     ) -> Result<Comparison, Error> {
-        let (whole, test) = (
-            &self.loaded.source.whole,
-            (&self.test, pair_by_assignment as Pair),
-        );
+        let (whole, test) = (&self.loaded.source.whole, (&self.test, self.pair()));
         let size = BasisSize {
             modes: self.analysis_modes,
             residual_vectors: self.residual_vectors(),
@@ -556,12 +563,4 @@ fn first_analysis(loaded: &LoadedJob) -> Result<(usize, Arc<dyn Whole>), FileErr
             Ok((modes, first.map_err(refused)?))
         }
     }
-}
-
-/// The pairs of largest closeness, less what modes that are hardly seen pay, every test mode with one.
-fn pair_by_assignment(cross: &DMatrix<f64>, readings: &DMatrix<f64>) -> Result<Pairing, Error> {
-    let partners = pairs(&cross.component_mul(cross), readings, 0.0)?;
-    check_count("test modes", cross.ncols(), 0, cross.nrows())?;
-    let analysis_mode = partners.into_iter().flatten().collect();
-    Ok(Pairing::signed(analysis_mode, cross))
 }

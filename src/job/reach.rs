@@ -1,5 +1,7 @@
 //! Frequencies that a mode of the model can have within the bounds and the priors of the parameters.
 
+use super::concern::Check;
+use super::preflight::FEWER;
 use super::{Concern, Kind, PreparedJob};
 use crate::method::step::Bounds;
 use crate::sparse::ParameterMatrix;
@@ -36,15 +38,15 @@ impl PreparedJob {
             let square = exact.modes.omega_squared[mode];
             let (mut soft, mut stiff) = ([1.0; 2], [1.0; 2]);
             for (e, share) in shares.iter().enumerate() {
-                let [down, up] = room(e);
+                let ([down, up], part) = (room(e), share.part(mode, square));
                 match share {
-                    ParameterMatrix::Stiffness(share) => {
-                        soft[0] += share[(mode, mode)] / square * down;
-                        stiff[0] += share[(mode, mode)] / square * up;
+                    ParameterMatrix::Stiffness(_) => {
+                        soft[0] += part * down;
+                        stiff[0] += part * up;
                     }
-                    ParameterMatrix::Mass(share) => {
-                        soft[1] += share[(mode, mode)] * up;
-                        stiff[1] += share[(mode, mode)] * down;
+                    ParameterMatrix::Mass(_) => {
+                        soft[1] += part * up;
+                        stiff[1] += part * down;
                     }
                 }
             }
@@ -62,7 +64,7 @@ impl PreparedJob {
     pub(super) fn frequency_concerns(&self) -> Vec<Concern> {
         // Where there are fewer modes than test modes there are no pairs.
         let Ok(first) = self.analyze(&self.loaded.ones()) else {
-            return Vec::new();
+            return vec![Check::skipped(&[Check::Reach], FEWER)];
         };
         let hertz = first.model.exact.modes.frequencies_hz();
         let reach = self.reach(&first);

@@ -1,14 +1,8 @@
 //! Remarks on what no sensor sees: it takes no part in anything.
 
-use super::assignment::pair_optimally;
 use super::{Concern, Kind, PreparedJob};
-use crate::method::error::Error;
 use crate::sparse::visibility::visibilities;
 use crate::weighted::comparison::Comparison;
-use nalgebra::DMatrix;
-
-/// Deviation of a shape, of unit length, from that of its model's mode in the likelihood of a pair.
-const UNLIKE: f64 = 0.1;
 
 impl PreparedJob {
     /// Remarks on parts of the model without a sensor, and on modes of the first model that move none.
@@ -61,35 +55,4 @@ impl PreparedJob {
         let measure: Vec<f64> = lacking.iter().map(|&mode| hertz[mode]).collect();
         (!names.is_empty()).then(|| Concern::new(Kind::Unanswered, &names, &measure))
     }
-}
-
-/// The mode of the model of every test mode, or none, for the largest sum of modal assurance (n × g), of a pair no less than the floor,
-/// less what hardly seen modes pay.
-///
-/// In the negative logarithm of the likelihood of a shape, $(1 - \mathrm{MAC}) / 2 s^2$ with a deviation $s$, a mode of visibility
-/// $\nu$ ([`visibilities`]) costs $2 \ln (1 / \nu)$ more: what little sensors see of it may be anything, and looks like any test mode.
-///
-/// # Errors
-/// Errors of [`pair_optimally`].
-pub(super) fn pairs(
-    assurance: &DMatrix<f64>,
-    readings: &DMatrix<f64>,
-    floor: f64,
-) -> Result<Vec<Option<usize>>, Error> {
-    let price = |visibility: f64| -4.0 * UNLIKE * UNLIKE * visibility.max(f64::EPSILON).ln();
-    let prices: Vec<f64> = visibilities(readings).into_iter().map(price).collect();
-    let dearest = prices.iter().copied().fold(0.0, f64::max);
-    // None is negative, which would be as good as no pair.
-    let close = assurance.map_with_location(|mode, _, close| match close >= floor {
-        true => close + dearest - prices[mode],
-        false => -1.0,
-    });
-    pair_optimally(&decided(&close), 0.0)
-}
-
-/// Squared closeness to the digits that shapes decide: a sum of products of up to four thousand sensors is rounded by less than
-/// $2^{-40}$. Equal ones then tie, and a tie goes by the order of the modes, which ascend in frequency.
-pub(super) fn decided(closeness: &DMatrix<f64>) -> DMatrix<f64> {
-    let digits = 40.0_f64.exp2();
-    closeness.map(|close| (digits * close).round() / digits)
 }

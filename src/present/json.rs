@@ -10,6 +10,7 @@ use super::tables::cases::{outcome, published_iterations};
 use super::tables::deck::{not_read, unit_shapes};
 use crate::files::deck::Unread;
 use crate::files::test_data::DIRECTIONS;
+use crate::files::turns;
 use crate::job::verdict::Verdict;
 use crate::job::{Trust, of_bodies};
 use crate::method::inner_loop::Iteration;
@@ -66,7 +67,14 @@ fn in_units(units: &'static str, content: impl Serialize) -> Result<String, Pres
         units,
         content,
     };
-    Ok(serde_json::to_string_pretty(&document)? + "\n")
+    let mut text = String::new();
+    for c in serde_json::to_string_pretty(&document)?.chars() {
+        match turns(c) {
+            true => text += &format!("\\u{:04x}", u32::from(c)),
+            false => text.push(c),
+        }
+    }
+    Ok(text + "\n")
 }
 
 /// A report as the document has it.

@@ -6,7 +6,7 @@ use clap::Args;
 use corfem::files::deck::{self, BulkData, Task};
 use corfem::files::error::FileError;
 use corfem::files::read_bytes;
-use corfem::job::matrix_modes;
+use corfem::job::{matrix_modes, of_bodies};
 use corfem::method::error::Error;
 use corfem::present::tables::deck::{deck_tables, not_read};
 use corfem::present::{PresentError, json};
@@ -92,8 +92,8 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
     )
 }
 
-/// Prints the modes of a deck or of matrices.
-pub fn modes(arguments: &ModesArguments) -> Result<(), PresentError> {
+/// Prints the modes of a deck or of matrices; true if none is lost and no doubt stands.
+pub fn modes(arguments: &ModesArguments) -> Result<bool, PresentError> {
     let most = arguments.count.map_or(USUAL_COUNT, NonZeroUsize::get);
     let of_matrices = arguments.stiffness.as_ref().zip(arguments.mass.as_ref());
     let (unread, modes) = if let Some((stiffness, mass)) = of_matrices {
@@ -109,13 +109,24 @@ pub fn modes(arguments: &ModesArguments) -> Result<(), PresentError> {
         (deck.unread, deck::modes(&deck.model, most)?)
     };
     let found = modes.modes.len();
-    if arguments.count.is_some_and(|count| count.get() > found) {
-        note(format_args!(
+    let is_short = found < most && modes.counted != Some(found);
+    let are_lost = is_short && modes.counted.is_some();
+    match modes.counted {
+        Some(counted) if are_lost => note(format_args!(
+            "corfem: {found} of {counted} modes of finite frequency were found; frequencies some three million times the lowest are lost"
+        )),
+        None if is_short && arguments.count.is_some() => note(format_args!(
+            "corfem: {most} modes asked for; {found} were found, and how many there are was not counted"
+        )),
+        _ if found < most && arguments.count.is_some() => note(format_args!(
             "corfem: {most} modes asked for; all {found} of finite frequency are given"
-        ));
+        )),
+        _ => (),
     }
     let tables = deck_tables(&unread, &modes, found);
     arguments
         .output
-        .write(&tables, || json::deck_modes(&unread, &modes, found))
+        .write(&tables, || json::deck_modes(&unread, &modes, found))?;
+    let has_doubt = modes.doubtful.iter().any(|found| of_bodies(found).stands());
+    Ok(!are_lost && !has_doubt)
 }

@@ -76,7 +76,10 @@ pub fn write_files(
     Ok(())
 }
 
-/// The file with the name of its run, where its format has a place for it. A corrected deck has none: every byte but its corrected
+/// Characters of a comment in a deck, which has 72 columns before those that some programs leave out.
+const DECK_COLUMNS: usize = 70;
+
+/// The file with the name of its run, where its format has a place for it. Behind that of a corrected deck every byte but its corrected
 /// numbers stays.
 fn signed(path: &Path, bytes: &[u8], run: &str) -> Vec<u8> {
     let run = format!("corfem {} {run}", env!("CARGO_PKG_VERSION")).replace('\n', " ");
@@ -92,6 +95,19 @@ fn signed(path: &Path, bytes: &[u8], run: &str) -> Vec<u8> {
             after_line(bytes),
             format!("  \"run\": {},\n", serde_json::json!(run)),
         ),
+        Some("bdf") => {
+            let mass = "A density changed with the size of its element keeps the mass.";
+            let words: Vec<char> = format!("{} ", run).chars().collect();
+            let lines = words.chunks(DECK_COLUMNS).map(|line| line.iter().collect());
+            let lines: Vec<String> = lines.chain([mass.to_owned()]).collect();
+            (
+                0,
+                lines
+                    .iter()
+                    .map(|line| format!("$ {}\n", line.trim_end()))
+                    .collect(),
+            )
+        }
         Some("mtx") => (after_line(bytes), format!("% {run}\n")),
         _ => return bytes.to_vec(),
     };

@@ -22,7 +22,8 @@ use corfem::present::tables::report::{factor_table, history_table, paired_table}
 use corfem::present::{PresentError, json, render};
 use serde_json::json;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 #[derive(Debug, Args)]
 pub struct InitArguments {
@@ -101,7 +102,7 @@ pub fn init(
     write_report(path, if *test { TEST_TEMPLATE } else { TEMPLATE })
 }
 
-/// Reports every doubt about a job and ranks its parameters, without a step; true if no doubt stands.
+/// Reports every doubt about a job and ranks its parameters, without a step; true if none stands and every selected mode is compared.
 pub fn check_job(
     CheckArguments {
         job,
@@ -127,15 +128,14 @@ pub fn check_job(
     })?;
     let document = || json::own_document(json!({ "trust": trust, "tables": tables }));
     output.write(&tables, document)?;
-    Ok(!trust.has_doubt())
+    Ok(!trust.stands_against())
 }
 
 /// Corrects the model of a job and writes the report; true if it is within tolerance.
 pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, PresentError> {
     // Postponed until the report is written, so that a request to stop ends the program with the best so far.
     let (stop, _postponed) = signals::postpone_first();
-    let go_on = || !stop.load(Ordering::SeqCst);
-    let (prepared, result) = corrected(arguments, quiet, go_on)?;
+    let (prepared, result) = corrected(arguments, quiet, stop)?;
     let report = Report::from_job(&prepared, Some(&result))?;
     // The verdict stands under the history, at the end.
     let [paired, factors, history] = [
@@ -180,9 +180,13 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
 fn corrected(
     arguments: &CorrelateArguments,
     quiet: bool,
-    go_on: impl Fn() -> bool,
+    stop: Arc<AtomicBool>,
 ) -> Result<(PreparedJob, JobResult), PresentError> {
     let mut loaded = LoadedJob::new(&arguments.job)?;
+    let go_on = || !stop.load(Ordering::SeqCst);
+    // The paper's loops keep a pass only when its analysis has ended.
+    let may_end = arguments.starts.is_some() || loaded.job.compare.method == Method::GaussNewton;
+    loaded.stop = may_end.then(|| Arc::clone(&stop));
     if let Some(starts) = arguments.starts {
         let compare = &mut loaded.job.compare;
         compare.method = Method::GaussNewton;

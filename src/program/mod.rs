@@ -58,7 +58,7 @@ case).
 Results go to standard output, progress to standard error. A signal that ends the program leaves no half-written file.";
 
 const JOB_HELP: &str = "\
-Ctrl-C lets the analysis under way end, which may take a minute in a large model, and keeps the best so far or the samples done; \
+Ctrl-C ends the analysis under way, or lets that of a study or of the paper's loops end, and keeps the best so far or the samples done; \
 a second one ends the program at once and leaves no half-written file.";
 
 #[derive(Debug, Subcommand)]
@@ -134,7 +134,7 @@ pub fn run() -> ExitCode {
         Some(Command::Report(arguments)) => pictures::report(&arguments, quiet).map(|()| true),
         Some(Command::Deck(arguments)) => deck::deck(&arguments).map(|()| true),
         Some(Command::Dump(arguments)) => pictures::dump(&arguments, quiet).map(|()| true),
-        Some(Command::Modes(arguments)) => deck::modes(&arguments).map(|()| true),
+        Some(Command::Modes(arguments)) => deck::modes(&arguments),
     }))
 }
 

@@ -49,9 +49,9 @@ pub use matrix::SparseMatrix;
 #[doc(hidden)]
 pub use rigid_bodies::{BodyFinding, Places, RigidBodies, Support};
 pub use sensor_model::SensorModel;
-pub(crate) use sensor_model::{Deflections, Whole, check_weights};
 #[doc(hidden)]
-pub use sensor_model::{ModeWeight, Pair, ParameterMatrix};
+pub use sensor_model::{Candidates, ModeWeight, Pair, ParameterMatrix};
+pub(crate) use sensor_model::{Deflections, Whole, check_weights, parts_of};
 #[doc(hidden)]
 pub use whole_model::{BasisSize, WholeShare};
 pub use whole_model::{WholeModel, WholeParameter};

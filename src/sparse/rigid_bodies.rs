@@ -103,6 +103,7 @@ impl RigidBodies {
     /// beyond n; the errors of the factorization.
     pub fn of(what: &'static str, matrix: &SparseMatrix, support: &Support) -> Result<Self, Error> {
         let own = support.resisting.as_ref().unwrap_or(matrix);
+        own.check_symmetric(what)?;
         let plan = Arc::new(FactorizationPlan::of_sum(&[own])?);
         Self::by(&plan, what, matrix, support)
     }
@@ -308,6 +309,19 @@ pub enum BodyFinding {
         /// True if the digits of a double leave as many free.
         is_sure: bool,
     },
+}
+
+impl BodyFinding {
+    /// The same beside the lowest frequency found: where a suspension higher than that would not show, the count is not sure.
+    pub(crate) fn beside(mut self, lowest_hz: Option<f64>) -> Self {
+        if let Self::ByDigits {
+            hidden_hz, is_sure, ..
+        } = &mut self
+        {
+            *is_sure &= lowest_hz.is_some_and(|lowest| *hidden_hz < lowest);
+        }
+        self
+    }
 }
 
 /// Motions (rows × `count`) of least energy, orthonormal, by inverse iteration with a factor of the matrix and a slack of one.

@@ -19,7 +19,7 @@ use crate::method::perturbation::{Perturbed, first_order, recursive_1_converged}
 use crate::method::sorting::{Pairing, pair_modes};
 use crate::method::step::{REFERENCE_GAGE, StepRule};
 use nalgebra::{DMatrix, DVector};
-use std::fmt::Debug;
+use std::fmt::{self, Debug, Formatter};
 use std::sync::Arc;
 
 /// Part of the stiffness or mass that one parameter scales: at d DOF (d × d), or in n shapes as $V^t K_e V$ or $V^t M_e V$ (n × n).
@@ -42,6 +42,31 @@ impl ParameterMatrix {
     fn is_mass(&self) -> bool {
         matches!(self, Self::Mass(_))
     }
+
+    /// Part of the stiffness or mass of a mode of this squared frequency.
+    pub(crate) fn part(&self, mode: usize, square: f64) -> f64 {
+        match self {
+            Self::Stiffness(share) => share[(mode, mode)] / square,
+            Self::Mass(share) => share[(mode, mode)],
+        }
+    }
+}
+
+/// Parts (n × p) that shares have in the stiffness or mass of modes: those at the head of their basis, or sums of it at factors.
+pub(crate) fn parts_of(
+    shares: &[ParameterMatrix],
+    place: Option<(&DMatrix<f64>, &[f64])>,
+    modes: &Modes,
+) -> DMatrix<f64> {
+    DMatrix::from_fn(modes.len(), shares.len(), |mode, e| {
+        let square = modes.omega_squared[mode];
+        let Some((shapes, factors)) = place else {
+            return shares[e].part(mode, square);
+        };
+        let (own, share) = (shapes.column(mode), &shares[e]);
+        let size = if share.is_mass() { 1.0 } else { square };
+        factors[e] * own.dot(&(share.matrix() * own)) / size
+    })
 }
 
 /// Factors on the errors of one test mode in the error sum.
@@ -82,8 +107,40 @@ pub(crate) fn check_weights(weights: &[ModeWeight], modes: usize) -> Result<(), 
     )
 }
 
-/// Rule that pairs test modes with analysis modes by their closeness (n × g), such as [`pair_modes`].
-pub type Pair = fn(&DMatrix<f64>, &DMatrix<f64>) -> Result<Pairing, Error>;
+/// Modes of a model among which test modes have their partners.
+#[derive(Clone, Copy)]
+pub struct Candidates<'a> {
+    /// Cosines of their shapes with the test's (n × g).
+    pub cross: &'a DMatrix<f64>,
+    /// The modes at the sensors.
+    pub modes: &'a Modes,
+    /// Makes the parts (n × p) that the parameters have in the stiffness or mass of each; none where shapes alone are followed.
+    pub parts: Option<&'a dyn Fn() -> DMatrix<f64>>,
+}
+
+/// A function that pairs.
+type Rule = dyn Fn(Candidates) -> Result<Pairing, Error> + Send + Sync;
+
+/// Rule that pairs test modes with modes of a model.
+#[derive(Clone)]
+pub struct Pair(Arc<Rule>);
+
+impl Pair {
+    /// The rule of a function, such as [`pair_modes`] of the cosines.
+    pub fn by(rule: impl Fn(Candidates) -> Result<Pairing, Error> + Send + Sync + 'static) -> Self {
+        Self(Arc::new(rule))
+    }
+
+    pub(crate) fn of(&self, candidates: Candidates) -> Result<Pairing, Error> {
+        (self.0)(candidates)
+    }
+}
+
+impl Debug for Pair {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str("Pair")
+    }
+}
 
 /// A model seen through its exact modes at sensors, beside the test modes.
 #[derive(Debug, Clone)]
@@ -223,7 +280,13 @@ impl SensorModel {
         (shares, turn): (Arc<Vec<ParameterMatrix>>, Option<Turn>),
     ) -> Result<Self, Error> {
         let cross = cosines(&modes.shapes, &test.shapes)?;
-        let pairing = pair(&cross, &modes.shapes)?;
+        let place = turn.as_ref().map(|turn| (&turn.shapes, &turn.factors[..]));
+        let parts = || parts_of(&shares, place, &modes);
+        let pairing = pair.of(Candidates {
+            cross: &cross,
+            modes: &modes,
+            parts: Some(&parts),
+        })?;
         let mut scaled = test.clone();
         for (j, mut shape) in scaled.shapes.column_iter_mut().enumerate() {
             let partner = modes.shapes.column(pairing.analysis_mode[j]);
@@ -339,7 +402,7 @@ impl SensorModel {
             self.exact.modes.clone(),
             &further,
             &self.test,
-            self.pair,
+            self.pair.clone(),
             shares,
         )
     }
@@ -352,6 +415,11 @@ impl SensorModel {
     /// Squared circular frequencies of the vibrations of the basis, rad²/s²: the exact modes, then residual vectors.
     pub fn omega_squared(&self) -> &DVector<f64> {
         &self.omega_squared
+    }
+
+    /// Parts (n × p) that the parameters have in the stiffness or mass of the exact modes.
+    pub(crate) fn parts(&self) -> DMatrix<f64> {
+        parts_of(&self.shares, None, &self.exact.modes)
     }
 
     /// All shapes of the basis at the sensors: the exact modes, residual vectors, rigid-body modes.
@@ -445,7 +513,7 @@ impl SensorModel {
             factors: factors.to_vec(),
         };
         let shares = (Arc::clone(&self.shares), Some(turn));
-        let mut model = Self::turned(modes, &further, &self.test, self.pair, shares)?;
+        let mut model = Self::turned(modes, &further, &self.test, self.pair.clone(), shares)?;
         model.gages.clone_from(&self.gages);
         model.weights.clone_from(&self.weights);
         Ok((model, generalized))
@@ -507,6 +575,21 @@ impl SensorModel {
         Ok((vibrations, generalized))
     }
 
+    /// The test modes' pairs among modes that are sums of the basis at factors, of these cosines.
+    fn paired(
+        &self,
+        cross: &DMatrix<f64>,
+        modes: &Modes,
+        place: (&DMatrix<f64>, &[f64]),
+    ) -> Result<Pairing, Error> {
+        let parts = || parts_of(&self.shares, Some(place), modes);
+        self.pair.of(Candidates {
+            cross,
+            modes,
+            parts: Some(&parts),
+        })
+    }
+
     /// Modes at factors far from the exact ones, by an eigensolution in the basis, and their pairs: there a mode of the test may continue
     /// none of the exact modes but a residual vector, of which the cosines with them know nothing.
     pub(crate) fn far(&self, factors: &[f64]) -> Result<(Modes, Pairing), Error> {
@@ -518,16 +601,11 @@ impl SensorModel {
             shapes,
         };
         let is_plain = count == self.exact.modes.len();
-        let pairing = match is_plain {
-            true => {
-                let cross = generalized.columns(0, count).tr_mul(&self.cross);
-                (self.pair)(&cross, &modes.shapes)?
-            }
-            false => {
-                let cross = cosines(&modes.shapes, &self.test.shapes)?;
-                (self.pair)(&cross, &modes.shapes)?
-            }
+        let cross = match is_plain {
+            true => generalized.columns(0, count).tr_mul(&self.cross),
+            false => cosines(&modes.shapes, &self.test.shapes)?,
         };
+        let pairing = self.paired(&cross, &modes, (&generalized, factors))?;
         Ok((modes, pairing))
     }
 }
@@ -542,7 +620,7 @@ impl From<&Model> for SensorModel {
             omega_squared: exact.modes.omega_squared.clone(),
             basis: exact.modes.shapes.clone(),
             cross: model.cross().clone(),
-            pair: |cross, _| pair_modes(cross),
+            pair: Pair::by(|of| pair_modes(of.cross)),
             weights: vec![ModeWeight::ONE; model.test().len()],
             shares: Arc::new(shares.map(ParameterMatrix::Stiffness).collect()),
             turn: None,
@@ -588,8 +666,9 @@ impl Analysis for SensorModel {
             shapes: &self.basis * &generalized_shapes,
         };
         let count = self.exact.modes.len();
-        let readings = modes.shapes.columns(0, count).into_owned();
-        let pairing = (self.pair)(&close.rows(0, count).into_owned(), &readings)?;
+        let lowest = modes.select(&(0..count).collect::<Vec<_>>());
+        let cross = close.rows(0, count).into_owned();
+        let pairing = self.paired(&cross, &lowest, (&generalized, factors))?;
         let errors = self.errors_of(&modes, &pairing)?;
         Ok(State {
             factors: factors.to_vec(),

@@ -16,6 +16,7 @@ use crate::method::linear_algebra::check_length;
 use crate::method::modes::Modes;
 use crate::method::step::Bounds;
 use nalgebra::DMatrix;
+use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, OnceLock};
 
 /// Part of the whole model's matrices.
@@ -176,6 +177,11 @@ impl WholeModel {
     /// Work that analyses of this model have taken so far.
     pub fn work(&self) -> Work {
         self.0.plan.work()
+    }
+
+    /// Lets analyses fail once a flag is true, or no longer.
+    pub(crate) fn stop_at(&self, flag: Option<Arc<AtomicBool>>) {
+        self.0.plan.stop_at(flag);
     }
 
     /// The largest part of an entry of the first stiffness by which it is rounded.
@@ -346,7 +352,7 @@ impl WholeModel {
     /// use corfem::method::modes::solve;
     /// use corfem::method::outer_loop::{Settings, correlate};
     /// use corfem::method::sorting::pair_modes;
-    /// use corfem::sparse::{BasisSize, ParameterMatrix, SparseMatrix, WholeModel, WholeParameter, WholeShare};
+    /// use corfem::sparse::{BasisSize, Pair, ParameterMatrix, SparseMatrix, WholeModel, WholeParameter, WholeShare};
     /// use nalgebra::{DMatrix, dmatrix};
     ///
     /// let sparse = |matrix| SparseMatrix::of_dense("matrix", &matrix);
@@ -358,7 +364,7 @@ impl WholeModel {
     ///
     /// let test = solve(&stiffness(3.0), &one, 2)?;
     /// let (sensors, size) = (sparse(one)?, BasisSize { modes: 2, residual_vectors: 0 });
-    /// let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, |cross, _| pair_modes(cross)), size);
+    /// let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, Pair::by(|of| pair_modes(of.cross))), size);
     ///
     /// // The basis: its shapes at the sensors, their squared frequencies, and the spring's share.
     /// let first = analyze(&[1.0])?;

@@ -30,6 +30,8 @@ pub struct WholeModes {
     pub dof: Vec<StructuralDof>,
     /// Vibrations with a finite frequency, from the lowest.
     pub modes: Modes,
+    /// Number of vibrations with a finite frequency that there are, where it was counted.
+    pub counted: Option<usize>,
     /// Number of rigid-body modes beside them.
     pub rigid_body: usize,
     /// Findings about free motions that the digits of the stiffness leave open.
@@ -67,6 +69,7 @@ pub fn whole_modes(
     Ok(WholeModes {
         dof: at.dof,
         modes: Modes::signed(vibrations.omega_squared, shapes),
+        counted: None,
         rigid_body: bodies.rigid(),
         doubtful: bodies.findings(&mass, name),
     })

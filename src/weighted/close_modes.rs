@@ -21,7 +21,8 @@ pub fn indistinct_groups(frequencies_hz: &[f64], deviations: &[f64]) -> Vec<Vec<
     ascending.sort_by(|&a, &b| frequencies_hz[a].total_cmp(&frequencies_hz[b]));
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for mode in ascending {
-        let deviation = |mode: usize| deviations[mode] * frequencies_hz[mode];
+        let own = |mode: usize| deviations.get(mode).copied().unwrap_or_default();
+        let deviation = |mode: usize| own(mode) * frequencies_hz[mode];
         let joins = |group: &&mut Vec<usize>| {
             group.last().is_some_and(|&last| {
                 let apart = frequencies_hz[mode] - frequencies_hz[last];

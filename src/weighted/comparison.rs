@@ -11,7 +11,7 @@ use crate::method::linear_algebra::{check_shape, cholesky};
 use crate::method::model::Model;
 use crate::method::modes::Modes;
 use crate::method::sorting::{Pairing, pair_modes};
-use crate::sparse::{ModeWeight, ParameterMatrix, SensorModel, cosines};
+use crate::sparse::{Candidates, ModeWeight, ParameterMatrix, SensorModel, cosines};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -195,7 +195,12 @@ impl Comparison {
         for &mode in &exact.pairing.analysis_mode {
             cross.row_mut(mode).fill(0.0);
         }
-        let partners = (self.model.pair)(&cross, &exact.modes.shapes)?.analysis_mode;
+        let candidates = Candidates {
+            cross: &cross,
+            modes: &exact.modes,
+            parts: None,
+        };
+        let partners = self.model.pair.of(candidates)?.analysis_mode;
         for (lone, partner) in self.test.lone.iter_mut().zip(partners) {
             lone.partner = partner;
         }

@@ -5,6 +5,7 @@ use super::gauss_newton::{Problem, WeightedSettings, logs_of};
 use super::identifiability::{NORMAL_95, identifiability, information};
 use super::residuals::{jacobian, residuals};
 use crate::method::error::Error;
+use crate::method::linear_algebra::check_length;
 use crate::method::step::Bounds;
 use crate::sparse::{ModeWeight, solve_positive};
 use nalgebra::DVector;
@@ -43,6 +44,30 @@ pub enum Withheld {
     NoEnd,
 }
 
+impl Withheld {
+    /// All reasons.
+    pub(crate) const ALL: [Self; 5] = [
+        Self::NoOptimum,
+        Self::AtBound,
+        Self::MostlyPrior,
+        Self::Lower,
+        Self::NoEnd,
+    ];
+
+    /// What it says of the parameters that follow.
+    pub(crate) fn words(self) -> &'static str {
+        match self {
+            Self::NoOptimum => "they hold about a minimum of weighted steps alone",
+            Self::AtBound => "at a bound",
+            Self::MostlyPrior => "known mostly from the prior",
+            Self::Lower => {
+                "with another value the objective is lower, so that the factors are no minimum"
+            }
+            Self::NoEnd => "no end as far as the modes can be followed",
+        }
+    }
+}
+
 /// 95 % intervals about the factors at the optimum of weighted steps, with the deviations of the measurement `widening` times as large as
 /// by the weights, and the prior's as they are. None of a parameter at a bound, and of one that is known mostly from the prior.
 ///
@@ -72,6 +97,7 @@ pub fn intervals(
     settings: &WeightedSettings,
     widening: f64,
 ) -> Result<Vec<Result<Bounds, Withheld>>, Error> {
+    check_length("ranges", ranges.len(), factors.len())?;
     let (model, priors) = (analyze(factors)?, settings.priors(factors.len()));
     let weight = |own: &ModeWeight| ModeWeight {
         frequency: own.frequency / widening,

@@ -5,6 +5,7 @@ use super::identifiability::identifiability;
 use super::residuals::{jacobian, residuals};
 use crate::method::error::Error;
 use crate::method::error::require;
+use crate::method::linear_algebra::check_length;
 use crate::sparse::ModeWeight;
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -56,10 +57,10 @@ impl Misfit {
         priors: &[f64],
         at_bound: &[usize],
     ) -> Result<Self, Error> {
+        let count = comparison.model.shares.len();
+        check_length("prior deviations", priors.len(), count)?;
         let chi_squared = residuals(comparison, weights)?.norm_squared();
-        let free: Vec<usize> = (0..comparison.model.shares.len())
-            .filter(|e| !at_bound.contains(e))
-            .collect();
+        let free: Vec<usize> = (0..count).filter(|e| !at_bound.contains(e)).collect();
         let jacobian = jacobian(comparison, weights)?.select_columns(&free);
         let priors: Vec<f64> = free.iter().map(|&e| priors[e]).collect();
         let fitted: f64 = if free.is_empty() {
@@ -130,7 +131,7 @@ impl Misfit {
     }
 
     /// The reason why no model could have failed such a test, if none could.
-    fn untested(&self) -> Option<String> {
+    pub(crate) fn untested(&self) -> Option<String> {
         if self.degrees_of_freedom < 1.0 - SLIGHT {
             Some("the fit leaves less than one number over".into())
         } else if self.of_unlike <= self.largest_by_noise {

@@ -88,6 +88,12 @@ impl Specimen {
             modes,
         };
         let names = Names::default();
-        preflight_at_sensors(&seen, &self.test, &self.settings, &self.ranges, &names)
+        preflight_at_sensors(
+            &seen,
+            (&self.test, &[]),
+            &self.settings,
+            &self.ranges,
+            &names,
+        )
     }
 }

@@ -306,7 +306,11 @@ fn no_interval_stands_where_the_papers_rule_stops() {
     assert!(matches!(found.found.history, History::Paper(_)));
     let withheld = Err(Withheld::NoOptimum);
     assert!(intervals(&found).iter().all(|one| *one == withheld));
-    assert!(found.trust.of(Kind::NoOptimum).next().is_some());
+    let said = found.trust.all().iter().map(Concern::words);
+    assert!(
+        said.into_iter()
+            .any(|words| words.contains("minimum of weighted steps alone"))
+    );
 }
 
 #[test]

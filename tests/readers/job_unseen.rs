@@ -261,7 +261,12 @@ fn of_equal_roots_as_few_as_possible_are_seen() {
         residual_vectors: 0,
     };
     let found = model
-        .analyze(&[], &sensors, (&seen, |cross, _| pair_modes(cross)), size)
+        .analyze(
+            &[],
+            &sensors,
+            (&seen, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+            size,
+        )
         .expect("an analysis");
     for mode in 0..4 {
         let (one, other) = (found.omega_squared()[mode], test.omega_squared()[mode]);

@@ -1,5 +1,6 @@
 //! A user's files: decks, matrices, tests, NASTRAN-95's formats, jobs.
 
+pub mod checks;
 mod close_modes;
 pub mod complex_modes;
 pub mod deck;
@@ -18,6 +19,7 @@ pub mod garteur;
 pub mod job_concerns;
 pub mod job_errors;
 pub mod job_matrices;
+pub mod job_pairs;
 pub mod job_parts;
 pub mod job_prepared;
 pub mod job_results;
@@ -46,3 +48,4 @@ mod test_data_axes;
 pub mod test_data_csv;
 pub mod test_data_pyuff;
 pub mod test_data_universal;
+pub mod twice;

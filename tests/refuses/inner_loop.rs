@@ -63,7 +63,7 @@ impl Uncoupled<'_> {
         let found = whole.analyze(
             &[1.0],
             &sensors,
-            (&test, |cross, _| pair_modes(cross)),
+            (&test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
             BasisSize {
                 modes: mass.nrows(),
                 residual_vectors: 0,

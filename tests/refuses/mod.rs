@@ -1,5 +1,6 @@
 //! What constructors and functions of the library refuse.
 
+mod hostile;
 pub mod appendix_c;
 pub mod appendix_c_general;
 pub mod inner_loop;

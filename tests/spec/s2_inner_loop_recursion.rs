@@ -101,7 +101,7 @@ fn mass_that_is_taken_whole_loses_the_root() {
     let model = whole.analyze(
         &[1.0],
         &sensors,
-        (&test, |cross, _| pair_modes(cross)),
+        (&test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
         BasisSize {
             modes: 2,
             residual_vectors: 0,

@@ -339,8 +339,8 @@ impl Run {
 
     fn at_sensors(&self, system: &System, sensing: &Sensing) -> Result<Correlation, Error> {
         let (model, pair): (_, Pair) = match sensing.is_greedy {
-            true => (system.whole()?, |cross, _| pair_modes(cross)),
-            false => (system.whole()?, pair_all),
+            true => (system.whole()?, Pair::by(|of| pair_modes(of.cross))),
+            false => (system.whole()?, Pair::by(|of| pair_all(of.cross))),
         };
         let sensors = sensors_at(&sensing.rows, model.dof_count());
         let found = model.modes(&system.truth(), self.test_modes)?;
@@ -351,7 +351,7 @@ impl Run {
                 modes: self.test_modes + 2,
                 residual_vectors: sensing.further,
             };
-            let model = model.analyze(factors, &sensors, (&test, pair), size)?;
+            let model = model.analyze(factors, &sensors, (&test, pair.clone()), size)?;
             match sensing.is_weighted {
                 true => model.weighted(&weights),
                 false => Ok(model),
@@ -469,7 +469,7 @@ fn weight(mode: usize) -> ModeWeight {
 }
 
 /// The pairing of all modes at once, as a job's.
-fn pair_all(cross: &DMatrix<f64>, _: &DMatrix<f64>) -> Result<Pairing, Error> {
+fn pair_all(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
     let partners = pair_optimally(&cross.component_mul(cross), 0.0)?;
     let modes: Vec<usize> = partners.into_iter().flatten().collect();
     let signs = modes.iter().enumerate();

@@ -140,7 +140,7 @@ pub fn analyze(
     model.analyze(
         factors,
         sensors,
-        (test, |cross, _| pair_modes(cross)),
+        (test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
         BasisSize {
             modes: POINTS,
             residual_vectors: 0,

@@ -350,7 +350,7 @@ fn modes_far_off_in_frequency_do_not_explain_a_reversed_sensor() {
         let mut test = chain.test.clone();
         alter(&mut test, |_, shapes| shapes.row_mut(sensor).neg_mut());
         let (settings, names) = (Settings::default(), Names::default());
-        let found = preflight_at_sensors(&seen, &test, &settings, &[], &names).unwrap();
+        let found = preflight_at_sensors(&seen, (&test, &[]), &settings, &[], &names).unwrap();
         let reversed = Change::Reversed(sensor);
         assert!(
             found.iter().any(|own| is_of(own, &reversed)),

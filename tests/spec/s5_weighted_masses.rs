@@ -85,7 +85,7 @@ impl Net {
     fn analyze(&self, factors: &[f64]) -> Result<SensorModel, Error> {
         let test = (
             &self.test,
-            (|cross, _| pair_modes(cross)) as corfem::sparse::Pair,
+            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
         );
         self.model.analyze(
             factors,

@@ -34,8 +34,8 @@ pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
     let entries = entries.flat_map(|(element, &size)| stiffness_entries(element, size));
     let stiffness = SparseMatrix::new("stiffness", free.len(), free.len(), entries.collect())?;
     let support = support(&structure, &elements)?;
-    let found = whole_modes(&stiffness, at, most, &support, |row| row_name(row, free)).map_err(
-        |error| match error {
+    let mut found = whole_modes(&stiffness, at, most, &support, |row| row_name(row, free))
+        .map_err(|error| match error {
             // A motion with neither stiffness nor mass.
             Error::NotPositiveDefinite {
                 what: "mass of rigid-body motions",
@@ -45,10 +45,10 @@ pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
                 direction: DIRECTIONS[free[row].direction],
             },
             other => other,
-        },
-    )?;
+        })?;
     if found.rigid_body == 0 && found.modes.len() < most.min(found.dof.len()) {
         check_count(found.modes.len(), model.mass_dof(&structure)?)?;
+        found.counted = Some(found.modes.len());
     }
     Ok(found)
 }

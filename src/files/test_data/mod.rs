@@ -74,6 +74,10 @@ pub struct TestData {
     pub phase_collinearity: Vec<f64>,
     /// Lines of the wire frame of the test, as pairs of grid numbers.
     pub lines: Vec<[usize; 2]>,
+    /// The numbers that the file gives its modes, in its order, if they differ and are not 1, 2, 3 and so on.
+    pub numbers: Vec<usize>,
+    /// Lengths to a meter by the file's factor, and by the unit that it names, if both are known.
+    pub lengths_to_meter: Option<[f64; 2]>,
     /// The file's units in its own words, if it says; nothing is converted.
     pub units: Option<String>,
     /// Names of the sensors of a Universal File that are left out because some mode has no value at them.

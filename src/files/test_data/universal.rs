@@ -26,6 +26,14 @@ use std::f64::consts::PI;
 
 /// Column widths of a node in dataset 15.
 const NODE: [usize; 7] = [INTEGER, INTEGER, INTEGER, INTEGER, REAL, REAL, REAL];
+/// Lengths to a meter of the systems of units, by code.
+const LENGTHS: [(&[usize], f64); 5] = [
+    (&[1, 3], 1.0),
+    (&[2, 4], 3.280_84),
+    (&[5, 8, 10], 1000.0),
+    (&[6], 100.0),
+    (&[7], 39.370_1),
+];
 /// Kinds of data that are a mode shape: unknown, general, displacement, velocity, acceleration.
 const SHAPES: [usize; 5] = [0, 1, 8, 11, 12];
 
@@ -150,9 +158,12 @@ impl FoundModes {
             .trim()
             .to_owned(),
         );
-        block
-            .reals("three factors of units", &[LONG_REAL; 3])
-            .map(drop)
+        let factors = block.reals("three factors of units", &[LONG_REAL; 3])?;
+        let code = line.chars().take(INTEGER).collect::<String>();
+        let code = code.trim().parse::<usize>().unwrap_or_default();
+        let known = LENGTHS.iter().find(|(codes, _)| codes.contains(&code));
+        self.data.lengths_to_meter = known.map(|(_, length)| [factors[0], *length]);
+        Ok(())
     }
 
     /// Dataset 55 or 2414, if it is a mode. The latter has a label, a name and a location in front (1, data at nodes), two lines of
@@ -191,7 +202,11 @@ impl FoundModes {
                  {count} values of type {data_type}"
             )));
         }
-        block.line("the integers that describe a mode")?;
+        let line = block.line("the integers that describe a mode")?;
+        // Behind a load case in dataset 55, and behind five sets and cases in 2414.
+        let place = if is_analysis { 5 } else { 3 };
+        let number = line.split_whitespace().nth(place);
+        let number = number.and_then(|number| number.parse().ok());
         let what = "a frequency, or a complex eigenvalue";
         let root = if is_analysis {
             block.line("the integers that describe a mode")?;
@@ -235,6 +250,7 @@ impl FoundModes {
         }
         self.complex |= parts == 2;
         self.data.frequencies_hz.push(frequency);
+        self.data.numbers.push(number.unwrap_or_default());
         self.shapes.push(shape);
         Ok(())
     }
@@ -318,6 +334,12 @@ impl FoundModes {
                 axis,
                 place,
             });
+        }
+        // Numbers that are no others than the places, or that do not tell modes apart, say nothing.
+        let once: BTreeSet<usize> = data.numbers.iter().copied().collect();
+        let are_places = data.numbers.iter().copied().eq(1..=data.numbers.len());
+        if are_places || once.len() < data.numbers.len() || once.contains(&0) {
+            data.numbers.clear();
         }
         data.skipped.sort_unstable();
         data.skipped.dedup();

@@ -16,14 +16,15 @@ pub use readings::SeenModes;
 pub use shapes::Change;
 pub use words::Names;
 
-use crate::job::concern::{Concern, Kind};
+use crate::job::concern::{Check, Concern, Kind};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::Modes;
 use crate::method::outer_loop::Settings;
-use crate::method::sorting::{Pairing, pair_modes};
+use crate::method::sorting::pair_modes;
 use crate::method::step::Bounds;
 use crate::sparse::modal_assurance;
+use crate::weighted::noise::Noise;
 use nalgebra::DMatrix;
 use readings::explain;
 use shapes::changed;
@@ -38,6 +39,9 @@ const SAME_FREQUENCY: f64 = 0.02;
 pub const LEAST_SINGULAR: f64 = 0.3;
 /// Tolerance beyond which a percentage was probably meant: a fifth of the frequency, or of the largest component.
 pub const LARGEST_TOLERANCE: f64 = 0.2;
+
+/// Why test modes have no partners that could be compared.
+pub(in crate::job) const FEWER: &str = "the model has fewer modes than the test";
 
 /// Two test modes of nearly the same shape.
 struct Copies {
@@ -88,13 +92,12 @@ fn distinct_shapes(test: &Modes) -> Result<(Vec<usize>, Vec<Copies>), Error> {
 fn judge_frequencies(
     test: &Modes,
     analysis_hz: &[f64],
-    pairing: &Pairing,
+    partners: &[usize],
     places: &[usize],
     names: &Names,
 ) -> Vec<Concern> {
     let mut test = test.frequencies_hz();
-    let partners = pairing.analysis_mode.iter();
-    let analysis: Vec<f64> = partners.map(|&mode| analysis_hz[mode]).collect();
+    let analysis: Vec<f64> = partners.iter().map(|&mode| analysis_hz[mode]).collect();
     // Modes are numbered as their frequencies ascend: only where these do not may two be exchanged.
     let found = frequencies::exchanged(&test, &analysis)
         .filter(|found| test[found.modes[0]] > test[found.modes[1]]);
@@ -115,39 +118,79 @@ fn judge_frequencies(
     exchanged.into_iter().chain(common).collect()
 }
 
-/// Checks a test against a model's modes at its sensors; no condensed model is needed, so structures may hang free.
+/// Checks a test, with the deviations of every mode or none, against a model's modes at its sensors; no condensed model is needed, so structures
+/// may hang free.
 ///
 /// # Errors
 /// The errors of the comparison of shapes.
 pub fn preflight_at_sensors(
     seen: &SeenModes,
-    test: &Modes,
+    (test, noise): (&Modes, &[Noise]),
     settings: &Settings,
     ranges: &[Option<Bounds>],
     names: &Names,
 ) -> Result<Vec<Concern>, Error> {
     // A mode measured twice has no second partner. A sensor that drowns all others makes shapes alike, but not frequencies.
-    let copies = distinct_shapes(test)?.1;
+    let copies = match test.shapes.nrows() {
+        1 => Vec::new(),
+        _ => distinct_shapes(test)?.1,
+    };
     let is_copy = |mode: &usize| {
         let mut twice = copies.iter().filter(|copies| copies.is_measured_twice());
         twice.any(|copies| copies.modes[1] == *mode)
     };
     let once: Vec<usize> = (0..test.len()).filter(|mode| !is_copy(mode)).collect();
-    let suspected = explain(seen, &test.select(&once))?;
+    let of_once = once.iter().filter_map(|&mode| noise.get(mode).copied());
+    let of_once: Vec<Noise> = of_once.collect();
+    let told = explain(seen, (&test.select(&once), &of_once))?;
+    let suspected = told.mistake;
     let mut test = test.clone();
     if let Some((change, _)) = &suspected {
         test.shapes = changed(&test.shapes, change);
     }
-    let (places, copies) = distinct_shapes(&test)?;
-    let mut concerns: Vec<Concern> = copies.iter().map(|copies| copies.concern(names)).collect();
-    let test = test.select(&places);
+    let mut concerns: Vec<Concern> = Vec::new();
+    let both = [Check::Readings, Check::Directions];
+    concerns.extend(told.silent.map(|reason| Check::skipped(&both, reason)));
+    let unnoticed: Vec<String> = told
+        .unnoticed
+        .iter()
+        .map(|&own| names.sensor(own))
+        .collect();
+    if !unnoticed.is_empty() {
+        let reason = format!("one reversed would not show at {}", unnoticed.join(", "));
+        concerns.push(Check::skipped(&[Check::Readings], &reason));
+    }
     // At one sensor all shapes are alike, and say nothing of partners.
-    if test.shapes.nrows() > 1 && test.len() <= seen.modes.len() {
-        let pairing = pair_modes(&modal_assurance(&seen.modes.shapes, &test.shapes)?)?;
+    let alike = "at one sensor all shapes are alike";
+    let is_one = test.shapes.nrows() == 1;
+    let (places, copies) = match is_one {
+        true => ((0..test.len()).collect(), Vec::new()),
+        false => distinct_shapes(&test)?,
+    };
+    concerns.extend(is_one.then(|| Check::skipped(&[Check::Copies], alike)));
+    concerns.extend(copies.iter().map(|copies| copies.concern(names)));
+    let test = test.select(&places);
+    if is_one || test.len() > seen.modes.len() {
+        let reason = if is_one { alike } else { FEWER };
+        let both = [Check::CommonFactor, Check::OrderOfFrequencies];
+        concerns.push(Check::skipped(&both, reason));
+    } else {
         let analysis = seen.modes.frequencies_hz();
-        concerns.extend(judge_frequencies(
-            &test, &analysis, &pairing, &places, names,
-        ));
+        let judge =
+            |partners: &[usize]| judge_frequencies(&test, &analysis, partners, &places, names);
+        let likely = |place: &usize| {
+            let at = once.binary_search(place).ok()?;
+            Some(told.partners.as_ref()?[at])
+        };
+        let assurance = modal_assurance(&seen.modes.shapes, &test.shapes)?;
+        let mut found = judge(&pair_modes(&assurance)?.analysis_mode);
+        // Shapes of two modes may be one at the sensors: what the likely partners do not say too is their mistake.
+        if let Some(likely) = places.iter().map(likely).collect::<Option<Vec<_>>>() {
+            let is_order = |own: &Concern| own.kind == Kind::FrequenciesExchanged;
+            let also: Vec<bool> = judge(&likely).iter().map(is_order).collect();
+            found.retain(|own| also.contains(&is_order(own)));
+        }
+        concerns.extend(found);
     }
     concerns.extend(suspected.map(|(change, evidence)| change.concern(evidence, names)));
     if test.len() > test.shapes.nrows() {
@@ -174,7 +217,11 @@ fn too_many_modes(shapes: &DMatrix<f64>) -> Result<Option<Concern>, Error> {
 }
 
 /// Concerns about tolerances that look like percent and about bounds.
-fn check_settings(settings: &Settings, ranges: &[Option<Bounds>], names: &Names) -> Vec<Concern> {
+pub(in crate::job) fn check_settings(
+    settings: &Settings,
+    ranges: &[Option<Bounds>],
+    names: &Names,
+) -> Vec<Concern> {
     let tolerances = [
         ("inner.tolerance", settings.inner.tolerance),
         ("later_inner_tolerance", settings.later_inner_tolerance),

@@ -4,34 +4,37 @@
 //!
 //! $$ \Delta v_i = \sum_e \delta_e \sum_{l \ne i} \frac{v_l^t K_e v_i}{\lambda_i - \lambda_l} v_l , \qquad \lambda = \omega^2 . $$
 //!
-//! With $\delta_e$ independent, of deviation [`MODEL_ERROR`], and noise of [`NOISE`] on every reading, a test shape that came from
+//! With $\delta_e$ independent, of deviation [`MODEL_ERROR`], and noise on every reading, a test shape that came from
 //! mode i is a sum of modes whose parts q have a known covariance W, and ridge regression finds them and the misfit,
 //!
 //! $$ q = G_i V^t x , \qquad G_i = (V^t V + \sigma^2 W^{-1})^{-1}, \qquad
 //! \rho = \frac{x^t x - x^t V q}{\sigma^2 q_i^2} , $$
 //!
-//! with the part of mode i itself free. Close modes mix freely, so clusters are compared as subspaces. No mass is needed: free
+//! with the part of mode i itself free. A density that is spread wider is lower: its d numbers, but for the scale, cost
+//! $\ln \sigma \lvert q_i \rvert$ each, or a mode of which the sensors hardly see anything would explain any shape as noise. Close modes mix freely, so clusters are compared as subspaces. No mass is needed: free
 //! structures and light points are judged like others.
 
 use super::order::{matched, unit};
 use super::shapes::{Change, changed};
 use crate::job::assignment::pair_optimally;
+use crate::job::likelihood::Frequencies;
 use crate::method::error::Error;
 use crate::method::modes::Modes;
-use crate::sparse::{ParameterMatrix, solve_lower};
+use crate::sparse::{ParameterMatrix, parts_of, solve_lower};
+use crate::weighted::noise::Noise;
 use nalgebra::{Cholesky, DMatrix, DVector, DVectorView, Dyn, RowDVector};
 
-/// Standard deviation of a reading over the largest of its mode.
-const NOISE: f64 = 0.01;
+/// Least standard deviations of a reading, over the largest of its mode, and of a frequency: what first order and parameters leave out is
+/// no less, however small the noise.
+const LEAST: Noise = Noise {
+    shape: 0.01,
+    frequency: 0.005,
+};
 /// Standard deviation of a parameter's factor in a first model.
 const MODEL_ERROR: f64 = 0.3;
 /// The same of stiffness that no parameter scales; what it does is bounded by
 /// $\lvert v_l^t \Delta K v_i \rvert \le \delta \sqrt{\lambda_l \lambda_i}$ (Cauchy and Schwarz).
 const OTHER_ERROR: f64 = 0.003;
-/// Standard deviation of a test's frequency, relative to it.
-const FREQUENCY_NOISE: f64 = 0.005;
-/// Most that a frequency costs a pair: beyond, something else is wrong with it, which shapes alone must tell.
-const MOST_BY_FREQUENCY: f64 = 20.0;
 /// Share of right tests in which a mistake may be named.
 const FALSE_ALARMS: f64 = 1e-3;
 /// A gain closer to one than this factor may be the model's.
@@ -58,44 +61,36 @@ type Partners = Vec<Option<(usize, f64)>>;
 /// What the readings of a test mode may be if it came from one mode of the model or another.
 struct Likelihood {
     shapes: DMatrix<f64>,
-    /// $\sigma^2 W^{-1}$ of every mode.
+    /// $W^{-1}$ of every mode.
     priors: Vec<DMatrix<f64>>,
     /// $G_i^{-1} = L L^t$ of every mode i, and the column i of $L^{-1}$.
     ridges: Vec<(Cholesky<f64, Dyn>, DVector<f64>)>,
+    /// The root of the mean square of the test modes' deviations, and with it the noise of a reading by mode of the model.
+    common: f64,
     noise: Vec<f64>,
+    /// The deviation of every test mode's readings over that.
+    times: Vec<f64>,
     /// The negative logarithm of the likelihood of every test mode's frequency (columns), if it came from each mode (rows).
     frequencies: DMatrix<f64>,
 }
 
-/// $\frac{1}{2} z^2 + \ln t$ of every mode (rows) and frequency, with
-/// $z = \frac{1}{t} \ln \frac{f_j}{f_i}$ and $t^2 = \sigma_f^2 + \sum_e (\frac{1}{2} \delta_e s_{ei})^2$, where $s_{ei}$ is the share
-/// of parameter e in the squared frequency of mode i.
-fn costs_of_frequencies(seen: &SeenModes, test_hz: &[f64]) -> DMatrix<f64> {
-    let (squares, hertz) = (seen.modes.omega_squared(), seen.modes.frequencies_hz());
-    let deviation = |mode: usize| {
-        let share = |share: &ParameterMatrix| match share {
-            ParameterMatrix::Stiffness(share) => share[(mode, mode)] / squares[mode],
-            ParameterMatrix::Mass(share) => share[(mode, mode)],
-        };
-        let moved = seen.shares.iter().map(share);
-        let moved = moved.map(|share| (0.5 * MODEL_ERROR * share).powi(2));
-        (FREQUENCY_NOISE.powi(2) + moved.sum::<f64>()).sqrt()
-    };
-    let deviations: Vec<f64> = (0..hertz.len()).map(deviation).collect();
-    DMatrix::from_fn(hertz.len(), test_hz.len(), |mode, test| {
-        let apart = (test_hz[test] / hertz[mode]).ln() / deviations[mode];
-        (0.5 * apart * apart).min(MOST_BY_FREQUENCY) + deviations[mode].ln()
-    })
-}
-
 impl Likelihood {
-    fn new(seen: &SeenModes, test_hz: &[f64]) -> Option<Self> {
+    fn new(seen: &SeenModes, hertz: &[f64], noise: &[Noise]) -> Option<Self> {
+        let own = |mode: usize| noise.get(mode).copied().unwrap_or(LEAST);
+        let deviations = (0..hertz.len()).map(|mode| own(mode).shape.max(LEAST.shape));
+        let deviations: Vec<f64> = deviations.collect();
+        let squares = deviations.iter().map(|own| own * own).sum::<f64>();
+        let common = (squares / deviations.len().max(1) as f64).sqrt();
+        let test = hertz.iter().enumerate();
+        let test = test.map(|(mode, hertz)| [*hertz, own(mode).frequency.max(LEAST.frequency)]);
+        let frequencies = Frequencies {
+            test: test.collect(),
+            spreads: vec![MODEL_ERROR; seen.shares.len()],
+        };
+        let frequencies =
+            frequencies.costs(&seen.modes, &parts_of(&seen.shares, None, &seen.modes));
         let shapes = seen.modes.shapes().clone();
         let squares = seen.modes.omega_squared();
-        let noise: Vec<f64> = shapes
-            .column_iter()
-            .map(|shape| NOISE * shape.amax())
-            .collect();
         let prior = |mode: usize| {
             let own = squares[mode];
             let column = |share: &ParameterMatrix| match share {
@@ -133,15 +128,17 @@ impl Likelihood {
             covariance[(mode, mode)] = 1.0;
             let mut inverse = Cholesky::new(covariance)?.inverse();
             inverse[(mode, mode)] = 0.0;
-            Some(inverse * noise[mode].powi(2))
+            Some(inverse)
         };
         let priors = (0..squares.len()).map(prior).collect::<Option<_>>()?;
         Self {
             shapes: DMatrix::zeros(0, 0),
             priors,
             ridges: Vec::new(),
-            noise,
-            frequencies: costs_of_frequencies(seen, test_hz),
+            common,
+            noise: Vec::new(),
+            times: deviations.iter().map(|own| own / common).collect(),
+            frequencies,
         }
         .with(shapes)
     }
@@ -149,8 +146,10 @@ impl Likelihood {
     /// The same with other readings of the model's modes, or fewer.
     fn with(&self, shapes: DMatrix<f64>) -> Option<Self> {
         let gram = shapes.tr_mul(&shapes);
+        let noise = shapes.column_iter().map(|own| self.common * own.amax());
+        let noise: Vec<f64> = noise.collect();
         let ridge = |(mode, prior): (usize, &DMatrix<f64>)| {
-            let ridge = Cholesky::new(&gram + prior)?;
+            let ridge = Cholesky::new(&gram + noise[mode].powi(2) * prior)?;
             let mut own = DMatrix::zeros(gram.nrows(), 1);
             own[mode] = 1.0;
             let own = solve_lower(ridge.l_dirty(), own).column(0).into_owned();
@@ -161,13 +160,15 @@ impl Likelihood {
             ridges: priors.map(ridge).collect::<Option<_>>()?,
             shapes,
             priors: self.priors.clone(),
-            noise: self.noise.clone(),
+            common: self.common,
+            noise,
+            times: self.times.clone(),
             frequencies: self.frequencies.clone(),
         })
     }
 
     /// The negative logarithm of the likelihood of every test mode (columns), if it came from each mode (rows), and the part $q_i$ of
-    /// that mode. That of its shape is Student's, whose tails leave room for noise above [`NOISE`] and for modes that the model does not have.
+    /// that mode. That of its shape is Student's, whose tails leave room for more noise and for modes that the model does not have.
     fn of_shapes(&self, test: &DMatrix<f64>) -> [DMatrix<f64>; 2] {
         let (products, freedom) = (self.shapes.tr_mul(test), test.nrows().max(2) as f64 - 1.0);
         let squares: Vec<f64> = test
@@ -182,9 +183,10 @@ impl Likelihood {
             for (shape, half) in halves.column_iter().enumerate() {
                 let part = own.dot(&half);
                 let left = (squares[shape] - half.norm_squared()).max(0.0);
-                let misfit = left / (self.noise[mode] * part).powi(2);
-                let misfit = if misfit.is_finite() { misfit } else { f64::MAX };
-                let by_shape = 0.5 * freedom * (misfit / freedom).ln_1p();
+                // ρ σ² q² at the noise σ q: the logarithms of 1 + ρ/(d - 1) and of σ q are one.
+                let noise = self.times[shape] * self.noise[mode] * part;
+                let spread = noise * noise + left / freedom;
+                let by_shape = 0.5 * freedom * spread.max(f64::MIN_POSITIVE).ln();
                 costs[(mode, shape)] = by_shape + self.frequencies[(mode, shape)];
                 parts[(mode, shape)] = part;
             }
@@ -214,7 +216,8 @@ impl Likelihood {
         let [mut costs, parts] = self.of_shapes(test);
         for test in 0..test.ncols() {
             for (mode, noise) in self.noise.iter().enumerate() {
-                costs[(mode, test)] += adds(test, noise * parts[(mode, test)].abs());
+                let size = self.times[test] * parts[(mode, test)].abs();
+                costs[(mode, test)] += adds(test, noise * size);
             }
         }
         let dearest = costs.max() + 1.0;
@@ -233,21 +236,73 @@ impl Likelihood {
     }
 }
 
-/// The single mistake that explains the test best, if it does so well enough, and by which factor it makes the test more likely, as
-/// a decimal logarithm.
+/// What readings tell of a test.
+#[derive(Default)]
+pub(super) struct Told {
+    /// The single mistake that explains the test best, if it does so well enough, and by which factor it makes the test more likely, as
+    /// a decimal logarithm.
+    pub(super) mistake: Option<(Change, f64)>,
+    /// Sensors that could be reversed in an exact test of the model without a word.
+    pub(super) unnoticed: Vec<usize>,
+    /// The mode of the model that every test mode most likely is, if all have one.
+    pub(super) partners: Option<Vec<usize>>,
+    /// The reason why they tell nothing, if they do not.
+    pub(super) silent: Option<&'static str>,
+}
+
+/// What readings tell: the single mistake that explains the test best, and what no test could tell.
 ///
 /// A right test is more than $e^T$ times as likely with a given mistake as without in at most $e^{-T}$ of all tests (Markov's
 /// inequality), so H mistakes tried need $T = \ln(H / \alpha)$ for false alarms in a share $\alpha$.
 ///
 /// # Errors
 /// Those of [`pair_optimally`].
-pub(super) fn explain(seen: &SeenModes, test: &Modes) -> Result<Option<(Change, f64)>, Error> {
+pub(super) fn explain(seen: &SeenModes, (test, noise): (&Modes, &[Noise])) -> Result<Told, Error> {
     let (hertz, test) = (test.frequencies_hz(), test.shapes());
     let sensors = test.nrows();
-    let Some(model) = Likelihood::new(seen, &hertz).filter(|_| sensors > 2) else {
-        return Ok(None);
+    let silent = |reason| {
+        Ok(Told {
+            silent: Some(reason),
+            ..Told::default()
+        })
     };
-    let before = model.misfit(test)?;
+    if sensors <= 2 {
+        return silent("two sensors tell no mistake of one");
+    }
+    let Some(model) = Likelihood::new(seen, &hertz, noise) else {
+        return silent("the sensors do not tell the modes of the model apart");
+    };
+    let (before, partners) = model.of_test(test, |_, _| 0.0)?;
+    let tried = tried(seen, &model, test)?;
+    let enough = (tried.len() as f64 / FALSE_ALARMS).ln();
+    let best = tried.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
+    let mistake = best
+        .map(|(change, after)| (change, before - after))
+        .filter(|(_, gain)| *gain > enough)
+        .map(|(change, gain)| (change, gain / std::f64::consts::LN_10));
+    let unnoticed = unnoticed(&model, &partners, enough)?;
+    let right = match &mistake {
+        Some((change, _)) => model.of_test(&changed(test, change), |_, _| 0.0)?.1,
+        None => partners,
+    };
+    let right = right
+        .into_iter()
+        .map(|partner| partner.map(|(mode, _)| mode));
+    Ok(Told {
+        mistake,
+        partners: right.collect(),
+        unnoticed,
+        silent: None,
+    })
+}
+
+/// Changes of a test, each with the negative logarithm of its likelihood with the change.
+fn tried(
+    seen: &SeenModes,
+    model: &Likelihood,
+    test: &DMatrix<f64>,
+) -> Result<Vec<(Change, f64)>, Error> {
+    let sensors = test.nrows();
     let mut tried: Vec<(Change, f64)> = Vec::new();
     let mut others: Vec<(f64, usize)> = Vec::new();
     let try_change = |tried: &mut Vec<(Change, f64)>, change: Change, costs: f64| {
@@ -267,18 +322,19 @@ pub(super) fn explain(seen: &SeenModes, test: &Modes) -> Result<Option<(Change, 
         let size = expected.iter().map(|value| value * value).sum::<f64>();
         if readings.norm_squared() < DEAD * DEAD * size {
             let noise_alone = |test: usize, noise: f64| {
-                0.5 * (readings[test] / noise.max(f64::MIN_POSITIVE))
-                    .powi(2)
-                    .min(1e9)
+                let noise = noise.max(f64::MIN_POSITIVE);
+                0.5 * (readings[test] / noise).powi(2).min(1e9) + noise.ln()
             };
             let (misfit, _) = without.of_test(&rest, noise_alone)?;
             tried.push((Change::Dead(sensor), misfit));
         }
-        // Every mode's own ratio is a candidate; choosing among them costs the logarithm of their number.
+        // Every mode's own ratio is a candidate; choosing among them costs the logarithm of their number, and readings so many times as
+        // large are spread as much wider.
         for (reading, expected) in readings.iter().zip(&expected) {
             let gain = reading / expected;
             if gain.is_finite() && gain > DEAD && gain.max(1.0 / gain) > LEAST_GAIN {
-                let costs = (test.ncols() as f64).ln();
+                let modes = test.ncols() as f64;
+                let costs = modes.ln() + modes * gain.ln();
                 try_change(&mut tried, Change::Gain(sensor, gain), costs)?;
             }
         }
@@ -299,15 +355,27 @@ pub(super) fn explain(seen: &SeenModes, test: &Modes) -> Result<Option<(Change, 
     }
     // There are as many orders as the factorial says.
     let orders: f64 = (2..=sensors).map(|count| (count as f64).ln()).sum();
-    for order in [(0..sensors).rev().collect(), ordered(&model, test)?] {
+    for order in [(0..sensors).rev().collect(), ordered(model, test)?] {
         try_change(&mut tried, Change::Reordered(order), orders)?;
     }
-    let enough = (tried.len() as f64 / FALSE_ALARMS).ln();
-    let best = tried.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
-    Ok(best
-        .map(|(change, after)| (change, before - after))
-        .filter(|(_, gain)| *gain > enough)
-        .map(|(change, gain)| (change, gain / std::f64::consts::LN_10)))
+    Ok(tried)
+}
+
+/// Sensors that could be reversed in an exact test of these modes without a gain that is enough.
+fn unnoticed(model: &Likelihood, partners: &Partners, enough: f64) -> Result<Vec<usize>, Error> {
+    let all: Option<Vec<usize>> = partners.iter().map(|partner| Some((*partner)?.0)).collect();
+    let Some(modes) = all else {
+        return Ok(Vec::new());
+    };
+    let exact = model.shapes.select_columns(&modes);
+    let (right, mut found) = (model.misfit(&exact)?, Vec::new());
+    for sensor in 0..exact.nrows() {
+        let reversed = model.misfit(&changed(&exact, &Change::Reversed(sensor)))?;
+        if reversed - right <= enough {
+            found.push(sensor);
+        }
+    }
+    Ok(found)
 }
 
 /// The order of the test's points that looks most like the model's: at first by the size of what every point does in the lowest

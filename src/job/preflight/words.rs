@@ -21,7 +21,7 @@ fn name(names: &[String], place: usize) -> String {
 }
 
 impl Names {
-    fn sensor(&self, place: usize) -> String {
+    pub(super) fn sensor(&self, place: usize) -> String {
         name(&self.sensors, place)
     }
 

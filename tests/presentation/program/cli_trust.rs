@@ -18,7 +18,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Every kind of concern, in order.
-const KINDS: [Kind; Kind::UnitsOfTest as usize + 1] = {
+pub const KINDS: [Kind; Kind::UnitsOfTest as usize + 1] = {
     use Kind::*;
     [
         Interrupted,
@@ -37,6 +37,9 @@ const KINDS: [Kind; Kind::UnitsOfTest as usize + 1] = {
         Percent,
         ExcludesStart,
         UnitOfPlaces,
+        OtherGrid,
+        NumberedOtherwise,
+        UnitsDisagree,
         NoPair,
         BeyondReach,
         NegativePart,
@@ -48,6 +51,8 @@ const KINDS: [Kind; Kind::UnitsOfTest as usize + 1] = {
         PartnerTaken,
         WouldHarm,
         OutOfReach,
+        NotChecked,
+        PartNotChecked,
         Parallel,
         Dependent,
         Undecided,
@@ -63,10 +68,8 @@ const KINDS: [Kind; Kind::UnitsOfTest as usize + 1] = {
         MassByDirection,
         CenterOfMass,
         ChiSquared,
+        Misfit,
         BelowNoise,
-        NoOptimum,
-        NoMinimum,
-        NoEnd,
         HeldOut,
         HeldOutFrequency,
         Unanswered,
@@ -75,7 +78,7 @@ const KINDS: [Kind; Kind::UnitsOfTest as usize + 1] = {
         LooseWithoutSensor,
         HeldDirection,
         SuspensionHidden,
-        PartNotChecked,
+        LargeDeviation,
         FarApart,
         Alike,
         TooManyModes,

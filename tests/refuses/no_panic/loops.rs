@@ -37,7 +37,10 @@ fn sensed(d: &mut Draws) -> Result<SensorModel, Error> {
     whole.analyze(
         &[1.0; 2],
         &sensors,
-        (model.test(), |cross, _| pair_modes(cross)),
+        (
+            model.test(),
+            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+        ),
         BasisSize {
             modes: count,
             residual_vectors: 0,

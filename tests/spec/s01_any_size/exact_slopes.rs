@@ -75,7 +75,7 @@ impl Row {
         };
         let test = (
             &self.test,
-            (|cross, _| pair_modes(cross)) as corfem::sparse::Pair,
+            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
         );
         self.model
             .analyze(factors, &self.sensors, test, size)

@@ -79,7 +79,7 @@ impl Net {
     fn analyze(&self, factors: &[f64], further: usize) -> SensorModel {
         let test = (
             &self.test,
-            (|cross, _| pair_modes(cross)) as corfem::sparse::Pair,
+            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
         );
         self.model
             .analyze(
@@ -147,10 +147,7 @@ fn every_spring_has_one_residual_vector() {
             .analyze(
                 &[1.0; 3],
                 &sensors,
-                (
-                    &test,
-                    (|cross, _| pair_modes(cross)) as corfem::sparse::Pair,
-                ),
+                (&test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
                 BasisSize {
                     modes: 4,
                     residual_vectors: 4,

@@ -1,0 +1,412 @@
+//! The pre-flight of whole jobs on five structures that are not shipped: a portal, a girder, a free truss, a plate as matrices and a
+//! cyclic disk, with right tests and with single mistakes in their readings.
+
+use super::readings_rates::normal;
+use crate::common::jobs::{Files, of_whole};
+use crate::common::whole_models::{masses, sparse};
+use crate::readers::job_errors::{placed, with};
+use corfem::job::concern::{Check, Grade};
+use corfem::job::{Concern, Kind, LoadedJob, Trust};
+use corfem::sparse::{WholeModel, WholeParameter, WholeShare};
+use corfem::weighted::noise::Noise;
+use nalgebra::{DMatrix, DVector};
+
+/// Test modes.
+const MODES: usize = 5;
+/// Standard deviation of the logarithm of the true factors.
+const MODEL: f64 = 0.15;
+/// Noise of the tests, which they declare.
+const NOISE: Noise = Noise {
+    shape: 0.01,
+    frequency: 0.005,
+};
+
+/// A mistake in the readings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mistake {
+    /// None.
+    None,
+    /// A sensor the wrong way round.
+    Reversed,
+    /// A sensor that reads 2.5 times too much.
+    Gain,
+    /// A sensor that reads noise.
+    Dead,
+    /// Two sensors exchanged.
+    Exchanged,
+}
+
+/// All of them.
+pub const MISTAKES: [Mistake; 5] = {
+    use Mistake::*;
+    [None, Reversed, Gain, Dead, Exchanged]
+};
+
+/// Matrices of the parameters, the mass of every row, and the rows that sensors read.
+type Built = (Vec<DMatrix<f64>>, Vec<f64>, Vec<usize>);
+
+/// A structure by name, how many motions of a rigid body it has, and what builds it.
+pub const STRUCTURES: [(&str, usize, fn() -> Built); 5] = [
+    ("portal", 0, portal),
+    ("girder", 0, girder),
+    ("free truss", 3, free_truss),
+    ("plate", 0, plate),
+    ("cyclic disk", 0, disk),
+];
+
+/// Bending stiffness of a beam of a length, at the deflections and rotations of its ends.
+fn bending(length: f64, stiffness: f64) -> DMatrix<f64> {
+    let (l, c) = (length, stiffness / length.powi(3));
+    let rows = [
+        [12.0, 6.0 * l, -12.0, 6.0 * l],
+        [6.0 * l, 4.0 * l * l, -6.0 * l, 2.0 * l * l],
+        [-12.0, -6.0 * l, 12.0, -6.0 * l],
+        [6.0 * l, 2.0 * l * l, -6.0 * l, 4.0 * l * l],
+    ];
+    DMatrix::from_fn(4, 4, |row, column| c * rows[row][column])
+}
+
+/// A plane frame of points and members, each of a parameter, without the rows that are held.
+fn frame(
+    points: &[[f64; 2]],
+    members: &[(usize, usize, usize)],
+    parameters: usize,
+    held: &[usize],
+) -> (Vec<DMatrix<f64>>, Vec<f64>, Vec<usize>) {
+    let rows = 3 * points.len();
+    let (mut parts, mut mass) = (
+        vec![DMatrix::zeros(rows, rows); parameters],
+        vec![0.0; rows],
+    );
+    for &(a, b, parameter) in members {
+        let along = [points[b][0] - points[a][0], points[b][1] - points[a][1]];
+        let length = along[0].hypot(along[1]);
+        let (c, s) = (along[0] / length, along[1] / length);
+        let mut own = DMatrix::zeros(6, 6);
+        let across = bending(length, 2e7);
+        for (i, row) in [1, 2, 4, 5].into_iter().enumerate() {
+            for (j, column) in [1, 2, 4, 5].into_iter().enumerate() {
+                own[(row, column)] = across[(i, j)];
+            }
+        }
+        let axial = 3e9 / length;
+        for (row, column, sign) in [(0, 0, 1.0), (3, 3, 1.0), (0, 3, -1.0), (3, 0, -1.0)] {
+            own[(row, column)] = sign * axial;
+        }
+        let mut turn = DMatrix::identity(6, 6);
+        for first in [0, 3] {
+            turn[(first, first)] = c;
+            turn[(first, first + 1)] = s;
+            turn[(first + 1, first)] = -s;
+            turn[(first + 1, first + 1)] = c;
+        }
+        let own = turn.transpose() * own * turn;
+        let places: Vec<usize> = [a, b]
+            .into_iter()
+            .flat_map(|point| 3 * point..3 * point + 3)
+            .collect();
+        for (i, &row) in places.iter().enumerate() {
+            for (j, &column) in places.iter().enumerate() {
+                parts[parameter][(row, column)] += own[(i, j)];
+            }
+            let inertia = if row % 3 == 2 {
+                length * length / 12.0
+            } else {
+                1.0
+            };
+            mass[row] += 125.0 * length * inertia;
+        }
+    }
+    let kept: Vec<usize> = (0..rows).filter(|row| !held.contains(row)).collect();
+    let parts = parts
+        .iter()
+        .map(|part| part.select_rows(&kept).select_columns(&kept))
+        .collect();
+    (parts, kept.iter().map(|row| mass[*row]).collect(), kept)
+}
+
+/// Two columns and a beam, clamped at their feet: sensors along x up the columns and along y on the beam.
+fn portal() -> Built {
+    let mut points: Vec<[f64; 2]> = (0..5).map(|at| [0.0, f64::from(at)]).collect();
+    points.extend((1..6).map(|at| [f64::from(at), 4.0]));
+    points.extend((0..4).map(|at| [5.0, f64::from(3 - at)]));
+    let last = points.len() - 1;
+    let members: Vec<_> = (0..last)
+        .map(|at| {
+            (
+                at,
+                at + 1,
+                match at {
+                    0..2 => 0,
+                    2..4 => 1,
+                    4..6 => 2,
+                    6..9 => 3,
+                    9..11 => 4,
+                    _ => 5,
+                },
+            )
+        })
+        .collect();
+    let held: Vec<usize> = (0..3).chain(3 * last..3 * last + 3).collect();
+    let (parts, mass, kept) = frame(&points, &members, 6, &held);
+    let read = |point: usize, along: usize| {
+        kept.iter()
+            .position(|row| *row == 3 * point + along)
+            .expect("a row")
+    };
+    let sensors = [
+        (1, 0),
+        (2, 0),
+        (3, 0),
+        (5, 1),
+        (6, 1),
+        (7, 1),
+        (8, 1),
+        (10, 0),
+        (11, 0),
+        (12, 0),
+    ];
+    (
+        parts,
+        mass,
+        sensors.map(|(point, along)| read(point, along)).to_vec(),
+    )
+}
+
+/// A girder on two supports, in four parts: sensors along y at every other point.
+fn girder() -> Built {
+    let points: Vec<[f64; 2]> = (0..13).map(|at| [f64::from(at), 0.0]).collect();
+    let members: Vec<_> = (0..12).map(|at| (at, at + 1, at / 3)).collect();
+    let (parts, mass, kept) = frame(&points, &members, 4, &[0, 1, 3 * 12 + 1]);
+    let read = |point: usize| {
+        kept.iter()
+            .position(|row| *row == 3 * point + 1)
+            .expect("a row")
+    };
+    (parts, mass, (1..12).map(read).collect())
+}
+
+/// Six bays of a plane truss that hangs free, a parameter each: sensors along y at every point and along x at the ends.
+fn free_truss() -> Built {
+    let point = |bay: usize, upper: usize| 2 * bay + upper;
+    let place = |at: usize| {
+        [
+            1.2 * (at / 2) as f64,
+            (at % 2) as f64 * (0.8 + 0.05 * (at / 2) as f64),
+        ]
+    };
+    let rows = 28;
+    let mut parts = vec![DMatrix::zeros(rows, rows); 6];
+    let mut rod = |a: usize, b: usize, part: usize| {
+        let along = DVector::from_fn(2, |i, _| place(b)[i] - place(a)[i]);
+        let (length, unit) = (along.norm(), along.normalize());
+        let mut pull = DVector::zeros(rows);
+        for i in 0..2 {
+            pull[2 * a + i] = -unit[i];
+            pull[2 * b + i] = unit[i];
+        }
+        parts[part] += 1e6 / length * &pull * pull.transpose();
+    };
+    for bay in 0..6 {
+        rod(point(bay, 0), point(bay + 1, 0), bay);
+        rod(point(bay, 1), point(bay + 1, 1), bay);
+        rod(point(bay, 0), point(bay + 1, 1), bay);
+        rod(point(bay, 0), point(bay, 1), bay);
+    }
+    rod(point(6, 0), point(6, 1), 5);
+    let mass = (0..rows).map(|row| 8.0 + 0.3 * (row / 4) as f64).collect();
+    let sensors = (0..14).map(|point| 2 * point + 1).chain([0, 24]).collect();
+    (parts, mass, sensors)
+}
+
+/// A plate on four edges by differences, in five strips: the squares of its curvatures.
+fn plate() -> Built {
+    let (across, along) = (5, 7);
+    let count = across * along;
+    let at = |row: usize, column: usize| along * row + column;
+    let mut curvature = DMatrix::zeros(count, count);
+    for row in 0..across {
+        for column in 0..along {
+            let own = at(row, column);
+            curvature[(own, own)] = 4.0;
+            let mut beside = |is_in: bool, other: usize| {
+                if is_in {
+                    curvature[(own, other)] = -1.0;
+                }
+            };
+            beside(row > 0, own.wrapping_sub(along));
+            beside(row + 1 < across, own + along);
+            beside(column > 0, own.wrapping_sub(1));
+            beside(column + 1 < along, own + 1);
+        }
+    }
+    let strip = |strip: usize| {
+        let own = DMatrix::from_fn(count, count, |i, j| {
+            f64::from(u8::from(i == j && i / along == strip))
+        });
+        1e4 * curvature.transpose() * own * &curvature
+    };
+    let sensors = (0..count).filter(|own| own % 2 == 0).collect();
+    ((0..across).map(strip).collect(), vec![2.0; count], sensors)
+}
+
+/// Twelve sectors of a disk with a blade each: every blade and every part of the rim are two parameters' by turns; sensors at the blades.
+fn disk() -> Built {
+    let (sectors, rows) = (12, 24);
+    let mut parts = vec![DMatrix::zeros(rows, rows); 4];
+    let mut spring = |part: usize, a: usize, b: Option<usize>, size: f64| {
+        parts[part][(a, a)] += size;
+        if let Some(b) = b {
+            parts[part][(b, b)] += size;
+            parts[part][(a, b)] -= size;
+            parts[part][(b, a)] -= size;
+        }
+    };
+    for sector in 0..sectors {
+        let next = (sector + 1) % sectors;
+        spring(0, 2 * sector, Some(2 * next), 4e5);
+        spring(1, 2 * sector, None, 5e4);
+        spring(2 + sector / 6, 2 * sector, Some(2 * sector + 1), 6e4);
+    }
+    let mass = (0..rows)
+        .map(|row| if row % 2 == 0 { 3.0 } else { 1.0 })
+        .collect();
+    (
+        parts,
+        mass,
+        (0..sectors).map(|sector| 2 * sector + 1).collect(),
+    )
+}
+
+fn files(model: &WholeModel, parameters: usize, (sensors, rigid): (&[usize], usize)) -> Files {
+    let files = of_whole(model, &vec![1.0; parameters], sensors, MODES, NOISE);
+    let files = with(
+        files,
+        "job.toml",
+        "[[parameter]]",
+        "[compare]\nprior_deviation = 0.3\n[[parameter]]",
+    );
+    match rigid {
+        0 => files,
+        count => with(
+            files,
+            "job.toml",
+            "[test]",
+            &format!("rigid_bodies = {count}\n[test]"),
+        ),
+    }
+}
+
+/// What became of a number of tests with a mistake.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Counts {
+    /// The mistake was named.
+    pub named: usize,
+    /// The account says that it was not checked at a sensor that is wrong.
+    pub not_checked: usize,
+    /// Another doubt was raised.
+    pub other: usize,
+    /// Nothing was said.
+    pub silent: usize,
+}
+
+/// Counts of tests of a structure with a mistake.
+pub fn counts(structure: usize, mistake: Mistake, tests: usize) -> Counts {
+    let (_, rigid, build) = STRUCTURES[structure];
+    let (parts, mass, sensors) = build();
+    let of_part = |(number, part): (usize, &DMatrix<f64>)| WholeParameter {
+        name: format!("p{number}"),
+        share: WholeShare::Stiffness(sparse(part).expect("a part")),
+        range: None,
+    };
+    let parameters: Vec<_> = parts.iter().enumerate().map(of_part).collect();
+    let stiffness = sparse(&parts.iter().sum()).expect("a stiffness");
+    let model = WholeModel::new(stiffness, masses(&mass), parameters).expect("a model");
+    let (_folder, path) = placed(&files(&model, parts.len(), (&sensors, rigid)));
+    let first = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    let (mut found, mut state) = (Counts::default(), 7 + structure as u64);
+    for _ in 0..tests {
+        let truth: Vec<f64> = parts
+            .iter()
+            .map(|_| (MODEL * normal(&mut state)).exp())
+            .collect();
+        let mut loaded = LoadedJob::clone(&first);
+        let wrong = measure(&mut loaded, (&model, &truth, &sensors), mistake, &mut state);
+        let prepared = loaded.prepare().unwrap_or_else(|error| panic!("{error}"));
+        let trust = Trust::before(&prepared).unwrap_or_else(|error| panic!("{error}"));
+        let stands: Vec<&Concern> = trust
+            .all()
+            .iter()
+            .filter(|own| own.grade() == Grade::Doubt)
+            .collect();
+        let (_, readings, ..) = Check::ALL[Check::Readings as usize];
+        let is_open = trust.of(Kind::NotChecked).any(|own| {
+            let said = own.words();
+            said.contains(readings)
+                && (wrong.1.is_empty()
+                    || wrong
+                        .1
+                        .iter()
+                        .any(|name| said.contains(&format!(" {name}"))))
+        });
+        match &stands[..] {
+            [] if is_open => found.not_checked += 1,
+            [] => found.silent += 1,
+            all if all
+                .iter()
+                .any(|own| (own.kind, &own.about) == (wrong.0, &wrong.1)) =>
+            {
+                found.named += 1
+            }
+            _ => found.other += 1,
+        }
+    }
+    found
+}
+
+/// A test of a true model with a mistake: the kind of doubt that names it, and the sensors that it is about.
+fn measure(
+    loaded: &mut LoadedJob,
+    (model, truth, rows): (&WholeModel, &[f64], &[usize]),
+    mistake: Mistake,
+    state: &mut u64,
+) -> (Kind, Vec<String>) {
+    let real = model.modes(truth, MODES).expect("modes").vibrations;
+    let data = &mut loaded.data;
+    let mut shapes = real.shapes().select_rows(rows);
+    for mut shape in shapes.column_iter_mut() {
+        shape /= shape.amax();
+        shape.apply(|own| *own += NOISE.shape * normal(state));
+    }
+    let hertz = real.frequencies_hz().into_iter();
+    data.frequencies_hz = hertz
+        .map(|hertz| hertz * (1.0 + NOISE.frequency * normal(state)))
+        .collect();
+    let a = super::readings_rates::below(state, rows.len());
+    let b = (a + 1 + super::readings_rates::below(state, rows.len() - 1)) % rows.len();
+    let name = |place: usize| data.sensors[place].name.clone();
+    let one = vec![name(a)];
+    let wrong = match mistake {
+        Mistake::None => (Kind::NoPair, Vec::new()),
+        Mistake::Reversed => {
+            shapes.row_mut(a).neg_mut();
+            (Kind::Reversed, one)
+        }
+        Mistake::Gain => {
+            shapes.row_mut(a).scale_mut(2.5);
+            (Kind::Gain, one)
+        }
+        Mistake::Dead => {
+            shapes
+                .row_mut(a)
+                .apply(|own| *own = NOISE.shape * normal(state));
+            (Kind::Dead, one)
+        }
+        Mistake::Exchanged => {
+            shapes.swap_rows(a, b);
+            (Kind::Exchanged, vec![name(a.min(b)), name(a.max(b))])
+        }
+    };
+    data.shapes = shapes;
+    wrong
+}
