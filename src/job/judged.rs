@@ -7,6 +7,7 @@ use super::{LeftOut, PreparedJob};
 use crate::files::error::FileError;
 use crate::method::error_sum::mode_errors;
 use crate::method::step::Bounds;
+use crate::sparse::Deflections;
 use crate::weighted::comparison::Comparison;
 use crate::weighted::gauss_newton::WeightedStop;
 use crate::weighted::identifiability::{Identifiability, identifiability};
@@ -60,7 +61,11 @@ impl CorrelatedJob {
     /// # Errors
     /// The errors of [`Misfit::of`] and [`identifiability`].
     pub(super) fn judge(self, trust: &Trust) -> Result<JobResult, FileError> {
-        let seen = [self.sees(&self.first)?, self.sees(&self.last)?];
+        let last = match &self.history {
+            History::GaussNewton(Some(found)) => found.best.identifiability.clone(),
+            _ => self.sees(&self.last)?,
+        };
+        let seen = [self.sees(&self.first)?, last];
         let mut verdict = self.verdict()?;
         let misfit = self.misfit(&verdict.at_bound)?;
         // Weighted steps are judged by the noise that weighs them.
@@ -183,7 +188,9 @@ impl JobResult {
         let ranges = prepared.loaded.source.whole.ranges();
         let (weights, settings) = (prepared.weights(), prepared.weighted_settings());
         let exact = jacobian(model, &weights)?;
-        let basis = model.model.spread(6 * prepared.modes.len() + 30)?;
+        let basis = model
+            .model
+            .in_basis(Deflections::All(6 * prepared.modes.len() + 30))?;
         let basis = model.in_basis(basis, &exact, &weights)?;
         let follow = |at: &[f64]| {
             let change: Vec<f64> = at.iter().zip(factors).map(|(at, from)| at / from).collect();

@@ -11,7 +11,7 @@ use crate::files::test_data::TestData;
 use crate::method::error::{Error, at_least_one};
 use crate::method::modes::Modes;
 use crate::method::structure::{Element, Material};
-use crate::sparse::{SparseMatrix, Whole, WholeParameter, WholeShare, no_modes};
+use crate::sparse::{Place, SparseMatrix, WholeParameter, WholeShare, no_modes};
 use crate::weighted::comparison::LoneFrequency;
 use crate::weighted::noise::Noise;
 use crate::weighted::residuals::DEVIATIONS;
@@ -232,7 +232,7 @@ impl LoadedJob {
                     ..
                 } = element;
                 match share {
-                    WholeShare::Stiffness(_) | WholeShare::Elements(_) => {
+                    WholeShare::Stiffness(_) => {
                         (*size, *density) = (*size * factor, *density / factor)
                     }
                     WholeShare::Mass(_) => *density *= factor,
@@ -263,7 +263,7 @@ impl LoadedJob {
     }
 
     /// The whole model's first analysis, with twice as many modes as these where there are.
-    pub(super) fn analyzed(&self, modes: usize) -> Result<Arc<dyn Whole>, Error> {
+    pub(super) fn analyzed(&self, modes: usize) -> Result<Arc<Place>, Error> {
         let whole = &self.source.whole;
         whole.exactly(&self.ones(), &self.sensors, (modes, 2 * modes), None)
     }

@@ -2,11 +2,11 @@
 
 use super::comparison::Comparison;
 use super::gauss_newton::{Problem, WeightedSettings};
-use super::identifiability::{NORMAL_95, identifiability, information};
+use super::identifiability::{MOSTLY_PRIOR, NORMAL_95, covariance, information, tikhonov};
 use super::residuals::{jacobian, residuals};
 use crate::method::error::Error;
 use crate::method::step::Bounds;
-use crate::sparse::{ModeWeight, solve_positive};
+use crate::sparse::{ModeWeight, gram, solve_positive};
 use nalgebra::DVector;
 use statrs::function::erf::erfc;
 
@@ -29,7 +29,7 @@ const LEFT: f64 = 4e-3;
 /// 95 % intervals about the factors at the optimum of weighted steps, `widening` times as wide (in logarithms) as by the weights. None of
 /// a parameter at a bound, and of one that is known mostly from the prior.
 ///
-/// By the slopes, with the covariance $C$ of the logarithms ([`identifiability`]), the interval is $c_e e^{\pm 1.96 s_e}$. It holds as far as
+/// By the slopes, with the covariance $C$ of the logarithms ([`identifiability`](super::identifiability::identifiability)), the interval is $c_e e^{\pm 1.96 s_e}$. It holds as far as
 /// $s_e$ is the same within it. Where it changes along the way, on which the other logarithms move by $C_{ie}/C_{ee}$ of the one, an end is
 /// $r = \int \mathrm dt/s_e(t)$ deviations away, here by Simpson's rule or, of deviations within 5 %, their mean, and the truth beyond it
 /// in a part $\Phi(-r)$ of the tests. Where both
@@ -55,30 +55,27 @@ pub fn intervals(
 ) -> Result<Vec<Option<Bounds>>, Error> {
     let priors = settings.priors(factors.len());
     let (model, reach) = (analyze(factors)?, NORMAL_95 * widening);
-    let seen = identifiability(&jacobian(&model, weights)?, &priors)?;
-    let tikhonov = priors.iter().map(|prior| prior.powi(-2));
-    let tikhonov = DVector::from_iterator(priors.len(), tikhonov);
-    let pulls = factors.iter().zip(&priors);
-    let pull: f64 = pulls
-        .map(|(factor, prior)| (factor.ln() / prior).powi(2))
-        .sum();
-    let least = 0.5 * (residuals(&model, weights)?.norm_squared() + pull);
+    let covariance = covariance(gram(&jacobian(&model, weights)?), &priors)?;
+    let deviations = covariance.map_diagonal(f64::sqrt);
+    let tikhonov = tikhonov(&priors);
+    let least = 0.5 * (residuals(&model, weights)?.norm_squared() + settings.pull(factors));
     let root = |objective: f64| (2.0 * (objective - least)).max(0.0).sqrt();
     let interval = |e: usize| -> Option<Bounds> {
-        if ranges[e].is_some_and(|range| is_at_end(range, factors[e])) || seen.is_mostly_prior(e) {
+        let is_mostly_prior = (deviations[e] / priors[e]).powi(2) > MOSTLY_PRIOR;
+        if is_mostly_prior || ranges[e].is_some_and(|range| is_at_end(range, factors[e])) {
             return None;
         }
         // Logarithms of all factors for a change of this one, which is held there.
-        let path = seen.covariance.column(e) / seen.covariance[(e, e)];
+        let path = covariance.column(e) / covariance[(e, e)];
         let along = |path: &DVector<f64>, log: f64| -> Vec<f64> {
             let moved = |(factor, share): (&f64, &f64)| factor * (share * log).exp();
             factors.iter().zip(path).map(moved).collect()
         };
-        let by_slope = reach * seen.deviations[e];
+        let by_slope = reach * deviations[e];
         // The deviation at the optimum over that elsewhere; nothing is told where there is no model.
         let ratio = |log: f64| {
             let there = deviation(analyze, &along(&path, log), e, weights, &tikhonov);
-            there.map_or(0.0, |there| seen.deviations[e] / there)
+            there.map_or(0.0, |there| deviations[e] / there)
         };
         let missed = |log: f64| {
             let end = ratio(log);

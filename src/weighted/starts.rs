@@ -74,17 +74,10 @@ pub fn from_several_starts<E: From<Error>>(
             None => (),
         }
     }
-    let minimum = |(end, starts): (&WeightedCorrelation, usize)| {
-        let priors = settings.priors(end.factors.len());
-        let pulls = end.factors.iter().zip(priors);
-        let pull: f64 = pulls
-            .map(|(factor, prior)| (factor.ln() / prior).powi(2))
-            .sum();
-        Minimum {
-            factors: end.factors.clone(),
-            chi_squared: 2.0 * end.objective - pull,
-            starts,
-        }
+    let minimum = |(end, starts): (&WeightedCorrelation, usize)| Minimum {
+        factors: end.factors.clone(),
+        chi_squared: 2.0 * end.objective - settings.pull(&end.factors),
+        starts,
     };
     let minima = minima.into_iter().map(minimum).collect();
     Ok((best, minima, starts - ends.len()))

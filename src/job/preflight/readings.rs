@@ -20,6 +20,7 @@ use crate::method::error::Error;
 use crate::method::modes::Modes;
 use crate::sparse::{ParameterMatrix, solve_lower};
 use nalgebra::{Cholesky, DMatrix, DVector, DVectorView, Dyn, RowDVector};
+use std::rc::Rc;
 
 /// Standard deviation of a reading over the largest of its mode.
 const NOISE: f64 = 0.01;
@@ -59,7 +60,7 @@ type Partners = Vec<Option<(usize, f64)>>;
 struct Likelihood {
     shapes: DMatrix<f64>,
     /// $\sigma^2 W^{-1}$ of every mode.
-    priors: Vec<DMatrix<f64>>,
+    priors: Rc<Vec<DMatrix<f64>>>,
     /// $G_i^{-1} = L L^t$ of every mode i, and the column i of $L^{-1}$.
     ridges: Vec<(Cholesky<f64, Dyn>, DVector<f64>)>,
     noise: Vec<f64>,
@@ -135,10 +136,10 @@ impl Likelihood {
             inverse[(mode, mode)] = 0.0;
             Some(inverse * noise[mode].powi(2))
         };
-        let priors = (0..squares.len()).map(prior).collect::<Option<_>>()?;
+        let priors = (0..squares.len()).map(prior).collect::<Option<Vec<_>>>()?;
         Self {
             shapes: DMatrix::zeros(0, 0),
-            priors,
+            priors: Rc::new(priors),
             ridges: Vec::new(),
             noise,
             frequencies: costs_of_frequencies(seen, test_hz),
@@ -160,7 +161,7 @@ impl Likelihood {
         Some(Self {
             ridges: priors.map(ridge).collect::<Option<_>>()?,
             shapes,
-            priors: self.priors.clone(),
+            priors: Rc::clone(&self.priors),
             noise: self.noise.clone(),
             frequencies: self.frequencies.clone(),
         })
