@@ -201,7 +201,7 @@ impl PreparedJob {
         };
         let seen = SeenModes {
             directions: loaded.placed.iter().enumerate().flat_map(along).collect(),
-            shares: whole.shares(&loaded.ones(), &shapes)?,
+            shares: self.first.shares(shapes.ncols()),
             modes: Modes::new(squares, loaded.sensors.times(&shapes)?)?,
         };
         let one = "the model moves in no other direction there";

@@ -7,6 +7,7 @@ use super::{LeftOut, PreparedJob};
 use crate::files::error::FileError;
 use crate::method::error_sum::mode_errors;
 use crate::method::step::Bounds;
+use crate::sparse::Deflections;
 use crate::weighted::comparison::{Comparison, ModeErrors};
 use crate::weighted::gauss_newton::WeightedStop;
 use crate::weighted::identifiability::{Identifiability, identifiability};
@@ -225,7 +226,9 @@ impl JobResult {
         let ranges = prepared.loaded.source.whole.ranges();
         let (weights, settings) = (prepared.weights(), prepared.weighted_settings());
         let exact = jacobian(model, &weights)?;
-        let basis = model.model.spread(prepared.deflections())?;
+        let basis = model
+            .model
+            .in_basis(Deflections::All(prepared.deflections()))?;
         let basis = model.in_basis(basis, &exact, &weights)?;
         let follow = |at: &[f64]| {
             let change: Vec<f64> = at.iter().zip(factors).map(|(at, from)| at / from).collect();

@@ -11,7 +11,7 @@ use crate::files::test_data::TestData;
 use crate::method::error::{Error, at_least_one};
 use crate::method::modes::Modes;
 use crate::method::structure::{Element, Material};
-use crate::sparse::{SparseMatrix, Whole, WholeParameter, WholeShare, no_modes};
+use crate::sparse::{Place, SparseMatrix, WholeParameter, WholeShare, no_modes};
 use crate::weighted::comparison::LoneFrequency;
 use crate::weighted::noise::Noise;
 use crate::weighted::residuals::DEVIATIONS;
@@ -246,7 +246,7 @@ impl LoadedJob {
                     ..
                 } = element;
                 match share {
-                    WholeShare::Stiffness(_) | WholeShare::Elements(_) => {
+                    WholeShare::Stiffness(_) => {
                         (*size, *density) = (*size * factor, *density / factor)
                     }
                     WholeShare::Mass(_) => *density *= factor,
@@ -278,7 +278,7 @@ impl LoadedJob {
 
     /// The whole model's first analysis, with these modes and those that the pre-flight looks at, which are twice the usual number whatever
     /// the job takes.
-    pub(super) fn analyzed(&self, modes: usize) -> Result<Arc<dyn Whole>, Error> {
+    pub(super) fn analyzed(&self, modes: usize) -> Result<Arc<Place>, Error> {
         let (whole, most) = (&self.source.whole, modes.max(2 * self.usual_modes()));
         whole.exactly(&self.ones(), &self.sensors, (modes, most), None)
     }

@@ -3,7 +3,7 @@
 use crate::method::analysis::Analysis;
 use crate::method::error::Error;
 use crate::method::inner_loop::{InnerSettings, first_factors};
-use crate::sparse::{ModeWeight, SensorModel};
+use crate::sparse::{Deflections, ModeWeight, SensorModel};
 use crate::weighted::comparison::Comparison;
 use crate::weighted::residuals::{residuals, residuals_of};
 use serde::Serialize;
@@ -66,10 +66,13 @@ pub fn by_single_fit(
     // Other pairs alone are no evidence against a parameter.
     let start = match count == 0 {
         true => first,
-        false => first.min(objective(&comparison.model.alone(0)?, 0.0)),
+        false => first.min(objective(
+            &comparison.model.in_basis(Deflections::Own(0))?,
+            0.0,
+        )),
     };
     let best = |parameter: usize| {
-        let model = comparison.model.alone(parameter)?;
+        let model = comparison.model.in_basis(Deflections::Own(parameter))?;
         let better = |best: (f64, f64), log: f64| {
             let value = objective(&model, log);
             if value < best.0 { (value, log) } else { best }

@@ -9,7 +9,7 @@ use crate::method::error::Error;
 use crate::method::step::Bounds;
 use crate::method::structure::StructuralDof;
 use crate::sparse::elements::{lumped_masses, moving_mass_entries, stiffness_entries, support};
-use crate::sparse::{Deformations, SparseMatrix, Support, WholeModel, WholeParameter, WholeShare};
+use crate::sparse::{SparseMatrix, Support, WholeModel, WholeParameter, WholeShare};
 use crate::weighted::identifiability::PRIOR_DEVIATION;
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -190,10 +190,10 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
                     job.refuse_if(masses.first(), |label| {
                         format!("parameter \"{name}\": point mass {label} needs scales = \"mass\"")
                     })?;
-                    let member = |&row: &usize| {
-                        Ok((Deformations::of(&elements[row])?, bulk.elements[row].size))
-                    };
-                    WholeShare::Elements(rows.iter().map(member).collect::<Result<_, Error>>()?)
+                    let entries = rows.iter().flat_map(|&row| {
+                        stiffness_entries(&elements[row], bulk.elements[row].size)
+                    });
+                    WholeShare::Stiffness(sum_of(count, entries)?)
                 }
                 Scales::Mass => {
                     let lumped = rows.iter().flat_map(|&row| {

@@ -24,9 +24,10 @@ impl LoadedJob {
         let (mut of_stiffness, mut of_mass): (Vec<Part>, Vec<Part>) = Default::default();
         for parameter in self.source.whole.parameters() {
             match &parameter.share {
+                // Elements of a deck are parts of its stiffness, each named once.
+                WholeShare::Stiffness(_) if self.source.deck.is_some() => (),
                 WholeShare::Stiffness(part) => of_stiffness.push((&parameter.name, part)),
                 WholeShare::Mass(part) => of_mass.push((&parameter.name, part)),
-                WholeShare::Elements(_) => (),
             }
         }
         let mut all = concerns_of("stiffness", &stiffness, &of_stiffness)?;

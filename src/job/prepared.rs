@@ -7,7 +7,7 @@ use super::{Kind, LoadedJob, Method};
 use crate::files::error::FileError;
 use crate::method::error::Error;
 use crate::method::modes::Modes;
-use crate::sparse::{BasisSize, Deflections, FINITE, ModeWeight, SensorModel, Whole};
+use crate::sparse::{BasisSize, Deflections, FINITE, ModeWeight, Place, SensorModel};
 use crate::weighted::close_modes::{assurance_of_roots, indistinct_groups};
 use crate::weighted::comparison::{Comparison, LoneFrequency};
 use crate::weighted::gauss_newton::WeightedSettings;
@@ -59,9 +59,9 @@ pub struct PreparedJob {
     /// Number of modes of the model that are taken.
     pub analysis_modes: usize,
     /// The first analysis, with as many modes as the pre-flight looks at.
-    pub(super) first: Arc<dyn Whole>,
+    pub(super) first: Arc<Place>,
     /// Analyses at hand where a run begins that compares more modes, with their factors.
-    at_hand: Vec<(Vec<f64>, Arc<dyn Whole>)>,
+    at_hand: Vec<(Vec<f64>, Arc<Place>)>,
     /// Shapes of the partners of frequencies alone, as the sensors see them.
     partner_shapes: DMatrix<f64>,
 }
@@ -535,7 +535,7 @@ impl PreparedJob {
 
 /// The first analysis with twice as many modes as the job takes, and how many it takes: the job's number, else the usual one, or fewer where
 /// the model has no more.
-fn first_analysis(loaded: &LoadedJob) -> Result<(usize, Arc<dyn Whole>), FileError> {
+fn first_analysis(loaded: &LoadedJob) -> Result<(usize, Arc<Place>), FileError> {
     let asked = loaded.job.compare.analysis_modes;
     let most = loaded.source.whole.dof_count();
     let modes = asked.unwrap_or_else(|| loaded.usual_modes().min(most));

@@ -1,7 +1,8 @@
 //! Modal assurance: how alike shapes are at sensors, without a mass.
 
+use super::{finite, transposed_product};
 use crate::method::error::{Error, positive};
-use crate::method::linear_algebra::{check_finite, check_shape};
+use crate::method::linear_algebra::check_shape;
 use crate::method::modes::mode;
 use nalgebra::DMatrix;
 
@@ -56,15 +57,16 @@ fn signed_assurance(shapes: &DMatrix<f64>, others: &DMatrix<f64>) -> Result<DMat
         unit
     };
     let (shapes, others) = (unit(shapes), unit(others));
-    let cross = shapes.tr_mul(&others);
+    let squares = [&shapes, &others].map(|shapes| -> Vec<f64> {
+        let columns = shapes.column_iter();
+        columns.map(|shape| shape.norm_squared()).collect()
+    });
+    let cross = transposed_product(&shapes, &others);
     let assurance = cross.map_with_location(|i, j, product| match product {
         0.0 => 0.0,
-        _ => {
-            let squares = shapes.column(i).norm_squared() * others.column(j).norm_squared();
-            product * product.abs() / squares
-        }
+        _ => product * product.abs() / (squares[0][i] * squares[1][j]),
     });
-    check_finite("modal assurance", &assurance).map(|()| assurance)
+    finite("modal assurance", assurance)
 }
 
 /// Cosines between two sets of shapes, whose squares are their modal assurance; zero for a shape that is zero.

@@ -1,17 +1,13 @@
 //! The lowest modes of a sparse pencil, none of them missed: of structures on supports and of those that hang free, as an aircraft in
 //! its test, and where degrees of freedom have no mass. Zero and infinite eigenvalues are neither lost nor counted as vibrations.
 
-use super::deformations::take_deformation;
 use super::matrix::GIVEN;
 use super::subspace::{Directions, Found, Growth, Solve, Wanted, subspace};
 use super::{
-    Factor, RigidBodies, SparseMatrix, Support, places_above, solve_lower, take_product,
-    transposed_product,
+    Factor, RigidBodies, SparseMatrix, places_above, solve_lower, take_product, transposed_product,
 };
-use crate::method::error::{Error, at_least_one, check_count};
-use crate::method::linear_algebra::{
-    check_finite, check_length, cholesky, symmetric_eigen, symmetric_part,
-};
+use crate::method::error::{Error, at_least_one};
+use crate::method::linear_algebra::{check_finite, cholesky, symmetric_eigen, symmetric_part};
 use crate::method::modes::Modes;
 use crate::sparse::factorization::FactorizationPlan;
 use nalgebra::{DMatrix, DVector};
@@ -46,14 +42,15 @@ pub struct CountedModes {
     pub solutions: usize,
 }
 
-/// The `count` lowest vibrations of $K v = \omega^2 M v$ for semidefinite `stiffness` (lbf/in) and `mass` (lbf·s²/in), with all
-/// rigid-body modes.
+/// The `most` lowest vibrations of $K v = \omega^2 M v$ for semidefinite `stiffness` (lbf/in) and `mass` (lbf·s²/in), or all where they
+/// are fewer, with all rigid-body modes and the flexibility that found them, which serves other loads too. The first `exact` are found to
+/// round-off and the others nearly.
 ///
 /// They have the largest roots $\mu$ of
 ///
 /// $$ K^{-1} M v = \mu v, \qquad \omega^2 = \frac{1}{\mu} . $$
 ///
-/// The rigid-body modes of a structure that hangs free ([`RigidBodies`]) are known first, and the vibrations are sought among the motions
+/// The rigid-body modes of a structure that hangs free (`bodies`) are known first, and the vibrations are sought among the motions
 /// orthogonal to them in $M$, where the inverse exists. A block of directions is multiplied by this matrix again and
 /// again, each new one made orthogonal to those before it in $M$; in the subspace that they span the modes are those of a small
 /// matrix, and the best of them begin the next subspace. Pencils of [`MOST_DENSE_ROWS`], and those of which the subspace would be
@@ -61,47 +58,15 @@ pub struct CountedModes {
 /// negative pivots as there are modes below: Sylvester's law of inertia. Where it counts others, a root is repeated more often than the
 /// block has directions, and a block of as many directions as modes were counted begins anew.
 ///
+/// Shapes `near` the modes, such as those of a model with other factors, begin the search in place of random ones. They cannot hide a
+/// mode: where the inertia counts others, the search begins anew at random. `plan` is for both matrices together.
+///
 /// # Errors
-/// [`Error::Count`] for a bad `count`; [`Error::Count`] without mass; [`Error::NotPositiveDefinite`] for a
-/// motion that has neither stiffness nor mass, or a matrix that is not semidefinite; [`Error::Failed`];
-/// [`Error::Failed`]; [`Error::WrongShape`] for matrices of two sizes; the errors of [`SparseMatrix::check_symmetric`].
-///
-/// ```rust
-/// use corfem::sparse::{SparseMatrix, lowest_modes};
-///
-/// // Two masses on a spring, held nowhere: one rigid-body mode, and a vibration at the root of two.
-/// let matrix = |entries: &[(usize, usize, f64)]| SparseMatrix::new("matrix", 2, 2, entries.to_vec());
-/// let spring = matrix(&[(0, 0, 1.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 1.0)])?;
-/// let found = lowest_modes(&spring, &matrix(&[(0, 0, 1.0), (1, 1, 1.0)])?, 1)?;
-/// assert_eq!(found.rigid_body.ncols(), 1);
-/// assert!((found.vibrations.omega_squared()[0] - 2.0).abs() < 1e-12);
-/// # Ok::<(), corfem::method::error::Error>(())
-/// ```
+/// [`Error::Count`] without mass; [`Error::NotPositiveDefinite`] for a motion that has neither stiffness nor mass, or a matrix that is
+/// not semidefinite; [`Error::Failed`].
 ///
 /// Source: Bathe, *Finite Element Procedures* (1996), sections 11.2 and 11.6; Parlett, *The Symmetric Eigenvalue Problem* (1980),
 /// chapters 3, 13 and 15.
-pub fn lowest_modes(
-    stiffness: &SparseMatrix,
-    mass: &SparseMatrix,
-    count: usize,
-) -> Result<CountedModes, Error> {
-    stiffness.check_symmetric("stiffness")?;
-    mass.check_symmetric("mass")?;
-    check_length("mass", mass.rows(), stiffness.rows())?;
-    check_count("modes", count, 1, stiffness.rows())?;
-    let plan = Arc::new(FactorizationPlan::of_sum(&[stiffness, mass])?);
-    let bodies = RigidBodies::of("stiffness", stiffness, &Support::default())?;
-    let (found, _) = modes_at_most((stiffness, mass), (count, count), None, &bodies, &plan)?;
-    check_count(FINITE, count, 1, found.vibrations.len())?;
-    Ok(found)
-}
-
-/// Modes as by [`lowest_modes`] of symmetric matrices of one size, or all modes where they are fewer than `most`, of which the first
-/// `exact` are found to round-off and the others nearly, with the flexibility that found them, which serves other loads too. `bodies`
-/// are the null space of the stiffness; `plan` is for both matrices together.
-///
-/// Shapes `near` the modes, such as those of a model with other factors, begin the search in place of random ones. They cannot hide a
-/// mode: where the inertia counts others, the search begins anew at random.
 pub(super) fn modes_at_most(
     (stiffness, mass): (&SparseMatrix, &SparseMatrix),
     (exact, most): (usize, usize),
@@ -179,11 +144,6 @@ pub(super) struct Flexibility {
 }
 
 impl Flexibility {
-    fn held(factor: Factor) -> Self {
-        let rigid = Directions::none(factor.rows());
-        Self { factor, rigid }
-    }
-
     pub(super) fn of(
         plan: &Arc<FactorizationPlan>,
         stiffness: &SparseMatrix,
@@ -204,7 +164,8 @@ impl Flexibility {
         let factor =
             Factor::of_sum(plan, what, &[(1.0, stiffness), (1.0, &springs)])?.check_signs(what)?;
         if rows.is_empty() {
-            return Ok(Self::held(factor));
+            let rigid = Directions::none(mass.rows());
+            return Ok(Self { factor, rigid });
         }
         // With one of its springs displaced by one, the structure moves by motions that nothing resists.
         let mut loads = DMatrix::zeros(mass.rows(), rows.len());
@@ -294,24 +255,20 @@ fn all(solve: Solve, rigid: usize, mass: &SparseMatrix) -> Result<Found, Error> 
     })
 }
 
-/// $F$ (rows × rank) of a semidefinite $M = F F^t$ by Cholesky steps with pivots of the matrix scaled to unit diagonal, so that a
-/// mass may be as small as it likes beside others; the rest must be within the digits that files carry.
+/// $F$ (rows × rank) of a semidefinite $M = F F^t$ by the eigenvectors of the matrix scaled to unit diagonal, so that a mass may be as
+/// small as it likes beside others; what is negative must be within the digits that files carry.
 fn root(mass: &SparseMatrix) -> Result<DMatrix<f64>, Error> {
     let dense = mass.dense();
-    let (scale, rows) = (SparseMatrix::unit_scale(&dense.diagonal()), mass.rows());
-    let mut rest = dense.component_div(&(&scale * scale.transpose()));
-    let (mut columns, mut column) = (Vec::new(), Vec::new());
-    while let Some(pivot) = take_deformation(rest.as_mut_slice(), rows, GIVEN, &mut column) {
-        let scaled = column.iter().zip(&scale);
-        columns.extend(scaled.map(|(entry, scale)| entry * scale / pivot.sqrt()));
+    let scale = SparseMatrix::unit_scale(&dense.diagonal());
+    let unit = dense.component_div(&(&scale * scale.transpose()));
+    let (sizes, vectors) = symmetric_eigen("mass", &unit)?;
+    if sizes[0] < -GIVEN {
+        let (what, row) = ("mass", vectors.column(0).iamax());
+        return Err(Error::NotPositiveDefinite { what, row });
     }
-    match rest.iter().position(|entry| entry.abs() > GIVEN) {
-        None => Ok(DMatrix::from_vec(rows, columns.len() / rows, columns)),
-        Some(at) => Err(Error::NotPositiveDefinite {
-            what: "mass",
-            row: at % rows,
-        }),
-    }
+    let own = places_above(&sizes, GIVEN);
+    let sizes = DMatrix::from_diagonal(&sizes.select_rows(&own).map(f64::sqrt));
+    Ok(DMatrix::from_diagonal(&scale) * vectors.select_columns(&own) * sizes)
 }
 
 /// Squared frequencies and shapes of unit generalized mass. Each shape is made orthogonal to those before it, which removes the

@@ -13,9 +13,9 @@ pub(super) const GIVEN: f64 = 1e-11;
 pub(super) const ASSEMBLED: f64 = 30.0 * f64::EPSILON;
 
 /// Columns that a product takes at once, so that the entries are read once for all of them.
-const AT_ONCE: usize = 8;
-/// Bits of a row or column by which entries are sorted at once.
-const SORTED_BITS: u32 = 11;
+const AT_ONCE: usize = 16;
+/// Most bits of a row or column by which entries are sorted at once.
+const MOST_SORTED_BITS: u32 = 14;
 
 /// A real matrix by its nonzero entries, column by column and in each from the first row down; no place is given twice.
 ///
@@ -144,11 +144,9 @@ impl SparseMatrix {
     /// # Errors
     /// [`Error::Count`] and [`Error::Value`], as in [`Self::new`].
     pub fn of_dense(what: &'static str, matrix: &DMatrix<f64>) -> Result<Self, Error> {
-        let columns: Vec<_> = matrix
-            .column_iter()
-            .map(|column| column.iter().copied().enumerate().collect())
-            .collect();
-        Self::of_columns(what, matrix.nrows(), &columns)
+        let (rows, all) = (matrix.nrows(), matrix.iter().enumerate());
+        let entries = all.map(|(at, &value)| (at % rows, at / rows, value));
+        Self::new(what, rows, matrix.ncols(), entries.collect())
     }
 
     /// Number of rows.
@@ -219,45 +217,37 @@ impl SparseMatrix {
             }
             return Ok(product);
         }
-        let mut from = vec![[0.0; AT_ONCE]; self.columns];
-        let mut into = vec![[0.0; AT_ONCE]; self.rows];
+        let turned = self.entries();
+        let turned = turned.map(|(row, column, value)| (column, row, value));
         for first in (0..count).step_by(AT_ONCE) {
-            let columns = first..count.min(first + AT_ONCE);
-            for (k, column) in columns.clone().enumerate() {
-                let own = right.column(column);
-                let values = from.iter_mut().zip(own.iter());
-                values.for_each(|(from, value)| from[k] = *value);
-            }
-            into.fill([0.0; AT_ONCE]);
-            for (row, column, value) in self.entries() {
-                let both = into[row].iter_mut().zip(&from[column]);
-                both.for_each(|(into, from)| *into += value * from);
-            }
-            for (k, column) in columns.enumerate() {
-                let mut product = product.column_mut(column);
-                let values = into.iter().zip(product.iter_mut());
-                values.for_each(|(into, value)| *value = into[k]);
-            }
+            let own = AT_ONCE.min(count - first);
+            let mut into = DMatrix::zeros(own, self.rows);
+            let from = right.columns(first, own).transpose();
+            add_columns(turned.clone(), &from, &mut into);
+            product.columns_mut(first, own).tr_copy_from(&into);
         }
         Ok(product)
     }
 
-    /// The matrix's entries times a number.
-    pub(crate) fn times_number(&self, number: f64) -> impl Iterator<Item = (usize, usize, f64)> {
-        self.entries()
-            .map(move |(row, column, value)| (row, column, number * value))
+    /// Columns that have entries, ascending.
+    pub(super) fn occupied(&self) -> Vec<usize> {
+        let mut columns: Vec<usize> = self.entries().map(|entry| entry.1).collect();
+        columns.dedup();
+        columns
     }
 
-    /// $V^t A$ for transposed shapes $V^t$ (m × rows), m × columns.
+    /// $V^t A$ for transposed shapes $V^t$ (m × rows) at the columns that have entries.
     pub(super) fn loads(&self, transposed_shapes: &DMatrix<f64>) -> DMatrix<f64> {
         let modes = transposed_shapes.nrows();
-        let mut loads = DMatrix::zeros(modes, self.columns);
-        let (from, into) = (transposed_shapes.as_slice(), loads.as_mut_slice());
-        for (row, column, value) in self.entries() {
-            let into = into[column * modes..][..modes].iter_mut();
-            let both = into.zip(&from[row * modes..][..modes]);
-            both.for_each(|(into, from)| *into += value * from);
-        }
+        let mut loads = DMatrix::zeros(modes, self.occupied().len());
+        let (mut at, mut last) = (0, self.places.first().map(|place| place[1]));
+        let entries = self.places.iter().zip(&self.values);
+        let entries = entries.map(|(&[row, column], &value)| {
+            at += usize::from(last != Some(column));
+            last = Some(column);
+            (row as usize, at, value)
+        });
+        add_columns(entries, transposed_shapes, &mut loads);
         loads
     }
 
@@ -269,8 +259,10 @@ impl SparseMatrix {
         let modes = transposed_shapes.nrows();
         check_shape("transposed shapes", transposed_shapes, modes, self.rows)?;
         check_shape("transposed shapes", transposed_shapes, modes, self.columns)?;
-        let loads = self.loads(transposed_shapes);
-        Ok(symmetric_part(&(loads * transposed_shapes.transpose())))
+        let own = transposed_shapes.select_columns(&self.occupied());
+        Ok(symmetric_part(
+            &(self.loads(transposed_shapes) * own.transpose()),
+        ))
     }
 
     /// Refuses a matrix that is not square and symmetric to within round-off, row by row.
@@ -286,26 +278,23 @@ impl SparseMatrix {
         if self.is_symmetric() {
             return Ok(());
         }
-        let entries = self
-            .times_number(1.0)
-            .chain(self.transposed().times_number(-1.0))
-            .collect();
-        let difference = Self::new(what, self.rows, self.columns, entries)?;
-        let mut diagonal = vec![0.0; self.rows];
-        for entry in self.entries().filter(|entry| entry.0 == entry.1) {
-            diagonal[entry.0] = entry.2.abs().sqrt();
-        }
-        let apart = |&(row, column, difference): &(usize, usize, f64)| {
-            let entries = self.column(column).filter(|entry| entry.0 == row);
-            let scale = entries.fold(difference.abs(), |scale, entry| scale.max(entry.1.abs()));
-            difference.abs() / scale.max(diagonal[row] * diagonal[column])
+        let (starts, diagonal) = (self.starts(), self.diagonal().map(|own| own.abs().sqrt()));
+        let apart = |entry: (usize, usize, f64)| {
+            let (row, column, value) = entry;
+            let mirror = self.place(&starts, (column, row, value));
+            let mirror = mirror.map_or(0.0, |place| self.values[place as usize]);
+            let difference = (value - mirror).abs();
+            let scale = difference.max(value.abs().min(mirror.abs()));
+            let part = difference / scale.max(diagonal[row] * diagonal[column]);
+            (row.max(column), row.min(column), part)
         };
-        let Some(entry) = difference.entries().find(|entry| apart(entry) > GIVEN) else {
+        let wrong = self.entries().map(apart).filter(|entry| entry.2 > GIVEN);
+        let Some((row, column, part)) = wrong.min_by_key(|entry| (entry.1, entry.0)) else {
             return Ok(());
         };
-        let owner = || format!("{what}, entry ({}, {}) beside its mirror", entry.0, entry.1);
+        let owner = || format!("{what}, entry ({row}, {column}) beside its mirror");
         let expected = "at most 1e-11: the matrix must be symmetric";
-        require(false, "relative difference", owner, apart(&entry), expected)
+        require(false, "relative difference", owner, part, expected)
     }
 
     /// The diagonal of a square matrix.
@@ -373,6 +362,21 @@ impl SparseMatrix {
     }
 }
 
+/// Adds some columns, each times a number, to others: from one, into one, the number.
+fn add_columns(
+    all: impl Iterator<Item = (usize, usize, f64)>,
+    from: &DMatrix<f64>,
+    into: &mut DMatrix<f64>,
+) {
+    let count = from.nrows();
+    let (from, into) = (from.as_slice(), into.as_mut_slice());
+    for (a, b, number) in all {
+        let into = into[b * count..][..count].iter_mut();
+        let both = into.zip(&from[a * count..][..count]);
+        both.for_each(|(into, from)| *into += number * from);
+    }
+}
+
 /// Entries column by column and in each from the first row down, those at one place in the order given.
 ///
 /// Digit by digit, so that a file's promise of many rows takes no memory.
@@ -382,17 +386,18 @@ fn sorted(
     columns: usize,
 ) -> Vec<(usize, usize, f64)> {
     let mut next = vec![(0, 0, 0.0); entries.len()];
+    let bits = entries.len().max(2).ilog2().min(MOST_SORTED_BITS);
     for (size, is_of_column) in [(rows, false), (columns, true)] {
-        for shift in (0..usize::BITS - size.leading_zeros()).step_by(SORTED_BITS as usize) {
+        for shift in (0..usize::BITS - size.leading_zeros()).step_by(bits as usize) {
             let digit = |entry: &(usize, usize, f64)| {
                 let key = if is_of_column { entry.1 } else { entry.0 };
-                key >> shift & ((1 << SORTED_BITS) - 1)
+                key >> shift & ((1 << bits) - 1)
             };
-            let mut places = vec![0; (1 << SORTED_BITS) + 1];
+            let mut places = vec![0; (1 << bits) + 1];
             entries
                 .iter()
                 .for_each(|entry| places[digit(entry) + 1] += 1);
-            for place in 0..1 << SORTED_BITS {
+            for place in 0..1 << bits {
                 places[place + 1] += places[place];
             }
             for entry in &entries {

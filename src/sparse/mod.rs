@@ -6,7 +6,6 @@
 mod assurance;
 pub(crate) mod brackets;
 mod checks;
-mod deformations;
 #[doc(hidden)]
 pub mod elements;
 #[doc(hidden)]
@@ -15,13 +14,13 @@ mod lowest_modes;
 mod mass_changes;
 mod matrix;
 mod ordering;
-mod part;
 mod place;
 #[doc(hidden)]
 pub mod random;
 mod residual_vectors;
 pub(crate) mod rigid_bodies;
 mod sensor_model;
+mod share;
 mod subspace;
 pub(crate) mod visibility;
 #[doc(hidden)]
@@ -34,26 +33,27 @@ pub use assurance::modal_assurance;
 #[doc(hidden)]
 pub use checks::check_solution;
 pub(crate) use checks::{
-    finite, inverse_of_positive, places_above, solve_lower, solve_positive, start_vector,
+    finite, gram, inverse_of_positive, places_above, solve_lower, solve_positive, start_vector,
     take_product, transposed_product,
 };
 #[doc(hidden)]
-pub use deformations::Deformations;
-#[doc(hidden)]
 pub use factorization::{Factor, Work};
 #[doc(hidden)]
-pub use lowest_modes::{CountedModes, FINITE, MOST_DENSE_ROWS, lowest_modes};
+pub use lowest_modes::{CountedModes, FINITE, MOST_DENSE_ROWS};
 #[doc(hidden)]
 pub use mass_changes::normalize_with_mass;
 pub use matrix::SparseMatrix;
+pub(crate) use place::{Deflections, Place};
 #[doc(hidden)]
 pub use rigid_bodies::{BodyFinding, Places, RigidBodies, Support};
 pub use sensor_model::SensorModel;
 #[doc(hidden)]
-pub use sensor_model::{Candidates, ModeWeight, Pair, ParameterMatrix};
-pub(crate) use sensor_model::{Deflections, Whole, check_weights, parts_of};
+pub use sensor_model::{Candidates, ModeWeight, Pair};
+pub(crate) use sensor_model::{check_weights, parts_of};
 #[doc(hidden)]
-pub use whole_model::{BasisSize, WholeShare};
+pub use share::{ParameterMatrix, Share, WholeShare};
+#[doc(hidden)]
+pub use whole_model::BasisSize;
 pub use whole_model::{WholeModel, WholeParameter};
 
 use crate::method::modes::Modes;

@@ -2,16 +2,16 @@
 //! change is followed.
 
 use super::lowest_modes::{FINITE, Flexibility};
-use super::part::Part;
 use super::random::random_block;
 use super::residual_vectors::{leading_loads, residual_vectors};
-use super::sensor_model::{Deflections, Further, ParameterMatrix, Whole, turn_alike};
+use super::share::{ParameterMatrix, WholeShare};
 use super::visibility::visible;
 use super::{SparseMatrix, WholeModel, no_modes, take_product, transposed_product};
 use crate::method::error::{Error, check_count};
 use crate::method::modes::Modes;
 use nalgebra::DMatrix;
 use std::f64::consts::{PI, TAU};
+use std::ops::Range;
 use std::sync::{Arc, Mutex};
 
 /// Largest error of what the modes left out add to a slope, relative to it. It moves the end of weighted steps by at most as much times
@@ -24,9 +24,35 @@ const MOST_EACH: usize = 4;
 /// Sensors whose deflections are held at once.
 const SENSORS_AT_ONCE: usize = 32;
 
+/// Deflections that stand behind the modes in a basis.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Deflections<'a> {
+    /// At most so many leading ones of every parameter.
+    Each(usize),
+    /// Leading ones of one parameter, whose share alone is looked at.
+    Own(usize),
+    /// So many of all parameters together.
+    All(usize),
+    /// Deflections of some modes under a change along these logarithms of factors, and so many of all parameters in these modes, of which
+    /// each has a weight.
+    Along {
+        direction: &'a [f64],
+        modes: &'a [usize],
+        further: usize,
+        weights: &'a [f64],
+    },
+}
+
+/// Shapes of a basis beyond the exact modes: residual vectors with their squared frequencies, and rigid-body modes, at the sensors.
+#[derive(Debug)]
+pub(crate) struct Further {
+    pub residual: Modes,
+    pub rigid_body: DMatrix<f64>,
+}
+
 /// An exact analysis: the matrices at some factors, their factor and the lowest modes at all degrees of freedom.
 #[derive(Debug)]
-pub(super) struct Place {
+pub(crate) struct Place {
     whole: WholeModel,
     factors: Vec<f64>,
     stiffness: SparseMatrix,
@@ -36,8 +62,9 @@ pub(super) struct Place {
     /// The modes at all degrees of freedom, those first that the sensors see, and their shapes times the mass.
     vibrations: Modes,
     weighted: DMatrix<f64>,
-    /// Modes that the sensors see, as they see them.
+    /// Modes that the sensors see, as they see them, and the shares of the parameters in them.
     modes: Modes,
+    shares: Vec<ParameterMatrix>,
     /// The lowest squared frequency of the vibrations left out; none where there are no others.
     next: Option<f64>,
     rigid_body: DMatrix<f64>,
@@ -58,10 +85,12 @@ impl Place {
     ) -> Result<Self, Error> {
         let (stiffness, mass) = whole.at(factors)?;
         let (least, most) = counts;
+        check_count("modes", least, 1, whole.dof_count())?;
         let mut taken = most;
         let (found, rigid_body, flexibility) = loop {
             let asked = (least.min(taken), taken);
-            let (found, flexibility) = whole.modes_of(&stiffness, &mass, asked, near)?;
+            let (found, flexibility) = whole.modes_of((&stiffness, &mass), asked, near)?;
+            check_count(FINITE, least, 1, found.vibrations.len())?;
             let is_all = found.next.is_none();
             let all = (found.vibrations, found.next);
             let visible = visible([&stiffness, &mass], sensors, all, most)?;
@@ -78,8 +107,12 @@ impl Place {
         let modes = Modes::signed(vibrations.omega_squared.clone(), seen.clone());
         turn_alike(&mut vibrations.shapes, &seen, &modes.shapes);
         let modes = modes.select(&(0..found.seen).collect::<Vec<_>>());
+        let shapes = vibrations.shapes.columns(0, found.seen).transpose();
+        let shares = whole.parts().zip(factors);
+        let shares = shares.map(|((share, _), &factor)| share.seen_by(factor, &shapes));
         Ok(Self {
             modes,
+            shares: shares.collect::<Result<_, Error>>()?,
             weighted: mass.times(&vibrations.shapes)?,
             next: found.next,
             rigid_body,
@@ -121,8 +154,8 @@ impl Place {
     /// Loads (DOF × m) that make the deflections behind these vibrations.
     fn loads(&self, deflections: Deflections, vibrations: &Modes) -> Result<DMatrix<f64>, Error> {
         match deflections {
-            Deflections::Each(most) => self.leading_loads(most, vibrations),
-            Deflections::Own(e) => self.own_loads(e, MOST_EACH, vibrations),
+            Deflections::Each(most) => self.leading_loads(0..self.factors.len(), most, vibrations),
+            Deflections::Own(e) => self.leading_loads(e..e + 1, MOST_EACH, vibrations),
             Deflections::All(most) => {
                 let modes: Vec<usize> = (0..vibrations.len()).collect();
                 let loads = || self.loads_of(&modes);
@@ -146,16 +179,22 @@ impl Place {
         }
     }
 
-    /// Leading loads of one parameter in vibrations, at most so many.
-    fn own_loads(&self, e: usize, most: usize, vibrations: &Modes) -> Result<DMatrix<f64>, Error> {
-        leading_loads(&self.whole.parts()[e], vibrations, most)
-    }
-
-    /// Leading loads of every parameter in vibrations.
-    fn leading_loads(&self, most: usize, vibrations: &Modes) -> Result<DMatrix<f64>, Error> {
+    /// Leading loads of some parameters in vibrations, at most so many of each.
+    fn leading_loads(
+        &self,
+        parameters: Range<usize>,
+        most: usize,
+        vibrations: &Modes,
+    ) -> Result<DMatrix<f64>, Error> {
         let mut loads = DMatrix::zeros(self.whole.dof_count(), 0);
-        for e in (0..self.factors.len()).filter(|_| most > 0) {
-            loads.extend(self.own_loads(e, most, vibrations)?.column_iter());
+        if most == 0 {
+            return Ok(loads);
+        }
+        let shapes = vibrations.shapes.transpose();
+        let parts = self.whole.parts().skip(parameters.start);
+        for part in parts.take(parameters.len()) {
+            let own = leading_loads(part, vibrations, &shapes, most)?;
+            loads.extend(own.column_iter());
         }
         Ok(loads)
     }
@@ -175,7 +214,8 @@ impl Place {
     ) -> Result<DMatrix<f64>, Error> {
         let each = most / self.factors.len().max(1);
         if each > 1 || most == 0 {
-            return self.leading_loads(each.min(MOST_EACH), &self.vibrations);
+            let all = 0..self.factors.len();
+            return self.leading_loads(all, each.min(MOST_EACH), &self.vibrations);
         }
         let mut all = loads();
         for own in &mut all {
@@ -190,9 +230,9 @@ impl Place {
             .map(|_| random_block(most, modes.len(), &mut state));
         let random = self.combined(&all, most, random);
         let deflections = self.take_modes(self.flexibility()?.solve(&random)?);
-        let own = self.whole.parts().iter().zip(&all);
+        let own = self.whole.parts().zip(&all);
         let weights =
-            own.map(|(part, loads)| (loads * deflections.select_rows(&part.rows)).transpose());
+            own.map(|((_, rows), loads)| (loads * deflections.select_rows(rows)).transpose());
         Ok(self.combined(&all, most, weights))
     }
 
@@ -204,9 +244,9 @@ impl Place {
         weights: impl Iterator<Item = DMatrix<f64>>,
     ) -> DMatrix<f64> {
         let mut sum = DMatrix::zeros(count, self.whole.dof_count());
-        for ((part, loads), weights) in self.whole.parts().iter().zip(all).zip(weights) {
+        for (((_, rows), loads), weights) in self.whole.parts().zip(all).zip(weights) {
             let loads = weights * loads;
-            for (&row, loads) in part.rows.iter().zip(loads.column_iter()) {
+            for (&row, loads) in rows.iter().zip(loads.column_iter()) {
                 let mut sum = sum.column_mut(row);
                 sum += loads;
             }
@@ -216,18 +256,17 @@ impl Place {
 
     /// Loads of some modes under a change of the logarithm of each parameter's factor, at its rows (modes × rows).
     fn loads_of(&self, modes: &[usize]) -> Vec<DMatrix<f64>> {
-        let shapes = self.vibrations.shapes.select_columns(modes);
-        let of_part = |(part, &factor): (&Part, &f64)| {
-            let own = shapes.select_rows(&part.rows).transpose();
-            let mut loads = part.loads(&(factor * own));
-            if part.is_mass {
+        let shapes = self.vibrations.shapes.select_columns(modes).transpose();
+        let of_part = |((share, _), factor): ((&WholeShare, &[usize]), &f64)| {
+            let mut loads = *factor * share.matrix().loads(&shapes);
+            if share.is_mass() {
                 for (mut loads, &mode) in loads.row_iter_mut().zip(modes) {
                     loads *= -self.vibrations.omega_squared[mode];
                 }
             }
             loads
         };
-        let parts = self.whole.parts().iter();
+        let parts = self.whole.parts();
         parts.zip(&self.factors).map(of_part).collect()
     }
 
@@ -250,24 +289,37 @@ impl Place {
     }
 }
 
-impl Whole for Place {
-    fn modes(&self, count: usize) -> Result<Modes, Error> {
+impl Place {
+    /// The lowest modes at the sensors.
+    pub(crate) fn modes(&self, count: usize) -> Result<Modes, Error> {
         check_count(FINITE, count, 1, self.modes.len())?;
         Ok(self.some_modes(0, count))
     }
 
-    fn shapes(&self, count: usize) -> Modes {
+    /// The lowest shapes at all degrees of freedom (DOF × n), at most so many.
+    pub(crate) fn shapes(&self, count: usize) -> Modes {
         let count = count.min(self.modes.len());
         self.vibrations.select(&(0..count).collect::<Vec<_>>())
     }
 
-    fn release(&self) {
+    /// Every parameter's present share in the lowest shapes, at most so many.
+    pub(crate) fn shares(&self, count: usize) -> Vec<ParameterMatrix> {
+        let count = count.min(self.modes.len());
+        let part = |share: &ParameterMatrix| {
+            share.of(share.matrix().view((0, 0), (count, count)).into_owned())
+        };
+        self.shares.iter().map(part).collect()
+    }
+
+    /// Gives back memory that can be filled again.
+    pub(super) fn release(&self) {
         if let Ok(mut own) = self.flexibility.lock() {
             *own = None;
         }
     }
 
-    fn unseen(&self) -> Vec<f64> {
+    /// Frequencies of modes found that no sensor sees, ascending, Hz.
+    pub(crate) fn unseen(&self) -> Vec<f64> {
         let seen = self.modes.len();
         let highest = self.modes.omega_squared.iter().next_back();
         let all = self.vibrations.omega_squared.iter().skip(seen);
@@ -275,7 +327,8 @@ impl Whole for Place {
         below.map(|root| root.sqrt() / TAU).collect()
     }
 
-    fn basis(
+    /// Shapes of a basis behind a number of modes, and the shares in all of them.
+    pub(super) fn basis(
         &self,
         count: usize,
         deflections: Deflections,
@@ -289,8 +342,22 @@ impl Whole for Place {
             Deflections::Each(_) => count,
             _ => self.modes.len(),
         };
+        // Only a change of mass couples rigid-body modes with vibrations.
+        let has_mass = self.whole.parts().any(|(share, _)| share.is_mass());
+        let rigid_body = match has_mass {
+            true => self.rigid_body.clone(),
+            false => no_modes(self.whole.dof_count()).shapes,
+        };
         let vibrations = self.shapes(own);
         let loads = self.loads(deflections, &vibrations)?;
+        if loads.ncols() + rigid_body.ncols() == 0 {
+            let further = Further {
+                residual: self.some_modes(count, own),
+                rigid_body: DMatrix::zeros(self.sensors.rows(), 0),
+            };
+            let mut shares = self.shares(own);
+            return Ok((further, shares.drain(parameters).collect()));
+        }
         let deflections = self.flexibility()?.solve(&loads)?;
         // What is left has no part of modes that the sensors do not see.
         let without = match own == self.modes.len() {
@@ -298,16 +365,15 @@ impl Whole for Place {
             false => &vibrations,
         };
         let residual = residual_vectors(&self.stiffness, &self.mass, without, deflections)?;
-        // Only a change of mass couples rigid-body modes with vibrations.
-        let has_mass = self.whole.parts().iter().any(|part| part.is_mass);
-        let rigid_body = match has_mass {
-            true => self.rigid_body.clone(),
-            false => no_modes(self.whole.dof_count()).shapes,
-        };
         let mut basis = vibrations.shapes;
         basis.extend(residual.shapes.column_iter());
         basis.extend(rigid_body.column_iter());
-        let share = |e: usize| self.whole.parts()[e].seen_by(self.factors[e], &basis);
+        let transposed = basis.transpose();
+        drop(basis);
+        let share = |e: usize| {
+            let share = &self.whole.parameters()[e].share;
+            share.seen_by(self.factors[e], &transposed)
+        };
         let shares = parameters.map(share).collect::<Result<_, Error>>()?;
         let mut behind = self.some_modes(count, own);
         let squares = residual.omega_squared.iter().copied();
@@ -321,6 +387,8 @@ impl Whole for Place {
         Ok((further, shares))
     }
 
+    /// Parts that all but a number of modes have in the slopes of these modes at the sensors (d × p each).
+    ///
     /// Of a mode i, the column of parameter e is the sum over the modes found beyond `count`, as in [`jacobian`](crate::weighted::residuals::jacobian),
     /// and over all others
     ///
@@ -330,7 +398,11 @@ impl Whole for Place {
     /// the exact slope where the series is the fraction at $x = 1/\lambda_r$ of every mode r left out ([`coefficients`]). It is taken from
     /// the sensors' side, $K^{-1} R^t$ and so on, or from the loads', whichever are fewer: no factor but that of $K$ is needed, and no
     /// solution a parameter where these are many.
-    fn slopes_beyond(&self, count: usize, modes: &[usize]) -> Result<Vec<DMatrix<f64>>, Error> {
+    pub(super) fn slopes_beyond(
+        &self,
+        count: usize,
+        modes: &[usize],
+    ) -> Result<Vec<DMatrix<f64>>, Error> {
         let all = self.loads_of(modes);
         let roots: Vec<f64> = modes
             .iter()
@@ -338,12 +410,12 @@ impl Whole for Place {
             .collect();
         let mut slopes = vec![DMatrix::zeros(self.sensors.rows(), all.len()); modes.len()];
         let beyond = self.some_modes(count, self.modes.len());
-        let shapes = self.vibrations.shapes.columns(count, beyond.len());
-        for (e, (part, loads)) in self.whole.parts().iter().zip(&all).enumerate() {
-            let couplings = loads * shapes.select_rows(&part.rows);
-            for ((slopes, root), own) in slopes.iter_mut().zip(&roots).zip(couplings.row_iter()) {
+        for (e, share) in self.shares.iter().enumerate() {
+            for ((slopes, &mode), root) in slopes.iter_mut().zip(modes).zip(&roots) {
+                let scale = if share.is_mass() { -root } else { 1.0 };
+                let own = share.matrix().view((count, mode), (beyond.len(), 1));
                 let apart = beyond.omega_squared.map(|other| root - other);
-                let shares = own.transpose().component_div(&apart);
+                let shares = scale * own.component_div(&apart);
                 slopes.set_column(e, &(&beyond.shapes * shares));
             }
         }
@@ -360,9 +432,7 @@ impl Whole for Place {
         }
         Ok(slopes)
     }
-}
 
-impl Place {
     /// Adds the series for every mode to its slopes by the deflections under the loads of every parameter.
     fn add_from_loads(
         &self,
@@ -372,8 +442,8 @@ impl Place {
     ) -> Result<(), Error> {
         for (place, (slopes, series)) in slopes.iter_mut().zip(series).enumerate() {
             let mut loads = DMatrix::zeros(self.whole.dof_count(), all.len());
-            for (e, (part, own)) in self.whole.parts().iter().zip(all).enumerate() {
-                for (at, &row) in part.rows.iter().enumerate() {
+            for (e, ((_, rows), own)) in self.whole.parts().zip(all).enumerate() {
+                for (at, &row) in rows.iter().enumerate() {
                     loads[(row, e)] = own[(place, at)];
                 }
             }
@@ -403,8 +473,8 @@ impl Place {
                     .for_each(|(row, value)| loads[(row, place)] = value);
             }
             self.deflections(loads, terms, |t, deflections| {
-                for (e, (part, own)) in self.whole.parts().iter().zip(all).enumerate() {
-                    let read = own * deflections.select_rows(&part.rows);
+                for (e, ((_, rows), own)) in self.whole.parts().zip(all).enumerate() {
+                    let read = own * deflections.select_rows(rows);
                     for (i, (slopes, series)) in slopes.iter_mut().zip(series).enumerate() {
                         let mut slopes = slopes.column_mut(e);
                         slopes.rows_mut(first, some.len()).axpy(
@@ -418,6 +488,14 @@ impl Place {
             })?;
         }
         Ok(())
+    }
+}
+
+/// Turns the columns of shapes at all DOF whose counterparts at the sensors the sign rule has turned.
+pub(crate) fn turn_alike(whole: &mut DMatrix<f64>, seen: &DMatrix<f64>, signed: &DMatrix<f64>) {
+    let is_turned = |mode: &usize| signed.column(*mode) != seen.column(*mode);
+    for mode in (0..signed.ncols()).filter(is_turned) {
+        whole.column_mut(mode).neg_mut();
     }
 }
 

@@ -1,7 +1,8 @@
 //! Residual vectors: static deflections that the lowest modes lack, as further shapes in which changes are followed.
 
+use super::checks::independent;
 use super::matrix::GIVEN;
-use super::part::Part;
+use super::share::WholeShare;
 use super::{SparseMatrix, places_above, take_product, transposed_product};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
@@ -14,30 +15,25 @@ use nalgebra::{DMatrix, DVector};
 /// A change of the part loads mode $i$ by $P v_i$; over $\omega_i$, or times $\omega_i$ for a mass, so that modes count alike. Of the
 /// columns $L$ these are the combinations $L y$ of largest $y^t V^t L y$, one a deformation for a part that has fewer.
 pub(super) fn leading_loads(
-    part: &Part,
+    (share, rows): (&WholeShare, &[usize]),
     modes: &Modes,
+    transposed_shapes: &DMatrix<f64>,
     most: usize,
 ) -> Result<DMatrix<f64>, Error> {
-    let power = if part.is_mass { 0.5 } else { -0.5 };
-    let mut own = modes.shapes.select_rows(&part.rows).transpose();
-    for (mut own, square) in own.row_iter_mut().zip(&modes.omega_squared) {
-        own *= square.powf(power);
-    }
-    let loads = part.loads(&own);
-    let energy = &loads * own.transpose();
+    let power = if share.is_mass() { 0.5 } else { -0.5 };
+    let scale = DMatrix::from_diagonal(&modes.omega_squared.map(|square| square.powf(power)));
+    let loads = &scale * share.matrix().loads(transposed_shapes);
+    let own = scale * transposed_shapes.select_columns(rows);
     let (energies, vectors) = symmetric_eigen(
         "energy of a parameter in the modes",
-        &symmetric_part(&energy),
+        &symmetric_part(&(&loads * own.transpose())),
     )?;
     let digits = GIVEN * energies.amax();
     let leading = places_above(&energies, digits);
     let vectors = vectors.select_columns(leading.iter().rev().take(most));
     let mut all = DMatrix::zeros(modes.shapes.nrows(), vectors.ncols());
-    for (&row, combined) in part
-        .rows
-        .iter()
-        .zip((vectors.transpose() * loads).column_iter())
-    {
+    let combined = vectors.transpose() * loads;
+    for (&row, combined) in rows.iter().zip(combined.column_iter()) {
         all.row_mut(row).tr_copy_from(&combined);
     }
     Ok(all)
@@ -87,24 +83,15 @@ pub(super) fn residual_vectors(
     let unit = new.iter().map(|&column| 1.0 / rest[column].sqrt());
     let unit = DMatrix::from_diagonal(&DVector::from_iterator(new.len(), unit));
     let deflections = deflections.select_columns(&new) * unit;
-    let (sizes, vectors) = symmetric_eigen("energy of deflections", &energies(&deflections)?)?;
-    let own = places_above(&sizes, GIVEN);
-    let scale = DMatrix::from_diagonal(&sizes.select_rows(&own).map(|size| 1.0 / size.sqrt()));
-    let deflections = deflections * vectors.select_columns(&own) * scale;
-    let inertia = symmetric_part(&transposed_product(
-        &deflections,
-        &mass.times(&deflections)?,
-    ));
-    let (roots, vectors) = symmetric_eigen("mass of deflections", &inertia)?;
-    let moving = places_above(&roots, GIVEN / vibrations.omega_squared[0]).into_iter();
-    let moving: Vec<usize> = moving.rev().collect();
-    if moving.is_empty() {
-        return Ok(none);
-    }
-    let roots = roots.select_rows(&moving);
-    let scale = DMatrix::from_diagonal(&roots.map(|root| 1.0 / root.sqrt()));
-    Ok(Modes {
+    let (_, own) = independent("energy of deflections", &energies(&deflections)?, |_| GIVEN)?;
+    let deflections = deflections * own;
+    let inertia = transposed_product(&deflections, &mass.times(&deflections)?);
+    let least = GIVEN / vibrations.omega_squared[0];
+    let (roots, moving) = independent("mass of deflections", &inertia, |_| least)?;
+    let descending: Vec<usize> = (0..roots.len()).rev().collect();
+    let moving = Modes {
         omega_squared: roots.map(f64::recip),
-        shapes: deflections * vectors.select_columns(&moving) * scale,
-    })
+        shapes: deflections * moving,
+    };
+    Ok(moving.select(&descending))
 }

@@ -96,25 +96,17 @@ impl RigidBodies {
     /// $$ \lvert K R t \rvert \le \lvert K \rvert (u \lvert R \rvert + \lvert \delta R \rvert), $$
     ///
     /// $t$ being the singular vectors of $K R$ in units of the right side; other motions among the n are mechanisms. A better matrix of the
-    /// same null space that `support` has stands for $K$.
+    /// same null space that `support` has stands for $K$. `plan` is for whichever tells it, among others.
     ///
     /// # Errors
     /// [`Error::NotPositiveDefinite`] for a matrix that is not semidefinite whatever its rounding; [`Error::Count`] for a number of motions
     /// beyond n; the errors of the factorization.
-    pub fn of(what: &'static str, matrix: &SparseMatrix, support: &Support) -> Result<Self, Error> {
-        let own = support.resisting.as_ref().unwrap_or(matrix);
-        own.check_symmetric(what)?;
-        let plan = Arc::new(FactorizationPlan::of_sum(&[own])?);
-        Self::by(&plan, what, matrix, support)
-    }
-
-    /// The null space by a plan for the matrix that tells it among others.
-    pub(super) fn by(
+    pub(super) fn of(
         plan: &Arc<FactorizationPlan>,
-        what: &'static str,
         matrix: &SparseMatrix,
         support: &Support,
     ) -> Result<Self, Error> {
+        let what = "stiffness";
         let matrix = support.resisting.as_ref().unwrap_or(matrix);
         let (rows, rounding) = (matrix.rows(), matrix.rounding());
         let sizes = SparseMatrix::unit_scale(&matrix.diagonal());

@@ -5,6 +5,8 @@ use super::assurance::cosines;
 use super::mass_changes::{
     Change, apart_from_rigid_bodies, normalize_with_mass, with_rigid_bodies,
 };
+use super::place::{Deflections, Further, Place, turn_alike};
+use super::share::ParameterMatrix;
 use super::transposed_product;
 use crate::method::analysis::{
     Analysis, DERIVATIVE_STEP, State, changes_by, without_close_couplings,
@@ -21,36 +23,6 @@ use crate::method::step::{REFERENCE_GAGE, StepRule};
 use nalgebra::{DMatrix, DVector};
 use std::fmt::{self, Debug, Formatter};
 use std::sync::Arc;
-
-/// Part of the stiffness or mass that one parameter scales: at d DOF (d × d), or in n shapes as $V^t K_e V$ or $V^t M_e V$ (n × n).
-#[derive(Debug, Clone, PartialEq)]
-pub enum ParameterMatrix {
-    /// Of the stiffness, lbf/in, or rad²/s² in mass-orthonormal shapes.
-    Stiffness(DMatrix<f64>),
-    /// Of the mass, lbf·s²/in, or a fraction in mass-orthonormal shapes.
-    Mass(DMatrix<f64>),
-}
-
-impl ParameterMatrix {
-    /// The matrix, whatever it is a share of.
-    pub fn matrix(&self) -> &DMatrix<f64> {
-        match self {
-            Self::Stiffness(matrix) | Self::Mass(matrix) => matrix,
-        }
-    }
-
-    fn is_mass(&self) -> bool {
-        matches!(self, Self::Mass(_))
-    }
-
-    /// Part of the stiffness or mass of a mode of this squared frequency.
-    pub(crate) fn part(&self, mode: usize, square: f64) -> f64 {
-        match self {
-            Self::Stiffness(share) => share[(mode, mode)] / square,
-            Self::Mass(share) => share[(mode, mode)],
-        }
-    }
-}
 
 /// Parts (n × p) that shares have in the stiffness or mass of modes: those at the head of their basis, or sums of it at factors.
 pub(crate) fn parts_of(
@@ -164,7 +136,7 @@ pub struct SensorModel {
     test_shares: Vec<DMatrix<f64>>,
     gages: Vec<f64>,
     /// The analysis that it is of, if it is one of a whole model.
-    place: Option<Arc<dyn Whole>>,
+    place: Option<Arc<Place>>,
     /// Parts that the modes left out have in the slopes of each exact mode's shape (d × p), of those that are compared, where they are
     /// known.
     pub(crate) beyond: Vec<Option<DMatrix<f64>>>,
@@ -177,57 +149,6 @@ struct Turn {
     shapes: DMatrix<f64>,
     /// Factor of every parameter on its share.
     factors: Vec<f64>,
-}
-
-/// Deflections that stand behind the modes in a basis.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Deflections<'a> {
-    /// At most so many leading ones of every parameter.
-    Each(usize),
-    /// Leading ones of one parameter, whose share alone is looked at.
-    Own(usize),
-    /// So many of all parameters together.
-    All(usize),
-    /// Deflections of some modes under a change along these logarithms of factors, and so many of all parameters in these modes, of which
-    /// each has a weight.
-    Along {
-        direction: &'a [f64],
-        modes: &'a [usize],
-        further: usize,
-        weights: &'a [f64],
-    },
-}
-
-/// An exact analysis of a whole model, as far as a model at sensors needs it.
-pub(crate) trait Whole: Debug + Send + Sync {
-    /// The lowest modes at the sensors.
-    fn modes(&self, count: usize) -> Result<Modes, Error>;
-
-    /// The lowest shapes at all degrees of freedom (DOF × n), at most so many.
-    fn shapes(&self, count: usize) -> Modes;
-
-    /// Gives back memory that can be filled again.
-    fn release(&self);
-
-    /// Frequencies of modes found that no sensor sees, ascending, Hz.
-    fn unseen(&self) -> Vec<f64>;
-
-    /// Shapes of a basis behind a number of modes, and the shares in all of them.
-    fn basis(
-        &self,
-        count: usize,
-        deflections: Deflections,
-    ) -> Result<(Further, Vec<ParameterMatrix>), Error>;
-
-    /// Parts that all but a number of modes have in the slopes of these modes at the sensors (d × p each).
-    fn slopes_beyond(&self, count: usize, modes: &[usize]) -> Result<Vec<DMatrix<f64>>, Error>;
-}
-
-/// Shapes of a basis beyond the exact modes: residual vectors with their squared frequencies, and rigid-body modes, at the sensors.
-#[derive(Debug)]
-pub(crate) struct Further {
-    pub residual: Modes,
-    pub rigid_body: DMatrix<f64>,
 }
 
 impl SensorModel {
@@ -322,7 +243,7 @@ impl SensorModel {
 
     /// The model of the lowest modes of an analysis, with deflections behind them in the basis.
     pub(crate) fn of_whole(
-        place: Arc<dyn Whole>,
+        place: Arc<Place>,
         count: usize,
         (test, pair): (&Modes, Pair),
         deflections: Deflections,
@@ -334,7 +255,7 @@ impl SensorModel {
     }
 
     /// The analysis, where it is at hand.
-    pub(crate) fn whole(&self) -> Option<&Arc<dyn Whole>> {
+    pub(crate) fn whole(&self) -> Option<&Arc<Place>> {
         self.place.as_ref()
     }
 
@@ -360,42 +281,14 @@ impl SensorModel {
         Ok(self)
     }
 
-    /// The model in a basis with the deflections of the compared modes under a change along these logarithms of factors, and so many
-    /// of all parameters; itself where the analysis is not at hand.
-    pub(crate) fn along(
-        &self,
-        direction: &[f64],
-        further: usize,
-        weights: &[f64],
-    ) -> Result<Self, Error> {
-        let modes = &self.exact.pairing.analysis_mode;
-        self.in_basis(Deflections::Along {
-            direction,
-            modes,
-            further,
-            weights,
-        })
-    }
-
-    /// The model of one parameter alone in a basis with its own deflections.
-    pub(crate) fn alone(&self, e: usize) -> Result<Self, Error> {
-        match &self.place {
-            Some(_) => self.in_basis(Deflections::Own(e)),
-            None => Ok(Self {
-                shares: Arc::new(vec![self.shares[e].clone()]),
-                ..self.clone()
-            }),
-        }
-    }
-
-    /// The model in a basis with so many deflections of all parameters.
-    pub(crate) fn spread(&self, most: usize) -> Result<Self, Error> {
-        self.in_basis(Deflections::All(most))
-    }
-
-    fn in_basis(&self, deflections: Deflections) -> Result<Self, Error> {
+    /// The model in a basis with other deflections; where the analysis is not at hand, in its own.
+    pub(crate) fn in_basis(&self, deflections: Deflections) -> Result<Self, Error> {
         let Some(place) = &self.place else {
-            return Ok(self.clone());
+            let mut own = self.clone();
+            if let Deflections::Own(e) = deflections {
+                own.shares = Arc::new(vec![self.shares[e].clone()]);
+            }
+            return Ok(own);
         };
         let (further, shares) = place.basis(self.exact.modes.len(), deflections)?;
         Self::at_sensors(
@@ -630,14 +523,6 @@ impl From<&Model> for SensorModel {
             place: None,
             exact,
         }
-    }
-}
-
-/// Turns the columns of shapes at all DOF whose counterparts at the sensors the sign rule has turned.
-pub(crate) fn turn_alike(whole: &mut DMatrix<f64>, seen: &DMatrix<f64>, signed: &DMatrix<f64>) {
-    let is_turned = |mode: &usize| signed.column(*mode) != seen.column(*mode);
-    for mode in (0..signed.ncols()).filter(is_turned) {
-        whole.column_mut(mode).neg_mut();
     }
 }
 

@@ -1,7 +1,8 @@
 //! The largest roots of $K^{-1} M$ in subspaces that are far smaller than the structure.
 
+use super::checks::independent;
 use super::random::random_block;
-use super::{SparseMatrix, places_above, take_product, transposed_product};
+use super::{SparseMatrix, take_product, transposed_product};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use nalgebra::{DMatrix, DVector};
@@ -120,17 +121,9 @@ fn orthonormal(mass: &SparseMatrix, block: DMatrix<f64>) -> Result<Directions, E
             weighted,
         });
     }
-    let (values, vectors) = symmetric_eigen(
-        "block",
-        &symmetric_part(&transposed_product(&block, &weighted)),
-    )?;
     // Round-off is relative to the largest: of as few masses as there are columns, some are combinations of the others.
-    let least = (1e-14 * values.max()).max(1e-20);
-    let independent = places_above(&values, least);
-    let scale = values
-        .select_rows(&independent)
-        .map(|value| 1.0 / value.sqrt());
-    let vectors = vectors.select_columns(&independent) * DMatrix::from_diagonal(&scale);
+    let gram = transposed_product(&block, &weighted);
+    let (_, vectors) = independent("block", &gram, |largest| (1e-14 * largest).max(1e-20))?;
     Ok(Directions {
         shapes: block,
         weighted,

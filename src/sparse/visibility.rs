@@ -27,8 +27,11 @@ pub(crate) fn visibilities(readings: &DMatrix<f64>) -> Vec<f64> {
 /// The $r_s$ of [`visibilities`].
 fn sizes(readings: &DMatrix<f64>) -> DVector<f64> {
     let least = (NOTHING * readings.amax()).max(f64::MIN_POSITIVE);
-    let largest = readings.row_iter().map(|row| row.amax().max(least));
-    DVector::from_iterator(readings.nrows(), largest)
+    let mut largest = DVector::from_element(readings.nrows(), least);
+    for mode in readings.column_iter() {
+        largest.zip_apply(&mode, |largest, own| *largest = largest.max(own.abs()));
+    }
+    largest
 }
 
 /// Modes of a pencil, those first that sensors see.

@@ -1,34 +1,21 @@
 //! A model given by sparse matrices, whatever made them, and what the loops are handed of it.
 
-use super::deformations::Deformations;
-use super::elements::stiffness_entries;
 use super::factorization::{FactorizationPlan, Work};
 use super::lowest_modes::{CountedModes, FINITE, Flexibility, modes_at_most};
 use super::matrix::ASSEMBLED;
-use super::part::Part;
-use super::place::Place;
+use super::place::{Deflections, Place};
 use super::rigid_bodies::BodyFinding;
-use super::sensor_model::{Deflections, Pair, ParameterMatrix, SensorModel, Whole};
+use super::sensor_model::{Pair, SensorModel};
+use super::share::{Share, WholeShare};
 use super::visibility::rows_with_sensor;
 use super::{RigidBodies, SparseMatrix, Support};
-use crate::method::error::{Error, check_count, check_places, positive};
+use crate::method::error::{Error, check_count, positive};
 use crate::method::linear_algebra::check_length;
 use crate::method::modes::Modes;
 use crate::method::step::Bounds;
 use nalgebra::DMatrix;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, OnceLock};
-
-/// Part of the whole model's matrices.
-#[derive(Debug, Clone, PartialEq)]
-pub enum WholeShare {
-    /// Of the stiffness, lbf/in.
-    Stiffness(SparseMatrix),
-    /// The stiffness of elements of the given gages (in) and areas (in²).
-    Elements(Vec<(Deformations, f64)>),
-    /// Of the mass, lbf·s²/in.
-    Mass(SparseMatrix),
-}
 
 /// What may change: a part of the stiffness or mass that is scaled by one factor.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,11 +51,20 @@ struct Parts {
     /// The first stiffness and mass, wherever any of the parameters has an entry.
     first: [SparseMatrix; 2],
     parameters: Vec<WholeParameter>,
-    /// The parameters' parts of them.
-    own: Vec<Part>,
+    /// Rows and places of their parts.
+    spots: Vec<Spots>,
     plan: Arc<FactorizationPlan>,
     support: Support,
     bodies: OnceLock<RigidBodies>,
+}
+
+/// Rows and places of the entries of a parameter's part among those of the first matrices.
+#[derive(Debug)]
+struct Spots {
+    /// Rows, ascending.
+    rows: Vec<usize>,
+    /// Places of its entries among those of the whole.
+    places: Vec<u32>,
 }
 
 impl WholeModel {
@@ -76,8 +72,8 @@ impl WholeModel {
     /// parameters' parts of them.
     ///
     /// # Errors
-    /// Those of [`SparseMatrix::check_symmetric`]; [`Error::WrongShape`] for matrices of other sizes; [`Error::Count`] for a row of
-    /// an element beyond them; [`Error::Value`] for its size; [`Error::Range`] for a range that excludes one.
+    /// Those of [`SparseMatrix::check_symmetric`]; [`Error::WrongShape`] for matrices of other sizes; [`Error::Range`] for a range that
+    /// excludes one.
     pub fn new(
         stiffness: SparseMatrix,
         mass: SparseMatrix,
@@ -108,16 +104,11 @@ impl WholeModel {
             check_length("stiffness of the elements", resisting.rows(), count)?;
         }
         for WholeParameter { name, share, range } in &parameters {
-            match share {
-                WholeShare::Stiffness(matrix) => check("stiffness of a parameter", matrix)?,
-                WholeShare::Elements(members) => {
-                    members.iter().try_for_each(|(element, size)| {
-                        check_places("degrees of freedom", element.dof(), count)?;
-                        positive("size", || format!("element {}", element.label()), *size)
-                    })?
-                }
-                WholeShare::Mass(matrix) => check("mass of a parameter", matrix)?,
-            }
+            let what = match share {
+                Share::Stiffness(_) => "stiffness of a parameter",
+                Share::Mass(_) => "mass of a parameter",
+            };
+            check(what, share.matrix())?;
             if let Some(Bounds { lower, upper }) = *range {
                 let what = format!("factor of parameter {name}");
                 if !Bounds::positive(&what, lower, upper)?.contains(1.0) {
@@ -125,29 +116,28 @@ impl WholeModel {
                 }
             }
         }
-        let parts = parameters
-            .iter()
-            .map(|parameter| Part::of(parameter.is_mass(), parameter.entries(), count));
-        let parts = parts.collect::<Result<Vec<_>, Error>>()?;
         let of_matrix = |is_mass: bool, matrix: SparseMatrix| {
-            let own = parts.iter().filter(|part| part.is_mass == is_mass);
-            matrix.with_places_of(own.flat_map(Part::entries))
+            let shares = parameters.iter().map(|parameter| &parameter.share);
+            let own = shares.filter(|share| share.is_mass() == is_mass);
+            matrix.with_places_of(own.flat_map(|share| share.matrix().entries()))
         };
         let first = [of_matrix(false, stiffness), of_matrix(true, mass)];
         let starts = [first[0].starts(), first[1].starts()];
-        let placed = |part: Part| {
-            let at = usize::from(part.is_mass);
-            part.placed(&first[at], &starts[at])
+        let spots = |WholeParameter { share, .. }: &WholeParameter| {
+            let (at, part) = (usize::from(share.is_mass()), share.matrix());
+            let places = part.entries();
+            let places = places.map(|entry| first[at].place(&starts[at], entry));
+            Some(Spots {
+                rows: part.occupied(),
+                places: places.collect::<Option<_>>()?,
+            })
         };
-        let own = parts
-            .into_iter()
-            .map(placed)
-            .collect::<Result<_, Error>>()?;
+        let spots = parameters.iter().map(spots).collect::<Option<_>>();
         let all: Vec<&SparseMatrix> = first.iter().chain(&support.resisting).collect();
         let plan = Arc::new(FactorizationPlan::of_sum(&all)?);
         Ok(Self(Arc::new(Parts {
+            spots: spots.ok_or(Error::no_convergence("sparse assembly"))?,
             first,
-            own,
             parameters,
             plan,
             support,
@@ -158,7 +148,8 @@ impl WholeModel {
     /// The motions that the stiffness leaves free, at the first factors and at any others: all parts of it are semidefinite.
     ///
     /// # Errors
-    /// Errors of [`RigidBodies::of`].
+    /// [`Error::NotPositiveDefinite`] for a matrix that is not semidefinite whatever its rounding; [`Error::Count`] for more motions than
+    /// its digits may leave free; the errors of the factorization.
     pub fn rigid_bodies(&self) -> Result<&RigidBodies, Error> {
         let Parts {
             first,
@@ -170,7 +161,7 @@ impl WholeModel {
         if let Some(bodies) = bodies.get() {
             return Ok(bodies);
         }
-        let found = RigidBodies::by(plan, "stiffness", &first[0], support)?;
+        let found = RigidBodies::of(plan, &first[0], support)?;
         Ok(bodies.get_or_init(|| found))
     }
 
@@ -209,10 +200,9 @@ impl WholeModel {
         let mut couplings = Vec::new();
         for (matrix, is_mass) in first.iter().zip([false, true]) {
             let sizes = SparseMatrix::unit_scale(&matrix.diagonal());
-            let parts = parameters
-                .iter()
-                .filter(|parameter| parameter.is_mass() == is_mass);
-            let parts = parts.flat_map(WholeParameter::entries);
+            let parts = parameters.iter().map(|parameter| &parameter.share);
+            let parts = parts.filter(|share| share.is_mass() == is_mass);
+            let parts = parts.flat_map(|share| share.matrix().entries());
             let all = matrix.entries().chain(parts);
             let told = all.filter(|&(row, column, value)| {
                 value.abs() > ASSEMBLED * sizes[row] * sizes[column]
@@ -234,18 +224,10 @@ impl WholeModel {
             ..
         } = &*self.0;
         let part = |matrix: &SparseMatrix| matrix.at_rows(rows);
-        let of = |parameter: &WholeParameter| -> Result<WholeParameter, Error> {
-            let share = match &parameter.share {
-                WholeShare::Stiffness(matrix) => WholeShare::Stiffness(part(matrix)?),
-                WholeShare::Mass(matrix) => WholeShare::Mass(part(matrix)?),
-                WholeShare::Elements(members) => {
-                    let own =
-                        |(element, size): &(Deformations, f64)| (element.at_rows(rows), *size);
-                    WholeShare::Elements(members.iter().map(own).collect())
-                }
-            };
+        let of = |parameter: &WholeParameter| {
+            let share = &parameter.share;
             Ok(WholeParameter {
-                share,
+                share: share.of(part(share.matrix())?),
                 ..parameter.clone()
             })
         };
@@ -254,7 +236,8 @@ impl WholeModel {
             places: support.places.as_ref().map(|places| places.at(rows)),
             count: support.count,
         };
-        let parameters = parameters.iter().map(of).collect::<Result<_, Error>>()?;
+        let parameters = parameters.iter().map(of);
+        let parameters = parameters.collect::<Result<_, Error>>()?;
         Self::supported(part(&first[0])?, part(&first[1])?, parameters, support)
     }
 
@@ -268,9 +251,10 @@ impl WholeModel {
         &self.0.parameters
     }
 
-    /// The parameters' parts of the first matrices.
-    pub(super) fn parts(&self) -> &[Part] {
-        &self.0.own
+    /// The parameters' parts of the first matrices, and the rows where they have entries.
+    pub(super) fn parts(&self) -> impl ExactSizeIterator<Item = (&WholeShare, &[usize])> {
+        let both = self.parameters().iter().zip(&self.0.spots);
+        both.map(|(parameter, spots)| (&parameter.share, &spots.rows[..]))
     }
 
     /// The bounds on every parameter's factor.
@@ -286,44 +270,53 @@ impl WholeModel {
     pub fn at(&self, factors: &[f64]) -> Result<(SparseMatrix, SparseMatrix), Error> {
         check_length("parameter factors", factors.len(), self.parameters().len())?;
         let mut both = self.0.first.clone();
-        let parts = self.parameters().iter().zip(self.parts());
-        for ((parameter, part), &factor) in parts.zip(factors) {
-            positive("factor", || format!("parameter {}", parameter.name), factor)?;
+        let parts = self.parameters().iter().zip(&self.0.spots);
+        for ((WholeParameter { name, share, .. }, Spots { places, .. }), &factor) in
+            parts.zip(factors)
+        {
+            positive("factor", || format!("parameter {name}"), factor)?;
             if factor != 1.0 {
-                part.add_to(&mut both[usize::from(part.is_mass)], factor - 1.0);
+                both[usize::from(share.is_mass())].add(factor - 1.0, places, share.matrix());
             }
         }
         let [stiffness, mass] = both;
         Ok((stiffness, mass))
     }
 
-    /// The `count` lowest vibrations at the given factors, and the rigid-body modes.
+    /// The `count` lowest vibrations at the given factors, none of them missed, and the rigid-body modes.
     ///
     /// # Errors
-    /// Those of [`Self::at`] and [`lowest_modes`](super::lowest_modes()).
+    /// Those of [`Self::at`]; [`Error::Count`] for more modes than there are, and without mass; [`Error::NotPositiveDefinite`] for a
+    /// motion that has neither stiffness nor mass, or a matrix that is not semidefinite; [`Error::Failed`].
+    ///
+    /// ```rust
+    /// use corfem::sparse::{SparseMatrix, WholeModel};
+    ///
+    /// // Two masses on a spring, held nowhere: one rigid-body mode, and a vibration at the root of two.
+    /// let matrix = |entries: &[(usize, usize, f64)]| SparseMatrix::new("matrix", 2, 2, entries.to_vec());
+    /// let spring = matrix(&[(0, 0, 1.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 1.0)])?;
+    /// let model = WholeModel::new(spring, matrix(&[(0, 0, 1.0), (1, 1, 1.0)])?, Vec::new())?;
+    /// let found = model.modes(&[], 1)?;
+    /// assert_eq!(found.rigid_body.ncols(), 1);
+    /// assert!((found.vibrations.omega_squared()[0] - 2.0).abs() < 1e-12);
+    /// # Ok::<(), corfem::method::error::Error>(())
+    /// ```
     pub fn modes(&self, factors: &[f64], count: usize) -> Result<CountedModes, Error> {
+        check_count("modes", count, 1, self.dof_count())?;
         let (stiffness, mass) = self.at(factors)?;
-        Ok(self.modes_of(&stiffness, &mass, (count, count), None)?.0)
+        let (found, _) = self.modes_of((&stiffness, &mass), (count, count), None)?;
+        check_count(FINITE, count, 1, found.vibrations.len())?;
+        Ok(found)
     }
 
-    /// The modes of matrices at some factors, at least and at most so many, sought from those `near` that are known.
+    /// The modes of matrices at some factors as by [`modes_at_most`].
     pub(super) fn modes_of(
         &self,
-        stiffness: &SparseMatrix,
-        mass: &SparseMatrix,
-        (least, most): (usize, usize),
+        matrices: (&SparseMatrix, &SparseMatrix),
+        counts: (usize, usize),
         near: Option<&DMatrix<f64>>,
     ) -> Result<(CountedModes, Flexibility), Error> {
-        check_count("modes", least, 1, self.dof_count())?;
-        let found = modes_at_most(
-            (stiffness, mass),
-            (least, most),
-            near,
-            self.rigid_bodies()?,
-            &self.0.plan,
-        )?;
-        check_count(FINITE, least, 1, found.0.vibrations.len())?;
-        Ok(found)
+        modes_at_most(matrices, counts, near, self.rigid_bodies()?, &self.0.plan)
     }
 
     /// The flexibility at a stiffness and mass.
@@ -421,38 +414,7 @@ impl WholeModel {
         sensors: &SparseMatrix,
         counts: (usize, usize),
         near: Option<&DMatrix<f64>>,
-    ) -> Result<Arc<dyn Whole>, Error> {
+    ) -> Result<Arc<Place>, Error> {
         Ok(Arc::new(Place::new(self, factors, sensors, counts, near)?))
-    }
-
-    /// Every parameter's present share in shapes $V$ at all DOF, $s_e V^t K_e V$ or $s_e V^t M_e V$.
-    pub(crate) fn shares(
-        &self,
-        factors: &[f64],
-        shapes: &DMatrix<f64>,
-    ) -> Result<Vec<ParameterMatrix>, Error> {
-        let both = self.parts().iter().zip(factors);
-        both.map(|(part, &factor)| part.seen_by(factor, shapes))
-            .collect()
-    }
-}
-
-impl WholeParameter {
-    /// True of a part of the mass.
-    pub(super) fn is_mass(&self) -> bool {
-        matches!(self.share, WholeShare::Mass(_))
-    }
-
-    /// The entries (row, column, value) of its part of the first matrices; places may be given twice.
-    fn entries(&self) -> Vec<(usize, usize, f64)> {
-        match &self.share {
-            WholeShare::Stiffness(matrix) | WholeShare::Mass(matrix) => matrix.entries().collect(),
-            WholeShare::Elements(members) => {
-                let of_element = |(element, size): &(Deformations, f64)| {
-                    stiffness_entries(&element.matrix(), *size).collect::<Vec<_>>()
-                };
-                members.iter().flat_map(of_element).collect()
-            }
-        }
     }
 }

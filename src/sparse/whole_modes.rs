@@ -1,16 +1,15 @@
 //! Modes at the degrees of freedom that have mass.
 
+use super::WholeModel;
 use super::elements::moving_mass_entries;
-use super::factorization::FactorizationPlan;
-use super::lowest_modes::{CountedModes, modes_at_most};
+use super::lowest_modes::CountedModes;
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::modes::Modes;
 use crate::method::structure::StructuralDof;
 use crate::sparse::rigid_bodies::BodyFinding;
-use crate::sparse::{RigidBodies, SparseMatrix, Support};
+use crate::sparse::{SparseMatrix, Support};
 use nalgebra::DVector;
-use std::sync::Arc;
 
 /// The degrees of freedom that move with mass.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,11 +38,11 @@ pub struct WholeModes {
 }
 
 /// The lowest vibrations of finite frequency of $K_S$ (free SDOF × free SDOF, lbf/in) and $T M T^t$ at the DOF that have mass, counted
-/// as by [`lowest_modes`](super::lowest_modes()): `most` of them, or all if there are fewer. `support` is that of $K_S$, whose rows are
+/// as by [`WholeModel::modes`]: `most` of them, or all if there are fewer. `support` is that of $K_S$, whose rows are
 /// called `name`.
 ///
 /// # Errors
-/// [`Error::WrongShape`] for a $T$ or masses that do not fit; the errors of [`lowest_modes`](super::lowest_modes()).
+/// [`Error::WrongShape`] for a $T$ or masses that do not fit; the errors of [`WholeModel::modes`].
 pub fn whole_modes(
     stiffness: &SparseMatrix,
     at: MassDof,
@@ -59,18 +58,16 @@ pub fn whole_modes(
         moving_mass_entries(&motion, &motion, mass)
     });
     let mass = SparseMatrix::new("mass", rows, rows, entries.collect())?;
-    let matrices = [stiffness, &mass].into_iter().chain(&support.resisting);
-    let matrices: Vec<_> = matrices.collect();
-    let plan = Arc::new(FactorizationPlan::of_sum(&matrices)?);
-    let bodies = RigidBodies::by(&plan, "stiffness", stiffness, support)?;
+    let whole = WholeModel::supported(stiffness.clone(), mass, Vec::new(), support.clone())?;
+    let (stiffness, mass) = whole.at(&[])?;
     let (CountedModes { vibrations, .. }, _) =
-        modes_at_most((stiffness, &mass), (most, most), None, &bodies, &plan)?;
+        whole.modes_of((&stiffness, &mass), (most, most), None)?;
     let shapes = t.transposed().times(&vibrations.shapes)?;
     Ok(WholeModes {
         dof: at.dof,
         modes: Modes::signed(vibrations.omega_squared, shapes),
         counted: None,
-        rigid_body: bodies.rigid(),
-        doubtful: bodies.findings(&mass, name),
+        rigid_body: whole.rigid_bodies()?.rigid(),
+        doubtful: whole.body_findings(name)?,
     })
 }

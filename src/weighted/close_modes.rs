@@ -55,9 +55,9 @@ pub(crate) struct Nearest {
     pub apart: DVector<f64>,
 }
 
-/// Of the `members` among `shapes` (d × n).
-pub(crate) fn nearest(shapes: &DMatrix<f64>, members: &[usize], u: &DVector<f64>) -> Nearest {
-    let mut unit = shapes.select_columns(members);
+/// Of shapes (d × m).
+pub(crate) fn nearest(shapes: &DMatrix<f64>, u: &DVector<f64>) -> Nearest {
+    let mut unit = shapes.clone();
     let sizes: Vec<f64> = unit
         .column_iter()
         .map(|shape| shape.norm().max(f64::MIN_POSITIVE))
@@ -66,7 +66,7 @@ pub(crate) fn nearest(shapes: &DMatrix<f64>, members: &[usize], u: &DVector<f64>
         shape /= *size;
     }
     // Of one shape this is its transpose.
-    let mut inverse = if let [_] = members {
+    let mut inverse = if unit.ncols() == 1 {
         unit.transpose()
     } else {
         let parts = unit.clone().svd(true, true);
@@ -98,8 +98,9 @@ pub fn assurance_of_roots(modes: &Modes, shapes: &DMatrix<f64>) -> Result<DMatri
         let is_one = |r: &usize| (k[*r] - k[i]).abs() <= SMALLEST_SEPARATION * k[i].max(k[*r]);
         let members: Vec<usize> = (0..k.len()).filter(is_one).collect();
         if members.len() > 1 {
+            let members = modes.shapes.select_columns(&members);
             for (j, shape) in shapes.column_iter().enumerate() {
-                let apart = nearest(&modes.shapes, &members, &shape.normalize()).apart;
+                let apart = nearest(&members, &shape.normalize()).apart;
                 assurance[(i, j)] = 1.0 - apart.norm_squared();
             }
         }
@@ -124,17 +125,17 @@ pub fn turned(
     let mut turned = modes.clone();
     for group in together.iter().filter(|group| group.len() > 1) {
         let members: Vec<usize> = group.iter().map(|&j| pairing.analysis_mode[j]).collect();
+        let own = modes.shapes.select_columns(&members);
         let mut wanted = DMatrix::zeros(members.len(), members.len());
         for (place, &j) in group.iter().enumerate() {
-            let shares =
-                nearest(&modes.shapes, &members, &test.shapes.column(j).normalize()).shares;
+            let shares = nearest(&own, &test.shapes.column(j).normalize()).shares;
             if let Some(shares) = shares.try_normalize(0.0) {
                 wanted.set_column(place, &(pairing.sign[j] * shares));
             }
         }
         let parts = wanted.svd(true, true);
         if let (Some(left), Some(right)) = (parts.u, parts.v_t) {
-            let shapes = modes.shapes.select_columns(&members) * (left * right);
+            let shapes = own * (left * right);
             for (shape, &member) in shapes.column_iter().zip(&members) {
                 turned.shapes.set_column(member, &shape);
             }

@@ -1,12 +1,14 @@
 //! Bounded Gauss–Newton steps with Levenberg and Marquardt's damping, one exact analysis each.
 
 use super::comparison::{Comparison, ExactResult};
-use super::identifiability::{Identifiability, PRIOR_DEVIATION, identifiability, information};
+use super::identifiability::{
+    Identifiability, PRIOR_DEVIATION, identifiability, information, tikhonov,
+};
 use super::residuals::{jacobian, residuals};
 use crate::method::error::{Error, positive};
 use crate::method::linear_algebra::check_length;
 use crate::method::step::Bounds;
-use crate::sparse::{ModeWeight, solve_positive};
+use crate::sparse::{Deflections, ModeWeight, solve_positive};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
@@ -55,6 +57,14 @@ impl WeightedSettings {
             [one] => vec![one; count],
             _ => self.prior_deviations.clone(),
         }
+    }
+
+    /// The prior's part of twice the objective, $\sum (\ln s_e/\tau_e)^2$.
+    pub(super) fn pull(&self, factors: &[f64]) -> f64 {
+        let pulls = factors.iter().zip(self.priors(factors.len()));
+        pulls
+            .map(|(factor, prior)| (factor.ln() / prior).powi(2))
+            .sum()
     }
 }
 
@@ -191,9 +201,8 @@ impl<'a> Problem<'a> {
         for range in ranges.iter().flatten() {
             Bounds::positive("parameter limits", range.lower, range.upper)?;
         }
-        let tikhonov = priors.iter().map(|prior| prior.powi(-2));
         Ok(Self {
-            tikhonov: DVector::from_iterator(count, tikhonov),
+            tikhonov: tikhonov(&priors),
             held: None,
             ranges,
             weights,
@@ -407,11 +416,14 @@ impl<'a> Problem<'a> {
         (damping, left): (f64, f64),
         further: usize,
     ) -> Option<(f64, Vec<f64>)> {
-        let basis = place
-            .comparison
-            .model
-            .along(step.as_slice(), further, &place.misfits())
-            .ok()?;
+        let model = &place.comparison.model;
+        let along = Deflections::Along {
+            direction: step.as_slice(),
+            modes: &model.exact.pairing.analysis_mode,
+            further,
+            weights: &place.misfits(),
+        };
+        let basis = model.in_basis(along).ok()?;
         let basis = place
             .comparison
             .in_basis(basis, &place.jacobian, self.weights)

@@ -2,7 +2,7 @@
 
 use crate::method::error::{Error, at_least_one, positive};
 use crate::method::linear_algebra::{as_faer, check_finite, check_length};
-use crate::sparse::{inverse_of_positive, transposed_product};
+use crate::sparse::{gram, inverse_of_positive};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
@@ -56,12 +56,10 @@ pub const MOSTLY_PRIOR: f64 = 0.5;
 /// [`Error::Value`] for $\tau$ that is not positive; [`Error::Value`]; [`Error::Count`] without parameters or residuals.
 pub fn identifiability(jacobian: &DMatrix<f64>, priors: &[f64]) -> Result<Identifiability, Error> {
     let count = jacobian.ncols();
-    check_length("prior deviations", priors.len(), count)?;
-    for prior in priors {
-        positive("prior_deviation", || "the parameters".into(), *prior)?;
-    }
     check_finite("Jacobian", jacobian)?;
     at_least_one("parameters or residuals", jacobian.len())?;
+    let gram = gram(jacobian);
+    let covariance = covariance(gram.clone(), priors)?;
     let singular_values = as_faer(jacobian).singular_values();
     let mut singular_values =
         singular_values.map_err(|_| Error::no_convergence("singular values of the Jacobian"))?;
@@ -80,15 +78,12 @@ pub fn identifiability(jacobian: &DMatrix<f64>, priors: &[f64]) -> Result<Identi
         .filter(|&e| lengths[e] <= BLIND_FRACTION * longest)
         .collect();
     let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b)));
-    let gram = transposed_product(jacobian, jacobian);
     let cosine = |(a, b)| {
         let cosine: f64 = gram[(a, b)] / (lengths[a] * lengths[b]);
         cosine.clamp(-1.0, 1.0)
     };
     let parallel = pairs.map(|(a, b)| (a, b, cosine((a, b))));
     let priors = DVector::from_column_slice(priors);
-    let information = &gram + DMatrix::from_diagonal(&priors.map(|prior| prior.powi(-2)));
-    let covariance = inverse_of_positive("information", &information)?;
     let deviations: Vec<f64> = covariance
         .diagonal()
         .iter()
@@ -119,7 +114,25 @@ pub fn identifiability(jacobian: &DMatrix<f64>, priors: &[f64]) -> Result<Identi
 
 /// $J^t J + \mathrm{diag}(\tau^{-2})$, the inverse of the covariance, from the inverse squares of the prior deviations.
 pub(super) fn information(jacobian: &DMatrix<f64>, tikhonov: &DVector<f64>) -> DMatrix<f64> {
-    transposed_product(jacobian, jacobian) + DMatrix::from_diagonal(tikhonov)
+    gram(jacobian) + DMatrix::from_diagonal(tikhonov)
+}
+
+/// The covariance of the logarithms from $J^t J$ and the prior deviations.
+///
+/// # Errors
+/// [`Error::Value`] for a deviation that is not positive; [`Error::WrongShape`] for another number of them.
+pub(super) fn covariance(gram: DMatrix<f64>, priors: &[f64]) -> Result<DMatrix<f64>, Error> {
+    check_length("prior deviations", priors.len(), gram.ncols())?;
+    for prior in priors {
+        positive("prior_deviation", || "the parameters".into(), *prior)?;
+    }
+    let information = gram + DMatrix::from_diagonal(&tikhonov(priors));
+    inverse_of_positive("information", &information)
+}
+
+/// $1/\tau^2$ of every prior deviation.
+pub(super) fn tikhonov(priors: &[f64]) -> DVector<f64> {
+    DVector::from_column_slice(priors).map(|prior| prior.powi(-2))
 }
 
 /// Lengths between which round-off does not choose, relative to the longer.

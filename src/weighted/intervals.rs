@@ -2,12 +2,12 @@
 
 use super::comparison::Comparison;
 use super::gauss_newton::{Problem, WeightedSettings, logs_of};
-use super::identifiability::{NORMAL_95, identifiability, information};
+use super::identifiability::{MOSTLY_PRIOR, NORMAL_95, covariance, information, tikhonov};
 use super::residuals::{jacobian, residuals};
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::step::Bounds;
-use crate::sparse::{ModeWeight, solve_positive};
+use crate::sparse::{ModeWeight, gram, solve_positive};
 use nalgebra::DVector;
 use serde::Serialize;
 use statrs::function::erf::erfc;
@@ -71,7 +71,7 @@ impl Withheld {
 /// 95 % intervals about the factors at the optimum of weighted steps, with the deviations of the measurement `widening` times as large as
 /// by the weights, and the prior's as they are. None of a parameter at a bound, and of one that is known mostly from the prior.
 ///
-/// By the slopes, with the covariance $C$ of the logarithms ([`identifiability`]), the interval is $c_e e^{\pm 1.96 s_e}$. It holds as far as
+/// By the slopes, with the covariance $C$ of the logarithms ([`identifiability`](super::identifiability::identifiability)), the interval is $c_e e^{\pm 1.96 s_e}$. It holds as far as
 /// $s_e$ is the same within it. Where it changes along the way, on which the other logarithms move by $C_{ie}/C_{ee}$ of the one, an end is
 /// $r = \int \mathrm dt/s_e(t)$ deviations away, here by Simpson's rule or, of deviations within 5 %, their mean, and the truth beyond it
 /// in a part $\Phi(-r)$ of the tests. Where both
@@ -104,37 +104,37 @@ pub fn intervals(
         shape: own.shape / widening,
     };
     let weights: Vec<ModeWeight> = weights.iter().map(weight).collect();
-    let seen = identifiability(&jacobian(&model, &weights)?, &priors)?;
-    let tikhonov = priors.iter().map(|prior| prior.powi(-2));
-    let tikhonov = DVector::from_iterator(priors.len(), tikhonov);
-    let logs = logs_of(factors);
-    let pull = tikhonov.dot(&logs.component_mul(&logs)) / widening.powi(2);
+    let covariance = covariance(gram(&jacobian(&model, &weights)?), &priors)?;
+    let deviations = covariance.map_diagonal(f64::sqrt);
+    let tikhonov = tikhonov(&priors);
     let profile = Profile {
         analyze,
         factors,
         ranges,
         weights: &weights,
+        least: 0.5
+            * (residuals(&model, &weights)?.norm_squared()
+                + settings.pull(factors) / widening.powi(2)),
         settings: WeightedSettings {
             prior_deviations: priors.iter().map(|prior| prior * widening).collect(),
             ..settings.clone()
         },
         held: (1.0 - widening.powi(-2)) * &tikhonov,
-        least: 0.5 * (residuals(&model, &weights)?.norm_squared() + pull),
     };
     let interval = |e: usize| -> Result<Bounds, Withheld> {
         if ranges[e].is_some_and(|range| is_at_end(range, factors[e])) {
             return Err(Withheld::AtBound);
         }
-        if seen.is_mostly_prior(e) {
+        if (deviations[e] / priors[e]).powi(2) > MOSTLY_PRIOR {
             return Err(Withheld::MostlyPrior);
         }
         // Logarithms of all factors for a change of this one, which is held there.
-        let path = seen.covariance.column(e) / seen.covariance[(e, e)];
-        let by_slope = NORMAL_95 * seen.deviations[e];
+        let path = covariance.column(e) / covariance[(e, e)];
+        let by_slope = NORMAL_95 * deviations[e];
         // The deviation at the optimum over that elsewhere; nothing is told where there is no model.
         let ratio = |log: f64| {
             let there = deviation(analyze, &along(factors, &path, log), e, &weights, &tikhonov);
-            there.map_or(0.0, |there| seen.deviations[e] / there)
+            there.map_or(0.0, |there| deviations[e] / there)
         };
         let missed = |log: f64| {
             let end = ratio(log);
@@ -153,7 +153,7 @@ pub fn intervals(
             let mut rise = |log: f64| profile.rise(e, &mut way, log);
             [end(&mut rise, -by_slope)?, end(&mut rise, by_slope)?]
         };
-        Ok(within_prior(logs[e], ends, NORMAL_95 * priors[e]))
+        Ok(within_prior(factors[e].ln(), ends, NORMAL_95 * priors[e]))
     };
     Ok((0..factors.len()).map(interval).collect())
 }

@@ -4,7 +4,7 @@ use super::gauss_newton::{Problem, WeightedCorrelation, WeightedSettings};
 use super::starts::draw;
 use crate::method::error::Error;
 use crate::method::step::Bounds;
-use crate::sparse::ModeWeight;
+use crate::sparse::{Deflections, ModeWeight};
 
 /// Number of places that are looked at in the basis,
 const PLACES: usize = 20;
@@ -29,7 +29,7 @@ pub(crate) fn lower_place(
     settings: &WeightedSettings,
     seed: u64,
 ) -> Result<Option<Vec<f64>>, Error> {
-    let basis = end.last.model.spread(deflections)?;
+    let basis = end.last.model.in_basis(Deflections::All(deflections))?;
     let basis = end.last.with_model(basis);
     let settings = WeightedSettings {
         trials: TRIALS,

@@ -1,12 +1,12 @@
 //! How far a model is from its test at the best factors, beside what noise alone would leave.
 
 use super::comparison::Comparison;
-use super::identifiability::identifiability;
+use super::identifiability::covariance;
 use super::residuals::{jacobian, residuals};
 use crate::method::error::Error;
 use crate::method::error::require;
 use crate::method::linear_algebra::check_length;
-use crate::sparse::ModeWeight;
+use crate::sparse::{ModeWeight, gram};
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -50,7 +50,7 @@ impl Misfit {
     /// mean over its prior: $\nu$ is the mean of chi-squared, and $2 \nu$ no less than its variance, $2 \sum (1 - h)^2$.
     ///
     /// # Errors
-    /// Those of [`residuals`], [`jacobian`] and [`identifiability`].
+    /// Those of [`residuals`] and [`jacobian`]; [`Error::Value`] for a prior that is not positive.
     pub fn of(
         comparison: &Comparison,
         weights: &[ModeWeight],
@@ -66,7 +66,9 @@ impl Misfit {
         let fitted: f64 = if free.is_empty() {
             0.0
         } else {
-            identifiability(&jacobian, &priors)?.learned.iter().sum()
+            let left = covariance(gram(&jacobian), &priors)?.diagonal();
+            let left = left.iter().zip(&priors);
+            left.map(|(left, prior)| 1.0 - left / prior.powi(2)).sum()
         };
         let (test, sensors) = (&comparison.model.test, comparison.model.test.shapes.nrows());
         let compared = |(mode, weight): (usize, &ModeWeight)| {

@@ -117,7 +117,7 @@ impl<'a> Whitening<'a> {
             let first = all.ncols();
             all = all.resize_horizontally(first + members.len(), 0.0);
             all.view_mut((rows * j + 1, first), (rows - 1, members.len()))
-                .copy_from(&shapes.select_columns(&members));
+                .copy_from(&shapes);
         }
         let shapes = solve_lower(factor, all).qr();
         Some(Self { factor, shapes })
@@ -138,8 +138,8 @@ impl<'a> Whitening<'a> {
     }
 }
 
-/// Shapes as test mode `j` is compared with them, every component over its deviation, and the combination of the `members` nearest to
-/// the test shape of unit largest component.
+/// The `members` among shapes as test mode `j` is compared with them, every component over its deviation, and their combination nearest
+/// to the test shape of unit largest component.
 fn compared(
     shapes: &DMatrix<f64>,
     Comparison { model, test, .. }: &Comparison,
@@ -150,13 +150,13 @@ fn compared(
         test.component_weights.column(j),
         model.test.shapes.column(j),
     );
-    let mut shapes = shapes.clone();
-    for mut shape in shapes.column_iter_mut() {
+    let mut own = shapes.select_columns(members);
+    for mut shape in own.column_iter_mut() {
         shape.component_mul_assign(&weights);
     }
     let unit = tested.component_mul(&weights) / tested.amax();
-    let nearest = nearest(&shapes, members, &unit);
-    (shapes, nearest)
+    let nearest = nearest(&own, &unit);
+    (own, nearest)
 }
 
 /// Derivatives of [`residuals`] with respect to the logarithm of every parameter's factor, one column a parameter.
@@ -205,36 +205,41 @@ pub fn jacobian(comparison: &Comparison, weights: &[ModeWeight]) -> Result<DMatr
         .zip(model.couplings(&partners))
         .collect();
     let (mut jacobian, mut column) = (DMatrix::zeros(rows * test.len() + lone.len(), count), 0..);
-    for j in 0..test.len() {
+    for (j, of) in weights.iter().enumerate().take(test.len()) {
         let members = members(pairing, together, j);
-        let (shapes, nearest) = compared(&model.basis, comparison, &members, j);
+        let (v, nearest) = compared(&model.basis, comparison, &members, j);
         let Nearest {
             inverse,
             shares,
             apart,
         } = nearest;
-        let v = shapes.select_columns(&members);
-        let mut shape = DMatrix::zeros(rows - 1, count);
+        let scale = comparison.test.component_weights.column(j);
         for (place, &i) in members.iter().enumerate() {
             let couplings = couplings[&i].clone();
             if place == 0 {
                 let ratio = (slopes.k[i] / test.omega_squared[j]).sqrt();
-                let own = slopes.of_frequency(&weights[j], ratio, i, &couplings);
+                let own = slopes.of_frequency(of, ratio, i, &couplings);
                 jacobian.set_row(rows * j, &own);
             }
-            let mut moved = &shapes * slopes.added(i, &members, couplings);
-            if let Some(beyond) = &model.beyond[i] {
-                let weights = comparison.test.component_weights.column(j);
-                let both = moved.column_iter_mut().zip(beyond.column_iter());
-                both.for_each(|(mut moved, beyond)| moved += beyond.component_mul(&weights));
-            }
-            let out = &moved - &v * (&inverse * &moved);
-            let turned = inverse.row(place).transpose() * (apart.transpose() * moved);
-            let (weight, column) = (weights[j].shape, column.next().unwrap_or_default());
+            let (weight, column) = (of.shape, column.next().unwrap_or_default());
             let excess = excess.as_ref().map_or(0.0, |excess| excess[column]);
-            shape += (weight * shares[place] - excess) * out - weight * turned;
+            // What becomes of dv, over the components' deviations, in the residuals.
+            let residuals_of = |moved: &DMatrix<f64>| {
+                let mut moved = moved.clone();
+                for mut moved in moved.column_iter_mut() {
+                    moved.component_mul_assign(&scale);
+                }
+                let turned = inverse.row(place).transpose() * apart.tr_mul(&moved);
+                let along = &v * (&inverse * &moved);
+                (weight * shares[place] - excess) * (moved - along) - weight * turned
+            };
+            let mut shape = jacobian.rows_mut(rows * j + 1, rows - 1);
+            let added = slopes.added(i, &members, couplings);
+            shape.gemm(1.0, &residuals_of(&model.basis), &added, 1.0);
+            if let Some(beyond) = &model.beyond[i] {
+                shape += residuals_of(beyond);
+            }
         }
-        jacobian.rows_mut(rows * j + 1, rows - 1).copy_from(&shape);
     }
     for (place, (lone, weight)) in lone.iter().zip(&weights[test.len()..]).enumerate() {
         let (ratio, i) = (1.0 + lone.error(modes), lone.partner);

@@ -98,7 +98,7 @@ pub fn from_several_starts<E: From<Error>>(
     }
     let minimum = |(end, starts): (&WeightedCorrelation, usize)| Minimum {
         factors: end.factors.clone(),
-        chi_squared: 2.0 * end.objective - pull(&end.factors, settings),
+        chi_squared: 2.0 * end.objective - settings.pull(&end.factors),
         starts,
     };
     let minima = minima.into_iter().map(minimum).collect();
@@ -120,15 +120,6 @@ impl WeightedCorrelation {
 pub(super) fn draw(count: usize, state: &mut u64) -> Vec<f64> {
     let draw = |_| 0.5 * 4.0_f64.powf(uniform(state));
     (0..count).map(draw).collect()
-}
-
-/// The prior's part of twice an objective.
-fn pull(factors: &[f64], settings: &WeightedSettings) -> f64 {
-    let priors = settings.priors(factors.len()).into_iter();
-    let pulls = factors.iter().zip(priors);
-    pulls
-        .map(|(factor, prior)| (factor.ln() / prior).powi(2))
-        .sum()
 }
 
 /// Most times that the way between two ends is halved.

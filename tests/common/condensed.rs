@@ -125,14 +125,6 @@ pub fn analyze_condensed(
         Ok(match &parameter.share {
             WholeShare::Stiffness(matrix) => factor * matrix.through(&b)?,
             WholeShare::Mass(_) => unreachable!("the paper's model has no parameter of mass"),
-            WholeShare::Elements(members) => {
-                let of_element = members.iter().map(|(element, size)| {
-                    let own = b.select_columns(element.dof());
-                    factor * *size * &own * element.matrix().unit * own.transpose()
-                });
-                let none = DMatrix::zeros(b.nrows(), b.nrows());
-                of_element.fold(none, |sum, share| sum + share)
-            }
         })
     };
     let shares = model.parameters().iter().zip(factors).map(share);

@@ -227,7 +227,6 @@ pub fn of_whole(
         let (scales, matrix) = match &parameter.share {
             WholeShare::Stiffness(matrix) => ("stiffness", matrix),
             WholeShare::Mass(matrix) => ("mass", matrix),
-            WholeShare::Elements(_) => unreachable!("springs and masses"),
         };
         let file = format!("part_{number}.mtx");
         job += &format!(

@@ -7,9 +7,9 @@ use corfem::method::error::Error;
 use corfem::method::modes::Modes;
 use corfem::method::step::Bounds;
 use corfem::method::structure::Structure;
-use corfem::sparse::Deformations;
 use corfem::sparse::{
-    CountedModes, FINITE, SparseMatrix, WholeModel, WholeParameter, WholeShare, lowest_modes,
+    CountedModes, FINITE, RigidBodies, SparseMatrix, Support, WholeModel, WholeParameter,
+    WholeShare,
 };
 use nalgebra::DMatrix;
 
@@ -19,6 +19,28 @@ use nalgebra::DMatrix;
 /// Those of [`SparseMatrix::new`].
 pub fn sparse(matrix: &DMatrix<f64>) -> Result<SparseMatrix, Error> {
     SparseMatrix::of_dense("matrix", matrix)
+}
+
+/// The lowest vibrations of two matrices.
+///
+/// # Errors
+/// Those of [`WholeModel::modes`].
+pub fn lowest_modes(
+    stiffness: &SparseMatrix,
+    mass: &SparseMatrix,
+    count: usize,
+) -> Result<CountedModes, Error> {
+    WholeModel::new(stiffness.clone(), mass.clone(), Vec::new())?.modes(&[], count)
+}
+
+/// The motions that a stiffness leaves free.
+///
+/// # Errors
+/// Those of [`WholeModel::rigid_bodies`].
+pub fn free_motions(stiffness: &SparseMatrix, support: &Support) -> Result<RigidBodies, Error> {
+    let mass = masses(&vec![1.0; stiffness.rows()]);
+    let whole = WholeModel::supported(stiffness.clone(), mass, Vec::new(), support.clone())?;
+    whole.rigid_bodies().cloned()
 }
 
 /// All modes of finite frequency.
@@ -109,7 +131,7 @@ pub fn of_dense(
     mass: &DMatrix<f64>,
     shares: &[corfem::sparse::ParameterMatrix],
 ) -> Result<(WholeModel, SparseMatrix), Error> {
-    use corfem::sparse::ParameterMatrix::{Mass, Stiffness};
+    use corfem::sparse::Share::{Mass, Stiffness};
     let parameter = |(place, share): (usize, &corfem::sparse::ParameterMatrix)| {
         Ok(WholeParameter {
             name: place.to_string(),
@@ -138,10 +160,13 @@ pub fn of_structure(structure: &Structure, groups: &[Vec<usize>]) -> Result<Whol
     let parameter = |labels: &Vec<usize>| {
         let all = elements.iter().zip(&sizes);
         let members = all.filter(|(element, _)| labels.contains(&element.label));
-        let members = members.map(|(element, size)| Ok((Deformations::of(element)?, *size)));
+        let (members, sizes): (Vec<_>, Vec<_>) = members
+            .map(|(element, size)| (element.clone(), *size))
+            .unzip();
+        let share = assemble(&members, &sizes, structure.free_dof().len())?;
         Ok(WholeParameter {
             name: format!("{labels:?}"),
-            share: WholeShare::Elements(members.collect::<Result<_, Error>>()?),
+            share: WholeShare::Stiffness(sparse(&share)?),
             range: None,
         })
     };

@@ -119,7 +119,6 @@ pub fn boxed(
     let through = |parameter: &WholeParameter| match &parameter.share {
         WholeShare::Stiffness(share) => share.through(&b).map(ParameterMatrix::Stiffness),
         WholeShare::Mass(share) => share.through(&b).map(ParameterMatrix::Mass),
-        WholeShare::Elements(_) => unreachable!("its parts are matrices"),
     };
     let shares: Result<Vec<_>, Error> = whole.parameters().iter().map(through).collect();
     of_dense(&condensed.stiffness, &mass, &shares.expect("they fit")).expect("a model")

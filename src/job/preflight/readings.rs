@@ -23,6 +23,7 @@ use crate::method::modes::Modes;
 use crate::sparse::{ParameterMatrix, parts_of, solve_lower};
 use crate::weighted::noise::Noise;
 use nalgebra::{Cholesky, DMatrix, DVector, DVectorView, Dyn, RowDVector};
+use std::rc::Rc;
 
 /// Least standard deviations of a reading, over the largest of its mode, and of a frequency: what first order and parameters leave out is
 /// no less, however small the noise.
@@ -62,7 +63,7 @@ type Partners = Vec<Option<(usize, f64)>>;
 struct Likelihood {
     shapes: DMatrix<f64>,
     /// $W^{-1}$ of every mode.
-    priors: Vec<DMatrix<f64>>,
+    priors: Rc<Vec<DMatrix<f64>>>,
     /// $G_i^{-1} = L L^t$ of every mode i, and the column i of $L^{-1}$.
     ridges: Vec<(Cholesky<f64, Dyn>, DVector<f64>)>,
     /// The root of the mean square of the test modes' deviations, and with it the noise of a reading by mode of the model.
@@ -130,10 +131,10 @@ impl Likelihood {
             inverse[(mode, mode)] = 0.0;
             Some(inverse)
         };
-        let priors = (0..squares.len()).map(prior).collect::<Option<_>>()?;
+        let priors = (0..squares.len()).map(prior).collect::<Option<Vec<_>>>()?;
         Self {
             shapes: DMatrix::zeros(0, 0),
-            priors,
+            priors: Rc::new(priors),
             ridges: Vec::new(),
             common,
             noise: Vec::new(),
@@ -159,7 +160,7 @@ impl Likelihood {
         Some(Self {
             ridges: priors.map(ridge).collect::<Option<_>>()?,
             shapes,
-            priors: self.priors.clone(),
+            priors: Rc::clone(&self.priors),
             common: self.common,
             noise,
             times: self.times.clone(),

@@ -7,7 +7,7 @@ pub(in crate::sparse) use plan::FactorizationPlan;
 pub use plan::Work;
 
 use crate::method::error::Error;
-use crate::method::linear_algebra::check_matrix;
+use crate::method::linear_algebra::check_shape;
 use crate::sparse::finite;
 use crate::sparse::{SparseMatrix, check_solution, start_vector};
 use faer::linalg::matmul::matmul;
@@ -114,7 +114,7 @@ impl Factor {
     /// [`Error::WrongShape`] unless $R$ has a row per row of the matrix; [`Error::Value`].
     pub fn solve(&self, right: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         let (count, turn) = (right.ncols(), &self.plan.turn);
-        check_matrix("loads", right, self.scale.len(), count)?;
+        check_shape("loads", finite("loads", right)?, self.scale.len(), count)?;
         self.plan.go_on()?;
         let (mut rows, mut is_loaded) = (vec![0.0; right.len()], vec![false; right.nrows()]);
         for (row, &turn) in turn.iter().enumerate() {
@@ -219,11 +219,6 @@ impl Factor {
         self.forward(loads.as_mut_slice(), count, &vec![true; self.scale.len()]);
         self.backward(loads.as_mut_slice(), count);
         loads
-    }
-
-    /// Number of rows.
-    pub(super) fn rows(&self) -> usize {
-        self.pivots.len()
     }
 
     /// Refuses a matrix with a negative pivot.

@@ -6,7 +6,7 @@ use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::method::step::Bounds;
 use corfem::method::structure::Structure;
 use corfem::sparse::elements::{lumped_masses, support};
-use corfem::sparse::{Deformations, SparseMatrix, WholeModel, WholeParameter, WholeShare};
+use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
 use nalgebra::DMatrix;
 use std::collections::HashMap;
 
@@ -49,14 +49,12 @@ pub fn of_elements(
     let stiffness = stiffness.flat_map(|(matrix, element)| entries(matrix, element.size));
     let row_of: HashMap<usize, usize> = all.iter().map(|element| element.label).zip(0..).collect();
     let parameter = |(parameter, &range): (&Parameter, &Option<Bounds>)| {
-        let member = |label: &usize| {
-            let row = row_of[label];
-            Ok((Deformations::of(&matrices[row])?, all[row].size))
-        };
-        let members = parameter.elements.iter().map(member);
+        let rows = parameter.elements.iter().map(|label| row_of[label]);
+        let share = rows.flat_map(|row| entries(&matrices[row], all[row].size));
+        let share = SparseMatrix::new("share", count, count, share.collect())?;
         Ok(WholeParameter {
             name: parameter.name.clone(),
-            share: WholeShare::Elements(members.collect::<Result<_, Error>>()?),
+            share: WholeShare::Stiffness(share),
             range,
         })
     };

@@ -5,23 +5,16 @@ use crate::common::draws::Draws;
 use crate::common::structures::of_dense;
 use crate::common::whole_models::sparse;
 use corfem::method::analysis::Analysis;
-use corfem::method::appendix_a::{
-    self, ElementMatrix, assemble, element_matrices, generalized_stiffness,
-};
+use corfem::method::appendix_a::{self, assemble, element_matrices, generalized_stiffness};
 use corfem::method::elements::{
     corner_forces, energy_coefficient, mean_plane, membrane, rod, shear_panel, triangle,
     unit_stiffness,
 };
-use corfem::method::error::Error;
 use corfem::method::model::FiniteElementModel;
 use corfem::method::step::Bounds;
 use corfem::method::structure::{ElementKind, Material, Point, Structure, check_corners};
+use corfem::sparse::Factor;
 use corfem::sparse::elements::{corner_volumes, lumped_masses, support};
-use corfem::sparse::{Deformations, Factor};
-
-fn deformations(elements: &[ElementMatrix]) -> Result<Vec<Deformations>, Error> {
-    elements.iter().map(Deformations::of).collect()
-}
 
 /// A kind of element and as many corners as it has.
 fn element(d: &mut Draws) -> (ElementKind, Vec<Point>) {
@@ -152,26 +145,6 @@ pub const STRUCTURES: &[Entry] = &[
         of_dense(&stiffness)?
             .solve(&d.matrix(rows, columns))
             .map(|found| entries(&found))
-    }),
-    ("Deformations::of", |d| {
-        let (elements, ..) = d.elements()?;
-        elements
-            .iter()
-            .try_for_each(|element| Deformations::of(element).map(drop))?;
-        Ok(Vec::new())
-    }),
-    ("Deformations::count", |d| {
-        let (elements, ..) = d.elements()?;
-        let found = deformations(&elements)?;
-        Ok(found.iter().map(|element| element.count() as f64).collect())
-    }),
-    ("Deformations::matrix", |d| {
-        let (elements, ..) = d.elements()?;
-        let found = deformations(&elements)?;
-        Ok(found
-            .iter()
-            .flat_map(|element| entries(&element.matrix().unit))
-            .collect())
     }),
     ("Factor::new", |d| {
         let size = d.size();

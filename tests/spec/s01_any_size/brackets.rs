@@ -3,13 +3,14 @@
 
 use crate::common::draws::Draws;
 use crate::common::free_structures::{Drawn, KINDS, drawn, rewritten};
+use crate::common::whole_models::free_motions;
 use corfem::sparse::{RigidBodies, Support};
 use nalgebra::{DMatrix, Vector3};
 use proptest::prelude::*;
 
 fn bodies(of: &Drawn, digits: usize, support: &Support) -> RigidBodies {
     let stiffness = rewritten(&of.stiffness, digits);
-    let found = RigidBodies::of("stiffness", &stiffness, support);
+    let found = free_motions(&stiffness, support);
     found.unwrap_or_else(|error| panic!("{digits} digits: {error}"))
 }
 
@@ -85,7 +86,7 @@ fn more_free_motions_than_the_bound_are_refused() {
         count: Some(4),
         ..Support::default()
     };
-    let refused = RigidBodies::of("stiffness", &rewritten(&of.stiffness, 10), &said);
+    let refused = free_motions(&rewritten(&of.stiffness, 10), &said);
     let error = refused.expect_err("four of three").to_string();
     assert!(
         error.contains("motions that the stiffness leaves free: 4"),

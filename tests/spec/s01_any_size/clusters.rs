@@ -2,8 +2,8 @@
 
 use crate::common::draws::Draws;
 use crate::common::tolerances::{CLUSTERED_ROOT, ROUND_OFF_FLOOR};
-use crate::common::whole_models::{masses, springs};
-use corfem::sparse::{SparseMatrix, lowest_modes};
+use crate::common::whole_models::{lowest_modes, masses, springs};
+use corfem::sparse::SparseMatrix;
 use nalgebra::DMatrix;
 
 /// Springs between two rows, or one and the ground.

@@ -3,7 +3,6 @@
 pub mod brackets;
 pub mod clusters;
 pub mod condensation;
-pub mod deformations;
 pub mod exact_slopes;
 pub mod factorization;
 pub mod free_modes;

@@ -3,17 +3,17 @@
 use crate::common::draws::Draws;
 use crate::common::known::whole::of_elements;
 use crate::common::tolerances::DIFFERENCE_ROUND_OFF;
-use crate::common::whole_models::{masses, springs};
+use crate::common::whole_models::{free_motions, lowest_modes, masses, springs};
 use corfem::chain::rods;
 use corfem::files::deck::{self, BulkData};
 use corfem::files::matrices::read;
 use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use corfem::sparse::{RigidBodies, SparseMatrix, Support, WholeModel, lowest_modes};
+use corfem::sparse::{RigidBodies, SparseMatrix, Support, WholeModel};
 use nalgebra::{DMatrix, Vector3};
 
 fn of(stiffness: &SparseMatrix) -> RigidBodies {
-    RigidBodies::of("stiffness", stiffness, &Support::default()).expect("a null space")
+    free_motions(stiffness, &Support::default()).expect("a null space")
 }
 
 /// Whole model of a structure with a mass at its first degree of freedom.

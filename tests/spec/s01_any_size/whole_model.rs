@@ -8,10 +8,10 @@ use crate::common::measured::equal_weights;
 use crate::common::strategies::symmetric;
 use crate::common::tolerances::{MATRIX_ROUND_OFF, RECOVERED_STORY, ROUND_OFF, SAME_ANALYSIS};
 use crate::common::whole_models::{
-    counted_modes, masses, of_structure, seen_by, sensors_at, shear_building, springs,
+    counted_modes, lowest_modes, masses, of_structure, seen_by, sensors_at, shear_building, sparse,
+    springs,
 };
 use corfem::method::analysis::{Analysis, DERIVATIVE_STEP, State};
-use corfem::method::appendix_a::ElementMatrix;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::InnerSettings;
 use corfem::method::modes::Modes;
@@ -20,8 +20,7 @@ use corfem::method::sorting::pair_modes;
 use corfem::method::step::StepRule;
 use corfem::method::structure::{Element, Grid, Material, Structure};
 use corfem::sparse::{
-    BasisSize, CountedModes, Deformations, SparseMatrix, WholeModel, WholeParameter, WholeShare,
-    lowest_modes, modal_assurance,
+    BasisSize, CountedModes, SparseMatrix, WholeModel, WholeParameter, WholeShare, modal_assurance,
 };
 use corfem::torque_box::Case;
 use corfem::weighted::comparison::Comparison;
@@ -155,35 +154,21 @@ fn a_state_in_which_rigid_body_modes_have_no_mass_is_refused() {
     );
 }
 
-/// The shares of one matrix, as an element and as a whole, with the modes of a building of three stories.
-fn shares_both_ways(unit: &DMatrix<f64>, size: f64) -> [DMatrix<f64>; 2] {
-    let element = ElementMatrix {
-        label: 1,
-        dof: vec![2, 0, 1],
-        unit: unit.clone(),
-    };
-    let place = |at: usize| (at % 3, at / 3);
-    let entries = (0..9)
-        .map(place)
-        .map(|(a, b)| (element.dof[a], element.dof[b], size * unit[(a, b)]));
-    let whole = SparseMatrix::new("share", 3, 3, entries.collect()).expect("a matrix");
-    let shares = [
-        WholeShare::Elements(vec![(Deformations::of(&element).expect("symmetric"), size)]),
-        WholeShare::Stiffness(whole),
-    ];
-    let parameters = shares.map(|share| WholeParameter {
+/// The share of one matrix in the modes of a building of three stories, and its congruence.
+fn share_and_congruence(matrix: DMatrix<f64>) -> [DMatrix<f64>; 2] {
+    let parameter = WholeParameter {
         name: "a share".to_owned(),
-        share,
+        share: WholeShare::Stiffness(sparse(&matrix).expect("a matrix")),
         range: None,
-    });
+    };
     let stories = [(0, None, 3.0), (1, Some(0), 2.0), (2, Some(1), 1.0)];
-    let model = WholeModel::new(springs(3, &stories), masses(&[1.0; 3]), parameters.into())
-        .expect("a model");
-    let test = model.modes(&[1.0; 2], 3).expect("modes").vibrations;
+    let model =
+        WholeModel::new(springs(3, &stories), masses(&[1.0; 3]), vec![parameter]).expect("a model");
+    let test = model.modes(&[1.0], 3).expect("modes").vibrations;
     let sensors = sensors_at(&[0, 1, 2], 3);
     let found = model
         .analyze(
-            &[1.0; 2],
+            &[1.0],
             &sensors,
             (&test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
             BasisSize {
@@ -192,7 +177,9 @@ fn shares_both_ways(unit: &DMatrix<f64>, size: f64) -> [DMatrix<f64>; 2] {
             },
         )
         .expect("an analysis");
-    [0, 1].map(|share| found.shares()[share].matrix().clone())
+    let shapes = found.exact().modes.shapes();
+    let congruence = shapes.tr_mul(&(matrix * shapes));
+    [found.shares()[0].matrix().clone(), congruence]
 }
 
 properties! {
@@ -200,22 +187,20 @@ properties! {
 
     /// An element's share needs no theory of elasticity: any symmetric matrix gives its congruence, in any unit.
     #[test]
-    fn the_share_of_any_element_matrix_is_its_congruence(
-        unit in symmetric(3), decades in -12..=12_i32, size in 0.1..10.0_f64,
-    ) {
+    fn the_share_of_any_matrix_is_its_congruence(unit in symmetric(3), decades in -12..=12_i32) {
         let unit = unit * 10.0_f64.powi(decades);
-        let [of_element, whole] = shares_both_ways(&unit, size);
-        prop_assert!((of_element - whole).amax() <= MATRIX_ROUND_OFF * size * unit.amax());
+        let [share, congruence] = share_and_congruence(unit.clone());
+        prop_assert!((share - congruence).amax() <= MATRIX_ROUND_OFF * unit.amax());
     }
 }
 
 #[test]
-fn the_share_of_an_element_without_a_diagonal_is_its_congruence() {
+fn the_share_of_a_matrix_without_a_diagonal_is_its_congruence() {
     let mut unit = DMatrix::zeros(3, 3);
     (unit[(0, 2)], unit[(2, 0)]) = (1.0, 1.0);
-    let [of_element, whole] = shares_both_ways(&unit, 2.0);
-    assert!(whole.amax() > 0.1);
-    assert!((of_element - whole).amax() <= MATRIX_ROUND_OFF);
+    let [share, congruence] = share_and_congruence(unit);
+    assert!(congruence.amax() > 0.1);
+    assert!((share - congruence).amax() <= MATRIX_ROUND_OFF);
 }
 
 /// On test shapes that are those of the modes but for their signs a share is as on these, relative to the test's frequencies.
@@ -414,45 +399,6 @@ fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
         assert!((a / b - 1.0).abs() < SAME_ANALYSIS, "{a} {b}");
     }
     for (a, b) in found.shares().iter().zip(expected.shares()) {
-        assert!((a - b).amax() < SAME_ANALYSIS * b.amax());
-    }
-    // The same box with its elements' stiffness as matrices.
-    let as_matrix = |parameter: &WholeParameter| {
-        let WholeShare::Elements(members) = &parameter.share else {
-            panic!("the box's parameters are elements")
-        };
-        let entries = members.iter().flat_map(|(element, size)| {
-            let ElementMatrix { dof, unit, .. } = element.matrix();
-            let place = |at: usize| (at / dof.len(), at % dof.len());
-            let places = (0..dof.len() * dof.len()).map(place);
-            let entries = places.map(|(a, b)| (dof[a], dof[b], size * unit[(a, b)]));
-            entries.collect::<Vec<_>>()
-        });
-        let matrix = SparseMatrix::new(
-            "share",
-            whole.dof_count(),
-            whole.dof_count(),
-            entries.collect(),
-        );
-        WholeParameter {
-            share: WholeShare::Stiffness(matrix.expect("a matrix")),
-            ..parameter.clone()
-        }
-    };
-    let (stiffness, mass) = whole.at(&vec![1.0; factors.len()]).expect("matrices");
-    let of_matrices = WholeModel::new(
-        stiffness,
-        mass,
-        whole.parameters().iter().map(as_matrix).collect(),
-    );
-    let of_matrices = of_matrices.expect("a model");
-    let of_matrices = analyze_condensed(&of_matrices, &factors, &sensors, &test, None);
-    for (a, b) in of_matrices
-        .expect("an analysis")
-        .shares()
-        .iter()
-        .zip(found.shares())
-    {
         assert!((a - b).amax() < SAME_ANALYSIS * b.amax());
     }
     // Its mass is at the sensors alone, so that nothing is condensed and the whole model has the same modes.
@@ -659,44 +605,6 @@ fn what_is_wrong_with_a_whole_model_is_named() {
         Err(Error::Value { what: "relative difference", owner, .. })
             if owner == "stiffness of a parameter, entry (1, 0) beside its mirror"
     ));
-    let element = |row: usize, unit: DMatrix<f64>, size: f64| {
-        let element = ElementMatrix {
-            label: 7,
-            dof: vec![0, row],
-            unit,
-        };
-        let share = WholeShare::Elements(vec![(Deformations::of(&element)?, size)]);
-        new(
-            &held,
-            &mass,
-            vec![WholeParameter {
-                name: "seven".to_owned(),
-                share,
-                range: None,
-            }],
-        )
-    };
-    let spring = DMatrix::from_row_slice(2, 2, &[1.0, -1.0, -1.0, 1.0]);
-    let leaning = DMatrix::from_row_slice(2, 2, &[1.0, -1.0, 0.0, 1.0]);
-    assert!(element(2, spring.clone(), 1.0).is_ok());
-    assert!(matches!(
-        element(3, spring.clone(), 1.0),
-        Err(Error::Count {
-            found: 4,
-            most: 3,
-            ..
-        })
-    ));
-    assert!(matches!(
-        element(2, leaning, 1.0),
-        Err(Error::Value { what: "relative asymmetry", owner, .. }) if owner == "element stiffness"
-    ));
-    assert!(matches!(
-        element(2, DMatrix::identity(3, 3), 1.0),
-        Err(Error::WrongShape { .. })
-    ));
-    let refused = element(2, spring, 0.0).unwrap_err().to_string();
-    assert!(refused.contains("element 7"), "{refused}");
     let model = new(&held, &mass, parameter(held.clone())).expect("a model");
     assert!(matches!(
         model.modes(&[0.0], 1),

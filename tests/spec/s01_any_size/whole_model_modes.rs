@@ -3,9 +3,11 @@
 use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
 use crate::common::draws::Draws;
 use crate::common::tolerances::{COUNTED_ROOT, JOB_RESULTS, TWO_PROGRAMS, WHOLE_SHAPE};
-use crate::common::whole_models::{chain_of_springs as chain, counted_modes, masses, springs};
+use crate::common::whole_models::{
+    chain_of_springs as chain, counted_modes, lowest_modes, masses, springs,
+};
 use corfem::sparse::whole_modes::{MassDof, whole_modes};
-use corfem::sparse::{BodyFinding, Factor, MOST_DENSE_ROWS, SparseMatrix, Support, lowest_modes};
+use corfem::sparse::{BodyFinding, Factor, MOST_DENSE_ROWS, SparseMatrix, Support};
 use nalgebra::{DMatrix, DVector};
 
 #[test]

@@ -2,9 +2,9 @@
 
 use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
 use crate::common::tolerances::{COUNTED_ROOT, WHOLE_SHAPE};
-use crate::common::whole_models::{chain_of_springs, masses, springs};
+use crate::common::whole_models::{chain_of_springs, lowest_modes, masses, springs};
 use corfem::method::error::Error;
-use corfem::sparse::{CountedModes, MOST_DENSE_ROWS, SparseMatrix, lowest_modes};
+use corfem::sparse::{CountedModes, MOST_DENSE_ROWS, SparseMatrix};
 use nalgebra::DMatrix;
 
 /// More than are solved as dense matrices.
