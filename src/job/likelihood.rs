@@ -27,7 +27,7 @@ pub(super) struct Frequencies {
 impl Frequencies {
     /// The cost $\frac{1}{2} z^2 + \ln t$ of every mode (rows) and test mode,
     ///
-    /// $$ z = \frac{1}{t} \ln \frac{f_j}{f_i}, \qquad t^2 = \sigma_j^2 + \sum_e (\tfrac{1}{2} \delta_e s_{ie})^2, $$
+    /// $$ z = \frac{1}{t} \ln \frac{f_j}{f_i}, \qquad t^2 = \sigma_j^2 + \sum_e (\frac{1}{2} \delta_e s_{ie})^2, $$
     ///
     /// where $s_{ie}$ is the part (n × p) of parameter e in mode i's stiffness or mass and $\delta_e$ its spread. A model of one parameter
     /// alone may be that of any, and has the largest.
@@ -94,7 +94,7 @@ pub(super) fn pairs(
 
 /// Digits after the point, in base two, of a modal assurance: a sum of products of up to four thousand sensors is rounded by less.
 const ASSURANCES: f64 = 40.0;
-/// The same of a cost, which is up to a thousand times as steep.
+/// Digits of a cost, which is up to a thousand times as steep.
 const COSTS: f64 = 30.0;
 
 fn rounded(numbers: &DMatrix<f64>, digits: f64) -> DMatrix<f64> {
