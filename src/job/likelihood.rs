@@ -54,7 +54,7 @@ impl Frequencies {
 /// The mode of the model of every test mode, or none: as many pairs as there are of a modal assurance (n × g) no less than the floor, of
 /// the least total cost, the negative logarithm of their likelihood,
 ///
-/// $$ \frac{d - 1}{2} \ln \left( 1 + \frac{1 - \mathrm{MAC}}{(d - 1) s^2} \right) + 2 \ln \frac{1}{\nu} $$
+/// $$ \frac{d - 1}{2} \ln \big( 1 + \frac{1 - \mathrm{MAC}}{(d - 1) s^2} \big) + 2 \ln \frac{1}{\nu} $$
 ///
 /// at d sensors, for a mode of visibility $\nu$ ([`visibilities`]), and what its frequency costs, where that counts
 /// ([`Frequencies::costs`]). That of the shape is Student's with the deviation $s$ of 0.1. What sensors see of a mode that they hardly see
