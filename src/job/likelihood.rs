@@ -29,17 +29,17 @@ impl Frequencies {
     ///
     /// $$ z = \frac{1}{t} \ln \frac{f_j}{f_i}, \qquad t^2 = \sigma_j^2 + \sum_e (\frac{1}{2} \delta_e s_{ie})^2, $$
     ///
-    /// where $s_{ie}$ is the part (n × p) of parameter e in mode i's stiffness or mass and $\delta_e$ its spread. A model of one parameter
-    /// alone may be that of any, and has the largest.
+    /// where $s_{ie}$ is the part (n × p) of parameter e in mode i's stiffness or mass and $\delta_e$ its spread. Zero in a model of one
+    /// parameter alone, which does not tell what the others move.
     pub(super) fn costs(&self, modes: &Modes, parts: &DMatrix<f64>) -> DMatrix<f64> {
         let (hertz, spreads) = (modes.frequencies_hz(), &self.spreads);
-        let largest = spreads.iter().copied().fold(0.0, f64::max);
-        let is_whole = parts.ncols() == spreads.len();
+        if parts.ncols() != spreads.len() {
+            return DMatrix::zeros(hertz.len(), self.test.len());
+        }
         let moved = |mode: usize| {
             let parts = parts.row(mode).into_owned();
-            let parts = parts.iter().enumerate();
-            let spread = |e: usize| if is_whole { spreads[e] } else { largest };
-            let squares = parts.map(|(e, part)| (0.5 * spread(e) * part).powi(2));
+            let both = parts.iter().zip(spreads);
+            let squares = both.map(|(part, spread)| (0.5 * spread * part).powi(2));
             squares.sum::<f64>()
         };
         DMatrix::from_fn(hertz.len(), self.test.len(), |mode, place| {
