@@ -27,19 +27,19 @@ pub(super) struct Frequencies {
 impl Frequencies {
     /// The cost $\frac{1}{2} z^2 + \ln t$ of every mode (rows) and test mode,
     ///
-    /// $$ z = \frac{1}{t} \ln \frac{f_j}{f_i}, \qquad t^2 = \sigma_j^2 + \sum_e (\tfrac{1}{2} \delta_e s_{ie})^2, $$
+    /// $$ z = \frac{1}{t} \ln \frac{f_j}{f_i}, \qquad t^2 = \sigma_j^2 + \sum_e (\frac{1}{2} \delta_e s_{ie})^2, $$
     ///
-    /// where $s_{ie}$ is the part (n × p) of parameter e in mode i's stiffness or mass and $\delta_e$ its spread. A model of one parameter
-    /// alone may be that of any, and has the largest.
+    /// where $s_{ie}$ is the part (n × p) of parameter e in mode i's stiffness or mass and $\delta_e$ its spread. Zero in a model of one
+    /// parameter alone, which does not tell what the others move.
     pub(super) fn costs(&self, modes: &Modes, parts: &DMatrix<f64>) -> DMatrix<f64> {
         let (hertz, spreads) = (modes.frequencies_hz(), &self.spreads);
-        let largest = spreads.iter().copied().fold(0.0, f64::max);
-        let is_whole = parts.ncols() == spreads.len();
+        if parts.ncols() != spreads.len() {
+            return DMatrix::zeros(hertz.len(), self.test.len());
+        }
         let moved = |mode: usize| {
             let parts = parts.row(mode).into_owned();
-            let parts = parts.iter().enumerate();
-            let spread = |e: usize| if is_whole { spreads[e] } else { largest };
-            let squares = parts.map(|(e, part)| (0.5 * spread(e) * part).powi(2));
+            let both = parts.iter().zip(spreads);
+            let squares = both.map(|(part, spread)| (0.5 * spread * part).powi(2));
             squares.sum::<f64>()
         };
         DMatrix::from_fn(hertz.len(), self.test.len(), |mode, place| {
@@ -54,14 +54,14 @@ impl Frequencies {
 /// The mode of the model of every test mode, or none: as many pairs as there are of a modal assurance (n × g) no less than the floor, of
 /// the least total cost, the negative logarithm of their likelihood,
 ///
-/// $$ \frac{d - 1}{2} \ln \left( 1 + \frac{1 - \mathrm{MAC}}{(d - 1) s^2} \right) + 2 \ln \frac{1}{\nu} $$
+/// $$ \frac{d - 1}{2} \ln \big( 1 + \frac{1 - \mathrm{MAC}}{(d - 1) s^2} \big) + 2 \ln \frac{1}{\nu} $$
 ///
 /// at d sensors, for a mode of visibility $\nu$ ([`visibilities`]), and what its frequency costs, where that counts
 /// ([`Frequencies::costs`]). That of the shape is Student's with the deviation $s$ of 0.1. What sensors see of a mode that they hardly see
 /// may be anything, and looks like any test mode.
 ///
 /// With many sensors modal assurance alone finds a pair more often than with frequencies, which a model far off has in another order:
-/// of exact tests at eight sensors it pairs a few fewer wrong, at two and three many more.
+/// of 207 exact pairs at eight sensors it has none wrong where this has one, at two 55 where this has 18.
 ///
 /// # Errors
 /// Errors of [`pair_optimally`].
@@ -94,7 +94,7 @@ pub(super) fn pairs(
 
 /// Digits after the point, in base two, of a modal assurance: a sum of products of up to four thousand sensors is rounded by less.
 const ASSURANCES: f64 = 40.0;
-/// The same of a cost, which is up to a thousand times as steep.
+/// Digits of a cost, which is up to a thousand times as steep.
 const COSTS: f64 = 30.0;
 
 fn rounded(numbers: &DMatrix<f64>, digits: f64) -> DMatrix<f64> {

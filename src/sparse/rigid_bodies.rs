@@ -304,7 +304,7 @@ pub enum BodyFinding {
 }
 
 impl BodyFinding {
-    /// The same beside the lowest frequency found: where a suspension higher than that would not show, the count is not sure.
+    /// Finding beside the lowest frequency found: where a suspension higher than that would not show, the count is not sure.
     pub(crate) fn beside(mut self, lowest_hz: Option<f64>) -> Self {
         if let Self::ByDigits {
             hidden_hz, is_sure, ..

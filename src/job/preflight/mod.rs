@@ -40,7 +40,7 @@ pub const LEAST_SINGULAR: f64 = 0.3;
 /// Tolerance beyond which a percentage was probably meant: a fifth of the frequency, or of the largest component.
 pub const LARGEST_TOLERANCE: f64 = 0.2;
 
-/// Why test modes have no partners that could be compared.
+/// Reason why test modes have no partners that could be compared.
 pub(in crate::job) const FEWER: &str = "the model has fewer modes than the test";
 
 /// Two test modes of nearly the same shape.

@@ -237,7 +237,7 @@ impl Likelihood {
     }
 }
 
-/// What readings tell of a test.
+/// Answers of the readings of a test.
 #[derive(Default)]
 pub(super) struct Told {
     /// The single mistake that explains the test best, if it does so well enough, and by which factor it makes the test more likely, as
@@ -251,7 +251,7 @@ pub(super) struct Told {
     pub(super) silent: Option<&'static str>,
 }
 
-/// What readings tell: the single mistake that explains the test best, and what no test could tell.
+/// The answers of readings: the single mistake that explains the test best, and what no test could tell.
 ///
 /// A right test is more than $e^T$ times as likely with a given mistake as without in at most $e^{-T}$ of all tests (Markov's
 /// inequality), so H mistakes tried need $T = \ln(H / \alpha)$ for false alarms in a share $\alpha$.

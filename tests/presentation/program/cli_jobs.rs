@@ -125,12 +125,9 @@ fn a_worked_job_has_its_report_its_factors_and_its_deck() {
             env!("CARGO_PKG_VERSION")
         );
         for name in &expected {
-            // A corrected deck keeps every byte beside its corrected numbers.
-            assert_eq!(
-                reported.files[*name].contains(&run),
-                *name != "corrected.bdf",
-                "{name}"
-            );
+            // The lines of a deck's head are short.
+            let text = reported.files[*name].replace("\n$ ", "");
+            assert!(text.contains(&run), "{name}");
         }
         let mut reader = csv::ReaderBuilder::new();
         let mut table = reader

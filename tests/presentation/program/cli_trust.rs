@@ -507,7 +507,7 @@ fn what_shapes_do_not_decide_is_paired_by_frequency_and_said() {
     assert_eq!(trust.about(Kind::Undecided), ["1", "2", "3"]);
     let all = unbroken(&render::text(&[trust_table(&trust)]));
     assert!(
-        all.contains("those of test modes 1, 2, 3; they are paired in the order of frequencies."),
+        all.contains("those of test modes 1, 2, 3; they are paired by their frequencies."),
         "{all}"
     );
 }
