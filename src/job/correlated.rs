@@ -21,6 +21,8 @@ const MOST_RISE: f64 = 9.0;
 
 /// Most ends of one run that a lower place is gone to from.
 const MOST_LEFT: usize = 5;
+/// Most deflections of parameters, beside two of every mode, in the basis in which a lower place is looked for: exact steps decide.
+const MOST_DEFLECTIONS: usize = 30;
 
 /// The way in which the factors were found.
 #[derive(Debug, Clone)]
@@ -326,6 +328,30 @@ impl<'a> Part<'a> {
         Ok((History::Paper(Box::new(run)), factors))
     }
 
+    /// The steps that end in the last of the lower places that an end is left for ([`lower_place`]).
+    fn lowered(
+        &self,
+        mut run: WeightedCorrelation,
+        ranges: &[Option<Bounds>],
+        mut steps_from: impl FnMut(&[f64]) -> Result<WeightedCorrelation, FileError>,
+    ) -> Result<WeightedCorrelation, FileError> {
+        let (prepared, seed) = (self.prepared, self.prepared.loaded.job.compare.seed);
+        let (weights, settings) = (prepared.weights(), prepared.weighted_settings());
+        let is_followed = ranges.len() <= MOST_FOLLOWED;
+        for _ in 0..if is_followed { MOST_LEFT } else { 0 } {
+            let size = 2 * prepared.modes.len() + ranges.len().min(MOST_DEFLECTIONS);
+            let place = lower_place(&run, size, ranges, &weights, &settings, seed)?;
+            match place.map(|place| steps_from(&place)) {
+                Some(Ok(next)) if next.objective < run.objective - LOWER => {
+                    run = run.and_then(next);
+                }
+                Some(Err(FileError::Interrupted)) => return Err(FileError::Interrupted),
+                _ => break,
+            }
+        }
+        Ok(run)
+    }
+
     /// Weighted Gauss–Newton steps from the start, and from others where there are several.
     fn by_weighted_steps(&self) -> Result<(History, Vec<f64>), FileError> {
         let (prepared, job) = (self.prepared, &self.prepared.loaded.job);
@@ -371,26 +397,10 @@ impl<'a> Part<'a> {
                 job.compare.seed,
             ),
         };
-        let found = found.and_then(|(mut run, minima, starts)| {
-            let most = if ranges.len() > MOST_FOLLOWED {
-                0
-            } else {
-                MOST_LEFT
-            };
-            for _ in 0..most {
-                let size = 2 * prepared.modes.len() + ranges.len().min(30);
-                let place =
-                    lower_place(&run, size, &ranges, &weights, &settings, job.compare.seed)?;
-                let Some(place) = place else {
-                    break;
-                };
-                match gauss_newton(&mut analyze, &place, &ranges, &weights, &settings) {
-                    Ok(next) if next.objective < run.objective - LOWER => run = run.and_then(next),
-                    Err(FileError::Interrupted) => return Err(FileError::Interrupted),
-                    _ => break,
-                }
-            }
-            Ok((run, minima, starts))
+        let steps_from =
+            |first: &[f64]| gauss_newton(&mut analyze, first, &ranges, &weights, &settings);
+        let found = found.and_then(|(run, minima, starts)| {
+            Ok((self.lowered(run, &ranges, steps_from)?, minima, starts))
         });
         let is_whole = !self.is_interrupted.get();
         match found {

@@ -240,7 +240,7 @@ impl JobResult {
         Ok(self.with_reasons())
     }
 
-    /// The same with a word on the parameters that have no interval.
+    /// A result with a word on the parameters that have no interval.
     fn with_reasons(mut self) -> Self {
         let loaded = &self.found.prepared.loaded;
         let reason = |withheld: &Withheld| {

@@ -1,7 +1,7 @@
 //! The likelihood of pairs of test modes and modes of a model, by shapes and frequencies.
 
-use super::PreparedJob;
 use super::assignment::pair_optimally;
+use super::{Method, PreparedJob};
 use crate::method::error::{Error, check_count};
 use crate::method::modes::Modes;
 use crate::method::sorting::Pairing;
@@ -125,13 +125,25 @@ impl PreparedJob {
         }
     }
 
-    /// Rule that gives every test mode that is compared the most likely partner.
+    /// Rule that gives every test mode that is compared a partner: the most likely, or in the paper's loops, which follow shapes from
+    /// step to step, those of the largest sum of modal assurance, less $4 s^2 \ln(1/\nu)$ for modes that are hardly seen.
     pub(super) fn pair(&self) -> Pair {
         let frequencies = self.frequencies(&self.modes);
+        let is_likely = self.loaded.job.compare.method == Method::GaussNewton;
         Pair::by(move |of| {
-            let costs = of.parts.map(|parts| frequencies.costs(of.modes, &parts()));
             let (squares, readings) = (of.cross.component_mul(of.cross), &of.modes.shapes);
-            let partners = pairs(&squares, readings, costs.as_ref(), 0.0)?;
+            let partners = if is_likely {
+                let costs = of.parts.map(|parts| frequencies.costs(of.modes, &parts()));
+                pairs(&squares, readings, costs.as_ref(), 0.0)?
+            } else {
+                let price = |seen: &f64| 4.0 * UNLIKE * UNLIKE * seen.max(f64::EPSILON).ln();
+                let prices: Vec<f64> = visibilities(readings).iter().map(price).collect();
+                // None is negative, which would be as good as no pair.
+                let least = prices.iter().copied().fold(0.0, f64::min);
+                let close =
+                    squares.map_with_location(|mode, _, close| close + prices[mode] - least);
+                pair_optimally(&decided(&close), 0.0)?
+            };
             check_count("test modes", of.cross.ncols(), 0, of.cross.nrows())?;
             let analysis_mode = partners.into_iter().flatten().collect();
             Ok(Pairing::signed(analysis_mode, of.cross))

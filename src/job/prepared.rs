@@ -206,7 +206,7 @@ impl PreparedJob {
         Ok(groups)
     }
 
-    /// The same job with groups split whose modes a later model and the test tell apart; none where no group splits.
+    /// A job like this one with groups split whose modes a later model and the test tell apart; none where no group splits.
     pub(super) fn split_by(&self, model: &Comparison) -> Result<Option<Self>, FileError> {
         let apart = self.indistinct(&model.model.exact.modes, |deviation| deviation)?;
         let split = |group: &Vec<usize>| -> Vec<Vec<usize>> {
@@ -289,7 +289,7 @@ impl PreparedJob {
         Ok(Some(again))
     }
 
-    /// The same job that also compares these test modes.
+    /// A job like this one that also compares these test modes.
     fn comparing_too(&self, left: &[usize]) -> Result<Self, FileError> {
         let mut again = self.clone();
         again.modes.extend(left);
