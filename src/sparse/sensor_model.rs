@@ -210,8 +210,11 @@ impl SensorModel {
         })?;
         let mut scaled = test.clone();
         for (j, mut shape) in scaled.shapes.column_iter_mut().enumerate() {
-            let partner = modes.shapes.column(pairing.analysis_mode[j]);
-            shape *= pairing.sign[j] * partner.dot(&shape) / shape.norm_squared();
+            let along = modes.shapes.column(pairing.analysis_mode[j]).dot(&shape);
+            // A shape with nothing of its partner keeps its scale.
+            if along != 0.0 {
+                shape *= pairing.sign[j] * along / shape.norm_squared();
+            }
         }
         let (mut omega_squared, mut basis) = (modes.omega_squared.clone(), modes.shapes.clone());
         omega_squared.extend(further.residual.omega_squared.iter().copied());

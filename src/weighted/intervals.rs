@@ -54,7 +54,7 @@ impl Withheld {
         Self::NoEnd,
     ];
 
-    /// What it says of the parameters that follow.
+    /// Words for it, which the parameters follow.
     pub(crate) fn words(self) -> &'static str {
         match self {
             Self::NoOptimum => "they hold about a minimum of weighted steps alone",

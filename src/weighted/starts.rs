@@ -106,7 +106,7 @@ pub fn from_several_starts<E: From<Error>>(
 }
 
 impl WeightedCorrelation {
-    /// How its steps ended.
+    /// The end of its steps.
     pub(crate) fn end(&self) -> StartEnd {
         StartEnd {
             objective: self.objective,
