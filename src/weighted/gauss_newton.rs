@@ -211,7 +211,7 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// The same with a term that holds the steps at these logarithms, with a curvature for each.
+    /// A problem with a term that holds the steps at these logarithms, with a curvature for each.
     pub(super) fn held_at(self, logs: DVector<f64>, curvature: DVector<f64>) -> Self {
         Self {
             held: Some((logs, curvature)),

@@ -116,7 +116,7 @@ impl Misfit {
             .then(|| (self.chi_squared / self.degrees_of_freedom).sqrt())
     }
 
-    /// How many times as large as given the deviations of the measurement count in intervals: [`Self::times_the_noise`] where noise
+    /// The number of times as large as given that the deviations of the measurement count in intervals: [`Self::times_the_noise`] where noise
     /// cannot have left as much.
     pub fn widening(&self) -> f64 {
         if self.is_by_noise() {

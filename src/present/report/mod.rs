@@ -56,9 +56,9 @@ pub struct Stage {
 pub struct ModeResiduals {
     /// The test mode's number.
     pub mode: usize,
-    /// That of its frequency, positive where the model's is higher.
+    /// Residual of its frequency, positive where the model's is higher.
     pub frequency: f64,
-    /// Those of its shape at the sensors; none of a frequency alone.
+    /// Residuals of its shape at the sensors; none of a frequency alone.
     pub shape: Vec<f64>,
 }
 
