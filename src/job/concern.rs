@@ -571,7 +571,8 @@ pub enum Check {
 }
 
 /// The answer to a check.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Answer {
     /// There is something to say.
     Yes,
@@ -579,6 +580,15 @@ pub enum Answer {
     No,
     /// It cannot be told, and a remark says why.
     NotChecked,
+}
+
+/// A check and its answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Answered {
+    /// The check's name.
+    pub check: &'static str,
+    /// Its answer.
+    pub answer: Answer,
 }
 
 /// The list: every check, its name, the kinds of concern that it ends in, and those that say that it could not be made, beside
@@ -828,6 +838,21 @@ impl Trust {
             all if all.iter().any(is_open) => Answer::NotChecked,
             _ => Answer::No,
         }
+    }
+
+    /// The answers to all checks: to those before the first step, and after a run to those of its result.
+    pub fn answers(&self) -> Vec<Answered> {
+        let is_run = [Kind::ChiSquared, Kind::Misfit];
+        let is_run = is_run.iter().any(|kind| self.of(*kind).next().is_some());
+        let asked = Check::ALL.iter().take(match is_run {
+            true => Check::ALL.len(),
+            false => Check::Sight as usize,
+        });
+        let answered = |&(check, name, ..): &Checked| Answered {
+            check: name,
+            answer: self.answer(check),
+        };
+        asked.map(answered).collect()
     }
 
     /// Names and numbers that the concerns of one kind are about.

@@ -11,7 +11,7 @@ use crate::weighted::gauss_newton::{WeightedCorrelation, gauss_newton};
 use crate::weighted::intervals::MOST_FOLLOWED;
 use crate::weighted::lower_place::{LOWER, lower_place};
 use crate::weighted::residuals::residuals;
-use crate::weighted::starts::{Minimum, StartEnd, from_several_starts};
+use crate::weighted::starts::{WeightedHistory, from_several_starts};
 use nalgebra::DMatrix;
 use std::cell::{Cell, RefCell};
 
@@ -31,17 +31,6 @@ pub enum History {
     Paper(Box<Correlation>),
     /// By Gauss–Newton steps; none when they were stopped by request.
     GaussNewton(Option<Box<WeightedHistory>>),
-}
-
-/// Gauss–Newton steps, of one start or of several.
-#[derive(Debug, Clone)]
-pub struct WeightedHistory {
-    /// The steps that lead lowest.
-    pub best: WeightedCorrelation,
-    /// The minima that noise allows of several starts.
-    pub minima: Vec<Minimum>,
-    /// The end of every start, the model's own first; none where it failed.
-    pub starts: Vec<Option<StartEnd>>,
 }
 
 /// A job with the best factors found.
@@ -385,8 +374,11 @@ impl<'a> Part<'a> {
         };
         let found = match self.starts {
             1 => gauss_newton(&mut analyze, self.start, &ranges, &weights, &settings).map(|run| {
-                let end = run.end();
-                (run, Vec::new(), vec![Some(end)])
+                WeightedHistory {
+                    starts: vec![Some(run.end())],
+                    minima: Vec::new(),
+                    best: run,
+                }
             }),
             _ => from_several_starts(
                 &mut analyze,
@@ -399,18 +391,14 @@ impl<'a> Part<'a> {
         };
         let steps_from =
             |first: &[f64]| gauss_newton(&mut analyze, first, &ranges, &weights, &settings);
-        let found = found.and_then(|(run, minima, starts)| {
-            Ok((self.lowered(run, &ranges, steps_from)?, minima, starts))
+        let found = found.and_then(|found| {
+            let best = self.lowered(found.best, &ranges, steps_from)?;
+            Ok(WeightedHistory { best, ..found })
         });
         let is_whole = !self.is_interrupted.get();
         match found {
-            Ok((best, minima, starts)) if is_whole => {
-                let factors = best.factors.clone();
-                let found = WeightedHistory {
-                    best,
-                    minima,
-                    starts,
-                };
+            Ok(found) if is_whole => {
+                let factors = found.best.factors.clone();
                 Ok((History::GaussNewton(Some(Box::new(found))), factors))
             }
             Ok(_) | Err(FileError::Interrupted) => {

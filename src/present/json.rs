@@ -11,6 +11,7 @@ use super::tables::deck::{not_read, unit_shapes};
 use crate::files::deck::Unread;
 use crate::files::test_data::DIRECTIONS;
 use crate::files::turns;
+use crate::job::concern::Answered;
 use crate::job::verdict::Verdict;
 use crate::job::{Trust, of_bodies};
 use crate::method::inner_loop::Iteration;
@@ -83,6 +84,7 @@ struct ReportValue<'a> {
     name: &'a str,
     converged: bool,
     trust: &'a Option<Trust>,
+    checks: Option<Vec<Answered>>,
     verdict: &'a Option<Verdict>,
     verdict_in_words: String,
     parameters: &'a [String],
@@ -168,6 +170,7 @@ pub fn report(report: &Report) -> Result<Value, PresentError> {
         name: &report.title,
         converged: report.converged(),
         trust: &report.trust,
+        checks: report.trust.as_ref().map(Trust::answers),
         verdict: &report.verdict,
         verdict_in_words: report.words(),
         parameters: &report.parameters,

@@ -126,7 +126,9 @@ pub fn check_job(
         ];
         Ok::<_, PresentError>((trust, tables))
     })?;
-    let document = || json::own_document(json!({ "trust": trust, "tables": tables }));
+    let document = || {
+        json::own_document(json!({ "trust": trust, "checks": trust.answers(), "tables": tables }))
+    };
     output.write(&tables, document)?;
     Ok(!trust.stands_against())
 }

@@ -37,6 +37,17 @@ pub struct StartEnd {
     pub stop: WeightedStop,
 }
 
+/// Gauss–Newton steps, of one start or of several.
+#[derive(Debug, Clone)]
+pub struct WeightedHistory {
+    /// The steps that lead lowest.
+    pub best: WeightedCorrelation,
+    /// The minima that noise allows of several starts.
+    pub minima: Vec<Minimum>,
+    /// The end of every start, the model's own first; none where it failed.
+    pub starts: Vec<Option<StartEnd>>,
+}
+
 /// [`gauss_newton`] from factors of one, and from `starts` − 1 random places: factors from 0.5 to 2, log-uniformly by
 /// [`uniform`] from `seed`, brought within their bounds. Returns the best, the minima that noise allows, the best first, and how every
 /// start ended, none where it failed. One that stops short of a gradient within tolerance makes no minimum of its own, unless it is the best.
@@ -55,7 +66,7 @@ pub fn from_several_starts<E: From<Error>>(
     settings: &WeightedSettings,
     starts: usize,
     seed: u64,
-) -> Result<(WeightedCorrelation, Vec<Minimum>, Vec<Option<StartEnd>>), E> {
+) -> Result<WeightedHistory, E> {
     at_least_one("starts", starts)?;
     let (mut state, mut ends, mut failed, mut all) = (seed, Vec::new(), None, Vec::new());
     for start in 0..starts {
@@ -102,7 +113,11 @@ pub fn from_several_starts<E: From<Error>>(
         starts,
     };
     let minima = minima.into_iter().map(minimum).collect();
-    Ok((best, minima, all))
+    Ok(WeightedHistory {
+        best,
+        minima,
+        starts: all,
+    })
 }
 
 impl WeightedCorrelation {

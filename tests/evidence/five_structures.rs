@@ -43,10 +43,13 @@ pub const MISTAKES: [Mistake; 5] = {
 };
 
 /// Matrices of the parameters, the mass of every row, and the rows that sensors read.
-type Built = (Vec<DMatrix<f64>>, Vec<f64>, Vec<usize>);
+pub type Built = (Vec<DMatrix<f64>>, Vec<f64>, Vec<usize>);
 
 /// A structure by name, how many motions of a rigid body it has, and what builds it.
-pub const STRUCTURES: [(&str, usize, fn() -> Built); 5] = [
+pub type Structure = (&'static str, usize, fn() -> Built);
+
+/// The five structures.
+pub const STRUCTURES: [Structure; 5] = [
     ("portal", 0, portal),
     ("girder", 0, girder),
     ("free truss", 3, free_truss),

@@ -27,7 +27,7 @@ use corfem::weighted::gauss_newton::{
 use corfem::weighted::identifiability::identifiability;
 use corfem::weighted::noise::{Noise, with_noise};
 use corfem::weighted::residuals::{DEVIATIONS, jacobian, residuals};
-use corfem::weighted::starts::from_several_starts;
+use corfem::weighted::starts::{WeightedHistory, from_several_starts};
 
 /// The box of Case 2 by its matrices, with a stiffness parameter for every panel.
 fn by_matrices() -> DynamicModel {
@@ -531,8 +531,12 @@ fn several_starts_lead_to_one_place_on_the_box_and_on_the_wing() {
                 1,
             )
         };
-        let (best, minima, ends) = run(5).unwrap();
-        assert!(best.objective <= run(1).unwrap().0.objective);
+        let WeightedHistory {
+            best,
+            minima,
+            starts: ends,
+        } = run(5).unwrap();
+        assert!(best.objective <= run(1).unwrap().best.objective);
         let [minimum] = &minima[..] else {
             panic!("{minima:?}")
         };
@@ -545,7 +549,7 @@ fn several_starts_lead_to_one_place_on_the_box_and_on_the_wing() {
         assert_eq!((ends.len(), lowest), (5, best.objective));
         assert!(ends.iter().all(|end| end.analyses > 1));
         let again = run(5).unwrap();
-        assert_eq!((again.0.factors, again.1), (best.factors, minima));
+        assert_eq!((again.best.factors, again.minima), (best.factors, minima));
         assert!(matches!(
             run(0),
             Err(Error::Count {

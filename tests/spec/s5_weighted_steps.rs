@@ -17,7 +17,7 @@ use corfem::weighted::identifiability::identifiability;
 use corfem::weighted::next_step::NextStep;
 use corfem::weighted::noise::Noise;
 use corfem::weighted::residuals::{DEVIATIONS, jacobian};
-use corfem::weighted::starts::{Minimum, StartEnd, from_several_starts};
+use corfem::weighted::starts::{Minimum, StartEnd, WeightedHistory, from_several_starts};
 use nalgebra::{DMatrix, DVector, dmatrix};
 
 #[test]
@@ -34,7 +34,9 @@ fn random_starts_are_log_uniform_from_half_to_twice_the_first_factors() {
         firsts.push(factors.to_vec());
         compare(&known, factors)
     };
-    let (best, ..) = from_several_starts(analyze, &[None; 15], &weights, &settings, 41, 7).unwrap();
+    let best = from_several_starts(analyze, &[None; 15], &weights, &settings, 41, 7)
+        .unwrap()
+        .best;
     assert_eq!(
         (best.stop, firsts.len(), &firsts[0]),
         (WeightedStop::Trials, 41, &vec![1.0; 15])
@@ -86,7 +88,7 @@ fn all_minima_that_noise_allows_are_named_with_their_starts() {
         let ranges = [None; 2];
         from_several_starts(analyze, &ranges, &[weight; 2], &settings, 40, 3)
     };
-    let (best, minima, _) = found(0.0).unwrap();
+    let WeightedHistory { best, minima, .. } = found(0.0).unwrap();
     assert_eq!(minima.len(), 2, "{minima:?}");
     assert_eq!(minima.iter().map(|of| of.starts).sum::<usize>(), 40);
     // The two basins meet where the springs are as two to one: beyond that are an eighth of the starts.
@@ -107,12 +109,12 @@ fn all_minima_that_noise_allows_are_named_with_their_starts() {
         assert!(minima.iter().any(is_there), "{springs:?} {minima:?}");
     }
     // Shapes tell the two apart: chi-squared of the other is above the 5.99 that two parameters allow, or still below.
-    let (_, minima, _) = found(60.0).unwrap();
+    let minima = found(60.0).unwrap().minima;
     let [only] = &minima[..] else {
         panic!("{minima:?}")
     };
     assert!(only.starts < 40);
-    let (_, minima, _) = found(2.0).unwrap();
+    let minima = found(2.0).unwrap().minima;
     let [_, other] = &minima[..] else {
         panic!("{minima:?}")
     };
@@ -145,8 +147,11 @@ fn ends_of_one_valley_count_once() {
         ..WeightedSettings::default()
     };
     let weights = [weight(200.0), weight(0.0)];
-    let (_, minima, ends) =
-        from_several_starts(analyze, &[None; 2], &weights, &settings, 12, 5).unwrap();
+    let WeightedHistory {
+        minima,
+        starts: ends,
+        ..
+    } = from_several_starts(analyze, &[None; 2], &weights, &settings, 12, 5).unwrap();
     let [valley] = &minima[..] else {
         panic!("{minima:?}")
     };
@@ -175,13 +180,21 @@ fn a_start_or_a_trial_without_a_model_is_rejected_and_the_others_stand() {
     };
     let (all, _) = starts(3, &|_, _| false);
     let failures = |ends: &[Option<StartEnd>]| ends.iter().filter(|end| end.is_none()).count();
-    let (all, minima, ends) = all.unwrap();
+    let WeightedHistory {
+        best: all,
+        minima,
+        starts: ends,
+    } = all.unwrap();
     let reached = |minima: &[Minimum]| minima.iter().map(|of| of.starts).collect::<Vec<_>>();
     assert_eq!((reached(&minima), failures(&ends)), (vec![3], 0));
     // The second start comes after all analyses of the first.
-    let of_one = starts(1, &|_, _| false).0.unwrap().0;
+    let of_one = starts(1, &|_, _| false).0.unwrap().best;
     let (without, failed) = starts(3, &|call, _| call == of_one.analyses + 1);
-    let (without, minima, ends) = without.unwrap();
+    let WeightedHistory {
+        best: without,
+        minima,
+        starts: ends,
+    } = without.unwrap();
     assert_eq!((failed, failures(&ends), reached(&minima)), (1, 1, vec![2]));
     assert!(ends[1].is_none());
     assert_relative_eq!(
@@ -191,7 +204,7 @@ fn a_start_or_a_trial_without_a_model_is_rejected_and_the_others_stand() {
     );
     // The first trial fails.
     let (trial, failed) = starts(1, &|call, _| call == 2);
-    let trial = trial.unwrap().0;
+    let trial = trial.unwrap().best;
     assert_eq!((failed, trial.stop), (1, WeightedStop::Gradient));
     assert_relative_eq!(
         &trial.factors[..],
