@@ -6,8 +6,9 @@ use crate::common::jobs::{Files, of_whole};
 use crate::common::whole_models::{masses, sparse};
 use crate::readers::job_errors::{placed, with};
 use corfem::job::concern::{Check, Grade};
-use corfem::job::{Concern, Kind, LoadedJob, Trust};
+use corfem::job::{Concern, Kind, LoadedJob, Trust, run};
 use corfem::sparse::{WholeModel, WholeParameter, WholeShare};
+use corfem::weighted::intervals::Withheld;
 use corfem::weighted::noise::Noise;
 use nalgebra::{DMatrix, DVector};
 
@@ -281,8 +282,13 @@ fn disk() -> Built {
     )
 }
 
-fn files(model: &WholeModel, parameters: usize, (sensors, rigid): (&[usize], usize)) -> Files {
-    let files = of_whole(model, &vec![1.0; parameters], sensors, MODES, NOISE);
+fn files(
+    model: &WholeModel,
+    parameters: usize,
+    (sensors, rigid): (&[usize], usize),
+    noise: Noise,
+) -> Files {
+    let files = of_whole(model, &vec![1.0; parameters], sensors, MODES, noise);
     let files = with(
         files,
         "job.toml",
@@ -313,8 +319,8 @@ pub struct Counts {
     pub silent: usize,
 }
 
-/// Counts of tests of a structure with a mistake.
-pub fn counts(structure: usize, mistake: Mistake, tests: usize) -> Counts {
+/// A structure with its job, whose test declares a noise.
+fn built(structure: usize, noise: Noise) -> (WholeModel, LoadedJob, usize, Vec<usize>) {
     let (_, rigid, build) = STRUCTURES[structure];
     let (parts, mass, sensors) = build();
     let of_part = |(number, part): (usize, &DMatrix<f64>)| WholeParameter {
@@ -325,16 +331,80 @@ pub fn counts(structure: usize, mistake: Mistake, tests: usize) -> Counts {
     let parameters: Vec<_> = parts.iter().enumerate().map(of_part).collect();
     let stiffness = sparse(&parts.iter().sum()).expect("a stiffness");
     let model = WholeModel::new(stiffness, masses(&mass), parameters).expect("a model");
-    let (_folder, path) = placed(&files(&model, parts.len(), (&sensors, rigid)));
+    let (_folder, path) = placed(&files(&model, parts.len(), (&sensors, rigid), noise));
     let first = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+    (model, first, parts.len(), sensors)
+}
+
+/// Factors that differ from one as a first model's do.
+fn drawn(parameters: usize, state: &mut u64) -> Vec<f64> {
+    (0..parameters)
+        .map(|_| (MODEL * normal(state)).exp())
+        .collect()
+}
+
+/// What became of the corrections of right tests.
+#[derive(Debug, Clone, Default)]
+pub struct Corrections {
+    /// Intervals given, of every parameter.
+    pub given: Vec<usize>,
+    /// Intervals that hold the truth.
+    pub held: Vec<usize>,
+    /// Parameters known mostly from the prior, which have none for that.
+    pub mostly_prior: usize,
+    /// Tests that end with nothing against the result.
+    pub accepted: usize,
+    /// Tests with three times the noise that end otherwise.
+    pub found: usize,
+}
+
+/// Corrections by tests of a structure with the noise that is declared, and with three times of it.
+pub fn corrections(structure: usize, noise: Noise, tests: usize) -> Corrections {
+    let (model, first, parameters, sensors) = built(structure, noise);
+    let mut all = Corrections {
+        given: vec![0; parameters],
+        held: vec![0; parameters],
+        ..Corrections::default()
+    };
+    let mut state = 11 + structure as u64;
+    for test in 0..2 * tests {
+        let truth = drawn(parameters, &mut state);
+        let mut loaded = LoadedJob::clone(&first);
+        let times = if test % 2 == 0 { 1.0 } else { 3.0 };
+        let noise = Noise {
+            shape: times * noise.shape,
+            frequency: times * noise.frequency,
+        };
+        let right = (&model, &truth[..], &sensors[..]);
+        measure(&mut loaded, right, (Mistake::None, noise), &mut state);
+        let prepared = loaded.prepare().unwrap_or_else(|error| panic!("{error}"));
+        let trust = Trust::before(&prepared).unwrap_or_else(|error| panic!("{error}"));
+        let result = run(&prepared, &trust, |_| {}, || true);
+        let result = result.unwrap_or_else(|error| panic!("{error}"));
+        let is_accepted = result.verdict.is_within && result.trust.is_clear();
+        if times > 1.0 {
+            all.found += usize::from(!is_accepted);
+            continue;
+        }
+        all.accepted += usize::from(is_accepted);
+        for (e, interval) in result.intervals.iter().enumerate() {
+            all.given[e] += usize::from(interval.is_ok());
+            all.held[e] += usize::from(interval.is_ok_and(|ends| ends.contains(truth[e])));
+            all.mostly_prior += usize::from(*interval == Err(Withheld::MostlyPrior));
+        }
+    }
+    all
+}
+
+/// Counts of tests of a structure with a mistake.
+pub fn counts(structure: usize, mistake: Mistake, tests: usize) -> Counts {
+    let (model, first, parameters, sensors) = built(structure, NOISE);
     let (mut found, mut state) = (Counts::default(), 7 + structure as u64);
     for _ in 0..tests {
-        let truth: Vec<f64> = parts
-            .iter()
-            .map(|_| (MODEL * normal(&mut state)).exp())
-            .collect();
+        let truth = drawn(parameters, &mut state);
         let mut loaded = LoadedJob::clone(&first);
-        let wrong = measure(&mut loaded, (&model, &truth, &sensors), mistake, &mut state);
+        let right = (&model, &truth[..], &sensors[..]);
+        let wrong = measure(&mut loaded, right, (mistake, NOISE), &mut state);
         let prepared = loaded.prepare().unwrap_or_else(|error| panic!("{error}"));
         let trust = Trust::before(&prepared).unwrap_or_else(|error| panic!("{error}"));
         let stands: Vec<&Concern> = trust
@@ -371,7 +441,7 @@ pub fn counts(structure: usize, mistake: Mistake, tests: usize) -> Counts {
 fn measure(
     loaded: &mut LoadedJob,
     (model, truth, rows): (&WholeModel, &[f64], &[usize]),
-    mistake: Mistake,
+    (mistake, noise): (Mistake, Noise),
     state: &mut u64,
 ) -> (Kind, Vec<String>) {
     let real = model.modes(truth, MODES).expect("modes").vibrations;
@@ -379,11 +449,11 @@ fn measure(
     let mut shapes = real.shapes().select_rows(rows);
     for mut shape in shapes.column_iter_mut() {
         shape /= shape.amax();
-        shape.apply(|own| *own += NOISE.shape * normal(state));
+        shape.apply(|own| *own += noise.shape * normal(state));
     }
     let hertz = real.frequencies_hz().into_iter();
     data.frequencies_hz = hertz
-        .map(|hertz| hertz * (1.0 + NOISE.frequency * normal(state)))
+        .map(|hertz| hertz * (1.0 + noise.frequency * normal(state)))
         .collect();
     let a = super::readings_rates::below(state, rows.len());
     let b = (a + 1 + super::readings_rates::below(state, rows.len() - 1)) % rows.len();
@@ -402,7 +472,7 @@ fn measure(
         Mistake::Dead => {
             shapes
                 .row_mut(a)
-                .apply(|own| *own = NOISE.shape * normal(state));
+                .apply(|own| *own = noise.shape * normal(state));
             (Kind::Dead, one)
         }
         Mistake::Exchanged => {
