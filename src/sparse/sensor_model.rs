@@ -24,20 +24,11 @@ use nalgebra::{DMatrix, DVector};
 use std::fmt::{self, Debug, Formatter};
 use std::sync::Arc;
 
-/// Parts (n × p) that shares have in the stiffness or mass of modes: those at the head of their basis, or sums of it at factors.
-pub(crate) fn parts_of(
-    shares: &[ParameterMatrix],
-    place: Option<(&DMatrix<f64>, &[f64])>,
-    modes: &Modes,
-) -> DMatrix<f64> {
+/// Parts (n × p) that shares have in the stiffness or mass of the modes at the head of their basis. Modes that follow from these have about
+/// the same.
+pub(crate) fn parts_of(shares: &[ParameterMatrix], modes: &Modes) -> DMatrix<f64> {
     DMatrix::from_fn(modes.len(), shares.len(), |mode, e| {
-        let square = modes.omega_squared[mode];
-        let Some((shapes, factors)) = place else {
-            return shares[e].part(mode, square);
-        };
-        let (own, share) = (shapes.column(mode), &shares[e]);
-        let size = if share.is_mass() { 1.0 } else { square };
-        factors[e] * own.dot(&(share.matrix() * own)) / size
+        shares[e].part(mode, modes.omega_squared[mode])
     })
 }
 
@@ -201,8 +192,7 @@ impl SensorModel {
         (shares, turn): (Arc<Vec<ParameterMatrix>>, Option<Turn>),
     ) -> Result<Self, Error> {
         let cross = cosines(&modes.shapes, &test.shapes)?;
-        let place = turn.as_ref().map(|turn| (&turn.shapes, &turn.factors[..]));
-        let parts = || parts_of(&shares, place, &modes);
+        let parts = || parts_of(&shares, &modes);
         let pairing = pair.of(Candidates {
             cross: &cross,
             modes: &modes,
@@ -315,7 +305,7 @@ impl SensorModel {
 
     /// Parts (n × p) that the parameters have in the stiffness or mass of the exact modes.
     pub(crate) fn parts(&self) -> DMatrix<f64> {
-        parts_of(&self.shares, None, &self.exact.modes)
+        parts_of(&self.shares, &self.exact.modes)
     }
 
     /// All shapes of the basis at the sensors: the exact modes, residual vectors, rigid-body modes.
@@ -471,14 +461,9 @@ impl SensorModel {
         Ok((vibrations, generalized))
     }
 
-    /// The test modes' pairs among modes that are sums of the basis at factors, of these cosines.
-    fn paired(
-        &self,
-        cross: &DMatrix<f64>,
-        modes: &Modes,
-        place: (&DMatrix<f64>, &[f64]),
-    ) -> Result<Pairing, Error> {
-        let parts = || parts_of(&self.shares, Some(place), modes);
+    /// The test modes' pairs among modes that follow from the exact ones, of these cosines.
+    fn paired(&self, cross: &DMatrix<f64>, modes: &Modes) -> Result<Pairing, Error> {
+        let parts = || parts_of(&self.shares, modes);
         self.pair.of(Candidates {
             cross,
             modes,
@@ -501,7 +486,7 @@ impl SensorModel {
             true => generalized.columns(0, count).tr_mul(&self.cross),
             false => cosines(&modes.shapes, &self.test.shapes)?,
         };
-        let pairing = self.paired(&cross, &modes, (&generalized, factors))?;
+        let pairing = self.paired(&cross, &modes)?;
         Ok((modes, pairing))
     }
 }
@@ -556,7 +541,7 @@ impl Analysis for SensorModel {
         let count = self.exact.modes.len();
         let lowest = modes.select(&(0..count).collect::<Vec<_>>());
         let cross = close.rows(0, count).into_owned();
-        let pairing = self.paired(&cross, &lowest, (&generalized, factors))?;
+        let pairing = self.paired(&cross, &lowest)?;
         let errors = self.errors_of(&modes, &pairing)?;
         Ok(State {
             factors: factors.to_vec(),

@@ -88,8 +88,7 @@ impl Likelihood {
             test: test.collect(),
             spreads: vec![MODEL_ERROR; seen.shares.len()],
         };
-        let frequencies =
-            frequencies.costs(&seen.modes, &parts_of(&seen.shares, None, &seen.modes));
+        let frequencies = frequencies.costs(&seen.modes, &parts_of(&seen.shares, &seen.modes));
         let shapes = seen.modes.shapes().clone();
         let squares = seen.modes.omega_squared();
         let prior = |mode: usize| {
