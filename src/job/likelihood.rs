@@ -81,10 +81,11 @@ pub(super) fn pairs(
         by_shape + price + by_frequency.map_or(0.0, |costs| costs[(mode, test)])
     });
     // One pair more outweighs whatever it costs the others.
-    let enough = 1.0 + costs.ncols() as f64 * (costs.max() - costs.min());
+    let most = costs.max();
+    let enough = 1.0 + costs.ncols() as f64 * (most - costs.min());
     let close = costs.map_with_location(|mode, test, cost| {
         match assurance[(mode, test)] >= floor {
-            true => enough + costs.max() - cost,
+            true => enough + most - cost,
             // Not as good as no pair.
             false => -1.0,
         }
