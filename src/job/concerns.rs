@@ -51,18 +51,18 @@ impl Trust {
         let loaded = &prepared.loaded;
         let mut all = prepared.preflight_concerns()?;
         all.extend(prepared.pairing_concerns()?);
+        // Where there are fewer modes than test modes there are no pairs, and no comparison.
+        let first = prepared.analyze(&loaded.ones()).ok();
         // A mistake in the readings or in all frequencies says more than each pair that it makes.
         all.extend(match all.iter().any(Concern::stands) {
             true => vec![Check::skipped(
                 &[Check::Reach],
                 "another doubt is answered first",
             )],
-            false => prepared.frequency_concerns(),
+            false => prepared.frequency_concerns(first.as_ref()),
         });
         if !prepared.is_without_pairs() {
-            // Without a comparison the pre-flight names the mistake.
-            let first = prepared.analyze(&loaded.ones()).ok();
-            all.extend(first.and_then(|first| prepared.unanswered(&first)));
+            all.extend(first.as_ref().and_then(|first| prepared.unanswered(first)));
         }
         all.extend(prepared.unseen_concerns());
         all.extend(prepared.noise_concerns());

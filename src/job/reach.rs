@@ -61,13 +61,12 @@ impl PreparedJob {
 
     /// Doubts about pairs of the first model that no factors can bring together, and remarks on those far apart, which a test in other
     /// units has too.
-    pub(super) fn frequency_concerns(&self) -> Vec<Concern> {
-        // Where there are fewer modes than test modes there are no pairs.
-        let Ok(first) = self.analyze(&self.loaded.ones()) else {
+    pub(super) fn frequency_concerns(&self, first: Option<&Comparison>) -> Vec<Concern> {
+        let Some(first) = first else {
             return vec![Check::skipped(&[Check::Reach], FEWER)];
         };
         let hertz = first.model.exact.modes.frequencies_hz();
-        let reach = self.reach(&first);
+        let reach = self.reach(first);
         let by_shape = first.model.exact.pairing.analysis_mode.iter().copied();
         let alone = first.lone().iter().map(|lone| lone.partner);
         let pairs = self.compared().zip(by_shape.chain(alone));
