@@ -118,7 +118,8 @@ pub fn of(wing: &Wing) -> (Stages, Analyzed) {
         let model = whole.analyze(
             &ones,
             &sensors,
-            (&test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+            &test,
+            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
             size,
         );
         model.expect("an analysis")

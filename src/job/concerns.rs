@@ -258,15 +258,14 @@ impl LoadedJob {
 
     /// Remarks on the total mass and its center.
     fn mass_concerns(&self) -> Vec<Concern> {
-        let (mass, center) = self.source.mass;
-        let mass: [f64; 3] = mass.into();
+        let mass: [f64; 3] = self.source.mass.into();
         let said = mass.map(|along| format!("{along:.5e}"));
         let kind = match said.iter().all(|along| *along == said[0]) {
             true => Kind::Mass,
             false => Kind::MassByDirection,
         };
         let mass = (mass != [0.0; 3]).then(|| Concern::plain(kind, &mass));
-        let center = center.map(|center| {
+        let center = self.source.mass_center.map(|center| {
             let far = center.amax();
             // What is left of sums that cancel is no distance.
             let rounded = center.map(|part| if part.abs() < 1e-9 * far { 0.0 } else { part });

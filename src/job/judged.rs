@@ -25,9 +25,11 @@ pub struct JobResult {
     pub trust: Trust,
     /// The verdict on the factors.
     pub verdict: Verdict,
-    /// What the test sees of the parameters, at the first model and at the best factors, there with deviations of the measurement as much
-    /// larger as the residuals are too large for the noise.
-    pub seen: [Identifiability; 2],
+    /// Identifiability of the parameters at the first model.
+    pub seen_first: Identifiability,
+    /// Identifiability of the parameters at the best factors, with deviations of the measurement as much larger as the residuals are too large for the
+    /// noise.
+    pub seen: Identifiability,
     /// The residuals at the best factors, compared with the noise.
     pub misfit: Misfit,
     /// 95 % intervals about the factors, where they are true, or why there is none: around the optimum of weighted steps alone, not around
@@ -64,10 +66,8 @@ impl CorrelatedJob {
     pub(super) fn judge(self, trust: &Trust) -> Result<JobResult, FileError> {
         let mut verdict = self.verdict()?;
         let misfit = self.misfit(&verdict.at_bound)?;
-        let seen = [
-            self.sees(&self.first, 1.0)?,
-            self.sees(&self.last, misfit.widening())?,
-        ];
+        let seen_first = self.sees(&self.first, 1.0)?;
+        let seen = self.sees(&self.last, misfit.widening())?;
         // Weighted steps are judged by the noise that weighs them, where a wrong model would have failed.
         if matches!(self.history, History::GaussNewton(_)) && misfit.is_by_noise() {
             (verdict.outcome, verdict.is_within) = match misfit.can_fail() {
@@ -75,12 +75,13 @@ impl CorrelatedJob {
                 false => (Outcome::Untested, false),
             };
         }
-        let after = self.concerns(&verdict, &seen[1], &misfit)?;
+        let after = self.concerns(&verdict, &seen, &misfit)?;
         Ok(JobResult {
             intervals: vec![Err(Withheld::NoOptimum); self.factors.len()],
             found: self,
             trust: trust.after(after),
             verdict,
+            seen_first,
             seen,
             misfit,
         })

@@ -229,16 +229,16 @@ impl LoadedJob {
         let (mut elements, mut masses) = (deck.model.elements.clone(), deck.model.masses.clone());
         let parameters = self.source.whole.parameters().iter();
         let parameters = parameters.zip(&self.source.members).zip(factors);
-        for ((WholeParameter { share, .. }, [members, points]), factor) in parameters {
+        for ((WholeParameter { share, .. }, members), factor) in parameters {
             for point in masses
                 .iter_mut()
-                .filter(|point| points.binary_search(&point.label).is_ok())
+                .filter(|point| members.masses.binary_search(&point.label).is_ok())
             {
                 point.mass *= factor;
             }
             for element in elements
                 .iter_mut()
-                .filter(|element| members.binary_search(&element.label).is_ok())
+                .filter(|element| members.elements.binary_search(&element.label).is_ok())
             {
                 let Element {
                     size,
@@ -280,7 +280,7 @@ impl LoadedJob {
     /// the job takes.
     pub(super) fn analyzed(&self, modes: usize) -> Result<Arc<Place>, Error> {
         let (whole, most) = (&self.source.whole, modes.max(2 * self.usual_modes()));
-        whole.exactly(&self.ones(), &self.sensors, (modes, most), None)
+        whole.exactly(&self.ones(), &self.sensors, modes..=most, None)
     }
 
     /// The first factors.
@@ -406,6 +406,6 @@ fn load(job: &Job) -> Result<ModelSource, FileError> {
         (None, Some(stiffness), Some(mass)) => from_matrices(job, stiffness, mass),
         _ => Err(job.refused("[model] must name either a deck, or both stiffness and mass")),
     }?;
-    source.mass = source.mass_and_center()?;
+    (source.mass, source.mass_center) = source.mass_and_center()?;
     Ok(source)
 }

@@ -5,7 +5,7 @@ use super::model::{GridLayout, ModelSource, prior, range};
 use super::{Job, Scales};
 use crate::files::deck::decoded;
 use crate::files::error::{FileError, is_not};
-use crate::files::matrices::{self, Digits, LabeledMatrix};
+use crate::files::matrices::{self, Digits, Label, LabeledMatrix};
 use crate::files::test_data::{DIRECTIONS, cells, row_name, separator};
 use crate::method::error::Error;
 use crate::method::modes::Modes;
@@ -83,7 +83,7 @@ pub(super) fn from_matrices(
         });
         priors.push(prior(job, rule)?);
     }
-    let placed = |(grid, direction): &(usize, usize)| Some((*places.get(grid)?, *direction));
+    let placed = |dof: &StructuralDof| Some((*places.get(&dof.grid)?, dof.direction));
     let placed: Option<Vec<_>> = labels.iter().map(placed).collect();
     let support = Support {
         places: placed.map(|rows| Places::new(&rows, rounding)),
@@ -109,7 +109,8 @@ pub(super) fn from_matrices(
         priors,
         deck: None,
         mass: Default::default(),
-        left_out: Default::default(),
+        mass_center: None,
+        left_out: Vec::new(),
         loose: Vec::new(),
     })
 }
@@ -129,18 +130,11 @@ pub fn matrix_modes(file: &Path, mass: &Path, most: usize) -> Result<WholeModes,
         matrix: stiffness,
         ..
     } = matrix(&job, file, "--stiffness")?;
-    let labels: Vec<_> = rows.iter().flatten().map(degree_of_freedom).collect();
-    let row_of = (0..)
-        .zip(&labels)
-        .map(|(row, label)| (*label, row))
-        .collect();
+    let dof: Vec<_> = rows.iter().flatten().map(degree_of_freedom).collect();
+    let row_of = (0..).zip(&dof).map(|(row, dof)| (*dof, row)).collect();
     let mass = on_rows(&job, (mass, "--mass"), &row_of)?;
     let most = most.min(stiffness.rows());
     let rows_with_mass = motions_with_mass(&mass);
-    let dof = labels
-        .into_iter()
-        .map(|(grid, direction)| StructuralDof { grid, direction });
-    let dof: Vec<_> = dof.collect();
     let name = |row: usize| row_name(row, &dof);
     let whole = WholeModel::new(stiffness, mass, Vec::new())?;
     let found = match whole.modes(&[], most) {
@@ -190,9 +184,12 @@ fn motions_with_mass(mass: &SparseMatrix) -> Option<usize> {
     is_definite.then_some(rows.len())
 }
 
-/// Grid and direction of a grid and component.
-fn degree_of_freedom(&(grid, component): &(usize, usize)) -> (usize, usize) {
-    (grid, component.saturating_sub(1))
+/// The degree of freedom of a label: component 0 of a scalar point is its first.
+fn degree_of_freedom(label: &Label) -> StructuralDof {
+    StructuralDof {
+        grid: label.grid,
+        direction: label.component.saturating_sub(1),
+    }
 }
 
 /// A matrix of a file, with the same labels for rows and columns; `#` in the name chooses one of several.
@@ -210,12 +207,11 @@ fn matrix(job: &Job, file: &Path, entry: &str) -> Result<LabeledMatrix, FileErro
     })?;
     // Labels ascend, so that two of one degree of freedom are neighbors.
     let labels = found.rows.as_deref().unwrap_or_default();
-    let is_one =
-        |pair: &&[(usize, usize)]| degree_of_freedom(&pair[0]) == degree_of_freedom(&pair[1]);
+    let is_one = |pair: &&[Label]| degree_of_freedom(&pair[0]) == degree_of_freedom(&pair[1]);
     job.refuse_if(labels.windows(2).find(is_one), |pair| {
         format!(
             "{text}: components 0 and 1 of grid {} are one degree of freedom, and the matrix has both",
-            pair[0].0
+            pair[0].grid
         )
     })?;
     Ok(found)
@@ -225,7 +221,7 @@ fn matrix(job: &Job, file: &Path, entry: &str) -> Result<LabeledMatrix, FileErro
 fn on_rows(
     job: &Job,
     (file, entry): (&Path, &str),
-    row_of: &BTreeMap<(usize, usize), usize>,
+    row_of: &BTreeMap<StructuralDof, usize>,
 ) -> Result<SparseMatrix, FileError> {
     let LabeledMatrix { rows, matrix, .. } = matrix(job, file, entry)?;
     let Some(labels) = &rows else {
@@ -234,7 +230,7 @@ fn on_rows(
     let stranger = labels
         .iter()
         .find(|label| !row_of.contains_key(&degree_of_freedom(label)));
-    job.refuse_if(stranger, |(grid, component)| {
+    job.refuse_if(stranger, |Label { grid, component }| {
         let file = file.display();
         format!("{file}: the stiffness has no row of grid {grid}, component {component}")
     })?;
@@ -251,10 +247,8 @@ fn on_rows(
     Ok(all.with_rounding(matrix.rounding()))
 }
 
-/// Grid and direction.
-type LabeledRow = (usize, usize);
 /// Labels and places of a model's rows, and the largest part of a coordinate by which it is rounded.
-type Rows = (Vec<LabeledRow>, BTreeMap<usize, Vector3<f64>>, f64);
+type Rows = (Vec<StructuralDof>, BTreeMap<usize, Vector3<f64>>, f64);
 
 /// Reads a table `grid,direction,x,y,z`.
 fn read_rows(job: &Job, file: &Path) -> Result<Rows, FileError> {
@@ -274,8 +268,8 @@ fn read_rows(job: &Job, file: &Path) -> Result<Rows, FileError> {
         let (label, place) = row(&cells).ok_or_else(wrong)?;
         labels.push(label);
         cells.iter().skip(2).for_each(|number| digits.add(number));
-        if place.is_some_and(|place| *places.entry(label.0).or_insert(place) != place) {
-            let reason = format!("grid {} was given at another place before", label.0);
+        if place.is_some_and(|place| *places.entry(label.grid).or_insert(place) != place) {
+            let reason = format!("grid {} was given at another place before", label.grid);
             return Err(FileError::line(&file.display().to_string(), number, reason));
         }
     }
@@ -283,14 +277,14 @@ fn read_rows(job: &Job, file: &Path) -> Result<Rows, FileError> {
 }
 
 /// Grid and direction of a row, and its place if it has one.
-fn row(cells: &[String]) -> Option<(LabeledRow, Option<Vector3<f64>>)> {
+fn row(cells: &[String]) -> Option<(StructuralDof, Option<Vector3<f64>>)> {
     let [grid, direction, place @ ..] = cells else {
         return None;
     };
-    let label = (
-        grid.parse().ok()?,
-        DIRECTIONS.iter().position(|name| name == direction)?,
-    );
+    let label = StructuralDof {
+        grid: grid.parse().ok()?,
+        direction: DIRECTIONS.iter().position(|name| name == direction)?,
+    };
     if place.iter().all(String::is_empty) {
         return Some((label, None));
     }

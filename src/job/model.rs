@@ -7,7 +7,7 @@ use crate::files::test_data::DIRECTIONS;
 use crate::method::appendix_a::element_matrices;
 use crate::method::error::Error;
 use crate::method::step::Bounds;
-use crate::method::structure::StructuralDof;
+use crate::method::structure::{Grid, StructuralDof};
 use crate::sparse::elements::{lumped_masses, moving_mass_entries, stiffness_entries, support};
 use crate::sparse::{SparseMatrix, Support, WholeModel, WholeParameter, WholeShare};
 use crate::weighted::identifiability::PRIOR_DEVIATION;
@@ -24,6 +24,15 @@ pub struct GridLayout {
     pub elements: Vec<Vec<usize>>,
 }
 
+/// Elements and point masses of a deck that a parameter scales, by label, ascending.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Members {
+    /// Its elements.
+    pub elements: Vec<usize>,
+    /// Its point masses.
+    pub masses: Vec<usize>,
+}
+
 /// A model and its degrees of freedom.
 #[derive(Debug, Clone)]
 pub struct ModelSource {
@@ -31,36 +40,34 @@ pub struct ModelSource {
     pub whole: WholeModel,
     /// Grids of the model.
     pub geometry: GridLayout,
-    /// Rows of the model and their coefficients for every degree of freedom that moves, by grid and direction (0 to 5).
-    pub motions: BTreeMap<(usize, usize), Vec<(usize, f64)>>,
+    /// Rows of the model and their coefficients for every degree of freedom that moves, rotations (directions 3 to 5) among them.
+    pub motions: BTreeMap<StructuralDof, Vec<(usize, f64)>>,
     /// The deck's bytes and the deck read from them, if the model is one.
     pub deck: Option<(Vec<u8>, Deck)>,
-    /// Elements and point masses of a deck that every parameter scales, ascending.
-    pub members: Vec<[Vec<usize>; 2]>,
+    /// What every parameter scales of a deck.
+    pub members: Vec<Members>,
     /// Standard deviation of the logarithm of every parameter's factor before the test.
     pub priors: Vec<f64>,
-    /// Mass that moves along x, y and z, and its center, if all of it has a place.
-    pub mass: (Vector3<f64>, Option<Vector3<f64>>),
-    /// Number of rows left out, in parts of the model that no sensor sees, and names of the first.
-    pub left_out: (usize, Vec<String>),
-    /// Names of the first of them that nothing resists.
+    /// Mass that moves along x, y and z.
+    pub mass: Vector3<f64>,
+    /// Center of the mass, if all of it has a place.
+    pub mass_center: Option<Vector3<f64>>,
+    /// Names of the rows left out, in parts of the model that no sensor sees.
+    pub left_out: Vec<String>,
+    /// Names of those of them that nothing resists.
     pub loose: Vec<String>,
 }
 
 impl ModelSource {
     /// Name of a row of the matrices: the grid and direction that it moves.
     pub(super) fn row_name(&self, row: usize) -> String {
-        let moves = |(_, rows): &(&(usize, usize), &Vec<(usize, f64)>)| {
-            rows.iter()
-                .any(|&(other, coefficient)| other == row && coefficient != 0.0)
-        };
-        let name = |(&(grid, direction), _): (&(usize, usize), &Vec<(usize, f64)>)| {
-            format!("{grid} {}", DIRECTIONS[direction])
-        };
-        self.motions
-            .iter()
-            .find(moves)
-            .map_or_else(|| format!("row {}", row + 1), name)
+        let is_row = |&(other, coefficient): &(usize, f64)| other == row && coefficient != 0.0;
+        let mut motions = self.motions.iter();
+        let moves = motions.find(|(_, rows)| rows.iter().any(is_row));
+        moves.map_or_else(
+            || format!("row {}", row + 1),
+            |(dof, _)| format!("{} {}", dof.grid, DIRECTIONS[dof.direction]),
+        )
     }
 
     /// The model without the parts in which no sensor reads a row, and the sensors on it: to them these parts do not exist.
@@ -75,7 +82,7 @@ impl ModelSource {
         let place = |&(row, coefficient): &(usize, f64)| {
             Some((rows.binary_search(&row).ok()?, coefficient))
         };
-        let motion = |(at, own): (&(usize, usize), &Vec<(usize, f64)>)| {
+        let motion = |(at, own): (&StructuralDof, &Vec<(usize, f64)>)| {
             let own: Vec<_> = own.iter().filter_map(place).collect();
             (!own.is_empty()).then_some((*at, own))
         };
@@ -88,11 +95,10 @@ impl ModelSource {
             .collect();
         let is_loose = |row: &usize| !stiff.contains(row);
         let named = |row: usize| self.row_name(row);
-        let names = left.clone().map(named).collect();
         let watched = Self {
             whole: self.whole.at_rows(&rows)?,
             motions: self.motions.iter().filter_map(motion).collect(),
-            left_out: (self.whole.dof_count() - rows.len(), names),
+            left_out: left.clone().map(named).collect(),
             loose: left.filter(is_loose).map(named).collect(),
             ..self.clone()
         };
@@ -111,13 +117,13 @@ impl ModelSource {
                 placed.map(|(place, mass)| (Some(place), mass)).collect()
             }
             None => {
-                let own = |(&at, rows): (&(usize, usize), &Vec<(usize, f64)>)| (rows[0].0, at);
-                let label_of: BTreeMap<usize, (usize, usize)> =
-                    self.motions.iter().map(own).collect();
+                let motions = self.motions.iter();
+                let dof_of: BTreeMap<usize, StructuralDof> =
+                    motions.map(|(&dof, rows)| (rows[0].0, dof)).collect();
                 let (_, mass) = self.whole.at(&vec![1.0; self.whole.parameters().len()])?;
                 let of_entry = |(row, column, value): (usize, usize, f64)| {
-                    let (grid, direction) = label_of[&row];
-                    let is_along = direction < 3 && label_of[&column].1 == direction;
+                    let StructuralDof { grid, direction } = dof_of[&row];
+                    let is_along = direction < 3 && dof_of[&column].direction == direction;
                     let place = self.geometry.places.get(&grid).copied();
                     is_along.then(|| (place, Vector3::ith(direction, value)))
                 };
@@ -226,7 +232,10 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
                 share,
                 range: range(job, rule, &sizes)?,
             });
-            members.push([labels, masses]);
+            members.push(Members {
+                elements: labels,
+                masses,
+            });
             priors.push(prior(job, rule)?);
         }
     }
@@ -236,18 +245,11 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
     };
     let whole = WholeModel::supported(stiffness, mass, parameters, support)?;
     let grids = bulk.grids.iter();
-    let motions = grids
-        .clone()
-        .flat_map(|grid| (0..3).map(move |direction| (grid.label, direction)));
-    let motions = motions.map(|at| {
-        (
-            at,
-            motion_of(StructuralDof {
-                grid: at.0,
-                direction: at.1,
-            }),
-        )
-    });
+    let dof = |grid: &Grid| {
+        let grid = grid.label;
+        (0..3).map(move |direction| StructuralDof { grid, direction })
+    };
+    let motions = grids.clone().flat_map(dof).map(|dof| (dof, motion_of(dof)));
     let motions = motions.filter(|(_, motion)| !motion.is_empty()).collect();
     let geometry = GridLayout {
         places: grids.map(|grid| (grid.label, grid.position)).collect(),
@@ -266,7 +268,8 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
         priors,
         deck: Some((bytes, deck)),
         mass: Default::default(),
-        left_out: Default::default(),
+        mass_center: None,
+        left_out: Vec::new(),
         loose: Vec::new(),
     })
 }

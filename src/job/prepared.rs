@@ -465,7 +465,7 @@ impl PreparedJob {
         factors: &[f64],
         near: Option<&DMatrix<f64>>,
     ) -> Result<Comparison, Error> {
-        let (whole, test) = (&self.loaded.source.whole, (&self.test, self.pair()));
+        let (whole, pair) = (&self.loaded.source.whole, self.pair());
         let size = BasisSize {
             modes: self.analysis_modes,
             residual_vectors: self.residual_vectors(),
@@ -474,9 +474,12 @@ impl PreparedJob {
         let model = match known.next() {
             Some((_, place)) => {
                 let deflections = Deflections::Each(size.residual_vectors);
-                SensorModel::of_whole(Arc::clone(place), size.modes, test, deflections)
+                SensorModel::of_whole(Arc::clone(place), size.modes, &self.test, pair, deflections)
             }
-            None => whole.analyze_near(factors, &self.loaded.sensors, test, size, near),
+            None => {
+                let sensors = &self.loaded.sensors;
+                whole.analyze_near(factors, sensors, &self.test, pair, size, near)
+            }
         }?;
         // Gauss-Newton steps have weights of their own.
         match self.loaded.job.compare.method {

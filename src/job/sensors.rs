@@ -3,6 +3,7 @@
 use super::{Job, ModelSource, SensorRule};
 use crate::files::error::{FileError, is_not};
 use crate::files::test_data::{DIRECTIONS, Sensor, TestData};
+use crate::method::structure::StructuralDof;
 use crate::sparse::SparseMatrix;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
@@ -117,7 +118,7 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
             distance,
         });
     }
-    let mut first: BTreeMap<(usize, usize), &str> = BTreeMap::new();
+    let mut first: BTreeMap<StructuralDof, &str> = BTreeMap::new();
     for PlacedSensor {
         name,
         grid,
@@ -125,7 +126,11 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
         ..
     } in &placed
     {
-        let other = first.insert((*grid, *direction), name);
+        let dof = StructuralDof {
+            grid: *grid,
+            direction: *direction,
+        };
+        let other = first.insert(dof, name);
         job.refuse_if(other, |other| {
             let direction = DIRECTIONS[*direction];
             format!("sensors {other} and {name} are both at grid {grid}, direction {direction}")
@@ -162,12 +167,12 @@ pub(super) fn motion(
 ) -> impl Iterator<Item = (usize, f64)> {
     let along = (0..3).filter(move |&component| axis[component] != 0.0);
     along.flat_map(move |component| {
-        let motion = source
-            .motions
-            .get(&(grid, direction / 3 * 3 + component))
+        let direction = direction / 3 * 3 + component;
+        let motion = source.motions.get(&StructuralDof { grid, direction });
+        motion
             .into_iter()
-            .flatten();
-        motion.map(move |&(dof, coefficient)| (dof, coefficient * axis[component]))
+            .flatten()
+            .map(move |&(dof, coefficient)| (dof, coefficient * axis[component]))
     })
 }
 

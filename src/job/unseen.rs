@@ -8,9 +8,9 @@ impl PreparedJob {
     /// Remarks on parts of the model without a sensor, and on modes of the first model that move none.
     pub(super) fn unseen_concerns(&self) -> Vec<Concern> {
         let source = &self.loaded.source;
-        let (left, names) = &source.left_out;
-        let parts =
-            (*left > 0).then(|| Concern::new(Kind::PartsWithoutSensor, names, &[*left as f64]));
+        let left = &source.left_out;
+        let parts = (!left.is_empty())
+            .then(|| Concern::new(Kind::PartsWithoutSensor, left, &[left.len() as f64]));
         let loose = (!source.loose.is_empty())
             .then(|| Concern::new(Kind::LooseWithoutSensor, &source.loose, &[]));
         let unseen = self.first.unseen();

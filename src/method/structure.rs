@@ -110,7 +110,7 @@ pub struct Element {
 }
 
 /// A structural DOF: one direction of one grid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct StructuralDof {
     /// The grid's label.
     pub grid: usize,

@@ -11,6 +11,7 @@ use crate::method::linear_algebra::{check_finite, cholesky, symmetric_eigen, sym
 use crate::method::modes::Modes;
 use crate::sparse::factorization::FactorizationPlan;
 use nalgebra::{DMatrix, DVector};
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 /// Most rows of a pencil whose modes are all found at once: a full decomposition of that order takes a few milliseconds.
@@ -69,11 +70,12 @@ pub struct CountedModes {
 /// chapters 3, 13 and 15.
 pub(super) fn modes_at_most(
     (stiffness, mass): (&SparseMatrix, &SparseMatrix),
-    (exact, most): (usize, usize),
+    counts: RangeInclusive<usize>,
     mut near: Option<&DMatrix<f64>>,
     bodies: &RigidBodies,
     plan: &Arc<FactorizationPlan>,
 ) -> Result<(CountedModes, Flexibility), Error> {
+    let (exact, most) = counts.into_inner();
     let count = most.min(stiffness.rows());
     at_least_one("modes", count)?;
     at_least_one("degrees of freedom with mass", mass.entries().len())?;

@@ -11,7 +11,7 @@ use crate::method::error::{Error, check_count};
 use crate::method::modes::Modes;
 use nalgebra::DMatrix;
 use std::f64::consts::{PI, TAU};
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 use std::sync::{Arc, Mutex};
 
 /// Largest error of what the modes left out add to a slope, relative to it. It moves the end of weighted steps by at most as much times
@@ -80,15 +80,15 @@ impl Place {
         whole: &WholeModel,
         factors: &[f64],
         sensors: &SparseMatrix,
-        counts: (usize, usize),
+        counts: RangeInclusive<usize>,
         near: Option<&DMatrix<f64>>,
     ) -> Result<Self, Error> {
         let (stiffness, mass) = whole.at(factors)?;
-        let (least, most) = counts;
+        let (least, most) = counts.into_inner();
         check_count("modes", least, 1, whole.dof_count())?;
         let mut taken = most;
         let (found, rigid_body, flexibility) = loop {
-            let asked = (least.min(taken), taken);
+            let asked = least.min(taken)..=taken;
             let (found, flexibility) = whole.modes_of((&stiffness, &mass), asked, near)?;
             check_count(FINITE, least, 1, found.vibrations.len())?;
             let is_all = found.next.is_none();

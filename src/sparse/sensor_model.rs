@@ -238,7 +238,8 @@ impl SensorModel {
     pub(crate) fn of_whole(
         place: Arc<Place>,
         count: usize,
-        (test, pair): (&Modes, Pair),
+        test: &Modes,
+        pair: Pair,
         deflections: Deflections,
     ) -> Result<Self, Error> {
         let (modes, (further, shares)) = (place.modes(count)?, place.basis(count, deflections)?);

@@ -14,6 +14,7 @@ use crate::method::linear_algebra::check_length;
 use crate::method::modes::Modes;
 use crate::method::step::Bounds;
 use nalgebra::DMatrix;
+use std::ops::RangeInclusive;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, OnceLock};
 
@@ -304,7 +305,7 @@ impl WholeModel {
     pub fn modes(&self, factors: &[f64], count: usize) -> Result<CountedModes, Error> {
         check_count("modes", count, 1, self.dof_count())?;
         let (stiffness, mass) = self.at(factors)?;
-        let (found, _) = self.modes_of((&stiffness, &mass), (count, count), None)?;
+        let (found, _) = self.modes_of((&stiffness, &mass), count..=count, None)?;
         check_count(FINITE, count, 1, found.vibrations.len())?;
         Ok(found)
     }
@@ -313,7 +314,7 @@ impl WholeModel {
     pub(super) fn modes_of(
         &self,
         matrices: (&SparseMatrix, &SparseMatrix),
-        counts: (usize, usize),
+        counts: RangeInclusive<usize>,
         near: Option<&DMatrix<f64>>,
     ) -> Result<(CountedModes, Flexibility), Error> {
         modes_at_most(matrices, counts, near, self.rigid_bodies()?, &self.0.plan)
@@ -357,7 +358,7 @@ impl WholeModel {
     ///
     /// let test = solve(&stiffness(3.0), &one, 2)?;
     /// let (sensors, size) = (sparse(one)?, BasisSize { modes: 2, residual_vectors: 0 });
-    /// let analyze = |factors: &[f64]| model.analyze(factors, &sensors, (&test, Pair::by(|of| pair_modes(of.cross))), size);
+    /// let analyze = |factors: &[f64]| model.analyze(factors, &sensors, &test, Pair::by(|of| pair_modes(of.cross)), size);
     ///
     /// // The basis: its shapes at the sensors, their squared frequencies, and the spring's share.
     /// let first = analyze(&[1.0])?;
@@ -374,10 +375,11 @@ impl WholeModel {
         &self,
         factors: &[f64],
         sensors: &SparseMatrix,
-        (test, pair): (&Modes, Pair),
+        test: &Modes,
+        pair: Pair,
         size: BasisSize,
     ) -> Result<SensorModel, Error> {
-        let model = self.analyze_near(factors, sensors, (test, pair), size, None)?;
+        let model = self.analyze_near(factors, sensors, test, pair, size, None)?;
         match size.residual_vectors {
             0 => model.with_slopes(),
             _ => Ok(model),
@@ -389,7 +391,8 @@ impl WholeModel {
         &self,
         factors: &[f64],
         sensors: &SparseMatrix,
-        (test, pair): (&Modes, Pair),
+        test: &Modes,
+        pair: Pair,
         size: BasisSize,
         near: Option<&DMatrix<f64>>,
     ) -> Result<SensorModel, Error> {
@@ -398,9 +401,9 @@ impl WholeModel {
             0 => size.modes.max(2 * test.len()),
             _ => size.modes,
         };
-        let whole = self.exactly(factors, sensors, (size.modes, most), near)?;
+        let whole = self.exactly(factors, sensors, size.modes..=most, near)?;
         let deflections = Deflections::Each(size.residual_vectors);
-        SensorModel::of_whole(whole, size.modes, (test, pair), deflections)
+        SensorModel::of_whole(whole, size.modes, test, pair, deflections)
     }
 
     /// Exact analysis seen by sensors that further looks can be taken at, with at least and at most so many modes, sought from shapes
@@ -412,7 +415,7 @@ impl WholeModel {
         &self,
         factors: &[f64],
         sensors: &SparseMatrix,
-        counts: (usize, usize),
+        counts: RangeInclusive<usize>,
         near: Option<&DMatrix<f64>>,
     ) -> Result<Arc<Place>, Error> {
         Ok(Arc::new(Place::new(self, factors, sensors, counts, near)?))

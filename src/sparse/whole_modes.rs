@@ -61,7 +61,7 @@ pub fn whole_modes(
     let whole = WholeModel::supported(stiffness.clone(), mass, Vec::new(), support.clone())?;
     let (stiffness, mass) = whole.at(&[])?;
     let (CountedModes { vibrations, .. }, _) =
-        whole.modes_of((&stiffness, &mass), (most, most), None)?;
+        whole.modes_of((&stiffness, &mass), most..=most, None)?;
     let shapes = t.transposed().times(&vibrations.shapes)?;
     Ok(WholeModes {
         dof: at.dof,

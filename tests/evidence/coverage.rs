@@ -220,7 +220,7 @@ fn of_job(name: &str, files: Files, truth: &[f64]) -> Result<Subject, FileError>
             let (_folder, path) = placed(&noisy(&loaded, &files, times, seed)?);
             let JobResult {
                 intervals,
-                seen: [_, seen],
+                seen,
                 misfit,
                 verdict,
                 trust,

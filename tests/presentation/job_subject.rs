@@ -330,7 +330,8 @@ fn a_derivative_by_a_mass_is_the_change_of_frequency_with_it() {
         whole.analyze(
             &[factor],
             &sensors,
-            (&test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+            &test,
+            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
             BasisSize {
                 modes: 2,
                 residual_vectors: 0,

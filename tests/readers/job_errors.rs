@@ -266,7 +266,9 @@ fn properties_materials_masses_and_each_say_what_they_scale() {
             .iter()
             .map(|parameter| parameter.name.clone())
             .collect();
-        (names, source.members.clone())
+        let scaled = source.members.iter();
+        let scaled = scaled.map(|own| [own.elements.clone(), own.masses.clone()]);
+        (names, scaled.collect::<Vec<_>>())
     };
     let names = |names: &[&str]| {
         names

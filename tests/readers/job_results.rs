@@ -333,7 +333,7 @@ fn a_prior_is_the_parameters_own_or_that_of_all() {
         "elements = [1]\nprior_deviation = 1e-6",
     ));
     assert_eq!(found.found.prepared.loaded.source.priors, [1e-6, 0.5, 0.5]);
-    let seen = &found.seen[1];
+    let seen = &found.seen;
     assert!((found.found.factors[0] - 1.0).abs() < 1e-6 && seen.learned[0] < 1e-3);
     for e in [1, 2] {
         let kept = (seen.deviations[e] / 0.5).powi(2);
@@ -380,10 +380,10 @@ fn an_interval_is_that_of_as_much_noise_as_there_is() {
     let times = found.misfit.times_the_noise().unwrap();
     assert!(times > 1.0 && !found.misfit.is_by_noise(), "{times}");
     let interval = intervals(&found)[0].expect("an optimum");
-    let wide = 2.0 * NORMAL_95 * found.seen[1].deviations[0];
+    let wide = 2.0 * NORMAL_95 * found.seen.deviations[0];
     let slopes = jacobian(&found.found.last, &found.found.prepared.weights()).unwrap();
     let alone = (times / slopes.norm()).powi(-2) + PRIOR_DEVIATION.powi(-2);
-    assert!((alone.sqrt() * found.seen[1].deviations[0] - 1.0).abs() < MATRIX_ROUND_OFF);
+    assert!((alone.sqrt() * found.seen.deviations[0] - 1.0).abs() < MATRIX_ROUND_OFF);
     let found = (interval.upper / interval.lower).ln();
     assert!((found - wide).abs() < ROUND_OFF * wide, "{found} {wide}");
 }

@@ -264,7 +264,8 @@ fn of_equal_roots_as_few_as_possible_are_seen() {
         .analyze(
             &[],
             &sensors,
-            (&seen, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+            &seen,
+            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
             size,
         )
         .expect("an analysis");

@@ -28,7 +28,7 @@ fn corrected(job: &PreparedJob) -> JobResult {
 fn apart(result: &JobResult, from: &JobResult) -> f64 {
     let both = result.found.factors.iter().zip(&from.found.factors);
     let distance = both.map(|(one, other)| (one / other).ln().abs());
-    let deviations = &from.seen[1].deviations;
+    let deviations = &from.seen.deviations;
     distance
         .zip(deviations)
         .map(|(apart, deviation)| apart / deviation)

@@ -1,7 +1,7 @@
 //! Matrices of other programs: what SciPy and pyNastran wrote (golden/formats/), what NASTRAN's manual says, and the way back.
 
 use corfem::files::error::FileError;
-use corfem::files::matrices::{LabeledMatrix, read, write_matrix_market};
+use corfem::files::matrices::{Label, LabeledMatrix, read, write_matrix_market};
 use corfem::sparse::SparseMatrix;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
@@ -35,10 +35,16 @@ pub fn assert_written(file: &str, written: &[u8]) {
     );
 }
 
+/// Labels of these grids and components.
+fn labels(all: &[(usize, usize)]) -> Option<Vec<Label>> {
+    let label = |&(grid, component): &(usize, usize)| Label { grid, component };
+    Some(all.iter().map(label).collect())
+}
+
 /// A matrix by the names of its rows and columns.
 fn by_name(found: &LabeledMatrix) -> BTreeMap<(String, String), f64> {
-    let name = |labels: &Option<Vec<(usize, usize)>>, place: usize| match labels {
-        Some(labels) => format!("{}-{}", labels[place].0, labels[place].1),
+    let name = |labels: &Option<Vec<Label>>, place: usize| match labels {
+        Some(labels) => format!("{}-{}", labels[place].grid, labels[place].component),
         None => (place + 1).to_string(),
     };
     let entries = found.matrix.entries();
@@ -83,7 +89,7 @@ fn matrices_of_the_owners_programs_read_to_the_last_digit() {
         match rows.as_str() {
             "symmetric" | "square" => assert!(found.rows.is_some() && found.rows == found.columns),
             "rectangular" => {
-                assert_eq!(found.columns, Some(vec![(1, 0), (2, 0), (3, 0)]));
+                assert_eq!(found.columns, labels(&[(1, 0), (2, 0), (3, 0)]));
                 assert_eq!(found.matrix.rows(), 20);
             }
             rows => assert_eq!(size, [rows, columns.as_str()], "{file} {name}"),
@@ -267,7 +273,7 @@ fn fields_without_blanks_and_scalar_points_of_dmig_read() {
                 DMIG    C       0       6       3       0\nDMIG    C       1       1               1       1       1.      2.\n"
         .replace("123456780", " 12345678");
     let found = read("m", text.as_bytes(), Some("K")).expect("a matrix");
-    assert_eq!(found.rows, Some(vec![(7, 0), (12_345_678, 2)]));
+    assert_eq!(found.rows, labels(&[(7, 0), (12_345_678, 2)]));
     assert_eq!(
         found.matrix.entries().collect::<Vec<_>>(),
         [(0, 0, 1.5), (1, 0, -2e-3), (0, 1, -2e-3), (1, 1, 100.0)]
@@ -282,7 +288,7 @@ fn fields_without_blanks_and_scalar_points_of_dmig_read() {
     // Three entries on a card, and a place for one that has none.
     let text = "DMIG,K,0,2,2,0\nDMIG,K,1,1,,2,1,2.,,+A\n+A,,,,,3,1,3.,,+B\n+B,4,1,4.\n";
     let found = read("m", text.as_bytes(), None).expect("a matrix");
-    assert_eq!(found.rows, Some(vec![(2, 1), (3, 1), (4, 1)]));
+    assert_eq!(found.rows, labels(&[(2, 1), (3, 1), (4, 1)]));
     assert_eq!(
         found.matrix.entries().collect::<Vec<_>>(),
         [(0, 0, 2.0), (1, 0, 3.0), (2, 0, 4.0)]
@@ -290,7 +296,7 @@ fn fields_without_blanks_and_scalar_points_of_dmig_read() {
     // Fields of eight characters that touch.
     let text = "DMIG    K       0       1       1       0\nDMIG    K       12345678       3        12345679       1-1.234-3\n";
     let found = read("m", text.as_bytes(), None).expect("a matrix");
-    assert_eq!(found.rows, Some(vec![(12_345_678, 3), (12_345_679, 1)]));
+    assert_eq!(found.rows, labels(&[(12_345_678, 3), (12_345_679, 1)]));
     assert_eq!(
         found.matrix.entries().collect::<Vec<_>>(),
         [(1, 0, -1.234e-3)]

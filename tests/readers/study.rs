@@ -223,8 +223,7 @@ fn factors_scatter_as_one_correlation_says_they_do() {
             "{name}: {spread:?}"
         );
         // Of the logarithm of a factor, and a sample's own deviation has an error of one in the root of 2 (n - 1).
-        let ratio =
-            spread.deviation / (found.found.factors[story] * found.seen[1].deviations[story]);
+        let ratio = spread.deviation / (found.found.factors[story] * found.seen.deviations[story]);
         let most = STANDARD_ERRORS / (2.0 * (COUNT - 1) as f64).sqrt();
         assert!((ratio - 1.0).abs() < most, "{name}: {ratio}");
     }

@@ -69,7 +69,7 @@ fn no_call_around_the_method_ends_in_a_panic() {
             modes,
             residual_vectors,
         };
-        whole.analyze(&[1.0], &sensors, (&test, pair()), size)
+        whole.analyze(&[1.0], &sensors, &test, pair(), size)
     };
     calls.of("analyze 0", || analyze(0, 0));
     calls.of("analyze all", || analyze(usize::MAX, 4));
@@ -80,15 +80,15 @@ fn no_call_around_the_method_ends_in_a_panic() {
         residual_vectors: 0,
     };
     calls.of("analyze sensors", || {
-        whole.analyze(&[1.0], &sensors_of_two, (&test, pair()), size)
+        whole.analyze(&[1.0], &sensors_of_two, &test, pair(), size)
     });
     calls.of("analyze no factor", || {
-        whole.analyze(&[], &sensors, (&test, pair()), size)
+        whole.analyze(&[], &sensors, &test, pair(), size)
     });
     for factor in [nan, -5.0, f64::INFINITY, 0.0, 1e300] {
         calls.of("modes", || whole.modes(&[factor], 1));
         calls.of("analyze", || {
-            whole.analyze(&[factor], &sensors, (&test, pair()), size)
+            whole.analyze(&[factor], &sensors, &test, pair(), size)
         });
     }
     calls.of("modes all", || whole.modes(&[1.0], usize::MAX));

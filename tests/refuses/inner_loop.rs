@@ -63,7 +63,8 @@ impl Uncoupled<'_> {
         let found = whole.analyze(
             &[1.0],
             &sensors,
-            (&test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+            &test,
+            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
             BasisSize {
                 modes: mass.nrows(),
                 residual_vectors: 0,

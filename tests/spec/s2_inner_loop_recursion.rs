@@ -101,7 +101,8 @@ fn mass_that_is_taken_whole_loses_the_root() {
     let model = whole.analyze(
         &[1.0],
         &sensors,
-        (&test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+        &test,
+        corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
         BasisSize {
             modes: 2,
             residual_vectors: 0,

@@ -351,7 +351,7 @@ impl Run {
                 modes: self.test_modes + 2,
                 residual_vectors: sensing.further,
             };
-            let model = model.analyze(factors, &sensors, (&test, pair.clone()), size)?;
+            let model = model.analyze(factors, &sensors, &test, pair.clone(), size)?;
             match sensing.is_weighted {
                 true => model.weighted(&weights),
                 false => Ok(model),

@@ -139,7 +139,8 @@ pub fn analyze(
     model.analyze(
         factors,
         sensors,
-        (test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+        test,
+        corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
         BasisSize {
             modes: POINTS,
             residual_vectors: 0,

@@ -109,7 +109,8 @@ fn the_jacobian_is_the_derivative_of_exact_analyses() {
             let model = first.analyze(
                 factors,
                 &sensors,
-                (&test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+                &test,
+                corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
                 BasisSize {
                     modes: 9,
                     residual_vectors: 0,

@@ -83,14 +83,12 @@ impl Net {
     }
 
     fn analyze(&self, factors: &[f64]) -> Result<SensorModel, Error> {
-        let test = (
-            &self.test,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
-        );
+        let pair = corfem::sparse::Pair::by(|of| pair_modes(of.cross));
         self.model.analyze(
             factors,
             &self.sensors,
-            test,
+            &self.test,
+            pair,
             BasisSize {
                 modes: self.vibrations,
                 residual_vectors: 0,

@@ -158,7 +158,7 @@ impl Constraints {
 
     /// The equations, by dependent DOF: it may not be constrained nor in another equation, nor its coefficient zero.
     pub fn ties(&self, grids: &BTreeMap<usize, Grid>) -> Result<Vec<Tie>, FileError> {
-        let mut ties: BTreeMap<(usize, usize), (Tie, &Card)> = BTreeMap::new();
+        let mut ties: BTreeMap<StructuralDof, (Tie, &Card)> = BTreeMap::new();
         for (_, card) in &self.equations.cards {
             let last = card.filled().pop().unwrap_or(0);
             let term = |field| {
@@ -177,11 +177,10 @@ impl Constraints {
                 .map(term);
             let mut terms = terms.collect::<Result<Vec<_>, FileError>>()?.into_iter();
             let (dependent, coefficient) = terms.next().ok_or_else(|| card.wrong(3, "a grid"))?;
-            let key = (dependent.grid, dependent.direction);
             card.require(coefficient != 0.0, 5, "a coefficient other than zero")?;
             let is_constrained = grids
-                .get(&key.0)
-                .is_some_and(|grid| grid.constrained[key.1]);
+                .get(&dependent.grid)
+                .is_some_and(|grid| grid.constrained[dependent.direction]);
             if is_constrained {
                 return Err(card.error(
                     3,
@@ -193,7 +192,7 @@ impl Constraints {
                 coefficient,
                 terms: terms.collect(),
             };
-            if let Some((_, first)) = ties.insert(key, (tie, card)) {
+            if let Some((_, first)) = ties.insert(dependent, (tie, card)) {
                 return Err(card.error(
                     3,
                     format!("line {} ties this degree of freedom already", first.line),
@@ -201,8 +200,7 @@ impl Constraints {
             }
         }
         for (tie, card) in ties.values() {
-            let is_tied =
-                |(term, _): &(StructuralDof, f64)| ties.contains_key(&(term.grid, term.direction));
+            let is_tied = |(term, _): &(StructuralDof, f64)| ties.contains_key(term);
             if let Some(row) = tie.terms.iter().position(is_tied) {
                 let reason = "another MPC card makes this degree of freedom dependent; no equation may refer to it";
                 return Err(card.error(term_field(row + 1), reason));

@@ -199,7 +199,9 @@ impl BulkData {
             .iter()
             .flat_map(|element| element.grids.iter().map(|&grid| (element.label, grid)));
         for (element, grid) in corners {
-            if let Some(direction) = (0..3).find(|&d| tied.contains_key(&(grid, d))) {
+            let is_tied =
+                |&direction: &usize| tied.contains_key(&StructuralDof { grid, direction });
+            if let Some(direction) = (0..3).find(is_tied) {
                 return Err(FileError::TiedElement {
                     element,
                     grid,
@@ -208,8 +210,13 @@ impl BulkData {
             }
         }
         let grids = self.grids.iter().map(|grid| {
-            let constrained =
-                [0, 1, 2].map(|d| grid.constrained[d] || tied.contains_key(&(grid.label, d)));
+            let constrained = [0, 1, 2].map(|direction| {
+                let grid_dof = StructuralDof {
+                    grid: grid.label,
+                    direction,
+                };
+                grid.constrained[direction] || tied.contains_key(&grid_dof)
+            });
             Grid {
                 constrained,
                 ..grid.clone()
@@ -218,11 +225,10 @@ impl BulkData {
         Ok(Structure::new(grids.collect(), self.elements.clone())?)
     }
 
-    /// The equation of every dependent DOF, by grid and direction.
-    fn tie_of(&self) -> HashMap<(usize, usize), &Tie> {
+    /// The equation of every dependent DOF.
+    fn tie_of(&self) -> HashMap<StructuralDof, &Tie> {
         let ties = self.ties.iter();
-        ties.map(|tie| ((tie.dependent.grid, tie.dependent.direction), tie))
-            .collect()
+        ties.map(|tie| (tie.dependent, tie)).collect()
     }
 
     /// The DOF with mass, free or dependent, grid by grid: masses of CMASS2 and CONM2 cards and the lumped ones of
@@ -279,27 +285,23 @@ impl BulkData {
         structure: &Structure,
     ) -> Result<Vec<MovingMass>, FileError> {
         let free = structure.free_dof();
-        let at = |dof: &StructuralDof| (dof.grid, dof.direction);
-        let mut mass: BTreeMap<(usize, usize), f64> = BTreeMap::new();
+        let mut mass: BTreeMap<StructuralDof, f64> = BTreeMap::new();
         for (element, corners) in self.elements.iter().zip(structure.corners()) {
             for (row, own) in lumped_masses(structure, element, corners) {
-                *mass.entry(at(&free[row])).or_default() += own;
+                *mass.entry(free[row]).or_default() += own;
             }
         }
         for point in &self.masses {
             point
                 .dof()
-                .for_each(|dof| *mass.entry(at(&dof)).or_default() += point.mass);
+                .for_each(|dof| *mass.entry(dof).or_default() += point.mass);
         }
         mass.retain(|_, mass| *mass > 0.0);
         let motion_of = self.motions(structure);
-        let moving = mass.into_iter().map(|((grid, direction), mass)| {
-            let dof = StructuralDof { grid, direction };
-            MovingMass {
-                dof,
-                mass,
-                motion: motion_of(dof),
-            }
+        let moving = mass.into_iter().map(|(dof, mass)| MovingMass {
+            dof,
+            mass,
+            motion: motion_of(dof),
         });
         let moving: Vec<MovingMass> = moving.filter(|point| !point.motion.is_empty()).collect();
         at_least_one("degrees of freedom with mass", moving.len())?;
@@ -313,7 +315,7 @@ impl BulkData {
     ) -> impl Fn(StructuralDof) -> Vec<(usize, f64)> + 'a {
         let tie_of = self.tie_of();
         move |own| {
-            let terms = match tie_of.get(&(own.grid, own.direction)) {
+            let terms = match tie_of.get(&own) {
                 Some(tie) => tie
                     .terms
                     .iter()

@@ -1,13 +1,10 @@
 //! DMIG cards of bulk data: matrices at grids and components, as NASTRAN takes and punches them.
 
-use super::{Digits, FoundMatrices, LabeledMatrix, is_wanted};
+use super::{Digits, FoundMatrices, Label, LabeledMatrix, is_wanted};
 use crate::files::deck::{Card, cards};
 use crate::files::error::FileError;
 use crate::sparse::SparseMatrix;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
-
-/// A grid and its component.
-type Label = (usize, usize);
 
 /// Reads the matrices of this name, or all. A header (field 3 is 0) has the form in field 4, 1 square, 2 or 9 rectangular, 6
 /// symmetric, and in field 5 the type, 1 or 2 for real; the other cards are columns, and their entries are four fields each.
@@ -118,8 +115,8 @@ fn label(card: &Card, field: usize) -> Result<Label, FileError> {
         "" => Some(0),
         text => text.parse().ok().filter(|component| *component <= 6),
     };
-    Ok((
-        card.label(field)?,
-        component.ok_or_else(|| card.wrong(field + 1, "a component from 0 to 6"))?,
-    ))
+    Ok(Label {
+        grid: card.label(field)?,
+        component: component.ok_or_else(|| card.wrong(field + 1, "a component from 0 to 6"))?,
+    })
 }

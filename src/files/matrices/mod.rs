@@ -15,13 +15,22 @@ use crate::files::deck::decoded;
 use crate::files::error::FileError;
 use crate::sparse::SparseMatrix;
 
+/// A grid and its component, 1 to 6, or 0 for a scalar point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Label {
+    /// Number of the grid.
+    pub grid: usize,
+    /// The component.
+    pub component: usize,
+}
+
 /// A matrix of a file, with the labels of its rows and columns where the file has them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LabeledMatrix {
-    /// Grid and component of every row, ascending: component 1 to 6, or 0 for a scalar point. Only DMIG has them.
-    pub rows: Option<Vec<(usize, usize)>>,
+    /// Labels of the rows, ascending. Only DMIG has them.
+    pub rows: Option<Vec<Label>>,
     /// Labels of the columns; a square or symmetric matrix has one list for both, of all labels in either.
-    pub columns: Option<Vec<(usize, usize)>>,
+    pub columns: Option<Vec<Label>>,
     /// The matrix, a symmetric one with both triangles.
     pub matrix: SparseMatrix,
 }

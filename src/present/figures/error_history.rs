@@ -25,7 +25,10 @@ pub fn error_history(report: &Report) -> Vec<PassHistory> {
     let mut from = 0;
     let history = |(row, stage): (usize, &Stage)| {
         let (tolerance, is_inner) = (
-            report.tolerances.map(|all| all[row.min(1)]),
+            report.settings.as_ref().map(|settings| match row {
+                0 => settings.inner.tolerance,
+                _ => settings.later_inner_tolerance,
+            }),
             stage.inner.is_some(),
         );
         let pass = PassHistory {

@@ -54,10 +54,7 @@ impl Report {
                 .collect(),
             supports: root.to_vec(),
             mass: Some(case.reconstruction.mass()),
-            tolerances: Some([
-                case.settings.inner.tolerance,
-                case.settings.later_inner_tolerance,
-            ]),
+            settings: Some(case.settings.clone()),
             derivatives: Some(Derivatives::at(&Comparison::from(&first))?),
             verdict: Some(Verdict::of_case(result)),
             ..Self::from_correlation(

@@ -6,6 +6,7 @@ use crate::job::{CorrelatedJob, History, JobResult, Method, PlacedSensor, Prepar
 use crate::method::error::Error;
 use crate::method::modes::Modes;
 use crate::method::step::Bounds;
+use crate::method::structure::StructuralDof;
 use crate::present::PresentError;
 use crate::weighted::comparison::{Comparison, ExactResult};
 use crate::weighted::gauss_newton::{WeightedCorrelation, WeightedStop};
@@ -61,7 +62,11 @@ impl Report {
             );
         }
         let still = |grid: &&usize| {
-            (0..3).all(|direction| !loaded.source.motions.contains_key(&(**grid, direction)))
+            let dof = |direction| StructuralDof {
+                grid: **grid,
+                direction,
+            };
+            (0..3).all(|direction| !loaded.source.motions.contains_key(&dof(direction)))
         };
         let (test, initial) = (&first.model.test, first.result()?);
         let stages = found.map(stopped).transpose()?;
@@ -103,6 +108,7 @@ impl Report {
             found,
             trust,
             verdict,
+            seen_first: _,
             seen,
             misfit,
             intervals,
@@ -127,13 +133,7 @@ impl Report {
                     .map(deviation)
                     .collect(),
             ),
-            prior_shares: Some(
-                seen[1]
-                    .learned
-                    .iter()
-                    .map(|learned| 1.0 - learned)
-                    .collect(),
-            ),
+            prior_shares: Some(seen.learned.iter().map(|learned| 1.0 - learned).collect()),
             misfit: Some(*misfit),
             is_judged_by_noise: loaded.job.compare.method == Method::GaussNewton,
             analyses: Some(found.analyses),
@@ -215,7 +215,7 @@ fn moved(found: &CorrelatedJob) -> Option<[Vec<Vec<Vector3<f64>>>; 3]> {
             Some(
                 source
                     .whole
-                    .exactly(factors, sensors, (count, count), None)
+                    .exactly(factors, sensors, count..=count, None)
                     .ok()?
                     .shapes(count)
                     .shapes,
@@ -242,8 +242,10 @@ fn moved(found: &CorrelatedJob) -> Option<[Vec<Vec<Vector3<f64>>>; 3]> {
     let test = expand(&all, &seen, &found.first.model.test.shapes).ok()?;
     let at = |shape: DVectorView<f64>, grid: usize| {
         Vector3::from_fn(|direction, _| {
-            let motion = source.motions.get(&(grid, direction)).into_iter().flatten();
+            let motion = source.motions.get(&StructuralDof { grid, direction });
             motion
+                .into_iter()
+                .flatten()
                 .map(|&(dof, coefficient)| coefficient * shape[dof])
                 .sum()
         })

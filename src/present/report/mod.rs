@@ -11,7 +11,7 @@ use crate::method::error::Error;
 use crate::method::error_sum::Errors;
 use crate::method::inner_loop::{InnerRun, Stop};
 use crate::method::modes::Modes;
-use crate::method::outer_loop::{Correlation, Pass};
+use crate::method::outer_loop::{Correlation, Pass, Settings};
 use crate::method::sorting::cross_orthogonality;
 use crate::method::step::Bounds;
 use crate::method::structure::Structure;
@@ -126,8 +126,8 @@ pub struct Report {
     pub mass: Option<DMatrix<f64>>,
     /// The exact solution of the first model.
     pub initial: ExactResult,
-    /// Tolerances of the inner loops on the error sum, of the first pass and of later ones, where they are to be drawn.
-    pub tolerances: Option<[f64; 2]>,
+    /// Settings of the loops, where their tolerances are to be drawn.
+    pub settings: Option<Settings>,
     /// The stages after it.
     pub stages: Vec<Stage>,
     /// The stage with the best factors, from zero; none when none is better than the first model.
@@ -238,7 +238,7 @@ impl Report {
             supports: Vec::new(),
             mass: None,
             initial: initial.clone(),
-            tolerances: None,
+            settings: None,
             stages: run.iter().flat_map(|run| &run.passes).map(stage).collect(),
             best: run.and_then(|run| run.best),
             verdict: None,

@@ -223,7 +223,7 @@ pub fn suspects_table(prepared: &PreparedJob) -> Result<Table, FileError> {
 pub fn seen_table(result: &JobResult) -> Table {
     let loaded = &result.found.prepared.loaded;
     let names: Vec<&str> = loaded.parameter_names().collect();
-    let [before, after] = &result.seen;
+    let (before, after) = (&result.seen_first, &result.seen);
     let intervals = &result.intervals;
     let apart = format!(
         "Of {}, the test tells {} apart (singular values {:.3e} to {:.3e}). Deviations are those of the logarithm of the factor, \

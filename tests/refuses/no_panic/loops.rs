@@ -37,10 +37,8 @@ fn sensed(d: &mut Draws) -> Result<SensorModel, Error> {
     whole.analyze(
         &[1.0; 2],
         &sensors,
-        (
-            model.test(),
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
-        ),
+        model.test(),
+        corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
         BasisSize {
             modes: count,
             residual_vectors: 0,

@@ -73,12 +73,9 @@ impl Row {
             modes: MODES[1],
             residual_vectors: 0,
         };
-        let test = (
-            &self.test,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
-        );
+        let pair = corfem::sparse::Pair::by(|of| pair_modes(of.cross));
         self.model
-            .analyze(factors, &self.sensors, test, size)
+            .analyze(factors, &self.sensors, &self.test, pair, size)
             .expect("an analysis")
             .into()
     }

@@ -77,15 +77,13 @@ impl Net {
     }
 
     fn analyze(&self, factors: &[f64], further: usize) -> SensorModel {
-        let test = (
-            &self.test,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
-        );
+        let pair = corfem::sparse::Pair::by(|of| pair_modes(of.cross));
         self.model
             .analyze(
                 factors,
                 &self.sensors,
-                test,
+                &self.test,
+                pair,
                 BasisSize {
                     modes: MODES[1],
                     residual_vectors: further,
@@ -147,7 +145,8 @@ fn every_spring_has_one_residual_vector() {
             .analyze(
                 &[1.0; 3],
                 &sensors,
-                (&test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+                &test,
+                corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
                 BasisSize {
                     modes: 4,
                     residual_vectors: 4,

@@ -46,7 +46,8 @@ fn a_mode_that_no_sensor_sees_is_like_no_test_mode() {
             model.analyze(
                 &[1.0],
                 &sensors,
-                (&test?, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+                &test?,
+                corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
                 BasisSize {
                     modes: 1,
                     residual_vectors: 0,
@@ -81,7 +82,8 @@ fn a_mode_that_no_sensor_sees_cannot_be_compared() {
             .analyze(
                 &[1.0],
                 &sensors,
-                (&test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+                &test,
+                corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
                 BasisSize {
                     modes,
                     residual_vectors: 0,
@@ -133,7 +135,8 @@ fn a_state_in_which_rigid_body_modes_have_no_mass_is_refused() {
         .analyze(
             &[1.0],
             &sensors_at(&[0, 1], 2),
-            (&test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+            &test,
+            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
             BasisSize {
                 modes: 1,
                 residual_vectors: 0,
@@ -170,7 +173,8 @@ fn share_and_congruence(matrix: DMatrix<f64>) -> [DMatrix<f64>; 2] {
         .analyze(
             &[1.0],
             &sensors,
-            (&test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+            &test,
+            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
             BasisSize {
                 modes: 3,
                 residual_vectors: 0,
@@ -215,7 +219,8 @@ fn a_share_on_the_test_shapes_is_that_on_their_modes() {
         .analyze(
             &[1.0; 3],
             &sensors,
-            (&test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+            &test,
+            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
             BasisSize {
                 modes: 3,
                 residual_vectors: 0,
@@ -260,7 +265,8 @@ fn the_error_change_by_a_mass_of_a_free_structure_is_near_its_limit() {
         let found = model.analyze(
             &[factor],
             &sensors,
-            (&test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+            &test,
+            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
             size,
         );
         found.expect("an analysis")
@@ -291,7 +297,8 @@ fn five_of_ten_floors_recover_every_story_without_condensation() {
         model.analyze(
             factors,
             &sensors,
-            (&test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+            &test,
+            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
             BasisSize {
                 modes: 10,
                 residual_vectors: 0,
@@ -353,7 +360,8 @@ fn test_shapes_at_sensors_are_scaled_to_their_modes() {
             .analyze(
                 &[1.0; 10],
                 &sensors,
-                (test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+                test,
+                corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
                 BasisSize {
                     modes: 10,
                     residual_vectors: 0,
@@ -406,7 +414,8 @@ fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
         .analyze(
             &factors,
             &sensors,
-            (&test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+            &test,
+            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
             BasisSize {
                 modes: 9,
                 residual_vectors: 0,
@@ -464,10 +473,8 @@ fn a_free_chain_is_corrected_without_its_rigid_body_mode() {
         model.analyze(
             factors,
             &sensors,
-            (
-                &modes.vibrations,
-                corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
-            ),
+            &modes.vibrations,
+            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
             BasisSize {
                 modes: count - 1,
                 residual_vectors: 0,
@@ -542,7 +549,8 @@ fn a_free_delta_wing_is_corrected_without_its_rigid_body_modes() {
         let found = model.analyze(
             factors,
             &sensors,
-            (&test, corfem::sparse::Pair::by(|of| pair_modes(of.cross))),
+            &test,
+            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
             size,
         )?;
         Ok::<_, Error>(Comparison::from(found))
