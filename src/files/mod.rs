@@ -70,12 +70,12 @@ pub(crate) fn inert(text: &str) -> String {
 }
 
 fn escape(text: &str, is_shown: impl Fn(char) -> bool) -> String {
-    let shown = |c: char| {
-        if is_shown(c) {
-            c.escape_default().to_string()
-        } else {
-            c.to_string()
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match is_shown(c) {
+            true => escaped.extend(c.escape_default()),
+            false => escaped.push(c),
         }
-    };
-    text.chars().map(shown).collect()
+    }
+    escaped
 }

@@ -72,23 +72,23 @@ pub(super) fn pairs(
     floor: f64,
 ) -> Result<Vec<Option<usize>>, Error> {
     let free = readings.nrows().saturating_sub(1) as f64;
-    let visible = visibilities(readings);
+    let prices = visibilities(readings).into_iter();
+    let prices: Vec<f64> = prices
+        .map(|seen| -2.0 * seen.max(f64::EPSILON).ln())
+        .collect();
+    // One sensor tells no shapes apart.
+    let likeness = (free * UNLIKE * UNLIKE).max(f64::MIN_POSITIVE);
     let costs = assurance.map_with_location(|mode, test, close| {
-        // One sensor tells no shapes apart.
-        let unlike = (1.0 - close).max(0.0) / (free * UNLIKE * UNLIKE).max(f64::MIN_POSITIVE);
-        let by_shape = 0.5 * free * unlike.ln_1p();
-        let price = -2.0 * visible[mode].max(f64::EPSILON).ln();
-        by_shape + price + by_frequency.map_or(0.0, |costs| costs[(mode, test)])
+        let by_shape = 0.5 * free * (1.0 + (1.0 - close).max(0.0) / likeness).ln();
+        by_shape + prices[mode] + by_frequency.map_or(0.0, |costs| costs[(mode, test)])
     });
     // One pair more outweighs whatever it costs the others.
     let most = costs.max();
-    let enough = 1.0 + costs.ncols() as f64 * (most - costs.min());
-    let close = costs.map_with_location(|mode, test, cost| {
-        match assurance[(mode, test)] >= floor {
-            true => enough + most - cost,
-            // Not as good as no pair.
-            false => -1.0,
-        }
+    let enough = 1.0 + costs.ncols() as f64 * (most - costs.min()) + most;
+    let close = costs.zip_map(assurance, |cost, close| match close >= floor {
+        true => enough - cost,
+        // Not as good as no pair.
+        false => -1.0,
     });
     pair_optimally(&rounded(&close, COSTS), 0.0)
 }
