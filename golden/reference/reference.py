@@ -45,7 +45,7 @@ PASSES = {
 }
 
 
-GAUSS = np.polynomial.legendre.leggauss(12)
+GAUSS = np.polynomial.legendre.leggauss(20)
 
 
 def shear_panel(x, g, nu):

@@ -20,8 +20,8 @@ pub const RANK_THRESHOLD: f64 = 1e-9;
 /// Element matrices computed in two frames: coordinates 100 in from the origin carry 1e-13 of a panel's size, and
 /// the strategies' distortion multiplies that by ten or so; relative to the largest entry.
 pub const ELEMENT_ROUND_OFF: f64 = 1e-11;
-/// Quadrature of a trapezoid tapered to no less than 0.3 against its closed form: what twelve points leave.
-pub const QUADRATURE_TRAPEZOID: f64 = 5e-10;
+/// Quadrature of a trapezoid tapered to no less than 0.3 against its closed form: round-off, of twenty points.
+pub const QUADRATURE_TRAPEZOID: f64 = 1e-13;
 /// The closed form of a panel without parallel sides: its terms exceed their sum some ten thousand times when
 /// opposite sides meet five sides away, and more beyond.
 pub const CLOSED_FORM_GENERAL: f64 = 1e-11;
@@ -41,8 +41,8 @@ pub const EXPECTED_HISTORY: f64 = 1e-5;
 pub const EXPECTED_COUNTED: f64 = 1e-6;
 /// The independent program's exact frequencies, ten digits written, another quadrature order of summation.
 pub const EXPECTED_FREQUENCY: f64 = 1e-6;
-/// Twelve-point quadrature of a strongly distorted panel against its closed form.
-pub const QUADRATURE_DISTORTED: f64 = 1e-6;
+/// Twenty-point quadrature of a strongly distorted panel against its closed form.
+pub const QUADRATURE_DISTORTED: f64 = 2e-10;
 /// Goldens on another machine: the inner loop steps through some thirty finite-difference iterations, each of which
 /// multiplies a difference in the last digit; two builds of the independent program differ by 1e-6.
 pub const GOLDEN_RELATIVE: f64 = 1e-5;
@@ -298,15 +298,10 @@ pub const GOLDEN_STEPS: f64 = 0.05;
 /// A recursion of three modes to its fourth order beside the same in rational numbers: some forty roundings, of differences of
 /// roots that are a twentieth of the roots.
 pub const RATIONAL_ROUND_OFF: f64 = 1e-14;
-/// The history of a case against the same in double-double, times the measured condition: 8e-16 at worst, some roundings.
+/// The history of a case against its enclosure, times the measured condition: some roundings.
 pub const CHAIN_ROUND_OFF: f64 = 1e-14;
-/// Relative margin by which every decision of a history is far from falling otherwise: 5e-4 in the nearest.
+/// Relative margin by which every decision of a history is far from falling otherwise: 4.4e-4 in the nearest.
 pub const NEAREST_DECISION: f64 = 4e-4;
-/// A lowest root by the residual of its mode, relative, 1.4e-9 at worst: round-off of the highest root over the lowest.
-pub const CERTIFIED_ROOT: f64 = 5e-9;
-/// Units of the last digit between a rounded number and what it stands for: half of one, and a tenth for the round-off of what was
-/// rounded.
-pub const SHOWN_UNITS: f64 = 0.6;
 /// Gradients where cases begin by two formulas, relative to the largest: modes of condition 1e5 or so, differences of whose squared
 /// frequencies divide.
 pub const EXPECTED_GRADIENT: f64 = 1e-8;

@@ -5,7 +5,7 @@ use corfem::method::elements::GAUSS_LEGENDRE;
 use nalgebra::DMatrix;
 
 /// Points of the rule.
-const COUNT: usize = 12;
+const COUNT: usize = 20;
 
 /// The rule from −1 to 1, of which the panel has the positive half.
 fn rule() -> Vec<(f64, f64)> {
