@@ -12,8 +12,6 @@ pub mod closed_forms;
 pub mod complex_pencils;
 pub mod condensed;
 pub mod decks;
-pub mod double_double;
-pub mod double_double_matrices;
 pub mod drawings;
 pub mod draws;
 #[cfg(unix)]
@@ -24,7 +22,6 @@ pub mod free_structures;
 pub mod gradient;
 pub mod ground_tests;
 pub mod hostile;
-pub mod inertia;
 pub mod jobs;
 pub mod known;
 pub mod loops;

@@ -3,13 +3,12 @@
 
 pub mod accumulation;
 pub mod appendices_expected;
-pub mod certified;
 pub mod claims;
 pub mod coverage;
 pub mod delta_wing_tables;
 pub mod detection;
-pub mod double_double;
 pub mod eigensolutions;
+pub mod enclosed;
 pub mod fit;
 pub mod five_structures;
 pub mod linearization;

@@ -1,0 +1,334 @@
+//! Every number of the four cases and of Tables 9 to 12, by all readings of the step, against enclosures: `golden/enclosed.json` has the
+//! method's own numbers to twenty digits, each proven, and every decision on the way (`golden/enclosure.py`).
+//!
+//! The crate's distance from a proven number is held to its condition: how much one rounding counts, which the program measures by a noise
+//! of 1e-40 in its place. Its iterations, halvings and pairs are those of the enclosure, of which no decision hangs on less than 4e-4.
+
+use crate::common::tolerances::{CHAIN_ROUND_OFF, NEAREST_DECISION, ROUND_OFF};
+use corfem::method::analysis::State;
+use corfem::method::modes::Modes;
+use corfem::method::outer_loop::{Correlation, Settings, correlate};
+use corfem::method::step::StepRule;
+use corfem::method::structure::ElementKind;
+use corfem::present::table::{Cell, Table};
+use corfem::present::tables::cases::{frequency_table, gage_table};
+use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, PUBLISHED_RUNS};
+use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE, rms};
+use corfem::torque_box::{CASES, Case, run_case};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+/// Decimals of twenty digits.
+type Decimals = Vec<String>;
+
+/// A run, enclosed.
+#[derive(Deserialize)]
+struct Run {
+    test_frequencies: Decimals,
+    initial: Stage,
+    passes: Vec<Pass>,
+    conditions: Conditions,
+    decisions: usize,
+    nearest: BTreeMap<String, f64>,
+}
+
+/// An exact solution.
+#[derive(Deserialize)]
+struct Stage {
+    frequencies: Decimals,
+    paired: Vec<usize>,
+    errors: Decimals,
+}
+
+#[derive(Deserialize)]
+struct Pass {
+    iterations: usize,
+    halvings: Vec<usize>,
+    error_sums: Decimals,
+    unlimited_factors: Decimals,
+    gages: Decimals,
+    inner_frequencies: Decimals,
+    converged: bool,
+    #[serde(flatten)]
+    check: Stage,
+}
+
+/// Condition of every number, by its name: of the test and the first model, and of every pass.
+#[derive(Deserialize)]
+struct Conditions {
+    initial: BTreeMap<String, f64>,
+    passes: Vec<BTreeMap<String, f64>>,
+}
+
+static ENCLOSED: LazyLock<BTreeMap<String, Run>> = LazyLock::new(|| {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/golden/enclosed.json");
+    let text = std::fs::read_to_string(file).expect("the golden");
+    serde_json::from_str(&text).expect("runs")
+});
+
+fn numbers(decimals: &Decimals) -> Vec<f64> {
+    let parsed = decimals.iter().map(|digits| digits.parse());
+    parsed.collect::<Result<_, _>>().expect("decimals")
+}
+
+/// Numbers of the crate against enclosed ones, as far apart as roundings of this condition go.
+fn assert_near(what: &str, found: &[f64], exact: &Decimals, conditions: &BTreeMap<String, f64>) {
+    let name = what.rsplit(", ").next().expect("a name");
+    let allowed = CHAIN_ROUND_OFF * conditions[name].max(1.0);
+    assert_eq!(found.len(), exact.len(), "{what}");
+    for (found, exact) in found.iter().zip(numbers(exact)) {
+        let apart = (found / exact - 1.0).abs();
+        assert!(
+            apart <= allowed,
+            "{what}: {found} for {exact}, {apart:e} of {allowed:e}"
+        );
+    }
+}
+
+/// An exact solution against an enclosed one.
+fn assert_stage(what: &str, found: &State, exact: &Stage, conditions: &BTreeMap<String, f64>) {
+    assert_eq!(found.pairing.analysis_mode, exact.paired, "{what}");
+    let hertz = found.modes.frequencies_hz();
+    assert_near(
+        &format!("{what}, frequencies"),
+        &hertz,
+        &exact.frequencies,
+        conditions,
+    );
+    let errors = [found.errors.frequency, found.errors.shape];
+    assert_near(
+        &format!("{what}, errors"),
+        &errors,
+        &exact.errors,
+        conditions,
+    );
+}
+
+/// A correlation of the crate against an enclosed one.
+fn assert_run(name: &str, test: &Modes, found: &Correlation, gages: &[Vec<f64>], met: &Settings) {
+    let run = &ENCLOSED[name];
+    let first = &run.conditions.initial;
+    let hertz = test.frequencies_hz();
+    assert_near(
+        &format!("{name}, test_frequencies"),
+        &hertz,
+        &run.test_frequencies,
+        first,
+    );
+    assert_stage(name, &found.initial, &run.initial, first);
+    assert_eq!(found.passes.len(), run.passes.len(), "{name}");
+    let passes = found.passes.iter().zip(gages).zip(&run.passes);
+    for (at, ((pass, gages), exact)) in passes.enumerate() {
+        let (what, conditions) = (
+            format!("{name}, pass {}", at + 1),
+            &run.conditions.passes[at],
+        );
+        let steps = &pass.inner.iterations;
+        let halvings: Vec<usize> = steps.iter().map(|step| step.halvings).collect();
+        assert_eq!(
+            (steps.len(), &halvings),
+            (exact.iterations, &exact.halvings),
+            "{what}"
+        );
+        assert_eq!(
+            met.are_met_by(&pass.check.errors),
+            exact.converged,
+            "{what}"
+        );
+        let sums: Vec<f64> = steps.iter().map(|step| step.errors.sum()).collect();
+        let mut inner = pass.inner.last.modes.frequencies_hz();
+        inner.sort_by(f64::total_cmp);
+        let asked = &pass.inner.first_unlimited_factors;
+        for (number, found, exact) in [
+            ("error_sums", &sums, &exact.error_sums),
+            ("unlimited_factors", asked, &exact.unlimited_factors),
+            ("gages", gages, &exact.gages),
+            ("inner_frequencies", &inner, &exact.inner_frequencies),
+        ] {
+            assert_near(&format!("{what}, {number}"), found, exact, conditions);
+        }
+        assert_stage(&what, &pass.check, &exact.check, conditions);
+    }
+}
+
+const READINGS: [(&str, StepRule); 4] = [
+    ("own", StepRule::Own),
+    ("matrix", StepRule::Matrix),
+    ("relative", StepRule::Relative),
+    ("gage", StepRule::Gage),
+];
+
+/// A case by a reading of the step, with as many passes as its enclosure has.
+fn case(number: usize, reading: &str, step: StepRule) -> Case {
+    let case = Case::new(number).expect("a case");
+    let passes = ENCLOSED[&format!("case {number}, {reading}")].passes.len();
+    Case {
+        settings: Settings {
+            least_passes: passes,
+            most_passes: passes,
+            ..case.settings_by(step)
+        },
+        ..case
+    }
+}
+
+#[test]
+fn the_cases_by_every_reading_are_the_enclosed_ones() {
+    for number in CASES {
+        for (reading, step) in READINGS {
+            let case = case(number, reading, step);
+            let found = run_case(&case, |_, _| {}).expect("it runs");
+            let (name, met) = (format!("case {number}, {reading}"), &case.settings);
+            assert_run(
+                &name,
+                &found.test,
+                &found.correlation,
+                &found.pass_gages,
+                met,
+            );
+        }
+    }
+}
+
+#[test]
+fn passes_with_fewer_modes_by_every_reading_are_the_enclosed_ones() {
+    for (reading, step) in READINGS {
+        let case = case(PUBLISHED_CASE, reading, step);
+        let settings = Settings {
+            least_passes: 1,
+            most_passes: 1,
+            ..case.settings.clone()
+        };
+        let (model, all) = (
+            case.model().expect("a model"),
+            case.test_modes().expect("modes"),
+        );
+        let ranges = model.factor_ranges().expect("ranges");
+        for (tests, modes) in PUBLISHED_RUNS {
+            let test = all.lowest(tests).expect("modes");
+            let analyze = |factors: &[f64]| model.analyze(factors, &test, Some(modes));
+            let found = correlate(analyze, &ranges, &settings, |_, _| true).expect("it runs");
+            let of_pass =
+                |factors: &[f64]| model.sizes(factors).expect("gages")[..PANEL_COUNT].to_vec();
+            let gages: Vec<_> = found
+                .passes
+                .iter()
+                .map(|pass| of_pass(&pass.factors))
+                .collect();
+            let name = format!(
+                "case {PUBLISHED_CASE}, {reading}, {tests} test and {modes} analysis modes"
+            );
+            assert_run(&name, &test, &found, &gages, &settings);
+        }
+    }
+}
+
+/// Every decision was proven, and none hangs on round-off.
+#[test]
+fn no_decision_of_a_run_is_near_to_falling_otherwise() {
+    assert_eq!(ENCLOSED.len(), 4 * (CASES.len() + PUBLISHED_RUNS.len()));
+    let decisions: usize = ENCLOSED.values().map(|run| run.decisions).sum();
+    assert_eq!(decisions, 2_307_375);
+    for (name, run) in &*ENCLOSED {
+        for (kind, &margin) in &run.nearest {
+            assert!(margin > NEAREST_DECISION, "{name}, {kind}: {margin:e}");
+        }
+    }
+}
+
+/// A computed cell against the number that it is of: the printed digits are those of the exact number, which is no nearer to rounding
+/// otherwise than its own digits.
+fn assert_prints(table: &Table, row: &str, column: usize, exact: f64) {
+    let rows = table
+        .rows
+        .iter()
+        .find(|own| own.label == row)
+        .expect("a row");
+    let cell = &rows.cells[column];
+    let Cell::Number { .. } = cell else {
+        panic!("{}, {row}: {cell:?}", table.name)
+    };
+    let printed = cell.computed();
+    let digits = printed
+        .split_once('.')
+        .map_or(0, |(_, digits)| digits.len());
+    let units = exact * 10.0_f64.powi(digits as i32);
+    let from_half = (units - units.floor() - 0.5).abs();
+    let what = format!("{}, {row}: {printed} of {exact}", table.name);
+    assert!(
+        units == units.round() || from_half > ROUND_OFF * units.abs(),
+        "{what}"
+    );
+    let printed: f64 = printed.parse().expect("a number");
+    assert!(
+        (printed * 10.0_f64.powi(digits as i32) - units).abs() <= 0.5,
+        "{what}"
+    );
+}
+
+/// Every computed cell of Tables 3 to 8: frequencies, gages, their errors, and the root mean squares of both.
+#[test]
+fn every_digit_of_tables_3_to_8_is_proven() {
+    let mut cells = 0;
+    for (number, reading) in [(1, "own"), (2, "relative"), (3, "relative")] {
+        let run = &ENCLOSED[&format!("case {number}, {reading}")];
+        let found = run_case(&Case::new(number).expect("a case"), |_, _| {}).expect("it runs");
+        let stages =
+            || std::iter::once(&run.initial).chain(run.passes.iter().map(|pass| &pass.check));
+        let table = frequency_table(&found).expect("a table");
+        let test = numbers(&run.test_frequencies);
+        let mut prints = |table: &Table, row: &str, column: usize, exact: f64| {
+            assert_prints(table, row, column, exact);
+            cells += 1;
+        };
+        for (mode, own) in test.iter().enumerate() {
+            prints(&table, &(mode + 1).to_string(), 0, *own);
+        }
+        for (at, stage) in stages().enumerate() {
+            let (hertz, errors) = (numbers(&stage.frequencies), numbers(&stage.errors));
+            for (mode, own) in test.iter().enumerate() {
+                let (row, frequency) = ((mode + 1).to_string(), hertz[stage.paired[mode]]);
+                prints(&table, &row, 1 + 2 * at, frequency);
+                prints(&table, &row, 2 + 2 * at, 100.0 * (frequency / own - 1.0));
+            }
+            for (row, error) in ["frequency RMS", "shape RMS"].into_iter().zip(errors) {
+                prints(&table, row, 2 + 2 * at, 100.0 * error / 3.0);
+            }
+        }
+        let table = gage_table(&found).expect("a table");
+        let first = found.case.first_gages();
+        let gages =
+            std::iter::once(first).chain(run.passes.iter().map(|pass| numbers(&pass.gages)));
+        for row in &table.rows[..PANEL_COUNT] {
+            prints(&table, &row.label, 1, TEST_GAGE);
+        }
+        for (at, gages) in gages.enumerate() {
+            let errors: Vec<f64> = gages
+                .iter()
+                .map(|gage| 100.0 * (gage / TEST_GAGE - 1.0))
+                .collect();
+            for (panel, gage) in gages.iter().enumerate() {
+                let row = &table.rows[panel].label;
+                prints(&table, row, 2 + 2 * at, *gage);
+                prints(&table, row, 3 + 2 * at, errors[panel]);
+            }
+            for (row, kind) in [
+                ("shear RMS", ElementKind::ShearPanel),
+                ("membrane RMS", ElementKind::Membrane),
+            ] {
+                let of_kind = found
+                    .case
+                    .panels
+                    .iter()
+                    .zip(&errors)
+                    .filter(|(panel, _)| panel.kind == kind);
+                let own: Vec<f64> = of_kind.map(|(_, error)| *error).collect();
+                if !own.is_empty() {
+                    prints(&table, row, 3 + 2 * at, rms(&own));
+                }
+            }
+        }
+    }
+    assert_eq!(cells, 589);
+}
