@@ -64,7 +64,7 @@ impl World {
         for clause in &then {
             _ = self.define(&mut letters, clause, index);
         }
-        let is_new = |clause: &Clause| self.new(clause, &letters).is_some();
+        let is_new = |clause: &Clause| self.defined(clause, &letters).is_some();
         let (new, checks): (Vec<_>, _) = clauses(formula).partition(is_new);
         for clause in new.iter().chain(&then) {
             self.define(&mut letters, clause, index)?;
@@ -100,7 +100,7 @@ impl World {
     }
 
     /// The letter and indices that a clause defines.
-    fn new(&self, clause: &Clause, letters: &Letters) -> Option<(String, Vec<char>)> {
+    fn defined(&self, clause: &Clause, letters: &Letters) -> Option<(String, Vec<char>)> {
         Formula::new(clause.0, letters, &self.ranges, &Places::new()).defines()
     }
 
@@ -134,7 +134,7 @@ impl World {
         index: &Places,
     ) -> Result<(), Refused> {
         let known = letters.clone();
-        let Some((name, indices)) = self.new(clause, &self.letters) else {
+        let Some((name, indices)) = self.defined(clause, &self.letters) else {
             return Ok(());
         };
         let range = |at| indices.get(at).map_or(1, |index| self.ranges[index]);

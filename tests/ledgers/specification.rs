@@ -1,6 +1,6 @@
 //! The one page of the specification, `paper/specification.md`, made from `paper/equations.toml`: `documents.rs` holds them equal.
 
-use crate::ledgers::equations::{entries, strings};
+use crate::ledgers::equations::{entries, strings, test_of};
 use std::fmt::Write;
 use toml::{Table, Value};
 
@@ -21,7 +21,10 @@ pub fn page() -> String {
             None => page += &format!("\n### Sentence: {owner}\n\n{what}.\n"),
         }
         let code = |key: &str| {
-            let names = strings(entry, key);
+            let mut names = strings(entry, key);
+            if key == "tests" && entry.contains_key("number") {
+                names.insert(0, format!("equations::{}", test_of(owner)));
+            }
             let names = names
                 .iter()
                 .map(|name| format!("`{}`", name.trim_start_matches("spec::")));
