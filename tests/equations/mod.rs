@@ -52,14 +52,14 @@ fn text(table: &Table, key: &str) -> String {
     table[key].as_str().expect("a string").to_owned()
 }
 
-/// The largest relative difference of a formula's sides where its equation must hold; none if it does not run.
+/// The relative differences of a formula's sides wherever its equation must hold; none if it does not run, NaN where nothing is compared.
 fn residual(number: &str, formula: &str) -> Option<f64> {
     let worlds = LETTERS
         .world
         .iter()
         .filter(|world| world.equations.iter().any(|own| own == number));
     let residuals = worlds.map(|world| world.residual(formula).ok());
-    residuals.reduce(|a, b| Some(a?.max(b?))).flatten()
+    residuals.reduce(|a, b| Some(a? + b?)).flatten()
 }
 
 /// One test an equation, by its number.
@@ -112,6 +112,7 @@ fn misprints_are_noticed() {
     assert!(doubtful.is_empty(), "{doubtful:?}");
     assert_eq!(unnoticed, LETTERS.true_statements);
 }
+
 /// The wrong forms of an equation that are formulas, each with what is wrong.
 fn wrong_forms(equation: &Table) -> Vec<(String, String)> {
     let (number, formula) = (text(equation, "number"), text(equation, "formula"));

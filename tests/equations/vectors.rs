@@ -300,6 +300,12 @@ fn with_mass(given: &Value) -> Value {
     both("original".into(), pencil.original().expect("apart"));
     let settled = pencil.recursive_1_converged().expect("it settles");
     both("exact".into(), settled.perturbed);
+    let [beta, alpha] = [beta, alpha].map(|change| change.map(|z| z.re));
+    let vibrations = Pencil::of_vibrations(&k, &beta, &alpha).expect("a pencil");
+    let settled = vibrations.recursive_1_converged().expect("it settles");
+    let Perturbed { roots, shapes } = settled.perturbed;
+    answer.insert("vibrations_roots".into(), json!(roots.as_slice()));
+    answer.insert("vibrations_shapes".into(), rows(&shapes));
     answer.into()
 }
 
