@@ -8,8 +8,8 @@
     reason = "appendices keep their letters, and sort after the main text by them"
 )]
 
-mod answers;
 mod formula;
+mod mistakes;
 mod vectors;
 mod world;
 
