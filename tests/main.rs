@@ -4,6 +4,7 @@
 
 #[macro_use]
 mod common;
+mod equations;
 mod ledgers;
 
 mod spec;

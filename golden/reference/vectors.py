@@ -270,7 +270,7 @@ def vector(name, function, equations, given, answer, tolerance=SAME):
 
 
 def condensation():
-    given = structure(2)
+    given = structure(2) | dict(density=0.00025)
     factors = drawn(0.7, 1.3, given["parameters"])
     ks, kd, bt, shares, m = analysis(given, factors)
     loads = drawn(-10, 10, (len(ks), 2))
@@ -334,6 +334,15 @@ def recursions():
         roots, shapes = appendices.exact(k, beta, alpha)
         answer |= with_parts(original_roots=appendices.explicit_roots(k, beta, alpha, first), exact_roots=roots, exact_shapes=shapes)
         vector(f"changes of mass, {name}", "general", ["C.13", "C.14", "C.15", "C.16", "C.17", "C.18", "C.19", "C.22", "C.23", "C.24"], with_parts(k=k, beta=beta, alpha=alpha), answer)
+
+
+def unsymmetric_recursions():
+    k = np.array([1.0, 2.3, 4.9, 9.0])
+    beta = rounded(drawn(-0.1, 0.1, (4, 4)) * np.sqrt(np.outer(k, k)))
+    answer = {}
+    for order in (1, 2, 3):
+        answer[f"roots_{order}"], answer[f"shapes_{order}"] = recursive_1(k, beta, order)
+    vector("Recursive 1 for an unsymmetric change", "recursive_1", ["7", "8", "C.20", "C.21", "C.22", "C.23"], dict(k=k, beta=beta), answer)
 
 
 def left_and_right():
@@ -407,7 +416,7 @@ def random_structures():
 
 
 def main():
-    for write in (condensation, box_loads, eigensolution, comparison, recursions, left_and_right, state_and_step, appendix_b, random_structures):
+    for write in (condensation, box_loads, eigensolution, comparison, recursions, left_and_right, state_and_step, appendix_b, random_structures, unsymmetric_recursions):
         write()
     lines = ",\n".join(json.dumps(entry, separators=(",", ":")) for entry in VECTORS)
     (HERE.parent / "vectors.json").write_text(f'{{"written_by":"golden/reference/vectors.py","vectors":[\n{lines}\n]}}\n')

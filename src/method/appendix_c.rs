@@ -195,7 +195,7 @@ impl<T: Number> Pencil<T> {
     /// First order (C.20, C.21 with $\alpha$ and a general $k$), where $\gamma_i = \lambda_i + \Delta\lambda_i$:
     ///
     /// $$ \Delta\lambda_i = \frac{\alpha_{ii} - \beta_{ii}\lambda_i}{k_{ii} + \beta_{ii}}, \qquad
-    ///    p_{ij} = -\frac{\beta_{ij}\gamma_j - \alpha_{ij}}{A_{ii}\gamma_j - G_{ii}} $$
+    ///    p_{ij} = -\frac{\beta_{ij}\gamma_j - \alpha_{ij}}{A_{ii}\gamma_j - G_{ii}}, \quad i \ne j $$
     ///
     /// Modes that the change does not couple may have equal roots.
     ///
@@ -222,7 +222,7 @@ impl<T: Number> Pencil<T> {
     ///
     /// $$ \gamma_j^{(r)} = \frac{G_{jj} - \sum_{s\ne j} f_{js} p_{sj}^{(\rho)}}{A_{jj}}, \quad
     ///    p_{ij}^{(r)} = -\frac{\sum_{s\ne i} f_{is} p_{sj}^{(\rho)}}{f_{ii}},
-    ///    \quad f_{is} = A_{is}\gamma_j^{(\rho)} - G_{is} $$
+    ///    \quad f_{is} = A_{is}\gamma_j^{(\rho)} - G_{is}, \quad i \ne j $$
     ///
     /// Order zero is $p = I$ with $\gamma_j = G_{jj}/A_{jj}$, so that order one is [`Self::first_order`].
     ///

@@ -102,7 +102,7 @@ impl Errors {
 /// SRSS errors of the paired analysis modes against the test modes.
 ///
 /// $$ e_f = \Big[\sum_i \Big(\frac{f_{Fi} - f_{Gi}}{f_{Gi}}\Big)^2\Big]^{1/2}, \qquad
-///    e_v = \Big[\sum_i \sum_{j=1}^{d} \frac{(V_{Fij} - V_{Gij})^2}{d}\Big]^{1/2} $$
+///    e_v = \Big[\sum_i \sum_{j=1}^{d} \frac{(V_{Fji} - V_{Gji})^2}{d}\Big]^{1/2} $$
 ///
 /// with every shape scaled to unit largest component and the analysis shape signed like its test mode. The frequency
 /// error is relative: the paper prints a difference but its tables hold the relative one (`paper/errata.md`).

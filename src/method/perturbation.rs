@@ -84,7 +84,7 @@ impl<T: Number> Settled<T> {
 /// First order (C.20, C.21):
 ///
 /// $$ \Delta\lambda_i = -\frac{\lambda_i \beta_{ii}}{k_{ii} + \beta_{ii}}, \qquad
-///    p_{ij} = -\frac{\beta_{ij}}{k_{ii} + \beta_{ii} - 1/\gamma_j} $$
+///    p_{ij} = -\frac{\beta_{ij}}{k_{ii} + \beta_{ii} - 1/\gamma_j}, \quad i \ne j $$
 ///
 /// so that $\gamma_i = \lambda_i + \Delta\lambda_i = 1/(k_{ii} + \beta_{ii})$: Rayleigh's quotient on the old shape. Modes that
 /// the change does not couple, $\beta_{ij} = 0$, may have equal roots.
@@ -123,7 +123,7 @@ pub fn first_order(generalized_stiffness: &Vector, beta: &Matrix) -> Result<Pert
 /// paper writes as outer subscripts; with $\rho = r - 1$:
 ///
 /// $$ \Delta\lambda_i^{(r)} = -\frac{\beta_{ii}\lambda_i + \gamma_i^{(\rho)} \sum_{j\ne i}\beta_{ij}p_{ji}^{(\rho)}}{k_{ii}+\beta_{ii}}, \qquad
-///    p_{ij}^{(r)} = -\frac{\beta_{ij} + \sum_{s\ne i,j}\beta_{is}p_{sj}^{(\rho)}}{k_{ii}+\beta_{ii} - 1/\gamma_j^{(\rho)}} $$
+///    p_{ij}^{(r)} = -\frac{\beta_{ij} + \sum_{s\ne i,j}\beta_{is}p_{sj}^{(\rho)}}{k_{ii}+\beta_{ii} - 1/\gamma_j^{(\rho)}}, \quad i \ne j $$
 ///
 /// The print has $p_{ij}$ where the row of mode $i$ needs $p_{ji}$, and the root of row $i$ in the denominator of
 /// $p_{ij}$, where that of mode $j$ belongs (`paper/errata.md`).

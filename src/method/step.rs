@@ -84,7 +84,9 @@ impl StepRule {
 
 /// Unlimited stiffness change factor by (13).
 ///
-/// $$ c_e = 1 - R e_S \frac{\Delta e_e}{\Delta k_e} $$
+/// $$ c_e = 1 - R \frac{3}{n^{1/2}} e_S \frac{\Delta e_e}{\Delta k_e} $$
+///
+/// `relaxation` is $3R/n^{1/2}$: the paper's $R$ is of nine modes ([`Settings::for_modes`](super::outer_loop::Settings::for_modes)).
 ///
 /// The paper prints $c = R e_S (\Delta e/\Delta k)$, which is the change of the factor, not the factor
 /// (`paper/errata.md`). A parameter without stiffness in any test mode keeps factor one.

@@ -31,8 +31,6 @@ pub mod nastran95;
 pub mod outer_loop;
 pub mod pairings;
 pub mod panels;
-pub mod rational_rows;
-pub mod rational_series;
 #[cfg(unix)]
 pub mod signals;
 pub mod strategies;
@@ -65,16 +63,6 @@ pub fn costly_config() -> Config {
     let config = config();
     Config {
         cases: config.cases.div_ceil(8),
-        ..config
-    }
-}
-
-/// The same with a thirty-second of the cases, for identities in rational numbers: one that holds at a few random integers is one of
-/// polynomials, and such numbers are slow.
-pub fn exact_config() -> Config {
-    let config = config();
-    Config {
-        cases: config.cases.div_ceil(32),
         ..config
     }
 }

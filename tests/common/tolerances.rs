@@ -3,6 +3,13 @@
 
 /// A few roundings of numbers of order one.
 pub const ROUND_OFF: f64 = 1e-13;
+/// Sides of an equation on the crate's own answers, relative: (12) is a difference of a ten-thousandth of its terms, A.2 is solved with a
+/// matrix of condition 1e4; both leave 1e-12.
+pub const FORMULA: f64 = 1e-11;
+/// Sides of a misprint: the least that one change of one place makes of the vectors' data, and far above [`FORMULA`].
+pub const MISPRINT: f64 = 1e-6;
+/// Answers of wrong equations, of the largest: six digits are stored, and one that is nearer to the known answer is none.
+pub const WRONG_ANSWER: f64 = 1e-5;
 /// What is round-off and nothing else: errors over nine modes whose roots span 4e4.
 pub const ROUND_OFF_FLOOR: f64 = 1e-11;
 /// A matrix product chain of a dozen DOF, relative to its largest entry.
@@ -211,14 +218,6 @@ pub const NEARLY_UNCOUPLED: f64 = 0.01;
 pub const GROUPED_GAGE: f64 = 0.03;
 /// Components that count as equally large where the sign of a shape is chosen, relative.
 pub const EQUALLY_LARGE: f64 = 1e-6;
-/// Shapes of the box by two formulas: `EIGEN_ROUND_OFF` times a thousand, for squared frequencies that span 4e4 and
-/// small couplings of the far modes.
-pub const SHAPE_ROUND_OFF: f64 = 1e-8;
-/// What a wrong form misses of the exact solution for changes of ten percent and more, at least: the old root for the
-/// changed one in Recursive 1 misses 8.7e-5 of a root, every other form more than 1e-3.
-pub const WRONG_FORM: f64 = 5e-5;
-/// Roots of second order where every element of the box changes by ten percent: 5.2e-5 of the root at worst.
-pub const SECOND_ORDER_ROOT: f64 = 6e-5;
 /// A mean, a root mean square or a correlation of a sample of normal variates, in standard errors: one in 16,000 is farther off.
 pub const STANDARD_ERRORS: f64 = 4.0;
 /// Roots and modes of pencils found through an inverse, shifted or not: its round-off, a thousand times for roots a thousand times
@@ -295,9 +294,6 @@ pub const SLENDER_BEAM: f64 = 2e-3;
 pub const COARSE_WING: f64 = 0.04;
 /// Steps of a correlation of dozens of them, which may be one more or less on another machine.
 pub const GOLDEN_STEPS: f64 = 0.05;
-/// A recursion of three modes to its fourth order beside the same in rational numbers: some forty roundings, of differences of
-/// roots that are a twentieth of the roots.
-pub const RATIONAL_ROUND_OFF: f64 = 1e-14;
 /// The history of a case against its enclosure, times the measured condition: some roundings.
 pub const CHAIN_ROUND_OFF: f64 = 1e-14;
 /// Relative margin by which every decision of a history is far from falling otherwise: 4.4e-4 in the nearest.

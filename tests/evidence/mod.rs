@@ -25,7 +25,6 @@ pub mod readings;
 pub mod readings_rates;
 pub mod rules;
 pub mod specimen;
-pub mod vectors;
 
 use corfem::present::table::Digits;
 use corfem::weighted::noise::Noise;

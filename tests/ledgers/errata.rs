@@ -1,5 +1,7 @@
-//! `paper/errata.md` against the tests: every entry names one that shows it, and every test named there exists.
+//! `paper/errata.md` against the tests: every entry names one that shows it or is of an equation whose print or scan is executed, every
+//! test named there exists, and every formula of print or scan in `paper/equations.toml` has its entry.
 
+use crate::ledgers::equations;
 use crate::ledgers::files_below;
 use std::fs;
 use std::path::Path;
@@ -34,6 +36,43 @@ fn tests_named(text: &str) -> Vec<&str> {
         .collect()
 }
 
+/// The numbers of equations in the bold words that an entry begins with.
+fn numbers(entry: &str) -> impl Iterator<Item = &str> {
+    let title = entry.split("**").nth(1).unwrap_or_default();
+    let brackets = title.split('(').skip(1);
+    let words = brackets.filter_map(|rest| Some(rest.split_once(')')?.0));
+    words.filter(|words| equations::numbers().contains(&words.to_string()))
+}
+
+/// Whether `paper/equations.toml` has what print or scan has of an equation.
+fn keeps(number: &str, key: &str) -> bool {
+    let mut entries = equations::entries().into_iter();
+    entries.any(|(own, entry)| own == number && entry.contains_key(key))
+}
+
+/// The lists of the errata are those formulas that differ from the right ones.
+#[test]
+fn print_and_scan_of_every_equation_are_in_their_list() {
+    let parts: Vec<&str> = include_str!("../../paper/errata.md")
+        .split("\n## ")
+        .collect();
+    for (part, key) in [(parts[1], "print"), (parts[2], "scan")] {
+        let part = format!("\n\n{part}");
+        for number in equations::numbers() {
+            let is_listed = entries(&part)
+                .iter()
+                .any(|entry| numbers(entry).any(|own| own == number));
+            assert!(is_listed || !keeps(&number, key), "({number}): {key}");
+        }
+        for entry in entries(&part)
+            .into_iter()
+            .filter(|entry| key == "print" && entry.starts_with("**("))
+        {
+            assert!(numbers(entry).all(|number| keeps(number, key)), "{entry}");
+        }
+    }
+}
+
 /// Whether some file of tests has the test.
 fn exists(name: &str) -> bool {
     let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
@@ -65,7 +104,9 @@ fn every_entry_of_the_errata_names_a_test_that_exists() {
         }
         let names = tests_named(entry);
         let one_line = entry.split_whitespace().collect::<Vec<_>>().join(" ");
-        let shown = !names.is_empty()
+        let is_executed = |key| numbers(entry).any(|number| keeps(number, key));
+        let shown = ["print", "scan"].into_iter().any(is_executed)
+            || !names.is_empty()
             || files.count() > 0
             || one_line.contains("No result depends on this");
         assert!(shown, "no test in: {entry}");

@@ -11,6 +11,7 @@ pub mod equations;
 pub mod errata;
 pub mod formulas;
 pub mod library;
+pub mod numbers;
 pub mod package;
 pub mod prose;
 pub mod readme;

@@ -1,6 +1,6 @@
 //! The one page of the specification, `paper/specification.md`, made from `paper/equations.toml`: `documents.rs` holds them equal.
 
-use crate::ledgers::equations::{entries, strings};
+use crate::ledgers::equations::{entries, strings, test_of};
 use std::fmt::Write;
 use toml::{Table, Value};
 
@@ -21,12 +21,20 @@ pub fn page() -> String {
             None => page += &format!("\n### Sentence: {owner}\n\n{what}.\n"),
         }
         let code = |key: &str| {
-            let names = strings(entry, key);
+            let mut names = strings(entry, key);
+            if key == "tests" && entry.contains_key("number") {
+                names.insert(0, format!("equations::{}", test_of(owner)));
+            }
             let names = names
                 .iter()
                 .map(|name| format!("`{}`", name.trim_start_matches("spec::")));
             names.collect::<Vec<_>>().join(", ")
         };
+        for (key, title) in [("print", "The paper prints"), ("scan", "The scan has")] {
+            page += &text(key).map_or(String::new(), |formula| {
+                format!("\n{title}\n\n$$ {formula} $$\n")
+            });
+        }
         for (key, title) in [("correction", "Correction"), ("remark", "Remark")] {
             page += &text(key).map_or(String::new(), |words| format!("\n{title}: {words}.\n"));
         }
@@ -35,13 +43,17 @@ pub fn page() -> String {
         }
         page += &format!("\nTests: {}.\n\n", code("tests"));
         for form in wrong(entry) {
-            let text = |key: &str| form[key].as_str().expect("a string");
+            let text = |key: &str| form.get(key).and_then(Value::as_str).expect("a string");
+            let place = match form.get("file").and_then(Value::as_str) {
+                Some(file) => format!("`{file}`"),
+                None => "the formula".to_owned(),
+            };
             let to = match text("new") {
                 "" => "left out".to_owned(),
                 new => format!("for it `{new}`"),
             };
-            let (what, file, old) = (text("what"), text("file"), text("old"));
-            writeln!(page, "- Wrong: {what}. In `{file}` `{old}`, {to}.").expect("it is a string");
+            let (what, old) = (text("what"), text("old"));
+            writeln!(page, "- Wrong: {what}. In {place} `{old}`, {to}.").expect("it is a string");
         }
     }
     page

@@ -20,7 +20,7 @@ fn test_files() -> Vec<(PathBuf, String)> {
 /// `PROPTEST_CASES` sets how many cases every property draws: each takes one of the configurations of `tests/common/mod.rs`.
 #[test]
 fn every_property_follows_the_number_of_cases_asked_for() {
-    let configurations = ["config()", "costly_config()", "exact_config()"];
+    let configurations = ["config()", "costly_config()"];
     let mut count = 0;
     for (path, text) in test_files() {
         let mut lines = text.lines().map(str::trim).peekable();

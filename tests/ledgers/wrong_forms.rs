@@ -1,9 +1,10 @@
-//! The wrong forms of `paper/equations.toml`: each fits the source, and at least one test named for its equation fails for it.
+//! The wrong forms of `paper/equations.toml` that are places of the source: each fits it, and at least one test named for its equation
+//! fails for it. Those that are formulas are executed in `tests/equations`.
 //!
 //! All of them are put into one copy of the crate below `target/`, each behind a switch that the environment sets, so that the copy is
 //! built once and its tests run once per form. Nothing of it stands in `src/`.
 
-use crate::ledgers::equations::{entries, strings};
+use crate::ledgers::equations::{entries, strings, test_of};
 use crate::ledgers::files_below;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -63,8 +64,13 @@ fn text(table: &Table, key: &str) -> String {
 fn forms() -> Vec<Form> {
     let mut forms = Vec::new();
     for (owner, entry) in entries() {
-        for wrong in entry["wrong"].as_array().expect("a list") {
-            let wrong = wrong.as_table().expect("a table");
+        let mut tests = strings(&entry, "tests");
+        if entry.contains_key("number") {
+            tests.push(format!("equations::{}", test_of(&owner)));
+        }
+        let wrong = entry["wrong"].as_array().expect("a list").iter();
+        let wrong = wrong.filter_map(Value::as_table);
+        for wrong in wrong.filter(|wrong| wrong.contains_key("file")) {
             forms.push(Form {
                 number: forms.len() + 1,
                 what: format!("{owner}: {}", text(wrong, "what")),
@@ -72,7 +78,7 @@ fn forms() -> Vec<Form> {
                 within: wrong.contains_key("within").then(|| text(wrong, "within")),
                 old: text(wrong, "old"),
                 new: text(wrong, "new"),
-                tests: strings(&entry, "tests"),
+                tests: tests.clone(),
             });
         }
     }
@@ -269,6 +275,7 @@ fn modules(forms: &[Form]) -> BTreeSet<String> {
     let mut wanted: Vec<String> = forms
         .iter()
         .flat_map(|form| &form.tests)
+        .filter(|test| test.starts_with("spec::"))
         .map(|test| test.split("::").nth(1).expect("a module").to_owned())
         .collect();
     let mut modules = BTreeSet::new();
@@ -329,7 +336,7 @@ fn copy(forms: &[Form], folder: &Path) {
         .map(|module| format!("pub mod {module};\n"))
         .collect();
     let list = format!("#![allow(non_snake_case, reason = \"as in tests/spec/mod.rs\")]\n{list}");
-    let main = "#![allow(warnings, reason = \"a copy\")]\n#[macro_use]\nmod common;\nmod spec;\n";
+    let main = "#![allow(warnings, reason = \"a copy\")]\n#[macro_use]\nmod common;\nmod equations;\nmod spec;\n";
     let mut changed = BTreeMap::from([
         (PathBuf::from("tests/main.rs"), main.to_owned()),
         (PathBuf::from("tests/spec/mod.rs"), list),
@@ -343,7 +350,14 @@ fn copy(forms: &[Form], folder: &Path) {
         write(&folder.join(path), text.as_bytes());
     }
     let mut files = vec![root().join("README.md")];
-    for part in ["src", "tests/common", "tests/spec", "golden", "paper"] {
+    for part in [
+        "src",
+        "tests/common",
+        "tests/equations",
+        "tests/spec",
+        "golden",
+        "paper",
+    ] {
         files.extend(files_below(&root().join(part)));
     }
     // Failures that properties of an earlier run have kept are those of its wrong forms, and a file that is gone would be a second one of

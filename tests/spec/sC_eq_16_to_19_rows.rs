@@ -1,5 +1,4 @@
-//! What the rows of Appendix C say of first order and Recursive 2, and when Recursive 1 stops. `sC_eq_20_series` has every rule
-//! against its rows in rational numbers.
+//! What the rows of Appendix C say of first order and Recursive 2, and when Recursive 1 stops.
 
 use crate::common::appendix_c::{ModalChange, errors, four_modes, largest_change, recursive_2};
 use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};

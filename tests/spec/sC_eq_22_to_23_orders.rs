@@ -1,5 +1,4 @@
-//! Orders of approximation of Appendix C: by log-log slope with changes of mass, and when the recursion stops. That every rule has its
-//! order and no more is proved on power series in `sC_eq_20_series`.
+//! Orders of approximation of Appendix C: by log-log slope with changes of mass, and when the recursion stops.
 //!
 //! With ε the size of the change relative to the stiffness, the relative errors of roots and the errors of shapes are
 //! O(ε^s) with the s below, by expansion and by measurement. Two modes alone do better: there a shape is exact but

@@ -2,11 +2,12 @@
 //!
 //! This program's answers are left beside its own files for `golden/mark.py`, which marks any implementation's.
 
+use super::formula::Letter;
 use crate::common::loops::Eigensolved;
 use crate::common::structures::lumped_mass;
 use crate::common::structures::of_dense;
 use corfem::method::analysis::Analysis;
-use corfem::method::appendix_a::assemble;
+use corfem::method::appendix_a::{ElementMatrix, assemble};
 use corfem::method::appendix_b::{balance, orthogonalize};
 use corfem::method::appendix_c::Pencil;
 use corfem::method::appendix_c::{self, LeftRightModes};
@@ -32,14 +33,14 @@ const LARGEST: usize = 150_000;
 /// Random structures among the vectors.
 const STRUCTURES: usize = 50;
 
-fn vectors() -> Vec<Value> {
+pub fn vectors() -> Vec<Value> {
     let text = include_str!("../../golden/vectors.json");
     let document: Value = serde_json::from_str(text).expect("it reads");
     document["vectors"].as_array().expect("a list").clone()
 }
 
 /// Numbers of a list, of rows one after the other.
-fn flat(value: &Value) -> Vec<f64> {
+pub fn flat(value: &Value) -> Vec<f64> {
     match value {
         Value::Array(parts) => parts.iter().flat_map(flat).collect(),
         number => vec![number.as_f64().expect("a number")],
@@ -64,6 +65,24 @@ fn complex(given: &Value, key: &str) -> DMatrix<Complex<f64>> {
     let real = part(&given[key]);
     let imaginary = given.get(format!("{key}_imaginary"));
     real.zip_map(&imaginary.map_or(0.0 * &real, part), Complex::new)
+}
+
+/// What a letter stands for: the value of a key, or the family of several or of a list of matrices.
+pub fn letter(found: &Value, keys: &str) -> Letter {
+    let members = |key: &str| match &found[key][0][0] {
+        Value::Array(_) => {
+            let members = found[key].as_array().into_iter().flatten();
+            members
+                .map(|member| matrix(member).map(Complex::from))
+                .collect()
+        }
+        _ => vec![complex(found, key)],
+    };
+    let mut members: Vec<_> = keys.split(", ").flat_map(members).collect();
+    match members.len() {
+        1 => Letter::One(members.remove(0)),
+        _ => Letter::Family((0..).zip(members).collect()),
+    }
 }
 
 fn rows(matrix: &DMatrix<f64>) -> Value {
@@ -154,6 +173,15 @@ fn analysis(given: &Value) -> Value {
     let (elements, free) = (model.element_matrices(), model.structure().free_dof());
     let sizes = model.sizes(&factors).expect("sizes");
     let stiffness = assemble(elements, &sizes, free.len()).expect("sizes");
+    let whole = |element: &ElementMatrix| {
+        let mut unit = DMatrix::zeros(free.len(), free.len());
+        for (b, &column) in element.dof.iter().enumerate() {
+            for (a, &row) in element.dof.iter().enumerate() {
+                unit[(row, column)] = element.unit[(a, b)];
+            }
+        }
+        rows(&unit)
+    };
     let factor = of_dense(&stiffness).expect("held");
     let deflections = factor.solve(&loads).expect("loads");
     let t = model.load_distribution();
@@ -168,14 +196,20 @@ fn analysis(given: &Value) -> Value {
         "dynamic_stiffness": rows(&condensed.stiffness),
         "transformation": rows(&condensed.transformation),
         "shares": shares.iter().map(rows).collect::<Vec<_>>(),
+        "structures_mass": rows(&(&mass - model.mass())),
         "mass": rows(&mass),
+        "load_distribution": rows(t),
+        "sizes": sizes,
+        "unit_stiffness": elements.iter().map(whole).collect::<Vec<_>>(),
+        "structural_mass": rows(&DMatrix::from_diagonal(&lumped_mass(model.structure()))),
     })
 }
 
 fn box_loads(given: &Value) -> Value {
     let model = Case::new(1).expect("a case").model().expect("a model");
-    let loads = model.load_distribution() * list(&given["dynamic_loads"]);
-    json!({ "structural_loads": loads.as_slice() })
+    let t = model.load_distribution();
+    let loads = t * list(&given["dynamic_loads"]);
+    json!({ "structural_loads": loads.as_slice(), "load_distribution": rows(t) })
 }
 
 fn modes(given: &Value) -> Value {
@@ -205,7 +239,10 @@ fn comparison(given: &Value) -> Value {
     let cross = cross_orthogonality(&analysis, &test, &matrix(&given["mass"])).expect("fits");
     let pairing = pair_modes(&cross).expect("pairs");
     let errors = errors(&analysis, &pairing, &test).expect("errors");
+    let paired = pairing.paired(&analysis).expect("pairs");
     json!({
+        "paired_omega_squared": paired.omega_squared().as_slice(),
+        "paired_shapes": rows(paired.shapes()),
         "cross_orthogonality": rows(&cross),
         "analysis_mode": pairing.analysis_mode,
         "sign": pairing.sign,
@@ -220,6 +257,8 @@ fn stiffness_alone(given: &Value) -> Value {
     for order in [1, 2, 3, 6] {
         let Perturbed { roots, shapes } = recursive_1(&k, &beta, order).expect("apart");
         answer.insert(format!("roots_{order}"), json!(roots.as_slice()));
+        let changes = roots - k.map(f64::recip);
+        answer.insert(format!("root_changes_{order}"), json!(changes.as_slice()));
         answer.insert(format!("shapes_{order}"), rows(&shapes));
     }
     answer.into()
@@ -241,6 +280,9 @@ fn with_mass(given: &Value) -> Value {
     let column = |roots: &DVector<Complex<f64>>| {
         DMatrix::from_column_slice(roots.len(), 1, roots.as_slice())
     };
+    let first = pencil.first_order().expect("apart");
+    let changes = &first.roots - k.map(|k| Complex::from(1.0 / k));
+    put(&mut answer, "root_changes", &column(&changes));
     let mut both = |rule: String, found: Perturbed<Complex<f64>>| {
         put(&mut answer, &format!("{rule}_roots"), &column(&found.roots));
         put(&mut answer, &format!("{rule}_shapes"), &found.shapes);
@@ -258,6 +300,12 @@ fn with_mass(given: &Value) -> Value {
     both("original".into(), pencil.original().expect("apart"));
     let settled = pencil.recursive_1_converged().expect("it settles");
     both("exact".into(), settled.perturbed);
+    let [beta, alpha] = [beta, alpha].map(|change| change.map(|z| z.re));
+    let vibrations = Pencil::of_vibrations(&k, &beta, &alpha).expect("a pencil");
+    let settled = vibrations.recursive_1_converged().expect("it settles");
+    let Perturbed { roots, shapes } = settled.perturbed;
+    answer.insert("vibrations_roots".into(), json!(roots.as_slice()));
+    answer.insert("vibrations_shapes".into(), rows(&shapes));
     answer.into()
 }
 
@@ -271,6 +319,14 @@ fn left_and_right(given: &Value) -> Value {
     let after = Pencil::new(&stiffness, &modes, &stiffness_change, &g_change);
     let after = after.expect("biorthogonal");
     let LeftRightModes { roots, right, left } = &modes;
+    // The changed stiffness is not symmetric: its inverse goes to the other side.
+    let inverse = (&stiffness + &stiffness_change)
+        .try_inverse()
+        .expect("regular");
+    let unit = DMatrix::identity(modes.roots.len(), modes.roots.len());
+    let changed = appendix_c::solve(&unit, &(inverse * (complex(given, "g") + &g_change)));
+    let changed = changed.expect("solved");
+    let settled = after.recursive_1_converged().expect("it settles");
     let mut answer = Map::new();
     let column =
         |list: &DVector<Complex<f64>>| DMatrix::from_column_slice(list.len(), 1, list.as_slice());
@@ -281,6 +337,12 @@ fn left_and_right(given: &Value) -> Value {
         ("k", &column(&before.a().diagonal())),
         ("beta", &(after.a() - before.a())),
         ("alpha", &(after.g() - before.g())),
+        ("whole_k", before.a()),
+        ("whole_g", before.g()),
+        ("changed_roots", &column(&changed.roots)),
+        ("changed_right", &changed.right),
+        ("perturbed_roots", &column(&settled.perturbed.roots)),
+        ("perturbed_shapes", &settled.perturbed.shapes),
     ] {
         put(&mut answer, key, found);
     }
@@ -301,17 +363,26 @@ fn state_and_step(given: &Value) -> Value {
     let by = |rule| modal.stiffness_changes(&state, &factors, rule);
     let changes = modal.error_changes(&state).expect("apart");
     let settings = Settings::default().for_modes(test.len()).inner;
-    let unlimited = |(error, stiffness): (&f64, &f64)| {
-        unlimited_factor(*error, *stiffness, state.errors.sum(), settings.relaxation)
-    };
     let stiffnesses = by(StepRule::Matrix);
-    let unlimited = changes.iter().zip(&stiffnesses).map(unlimited);
+    let unlimited = |relaxation| -> Vec<f64> {
+        let both = changes.iter().zip(&stiffnesses);
+        both.map(|(e, k)| unlimited_factor(*e, *k, state.errors.sum(), relaxation))
+            .collect()
+    };
+    let start = &modal.exact().modes;
+    let dynamic = matrices(&model, &vec![1.0; factors.len()]);
     json!({
+        "start_omega_squared": start.omega_squared().as_slice(),
+        "start_shapes": rows(start.shapes()),
+        "generalized_shapes": rows(&state.generalized_shapes),
+        "mass": rows(&dynamic.mass),
+        "shares": dynamic.shares.iter().map(rows).collect::<Vec<_>>(),
         "omega_squared": state.modes.omega_squared().as_slice(),
         "shapes": rows(state.modes.shapes()),
         "frequencies_hz": state.modes.frequencies_hz(),
         "error_sum": state.errors.sum(),
-        "unlimited_factors": unlimited.collect::<Vec<f64>>(),
+        "unlimited_factors": unlimited(settings.relaxation),
+        "first_unlimited_factors": unlimited(settings.first_relaxation),
         "error_changes": changes,
         "stiffness_changes": stiffnesses,
         "diagonal_stiffness_changes": by(StepRule::Own),
@@ -330,6 +401,8 @@ fn appendix_b(given: &Value) -> Value {
     json!({
         "coefficients": rows(&balanced.coefficients),
         "balanced": rows(&balanced.shapes),
+        "analysis_shapes": rows(solve(&stiffness, &mass, 4).expect("held").shapes()),
+        "unit": rows(unit.shapes()),
         "generalized_mass": rows(&generalized_mass(unit.shapes(), &mass).expect("fits")),
         "omega_squared": found.omega_squared().as_slice(),
         "orthogonal": rows(found.shapes()),
@@ -363,6 +436,28 @@ fn one_pass(given: &Value) -> Value {
         "exact_hz": check.exact().modes.frequencies_hz(),
         "exact_error_sum": check.exact().errors.sum(),
     })
+}
+
+/// A vector's input, each key with "given" before it, and this program's answers; of a random structure its matrices.
+pub fn found(name: &str) -> Value {
+    let vectors = vectors();
+    let vector = vectors
+        .iter()
+        .find(|vector| vector["name"] == name)
+        .expect(name);
+    let input = &vector["input"];
+    let mut found = match vector["function"] == "one_pass" {
+        true => {
+            let ones = vec![1.0; flat(&input["truth"]).len()];
+            let loads = &input["mass"];
+            analysis(&json!({ "structure": input, "factors": ones, "loads": loads }))
+        }
+        false => answer(vector),
+    };
+    for (key, value) in input.as_object().expect("an object") {
+        found[&format!("given {key}")] = value.clone();
+    }
+    found
 }
 
 fn answer(vector: &Value) -> Value {
@@ -429,8 +524,5 @@ fn every_equation_has_a_vector() {
         }
     }
     assert_eq!(structures, STRUCTURES);
-    assert_eq!(
-        equations,
-        crate::ledgers::equations::numbers().into_iter().collect()
-    );
+    assert_eq!(equations, super::FORMULAS.keys().cloned().collect());
 }

@@ -1,0 +1,49 @@
+//! From the bytes of a file to its text.
+
+use super::error::FileError;
+use std::borrow::Cow;
+
+/// The text of a file in UTF-8, with or without a byte order mark, in UTF-16 with one, or else in Latin-1.
+pub(crate) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
+    let wide = |order: fn([u8; 2]) -> u16| {
+        let units = bytes[2..]
+            .chunks_exact(2)
+            .map(|two| order([two[0], two[1]]));
+        let characters = char::decode_utf16(units);
+        let text = characters.map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER));
+        Cow::from(text.collect::<String>())
+    };
+    match bytes {
+        [0xff, 0xfe, ..] => return wide(u16::from_le_bytes),
+        [0xfe, 0xff, ..] => return wide(u16::from_be_bytes),
+        _ => {}
+    }
+    let bytes = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
+    let latin_1 = || {
+        bytes
+            .iter()
+            .map(|&byte| char::from(byte))
+            .collect::<String>()
+    };
+    std::str::from_utf8(bytes).map_or_else(|_| latin_1().into(), Cow::from)
+}
+
+/// The text of a file, as by [`decoded`], unless its first bytes say that it is compressed or its bytes that it is binary.
+///
+/// # Errors
+/// [`FileError::Refused`] naming the file and what it is.
+pub(crate) fn readable<'a>(name: &str, bytes: &'a [u8]) -> Result<Cow<'a, str>, FileError> {
+    let what = match bytes {
+        [0x1f, 0x8b, ..] => Some("is compressed by gzip; unpack it first"),
+        [b'P', b'K', 3, 4, ..] => {
+            Some("is an archive, such as zip or npz; unpack it or write text")
+        }
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => None,
+        _ if bytes.contains(&0) => Some("is binary; let the program that made it write text"),
+        _ => None,
+    };
+    what.map_or_else(
+        || Ok(decoded(bytes)),
+        |what| Err(FileError::refused(name, what)),
+    )
+}
