@@ -1,6 +1,6 @@
 //! Errors of files of other programs.
 
-use crate::files::deck::Unread;
+use crate::files::deck::{Reason, Unread};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -32,12 +32,7 @@ pub enum FileError {
         reason: String,
     },
     /// Cards that may be part of the model and are not understood.
-    #[error(
-        "{file}: corfem does not read {}, which may carry stiffness, mass, supports or coordinates; correct them, or take \
-         responsibility for leaving them out with --ignore '{}'",
-        .cards.iter().map(Unread::place).collect::<Vec<_>>().join(", "),
-        .cards.iter().map(|unread| unread.card.as_str()).collect::<Vec<_>>().join(",")
-    )]
+    #[error("{}", of_cards(.file, .cards))]
     DeckCards { file: String, cards: Vec<Unread> },
     /// Elements so unlike in stiffness that double precision loses the softer one: the largest entry of each one's stiffness
     /// matrix, lbf/in, with its number.
@@ -143,4 +138,33 @@ fn why(action: &str, source: &std::io::Error) -> String {
         (std::io::ErrorKind::AlreadyExists, _) => "it is there already".to_owned(),
         _ => source.to_string(),
     }
+}
+
+/// Message about cards that are not read: of elements that the crate lacks, and of others, which may have no part in the model.
+fn of_cards(file: &str, cards: &[Unread]) -> String {
+    let (lacking, unknown): (Vec<&Unread>, Vec<&Unread>) = cards
+        .iter()
+        .partition(|card| card.reason == Reason::Lacking);
+    let places = |cards: &[&Unread]| {
+        let places: Vec<String> = cards.iter().map(|card| card.place()).collect();
+        places.join(", ")
+    };
+    let mut said = Vec::new();
+    if !lacking.is_empty() {
+        said.push(format!(
+            "corfem lacks what {} stand for, and without them the modes are others; let the program that the deck is for write the \
+             stiffness and mass, and give these (paper/matrices.md)",
+            places(&lacking)
+        ));
+    }
+    if !unknown.is_empty() {
+        let names: Vec<&str> = unknown.iter().map(|card| card.card.as_str()).collect();
+        said.push(format!(
+            "corfem does not read {}, which may carry stiffness, mass, supports or coordinates; correct them, or take responsibility for \
+             leaving them out with --ignore '{}'",
+            places(&unknown),
+            names.join(",")
+        ));
+    }
+    format!("{file}: {}", said.join("; and "))
 }

@@ -6,6 +6,7 @@ pub mod disk;
 pub mod error;
 pub mod matrices;
 pub mod test_data;
+pub(crate) mod text;
 
 use std::io::{Error, ErrorKind, Read};
 use std::path::Path;

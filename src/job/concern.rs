@@ -52,6 +52,7 @@ pub enum Kind {
     AssumedDeviations,
     NotUsed,
     NotSelected,
+    RigidModes,
     AnalysisModes,
     Mass,
     MassByDirection,
@@ -101,7 +102,7 @@ pub enum Grade {
 /// `{a}` and `{b}` are the first names that a concern is about, `{all}` all of them, `{rest}` all but the first, `{some}` the first eight, `{and}` joins them by that
 /// word, `{id}` by hyphens; `{x}`, `{y}`, `{z}` and `{w}` are its numbers, `{x.3}` with three decimals, `{xe}` as a power of ten, `{x6}` with
 /// six significant digits.
-const TABLE: [(Kind, Grade, &str, &str); 72] = {
+const TABLE: [(Kind, Grade, &str, &str); 73] = {
     use Grade::{Doubt, LeftOut, Remark};
     use Kind::*;
     [
@@ -349,6 +350,12 @@ const TABLE: [(Kind, Grade, &str, &str); 72] = {
             Remark,
             "not-selected",
             "Test modes that the job does not select: {all}.",
+        ),
+        (
+            RigidModes,
+            Remark,
+            "rigid-modes",
+            "Test modes of 0 Hz, rigid-body modes, are not compared: {all}.",
         ),
         (
             AnalysisModes,

@@ -90,8 +90,10 @@ impl PreparedJob {
             format!("{} with the model's {}", mode + 1, lone.partner + 1)
         };
         let alone: Vec<String> = self.alone().iter().map(pair).collect();
-        let modes = 1..=loaded.data.frequencies_hz.len();
+        let modes = loaded.data.vibrations().into_iter();
         let left: Vec<usize> = modes.filter(|mode| !loaded.job.selects(*mode)).collect();
+        let rigid = numbers(loaded.data.rigid.iter().copied());
+        all.extend(about_any(Kind::RigidModes, &rigid));
         all.extend(about_any(
             Kind::Undecided,
             &numbers(self.undecided.iter().copied()),

@@ -65,14 +65,18 @@ impl LoadedJob {
         let (placed, sensors) = place(&job, &data, &source)?;
         let (source, sensors) = watched(source, sensors, &data)?;
         let available = data.frequencies_hz.len();
-        let numbers = job
-            .test
-            .modes
-            .clone()
-            .unwrap_or_else(|| (1..=available).collect());
+        let numbers = job.test.modes.clone().unwrap_or_else(|| data.vibrations());
         let unknown = numbers.iter().find(|mode| !(1..=available).contains(*mode));
         job.refuse_if(unknown, |mode| {
             format!("test.modes: there is no mode {mode}; the test has 1 to {available}")
+        })?;
+        let rigid = numbers
+            .iter()
+            .find(|mode| data.rigid.contains(&(*mode - 1)));
+        job.refuse_if(rigid, |mode| {
+            format!(
+                "test.modes: mode {mode} has a frequency of 0 Hz; a rigid-body mode is not compared"
+            )
         })?;
         at_least_one("test modes", numbers.len())?;
         job.once(numbers.iter(), "test.modes: mode")?;
@@ -366,7 +370,8 @@ fn lone_frequencies(
             .filter(|partner| **partner > 0),
         "test.partners: mode",
     )?;
-    let mut ascending: Vec<usize> = (0..data.frequencies_hz.len()).collect();
+    let vibrations = data.vibrations().into_iter();
+    let mut ascending: Vec<usize> = vibrations.map(|number| number - 1).collect();
     ascending.sort_by(|&a, &b| data.frequencies_hz[a].total_cmp(&data.frequencies_hz[b]));
     let of_mode = |(place, mode): (usize, usize)| {
         let named = pairs().find(|(number, _)| **number == mode + 1);

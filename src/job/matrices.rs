@@ -3,10 +3,10 @@
 use super::bodies::explained;
 use super::model::{GridLayout, ModelSource, prior, range};
 use super::{Job, Scales};
-use crate::files::deck::decoded;
 use crate::files::error::{FileError, is_not};
 use crate::files::matrices::{self, Digits, Label, LabeledMatrix};
-use crate::files::test_data::{DIRECTIONS, cells, row_name, separator};
+use crate::files::test_data::{self, cells, row_name, separator};
+use crate::files::text::decoded;
 use crate::method::error::Error;
 use crate::method::modes::Modes;
 use crate::method::structure::StructuralDof;
@@ -33,11 +33,11 @@ pub(super) fn from_matrices(
     let (labels, places, rounding) = match (&job.model.rows, &own) {
         (Some(file), _) => read_rows(job, &job.beside(file))?,
         (None, Some(labels)) => (labels.clone(), BTreeMap::new(), 0.0),
-        (None, None) => {
-            return Err(job.refused("model.rows is missing: these matrices do not name their rows"));
-        }
+        // Frequencies alone need no names of rows.
+        (None, None) => (Vec::new(), BTreeMap::new(), 0.0),
     };
-    let other = Some(labels.len()).filter(|rows| *rows != count);
+    let is_named = !labels.is_empty() || job.model.rows.is_some();
+    let other = Some(labels.len()).filter(|rows| is_named && *rows != count);
     job.refuse_if(other, |rows| {
         format!("model.rows has {rows} rows, but the stiffness {count}")
     })?;
@@ -61,18 +61,29 @@ pub(super) fn from_matrices(
         let name = &rule.name;
         let named_of_deck =
             rule.elements.len() + rule.properties.len() + rule.materials.len() + rule.masses.len();
-        let file = rule
-            .matrix
-            .as_ref()
-            .filter(|_| named_of_deck == 0 && !rule.each)
-            .ok_or_else(|| {
-                job.refused(format!(
-                    "parameter \"{name}\" needs a matrix, and no entry of a deck"
-                ))
-            })?;
+        let file = match (&rule.matrix, &rule.stiffness, &rule.mass, rule.at) {
+            _ if named_of_deck > 0 || rule.each => None,
+            (Some(file), None, None, None) => Some((file, rule.scales, None)),
+            (None, Some(file), None, Some(at)) => Some((file, Scales::Stiffness, Some(at))),
+            (None, None, Some(file), Some(at)) => Some((file, Scales::Mass, Some(at))),
+            _ => None,
+        };
+        let (file, scales, at) = file.ok_or_else(|| {
+            job.refused(format!(
+                "parameter \"{name}\" needs a matrix, or a whole stiffness or mass with the factor at that it has there, and no entry \
+                 of a deck"
+            ))
+        })?;
         let entry = format!("parameter \"{name}\"");
-        let matrix = on_rows(job, (file, &entry), &row_of)?;
-        let share = match rule.scales {
+        let mut matrix = on_rows(job, (file, &entry), &row_of)?;
+        if let Some(at) = at {
+            let first = match scales {
+                Scales::Stiffness => &stiffness.matrix,
+                Scales::Mass => &mass,
+            };
+            matrix = part_of(job, name, (first, &matrix), at)?;
+        }
+        let share = match scales {
             Scales::Stiffness => WholeShare::Stiffness(matrix),
             Scales::Mass => WholeShare::Mass(matrix),
         };
@@ -86,7 +97,9 @@ pub(super) fn from_matrices(
     let placed = |dof: &StructuralDof| Some((*places.get(&dof.grid)?, dof.direction));
     let placed: Option<Vec<_>> = labels.iter().map(placed).collect();
     let support = Support {
-        places: placed.map(|rows| Places::new(&rows, rounding)),
+        places: placed
+            .filter(|_| is_named)
+            .map(|rows| Places::new(&rows, rounding)),
         count: job.model.rigid_bodies,
         resisting: None,
     };
@@ -184,6 +197,42 @@ fn motions_with_mass(mass: &SparseMatrix) -> Option<usize> {
     is_definite.then_some(rows.len())
 }
 
+/// The part of a parameter in the first matrix, $K_e = (K_2 - K)/(c - 1)$, of a second one with its factor at $c$. What the digits of both
+/// do not tell from zero is none.
+fn part_of(
+    job: &Job,
+    name: &str,
+    (first, second): (&SparseMatrix, &SparseMatrix),
+    at: f64,
+) -> Result<SparseMatrix, FileError> {
+    let is_none = (at == 1.0 || !(at > 0.0 && at.is_finite())).then_some(at);
+    job.refuse_if(is_none, |at| {
+        format!("parameter \"{name}\": at = {at} must be positive and another factor than one")
+    })?;
+    let mut both: BTreeMap<(usize, usize), [f64; 2]> = BTreeMap::new();
+    for (of, matrix) in [first, second].into_iter().enumerate() {
+        let entries = matrix.entries();
+        entries.for_each(|(row, column, value)| both.entry((row, column)).or_default()[of] = value);
+    }
+    let rounding = first.rounding().max(second.rounding());
+    let mut largest = 0.0_f64;
+    let of_place = |(&(row, column), &[one, two]): (&(usize, usize), &[f64; 2])| {
+        let (change, rounded) = ((two - one).abs(), rounding * (one.abs() + two.abs()));
+        let is_told = change > rounded;
+        largest = largest.max(if is_told { rounded / change } else { 0.0 });
+        is_told.then_some((row, column, (two - one) / (at - 1.0)))
+    };
+    let entries: Vec<_> = both.iter().filter_map(of_place).collect();
+    job.refuse_if(entries.is_empty().then_some(at), |at| {
+        format!(
+            "parameter \"{name}\": the digits of the files do not tell the matrix at {at} from the model's; write more digits, or take \
+             another factor"
+        )
+    })?;
+    let part = SparseMatrix::new("part of a parameter", first.rows(), first.rows(), entries)?;
+    Ok(part.with_rounding(largest))
+}
+
 /// The degree of freedom of a label: component 0 of a scalar point is its first.
 fn degree_of_freedom(label: &Label) -> StructuralDof {
     StructuralDof {
@@ -195,9 +244,17 @@ fn degree_of_freedom(label: &Label) -> StructuralDof {
 /// A matrix of a file, with the same labels for rows and columns; `#` in the name chooses one of several.
 fn matrix(job: &Job, file: &Path, entry: &str) -> Result<LabeledMatrix, FileError> {
     let text = file.to_string_lossy();
-    let (file, wanted) = text
-        .rsplit_once('#')
-        .map_or((&*text, None), |(file, name)| (file, Some(name)));
+    let is_file = |file: &str| job.beside(Path::new(file)).is_file();
+    // A number sign may be part of the file's own name.
+    let (file, wanted) = match text.rsplit_once('#') {
+        Some((file, name)) if !is_file(&text) => (file, Some(name)),
+        Some((file, _)) if is_file(file) => {
+            return Err(job.refused(format!(
+                "{text} may be a file or a matrix of {file}; rename one of them"
+            )));
+        }
+        _ => (&*text, None),
+    };
     let file = job.beside(Path::new(file));
     let bytes = job.bytes(&file, entry)?;
     let found = matrices::read(&file.display().to_string(), &bytes, wanted)?;
@@ -283,7 +340,7 @@ fn row(cells: &[String]) -> Option<(StructuralDof, Option<Vector3<f64>>)> {
     };
     let label = StructuralDof {
         grid: grid.parse().ok()?,
-        direction: DIRECTIONS.iter().position(|name| name == direction)?,
+        direction: test_data::direction(direction).filter(|own| own.1 > 0.0)?.0,
     };
     if place.iter().all(String::is_empty) {
         return Some((label, None));

@@ -56,9 +56,9 @@ pub use sensors::PlacedSensor;
 #[doc(hidden)]
 pub use study::{Study, Vary};
 
-use crate::files::deck::decoded;
 use crate::files::error::{FileError, is_not};
 use crate::files::read_bytes;
+use crate::files::text::decoded;
 use crate::method::outer_loop::Settings;
 use entries::{CorrelationEntries, entry_of, refuse_removed};
 use serde::Deserialize;
@@ -162,6 +162,11 @@ struct ParameterRule {
     #[serde(default)]
     masses: Vec<Labels>,
     matrix: Option<PathBuf>,
+    /// The whole model's stiffness or mass with the parameter at another factor.
+    stiffness: Option<PathBuf>,
+    mass: Option<PathBuf>,
+    /// That factor.
+    at: Option<f64>,
     #[serde(default)]
     scales: Scales,
     #[serde(default)]
@@ -275,7 +280,8 @@ impl Job {
             &self.model.mass,
             &self.model.rows,
         ];
-        let matrices = self.parameters.iter().map(|rule| &rule.matrix);
+        let rules = self.parameters.iter();
+        let matrices = rules.flat_map(|rule| [&rule.matrix, &rule.stiffness, &rule.mass]);
         let named = model.into_iter().chain(matrices).flatten();
         named.chain(&self.test.file).chain(&self.test.repeats)
     }

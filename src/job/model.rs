@@ -44,7 +44,7 @@ pub struct ModelSource {
     pub motions: BTreeMap<StructuralDof, Vec<(usize, f64)>>,
     /// The deck's bytes and the deck read from them, if the model is one.
     pub deck: Option<(Vec<u8>, Deck)>,
-    /// What every parameter scales of a deck.
+    /// Elements and masses of a deck that every parameter scales.
     pub members: Vec<Members>,
     /// Standard deviation of the logarithm of every parameter's factor before the test.
     pub priors: Vec<f64>,
@@ -122,7 +122,7 @@ impl ModelSource {
                     motions.map(|(&dof, rows)| (rows[0].0, dof)).collect();
                 let (_, mass) = self.whole.at(&vec![1.0; self.whole.parameters().len()])?;
                 let of_entry = |(row, column, value): (usize, usize, f64)| {
-                    let StructuralDof { grid, direction } = dof_of[&row];
+                    let StructuralDof { grid, direction } = *dof_of.get(&row)?;
                     let is_along = direction < 3 && dof_of[&column].direction == direction;
                     let place = self.geometry.places.get(&grid).copied();
                     is_along.then(|| (place, Vector3::ith(direction, value)))
@@ -167,7 +167,8 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
     let (mut parameters, mut members, mut owner, mut priors) =
         (Vec::new(), Vec::new(), BTreeMap::new(), Vec::new());
     for rule in &job.parameters {
-        job.refuse_if(rule.matrix.as_ref(), |_| {
+        let files = [&rule.matrix, &rule.stiffness, &rule.mass];
+        job.refuse_if(files.into_iter().flatten().next(), |_| {
             let name = &rule.name;
             format!("parameter \"{name}\": in a deck, name elements or masses instead of a matrix")
         })?;

@@ -57,6 +57,10 @@ fn mean_of(job: &Job, tests: &[TestData]) -> Result<TestData, FileError> {
     let (modes, sensors) = (first.frequencies_hz.len(), first.sensors.len());
     let mut rows = Vec::new();
     for (test, file) in tests.iter().zip(repeats) {
+        job.refuse_if(test.rigid.first(), |mode| {
+            let (file, mode) = (file.display(), mode + 1);
+            format!("test.repeats: mode {mode} of {file} has a frequency of 0 Hz; leave rigid-body modes out of repeated tests")
+        })?;
         let place = |wanted| {
             let known = |sensor| key(sensor) == key(wanted);
             test.sensors.iter().position(known)

@@ -2,7 +2,7 @@
 
 use super::{Job, ModelSource, SensorRule};
 use crate::files::error::{FileError, is_not};
-use crate::files::test_data::{DIRECTIONS, Sensor, TestData};
+use crate::files::test_data::{DIRECTION, DIRECTIONS, Sensor, TestData, direction};
 use crate::method::structure::StructuralDof;
 use crate::sparse::SparseMatrix;
 use nalgebra::Vector3;
@@ -49,6 +49,10 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
         rules.place.iter().map(|place| &place.sensor),
         "sensors.place: sensor",
     )?;
+    let is_unnamed = source.motions.is_empty() && !data.sensors.is_empty();
+    job.refuse_if(is_unnamed.then_some(()), |()| {
+        "model.rows is missing: these matrices do not name their rows".to_owned()
+    })?;
     let mut placed = Vec::new();
     for (row, sensor) in data
         .sensors
@@ -61,21 +65,11 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
         let measured = sensor.axis.filter(|_| own.is_none());
         let (grid, direction, sign) = match (own, rules.by) {
             (Some(own), _) => {
-                let turned = own.direction.strip_prefix('-');
-                let letters = turned.unwrap_or(&own.direction).trim();
-                let direction = DIRECTIONS.iter().position(|name| *name == letters);
-                let direction = direction.ok_or_else(|| {
-                    let reason = is_not(
-                        &own.direction,
-                        "a direction x, y, z, rx, ry, rz or one of them after a minus sign",
-                    );
+                let (direction, sign) = direction(&own.direction).ok_or_else(|| {
+                    let reason = is_not(&own.direction, DIRECTION);
                     job.refused(format!("sensor {}: {reason}", sensor.name))
                 })?;
-                (
-                    own.grid,
-                    direction,
-                    if turned.is_some() { -1.0 } else { 1.0 },
-                )
+                (own.grid, direction, sign)
             }
             (None, SensorRule::Name) => continue,
             (None, SensorRule::Grid) => {

@@ -104,12 +104,19 @@ impl Study {
             // Frequencies without shapes draw as if they had one.
             let rows = data.shapes.nrows();
             let mut shapes = data.shapes.clone().resize_vertically(rows.max(1), 1.0);
-            for &mode in &data.alone {
+            let rigid = data.rigid.clone();
+            for &mode in data.alone.iter().chain(&rigid) {
                 shapes.fill_column(mode, 1.0);
             }
+            rigid
+                .iter()
+                .for_each(|&mode| data.frequencies_hz[mode] = 1.0);
             let exact = Modes::from_measured(&data.frequencies_hz, &shapes)?;
             let noisy = with_noise_by_mode(&exact, &noise, seed)?;
             data.frequencies_hz = noisy.frequencies_hz();
+            rigid
+                .iter()
+                .for_each(|&mode| data.frequencies_hz[mode] = 0.0);
             for mode in data.shaped() {
                 let mut shape = noisy.shapes.column(mode).into_owned();
                 // Components' own deviations instead of their mean.
@@ -142,7 +149,7 @@ impl Study {
             .test
             .modes
             .clone()
-            .unwrap_or_else(|| (1..=self.prepared.loaded.data.frequencies_hz.len()).collect());
+            .unwrap_or_else(|| self.prepared.loaded.data.vibrations());
         let count = if is_sensors {
             self.prepared.loaded.placed.len()
         } else {

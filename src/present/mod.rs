@@ -17,6 +17,8 @@ pub mod page;
 pub mod render;
 pub mod report;
 #[doc(hidden)]
+pub mod rows;
+#[doc(hidden)]
 pub mod table;
 #[doc(hidden)]
 pub mod verdict;

@@ -16,6 +16,8 @@ const REPLACED: [(&str, &[&str]); 5] = [
         &[
             "report.html",
             "factors.csv",
+            "shapes.csv",
+            "residuals.csv",
             "correlation.json",
             "corrected.bdf",
         ],

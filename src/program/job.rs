@@ -19,7 +19,7 @@ use corfem::present::tables::job::{
     inputs_table, minima_table, places_table, seen_table, suspects_table, trust_table,
 };
 use corfem::present::tables::report::{factor_table, history_table, paired_table};
-use corfem::present::{PresentError, json, render};
+use corfem::present::{PresentError, json, rows};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -48,7 +48,7 @@ pub struct CorrelateArguments {
     /// The job: corfem init explains its entries
     #[arg(value_name = "JOB")]
     job: PathBuf,
-    /// Also write report.html, factors.csv, correlation.json and the corrected deck into this folder, created if new
+    /// Also write report.html, factors.csv, shapes.csv, residuals.csv, correlation.json and the corrected deck into this folder, created if new
     #[arg(long, value_name = "DIR")]
     folder: Option<PathBuf>,
     /// Start Gauss-Newton steps from this many points: the model itself, and others drawn from the seed
@@ -164,10 +164,20 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
             &command(arguments),
             &prepared.loaded.job.text,
         )?;
-        let factors = render::csv(&[tables[0].clone(), factor_table(&report)]);
         let files = vec![
             ("report.html".to_owned(), page.into_bytes()),
-            ("factors.csv".to_owned(), factors.into_bytes()),
+            (
+                "factors.csv".to_owned(),
+                rows::factor_rows(&result).into_bytes(),
+            ),
+            (
+                "shapes.csv".to_owned(),
+                rows::shape_rows(&report)?.into_bytes(),
+            ),
+            (
+                "residuals.csv".to_owned(),
+                rows::residual_rows(&report).into_bytes(),
+            ),
             ("correlation.json".to_owned(), document()?.into_bytes()),
         ];
         write_results(arguments, folder, files, &result.found)?;

@@ -59,7 +59,16 @@ Results go to standard output, progress to standard error. A signal that ends th
 
 const JOB_HELP: &str = "\
 Ctrl-C ends the analysis under way, or lets that of a study or of the paper's loops end, and keeps the best so far or the samples done; \
-a second one ends the program at once and leaves no half-written file.";
+a second one ends the program at once and leaves no half-written file.
+
+Exit status: 0 within tolerance and no doubt stands; 2 bad input, or a file that cannot be read or written; 3 not within tolerance, or a doubt \
+stands, which --accept answers for; the best found is printed all the same.";
+
+const CHECK_HELP: &str = "\
+Exit status: 0 no doubt stands; 2 bad input, or a file that cannot be read; 3 a doubt stands, which --accept answers for.";
+
+const MODES_HELP: &str = "\
+Exit status: 0 all modes asked for were found; 2 bad input, or a file that cannot be read; 3 modes are lost or may not be those of the structure.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -78,6 +87,7 @@ enum Command {
     /// Write a job file or the table of a test that explains its entries, or a whole example that runs
     Init(InitArguments),
     /// Look at a job before the first step
+    #[command(after_help = CHECK_HELP)]
     Check(CheckArguments),
     /// Write the figures of the cases and of fewer modes as SVG
     Figures(FiguresArguments),
@@ -88,6 +98,7 @@ enum Command {
     /// Write a case's matrices and every iteration, as JSON and Matrix Market, to check another program against
     Dump(DumpArguments),
     /// Print frequencies and mode shapes of a NASTRAN deck or of matrices
+    #[command(after_help = MODES_HELP)]
     Modes(ModesArguments),
 }
 

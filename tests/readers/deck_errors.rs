@@ -38,8 +38,8 @@ const BAD_FIELDS: &str = "\
 1 | GRID*,123456789,,0.,0. | 2 | at most eight digits | 123456789
 2 | GRID,2,,10,0.,0. | 4 | a real number with a decimal point | 10
 2 | GRID,2,,10.,0.,1.X | 6 | a real number | 1.X
-2 | GRID,2,3,10.,0.,0. | 3 | no coordinate systems but the basic one | 3
-2 | GRID,2,,10.,0.,0.,5 | 7 | no coordinate systems but the basic one | 5
+2 | GRID,2,3,10.,0.,0. | 3 | the number of a coordinate system's card | 3
+2 | GRID,2,,10.,0.,0.,5 | 7 | the number of a coordinate system's card | 5
 2 | GRID,2,,10.,0.,0.,,127 | 8 | a list of components 1 to 6 | 127
 2 | GRID,1,,10.,0.,0. | 2 | the card in line 1 | 1
 - | CROD,1,1,2,1 | 2 | the card in line 3 | 1
@@ -76,7 +76,6 @@ const BAD_FIELDS: &str = "\
 7 | CMASS2,7,-.4,2,1 | 3 | a positive real number | -.4
 7 | CMASS2,7,.4,2,4 | 5 | component 1, 2 or 3 | 4
 7 | CMASS2,7,.4,2,1,1,1 | 6 | no masses between two degrees of freedom | 1
-- | CONM2,8,2,4,.4 | 4 | no coordinate systems but the basic one | 4
 - | CONM2,8,2,,0. | 5 | a positive real number | 0.
 - | CONM2,8,2,,.4,1. | 6 | no offsets of masses | 1.
 - | CONM2,8,2,,.4,,,1. | 8 | no offsets of masses | 1.

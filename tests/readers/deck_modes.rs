@@ -4,8 +4,8 @@ use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
 use crate::common::tolerances::{
     COUNTED_ROOT, DIFFERENCE_ROUND_OFF, EIGEN_ROUND_OFF, UNLIKE_STIFFNESS,
 };
-use corfem::files::deck;
 use corfem::files::deck::number::{large_real, nearest_in_field};
+use corfem::files::deck::{self, Reason};
 use corfem::files::error::FileError;
 use corfem::method::error::Error;
 use corfem::sparse::whole_modes::WholeModes;
@@ -135,7 +135,7 @@ fn a_tie_to_a_held_dof_adds_nothing() {
 }
 
 #[test]
-fn a_deck_without_mass_or_with_a_loose_grid_is_refused() {
+fn a_deck_without_mass_is_refused_and_a_grid_that_nothing_touches_is_held() {
     let error = modes(ROD).expect_err("no mass");
     assert!(
         matches!(
@@ -150,7 +150,17 @@ fn a_deck_without_mass_or_with_a_loose_grid_is_refused() {
         "{error}"
     );
     let loose = format!("{ROD}GRID,3,,20.,0.,0.,,23456\nCMASS2,8,.4,2,1");
-    let error = modes(&loose).expect_err("grid 3 is loose");
+    let held = loose.replace(",23456\nCMASS2", ",123456\nCMASS2");
+    assert_eq!(modes(&loose).expect("modes"), modes(&held).expect("modes"));
+    let unread = deck::read("loose.bdf", loose.as_bytes(), &[])
+        .expect("it reads")
+        .unread;
+    assert_eq!(
+        (unread[0].card.as_str(), unread[0].line, unread[0].reason),
+        ("GRID", 8, Reason::Untouched)
+    );
+    // A mass that nothing resists is not held.
+    let error = modes(&format!("{loose}\nCMASS2,9,.4,3,1")).expect_err("grid 3 is loose");
     assert!(
         matches!(
             error,

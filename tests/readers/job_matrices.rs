@@ -67,7 +67,8 @@ fn rows_of_matrices_are_a_table_of_grids_and_directions() {
         let error = said(&with(building(), "job.toml", story, rule));
         assert_eq!(
             error,
-            "job.toml: parameter \"story 1\" needs a matrix, and no entry of a deck"
+            "job.toml: parameter \"story 1\" needs a matrix, or a whole stiffness or mass with the factor at that it has there, and no \
+             entry of a deck"
         );
     }
 }

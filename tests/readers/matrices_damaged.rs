@@ -18,16 +18,16 @@ fn refused(text: &str, expected: &str) {
 fn matrix_market_is_refused_by_line() {
     let real = "%%MatrixMarket matrix coordinate real general\n% a remark\n\n";
     refused(
-        "%%MatrixMarket matrix coordinate complex general\n1 1 1\n1 1 1 0\n",
-        "1: \"%%MatrixMarket matrix coordinate",
+        "%%MatrixMarket matrix coordinate complex general\n1 1 1\n1 1 1 .5\n",
+        "3: \"1 1 1 .5\" is not a number with an imaginary part of zero",
     );
     refused(
         "%%MatrixMarket matrix coordinate pattern general\n1 1 1\n1 1\n",
         "1: \"%%MatrixMarket matrix coordinate",
     );
     refused(
-        "%%MatrixMarket matrix coordinate real hermitian\n",
-        "1: \"hermitian\" is not general, symmetric or skew-symmetric",
+        "%%MatrixMarket matrix coordinate real unsymmetric\n",
+        "1: \"unsymmetric\" is not general, symmetric, hermitian or skew-symmetric",
     );
     refused(real, "4: the file ends before the line of sizes");
     let array = real.replace("coordinate", "array");
@@ -73,8 +73,8 @@ fn matrix_market_is_refused_by_line() {
     }
     let symmetric = real.replace("general", "symmetric");
     refused(
-        &format!("{symmetric}2 2 1\n1 2 1.\n"),
-        "5: \"1 2 1.\" is not an entry within",
+        &format!("{symmetric}2 2 3\n1 2 1.\n2 1 2.\n1 1 1.\n"),
+        "1: entries (1, 2) and (2, 1) of a symmetric matrix differ",
     );
     refused(
         &format!("{symmetric}2 3 1\n2 1 1.\n"),

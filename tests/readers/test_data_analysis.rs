@@ -175,7 +175,7 @@ fn a_mode_without_a_frequency_is_an_error() {
         .expect_err("no frequency")
         .to_string();
     assert!(
-        error.contains("\"0\" is not a positive frequency"),
+        error.contains("test modes: 0 given or asked for"),
         "{error}"
     );
 }

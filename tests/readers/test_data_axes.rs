@@ -14,12 +14,12 @@ pub fn row(values: &[f64], width: usize) -> String {
 }
 
 /// A node of dataset 15 with the coordinate systems of its place and of its displacements.
-fn node(node: usize, [of_place, of_motion]: [usize; 2], place: [f64; 3]) -> String {
+pub fn node(node: usize, [of_place, of_motion]: [usize; 2], place: [f64; 3]) -> String {
     format!("{node:10}{of_place:10}{of_motion:10}        11") + &row(&place, 13)
 }
 
 /// A system of dataset 18: origin, a point on the x axis, one in the xz plane.
-fn system(number: usize, kind: usize, reference: usize, points: [[f64; 3]; 3]) -> String {
+pub fn system(number: usize, kind: usize, reference: usize, points: [[f64; 3]; 3]) -> String {
     let numbers = format!("{number:10}{kind:10}{reference:10}         8         1\nSYS\n");
     numbers + &row(&points[..2].concat(), 13) + &row(&points[2], 13)
 }
@@ -189,10 +189,17 @@ fn coordinate_systems_that_are_none_are_refused() {
         skew.contains("the three rows above are not unit vectors at right angles"),
         "{skew}"
     );
-    let cylinder = system(3, 1, 0, [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
-    let cylinder = said(dataset("18", &cylinder) + &dataset("15", &node(12, [0, 3], [0.0; 3])));
-    let expected = "line 10: node 12 has coordinate system 3, which is no Cartesian one";
-    assert!(cylinder.contains(expected), "{cylinder}");
+    let of_kind = |kind, place| {
+        let system = system(3, kind, 0, [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
+        dataset("18", &system) + &dataset("15", &node(12, [0, 3], place))
+    };
+    let sphere = said(of_kind(2, [0.0; 3]));
+    let expected =
+        "line 10: node 12 has coordinate system 3, which is no Cartesian or cylindrical one";
+    assert!(sphere.contains(expected), "{sphere}");
+    let on_axis = said(of_kind(1, [0.0, 0.0, 4.0]));
+    let expected = "line 10: node 12 is on the axis of its cylindrical coordinate system";
+    assert!(on_axis.contains(expected), "{on_axis}");
 }
 
 /// Reading along global axes would be a guess. 0 is the global system by the format, 1 is SDRC's number for it.
@@ -203,7 +210,7 @@ fn a_sensor_whose_coordinate_system_is_not_in_the_file_is_an_error() {
         let error = read("wing.unv", of(systems).as_bytes()).expect_err("no system 7");
         assert_eq!(
             error.to_string(),
-            "wing.unv, line 3: node 12 has coordinate system 7, which is no Cartesian one of a dataset 18 or 2420 of the file"
+            "wing.unv, line 3: node 12 has coordinate system 7, which is no Cartesian or cylindrical one of a dataset 18 or 2420 of the file"
         );
     }
     assert_eq!(parsed(&of([1, 1])).sensors[0].axis, None);

@@ -287,7 +287,8 @@ fn a_column_of_deviations_belongs_to_the_mode_of_its_number() {
             .expect_err(&text)
             .to_string()
     };
-    for wrong in ["deviation", "deviation 0", "deviation two"] {
+    assert!(said("deviation 2", "deviation 0").contains("a column deviation 0, but no mode 0"));
+    for wrong in ["deviation", "deviation two"] {
         assert!(said("deviation 2", wrong).contains("a title deviation with the number of a mode"));
     }
     assert!(said("grid,mode 2", "deviation 2,mode 2").contains("once each"));
@@ -310,8 +311,11 @@ fn titles_of_modes_are_in_order_and_none_is_there_twice() {
              modes from left to right"
         ))
     };
-    assert_eq!(said("mode 7", "mode 2"), place(8, "mode 7", 1));
-    assert_eq!(said("Mode_2", "Mode_1"), place(8, "Mode_2", 1));
+    assert_eq!(said("mode 7", "mode 2"), place(9, "mode 2", 8));
+    assert_eq!(said("Mode_2", "Mode_1"), place(9, "Mode_1", 3));
+    let numbers = |first, second| said(first, second).expect("a test").numbers;
+    assert_eq!(numbers("mode 7", "mode 8"), [7, 8]);
+    assert_eq!(numbers("mode 1", "mode 2"), [0; 0]);
     assert_eq!(
         said("mode 1", "mode 3 (torsion)"),
         place(9, "mode 3 (torsion)", 2)

@@ -133,7 +133,7 @@ fn titles_in_another_order_are_refused_with_both() {
     *text = text.replace("mode 1,mode 2", "mode 2,mode 1");
     let said = said(&files);
     assert!(
-        said.contains("this is mode 1, but its title is \"mode 2\""),
+        said.contains("this is mode 3, but its title is \"mode 1\""),
         "{said}"
     );
 }

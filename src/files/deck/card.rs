@@ -17,6 +17,14 @@ pub(crate) struct Field {
     pub line: usize,
 }
 
+impl Field {
+    /// An empty field of a line.
+    pub fn blank(line: usize) -> Self {
+        let text = String::new();
+        Self { text, line }
+    }
+}
+
 /// A card as it was read, its continuations joined to it. Where a function refuses what a field says, its error is a
 /// [`FileError::DeckField`] about that field.
 #[derive(Debug, Clone, PartialEq, Eq)]

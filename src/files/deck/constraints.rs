@@ -1,6 +1,7 @@
 //! Cards of constraints: what SPC and SPC1 fix to ground, what MPC ties, and which sets of them count.
 
 use super::card::Card;
+use super::coordinates::{Motions, OBLIQUE};
 use super::lines::Selected;
 use super::model::Tie;
 use crate::files::error::FileError;
@@ -111,9 +112,16 @@ impl Constraints {
 
     /// Marks what is constrained: of SPC1 the grids of every card one by one, or from the first to the last of `G1 THRU G2`; of SPC one
     /// or two grids, each with its components and an enforced displacement, which is a load and no part of normal modes.
-    pub fn constrain(&self, grids: &mut BTreeMap<usize, Grid>) -> Result<(), FileError> {
-        let add = |grid: &mut Grid, directions: [bool; 3]| {
-            grid.constrained = std::array::from_fn(|d| grid.constrained[d] || directions[d]);
+    pub fn constrain(
+        &self,
+        grids: &mut BTreeMap<usize, Grid>,
+        motions: &Motions,
+    ) -> Result<(), FileError> {
+        let add = |card: &Card, field: usize, grid: &mut Grid, directions: [bool; 3]| {
+            let turned = motions.held(grid.label, directions);
+            let turned = turned.ok_or_else(|| card.error(field, OBLIQUE))?;
+            grid.constrained = std::array::from_fn(|d| grid.constrained[d] || turned[d]);
+            Ok::<_, FileError>(())
         };
         for (_, card) in &self.supports.cards {
             if card.name == "SPC" {
@@ -128,7 +136,7 @@ impl Constraints {
                     card.optional_real(start + 2)?;
                     let grid = grids.get_mut(&card.label(start)?);
                     let none = || card.wrong(start, "the number of a GRID card");
-                    add(grid.ok_or_else(none)?, directions);
+                    add(card, start + 1, grid.ok_or_else(none)?, directions)?;
                 }
                 continue;
             }
@@ -150,25 +158,31 @@ impl Constraints {
                 }
                 let mut run = grids.range_mut(first..=last).peekable();
                 card.require(run.peek().is_some(), field, "the number of a GRID card")?;
-                run.for_each(|(_, grid)| add(grid, directions));
+                for (_, grid) in run {
+                    add(card, 3, grid, directions)?;
+                }
             }
         }
         Ok(())
     }
 
     /// The equations, by dependent DOF: it may not be constrained nor in another equation, nor its coefficient zero.
-    pub fn ties(&self, grids: &BTreeMap<usize, Grid>) -> Result<Vec<Tie>, FileError> {
+    pub fn ties(
+        &self,
+        grids: &BTreeMap<usize, Grid>,
+        motions: &Motions,
+    ) -> Result<Vec<Tie>, FileError> {
         let mut ties: BTreeMap<StructuralDof, (Tie, &Card)> = BTreeMap::new();
         for (_, card) in &self.equations.cards {
             let last = card.filled().pop().unwrap_or(0);
             let term = |field| {
                 let grid = card.referred(field, grids, "GRID")?.label;
+                let axis = motions.axis(grid, card.direction(field + 1)?);
+                let axis = axis.ok_or_else(|| card.error(field + 1, OBLIQUE))?;
+                let direction = axis.direction;
                 Ok((
-                    StructuralDof {
-                        grid,
-                        direction: card.direction(field + 1)?,
-                    },
-                    card.real(field + 2)?,
+                    StructuralDof { grid, direction },
+                    axis.sign * card.real(field + 2)?,
                 ))
             };
             let terms = (0..)

@@ -6,7 +6,7 @@ use crate::method::structure::Grid;
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 
-/// What is said of a single direction of a grid that lies along none of the basic axes.
+/// Reason against a single direction of a grid that lies along none of the basic axes.
 pub(super) const OBLIQUE: &str = "a direction that the coordinate system turns off the axes x, y and z: corfem has no oblique supports, masses \
                                   and equations";
 /// Part of a unit vector below which it is the round-off of the digits of a card.

@@ -1,6 +1,7 @@
 //! Cards of elements, properties, materials and masses.
 
 use super::card::{Card, Kept, Numbered};
+use super::coordinates::{Motions, OBLIQUE};
 use super::model::PointMass;
 use super::number::nearest_in_field;
 use crate::files::error::FileError;
@@ -28,6 +29,8 @@ pub(super) struct ElementCards {
     pub connections: Numbered<Option<usize>>,
     pub properties: [Numbered<f64>; 4],
     pub materials: Numbered<Material>,
+    /// Materials of which E alone is given: rods need no more.
+    axial: Vec<usize>,
     /// Cards that give rods torsion, which no stiffness includes: grids have no rotations.
     pub torsion: Vec<Card>,
 }
@@ -45,6 +48,22 @@ pub(super) struct Holder<'a> {
 pub(crate) struct Membership {
     pub property: Option<usize>,
     pub material: usize,
+}
+
+impl<T> Kept<Option<T>> {
+    /// The field with the number of an element's property: without one it is the element's own.
+    pub fn property_field(&self) -> usize {
+        self.start + usize::from(!self.card.text(self.start + 1).is_empty())
+    }
+}
+
+/// Takes the masses of a PMASS card, up to four with their numbers.
+pub(super) fn take_masses(card: &Card, masses: &mut Numbered<f64>) -> Result<(), FileError> {
+    let starts = [2, 4, 6, 8].into_iter();
+    let filled = starts.filter(|&start| start == 2 || !card.text(start).is_empty());
+    filled
+        .into_iter()
+        .try_for_each(|start| card.keep(start, card.positive(start + 1)?, masses))
 }
 
 impl ElementCards {
@@ -82,7 +101,12 @@ impl ElementCards {
                 card.absent(9, "nonstructural mass")?;
                 card.keep(2, None, &mut self.connections)?;
             }
-            "MAT1" => card.keep(2, material(card)?, &mut self.materials)?,
+            "MAT1" => {
+                let is_axial = [4, 5].iter().all(|&field| card.text(field).is_empty());
+                self.axial
+                    .extend(is_axial.then(|| card.label(2)).transpose()?);
+                card.keep(2, material(card)?, &mut self.materials)?;
+            }
             _ => {}
         }
         Ok(())
@@ -100,7 +124,7 @@ impl ElementCards {
         &'a self,
         connection: &'a Kept<Option<usize>>,
     ) -> Result<Holder<'a>, FileError> {
-        let Kept { value, card, start } = connection;
+        let Kept { value, card, .. } = connection;
         let Some(row) = *value else {
             return Ok(Holder {
                 card,
@@ -109,8 +133,9 @@ impl ElementCards {
                 material_field: 5,
             });
         };
+        let field = connection.property_field();
         let Kept { value, card, start } =
-            card.referred(start + 1, &self.properties[row], ELEMENT_CARDS[row].1)?;
+            card.referred(field, &self.properties[row], ELEMENT_CARDS[row].1)?;
         Ok(Holder {
             card,
             size: *value,
@@ -136,6 +161,12 @@ impl ElementCards {
                 .card
                 .referred(holder.material_field, &self.materials, "MAT1")?
                 .value;
+            let number = holder.card.label(holder.material_field)?;
+            holder.card.require(
+                kind == ElementKind::Rod || !self.axial.contains(&number),
+                holder.material_field,
+                "a material with G or NU, which panels need",
+            )?;
             let grids = corners.collect::<Result<_, FileError>>()?;
             elements.push(Element {
                 label,
@@ -144,12 +175,13 @@ impl ElementCards {
                 size: holder.size,
                 material,
             });
-            let property = value.map(|_| card.label(start + 1)).transpose()?;
+            let property = value.map(|_| card.label(connection.property_field()));
+            let property = property.transpose()?;
             members.insert(
                 label,
                 Membership {
                     property,
-                    material: holder.card.label(holder.material_field)?,
+                    material: number,
                 },
             );
         }
@@ -157,7 +189,7 @@ impl ElementCards {
     }
 }
 
-/// MAT1: of E, G and NU two give the third, $G = E/\big(2(1+\nu)\big)$; all three are taken as they are.
+/// MAT1: of E, G and NU two give the third, $G = E/\big(2(1+\nu)\big)$; all three are taken as they are. E alone is that of rods.
 fn material(card: &Card) -> Result<Material, FileError> {
     let [e, g, nu] = [3, 4, 5].map(|field| card.optional_real(field));
     let (e, g, nu) = (e?, g?, nu?);
@@ -165,6 +197,7 @@ fn material(card: &Card) -> Result<Material, FileError> {
     let (e, nu) = match (e, g, nu) {
         (Some(e), _, Some(nu)) => (e, nu),
         (Some(e), Some(g), None) => (e, nearest_in_field(e / (2.0 * g) - 1.0)),
+        (Some(e), None, None) => (e, 0.0),
         (None, Some(g), Some(nu)) => (nearest_in_field(2.0 * g * (1.0 + nu)), nu),
         _ => return Err(card.error(3, "a material needs two of E, G and NU")),
     };
@@ -189,20 +222,32 @@ fn material(card: &Card) -> Result<Material, FileError> {
     })
 }
 
-/// CMASS2 on one direction of a grid, or CONM2 on all three.
-pub(super) fn point_mass(card: &Card) -> Result<PointMass, FileError> {
+/// CMASS2, or CMASS1 with the mass of a PMASS card, on one direction of a grid, or CONM2 on all three.
+pub(super) fn point_mass(
+    card: &Card,
+    properties: &Numbered<f64>,
+    motions: &Motions,
+) -> Result<PointMass, FileError> {
     let label = card.label(2)?;
-    if card.name == "CMASS2" {
+    if card.name.starts_with("CMASS") {
         card.absent(6, "masses between two degrees of freedom")?;
-        let (grid, direction) = (card.label(4)?, Some(card.direction(5)?));
+        let grid = card.label(4)?;
+        let own = card.direction(5)?;
+        let axis = motions
+            .axis(grid, own)
+            .ok_or_else(|| card.error(5, OBLIQUE))?;
+        let direction = Some(axis.direction);
         return Ok(PointMass {
             label,
             grid,
             direction,
-            mass: card.positive(3)?,
+            mass: match card.name.as_str() {
+                "CMASS1" => card.referred(3, properties, "PMASS")?.value,
+                _ => card.positive(3)?,
+            },
         });
     }
-    card.absent(4, "coordinate systems but the basic one")?;
+    // A mass that is the same in all directions has no axes: any system will do.
     (6..=8).try_for_each(|field| card.absent(field, "offsets of masses"))?;
     (12..=17).try_for_each(|field| card.absent(field, "rotary inertia"))?;
     Ok(PointMass {

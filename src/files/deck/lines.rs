@@ -1,9 +1,8 @@
 //! From a file to its cards: sections, comments, the free, small and large formats, and continuations.
 
-use super::card::{Card, FIELDS_PER_LINE, Field};
-use super::number::{LARGE_FIELD, SMALL_FIELD};
+use super::card::{Card, FIELDS_PER_LINE, Field, LARGEST_LABEL};
+use super::number::{LARGE_FIELD, SMALL_FIELD, parse_real};
 use crate::files::error::FileError;
-use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -12,7 +11,9 @@ pub(super) const LARGE_FIELDS_PER_LINE: usize = 4;
 /// Statements that read another file, in any section.
 const INCLUDES: [&str; 2] = ["INCLUDE", "READFILE"];
 /// Characters that end the first word of such a statement, or of a parameter.
-const WORD_ENDS: [char; 4] = [' ', ',', '\'', '"'];
+const WORD_ENDS: [char; 5] = [' ', ',', '=', '\'', '"'];
+/// Name of what is left of a line that is no line of a card; what reads cards finds out whether it matters.
+pub(super) const NO_CARD: &str = "";
 
 /// Sets of constraints that case control selects by `SPC = n` and `MPC = n`, each with its line. The first subcase's selection
 /// counts, or else the one above all subcases.
@@ -27,20 +28,30 @@ pub(super) struct Line {
     continues: bool,
     /// Fields 2 to 9, or four large ones.
     data: Vec<Field>,
-    /// Field 10, without its `+` or `*`.
+    /// Field 10.
     tag: String,
+    /// Error of the line, if it belongs to a card that is read.
+    fault: Option<FileError>,
 }
 
-/// The text of a file in UTF-8, with or without a byte order mark, or else in Latin-1.
-pub(crate) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
-    let bytes = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
-    let latin_1 = || {
-        bytes
-            .iter()
-            .map(|&byte| char::from(byte))
-            .collect::<String>()
-    };
-    std::str::from_utf8(bytes).map_or_else(|_| latin_1().into(), Cow::from)
+impl Line {
+    /// Tags of the continuation that this line asks for: columns 2 to 8 of field 10 count, whatever the first is, and programs leave that
+    /// away.
+    fn wanted(&self) -> Vec<String> {
+        let mut tags = vec![self.tag.trim_start_matches(['+', '*']).to_owned()];
+        if !self.tag.starts_with(['+', '*']) {
+            tags.push(
+                self.tag
+                    .chars()
+                    .skip(1)
+                    .collect::<String>()
+                    .trim()
+                    .to_owned(),
+            );
+        }
+        tags.retain(|tag| !tag.is_empty());
+        tags
+    }
 }
 
 /// Case control's selection, `None` for a file of bulk data alone, and the lines of bulk data; `$` begins a comment.
@@ -57,9 +68,18 @@ pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<
         .zip(text.lines().map(code))
         .filter(|(_, line)| !line.trim().is_empty());
     let lines: Vec<(usize, String)> = lines.collect();
-    let begin = lines
-        .iter()
-        .position(|(_, line)| line.split_whitespace().eq(["BEGIN", "BULK"]));
+    let begins = |(_, line): &(usize, String)| {
+        let words: Vec<&str> = line
+            .split([' ', ',', '='])
+            .filter(|word| !word.is_empty())
+            .collect();
+        words.first() == Some(&"BEGIN") && words.get(1).is_none_or(|word| *word == "BULK")
+    };
+    let begin = lines.iter().position(begins);
+    if let Some((number, _)) = lines.iter().filter(|line| begins(line)).nth(1) {
+        let reason = "this is the second part of bulk data; corfem has no superelements";
+        return Err(FileError::line(file, *number, reason));
+    }
     let (control, bulk) = lines.split_at(begin.map_or(0, |row| row + 1));
     let (mut selected, mut levels) = (Selected::default(), [Selected::default(); 2]);
     let mut subcases = 0;
@@ -88,7 +108,7 @@ pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<
         .filter(of_model)
         .chain(bulk)
         .map(|(number, line)| fields(file, *number, line.trim_end()));
-    Ok((begin.map(|_| selected), bulk.collect::<Result<_, _>>()?))
+    Ok((begin.map(|_| selected), bulk.collect()))
 }
 
 /// The one of these words with which a line begins.
@@ -129,16 +149,25 @@ pub(super) struct Cut {
     pub name: String,
     /// Fields behind the name: in free format as many as there are, else all of a line and then the rest of it.
     pub parts: Vec<String>,
+    /// Places among these of the data fields, of one line or more.
+    pub places: Vec<usize>,
     pub is_free: bool,
     /// Fields of a line, and their width.
     pub count: usize,
     pub width: usize,
 }
 
-/// Cuts a line. With a comma it is in free format; otherwise an asterisk behind the name or in front of a continuation
+/// Cuts a line. With a comma behind its first word it is in free format; otherwise an asterisk behind the name or in front of a continuation
 /// means fields of 16 characters, its absence fields of 8.
 pub(super) fn cut(text: &str) -> Cut {
-    let is_free = text.contains(',');
+    let first = text.split_once(',').map(|(first, _)| first.trim());
+    // A continuation whose first eight columns are blank is in fixed format.
+    let is_indented = text.chars().take_while(|c| *c == ' ').count() >= SMALL_FIELD;
+    let is_word = |first: &str| {
+        let is_name = first.starts_with(|c: char| c.is_ascii_alphabetic());
+        !first.contains(char::is_whitespace) && (is_name || !is_indented)
+    };
+    let is_free = first.is_some_and(is_word);
     let columns = expand_tabs(text);
     let slice = |from: usize, to: usize| columns.iter().take(to).skip(from).collect::<String>();
     let mut parts = text.split(',').map(str::to_owned);
@@ -157,40 +186,50 @@ pub(super) fn cut(text: &str) -> Cut {
     let fixed = (0..count)
         .map(|place| slice(start(place), start(place + 1)))
         .chain([slice(start(count), usize::MAX)]);
-    let parts = if is_free {
+    let parts: Vec<String> = if is_free {
         parts.collect()
     } else {
         fixed.collect()
     };
+    // A free line of more fields goes on as the next would, whose field 1 may stand behind field 10 as its tag, or at once.
+    let is_tag = |part: &String| part.trim().is_empty() || part.trim().starts_with(['+', '*']);
+    let is_tagged = parts.get(count).is_none_or(is_tag);
+    let places: Vec<usize> = match parts.len() > count + 1 {
+        true if is_tagged => (0..parts.len())
+            .filter(|place| place % (count + 1) < count)
+            .collect(),
+        true => (0..parts.len()).collect(),
+        false => (0..count).collect(),
+    };
     Cut {
         name,
         parts,
+        places,
         is_free,
         count,
         width,
     }
 }
 
-fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
+fn fields(file: &str, number: usize, text: &str) -> Line {
     if let Some(name) = statement(text, &INCLUDES) {
-        return Ok(Line {
+        return Line {
             number,
             first: name.to_owned(),
             continues: false,
             data: Vec::new(),
             tag: String::new(),
-        });
+            fault: None,
+        };
     }
     let wrong = |text: &str, what: &str| {
-        Err(FileError::line(
-            file,
-            number,
-            format!("\"{}\" {what}", text.trim()),
-        ))
+        let reason = format!("\"{}\" {what}", text.trim());
+        FileError::line(file, number, reason)
     };
     let Cut {
         name,
         mut parts,
+        places,
         is_free,
         count,
         width,
@@ -201,45 +240,45 @@ fn fields(file: &str, number: usize, text: &str) -> Result<Line, FileError> {
     }
     let first = name.trim();
     let continues = first.is_empty() || first.starts_with(['+', '*']);
-    if !continues && !first.starts_with(|c: char| c.is_ascii_alphabetic()) {
-        return wrong(first, "is neither a card's name nor a continuation");
-    }
+    let mut fault = None;
+    let is_name = first.starts_with(|c: char| c.is_ascii_alphabetic() || c == '=');
     let first = if continues {
         first.trim_start_matches(['+', '*'])
-    } else {
+    } else if is_name {
         first.trim_end_matches('*')
+    } else {
+        fault = Some(wrong(first, "is neither a card's name nor a continuation"));
+        NO_CARD
     }
     .to_owned();
-    if parts.len() > count + 1 {
-        return wrong(text, "has more fields than a line may have");
-    }
-    let field = |part: &String| Field {
-        text: part.trim().to_owned(),
+    let field = |place: &usize| Field {
+        text: parts.get(*place).map_or("", |part| part.trim()).to_owned(),
         line: number,
     };
-    let mut data: Vec<Field> = parts.iter().map(field).collect();
-    data.resize(
-        count + 1,
-        Field {
-            text: String::new(),
-            line: number,
-        },
-    );
-    let tag = data.pop().map(|last| last.text).unwrap_or_default();
-    if let Some(long) = data.iter().find(|field| field.text.chars().count() > width) {
-        return wrong(
-            &long.text,
-            "is longer than a field: 8 characters, or 16 with an asterisk",
-        );
+    let mut data: Vec<Field> = places.iter().map(field).collect();
+    let whole = data.len().next_multiple_of(count);
+    data.resize(whole, Field::blank(number));
+    // Real numbers of the free format may be longer than others.
+    let is_long = |field: &&Field| {
+        let is_number = is_free && parse_real(&field.text).is_some();
+        field.text.chars().count() > width && !is_number
+    };
+    if let Some(long) = data.iter().find(is_long) {
+        let what = "is longer than a field: 8 characters, or 16 with an asterisk";
+        fault.get_or_insert(wrong(&long.text, what));
     }
-    let tag = tag.trim_start_matches(['+', '*']).to_owned();
-    Ok(Line {
+    let last = parts
+        .get(places.len().max(count))
+        .filter(|_| parts.len() > count);
+    let tag = last.map(|last| last.trim().to_owned()).unwrap_or_default();
+    Line {
         number,
         first,
         continues,
         data,
         tag,
-    })
+        fault,
+    }
 }
 
 /// Replaces every tab by blanks up to the next multiple of eight columns.
@@ -256,61 +295,170 @@ fn expand_tabs(text: &str) -> Vec<char> {
 
 /// The bulk data cards of a text whatever they are, in the order of the file.
 pub(crate) fn cards(file: &str, text: &str) -> Result<Vec<Card>, FileError> {
-    join(&file.into(), sections(file, text)?.1)
+    let found = join(&file.into(), sections(file, text)?.1)?;
+    found.into_iter().map(Joined::sound).collect()
+}
+
+/// A card, and what is wrong with its lines or their order.
+pub(super) struct Joined {
+    pub card: Card,
+    fault: Option<FileError>,
+}
+
+impl Joined {
+    /// The card, unless something is wrong with it.
+    pub fn sound(self) -> Result<Card, FileError> {
+        self.fault.map_or(Ok(self.card), Err)
+    }
 }
 
 /// Joins lines to cards, in the order of the file. A continuation belongs to the card that ends with its tag, wherever it
-/// stands; without a tag, to the line before it.
-pub(super) fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Card>, FileError> {
-    let mut cards: Vec<Card> = Vec::new();
+/// stands; without a tag, to the line before it. A card `=` repeats the one before with some fields changed.
+pub(super) fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Joined>, FileError> {
+    let mut cards: Vec<Joined> = Vec::new();
     // Continuations may stand before their card: they wait by tag until all lines are known.
     let mut waiting: HashMap<String, Line> = HashMap::new();
-    let mut ends = Vec::new();
-    let mut open: Option<usize> = None;
-    for line in lines {
-        if !line.continues {
-            ends.push(line.tag.clone());
-            open = line.tag.is_empty().then_some(cards.len());
-            cards.push(Card {
-                file: file.clone(),
-                line: line.number,
-                name: line.first,
-                fields: line.data,
-            });
-        } else if line.first.is_empty() {
-            let card = open.ok_or_else(|| no_parent(file, &line))?;
-            append(&mut cards[card], &line);
-            open = line.tag.is_empty().then_some(card);
-            ends[card] = line.tag;
-        } else {
-            open = None;
-            let (tag, number) = (line.first.clone(), line.number);
-            if let Some(first) = waiting.insert(tag.clone(), line) {
-                let reason = format!(
-                    "the continuation in line {} has the tag {tag} already",
-                    first.number
+    let mut ends: Vec<Vec<String>> = Vec::new();
+    // The tag of the continuation that the next line goes on, if it has none of its own; none where it goes on a card.
+    let mut open: Option<String> = None;
+    for mut line in lines {
+        let fault = line.fault.take();
+        let is_more = line.first.is_empty() && (line.continues || fault.is_some());
+        let before = open.as_ref().and_then(|tag| waiting.get_mut(tag));
+        match (before, cards.last_mut()) {
+            (Some(before), _) if is_more => {
+                before.data.resize(
+                    before.data.len().next_multiple_of(line.data.len().max(1)),
+                    Field::blank(before.number),
                 );
-                return Err(FileError::line(file, number, reason));
+                before.data.extend(line.data);
+                before.tag = line.tag;
+                before.fault = before.fault.take().or(fault);
+            }
+            (None, Some(card)) if is_more => {
+                append(&mut card.card, &line);
+                card.fault = card.fault.take().or(fault);
+                if let Some(end) = ends.last_mut() {
+                    *end = line.wanted();
+                }
+            }
+            _ if !line.continues => {
+                ends.push(line.wanted());
+                open = None;
+                let card = Card {
+                    file: file.clone(),
+                    line: line.number,
+                    name: line.first,
+                    fields: line.data,
+                };
+                cards.push(Joined { card, fault });
+            }
+            _ if line.first.is_empty() => return Err(no_parent(file, &line)),
+            _ => {
+                open = Some(line.first.clone());
+                let (tag, number) = (line.first.clone(), line.number);
+                line.fault = fault;
+                if let Some(first) = waiting.insert(tag.clone(), line) {
+                    let reason = format!(
+                        "the continuation in line {} has the tag {tag} already",
+                        first.number
+                    );
+                    return Err(FileError::line(file, number, reason));
+                }
             }
         }
     }
     let mut taken: HashMap<String, usize> = HashMap::new();
-    for (card, mut tag) in cards.iter_mut().zip(ends) {
+    for (card, mut tags) in cards.iter_mut().zip(ends) {
         // Field 10 without a continuation is a remark, and the card ends here.
-        while let Some(line) = waiting.remove(&tag) {
-            append(card, &line);
-            taken.insert(tag, card.line);
-            tag = line.tag;
+        while let Some((tag, line)) = tags.iter().find_map(|tag| waiting.remove_entry(tag)) {
+            append(&mut card.card, &line);
+            taken.insert(tag, card.card.line);
+            tags = line.wanted();
+            card.fault = card.fault.take().or(line.fault);
         }
-        if let Some(first) = taken.get(&tag) {
+        if let Some((tag, first)) = tags.iter().find_map(|tag| Some((tag, taken.get(tag)?))) {
             let reason = format!("tag {tag} continues the card of line {first} already");
-            return Err(FileError::line(file, card.line, reason));
+            return Err(FileError::line(file, card.card.line, reason));
         }
     }
     match waiting.values().min_by_key(|line| line.number) {
         Some(orphan) => Err(no_parent(file, orphan)),
-        None => Ok(cards),
+        None => replicated(cards),
     }
+}
+
+/// Cards with every `=` replaced by what it repeats: a field `=` is that of the card before, `==` that and all behind it, `*(n)` as much
+/// more; a card `=(n)` repeats the last one's changes n times.
+fn replicated(cards: Vec<Joined>) -> Result<Vec<Joined>, FileError> {
+    let mut all: Vec<Joined> = Vec::new();
+    let mut changes: Option<Card> = None;
+    for found in cards {
+        if !found.card.name.starts_with('=') {
+            changes = None;
+            all.push(found);
+            continue;
+        }
+        let card = found.sound()?;
+        let times = card.name[1..].trim_matches(['(', ')']).to_owned();
+        let none = || card.error(1, format!("\"{}\" repeats no card with changes", card.name));
+        let (count, change) = match (times.as_str(), changes.take()) {
+            ("", _) => (1, card),
+            (times, Some(change)) => (times.parse().map_err(|_| none())?, change),
+            (_, None) => return Err(none()),
+        };
+        for _ in 0..count {
+            let card = repeated(&change, all.last().map(|last| &last.card))?;
+            all.push(Joined { card, fault: None });
+            let is_left = all.len() <= LARGEST_LABEL;
+            change.require(
+                is_left,
+                1,
+                "a number of repetitions that leaves numbers for cards",
+            )?;
+        }
+        changes = Some(change);
+    }
+    Ok(all)
+}
+
+/// The card that repeats the one before with changes.
+fn repeated(change: &Card, before: Option<&Card>) -> Result<Card, FileError> {
+    let none = || change.error(1, "there is no card before of one line to repeat");
+    let before = before.filter(|before| before.fields.len() == FIELDS_PER_LINE);
+    let mut card = before.ok_or_else(none)?.clone();
+    card.line = change.line;
+    for (place, field) in change.fields.iter().enumerate() {
+        let at = place + 2;
+        let Some(own) = card.fields.get_mut(place) else {
+            change.require(
+                field.text.is_empty(),
+                at,
+                "empty behind a line's last field",
+            )?;
+            continue;
+        };
+        own.line = field.line;
+        match field.text.as_str() {
+            "==" => break,
+            "=" => {}
+            text => match text.strip_prefix('*') {
+                None => own.text = text.to_owned(),
+                Some(more) => {
+                    let more = more.trim_matches(['(', ')']);
+                    let whole = own.text.parse::<i64>().ok().zip(more.parse::<i64>().ok());
+                    let real = parse_real(&own.text).zip(parse_real(more));
+                    let sum = whole
+                        .and_then(|(own, more)| own.checked_add(more))
+                        .map(|sum| sum.to_string());
+                    let sum = sum.or(real.map(|(own, more)| format!("{:?}", own + more)));
+                    own.text = sum
+                        .ok_or_else(|| change.wrong(at, "an increment of the field it repeats"))?;
+                }
+            },
+        }
+    }
+    Ok(card)
 }
 
 fn no_parent(file: &str, line: &Line) -> FileError {
@@ -325,11 +473,7 @@ fn append(card: &mut Card, line: &Line) {
     // The second half of a card of the large format may be missing.
     if line.data.len() == FIELDS_PER_LINE {
         let whole = card.fields.len().next_multiple_of(FIELDS_PER_LINE);
-        let blank = Field {
-            text: String::new(),
-            line: line.number,
-        };
-        card.fields.resize(whole, blank);
+        card.fields.resize(whole, Field::blank(line.number));
     }
     card.fields.extend(line.data.iter().cloned());
 }

@@ -19,6 +19,7 @@
 
 mod card;
 mod constraints;
+mod coordinates;
 mod elements;
 mod lines;
 mod model;
@@ -32,7 +33,6 @@ mod write;
 pub(super) use card::Card;
 pub(crate) use elements::Membership;
 pub(super) use lines::cards;
-pub(crate) use lines::decoded;
 
 pub use model::BulkData;
 #[doc(hidden)]

@@ -9,7 +9,7 @@ use crate::sparse::SparseMatrix;
 use crate::sparse::elements::{corner_volumes, lumped_masses};
 use crate::sparse::whole_modes::MassDof;
 use nalgebra::{DMatrix, DVector, Vector3};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Direction of the DOF that stands for a dynamic point: z.
 const DYNAMIC_DIRECTION: usize = 2;
@@ -188,7 +188,29 @@ impl BulkData {
         LABEL_STEP * (largest / LABEL_STEP + 1) + 1
     }
 
-    /// The structure: its free DOF are those that neither an SPC1 card constrains nor an MPC equation makes dependent.
+    /// Grids that no element, mass or equation touches and no support holds: nothing would resist their motion.
+    pub(crate) fn untouched(&self) -> BTreeSet<usize> {
+        let of_elements = self
+            .elements
+            .iter()
+            .flat_map(|own| own.grids.iter().copied());
+        let of_masses = self.masses.iter().map(|mass| mass.grid);
+        let dof = |tie: &Tie| {
+            let terms = tie.terms.iter().map(|(dof, _)| dof.grid);
+            terms.chain([tie.dependent.grid]).collect::<Vec<_>>()
+        };
+        let of_ties = self.ties.iter().flat_map(dof);
+        let touched: BTreeSet<usize> = of_elements.chain(of_masses).chain(of_ties).collect();
+        let grids = self
+            .grids
+            .iter()
+            .filter(|grid| grid.constrained != [true; 3]);
+        let labels = grids.map(|grid| grid.label);
+        labels.filter(|label| !touched.contains(label)).collect()
+    }
+
+    /// The structure: its free DOF are those that neither an SPC1 card constrains nor an MPC equation makes dependent, of grids that
+    /// something touches.
     ///
     /// # Errors
     /// [`FileError::TiedElement`] for an element at a dependent DOF; the errors of [`Structure::new`].
@@ -209,13 +231,16 @@ impl BulkData {
                 });
             }
         }
+        let untouched = self.untouched();
         let grids = self.grids.iter().map(|grid| {
             let constrained = [0, 1, 2].map(|direction| {
                 let grid_dof = StructuralDof {
                     grid: grid.label,
                     direction,
                 };
-                grid.constrained[direction] || tied.contains_key(&grid_dof)
+                grid.constrained[direction]
+                    || tied.contains_key(&grid_dof)
+                    || untouched.contains(&grid.label)
             });
             Grid {
                 constrained,

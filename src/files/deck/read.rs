@@ -3,13 +3,13 @@
 
 use super::card::{Card, Numbered};
 use super::constraints::Constraints;
-use super::elements::{ELEMENT_CARDS, ElementCards, Members, point_mass};
-use super::lines::{decoded, join, sections};
+use super::coordinates::CoordinateSystems;
+use super::elements::{ELEMENT_CARDS, ElementCards, Members, point_mass, take_masses};
+use super::lines::{Joined, NO_CARD, join, sections};
 use super::model::{BulkData, PointMass};
 use super::number::nearest_in_field;
 use crate::files::error::FileError;
-use crate::method::structure::Grid;
-use nalgebra::Vector3;
+use crate::files::text::readable;
 use std::collections::BTreeMap;
 
 /// A deck as it was read.
@@ -44,31 +44,47 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
             format!("corfem reads {card}; only cards that it does not read can be left out"),
         ));
     }
-    let (selected, lines) = sections(file, &decoded(text))?;
-    let (cards, others): (Vec<Card>, Vec<Card>) = join(&file.into(), lines)?
+    if text.starts_with(&[0xff, 0xfe]) || text.starts_with(&[0xfe, 0xff]) {
+        return Err(FileError::refused(file, "is in UTF-16; save it in UTF-8"));
+    }
+    let (selected, lines) = sections(file, &readable(file, text)?)?;
+    let (cards, others): (Vec<Joined>, Vec<Joined>) = join(&file.into(), lines)?
         .into_iter()
-        .partition(|card| is_read(&name(card)));
+        .partition(|found| is_read(&name(&found.card)));
+    let (nameless, others): (Vec<Joined>, Vec<Joined>) = others
+        .into_iter()
+        .partition(|found| found.card.name == NO_CARD);
+    let others: Vec<Card> = others.into_iter().map(|found| found.card).collect();
     let why = |card: &Card| match name(card) {
         name if WITHOUT_PART.split(' ').any(|known| known == name) => Reason::WithoutPart,
         name if ignored.contains(&name) => Reason::Ignored,
+        name if is_of_element(&name) => Reason::Lacking,
         _ => Reason::Unknown,
     };
     let mut unread: Vec<_> = others
         .iter()
         .map(|card| one_unread(card, why(card)))
         .collect();
-    let unknown = counted(unread.iter().filter(|card| card.reason == Reason::Unknown));
+    let refused = [Reason::Lacking, Reason::Unknown];
+    let unknown = counted(unread.iter().filter(|card| refused.contains(&card.reason)));
     if !unknown.is_empty() {
         return Err(FileError::DeckCards {
             file: file.to_owned(),
             cards: unknown,
         });
     }
+    nameless
+        .into_iter()
+        .try_for_each(|found| found.sound().map(drop))?;
+    let cards = cards.into_iter().map(Joined::sound);
+    let cards = cards.collect::<Result<Vec<Card>, _>>()?;
     let mut default: Option<Card> = None;
     let mut weight: Option<Card> = None;
     let mut grids = Numbered::new();
     let mut elements = ElementCards::default();
     let mut masses = Numbered::new();
+    let mut mass_properties = Numbered::new();
+    let mut systems = CoordinateSystems::default();
     let mut constraints = Constraints::default();
     for card in cards {
         match card.name.as_str() {
@@ -89,7 +105,9 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
                     "this is the second PARAM,WTMASS; a deck may have one",
                 ));
             }
-            "CMASS2" | "CONM2" => card.keep(2, point_mass(&card)?, &mut masses)?,
+            "PMASS" => take_masses(&card, &mut mass_properties)?,
+            "CMASS1" | "CMASS2" | "CONM2" => card.keep(2, (), &mut masses)?,
+            name if name.starts_with("CORD") => systems.take(card)?,
             "SPC" | "SPC1" | "SPCADD" | "MPC" | "MPCADD" => constraints.take(card)?,
             _ => elements.take(&card)?,
         }
@@ -105,22 +123,20 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
         card: format!("{} J", card.name),
         ..one_unread(card, Reason::Torsion)
     }));
-    let grids = grids
+    let grid_lines: BTreeMap<usize, usize> = grids
         .iter()
-        .map(|(&label, kept)| Ok((label, grid(label, &kept.card, default.as_ref())?)));
-    let mut grids = grids.collect::<Result<BTreeMap<usize, Grid>, FileError>>()?;
-    constraints.constrain(&mut grids)?;
+        .map(|(label, kept)| (*label, kept.card.line))
+        .collect();
+    let (mut grids, motions) = systems.grids(&grids, default.as_ref())?;
+    constraints.constrain(&mut grids, &motions)?;
     let masses = masses.into_values().map(|kept| {
-        kept.card.referred(
-            if kept.card.name == "CMASS2" { 4 } else { 3 },
-            &grids,
-            "GRID",
-        )?;
-        Ok(kept.value)
+        let field = if kept.card.name == "CONM2" { 3 } else { 4 };
+        kept.card.referred(field, &grids, "GRID")?;
+        point_mass(&kept.card, &mass_properties, &motions)
     });
     let mut masses = masses.collect::<Result<Vec<PointMass>, FileError>>()?;
     let (mut elements, members) = elements.elements(&grids)?;
-    let ties = constraints.ties(&grids)?;
+    let ties = constraints.ties(&grids, &motions)?;
     if let Some(card) = weight {
         let densities = elements
             .iter_mut()
@@ -136,6 +152,13 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
         ties,
         masses,
     };
+    let untouched = model.untouched();
+    unread.extend(untouched.iter().map(|grid| Unread {
+        card: "GRID".to_owned(),
+        line: grid_lines[grid],
+        count: 1,
+        reason: Reason::Untouched,
+    }));
     Ok(Deck {
         model,
         members,
@@ -157,29 +180,11 @@ fn scale<'a>(card: &Card, masses: impl Iterator<Item = &'a mut f64>) -> Result<(
     Ok(())
 }
 
-/// A grid; GRDSET fills the blanks of its own card.
-fn grid(label: usize, card: &Card, default: Option<&Card>) -> Result<Grid, FileError> {
-    let chosen = |field: usize| {
-        default
-            .filter(|_| card.text(field).is_empty())
-            .unwrap_or(card)
-    };
-    [3, 7].iter().try_for_each(|&field| {
-        chosen(field).absent(field, "coordinate systems but the basic one")
-    })?;
-    let position = Vector3::new(card.real(4)?, card.real(5)?, card.real(6)?);
-    Ok(Grid {
-        label,
-        position,
-        constrained: chosen(8).directions(8)?,
-    })
-}
-
 /// Cards that are read, besides those of elements with their properties. EIGR and EIGRL say how to look for
 /// eigenvalues, which is no part of the model and needs no note.
 #[rustfmt::skip]
-const READ: [&str; 14] = [
-    "GRID", "GRDSET", "CONROD", "MAT1", "CMASS2", "CONM2", "SPC", "SPC1", "SPCADD", "MPC", "MPCADD", "PARAM WTMASS", "EIGR", "EIGRL",
+const READ: [&str; 22] = [
+    "GRID", "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S", "CONROD", "MAT1", "CMASS1", "PMASS", "CMASS2", "CONM2", "SPC", "SPC1", "SPCADD", "MPC", "MPCADD", "PARAM WTMASS", "EIGR", "EIGRL",
 ];
 /// Cards that carry no stiffness, mass, support or coordinates in a search for normal modes: loads, temperatures,
 /// damping, output, the order of equations, other solutions' methods, optimization, sets and aerodynamics.
@@ -192,6 +197,26 @@ const WITHOUT_PART: &str = "\
     DDVAL DOPTPRM DSCREEN SET1 SET2 SET3 AERO AEROS AEFACT AELINK AELIST AEPARM AESTAT AESURF AESURFS \
     CAERO1 CAERO2 CAERO3 CAERO4 CAERO5 PAERO1 PAERO2 PAERO3 PAERO4 PAERO5 SPLINE1 SPLINE2 SPLINE3 \
     SPLINE4 SPLINE5 MKAERO1 MKAERO2 FLUTTER FLFACT TRIM GUST DIVERG CSSCHD MONPNT1 MONPNT2 MONPNT3";
+/// Cards of elements that the crate lacks, beside all whose names begin with C, R or Q as those of elements do, and of their properties
+/// and materials: none can be left out and leave the modes as they are.
+const OF_ELEMENTS: &str = "\
+    PBAR PBARL PBEAM PBEAML PBCOMP PBUSH PBUSH1D PBUSHT PELAS PELAST PGAP PSHELL PCOMP PCOMPG PCOMPP PSOLID PLSOLID PLPLANE PSHEARN \
+    PTUBE PTRIA1 PTRIA2 PQUAD1 PQUAD2 PTRMEM PTRPLT PQDPLT PTRBSC PQDMEM1 PQDMEM2 PTORDRG PTOROD PIHEX PVISCO PWELD PFAST PCONEAX PBEND \
+    MAT2 MAT3 MAT8 MAT9 MAT10 MAT11 MATS1 MATT1 GENEL ASET ASET1 OMIT OMIT1 SUPORT SUPORT1 DMIG DMI SPOINT EPOINT BAROR BEAMOR";
+/// Beginnings of the names of elements.
+const ELEMENTS: [&str; 33] = [
+    "CBAR", "CBEAM", "CBEND", "CBUSH", "CCONEAX", "CELAS", "CFAST", "CGAP", "CHEX", "CIHEX",
+    "CMASS3", "CMASS4", "CONM1", "CPENTA", "CPYRAM", "CQDMEM1", "CQDMEM2", "CQDPLT", "CQUAD",
+    "CTETRA", "CTORDRG", "CTRAPRG", "CTRBSC", "CTRIA", "CTRPLT", "CTUBE", "CWEDGE", "CWELD",
+    "RBAR", "RBE", "RROD", "RSPLINE", "RTRPLT",
+];
+
+/// True of a card that only elements which the crate lacks have.
+fn is_of_element(name: &str) -> bool {
+    OF_ELEMENTS.split(' ').any(|known| known == name)
+        || ELEMENTS.iter().any(|start| name.starts_with(start))
+}
+
 /// Parameters that change stiffness or mass; the last only with a positive value.
 const OF_THE_MODEL: [&str; 6] = ["WTMASS", "CK1", "CK2", "CM1", "CM2", "COUPMASS"];
 
@@ -211,6 +236,8 @@ pub struct Unread {
 /// Reason for which a card was not read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Reason {
+    /// A card of an element, or of what only such elements have, that the crate lacks: the deck is refused.
+    Lacking,
     /// A card that the crate does not know: it may be part of the model, and the deck is refused.
     Unknown,
     /// An unknown card that whoever asked for the deck takes responsibility for leaving out.
@@ -221,6 +248,8 @@ pub enum Reason {
     NotSelected,
     /// A card that gives rods torsion, which no stiffness includes.
     Torsion,
+    /// A grid that no element, mass or equation touches: it is held.
+    Untouched,
 }
 
 impl Unread {

@@ -1,13 +1,14 @@
 //! Rewrites a deck with other sizes and densities of its elements and other point masses; every other byte stays.
 
-use super::card::{Card, FIELDS_PER_LINE, Kept};
-use super::elements::{ElementCards, Holder};
-use super::lines::{Cut, LARGE_FIELDS_PER_LINE, cards, cut, decoded};
+use super::card::{Card, FIELDS_PER_LINE, Kept, Numbered};
+use super::elements::{ElementCards, Holder, take_masses};
+use super::lines::{Cut, LARGE_FIELDS_PER_LINE, cards, cut};
 use super::model::PointMass;
 use super::number::{LARGE_FIELD, SMALL_FIELD, large_real, nearest_in_field};
 use super::read::name;
 use super::write::Cards;
 use crate::files::error::FileError;
+use crate::files::text::decoded;
 use crate::method::error::Error;
 use crate::method::structure::Element;
 use std::collections::{BTreeMap, HashMap};
@@ -75,22 +76,7 @@ pub fn rewrite(
         next_material: next_number(&cards, "MAT"),
     };
     changes.find(file, elements)?;
-    let masses: HashMap<usize, f64> = masses
-        .iter()
-        .map(|point| (point.label, point.mass))
-        .collect();
-    for card in cards
-        .iter()
-        .filter(|card| ["CMASS2", "CONM2"].contains(&card.name.as_str()))
-    {
-        let (label, field) = (card.label(2)?, if card.name == "CMASS2" { 3 } else { 5 });
-        let own = nearest_in_field(weight * card.positive(field)?);
-        if let Some(mass) = masses.get(&label).filter(|mass| **mass != own) {
-            let text = large_real(mass / weight);
-            let none = || card.error(field, "the new mass is not a finite number");
-            changes.set(card, field, text.ok_or_else(none)?)?;
-        }
-    }
+    changes.set_masses(&cards, masses)?;
     if changes.fields.is_empty() {
         return Ok(bytes.to_vec());
     }
@@ -156,7 +142,7 @@ impl Changes<'_> {
             let holder = known.holder(kept)?;
             let number = kept
                 .value
-                .map_or(Ok(*label), |_| kept.card.label(kept.start + 1))?;
+                .map_or(Ok(*label), |_| kept.card.label(kept.property_field()))?;
             let own = (holder.size.to_bits(), self.density(&holder)?.to_bits());
             let (.., groups) =
                 users
@@ -204,6 +190,47 @@ impl Changes<'_> {
                     self.set(&member.card, member.start + 1, label.to_string())?;
                 }
                 self.next_property += 1;
+            }
+        }
+        Ok(())
+    }
+
+    /// Compares the point masses with the deck's.
+    fn set_masses(&mut self, cards: &[Card], masses: &[PointMass]) -> Result<(), FileError> {
+        let masses: HashMap<usize, f64> = masses
+            .iter()
+            .map(|point| (point.label, point.mass))
+            .collect();
+        let mut properties = Numbered::new();
+        let of_masses = cards.iter().filter(|card| card.name == "PMASS");
+        of_masses
+            .into_iter()
+            .try_for_each(|card| take_masses(card, &mut properties))?;
+        let mut new_properties: BTreeMap<usize, f64> = BTreeMap::new();
+        for card in cards {
+            let (holder, field) = match card.name.as_str() {
+                "CMASS1" => {
+                    let property = card.referred(3, &properties, "PMASS")?;
+                    (&property.card, property.start + 1)
+                }
+                "CMASS2" => (card, 3),
+                "CONM2" => (card, 5),
+                _ => continue,
+            };
+            let own = nearest_in_field(self.weight * holder.positive(field)?);
+            let Some(&mass) = masses.get(&card.label(2)?) else {
+                continue;
+            };
+            if card.name == "CMASS1"
+                && *new_properties.entry(card.label(3)?).or_insert(mass) != mass
+            {
+                let reason = "masses of one PMASS card change by different factors; give each a card of its own";
+                return Err(card.error(3, reason));
+            }
+            if mass != own {
+                let text = large_real(mass / self.weight);
+                let none = || holder.error(field, "the new mass is not a finite number");
+                self.set(holder, field, text.ok_or_else(none)?)?;
             }
         }
         Ok(())
@@ -289,17 +316,18 @@ fn changed(line: &str, texts: &BTreeMap<usize, String>, writer: &mut Cards) -> S
     let Cut {
         name,
         mut parts,
+        places,
         is_free,
         count,
         width,
     } = cut(code);
     let given = parts.len();
-    parts.resize(given.max(count), String::new());
+    let fields = places.len().next_multiple_of(count);
+    parts.resize(given.max(fields), String::new());
     for (from_last, text) in texts {
-        let Some(part) = count
-            .checked_sub(*from_last)
-            .and_then(|place| parts.get_mut(place))
-        else {
+        let place = fields.checked_sub(*from_last);
+        let place = place.map(|place| places.get(place).copied().unwrap_or(place));
+        let Some(part) = place.and_then(|place| parts.get_mut(place)) else {
             continue;
         };
         let old = part.chars().count();
@@ -310,7 +338,10 @@ fn changed(line: &str, texts: &BTreeMap<usize, String>, writer: &mut Cards) -> S
             false => format!("{text:old$}"),
         };
     }
-    if texts.values().all(|text| text.len() <= width) {
+    // What the large format could not hold stays in the free one.
+    let is_large = |part: &String| part.trim().len() > LARGE_FIELD;
+    let stays_free = is_free && (fields > count || parts.iter().any(is_large));
+    if stays_free || texts.values().all(|text| text.len() <= width) {
         let separator = if is_free { "," } else { "" };
         return [
             &name,

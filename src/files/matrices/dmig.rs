@@ -16,10 +16,7 @@ pub(super) fn read(
     text: &str,
     wanted: Option<&str>,
 ) -> Result<FoundMatrices, FileError> {
-    let cards: Vec<Card> = cards(file, text)?
-        .into_iter()
-        .filter(|card| card.name == "DMIG")
-        .collect();
+    let cards = cards(file, &own_lines(text))?;
     let (headers, others): (Vec<&Card>, Vec<&Card>) =
         cards.iter().partition(|card| card.text(3) == "0");
     let mut columns: BTreeMap<&str, Vec<&Card>> = headers
@@ -43,6 +40,17 @@ pub(super) fn read(
         .map(|header| matrix(header, &columns[header.text(2)]))
         .collect::<Result<_, _>>()?;
     Ok((names, matrices))
+}
+
+/// The text with the lines of DMIG cards alone, the others empty: whatever else a file has, before and behind its bulk data.
+fn own_lines(text: &str) -> String {
+    let mut is_own = false;
+    let own = text.lines().map(|line| {
+        let continues = line.starts_with(['+', '*', ' ', '\t', ',']) && !line.trim().is_empty();
+        is_own = super::begins(line.trim_start(), "DMIG") || is_own && continues;
+        if is_own { line } else { "" }
+    });
+    own.collect::<Vec<_>>().join("\n")
 }
 
 fn matrix(header: &Card, cards: &[&Card]) -> Result<LabeledMatrix, FileError> {

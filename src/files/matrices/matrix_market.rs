@@ -1,11 +1,12 @@
 //! The exchange format of the Matrix Market (Boisvert, Pozo, Remington, NISTIR 5935, 1996).
 
-use super::Digits;
+use super::{Digits, mirrored};
 use crate::files::error::{FileError, is_not};
 use crate::sparse::SparseMatrix;
 use std::fmt::Write;
 
-/// Reads a matrix; entries of one place in the coordinate format add up.
+/// Reads a matrix; entries of one place in the coordinate format add up. A symmetric one may have both triangles where they agree, or
+/// the upper one, and complex numbers may have imaginary parts of zero.
 pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
     let wrong =
         |line: usize, what: &str, found: &str| FileError::line(file, line, is_not(found, what));
@@ -16,36 +17,31 @@ pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
     let (first, banner) = lines.next().unwrap_or((1, ""));
     let words = banner.to_ascii_lowercase();
     // The factor on the triangle that the file has gives the other one.
-    let (is_array, mirror): (bool, Option<f64>) = match words.split_whitespace().collect::<Vec<_>>()
-        [..]
+    let (is_array, is_complex, mirror): (bool, bool, Option<f64>) = match words
+        .split_whitespace()
+        .collect::<Vec<_>>()[..]
     {
         [
             _,
             "matrix",
             format @ ("array" | "coordinate"),
-            "real" | "integer",
+            numbers @ ("real" | "double" | "integer" | "unsigned-integer" | "complex"),
             symmetry,
         ] => {
             let mirror = match symmetry {
                 "general" => None,
-                "symmetric" => Some(1.0),
+                "symmetric" | "hermitian" => Some(1.0),
                 "skew-symmetric" => Some(-1.0),
                 _ => {
-                    return Err(wrong(
-                        first,
-                        "general, symmetric or skew-symmetric",
-                        symmetry,
-                    ));
+                    let what = "general, symmetric, hermitian or skew-symmetric";
+                    return Err(wrong(first, what, symmetry));
                 }
             };
-            (format == "array", mirror)
+            (format == "array", numbers == "complex", mirror)
         }
         _ => {
-            return Err(wrong(
-                first,
-                "the banner of a matrix: array or coordinate, real or integer, and its symmetry",
-                banner,
-            ));
+            let what = "the banner of a matrix: array or coordinate, real, integer or complex, and its symmetry";
+            return Err(wrong(first, what, banner));
         }
     };
     let mut lines = lines.filter(|(_, line)| !line.starts_with('%'));
@@ -91,7 +87,19 @@ pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
         (0..columns).flat_map(|column| (first_row(column)..rows).map(move |row| (row, column)));
     let (mut entries, mut read, mut digits) = (Vec::new(), 0, Digits::default());
     for (number, line) in lines {
-        let words: Vec<&str> = line.split_whitespace().collect();
+        let mut words: Vec<&str> = line.split_whitespace().collect();
+        if is_complex {
+            let imaginary = words
+                .pop()
+                .and_then(|word| word.replace(['d', 'D'], "e").parse().ok());
+            if imaginary != Some(0.0) {
+                return Err(wrong(
+                    number,
+                    "a number with an imaginary part of zero",
+                    line,
+                ));
+            }
+        }
         let (row, column, word) = match words[..] {
             [value] if is_array => {
                 let place = places.next().ok_or_else(|| too_many(number))?;
@@ -103,8 +111,9 @@ pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
                         .ok()
                         .filter(|n| (1..=most).contains(n))
                 };
+                let is_stored = |row, column| mirror == Some(1.0) || row > first_row(column - 1);
                 match (place(row, rows), place(column, columns)) {
-                    (Some(row), Some(column)) if row > first_row(column - 1) => {
+                    (Some(row), Some(column)) if is_stored(row, column) => {
                         (row - 1, column - 1, value)
                     }
                     _ => {
@@ -128,8 +137,8 @@ pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
             .ok_or_else(|| wrong(number, "a real number", word))?;
         digits.add(word);
         entries.push((row, column, value));
-        if let Some(factor) = mirror.filter(|_| row != column) {
-            entries.push((column, row, factor * value));
+        if mirror == Some(-1.0) {
+            entries.push((column, row, -value));
         }
         read += 1;
     }
@@ -141,6 +150,16 @@ pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
     if is_cut_off {
         let reason = format!("the file ends after entry {read}; the line of sizes promises more");
         return Err(FileError::line(file, end, reason));
+    }
+    if mirror == Some(1.0) {
+        entries = mirrored(entries).map_err(|(row, column)| {
+            let reason = format!(
+                "entries ({0}, {1}) and ({1}, {0}) of a symmetric matrix differ, or one of them is missing",
+                row + 1,
+                column + 1
+            );
+            FileError::line(file, first, reason)
+        })?;
     }
     let matrix = SparseMatrix::new("matrix of a file", rows, columns, entries)?;
     Ok(matrix.with_rounding(digits.rounding()))

@@ -1,7 +1,8 @@
-//! Matrices as other programs write them: Matrix Market, DMIG cards of NASTRAN, and the text of its module OUTPUT4.
+//! Matrices as other programs write them: Matrix Market, DMIG cards of NASTRAN, the text of its module OUTPUT4, and Abaqus's by labels.
 //!
 //! Memory is bounded by a file's own size: no room is reserved for what a header promises.
 
+mod abaqus;
 mod digits;
 mod dmig;
 mod matrix_market;
@@ -11,9 +12,10 @@ pub(crate) use digits::Digits;
 #[doc(hidden)]
 pub use matrix_market::write_matrix_market;
 
-use crate::files::deck::decoded;
 use crate::files::error::FileError;
+use crate::files::text::readable;
 use crate::sparse::SparseMatrix;
+use std::collections::BTreeMap;
 
 /// A grid and its component, 1 to 6, or 0 for a scalar point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -36,14 +38,18 @@ pub struct LabeledMatrix {
 }
 
 /// Reads a real matrix from a file, `name` in messages: in Matrix Market's format if it begins with `%%MatrixMarket`, as
-/// bulk data if a line begins with `DMIG`, and otherwise in that of OUTPUT4. `wanted` is the matrix's name in capitals or not,
-/// which may be left out where the file has one alone; Matrix Market has no names. Matrices of other names may be complex.
+/// bulk data if a line begins with `DMIG`, by Abaqus's labels if its first line is five numbers with commas, and otherwise in that of
+/// OUTPUT4. `wanted` is the matrix's name in capitals or not, which may be left out where the file has one alone; of several of one name
+/// `NAME@2` is the second. Matrix Market and Abaqus have no names. Matrices of other names may be complex.
 ///
 /// # Errors
 /// [`FileError::DeckLine`] and [`FileError::DeckField`] name the line of what is damaged, complex or cut off, line 1 without such a
 /// matrix; the errors of [`SparseMatrix::new`].
 pub fn read(name: &str, bytes: &[u8], wanted: Option<&str>) -> Result<LabeledMatrix, FileError> {
-    let text = decoded(bytes);
+    let text = readable(name, bytes)?;
+    if let Some(matrix) = abaqus::read(name, &text) {
+        return matrix;
+    }
     if begins(text.trim_start(), "%%MatrixMarket") {
         let matrix = matrix_market::read(name, &text)?;
         return Ok(LabeledMatrix {
@@ -54,12 +60,22 @@ pub fn read(name: &str, bytes: &[u8], wanted: Option<&str>) -> Result<LabeledMat
     }
     let is_dmig = text.lines().any(|line| begins(line.trim_start(), "DMIG"));
     let read = if is_dmig { dmig::read } else { output4::read };
-    let (names, mut found) = read(name, &text, wanted)?;
-    let one = found.pop().filter(|_| found.is_empty());
+    let numbered = wanted.and_then(|wanted| wanted.rsplit_once('@'));
+    let numbered = numbered.and_then(|(name, at)| Some((name, at.parse::<usize>().ok()?)));
+    let (names, found) = read(name, &text, numbered.map(|own| own.0).or(wanted))?;
+    let (count, place) = (found.len(), numbered.map_or(1, |own| own.1));
+    let place = place
+        .checked_sub(1)
+        .filter(|_| count == 1 || numbered.is_some());
+    let one = place.and_then(|place| found.into_iter().nth(place));
     one.ok_or_else(|| {
-        let asked = wanted.map_or("name one matrix".to_owned(), |name| {
-            format!("there is not one matrix {name}")
-        });
+        let asked = match (wanted, count) {
+            (Some(name), 2..) if numbered.is_none() => {
+                format!("there are {count} matrices {name}; name one {name}@1 or {name}@{count}")
+            }
+            (Some(name), _) => format!("there is not one matrix {name}"),
+            (None, _) => "name one matrix".to_owned(),
+        };
         let names = if names.is_empty() {
             "none".to_owned()
         } else {
@@ -71,6 +87,30 @@ pub fn read(name: &str, bytes: &[u8], wanted: Option<&str>) -> Result<LabeledMat
 
 /// Names of all matrices of a file, and those among them that are wanted.
 type FoundMatrices = (Vec<String>, Vec<LabeledMatrix>);
+
+/// Entries of a symmetric matrix, both triangles from one of them, or from both where they agree.
+///
+/// # Errors
+/// A row and a column off the diagonal of which both triangles, where both have entries, do not say the same.
+fn mirrored(entries: Vec<(usize, usize, f64)>) -> Result<Vec<(usize, usize, f64)>, (usize, usize)> {
+    let mut sums: BTreeMap<(usize, usize), f64> = BTreeMap::new();
+    for &(row, column, value) in entries.iter().filter(|entry| entry.0 != entry.1) {
+        *sums.entry((row, column)).or_default() += value;
+    }
+    let opposite = |(row, column): &(usize, usize)| sums.get(&(*column, *row));
+    if sums.keys().all(|place| opposite(place).is_none()) {
+        let others = entries.iter().filter(|entry| entry.0 != entry.1);
+        let others: Vec<_> = others
+            .map(|&(row, column, value)| (column, row, value))
+            .collect();
+        return Ok([entries, others].concat());
+    }
+    let differs = |own: &(&(usize, usize), &f64)| opposite(own.0) != Some(own.1);
+    match sums.iter().find(differs) {
+        Some((place, _)) => Err(*place),
+        None => Ok(entries),
+    }
+}
 
 fn is_wanted(name: &str, wanted: Option<&str>) -> bool {
     wanted.is_none_or(|wanted| wanted.eq_ignore_ascii_case(name))

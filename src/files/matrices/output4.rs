@@ -5,10 +5,10 @@ use crate::files::deck::number::parse_reals;
 use crate::files::error::FileError;
 use crate::sparse::SparseMatrix;
 
-/// Width of the integers of headers.
-const INTEGER: usize = 8;
-/// Widest header of a string: two integers. Headers of columns and matrices are wider.
-const STRING_HEADER: usize = 2 * INTEGER;
+/// Widths of the integers of headers.
+const INTEGERS: [usize; 2] = [8, 16];
+/// Characters of a matrix's name.
+const NAME: usize = 8;
 /// A string's header holds its words and its first row together, the words above this.
 const ROWS_IN_HEADER: usize = 65536;
 
@@ -16,6 +16,8 @@ const ROWS_IN_HEADER: usize = 65536;
 struct Lines<'a> {
     file: &'a str,
     lines: Vec<&'a str>,
+    /// Width of the integers of this matrix's headers.
+    integer: usize,
 }
 
 /// Reads the matrices of this name, or all.
@@ -30,19 +32,31 @@ pub(super) fn read(
     text: &str,
     wanted: Option<&str>,
 ) -> Result<FoundMatrices, FileError> {
-    let lines = Lines {
+    let mut lines = Lines {
         file,
         lines: text.lines().map(str::trim_end).collect(),
+        integer: INTEGERS[0],
     };
     let (mut names, mut matrices, mut at) = (Vec::new(), Vec::new(), 0);
-    while let Some(header) = lines.lines.get(at) {
+    while let Some(&header) = lines.lines.get(at) {
         if header.is_empty() {
             at += 1;
             continue;
         }
+        // Four integers, of which eight columns of the wider ones hold blanks.
+        let is_of = |width: &&usize| {
+            let columns = (0..4).map(|place| header.get(place * **width..(place + 1) * **width));
+            columns
+                .flatten()
+                .filter(|own| own.trim().parse::<i64>().is_ok())
+                .count()
+                == 4
+        };
+        lines.integer = *INTEGERS.iter().find(is_of).unwrap_or(&INTEGERS[0]);
+        let heads = 4 * lines.integer;
         let name = header
-            .get(4 * INTEGER..)
-            .map(|rest| rest.get(..INTEGER).unwrap_or(rest).trim().to_owned());
+            .get(heads..)
+            .map(|rest| rest.get(..NAME).unwrap_or(rest).trim().to_owned());
         let name = name.ok_or_else(|| lines.wrong(at, "the header of a matrix"))?;
         if is_wanted(&name, wanted) {
             let matrix = lines.matrix(&mut at)?;
@@ -53,9 +67,8 @@ pub(super) fn read(
             });
         } else {
             // Only a header has a name behind four integers.
-            let goes_on = |line: &&str| {
-                line.len() <= 4 * INTEGER || line.as_bytes()[..4 * INTEGER].contains(&b'.')
-            };
+            let goes_on =
+                |line: &&str| line.len() <= heads || line.as_bytes()[..heads].contains(&b'.');
             at += 1 + lines.lines[at + 1..]
                 .iter()
                 .take_while(|line| goes_on(line))
@@ -82,16 +95,16 @@ impl Lines<'_> {
     /// One of the integers of a header.
     fn integer(&self, at: usize, place: usize) -> Result<usize, FileError> {
         let field = self.lines.get(at).and_then(|line| {
-            let rest = line.get(place * INTEGER..)?;
-            rest.get(..INTEGER).unwrap_or(rest).trim().parse().ok()
+            let rest = line.get(place * self.integer..)?;
+            rest.get(..self.integer).unwrap_or(rest).trim().parse().ok()
         });
-        field.ok_or_else(|| self.wrong(at, "a line of integers of eight characters"))
+        field.ok_or_else(|| self.wrong(at, "a line of integers of eight characters, or of sixteen"))
     }
 
     fn is_string(&self, at: usize) -> bool {
         self.lines
             .get(at)
-            .is_some_and(|line| !line.contains('.') && line.len() <= STRING_HEADER)
+            .is_some_and(|line| !line.contains('.') && line.len() <= 2 * self.integer)
     }
 
     /// The matrix with its header at this line, which then is the next matrix's.
@@ -103,7 +116,7 @@ impl Lines<'_> {
             self.integer(*at, 3)?,
         );
         let rows: Option<i64> = header
-            .get(INTEGER..2 * INTEGER)
+            .get(self.integer..2 * self.integer)
             .and_then(|text| text.trim().parse().ok());
         let rows = rows
             .filter(|rows| *rows != 0)
@@ -122,8 +135,8 @@ impl Lines<'_> {
             "the header of a real matrix (type 1 or 2)",
         )?;
         let format = header
-            .get(5 * INTEGER..)
-            .and_then(|format| format.rsplit_once(['E', 'D', 'e', 'd']));
+            .get(4 * self.integer + NAME..)
+            .and_then(|format| format.split_once(['E', 'D', 'e', 'd']));
         let width = format
             .and_then(|(_, width)| width.split('.').next()?.parse().ok())
             .filter(|width| *width > 0);

@@ -11,11 +11,14 @@
 //!
 //! - Commas, semicolons or tabs separate cells, as in the first row that is no comment; with the latter two a decimal comma is
 //!   understood. Separators may stand within quotation marks, which are doubled there.
-//! - A row that begins with `#` is a comment, above the header also one that begins with `"#`; empty rows do not count.
+//! - A row that begins with `#` is a comment, above the header also one that begins with `"#`; empty rows do not count. Where all rows below
+//!   the header begin so, they are sensors with such names; where some do that could be sensors, the file is refused.
+//! - A first row `sep=;` names the separator.
 //! - One row, the header, has the titles of the columns, in any order and in capitals or not. `direction` must be there (x, y, z; rx,
 //!   ry, rz for rotations), `name` or `grid` or both, and a column whose title begins with `mode` for every mode. `sign` says which way
 //!   the sensor points along its axis: `+`, `-`, or empty for `+`. `x`, `y`, `z` are its place, all three or none of them.
-//!   Where titles number the modes, the numbers are 1, 2, 3 and so on from left to right, as elsewhere.
+//!   Where titles number the modes, the numbers ascend by one from left to right, from any first number; elsewhere they are 1, 2, 3.
+//!   A mode of 0 Hz is a rigid-body mode and is not compared.
 //! - A column `deviation 1` has the standard deviation of every component of mode 1, a fraction of the shape's largest component; it
 //!   takes the place of that mode's `shape_deviation`.
 //! - A mode whose column has no number but its frequency has no shape. A table of frequencies alone needs no sensors, and of titles only
@@ -24,7 +27,7 @@
 //! - Rows whose first cell is `frequency_hz` (Hz, must be there), `frequency_deviation`, `shape_deviation` (standard deviations as
 //!   fractions) or `phase_collinearity` have a number in each column of a mode. Every other row below the header is a sensor.
 
-use super::{DIRECTIONS, Sensor, TestData, default_name, real};
+use super::{DIRECTION, Sensor, TestData, default_name, direction, real};
 use crate::files::error::{FileError, is_not};
 use crate::files::inert;
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -40,8 +43,17 @@ const ROWS: [&str; 4] = [
 /// Titles of columns that are no modes.
 const TITLES: [&str; 7] = ["name", "grid", "direction", "sign", "x", "y", "z"];
 
-/// Columns of the [`TITLES`] and of the modes, and by mode the columns of their components' deviations.
-type Header = ([Option<usize>; 7], Vec<usize>, BTreeMap<usize, usize>);
+/// The columns of a table.
+struct Header {
+    /// Columns of the [`TITLES`].
+    titles: [Option<usize>; 7],
+    /// Columns of the modes.
+    modes: Vec<usize>,
+    /// Number of the first mode.
+    first: usize,
+    /// Columns of the deviations of components, by mode, from zero.
+    deviations: BTreeMap<usize, usize>,
+}
 
 /// One row, cut into cells.
 struct TestRow<'a> {
@@ -81,6 +93,7 @@ impl TestRow<'_> {
 
     fn header(&self) -> Result<Header, FileError> {
         let (mut titles, mut modes, mut deviations) = ([None; 7], Vec::new(), BTreeMap::new());
+        let mut first = None;
         for (column, cell) in self
             .cells
             .iter()
@@ -92,12 +105,11 @@ impl TestRow<'_> {
                 Some(place) if titles[place].is_none() => titles[place] = Some(column),
                 None if title.starts_with("mode") => {
                     modes.push(column);
-                    self.check_mode(column, &title, modes.len())?;
+                    self.check_mode(column, &title, modes.len(), &mut first)?;
                 }
                 None if title.starts_with("deviation") => {
                     let number = title["deviation".len()..].trim().parse::<usize>().ok();
-                    let mode = number.and_then(|number| number.checked_sub(1));
-                    if mode.is_none_or(|mode| deviations.insert(mode, column).is_some()) {
+                    if number.is_none_or(|number| deviations.insert(number, column).is_some()) {
                         return self.is_not(
                             cell,
                             "a title deviation with the number of a mode, once each",
@@ -117,27 +129,45 @@ impl TestRow<'_> {
             titles[2].is_some() && titles[..2] != [None; 2] && [0, 3].contains(&axes);
         let complete = (names_sensors || titles == [None; 7]) && !modes.is_empty();
         let what = "a header with direction, name or grid, a column for every mode, and all of x, y, z or none";
-        if let Some(mode) = deviations.keys().find(|mode| **mode >= modes.len()) {
-            let mode = mode + 1;
+        let first = first.unwrap_or(1);
+        let known = first..first + modes.len();
+        if let Some(mode) = deviations.keys().find(|mode| !known.contains(*mode)) {
             return self.wrong(format!(
                 "there is a column deviation {mode}, but no mode {mode}"
             ));
         }
+        let of_place = deviations.into_iter();
+        let deviations = of_place.map(|(number, column)| (number - first, column));
         if complete {
-            Ok((titles, modes, deviations))
+            Ok(Header {
+                titles,
+                modes,
+                first,
+                deviations: deviations.collect(),
+            })
         } else {
             self.is_not(&self.cells.join(" "), what)
         }
     }
 
-    /// Refuses the title of a mode that is there twice, or whose number is not its place.
-    fn check_mode(&self, column: usize, title: &str, place: usize) -> Result<(), FileError> {
+    /// Refuses the title of a mode that is there twice, or whose number does not follow from the first one's.
+    fn check_mode(
+        &self,
+        column: usize,
+        title: &str,
+        place: usize,
+        first: &mut Option<usize>,
+    ) -> Result<(), FileError> {
         let behind = title
             .chars()
             .skip("mode".len())
             .skip_while(|c| !c.is_alphanumeric());
         let number: String = behind.take_while(char::is_ascii_digit).collect();
-        let is_other = !number.is_empty() && number.parse() != Ok(place);
+        let number: Option<usize> = number.parse().ok();
+        let from_first = number.and_then(|number| (number + 1).checked_sub(place));
+        let from_first = from_first.filter(|first| *first > 0);
+        let is_other =
+            number.is_some() && from_first.is_none_or(|own| own != *first.get_or_insert(own));
         let cell = &self.cells[column];
         if is_other
             || self.cells[..column]
@@ -145,8 +175,9 @@ impl TestRow<'_> {
                 .any(|other| other.to_lowercase() == title)
         {
             return self.wrong(format!(
-                "column {}: this is mode {place}, but its title is \"{cell}\"; titles must differ and number modes from left to right",
-                column + 1
+                "column {}: this is mode {}, but its title is \"{cell}\"; titles must differ and number modes from left to right",
+                column + 1,
+                first.unwrap_or(1) + place - 1
             ));
         }
         Ok(())
@@ -154,9 +185,14 @@ impl TestRow<'_> {
 
     /// Refuses a row that ends before its last number, or has something beside the columns of its numbers and, of a sensor, its names.
     fn check_columns(&self, header: &Header, is_sensor: bool) -> Result<(), FileError> {
-        let (titles, modes, deviations) = header;
-        let of_sensor = || titles.iter().flatten().chain(deviations.values());
-        let own = || of_sensor().filter(|_| is_sensor).chain(modes);
+        let of_sensor = || {
+            header
+                .titles
+                .iter()
+                .flatten()
+                .chain(header.deviations.values())
+        };
+        let own = || of_sensor().filter(|_| is_sensor).chain(&header.modes);
         let (found, wanted) = (self.cells.len(), own().max().map_or(0, |last| last + 1));
         if found < wanted {
             return self.wrong(format!("the row has {found} cells and needs {wanted}"));
@@ -176,14 +212,15 @@ impl TestRow<'_> {
     /// The sensor of the row, and -1 if it points against its axis.
     fn sensor(&self, titles: &[Option<usize>; 7]) -> Result<(Sensor, f64), FileError> {
         let [name, grid, word, sign, x, y, z] = titles.map(|column| self.cell(column));
-        let Some(direction) = DIRECTIONS
-            .iter()
-            .position(|name| *name == word.to_lowercase())
-        else {
-            return self.is_not(word, "a direction x, y, z, rx, ry or rz");
+        let Some((direction, turned)) = direction(word) else {
+            return self.is_not(word, DIRECTION);
         };
         let sign = match sign {
-            "" | "+" | "1" | "+1" => 1.0,
+            "" => turned,
+            _ if word.starts_with(['+', '-']) => {
+                return self.is_not(sign, "empty, where the direction has a sign");
+            }
+            "+" | "1" | "+1" => 1.0,
             "-" | "-1" => -1.0,
             other => return self.is_not(other, "a sign + or -"),
         };
@@ -217,25 +254,37 @@ impl TestRow<'_> {
 
 pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
     let is_comment = |line: &str| line.starts_with('#') || line.starts_with("\"#");
+    let named = |line: &str| {
+        let own = line.trim_matches('"').strip_prefix("sep=")?;
+        let mut own = own.chars();
+        own.next().filter(|_| own.next().is_none())
+    };
     let lines = || {
         (1..)
             .zip(text.lines())
-            .filter(|(_, line)| !line.trim().is_empty())
+            .filter(|(_, line)| !line.trim().is_empty() && named(line.trim()).is_none())
     };
-    let separator = separator(
-        lines()
-            .find(|(_, line)| !is_comment(line))
-            .map_or("", |(_, line)| line),
-    );
+    let first = lines().find(|(_, line)| !is_comment(line));
+    let named = text.lines().find_map(|line| named(line.trim()));
+    let separator = named.unwrap_or(separator(first.map_or("", |(_, line)| line)));
     let (mut by_mode, mut header, mut rows): ([Option<TestRow>; 4], Option<Header>, Vec<TestRow>) =
         Default::default();
-    for (number, line) in lines().filter(|(_, line)| !line.starts_with('#')) {
+    let mut hashed = Vec::new();
+    for (number, line) in lines() {
         let row = TestRow {
             file,
             number,
             cells: cells(line, separator),
             separator,
         };
+        if line.starts_with('#') {
+            // Below the header a row may be a sensor whose name begins so.
+            let is_sensor = header.as_ref().is_some_and(|header: &Header| {
+                row.check_columns(header, true).is_ok() && row.sensor(&header.titles).is_ok()
+            });
+            hashed.extend(Some(row).filter(|_| is_sensor && !line.starts_with("##")));
+            continue;
+        }
         let name = row.cell(Some(0)).to_lowercase();
         if header.is_none() && is_comment(line) || row.cells.iter().all(String::is_empty) {
             continue;
@@ -257,13 +306,25 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
         FileError::line(file, text.lines().count(), reason)
     };
     let header = header.ok_or_else(|| missing("a header"))?;
+    if let Some(row) = hashed.first().filter(|_| !rows.is_empty()) {
+        return row.wrong(format!(
+            "\"{}\" may be a comment or a sensor; put the name of a sensor in quotation marks, and begin a comment with ##",
+            row.cells[0]
+        ));
+    }
+    rows.extend(hashed);
     by_mode
         .iter()
         .flatten()
         .try_for_each(|row| row.check_columns(&header, false))?;
     rows.iter()
         .try_for_each(|row| row.check_columns(&header, true))?;
-    let (titles, modes, deviations) = header;
+    let Header {
+        titles,
+        modes,
+        first,
+        deviations,
+    } = header;
     let list = |place: usize| {
         by_mode[place]
             .as_ref()
@@ -275,6 +336,9 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
         ..TestData::default()
     };
     (data.frequency_deviation, data.shape_deviation) = (list(1)?, list(2)?);
+    if first != 1 {
+        data.numbers = (first..first + modes.len()).collect();
+    }
     data.phase_collinearity = list(3)?.unwrap_or_default();
     let is_empty = |row: &TestRow, column: usize| row.cell(Some(column)).is_empty();
     let (alone, shaped): (Vec<usize>, Vec<usize>) =

@@ -11,8 +11,9 @@ mod universal_block;
 
 pub(crate) use csv::{cells, quoted, separator};
 
-use crate::files::deck::{decoded, number::parse_real};
+use crate::files::deck::number::parse_real;
 use crate::files::error::FileError;
+use crate::files::text::{decoded, readable};
 use crate::method::error::{Error, at_least_one, check_count, positive, require};
 use crate::method::linear_algebra::{check_length, check_shape};
 use crate::method::modes::Modes;
@@ -23,6 +24,23 @@ use std::collections::{BTreeMap, HashSet};
 /// Names of directions 0 to 5.
 #[doc(hidden)]
 pub const DIRECTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
+/// Forms of a direction, in errors.
+pub(crate) const DIRECTION: &str =
+    "a direction x, y, z, rx, ry or rz, 1 to 6, or UX to UZ and RX to RZ, with a sign or without";
+
+/// Direction 0 to 5 of a word and its sign: `z`, `-z`, `+Z`, `3` or `UZ`.
+pub(crate) fn direction(word: &str) -> Option<(usize, f64)> {
+    let word = word.trim().to_lowercase();
+    let bare = word.trim_start_matches(['+', '-']).trim_start();
+    let sign = if word.starts_with('-') { -1.0 } else { 1.0 };
+    let is_signed_once = word.len() - word.trim_start_matches(['+', '-']).len() < 2;
+    let letters = bare.strip_prefix('u').unwrap_or(bare);
+    let by_name = DIRECTIONS.iter().position(|name| *name == letters);
+    let by_number = bare.parse().ok().filter(|own| (1..=6).contains(own));
+    let found = by_name.or(by_number.map(|own: usize| own - 1));
+    found.filter(|_| is_signed_once).map(|own| (own, sign))
+}
 
 /// Name of a row of a matrix: its grid and direction, or its number where rows have no names.
 #[doc(hidden)]
@@ -80,6 +98,8 @@ pub struct TestData {
     pub lengths_to_meter: Option<[f64; 2]>,
     /// The file's units in its own words, if it says; nothing is converted.
     pub units: Option<String>,
+    /// Modes, from zero, of a frequency of zero: the structure moves as a rigid body, and nothing of them is compared.
+    pub rigid: Vec<usize>,
     /// Names of the sensors of a Universal File that are left out because some mode has no value at them.
     pub incomplete: Vec<String>,
     /// Numbers of the datasets of a Universal File that were not read, ascending.
@@ -96,12 +116,10 @@ impl TestData {
     pub fn check(&self) -> Result<(), Error> {
         let count = self.frequencies_hz.len();
         check_shape("test mode shapes", &self.shapes, self.sensors.len(), count)?;
-        for (mode, &value) in self.frequencies_hz.iter().enumerate() {
-            positive(
-                "frequency",
-                || format!("test mode {mode} (from zero)"),
-                value,
-            )?;
+        let vibrations = || (0..count).filter(|mode| !self.rigid.contains(mode));
+        for mode in vibrations() {
+            let owner = || format!("test mode {mode} (from zero)");
+            positive("frequency", owner, self.frequencies_hz[mode])?;
         }
         let shaped = self.shaped();
         if let (Some(_), shapes) = (shaped.first(), self.shapes.select_columns(&shaped)) {
@@ -111,7 +129,7 @@ impl TestData {
                 .collect();
             Modes::from_measured(&hertz, &shapes)?;
         }
-        at_least_one("test modes", count)?;
+        at_least_one("test modes", vibrations().count())?;
         let mut seen = HashSet::new();
         for (row, sensor) in self.sensors.iter().enumerate() {
             let numbers = sensor.place.iter().chain(&sensor.axis).flatten();
@@ -167,10 +185,18 @@ impl TestData {
         )
     }
 
-    /// Places of the modes that have shapes.
+    /// Numbers of the modes, from one, that are no rigid-body modes.
+    pub(crate) fn vibrations(&self) -> Vec<usize> {
+        let all = 1..=self.frequencies_hz.len();
+        all.filter(|number| !self.rigid.contains(&(number - 1)))
+            .collect()
+    }
+
+    /// Places of the vibrations that have shapes.
     pub(crate) fn shaped(&self) -> Vec<usize> {
         let all = 0..self.frequencies_hz.len();
-        all.filter(|mode| !self.alone.contains(mode)).collect()
+        let has_none = |mode: &usize| self.alone.contains(mode) || self.rigid.contains(mode);
+        all.filter(|mode| !has_none(mode)).collect()
     }
 }
 
@@ -179,13 +205,22 @@ impl TestData {
 /// # Errors
 /// [`FileError::DeckLine`] names file and line; the errors of [`TestData::check`].
 pub fn read(name: &str, bytes: &[u8]) -> Result<TestData, FileError> {
-    let text = decoded(bytes);
+    // A Universal File may hold datasets in binary.
+    let is_marked = bytes.trim_ascii_start().starts_with(b"-1");
+    let text = match is_marked {
+        true => decoded(bytes),
+        false => readable(name, bytes)?,
+    };
     let first = text.lines().map(str::trim).find(|line| !line.is_empty());
-    let data = if first == Some("-1") {
+    let mut data = if first == Some("-1") {
         universal::read(name, &text)?
     } else {
         csv::read(name, &text)?
     };
+    let hertz = data.frequencies_hz.iter().enumerate();
+    let still = hertz.filter(|(_, hertz)| **hertz == 0.0);
+    data.rigid = still.map(|(mode, _)| mode).collect();
+    data.alone.retain(|mode| !data.rigid.contains(mode));
     data.check()?;
     Ok(data)
 }

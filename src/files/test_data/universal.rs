@@ -8,6 +8,8 @@
 //! Only a line of these six columns and nothing else ends a block; a data line `        -1` does not. Exponents may be E or D, and
 //! full columns touch; where columns do not hold one number each, blanks separate them.
 //!
+//! Text between datasets is a remark. Coordinate systems are Cartesian or cylindrical, these with angles in degrees, of places and of motions.
+//!
 //! A mode has all directions at each of its nodes. Those that are zero in all modes count as not measured and are no sensors; the others
 //! are in ascending order of node and direction. A value that a mode leaves out was not measured in it, which is not zero: such a
 //! sensor is left out of all modes and named in [`TestData::incomplete`].
@@ -15,7 +17,7 @@
 //! with an imaginary part that is not negative is read. Velocities are divided by the circular frequency and accelerations by its
 //! square and minus one. When a shape is complex, all are made real by [`realize`], and how near they were is kept.
 
-use super::universal_axes::{ROTATION, Systems, by_matrices, by_points};
+use super::universal_axes::{Axes, ROTATION, Systems, by_matrices, by_points};
 use super::universal_block::{Block, INTEGER, LONG_REAL, REAL, VALUES, integer};
 use super::{Sensor, TestData, default_name};
 use crate::files::error::FileError;
@@ -34,6 +36,8 @@ const LENGTHS: [(&[usize], f64); 5] = [
     (&[6], 100.0),
     (&[7], 39.370_1),
 ];
+/// Rounding of a coordinate of six digits.
+const PLACE_DIGITS: f64 = 1e-5;
 /// Kinds of data that are a mode shape: unknown, general, displacement, velocity, acceleration.
 const SHAPES: [usize; 5] = [0, 1, 8, 11, 12];
 
@@ -59,8 +63,9 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
     let lines: Vec<&str> = text.lines().collect();
     let wrong = |at, what| FileError::at(file, &lines, at, what);
     let (mut found, mut at) = (FoundModes::default(), 0);
-    while let Some(blank) = lines[at..].iter().position(|line| !line.trim().is_empty()) {
-        at += blank;
+    // Text between datasets is a remark.
+    while let Some(remark) = lines[at..].iter().position(|line| line.trim() == "-1") {
+        at += remark;
         if !is_mark(lines[at]) {
             return Err(wrong(at, "the mark of a dataset, -1 in columns 5 and 6"));
         }
@@ -119,8 +124,14 @@ impl FoundModes {
                 numbers.extend(block.reals("three coordinates", &[LONG_REAL; 3])?);
             }
             let place = Vector3::from_column_slice(&numbers[4..]);
-            if self.nodes.entry(node).or_insert((place, systems, line)).0 != place {
+            let (known, of_known, _) = *self.nodes.entry(node).or_insert((place, systems, line));
+            // Dataset 15 has six digits of what dataset 2411 has all of; places in systems of their own cannot be compared here.
+            let is_apart = (known - place).amax() > PLACE_DIGITS * known.amax();
+            if of_known[0] == systems[0] && is_apart {
                 return Err(block.wrong(format!("node {node} was given at another place before")));
+            }
+            if dataset == 2411 {
+                self.nodes.insert(node, (place, [0, of_known[1]], line));
             }
         }
         Ok(())
@@ -196,12 +207,16 @@ impl FoundModes {
                 "the file has modes in datasets 55 and 2414, perhaps the same ones; keep those of one",
             ));
         }
-        if count != 3 * (characteristic - 1) || ![2, 5].contains(&data_type) {
+        if count != 3 * (characteristic - 1) || ![2, 4, 5, 6].contains(&data_type) {
             return Err(block.wrong(format!(
-                "a mode has three or six values a node, real (2) or complex (5), not characteristic {characteristic}, \
-                 {count} values of type {data_type}"
+                "a mode has three or six values a node, real (2, or 4 of double precision) or complex (5, 6), not characteristic \
+                 {characteristic}, {count} values of type {data_type}"
             )));
         }
+        let columns: &[usize] = match data_type {
+            4 | 6 => &[LONG_REAL; 3],
+            _ => &VALUES,
+        };
         let line = block.line("the integers that describe a mode")?;
         // Behind a load case in dataset 55, and behind five sets and cases in 2414.
         let place = if is_analysis { 5 } else { 3 };
@@ -227,18 +242,22 @@ impl FoundModes {
             [real, imaginary] => real.hypot(imaginary) / (2.0 * PI),
             _ => root[0],
         };
-        if frequency <= 0.0 {
-            return Err(block.is_not(frequency, "a positive frequency"));
+        if frequency < 0.0 {
+            return Err(block.is_not(frequency, "a frequency, zero of a rigid-body mode"));
         }
         let omega = 2.0 * PI * frequency;
-        let divisor = [1.0, omega, -omega * omega][specific.saturating_sub(10)];
+        // A rigid-body mode has the frequency zero and is not compared: its shape needs no scale.
+        let divisor = match frequency == 0.0 {
+            true => 1.0,
+            false => [1.0, omega, -omega * omega][specific.saturating_sub(10)],
+        };
         let mut shape = BTreeMap::new();
-        let parts = if data_type == 5 { 2 } else { 1 };
+        let parts = if data_type > 4 { 2 } else { 1 };
         while !block.is_done() {
             let node = block.integers("the number of a node", 1)?[0];
             let mut values = Vec::with_capacity(parts * count);
             while values.len() < parts * count {
-                let widths = &VALUES[..(parts * count).min(VALUES.len())];
+                let widths = &columns[..(parts * count - values.len()).min(columns.len())];
                 values.extend(block.reals("a line of a mode's values", widths)?);
             }
             for (direction, value) in values.chunks(parts).enumerate() {
@@ -257,7 +276,16 @@ impl FoundModes {
 
     fn into_data(mut self, file: &str) -> Result<TestData, FileError> {
         if self.shapes.is_empty() {
-            let datasets: Vec<String> = self.datasets.iter().map(usize::to_string).collect();
+            let of_other = |dataset: &usize| {
+                let is_data = [55, 2414].contains(dataset);
+                let about = if is_data {
+                    " of other data than modes at nodes"
+                } else {
+                    ""
+                };
+                format!("{dataset}{about}")
+            };
+            let datasets: Vec<String> = self.datasets.iter().map(of_other).collect();
             let datasets = datasets.join(", ");
             return Err(FileError::refused(
                 file,
@@ -299,20 +327,15 @@ impl FoundModes {
                 .flat_map(|(_, both, line)| both.map(|number| (number, *line)))
             {
                 let is_global = number < 2 && !self.systems.contains_key(&number);
-                if !is_global
-                    && self
-                        .systems
-                        .get(&number)
-                        .is_none_or(|axes| !axes.is_cartesian)
-                {
+                if !is_global && self.systems.get(&number).is_none_or(Axes::is_spherical) {
                     let reason = format!(
-                        "node {node} has coordinate system {number}, which is no Cartesian one of a dataset 18 or 2420 of the file"
+                        "node {node} has coordinate system {number}, which is no Cartesian or cylindrical one of a dataset 18 or 2420 of \
+                         the file"
                     );
                     return Err(FileError::line(file, line, reason));
                 }
             }
-            let to_global =
-                |place| of_place.map_or(place, |axes| axes.origin + axes.rotation * place);
+            let to_global = |place| of_place.map_or(place, |axes| axes.place(place));
             // Components below the file's six digits are round-off: snap them to zero.
             let snapped = |component: f64| {
                 if component.abs() < ROTATION {
@@ -321,12 +344,19 @@ impl FoundModes {
                     component
                 }
             };
-            let axis =
-                of_motion.map(|axes| axes.rotation.column(direction % 3).map(snapped).normalize());
             let (name, place) = (
                 default_name(node, direction),
                 at.map(|(place, ..)| to_global(*place)),
             );
+            let along = |axes: &Axes| {
+                let own = axes.directions(place.unwrap_or_default()).ok_or_else(|| {
+                    let reason =
+                        format!("node {node} is on the axis of its cylindrical coordinate system");
+                    FileError::line(file, at.map_or(1, |(.., line)| *line), reason)
+                })?;
+                Ok::<_, FileError>(own.column(direction % 3).map(snapped).normalize())
+            };
+            let axis = of_motion.map(along).transpose()?;
             data.sensors.push(Sensor {
                 name,
                 grid: Some(node),

@@ -8,13 +8,44 @@ use std::collections::BTreeMap;
 /// Deviation from a rotation that a matrix may have: the round-off of six digits.
 pub(super) const ROTATION: f64 = 1e-4;
 
-/// A Cartesian coordinate system, or one of another type, which no node may refer to.
+/// A coordinate system; no node may refer to a spherical one.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Axes {
-    pub is_cartesian: bool,
+    /// 0 of a Cartesian one, 1 of a cylindrical one, 2 of a spherical one.
+    pub kind: usize,
     pub origin: Vector3<f64>,
     /// Unit vectors along the axes, in columns.
     pub rotation: Matrix3<f64>,
+}
+
+impl Axes {
+    pub fn is_spherical(&self) -> bool {
+        self.kind > 1
+    }
+
+    /// The global place of coordinates in the system: of a cylindrical one radius, angle in degrees and height.
+    pub fn place(&self, at: Vector3<f64>) -> Vector3<f64> {
+        let (sine, cosine) = at.y.to_radians().sin_cos();
+        let at = match self.kind {
+            1 => Vector3::new(at.x * cosine, at.x * sine, at.z),
+            _ => at,
+        };
+        self.origin + self.rotation * at
+    }
+
+    /// Unit vectors along the system's directions at a global place, in columns: of a cylindrical one outward, around and along its axis;
+    /// none on that axis.
+    pub fn directions(&self, place: Vector3<f64>) -> Option<Matrix3<f64>> {
+        if self.kind == 0 {
+            return Some(self.rotation);
+        }
+        let own = self.rotation.tr_mul(&(place - self.origin));
+        let outward = own.xy().try_normalize(ROTATION * own.norm())?;
+        let turn = Matrix3::new(
+            outward.x, -outward.y, 0.0, outward.y, outward.x, 0.0, 0.0, 0.0, 1.0,
+        );
+        Some(self.rotation * turn)
+    }
 }
 
 /// Coordinate systems by their numbers; 0, and 1 if it is not there, are the global axes.
@@ -25,7 +56,7 @@ pub(super) fn by_points(block: &mut Block, systems: &mut Systems) -> Result<(), 
     while !block.is_done() {
         let numbers = block.integers("the number, type and reference of a coordinate system", 3)?;
         let global = Axes {
-            is_cartesian: true,
+            kind: 0,
             origin: Vector3::zeros(),
             rotation: Matrix3::identity(),
         };
@@ -36,7 +67,7 @@ pub(super) fn by_points(block: &mut Block, systems: &mut Systems) -> Result<(), 
             systems.get(&numbers[2])
         };
         let base = *base
-            .filter(|base| base.is_cartesian)
+            .filter(|base| base.kind == 0)
             .ok_or_else(|| block.is_not(numbers[2], what))?;
         block.line("the name of a coordinate system")?;
         let mut points = block.reals("an origin and a point on the x axis", &VALUES)?;
@@ -55,7 +86,7 @@ pub(super) fn by_points(block: &mut Block, systems: &mut Systems) -> Result<(), 
         systems.insert(
             numbers[0],
             Axes {
-                is_cartesian: numbers[1] == 0,
+                kind: numbers[1],
                 origin,
                 rotation,
             },
@@ -80,7 +111,7 @@ pub(super) fn by_matrices(block: &mut Block, systems: &mut Systems) -> Result<()
         systems.insert(
             numbers[0],
             Axes {
-                is_cartesian: numbers[1] == 0,
+                kind: numbers[1],
                 origin,
                 rotation,
             },

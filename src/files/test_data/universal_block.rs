@@ -53,7 +53,8 @@ impl<'a> Block<'a> {
         self.wrong(is_not(&found.to_string(), what))
     }
 
-    /// The numbers of the next line in columns of the given widths; the rest of the line is ignored.
+    /// The numbers of the next line in columns of the given widths, or between blanks; the rest of the line is ignored. A line that gives
+    /// other numbers by columns than by blanks is refused.
     pub fn reals(&mut self, what: &str, widths: &[usize]) -> Result<Vec<f64>, FileError> {
         let line = self.line(what)?;
         let mut start = 0;
@@ -69,10 +70,17 @@ impl<'a> Block<'a> {
                 .map(real)
                 .collect::<Option<Vec<f64>>>()
         };
-        let numbers = by_columns
-            .or_else(by_blanks)
-            .filter(|numbers| numbers.len() == widths.len());
-        numbers.ok_or_else(|| self.is_not(line.trim(), what))
+        let by_blanks = by_blanks().filter(|numbers| numbers.len() == widths.len());
+        match (by_columns, by_blanks) {
+            (Some(one), Some(other)) if one != other => Err(self.wrong(format!(
+                "\"{}\" is {what} in columns of {} and other numbers between blanks; write it in columns that do not touch",
+                line.trim(),
+                widths[0]
+            ))),
+            (by_columns, by_blanks) => by_columns
+                .or(by_blanks)
+                .ok_or_else(|| self.is_not(line.trim(), what)),
+        }
     }
 
     pub fn integers(&mut self, what: &str, count: usize) -> Result<Vec<usize>, FileError> {

@@ -94,11 +94,12 @@ pub fn deck_tables(unread: &[Unread], modes: &WholeModes, count: usize) -> Vec<T
 /// One sentence about cards that were not read.
 pub fn not_read(unread: &Unread) -> String {
     let why = match unread.reason {
-        Reason::Unknown => "not known here",
+        Reason::Unknown | Reason::Lacking => "not known here",
         Reason::Ignored => "left out by request; these modes lack what they say",
         Reason::WithoutPart => "nothing of stiffness, mass, supports or coordinates",
         Reason::NotSelected => "of a set that the first subcase does not select",
         Reason::Torsion => "torsion of rods: grids have no rotations here",
+        Reason::Untouched => "grids that no element, mass or equation touches; they are held",
     };
     format!("Not read: {}, {why}.", unread.place())
 }

@@ -45,6 +45,8 @@ fn terminal_home_time_zone_and_language_make_no_difference() {
         let written = [
             "report.html",
             "factors.csv",
+            "shapes.csv",
+            "residuals.csv",
             "correlation.json",
             "corrected.bdf",
         ];

@@ -98,7 +98,13 @@ fn a_worked_job_has_its_report_its_factors_and_its_deck() {
     for (name, is_deck) in JOBS {
         let reported = reported(name);
         let report = &reported.report;
-        let mut expected = vec!["correlation.json", "factors.csv", "report.html"];
+        let mut expected = vec![
+            "correlation.json",
+            "factors.csv",
+            "report.html",
+            "residuals.csv",
+            "shapes.csv",
+        ];
         expected.splice(0..0, is_deck.then_some("corrected.bdf"));
         expected.sort_unstable();
         assert!(reported.files.keys().eq(&expected), "{name}");
@@ -134,31 +140,53 @@ fn a_worked_job_has_its_report_its_factors_and_its_deck() {
             .comment(Some(b'#'))
             .from_reader(reported.files["factors.csv"].as_bytes());
         let rows: Vec<csv::StringRecord> = table.records().map(|row| row.expect("a row")).collect();
+        assert_eq!(rows.len(), parameters.len(), "{name}");
+        let number =
+            |row: usize, column: usize| rows[row][column].parse::<f64>().expect("a number");
         for (e, parameter) in parameters.iter().enumerate() {
-            let of = |column: &str| {
-                let mut own = rows
-                    .iter()
-                    .filter(|row| *parameter == row[1] && row[2] == *column);
-                own.next()
-                    .map(|row| row[4].parse::<f64>().expect("a number"))
-            };
-            for (column, number) in [
-                ("Factor", Some(factors[e])),
-                ("Standard deviation", deviations[e].as_f64()),
-            ] {
-                let close = |(found, number): (f64, f64)| (found / number - 1.0).abs();
-                assert_eq!(
-                    of(column).is_some(),
-                    number.is_some(),
-                    "{parameter} {column}"
-                );
+            assert_eq!(
+                (&rows[e][0], &rows[e][1]),
+                (parameter.as_str().expect("a name"), "1"),
+                "{name}"
+            );
+            assert_eq!(number(e, 2), factors[e], "{name}");
+            if let Some(deviation) = deviations[e].as_f64() {
                 assert!(
-                    of(column)
-                        .zip(number)
-                        .is_none_or(|both| close(both) < FIELD_ROUNDING)
+                    (number(e, 3) / deviation - 1.0).abs() < FIELD_ROUNDING,
+                    "{name}"
                 );
             }
+            let interval = &found["intervals"][e];
+            assert_eq!(
+                rows[e][4].parse().ok(),
+                interval["lower"].as_f64(),
+                "{name}"
+            );
+            assert_eq!(
+                rows[e][5].parse().ok(),
+                interval["upper"].as_f64(),
+                "{name}"
+            );
+            let said = ["seen", "mostly prior", "blind", "at bound", "group: "];
+            assert!(
+                said.iter().any(|said| rows[e][6].starts_with(said)),
+                "{name}: {}",
+                &rows[e][6]
+            );
         }
+        let lines = |file: &str| {
+            let lines = reported.files[file]
+                .lines()
+                .filter(|line| !line.starts_with('#'));
+            lines.skip(1).count()
+        };
+        let residuals = found["residuals"].as_array().expect("a list");
+        let shapes = residuals
+            .iter()
+            .map(|mode| mode["shape"].as_array().map_or(0, Vec::len));
+        let readings: usize = shapes.sum();
+        assert_eq!(lines("residuals.csv"), residuals.len() + readings, "{name}");
+        assert_eq!(lines("shapes.csv"), readings, "{name}");
         assert!(
             report.lines().all(|line| line.chars().count() <= 100),
             "{report}"
@@ -397,7 +425,13 @@ fn a_report_is_written_although_its_deck_cannot_be() {
     );
     assert_eq!(
         names(&out),
-        ["correlation.json", "factors.csv", "report.html"]
+        [
+            "correlation.json",
+            "factors.csv",
+            "report.html",
+            "residuals.csv",
+            "shapes.csv"
+        ]
     );
 }
 
@@ -512,7 +546,9 @@ fn a_signal_keeps_the_best_so_far() {
             "corrected.bdf",
             "correlation.json",
             "factors.csv",
-            "report.html"
+            "report.html",
+            "residuals.csv",
+            "shapes.csv"
         ]
     );
     let factors = numbers(&json(&out.join("correlation.json"))["factors"]);

@@ -172,6 +172,8 @@ fn a_directory_in_the_place_of_a_file_of_the_run_is_refused_before_the_run() {
             fixed(&[
                 "report.html",
                 "factors.csv",
+                "shapes.csv",
+                "residuals.csv",
                 "correlation.json",
                 "corrected.bdf",
             ]),

@@ -63,6 +63,7 @@ pub const KINDS: [Kind; Kind::UnitsOfTest as usize + 1] = {
         AssumedDeviations,
         NotUsed,
         NotSelected,
+        RigidModes,
         AnalysisModes,
         Mass,
         MassByDirection,

@@ -235,16 +235,15 @@ fn cards_that_are_not_understood_are_refused_unless_ignored_by_name() {
     assert_eq!(
         text(&refused.stderr),
         format!(
-            "corfem: {path}: corfem does not read CBAR (line 7, 2 cards), PBAR (line 8, 1 card), which may carry stiffness, \
-             mass, supports or coordinates; correct them, or take responsibility for leaving them out with --ignore \
-             'CBAR,PBAR'
+            "corfem: {path}: corfem lacks what CBAR (line 7, 2 cards), PBAR (line 8, 1 card) stand for, and without them the modes are \
+             others; let the program that the deck is for write the stiffness and mass, and give these (paper/matrices.md)
 "
         )
     );
     let some = corfem(&["modes", path, "--ignore", "CBAR"]);
     assert_eq!(some.status.code(), Some(2));
     assert!(
-        text(&some.stderr).contains("does not read PBAR (line 8, 1 card),"),
+        text(&some.stderr).contains("corfem lacks what PBAR (line 8, 1 card) stand for"),
         "{}",
         text(&some.stderr)
     );

@@ -1,0 +1,96 @@
+//! Results as plain rows that a script reads: one line a parameter, one line a sensor and mode.
+
+use super::report::{Report, Stage};
+use crate::files::test_data::quoted;
+use crate::job::JobResult;
+use crate::method::error::Error;
+use crate::weighted::comparison::ExactResult;
+use crate::weighted::identifiability::MOSTLY_PRIOR;
+use nalgebra::DVectorView;
+use std::fmt::Write;
+
+/// A row a parameter, `parameter,first,factor,deviation,low,high,test`: its first and its best factor, the standard deviation of the
+/// logarithm of this, the ends of its 95 % interval, empty where there is none, and what the test says of it: `seen`, `mostly prior`, `blind`,
+/// `at bound`, or `group` and the others that it does not tell from it.
+pub fn factor_rows(result: &JobResult) -> String {
+    let names: Vec<&str> = result.found.prepared.loaded.parameter_names().collect();
+    let mut text = "parameter,first,factor,deviation,low,high,test\n".to_owned();
+    for (e, name) in names.iter().enumerate() {
+        let interval = result
+            .intervals
+            .get(e)
+            .and_then(|interval| interval.as_ref().ok());
+        let ends = interval.map_or(",".to_owned(), |ends| {
+            format!("{},{}", ends.lower, ends.upper)
+        });
+        let (factor, deviation) = (result.found.factors[e], result.seen.deviations[e]);
+        let said = quoted(&said_of(result, &names, e));
+        let _ = writeln!(
+            text,
+            "{},1,{factor},{deviation},{ends},{said}",
+            quoted(name)
+        );
+    }
+    text
+}
+
+/// What the test says of a parameter.
+fn said_of(result: &JobResult, names: &[&str], e: usize) -> String {
+    let seen = &result.seen;
+    let pairs = seen.parallel.iter().map(|&(a, b, _)| vec![a, b]);
+    let groups = pairs.chain(seen.dependent.iter().cloned());
+    let others = groups
+        .filter(|group| group.contains(&e))
+        .flatten()
+        .filter(|&other| other != e);
+    let mut others: Vec<usize> = others.collect();
+    others.sort_unstable();
+    others.dedup();
+    let others: Vec<&str> = others.into_iter().map(|other| names[other]).collect();
+    match () {
+        () if result.verdict.at_bound.contains(&e) => "at bound".to_owned(),
+        () if seen.blind.contains(&e) => "blind".to_owned(),
+        () if !others.is_empty() => format!("group: {}", others.join(", ")),
+        () if seen.learned[e] < MOSTLY_PRIOR => "mostly prior".to_owned(),
+        () => "seen".to_owned(),
+    }
+}
+
+/// A row a sensor and mode, `mode,sensor,test,first,corrected`: the shapes of test, first and corrected model, each of a largest component
+/// of one and of the test's sign.
+///
+/// # Errors
+/// Those of [`Pairing::paired`](crate::method::sorting::Pairing::paired).
+pub fn shape_rows(report: &Report) -> Result<String, Error> {
+    let best = report.best.and_then(|best| report.stages.get(best));
+    let last: &ExactResult = best.map_or(&report.initial, |stage: &Stage| &stage.check);
+    let (first, last) = (paired(&report.initial)?, paired(last)?);
+    let mut text = "mode,sensor,test,first,corrected\n".to_owned();
+    for mode in 0..report.test.len() {
+        let unit = |shape: DVectorView<f64>| shape / shape.amax();
+        let [test, first, last] =
+            [&report.test, &first, &last].map(|modes| unit(modes.shapes.column(mode)));
+        for (sensor, point) in report.sensors.iter().enumerate() {
+            let (number, name) = (report.mode_numbers[mode], quoted(&point.name));
+            let [test, first, last] = [&test, &first, &last].map(|shape| shape[sensor]);
+            let _ = writeln!(text, "{number},{name},{test},{first},{last}");
+        }
+    }
+    Ok(text)
+}
+
+fn paired(result: &ExactResult) -> Result<crate::method::modes::Modes, Error> {
+    result.pairing.paired(&result.modes)
+}
+
+/// A row a residual, `mode,sensor,residual`, in standard deviations at the best factors, with an empty sensor for a frequency.
+pub fn residual_rows(report: &Report) -> String {
+    let mut text = "mode,sensor,residual\n".to_owned();
+    for own in &report.residuals {
+        let _ = writeln!(text, "{},,{}", own.mode, own.frequency);
+        for (point, residual) in report.sensors.iter().zip(&own.shape) {
+            let _ = writeln!(text, "{},{},{residual}", own.mode, quoted(&point.name));
+        }
+    }
+    text
+}

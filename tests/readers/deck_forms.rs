@@ -1,0 +1,352 @@
+//! One deck in the forms in which programs write it: what is read is the same, or the line is named.
+
+use crate::common::tolerances::ROUND_OFF;
+use corfem::files::deck::{self, BulkData, Reason};
+use corfem::method::structure::{DIRECTIONS, StructuralDof};
+use nalgebra::Vector3;
+use proptest::prelude::*;
+
+/// Two rods in a row and a mass, as fields of cards.
+const CARDS: [&str; 9] = [
+    "GRID,1,,0.,0.,0.,,123456",
+    "GRID,2,,10.5,0.,0.,,23456",
+    "GRID,3,,21.25,0.,0.,,23456",
+    "CROD,1,5,1,2",
+    "CROD,2,5,2,3",
+    "PROD,5,9,.0123",
+    "MAT1,9,1.05+7,,.3,2.5-4",
+    "CMASS2,7,.4,3,1",
+    "SPC1,1,12,1,2,3",
+];
+
+fn read(text: &str) -> BulkData {
+    let found = deck::read("forms.bdf", text.as_bytes(), &[]);
+    found
+        .unwrap_or_else(|error| panic!("{error}\n{text}"))
+        .model
+}
+
+fn said(text: &str) -> String {
+    let found = deck::read("forms.bdf", text.as_bytes(), &[]);
+    found.expect_err(text).to_string()
+}
+
+fn all() -> String {
+    CARDS.join("\n") + "\n"
+}
+
+/// Form of a line: its format, width, continuation and surroundings.
+#[derive(Debug, Clone, Copy)]
+struct Form {
+    is_free: bool,
+    is_large: bool,
+    has_tabs: bool,
+    is_lower: bool,
+    /// The way in which the fields from here on go on in another line, tagged by this character.
+    tag: Option<char>,
+    has_remark: bool,
+}
+
+/// A card in a form: a card that goes on in another line is cut behind its eighth field, or its fourth large one.
+fn formed(card: &str, form: Form, at: usize) -> String {
+    let fields: Vec<&str> = card.split(',').collect();
+    let Form {
+        is_free,
+        is_large,
+        has_tabs,
+        tag,
+        ..
+    } = form;
+    let (width, count) = if is_large { (16, 4) } else { (8, 8) };
+    let star = if is_large { "*" } else { "" };
+    let name = format!("{}{star}", fields[0]);
+    let mut lines = Vec::new();
+    let chunks: Vec<&[&str]> = fields[1..].chunks(count).collect();
+    for (part, chunk) in chunks.iter().enumerate() {
+        let mark = |first: char| format!("{first}Q{at}{part}");
+        // Field 10 may begin with any character; columns 2 to 8 count.
+        let ends = tag
+            .filter(|_| part + 1 < chunks.len())
+            .map(mark)
+            .unwrap_or_default();
+        let begin = match (part, tag) {
+            (0, _) => name.clone(),
+            (_, None) => star.to_owned(),
+            (_, Some(_)) => format!("{}Q{at}{}", if is_large { '*' } else { '+' }, part - 1),
+        };
+        if is_free {
+            let filled = chunk.join(",") + &",".repeat(count - chunk.len());
+            lines.push(format!("{begin},{filled},{ends}"));
+        } else {
+            let cells: Vec<String> = chunk
+                .iter()
+                .map(|field| format!("{field:<width$}"))
+                .collect();
+            let cells = format!("{:<64}", cells.concat());
+            // A tab ends at the next multiple of eight columns.
+            let tabbed = [
+                &[&*begin],
+                *chunk,
+                &vec![""; count - chunk.len()],
+                &[&*ends],
+            ]
+            .concat();
+            lines.push(match has_tabs {
+                true => tabbed.join("\t"),
+                false => format!("{begin:<8}{cells}{ends}"),
+            });
+        }
+    }
+    let remark = if form.has_remark {
+        "\n$ a remark, with commas\n\n"
+    } else {
+        ""
+    };
+    let text = lines.join("\n") + "\n" + remark;
+    if form.is_lower {
+        text.to_lowercase()
+    } else {
+        text
+    }
+}
+
+properties! {
+    #![proptest_config(crate::common::config())]
+
+    #[test]
+    fn cards_in_every_form_are_the_same_deck(
+        forms in prop::collection::vec(
+            (any::<[bool; 5]>(), prop::option::of(prop::sample::select(vec!['+', 'C', 'x', '0']))),
+            CARDS.len(),
+        ),
+    ) {
+        let mut text = String::new();
+        for (at, (card, ([is_free, is_large, has_tabs, is_lower, has_remark], tag))) in CARDS.iter().zip(&forms).enumerate() {
+            let form = Form {
+                is_free: *is_free,
+                is_large: *is_large,
+                has_tabs: *has_tabs && !is_large,
+                is_lower: *is_lower,
+                tag: *tag,
+                has_remark: *has_remark,
+            };
+            text += &formed(card, form, at);
+        }
+        prop_assert_eq!(read(&text), read(&all()), "{}", text);
+    }
+
+    /// A free real number of any length, with any exponent, is the number that it says.
+    #[test]
+    fn free_reals_of_any_length_are_read(value in -1e6..1e6_f64, digits in 1..25_usize, letter in prop::sample::select(vec!["E", "D", "e", ""])) {
+        let written = format!("{value:.digits$e}").replace('e', "E");
+        let (mantissa, exponent) = written.split_once('E').expect("an exponent");
+        let exponent: i32 = exponent.parse().expect("an integer");
+        let word = format!("{mantissa}{letter}{exponent:+}");
+        let grid = read(&all().replace("10.5", &word)).grids[1].position.x;
+        prop_assert_eq!(grid, written.parse::<f64>().expect("a number"), "{}", word);
+    }
+}
+
+#[test]
+fn what_stands_around_the_bulk_data_may_be_short() {
+    let model = read(&all());
+    for (head, end) in [
+        ("SPC = 1\nBEGIN BULK\n", "ENDDATA\n"),
+        ("SPC=1\nBEGIN\n", ""),
+        ("SOL 103\nCEND\nSPC=1\nBEGIN BULK SUPER=1\n", "ENDDATA"),
+        ("SUBCASE=1\n SPC = 1\nSUBCASE=2\n SPC = 3\nBEGIN BULK\n", ""),
+    ] {
+        assert_eq!(read(&format!("{head}{}{end}", all())), model, "{head}");
+    }
+    let two = format!("BEGIN BULK\n{}BEGIN BULK SUPER=2\nGRID,9\n", all());
+    assert!(
+        said(&two).contains("line 11: this is the second part of bulk data"),
+        "{}",
+        said(&two)
+    );
+}
+
+/// A line of more than ten free fields goes on as its next would.
+#[test]
+fn free_lines_of_many_fields_go_on() {
+    let grids: String = (1..=12)
+        .map(|label| format!("GRID,{label},,{label}.\n"))
+        .collect();
+    let held = |card: &str| {
+        let grids = read(&format!("{grids}{card}\n")).grids;
+        let held = grids
+            .into_iter()
+            .filter(|grid| grid.constrained == [true, false, false]);
+        held.map(|grid| grid.label).collect::<Vec<_>>()
+    };
+    assert_eq!(held("SPC1,1,1,1,2,3,4,5,6,+,7,8"), [1, 2, 3, 4, 5, 6, 7, 8]);
+    assert_eq!(
+        held("SPC1,1,1,1,2,3,4,5,6,7,8,9"),
+        [1, 2, 3, 4, 5, 6, 7, 8, 9]
+    );
+}
+
+#[test]
+fn a_card_repeats_the_one_before() {
+    let grids = read("GRID,1,,0.,2.5,0.,,13\n=,*(2),=,*(1.5),==\n=(2)\nGRID,9,,1.\n").grids;
+    let found: Vec<_> = grids
+        .iter()
+        .map(|grid| (grid.label, grid.position.x, grid.position.y))
+        .collect();
+    assert_eq!(
+        found,
+        [
+            (1, 0.0, 2.5),
+            (3, 1.5, 2.5),
+            (5, 3.0, 2.5),
+            (7, 4.5, 2.5),
+            (9, 1.0, 0.0)
+        ]
+    );
+    assert!(
+        grids[..4]
+            .iter()
+            .all(|grid| grid.constrained == [true, false, true])
+    );
+    assert!(said("=,*1\n").contains("no card before of one line"));
+    assert!(said("GRID,1\n=(2)\n").contains("repeats no card with changes"));
+    assert!(said("GRID,1\n=,*x\n").contains("an increment of the field it repeats"));
+}
+
+/// Cards that have no part in the model are left out whatever their syntax is, and those that are read are not.
+#[test]
+fn cards_without_part_may_say_anything() {
+    let model = read(&all());
+    let other = "DEQATN  1       F(A,B,C)=A*B*C+12.0*SIN(A)\n        +3.0*COS(B), very much longer than any field\n";
+    assert_eq!(read(&format!("{}{other}", all())), model);
+    let error = said(&format!(
+        "{}FORCE,1,1,,123456789012\nGRID,4,,verylongword\n",
+        all()
+    ));
+    assert!(
+        error.contains("line 11: \"VERYLONGWORD\" is longer than a field"),
+        "{error}"
+    );
+    // What is not read is listed before any slip in what is.
+    let error = said(&format!(
+        "{}CBAR,8,2,1,2\nGRID,4,,verylongword\nXYZ,1\n",
+        all()
+    ));
+    assert!(
+        error.contains("lacks what CBAR (line 10, 1 card)") && error.contains("does not read XYZ"),
+        "{error}"
+    );
+}
+
+#[test]
+fn properties_and_materials_may_be_left_to_their_defaults() {
+    let own = all()
+        .replace("CROD,2,5,", "CROD,2,,")
+        .replace("PROD,5,9,.0123", "PROD,5,9,.0123\nPROD,2,9,.5");
+    assert_eq!(read(&own).elements[1].size, 0.5);
+    let axial = all().replace("MAT1,9,1.05+7,,.3,2.5-4", "MAT1,9,1.05+7");
+    assert_eq!(read(&axial).elements[0].material.youngs_modulus, 1.05e7);
+    let panel = format!("{axial}GRID,4,,0.,5.,0.\nCTRMEM,5,6,1,2,4\nPTRMEM,6,9,.1\n");
+    assert!(
+        said(&panel).contains("a material with G or NU, which panels need"),
+        "{}",
+        said(&panel)
+    );
+    let mass = all().replace("CMASS2,7,.4,3,1", "CMASS1,7,8,3,1\nPMASS,8,.4,9,.7");
+    assert_eq!(read(&mass), read(&all()));
+}
+
+/// Grids in coordinate systems are where trigonometry puts them, and move along the axes that theirs turn to.
+#[test]
+fn coordinate_systems_move_grids_and_turn_their_directions() {
+    let systems = "\
+CORD2R,1,,1.,2.,3.,1.,2.,4.,+A
++A,1.,3.,3.
+CORD2C,2,1,0.,0.,0.,0.,0.,1.,+B
++B,1.,0.,0.
+CORD2S,3,,0.,0.,0.,0.,0.,1.,+C
++C,1.,0.,0.
+CORD1R,4,11,12,13
+GRID,11,,0.,0.,0.
+GRID,12,,0.,2.,0.
+GRID,13,,0.,0.,2.
+";
+    let grid = |fields: &str| {
+        let grids = read(&format!("{systems}GRID,20,{fields}\n")).grids;
+        grids
+            .into_iter()
+            .find(|grid| grid.label == 20)
+            .expect("the grid")
+    };
+    let near = |place: Vector3<f64>, x: f64, y: f64, z: f64| {
+        assert!(
+            (place - Vector3::new(x, y, z)).amax() < ROUND_OFF,
+            "{place}"
+        );
+    };
+    // System 1: z up from (1, 2, 3), x along y; so y along -x.
+    near(grid("1,5.,6.,7.").position, 1.0 - 6.0, 2.0 + 5.0, 3.0 + 7.0);
+    // Radius 2 at 90 degrees in it is 2 along its y.
+    near(grid("2,2.,90.,7.").position, 1.0 - 2.0, 2.0, 3.0 + 7.0);
+    // Radius 2 at 30 degrees from z, 90 degrees around.
+    near(grid("3,2.,30.,90.").position, 0.0, 1.0, 3.0_f64.sqrt());
+    // By grids: z along y, x along z, so y along x.
+    near(grid("4,5.,6.,7.").position, 6.0, 7.0, 5.0);
+    assert_eq!(
+        grid(",1.,0.,0.,1,1").constrained,
+        [false, true, false],
+        "x of system 1 is y"
+    );
+    assert_eq!(
+        grid("2,2.,90.,0.,2,1").constrained,
+        [true, false, false],
+        "outward at 90 degrees is -x"
+    );
+    let said = |fields: &str| said(&format!("{systems}GRID,20,{fields}\n"));
+    assert!(
+        said("2,2.,45.,0.,2,1").contains("oblique"),
+        "{}",
+        said("2,2.,45.,0.,2,1")
+    );
+    assert_eq!(grid("2,2.,45.,0.,2,123").constrained, [true; 3]);
+    assert!(said("7,1.").contains("\"7\" is not the number of a coordinate system's card"));
+    let circle = said(",1.\nCORD1R,5,20,21,22\nGRID,21,5\nGRID,22,5,1.");
+    assert!(
+        circle.is_empty() || circle.contains("by itself"),
+        "{circle}"
+    );
+}
+
+#[test]
+fn masses_and_equations_follow_turned_directions() {
+    let text = all().replace(
+        "GRID,3,,21.25,0.,0.,,23456",
+        "CORD2R,1,,0.,0.,0.,0.,0.,1.,+A\n+A,0.,1.,0.\nGRID,3,,21.25,0.,0.,1",
+    ) + "GRID,4,,5.,0.,0.\nMPC,1,4,1,1.,3,2,2.\nCMASS2,8,.1,4,1\n";
+    let model = read(&text.replace("CMASS2,7,.4,3,1", "CMASS2,7,.4,3,2"));
+    // Directions 1 and 2 of system 1 are y and -x.
+    assert_eq!(model.masses[0].direction, Some(0));
+    let x = StructuralDof {
+        grid: 3,
+        direction: 0,
+    };
+    assert_eq!(model.ties[0].terms, [(x, -2.0)], "{}", DIRECTIONS[0]);
+}
+
+#[test]
+fn a_grid_that_nothing_touches_is_held_and_said() {
+    let found = deck::read(
+        "forms.bdf",
+        (all() + "GRID,8,,1.\nGRID,9,,2.\n").as_bytes(),
+        &[],
+    );
+    let unread = found.expect("it reads").unread;
+    let said: Vec<_> = unread
+        .iter()
+        .map(|card| (card.place(), card.reason))
+        .collect();
+    assert_eq!(
+        said,
+        [("GRID (line 10, 2 cards)".to_owned(), Reason::Untouched)]
+    );
+}
