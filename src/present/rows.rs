@@ -9,10 +9,10 @@ use crate::weighted::identifiability::MOSTLY_PRIOR;
 use nalgebra::DVectorView;
 use std::fmt::Write;
 
-/// A row a parameter, `parameter,first,factor,deviation,low,high,test`: its first and its best factor, the standard deviation of the
-/// logarithm of this, the ends of its 95 % interval, empty where there is none, and what the test says of it: `seen`, `mostly prior`, `blind`,
-/// `at bound`, or `group` and the others that it does not tell from it.
-pub fn factor_rows(result: &JobResult) -> String {
+/// A row a parameter, `parameter,first,factor,deviation,low,high,test`: its first and its best factor, the standard deviation of this and
+/// the ends of its 95 % interval, empty where there is none, and what the test says of it: `seen`, `mostly prior`, `blind`, `at bound`, or
+/// `group` and the others that it does not tell from it.
+pub fn factor_rows(report: &Report, result: &JobResult) -> String {
     let names: Vec<&str> = result.found.prepared.loaded.parameter_names().collect();
     let mut text = "parameter,first,factor,deviation,low,high,test\n".to_owned();
     for (e, name) in names.iter().enumerate() {
@@ -23,7 +23,9 @@ pub fn factor_rows(result: &JobResult) -> String {
         let ends = interval.map_or(",".to_owned(), |ends| {
             format!("{},{}", ends.lower, ends.upper)
         });
-        let (factor, deviation) = (result.found.factors[e], result.seen.deviations[e]);
+        let factor = result.found.factors[e];
+        let deviation = report.deviations.as_ref().and_then(|all| all[e]);
+        let deviation = deviation.map_or(String::new(), |deviation| deviation.to_string());
         let said = quoted(&said_of(result, &names, e));
         let _ = writeln!(
             text,
@@ -34,7 +36,7 @@ pub fn factor_rows(result: &JobResult) -> String {
     text
 }
 
-/// What the test says of a parameter.
+/// Words for a parameter as the test sees it.
 fn said_of(result: &JobResult, names: &[&str], e: usize) -> String {
     let seen = &result.seen;
     let pairs = seen.parallel.iter().map(|&(a, b, _)| vec![a, b]);
@@ -60,7 +62,7 @@ fn said_of(result: &JobResult, names: &[&str], e: usize) -> String {
 /// of one and of the test's sign.
 ///
 /// # Errors
-/// Those of [`Pairing::paired`](crate::method::sorting::Pairing::paired).
+/// Errors of [`Pairing::paired`](crate::method::sorting::Pairing::paired).
 pub fn shape_rows(report: &Report) -> Result<String, Error> {
     let best = report.best.and_then(|best| report.stages.get(best));
     let last: &ExactResult = best.map_or(&report.initial, |stage: &Stage| &stage.check);

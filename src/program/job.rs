@@ -168,7 +168,7 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
             ("report.html".to_owned(), page.into_bytes()),
             (
                 "factors.csv".to_owned(),
-                rows::factor_rows(&result).into_bytes(),
+                rows::factor_rows(&report, &result).into_bytes(),
             ),
             (
                 "shapes.csv".to_owned(),

@@ -27,12 +27,6 @@ fn a_line_that_is_no_card_is_named() {
             "none does",
         ),
         (
-            "SPC1,1,2,2,,,,,,+A\n+,2",
-            9,
-            "this line continues a card",
-            "none before it",
-        ),
-        (
             "SPC1,1,2,2,,,,,,+A\n+A,2\n+A,2",
             10,
             "the continuation in line 9 has",

@@ -349,9 +349,9 @@ fn output4_is_read_in_its_wider_forms() {
         };
         let head: String = [2, 2, 2, 2].iter().map(|n| format!("{n:width$}")).collect();
         head + &format!("{:<8}1P,{format}\n", "KAA")
-            + &integers(&[1, 1, 4])
+            + &integers(&[1, 1, 2])
             + &(number(first) + &number(-1.0) + "\n")
-            + &integers(&[2, 1, 4])
+            + &integers(&[2, 1, 2])
             + &(number(-1.0) + &number(3e-100) + "\n")
             + &integers(&[3, 1, 1])
             + &(number(1.0) + "\n")

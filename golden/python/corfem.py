@@ -1,0 +1,51 @@
+"""Corrects a model given by arrays with the program corfem, which must be on the path or named. Needs numpy alone."""
+import json
+import pathlib
+import subprocess
+import tempfile
+
+import numpy as np
+
+
+def market(matrix):
+    """A matrix in Matrix Market's array format, every number to its last digit."""
+    matrix = np.asarray(matrix)
+    numbers = "\n".join(f"{value:.17g}" for value in matrix.T.ravel())
+    return f"%%MatrixMarket matrix array real general\n{matrix.shape[0]} {matrix.shape[1]}\n{numbers}\n"
+
+
+def correct(stiffness, mass, parts, frequencies_hz, shapes, sensors, entries="", program="corfem"):
+    """The result of a correlation as a dictionary of arrays and of what `paper/json.md` describes, with the exit status.
+
+    `parts` are the matrices of the parameters by name, `shapes` (sensors x modes) the test's at the rows `sensors` of the matrices,
+    and `entries` more lines of the job, such as '[compare]\\nshape_deviation = 0.01'.
+    """
+    files = {"stiffness.mtx": market(stiffness), "mass.mtx": market(mass)}
+    files["rows.csv"] = "grid,direction\n" + "".join(f"{row + 1},x\n" for row in range(len(stiffness)))
+    modes = ",".join(f"mode {mode + 1}" for mode in range(len(frequencies_hz)))
+    rows = [(f"{row + 1},x", shape) for row, shape in zip(sensors, shapes)]
+    table = "".join(head + "".join(f",{value:.17g}" for value in values) + "\n" for head, values in [("frequency_hz,", frequencies_hz), *rows])
+    files["test.csv"] = f"grid,direction,{modes}\n{table}"
+    job = '[model]\nstiffness = "stiffness.mtx"\nmass = "mass.mtx"\nrows = "rows.csv"\n[test]\nfile = "test.csv"\n'
+    for at, (name, part) in enumerate(parts.items()):
+        files[f"part_{at}.mtx"] = market(part)
+        job += f"[[parameter]]\nname = {json.dumps(name)}\nmatrix = \"part_{at}.mtx\"\n"
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in {**files, "job.toml": job + entries}.items():
+            pathlib.Path(folder, name).write_text(text)
+        run = subprocess.run([program, "correlate", "-q", "job.toml", "--folder", "out"], cwd=folder, capture_output=True, text=True)
+        if run.returncode not in (0, 3):
+            raise ValueError(run.stderr)
+        result = json.loads(pathlib.Path(folder, "out/correlation.json").read_text())
+    for name in ("factors", "standard_deviations", "test_frequencies_hz"):
+        result[name] = np.array(result[name], float)
+    return result | {"status": run.returncode}
+
+
+if __name__ == "__main__":
+    # Two masses on two springs, of which the second was built half as stiff again.
+    springs = [np.array([[1.0, 0], [0, 0]]), np.array([[1.0, -1], [-1, 1]])]
+    values, shapes = np.linalg.eigh(300 * springs[0] + 450 * springs[1])
+    parts = {"wall": 300 * springs[0], "link": 300 * springs[1]}
+    found = correct(sum(parts.values()), np.eye(2), parts, np.sqrt(values) / (2 * np.pi), shapes, [0, 1], program=__import__("sys").argv[1])
+    print(*np.round(found["factors"], 6), found["status"])
