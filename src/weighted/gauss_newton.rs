@@ -276,17 +276,6 @@ impl<'a> Problem<'a> {
         (pull, part)
     }
 
-    /// The objective at factors brought within their bounds.
-    pub(super) fn objective(
-        &self,
-        analyze: &mut dyn FnMut(&[f64]) -> Result<Comparison, Error>,
-        factors: &[f64],
-    ) -> Result<f64, Error> {
-        let factors = self.within(factors);
-        let residuals = residuals(&analyze(&factors)?, self.weights)?;
-        Ok(0.5 * residuals.norm_squared() + self.pull(&factors).1)
-    }
-
     /// The exact analysis at the first factors.
     fn first_at<E: From<Error>>(
         &self,
@@ -311,7 +300,10 @@ impl<'a> Problem<'a> {
             let digits = OBJECTIVE_DIGITS * place.objective;
             let least = digits.max(0.5 * self.settings.tolerance.powi(2));
             let whole = self.step(&place, 0.0)?;
-            if whole.is_none_or(|step| place.promised_fall(&step) <= least) {
+            // A place where a mode meets another is no end: its slopes are not those of the objective.
+            if !place.comparison.meets()
+                && whole.is_none_or(|step| place.promised_fall(&step) <= least)
+            {
                 break WeightedStop::Gradient;
             }
             let step = self.step(&place, damping.now)?;
@@ -428,11 +420,7 @@ impl<'a> Problem<'a> {
             .comparison
             .in_basis(basis, &place.jacobian, self.weights)
             .ok()?;
-        let mut follow = |factors: &[f64]| {
-            let both = factors.iter().zip(&place.factors);
-            let change: Vec<f64> = both.map(|(factor, from)| factor / from).collect();
-            basis.followed(&change)
-        };
+        let mut follow = basis.about(&place.factors);
         let (logs, holding) = (
             logs_of(&place.factors),
             damping * place.curvature.diagonal(),

@@ -11,6 +11,7 @@ pub mod detection;
 pub mod double_double;
 pub mod eigensolutions;
 pub mod fit;
+pub mod ends;
 pub mod five_structures;
 pub mod linearization;
 pub mod localization;
