@@ -171,7 +171,7 @@ fn compared(
 ///
 /// The sum goes over the whole basis, rigid-body modes with $\omega_r^2 = 0$ among it. It is exact with all modes, unless a
 /// condensation's $B$ moves mass. Of residuals with a covariance ([`Comparison::with_covariance`]) it leaves out what turns them within
-/// themselves (Kaufman, *BIT* 15 (1975), 49), which is orthogonal to them: the gradient $J^t r$ is exact. Modes closer than [`SEPARATION`] keep their own shapes.
+/// themselves (Kaufman, *BIT* 15 (1975), 49), which is orthogonal to them: the gradient $J^t r$ is exact. Modes whose squared frequencies are closer than a millionth keep their own shapes.
 ///
 /// # Errors
 /// Those of [`residuals`].

@@ -1032,7 +1032,12 @@ pub fn sentences() -> Vec<(&'static str, String)> {
     let [least, most, after] = left_behind(&["7", "12", "13", "14"]);
     let [report_least, report_most, report_after] = left_behind(&["12", "13", "14"]);
     let of_later = |end: &str| -> Vec<f64> {
-        let of = |name: &&str| all(&format!("/intervals_structures/{name} "), end);
+        let of = |name: &&str| {
+            all(
+                &format!("/intervals_structures/intervals_structures/{name} "),
+                end,
+            )
+        };
         BUILT_LATER.iter().flat_map(of).collect()
     };
     let later = of_later("/Held");

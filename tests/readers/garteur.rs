@@ -53,11 +53,9 @@ fn the_corrected_airplane_is_nearer_and_still_not_explained() {
     // Far beyond what eight numbers right but for their deviations make.
     assert!(corrected > 10.0 * 8.0 && !RESULT.verdict.is_within);
     // SciPy takes 33 (golden/least_squares.json) and looks for no lower place. At a wall round-off decides how many there are.
-    assert!(RESULT.found.analyses <= 50, "{}", RESULT.found.analyses);
-    // One lower place is gone to from the first wall, and steps from it end at a wall as well.
-    let taken = RESULT.found.trials.iter().filter(|trial| trial.is_taken);
-    assert!(taken.clone().all(|trial| trial.of == "lower place"));
-    assert!(taken.count() >= 1 && RESULT.found.is_lowest);
+    assert!(RESULT.found.analyses <= 40, "{}", RESULT.found.analyses);
+    // From the last wall nothing lower is found.
+    assert!(RESULT.found.is_lowest);
     // Frequencies alone are followed by shape, and where two modes change places the partner of one is another.
     let History::GaussNewton(Some(steps)) = &RESULT.found.history else {
         panic!("by weighted steps")
