@@ -13,6 +13,7 @@ use crate::weighted::lower_place::{LOWER, lower_place};
 use crate::weighted::residuals::residuals;
 use crate::weighted::starts::{WeightedHistory, from_several_starts};
 use nalgebra::DMatrix;
+use serde::Serialize;
 use std::cell::{Cell, RefCell};
 
 /// Most by which chi-squared of the numbers that two results compare may rise from one to the next: the square of three deviations, which
@@ -31,6 +32,17 @@ pub enum History {
     Paper(Box<Correlation>),
     /// By Gauss–Newton steps; none when they were stopped by request.
     GaussNewton(Option<Box<WeightedHistory>>),
+}
+
+/// A trial of another result than the one at hand, and how it ended.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Trial {
+    /// Other result that was tried: a `join` of test modes left out, the `parting` of close modes, or a `lower place` than an end.
+    pub of: &'static str,
+    /// The objective where weighted steps ended; none where they failed, and of the paper's loops.
+    pub objective: Option<f64>,
+    /// True if the result was taken.
+    pub is_taken: bool,
 }
 
 /// A job with the best factors found.
@@ -52,6 +64,10 @@ pub struct CorrelatedJob {
     pub work: Work,
     /// True if the run was stopped by request.
     pub is_interrupted: bool,
+    /// Trials of other results, in their order.
+    pub trials: Vec<Trial>,
+    /// True if nothing lower was found from places drawn about the end.
+    pub is_lowest: bool,
     /// The job with a test mode that was left out, and the first factors on the way where it resembled a mode of the model.
     joining: Option<(PreparedJob, Vec<f64>)>,
 }
@@ -77,6 +93,8 @@ struct Part<'a> {
     near: RefCell<Option<DMatrix<f64>>>,
     analyses: Cell<usize>,
     is_interrupted: Cell<bool>,
+    trials: RefCell<Vec<Trial>>,
+    is_lowest: Cell<bool>,
     joining: RefCell<Option<(PreparedJob, Vec<f64>)>>,
 }
 
@@ -110,7 +128,9 @@ impl PreparedJob {
                 next = next.or_lower(Part::new(&joined, (start, starts), caller)?.run()?);
             }
             let analyses = found.analyses + next.analyses + 1;
-            if next.is_interrupted || found.is_no_better_than(&next)? {
+            let is_taken = next.is_interrupted || found.is_no_better_than(&next)?;
+            let trials = found.trials_with(&next, "join", is_taken);
+            if is_taken {
                 next.first = joined.analyze(start)?.with_slopes()?;
                 found = next;
             } else {
@@ -120,6 +140,7 @@ impl PreparedJob {
                 found.joining = None;
             }
             found.analyses = analyses;
+            found.trials = trials;
         }
         while !found.is_interrupted
             && let Some(split) = found.prepared.split_by(&found.last)?
@@ -127,7 +148,8 @@ impl PreparedJob {
             (caller.progress)("close modes of the model have parted: compared one by one");
             let made = [(start, &found.first), (&found.factors[..], &found.last)];
             let split = split.with_analyses(made);
-            let next = Part::new(&split, (&found.factors, 1), caller)?.run()?;
+            let mut next = Part::new(&split, (&found.factors, 1), caller)?.run()?;
+            next.trials = found.trials_with(&next, "parting", true);
             found = found.and_then(next, split.analyze(start)?.with_slopes()?);
         }
         Ok(found)
@@ -144,6 +166,25 @@ impl CorrelatedJob {
             Ok(joined.map(|joined| (joined, self.factors.clone())))
         };
         on_the_way.map_or_else(at_end, |found| Ok(Some(found)))
+    }
+
+    /// The objective where weighted steps have ended.
+    fn objective(&self) -> Option<f64> {
+        match &self.history {
+            History::GaussNewton(Some(steps)) => Some(steps.best.objective),
+            _ => None,
+        }
+    }
+
+    /// The trials so far, those within another result, and that of it.
+    fn trials_with(&self, next: &Self, of: &'static str, is_taken: bool) -> Vec<Trial> {
+        let objective = next.objective();
+        let own = [Trial {
+            of,
+            objective,
+            is_taken,
+        }];
+        [&self.trials[..], &next.trials, &own].concat()
     }
 
     /// The result of steps from where these have ended, with groups of test modes split, and the first model so compared.
@@ -166,10 +207,7 @@ impl CorrelatedJob {
     /// The lower of two results of weighted steps with the same test modes, with the minima that the other's starts have found.
     fn or_lower(self, other: Self) -> Self {
         let analyses = self.analyses + other.analyses;
-        let objective = |found: &Self| match &found.history {
-            History::GaussNewton(Some(steps)) => steps.best.objective,
-            _ => f64::INFINITY,
-        };
+        let objective = |found: &Self| found.objective().unwrap_or(f64::INFINITY);
         let is_lower = objective(&other) <= objective(&self);
         let mut lower = if is_lower { other.clone() } else { self };
         if let (History::GaussNewton(Some(own)), History::GaussNewton(Some(steps))) =
@@ -205,6 +243,8 @@ impl<'a> Part<'a> {
             near: RefCell::new(None),
             analyses: Cell::new(1),
             is_interrupted: Cell::new(false),
+            trials: RefCell::default(),
+            is_lowest: Cell::new(false),
             joining: RefCell::new(None),
         })
     }
@@ -266,6 +306,8 @@ impl<'a> Part<'a> {
             analyses: self.analyses.get(),
             work: self.prepared.loaded.source.whole.work(),
             is_interrupted: self.is_interrupted.get(),
+            trials: self.trials.into_inner(),
+            is_lowest: self.is_lowest.get(),
             joining: self.joining.into_inner(),
         })
     }
@@ -330,13 +372,25 @@ impl<'a> Part<'a> {
         for _ in 0..if is_followed { MOST_LEFT } else { 0 } {
             let size = 2 * prepared.modes.len() + ranges.len().min(MOST_DEFLECTIONS);
             let place = lower_place(&run, size, ranges, &weights, &settings, seed)?;
-            match place.map(|place| steps_from(&place)) {
-                Some(Ok(next)) if next.objective < run.objective - LOWER => {
-                    run = run.and_then(next);
-                }
-                Some(Err(FileError::Interrupted)) => return Err(FileError::Interrupted),
-                _ => break,
-            }
+            self.is_lowest.set(place.is_none());
+            let Some(place) = place else { break };
+            let next = match steps_from(&place) {
+                Err(FileError::Interrupted) => return Err(FileError::Interrupted),
+                next => next.ok(),
+            };
+            let objective = next.as_ref().map(|next| next.objective);
+            let is_taken = objective.is_some_and(|there| there < run.objective - LOWER);
+            self.trials.borrow_mut().push(Trial {
+                of: "lower place",
+                objective,
+                is_taken,
+            });
+            // What was lower in the basis alone is not.
+            self.is_lowest.set(!is_taken);
+            let Some(next) = next.filter(|_| is_taken) else {
+                break;
+            };
+            run = run.and_then(next);
         }
         Ok(run)
     }

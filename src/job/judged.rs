@@ -2,7 +2,7 @@
 
 use super::concern::{Check, Concern, Kind, Trust};
 use super::correlated::{Caller, CorrelatedJob, History};
-use super::verdict::{Judged, Outcome, Verdict, sum_of_nine_modes};
+use super::verdict::{Judged, Outcome, Stationary, Verdict, sum_of_nine_modes};
 use super::{LeftOut, PreparedJob};
 use crate::files::error::FileError;
 use crate::method::error_sum::mode_errors;
@@ -68,8 +68,10 @@ impl CorrelatedJob {
         let misfit = self.misfit(&verdict.at_bound)?;
         let seen_first = self.sees(&self.first, 1.0)?;
         let seen = self.sees(&self.last, misfit.widening())?;
-        // Weighted steps are judged by the noise that weighs them, where a wrong model would have failed.
-        if matches!(self.history, History::GaussNewton(_)) && misfit.is_by_noise() {
+        // Weighted steps are judged by the noise that weighs them, where a wrong model would have failed; not those that ended short.
+        let is_short = matches!(verdict.outcome, Outcome::Wall | Outcome::Cap);
+        let is_weighted = matches!(self.history, History::GaussNewton(_));
+        if is_weighted && misfit.is_by_noise() && !is_short {
             (verdict.outcome, verdict.is_within) = match misfit.can_fail() {
                 true => (Outcome::Tolerance, true),
                 false => (Outcome::Untested, false),
@@ -127,7 +129,14 @@ impl CorrelatedJob {
         };
         let errors = self.last.mode_errors()?;
         let sum = sum_of_nine_modes(&self.last.result()?.errors);
-        Ok(judged.verdict(outcome, (sum, &errors), &self.factors, false))
+        let is_stationary = found.is_some_and(|run| run.stop == WeightedStop::Gradient);
+        Ok(Verdict {
+            stationary: is_stationary.then_some(match self.is_lowest {
+                true => Stationary::Lowest,
+                false => Stationary::NotLookedFrom,
+            }),
+            ..judged.verdict(outcome, (sum, &errors), &self.factors, false)
+        })
     }
 
     /// What there is to know after the steps.
@@ -231,12 +240,15 @@ impl JobResult {
             .model
             .in_basis(Deflections::All(prepared.deflections()))?;
         let basis = model.in_basis(basis, &exact, &weights)?;
-        let follow = |at: &[f64]| {
-            let change: Vec<f64> = at.iter().zip(factors).map(|(at, from)| at / from).collect();
-            basis.followed(&change)
-        };
         let widening = self.misfit.widening();
-        self.intervals = intervals(&follow, factors, &ranges, &weights, &settings, widening)?;
+        self.intervals = intervals(
+            &basis.about(factors),
+            factors,
+            &ranges,
+            &weights,
+            &settings,
+            widening,
+        )?;
         self.found.work = prepared.loaded.source.whole.work();
         Ok(self.with_reasons())
     }

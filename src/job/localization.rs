@@ -26,6 +26,14 @@ pub struct Suspect {
     pub evidence: f64,
 }
 
+impl Suspect {
+    /// True if the factor is where the search of [`by_single_fit`] ends: a larger or smaller one may explain more.
+    pub fn is_at_edge(&self) -> bool {
+        let edge = SPACING * f64::from(PLACES);
+        self.factor.log10().abs() > edge - FINEST
+    }
+}
+
 /// By the change $|c - 1|$ that the unlimited factors (13) of the first iteration ask for, the largest first.
 ///
 /// # Errors

@@ -39,7 +39,7 @@ pub use concern::{Concern, Kind, Trust};
 #[doc(hidden)]
 pub use concerns::of_bodies;
 #[doc(hidden)]
-pub use correlated::{CorrelatedJob, History};
+pub use correlated::{CorrelatedJob, History, Trial};
 #[doc(hidden)]
 pub use entries::removed_step;
 pub use judged::{JobResult, run};

@@ -24,7 +24,7 @@ const RESIDUAL_VECTORS: usize = 4;
 const EQUAL: f64 = 3e-9;
 
 /// Distance from the optimum, in deviations, at which weighted steps stop: no interval shows it.
-const TOLERANCE: f64 = 1e-3;
+const TOLERANCE: f64 = 1e-5;
 
 /// A test mode that is not compared, why, and its largest modal assurance with any mode of the model.
 #[derive(Debug, Clone, Copy, PartialEq)]

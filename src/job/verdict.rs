@@ -34,11 +34,24 @@ pub enum Outcome {
     Nothing,
 }
 
+/// End of weighted steps at a place where the objective is stationary.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Stationary {
+    /// Steps from places drawn in a basis about it have found nothing lower.
+    Lowest,
+    /// Nothing lower was looked for, or the steps were led to a lower place for the last time.
+    NotLookedFrom,
+}
+
 /// Verdict on a correlation, at its best factors.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Verdict {
     /// Reason why it ended.
     pub outcome: Outcome,
+    /// End of weighted steps, if the objective is stationary there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stationary: Option<Stationary>,
     /// Whether the exact modes at the best factors meet the tolerances.
     pub is_within: bool,
     /// Error sum there: the number that the tolerance is compared with.
@@ -78,6 +91,7 @@ impl Judged<'_> {
         let is_unseen = |e: &usize| factors[*e] * self.seen[*e] < UNSEEN_SHARE;
         Verdict {
             outcome,
+            stationary: None,
             is_within,
             error_sum,
             worst_mode,

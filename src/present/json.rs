@@ -13,7 +13,7 @@ use crate::files::test_data::DIRECTIONS;
 use crate::files::turns;
 use crate::job::concern::Answered;
 use crate::job::verdict::Verdict;
-use crate::job::{Trust, of_bodies};
+use crate::job::{Trial, Trust, of_bodies};
 use crate::method::inner_loop::Iteration;
 use crate::method::step::Bounds;
 use crate::method::step::Limit;
@@ -100,6 +100,7 @@ struct ReportValue<'a> {
     minima: &'a [Minimum],
     failed_starts: usize,
     starts: &'a [Option<StartEnd>],
+    trials: &'a [Trial],
     intervals: Vec<Value>,
     residuals: &'a [ModeResiduals],
     at_bound: Vec<bool>,
@@ -184,6 +185,7 @@ pub fn report(report: &Report) -> Result<Value, PresentError> {
         minima: &report.minima,
         failed_starts: report.failed_starts(),
         starts: &report.starts,
+        trials: &report.trials,
         intervals: report.intervals.iter().map(interval).collect(),
         residuals: &report.residuals,
         at_bound: factors.iter().enumerate().map(at_bound).collect(),

@@ -1,7 +1,8 @@
 //! The verdict on a correlation in words.
 
-use crate::job::verdict::{Outcome, Verdict};
+use crate::job::verdict::{Outcome, Stationary, Verdict};
 use crate::torque_box::CaseResult;
+use crate::weighted::lower_place::PLACES;
 
 /// The verdict in sentences, with the parameters' names and the numbers of the test modes; places from one stand for those that
 /// have none. The criterion it is `judged` by stands first; without one that is the tolerance.
@@ -16,6 +17,12 @@ pub fn verdict_in_words(
         indices.iter().map(name).collect::<Vec<_>>().join(", ")
     };
     let end = match verdict.outcome {
+        _ if verdict.stationary == Some(Stationary::Lowest) => &format!(
+            " Steps ended at a stationary place, and nothing lower was found from {PLACES} others."
+        ),
+        _ if verdict.stationary.is_some() => {
+            " Steps ended at a stationary place; nothing lower was looked for from there."
+        }
         Outcome::Tolerance | Outcome::Untested => "",
         Outcome::LocalMinimum => " No further step lowered it.",
         Outcome::Wall => {

@@ -15,10 +15,10 @@ use std::ops::{Range, RangeInclusive};
 use std::sync::{Arc, Mutex};
 
 /// Largest error of what the modes left out add to a slope, relative to it. It moves the end of weighted steps by at most as much times
-/// the root of chi-squared, in deviations: by less than a thousandth up to a chi-squared of a thousand.
-const SLOPE_ERROR: f64 = 3e-5;
-/// Most terms of the series for it: a mode left out within 3 % of one that is compared needs as many.
-const MOST_TERMS: usize = 20;
+/// the root of chi-squared, in deviations: by the tolerance of a job's steps at a chi-squared of a hundred.
+const SLOPE_ERROR: f64 = 1e-6;
+/// Most terms of the series for it: a mode left out within 4 % of one that is compared needs as many.
+const MOST_TERMS: usize = 26;
 /// Most deflections of one parameter's own: more add less than the lowest mode left out.
 const MOST_EACH: usize = 4;
 /// Sensors whose deflections are held at once.

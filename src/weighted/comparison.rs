@@ -1,7 +1,7 @@
 //! A model beside a test as weighted steps compare them: with groups of close modes, frequencies without shapes, and what is known of
 //! the errors of components.
 
-use super::close_modes::turned;
+use super::close_modes::{SEPARATION, members, turned};
 use crate::method::analysis::State;
 #[cfg(feature = "program")]
 use crate::method::analysis::{Analysis, DERIVATIVE_STEP};
@@ -10,6 +10,7 @@ use crate::method::error_sum::{Errors, ModeError, mode_errors};
 use crate::method::linear_algebra::{check_shape, cholesky};
 use crate::method::model::Model;
 use crate::method::modes::Modes;
+use crate::method::perturbation::SMALLEST_SEPARATION;
 use crate::method::sorting::{Pairing, pair_modes};
 use crate::sparse::{Candidates, ModeWeight, ParameterMatrix, SensorModel, cosines};
 use nalgebra::{DMatrix, DVector};
@@ -251,6 +252,31 @@ impl Comparison {
             Some(shapes) => followed.followed_by_shape(shapes),
             None => Ok(followed),
         }
+    }
+
+    /// The comparisons that follow from this one, of a model at some `factors`, at others in the basis of the model.
+    pub(crate) fn about(&self, factors: &[f64]) -> impl Fn(&[f64]) -> Result<Self, Error> {
+        move |at| {
+            let change = at.iter().zip(factors).map(|(at, from)| at / from);
+            self.followed(&change.collect::<Vec<_>>())
+        }
+    }
+
+    /// True if a compared mode meets another one that is not compared together with it: apart, but by less than [`SEPARATION`], so that its
+    /// slopes are not told.
+    pub(super) fn meets(&self) -> bool {
+        let State { modes, pairing, .. } = &self.model.exact;
+        let roots = &modes.omega_squared;
+        let meets = |i: usize, r: usize, members: &[usize]| {
+            let apart = (roots[i] / roots[r] - 1.0).abs();
+            !members.contains(&r) && apart > SMALLEST_SEPARATION && apart <= SEPARATION
+        };
+        (0..self.model.test.len()).any(|j| {
+            let members = members(pairing, &self.test.together, j);
+            members
+                .iter()
+                .any(|&i| (0..modes.len()).any(|r| meets(i, r, &members)))
+        })
     }
 
     /// This comparison with exact slopes ([`SensorModel::with_slopes`]).

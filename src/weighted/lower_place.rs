@@ -6,17 +6,15 @@ use crate::method::error::Error;
 use crate::method::step::Bounds;
 use crate::sparse::{Deflections, ModeWeight};
 
-/// Number of places that are looked at in the basis,
-const PLACES: usize = 20;
-/// and of the lowest of them from which steps go on.
-const STARTS: usize = 3;
+/// Random places in the basis from which steps start.
+pub const PLACES: usize = 20;
 /// Fall of the objective below an end that is worth to go on: a chi-squared of two thousandths, which no test can tell.
 pub(crate) const LOWER: f64 = 1e-3;
 /// Most steps in the basis from a place.
 const TRIALS: usize = 12;
 
-/// The factors of the lowest place that steps from the three lowest of twenty random ones ([`draw`]) find in a basis of the modes at an
-/// end and of so many deflections of all parameters, if it is lower there than the end by more than a thousandth. In the basis frequencies far from the end
+/// The factors of the lowest place that steps from [`PLACES`] random ones ([`draw`]) find in a basis of the modes at an end and of so many
+/// deflections of all parameters, if it is lower there than the end by more than a thousandth. In the basis frequencies far from the end
 /// are too high, never too low: an exact analysis decides what the place is worth.
 ///
 /// # Errors
@@ -36,19 +34,12 @@ pub(crate) fn lower_place(
         ..settings.clone()
     };
     let problem = Problem::new(end.factors.len(), ranges, weights, &settings)?;
-    let mut follow = |at: &[f64]| {
-        let both = at.iter().zip(&end.factors);
-        basis.followed(&both.map(|(at, from)| at / from).collect::<Vec<_>>())
-    };
+    let mut follow = basis.about(&end.factors);
     // The basis has a minimum of its own near the end.
     let (own, _) = problem.lowest(&mut follow, &end.factors, (LOWER, 0.0))?;
-    let mut state = seed;
-    let firsts = (0..PLACES).map(|_| draw(ranges.len(), &mut state));
-    let firsts = firsts.filter_map(|at| Some((problem.objective(&mut follow, &at).ok()?, at)));
-    let mut firsts: Vec<(f64, Vec<f64>)> = firsts.collect();
-    firsts.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-    let (mut least, mut place) = (own - LOWER, None);
-    for (_, first) in firsts.into_iter().take(STARTS) {
+    let (mut least, mut place, mut state) = (own - LOWER, None, seed);
+    for _ in 0..PLACES {
+        let first = draw(ranges.len(), &mut state);
         let found = problem.lowest(&mut follow, &first, (LOWER, 0.0));
         if let Some((objective, factors)) = found.ok().filter(|(found, _)| *found < least) {
             (least, place) = (objective, Some(factors));

@@ -3,10 +3,9 @@
 use crate::method::analysis::State;
 use crate::method::error::Error;
 use crate::method::modes::Modes;
-use crate::method::perturbation::SMALLEST_SEPARATION;
 use crate::method::sorting::Pairing;
 use crate::sparse::{ModeWeight, SensorModel, check_weights, finite, solve_lower};
-use crate::weighted::close_modes::{Nearest, members, nearest};
+use crate::weighted::close_modes::{Nearest, SEPARATION, members, nearest};
 use crate::weighted::comparison::{Comparison, Correction, Test};
 use crate::weighted::noise::Noise;
 use nalgebra::{DMatrix, DVector, Dyn, QR, RowDVector};
@@ -172,7 +171,7 @@ fn compared(
 ///
 /// The sum goes over the whole basis, rigid-body modes with $\omega_r^2 = 0$ among it. It is exact with all modes, unless a
 /// condensation's $B$ moves mass. Of residuals with a covariance ([`Comparison::with_covariance`]) it leaves out what turns them within
-/// themselves (Kaufman, *BIT* 15 (1975), 49), which is orthogonal to them: the gradient $J^t r$ is exact. Modes closer than [`SMALLEST_SEPARATION`] keep their own shapes.
+/// themselves (Kaufman, *BIT* 15 (1975), 49), which is orthogonal to them: the gradient $J^t r$ is exact. Modes whose squared frequencies are closer than a millionth keep their own shapes.
 ///
 /// # Errors
 /// Those of [`residuals`].
@@ -286,7 +285,7 @@ impl Slopes {
     fn added(&self, i: usize, members: &[usize], mut couplings: DMatrix<f64>) -> DMatrix<f64> {
         let k = &self.k;
         for (r, mut row) in couplings.row_iter_mut().enumerate() {
-            let (apart, held) = (k[i] - k[r], SMALLEST_SEPARATION * k[i].max(k[r]));
+            let (apart, held) = (k[i] - k[r], SEPARATION * k[i].max(k[r]));
             if apart.abs() > held && !members.contains(&r) {
                 row /= apart;
             } else {

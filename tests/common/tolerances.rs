@@ -318,3 +318,7 @@ pub const SAME_LOOPS: f64 = 1e-9;
 /// Slopes of residuals relative to the largest, beside central differences of exact analyses: a thousandth of what the modes left out
 /// add is allowed, and shapes are found to 1e-8, over a step of 1e-4.
 pub const EXACT_SLOPES: f64 = 2e-3;
+/// Slope of the objective, in deviations of a parameter, where weighted steps stop by their gradient: the tolerance of a job's steps.
+pub const STATIONARY: f64 = 1e-5;
+/// Error of slopes, relative to them: it moves a stop by as much times the root of chi-squared, in deviations.
+pub const SLOPES_TOLD: f64 = 1e-6;

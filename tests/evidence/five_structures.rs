@@ -3,8 +3,10 @@
 
 use super::readings_rates::normal;
 use crate::common::jobs::{Files, of_whole};
+use crate::common::test_files::write_csv;
 use crate::common::whole_models::{masses, sparse};
 use crate::readers::job_errors::{placed, with};
+use corfem::files::test_data::TestData;
 use corfem::job::concern::{Check, Grade};
 use corfem::job::{Concern, Kind, LoadedJob, Trust, run};
 use corfem::sparse::{WholeModel, WholeParameter, WholeShare};
@@ -12,8 +14,6 @@ use corfem::weighted::intervals::Withheld;
 use corfem::weighted::noise::Noise;
 use nalgebra::{DMatrix, DVector};
 
-/// Test modes.
-const MODES: usize = 5;
 /// Standard deviation of the logarithm of the true factors.
 const MODEL: f64 = 0.15;
 /// Noise of the tests, which they declare.
@@ -46,17 +46,54 @@ pub const MISTAKES: [Mistake; 5] = {
 /// Matrices of the parameters, the mass of every row, and the rows that sensors read.
 pub type Built = (Vec<DMatrix<f64>>, Vec<f64>, Vec<usize>);
 
-/// A structure by name, how many motions of a rigid body it has, and what builds it.
-pub type Structure = (&'static str, usize, fn() -> Built);
+/// A structure by name.
+pub struct Structure {
+    /// Its name.
+    pub name: &'static str,
+    /// Number of its motions as a rigid body.
+    rigid: usize,
+    /// Number of test modes.
+    modes: usize,
+    /// Number of right tests of a study of its corrections.
+    pub tests: usize,
+    /// What builds it.
+    build: fn() -> Built,
+}
 
-/// The five structures.
-pub const STRUCTURES: [Structure; 5] = [
-    ("portal", 0, portal),
-    ("girder", 0, girder),
-    ("free truss", 3, free_truss),
-    ("plate", 0, plate),
-    ("cyclic disk", 0, disk),
+/// Number of the first structures of which the pre-flight is asked.
+pub const FIVE: usize = 5;
+
+/// The five structures, then one of 660 degrees of freedom and one of 32 parameters.
+pub const STRUCTURES: [Structure; 7] = [
+    held("portal", portal),
+    held("girder", girder),
+    Structure {
+        rigid: 3,
+        ..held("free truss", free_truss)
+    },
+    held("plate", || plate(5, 7, 1, 2)),
+    held("cyclic disk", disk),
+    Structure {
+        tests: 100,
+        ..held("fine plate", || plate(22, 30, 4, 7))
+    },
+    Structure {
+        modes: 10,
+        tests: 40,
+        ..held("tower", tower)
+    },
 ];
+
+/// A structure that is held, with five test modes and three hundred tests.
+const fn held(name: &'static str, build: fn() -> Built) -> Structure {
+    Structure {
+        name,
+        rigid: 0,
+        modes: 5,
+        tests: 300,
+        build,
+    }
+}
 
 /// Bending stiffness of a beam of a length, at the deflections and rotations of its ends.
 fn bending(length: f64, stiffness: f64) -> DMatrix<f64> {
@@ -223,9 +260,9 @@ fn free_truss() -> Built {
     (parts, mass, sensors)
 }
 
-/// A plate on four edges by differences, in five strips: the squares of its curvatures.
-fn plate() -> Built {
-    let (across, along) = (5, 7);
+/// A plate on four edges by differences, in five strips or six of so many rows: the squares of its curvatures. A sensor at every so
+/// manyth point.
+fn plate(across: usize, along: usize, rows: usize, apart: usize) -> Built {
     let count = across * along;
     let at = |row: usize, column: usize| along * row + column;
     let mut curvature = DMatrix::zeros(count, count);
@@ -246,12 +283,36 @@ fn plate() -> Built {
     }
     let strip = |strip: usize| {
         let own = DMatrix::from_fn(count, count, |i, j| {
-            f64::from(u8::from(i == j && i / along == strip))
+            f64::from(u8::from(i == j && i / along / rows == strip))
         });
         1e4 * curvature.transpose() * own * &curvature
     };
-    let sensors = (0..count).filter(|own| own % 2 == 0).collect();
-    ((0..across).map(strip).collect(), vec![2.0; count], sensors)
+    let sensors = (0..count).filter(|own| own % apart == 0).collect();
+    let strips = (0..across.div_ceil(rows)).map(strip);
+    (strips.collect(), vec![2.0; count], sensors)
+}
+
+/// A tower of eight stories, clamped at its feet, with a parameter for each column, beam and brace: sensors along both axes at its points.
+fn tower() -> Built {
+    let points: Vec<[f64; 2]> = (0..18)
+        .map(|at| [3.0 * f64::from(at % 2), 2.0 * f64::from(at / 2)])
+        .collect();
+    let story = |at: usize| {
+        let (left, upper) = (2 * at, 2 * at + 2);
+        let members = [
+            (left, upper),
+            (left + 1, upper + 1),
+            (upper, upper + 1),
+            (left, upper + 1),
+        ];
+        (4 * at..)
+            .zip(members)
+            .map(|(parameter, (a, b))| (a, b, parameter))
+    };
+    let members: Vec<_> = (0..8).flat_map(story).collect();
+    let (parts, mass, kept) = frame(&points, &members, 32, &[0, 1, 2, 3, 4, 5]);
+    let sensors = (0..kept.len()).filter(|place| kept[*place] % 3 != 2);
+    (parts, mass, sensors.collect())
 }
 
 /// Twelve sectors of a disk with a blade each: every blade and every part of the rim are two parameters' by turns; sensors at the blades.
@@ -285,10 +346,10 @@ fn disk() -> Built {
 fn files(
     model: &WholeModel,
     parameters: usize,
-    (sensors, rigid): (&[usize], usize),
+    (sensors, modes, rigid): (&[usize], usize, usize),
     noise: Noise,
 ) -> Files {
-    let files = of_whole(model, &vec![1.0; parameters], sensors, MODES, noise);
+    let files = of_whole(model, &vec![1.0; parameters], sensors, modes, noise);
     let files = with(
         files,
         "job.toml",
@@ -321,7 +382,12 @@ pub struct Counts {
 
 /// A structure with its job, whose test declares a noise.
 fn built(structure: usize, noise: Noise) -> (WholeModel, LoadedJob, usize, Vec<usize>) {
-    let (_, rigid, build) = STRUCTURES[structure];
+    let Structure {
+        rigid,
+        modes,
+        build,
+        ..
+    } = STRUCTURES[structure];
     let (parts, mass, sensors) = build();
     let of_part = |(number, part): (usize, &DMatrix<f64>)| WholeParameter {
         name: format!("p{number}"),
@@ -331,7 +397,7 @@ fn built(structure: usize, noise: Noise) -> (WholeModel, LoadedJob, usize, Vec<u
     let parameters: Vec<_> = parts.iter().enumerate().map(of_part).collect();
     let stiffness = sparse(&parts.iter().sum()).expect("a stiffness");
     let model = WholeModel::new(stiffness, masses(&mass), parameters).expect("a model");
-    let (_folder, path) = placed(&files(&model, parts.len(), (&sensors, rigid), noise));
+    let (_folder, path) = placed(&files(&model, parts.len(), (&sensors, modes, rigid), noise));
     let first = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
     (model, first, parts.len(), sensors)
 }
@@ -350,6 +416,8 @@ pub struct Corrections {
     pub given: Vec<usize>,
     /// Intervals that hold the truth.
     pub held: Vec<usize>,
+    /// Intervals given by tests that are accepted, and those of them that hold the truth.
+    pub accepted_intervals: [usize; 2],
     /// Parameters known mostly from the prior, which have none for that.
     pub mostly_prior: usize,
     /// Tests that end with nothing against the result.
@@ -375,8 +443,13 @@ pub fn corrections(structure: usize, noise: Noise, tests: usize) -> Corrections 
             shape: times * noise.shape,
             frequency: times * noise.frequency,
         };
-        let right = (&model, &truth[..], &sensors[..]);
-        measure(&mut loaded, right, (Mistake::None, noise), &mut state);
+        let right = Right {
+            model: &model,
+            factors: &truth,
+            rows: &sensors,
+            modes: STRUCTURES[structure].modes,
+        };
+        measure(&mut loaded, &right, noise, &mut state);
         let prepared = loaded.prepare().unwrap_or_else(|error| panic!("{error}"));
         let trust = Trust::before(&prepared).unwrap_or_else(|error| panic!("{error}"));
         let result = run(&prepared, &trust, |_| {}, || true);
@@ -388,12 +461,106 @@ pub fn corrections(structure: usize, noise: Noise, tests: usize) -> Corrections 
         }
         all.accepted += usize::from(is_accepted);
         for (e, interval) in result.intervals.iter().enumerate() {
-            all.given[e] += usize::from(interval.is_ok());
-            all.held[e] += usize::from(interval.is_ok_and(|ends| ends.contains(truth[e])));
+            let own = [
+                interval.is_ok(),
+                interval.is_ok_and(|ends| ends.contains(truth[e])),
+            ];
+            all.given[e] += usize::from(own[0]);
+            all.held[e] += usize::from(own[1]);
+            for (count, own) in all.accepted_intervals.iter_mut().zip(own) {
+                *count += usize::from(own && is_accepted);
+            }
             all.mostly_prior += usize::from(*interval == Err(Withheld::MostlyPrior));
         }
     }
     all
+}
+
+/// Lines of a table of rates by the corrections of a structure: intervals given of parameters that the test decides, that hold the
+/// truth, in the mean and of the parameter that is held least often, and in the mean of tests that are accepted, right tests accepted, and tests with three times the noise found.
+pub fn interval_rates(structure: usize, noise: Noise) -> String {
+    let Structure { name, tests, .. } = STRUCTURES[structure];
+    let all = corrections(structure, noise, tests);
+    let given: usize = all.given.iter().sum();
+    let decided = all.given.len() * tests - all.mostly_prior;
+    let each = all.held.iter().zip(&all.given);
+    let each = each.filter(|(_, given)| 2 * **given > tests);
+    let percent = |count: usize, of: usize| 100.0 * count as f64 / of as f64;
+    let least = each.map(|(held, given)| percent(*held, *given));
+    let row = format!(
+        "{name} {}/{} %",
+        100.0 * noise.frequency,
+        100.0 * noise.shape
+    );
+    let cells = [
+        ("Tests", tests as f64),
+        ("Parameters", all.given.len() as f64),
+        ("Given", percent(given, decided)),
+        ("Held", percent(all.held.iter().sum(), given)),
+        ("Least held", least.fold(100.0, f64::min)),
+        (
+            "Held of accepted",
+            percent(all.accepted_intervals[1], all.accepted_intervals[0]),
+        ),
+        ("Accepted", percent(all.accepted, tests)),
+        ("Found", percent(all.found, tests)),
+    ];
+    let line = |(column, value)| format!("intervals_structures,{row},{column},,{value},\n");
+    cells.map(line).concat()
+}
+
+/// Lines of a table of rates by the corrections of a structure, each by the mean of so many repeats of a test that declare no deviations.
+pub fn repeat_rates(structure: usize, noise: Noise, repeats: usize, tests: usize) -> String {
+    let Structure { name, modes, .. } = STRUCTURES[structure];
+    let (model, first, parameters, sensors) = built(structure, noise);
+    let mut state = 31 + repeats as u64;
+    let (mut given, mut held, mut accepted) = (0, vec![0; parameters], 0);
+    for _ in 0..tests {
+        let factors = drawn(parameters, &mut state);
+        let right = Right {
+            model: &model,
+            factors: &factors,
+            rows: &sensors,
+            modes,
+        };
+        let mut files = files(&model, parameters, (&sensors, modes, 0), noise);
+        let names: Vec<String> = (0..repeats).map(|at| format!("\"{at}.csv\"")).collect();
+        let names = format!("repeats = [{}]", names.join(", "));
+        files = with(files, "job.toml", "file = \"test.csv\"", &names);
+        for at in 0..repeats {
+            let mut loaded = LoadedJob::clone(&first);
+            measure(&mut loaded, &right, noise, &mut state);
+            let data = TestData {
+                frequency_deviation: None,
+                shape_deviation: None,
+                ..loaded.data
+            };
+            files.push((format!("{at}.csv"), write_csv(&data)));
+        }
+        let (_folder, path) = placed(&files);
+        let prepared = LoadedJob::new(&path).and_then(LoadedJob::prepare);
+        let prepared = prepared.unwrap_or_else(|error| panic!("{error}"));
+        let trust = Trust::before(&prepared).unwrap_or_else(|error| panic!("{error}"));
+        let result = run(&prepared, &trust, |_| {}, || true);
+        let result = result.unwrap_or_else(|error| panic!("{error}"));
+        accepted += usize::from(result.verdict.is_within && result.trust.is_clear());
+        for ((held, interval), truth) in held.iter_mut().zip(&result.intervals).zip(&factors) {
+            given += usize::from(interval.is_ok());
+            *held += usize::from(interval.is_ok_and(|ends| ends.contains(*truth)));
+        }
+    }
+    let percent = |count: usize, of: usize| 100.0 * count as f64 / of as f64;
+    let least = held.iter().copied().min().unwrap_or_default();
+    let cells = [
+        ("Given", percent(given, parameters * tests)),
+        ("Held", percent(held.iter().sum(), given)),
+        ("Least held", percent(least, given / parameters)),
+        ("Accepted", percent(accepted, tests)),
+    ];
+    let line = |(column, value)| {
+        format!("intervals_repeats,{name} of {repeats} files,{column},,{value},\n")
+    };
+    cells.map(line).concat()
 }
 
 /// Counts of tests of a structure with a mistake.
@@ -403,8 +570,14 @@ pub fn counts(structure: usize, mistake: Mistake, tests: usize) -> Counts {
     for _ in 0..tests {
         let truth = drawn(parameters, &mut state);
         let mut loaded = LoadedJob::clone(&first);
-        let right = (&model, &truth[..], &sensors[..]);
-        let wrong = measure(&mut loaded, right, (mistake, NOISE), &mut state);
+        let right = Right {
+            model: &model,
+            factors: &truth,
+            rows: &sensors,
+            modes: STRUCTURES[structure].modes,
+        };
+        measure(&mut loaded, &right, NOISE, &mut state);
+        let wrong = spoil(&mut loaded.data, mistake, &mut state);
         let prepared = loaded.prepare().unwrap_or_else(|error| panic!("{error}"));
         let trust = Trust::before(&prepared).unwrap_or_else(|error| panic!("{error}"));
         let stands: Vec<&Concern> = trust
@@ -437,22 +610,31 @@ pub fn counts(structure: usize, mistake: Mistake, tests: usize) -> Counts {
     found
 }
 
-/// A test of a true model with a mistake: the kind of doubt that names it, and the sensors that it is about.
-fn measure(
-    loaded: &mut LoadedJob,
-    (model, truth, rows): (&WholeModel, &[f64], &[usize]),
-    (mistake, noise): (Mistake, Noise),
-    state: &mut u64,
-) -> (Kind, Vec<String>) {
-    // The lowest modes that move the sensors by a twentieth of their largest motion: others no test finds.
-    let real = model.modes(truth, 2 * MODES).expect("modes").vibrations;
+/// True model, and the rows and modes of it that a test has.
+pub struct Right<'a> {
+    /// The model.
+    pub model: &'a WholeModel,
+    /// Its true factors.
+    pub factors: &'a [f64],
+    /// Rows with sensors.
+    pub rows: &'a [usize],
+    /// Number of test modes.
+    pub modes: usize,
+}
+
+/// A test of a true model with noise: the lowest modes that move the sensors by a twentieth of their largest motion, for others no test
+/// finds.
+pub fn measure(loaded: &mut LoadedJob, right: &Right, noise: Noise, state: &mut u64) {
+    let most = (2 * right.modes).min(right.model.dof_count() - 1);
+    let real = right.model.modes(right.factors, most);
+    let real = real.expect("modes").vibrations;
     let is_seen = |mode: &usize| {
         let shape = real.shapes().column(*mode);
-        shape.select_rows(rows).amax() > 0.05 * shape.amax()
+        shape.select_rows(right.rows).amax() > 0.05 * shape.amax()
     };
-    let seen: Vec<usize> = (0..real.len()).filter(is_seen).take(MODES).collect();
+    let seen: Vec<usize> = (0..real.len()).filter(is_seen).take(right.modes).collect();
     let data = &mut loaded.data;
-    let mut shapes = real.shapes().select_rows(rows).select_columns(&seen);
+    let mut shapes = real.shapes().select_rows(right.rows).select_columns(&seen);
     for mut shape in shapes.column_iter_mut() {
         shape /= shape.amax();
         shape.apply(|own| *own += noise.shape * normal(state));
@@ -461,11 +643,17 @@ fn measure(
     data.frequencies_hz = hertz
         .map(|hertz| hertz * (1.0 + noise.frequency * normal(state)))
         .collect();
-    let a = super::readings_rates::below(state, rows.len());
-    let b = (a + 1 + super::readings_rates::below(state, rows.len() - 1)) % rows.len();
+    data.shapes = shapes;
+}
+
+/// Makes a mistake in a test's readings: the kind of doubt that names it, and the sensors that it is about.
+fn spoil(data: &mut TestData, mistake: Mistake, state: &mut u64) -> (Kind, Vec<String>) {
+    let rows = data.sensors.len();
+    let a = super::readings_rates::below(state, rows);
+    let b = (a + 1 + super::readings_rates::below(state, rows - 1)) % rows;
     let name = |place: usize| data.sensors[place].name.clone();
-    let one = vec![name(a)];
-    let wrong = match mistake {
+    let (one, shapes) = (vec![name(a)], &mut data.shapes);
+    match mistake {
         Mistake::None => (Kind::NoPair, Vec::new()),
         Mistake::Reversed => {
             shapes.row_mut(a).neg_mut();
@@ -476,16 +664,14 @@ fn measure(
             (Kind::Gain, one)
         }
         Mistake::Dead => {
-            shapes
-                .row_mut(a)
-                .apply(|own| *own = noise.shape * normal(state));
+            let own = |own: &mut f64| *own = NOISE.shape * normal(state);
+            shapes.row_mut(a).apply(own);
             (Kind::Dead, one)
         }
         Mistake::Exchanged => {
-            shapes.swap_rows(a, b);
-            (Kind::Exchanged, vec![name(a.min(b)), name(a.max(b))])
+            let both = vec![name(a.min(b)), name(a.max(b))];
+            data.shapes.swap_rows(a, b);
+            (Kind::Exchanged, both)
         }
-    };
-    data.shapes = shapes;
-    wrong
+    }
 }

@@ -10,6 +10,7 @@ pub mod detection;
 pub mod eigensolutions;
 pub mod enclosed;
 pub mod fit;
+pub mod ends;
 pub mod five_structures;
 pub mod linearization;
 pub mod localization;

@@ -175,11 +175,11 @@ fn chi_squared(jobs: u64, repeats: u64, modes: &str, test: impl Fn(u64) -> TestD
     (mean, (squares / (count - 1.0) / count).sqrt())
 }
 
-/// By variances estimated from eight tests, from two and three in common, and by covariances: chi-squared is right in the mean.
+/// By variances estimated from twenty tests, from two, three and eight in common, and by covariances: chi-squared is right in the mean.
 #[test]
 fn chi_squared_by_estimated_deviations_is_right_in_the_mean() {
     let exact = exact();
-    for (jobs, repeats) in [(60, 8), (60, 3), (60, 2)] {
+    for (jobs, repeats) in [(60, 20), (60, 8), (60, 3), (60, 2)] {
         let (mean, error) = chi_squared(jobs, repeats, ALL, |seed| noisy(&exact, seed));
         assert!(
             (mean - 1.0).abs() < STANDARD_ERRORS * error,
@@ -312,12 +312,13 @@ fn a_covariance_is_that_of_what_is_compared() {
     let loaded = loaded(&files);
     // By hand: frequencies over their deviations, of shapes the four floors that are left, and R (R − p − 2) with eight numbers.
     let hertz = |mode: usize| DMatrix::from_fn(1, 13, |_, test| tests[test].frequencies_hz[mode]);
+    // All frequencies of so few files have one deviation, of five modes that have twelve numbers each.
+    let off = |mode: usize| (hertz(mode) / hertz(mode).mean()).add_scalar(-1.0);
+    let squares: f64 = (0..5).map(|mode| off(mode).norm_squared()).sum();
+    let deviation = (squares / (5.0 * 12.0 - 2.0) / 13.0).sqrt();
     let (mut apart, mut along) = (DMatrix::zeros(10, 13), DMatrix::zeros(10, 2));
     for (place, mode) in [1, 3].into_iter().enumerate() {
-        let relative = hertz(mode) / hertz(mode).mean();
-        let off = relative.add_scalar(-1.0);
-        let deviation = (off.norm_squared() / (13.0 * 10.0)).sqrt();
-        apart.set_row(5 * place, &(off / deviation).row(0));
+        apart.set_row(5 * place, &(off(mode) / deviation).row(0));
         let deviations = &loaded.loaded.data.component_deviation[&mode];
         for (number, floor) in [0, 1, 3, 4].into_iter().enumerate() {
             let row = 5 * place + 1 + number;
@@ -342,4 +343,29 @@ fn a_covariance_is_that_of_what_is_compared() {
     // What goes together counts: variances alone would make other residuals of the same numbers.
     let variances = DMatrix::from_diagonal(&covariance.diagonal());
     assert!((by_hand(&variances) - &found).amax() > 0.1 * found.amax());
+}
+
+/// Modes that are held out leave the others their covariance: it needs no more tests, and their residuals are those of a job without them.
+#[test]
+fn modes_held_out_leave_the_covariance_of_the_others() {
+    let exact = exact();
+    let tests: Vec<TestData> = (1..=13).map(|seed| correlated(&exact, seed)).collect();
+    let held = with(
+        repeated(&tests, "[1, 2, 3]"),
+        "job.toml",
+        "[test]",
+        "[test]\nhold_out = [3]",
+    );
+    let of = |files: &Files| {
+        let loaded = loaded(files);
+        let comparison = loaded.analyze(&[1.0; 10]).unwrap();
+        residuals(&comparison, &loaded.weights()).unwrap()
+    };
+    let (with_held, without) = (of(&held), of(&repeated(&tests, "[1, 2]")));
+    assert!(is_whitened(&loaded(&held)));
+    assert_eq!((with_held.len(), without.len()), (18, 12));
+    // Signs of a triangular factor are free, and the held mode weighs nothing.
+    let apart = with_held.rows(0, 12).norm() / without.norm() - 1.0;
+    assert!(apart.abs() < MATRIX_ROUND_OFF, "{apart}");
+    assert!(with_held.rows(12, 6).amax() < MATRIX_ROUND_OFF * without.amax());
 }

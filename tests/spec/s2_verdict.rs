@@ -242,6 +242,7 @@ fn advice_goes_by_the_outcome() {
         verdict_in_words(
             &Verdict {
                 outcome,
+                stationary: None,
                 is_within,
                 error_sum: 0.03,
                 worst_mode: 0,

@@ -140,6 +140,7 @@ impl Report {
             work: Some(found.work),
             minima,
             starts,
+            trials: found.trials.clone(),
             intervals: intervals.clone(),
             residuals: mode_residuals(found)?,
             moved: moved(found),

@@ -5,7 +5,7 @@ mod case;
 
 use crate::job::concern::Grade;
 use crate::job::verdict::Verdict;
-use crate::job::{Kind, Trust};
+use crate::job::{Kind, Trial, Trust};
 use crate::method::analysis::DERIVATIVE_STEP;
 use crate::method::error::Error;
 use crate::method::error_sum::Errors;
@@ -99,6 +99,8 @@ pub struct Report {
     pub minima: Vec<Minimum>,
     /// The end of every start of weighted steps; none where it failed.
     pub starts: Vec<Option<StartEnd>>,
+    /// Trials of other results, in their order.
+    pub trials: Vec<Trial>,
     /// The interval of every parameter, or why it has none; none of a report without a result.
     pub intervals: Vec<Result<Bounds, Withheld>>,
     /// Residuals at the best factors over their standard deviations, of every test mode, those without shapes last.
@@ -225,6 +227,7 @@ impl Report {
             work: None,
             minima: Vec::new(),
             starts: Vec::new(),
+            trials: Vec::new(),
             intervals: Vec::new(),
             residuals: Vec::new(),
             truth: Vec::new(),

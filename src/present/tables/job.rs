@@ -182,6 +182,14 @@ pub fn suspects_table(prepared: &PreparedJob) -> Result<Table, FileError> {
         counted(left, "parameter explains", "parameters explain")
     );
     let shown = || suspects.iter().take(MOST_SUSPECTS);
+    let at_edge: Vec<&str> = shown()
+        .filter(|suspect| suspect.is_at_edge())
+        .map(|suspect| &parameters[suspect.parameter].name[..])
+        .collect();
+    let edge = format!(
+        "At the edge of the search, beyond which more may be explained: {}.",
+        at_edge.join(", ")
+    );
     let slope = |parameter: usize| {
         slopes
             .iter()
@@ -215,6 +223,7 @@ pub fn suspects_table(prepared: &PreparedJob) -> Result<Table, FileError> {
             ),
         )
         .notes([note])
+        .notes((!at_edge.is_empty()).then_some(edge))
         .notes((left > 0).then_some(less)))
 }
 

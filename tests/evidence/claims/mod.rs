@@ -6,6 +6,7 @@ pub mod delta_wing_correlation;
 pub mod delta_wing_scenario;
 pub mod detection;
 pub mod eigensolutions;
+pub mod ends;
 pub mod five_structures;
 pub mod linearization;
 pub mod matrix_comparison;
