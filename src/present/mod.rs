@@ -24,6 +24,8 @@ pub mod table;
 pub mod verdict;
 #[doc(hidden)]
 pub mod tables;
+#[doc(hidden)]
+pub mod universal;
 
 use crate::files::error::FileError;
 use crate::method::error::Error;

@@ -4,6 +4,7 @@ use super::report::{Report, Stage};
 use crate::files::test_data::quoted;
 use crate::job::JobResult;
 use crate::method::error::Error;
+use crate::method::modes::Modes;
 use crate::weighted::comparison::ExactResult;
 use crate::weighted::identifiability::MOSTLY_PRIOR;
 use nalgebra::DVectorView;
@@ -64,14 +65,11 @@ fn said_of(result: &JobResult, names: &[&str], e: usize) -> String {
 /// # Errors
 /// Errors of [`Pairing::paired`](crate::method::sorting::Pairing::paired).
 pub fn shape_rows(report: &Report) -> Result<String, Error> {
-    let best = report.best.and_then(|best| report.stages.get(best));
-    let last: &ExactResult = best.map_or(&report.initial, |stage: &Stage| &stage.check);
-    let (first, last) = (paired(&report.initial)?, paired(last)?);
+    let all = shapes(report)?;
     let mut text = "mode,sensor,test,first,corrected\n".to_owned();
     for mode in 0..report.test.len() {
         let unit = |shape: DVectorView<f64>| shape / shape.amax();
-        let [test, first, last] =
-            [&report.test, &first, &last].map(|modes| unit(modes.shapes.column(mode)));
+        let [test, first, last] = all.each_ref().map(|modes| unit(modes.shapes.column(mode)));
         for (sensor, point) in report.sensors.iter().enumerate() {
             let (number, name) = (report.mode_numbers[mode], quoted(&point.name));
             let [test, first, last] = [&test, &first, &last].map(|shape| shape[sensor]);
@@ -81,8 +79,12 @@ pub fn shape_rows(report: &Report) -> Result<String, Error> {
     Ok(text)
 }
 
-fn paired(result: &ExactResult) -> Result<crate::method::modes::Modes, Error> {
-    result.pairing.paired(&result.modes)
+/// Modes of the test, and those paired with them of the first and of the corrected model, signed alike.
+pub(super) fn shapes(report: &Report) -> Result<[Modes; 3], Error> {
+    let best = report.best.and_then(|best| report.stages.get(best));
+    let last: &ExactResult = best.map_or(&report.initial, |stage: &Stage| &stage.check);
+    let paired = |of: &ExactResult| of.pairing.paired(&of.modes);
+    Ok([report.test.clone(), paired(&report.initial)?, paired(last)?])
 }
 
 /// A row a residual, `mode,sensor,residual`, in standard deviations at the best factors, with an empty sensor for a frequency.

@@ -17,6 +17,7 @@ const REPLACED: [(&str, &[&str]); 5] = [
             "report.html",
             "factors.csv",
             "shapes.csv",
+            "shapes.unv",
             "residuals.csv",
             "correlation.json",
             "corrected.bdf",
@@ -93,6 +94,10 @@ fn signed(path: &Path, bytes: &[u8], run: &str) -> Vec<u8> {
             format!("<!-- {} -->\n", run.replace("--", "- -")),
         ),
         Some("csv") => (0, format!("# {run}\n")),
+        Some("unv") => (
+            0,
+            format!("    -1\n   151\n{run}\n{}    -1\n", "NONE\n".repeat(6)),
+        ),
         Some("json") => (
             after_line(bytes),
             format!("  \"run\": {},\n", serde_json::json!(run)),

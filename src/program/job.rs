@@ -19,6 +19,7 @@ use corfem::present::tables::job::{
     inputs_table, minima_table, places_table, seen_table, suspects_table, trust_table,
 };
 use corfem::present::tables::report::{factor_table, history_table, paired_table};
+use corfem::present::universal::universal;
 use corfem::present::{PresentError, json, rows};
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -48,7 +49,7 @@ pub struct CorrelateArguments {
     /// The job: corfem init explains its entries
     #[arg(value_name = "JOB")]
     job: PathBuf,
-    /// Also write report.html, factors.csv, shapes.csv, residuals.csv, correlation.json and the corrected deck into this folder, created if new
+    /// Also write report.html, factors.csv, shapes.csv, shapes.unv, residuals.csv, correlation.json and the corrected deck into this folder, created if new
     #[arg(long, value_name = "DIR")]
     folder: Option<PathBuf>,
     /// Start Gauss-Newton steps from this many points: the model itself, and others drawn from the seed
@@ -173,6 +174,10 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
             (
                 "shapes.csv".to_owned(),
                 rows::shape_rows(&report)?.into_bytes(),
+            ),
+            (
+                "shapes.unv".to_owned(),
+                universal(&report, &prepared.loaded.placed)?.into_bytes(),
             ),
             (
                 "residuals.csv".to_owned(),

@@ -80,7 +80,7 @@ fn deflection_table(wing: &DeltaWing, load: TipLoad) -> Result<Table, PresentErr
         TipLoad::TrailingEdge => ("te", "trailing edge"),
         TipLoad::LeadingEdge => ("le", "leading edge"),
     };
-    let mut others = vec![
+    let others = [
         (
             "NASTRAN 1995",
             format!("{short}_1995_in"),
@@ -88,10 +88,8 @@ fn deflection_table(wing: &DeltaWing, load: TipLoad) -> Result<Table, PresentErr
             SMALL_PERCENT,
         ),
         ("Measured", format!("{short}_experiment_in"), READ, PERCENT),
+        ("Analog", format!("{short}_analog_in"), READ, PERCENT),
     ];
-    if load == TipLoad::TrailingEdge {
-        others.push(("Analog", "te_analog_in".to_owned(), READ, PERCENT));
-    }
     let title = format!(
         "Delta wing: deflections under {} lbf down at the tip's {long}, grid {}",
         wing.tip_load,

@@ -149,7 +149,7 @@ fn reading_of_each_case() -> Table {
         "Part",
     )
     .headings(["Reading", "Because"], "");
-    let relative = "its gages lie nearest to the printed ones";
+    let relative = "its gages lie nearest to the printed ones or within a point of the nearest";
     let rows = [
         (
             "Case 1",

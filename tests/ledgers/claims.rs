@@ -122,7 +122,9 @@ fn claims_of_documents() -> BTreeMap<(String, String), String> {
     for (document, text) in documents() {
         for paragraph in paragraphs(&text) {
             for sentence in sentences(&paragraph) {
-                if WORDS.iter().any(|word| sentence.contains(word)) {
+                // Names of readings stand in backticks or without.
+                let plain = sentence.replace('`', "");
+                if WORDS.iter().any(|word| plain.contains(word)) {
                     all.insert((document.clone(), sentence.to_owned()), paragraph.clone());
                 }
             }

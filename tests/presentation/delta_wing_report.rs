@@ -31,7 +31,7 @@ fn wing_as_tables() {
         names,
         [
             ("delta_wing_deflections_te", 9, 7),
-            ("delta_wing_deflections_le", 9, 5),
+            ("delta_wing_deflections_le", 9, 7),
             ("delta_wing_frequencies", 3, 5),
             ("delta_wing_groups", 21, 5),
             ("delta_wing_modes", 12, 12),

@@ -46,6 +46,7 @@ fn terminal_home_time_zone_and_language_make_no_difference() {
             "report.html",
             "factors.csv",
             "shapes.csv",
+            "shapes.unv",
             "residuals.csv",
             "correlation.json",
             "corrected.bdf",

@@ -1,7 +1,7 @@
 //! `corfem correlate` and `corfem check JOB` from outside: what they print, write and leave alone.
 
 use crate::common::jobs::folder_of;
-use crate::common::tolerances::{FIELD_ROUNDING, WEIGHTED_FACTOR};
+use crate::common::tolerances::{FIELD_ROUNDING, ROUND_OFF, UNIVERSAL_ROUNDING, WEIGHTED_FACTOR};
 use crate::presentation::program::cli::{corfem, numbers, text};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -104,6 +104,7 @@ fn a_worked_job_has_its_report_its_factors_and_its_deck() {
             "report.html",
             "residuals.csv",
             "shapes.csv",
+            "shapes.unv",
         ];
         expected.splice(0..0, is_deck.then_some("corrected.bdf"));
         expected.sort_unstable();
@@ -141,27 +142,26 @@ fn a_worked_job_has_its_report_its_factors_and_its_deck() {
             .from_reader(reported.files["factors.csv"].as_bytes());
         let rows: Vec<csv::StringRecord> = table.records().map(|row| row.expect("a row")).collect();
         assert_eq!(rows.len(), parameters.len(), "{name}");
-        let number =
-            |row: usize, column: usize| rows[row][column].parse::<f64>().expect("a number");
         for (e, parameter) in parameters.iter().enumerate() {
             assert_eq!(
                 (&rows[e][0], &rows[e][1]),
                 (parameter.as_str().expect("a name"), "1"),
                 "{name}"
             );
-            assert_eq!(number(e, 2), factors[e], "{name}");
-            assert_eq!(rows[e][3].parse().ok(), deviations[e].as_f64(), "{name}");
+            let same = |column: usize, expected: &Value| {
+                let found: Option<f64> = rows[e][column].parse().ok();
+                let expected = expected.as_f64();
+                assert_eq!(found.is_some(), expected.is_some(), "{name}");
+                let apart = found
+                    .zip(expected)
+                    .map_or(0.0, |(a, b)| (a / b - 1.0).abs());
+                assert!(apart < ROUND_OFF, "{name}: {apart:e}");
+            };
+            same(2, &found["factors"][e]);
+            same(3, &deviations[e]);
             let interval = &found["intervals"][e];
-            assert_eq!(
-                rows[e][4].parse().ok(),
-                interval["lower"].as_f64(),
-                "{name}"
-            );
-            assert_eq!(
-                rows[e][5].parse().ok(),
-                interval["upper"].as_f64(),
-                "{name}"
-            );
+            same(4, &interval["lower"]);
+            same(5, &interval["upper"]);
             let said = ["seen", "mostly prior", "blind", "at bound", "group: "];
             assert!(
                 said.iter().any(|said| rows[e][6].starts_with(said)),
@@ -182,6 +182,15 @@ fn a_worked_job_has_its_report_its_factors_and_its_deck() {
         let readings: usize = shapes.sum();
         assert_eq!(lines("residuals.csv"), residuals.len() + readings, "{name}");
         assert_eq!(lines("shapes.csv"), readings, "{name}");
+        // The Universal File has the shapes of all three, at the sensors' grids.
+        let shapes =
+            corfem::files::test_data::read("shapes.unv", reported.files["shapes.unv"].as_bytes());
+        let shapes = shapes.expect("a Universal File");
+        let hertz = numbers(&found["test_frequencies_hz"]);
+        assert_eq!(shapes.frequencies_hz.len(), 3 * hertz.len(), "{name}");
+        for (written, hertz) in shapes.frequencies_hz.iter().zip(&hertz) {
+            assert!((written / hertz - 1.0).abs() < UNIVERSAL_ROUNDING, "{name}");
+        }
         assert!(
             report.lines().all(|line| line.chars().count() <= 100),
             "{report}"
@@ -470,7 +479,8 @@ fn a_report_is_written_although_its_deck_cannot_be() {
             "factors.csv",
             "report.html",
             "residuals.csv",
-            "shapes.csv"
+            "shapes.csv",
+            "shapes.unv",
         ]
     );
 }
@@ -588,7 +598,8 @@ fn a_signal_keeps_the_best_so_far() {
             "factors.csv",
             "report.html",
             "residuals.csv",
-            "shapes.csv"
+            "shapes.csv",
+            "shapes.unv",
         ]
     );
     let factors = numbers(&json(&out.join("correlation.json"))["factors"]);

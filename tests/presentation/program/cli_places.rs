@@ -173,6 +173,7 @@ fn a_directory_in_the_place_of_a_file_of_the_run_is_refused_before_the_run() {
                 "report.html",
                 "factors.csv",
                 "shapes.csv",
+                "shapes.unv",
                 "residuals.csv",
                 "correlation.json",
                 "corrected.bdf",
