@@ -2,10 +2,11 @@
 
 use super::job_concerns::tested;
 use super::job_errors::{placed, with};
-use super::job_prepared::prepared;
+use super::job_prepared::{measured_building, prepared};
 use super::lone_frequencies::without_shapes;
+use super::twice::universal;
 use crate::common::jobs::{Files, building, of_matrices, rods, run};
-use crate::common::tolerances::HELD_OUT;
+use crate::common::tolerances::{HELD_OUT, SET_UP};
 use corfem::job::preflight::{Names, SeenModes, preflight_at_sensors};
 use corfem::job::{Concern, Kind, Study, Trust, Vary};
 use corfem::method::modes::Modes;
@@ -229,6 +230,19 @@ fn an_exchange_of_frequencies_must_mend_enough() {
         let expected = format!("FrequenciesExchanged [1, 2] [{first:.4}, {then:.4}]");
         assert_eq!(found, if is_said { vec![expected] } else { vec![] }, "{d}");
     }
+    // A factor of all of them shows once the first and the last are exchanged back.
+    let noise = [Noise {
+        shape: 0.01,
+        frequency: 0.5,
+    }; 4];
+    let tests = [0.8, 0.0, 2.5, 3.5].map(|log: f64| TAU * log.exp());
+    let found = looked_at(&[0.0, 0.8, 2.5, 3.5].map(f64::exp), &tests, &same, &noise);
+    let found: Vec<Kind> = found
+        .iter()
+        .filter(|own| own.stands())
+        .map(|own| own.kind)
+        .collect();
+    assert_eq!(found, [Kind::FrequenciesExchanged, Kind::NamedFactor]);
     // Of modes that ascend in frequency it is the shapes that are in another order.
     let swapped =
         dmatrix![0.0, 1.0, 0.0, 0.0; 1.0, 0.0, 0.0, 0.0; 0.0, 0.0, 1.0, 0.0; 0.0, 0.0, 0.0, 1.0];
@@ -409,6 +423,24 @@ fn every_limit_of_a_test_has_two_sides() {
     ] {
         assert_eq!(said(&files), expected);
     }
+    for entry in [
+        "frequency_tolerance",
+        "shape_tolerance",
+        "inner.tolerance",
+        "later_inner_tolerance",
+        "error_sum_tolerance",
+    ] {
+        for (value, expected) in [
+            ("0.2", String::new()),
+            ("0.201", format!("Percent [{entry}] [0.2010, 20.1000]")),
+        ] {
+            let entries = format!("[correlation]\n{entry} = {value}\n[[parameter]]");
+            assert_eq!(
+                said(&with(tested(|_| {}), "job.toml", "[[parameter]]", &entries)),
+                expected
+            );
+        }
+    }
     // A gain from one and a half on either way; below a tenth a sensor is dead, and its evidence another.
     for (factor, kind) in [
         (1.45, None),
@@ -424,11 +456,18 @@ fn every_limit_of_a_test_has_two_sides() {
             "{factor}"
         );
         if let Some(gain) = trust.of(Kind::Gain).next() {
-            assert!((gain.measure[1] / factor - 1.0).abs() < 0.05, "{gain:?}");
+            assert!((gain.measure[1] / factor - 1.0).abs() < SET_UP, "{gain:?}");
         }
     }
-    let trust = before(&tested(|data| data.shapes.row_mut(4).scale_mut(0.02)));
-    assert_eq!(trust.of(Kind::Dead).count(), 1);
+    for (size, is_dead) in [(0.08, true), (0.12, false)] {
+        let trust = before(&tested(|data| {
+            let mut row = data.shapes.row_mut(4);
+            row.iter_mut()
+                .zip([size, -size, size, -size])
+                .for_each(|(reading, part)| *reading *= part);
+        }));
+        assert_eq!(trust.of(Kind::Dead).count(), usize::from(is_dead), "{size}");
+    }
 }
 
 /// A sensor 120 in from the next grid is doubted where that is twice as near as its own. Sensors span 960 of the model's 1,080 in: their places in
@@ -602,6 +641,41 @@ fn the_evidence_of_a_mistake_is_what_it_is() {
         of(&|shapes| shapes.row_mut(4).scale_mut(0.04)),
         of(&|shapes| *shapes = shapes.select_rows(&[1, 0, 3, 2, 5, 4, 7, 6, 9, 8])),
     ];
+    let of_building = |noise: f64| {
+        let mut files = building();
+        let text = &mut files
+            .iter_mut()
+            .find(|(name, _)| name == "test.csv")
+            .unwrap()
+            .1;
+        let mut data = corfem::files::test_data::read("test.csv", text.as_bytes()).unwrap();
+        data.shapes.row_mut(3).neg_mut();
+        data.shape_deviation = Some(vec![noise; 5]);
+        data.frequency_deviation = Some(vec![0.001; 5]);
+        *text = crate::common::test_files::write_csv(&data);
+        let trust = before(&files);
+        let open = trust
+            .of(Kind::NotChecked)
+            .filter(|own| own.about[1..].contains(&"readings".to_owned()));
+        let open = open.map(|own| own.about[0].clone());
+        lines(&trust, &[Kind::Reversed])
+            .into_iter()
+            .chain(open)
+            .collect::<Vec<_>>()
+            .join("; ")
+    };
+    // Less evidence than the number of tries over a thousandth of false alarms, here 10^4.6, is none, and other sensors would not show.
+    assert_eq!(
+        [0.001, 0.05, 0.2, 0.35, 0.4, 0.5].map(of_building),
+        [
+            "Reversed [floor 8] [18.0724]",
+            "Reversed [floor 8] [14.4588]",
+            "Reversed [floor 8] [8.0329]",
+            "Reversed [floor 8] [4.9025]",
+            "one reversed would not show at floor 2, floor 4, floor 6, floor 8",
+            "one reversed would not show at floor 2, floor 4, floor 6, floor 8, floor 10",
+        ]
+    );
     let expected = [
         "Reversed [5] [46.7529]",
         "Exchanged [3, 7] [44.4740]",
@@ -632,4 +706,93 @@ fn three_sensors_are_the_fewest_that_tell() {
     let none = "two sensors tell no mistake of one";
     assert_eq!([1, 2].map(of), [[none], [none]]);
     assert_eq!([3, 4].map(of), [[""; 0]; 2]);
+}
+
+/// Ten rows along x and y of five grids move three hundred along both. An inch is 39.37 to a meter but for a ten-thousandth. Of thirty floors two
+/// exchanged sensors are among those that the others predict worst.
+#[test]
+fn masses_units_and_exchanges_are_filled() {
+    let mut files = tested(|data| {
+        for (row, sensor) in data.sensors.iter_mut().enumerate() {
+            (sensor.grid, sensor.direction) = (Some(row / 2 + 1), row % 2);
+        }
+    });
+    files
+        .iter_mut()
+        .find(|(name, _)| name == "rows.csv")
+        .unwrap()
+        .1 = (0..10)
+        .map(|row| format!("{},{}\n", row / 2 + 1, ["x", "y"][row % 2]))
+        .collect();
+    let kinds = [Kind::Mass, Kind::MassByDirection, Kind::CenterOfMass];
+    assert_eq!(
+        lines(&before(&files), &kinds),
+        ["MassByDirection [] [300.0000, 300.0000, 0.0000]"]
+    );
+    assert_eq!(
+        lines(&before(&building()), &kinds)[1],
+        "CenterOfMass [] [0.0000, 0.0000, 660.0000]"
+    );
+    for (factor, expected) in [
+        (39.3735, vec![]),
+        (39.3745, vec!["UnitsDisagree [Own] [39.3745, 39.3701]"]),
+    ] {
+        assert_eq!(
+            lines(&before(&universal(7, factor)), &[Kind::UnitsDisagree]),
+            expected
+        );
+    }
+    let mut files = measured_building(30, 6);
+    let text = &mut files.last_mut().unwrap().1;
+    let mut data = corfem::files::test_data::read("test.csv", text.as_bytes()).unwrap();
+    data.shapes.swap_rows(2, 19);
+    *text = crate::common::test_files::write_csv(&data);
+    let found = before(&files);
+    assert_eq!(
+        found
+            .of(Kind::Exchanged)
+            .next()
+            .map(|own| own.about.clone()),
+        Some(vec!["3".to_owned(), "20".to_owned()])
+    );
+}
+
+/// Four frequencies, each of weight 200 and slope 100 times its ratio to the test's, have a singular value of 200 times that: 1/1.05 at first, and
+/// one at the end. With a frequency's weight of .005 a column is blind though its mode has no other stiffness. Deviations are assumed of what lacks
+/// them alone.
+#[test]
+fn a_test_sees_the_first_model_and_the_last() {
+    let files = tested(|data| {
+        data.frequencies_hz
+            .iter_mut()
+            .for_each(|hertz| *hertz *= 1.05)
+    });
+    let result = run(
+        &prepared(&bounded(files, "prior_deviation = 100\n")),
+        |_| {},
+        || true,
+    )
+    .unwrap();
+    let [first, last] = [&result.seen_first, &result.seen].map(|seen| seen.singular_values[0]);
+    assert!(
+        (first * 1.05 / 200.0 - 1.0).abs() < HELD_OUT && (last / 200.0 - 1.0).abs() < HELD_OUT,
+        "{first} {last}"
+    );
+    let one = |row: usize, size: f64| {
+        DMatrix::from_fn(2, 2, |r, c| if r == row && c == row { size } else { 0.0 })
+    };
+    let modes = Modes::new(DVector::from_vec(vec![1e4, 4e4]), DMatrix::identity(2, 2)).unwrap();
+    let files = of_matrices(
+        &[one(0, 1e4), one(1, 4e4)],
+        &DMatrix::identity(2, 2),
+        &modes,
+    );
+    let weights = "[compare]\nfrequency_weights = [1, 0.005]\nshape_weights = [1, 0]\n[[parameter]]\nname = \"p1\"";
+    let files = with(files, "job.toml", "[[parameter]]\nname = \"p1\"", weights);
+    assert_eq!(lines(&after(&files), &[Kind::Blind]), ["Blind [p2] []"]);
+    let given = tested(|data| data.frequency_deviation = Some(vec![0.005; 4]));
+    assert_eq!(
+        lines(&before(&given), &[Kind::AssumedDeviations]),
+        ["AssumedDeviations [2 % of shapes] []"]
+    );
 }

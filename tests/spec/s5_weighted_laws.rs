@@ -1,11 +1,14 @@
 //! Laws of weighted steps by numbers that are worked out by hand, and both sides of every limit.
 
 use crate::common::structures::spring_stiffness;
-use crate::common::tolerances::{END_OF_INTERVAL, MATRIX_ROUND_OFF, QUANTILE, ROUND_OFF};
+use crate::common::tolerances::{
+    DIFFERENCE_ROUND_OFF, END_OF_INTERVAL, MATRIX_ROUND_OFF, QUANTILE, ROUND_OFF, SET_UP,
+    WEIGHTED_FACTOR,
+};
 use crate::spec::s5_weighted::at;
 use corfem::method::error::Error;
 use corfem::method::model::DynamicModel;
-use corfem::method::modes::Modes;
+use corfem::method::modes::{Modes, solve};
 use corfem::method::perturbation::SMALLEST_SEPARATION;
 use corfem::method::step::Bounds;
 use corfem::sparse::ModeWeight;
@@ -15,6 +18,7 @@ use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop, gauss_newto
 use corfem::weighted::identifiability::{NORMAL_95, identifiability};
 use corfem::weighted::intervals::{Withheld, intervals};
 use corfem::weighted::misfit::Misfit;
+use corfem::weighted::residuals::residuals;
 use corfem::weighted::starts::from_several_starts;
 use nalgebra::{DMatrix, DVector, dmatrix};
 
@@ -156,7 +160,7 @@ fn shapes_compared_together_have_a_scale_for_each_of_them() {
         mass,
         shares,
     };
-    let test = corfem::method::modes::solve(&model.stiffness, &model.mass, 4).unwrap();
+    let test = solve(&model.stiffness, &model.mass, 4).unwrap();
     let comparison = Comparison::from(&model.analyze(&test, None).unwrap());
     for (groups, numbers) in [
         (vec![], 4.0 + 4.0 * 3.0),
@@ -303,7 +307,10 @@ fn modes_of_one_root_have_the_squared_cosine_of_their_plane() {
     for (angle, seen) in [(1e-6_f64, 1.0), (1e-9, 0.0)] {
         let shapes = dmatrix![3.0, angle.cos(), 0.0; 0.0, angle.sin(), 0.0; 0.0, 0.0, 1.0];
         let second = found([1.0, 1.0, 2.0], shapes, &dmatrix![0.0; 1.0; 0.0]);
-        assert!((second[(0, 0)] - seen).abs() < 1e-6, "{angle}: {second}");
+        assert!(
+            (second[(0, 0)] - seen).abs() < DIFFERENCE_ROUND_OFF,
+            "{angle}: {second}"
+        );
     }
 }
 
@@ -375,6 +382,14 @@ fn columns_at_right_angles_tell_by_their_lengths() {
         assert_close(found.learned[1], more, ROUND_OFF);
         assert_close(found.condition, 1.01 / 0.99, MATRIX_ROUND_OFF);
     }
+    // Three columns that are multiples of one leave round-off of the others.
+    let one = DVector::from_vec(vec![0.1, 0.3, 0.7]);
+    assert_eq!(
+        identifiability(&(&one * one.transpose()), &[1.0; 3])
+            .unwrap()
+            .condition,
+        f64::INFINITY
+    );
     assert_eq!(of(&[1.1, 0.9], &[0.9, 1.2]).subset, [1]);
     assert_eq!(of(&[2.0, 3.0, 2.0, 3.0], &[1.0; 4]).subset, [1, 3, 0, 2]);
 }
@@ -427,34 +442,32 @@ fn three_columns_depend_where_two_imitate_a_third() {
 }
 
 /// With $r = w (e^{x/2} - 1)$ the deviation at x is $e^{-x/2}$ times that at the optimum, 2/w. At $x = \pm 2 \cdot 1.96/w$ the truth lies beyond
-/// an end by slopes in 6.6 % of the tests with w = 4, and in 7.1 % with w = 3.5: from 7 % on the ends are where $r = \pm 1.96$.
+/// an end by slopes in 6.6 % of the tests with w = 4, and in 7.1 % with w = 3.5: from 7 % on the ends are where $r = \pm 1.96$. With w = 2 and
+/// $\tau^{-2}$ = .4 it is 6.3 %, and would be 8.2 % if the deviations there and here changed places.
 #[test]
 fn ends_are_by_slopes_where_these_miss_no_more_than_seven_in_a_hundred() {
-    for (weight, is_by_slope) in [(4.0, true), (3.5, false)] {
-        let analyze = side_by_side(&[1.0], 1.0);
+    let of = |weight: f64, prior: f64| {
+        let (analyze, settings) = (side_by_side(&[1.0], 1.0), with_priors(&[prior]));
         let found = intervals(
             &analyze,
             &[1.0],
             &[None],
             &by_frequency(weight),
-            &with_priors(&[1e6]),
+            &settings,
             1.0,
         )
         .unwrap();
         let Bounds { lower, upper } = found[0].unwrap();
-        if is_by_slope {
-            [(lower, -1.0), (upper, 1.0)].map(|(end, sign)| {
-                assert_close(end.ln(), sign * NORMAL_95 * 2.0 / weight, QUANTILE)
-            });
-        } else {
-            [(lower, -1.0), (upper, 1.0)].map(|(end, sign)| {
-                assert_close(
-                    weight * (end.sqrt() - 1.0),
-                    sign * NORMAL_95,
-                    END_OF_INTERVAL,
-                );
-            });
+        [(lower, -NORMAL_95), (upper, NORMAL_95)]
+    };
+    for (weight, prior) in [(4.0, 1e6_f64), (2.0, 0.4_f64.powf(-0.5))] {
+        let information: f64 = 0.25 * weight * weight + prior.powi(-2);
+        for (end, expected) in of(weight, prior) {
+            assert_close(end.ln(), expected / information.sqrt(), QUANTILE);
         }
+    }
+    for (end, expected) in of(3.5, 1e6) {
+        assert_close(3.5 * (end.sqrt() - 1.0), expected, END_OF_INTERVAL);
     }
 }
 
@@ -462,7 +475,7 @@ fn ends_are_by_slopes_where_these_miss_no_more_than_seven_in_a_hundred() {
 /// search by thirds finds. A widening w divides the measurement and the pull to the prior by w², and holds the rest of the prior at the factors.
 #[test]
 fn at_an_end_the_others_have_moved_and_the_prior_is_as_it_was() {
-    let (weight, ratio, priors) = (40.0, 1.03, [2.0, 0.5]);
+    let (weight, ratio, priors) = (40.0, 1.6, [2.0, 0.5]);
     let (analyze, weights, settings) = (
         side_by_side(&[0.5, 0.5], ratio),
         by_frequency(weight),
@@ -535,7 +548,7 @@ fn no_end_is_beyond_the_priors_unless_the_factor_is() {
             (upper.ln() - (log + width).min(most.max(log))).abs() < ROUND_OFF,
             "{wanted}"
         );
-        assert!((log / prior - wanted).abs() < 0.05, "{log}");
+        assert!((log / prior - wanted).abs() < SET_UP, "{log}");
     }
 }
 
@@ -758,7 +771,21 @@ fn every_rejection_on_end_doubles_what_damping_is_multiplied_by() {
             }
         }
         let first = found.iterations[0].factors[0].ln();
-        assert!((first - low).abs() < 0.02 * low, "{fails}: {first} {low}");
+        assert!((first - low).abs() < SET_UP * low, "{fails}: {first} {low}");
+    }
+}
+
+/// Two masses of one on two springs in a row, beside the frequencies and shapes of factors (1.4, 1): (2, 0.7) has the same frequencies.
+fn in_a_row() -> impl Fn(&[f64]) -> Result<Comparison, Error> + Copy {
+    move |factors| {
+        let first = DynamicModel {
+            stiffness: dmatrix![2.0, -1.0; -1.0, 1.0],
+            mass: DMatrix::identity(2, 2),
+            shares: vec![dmatrix![1.0, 0.0; 0.0, 0.0], dmatrix![1.0, -1.0; -1.0, 1.0]],
+        };
+        let real = at(&first, &[1.4, 1.0]);
+        let test = solve(&real.stiffness, &real.mass, 2)?;
+        Ok(Comparison::from(&at(&first, factors).analyze(&test, None)?))
     }
 }
 
@@ -766,72 +793,85 @@ fn every_rejection_on_end_doubles_what_damping_is_multiplied_by() {
 /// the prior.
 #[test]
 fn runs_cut_short_make_no_minima() {
-    let first = DynamicModel {
-        stiffness: dmatrix![2.0, -1.0; -1.0, 1.0],
-        mass: DMatrix::identity(2, 2),
-        shares: vec![dmatrix![1.0, 0.0; 0.0, 0.0], dmatrix![1.0, -1.0; -1.0, 1.0]],
-    };
-    let test = corfem::method::modes::solve(&first.stiffness, &first.mass, 2).unwrap();
-    let analyze = |factors: &[f64]| {
-        Ok::<_, Error>(Comparison::from(&at(&first, factors).analyze(&test, None)?))
-    };
     let weights = [ModeWeight {
-        frequency: 3.0,
+        frequency: 16.0,
         shape: 0.0,
     }; 2];
-    for trials in [0, 100] {
+    for (trials, is_cut, count) in [(2, true, 1), (100, false, 2)] {
         let settings = WeightedSettings {
             trials,
-            ..with_priors(&[0.8])
+            tolerance: 1e-7,
+            prior_deviations: vec![10.0],
         };
-        let history = from_several_starts(analyze, &[None; 2], &weights, &settings, 12, 3).unwrap();
-        // The model's own start is at its minimum.
+        let history =
+            from_several_starts(in_a_row(), &[None; 2], &weights, &settings, 20, 3).unwrap();
         let cut = history
             .starts
             .iter()
             .flatten()
             .filter(|end| end.stop == WeightedStop::Trials);
-        assert_eq!(cut.count(), if trials == 0 { 11 } else { 0 });
+        let cut = cut.count();
+        assert_eq!(cut > 10, is_cut, "{cut}");
+        let least = history
+            .starts
+            .iter()
+            .flatten()
+            .filter(|end| end.objective < history.best.objective + 1.0);
+        assert!(least.count() > 15);
         assert_eq!(history.minima[0].factors, history.best.factors);
-        let residuals =
-            corfem::weighted::residuals::residuals(&history.best.last, &weights).unwrap();
-        assert!((history.minima[0].chi_squared - residuals.norm_squared()).abs() < ROUND_OFF);
-        assert_eq!(history.minima.len(), 1, "{:?}", history.minima);
+        let own = residuals(&history.best.last, &weights)
+            .unwrap()
+            .norm_squared();
+        assert!((history.minima[0].chi_squared - own).abs() < ROUND_OFF);
+        assert_eq!(history.minima.len(), count, "{:?}", history.minima);
     }
-}
-
-/// Noise allows a second minimum whose chi-squared is above the least by no more than 5.99, the 95 % quantile of two parameters. Of two masses on
-/// two springs in a row it has the frequencies of the first, (1.4, 1) for (2, 0.7), and a chi-squared in proportion to the shapes' square weight.
-#[test]
-fn noise_allows_a_minimum_up_to_the_quantile_of_as_many_parameters() {
-    let first = DynamicModel {
-        stiffness: dmatrix![2.0, -1.0; -1.0, 1.0],
-        mass: DMatrix::identity(2, 2),
-        shares: vec![dmatrix![1.0, 0.0; 0.0, 0.0], dmatrix![1.0, -1.0; -1.0, 1.0]],
-    };
-    let real = at(&first, &[1.4, 1.0]);
-    let test = corfem::method::modes::solve(&real.stiffness, &real.mass, 2).unwrap();
-    let analyze = |factors: &[f64]| {
-        Ok::<_, Error>(Comparison::from(&at(&first, factors).analyze(&test, None)?))
-    };
-    let weights = |shape: f64| {
-        [ModeWeight {
-            frequency: 1e4,
-            shape,
-        }; 2]
-    };
-    let there = analyze(&[2.0, 0.7]).unwrap();
-    let of_one = corfem::weighted::residuals::residuals(&there, &weights(1.0))
+    // A prior that pulls: chi-squared is more than a part of what it adds.
+    let history = from_several_starts(
+        in_a_row(),
+        &[None; 2],
+        &weights,
+        &with_priors(&[0.01]),
+        2,
+        3,
+    )
+    .unwrap();
+    let own = residuals(&history.best.last, &weights)
         .unwrap()
         .norm_squared();
-    for (chi_squared, count) in [(5.8_f64, 2), (6.2, 1)] {
-        let weights = weights((chi_squared / of_one).sqrt());
-        let minima =
-            from_several_starts(analyze, &[None; 2], &weights, &with_priors(&[1e3]), 20, 3)
-                .unwrap()
-                .minima;
-        assert_eq!(minima.len(), count, "{minima:?}");
-    }
+    assert!(own > 1.0 && (history.minima[0].chi_squared / own - 1.0).abs() < MATRIX_ROUND_OFF);
+}
+
+/// Noise allows a second minimum whose chi-squared is above the least by no more than 5.99, the 95 % quantile of two parameters; that of (2, 0.7)
+/// goes with the square of the shapes' weight. Minima half a unit of the objective apart are two, with .03 between them.
+#[test]
+fn noise_allows_a_minimum_up_to_the_quantile_of_as_many_parameters() {
+    let minima = |frequency: f64, shape: f64| {
+        let weights = [ModeWeight { frequency, shape }; 2];
+        from_several_starts(
+            in_a_row(),
+            &[None; 2],
+            &weights,
+            &with_priors(&[1e3]),
+            20,
+            3,
+        )
+        .unwrap()
+        .minima
+        .len()
+    };
+    let of_one = residuals(
+        &in_a_row()(&[2.0, 0.7]).unwrap(),
+        &[ModeWeight {
+            frequency: 1e4,
+            shape: 1.0,
+        }; 2],
+    );
+    let of_one = of_one.unwrap().norm_squared();
+    assert_eq!(
+        [5.8_f64, 6.2].map(|chi_squared| minima(1e4, (chi_squared / of_one).sqrt())),
+        [2, 1]
+    );
+    assert_eq!(minima(16.0, 0.0), 2);
 }
 
 /// Two masses on springs of their own. The frequency of the first is known without a shape, at first the higher and in truth the lower of the two:
@@ -865,7 +905,7 @@ fn a_frequency_without_a_shape_follows_its_mode_through_a_crossing() {
     )
     .unwrap();
     let trial = &found.iterations[0].factors;
-    assert_close(trial[0], 0.25, 1e-4);
-    assert_close(trial[1], 1.0, 1e-4);
+    assert_close(trial[0], 0.25, WEIGHTED_FACTOR);
+    assert_close(trial[1], 1.0, WEIGHTED_FACTOR);
     assert_eq!(found.last.lone()[0].partner, 0);
 }
