@@ -10,6 +10,13 @@ pub const FORMULA: f64 = 1e-11;
 pub const MISPRINT: f64 = 1e-6;
 /// Answers of wrong equations, of the largest: six digits are stored, and one that is nearer to the known answer is none.
 pub const WRONG_ANSWER: f64 = 1e-5;
+/// Errors of a mode held out, in percent: steps end a thousandth of a deviation, a hundredth of a percent, from the optimum.
+pub const HELD_OUT: f64 = 1e-3;
+/// Places of trials and numbers of a set-up: a basis is left where a thousandth of the promised fall is left, three hundredths of its step; other
+/// cases stand farther from the limit that they are set beside.
+pub const SET_UP: f64 = 0.05;
+/// Quantiles of chi-squared, which are sought to the root of the rounding of doubles and better.
+pub const QUANTILE: f64 = 1e-9;
 /// What is round-off and nothing else: errors over nine modes whose roots span 4e4.
 pub const ROUND_OFF_FLOOR: f64 = 1e-11;
 /// A matrix product chain of a dozen DOF, relative to its largest entry.

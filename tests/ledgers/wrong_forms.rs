@@ -1,5 +1,6 @@
-//! The wrong forms of `paper/equations.toml` that are places of the source: each fits it, and at least one test named for its equation
-//! fails for it. Those that are formulas are executed in `tests/equations`.
+//! The wrong forms of `paper/equations.toml` that are places of the source, and those of rooms beside the paper in `tests/wrong_forms`: each
+//! fits the source, and at least one test named for its equation or law fails for it. Those that are formulas are executed in
+//! `tests/equations`.
 //!
 //! All of them are put into one copy of the crate below `target/`, each behind a switch that the environment sets, so that the copy is
 //! built once and its tests run once per form. Nothing of it stands in `src/`.
@@ -38,10 +39,15 @@ const VERSION: &str = "0.0.0";
 const SEED: &str = "1986";
 /// A form whose tests take longer never ends.
 const LONGEST: Duration = Duration::from_secs(300);
-/// As many as the specification must have.
+/// As many as the specification must have, and each room beside it.
 const LEAST: usize = 75;
+const LEAST_OF_ROOM: usize = 30;
+/// Rooms with lists of their own.
+const ROOMS: [&str; 2] = ["weighted", "job"];
+/// Rooms of tests that the copy may have.
+const TESTS: [&str; 3] = ["spec", "readers", "evidence"];
 
-/// A wrong form of an equation or a sentence.
+/// A wrong form of an equation, a sentence or a law.
 struct Form {
     /// From one, in the order of the list.
     number: usize,
@@ -63,6 +69,17 @@ fn text(table: &Table, key: &str) -> String {
 
 fn forms() -> Vec<Form> {
     let mut forms = Vec::new();
+    let mut add = |owner: &str, wrong: &Table, tests: &[String]| {
+        forms.push(Form {
+            number: forms.len() + 1,
+            what: format!("{owner}: {}", text(wrong, "what")),
+            file: text(wrong, "file"),
+            within: wrong.contains_key("within").then(|| text(wrong, "within")),
+            old: text(wrong, "old"),
+            new: text(wrong, "new"),
+            tests: tests.to_vec(),
+        });
+    };
     for (owner, entry) in entries() {
         let mut tests = strings(&entry, "tests");
         if entry.contains_key("number") {
@@ -71,18 +88,30 @@ fn forms() -> Vec<Form> {
         let wrong = entry["wrong"].as_array().expect("a list").iter();
         let wrong = wrong.filter_map(Value::as_table);
         for wrong in wrong.filter(|wrong| wrong.contains_key("file")) {
-            forms.push(Form {
-                number: forms.len() + 1,
-                what: format!("{owner}: {}", text(wrong, "what")),
-                file: text(wrong, "file"),
-                within: wrong.contains_key("within").then(|| text(wrong, "within")),
-                old: text(wrong, "old"),
-                new: text(wrong, "new"),
-                tests: tests.clone(),
-            });
+            add(&owner, wrong, &tests);
+        }
+    }
+    for room in ROOMS {
+        for law in laws(room) {
+            let tests = strings(&law, "tests");
+            for wrong in law["wrong"].as_array().expect("a list") {
+                add(room, wrong.as_table().expect("a table"), &tests);
+            }
         }
     }
     forms
+}
+
+/// The laws of a room, each with its tests and wrong forms.
+fn laws(room: &str) -> Vec<Table> {
+    let path = root().join(format!("tests/wrong_forms/{room}.toml"));
+    let list = fs::read_to_string(path).expect(room);
+    let list: Table = list
+        .parse()
+        .unwrap_or_else(|error| panic!("{room}: {error}"));
+    let laws = list["law"].as_array().expect("a list").iter();
+    laws.map(|law| law.as_table().expect("a table").clone())
+        .collect()
 }
 
 /// Code as it is compared: without white space, lines of comment, and the comma before a closing parenthesis, which are
@@ -215,7 +244,16 @@ fn sources(forms: &[Form]) -> Result<BTreeMap<PathBuf, String>, String> {
 #[test]
 fn every_wrong_form_stands_once_in_its_file() {
     let forms = forms();
-    assert!(forms.len() >= LEAST, "{} wrong forms", forms.len());
+    for room in ROOMS {
+        let of_room = forms.iter().filter(|form| form.file.starts_with(room));
+        assert!(of_room.count() >= LEAST_OF_ROOM, "{room}");
+    }
+    let of_rooms = ROOMS.len() * LEAST_OF_ROOM;
+    assert!(
+        forms.len() >= LEAST + of_rooms,
+        "{} wrong forms",
+        forms.len()
+    );
     let mut wrong = Vec::new();
     for form in &forms {
         let path = root().join("src").join(&form.file);
@@ -270,33 +308,65 @@ fn write(path: &Path, text: &[u8]) {
     fs::write(path, text).expect("it can be written");
 }
 
-/// The modules of the specification that the forms need: those of their tests, and what these use.
-fn modules(forms: &[Form]) -> BTreeSet<String> {
-    let mut wanted: Vec<String> = forms
-        .iter()
-        .flat_map(|form| &form.tests)
-        .filter(|test| test.starts_with("spec::"))
-        .map(|test| test.split("::").nth(1).expect("a module").to_owned())
+/// The modules that the forms need, by their rooms: those of their tests, and what these use.
+fn modules(forms: &[Form]) -> BTreeMap<String, BTreeSet<String>> {
+    let is_name = |c: &char| c.is_alphanumeric() || *c == '_';
+    let name = |rest: &str| rest.chars().take_while(is_name).collect::<String>();
+    let tests = forms.iter().flat_map(|form| &form.tests);
+    let mut wanted: Vec<(String, String)> = tests
+        .filter(|test| !test.starts_with("equations::"))
+        .map(|test| {
+            let mut parts = test.split("::").map(str::to_owned);
+            let mut part = || parts.next().expect("a room and a module");
+            (part(), part())
+        })
         .collect();
-    let mut modules = BTreeSet::new();
-    while let Some(module) = wanted.pop() {
-        let file = root().join("tests/spec").join(format!("{module}.rs"));
-        let text = fs::read_to_string(file).unwrap_or_default();
+    let mut modules: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    while let Some((room, module)) = wanted.pop() {
         assert!(
-            !text.contains("crate::evidence"),
-            "{module} needs evidence, which the copy has not"
+            TESTS.contains(&&*room),
+            "{room}::{module} is not in the copy"
         );
-        if modules.insert(module) {
-            for before in ["crate::spec::", "use super::"] {
-                let used = text.split(before).skip(1);
-                wanted.extend(used.map(|rest| {
-                    let is_name = |c: &char| c.is_alphanumeric() || *c == '_';
-                    rest.chars().take_while(is_name).collect()
-                }));
+        let file = root()
+            .join("tests")
+            .join(&room)
+            .join(format!("{module}.rs"));
+        let text = fs::read_to_string(file).unwrap_or_default();
+        for other in ["presentation", "ledgers", "refuses"] {
+            assert!(
+                !text.contains(&format!("{other}::")),
+                "{module} needs {other}, which the copy has not"
+            );
+        }
+        if modules.entry(room.clone()).or_default().insert(module) {
+            for other in TESTS {
+                let path = format!("crate::{other}::");
+                let used = text.split(&path).skip(1).map(name);
+                wanted.extend(used.map(|module| (other.to_owned(), module)));
             }
+            let used = text.split("use super::").skip(1).map(name);
+            wanted.extend(used.map(|module| (room.clone(), module)));
         }
     }
     modules
+}
+
+/// A list of modules without those that are not wanted.
+fn list_of(room: &str, wanted: &BTreeSet<String>) -> String {
+    let path = root().join("tests").join(room).join("mod.rs");
+    let text = fs::read_to_string(path).expect(room);
+    let is_wanted = |line: &&str| {
+        let module = line
+            .strip_prefix("pub ")
+            .unwrap_or(line)
+            .strip_prefix("mod ");
+        let module = module.and_then(|rest| rest.strip_suffix(';'));
+        module.is_none_or(|module| wanted.contains(module))
+    };
+    text.lines()
+        .filter(is_wanted)
+        .map(|line| format!("{line}\n"))
+        .collect()
 }
 
 /// The copy: the library with its wrong forms, and of the tests the specification.
@@ -331,18 +401,21 @@ fn copy(forms: &[Form], folder: &Path) {
     }
     write(&folder.join("Cargo.toml"), manifest.to_string().as_bytes());
     let lists = modules(forms);
-    let list: String = lists
-        .iter()
-        .map(|module| format!("pub mod {module};\n"))
-        .collect();
-    let list = format!("#![allow(non_snake_case, reason = \"as in tests/spec/mod.rs\")]\n{list}");
-    let main = "#![allow(warnings, reason = \"a copy\")]\n#[macro_use]\nmod common;\nmod equations;\nmod spec;\n";
+    let rooms: String = lists.keys().map(|room| format!("mod {room};\n")).collect();
+    let main = format!(
+        "#![allow(warnings, reason = \"a copy\")]\n#[macro_use]\nmod common;\nmod equations;\n{rooms}"
+    );
     let mut changed = BTreeMap::from([
-        (PathBuf::from("tests/main.rs"), main.to_owned()),
-        (PathBuf::from("tests/spec/mod.rs"), list),
+        (PathBuf::from("tests/main.rs"), main),
         (PathBuf::from("src/wrong_form.rs"), SWITCH_SOURCE.to_owned()),
         (PathBuf::from("Cargo.lock"), lock),
     ]);
+    for (room, modules) in &lists {
+        changed.insert(
+            format!("tests/{room}/mod.rs").into(),
+            list_of(room, modules),
+        );
+    }
     let library = fs::read_to_string(root().join("src/lib.rs")).expect("it reads");
     changed.insert("src/lib.rs".into(), format!("{library}\nmod wrong_form;\n"));
     changed.extend(sources);
@@ -350,14 +423,13 @@ fn copy(forms: &[Form], folder: &Path) {
         write(&folder.join(path), text.as_bytes());
     }
     let mut files = vec![root().join("README.md")];
-    for part in [
-        "src",
-        "tests/common",
-        "tests/equations",
-        "tests/spec",
-        "golden",
-        "paper",
-    ] {
+    let tests = ["common", "equations", "jobs"].into_iter().chain(TESTS);
+    let tests = tests.map(|room| format!("tests/{room}"));
+    for part in ["src", "golden", "paper"]
+        .map(str::to_owned)
+        .into_iter()
+        .chain(tests)
+    {
         files.extend(files_below(&root().join(part)));
     }
     // Failures that properties of an earlier run have kept are those of its wrong forms, and a file that is gone would be a second one of

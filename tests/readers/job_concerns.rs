@@ -125,18 +125,6 @@ fn a_test_half_of_whose_modes_have_partners_is_correlated_with_these() {
 }
 
 #[test]
-fn deviations_in_percent_are_named() {
-    let percent = tested(|data| {
-        data.frequency_deviation = Some(vec![0.3; 4]);
-        data.shape_deviation = Some(vec![5.0; 4]);
-    });
-    assert_eq!(
-        doubts(&percent),
-        ["percent-frequency_deviation", "percent-shape_deviation"]
-    );
-}
-
-#[test]
 fn a_matrix_that_is_no_part_of_the_first_model_is_named() {
     let files = measured_building(10, 4);
     let ten_times = with(

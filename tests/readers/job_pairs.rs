@@ -9,7 +9,7 @@ use crate::common::whole_models::{masses, sparse, springs};
 use corfem::files::test_data;
 use corfem::job::assignment::pair_optimally;
 use corfem::job::concern::Grade;
-use corfem::job::{Concern, Kind, PreparedJob, Trust};
+use corfem::job::{Concern, PreparedJob, Trust};
 use corfem::method::modes::solve;
 use corfem::sparse::random::uniform;
 use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare, modal_assurance};
@@ -307,17 +307,4 @@ fn readings_are_judged_by_the_deviations_that_the_test_declares() {
         named += usize::from(against(&ready(&with_noise(true))) == ["reversed-7"]);
     }
     assert!(alarms <= 1 && named >= 36, "{alarms} {named}");
-}
-
-#[test]
-fn a_large_deviation_of_shapes_is_a_remark_and_one_above_five_a_doubt() {
-    let kinds = |size: f64| {
-        let job = ready(&tested(|data| data.shape_deviation = Some(vec![size; 4])));
-        let trust = Trust::before(&job).unwrap_or_else(|error| panic!("{error}"));
-        [Kind::LargeDeviation, Kind::Percent].map(|kind| trust.of(kind).count())
-    };
-    assert_eq!(
-        [0.2, 0.21, 4.9, 5.0].map(kinds),
-        [[0, 0], [1, 0], [1, 0], [0, 1]]
-    );
 }

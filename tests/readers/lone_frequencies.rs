@@ -9,7 +9,7 @@ use corfem::job::verdict::Outcome;
 use corfem::job::{JobResult, Kind, Trust};
 
 /// The building by weighted steps, whose test lacks the shapes of these modes (from one).
-fn without_shapes(modes: &[usize]) -> Files {
+pub fn without_shapes(modes: &[usize]) -> Files {
     let mut files = with(
         building(),
         "job.toml",

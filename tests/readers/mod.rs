@@ -19,6 +19,7 @@ mod file_bounds;
 pub mod garteur;
 pub mod job_concerns;
 pub mod job_errors;
+pub mod job_laws;
 pub mod job_matrices;
 pub mod job_pairs;
 pub mod job_parts;

@@ -74,6 +74,7 @@ pub mod s5_preflight_modes;
 pub mod s5_weighted;
 pub mod s5_weighted_components;
 pub mod s5_weighted_coverage;
+pub mod s5_weighted_laws;
 pub mod s5_weighted_masses;
 pub mod s5_weighted_metamorphic;
 pub mod s5_weighted_steps;

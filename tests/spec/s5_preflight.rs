@@ -294,23 +294,6 @@ fn the_common_factor_is_the_median_of_the_ratios_of_pairs() {
     }
 }
 
-#[test]
-fn ratios_that_scatter_have_no_common_factor() {
-    for mut wrong in [case(2), chain()] {
-        // By two and eight in turn: the factor between them is beyond what a first model is wrong by.
-        alter(&mut wrong.test, |squares, _| {
-            let both = squares.iter_mut().zip([4.0, 64.0].into_iter().cycle());
-            both.for_each(|(value, factor)| *value *= factor);
-        });
-        let found = findings(&wrong);
-        let factors = [Kind::NamedFactor, Kind::UnnamedFactor];
-        assert!(
-            found.iter().all(|own| !factors.contains(&own.kind)),
-            "{found:?}"
-        );
-    }
-}
-
 /// Behind every mode stands another of fifty times its frequency, whose shape is the same but for the sign of one sensor: by shapes alone
 /// nobody could tell that sensor reversed from a test of the others.
 #[test]

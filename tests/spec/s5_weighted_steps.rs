@@ -12,7 +12,6 @@ use corfem::sparse::ModeWeight;
 use corfem::torque_box::{Case, Grouping};
 use corfem::weighted::comparison::Comparison;
 use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop};
-use corfem::weighted::identifiability::identifiability;
 use corfem::weighted::next_step::NextStep;
 use corfem::weighted::noise::Noise;
 use corfem::weighted::residuals::{DEVIATIONS, jacobian};
@@ -245,19 +244,6 @@ fn shapes_of_modes_closer_than_they_can_be_told_apart_are_held() {
         );
     }
     assert!(slope(2.0 * SEPARATION).abs() > 0.01 / SEPARATION);
-}
-
-#[test]
-fn a_column_of_less_than_a_hundredth_of_the_longest_is_blind() {
-    for unit in [1e-3, 1.0, 1e3] {
-        let columns =
-            unit * DMatrix::from_diagonal(&DVector::from_vec(vec![10.0, 0.11, 0.09, 1.0]));
-        assert_eq!(
-            identifiability(&columns, &[1.0; 4]).unwrap().blind,
-            [2],
-            "{unit}"
-        );
-    }
 }
 
 /// It is a Gauss–Newton step: what it leaves of the error of the factors falls as that error's square.
