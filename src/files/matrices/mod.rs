@@ -88,11 +88,14 @@ pub fn read(name: &str, bytes: &[u8], wanted: Option<&str>) -> Result<LabeledMat
 /// Names of all matrices of a file, and those among them that are wanted.
 type FoundMatrices = (Vec<String>, Vec<LabeledMatrix>);
 
+/// Row, column and value.
+type Entry = (usize, usize, f64);
+
 /// Entries of a symmetric matrix, both triangles from one of them, or from both where they agree.
 ///
 /// # Errors
 /// A row and a column off the diagonal of which both triangles, where both have entries, do not say the same.
-fn mirrored(entries: Vec<(usize, usize, f64)>) -> Result<Vec<(usize, usize, f64)>, (usize, usize)> {
+fn mirrored(entries: Vec<Entry>) -> Result<Vec<Entry>, (usize, usize)> {
     let mut sums: BTreeMap<(usize, usize), f64> = BTreeMap::new();
     for &(row, column, value) in entries.iter().filter(|entry| entry.0 != entry.1) {
         *sums.entry((row, column)).or_default() += value;
