@@ -16,6 +16,8 @@ const FOUND: f64 = 1e-10;
 /// Residual, relative to its root, at which a mode beyond those asked for counts as found: no root errs by more, a hundredth of the
 /// distance at which modes count as apart.
 const NEARLY: f64 = 1e-7;
+/// Square of the part of a direction that counts as nothing new: what it leaves out of a residual is as small as a mode's may be.
+const NOTHING: f64 = FOUND * FOUND;
 /// Residual, relative to its root, that the round-off of a softer mode excuses at most: a root errs by the square of it.
 const ROUNDED: f64 = 1e-5;
 
@@ -121,9 +123,20 @@ fn orthonormal(mass: &SparseMatrix, block: DMatrix<f64>) -> Result<Directions, E
             weighted,
         });
     }
-    // Round-off is relative to the largest: of as few masses as there are columns, some are combinations of the others.
+    // Columns of unit size are judged: what is left of one that was found before is small beside the others, and counts as much. Of as few
+    // masses as there are columns, some are combinations of the others.
     let gram = transposed_product(&block, &weighted);
-    let (_, vectors) = independent("block", &gram, |largest| (1e-14 * largest).max(1e-20))?;
+    let size = gram.diagonal();
+    let size = size.map(|square| {
+        if square > NOTHING {
+            square.sqrt().recip()
+        } else {
+            0.0
+        }
+    });
+    let unit = gram.component_mul(&(&size * size.transpose()));
+    let (_, vectors) = independent("block", &unit, |largest| 1e-14 * largest)?;
+    let vectors = DMatrix::from_diagonal(&size) * vectors;
     Ok(Directions {
         shapes: block,
         weighted,
