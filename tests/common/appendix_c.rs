@@ -19,6 +19,22 @@ pub fn on_either_side(modes: &Modes) -> LeftRightModes<f64> {
     }
 }
 
+/// The pencil of unit shapes of a diagonal stiffness, through which a change is seen as it is.
+pub fn diagonal_pencil(
+    k: &DVector<f64>,
+    beta: &DMatrix<Complex<f64>>,
+    alpha: &DMatrix<Complex<f64>>,
+) -> Pencil<Complex<f64>> {
+    let own = DMatrix::identity(k.len(), k.len());
+    let modes = LeftRightModes {
+        roots: k.map(|k| Complex::from(1.0 / k)),
+        right: own.clone(),
+        left: own,
+    };
+    let stiffness = DMatrix::from_diagonal(&k.map(Complex::from));
+    Pencil::new(&stiffness, &modes, beta, alpha).expect("a pencil")
+}
+
 /// A function of Appendix C on generalized stiffnesses and β.
 pub type Plain = fn(&DVector<f64>, &DMatrix<f64>) -> Result<Perturbed, Error>;
 

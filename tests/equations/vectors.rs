@@ -3,6 +3,7 @@
 //! This program's answers are left beside its own files for `golden/mark.py`, which marks any implementation's.
 
 use super::formula::Letter;
+use crate::common::appendix_c::diagonal_pencil;
 use crate::common::loops::Eigensolved;
 use crate::common::structures::lumped_mass;
 use crate::common::structures::of_dense;
@@ -267,15 +268,7 @@ fn stiffness_alone(given: &Value) -> Value {
 fn with_mass(given: &Value) -> Value {
     let k = list(&given["k"]);
     let [beta, alpha] = ["beta", "alpha"].map(|key| complex(given, key));
-    // Unit shapes of a diagonal pencil: the change is seen as it is.
-    let own = DMatrix::identity(k.len(), k.len());
-    let modes = LeftRightModes {
-        roots: k.map(|k| Complex::from(1.0 / k)),
-        right: own.clone(),
-        left: own,
-    };
-    let stiffness = DMatrix::from_diagonal(&k.map(Complex::from));
-    let pencil = Pencil::new(&stiffness, &modes, &beta, &alpha).expect("a pencil");
+    let pencil = diagonal_pencil(&k, &beta, &alpha);
     let mut answer = Map::new();
     let column = |roots: &DVector<Complex<f64>>| {
         DMatrix::from_column_slice(roots.len(), 1, roots.as_slice())

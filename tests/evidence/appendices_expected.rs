@@ -1,7 +1,7 @@
 //! Appendix B, the general formulae of Appendix C, gradients, and exact checks of truncated sets, against numpy's
 //! (golden/reference/appendices.py).
 
-use crate::common::appendix_c::{ModalChange, eigensolution};
+use crate::common::appendix_c::{ModalChange, diagonal_pencil, eigensolution};
 use crate::common::gradient::gradient;
 use crate::common::matrices::relative_distance;
 use crate::common::tolerances::{
@@ -10,8 +10,6 @@ use crate::common::tolerances::{
 use approx::assert_relative_eq;
 use corfem::method::analysis::Analysis;
 use corfem::method::appendix_b::{balance, orthogonalize};
-use corfem::method::appendix_c::LeftRightModes;
-use corfem::method::appendix_c::Pencil;
 use corfem::method::modes::Modes;
 use corfem::method::perturbation::Perturbed;
 use corfem::torque_box::Case;
@@ -159,15 +157,7 @@ fn the_general_formulae_are_numpys() {
         let table = &expected()[&format!("appendix_c_{name}")];
         let k = DVector::from_vec(list(&table["k"]));
         let [beta, alpha] = ["beta", "alpha"].map(|name| complex(table, name));
-        // Unit shapes of a diagonal pencil: the change is seen as it is.
-        let own = DMatrix::identity(k.len(), k.len());
-        let modes = LeftRightModes {
-            roots: k.map(|k| Complex::from(1.0 / k)),
-            right: own.clone(),
-            left: own,
-        };
-        let stiffness = DMatrix::from_diagonal(&k.map(Complex::from));
-        let pencil = Pencil::new(&stiffness, &modes, &beta, &alpha).expect("a pencil");
+        let pencil = diagonal_pencil(&k, &beta, &alpha);
         assert_perturbed(table, "original", &pencil.original().expect("apart"));
         for order in [1, 2, 3, 5] {
             assert_perturbed(

@@ -4,7 +4,7 @@ use super::five_structures::{Right, measure};
 use super::readings_rates::{below, normal};
 use crate::common::jobs::of_whole;
 use crate::common::whole_models::{masses, springs};
-use crate::readers::job_errors::{placed, with};
+use crate::readers::job_errors::{placed, supposing};
 
 use corfem::job::{History, JobResult, LoadedJob, Trust, run};
 use corfem::sparse::random::uniform;
@@ -153,21 +153,7 @@ pub fn corrected(drawn: &Drawn, part: f64, seed: u64) -> JobResult {
     } = drawn;
     let ones = vec![1.0; truth.len()];
     let files = of_whole(model, &ones, sensors, drawn.modes, *noise);
-    let compare = format!(
-        "[compare]\nprior_deviation = {}\n[[parameter]]",
-        drawn.prior
-    );
-    let files = with(files, "job.toml", "[[parameter]]", &compare);
-    let files = match drawn.rigid {
-        0 => files,
-        count => with(
-            files,
-            "job.toml",
-            "[test]",
-            &format!("rigid_bodies = {count}\n[test]"),
-        ),
-    };
-    let (_folder, path) = placed(&files);
+    let (_folder, path) = placed(&supposing(files, drawn.prior, drawn.rigid));
     let mut loaded = LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
     let actual = Noise {
         frequency: part * noise.frequency,

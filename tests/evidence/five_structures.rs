@@ -5,7 +5,7 @@ use super::readings_rates::normal;
 use crate::common::jobs::{Files, of_whole};
 use crate::common::test_files::write_csv;
 use crate::common::whole_models::{masses, sparse};
-use crate::readers::job_errors::{placed, with};
+use crate::readers::job_errors::{placed, supposing, with};
 use corfem::files::test_data::TestData;
 use corfem::job::concern::{Check, Grade};
 use corfem::job::{Concern, Kind, LoadedJob, Trust, run};
@@ -62,6 +62,9 @@ pub struct Structure {
 
 /// Number of the first structures of which the pre-flight is asked.
 pub const FIVE: usize = 5;
+
+/// Place of the tower.
+pub const TOWER: usize = 6;
 
 /// The five structures, then one of 660 degrees of freedom and one of 32 parameters.
 pub const STRUCTURES: [Structure; 7] = [
@@ -350,21 +353,7 @@ fn files(
     noise: Noise,
 ) -> Files {
     let files = of_whole(model, &vec![1.0; parameters], sensors, modes, noise);
-    let files = with(
-        files,
-        "job.toml",
-        "[[parameter]]",
-        "[compare]\nprior_deviation = 0.3\n[[parameter]]",
-    );
-    match rigid {
-        0 => files,
-        count => with(
-            files,
-            "job.toml",
-            "[test]",
-            &format!("rigid_bodies = {count}\n[test]"),
-        ),
-    }
+    supposing(files, 0.3, rigid)
 }
 
 /// What became of a number of tests with a mistake.

@@ -1,13 +1,11 @@
 //! Every check says yes, no, or not checked, before the first step and after a run.
 
 use super::job_concerns::tested;
-use super::job_errors::{placed, with};
+use super::job_errors::{placed, retested, with};
 use super::job_prepared::measured_building;
 use super::twice::{numbered, universal, with_places};
 use crate::common::jobs::{Files, of_matrices, prepare, rods, run, torque_box, worked};
-use crate::common::test_files::write_csv;
 use crate::common::whole_models::{masses, springs};
-use corfem::files::test_data::{self, TestData};
 use corfem::job::concern::{Answer, Check, Grade};
 use corfem::job::{Concern, Trust};
 use corfem::method::modes::{Modes, solve};
@@ -27,16 +25,6 @@ fn after(files: &Files) -> Trust {
     let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
     let result = run(&loaded, |_| {}, || true);
     result.unwrap_or_else(|error| panic!("{error}")).trust
-}
-
-/// A job with another test.
-fn retested(mut files: Files, edit: impl FnOnce(&mut TestData)) -> Files {
-    let test = files.iter_mut().find(|(name, _)| name == "test.csv");
-    let text = &mut test.expect("a test").1;
-    let mut data = test_data::read("test.csv", text.as_bytes()).expect("a test");
-    edit(&mut data);
-    *text = write_csv(&data);
-    files
 }
 
 /// The first sensors of a test alone.

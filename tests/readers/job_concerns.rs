@@ -1,12 +1,11 @@
 //! What a job's pre-flight says: doubts that name a mistake by sensor, mode or parameter.
 
-use super::job_errors::{placed, with};
+use super::job_errors::{placed, retested, with};
 use super::job_prepared::{measured_building, prepared};
 use crate::common::draws::Draws;
 use crate::common::jobs::{Files, torque_box};
 use crate::common::jobs::{prepare, run};
-use crate::common::test_files::write_csv;
-use corfem::files::test_data::{self, TestData};
+use corfem::files::test_data::TestData;
 use corfem::job::concern::Grade;
 use corfem::job::{Concern, Kind, LoadedJob, Trust};
 use std::sync::Arc;
@@ -27,12 +26,7 @@ pub fn rigid_bodies(trust: &Trust) -> f64 {
 
 /// A building of ten stories, and its test after an edit.
 pub fn tested(edit: impl FnOnce(&mut TestData)) -> Files {
-    let mut files = measured_building(10, 4);
-    let text = &mut files.last_mut().expect("the test").1;
-    let mut data = test_data::read("test.csv", text.as_bytes()).expect("a test");
-    edit(&mut data);
-    *text = write_csv(&data);
-    files
+    retested(measured_building(10, 4), edit)
 }
 
 #[test]

@@ -2,7 +2,9 @@
 
 use crate::common::jobs::{Files, building, rods};
 use crate::common::jobs::{prepare, run};
+use crate::common::test_files::write_csv;
 use crate::common::tolerances::{ROUND_OFF, WEIGHTED_FACTOR};
+use corfem::files::test_data::{self, TestData};
 use corfem::job::{Kind, LeftOut, PreparedJob, Study, Trust, Vary};
 use corfem::method::analysis::Analysis;
 use corfem::method::outer_loop::Settings;
@@ -30,6 +32,29 @@ pub fn with(mut files: Files, file: &str, old: &str, new: &str) -> Files {
     assert!(text.contains(old), "{old} is not in {text}");
     *text = text.replacen(old, new, 1);
     files
+}
+
+/// A job with another test.
+pub fn retested(mut files: Files, edit: impl FnOnce(&mut TestData)) -> Files {
+    let test = files.iter_mut().find(|(name, _)| name == "test.csv");
+    let text = &mut test.expect("a test").1;
+    let mut data = test_data::read("test.csv", text.as_bytes()).expect("a test");
+    edit(&mut data);
+    *text = write_csv(&data);
+    files
+}
+
+/// A job that names its prior's deviation, and its rigid bodies where there are any.
+pub fn supposing(files: Files, prior: f64, rigid: usize) -> Files {
+    let compare = format!("[compare]\nprior_deviation = {prior:?}\n[[parameter]]");
+    let files = with(files, "job.toml", "[[parameter]]", &compare);
+    match rigid {
+        0 => files,
+        count => {
+            let test = format!("rigid_bodies = {count}\n[test]");
+            with(files, "job.toml", "[test]", &test)
+        }
+    }
 }
 
 /// What is said of a job, without its folder.

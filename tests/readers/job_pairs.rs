@@ -1,12 +1,10 @@
 //! Pairs by likelihood: frequencies count where shapes hardly differ, hardly seen modes pay, and no finding hangs on the number of modes.
 
 use super::job_concerns::tested;
-use super::job_errors::{placed, with};
+use super::job_errors::{placed, retested, with};
 use crate::common::draws::Draws;
 use crate::common::jobs::{Files, of_whole, prepare};
-use crate::common::test_files::write_csv;
 use crate::common::whole_models::{masses, sparse, springs};
-use corfem::files::test_data;
 use corfem::job::assignment::pair_optimally;
 use corfem::job::concern::Grade;
 use corfem::job::{Concern, PreparedJob, Trust};
@@ -166,7 +164,7 @@ fn a_hardly_seen_mode_takes_no_partner_from_one_that_is_seen() {
             shape: 0.02,
             frequency: 0.005,
         };
-        let mut files = of_whole(&model, &[1.0, 1.0], &rows, 4, noise);
+        let files = of_whole(&model, &[1.0, 1.0], &rows, 4, noise);
         let found = solve(&springs(20, &real).dense(), &mass.dense(), 20).expect("modes");
         let on = |shapes: &DMatrix<f64>, mode: usize| {
             shapes.view((0, mode), (10, 1)).norm_squared() * 60.0
@@ -175,16 +173,11 @@ fn a_hardly_seen_mode_takes_no_partner_from_one_that_is_seen() {
             .filter(|&mode| on(found.shapes(), mode) > 0.5)
             .take(4)
             .collect();
-        let text = &mut files
-            .iter_mut()
-            .find(|(name, _)| name == "test.csv")
-            .expect("a test")
-            .1;
-        let mut data = test_data::read("test.csv", text.as_bytes()).expect("a test");
-        let hertz = found.frequencies_hz();
-        data.frequencies_hz = measured.iter().map(|&mode| hertz[mode]).collect();
-        data.shapes = found.shapes().select_rows(&rows).select_columns(&measured);
-        *text = write_csv(&data);
+        let files = retested(files, |data| {
+            let hertz = found.frequencies_hz();
+            data.frequencies_hz = measured.iter().map(|&mode| hertz[mode]).collect();
+            data.shapes = found.shapes().select_rows(&rows).select_columns(&measured);
+        });
         let files = with(
             files,
             "job.toml",
@@ -248,20 +241,15 @@ fn no_finding_hangs_on_the_number_of_modes_taken() {
     };
     let mut draws = Draws(3);
     for slip in 0..3 {
-        let mut files = of_whole(&model, &[0.85, 1.1], &sensors, 5, noise);
-        let text = &mut files
-            .iter_mut()
-            .find(|(name, _)| name == "test.csv")
-            .expect("a test")
-            .1;
-        let mut data = test_data::read("test.csv", text.as_bytes()).expect("a test");
-        data.shapes.apply(|own| *own += 0.01 * normal(&mut draws));
-        match slip {
-            0 => (),
-            1 => data.shapes.row_mut(2).neg_mut(),
-            _ => data.shapes.row_mut(4).scale_mut(2.5),
-        }
-        *text = write_csv(&data);
+        let files = of_whole(&model, &[0.85, 1.1], &sensors, 5, noise);
+        let files = retested(files, |data| {
+            data.shapes.apply(|own| *own += 0.01 * normal(&mut draws));
+            match slip {
+                0 => (),
+                1 => data.shapes.row_mut(2).neg_mut(),
+                _ => data.shapes.row_mut(4).scale_mut(2.5),
+            }
+        });
         let found = [12, 24, 60, 400].map(|modes| {
             let compare = format!("[compare]\nanalysis_modes = {modes}\n[[parameter]]");
             against(&ready(&with(

@@ -1,22 +1,15 @@
 //! A later result takes the place of an earlier one only if it explains the numbers of both no worse.
 
-use super::job_errors::placed;
+use super::job_errors::{placed, retested};
 use crate::common::draws::Draws;
 use crate::common::jobs::{building, prepare, run};
-use crate::common::test_files::write_csv;
-use corfem::files::test_data::{self, TestData};
+use corfem::files::test_data::TestData;
 use corfem::job::concern::Grade;
 use corfem::job::{Concern, JobResult, PreparedJob};
 
 /// The building's job with another test.
 fn job(edit: impl FnOnce(&mut TestData)) -> PreparedJob {
-    let mut files = building();
-    let test = files.iter_mut().find(|(name, _)| name == "test.csv");
-    let text = &mut test.expect("the test").1;
-    let mut data = test_data::read("test.csv", text.as_bytes()).expect("a test");
-    edit(&mut data);
-    *text = write_csv(&data);
-    let (_folder, path) = placed(&files);
+    let (_folder, path) = placed(&retested(building(), edit));
     prepare(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 

@@ -1,9 +1,9 @@
 //! A datum that is given twice agrees, or is doubted: place and grid, numbers and order of modes, unit and factor.
 
-use super::job_errors::{placed, said};
+use super::job_errors::{placed, retested, said};
 use super::job_prepared::measured_building;
 use crate::common::jobs::{Files, prepare, torque_box};
-use crate::common::test_files::{write_csv, write_universal};
+use crate::common::test_files::write_universal;
 use corfem::files::test_data;
 use corfem::job::{Concern, Kind, Trust};
 use nalgebra::Vector3;
@@ -19,21 +19,15 @@ fn about(files: &Files, kind: Kind) -> Vec<Vec<String>> {
 }
 
 /// A job whose sensors are at other places.
-pub fn with_places(mut files: Files, edit: impl FnOnce(&mut Vec<Vector3<f64>>)) -> Files {
-    let test = files.iter_mut().find(|(name, _)| name == "test.csv");
-    let text = &mut test.expect("a test").1;
-    let mut data = test_data::read("test.csv", text.as_bytes()).expect("a test");
-    let places = data
-        .sensors
-        .iter()
-        .map(|sensor| sensor.place.expect("a place"));
-    let mut places: Vec<_> = places.collect();
-    edit(&mut places);
-    for (sensor, place) in data.sensors.iter_mut().zip(places) {
-        sensor.place = Some(place);
-    }
-    *text = write_csv(&data);
-    files
+pub fn with_places(files: Files, edit: impl FnOnce(&mut Vec<Vector3<f64>>)) -> Files {
+    retested(files, |data| {
+        let places = data.sensors.iter();
+        let mut places: Vec<_> = places.map(|own| own.place.expect("a place")).collect();
+        edit(&mut places);
+        for (sensor, place) in data.sensors.iter_mut().zip(places) {
+            sensor.place = Some(place);
+        }
+    })
 }
 
 /// A building whose test is a Universal File, after an edit of its text.
