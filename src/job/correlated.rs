@@ -7,9 +7,12 @@ use crate::method::outer_loop::{Correlation, Pass, correlate};
 use crate::method::step::Bounds;
 use crate::sparse::Work;
 use crate::weighted::comparison::Comparison;
-use crate::weighted::gauss_newton::{WeightedCorrelation, gauss_newton};
+use crate::weighted::gauss_newton::{
+    LOWER, WeightedCorrelation, WeightedStop, gauss_newton, gauss_newton_below,
+};
 use crate::weighted::intervals::MOST_FOLLOWED;
-use crate::weighted::lower_place::{LOWER, lower_place};
+use crate::weighted::lower_place::lower_place;
+use crate::weighted::misfit::Misfit;
 use crate::weighted::residuals::residuals;
 use crate::weighted::starts::{WeightedHistory, from_several_starts};
 use nalgebra::DMatrix;
@@ -364,17 +367,20 @@ impl<'a> Part<'a> {
         &self,
         mut run: WeightedCorrelation,
         ranges: &[Option<Bounds>],
-        mut steps_from: impl FnMut(&[f64]) -> Result<WeightedCorrelation, FileError>,
+        mut steps_below: impl FnMut(f64, &[f64]) -> Result<WeightedCorrelation, FileError>,
     ) -> Result<WeightedCorrelation, FileError> {
         let (prepared, seed) = (self.prepared, self.prepared.loaded.job.compare.seed);
         let (weights, settings) = (prepared.weights(), prepared.weighted_settings());
         let is_followed = ranges.len() <= MOST_FOLLOWED;
         for _ in 0..if is_followed { MOST_LEFT } else { 0 } {
             let size = 2 * prepared.modes.len() + ranges.len().min(MOST_DEFLECTIONS);
-            let place = lower_place(&run, size, ranges, &weights, &settings, seed)?;
+            // A minimum that noise does not explain is not the truth's.
+            let misfit = || Misfit::of(&run.last, &weights, &prepared.loaded.source.priors, &[]);
+            let is_doubted = run.stop == WeightedStop::Gradient && !misfit()?.is_by_noise();
+            let place = lower_place(&run, size, ranges, &weights, &settings, seed, is_doubted)?;
             self.is_lowest.set(place.is_none());
             let Some(place) = place else { break };
-            let next = match steps_from(&place) {
+            let next = match steps_below(run.objective - LOWER, &place) {
                 Err(FileError::Interrupted) => return Err(FileError::Interrupted),
                 next => next.ok(),
             };
@@ -443,10 +449,11 @@ impl<'a> Part<'a> {
                 job.compare.seed,
             ),
         };
-        let steps_from =
-            |first: &[f64]| gauss_newton(&mut analyze, first, &ranges, &weights, &settings);
+        let steps_below = |objective: f64, first: &[f64]| {
+            gauss_newton_below(objective, &mut analyze, first, &ranges, &weights, &settings)
+        };
         let found = found.and_then(|found| {
-            let best = self.lowered(found.best, &ranges, steps_from)?;
+            let best = self.lowered(found.best, &ranges, steps_below)?;
             Ok(WeightedHistory { best, ..found })
         });
         let is_whole = !self.is_interrupted.get();

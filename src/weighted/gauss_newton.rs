@@ -26,6 +26,10 @@ const OBJECTIVE_DIGITS: f64 = 16.0 * f64::EPSILON;
 /// hundredth apart. It moves an objective by as much times the root of chi-squared, and with weights of hundreds a gradient by less than
 /// the tolerance of a job.
 const UNSURE: f64 = 1e-8;
+/// Fall of the objective below an end that is worth to go on: a chi-squared of two thousandths, which no test can tell.
+pub(crate) const LOWER: f64 = 1e-3;
+/// Part of it that steps may leave which do not lead lower.
+const TOLD: f64 = 0.01;
 /// A step that moves no logarithm by more is none.
 const SHORTEST_STEP: f64 = 1e-9;
 
@@ -175,8 +179,31 @@ pub fn gauss_newton<E: From<Error>>(
     Problem::new(first.len(), ranges, weights, settings)?.correlation(&mut analyze, first)
 }
 
+/// Steps of [`gauss_newton`] that have to end below an `objective`: above it they end where they promise no more than a hundredth of
+/// [`LOWER`].
+///
+/// # Errors
+/// The errors of [`gauss_newton`].
+pub(crate) fn gauss_newton_below<E: From<Error>>(
+    objective: f64,
+    mut analyze: impl FnMut(&[f64]) -> Result<Comparison, E>,
+    first: &[f64],
+    ranges: &[Option<Bounds>],
+    weights: &[ModeWeight],
+    settings: &WeightedSettings,
+) -> Result<WeightedCorrelation, E> {
+    let problem = Problem::new(first.len(), ranges, weights, settings)?;
+    let problem = Problem {
+        objective,
+        ..problem
+    };
+    problem.correlation(&mut analyze, first)
+}
+
 /// Problem that the steps of a correlation share.
 pub(super) struct Problem<'a> {
+    /// The objective below which steps have to end.
+    objective: f64,
     ranges: &'a [Option<Bounds>],
     weights: &'a [ModeWeight],
     settings: &'a WeightedSettings,
@@ -208,6 +235,7 @@ impl<'a> Problem<'a> {
         Ok(Self {
             tikhonov: tikhonov(&priors),
             held: None,
+            objective: f64::INFINITY,
             ranges,
             weights,
             settings,
@@ -304,7 +332,10 @@ impl<'a> Problem<'a> {
         let largest = largest.fold(0.0, f64::max);
         let stop = loop {
             let digits = OBJECTIVE_DIGITS * place.objective;
-            let least = digits.max(0.5 * self.settings.tolerance.powi(2));
+            let mut least = digits.max(0.5 * self.settings.tolerance.powi(2));
+            if place.objective > self.objective {
+                least = least.max(TOLD * LOWER);
+            }
             let whole = self.whole_fall(&place)?;
             // A place where a mode meets another is no end: its slopes are not those of the objective.
             if whole <= least && !place.comparison.meets() {

@@ -1,6 +1,6 @@
 //! A lower place than an end of weighted steps, looked for in a basis about it.
 
-use super::gauss_newton::{Problem, WeightedCorrelation, WeightedSettings};
+use super::gauss_newton::{LOWER, Problem, WeightedCorrelation, WeightedSettings};
 use super::starts::draw;
 use crate::method::error::Error;
 use crate::method::step::Bounds;
@@ -8,14 +8,15 @@ use crate::sparse::{Deflections, ModeWeight};
 
 /// Random places in the basis from which steps start.
 pub const PLACES: usize = 20;
-/// Fall of the objective below an end that is worth to go on: a chi-squared of two thousandths, which no test can tell.
-pub(crate) const LOWER: f64 = 1e-3;
+/// Parts of the range of [`draw`], in logarithms, from which places nearer to the first model are drawn.
+const NEARER: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
 /// Most steps in the basis from a place.
 const TRIALS: usize = 12;
 
 /// The factors of the lowest place that steps from [`PLACES`] random ones ([`draw`]) find in a basis of the modes at an end and of so many
 /// deflections of all parameters, if it is lower there than the end by more than a thousandth. In the basis frequencies far from the end
-/// are too high, never too low: an exact analysis decides what the place is worth.
+/// are too high, never too low: an exact analysis decides what the place is worth. An end that `is_doubted` is left from places nearer to
+/// the first model, too, where none was lower.
 ///
 /// # Errors
 /// The errors of the basis; [`Error::Value`], [`Error::Range`] and [`Error::WrongShape`] for settings and lists out of range.
@@ -26,6 +27,7 @@ pub(crate) fn lower_place(
     weights: &[ModeWeight],
     settings: &WeightedSettings,
     seed: u64,
+    is_doubted: bool,
 ) -> Result<Option<Vec<f64>>, Error> {
     let basis = end.last.model.in_basis(Deflections::All(deflections))?;
     let basis = end.last.with_model(basis);
@@ -37,12 +39,20 @@ pub(crate) fn lower_place(
     let mut follow = basis.about(&end.factors);
     // The basis has a minimum of its own near the end.
     let (own, _) = problem.lowest(&mut follow, &end.factors, (LOWER, 0.0))?;
-    let (mut least, mut place, mut state) = (own - LOWER, None, seed);
-    for _ in 0..PLACES {
-        let first = draw(ranges.len(), &mut state);
-        let found = problem.lowest(&mut follow, &first, (LOWER, 0.0));
-        if let Some((objective, factors)) = found.ok().filter(|(found, _)| *found < least) {
-            (least, place) = (objective, Some(factors));
+    let (mut least, mut place) = (own - LOWER, None);
+    let nearer = if is_doubted { &NEARER[..] } else { &[] };
+    for (width, seed) in [1.0].iter().chain(nearer).zip(seed..) {
+        let mut state = seed;
+        for _ in 0..PLACES {
+            let first = draw(ranges.len(), &mut state).into_iter();
+            let first: Vec<f64> = first.map(|factor| factor.powf(*width)).collect();
+            let found = problem.lowest(&mut follow, &first, (LOWER, 0.0));
+            if let Some((objective, factors)) = found.ok().filter(|(found, _)| *found < least) {
+                (least, place) = (objective, Some(factors));
+            }
+        }
+        if place.is_some() {
+            break;
         }
     }
     Ok(place)

@@ -26,15 +26,14 @@ use crate::method::step::Bounds;
 use crate::sparse::modal_assurance;
 use crate::weighted::noise::Noise;
 use nalgebra::DMatrix;
-use readings::explain;
+use readings::{FALSE_ALARMS, LEAST, explain};
 use shapes::changed;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// Modal assurance of two test modes from which they are nearly one shape. Two modes of the box, whose masses differ
 /// several hundredfold, have 0.75 with noise of 1 %, and a mode measured twice has 0.99. It does not depend on the
 /// order and signs of the points, so that a mistake in these does not look like a mode measured twice.
 pub const NEARLY_SAME: f64 = 0.9;
-/// Frequencies that differ by less are one mode's, measured twice.
-const SAME_FREQUENCY: f64 = 0.02;
 /// Singular value of the test shapes, of unit length, below which the points do not distinguish them: orthogonal shapes have one.
 pub const LEAST_SINGULAR: f64 = 0.3;
 /// Tolerance beyond which a percentage was probably meant: a fifth of the frequency, or of the largest component.
@@ -49,17 +48,38 @@ struct Copies {
     assurance: f64,
     /// The second frequency over the first.
     frequency_ratio: f64,
+    /// True if noise alone, in all but one of a thousand tests, makes one mode differ so much from itself.
+    is_measured_twice: bool,
 }
 
 impl Copies {
-    /// True if their frequencies too are one mode's.
-    fn is_measured_twice(&self) -> bool {
-        (self.frequency_ratio - 1.0).abs() < SAME_FREQUENCY
+    /// Two test modes of a modal assurance $m$, with the sum of the squares of their deviations. A reading of either differs from the
+    /// other's by noise of both, so that with the first shape $a$, of unit largest component,
+    ///
+    /// $$ \chi^2 = \frac{\lvert a \rvert^2 (1 - m)}{\sigma_v^2} + \frac{\ln^2 (f_2/f_1)}{\sigma_f^2} $$
+    ///
+    /// has as many degrees of freedom as there are sensors: one less for the scale of the shapes, one more for the frequency.
+    fn new(test: &Modes, modes: [usize; 2], assurance: f64, noise: [Noise; 2]) -> Self {
+        let ([a, b], hertz) = (modes, test.frequencies_hz());
+        let frequency_ratio = hertz[b] / hertz[a];
+        let sum = |of: fn(&Noise) -> f64| noise.iter().map(|own| of(own).powi(2)).sum::<f64>();
+        let shape = test.shapes.column(a);
+        let size = shape.norm_squared() / shape.amax().powi(2);
+        let chi_squared = size * (1.0 - assurance) / sum(|own| own.shape)
+            + frequency_ratio.ln().powi(2) / sum(|own| own.frequency);
+        let law = ChiSquared::new(shape.len() as f64);
+        Self {
+            modes,
+            assurance,
+            frequency_ratio,
+            is_measured_twice: law
+                .is_ok_and(|law| chi_squared <= law.inverse_cdf(1.0 - FALSE_ALARMS)),
+        }
     }
 
     /// A doubt where a mode was measured twice, and else a remark: few sensors may see two modes alike.
     fn concern(&self, names: &Names) -> Concern {
-        let kind = match self.is_measured_twice() {
+        let kind = match self.is_measured_twice {
             true => Kind::MeasuredTwice,
             false => Kind::Alike,
         };
@@ -69,21 +89,21 @@ impl Copies {
 }
 
 /// The places of test modes without near copies of earlier ones, and each such copy.
-fn distinct_shapes(test: &Modes) -> Result<(Vec<usize>, Vec<Copies>), Error> {
+fn distinct_shapes(test: &Modes, noise: &[Noise]) -> Result<(Vec<usize>, Vec<Copies>), Error> {
     let assurance = modal_assurance(&test.shapes, &test.shapes)?;
-    let frequencies = test.frequencies_hz();
+    let own = |mode: usize| noise.get(mode).copied().unwrap_or(LEAST);
     let (mut apart, mut copies) = (Vec::<usize>::new(), Vec::new());
     for b in 0..test.len() {
         let Some(&a) = apart.iter().find(|&&a| assurance[(a, b)] >= NEARLY_SAME) else {
             apart.push(b);
             continue;
         };
-        let (assurance, frequency_ratio) = (assurance[(a, b)], frequencies[b] / frequencies[a]);
-        copies.push(Copies {
-            modes: [a, b],
-            assurance,
-            frequency_ratio,
-        });
+        copies.push(Copies::new(
+            test,
+            [a, b],
+            assurance[(a, b)],
+            [own(a), own(b)],
+        ));
     }
     Ok((apart, copies))
 }
@@ -133,10 +153,10 @@ pub fn preflight_at_sensors(
     // A mode measured twice has no second partner. A sensor that drowns all others makes shapes alike, but not frequencies.
     let copies = match test.shapes.nrows() {
         1 => Vec::new(),
-        _ => distinct_shapes(test)?.1,
+        _ => distinct_shapes(test, noise)?.1,
     };
     let is_copy = |mode: &usize| {
-        let mut twice = copies.iter().filter(|copies| copies.is_measured_twice());
+        let mut twice = copies.iter().filter(|copies| copies.is_measured_twice);
         twice.any(|copies| copies.modes[1] == *mode)
     };
     let once: Vec<usize> = (0..test.len()).filter(|mode| !is_copy(mode)).collect();
@@ -165,7 +185,7 @@ pub fn preflight_at_sensors(
     let is_one = test.shapes.nrows() == 1;
     let (places, copies) = match is_one {
         true => ((0..test.len()).collect(), Vec::new()),
-        false => distinct_shapes(&test)?,
+        false => distinct_shapes(&test, noise)?,
     };
     concerns.extend(is_one.then(|| Check::skipped(&[Check::Copies], alike)));
     concerns.extend(copies.iter().map(|copies| copies.concern(names)));

@@ -27,7 +27,7 @@ use std::rc::Rc;
 
 /// Least standard deviations of a reading, over the largest of its mode, and of a frequency: what first order and parameters leave out is
 /// no less, however small the noise.
-const LEAST: Noise = Noise {
+pub(super) const LEAST: Noise = Noise {
     shape: 0.01,
     frequency: 0.005,
 };
@@ -37,7 +37,7 @@ const MODEL_ERROR: f64 = 0.3;
 /// $\lvert v_l^t \Delta K v_i \rvert \le \delta \sqrt{\lambda_l \lambda_i}$ (Cauchy and Schwarz).
 const OTHER_ERROR: f64 = 0.003;
 /// Share of right tests in which a mistake may be named.
-const FALSE_ALARMS: f64 = 1e-3;
+pub(super) const FALSE_ALARMS: f64 = 1e-3;
 /// A gain closer to one than this factor may be the model's.
 const LEAST_GAIN: f64 = 1.5;
 /// A sensor is dead when its readings are below this part of those expected.

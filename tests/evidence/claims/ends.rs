@@ -2,6 +2,7 @@
 
 use crate::common::tolerances::{SLOPES_TOLD, STATIONARY};
 use crate::evidence::ends::{corrected, network, oscillators, steepness, steps};
+use crate::evidence::five_structures::{TOWER, corrections};
 use corfem::job::JobResult;
 use corfem::job::verdict::{Outcome, Stationary};
 use corfem::weighted::gauss_newton::WeightedStop;
@@ -65,6 +66,19 @@ fn exact_data_of_a_right_model_end_in_the_truth_or_in_a_doubt() {
     let (right, silent) = light_oscillators(1_000..1_040, noise);
     assert_eq!(silent, [0; 0]);
     assert!(right >= 36, "{right} of 40");
+}
+
+/// Modes of a tower of 32 parameters change places between the first model and the truth, and every other of its right tests once ended in
+/// another valley that noise does not explain, of these six three. At most one does now, and of six with three times the noise none is
+/// accepted.
+#[test]
+fn a_minimum_that_noise_does_not_explain_is_left() {
+    let noise = Noise {
+        frequency: 0.005,
+        shape: 0.03,
+    };
+    let found = corrections(TOWER, noise, 6);
+    assert!(found.accepted >= 5 && found.found == 6, "{found:?}");
 }
 
 /// With wider deviations one job in fifty may stay in a valley of its own whose chi-squared the noise allows: twenty places do not find all.
