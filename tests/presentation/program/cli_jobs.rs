@@ -24,7 +24,7 @@ fn correlate(job: &Path, more: &[&str]) -> Output {
 /// What a worked job prints and writes into a folder.
 pub struct Reported {
     report: String,
-    files: BTreeMap<String, String>,
+    pub files: BTreeMap<String, String>,
 }
 
 impl Reported {
