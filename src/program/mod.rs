@@ -64,6 +64,10 @@ a second one ends the program at once and leaves no half-written file.
 Exit status: 0 within tolerance and no doubt stands; 2 bad input, or a file that cannot be read or written; 3 not within tolerance, or a doubt \
 stands, which --accept answers for; the best found is printed all the same.";
 
+const STUDY_USAGE: &str = "\
+corfem study [OPTIONS] --samples <N> --folder <DIR> <JOB>
+       corfem study [OPTIONS] --sample <K> <JOB>";
+
 const CHECK_HELP: &str = "\
 Exit status: 0 no doubt stands; 2 bad input, or a file that cannot be read; 3 a doubt stands, which --accept answers for.";
 
@@ -82,7 +86,7 @@ enum Command {
     #[command(after_help = JOB_HELP)]
     Correlate(CorrelateArguments),
     /// Run a job many times with its test varied, and report how its factors scatter
-    #[command(after_help = JOB_HELP)]
+    #[command(after_help = JOB_HELP, override_usage = STUDY_USAGE)]
     Study(StudyArguments),
     /// Write a job file or the table of a test that explains its entries, or a whole example that runs
     Init(InitArguments),

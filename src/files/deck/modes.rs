@@ -6,10 +6,11 @@ use crate::files::test_data::row_name;
 use crate::method::appendix_a::{ElementMatrix, element_matrices};
 use crate::method::error::Error;
 use crate::method::linear_algebra::symmetric_eigen;
-use crate::method::structure::{DIRECTIONS, Structure};
+use crate::method::structure::{DIRECTIONS, StructuralDof, Structure};
 use crate::sparse::SparseMatrix;
 use crate::sparse::elements::{largest_entry, stiffness_entries, support};
 use crate::sparse::whole_modes::{MassDof, WholeModes, whole_modes};
+use nalgebra::RowDVector;
 
 /// Largest ratio of the stiffness of two elements. An assembled entry holds 16 digits of the stiffer one; at a ratio of
 /// 1e10 six digits of the lowest frequency are left.
@@ -51,6 +52,31 @@ pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
         found.counted = Some(found.modes.len());
     }
     Ok(found)
+}
+
+/// Shapes of a deck's modes at every degree of freedom that moves, those that MPC equations make dependent among them: a row each.
+///
+/// # Errors
+/// [`FileError::TiedElement`] and what [`Structure::new`] refuses.
+pub fn moving(
+    model: &BulkData,
+    modes: &WholeModes,
+) -> Result<Vec<(StructuralDof, RowDVector<f64>)>, FileError> {
+    let structure = model.structure()?;
+    let motion_of = model.motions(&structure);
+    let all = model.grids.iter().flat_map(|grid| {
+        let grid = grid.label;
+        (0..3).map(move |direction| StructuralDof { grid, direction })
+    });
+    let of_motion = |dof| {
+        let motion = motion_of(dof);
+        let still = RowDVector::zeros(modes.at_rows.ncols());
+        let shape = motion.iter().fold(still, |shape, (row, factor)| {
+            shape + *factor * modes.at_rows.row(*row)
+        });
+        (!motion.is_empty()).then_some((dof, shape))
+    };
+    Ok(all.filter_map(of_motion).collect())
 }
 
 /// Refuses elements so unlike in stiffness that a sum of both loses the softer one.
