@@ -22,47 +22,7 @@ const SYSTEM: usize = 1;
 /// Errors of [`Pairing::paired`](crate::method::sorting::Pairing::paired).
 pub fn universal(report: &Report, loaded: &LoadedJob) -> Result<String, Error> {
     let placed = &loaded.placed;
-    let places = placed.iter().map(|sensor| (sensor.grid, sensor.place));
-    let places: BTreeMap<usize, Option<Vector3<f64>>> = places.collect();
-    let mut text = format!(
-        "    -1\n  2420\n{:10}\nNONE\n{SYSTEM:10}{:10}{:10}\nGlobal\n",
-        1, 0, 11
-    );
-    for row in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]] {
-        row.iter().for_each(|number| text += &real(*number, 16));
-        text += "\n";
-    }
-    text += "    -1\n    -1\n  2411\n";
-    for (grid, place) in &places {
-        let [x, y, z] = place.unwrap_or_default().into();
-        let _ = write!(
-            text,
-            "{grid:10}{SYSTEM:10}{SYSTEM:10}{:10}\n{}{}{}\n",
-            11,
-            real(x, 16),
-            real(y, 16),
-            real(z, 16)
-        );
-    }
-    text += "    -1\n";
-    let lines = lines(report, loaded);
-    if !lines.is_empty() {
-        // A pen that goes through the nodes is lifted by a zero.
-        let nodes = lines.into_iter().flat_map(|[from, to]| [from, to, 0]);
-        let nodes: Vec<usize> = nodes.collect();
-        let _ = writeln!(
-            text,
-            "    -1\n    82\n{:10}{:10}{:10}\nNONE",
-            1,
-            nodes.len(),
-            11
-        );
-        for eight in nodes.chunks(8) {
-            eight.iter().for_each(|node| text += &format!("{node:10}"));
-            text += "\n";
-        }
-        text += "    -1\n";
-    }
+    let mut text = frame(report, loaded);
     let count = if placed.iter().any(|sensor| sensor.direction > 2) {
         6
     } else {
@@ -107,6 +67,45 @@ pub fn universal(report: &Report, loaded: &LoadedJob) -> Result<String, Error> {
         }
     }
     Ok(text)
+}
+
+/// Axes, the grids of the sensors and the lines between them.
+fn frame(report: &Report, loaded: &LoadedJob) -> String {
+    let placed = &loaded.placed;
+    let places = placed.iter().map(|sensor| (sensor.grid, sensor.place));
+    let places: BTreeMap<usize, Option<Vector3<f64>>> = places.collect();
+    let mut text = format!(
+        "    -1\n  2420\n{:10}\nNONE\n{SYSTEM:10}{:10}{:10}\nGlobal\n",
+        1, 0, 11
+    );
+    let row = |numbers: [f64; 3]| numbers.map(|number| real(number, 16)).concat() + "\n";
+    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]];
+    text += &axes.map(row).concat();
+    text += "    -1\n    -1\n  2411\n";
+    for (grid, place) in &places {
+        let place = row(place.unwrap_or_default().into());
+        text += &format!("{grid:10}{SYSTEM:10}{SYSTEM:10}{:10}\n{place}", 11);
+    }
+    text += "    -1\n";
+    let lines = lines(report, loaded);
+    if !lines.is_empty() {
+        // A pen that goes through the nodes is lifted by a zero.
+        let nodes = lines.into_iter().flat_map(|[from, to]| [from, to, 0]);
+        let nodes: Vec<usize> = nodes.collect();
+        let _ = writeln!(
+            text,
+            "    -1\n    82\n{:10}{:10}{:10}\nNONE",
+            1,
+            nodes.len(),
+            11
+        );
+        for eight in nodes.chunks(8) {
+            eight.iter().for_each(|node| text += &format!("{node:10}"));
+            text += "\n";
+        }
+        text += "    -1\n";
+    }
+    text
 }
 
 /// Lines between grids of sensors: those of the test's wire frame, or else edges of the structure.

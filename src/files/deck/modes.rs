@@ -63,20 +63,15 @@ pub fn moving(
     modes: &WholeModes,
 ) -> Result<Vec<(StructuralDof, RowDVector<f64>)>, FileError> {
     let structure = model.structure()?;
-    let motion_of = model.motions(&structure);
-    let all = model.grids.iter().flat_map(|grid| {
-        let grid = grid.label;
-        (0..3).map(move |direction| StructuralDof { grid, direction })
-    });
-    let of_motion = |dof| {
-        let motion = motion_of(dof);
-        let still = RowDVector::zeros(modes.at_rows.ncols());
-        let shape = motion.iter().fold(still, |shape, (row, factor)| {
-            shape + *factor * modes.at_rows.row(*row)
-        });
-        (!motion.is_empty()).then_some((dof, shape))
+    let still = RowDVector::zeros(modes.at_rows.ncols());
+    let shape = |motion: Vec<(usize, f64)>| {
+        let parts = motion.into_iter();
+        parts.fold(still.clone(), |sum, (row, part)| {
+            sum + part * modes.at_rows.row(row)
+        })
     };
-    Ok(all.filter_map(of_motion).collect())
+    let all = model.all_motions(&structure);
+    Ok(all.map(|(dof, motion)| (dof, shape(motion))).collect())
 }
 
 /// Refuses elements so unlike in stiffness that a sum of both loses the softer one.

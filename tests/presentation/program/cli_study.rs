@@ -318,3 +318,19 @@ fn a_folder_in_place_of_a_job_is_told_what_to_write() {
         "{modes}"
     );
 }
+
+#[test]
+fn the_help_of_every_command_has_its_exit_statuses() {
+    let help = text(&corfem(&["help"]).stdout);
+    let commands = help.split("Commands:\n").nth(1).expect("commands");
+    let commands = commands.lines().take_while(|line| !line.is_empty());
+    let commands = commands.filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
+    let commands: Vec<&str> = commands
+        .filter(|name| !name.is_empty() && *name != "help")
+        .collect();
+    assert_eq!(commands.len(), 12, "{commands:?}");
+    for command in commands {
+        let help = text(&corfem(&[command, "--help"]).stdout);
+        assert!(help.contains("\nExit status: 0 "), "{command}: {help}");
+    }
+}
