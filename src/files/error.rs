@@ -31,7 +31,7 @@ pub enum FileError {
         field: usize,
         reason: String,
     },
-    /// Cards that may be part of the model and are not understood.
+    /// Cards that are not read, some of which may be part of the model and are not understood.
     #[error("{}", of_cards(.file, .cards))]
     DeckCards { file: String, cards: Vec<Unread> },
     /// Elements so unlike in stiffness that double precision loses the softer one: the largest entry of each one's stiffness

@@ -25,14 +25,15 @@ pub struct Deck {
 /// Reads a deck in UTF-8 or Latin-1, without cards of the names `ignored` that are not understood; `file` is its name in messages.
 ///
 /// It may have executive and case control in front of `BEGIN BULK`, or be bulk data alone. Read are GRID, GRDSET,
-/// CROD, PROD, CONROD, CSHEAR, PSHEAR, CQDMEM, PQDMEM, CTRMEM, PTRMEM, MAT1, SPC, SPC1, SPCADD, MPC, MPCADD, CMASS2, CONM2
-/// and `PARAM,WTMASS`, which multiplies every mass and density, in any order. Cards that say nothing of stiffness, mass,
+/// CORD1R, CORD1C, CORD1S, CORD2R, CORD2C, CORD2S, CROD, PROD, CONROD, CSHEAR, PSHEAR, CQDMEM, PQDMEM, CTRMEM, PTRMEM, MAT1,
+/// SPC, SPC1, SPCADD, MPC, MPCADD, CMASS1, PMASS, CMASS2, CONM2 and `PARAM,WTMASS`, which multiplies every mass and density,
+/// in any order. Cards that say nothing of stiffness, mass,
 /// supports or coordinates, such as loads, are listed in [`Deck::unread`], and so are those ignored, except EIGR and EIGRL:
 /// they say how to look for eigenvalues. Every other card is an error.
 ///
 /// # Errors
-/// [`FileError::DeckCards`] lists all cards that are not read, if one of them is not understood; [`FileError::DeckLine`] and [`FileError::DeckField`] name
-/// file, line, card and field; [`FileError::Refused`] if a name to be ignored is that of a card that is read.
+/// [`FileError::DeckCards`] lists all cards that are not read, if one of them is not understood; [`FileError::DeckLine`] and
+/// [`FileError::DeckField`] name file, line, card and field; [`FileError::Refused`] if a name to be ignored is that of a card that is read.
 pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileError> {
     let ignored: Vec<String> = ignored
         .iter()
