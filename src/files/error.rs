@@ -31,7 +31,7 @@ pub enum FileError {
         field: usize,
         reason: String,
     },
-    /// Cards that may be part of the model and are not understood.
+    /// Cards that are not read, some of which may be part of the model and are not understood.
     #[error("{}", of_cards(.file, .cards))]
     DeckCards { file: String, cards: Vec<Unread> },
     /// Elements so unlike in stiffness that double precision loses the softer one: the largest entry of each one's stiffness
@@ -140,11 +140,12 @@ fn why(action: &str, source: &std::io::Error) -> String {
     }
 }
 
-/// Message about cards that are not read: of elements that the crate lacks, and of others, which may have no part in the model.
+/// Message about cards that are not read: of elements that the crate lacks, those that it does not know, and those without part in the
+/// model.
 fn of_cards(file: &str, cards: &[Unread]) -> String {
-    let (lacking, unknown): (Vec<&Unread>, Vec<&Unread>) = cards
-        .iter()
-        .partition(|card| card.reason == Reason::Lacking);
+    let of = |reason| cards.iter().filter(move |card| card.reason == reason);
+    let [lacking, unknown, without]: [Vec<&Unread>; 3] =
+        [Reason::Lacking, Reason::Unknown, Reason::WithoutPart].map(|own| of(own).collect());
     let places = |cards: &[&Unread]| {
         let places: Vec<String> = cards.iter().map(|card| card.place()).collect();
         places.join(", ")
@@ -164,6 +165,12 @@ fn of_cards(file: &str, cards: &[Unread]) -> String {
              leaving them out with --ignore '{}'",
             places(&unknown),
             names.join(",")
+        ));
+    }
+    if !without.is_empty() {
+        said.push(format!(
+            "no part in the model, so left out: {}",
+            places(&without)
         ));
     }
     format!("{file}: {}", said.join("; and "))

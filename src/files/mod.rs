@@ -25,7 +25,10 @@ pub const MOST_BYTES: u64 = 1 << 31;
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, Error> {
     let found = disk::metadata(path)?;
     if !found.is_file() {
-        let reason = "it is not a regular file; copy what it gives into one";
+        let reason = match found.is_dir() {
+            true => "it is a folder; name a file in it",
+            false => "it is not a regular file; copy what it gives into one",
+        };
         return Err(Error::new(ErrorKind::InvalidInput, reason));
     }
     let (mut bytes, mut length) = (Vec::new(), found.len());

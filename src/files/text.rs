@@ -3,8 +3,17 @@
 use super::error::FileError;
 use std::borrow::Cow;
 
-/// The text of a file in UTF-8, with or without a byte order mark, in UTF-16 with one, or else in Latin-1.
+/// The text of a file in UTF-8, with or without a byte order mark, in UTF-16 with one, or else in Latin-1. Lines that a carriage return
+/// alone ends, as in old files, end by a line feed.
 pub(crate) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
+    let text = in_characters(bytes);
+    match text.contains('\n') {
+        true => text,
+        false => text.replace('\r', "\n").into(),
+    }
+}
+
+fn in_characters(bytes: &[u8]) -> Cow<'_, str> {
     let wide = |order: fn([u8; 2]) -> u16| {
         let units = bytes[2..]
             .chunks_exact(2)

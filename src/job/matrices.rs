@@ -14,7 +14,7 @@ use crate::sparse::whole_modes::WholeModes;
 use crate::sparse::{
     FINITE, Factor, Places, SparseMatrix, Support, WholeModel, WholeParameter, WholeShare,
 };
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, Vector3};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -177,6 +177,7 @@ pub fn matrix_modes(file: &Path, mass: &Path, most: usize) -> Result<WholeModes,
         counted: rows_with_mass.map(|rows| rows - rigid_body),
         dof,
         modes,
+        at_rows: DMatrix::zeros(0, 0),
         rigid_body,
     })
 }

@@ -7,7 +7,7 @@ use crate::files::test_data::DIRECTIONS;
 use crate::method::appendix_a::element_matrices;
 use crate::method::error::Error;
 use crate::method::step::Bounds;
-use crate::method::structure::{Grid, StructuralDof};
+use crate::method::structure::StructuralDof;
 use crate::sparse::elements::{lumped_masses, moving_mass_entries, stiffness_entries, support};
 use crate::sparse::{SparseMatrix, Support, WholeModel, WholeParameter, WholeShare};
 use crate::weighted::identifiability::PRIOR_DEVIATION;
@@ -246,12 +246,7 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
     };
     let whole = WholeModel::supported(stiffness, mass, parameters, support)?;
     let grids = bulk.grids.iter();
-    let dof = |grid: &Grid| {
-        let grid = grid.label;
-        (0..3).map(move |direction| StructuralDof { grid, direction })
-    };
-    let motions = grids.clone().flat_map(dof).map(|dof| (dof, motion_of(dof)));
-    let motions = motions.filter(|(_, motion)| !motion.is_empty()).collect();
+    let motions = bulk.all_motions(&structure).collect();
     let geometry = GridLayout {
         places: grids.map(|grid| (grid.label, grid.position)).collect(),
         elements: bulk

@@ -17,6 +17,7 @@ use crate::job::{Trial, Trust, of_bodies};
 use crate::method::inner_loop::Iteration;
 use crate::method::step::Bounds;
 use crate::method::step::Limit;
+use crate::method::structure::StructuralDof;
 use crate::sparse::Work;
 use crate::sparse::whole_modes::WholeModes;
 use crate::torque_box::CaseResult;
@@ -25,7 +26,7 @@ use crate::weighted::comparison::ExactResult;
 use crate::weighted::intervals::Withheld;
 use crate::weighted::misfit::Misfit;
 use crate::weighted::starts::{Minimum, StartEnd};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, RowDVector};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -315,19 +316,24 @@ fn case(result: &CaseResult) -> Result<Value, PresentError> {
 }
 
 /// The lowest `count` modes of a deck or of matrices, every shape scaled to a largest component of one; components in the order of
-/// `dof`, which is empty for matrices that do not name their rows.
+/// `dof`, which is empty for matrices that do not name their rows. `moving` has them in the same scale at all that moves in a deck.
 pub fn deck_modes(
     unread: &[Unread],
     modes: &WholeModes,
+    moving: &[(StructuralDof, RowDVector<f64>)],
     count: usize,
 ) -> Result<String, PresentError> {
     let (masses, shapes) = unit_shapes(modes, count);
-    let dof = modes
-        .dof
-        .iter()
-        .map(|dof| json!({"grid": dof.grid, "direction": DIRECTIONS[dof.direction]}));
+    let named =
+        |dof: &StructuralDof| json!({"grid": dof.grid, "direction": DIRECTIONS[dof.direction]});
+    let at = |mode: usize, mass: &f64| {
+        let components = moving.iter().map(|(_, shape)| shape[mode] * mass.sqrt());
+        components.collect::<Value>()
+    };
     own_document(json!({
-        "dof": dof.collect::<Value>(),
+        "dof": modes.dof.iter().map(named).collect::<Value>(),
+        "moving_dof": moving.iter().map(|(dof, _)| named(dof)).collect::<Value>(),
+        "moving_shapes": masses.iter().enumerate().map(|(mode, mass)| at(mode, mass)).collect::<Value>(),
         "rigid_body_modes": modes.rigid_body,
         "doubtful": modes.doubtful.iter().map(|found| of_bodies(found).words()).collect::<Vec<_>>(),
         "frequencies_hz": modes.modes.frequencies_hz().into_iter().take(count).collect::<Value>(),

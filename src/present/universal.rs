@@ -2,38 +2,27 @@
 
 use super::report::Report;
 use super::rows::shapes;
-use crate::job::PlacedSensor;
+use crate::job::LoadedJob;
 use crate::method::error::Error;
 use nalgebra::{Vector3, Vector6};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fmt::Write;
 
 /// Sets of shapes, in the order of the file, with what stands in the first line of each.
 const SETS: [&str; 3] = ["test", "first model", "corrected model"];
 
-/// A Universal File with the grids of the sensors (dataset 2411) and, at these, the shapes of test, first and corrected model (dataset 55,
-/// real, six digits), each of a largest component of one. A grid's motion is the sum of its sensors' along their axes.
+/// Number of the coordinate system of all places and motions, whose axes are the global ones.
+const SYSTEM: usize = 1;
+
+/// A Universal File with the global axes (dataset 2420), the grids of the sensors (2411), lines between them (82) and, at the grids, the
+/// shapes of test, first and corrected model (55, real, six digits), each of a largest component of one. A grid's motion is the sum of
+/// its sensors' along their axes.
 ///
 /// # Errors
 /// Errors of [`Pairing::paired`](crate::method::sorting::Pairing::paired).
-pub fn universal(report: &Report, placed: &[PlacedSensor]) -> Result<String, Error> {
-    let places = placed.iter().map(|sensor| (sensor.grid, sensor.place));
-    let places: BTreeMap<usize, Option<Vector3<f64>>> = places.collect();
-    let mut text = "    -1\n  2411\n".to_owned();
-    for (grid, place) in &places {
-        let [x, y, z] = place.unwrap_or_default().into();
-        let _ = write!(
-            text,
-            "{grid:10}{:10}{:10}{:10}\n{}{}{}\n",
-            0,
-            0,
-            11,
-            real(x, 16),
-            real(y, 16),
-            real(z, 16)
-        );
-    }
-    text += "    -1\n";
+pub fn universal(report: &Report, loaded: &LoadedJob) -> Result<String, Error> {
+    let placed = &loaded.placed;
+    let mut text = frame(report, loaded);
     let count = if placed.iter().any(|sensor| sensor.direction > 2) {
         6
     } else {
@@ -78,6 +67,78 @@ pub fn universal(report: &Report, placed: &[PlacedSensor]) -> Result<String, Err
         }
     }
     Ok(text)
+}
+
+/// Axes, the grids of the sensors and the lines between them.
+fn frame(report: &Report, loaded: &LoadedJob) -> String {
+    let placed = &loaded.placed;
+    let places = placed.iter().map(|sensor| (sensor.grid, sensor.place));
+    let places: BTreeMap<usize, Option<Vector3<f64>>> = places.collect();
+    let mut text = format!(
+        "    -1\n  2420\n{:10}\nNONE\n{SYSTEM:10}{:10}{:10}\nGlobal\n",
+        1, 0, 11
+    );
+    let row = |numbers: [f64; 3]| numbers.map(|number| real(number, 16)).concat() + "\n";
+    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]];
+    text += &axes.map(row).concat();
+    text += "    -1\n    -1\n  2411\n";
+    for (grid, place) in &places {
+        let place = row(place.unwrap_or_default().into());
+        text += &format!("{grid:10}{SYSTEM:10}{SYSTEM:10}{:10}\n{place}", 11);
+    }
+    text += "    -1\n";
+    let lines = lines(report, loaded);
+    if !lines.is_empty() {
+        // A pen that goes through the nodes is lifted by a zero.
+        let nodes = lines.into_iter().flat_map(|[from, to]| [from, to, 0]);
+        let nodes: Vec<usize> = nodes.collect();
+        let _ = writeln!(
+            text,
+            "    -1\n    82\n{:10}{:10}{:10}\nNONE",
+            1,
+            nodes.len(),
+            11
+        );
+        for eight in nodes.chunks(8) {
+            eight.iter().for_each(|node| text += &format!("{node:10}"));
+            text += "\n";
+        }
+        text += "    -1\n";
+    }
+    text
+}
+
+/// Lines between grids of sensors: those of the test's wire frame, or else edges of the structure.
+fn lines(report: &Report, loaded: &LoadedJob) -> BTreeSet<[usize; 2]> {
+    let sensors = loaded.placed.iter();
+    let of_node = sensors
+        .clone()
+        .filter_map(|own| Some((loaded.data.sensors[own.row].grid?, own.grid)));
+    let of_node: HashMap<usize, usize> = of_node.collect();
+    // Minus zero and zero are the same place.
+    let bits = |place: Vector3<f64>| place.map(|number| (number + 0.0).to_bits());
+    let of_place = sensors.filter_map(|own| Some((bits(own.place?), own.grid)));
+    let of_place: HashMap<Vector3<u64>, usize> = of_place.collect();
+    let between = |from: Option<&usize>, to: Option<&usize>| {
+        let (from, to) = (*from?, *to?);
+        (from != to).then_some([from.min(to), from.max(to)])
+    };
+    let of_test = loaded.data.lines.iter();
+    let of_test = of_test.filter_map(|[from, to]| between(of_node.get(from), of_node.get(to)));
+    let of_test: BTreeSet<[usize; 2]> = of_test.collect();
+    let edges = report.frame.iter().flat_map(|corners| {
+        let next = corners.iter().cycle().skip(1);
+        let grid = |corner: &Vector3<f64>| of_place.get(&bits(*corner));
+        corners
+            .iter()
+            .zip(next)
+            .filter_map(move |(from, to)| between(grid(from), grid(to)))
+    });
+    if of_test.is_empty() {
+        edges.collect()
+    } else {
+        of_test
+    }
 }
 
 /// A number in columns of 13 with five digits behind the point, or of 25 with sixteen.

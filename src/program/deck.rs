@@ -96,8 +96,8 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
 pub fn modes(arguments: &ModesArguments) -> Result<bool, PresentError> {
     let most = arguments.count.map_or(USUAL_COUNT, NonZeroUsize::get);
     let of_matrices = arguments.stiffness.as_ref().zip(arguments.mass.as_ref());
-    let (unread, modes) = if let Some((stiffness, mass)) = of_matrices {
-        (Vec::new(), matrix_modes(stiffness, mass, most)?)
+    let (unread, modes, model) = if let Some((stiffness, mass)) = of_matrices {
+        (Vec::new(), matrix_modes(stiffness, mass, most)?, None)
     } else {
         let path = arguments.deck.as_deref().unwrap_or(Path::new(""));
         let name = path.display().to_string();
@@ -106,7 +106,8 @@ pub fn modes(arguments: &ModesArguments) -> Result<bool, PresentError> {
         for card in &deck.unread {
             note(format_args!("corfem: {name}: {}", not_read(card)));
         }
-        (deck.unread, deck::modes(&deck.model, most)?)
+        let modes = deck::modes(&deck.model, most)?;
+        (deck.unread, modes, Some(deck.model))
     };
     let found = modes.modes.len();
     let is_short = found < most && modes.counted != Some(found);
@@ -124,9 +125,16 @@ pub fn modes(arguments: &ModesArguments) -> Result<bool, PresentError> {
         _ => (),
     }
     let tables = deck_tables(&unread, &modes, found);
-    arguments
-        .output
-        .write(&tables, || json::deck_modes(&unread, &modes, found))?;
+    let document = || {
+        let moving = model.as_ref().map(|model| deck::moving(model, &modes));
+        json::deck_modes(
+            &unread,
+            &modes,
+            &moving.transpose()?.unwrap_or_default(),
+            found,
+        )
+    };
+    arguments.output.write(&tables, document)?;
     let has_doubt = modes.doubtful.iter().any(|found| of_bodies(found).stands());
     Ok(!are_lost && !has_doubt)
 }

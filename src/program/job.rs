@@ -6,6 +6,7 @@ use super::output::{OutputArguments, note};
 use super::place::write_report;
 use super::{progress, signals};
 use clap::Args;
+use corfem::files::disk::read_dir;
 use corfem::files::error::FileError;
 use corfem::files::escaped;
 use corfem::job::{
@@ -83,6 +84,36 @@ pub fn file_name(job: &Path) -> String {
         .map_or_else(String::new, |name| escaped(&name.to_string_lossy()))
 }
 
+/// The path of a job, unless it is a folder: then an error says which file in it to name, or how to write one.
+///
+/// # Errors
+/// [`FileError::Refused`] for a folder.
+pub fn job_file(path: &Path) -> Result<&Path, FileError> {
+    if !path.is_dir() {
+        return Ok(path);
+    }
+    let entries = read_dir(path).into_iter().flatten().flatten();
+    let jobs = entries.map(|entry| entry.path());
+    let mut jobs: Vec<PathBuf> = jobs
+        .filter(|path| path.extension().is_some_and(|end| end == "toml"))
+        .collect();
+    jobs.sort();
+    let remedy = match jobs.first() {
+        Some(job) => format!("name a job in it: {}", job.display()),
+        None => {
+            let job = path.join("job.toml");
+            format!(
+                "corfem init {} writes a job that explains its entries",
+                job.display()
+            )
+        }
+    };
+    Err(FileError::Refused {
+        of: path.display().to_string(),
+        reason: format!("is a folder; {remedy}"),
+    })
+}
+
 /// Writes a job, or a test's table, that explains itself, or a whole example.
 pub fn init(
     InitArguments {
@@ -113,7 +144,7 @@ pub fn check_job(
     quiet: bool,
 ) -> Result<bool, PresentError> {
     let (trust, tables) = progress::during(quiet, "looking at the job", || {
-        let prepared = LoadedJob::new(job)?.prepare()?;
+        let prepared = LoadedJob::new(job_file(job)?)?.prepare()?;
         let trust = Trust::before(&prepared)?.accepting(accept)?;
         let report = Report {
             trust: Some(trust.clone()),
@@ -177,7 +208,7 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
             ),
             (
                 "shapes.unv".to_owned(),
-                universal(&report, &prepared.loaded.placed)?.into_bytes(),
+                universal(&report, &prepared.loaded)?.into_bytes(),
             ),
             (
                 "residuals.csv".to_owned(),
@@ -199,7 +230,7 @@ fn corrected(
     quiet: bool,
     stop: Arc<AtomicBool>,
 ) -> Result<(PreparedJob, JobResult), PresentError> {
-    let mut loaded = LoadedJob::new(&arguments.job)?;
+    let mut loaded = LoadedJob::new(job_file(&arguments.job)?)?;
     let go_on = || !stop.load(Ordering::SeqCst);
     // The paper's loops keep a pass only when its analysis has ended.
     let may_end = arguments.starts.is_some() || loaded.job.compare.method == Method::GaussNewton;

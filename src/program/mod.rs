@@ -57,12 +57,19 @@ case).
 
 Results go to standard output, progress to standard error. A signal that ends the program leaves no half-written file.";
 
+const PLAIN_HELP: &str = "\
+Exit status: 0 all is printed or written; 2 bad input, or a file or standard output that cannot be read or written.";
+
 const JOB_HELP: &str = "\
 Ctrl-C ends the analysis under way, or lets that of a study or of the paper's loops end, and keeps the best so far or the samples done; \
 a second one ends the program at once and leaves no half-written file.
 
 Exit status: 0 within tolerance and no doubt stands; 2 bad input, or a file that cannot be read or written; 3 not within tolerance, or a doubt \
 stands, which --accept answers for; the best found is printed all the same.";
+
+const STUDY_USAGE: &str = "\
+corfem study [OPTIONS] --samples <N> --folder <DIR> <JOB>
+       corfem study [OPTIONS] --sample <K> <JOB>";
 
 const CHECK_HELP: &str = "\
 Exit status: 0 no doubt stands; 2 bad input, or a file that cannot be read; 3 a doubt stands, which --accept answers for.";
@@ -73,29 +80,37 @@ Exit status: 0 all modes asked for were found; 2 bad input, or a file that canno
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Correlate the paper's cases: what became of all four, or every table of those that are named (3 to 8 and 13)
+    #[command(after_help = AFTER_HELP)]
     Cases(CasesArguments),
     /// Print Table 1, computed anew, and Tables 2 to 13 as published; CPU seconds are in Table 13
+    #[command(after_help = PLAIN_HELP)]
     Tables(TablesArguments),
     /// Correlate Case 2 with fewer test and analysis modes (Tables 9 to 12), and show what truncation costs
+    #[command(after_help = PLAIN_HELP)]
     FewerModes(FewerModesArguments),
     /// Correct the model of your own structure: a job file names its deck or matrices and its ground vibration test
     #[command(after_help = JOB_HELP)]
     Correlate(CorrelateArguments),
     /// Run a job many times with its test varied, and report how its factors scatter
-    #[command(after_help = JOB_HELP)]
+    #[command(after_help = JOB_HELP, override_usage = STUDY_USAGE)]
     Study(StudyArguments),
     /// Write a job file or the table of a test that explains its entries, or a whole example that runs
+    #[command(after_help = PLAIN_HELP)]
     Init(InitArguments),
     /// Look at a job before the first step
     #[command(after_help = CHECK_HELP)]
     Check(CheckArguments),
     /// Write the figures of the cases and of fewer modes as SVG
+    #[command(after_help = PLAIN_HELP)]
     Figures(FiguresArguments),
     /// Write one web page with the tables and figures of cases and fewer modes, and the assumptions
+    #[command(after_help = PLAIN_HELP)]
     Report(ReportArguments),
     /// Write the torque box of a case as a NASTRAN deck
+    #[command(after_help = PLAIN_HELP)]
     Deck(DeckArguments),
     /// Write a case's matrices and every iteration, as JSON and Matrix Market, to check another program against
+    #[command(after_help = PLAIN_HELP)]
     Dump(DumpArguments),
     /// Print frequencies and mode shapes of a NASTRAN deck or of matrices
     #[command(after_help = MODES_HELP)]

@@ -1,7 +1,7 @@
 //! `corfem study`: runs a job many times with its test varied within its uncertainty.
 
 use super::folder::write_files;
-use super::job::file_name;
+use super::job::{file_name, job_file};
 use super::output::{OutputArguments, note};
 use super::settings::named;
 use super::{progress, signals};
@@ -52,7 +52,12 @@ pub struct StudyArguments {
 /// Runs the samples that a folder does not have yet and reports on all, or runs one sample alone; true if no doubt stands.
 pub fn study(arguments: &StudyArguments, quiet: bool) -> Result<bool, PresentError> {
     let StudyArguments { job, output, .. } = arguments;
-    let study = Study::new(job, arguments.seed, &arguments.vary, &arguments.accept)?;
+    let study = Study::new(
+        job_file(job)?,
+        arguments.seed,
+        &arguments.vary,
+        &arguments.accept,
+    )?;
     let trust = &study.trust;
     // Postponed until the finished samples are written, so that a request to stop ends the program then.
     let (stop, _postponed) = signals::postpone_first();

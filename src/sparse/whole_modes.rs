@@ -9,7 +9,7 @@ use crate::method::modes::Modes;
 use crate::method::structure::StructuralDof;
 use crate::sparse::rigid_bodies::BodyFinding;
 use crate::sparse::{SparseMatrix, Support};
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 /// The degrees of freedom that move with mass.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +29,8 @@ pub struct WholeModes {
     pub dof: Vec<StructuralDof>,
     /// Vibrations with a finite frequency, from the lowest.
     pub modes: Modes,
+    /// Their shapes at the rows of the stiffness, signed alike; none where these are the rows of `modes`.
+    pub at_rows: DMatrix<f64>,
     /// Number of vibrations with a finite frequency that there are, where it was counted.
     pub counted: Option<usize>,
     /// Number of rigid-body modes beside them.
@@ -62,10 +64,16 @@ pub fn whole_modes(
     let (stiffness, mass) = whole.at(&[])?;
     let (CountedModes { vibrations, .. }, _) =
         whole.modes_of((&stiffness, &mass), most..=most, None)?;
-    let shapes = t.transposed().times(&vibrations.shapes)?;
+    let mut at_rows = vibrations.shapes;
+    let shapes = t.transposed().times(&at_rows)?;
+    let modes = Modes::signed(vibrations.omega_squared, shapes.clone());
+    for (mode, mut shape) in at_rows.column_iter_mut().enumerate() {
+        shape *= shapes.column(mode).dot(&modes.shapes.column(mode)).signum();
+    }
     Ok(WholeModes {
         dof: at.dof,
-        modes: Modes::signed(vibrations.omega_squared, shapes),
+        modes,
+        at_rows,
         counted: None,
         rigid_body: whole.rigid_bodies()?.rigid(),
         doubtful: whole.body_findings(name)?,

@@ -63,7 +63,8 @@ pub fn write_csv(data: &TestData) -> String {
     text
 }
 
-/// Writes a test that the reader and other programs read, numbers with six digits (E13.5).
+/// Writes a test that the reader and other programs read, places with all digits (dataset 2411), other
+/// numbers with six (E13.5).
 ///
 /// A sensor without a grid gets a node of its own behind the others. Names, deviations and phase collinearity have no place in the
 /// format, and a sensor that is zero in all modes counts as not measured when it is read.
@@ -87,13 +88,13 @@ pub fn write_universal(data: &TestData) -> String {
         .filter_map(|(node, sensor)| Some((*node, sensor.place?)));
     let places: BTreeMap<usize, Vector3<f64>> = places.collect();
     let record = |(node, place): (usize, Vector3<f64>)| {
-        integers(&[node, 0, 0, 0]) + &reals(place.as_slice()) + "\n"
+        integers(&[node, 0, 0, 0]) + "\n" + &long_reals(place.as_slice()) + "\n"
     };
     let mut text = String::new();
     let mut dataset =
         |number: usize, body: String| text += &format!("    -1\n{number:6}\n{body}    -1\n");
     if !places.is_empty() {
-        dataset(15, places.into_iter().map(record).collect());
+        dataset(2411, places.into_iter().map(record).collect());
     }
     for (number, line) in data.lines.iter().enumerate() {
         dataset(
@@ -151,13 +152,20 @@ fn integers(values: &[usize]) -> String {
 
 /// Numbers in the format E13.5, with an exponent of at least two digits.
 fn reals(values: &[f64]) -> String {
+    in_columns(values, 13, 5)
+}
+
+/// Numbers in the format D25.16, all digits of a double.
+fn long_reals(values: &[f64]) -> String {
+    in_columns(values, 25, 16)
+}
+
+fn in_columns(values: &[f64], width: usize, digits: usize) -> String {
     let one = |value: &f64| {
-        let text = format!("{value:.5e}");
+        let text = format!("{value:.digits$e}");
         let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-        format!(
-            "{:>13}",
-            format!("{mantissa}E{:+03}", exponent.parse::<i32>().unwrap_or(0))
-        )
+        let exponent: i32 = exponent.parse().unwrap_or(0);
+        format!("{:>width$}", format!("{mantissa}E{exponent:+03}"))
     };
     values.iter().map(one).collect()
 }

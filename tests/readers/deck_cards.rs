@@ -83,7 +83,11 @@ fn all_of_them_stand_in_one_error_before_any_other() {
     );
     assert_eq!(
         refused(&deck),
-        [unknown("CBAR", 1, 2), unknown("CSHAER", 9, 1)]
+        [
+            unknown("CBAR", 1, 2),
+            unknown("CSHAER", 9, 1),
+            of_reason("FORCE", 13, 1, Reason::WithoutPart)
+        ]
     );
     assert_eq!(
         deck::read("wing.dat", deck.as_bytes(), &[])
@@ -92,7 +96,7 @@ fn all_of_them_stand_in_one_error_before_any_other() {
         "wing.dat: corfem lacks what CBAR (line 1, 2 cards) stand for, and without them the modes are others; let the program that the \
          deck is for write the stiffness and mass, and give these (paper/matrices.md); and corfem does not read CSHAER (line 9, 1 card), \
          which may carry stiffness, mass, supports or coordinates; correct them, or take responsibility for leaving them out with \
-         --ignore 'CSHAER'"
+         --ignore 'CSHAER'; and no part in the model, so left out: FORCE (line 13, 1 card)"
     );
 }
 

@@ -366,3 +366,22 @@ fn the_owners_programs_read_a_rewritten_deck() {
         );
     }
 }
+
+#[test]
+fn a_rewritten_deck_keeps_carriage_returns_as_ends_of_lines() {
+    let [deck, other] = ["original", "rewritten"].map(|name| {
+        let path = format!("{}/golden/formats/{name}.bdf", env!("CARGO_MANIFEST_DIR"));
+        std::fs::read(path).expect("it reads")
+    });
+    let other = deck::read("other", &other, &[]).expect("it reads").model;
+    let write = |bytes: &[u8]| {
+        let written = deck::rewrite("deck", bytes, &other.elements, &other.masses);
+        String::from_utf8(written.expect("it writes")).expect("UTF-8")
+    };
+    let old = String::from_utf8(deck.clone())
+        .expect("UTF-8")
+        .replace('\n', "\r");
+    let expected = write(&deck);
+    assert_ne!(expected.as_bytes(), deck);
+    assert_eq!(write(old.as_bytes()), expected.replace('\n', "\r"));
+}

@@ -24,7 +24,10 @@ fn endless(path: &Path, kind: usize) -> &'static str {
                 .expect("it runs")
                 .success()
         ),
-        2 => std::fs::create_dir(path).expect("made"),
+        2 => {
+            std::fs::create_dir(path).expect("made");
+            return "it is a folder; name a file in it";
+        }
         _ => {
             // Of four gigabytes, none of which is on the disk.
             File::create(path)

@@ -161,14 +161,14 @@ fn sensors_along_axes_of_their_own_find_the_same_rods() {
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     let nodes = lines
         .iter()
-        .position(|line| line.trim() == "15")
+        .position(|line| line.trim() == "2411")
         .expect("nodes")
         + 1;
     for (row, system) in [(0, 3), (1, 4)] {
-        lines[nodes + row].replace_range(20..30, &format!("{system:10}"));
+        lines[nodes + 2 * row].replace_range(20..30, &format!("{system:10}"));
     }
     let mut at_node = None;
-    for line in lines.iter_mut().skip(nodes + 4) {
+    for line in lines.iter_mut().skip(nodes + 7) {
         let value = line
             .split_whitespace()
             .next()

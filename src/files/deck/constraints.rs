@@ -172,25 +172,26 @@ impl Constraints {
         grids: &BTreeMap<usize, Grid>,
         motions: &Motions,
     ) -> Result<Vec<Tie>, FileError> {
-        let mut ties: BTreeMap<StructuralDof, (Tie, &Card)> = BTreeMap::new();
+        let mut ties: BTreeMap<StructuralDof, (Tie, Vec<usize>, &Card)> = BTreeMap::new();
         for (_, card) in &self.equations.cards {
             let last = card.filled().pop().unwrap_or(0);
-            let term = |field| {
+            // A direction off the axes is a sum of those along them.
+            let mut terms = Vec::new();
+            for field in (0..).map(term_field).take_while(|&field| field <= last) {
                 let grid = card.referred(field, grids, "GRID")?.label;
-                let axis = motions.axis(grid, card.direction(field + 1)?);
-                let axis = axis.ok_or_else(|| card.error(field + 1, OBLIQUE))?;
-                let direction = axis.direction;
-                Ok((
-                    StructuralDof { grid, direction },
-                    axis.sign * card.real(field + 2)?,
-                ))
-            };
-            let terms = (0..)
-                .map(term_field)
-                .take_while(|&field| field <= last)
-                .map(term);
-            let mut terms = terms.collect::<Result<Vec<_>, FileError>>()?.into_iter();
-            let (dependent, coefficient) = terms.next().ok_or_else(|| card.wrong(3, "a grid"))?;
+                let (own, real) = (card.direction(field + 1)?, card.real(field + 2)?);
+                let parts = motions.parts(grid, own).into_iter();
+                terms.extend(parts.map(|(direction, part)| {
+                    (StructuralDof { grid, direction }, part * real, field)
+                }));
+            }
+            let is_oblique = terms.get(1).is_some_and(|term| term.2 == term_field(0));
+            if is_oblique {
+                return Err(card.error(4, OBLIQUE));
+            }
+            let mut terms = terms.into_iter();
+            let (dependent, coefficient, _) =
+                terms.next().ok_or_else(|| card.wrong(3, "a grid"))?;
             card.require(coefficient != 0.0, 5, "a coefficient other than zero")?;
             let is_constrained = grids
                 .get(&dependent.grid)
@@ -201,26 +202,27 @@ impl Constraints {
                     "an SPC or SPC1 card constrains this degree of freedom; it cannot also depend on others",
                 ));
             }
+            let (fields, terms) = terms.map(|(dof, part, field)| (field, (dof, part))).unzip();
             let tie = Tie {
                 dependent,
                 coefficient,
-                terms: terms.collect(),
+                terms,
             };
-            if let Some((_, first)) = ties.insert(dependent, (tie, card)) {
+            if let Some((.., first)) = ties.insert(dependent, (tie, fields, card)) {
                 return Err(card.error(
                     3,
                     format!("line {} ties this degree of freedom already", first.line),
                 ));
             }
         }
-        for (tie, card) in ties.values() {
+        for (tie, fields, card) in ties.values() {
             let is_tied = |(term, _): &(StructuralDof, f64)| ties.contains_key(term);
             if let Some(row) = tie.terms.iter().position(is_tied) {
                 let reason = "another MPC card makes this degree of freedom dependent; no equation may refer to it";
-                return Err(card.error(term_field(row + 1), reason));
+                return Err(card.error(fields[row], reason));
             }
         }
-        Ok(ties.into_values().map(|(tie, _)| tie).collect())
+        Ok(ties.into_values().map(|(tie, ..)| tie).collect())
     }
 }
 

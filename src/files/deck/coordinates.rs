@@ -8,7 +8,8 @@ use std::collections::BTreeMap;
 
 /// Reason against a single direction of a grid that lies along none of the basic axes.
 pub(super) const OBLIQUE: &str = "a direction that the coordinate system turns off the axes x, y and z: corfem has no oblique supports, masses \
-                                  and equations";
+                                  and dependent degrees of freedom; let the program that the deck is for write matrices \
+                                  (paper/matrices.md)";
 /// Part of a unit vector below which it is the round-off of the digits of a card.
 const ROUND_OFF: f64 = 1e-6;
 
@@ -41,6 +42,20 @@ impl Motions {
             direction,
             sign: own[direction].signum(),
         })
+    }
+
+    /// A direction of a grid as a sum of the basic ones: each with its part.
+    pub fn parts(&self, grid: usize, direction: usize) -> Vec<(usize, f64)> {
+        match (self.axis(grid, direction), self.0.get(&grid)) {
+            (None, Some(axes)) => {
+                let parts = axes.column(direction).into_iter().copied().enumerate();
+                parts.filter(|(_, part)| *part != 0.0).collect()
+            }
+            (axis, _) => axis
+                .map(|own| (own.direction, own.sign))
+                .into_iter()
+                .collect(),
+        }
     }
 
     /// The basic directions that are held where some of a grid's own are; none where these are oblique.

@@ -20,14 +20,17 @@ pub(super) const NO_CARD: &str = "";
 pub(super) type Selected = [Option<(usize, usize)>; 2];
 
 /// One line of bulk data, cut into fields.
+#[derive(Default)]
 pub(super) struct Line {
     /// Number of the line in the file, from one.
     number: usize,
     /// Field 1 in capitals: a name, or of a continuation its tag without `+` or `*`.
     first: String,
     continues: bool,
-    /// Fields 2 to 9, or four large ones.
+    /// Fields 2 to 9, or four large ones, or those of several such lines.
     data: Vec<Field>,
+    /// Fields of a line in its format.
+    count: usize,
     /// Field 10.
     tag: String,
     /// Error of the line, if it belongs to a card that is read.
@@ -38,17 +41,9 @@ impl Line {
     /// Tags of the continuation that this line asks for: columns 2 to 8 of field 10 count, whatever the first is, and programs leave that
     /// away.
     fn wanted(&self) -> Vec<String> {
-        let mut tags = vec![self.tag.trim_start_matches(['+', '*']).to_owned()];
-        if !self.tag.starts_with(['+', '*']) {
-            tags.push(
-                self.tag
-                    .chars()
-                    .skip(1)
-                    .collect::<String>()
-                    .trim()
-                    .to_owned(),
-            );
-        }
+        let whole = self.tag.trim_start_matches(['+', '*']).to_owned();
+        let behind: String = self.tag.chars().skip(1).collect();
+        let mut tags = vec![whole, behind.trim().to_owned()];
         tags.retain(|tag| !tag.is_empty());
         tags
     }
@@ -216,10 +211,7 @@ fn fields(file: &str, number: usize, text: &str) -> Line {
         return Line {
             number,
             first: name.to_owned(),
-            continues: false,
-            data: Vec::new(),
-            tag: String::new(),
-            fault: None,
+            ..Line::default()
         };
     }
     let wrong = |text: &str, what: &str| {
@@ -276,6 +268,7 @@ fn fields(file: &str, number: usize, text: &str) -> Line {
         first,
         continues,
         data,
+        count,
         tag,
         fault,
     }
@@ -317,7 +310,7 @@ impl Joined {
 pub(super) fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Joined>, FileError> {
     let mut cards: Vec<Joined> = Vec::new();
     // Continuations may stand before their card: they wait by tag until all lines are known.
-    let mut waiting: HashMap<String, Line> = HashMap::new();
+    let mut waiting: HashMap<String, Vec<Line>> = HashMap::new();
     let mut ends: Vec<Vec<String>> = Vec::new();
     // The tag of the continuation that the next line goes on, if it has none of its own; none where it goes on a card.
     let mut open: Option<String> = None;
@@ -327,13 +320,8 @@ pub(super) fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Joined>, Fil
         let before = open.as_ref().and_then(|tag| waiting.get_mut(tag));
         match (before, cards.last_mut()) {
             (Some(before), _) if is_more => {
-                before.data.resize(
-                    before.data.len().next_multiple_of(line.data.len().max(1)),
-                    Field::blank(before.number),
-                );
-                before.data.extend(line.data);
-                before.tag = line.tag;
-                before.fault = before.fault.take().or(fault);
+                line.fault = fault;
+                before.push(line);
             }
             (None, Some(card)) if is_more => {
                 append(&mut card.card, &line);
@@ -358,10 +346,10 @@ pub(super) fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Joined>, Fil
                 open = Some(line.first.clone());
                 let (tag, number) = (line.first.clone(), line.number);
                 line.fault = fault;
-                if let Some(first) = waiting.insert(tag.clone(), line) {
+                if let Some(first) = waiting.insert(tag.clone(), vec![line]) {
                     let reason = format!(
                         "the continuation in line {} has the tag {tag} already",
-                        first.number
+                        first[0].number
                     );
                     return Err(FileError::line(file, number, reason));
                 }
@@ -371,18 +359,20 @@ pub(super) fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Joined>, Fil
     let mut taken: HashMap<String, usize> = HashMap::new();
     for (card, mut tags) in cards.iter_mut().zip(ends) {
         // Field 10 without a continuation is a remark, and the card ends here.
-        while let Some((tag, line)) = tags.iter().find_map(|tag| waiting.remove_entry(tag)) {
-            append(&mut card.card, &line);
+        while let Some((tag, lines)) = tags.iter().find_map(|tag| waiting.remove_entry(tag)) {
             taken.insert(tag, card.card.line);
-            tags = line.wanted();
-            card.fault = card.fault.take().or(line.fault);
+            for line in lines {
+                append(&mut card.card, &line);
+                tags = line.wanted();
+                card.fault = card.fault.take().or(line.fault);
+            }
         }
         if let Some((tag, first)) = tags.iter().find_map(|tag| Some((tag, taken.get(tag)?))) {
             let reason = format!("tag {tag} continues the card of line {first} already");
             return Err(FileError::line(file, card.card.line, reason));
         }
     }
-    match waiting.values().min_by_key(|line| line.number) {
+    match waiting.values().flatten().min_by_key(|line| line.number) {
         Some(orphan) => Err(no_parent(file, orphan)),
         None => replicated(cards),
     }
@@ -471,7 +461,7 @@ fn no_parent(file: &str, line: &Line) -> FileError {
 
 fn append(card: &mut Card, line: &Line) {
     // The second half of a card of the large format may be missing.
-    if line.data.len() == FIELDS_PER_LINE {
+    if line.count == FIELDS_PER_LINE {
         let whole = card.fields.len().next_multiple_of(FIELDS_PER_LINE);
         card.fields.resize(whole, Field::blank(line.number));
     }

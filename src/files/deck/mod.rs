@@ -38,7 +38,7 @@ pub use model::BulkData;
 #[doc(hidden)]
 pub use model::{PointMass, Tie};
 #[doc(hidden)]
-pub use modes::modes;
+pub use modes::{modes, moving};
 pub use read::{Deck, read};
 #[doc(hidden)]
 pub use read::{Reason, Unread};

@@ -362,6 +362,19 @@ impl BulkData {
         }
     }
 
+    /// Every degree of freedom that moves, with its motion as by [`Self::motions`].
+    pub(crate) fn all_motions<'a>(
+        &'a self,
+        structure: &'a Structure,
+    ) -> impl Iterator<Item = (StructuralDof, Vec<(usize, f64)>)> + 'a {
+        let motion_of = self.motions(structure);
+        let grids = self.grids.iter().map(|grid| grid.label);
+        let all =
+            grids.flat_map(|grid| (0..3).map(move |direction| StructuralDof { grid, direction }));
+        let all = all.map(move |dof| (dof, motion_of(dof)));
+        all.filter(|(_, motion)| !motion.is_empty())
+    }
+
     pub(super) fn sizes(&self) -> Vec<f64> {
         self.elements.iter().map(|element| element.size).collect()
     }

@@ -6,10 +6,11 @@ use crate::files::test_data::row_name;
 use crate::method::appendix_a::{ElementMatrix, element_matrices};
 use crate::method::error::Error;
 use crate::method::linear_algebra::symmetric_eigen;
-use crate::method::structure::{DIRECTIONS, Structure};
+use crate::method::structure::{DIRECTIONS, StructuralDof, Structure};
 use crate::sparse::SparseMatrix;
 use crate::sparse::elements::{largest_entry, stiffness_entries, support};
 use crate::sparse::whole_modes::{MassDof, WholeModes, whole_modes};
+use nalgebra::RowDVector;
 
 /// Largest ratio of the stiffness of two elements. An assembled entry holds 16 digits of the stiffer one; at a ratio of
 /// 1e10 six digits of the lowest frequency are left.
@@ -51,6 +52,26 @@ pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
         found.counted = Some(found.modes.len());
     }
     Ok(found)
+}
+
+/// Shapes of a deck's modes at every degree of freedom that moves, those that MPC equations make dependent among them: a row each.
+///
+/// # Errors
+/// [`FileError::TiedElement`] and what [`Structure::new`] refuses.
+pub fn moving(
+    model: &BulkData,
+    modes: &WholeModes,
+) -> Result<Vec<(StructuralDof, RowDVector<f64>)>, FileError> {
+    let structure = model.structure()?;
+    let still = RowDVector::zeros(modes.at_rows.ncols());
+    let shape = |motion: Vec<(usize, f64)>| {
+        let parts = motion.into_iter();
+        parts.fold(still.clone(), |sum, (row, part)| {
+            sum + part * modes.at_rows.row(row)
+        })
+    };
+    let all = model.all_motions(&structure);
+    Ok(all.map(|(dof, motion)| (dof, shape(motion))).collect())
 }
 
 /// Refuses elements so unlike in stiffness that a sum of both loses the softer one.

@@ -31,6 +31,15 @@ pub fn parse_real(text: &str) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
+/// A finite number without blanks, as Fortran, NASTRAN or a spreadsheet writes it, with a point or without.
+pub(crate) fn real(text: &str) -> Option<f64> {
+    let value = || text.replace(['d', 'D'], "e").parse().ok();
+    let value = || value().filter(|value: &f64| value.is_finite());
+    parse_real(text)
+        .or_else(value)
+        .filter(|_| !text.contains(' '))
+}
+
 /// The reals of a line in columns of one width, or `None` unless each of them holds one; the last may be narrower.
 pub fn parse_reals(line: &str, width: usize) -> Option<Vec<f64>> {
     let columns = line.as_bytes().chunks(width);

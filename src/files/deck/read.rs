@@ -5,7 +5,7 @@ use super::card::{Card, Numbered};
 use super::constraints::Constraints;
 use super::coordinates::CoordinateSystems;
 use super::elements::{ELEMENT_CARDS, ElementCards, Members, point_mass, take_masses};
-use super::lines::{Joined, NO_CARD, join, sections};
+use super::lines::{Joined, NO_CARD, Selected, join, sections};
 use super::model::{BulkData, PointMass};
 use super::number::nearest_in_field;
 use crate::files::error::FileError;
@@ -25,14 +25,15 @@ pub struct Deck {
 /// Reads a deck in UTF-8 or Latin-1, without cards of the names `ignored` that are not understood; `file` is its name in messages.
 ///
 /// It may have executive and case control in front of `BEGIN BULK`, or be bulk data alone. Read are GRID, GRDSET,
-/// CROD, PROD, CONROD, CSHEAR, PSHEAR, CQDMEM, PQDMEM, CTRMEM, PTRMEM, MAT1, SPC, SPC1, SPCADD, MPC, MPCADD, CMASS2, CONM2
-/// and `PARAM,WTMASS`, which multiplies every mass and density, in any order. Cards that say nothing of stiffness, mass,
+/// CORD1R, CORD1C, CORD1S, CORD2R, CORD2C, CORD2S, CROD, PROD, CONROD, CSHEAR, PSHEAR, CQDMEM, PQDMEM, CTRMEM, PTRMEM, MAT1,
+/// SPC, SPC1, SPCADD, MPC, MPCADD, CMASS1, PMASS, CMASS2, CONM2 and `PARAM,WTMASS`, which multiplies every mass and density,
+/// in any order. Cards that say nothing of stiffness, mass,
 /// supports or coordinates, such as loads, are listed in [`Deck::unread`], and so are those ignored, except EIGR and EIGRL:
 /// they say how to look for eigenvalues. Every other card is an error.
 ///
 /// # Errors
-/// [`FileError::DeckCards`] lists all cards that are not understood; [`FileError::DeckLine`] and [`FileError::DeckField`] name
-/// file, line, card and field; [`FileError::Refused`] if a name to be ignored is that of a card that is read.
+/// [`FileError::DeckCards`] lists all cards that are not read, if one of them is not understood; [`FileError::DeckLine`] and
+/// [`FileError::DeckField`] name file, line, card and field; [`FileError::Refused`] if a name to be ignored is that of a card that is read.
 pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileError> {
     let ignored: Vec<String> = ignored
         .iter()
@@ -54,116 +55,110 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
     let (nameless, others): (Vec<Joined>, Vec<Joined>) = others
         .into_iter()
         .partition(|found| found.card.name == NO_CARD);
-    let others: Vec<Card> = others.into_iter().map(|found| found.card).collect();
     let why = |card: &Card| match name(card) {
-        name if WITHOUT_PART.split(' ').any(|known| known == name) => Reason::WithoutPart,
+        name if is_among(&name, WITHOUT_PART) => Reason::WithoutPart,
         name if ignored.contains(&name) => Reason::Ignored,
         name if is_of_element(&name) => Reason::Lacking,
         _ => Reason::Unknown,
     };
-    let mut unread: Vec<_> = others
+    let unread = others
         .iter()
-        .map(|card| one_unread(card, why(card)))
-        .collect();
+        .map(|found| one_unread(&found.card, why(&found.card)));
+    let unread: Vec<Unread> = unread.collect();
     let refused = [Reason::Lacking, Reason::Unknown];
-    let unknown = counted(unread.iter().filter(|card| refused.contains(&card.reason)));
-    if !unknown.is_empty() {
-        return Err(FileError::DeckCards {
-            file: file.to_owned(),
-            cards: unknown,
-        });
+    if unread.iter().any(|card| refused.contains(&card.reason)) {
+        let (file, cards) = (file.to_owned(), counted(&unread));
+        return Err(FileError::DeckCards { file, cards });
     }
-    nameless
-        .into_iter()
-        .try_for_each(|found| found.sound().map(drop))?;
-    let cards = cards.into_iter().map(Joined::sound);
-    let cards = cards.collect::<Result<Vec<Card>, _>>()?;
-    let mut default: Option<Card> = None;
-    let mut weight: Option<Card> = None;
-    let mut grids = Numbered::new();
-    let mut elements = ElementCards::default();
-    let mut masses = Numbered::new();
-    let mut mass_properties = Numbered::new();
-    let mut systems = CoordinateSystems::default();
-    let mut constraints = Constraints::default();
+    for found in nameless {
+        found.sound()?;
+    }
+    let mut found = Found::default();
     for card in cards {
+        found.take(card.sound()?)?;
+    }
+    found.deck(file, selected, unread)
+}
+
+/// The cards of a deck that are read, by what they are.
+#[derive(Default)]
+struct Found {
+    grid_default: Option<Card>,
+    weight: Option<Card>,
+    grids: Numbered<()>,
+    elements: ElementCards,
+    masses: Numbered<()>,
+    mass_properties: Numbered<f64>,
+    systems: CoordinateSystems,
+    constraints: Constraints,
+}
+
+impl Found {
+    fn take(&mut self, card: Card) -> Result<(), FileError> {
+        let once = |slot: &mut Option<Card>, card: Card, what: &str| {
+            let reason = format!("this is the second {what}; a deck may have one");
+            let again = FileError::line(&card.file, card.line, reason);
+            slot.replace(card).map_or(Ok(()), |_| Err(again))
+        };
         match card.name.as_str() {
-            "GRID" => card.keep(2, (), &mut grids)?,
-            "GRDSET" if default.is_none() => default = Some(card),
-            "GRDSET" => {
-                return Err(FileError::line(
-                    file,
-                    card.line,
-                    "this is the second GRDSET card; a deck may have one",
-                ));
-            }
-            "PARAM" if weight.is_none() => weight = Some(card),
-            "PARAM" => {
-                return Err(FileError::line(
-                    file,
-                    card.line,
-                    "this is the second PARAM,WTMASS; a deck may have one",
-                ));
-            }
-            "PMASS" => take_masses(&card, &mut mass_properties)?,
-            "CMASS1" | "CMASS2" | "CONM2" => card.keep(2, (), &mut masses)?,
-            name if name.starts_with("CORD") => systems.take(card)?,
-            "SPC" | "SPC1" | "SPCADD" | "MPC" | "MPCADD" => constraints.take(card)?,
-            _ => elements.take(&card)?,
+            "GRID" => card.keep(2, (), &mut self.grids),
+            "GRDSET" => once(&mut self.grid_default, card, "GRDSET card"),
+            "PARAM" => once(&mut self.weight, card, "PARAM,WTMASS"),
+            "PMASS" => take_masses(&card, &mut self.mass_properties),
+            "CMASS1" | "CMASS2" | "CONM2" => card.keep(2, (), &mut self.masses),
+            name if name.starts_with("CORD") => self.systems.take(card),
+            "SPC" | "SPC1" | "SPCADD" | "MPC" | "MPCADD" => self.constraints.take(card),
+            _ => self.elements.take(&card),
         }
     }
-    let may_lack = unread.iter().any(|card| card.reason == Reason::Ignored);
-    let left_out = constraints.select(file, selected, may_lack)?;
-    unread.extend(
-        left_out
-            .iter()
-            .map(|card| one_unread(card, Reason::NotSelected)),
-    );
-    unread.extend(elements.torsion.iter().map(|card| Unread {
-        card: format!("{} J", card.name),
-        ..one_unread(card, Reason::Torsion)
-    }));
-    let grid_lines: BTreeMap<usize, usize> = grids
-        .iter()
-        .map(|(label, kept)| (*label, kept.card.line))
-        .collect();
-    let (mut grids, motions) = systems.grids(&grids, default.as_ref())?;
-    constraints.constrain(&mut grids, &motions)?;
-    let masses = masses.into_values().map(|kept| {
-        let field = if kept.card.name == "CONM2" { 3 } else { 4 };
-        kept.card.referred(field, &grids, "GRID")?;
-        point_mass(&kept.card, &mass_properties, &motions)
-    });
-    let mut masses = masses.collect::<Result<Vec<PointMass>, FileError>>()?;
-    let (mut elements, members) = elements.elements(&grids)?;
-    let ties = constraints.ties(&grids, &motions)?;
-    if let Some(card) = weight {
-        let densities = elements
-            .iter_mut()
-            .map(|element| &mut element.material.density);
-        scale(
-            &card,
-            densities.chain(masses.iter_mut().map(|point| &mut point.mass)),
-        )?;
+
+    /// The deck of these cards and of those that are not read.
+    fn deck(
+        mut self,
+        file: &str,
+        selected: Option<Selected>,
+        mut unread: Vec<Unread>,
+    ) -> Result<Deck, FileError> {
+        let may_lack = unread.iter().any(|card| card.reason == Reason::Ignored);
+        let left_out = self.constraints.select(file, selected, may_lack)?;
+        let left_out = left_out.iter();
+        unread.extend(left_out.map(|card| one_unread(card, Reason::NotSelected)));
+        unread.extend(self.elements.torsion.iter().map(|card| Unread {
+            card: format!("{} J", card.name),
+            ..one_unread(card, Reason::Torsion)
+        }));
+        let (mut grids, motions) = self
+            .systems
+            .grids(&self.grids, self.grid_default.as_ref())?;
+        self.constraints.constrain(&mut grids, &motions)?;
+        let masses = self.masses.values().map(|kept| {
+            let field = if kept.card.name == "CONM2" { 3 } else { 4 };
+            kept.card.referred(field, &grids, "GRID")?;
+            point_mass(&kept.card, &self.mass_properties, &motions)
+        });
+        let mut masses = masses.collect::<Result<Vec<PointMass>, FileError>>()?;
+        let (mut elements, members) = self.elements.elements(&grids)?;
+        let ties = self.constraints.ties(&grids, &motions)?;
+        if let Some(card) = &self.weight {
+            let densities = elements.iter_mut().map(|own| &mut own.material.density);
+            let points = masses.iter_mut().map(|point| &mut point.mass);
+            scale(card, densities.chain(points))?;
+        }
+        let grids = grids.into_values().collect();
+        let model = BulkData {
+            grids,
+            elements,
+            ties,
+            masses,
+        };
+        let untouched = model.untouched().into_iter();
+        unread.extend(untouched.map(|grid| one_unread(&self.grids[&grid].card, Reason::Untouched)));
+        Ok(Deck {
+            model,
+            members,
+            unread: counted(&unread),
+        })
     }
-    let model = BulkData {
-        grids: grids.into_values().collect(),
-        elements,
-        ties,
-        masses,
-    };
-    let untouched = model.untouched();
-    unread.extend(untouched.iter().map(|grid| Unread {
-        card: "GRID".to_owned(),
-        line: grid_lines[grid],
-        count: 1,
-        reason: Reason::Untouched,
-    }));
-    Ok(Deck {
-        model,
-        members,
-        unread: counted(&unread),
-    })
 }
 
 /// Multiplies masses by `PARAM,WTMASS`, and rounds them to what a deck can hold, so that writing them loses nothing.
@@ -180,12 +175,11 @@ fn scale<'a>(card: &Card, masses: impl Iterator<Item = &'a mut f64>) -> Result<(
     Ok(())
 }
 
-/// Cards that are read, besides those of elements with their properties. EIGR and EIGRL say how to look for
+/// Cards that are read, besides `PARAM,WTMASS` and those of elements with their properties. EIGR and EIGRL say how to look for
 /// eigenvalues, which is no part of the model and needs no note.
-#[rustfmt::skip]
-const READ: [&str; 22] = [
-    "GRID", "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S", "CONROD", "MAT1", "CMASS1", "PMASS", "CMASS2", "CONM2", "SPC", "SPC1", "SPCADD", "MPC", "MPCADD", "PARAM WTMASS", "EIGR", "EIGRL",
-];
+const READ: &str = "\
+    GRID GRDSET CORD1R CORD1C CORD1S CORD2R CORD2C CORD2S CONROD MAT1 CMASS1 PMASS CMASS2 CONM2 SPC SPC1 \
+    SPCADD MPC MPCADD EIGR EIGRL";
 /// Cards that carry no stiffness, mass, support or coordinates in a search for normal modes: loads, temperatures,
 /// damping, output, the order of equations, other solutions' methods, optimization, sets and aerodynamics.
 const WITHOUT_PART: &str = "\
@@ -204,21 +198,23 @@ const OF_ELEMENTS: &str = "\
     PTUBE PTRIA1 PTRIA2 PQUAD1 PQUAD2 PTRMEM PTRPLT PQDPLT PTRBSC PQDMEM1 PQDMEM2 PTORDRG PTOROD PIHEX PVISCO PWELD PFAST PCONEAX PBEND \
     MAT2 MAT3 MAT8 MAT9 MAT10 MAT11 MATS1 MATT1 GENEL ASET ASET1 OMIT OMIT1 SUPORT SUPORT1 DMIG DMI SPOINT EPOINT BAROR BEAMOR";
 /// Beginnings of the names of elements.
-const ELEMENTS: [&str; 33] = [
-    "CBAR", "CBEAM", "CBEND", "CBUSH", "CCONEAX", "CELAS", "CFAST", "CGAP", "CHEX", "CIHEX",
-    "CMASS3", "CMASS4", "CONM1", "CPENTA", "CPYRAM", "CQDMEM1", "CQDMEM2", "CQDPLT", "CQUAD",
-    "CTETRA", "CTORDRG", "CTRAPRG", "CTRBSC", "CTRIA", "CTRPLT", "CTUBE", "CWEDGE", "CWELD",
-    "RBAR", "RBE", "RROD", "RSPLINE", "RTRPLT",
-];
+const ELEMENTS: &str = "\
+    CBAR CBEAM CBEND CBUSH CCONEAX CELAS CFAST CGAP CHEX CIHEX CMASS3 CMASS4 CONM1 CPENTA CPYRAM CQDMEM1 \
+    CQDMEM2 CQDPLT CQUAD CTETRA CTORDRG CTRAPRG CTRBSC CTRIA CTRPLT CTUBE CWEDGE CWELD RBAR RBE RROD RSPLINE \
+    RTRPLT";
+
+/// True if a list of words has this one.
+fn is_among(name: &str, all: &str) -> bool {
+    all.split(' ').any(|known| known == name)
+}
 
 /// True of a card that only elements which the crate lacks have.
 fn is_of_element(name: &str) -> bool {
-    OF_ELEMENTS.split(' ').any(|known| known == name)
-        || ELEMENTS.iter().any(|start| name.starts_with(start))
+    is_among(name, OF_ELEMENTS) || ELEMENTS.split(' ').any(|start| name.starts_with(start))
 }
 
 /// Parameters that change stiffness or mass; the last only with a positive value.
-const OF_THE_MODEL: [&str; 6] = ["WTMASS", "CK1", "CK2", "CM1", "CM2", "COUPMASS"];
+const OF_THE_MODEL: &str = "WTMASS CK1 CK2 CM1 CM2 COUPMASS";
 
 /// Cards of one name that were not read, for one reason.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -265,7 +261,7 @@ pub(super) fn name(card: &Card) -> String {
     let (parameter, value) = (card.text(2), card.text(3));
     let is_off = parameter == "COUPMASS"
         && (value == "NO" || value.parse::<i64>().is_ok_and(|value| value <= 0));
-    let changes = card.name == "PARAM" && OF_THE_MODEL.contains(&parameter) && !is_off;
+    let changes = card.name == "PARAM" && is_among(parameter, OF_THE_MODEL) && !is_off;
     if changes {
         format!("PARAM {parameter}")
     } else {
@@ -275,7 +271,8 @@ pub(super) fn name(card: &Card) -> String {
 
 /// True if cards of this [`name`] are read.
 fn is_read(name: &str) -> bool {
-    READ.contains(&name)
+    name == "PARAM WTMASS"
+        || is_among(name, READ)
         || ELEMENT_CARDS
             .iter()
             .any(|known| name == known.0 || name == known.1)

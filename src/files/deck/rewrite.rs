@@ -92,6 +92,10 @@ pub fn rewrite(
             written.push_str(&cards.replace('\n', end));
         }
     }
+    // Ends of lines stay where they are carriage returns alone.
+    if !bytes.contains(&b'\n') {
+        written = written.replace('\n', "\r");
+    }
     // Text that is not in UTF-8 was read as Latin-1, which has no character above 255.
     let is_utf_8 = std::str::from_utf8(bytes).is_ok();
     let written = if is_utf_8 {

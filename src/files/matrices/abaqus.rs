@@ -2,6 +2,7 @@
 //! `node, component, node, component, value` for every entry.
 
 use super::{Digits, Label, LabeledMatrix, mirrored};
+use crate::files::deck::number::real;
 use crate::files::error::{FileError, is_not};
 use crate::sparse::SparseMatrix;
 use std::collections::BTreeSet;
@@ -47,11 +48,10 @@ fn entry(line: &str) -> Option<Entry<'_>> {
         let component = component.parse().ok().filter(|own| (1..=6).contains(own))?;
         Some(Label { grid, component })
     };
-    let value: f64 = text.replace(['d', 'D'], "e").parse().ok()?;
     Some(Entry {
         labels: [label(node, component)?, label(other_node, other_component)?],
         text,
-        value: Some(value).filter(|value| value.is_finite())?,
+        value: real(text)?,
     })
 }
 

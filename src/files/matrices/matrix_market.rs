@@ -1,157 +1,79 @@
 //! The exchange format of the Matrix Market (Boisvert, Pozo, Remington, NISTIR 5935, 1996).
 
 use super::{Digits, mirrored};
+use crate::files::deck::number::real;
 use crate::files::error::{FileError, is_not};
 use crate::sparse::SparseMatrix;
 use std::fmt::Write;
 
+/// Contents of the banner and of the line of sizes.
+struct Heading {
+    is_array: bool,
+    is_complex: bool,
+    /// The factor on the triangle that the file has gives the other one.
+    mirror: Option<f64>,
+    rows: usize,
+    columns: usize,
+    /// Number of entries of the coordinate format.
+    count: usize,
+}
+
 /// Reads a matrix; entries of one place in the coordinate format add up. A symmetric one may have both triangles where they agree, or
 /// the upper one, and complex numbers may have imaginary parts of zero.
 pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
-    let wrong =
-        |line: usize, what: &str, found: &str| FileError::line(file, line, is_not(found, what));
     let end = text.lines().count() + 1;
-    let mut lines = (1..)
-        .zip(text.lines().map(str::trim))
-        .filter(|(_, line)| !line.is_empty());
+    let lines = (1..).zip(text.lines().map(str::trim));
+    let mut lines = lines.filter(|(_, line)| !line.is_empty());
     let (first, banner) = lines.next().unwrap_or((1, ""));
-    let words = banner.to_ascii_lowercase();
-    // The factor on the triangle that the file has gives the other one.
-    let (is_array, is_complex, mirror): (bool, bool, Option<f64>) = match words
-        .split_whitespace()
-        .collect::<Vec<_>>()[..]
-    {
-        [
-            _,
-            "matrix",
-            format @ ("array" | "coordinate"),
-            numbers @ ("real" | "double" | "integer" | "unsigned-integer" | "complex"),
-            symmetry,
-        ] => {
-            let mirror = match symmetry {
-                "general" => None,
-                "symmetric" | "hermitian" => Some(1.0),
-                "skew-symmetric" => Some(-1.0),
-                _ => {
-                    let what = "general, symmetric, hermitian or skew-symmetric";
-                    return Err(wrong(first, what, symmetry));
-                }
-            };
-            (format == "array", numbers == "complex", mirror)
-        }
-        _ => {
-            let what = "the banner of a matrix: array or coordinate, real, integer or complex, and its symmetry";
-            return Err(wrong(first, what, banner));
-        }
-    };
     let mut lines = lines.filter(|(_, line)| !line.starts_with('%'));
-    let (at, sizes) = lines
-        .next()
-        .ok_or_else(|| FileError::line(file, end, "the file ends before the line of sizes"))?;
-    let numbers: Option<Vec<usize>> = sizes
-        .split_whitespace()
-        .map(|word| word.parse().ok())
-        .collect();
-    let (rows, columns, count) = match numbers.as_deref() {
-        Some(&[rows, columns]) if is_array && rows > 0 && columns > 0 => {
-            (rows, columns, usize::MAX)
-        }
-        Some(&[rows, columns, count]) if !is_array && rows > 0 && columns > 0 => {
-            (rows, columns, count)
-        }
-        _ => {
-            return Err(wrong(
-                at,
-                "a line of sizes: rows, columns and, in the coordinate format, the number of entries",
-                sizes,
-            ));
-        }
-    };
-    let too_many = |number| {
-        FileError::line(
-            file,
-            number,
-            "there are more entries than the line of sizes says",
-        )
-    };
-    if mirror.is_some() && rows != columns {
-        return Err(wrong(
-            at,
-            "the size of a symmetric matrix, which is square",
-            sizes,
-        ));
-    }
+    let own = heading(file, (first, banner), lines.next(), end)?;
     // The first row of a column that the file holds.
-    let first_row = |column: usize| mirror.map_or(0, |factor| column + usize::from(factor == -1.0));
-    let mut places =
-        (0..columns).flat_map(|column| (first_row(column)..rows).map(move |row| (row, column)));
+    let first_row = |column: usize| {
+        own.mirror
+            .map_or(0, |factor| column + usize::from(factor < 0.0))
+    };
+    let mut places = (0..own.columns)
+        .flat_map(|column| (first_row(column)..own.rows).map(move |row| (row, column)));
     let (mut entries, mut read, mut digits) = (Vec::new(), 0, Digits::default());
     for (number, line) in lines {
+        let wrong = |what: &str| FileError::line(file, number, is_not(line, what));
         let mut words: Vec<&str> = line.split_whitespace().collect();
-        if is_complex {
-            let imaginary = words
-                .pop()
-                .and_then(|word| word.replace(['d', 'D'], "e").parse().ok());
-            if imaginary != Some(0.0) {
-                return Err(wrong(
-                    number,
-                    "a number with an imaginary part of zero",
-                    line,
-                ));
-            }
+        if own.is_complex && words.pop().and_then(real) != Some(0.0) {
+            return Err(wrong("a number with an imaginary part of zero"));
         }
-        let (row, column, word) = match words[..] {
-            [value] if is_array => {
-                let place = places.next().ok_or_else(|| too_many(number))?;
-                (place.0, place.1, value)
+        let given = match words[..] {
+            [_] if own.is_array => places.next(),
+            [row, column, _] if !own.is_array && read < own.count => {
+                let place = |word: &str, most| word.parse().ok().filter(|n| (1..=most).contains(n));
+                let place = place(row, own.rows).zip(place(column, own.columns));
+                let place = place.map(|(row, column): (usize, usize)| (row - 1, column - 1));
+                let is_stored =
+                    |&(row, column): &_| own.mirror == Some(1.0) || row >= first_row(column);
+                let what = "an entry within the part of the matrix that is stored";
+                Some(place.filter(is_stored).ok_or_else(|| wrong(what))?)
             }
-            [row, column, value] if !is_array && read < count => {
-                let place = |word: &str, most| {
-                    word.parse::<usize>()
-                        .ok()
-                        .filter(|n| (1..=most).contains(n))
-                };
-                let is_stored = |row, column| mirror == Some(1.0) || row > first_row(column - 1);
-                match (place(row, rows), place(column, columns)) {
-                    (Some(row), Some(column)) if is_stored(row, column) => {
-                        (row - 1, column - 1, value)
-                    }
-                    _ => {
-                        return Err(wrong(
-                            number,
-                            "an entry within the part of the matrix that is stored",
-                            line,
-                        ));
-                    }
-                }
-            }
-            [_, _, _] if !is_array => {
-                return Err(too_many(number));
-            }
-            _ if is_array => return Err(wrong(number, "a value", line)),
-            _ => return Err(wrong(number, "a row, a column and a value", line)),
+            [_, _, _] if !own.is_array => None,
+            _ if own.is_array => return Err(wrong("a value")),
+            _ => return Err(wrong("a row, a column and a value")),
         };
-        let value: Option<f64> = word.replace(['d', 'D'], "e").parse().ok();
-        let value = value
-            .filter(|value| value.is_finite())
-            .ok_or_else(|| wrong(number, "a real number", word))?;
+        let reason = "there are more entries than the line of sizes says";
+        let (row, column) = given.ok_or_else(|| FileError::line(file, number, reason))?;
+        let word = words.last().copied().unwrap_or_default();
+        let value = real(word);
+        let value =
+            value.ok_or_else(|| FileError::line(file, number, is_not(word, "a real number")))?;
         digits.add(word);
         entries.push((row, column, value));
-        if mirror == Some(-1.0) {
+        if own.mirror == Some(-1.0) {
             entries.push((column, row, -value));
         }
         read += 1;
     }
-    let is_cut_off = if is_array {
-        places.next().is_some()
-    } else {
-        read < count
-    };
-    if is_cut_off {
+    if places.next().is_some() && own.is_array || !own.is_array && read < own.count {
         let reason = format!("the file ends after entry {read}; the line of sizes promises more");
         return Err(FileError::line(file, end, reason));
     }
-    if mirror == Some(1.0) {
+    if own.mirror == Some(1.0) {
         entries = mirrored(entries).map_err(|(row, column)| {
             let reason = format!(
                 "entries ({0}, {1}) and ({1}, {0}) of a symmetric matrix differ, or one of them is missing",
@@ -161,8 +83,74 @@ pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
             FileError::line(file, first, reason)
         })?;
     }
-    let matrix = SparseMatrix::new("matrix of a file", rows, columns, entries)?;
+    let matrix = SparseMatrix::new("matrix of a file", own.rows, own.columns, entries)?;
     Ok(matrix.with_rounding(digits.rounding()))
+}
+
+/// Reads the banner and the line of sizes, each with its number; the file ends in line `end`.
+fn heading(
+    file: &str,
+    (first, banner): (usize, &str),
+    sizes: Option<(usize, &str)>,
+    end: usize,
+) -> Result<Heading, FileError> {
+    let wrong =
+        |line: usize, found: &str, what: &str| FileError::line(file, line, is_not(found, what));
+    let words = banner.to_ascii_lowercase();
+    let words: Vec<&str> = words.split_whitespace().collect();
+    let [
+        _,
+        "matrix",
+        format @ ("array" | "coordinate"),
+        numbers @ ("real" | "double" | "integer" | "unsigned-integer" | "complex"),
+        symmetry,
+    ] = words[..]
+    else {
+        let what = "the banner of a matrix: array or coordinate, real, integer or complex, and its symmetry";
+        return Err(wrong(first, banner, what));
+    };
+    let mirror = match symmetry {
+        "general" => None,
+        "symmetric" | "hermitian" => Some(1.0),
+        "skew-symmetric" => Some(-1.0),
+        _ => {
+            let what = "general, symmetric, hermitian or skew-symmetric";
+            return Err(wrong(first, symmetry, what));
+        }
+    };
+    let (at, sizes) = sizes
+        .ok_or_else(|| FileError::line(file, end, "the file ends before the line of sizes"))?;
+    let is_array = format == "array";
+    let read: Option<Vec<usize>> = sizes
+        .split_whitespace()
+        .map(|word| word.parse().ok())
+        .collect();
+    let (rows, columns, count) = match read.as_deref() {
+        Some(&[rows, columns]) if is_array => (rows, columns, 0),
+        Some(&[rows, columns, count]) if !is_array => (rows, columns, count),
+        _ => (0, 0, 0),
+    };
+    if rows == 0 || columns == 0 {
+        let what =
+            "a line of sizes: rows, columns and, in the coordinate format, the number of entries";
+        return Err(wrong(at, sizes, what));
+    }
+    if mirror.is_some() && rows != columns {
+        return Err(wrong(
+            at,
+            sizes,
+            "the size of a symmetric matrix, which is square",
+        ));
+    }
+    let is_complex = numbers == "complex";
+    Ok(Heading {
+        is_array,
+        is_complex,
+        mirror,
+        rows,
+        columns,
+        count,
+    })
 }
 
 /// A matrix in the coordinate format, every number by the fewest digits that read back as exactly that number; of a

@@ -11,7 +11,7 @@ mod universal_block;
 
 pub(crate) use csv::{cells, quoted, separator};
 
-use crate::files::deck::number::parse_real;
+use crate::files::deck::number::real;
 use crate::files::error::FileError;
 use crate::files::text::{decoded, readable};
 use crate::method::error::{Error, at_least_one, check_count, positive, require};
@@ -223,16 +223,6 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<TestData, FileError> {
     data.alone.retain(|mode| !data.rigid.contains(mode));
     data.check()?;
     Ok(data)
-}
-
-/// A finite number as Fortran or a spreadsheet writes it.
-fn real(text: &str) -> Option<f64> {
-    let value = || text.parse().ok().filter(|value: &f64| value.is_finite());
-    if text.contains(' ') {
-        None
-    } else {
-        parse_real(text).or_else(value)
-    }
 }
 
 /// A name for a sensor that has none.

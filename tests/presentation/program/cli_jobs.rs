@@ -24,7 +24,7 @@ fn correlate(job: &Path, more: &[&str]) -> Output {
 /// What a worked job prints and writes into a folder.
 pub struct Reported {
     report: String,
-    files: BTreeMap<String, String>,
+    pub files: BTreeMap<String, String>,
 }
 
 impl Reported {
@@ -218,6 +218,44 @@ fn a_worked_job_has_its_report_its_factors_and_its_deck() {
             " --folder ",
         ] {
             assert!(page.contains(words), "{name}: {words}");
+        }
+    }
+}
+
+/// Keys of a value and of what it holds.
+fn keys_within(value: &Value) -> BTreeSet<&str> {
+    match value {
+        Value::Object(own) => {
+            let inner = own.values().flat_map(keys_within);
+            own.keys().map(String::as_str).chain(inner).collect()
+        }
+        Value::Array(own) => own.iter().flat_map(keys_within).collect(),
+        _ => BTreeSet::new(),
+    }
+}
+
+/// Every key within a key of the document stands in its row of `paper/json.md`.
+#[test]
+fn every_key_within_the_json_of_a_correlation_stands_on_its_page() {
+    let page = include_str!("../../../paper/json.md");
+    for (name, _) in JOBS {
+        let found = reported(name).json();
+        for (key, value) in found.as_object().expect("an object") {
+            let quoted = format!("`{key}`");
+            let is_own = |line: &&str| {
+                line.starts_with("| `")
+                    && line
+                        .split('|')
+                        .nth(1)
+                        .is_some_and(|cell| cell.contains(&quoted))
+            };
+            let row = page.lines().find(is_own).expect(key);
+            for inner in keys_within(value) {
+                assert!(
+                    row.contains(&format!("`{inner}`")),
+                    "{name}: {key}: {inner}"
+                );
+            }
         }
     }
 }

@@ -269,3 +269,68 @@ fn progress_stands_on_a_terminal_alone() {
     assert!(loud.contains("looking at the job"), "{loud}");
     assert!(!quiet.contains("looking at the job"), "{quiet}");
 }
+
+#[test]
+fn the_usage_of_a_study_names_what_it_needs() {
+    for output in [corfem(&["study"]), corfem(&["study", "--help"])] {
+        let said = text(&output.stdout) + &text(&output.stderr);
+        for usage in [
+            "Usage: corfem study [OPTIONS] --samples <N> --folder <DIR> <JOB>\n",
+            "       corfem study [OPTIONS] --sample <K> <JOB>\n",
+        ] {
+            assert!(said.contains(usage), "{said}");
+        }
+    }
+}
+
+/// Commands of jobs are given a job's file; for its folder they say which file that is, or how to write one.
+#[test]
+fn a_folder_in_place_of_a_job_is_told_what_to_write() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = words(folder.path());
+    let commands: [&[&str]; 3] = [
+        &["check", path],
+        &["correlate", path],
+        &["study", path, "--sample", "1"],
+    ];
+    let said = || {
+        commands.map(|command| {
+            let output = corfem(command);
+            assert_eq!(output.status.code(), Some(2), "{command:?}");
+            text(&output.stderr)
+        })
+    };
+    let job = folder.path().join("job.toml");
+    let job = words(&job);
+    let remedy = format!("corfem init {job} writes a job that explains its entries");
+    assert_eq!(
+        said(),
+        [(); 3].map(|()| format!("corfem: {path}: is a folder; {remedy}\n"))
+    );
+    assert_eq!(corfem(&["init", job]).status.code(), Some(0));
+    assert_eq!(
+        said(),
+        [(); 3].map(|()| format!("corfem: {path}: is a folder; name a job in it: {job}\n"))
+    );
+    let modes = text(&corfem(&["modes", path]).stderr);
+    assert!(
+        modes.ends_with("it is a folder; name a file in it\n"),
+        "{modes}"
+    );
+}
+
+#[test]
+fn the_help_of_every_command_has_its_exit_statuses() {
+    let help = text(&corfem(&["help"]).stdout);
+    let commands = help.split("Commands:\n").nth(1).expect("commands");
+    let commands = commands.lines().take_while(|line| !line.is_empty());
+    let commands = commands.filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
+    let commands: Vec<&str> = commands
+        .filter(|name| !name.is_empty() && *name != "help")
+        .collect();
+    assert_eq!(commands.len(), 12, "{commands:?}");
+    for command in commands {
+        let help = text(&corfem(&[command, "--help"]).stdout);
+        assert!(help.contains("\nExit status: 0 "), "{command}: {help}");
+    }
+}

@@ -1,7 +1,7 @@
 //! `corfem deck` and `corfem modes` from outside.
 
 use crate::common::known::whole;
-use crate::common::tolerances::DECK_ROUNDING;
+use crate::common::tolerances::{DECK_ROUNDING, ROUND_OFF};
 use crate::presentation::program::cli::{corfem, numbers, text};
 use crate::readers::job_concerns::HARDLY_HELD;
 use corfem::torque_box::{Case, run_case};
@@ -176,6 +176,47 @@ fn shapes_are_split_into_tables_of_nine_modes() {
         "corfem: 12 modes asked for; 11 were found, and how many there are was not counted\n"
     );
     assert_eq!(text(&more.stdout), text(&corfem(&["modes", path]).stdout));
+}
+
+/// Shapes at all that moves have those at the masses among them, in the same scale, and follow the equations.
+#[test]
+fn modes_as_json_have_every_grid_that_moves() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("rods.bdf");
+    let deck = "GRID,1,,0.,0.,0.,,123\nGRID,2,,10.,0.,0.,,23\nGRID,3,,20.,0.,0.,,23\nGRID,4,,30.,0.,0.,,23\n\
+                GRID,9,,15.,1.,0.\nCROD,1,1,1,2\nCROD,2,1,2,3\nCROD,3,1,3,4\nPROD,1,1,.1\nMAT1,1,1.+6\n\
+                CMASS2,8,1.,2,1\nCMASS2,7,2.,4,1\nMPC,1,9,3,-1.,2,1,.5\n,,3,1,-2.\nSPC1,1,12,9\n";
+    std::fs::write(&path, deck).expect("written");
+    let path = path.to_str().expect("UTF-8");
+    let found: Value =
+        serde_json::from_slice(&corfem(&["modes", path, "-f", "json"]).stdout).expect("JSON");
+    let names = |list: &Value| {
+        let list = list.as_array().expect("a list").iter();
+        list.map(|dof| {
+            format!(
+                "{} {}",
+                dof["grid"],
+                dof["direction"].as_str().expect("a word")
+            )
+        })
+        .collect::<Vec<_>>()
+    };
+    assert_eq!(names(&found["dof"]), ["2 x", "4 x"]);
+    assert_eq!(names(&found["moving_dof"]), ["2 x", "3 x", "4 x", "9 z"]);
+    let all = found["moving_shapes"].as_array().expect("a list");
+    let at_masses = found["shapes"].as_array().expect("a list");
+    assert_eq!((all.len(), at_masses.len()), (2, 2));
+    for (shape, at_mass) in all.iter().zip(at_masses) {
+        let (shape, at_mass) = (numbers(shape), numbers(at_mass));
+        let near = |found: f64, expected: f64| {
+            approx::assert_relative_eq!(found, expected, epsilon = ROUND_OFF);
+        };
+        near(shape[0], at_mass[0]);
+        near(shape[2], at_mass[1]);
+        // The grid between two equal rods has no mass and stands in the middle; the equation ties the last.
+        near(shape[1], 0.5 * (shape[0] + shape[2]));
+        near(shape[3], 0.5 * shape[0] - 2.0 * shape[1]);
+    }
 }
 
 #[test]

@@ -9,6 +9,7 @@ pub mod cli_jobs;
 pub mod cli_pictures;
 pub mod cli_places;
 pub mod cli_settings;
+mod cli_shapes;
 mod cli_shown;
 pub mod cli_streams;
 pub mod cli_study;
