@@ -7,6 +7,10 @@ mod common;
 mod equations;
 mod ledgers;
 
+#[path = "../paper/presentation/mod.rs"]
+#[allow(dead_code, reason = "the program uses the rest")]
+mod paper;
+
 mod spec;
 
 mod refuses;

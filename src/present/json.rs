@@ -6,7 +6,6 @@
 
 use super::PresentError;
 use super::report::{ModeResiduals, Report, Stage};
-use super::tables::cases::{outcome, published_iterations};
 use super::tables::deck::{not_read, unit_shapes};
 use crate::files::deck::Unread;
 use crate::files::test_data::DIRECTIONS;
@@ -19,8 +18,6 @@ use crate::method::step::Bounds;
 use crate::method::step::Limit;
 use crate::sparse::Work;
 use crate::sparse::whole_modes::WholeModes;
-use crate::torque_box::CaseResult;
-use crate::torque_box::wing_box::TEST_GAGE;
 use crate::weighted::comparison::ExactResult;
 use crate::weighted::intervals::Withheld;
 use crate::weighted::misfit::Misfit;
@@ -144,7 +141,7 @@ struct PassValue<'a> {
 }
 
 #[derive(Serialize)]
-pub(super) struct IterationValue<'a> {
+pub struct IterationValue<'a> {
     frequency_error: f64,
     shape_error: f64,
     error_sum: f64,
@@ -246,9 +243,9 @@ fn frequency_alone(report: &Report, place: usize) -> Value {
 }
 
 /// The rows of a matrix.
-pub(super) type MatrixRows = Vec<Vec<f64>>;
+pub type MatrixRows = Vec<Vec<f64>>;
 
-pub(super) fn matrix_rows(matrix: &DMatrix<f64>) -> MatrixRows {
+pub fn matrix_rows(matrix: &DMatrix<f64>) -> MatrixRows {
     let rows = matrix.row_iter();
     rows.map(|row| row.iter().copied().collect()).collect()
 }
@@ -275,7 +272,7 @@ fn pass(stage: &Stage) -> PassValue<'_> {
     }
 }
 
-pub(super) fn iteration(iteration: &Iteration) -> IterationValue<'_> {
+pub fn iteration(iteration: &Iteration) -> IterationValue<'_> {
     IterationValue {
         frequency_error: iteration.errors.frequency,
         shape_error: iteration.errors.shape,
@@ -285,33 +282,6 @@ pub(super) fn iteration(iteration: &Iteration) -> IterationValue<'_> {
         factors: &iteration.factors,
         limits: &iteration.limits,
     }
-}
-
-/// The history of the cases run.
-///
-/// # Errors
-/// [`PresentError::Case`] if Table 13 were damaged; the errors of [`document`].
-pub fn cases(results: &[CaseResult]) -> Result<String, PresentError> {
-    let cases = results.iter().map(case).collect::<Result<Value, _>>()?;
-    document(json!({ "cases": cases }))
-}
-
-fn case(result: &CaseResult) -> Result<Value, PresentError> {
-    Ok(json!({
-        "case": result.case.number,
-        "settings": result.case.settings,
-        "outcome": outcome(result),
-        "succeeded": result.succeeded(),
-        "correlation": report(&Report::from_case(result)?)?,
-        "published_iterations": published_iterations(result)?,
-        "element_numbers": result.case.panels.iter().map(|panel| panel.label).collect::<Value>(),
-        "test_gage_in": TEST_GAGE,
-        "first_gages_in": result.case.first_gages(),
-        "pass_gages_in": result.pass_gages,
-        "anomaly": result.anomaly,
-        "next_step": result.next_step,
-        "gage_errors": result.gage_errors(),
-    }))
 }
 
 /// The lowest `count` modes of a deck or of matrices, every shape scaled to a largest component of one; components in the order of

@@ -264,7 +264,7 @@ fn wrapped(paragraph: &str) -> String {
 }
 
 /// Words in lines of at most a width; a word that is longer continues on the next line.
-pub(super) fn lines<'a>(words: impl IntoIterator<Item = &'a str>, width: usize) -> Vec<String> {
+pub fn lines<'a>(words: impl IntoIterator<Item = &'a str>, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in words {
         let letters: Vec<char> = word.chars().collect();

@@ -3,6 +3,7 @@
 
 use crate::common::drawings::{words, written};
 use crate::common::jobs::building;
+use crate::paper::report::case_report;
 use crate::presentation::figures::{all_figures, job_figures, results};
 use crate::presentation::subject::chain;
 use crate::readers::job_prepared::prepared;
@@ -90,7 +91,7 @@ fn digits_have_a_contrast_of_four_and_a_half_on_every_color_of_a_cell() {
 #[test]
 fn colors_of_a_shape_stay_out_of_the_strip_between_root_and_first_rib() {
     for result in &results()[..3] {
-        let subject = Report::from_case(result).expect("a subject");
+        let subject = case_report(result).expect("a subject");
         let modes = DrawnModes::from_report(&subject)
             .expect("nine points")
             .expect("places");

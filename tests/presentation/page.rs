@@ -1,11 +1,11 @@
 //! The report as one page: every table and figure in it, nothing needed beside it.
 
+use crate::paper::page::{Contents, page};
+use crate::paper::tables::cases::{all_tables, frequency_table, summary};
+use crate::paper::tables::fewer_modes::{published_tables, truncation_tables};
 use crate::presentation::figures::{fewer_modes_runs, figures, results};
 use corfem::present::figures::Figure;
-use corfem::present::page::{Contents, page};
 use corfem::present::table::{Cell, Table};
-use corfem::present::tables::cases::{all_tables, frequency_table, summary};
-use corfem::present::tables::fewer_modes::{published_tables, truncation_tables};
 use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, published_runs};
 use corfem::torque_box::{Case, CaseResult};
 

@@ -1,8 +1,8 @@
 //! The report as a story: the answer, every case with its figure and what to see in it, then the method and the appendix.
 
+use crate::paper::tables::cases::summary;
 use crate::presentation::figures::{figures, results, wings};
 use crate::presentation::page::html;
-use corfem::present::tables::cases::summary;
 
 /// Ids of all sections with what stands in them.
 fn sections(html: &str) -> Vec<(&str, &str)> {

@@ -3,37 +3,36 @@
 //! Lengths are in pixels of a figure 760 wide, which printed 17 cm wide makes its smallest letters 7 points high. The
 //! plotting library knows whole units only, so a unit is a tenth of a pixel.
 
-pub(super) use super::chart::{axes, chart, placed};
-pub(super) use super::colors::{
+pub use super::chart::{axes, chart, placed};
+pub use super::colors::{
     BLUE, GRAY, INK, ORANGE, PALE, SILVER, SKY, VERMILION, between, legible_on,
 };
-// Through the module above, for the tests draw the documents' diagrams on this canvas.
-pub(super) use super::PresentError;
-use super::escaped;
+use crate::files::escaped;
+pub use crate::present::PresentError;
 use plotters::coord::Shift;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-pub(super) use plotters::style::{RGBColor, WHITE};
+pub use plotters::style::{RGBColor, WHITE};
 
 /// Units to a pixel.
-pub(super) const UNITS: f64 = 10.0;
+pub const UNITS: f64 = 10.0;
 /// Every figure's width, px.
-pub(super) const WIDTH: f64 = 760.0;
+pub const WIDTH: f64 = 760.0;
 /// Height that the title fills above everything else, px.
-pub(super) const HEAD: f64 = 30.0;
+pub const HEAD: f64 = 30.0;
 /// Faces asked for.
 const FACE: &str = "Noto Sans, Arial, Helvetica, sans-serif";
 /// The plotting library divides letter heights by this.
 const LETTER_SCALE: f64 = 1.24;
 
-pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-pub(super) type Drawn<T = ()> = Result<T, DrawingAreaErrorKind<std::io::Error>>;
+pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub type Drawn<T = ()> = Result<T, DrawingAreaErrorKind<std::io::Error>>;
 /// A place on a figure: right, down, px.
-pub(super) type Place = (f64, f64);
+pub type Place = (f64, f64);
 
 /// Pixels to the library's units.
-pub(super) fn units(pixels: f64) -> i32 {
+pub fn units(pixels: f64) -> i32 {
     (UNITS * pixels).round() as i32
 }
 
@@ -43,11 +42,11 @@ fn place((x, y): Place) -> (i32, i32) {
 
 /// Style of a line: its color, its width in px, and its dashes.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Pen(pub RGBColor, pub f64, pub Dash);
+pub struct Pen(pub RGBColor, pub f64, pub Dash);
 
 /// Dashes of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Dash {
+pub enum Dash {
     Solid,
     Dashed,
     Dotted,
@@ -69,11 +68,11 @@ impl Pen {
 
 /// A mark: its form, its size as the radius of the circle in px, its fill (open without one) and its outline.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Mark(pub Form, pub f64, pub Option<RGBColor>, pub Pen);
+pub struct Mark(pub Form, pub f64, pub Option<RGBColor>, pub Pen);
 
 /// Forms of a mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Form {
+pub enum Form {
     Circle,
     Square,
     Diamond,
@@ -81,7 +80,7 @@ pub(super) enum Form {
 
 /// Style of letters; [`START`], [`MIDDLE`] and [`END`] say which end of them lies at their place.
 #[derive(Clone, Copy)]
-pub(super) struct Letters {
+pub struct Letters {
     pub height: f64,
     pub color: RGBColor,
     pub weight: FontStyle,
@@ -99,9 +98,9 @@ const fn letters(across: HPos) -> Letters {
     }
 }
 
-pub(super) const START: Letters = letters(HPos::Left);
-pub(super) const MIDDLE: Letters = letters(HPos::Center);
-pub(super) const END: Letters = letters(HPos::Right);
+pub const START: Letters = letters(HPos::Left);
+pub const MIDDLE: Letters = letters(HPos::Center);
+pub const END: Letters = letters(HPos::Right);
 
 impl Letters {
     pub fn bold(self) -> Self {
@@ -133,7 +132,7 @@ impl Letters {
 }
 
 /// Draws a figure below its title and returns it as an SVG document that names itself to a screen reader too.
-pub(super) fn svg(
+pub fn svg(
     name: &str,
     title: &str,
     height: f64,
@@ -171,7 +170,7 @@ pub(super) fn svg(
     )))
 }
 
-pub(super) fn line(area: &Area, points: &[Place], pen: Pen) -> Drawn {
+pub fn line(area: &Area, points: &[Place], pen: Pen) -> Drawn {
     let points: Vec<(i32, i32)> = points.iter().copied().map(place).collect();
     let (on, off) = match pen.2 {
         Dash::Solid => return area.draw(&PathElement::new(points, pen.style())),
@@ -182,7 +181,7 @@ pub(super) fn line(area: &Area, points: &[Place], pen: Pen) -> Drawn {
 }
 
 /// A polygon, filled and with its outline.
-pub(super) fn polygon(area: &Area, corners: &[Place], fill: Option<RGBColor>, pen: Pen) -> Drawn {
+pub fn polygon(area: &Area, corners: &[Place], fill: Option<RGBColor>, pen: Pen) -> Drawn {
     if let Some(fill) = fill {
         area.draw(&Polygon::new(
             corners.iter().copied().map(place).collect::<Vec<_>>(),
@@ -193,16 +192,16 @@ pub(super) fn polygon(area: &Area, corners: &[Place], fill: Option<RGBColor>, pe
     line(area, &closed, pen)
 }
 
-pub(super) fn rectangle(area: &Area, from: Place, to: Place, fill: RGBColor) -> Drawn {
+pub fn rectangle(area: &Area, from: Place, to: Place, fill: RGBColor) -> Drawn {
     area.draw(&Rectangle::new([place(from), place(to)], fill.filled()))
 }
 
 /// The corners of an upright rectangle between two opposite ones.
-pub(super) fn corners((left, top): Place, (right, bottom): Place) -> [Place; 4] {
+pub fn corners((left, top): Place, (right, bottom): Place) -> [Place; 4] {
     [(left, top), (right, top), (right, bottom), (left, bottom)]
 }
 
-pub(super) fn mark(area: &Area, at: Place, Mark(form, size, fill, pen): Mark) -> Drawn {
+pub fn mark(area: &Area, at: Place, Mark(form, size, fill, pen): Mark) -> Drawn {
     let corners = match form {
         Form::Circle => {
             let circle = |style: ShapeStyle| area.draw(&Circle::new(place(at), units(size), style));
@@ -216,7 +215,7 @@ pub(super) fn mark(area: &Area, at: Place, Mark(form, size, fill, pen): Mark) ->
     polygon(area, &corners, fill, pen)
 }
 
-pub(super) fn write(area: &Area, text: &str, (x, y): Place, letters: Letters) -> Drawn {
+pub fn write(area: &Area, text: &str, (x, y): Place, letters: Letters) -> Drawn {
     // The library sets centered letters too high by a tenth of their height.
     let lower = 0.1 * letters.height;
     let at = if letters.upward {
@@ -228,20 +227,20 @@ pub(super) fn write(area: &Area, text: &str, (x, y): Place, letters: Letters) ->
 }
 
 /// A mark of a legend with its meaning.
-pub(super) fn marked(area: &Area, at: Place, form: Mark, words: &str) -> Drawn {
+pub fn marked(area: &Area, at: Place, form: Mark, words: &str) -> Drawn {
     mark(area, at, form)?;
     write(area, words, (at.0 + 12.0, at.1), START)
 }
 
 /// Name of a line or a mark, from the place where that ends, with the pen and the mark that stand before the name.
 #[derive(Clone, Copy)]
-pub(super) struct Named<'a>(pub Place, pub &'a str, pub Option<Pen>, pub Option<Mark>);
+pub struct Named<'a>(pub Place, pub &'a str, pub Option<Pen>, pub Option<Mark>);
 
 /// From the end of a line to its name, px.
-pub(super) const KEY: f64 = 32.0;
+pub const KEY: f64 = 32.0;
 
 /// Names behind the ends of their lines, pushed apart where two would meet.
-pub(super) fn name_ends(area: &Area, mut ends: Vec<Named>) -> Drawn {
+pub fn name_ends(area: &Area, mut ends: Vec<Named>) -> Drawn {
     ends.sort_by(|one, other| one.0.1.total_cmp(&other.0.1));
     for _ in 0..100 {
         for next in 1..ends.len() {
@@ -263,7 +262,7 @@ pub(super) fn name_ends(area: &Area, mut ends: Vec<Named>) -> Drawn {
 }
 
 /// The name of a vertical axis, along the left edge.
-pub(super) fn name_upright(area: &Area, text: &str, middle: f64) -> Drawn {
+pub fn name_upright(area: &Area, text: &str, middle: f64) -> Drawn {
     write(
         area,
         text,
@@ -276,12 +275,12 @@ pub(super) fn name_upright(area: &Area, text: &str, middle: f64) -> Drawn {
 }
 
 /// A number with the sign for minus.
-pub(super) fn signed(text: String) -> String {
+pub fn signed(text: String) -> String {
     text.replace('-', "−")
 }
 
 /// Room for names that end beside an axis: as much as the longest asks for, px.
-pub(super) fn name_room<'a>(names: impl Iterator<Item = &'a String>, least: f64) -> f64 {
+pub fn name_room<'a>(names: impl Iterator<Item = &'a String>, least: f64) -> f64 {
     let longest = names
         .map(|name| shortened(name).chars().count())
         .max()
@@ -290,7 +289,7 @@ pub(super) fn name_room<'a>(names: impl Iterator<Item = &'a String>, least: f64)
 }
 
 /// A name as long as a figure has room for.
-pub(super) fn shortened(name: &str) -> String {
+pub fn shortened(name: &str) -> String {
     cut(name, 40)
 }
 

@@ -6,7 +6,7 @@ use plotters::coord::ranged1d::ValueFormatter;
 use plotters::prelude::*;
 
 /// A chart with room for its axes: left, right, top and bottom margins, px.
-pub(super) fn chart<'a, 'b>(
+pub fn chart<'a, 'b>(
     area: &'a Area<'b>,
     margins: [f64; 4],
 ) -> ChartBuilder<'a, 'b, SVGBackend<'b>> {
@@ -20,10 +20,10 @@ pub(super) fn chart<'a, 'b>(
     chart
 }
 
-pub(super) type Chart<'a, 'b, X, Y> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<X, Y>>;
+pub type Chart<'a, 'b, X, Y> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<X, Y>>;
 
 /// Axes in the style of all figures, to be drawn.
-pub(super) fn axes<'a, 'b, 'c, X, Y>(
+pub fn axes<'a, 'b, 'c, X, Y>(
     chart: &'c mut Chart<'a, 'b, X, Y>,
 ) -> MeshStyle<'a, 'c, X, Y, SVGBackend<'b>>
 where
@@ -41,7 +41,7 @@ where
 }
 
 /// Place of a chart's point below the title.
-pub(super) fn placed(
+pub fn placed(
     chart: &Chart<impl Ranged<ValueType = f64>, impl Ranged<ValueType = f64>>,
     x: f64,
     y: f64,

@@ -1,15 +1,11 @@
-//! The figures as SVG: drawings that do not know where their data come from, and the paper's figures made from them.
+//! The figures as SVG: drawings that do not know where their data come from, and those of a report.
 //!
 //! The same data give the same bytes. Drawing fails with
 //! [`PresentError::Drawing`](crate::present::PresentError::Drawing).
 
-pub mod box_elements;
-mod canvas;
-mod chart;
+pub mod canvas;
+pub mod chart;
 mod colors;
-pub mod cases;
-pub mod comparisons;
-pub mod cover_gages;
 pub mod error_history;
 pub mod factors;
 pub mod matrices;
@@ -17,15 +13,9 @@ pub mod frame;
 pub mod mode_shapes;
 pub mod structure;
 pub mod report;
-mod view;
+pub mod view;
 
-pub(in crate::present) use cases::SHOWN;
-pub use cases::case_figures;
-pub use comparisons::comparison_figures;
 pub use report::report_figures;
-
-use crate::files::escaped;
-use crate::present::PresentError;
 
 /// A figure, drawn.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -39,7 +29,8 @@ pub struct Figure {
 }
 
 impl Figure {
-    fn new(name: &str, caption: impl Into<String>, svg: String) -> Self {
+    /// A figure of these parts.
+    pub fn new(name: &str, caption: impl Into<String>, svg: String) -> Self {
         Self {
             name: name.to_owned(),
             caption: caption.into(),
@@ -49,6 +40,6 @@ impl Figure {
 }
 
 /// Numbers from one, as labels.
-fn numbers(count: usize) -> Vec<String> {
+pub fn numbers(count: usize) -> Vec<String> {
     (1..=count).map(|number| number.to_string()).collect()
 }

@@ -4,7 +4,7 @@ use super::canvas::{Area, Drawn, Pen, Place, line};
 use nalgebra::Vector3;
 
 /// Factor by which the box's depth is drawn larger; the depth is a twentieth of its span.
-pub(super) const DEPTH_DRAWN: f64 = 7.0;
+pub const DEPTH_DRAWN: f64 = 7.0;
 /// Rise of the two plan axes on the paper, degrees.
 const RISE: f64 = 27.0;
 /// Part of the largest extent that a depth is drawn as, if that is at most [`DEPTH_DRAWN`] times itself.
@@ -13,11 +13,11 @@ const LEAST_DEPTH: f64 = 0.3;
 const FLAT: f64 = 1e-6;
 
 /// Room on the paper: left, top, width, height, px.
-pub(super) type Room = [f64; 4];
+pub type Room = [f64; 4];
 
 /// A linear view: what a unit along each axis goes right and down on the paper, and the scale in px to that unit.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct View {
+pub struct View {
     pub right: Vector3<f64>,
     pub down: Vector3<f64>,
     pub origin: Place,
@@ -32,7 +32,7 @@ fn ends(points: impl Iterator<Item = Vector3<f64>>) -> (Vector3<f64>, Vector3<f6
 }
 
 /// Extent of points along each axis.
-pub(super) fn extents(points: &[Vector3<f64>]) -> Vector3<f64> {
+pub fn extents(points: &[Vector3<f64>]) -> Vector3<f64> {
     let (low, high) = ends(points.iter().copied());
     high - low
 }

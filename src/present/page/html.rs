@@ -5,14 +5,14 @@ use crate::present::table::{Cell, Table};
 use pulldown_cmark::{Event, HeadingLevel, Options, Parser, Tag, TagEnd, html};
 
 /// A text as it stands in HTML.
-pub(super) fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     let text = crate::files::escaped(text)
         .replace('&', "&amp;")
         .replace('<', "&lt;");
     text.replace('>', "&gt;").replace('"', "&quot;")
 }
 
-pub(super) fn section(id: &str, heading: &str, body: &str) -> String {
+pub fn section(id: &str, heading: &str, body: &str) -> String {
     format!("<section id=\"{id}\">\n<h2>{heading}</h2>\n{body}</section>\n")
 }
 
@@ -25,7 +25,7 @@ fn scrolling(label: &str, body: &str) -> String {
 }
 
 /// A figure; `see` says before the caption what to look for.
-pub(super) fn figure(Figure { name, caption, svg }: &Figure, see: &str) -> String {
+pub fn figure(Figure { name, caption, svg }: &Figure, see: &str) -> String {
     let (drawing, caption, name) = (scrolling(caption, svg), escaped(caption), escaped(name));
     let see = if see.is_empty() {
         String::new()
@@ -36,7 +36,7 @@ pub(super) fn figure(Figure { name, caption, svg }: &Figure, see: &str) -> Strin
 }
 
 /// Figures side by side where there is room.
-pub(super) fn figures(class: &str, figures: impl Iterator<Item = String>) -> String {
+pub fn figures(class: &str, figures: impl Iterator<Item = String>) -> String {
     let figures: String = figures.collect();
     if figures.is_empty() {
         figures
@@ -45,7 +45,7 @@ pub(super) fn figures(class: &str, figures: impl Iterator<Item = String>) -> Str
     }
 }
 
-pub(super) fn table(table: &Table) -> String {
+pub fn table(table: &Table) -> String {
     if table.is_empty() {
         return String::new();
     }
@@ -90,7 +90,7 @@ fn cell(cell: &Cell) -> String {
 }
 
 /// A section of a Markdown document without its heading, as HTML.
-pub(super) fn section_of(markdown: &str, heading: &str) -> String {
+pub fn section_of(markdown: &str, heading: &str) -> String {
     let after = markdown
         .split_once(&format!("## {heading}\n"))
         .map_or("", |(_, after)| after);
@@ -98,7 +98,7 @@ pub(super) fn section_of(markdown: &str, heading: &str) -> String {
 }
 
 /// Markdown as HTML; headings stand one level lower.
-pub(super) fn prose(markdown: &str) -> String {
+pub fn prose(markdown: &str) -> String {
     let events = Parser::new_ext(markdown, Options::ENABLE_TABLES).flat_map(|event| match event {
         Event::Start(Tag::Table(alignment)) => {
             vec![

@@ -1,7 +1,6 @@
 //! The content of a report on any correlation.
 
 mod job;
-mod case;
 
 use crate::job::concern::Grade;
 use crate::job::verdict::Verdict;
@@ -273,7 +272,7 @@ impl Report {
     }
 
     /// The number of a test mode (its place from zero) in the test's file; its place from one where that is not known.
-    pub(crate) fn mode_number(&self, place: usize) -> usize {
+    pub fn mode_number(&self, place: usize) -> usize {
         self.mode_numbers.get(place).copied().unwrap_or(place + 1)
     }
 
@@ -314,7 +313,7 @@ impl Report {
     }
 
     /// Number of starts that failed.
-    pub(crate) fn failed_starts(&self) -> usize {
+    pub fn failed_starts(&self) -> usize {
         self.starts.iter().filter(|start| start.is_none()).count()
     }
 
@@ -346,7 +345,7 @@ impl Report {
     }
 
     /// Errors of a stage: of the exact solution it starts from, then after every iteration of its inner loop.
-    pub(crate) fn inner_errors(&self, stage: usize) -> Vec<Errors> {
+    pub fn inner_errors(&self, stage: usize) -> Vec<Errors> {
         let before = stage
             .checked_sub(1)
             .map_or(&self.initial, |before| &self.stages[before].check);

@@ -1,31 +1,19 @@
 //! The paper's Tables 3 to 8 and 13 from runs of its cases, each number beside the published one.
 
+use super::super::words::case_in_words;
 use super::stages::{self, ErrorStage};
 use super::unlimited::unlimited_table;
 use super::{MODE_ERRORS, PERCENT, RMS_PERCENT, remarks};
-use crate::method::analysis::State;
-use crate::method::error_sum::Errors;
-use crate::method::step::{Accumulation, StepRule};
-use crate::method::structure::ElementKind;
-use crate::present::PresentError;
-use crate::present::table::{Cell, Digits, Table, numbers, percents};
-use crate::present::verdict::case_in_words;
-use crate::torque_box::published::PublishedTable;
-use crate::torque_box::wing_box::gage_rms;
-use crate::torque_box::{CASES, CaseResult, Grouping};
-use crate::weighted::comparison::ExactResult;
-
-impl StepRule {
-    /// Its name in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Matrix => "matrix",
-            Self::Own => "own",
-            Self::Relative => "relative",
-            Self::Gage => "gage",
-        }
-    }
-}
+use corfem::method::analysis::State;
+use corfem::method::error_sum::Errors;
+use corfem::method::step::Accumulation;
+use corfem::method::structure::ElementKind;
+use corfem::present::PresentError;
+use corfem::present::table::{Cell, Digits, Table, numbers, percents};
+use corfem::torque_box::published::PublishedTable;
+use corfem::torque_box::wing_box::gage_rms;
+use corfem::torque_box::{CASES, CaseResult, Grouping};
+use corfem::weighted::comparison::ExactResult;
 
 /// The published table of a run, if the paper made that run: by single elements.
 fn published(
@@ -176,7 +164,7 @@ pub fn iteration_table(results: &[CaseResult]) -> Result<Table, PresentError> {
 }
 
 /// The settings that each case was run with.
-pub(crate) fn settings_table(results: &[CaseResult]) -> Table {
+pub fn settings_table(results: &[CaseResult]) -> Table {
     let mut table = Table::new("settings", "Settings of the loops", "Case")
         .headings(
             [
@@ -215,7 +203,7 @@ pub(crate) fn settings_table(results: &[CaseResult]) -> Table {
 }
 
 /// The outcome of every case, one line each.
-pub(crate) fn outcome_table(results: &[CaseResult]) -> Table {
+pub fn outcome_table(results: &[CaseResult]) -> Table {
     let note = "Correlated: the exact error sum is within the tolerance TOLO. Case 4 as published is one iteration that is to \
         detect a modeling error; its gages are not corrected.";
     let verdict = |result: &CaseResult| {
@@ -279,7 +267,7 @@ pub fn all_tables(results: &[CaseResult]) -> Result<Vec<Table>, PresentError> {
 }
 
 /// The tables of one case: frequencies, gages, and these after one weighted step; in Case 4 also what its single iteration asks for.
-pub(crate) fn tables_of(result: &CaseResult) -> Result<Vec<Table>, PresentError> {
+pub fn tables_of(result: &CaseResult) -> Result<Vec<Table>, PresentError> {
     let mut tables = vec![frequency_table(result)?, gage_table(result)?];
     tables.extend(next_step_table(result));
     if result.case.number == CASES[3] {

@@ -1,11 +1,11 @@
 //! Gages of the covers in the test configuration and at each case's start (Figure 4).
 
+use super::super::tables::kind_letter;
 use super::box_elements::{Layer, center, shade};
-use super::canvas::*;
-use super::view::View;
-use crate::present::tables::kind_letter;
-use crate::torque_box::Case;
-use crate::torque_box::wing_box::{Panel, TEST_GAGE};
+use corfem::present::figures::canvas::*;
+use corfem::present::figures::view::View;
+use corfem::torque_box::Case;
+use corfem::torque_box::wing_box::{Panel, TEST_GAGE};
 use nalgebra::Vector3;
 
 /// Height of one configuration's row and above the rows, px.

@@ -1,12 +1,12 @@
 //! The box taken apart, its elements numbered (Figure 3).
 
-use super::canvas::*;
-use super::view::{DEPTH_DRAWN, View};
-use crate::method::structure::{Element, ElementKind, Structure};
-use crate::present::table::Digits;
-use crate::present::tables::kind_letter;
-use crate::torque_box::wing_box::TEST_GAGE;
-use crate::torque_box::{Case, CaseResult};
+use super::super::tables::kind_letter;
+use corfem::method::structure::{Element, ElementKind, Structure};
+use corfem::present::figures::canvas::*;
+use corfem::present::figures::view::{DEPTH_DRAWN, View};
+use corfem::present::table::Digits;
+use corfem::torque_box::wing_box::TEST_GAGE;
+use corfem::torque_box::{Case, CaseResult};
 use nalgebra::Vector3;
 
 /// One of the three layers the box is taken apart into.
@@ -111,7 +111,7 @@ pub fn draw(case: &Case) -> Result<String, PresentError> {
 ///
 /// # Errors
 /// The errors of [`Case::model`]; [`PresentError::Drawing`].
-pub(crate) fn draw_gages(result: &CaseResult) -> Result<String, PresentError> {
+pub fn draw_gages(result: &CaseResult) -> Result<String, PresentError> {
     let model = result.case.model()?;
     let before = result.case.first_gages();
     let factors = result.correlation.best_factors.iter();
@@ -244,7 +244,7 @@ fn fill(kind: ElementKind) -> RGBColor {
 }
 
 /// The mean of corners.
-pub(super) fn center(corners: &[Vector3<f64>]) -> Vector3<f64> {
+pub fn center(corners: &[Vector3<f64>]) -> Vector3<f64> {
     corners.iter().sum::<Vector3<f64>>() / corners.len() as f64
 }
 
@@ -261,7 +261,7 @@ fn nearness((element, corners): &CornersOf) -> f64 {
 }
 
 /// Thin is blue and thick is orange; half or one and a half times the test gage have the full color.
-pub(super) fn shade(gage: f64) -> RGBColor {
+pub fn shade(gage: f64) -> RGBColor {
     let excess = (2.0 * (gage / TEST_GAGE - 1.0)).clamp(-1.0, 1.0);
     between(
         WHITE,

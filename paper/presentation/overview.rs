@@ -1,12 +1,12 @@
 //! The text that `corfem` alone prints: the paper's cases on less than a page of a terminal.
 
-use super::PresentError;
-use super::render::{lines, text};
-use super::table::{Cell, Table};
 use super::tables::cases::{frequency_table, gage_table, outcome_table, published_iterations};
 use super::tables::unlimited::unlimited_table;
-use crate::torque_box::CaseResult;
-use crate::torque_box::wing_box::TEST_GAGE;
+use corfem::present::PresentError;
+use corfem::present::render::{lines, text};
+use corfem::present::table::{Cell, Table};
+use corfem::torque_box::CaseResult;
+use corfem::torque_box::wing_box::TEST_GAGE;
 
 /// Length of the longest line, characters.
 const WIDTH: usize = 80;

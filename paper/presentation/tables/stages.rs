@@ -1,13 +1,13 @@
 //! Values beside their targets, from the first model to the last: frequencies or gages, pass by pass.
 
 use super::{HERTZ, INCHES, PERCENT, in_words, kind_letter, remarks};
-use crate::present::table::{Cell, Digits, Table};
-use crate::torque_box::published::PublishedTable;
-use crate::torque_box::wing_box::{PANEL_COUNT, Panel, TEST_GAGE};
+use corfem::present::table::{Cell, Digits, Table};
+use corfem::torque_box::published::PublishedTable;
+use corfem::torque_box::wing_box::{PANEL_COUNT, Panel, TEST_GAGE};
 
 /// A state of a model: the beginning of its published columns' names (`initial`, `pass_1`, `fem_5`), its values in the order of the
 /// rows, and its errors under these, fractions; those that it does not have are left out.
-pub(super) struct ErrorStage {
+pub struct ErrorStage {
     pub name: String,
     pub values: Vec<f64>,
     pub errors: Vec<f64>,
@@ -30,7 +30,7 @@ impl ErrorStage {
 }
 
 /// Heading of a stage: `pass_1` is Pass 1.
-pub(super) fn stage_title(stage: &str) -> String {
+pub fn stage_title(stage: &str) -> String {
     let words = in_words(stage);
     let (first, rest) = words.split_at(words.len().min(1));
     first.to_uppercase() + rest
@@ -41,7 +41,7 @@ pub(super) fn stage_title(stage: &str) -> String {
 ///
 /// The values are frequencies beside those of a test, or the gages of panels beside those of the test configuration. Published
 /// columns are named like the stages with `_hz`, `_in` or `_percent` behind, rows like their labels: `shape_rms`.
-pub(super) fn fill(
+pub fn fill(
     table: Table,
     panels: &[Panel],
     test_hz: &[f64],

@@ -2,10 +2,10 @@
 
 use super::stages::stage_title;
 use super::{in_words, remarks};
-use crate::present::PresentError;
-use crate::present::table::{Cell, Digits, Table, numbers, percents};
-use crate::torque_box::published::PublishedTable;
-use crate::torque_box::table_1::{Formula, TwoMasses, formulae, problems};
+use corfem::present::PresentError;
+use corfem::present::table::{Cell, Digits, Table, numbers, percents};
+use corfem::torque_box::published::PublishedTable;
+use corfem::torque_box::table_1::{Formula, TwoMasses, formulae, problems};
 
 /// Ends of column headings, and the units that they stand for.
 const UNITS: [(&str, &str); 4] = [

@@ -1,14 +1,14 @@
 //! A case opened up: its matrices and every iteration, for a program in another language to be checked against.
 
-use super::PresentError;
-use super::json::{IterationValue, document, iteration, matrix_rows};
-use crate::files::matrices::write_matrix_market;
-use crate::method::inner_loop::Iteration;
-use crate::method::modes::solve;
-use crate::method::outer_loop::Pass;
-use crate::method::structure::{DIRECTIONS, StructuralDof};
-use crate::sparse::SparseMatrix;
-use crate::torque_box::{Case, run_case};
+use corfem::files::matrices::write_matrix_market;
+use corfem::method::inner_loop::Iteration;
+use corfem::method::modes::solve;
+use corfem::method::outer_loop::Pass;
+use corfem::method::structure::{DIRECTIONS, StructuralDof};
+use corfem::present::PresentError;
+use corfem::present::json::{IterationValue, document, iteration, matrix_rows};
+use corfem::sparse::SparseMatrix;
+use corfem::torque_box::{Case, run_case};
 use nalgebra::DMatrix;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -36,7 +36,7 @@ pub fn dump(case: &Case) -> Result<Dump, PresentError> {
     let first = vec![1.0; names.len()];
     let mut matrices = vec![
         file("T", model.load_distribution())?,
-        file("V_G", &result.test.shapes)?,
+        file("V_G", result.test.shapes())?,
     ];
     let mut analyses = Vec::new();
     for (number, factors) in (1..).zip(once(&first).chain(passes.iter().map(|pass| &pass.factors)))
@@ -49,7 +49,7 @@ pub fn dump(case: &Case) -> Result<Dump, PresentError> {
         for (name, matrix) in [
             ("K_D", &dynamic.stiffness),
             ("M", &dynamic.mass),
-            ("V", &modes.shapes),
+            ("V", modes.shapes()),
             ("B", &b),
         ] {
             analysis[name] = json!(matrix_rows(matrix));
@@ -69,7 +69,7 @@ pub fn dump(case: &Case) -> Result<Dump, PresentError> {
         "structural_dof": model.structure().free_dof().iter().map(dof).collect::<Value>(),
         "parameters": names,
         "T": matrix_rows(model.load_distribution()),
-        "test": {"frequencies_hz": result.test.frequencies_hz(), "V_G": matrix_rows(&result.test.shapes)},
+        "test": {"frequencies_hz": result.test.frequencies_hz(), "V_G": matrix_rows(result.test.shapes())},
         "analyses": analyses,
         "passes": passes.iter().map(pass).collect::<Value>(),
     }))?;

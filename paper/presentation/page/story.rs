@@ -1,15 +1,14 @@
 //! The page's words before its tables, from `paper/report.md`: every case with its figure, then the method.
 
-use super::html::{figure, figures, prose};
-use super::{Contents, Part, named};
-use crate::present::verdict::case_in_words;
-use crate::torque_box::CaseResult;
+use super::super::words::case_in_words;
+use super::Contents;
+use corfem::present::page::html::{figure, figures, prose};
+use corfem::present::page::{Part, named};
+use corfem::torque_box::CaseResult;
 
 /// A part for every section of the words whose case there is.
-pub(super) fn story(contents: &Contents) -> Vec<Part> {
-    let sections = include_str!("../../../paper/report.md")
-        .split("\n## ")
-        .skip(1);
+pub fn story(contents: &Contents) -> Vec<Part> {
+    let sections = include_str!("../../report.md").split("\n## ").skip(1);
     sections.filter_map(|text| part(text, contents)).collect()
 }
 

@@ -1,8 +1,8 @@
 //! The unlimited factors of a case's first iteration, which reveal a modeling error.
 
-use crate::present::figures::factors::DrawnFactor;
-use crate::present::table::{Cell, Digits, Table};
-use crate::torque_box::{CaseResult, Grouping};
+use corfem::present::figures::factors::DrawnFactor;
+use corfem::present::table::{Cell, Digits, Table};
+use corfem::torque_box::{CaseResult, Grouping};
 
 /// The remark on a factor so large that it points to a modeling error ([`CaseResult::anomaly`]).
 pub const ANOMALY: &str = "anomaly";

@@ -2,11 +2,11 @@
 
 use super::stages::{self, ErrorStage};
 use super::{MODE_ERRORS, PERCENT, RMS_PERCENT};
-use crate::present::PresentError;
-use crate::present::table::{Cell, Digits, Table};
-use crate::torque_box::Case;
-use crate::torque_box::fewer_modes::{Agreement, FewerModesRun};
-use crate::torque_box::published::PublishedTable;
+use corfem::present::PresentError;
+use corfem::present::table::{Cell, Digits, Table};
+use corfem::torque_box::Case;
+use corfem::torque_box::fewer_modes::{Agreement, FewerModesRun};
+use corfem::torque_box::published::PublishedTable;
 use std::collections::BTreeSet;
 
 /// The paper's frequencies with fewer modes are those of five test modes.
@@ -184,7 +184,7 @@ type Cost = (
 );
 
 /// Costs of truncation: errors of the gages of shear panels and of membranes, and of frequencies and shapes beside all test modes.
-pub(in crate::present) const COSTS: [Cost; 4] = [
+pub const COSTS: [Cost; 4] = [
     ("shear", "gage RMS of the shear panels", PERCENT, |run| {
         run.shear_gage_rms
     }),

@@ -1,10 +1,10 @@
 //! The figure of the cost of fewer modes.
 
-use super::matrices::{HeatMap, draw_by_twos};
-use super::{Figure, numbers};
-use crate::present::PresentError;
-use crate::present::tables::fewer_modes::COSTS;
-use crate::torque_box::fewer_modes::FewerModesRun;
+use super::super::tables::fewer_modes::COSTS;
+use corfem::present::PresentError;
+use corfem::present::figures::matrices::{HeatMap, draw_by_twos};
+use corfem::present::figures::{Figure, numbers};
+use corfem::torque_box::fewer_modes::FewerModesRun;
 use nalgebra::DMatrix;
 
 /// The figure of a case with fewer modes.

@@ -1,16 +1,16 @@
 //! The figures of the box and of the paper's cases, from what the runs gave.
 
-use super::factors::Factors;
-use super::report::report_figures;
-use super::structure::draw_structure;
-use super::{Figure, box_elements, cover_gages};
-use crate::present::PresentError;
-use crate::present::report::Report;
-use crate::present::tables::unlimited::unlimited_factors;
-use crate::torque_box::{CASES, Case, CaseResult};
+use super::super::report::case_report;
+use super::super::tables::unlimited::unlimited_factors;
+use super::{box_elements, cover_gages};
+use corfem::present::PresentError;
+use corfem::present::figures::factors::Factors;
+use corfem::present::figures::structure::draw_structure;
+use corfem::present::figures::{Figure, report_figures};
+use corfem::torque_box::{CASES, Case, CaseResult};
 
 /// The case that the box is shown with before and after its correlation, and whose first pass can be played with.
-pub(in crate::present) const SHOWN: usize = 2;
+pub const SHOWN: usize = 2;
 
 /// Every figure of the cases, in the order of the report: the box, then each case.
 ///
@@ -22,7 +22,7 @@ pub fn case_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError>
         let case = &first.case;
         let caption = "Cases 1 to 4: the wing torque box with its structural and dynamic points (the paper's Figure 2).";
         let title = "Cases 1 to 4: the wing torque box, its structural and dynamic points";
-        let report = Report::from_case(first)?.with_structure(case.model()?.structure());
+        let report = case_report(first)?.with_structure(case.model()?.structure());
         figures.push(Figure::new(
             "box_points",
             caption,
@@ -62,7 +62,7 @@ pub fn case_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError>
 /// Adds the figures of one case: those of its correlation, or of Case 4 the factors that its single iteration asks for; and its
 /// derivatives.
 fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), PresentError> {
-    let report = Report::from_case(result)?;
+    let report = case_report(result)?;
     let case = result.case.number;
     let all = report_figures(&report)?;
     let kept = |what: &str| {

@@ -1,11 +1,11 @@
 //! The figure to play with: Case 2's first pass, its gages to be dragged, its modes solved in the page.
 
-use crate::method::analysis::Analysis;
-use crate::method::step::LEAST_SHARE;
-use crate::present::PresentError;
-use crate::present::table::Digits;
-use crate::torque_box::CaseResult;
-use crate::torque_box::wing_box::TEST_GAGE;
+use corfem::method::analysis::Analysis;
+use corfem::method::step::LEAST_SHARE;
+use corfem::present::PresentError;
+use corfem::present::table::Digits;
+use corfem::torque_box::CaseResult;
+use corfem::torque_box::wing_box::TEST_GAGE;
 use nalgebra::DMatrix;
 use serde_json::json;
 
@@ -40,10 +40,10 @@ pub fn play(result: &CaseResult) -> Result<String, PresentError> {
     let follows = first.at(&pass.inner.factors)?;
     let modes = &first.exact().modes;
     let data = json!({
-        "squares": modes.omega_squared.as_slice(),
+        "squares": modes.omega_squared().as_slice(),
         "shares": shares.collect::<Vec<_>>(),
-        "shapes": rows(&modes.shapes),
-        "test": rows(&test.shapes),
+        "shapes": rows(modes.shapes()),
+        "test": rows(test.shapes()),
         "hertz": test.frequencies_hz(),
         "masses": case.reconstruction.masses,
         "steps": std::iter::once(&ones).chain(steps).collect::<Vec<_>>(),
