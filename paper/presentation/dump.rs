@@ -6,11 +6,11 @@ use corfem::method::modes::solve;
 use corfem::method::outer_loop::Pass;
 use corfem::method::structure::{DIRECTIONS, StructuralDof};
 use corfem::present::PresentError;
-use corfem::present::json::{IterationValue, document, iteration, matrix_rows};
+use corfem::present::json::{document, iteration};
+use corfem::present::report::matrix_rows;
 use corfem::sparse::SparseMatrix;
 use corfem::torque_box::{Case, run_case};
 use nalgebra::DMatrix;
-use serde::Serialize;
 use serde_json::{Value, json};
 use std::iter::once;
 
@@ -90,27 +90,13 @@ fn file(name: &str, matrix: &DMatrix<f64>) -> Result<(String, String), PresentEr
     Ok((format!("{name}.mtx"), write_matrix_market(&sparse)))
 }
 
-/// An iteration with the derivatives where it began.
-#[derive(Serialize)]
-struct StepValue<'a> {
-    #[serde(flatten)]
-    iteration: IterationValue<'a>,
-    error_changes: &'a [f64],
-    stiffness_changes: &'a [f64],
-}
-
 fn pass(pass: &Pass) -> Value {
+    // With the derivatives where it began.
     let whole = |step: &Iteration| {
-        let Iteration {
-            error_changes,
-            stiffness_changes,
-            ..
-        } = step;
-        json!(StepValue {
-            iteration: iteration(step),
-            error_changes,
-            stiffness_changes,
-        })
+        let mut value = iteration(step);
+        value["error_changes"] = json!(step.error_changes);
+        value["stiffness_changes"] = json!(step.stiffness_changes);
+        value
     };
     json!({
         "start_error_sum": pass.inner.start.sum(),

@@ -1,12 +1,13 @@
 //! The paper's cases as reports.
 
 use corfem::job::verdict::Verdict;
+use corfem::method::structure::Grid;
 use corfem::present::PresentError;
 use corfem::present::report::{Derivatives, Report, SensorPoint};
 use corfem::torque_box::CaseResult;
 use corfem::torque_box::wing_box::dynamic_points;
 use corfem::weighted::comparison::{Comparison, ExactResult};
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, DVectorView, Vector3};
 
 /// Grids of the box's root, rear and front.
 const ROOT: [usize; 2] = [13, 15];
@@ -63,6 +64,50 @@ pub fn case_report(result: &CaseResult) -> Result<Report, PresentError> {
             &ExactResult::from(&run.initial),
             Some(run),
         )
+    })
+}
+
+/// A case of the paper with its whole box: elements, the panels that they belong to, and the motion of every grid, which follows the
+/// dynamic points by $B$; the test's by that of the last model.
+///
+/// # Errors
+/// Those of the model and its analysis.
+pub fn moving_case(result: &CaseResult) -> Result<Report, PresentError> {
+    let (model, report) = (result.case.model()?, case_report(result)?);
+    let structure = model.structure();
+    let owners = structure.elements().iter().map(|element| {
+        let parameters = model.parameters().iter().enumerate();
+        let of = parameters.filter(|(_, parameter)| parameter.elements.contains(&element.label));
+        of.map(|(e, _)| e).collect()
+    });
+    let followed = |factors: &[f64], shapes: &DMatrix<f64>| -> Result<_, PresentError> {
+        let transformation = model.condense(factors)?.transformation;
+        let all = transformation.transpose() * shapes;
+        let motion = |shape: DVectorView<f64>, grid: &Grid| {
+            Vector3::from_fn(|direction, _| {
+                let dof = structure.free_dof_index(grid.label, direction);
+                dof.map_or(0.0, |row| shape[row])
+            })
+        };
+        let grids = || structure.grids().iter();
+        let of_mode = |shape| grids().map(|grid| motion(shape, grid)).collect();
+        Ok(all
+            .column_iter()
+            .map(|shape| of_mode(shape))
+            .collect::<Vec<Vec<_>>>())
+    };
+    let (ones, last) = (vec![1.0; report.parameters.len()], report.factors());
+    let paired = |check: &ExactResult| check.pairing.paired(&check.modes);
+    let (first, corrected) = (paired(&report.initial)?, paired(report.corrected())?);
+    let moved = [
+        followed(&last, result.test.shapes())?,
+        followed(&ones, first.shapes())?,
+        followed(&last, corrected.shapes())?,
+    ];
+    Ok(Report {
+        owners: owners.collect(),
+        moved: Some(moved),
+        ..report.with_structure(structure)
     })
 }
 

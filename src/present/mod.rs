@@ -4,7 +4,7 @@
 //! [`json::report`] and [`page::report_page`] show it. The paper's cases are reports with more beside them, which `paper/presentation` shows.
 
 #[doc(hidden)]
-pub mod figures;
+pub mod frame;
 #[doc(hidden)]
 pub mod json;
 #[doc(hidden)]

@@ -1,11 +1,11 @@
 //! Diagrams of documents: a few series over two axes, drawn as the report's figures are.
 
-use corfem::present::PresentError;
-use corfem::present::figures::canvas::{
+use crate::paper::figures::canvas::{
     Area, BLUE, Dash, Drawn, Form, GRAY, INK, KEY, Mark, Named, ORANGE, Pen, SKY, VERMILION, axes,
     chart, line, mark, name_ends, name_upright, placed, rectangle, svg,
 };
-use corfem::present::figures::chart::Chart;
+use crate::paper::figures::chart::Chart;
+use corfem::present::PresentError;
 use plotters::coord::ranged1d::ValueFormatter;
 use plotters::prelude::*;
 

@@ -3,16 +3,17 @@
 use crate::common::jobs::{loaded, worked};
 use crate::common::tolerances::{CENTRAL_DIFFERENCE_FREQUENCY, MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::wing_subjects::wing_subjects;
+use crate::paper::figures::error_history::error_history;
+use crate::paper::figures::mode_shapes::panel_parts;
+use crate::paper::figures::report::{derivatives, mode_agreement};
+use crate::paper::figures::{Figure, report_figures};
 use crate::paper::figures::{case_figures, comparison_figures};
 use crate::paper::report::case_report;
 use crate::paper::tables::cases::{frequency_table, iteration_table};
 use crate::paper::tables::unlimited::{ANOMALY, unlimited_factors, unlimited_table};
 use approx::assert_relative_eq;
 use corfem::method::step::StepRule;
-use corfem::present::figures::error_history::error_history;
-use corfem::present::figures::mode_shapes::DrawnModes;
-use corfem::present::figures::report::{derivatives, mode_agreement};
-use corfem::present::figures::{Figure, report_figures};
+use corfem::present::frame::DrawnModes;
 use corfem::present::report::Report;
 use corfem::present::table::{Cell, Column, Table};
 use corfem::torque_box::fewer_modes::{FewerModesRun, PUBLISHED_CASE, all_runs};
@@ -180,7 +181,7 @@ fn drawn_modes_are_those_of_the_tables() {
             }
         }
         // The first bending mode moves everything one way; the color of every part is that of its place.
-        let parts = modes.frame.parts(&Vector3::z(), &modes.modes[0].moved[0]);
+        let parts = panel_parts(&modes.frame, &Vector3::z(), &modes.modes[0].moved[0]);
         let sign = parts[0].1.signum();
         assert!(
             parts

@@ -2,10 +2,10 @@
 
 use crate::common::drawings::words;
 use crate::paper::figures::cover_gages::draw;
+use crate::paper::figures::error_history::{self, PassHistory, error_history};
+use crate::paper::figures::factors::{DrawnFactor, Factors};
 use crate::paper::report::case_report;
 use crate::presentation::figures::results;
-use corfem::present::figures::error_history::{self, PassHistory, error_history};
-use corfem::present::figures::factors::{DrawnFactor, Factors};
 use corfem::torque_box::Case;
 
 #[test]

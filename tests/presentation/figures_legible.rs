@@ -3,13 +3,14 @@
 
 use crate::common::drawings::{words, written};
 use crate::common::jobs::building;
+use crate::paper::figures::matrices::{HeatMap, draw_by_twos};
+use crate::paper::figures::mode_shapes;
+use crate::paper::figures::{Figure, report_figures};
 use crate::paper::report::case_report;
 use crate::presentation::figures::{all_figures, job_figures, results};
 use crate::presentation::subject::chain;
 use crate::readers::job_prepared::prepared;
-use corfem::present::figures::matrices::{HeatMap, draw_by_twos};
-use corfem::present::figures::mode_shapes::DrawnModes;
-use corfem::present::figures::{Figure, report_figures};
+use corfem::present::frame::DrawnModes;
 use corfem::present::report::Report;
 use nalgebra::{DMatrix, Vector3};
 use std::collections::BTreeSet;
@@ -144,7 +145,7 @@ fn each_state_is_seen_where_all_three_lie_on_each_other() {
     let modes = DrawnModes::from_report(&chain)
         .expect("fits")
         .expect("places");
-    let svg = modes.draw("modes", "Modes").expect("drawn");
+    let svg = mode_shapes::draw(&modes, "modes", "Modes").expect("drawn");
     // Lines of the legend, from the one below to the one above.
     let lines = svg
         .split("<polyline")

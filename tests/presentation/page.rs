@@ -1,10 +1,10 @@
 //! The report as one page: every table and figure in it, nothing needed beside it.
 
+use crate::paper::figures::Figure;
 use crate::paper::page::{Contents, page};
 use crate::paper::tables::cases::{all_tables, frequency_table, summary};
 use crate::paper::tables::fewer_modes::{published_tables, truncation_tables};
 use crate::presentation::figures::{fewer_modes_runs, figures, results};
-use corfem::present::figures::Figure;
 use corfem::present::table::{Cell, Table};
 use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, published_runs};
 use corfem::torque_box::{Case, CaseResult};

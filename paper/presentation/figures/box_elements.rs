@@ -1,9 +1,9 @@
 //! The box taken apart, its elements numbered (Figure 3).
 
 use super::super::tables::kind_letter;
+use super::canvas::*;
+use super::view::{DEPTH_DRAWN, View};
 use corfem::method::structure::{Element, ElementKind, Structure};
-use corfem::present::figures::canvas::*;
-use corfem::present::figures::view::{DEPTH_DRAWN, View};
 use corfem::present::table::Digits;
 use corfem::torque_box::wing_box::TEST_GAGE;
 use corfem::torque_box::{Case, CaseResult};

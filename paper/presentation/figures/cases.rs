@@ -2,11 +2,11 @@
 
 use super::super::report::case_report;
 use super::super::tables::unlimited::unlimited_factors;
+use super::factors::Factors;
+use super::structure::draw_structure;
+use super::{Figure, report_figures};
 use super::{box_elements, cover_gages};
 use corfem::present::PresentError;
-use corfem::present::figures::factors::Factors;
-use corfem::present::figures::structure::draw_structure;
-use corfem::present::figures::{Figure, report_figures};
 use corfem::torque_box::{CASES, Case, CaseResult};
 
 /// The case that the box is shown with before and after its correlation, and whose first pass can be played with.

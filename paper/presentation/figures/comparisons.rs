@@ -1,9 +1,9 @@
 //! The figure of the cost of fewer modes.
 
 use super::super::tables::fewer_modes::COSTS;
+use super::matrices::{HeatMap, draw_by_twos};
+use super::{Figure, numbers};
 use corfem::present::PresentError;
-use corfem::present::figures::matrices::{HeatMap, draw_by_twos};
-use corfem::present::figures::{Figure, numbers};
 use corfem::torque_box::fewer_modes::FewerModesRun;
 use nalgebra::DMatrix;
 

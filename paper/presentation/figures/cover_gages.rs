@@ -2,8 +2,8 @@
 
 use super::super::tables::kind_letter;
 use super::box_elements::{Layer, center, shade};
-use corfem::present::figures::canvas::*;
-use corfem::present::figures::view::View;
+use super::canvas::*;
+use super::view::View;
 use corfem::torque_box::Case;
 use corfem::torque_box::wing_box::{Panel, TEST_GAGE};
 use nalgebra::Vector3;

@@ -3,19 +3,23 @@
 //! Texts on the box and on the differences from the published results are those of `paper/`, so that they are written
 //! once.
 
+mod html;
 pub mod play;
 mod story;
 
-use super::figures::SHOWN;
+use super::figures::{Figure, SHOWN};
+use super::report::moving_case;
 use super::tables::cases::{iteration_table, outcome_table, settings_table, summary, tables_of};
 use super::tables::{fewer_modes, paper_tables};
 use corfem::present::PresentError;
-use corfem::present::figures::Figure;
-use corfem::present::page::html::{figure, prose, section_of, table};
-use corfem::present::page::{document, made, named, part};
-use corfem::present::table::Cell;
+use corfem::present::page::charts::factor_bars;
+use corfem::present::page::html::table;
+use corfem::present::page::moving::moving;
+use corfem::present::page::{document, made, named};
+use corfem::present::table::{Cell, Table};
 use corfem::torque_box::fewer_modes::{FewerModesRun, PUBLISHED_CASE, PUBLISHED_RUNS};
 use corfem::torque_box::{Case, CaseResult};
+use html::{figure, figures, prose, section_of};
 use play::play;
 use story::story;
 
@@ -41,7 +45,7 @@ const LEAD: &str = "Element stiffnesses of a finite element model, corrected unt
 /// [`PresentError::Case`] for damaged published tables.
 pub fn page(contents: &Contents) -> Result<String, PresentError> {
     let answer = answer(contents)?;
-    let mut parts = story(contents);
+    let mut parts = story(contents)?;
     if let Some(shown) = contents.results.iter().find(|it| it.case.number == SHOWN) {
         let heading = format!("Case {SHOWN}, by hand");
         parts.insert(0, named("try", "Try it", &heading, play(shown)?));
@@ -135,6 +139,14 @@ fn answer(contents: &Contents) -> Result<String, PresentError> {
             " <strong>At least one case did not converge within its limits; the best found is shown.</strong>"
         }
     );
+    if let Some(shown) = results.iter().find(|result| result.case.number == SHOWN) {
+        let report = moving_case(shown)?;
+        body += &format!(
+            "<div class=\"first\">\n{}{}</div>\n",
+            moving(&report)?,
+            factor_bars(&report)
+        );
+    }
     let shown = |what: &str| {
         let drawn = contents.figures.iter().find(|figure| figure.name == what);
         drawn.map_or_else(String::new, |drawn| figure(drawn, ""))
@@ -146,6 +158,17 @@ fn answer(contents: &Contents) -> Result<String, PresentError> {
         shown("box_gages")
     );
     Ok(body)
+}
+
+/// Tables, then the figures whose names begin with one of the prefixes.
+fn part(tables: &[Table], drawn: &[Figure], prefixes: &[impl AsRef<str>]) -> String {
+    let starts = |figure: &&Figure| {
+        prefixes
+            .iter()
+            .any(|prefix| figure.name.starts_with(prefix.as_ref()))
+    };
+    let drawn = drawn.iter().filter(starts).map(|drawn| figure(drawn, ""));
+    tables.iter().map(table).collect::<String>() + &figures("figures", drawn)
 }
 
 fn box_section(contents: &Contents) -> String {

@@ -1,43 +1,52 @@
 //! The page's words before its tables, from `paper/report.md`: every case with its figure, then the method.
 
+use super::super::figures::SHOWN;
+use super::super::report::moving_case;
 use super::super::words::case_in_words;
 use super::Contents;
-use corfem::present::page::html::{figure, figures, prose};
+use super::html::{figure, figures, prose};
+use corfem::present::PresentError;
+use corfem::present::page::moving::moving;
 use corfem::present::page::{Part, named};
 use corfem::torque_box::CaseResult;
 
 /// A part for every section of the words whose case there is.
-pub fn story(contents: &Contents) -> Vec<Part> {
+pub fn story(contents: &Contents) -> Result<Vec<Part>, PresentError> {
     let sections = include_str!("../../report.md").split("\n## ").skip(1);
-    sections.filter_map(|text| part(text, contents)).collect()
+    let parts = sections.filter_map(|text| part(text, contents).transpose());
+    parts.collect()
 }
 
-/// A section: its heading, its text, and a line for every figure, the figure's name before the words.
-fn part(text: &str, contents: &Contents) -> Option<Part> {
-    let (heading, body) = text.split_once('\n')?;
-    let short = heading.split(':').next()?;
+/// A section: its heading, its text, a line for every figure, the figure's name before the words, and the case moving.
+fn part(text: &str, contents: &Contents) -> Result<Option<Part>, PresentError> {
+    let (heading, body) = text.split_once('\n').unwrap_or((text, ""));
+    let short = heading.split(':').next().unwrap_or(heading);
     let mut pieces = body.split("\n- `");
-    let mut body = prose(pieces.next()?);
+    let mut body = prose(pieces.next().unwrap_or_default());
+    let mut moved = String::new();
     if let Some(number) = short.strip_prefix("Case ") {
-        body += &outcome(
-            contents
-                .results
-                .iter()
-                .find(|result| result.case.number.to_string() == number)?,
-        );
+        let is_it = |result: &&CaseResult| result.case.number.to_string() == number;
+        let Some(result) = contents.results.iter().find(is_it) else {
+            return Ok(None);
+        };
+        body += &outcome(result);
+        // The first screen has that one.
+        if result.case.number != SHOWN {
+            moved = moving(&moving_case(result)?)?;
+        }
     }
     let seen = pieces.filter_map(|piece| {
         let (name, words) = piece.split_once("`: ")?;
         let drawn = contents.figures.iter().find(|figure| figure.name == name)?;
         Some(figure(drawn, words.trim()))
     });
-    body += &figures("told", seen);
-    Some(named(
+    body += &(figures("told", seen) + &moved);
+    Ok(Some(named(
         &format!("story-{}", short.to_lowercase().replace(' ', "-")),
         short,
         heading,
         body,
-    ))
+    )))
 }
 
 /// The outcome of a case: its modeling error, or its verdict.

@@ -1,6 +1,6 @@
 //! The unlimited factors of a case's first iteration, which reveal a modeling error.
 
-use corfem::present::figures::factors::DrawnFactor;
+use super::super::figures::factors::DrawnFactor;
 use corfem::present::table::{Cell, Digits, Table};
 use corfem::torque_box::{CaseResult, Grouping};
 

@@ -1,28 +1,32 @@
-//! The report as one web page that needs nothing beside it: the story, then tables, figures, assumptions, and what made it.
-//!
-//! Texts on the box and on the differences from the published results are those of `paper/`, so that they are written
-//! once.
+//! The report as one web page that needs nothing beside it: the answer, the structure moving and the factors on its first screen, then
+//! tables, and what made it.
 
+pub mod charts;
 pub mod html;
+pub mod moving;
 
-use super::figures::{Figure, report_figures};
 use super::report::Report;
 use super::table::Table;
 use super::tables::job::trust_table;
-use super::tables::report::{derivative_table, factor_table, history_table, paired_table};
+use super::tables::report::{
+    derivative_table, factor_table, history_table, minima_table, paired_table,
+};
 use crate::present::PresentError;
-use html::{escaped, figure, figures, section, table};
+use charts::{assurance_map, derivative_map, factor_bars, pairing_plot, residual_map};
+use html::{escaped, section, table};
+use moving::moving;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// A section: its id, the words of a link to it, its heading, its HTML.
 pub type Part = (String, String, String, String);
 
+/// A section of these parts.
 pub fn named(id: &str, link: &str, heading: &str, body: String) -> Part {
     (id.to_owned(), link.to_owned(), heading.to_owned(), body)
 }
 
-/// A whole page: its answer, then sections.
+/// A whole page: its answer, then sections. It has the script of [`moving`].
 pub fn document(title: &str, lead: &str, answer: &str, parts: &[Part]) -> String {
     let links: String = parts
         .iter()
@@ -37,98 +41,77 @@ pub fn document(title: &str, lead: &str, answer: &str, parts: &[Part]) -> String
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta name=\"generator\" content=\"corfem {VERSION}\">\n<title>corfem: {title}</title>\n\
-         <style>\n{}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n<p>{}</p>\n{answer}</header>\n\
+         <style>\n{}</style>\n<script>\n{}</script>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n<p>{}</p>\n{answer}</header>\n\
          <nav aria-label=\"Contents\">\n{links}</nav>\n<main>\n{sections}</main>\n</body>\n</html>\n",
         include_str!("report.css"),
-        escaped(lead),
+        moving::SCRIPT,
+        lead,
     )
 }
 
-/// The report on one correlation: its outcome, modes, factors, structure and history, with other tables at its end; `command` makes
-/// it again from the job's `text`.
+/// The report on one correlation: its answer, the structure moving, factors and pairs; then doubts, modes, factors, residuals and history,
+/// with other tables at its end; `command` makes it again from the job's `text`.
 ///
 /// # Errors
-/// A figure that cannot be drawn; the errors of [`Report::agreement`], as in [`report_figures`].
+/// The errors of [`moving()`](moving::moving) and of [`Report::agreement`].
 pub fn report_page(
     report: &Report,
     extra: &[Table],
     command: &str,
     text: &str,
 ) -> Result<String, PresentError> {
-    let figures = report_figures(report)?;
-    let of = |tables: &[Table], whats: &[&str]| {
-        part(
-            tables,
-            &figures,
-            &whats
-                .iter()
-                .map(|what| format!("{}_{what}", report.name))
-                .collect::<Vec<_>>(),
-        )
-    };
     let class = if report.converged() {
         ""
     } else {
         " class=\"finding\""
     };
-    let words = format!("<p{class}>{}</p>\n", escaped(&report.words()));
-    let shown = ["frequencies", "factors"].map(|what| of(&[], &[what]));
-    let answer = words + &format!("<div class=\"answer\">\n{}</div>\n", shown.concat());
+    let lead = format!("<strong>{}</strong>", escaped(&report.answer()));
+    let answer = format!(
+        "<p{class}>{}</p>\n<div class=\"first\">\n{}{}</div>\n<div class=\"pairs\">\n{}{}</div>\n",
+        escaped(&report.words()),
+        moving(report)?,
+        factor_bars(report),
+        pairing_plot(report),
+        assurance_map(report)?,
+    );
+    let all = |tables: &[Table]| tables.iter().map(table).collect::<String>();
+    let optional = |found: Option<Table>| found.iter().map(table).collect::<String>();
+    let job = format!(
+        "<p>The job:</p>\n<pre><code>{}</code></pre>\n",
+        escaped(text)
+    );
     let trust = report.trust.as_ref().map(trust_table);
-    let trust: String = trust.iter().map(table).collect();
-    let summary = trust + &table(&paired_table(report)?);
-    let derivatives: Vec<Table> = derivative_table(report).into_iter().collect();
     let parts = [
-        ("summary", "Summary", summary),
-        ("factors", "Factors", of(&[factor_table(report)], &[])),
-        ("structure", "Structure", of(&[], &["structure"])),
+        ("trust", "What to know", optional(trust)),
+        ("modes", "Modes", table(&paired_table(report)?)),
+        ("residuals", "Residuals", residual_map(report)),
         (
-            "modes",
-            "Mode shapes",
-            of(&[], &["mode_shapes", "agreement"]),
+            "factors",
+            "Factors",
+            table(&factor_table(report)) + &optional(minima_table(report)),
         ),
-        (
-            "history",
-            "History",
-            of(&[history_table(report)], &["errors"]),
-        ),
+        ("history", "History", table(&history_table(report))),
         (
             "derivatives",
             "Derivatives",
-            of(&derivatives, &["derivatives"]),
+            derivative_map(report) + &optional(derivative_table(report)),
         ),
-        ("others", "Further results", of(extra, &[])),
+        ("others", "Further results", all(extra)),
         (
             "made",
             "How it was made",
-            made("Units are the model's own", command)
-                + &format!(
-                    "<p>The job:</p>\n<pre><code>{}</code></pre>\n",
-                    escaped(text)
-                ),
+            made("Units are the model's own", command) + &job,
         ),
     ];
     let parts = parts.into_iter().filter(|(.., body)| !body.is_empty());
     let parts =
         parts.map(|(id, heading, body)| named(&format!("{id}-section"), heading, heading, body));
-    let lead = "A finite element model, corrected until its natural frequencies and mode shapes agree with measured ones.";
     Ok(document(
         &report.title,
-        lead,
+        &lead,
         &answer,
         &parts.collect::<Vec<_>>(),
     ))
-}
-
-/// Tables, then the figures whose names begin with one of the prefixes.
-pub fn part(tables: &[Table], drawn: &[Figure], prefixes: &[impl AsRef<str>]) -> String {
-    let starts = |figure: &&Figure| {
-        prefixes
-            .iter()
-            .any(|prefix| figure.name.starts_with(prefix.as_ref()))
-    };
-    let drawn = drawn.iter().filter(starts).map(|drawn| figure(drawn, ""));
-    tables.iter().map(table).collect::<String>() + &figures("figures", drawn)
 }
 
 /// The command and version that made a page, with words about its units.

@@ -51,7 +51,7 @@ pub fn draw_by_twos(
 }
 
 /// A figure of derivatives: the effect of each parameter on each frequency, and on the error sum.
-pub(crate) fn draw_derivatives(
+pub fn draw_derivatives(
     name: &str,
     title: &str,
     [frequency, error_sum]: &[HeatMap; 2],

@@ -1,8 +1,8 @@
 //! Factors of parameters as marks on a common axis, with their limits, published values and uncertainties.
 
 use super::canvas::*;
-use crate::method::step::Bounds;
-use crate::present::table::Digits;
+use corfem::method::step::Bounds;
+use corfem::present::table::Digits;
 
 /// Margins of the plot: left at least, right, top, bottom, px.
 const MARGINS: [f64; 4] = [64.0, 24.0, 44.0, 46.0];
@@ -59,7 +59,7 @@ impl Factors {
     }
 
     /// True if a bound of a row lies on the axis.
-    pub(super) fn draws_bounds(&self) -> bool {
+    pub fn draws_bounds(&self) -> bool {
         let [low, high, _] = self.bounds();
         let bounds = self.rows.iter().filter_map(|row| row.bounds);
         bounds

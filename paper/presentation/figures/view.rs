@@ -1,6 +1,7 @@
 //! Projection of a structure on the paper: a quasi-isometric view or a plan, scaled to the room it is given.
 
 use super::canvas::{Area, Drawn, Pen, Place, line};
+use corfem::present::frame::extents;
 use nalgebra::Vector3;
 
 /// Factor by which the box's depth is drawn larger; the depth is a twentieth of its span.
@@ -29,12 +30,6 @@ fn ends(points: impl Iterator<Item = Vector3<f64>>) -> (Vector3<f64>, Vector3<f6
     let both = points.map(|point| (point, point));
     both.reduce(|(low, high), (point, _)| (low.inf(&point), high.sup(&point)))
         .unwrap_or_default()
-}
-
-/// Extent of points along each axis.
-pub fn extents(points: &[Vector3<f64>]) -> Vector3<f64> {
-    let (low, high) = ends(points.iter().copied());
-    high - low
 }
 
 impl View {

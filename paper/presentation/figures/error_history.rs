@@ -1,8 +1,8 @@
 //! Frequency error, shape error and their sum against iteration (Figures 5, 7 and 8).
 
 use super::canvas::*;
-use crate::method::error_sum::Errors;
-use crate::present::report::{Report, Stage};
+use corfem::method::error_sum::Errors;
+use corfem::present::report::{Report, Stage};
 use plotters::prelude::{BindKeyPoints, IntoLogRange};
 
 /// The SRSS errors of one stage, fractions.

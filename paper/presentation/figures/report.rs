@@ -3,14 +3,15 @@
 use super::error_history::{self, error_history};
 use super::factors::{DrawnFactor, Factors};
 use super::matrices::{HeatMap, draw_by_twos, draw_derivatives};
-use super::mode_shapes::DrawnModes;
+use super::mode_shapes::{self, differing};
 use super::structure::{MOST_NUMBERS, draw_structure};
 use super::{Figure, numbers};
-use crate::method::error::Error;
-use crate::present::PresentError;
-use crate::present::report::Report;
-use crate::present::table::Digits;
-use crate::weighted::comparison::ExactResult;
+use corfem::method::error::Error;
+use corfem::present::PresentError;
+use corfem::present::frame::DrawnModes;
+use corfem::present::report::Report;
+use corfem::present::table::Digits;
+use corfem::weighted::comparison::ExactResult;
 use nalgebra::DMatrix;
 
 /// Every figure of a report: structure, frequencies, mode shapes where sensors have places, errors against iteration, factors,
@@ -63,7 +64,7 @@ pub fn report_figures(report: &Report) -> Result<Vec<Figure>, PresentError> {
         )?;
     }
     if let Some(modes) = DrawnModes::from_report(report)? {
-        for (part, modes) in modes.differing().parts() {
+        for (part, modes) in mode_shapes::parts(&differing(&modes)) {
             let between = match report.moved {
                 Some(_) => "the test is expanded by modes of the corrected model",
                 None => "what lies between sensors is interpolated from those near it",
@@ -76,7 +77,7 @@ pub fn report_figures(report: &Report) -> Result<Vec<Figure>, PresentError> {
                 &format!("mode_shapes{part}"),
                 "mode shapes that differ",
                 &caption,
-                &|name, title| modes.draw(name, title),
+                &|name, title| mode_shapes::draw(&modes, name, title),
             )?;
         }
     }

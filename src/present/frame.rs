@@ -1,9 +1,11 @@
 //! A structure as its sensors see it: places, lines between them, and their motion in a mode.
 
-use super::view::extents;
+use crate::method::linear_algebra::check_shape;
+use crate::present::PresentError;
 use crate::present::report::Report;
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::iter::repeat;
 
 /// Sensors of one place: rows of the shapes with their directions.
 type Sensors = Vec<(usize, Vector3<f64>)>;
@@ -17,6 +19,8 @@ pub struct Frame {
     pub lines: Vec<Vec<usize>>,
     /// Panels of three and more corners.
     pub panels: Vec<Vec<usize>>,
+    /// Panels and lines with the parameters that scale them.
+    pub pieces: Vec<(Vec<usize>, Vec<usize>)>,
     /// Places with sensors, and supports, which have none.
     pub known: BTreeMap<usize, Sensors>,
     /// The grid at every place, by its row, where all motions are drawn as they are.
@@ -24,12 +28,12 @@ pub struct Frame {
 }
 
 /// A place to look others up by.
-pub(super) fn key(at: &Vector3<f64>) -> [i64; 3] {
+pub fn key(at: &Vector3<f64>) -> [i64; 3] {
     // Minus zero and zero are the same place.
     [at.x, at.y, at.z].map(|component| (component + 0.0).to_bits() as i64)
 }
 
-pub(super) fn is_finite(at: &Vector3<f64>) -> bool {
+pub fn is_finite(at: &Vector3<f64>) -> bool {
     at.iter().all(|component| component.is_finite())
 }
 
@@ -45,12 +49,11 @@ impl Frame {
                 nodes.len() - 1
             })
         };
-        let pieces = report
-            .frame
-            .iter()
-            .filter(|corners| corners.iter().all(is_finite));
-        let pieces: Vec<Vec<usize>> = pieces
-            .map(|corners| corners.iter().map(&mut node).collect())
+        let owners = report.owners.iter().cloned().chain(repeat(Vec::new()));
+        let pieces = report.frame.iter().zip(owners);
+        let pieces: Vec<(Vec<usize>, Vec<usize>)> = pieces
+            .filter(|(corners, _)| corners.iter().all(is_finite))
+            .map(|(corners, owners)| (corners.iter().map(&mut node).collect(), owners))
             .collect();
         let mut known: BTreeMap<usize, Sensors> = BTreeMap::new();
         for at in report.supports.iter().filter(|at| is_finite(at)) {
@@ -93,7 +96,7 @@ impl Frame {
             grids.fill(None);
         }
         let mut joined = vec![BTreeSet::new(); nodes.len()];
-        for piece in &pieces {
+        for (piece, _) in &pieces {
             for (&a, &b) in piece
                 .iter()
                 .zip(piece.iter().cycle().skip(1))
@@ -103,25 +106,26 @@ impl Frame {
                 joined[b].insert(a);
             }
         }
-        let panels = pieces.into_iter().filter(|piece| piece.len() > 2).collect();
+        let panels = pieces.iter().map(|(piece, _)| piece.clone());
         Self {
             lines: chained(joined),
             nodes,
-            panels,
+            panels: panels.filter(|piece| piece.len() > 2).collect(),
+            pieces,
             known,
             grids,
         }
     }
 
-    /// Displacements of all places in a shape whose largest component is one.
+    /// Displacements of all places in a shape whose largest component is one; without a shape that of the grids' motions.
     ///
     /// A place with sensors moves along them as they say, and everywhere else as its grid does, whose motions are given in the
     /// scale of the shape. Without these a support does not move, and any other place as the mean of the known ones, weighted with
     /// $1/r^4$ for a distance of $r$ (Shepard, *Proc. 23rd ACM National Conference* (1968), 517).
     pub fn moved(&self, shape: &[f64], grids: Option<&[Vector3<f64>]>) -> Vec<Vector3<f64>> {
-        let largest = shape
-            .iter()
-            .fold(0.0, |most: f64, component| most.max(component.abs()));
+        let of_grids = grids.filter(|_| shape.is_empty()).into_iter().flatten();
+        let components = shape.iter().chain(of_grids.flatten());
+        let largest = components.fold(0.0, |most: f64, component| most.max(component.abs()));
         let motion = |sensors: &Sensors| -> Vector3<f64> {
             sensors
                 .iter()
@@ -159,80 +163,6 @@ impl Frame {
             .map(|(node, place)| of_grid(node).unwrap_or_else(|| at(place)))
             .collect()
     }
-
-    /// The panels in parts, each with its mean displacement along an axis; those above and before others last.
-    pub fn parts(
-        &self,
-        along: &Vector3<f64>,
-        moved: &[Vector3<f64>],
-    ) -> Vec<(Vec<Vector3<f64>>, f64)> {
-        // As many as a figure has room for.
-        let parts = (300.0 / self.panels.len() as f64)
-            .sqrt()
-            .round()
-            .clamp(1.0, 6.0) as usize;
-        let corner = |&node: &usize| (self.nodes[node], moved[node].dot(along));
-        let panels = self
-            .panels
-            .iter()
-            .map(|panel| panel.iter().map(corner).collect());
-        let mut panels: Vec<(f64, Vec<Corner>)> = panels
-            .map(|corners: Vec<Corner>| {
-                let middle = middle(&corners).0;
-                (10.0 * middle.z + middle.x - middle.y, corners)
-            })
-            .collect();
-        panels.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-        let colored = |cell: Vec<Corner>| {
-            let corners = cell.iter().map(|corner| corner.0).collect();
-            (corners, middle(&cell).1)
-        };
-        // Cells of a panel do not cover each other: those of one color stand together.
-        let of_panel = |(_, corners): (f64, Vec<Corner>)| {
-            let mut cells: Vec<(Vec<Vector3<f64>>, f64)> =
-                cells(corners, parts).into_iter().map(colored).collect();
-            cells.sort_by(|(_, one), (_, other)| one.total_cmp(other));
-            cells
-        };
-        panels.into_iter().flat_map(of_panel).collect()
-    }
-}
-
-/// A place and its displacement.
-type Corner = (Vector3<f64>, f64);
-
-fn mean(corners: &[(f64, Corner)]) -> Corner {
-    corners
-        .iter()
-        .fold((Vector3::zeros(), 0.0), |sum, (part, corner)| {
-            (sum.0 + *part * corner.0, sum.1 + part * corner.1)
-        })
-}
-
-fn middle(corners: &[Corner]) -> Corner {
-    let share = 1.0 / corners.len() as f64;
-    let all: Vec<(f64, Corner)> = corners.iter().map(|&corner| (share, corner)).collect();
-    mean(&all)
-}
-
-/// A panel of four corners in so many parts a side, by its bilinear map; any other panel whole.
-fn cells(corners: Vec<Corner>, parts: usize) -> Vec<Vec<Corner>> {
-    let [a, b, c, d] = corners[..] else {
-        return vec![corners];
-    };
-    let at = |i: usize, j: usize| {
-        let (s, t) = (i as f64 / parts as f64, j as f64 / parts as f64);
-        mean(&[
-            ((1.0 - s) * (1.0 - t), a),
-            (s * (1.0 - t), b),
-            (s * t, c),
-            ((1.0 - s) * t, d),
-        ])
-    };
-    let places = (0..parts).flat_map(|i| (0..parts).map(move |j| (i, j)));
-    places
-        .map(|(i, j)| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)])
-        .collect()
 }
 
 /// Polylines along all lines, each once.
@@ -250,4 +180,89 @@ fn chained(mut joined: Vec<BTreeSet<usize>>) -> Vec<Vec<usize>> {
         }
     }
     chains
+}
+
+/// Extent of points along each axis.
+pub fn extents(points: &[Vector3<f64>]) -> Vector3<f64> {
+    let both = points.iter().map(|point| (*point, *point));
+    let ends = both.reduce(|(low, high), (point, _)| (low.inf(&point), high.sup(&point)));
+    ends.map_or_else(Vector3::zeros, |(low, high)| high - low)
+}
+
+/// A test mode and its partners as drawn: of test, first and corrected model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrawnMode {
+    /// Number of the mode, from one.
+    pub number: usize,
+    /// Frequencies, Hz.
+    pub hertz: [f64; 3],
+    /// Displacements of the frame's nodes; none of a test mode without a shape.
+    pub moved: [Vec<Vector3<f64>>; 3],
+}
+
+/// Modes as drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrawnModes {
+    /// The structure.
+    pub frame: Frame,
+    /// Modes of the structure.
+    pub modes: Vec<DrawnMode>,
+}
+
+impl DrawnModes {
+    /// All modes of a report, in the order and with the signs of the test modes, those without shapes last; none when no sensor has a
+    /// place and a direction, and the models' motions are not known either.
+    ///
+    /// # Errors
+    /// [`WrongShape`](crate::method::error::Error::WrongShape) unless every row of the shapes has a sensor.
+    pub fn from_report(report: &Report) -> Result<Option<Self>, PresentError> {
+        let mut frame = Frame::from_report(report);
+        if frame.known.values().all(Vec::is_empty) && report.moved.is_none() {
+            return Ok(None);
+        }
+        // Nothing is measured near a support: a color there would come from the interpolation.
+        if report.moved.is_none() {
+            let is_held = |node: &usize| frame.known.get(node).is_some_and(Vec::is_empty);
+            frame.panels.retain(|panel| !panel.iter().any(is_held));
+        }
+        let test = &report.test;
+        if test.len() > 0 {
+            let sensors = report.sensors.len();
+            check_shape("mode shapes", &test.shapes, sensors, test.len())?;
+        }
+        let checks = [&report.initial, report.corrected()];
+        let [first, corrected] = checks.map(|check| check.pairing.paired(&check.modes));
+        let states = [test.clone(), first?, corrected?];
+        let grids = |state: usize, mode: usize| {
+            let moved = report.moved.as_ref()?;
+            moved[state].get(mode).map(Vec::as_slice)
+        };
+        let mut modes = Vec::new();
+        for mode in 0..test.len() {
+            modes.push(DrawnMode {
+                number: report.mode_number(mode),
+                hertz: states.each_ref().map(|modes| modes.frequencies_hz()[mode]),
+                moved: [0, 1, 2].map(|state| {
+                    let shape = states[state].shapes.column(mode);
+                    frame.moved(shape.as_slice(), grids(state, mode))
+                }),
+            });
+        }
+        for (place, lone) in report.initial.lone.iter().enumerate() {
+            let mode = test.len() + place;
+            let hertz = checks.map(|check| {
+                let partner = check.lone[place].partner;
+                check.modes.frequencies_hz()[partner]
+            });
+            modes.push(DrawnMode {
+                number: report.mode_number(mode),
+                hertz: [lone.frequency_hz, hertz[0], hertz[1]],
+                moved: [0, 1, 2].map(|state| match grids(state, mode) {
+                    Some(grids) if state > 0 => frame.moved(&[], Some(grids)),
+                    _ => Vec::new(),
+                }),
+            });
+        }
+        Ok(Some(Self { modes, frame }))
+    }
 }

@@ -7,8 +7,8 @@ pub use super::chart::{axes, chart, placed};
 pub use super::colors::{
     BLUE, GRAY, INK, ORANGE, PALE, SILVER, SKY, VERMILION, between, legible_on,
 };
-use crate::files::escaped;
-pub use crate::present::PresentError;
+use corfem::files::escaped;
+pub use corfem::present::PresentError;
 use plotters::coord::Shift;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;

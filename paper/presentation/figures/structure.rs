@@ -1,10 +1,10 @@
 //! A structure with its grids, supports and sensors (Figure 2).
 
 use super::canvas::*;
-use super::frame::{Frame, is_finite, key};
 use super::view::View;
-use crate::present::render::lines;
-use crate::present::report::Report;
+use corfem::present::frame::{Frame, is_finite, key};
+use corfem::present::render::lines;
+use corfem::present::report::Report;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::iter::once;
@@ -16,7 +16,7 @@ const SENSOR: Mark = Mark(
     Pen(VERMILION, 1.2, Dash::Solid),
 );
 /// Numbers of more grids than these would hide the structure.
-pub(super) const MOST_NUMBERS: usize = 60;
+pub const MOST_NUMBERS: usize = 60;
 /// Longest name written next to its place; longer ones go into a list.
 const LONGEST_NAME: usize = 9;
 /// Height of the structure, and of a line of the list below it, px.
