@@ -82,7 +82,7 @@ pub fn moving_case(result: &CaseResult) -> Result<Report, PresentError> {
     });
     let followed = |factors: &[f64], shapes: &DMatrix<f64>| -> Result<_, PresentError> {
         let transformation = model.condense(factors)?.transformation;
-        let all = transformation.transpose() * shapes;
+        let all = transformation * shapes;
         let motion = |shape: DVectorView<f64>, grid: &Grid| {
             Vector3::from_fn(|direction, _| {
                 let dof = structure.free_dof_index(grid.label, direction);

@@ -15,7 +15,9 @@ use corfem::present::page::report_page;
 use corfem::present::report::Report;
 use corfem::present::table::Table;
 use corfem::present::tables::deck::not_read;
-use corfem::present::tables::job::{inputs_table, places_table, suspects_table, trust_table};
+use corfem::present::tables::job::{
+    doubts_and_remarks, inputs_table, places_table, suspects_table, trust_table,
+};
 use corfem::present::tables::report::{
     BRIEF_FACTORS, BRIEF_MODES, answer_table, factor_table, history_table, minima_table,
     paired_table,
@@ -142,18 +144,22 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
     let (prepared, result) = corrected(arguments, quiet, stop)?;
     let report = Report::from_job(&prepared, Some(&result))?;
     let (paired, factors) = (paired_table(&report)?, factor_table(&report));
-    let rest = [trust_table(&result.trust)].into_iter();
-    let rest = rest
-        .chain(minima_table(&report))
-        .chain([history_table(&report)]);
+    let [doubts, remarks] = doubts_and_remarks(&result.trust);
+    let last = || {
+        let minima = minima_table(&report).into_iter();
+        minima.chain([history_table(&report)])
+    };
     // A terminal has the answer first, and no room for every column.
     let brief = [
         answer_table(&report),
+        doubts,
         factors.clone().only(&BRIEF_FACTORS),
         paired.clone().only(&BRIEF_MODES),
+        remarks,
     ];
-    let brief: Vec<Table> = brief.into_iter().chain(rest.clone()).collect();
-    let all: Vec<Table> = [factors, paired].into_iter().chain(rest).collect();
+    let brief: Vec<Table> = brief.into_iter().chain(last()).collect();
+    let all = [trust_table(&result.trust), factors, paired].into_iter();
+    let all: Vec<Table> = all.chain(last()).collect();
     let document = || json::own_document(json::report(&report)?);
     arguments.output.write_in_brief(&brief, &all, document)?;
     if let Some(folder) = &arguments.folder {

@@ -18,7 +18,7 @@ use corfem::present::json;
 use corfem::present::page::report_page;
 use corfem::present::render::{WIDTH, csv, text};
 use corfem::present::report::{Derivatives, Report, SensorPoint};
-use corfem::present::table::{Cell, Table};
+use corfem::present::table::{Cell, Digits, Table};
 use corfem::present::tables::report::{
     derivative_table, factor_table, history_table, paired_table,
 };
@@ -122,9 +122,18 @@ fn subject_tables(subject: &Report) -> Vec<Table> {
     ]
 }
 
+/// The document without its scripts, which hold no tags of it.
+pub fn without_scripts(html: &str) -> String {
+    let (first, rest) = html.split_once("<script>").unwrap_or((html, ""));
+    let rest = rest.split("<script>");
+    let behind = rest.filter_map(|part| part.split_once("</script>"));
+    first.to_owned() + &behind.map(|(_, behind)| behind).collect::<String>()
+}
+
 /// Whether every tag of a document is closed in its order and every `&` begins an entity.
-fn is_well_formed(xml: &str) -> bool {
+pub fn is_well_formed(xml: &str) -> bool {
     let mut open: Vec<&str> = Vec::new();
+    let xml = without_scripts(xml);
     for tag in xml.split('<').skip(1) {
         let Some((tag, words)) = tag.split_once('>') else {
             return false;
@@ -137,7 +146,7 @@ fn is_well_formed(xml: &str) -> bool {
             if open.pop() != Some(name) {
                 return false;
             }
-        } else if !tag.ends_with('/') && !["!DOCTYPE", "meta", "br"].contains(&name) {
+        } else if !tag.ends_with('/') && !["!DOCTYPE", "meta", "br", "input"].contains(&name) {
             open.push(name);
         }
         let is_entity = |after: &str| after.chars().take(7).any(|letter| letter == ';');
@@ -315,24 +324,62 @@ fn pairs_are_marked_by_the_usual_limits_of_cross_orthogonality() {
 fn a_factor_at_its_bound_says_so_and_one_within_does_not() {
     let subject = chain("rod", &[0.5, 1.0, 1.0, 1.0], along);
     let table = factor_table(&subject);
-    let remark = |row: usize| table.rows[row].cells[4].computed();
+    let column = |name: &str| {
+        let mut columns = table.columns.iter();
+        columns
+            .position(|column| column.name == name)
+            .expect("the column")
+    };
+    let cell = |e: usize, name: &str| {
+        let mut rows = table.rows.iter();
+        let row = rows
+            .find(|row| row.label == subject.parameters[e])
+            .expect("a row");
+        row.cells[column(name)].computed()
+    };
     assert_eq!(
-        (remark(0).as_str(), subject.factors()[0]),
+        (cell(0, "Remark").as_str(), subject.factors()[0]),
         ("at bound", 1.4)
     );
     for (e, factor) in subject.factors().into_iter().enumerate().skip(1) {
         assert_eq!(
-            remark(e).contains("at bound"),
+            cell(e, "Remark").contains("at bound"),
             subject.is_at_bound(e, factor)
         );
     }
-    assert_eq!(table.rows[2].cells[1].computed(), "0.020");
-    assert_eq!(table.columns.len(), 5);
+    let percent = 100.0 * 0.02 / subject.factors()[2];
+    assert_eq!(cell(2, "Deviation"), Digits::Significant(3).write(percent));
     let without = Report {
         deviations: None,
-        ..subject
+        ..subject.clone()
     };
-    assert_eq!(factor_table(&without).columns.len(), 4);
+    let columns = factor_table(&without).columns;
+    assert!(columns.iter().all(|column| column.name != "Deviation"));
+}
+
+/// The surest change stands first: by deviations where they are known, else by size.
+#[test]
+fn factors_stand_in_the_order_of_how_sure_their_changes_are() {
+    let subject = chain("rod", &[0.9, 1.1, 0.95, 1.0], along);
+    for deviations in [
+        None,
+        Some(vec![Some(0.9), Some(0.01), Some(0.02), Some(0.5)]),
+    ] {
+        let subject = Report {
+            deviations,
+            ..subject.clone()
+        };
+        let sure = |e: usize| {
+            let change = subject.factors()[e].ln().abs();
+            change / subject.log_deviation(e).unwrap_or(1.0)
+        };
+        let order = subject.by_sureness();
+        assert!(order.windows(2).all(|pair| sure(pair[0]) >= sure(pair[1])));
+        let table = factor_table(&subject);
+        let labels: Vec<&String> = table.rows.iter().map(|row| &row.label).collect();
+        let expected: Vec<&String> = order.iter().map(|&e| &subject.parameters[e]).collect();
+        assert_eq!(labels, expected);
+    }
 }
 
 #[test]

@@ -116,6 +116,7 @@ const show = () => {
   };
   slider.oninput = () => { gages = DATA.steps[+slider.value].slice(); isMoved = false; draw(); };
   adds.onchange = draw;
+  get("reset").onclick = () => { slider.value = 0; adds.checked = true; slider.oninput(); };
   addEventListener("resize", draw);
   draw();
 };

@@ -38,6 +38,13 @@ pub fn play(result: &CaseResult) -> Result<String, PresentError> {
     let steps = pass.inner.iterations.iter().map(|step| &step.factors);
     let mils = 1000.0 * case.first_gages().first().copied().unwrap_or(TEST_GAGE);
     let follows = first.at(&pass.inner.factors)?;
+    // The gages of the test configuration, by the first model's transformation.
+    let truth: Vec<f64> = case
+        .first_gages()
+        .iter()
+        .map(|gage| TEST_GAGE / gage)
+        .collect();
+    let truth = first.at(&truth)?;
     let modes = &first.exact().modes;
     let data = json!({
         "squares": modes.omega_squared().as_slice(),
@@ -58,6 +65,7 @@ pub fn play(result: &CaseResult) -> Result<String, PresentError> {
         ("@BELIEVED@", percent(pass.inner.last.errors.sum())),
         ("@EXACT@", percent(pass.check.errors.sum())),
         ("@FOLLOWS@", percent(follows.errors.sum())),
+        ("@TRUTH@", percent(truth.errors.sum())),
         ("@SCRIPT@", script),
     ]
     .into_iter()

@@ -21,7 +21,7 @@ fn ticks(low: f64, high: f64) -> Vec<f64> {
         (decade..decade + 40).flat_map(|ten| [1.0, 2.0, 5.0].map(|part| part * 10f64.powi(ten)));
     let within: Vec<f64> = all.filter(|tick| (low..=high).contains(tick)).collect();
     let many = within.len().div_ceil(5).max(1);
-    if within.len() > 3 {
+    if within.len() > 2 {
         return within.into_iter().step_by(many).collect();
     }
     let rough = (high - low) / 5.0;

@@ -46,7 +46,7 @@ function moving(data) {
   };
   const draw = (ink = tones("ink")) => {
     const ratio = window.devicePixelRatio || 1, wide = canvas.clientWidth || 720, across = wide < 520 ? 1 : 3;
-    const cell = wide / across, high = Math.min(Math.max(1.15 * cell, 230), 340);
+    const cell = wide / across, high = across === 1 ? 0.6 * cell + 40 : Math.min(1.15 * cell, 320);
     canvas.width = ratio * wide; canvas.height = ratio * high * 3 / across; canvas.style.height = high * 3 / across + "px";
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     const now = mode(), isDifference = get("difference").checked, kind = get("color").value, phase = +slider.value;
@@ -72,7 +72,7 @@ function moving(data) {
         let color = soft, strength = isLine ? 0.5 : 0.06;
         if (kind === "motion" && moved) {
           const mean = piece.nodes.reduce((sum, node) => sum + moved[node][along], 0) / piece.nodes.length * (isDifference ? 1 : Math.sin(phase * Math.PI / 180));
-          [color, strength] = [mean < 0 ? minus : plus, 0.08 + 0.8 * Math.min(1, Math.abs(mean)) + (isLine ? 0.1 : 0)];
+          if (Math.abs(mean) > 0.01) [color, strength] = [mean < 0 ? minus : plus, 0.08 + 0.8 * Math.min(1, Math.abs(mean)) + (isLine ? 0.1 : 0)];
         } else if (kind === "factors" && own.length) {
           const seen = own.filter(it => it.isSeen), change = seen.reduce((far, it) => Math.abs(it.change) > Math.abs(far) ? it.change : far, 0);
           [color, strength] = seen.length ? [change < 0 ? minus : plus, 0.1 + 0.85 * Math.abs(change) / most] : [hatch, 0.9];

@@ -57,6 +57,7 @@ pub fn moving(report: &Report) -> Result<String, PresentError> {
     let data = data(report, &drawn)?.to_string().replace('<', "\\u003c");
     Ok([
         ("@NAME@", name.as_str()),
+        ("@TITLE@", &escaped(&report.title)),
         ("@MODES@", &modes),
         ("@COLORS@", &colors),
         ("@CAPTION@", caption(report)),
@@ -74,7 +75,7 @@ fn caption(report: &Report) -> &'static str {
     match &report.moved {
         _ if report.test.len() == 0 => "The test has frequencies alone.",
         Some([test, ..]) if !test.is_empty() => {
-            "Between its sensors (dots) the test is expanded by modes of the corrected model."
+            "Between its sensors (dots) the test moves as the corrected model does."
         }
         _ => "What lies between sensors (dots) is interpolated from those near it.",
     }

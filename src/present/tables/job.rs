@@ -118,15 +118,32 @@ pub fn inputs_table(prepared: &PreparedJob) -> Table {
 
 /// Doubts about a job or its result, and remarks, most important first.
 pub fn trust_table(trust: &Trust) -> Table {
-    let all = || trust.all().iter();
+    concerns_table("What to know before trusting this", trust, |_| true)
+}
+
+/// Doubts alone with what is left out, and remarks alone.
+pub fn doubts_and_remarks(trust: &Trust) -> [Table; 2] {
+    let is_remark = |concern: &Concern| concern.grade() == Grade::Remark;
+    let doubts = concerns_table("What stands against it", trust, |concern| {
+        !is_remark(concern)
+    });
+    [
+        doubts,
+        concerns_table("What to know before trusting this", trust, is_remark),
+    ]
+}
+
+fn concerns_table(title: &str, trust: &Trust, is_of_it: impl Fn(&Concern) -> bool) -> Table {
+    let all = || trust.all().iter().filter(|concern| is_of_it(concern));
     let kind = |concern: &Concern| match concern.grade() {
         Grade::Doubt if concern.is_accepted => "doubt, accepted",
         Grade::Doubt => "doubt",
         Grade::LeftOut => "left out",
         Grade::Remark => "remark",
     };
+    let has_doubt = all().any(|concern| concern.grade() == Grade::Doubt);
     let standing = "A doubt names a mistake; --accept IDENTIFIER answers for it.";
-    Table::new("trust", "What to know before trusting this", "Identifier")
+    Table::new("trust", title, "Identifier")
         .labels(all().map(Concern::identifier))
         .column("Kind", "", all().map(|concern| Cell::text(kind(concern))))
         .column(
@@ -134,7 +151,7 @@ pub fn trust_table(trust: &Trust) -> Table {
             "",
             all().map(|concern| Cell::Sentence(concern.words())),
         )
-        .notes(trust.has_doubt().then(|| standing.to_owned()))
+        .notes(has_doubt.then(|| standing.to_owned()))
 }
 
 /// Parameters that may be the one that is wrong, by how much of the test's chi-squared each alone can take away, at most
