@@ -7,9 +7,7 @@ mod common;
 mod equations;
 mod ledgers;
 
-#[path = "../paper/presentation/mod.rs"]
-#[allow(dead_code, reason = "the program uses the rest")]
-mod paper;
+use common::presentation::paper;
 
 mod spec;
 

@@ -226,9 +226,9 @@ const PROMISES: [(&str, &str); 11] = [
 
 #[test]
 fn captions_promise_nothing_that_is_not_drawn() {
-    // Sensors of matrices are joined by lines.
+    // Grids of matrices are joined where their stiffness couples them.
     let report = Report::from_job(&prepared(&building()), None).expect("a report");
-    assert_eq!(report.frame.len() + 1, report.sensors.len());
+    assert_eq!(report.frame.len() + 1, report.grids.len());
     let chain = chain("rod", &[0.9, 1.1, 0.95, 1.0], |row| {
         (Vector3::new(row as f64, 0.0, 0.0), Vector3::z())
     });

@@ -2,6 +2,7 @@
 
 use super::html::{escaped, scrolling};
 use crate::method::error::Error;
+use crate::method::step::Bounds;
 use crate::present::report::Report;
 use crate::present::table::{Digits, counted};
 use crate::present::tables::HERTZ;
@@ -13,7 +14,7 @@ fn signed(text: String) -> String {
     text.replace('-', "−")
 }
 
-/// Steps of an axis that is logarithmic: those of one, two and five times powers of ten that lie within it, or five even ones where it is
+/// Steps of an axis that is logarithmic: those of one, two and five times powers of ten that lie within it, or even ones where it is
 /// short.
 fn ticks(low: f64, high: f64) -> Vec<f64> {
     let decade = low.log10().floor() as i32;
@@ -24,7 +25,7 @@ fn ticks(low: f64, high: f64) -> Vec<f64> {
     if within.len() > 2 {
         return within.into_iter().step_by(many).collect();
     }
-    let rough = (high - low) / 5.0;
+    let rough = (high - low) / 6.0;
     let ten = 10f64.powf(rough.log10().floor());
     let steps = [1.0, 2.0, 2.5, 5.0, 10.0].map(|part| part * ten);
     let step = steps.into_iter().find(|step| *step >= rough).unwrap_or(ten);
@@ -45,97 +46,114 @@ fn short(tick: f64) -> String {
     }
 }
 
+/// The ends of a parameter's interval, if it has one.
+fn interval(report: &Report, e: usize) -> Option<&Bounds> {
+    report.intervals.get(e)?.as_ref().ok()
+}
+
+/// A logarithmic axis from one value to another.
+struct Axis(f64, f64);
+
+impl Axis {
+    /// An axis that holds all factors of a report, and intervals that are not much longer.
+    fn of_factors(report: &Report) -> Self {
+        let factors = report.factors();
+        let known = (0..factors.len()).filter_map(|e| interval(report, e));
+        let known = known.flat_map(|ends| [ends.lower, ends.upper]);
+        let known = known.filter(|end| (0.2..5.0).contains(end));
+        let all = factors
+            .into_iter()
+            .filter(|factor| *factor > 0.0)
+            .chain(known);
+        let (low, high) = all.fold((1.0 / 1.1, 1.1), |(low, high): (f64, f64), value| {
+            (low.min(value), high.max(value))
+        });
+        Self(low / 1.02, high * 1.02)
+    }
+
+    /// The part of the axis before a value, 0 to 1.
+    fn part(&self, value: f64) -> f64 {
+        let Self(low, high) = self;
+        ((value / low).ln() / (high / low).ln()).clamp(0.0, 1.0)
+    }
+
+    /// The place of a value as a length of a style sheet.
+    fn percent(&self, value: f64) -> String {
+        format!("{:.2}%", 100.0 * self.part(value))
+    }
+}
+
+/// One row of [`factor_bars`].
+fn factor_row(report: &Report, axis: &Axis, e: usize, factor: f64) -> String {
+    let place = |value: f64| axis.percent(value);
+    let class = match () {
+        () if report.is_unseen(e) => " class=\"unseen\"",
+        () if report.is_at_bound(e, factor) => " class=\"bound\"",
+        () => "",
+    };
+    let interval = interval(report, e).map_or(String::new(), |ends| {
+        let (left, right) = (place(ends.lower), place(ends.upper));
+        format!("<s style=\"left:{left};right:calc(100% - {right})\"></s>")
+    });
+    let deviation = report.log_deviation(e).map_or(String::new(), |deviation| {
+        let percent = Digits::Significant(2).write(100.0 * deviation);
+        format!(" <small>± {percent} %</small>")
+    });
+    format!(
+        "<tr{class}><th scope=\"row\">{}</th><td class=\"track\"><u style=\"left:{}\"></u><i style=\"left:{};right:calc(100% - {})\"></i>{interval}\
+        <b style=\"left:{}\"></b></td><td>{}{deviation}</td></tr>\n",
+        escaped(&report.parameters[e]),
+        place(1.0),
+        place(factor.min(1.0)),
+        place(factor.max(1.0)),
+        place(factor),
+        Digits::Fixed(3).write(factor),
+    )
+}
+
 /// Factors as bars from one on a logarithmic axis, the surest change first: gray where known mostly from the prior, open at a bound, a
 /// line over the 95 % interval.
 pub fn factor_bars(report: &Report) -> String {
-    let factors = report.factors();
-    let ends = |e: usize| {
-        report
-            .intervals
-            .get(e)
-            .and_then(|interval| interval.as_ref().ok())
-    };
-    let known = (0..factors.len()).filter_map(|e| ends(e));
-    let known = known
-        .flat_map(|ends| [ends.lower, ends.upper])
-        .filter(|end| (0.2..5.0).contains(end));
-    let all = factors
-        .iter()
-        .copied()
-        .filter(|factor| *factor > 0.0)
-        .chain(known);
-    let (low, high) = all.fold((1.0 / 1.1, 1.1), |(low, high): (f64, f64), value| {
-        (low.min(value), high.max(value))
-    });
-    let (low, high) = (low / 1.02, high * 1.02);
-    let place = |value: f64| {
-        let part = (value / low).ln() / (high / low).ln();
-        format!("{:.2}%", 100.0 * part.clamp(0.0, 1.0))
-    };
-    let ticks: String = ticks(low, high)
+    let (factors, axis) = (report.factors(), Axis::of_factors(report));
+    // Letters at an end would stand in the next column.
+    let is_inside = |tick: &f64| (0.03..0.97).contains(&axis.part(*tick));
+    let ticks: String = ticks(axis.0, axis.1)
         .into_iter()
+        .filter(is_inside)
         .map(|tick| {
             format!(
                 "<span style=\"left:{}\">{}</span>",
-                place(tick),
+                axis.percent(tick),
                 short(tick)
             )
         })
         .collect();
-    let mut rows = String::new();
-    for e in report.by_sureness() {
-        let factor = factors[e];
-        let class = match () {
-            () if report.is_unseen(e) => " class=\"unseen\"",
-            () if report.is_at_bound(e, factor) => " class=\"bound\"",
-            () => "",
-        };
-        let interval = ends(e).map_or(String::new(), |ends| {
-            format!(
-                "<s style=\"left:{};right:calc(100% - {})\"></s>",
-                place(ends.lower),
-                place(ends.upper)
-            )
-        });
-        let deviation = report.log_deviation(e).map_or(String::new(), |deviation| {
-            format!(
-                " <small>± {} %</small>",
-                Digits::Significant(2).write(100.0 * deviation)
-            )
-        });
-        rows += &format!(
-            "<tr{class}><th scope=\"row\">{}</th><td class=\"track\"><u style=\"left:{}\"></u><i style=\"left:{};right:calc(100% - {})\"></i>{interval}<b style=\"left:{}\"></b></td><td>{}{deviation}</td></tr>\n",
-            escaped(&report.parameters[e]),
-            place(1.0),
-            place(factor.min(1.0)),
-            place(factor.max(1.0)),
-            place(factor),
-            Digits::Fixed(3).write(factor),
-        );
-    }
+    let order = report.by_sureness().into_iter();
+    let rows: String = order
+        .map(|e| factor_row(report, &axis, e, factors[e]))
+        .collect();
     let mut caption =
         "Factors on the first model, the surest change first, on a logarithmic axis.".to_owned();
+    let any = |is_so: &dyn Fn(usize) -> bool| (0..factors.len()).any(is_so);
     for (is_so, words) in [
         (
-            (0..factors.len()).any(|e| ends(e).is_some()),
+            any(&|e| interval(report, e).is_some()),
             " Lines: 95 % intervals.",
         ),
         (
-            (0..factors.len()).any(|e| report.is_unseen(e)),
+            any(&|e| report.is_unseen(e)),
             " Gray: the test hardly sees it.",
         ),
         (
-            factors
-                .iter()
-                .enumerate()
-                .any(|(e, factor)| report.is_at_bound(e, *factor)),
+            any(&|e| report.is_at_bound(e, factors[e])),
             " Open: at a bound.",
         ),
     ] {
         caption += if is_so { words } else { "" };
     }
     format!(
-        "<figure class=\"bars\" id=\"{}_factors\">\n<table>\n<thead><tr><th scope=\"col\">Parameter</th><td class=\"ticks\">{ticks}</td><th scope=\"col\">Factor</th></tr></thead>\n<tbody>\n{rows}</tbody>\n</table>\n<figcaption>{caption}</figcaption>\n</figure>\n",
+        "<figure class=\"bars\" id=\"{}_factors\">\n<table>\n<thead><tr><th scope=\"col\">Parameter</th><td class=\"ticks\">{ticks}</td>\
+        <th scope=\"col\">Factor</th></tr></thead>\n<tbody>\n{rows}</tbody>\n</table>\n<figcaption>{caption}</figcaption>\n</figure>\n",
         escaped(&report.name),
     )
 }
@@ -342,6 +360,53 @@ const PLOT: [f64; 3] = [400.0, 46.0, 4.5];
 /// Distance from equal frequencies that lines of the plot of pairs mark, a fraction.
 const NEAR: f64 = 0.05;
 
+impl Axis {
+    /// Place along the plot of pairs.
+    fn x(&self, hertz: f64) -> f64 {
+        PLOT[1] + (PLOT[0] - PLOT[1] - 8.0) * self.part(hertz)
+    }
+
+    /// Place down the plot of pairs.
+    fn y(&self, hertz: f64) -> f64 {
+        PLOT[0] - self.x(hertz)
+    }
+
+    /// A line of the plot of pairs.
+    fn line(&self, class: &str, [a, b]: [f64; 2], [c, d]: [f64; 2]) -> String {
+        let (x1, y1, x2, y2) = (self.x(a), self.y(b), self.x(c), self.y(d));
+        format!("<path class=\"{class}\" d=\"M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}\"/>\n")
+    }
+
+    /// Axes of the plot of pairs, the line of equal frequencies, and those near it.
+    fn frame(&self) -> String {
+        let (&Self(low, high), [size, room, _]) = (self, PLOT);
+        let mut svg = String::new();
+        for tick in ticks(low, high) {
+            svg += &self.line("grid", [tick, low], [tick, high]);
+            svg += &self.line("grid", [low, tick], [high, tick]);
+            let (word, x, y) = (short(tick), self.x(tick), self.y(tick) + 4.5);
+            let (down, left) = (size - room + 17.0, room - 6.0);
+            svg += &format!(
+                "<text x=\"{x:.1}\" y=\"{down:.1}\" text-anchor=\"middle\">{word}</text>\n"
+            );
+            svg +=
+                &format!("<text x=\"{left:.1}\" y=\"{y:.1}\" text-anchor=\"end\">{word}</text>\n");
+        }
+        let near = 1.0 + NEAR;
+        svg += &self.line("equal", [low, low], [high, high]);
+        svg += &self.line("near", [low, low * near], [high / near, high]);
+        svg += &self.line("near", [low * near, low], [high, high / near]);
+        let (middle, end, up) = (0.5 * (size + room), size - 6.0, 0.5 * (size - room));
+        svg += &format!(
+            "<text x=\"{middle:.1}\" y=\"{end:.1}\" text-anchor=\"middle\">measured, Hz</text>\n"
+        );
+        svg += &format!(
+            "<text transform=\"translate(11 {up:.1})rotate(-90)\" text-anchor=\"middle\">computed, Hz</text>\n"
+        );
+        svg
+    }
+}
+
 /// Computed against measured frequencies on logarithmic axes, with lines of ±5 %: open circles of the first model, full ones of the
 /// corrected one, and open squares at the edges of what has no partner between the first and the last frequency.
 pub fn pairing_plot(report: &Report) -> String {
@@ -355,106 +420,60 @@ pub fn pairing_plot(report: &Report) -> String {
         .collect();
     let (first, _) = paired_hertz(&report.initial);
     let (last, others) = paired_hertz(report.corrected());
-    let all = || test.iter().chain(&first).chain(&last).copied();
-    let (least, most) = all().fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), hertz| {
+    let all = test.iter().chain(&first).chain(&last).copied();
+    let (least, most) = all.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), hertz| {
         (low.min(hertz), high.max(hertz))
     });
     if test.is_empty() || least <= 0.0 {
         return String::new();
     }
-    let others: Vec<f64> = others
-        .into_iter()
-        .filter(|hertz| (least..=most).contains(hertz))
-        .collect();
-    let (low, high) = (least / 1.12, most * 1.12);
-    let part = |hertz: f64| (hertz / low).ln() / (high / low).ln();
-    let x = |hertz: f64| room + (size - room - 8.0) * part(hertz);
-    let y = |hertz: f64| size - room - (size - room - 8.0) * part(hertz);
-    let path = |class: &str, [a, b]: [f64; 2], [c, d]: [f64; 2]| {
-        format!(
-            "<path class=\"{class}\" d=\"M{:.1} {:.1}L{:.1} {:.1}\"/>\n",
-            x(a),
-            y(b),
-            x(c),
-            y(d)
-        )
-    };
-    let mut svg = String::new();
-    for tick in ticks(low, high) {
-        svg += &path("grid", [tick, low], [tick, high]);
-        svg += &path("grid", [low, tick], [high, tick]);
-        let word = short(tick);
-        svg += &format!(
-            "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{word}</text>\n",
-            x(tick),
-            size - room + 17.0
-        );
-        svg += &format!(
-            "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{word}</text>\n",
-            room - 6.0,
-            y(tick) + 4.5
-        );
-    }
-    svg += &path("equal", [low, low], [high, high]);
-    svg += &path(
-        "near",
-        [low, low * (1.0 + NEAR)],
-        [high / (1.0 + NEAR), high],
-    );
-    svg += &path(
-        "near",
-        [low * (1.0 + NEAR), low],
-        [high, high / (1.0 + NEAR)],
-    );
-    for (what, hertz) in [("open", &first), ("full", &last)] {
+    let is_within = |hertz: &f64| (least..=most).contains(hertz);
+    let others: Vec<f64> = others.into_iter().filter(is_within).collect();
+    let axis = Axis(least / 1.12, most * 1.12);
+    let mut svg = axis.frame();
+    for (class, hertz) in [("open", &first), ("full", &last)] {
         for (place, (&test, &hertz)) in test.iter().zip(hertz).enumerate() {
+            let (x, y, mode) = (axis.x(test), axis.y(hertz), report.mode_number(place));
+            let [test, hertz] = [test, hertz].map(|hertz| HERTZ.write(hertz));
             svg += &format!(
-                "<circle class=\"{what}\" cx=\"{:.1}\" cy=\"{:.1}\" r=\"{radius}\"><title>mode {}: {} Hz measured, {} Hz computed</title></circle>\n",
-                x(test),
-                y(hertz),
-                report.mode_number(place),
-                HERTZ.write(test),
-                HERTZ.write(hertz)
+                "<circle class=\"{class}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\"><title>mode {mode}: {test} Hz measured, {hertz} Hz \
+                computed</title></circle>\n"
             );
         }
     }
     let square = |x: f64, y: f64| {
-        format!(
-            "<rect class=\"open\" x=\"{:.1}\" y=\"{:.1}\" width=\"9\" height=\"9\"/>\n",
-            x - radius,
-            y - radius
-        )
+        let (x, y) = (x - radius, y - radius);
+        format!("<rect class=\"open\" x=\"{x:.1}\" y=\"{y:.1}\" width=\"9\" height=\"9\"/>\n")
     };
-    let left_out = report
-        .left_out
-        .iter()
-        .filter(|(_, hertz)| (low..=high).contains(hertz));
-    svg += &others
-        .iter()
-        .map(|&hertz| square(room, y(hertz)))
-        .collect::<String>();
-    svg += &left_out
-        .map(|&(_, hertz)| square(x(hertz), size - room))
-        .collect::<String>();
-    let off: Vec<f64> = last
-        .iter()
-        .zip(&test)
-        .map(|(last, test)| last / test - 1.0)
-        .collect();
+    let left_out = report.left_out.iter().filter(|(_, hertz)| is_within(hertz));
+    svg.extend(others.iter().map(|&hertz| square(room, axis.y(hertz))));
+    svg.extend(left_out.map(|&(_, hertz)| square(axis.x(hertz), size - room)));
+    let off = last.iter().zip(&test).map(|(last, test)| last / test - 1.0);
+    let caption = pairing_caption(report, &off.collect::<Vec<_>>(), others.len());
+    format!(
+        "<figure class=\"pairing\" id=\"{}_frequencies\">\n<svg viewBox=\"0 0 {size} {size}\" role=\"img\" aria-label=\"Computed against measured \
+        frequencies\">\n{svg}</svg>\n<figcaption>{caption}</figcaption>\n</figure>\n",
+        escaped(&report.name),
+    )
+}
+
+/// Words under the plot of pairs: how many are near, which is farthest off, and how many modes of the model have no partner.
+fn pairing_caption(report: &Report, off: &[f64], others: usize) -> String {
     let within = off.iter().filter(|off| off.abs() <= NEAR).count();
-    let far = (0..off.len())
-        .max_by(|&a, &b| off[a].abs().total_cmp(&off[b].abs()))
-        .unwrap_or(0);
+    let far = (0..off.len()).max_by(|&a, &b| off[a].abs().total_cmp(&off[b].abs()));
+    let far = far.unwrap_or(0);
+    // Rounding first keeps a minus sign off zero.
+    let percent = (1e4 * off[far]).round() / 100.0 + 0.0;
     let mut caption = format!(
         "Computed against measured frequencies, Hz: open before, full after the correction. {within} of {} lie within the dashed ±5 %; \
         farthest is mode {}, {} %.",
         off.len(),
         report.mode_number(far),
-        signed(format!("{:+.2}", 100.0 * off[far] + 0.0))
+        signed(format!("{percent:+.2}"))
     );
     for (count, words) in [
         (
-            others.len(),
+            others,
             "of the model at the left edge, between the first and the last frequency",
         ),
         (report.left_out.len(), "of the test at the lower edge"),
@@ -466,12 +485,5 @@ pub fn pairing_plot(report: &Report) -> String {
             );
         }
     }
-    format!(
-        "<figure class=\"pairing\" id=\"{}_frequencies\">\n<svg viewBox=\"0 0 {size} {size}\" role=\"img\" aria-label=\"Computed against measured frequencies\">\n{svg}\
-        <text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">measured, Hz</text>\n<text transform=\"translate(11 {:.1})rotate(-90)\" text-anchor=\"middle\">computed, Hz</text>\n</svg>\n<figcaption>{caption}</figcaption>\n</figure>\n",
-        escaped(&report.name),
-        0.5 * (size + room),
-        size - 6.0,
-        0.5 * (size - room),
-    )
+    caption
 }

@@ -46,14 +46,18 @@ function moving(data) {
   };
   const draw = (ink = tones("ink")) => {
     const ratio = window.devicePixelRatio || 1, wide = canvas.clientWidth || 720, across = wide < 520 ? 1 : 3;
-    const cell = wide / across, high = across === 1 ? 0.6 * cell + 40 : Math.min(1.15 * cell, 320);
+    const cell = wide / across, size = (turn_, rise_) => [0, 1].map(axis => {
+      const all = displaced(data, null, 0).map(place => project(place, turn_, rise_)[axis]);
+      return [Math.min(...all), Math.max(...all)];
+    });
+    // As high as the structure asks for as it first stands.
+    const [asked, above] = size(-0.6, 0.5).map(([low, high_]) => high_ - low);
+    const high = Math.min(Math.max((cell - 12) / (asked + 0.08) * (above + 0.22) + 48, 170), 340);
     canvas.width = ratio * wide; canvas.height = ratio * high * 3 / across; canvas.style.height = high * 3 / across + "px";
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     const now = mode(), isDifference = get("difference").checked, kind = get("color").value, phase = +slider.value;
     const plus = tones("plus"), minus = tones("minus"), soft = tones("soft"), hatch = hatched(soft);
-    const places = displaced(data, null, 0).map(place => project(place, turn, rise));
-    const ends = axis => [Math.min(...places.map(at => at[axis])), Math.max(...places.map(at => at[axis]))];
-    const [[left, right], [top, bottom]] = [ends(0), ends(1)];
+    const [[left, right], [top, bottom]] = size(turn, rise);
     const scale = Math.min((cell - 12) / (right - left + 0.08), (high - 48) / (bottom - top + 0.22));
     ["test", "first", "corrected"].forEach((name, state) => {
       const moved = motion(now, state, isDifference), along = moved ? mainAxis(moved) : 2;

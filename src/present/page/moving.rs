@@ -55,22 +55,22 @@ pub fn moving(report: &Report) -> Result<String, PresentError> {
     }
     // A name may hold what ends a script.
     let data = data(report, &drawn)?.to_string().replace('<', "\\u003c");
-    Ok([
-        ("@NAME@", name.as_str()),
-        ("@TITLE@", &escaped(&report.title)),
-        ("@MODES@", &modes),
-        ("@COLORS@", &colors),
-        ("@CAPTION@", caption(report)),
-        ("@DATA@", &data),
-    ]
-    .into_iter()
-    .fold(
-        include_str!("moving.html").to_owned(),
-        |page, (place, text)| page.replacen(place, text, 1),
-    ))
+    // Every second piece is the name of a place to fill; what fills it may hold such a name.
+    let title = escaped(&report.title);
+    let pieces = include_str!("moving.html").split('@').enumerate();
+    let pieces = pieces.map(|(row, piece)| match (row % 2, piece) {
+        (0, words) => words,
+        (_, "NAME") => &name,
+        (_, "TITLE") => &title,
+        (_, "MODES") => &modes,
+        (_, "COLORS") => &colors,
+        (_, "CAPTION") => caption(report),
+        _ => &data,
+    });
+    Ok(pieces.collect())
 }
 
-/// What the test's shapes are between the sensors.
+/// A sentence on the test's shapes between the sensors.
 fn caption(report: &Report) -> &'static str {
     match &report.moved {
         _ if report.test.len() == 0 => "The test has frequencies alone.",

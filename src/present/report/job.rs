@@ -23,7 +23,7 @@ impl Report {
     /// A job, before its first step or with its result.
     ///
     /// # Errors
-    /// Those of the first analysis.
+    /// Errors of the first analysis.
     pub fn from_job(
         prepared: &PreparedJob,
         result: Option<&JobResult>,
@@ -274,7 +274,7 @@ fn coupled(source: &ModelSource) -> Result<Vec<Piece>, Error> {
     Ok(all.iter().filter_map(piece).collect())
 }
 
-/// How the grids move, see [`Report::moved`]: the models as their own shapes at all degrees of freedom, the test as the nearest
+/// Motions of the grids, see [`Report::moved`]: the models as their own shapes at all degrees of freedom, the test as the nearest
 /// combination of the corrected model's modes, where the sensors tell these apart.
 fn moved(found: &CorrelatedJob) -> Option<[Vec<Vec<Vector3<f64>>>; 3]> {
     let (source, sensors) = (

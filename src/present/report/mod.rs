@@ -31,9 +31,9 @@ use serde_json::json;
 #[doc(hidden)]
 #[derive(Debug, Clone, PartialEq)]
 pub struct SensorPoint {
-    /// What it is called.
+    /// Name.
     pub name: String,
-    /// Where it is, if that is known.
+    /// Place, if that is known.
     pub place: Option<Vector3<f64>>,
     /// Unit vector along which it measures; zero for a rotation.
     pub direction: Vector3<f64>,
@@ -126,12 +126,12 @@ pub struct Report {
     /// Standard deviation of every factor of the best stage, where an interval holds.
     #[serde(rename = "standard_deviations")]
     pub deviations: Option<Vec<Option<f64>>>,
-    /// What the test sees of the parameters, at the first model and at the best factors, where that is known.
+    /// Identifiability of the parameters by the test, at the first model and at the best factors, where that is known.
     #[serde(skip)]
     pub seen: Option<[Identifiability; 2]>,
-    /// How a job's residuals at its end are to the noise.
+    /// Residuals at a job's end, compared with the noise.
     pub misfit: Option<Misfit>,
-    /// Whether that decides the verdict, and not the tolerances.
+    /// True if that decides the verdict, and not the tolerances.
     #[serde(skip)]
     pub is_judged_by_noise: bool,
     /// Number of exact analyses that the result took.
@@ -163,7 +163,7 @@ pub struct Report {
     /// Test modes that are not compared: their numbers and frequencies, Hz.
     #[serde(skip)]
     pub left_out: Vec<(usize, f64)>,
-    /// What may lower the trust in it; none of the paper's cases.
+    /// Doubts about it and remarks; none of the paper's cases.
     pub trust: Option<Trust>,
     /// Rows of the shapes; none where nothing is known of them.
     #[serde(serialize_with = "names")]
@@ -177,7 +177,7 @@ pub struct Report {
     /// Numbered grids.
     #[serde(skip)]
     pub grids: Vec<(usize, Vector3<f64>)>,
-    /// How the grids move in the modes paired with the test modes, of test, first and corrected model, in the scale and with the signs
+    /// Motions of the grids in the modes paired with the test modes, of test, first and corrected model, in the scale and with the signs
     /// of the shapes; the test's by expansion, where it has shapes. None where the whole model is not known.
     #[serde(skip)]
     pub moved: Option<[Vec<Vec<Vector3<f64>>>; 3]>,
@@ -205,7 +205,7 @@ pub struct Report {
     pub derivatives: Option<Derivatives>,
 }
 
-/// How analysis modes (rows) and test modes (columns) agree.
+/// Agreement of analysis modes (rows) and test modes (columns).
 #[doc(hidden)]
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PairAgreement {
@@ -321,7 +321,7 @@ impl Report {
         }
     }
 
-    /// The same with the panels, rods, grids and supports of a structure.
+    /// This report with the panels, rods, grids and supports of a structure.
     pub fn with_structure(mut self, structure: &Structure) -> Self {
         self.frame = structure.corners().to_vec();
         self.grids = structure
@@ -337,7 +337,7 @@ impl Report {
         self
     }
 
-    /// Whether the best is within tolerance.
+    /// True if the best is within tolerance.
     pub fn converged(&self) -> bool {
         self.verdict
             .as_ref()
@@ -408,7 +408,7 @@ impl Report {
         )
     }
 
-    /// Whether the factor of a parameter is at an end of its range.
+    /// True if the factor of a parameter is at an end of its range.
     pub fn is_at_bound(&self, parameter: usize, factor: f64) -> bool {
         self.ranges
             .get(parameter)
@@ -431,7 +431,7 @@ impl Report {
             .collect()
     }
 
-    /// How the modes of an exact solution, up to the highest that is paired by shape, agree with the test's; paired ones are signed like them.
+    /// Agreement of the modes of an exact solution, up to the highest that is paired by shape, with the test's; paired ones are signed like them.
     ///
     /// # Errors
     /// [`Error::WrongShape`] when shapes and mass do not fit; [`Error::Value`] for a shape that is zero or has no mass.

@@ -188,17 +188,6 @@ pub fn factor_table(report: &Report) -> Table {
                 .join(", "),
         )
     };
-    let is_by_slope =
-        report.parameters.len() > MOST_FOLLOWED && report.intervals.iter().any(Result::is_ok);
-    let withheld = report
-        .intervals
-        .iter()
-        .filter(|interval| interval.is_err())
-        .count();
-    let withheld = (withheld > 0).then(|| {
-        let count = counted(withheld, "parameter", "parameters");
-        format!("{count} without an interval; the remarks say why.")
-    });
     let four = Digits::Fixed(4);
     table_of(
         report,
@@ -241,16 +230,25 @@ pub fn factor_table(report: &Report) -> Table {
     .column("Lower bound", "", each(&|e| Some(range(e)?.lower), THREE))
     .column("Upper bound", "", each(&|e| Some(range(e)?.upper), THREE))
     .notes(told_apart(report))
-    .notes(withheld)
-    .notes(
-        is_by_slope.then(|| {
-            format!("Intervals of more than {MOST_FOLLOWED} parameters are by slopes alone.")
-        }),
-    )
+    .notes(intervals_in_words(report))
     .filled()
 }
 
-/// How many parameters the test tells apart, and what their deviations are.
+/// Sentences on the intervals that are withheld, and on how the others were found.
+fn intervals_in_words(report: &Report) -> Vec<String> {
+    let all = || report.intervals.iter();
+    let withheld = all().filter(|interval| interval.is_err()).count();
+    let is_by_slope = report.parameters.len() > MOST_FOLLOWED && all().any(Result::is_ok);
+    let withheld = (withheld > 0).then(|| {
+        let count = counted(withheld, "parameter", "parameters");
+        format!("{count} without an interval; the remarks say why.")
+    });
+    let by_slope = is_by_slope
+        .then(|| format!("Intervals of more than {MOST_FOLLOWED} parameters are by slopes alone."));
+    withheld.into_iter().chain(by_slope).collect()
+}
+
+/// A sentence on how many parameters the test tells apart, and on their deviations.
 fn told_apart(report: &Report) -> Option<String> {
     let [_, seen] = report.seen.as_ref()?;
     let trust = report.trust.as_ref();

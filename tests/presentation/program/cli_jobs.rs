@@ -335,12 +335,12 @@ fn every_format_has_the_factors() {
     assert!(
         of("text")
             .lines()
-            .any(|line| line.starts_with("panel 1 ") && line.contains(&format!("{first:.3}")))
+            .any(|line| line.starts_with("panel 1 ") && line.contains(&format!("{first:.4}")))
     );
     assert!(
         of("markdown")
             .lines()
-            .any(|line| line.starts_with("| panel 1 |") && line.contains(&format!("{first:.3}")))
+            .any(|line| line.starts_with("| panel 1 |") && line.contains(&format!("{first:.4}")))
     );
     let csv = of("csv");
     let cell = csv
@@ -594,7 +594,7 @@ fn a_signal_keeps_the_best_so_far() {
         text(&output.stderr),
         "corfem: stopped by request; the best factors so far are given\n"
     );
-    assert!(text(&output.stdout).contains("What the test sees of the parameters"));
+    assert!(text(&output.stdout).contains("factors on the first model"));
     assert_eq!(
         names(&out),
         [
