@@ -91,10 +91,7 @@ pub fn moving_case(result: &CaseResult) -> Result<Report, PresentError> {
         };
         let grids = || structure.grids().iter();
         let of_mode = |shape| grids().map(|grid| motion(shape, grid)).collect();
-        Ok(all
-            .column_iter()
-            .map(|shape| of_mode(shape))
-            .collect::<Vec<Vec<_>>>())
+        Ok(all.column_iter().map(of_mode).collect::<Vec<Vec<_>>>())
     };
     let (ones, last) = (vec![1.0; report.parameters.len()], report.factors());
     let paired = |check: &ExactResult| check.pairing.paired(&check.modes);

@@ -26,7 +26,7 @@ pub fn named(id: &str, link: &str, heading: &str, body: String) -> Part {
     (id.to_owned(), link.to_owned(), heading.to_owned(), body)
 }
 
-/// A whole page: its answer, then sections. It has the script of [`moving`].
+/// A whole page: its answer, then sections. It has the script of [`moving()`](moving::moving).
 pub fn document(title: &str, lead: &str, answer: &str, parts: &[Part]) -> String {
     let links: String = parts
         .iter()
