@@ -286,6 +286,32 @@ fn a_job_of_matrices_has_its_lines_from_its_stiffness() {
     assert_eq!(owners, (1..10).collect::<Vec<_>>());
 }
 
+/// A real test of frequencies alone: the models move, the test's shapes are not made up, and pairs of one root keep their sign.
+#[test]
+fn a_test_without_shapes_moves_its_models_alone() {
+    let report = report("garteur");
+    let drawn = DrawnModes::from_report(&report)
+        .expect("modes")
+        .expect("places");
+    assert_eq!(drawn.modes.len(), 8);
+    for mode in &drawn.modes {
+        let [test, first, last] = &mode.moved;
+        assert!(test.is_empty());
+        let largest = |moved: &[Vector3<f64>]| moved.iter().map(Vector3::amax).fold(0.0, f64::max);
+        assert!((largest(first) - 1.0).abs() < 1e-12 && (largest(last) - 1.0).abs() < 1e-12);
+        let along: f64 = first.iter().zip(last).map(|(a, b)| a.dot(b)).sum();
+        assert!(along > 0.0, "mode {}", mode.number);
+    }
+    // Beams that are joined, and nothing else: every grid has a line.
+    let on_lines: Vec<&Vector3<f64>> = report.frame.iter().flatten().collect();
+    assert!(report.grids.iter().all(|(_, at)| on_lines.contains(&at)));
+    assert!(
+        moving(&report)
+            .expect("a figure")
+            .contains("The test has frequencies alone.")
+    );
+}
+
 /// Node runs the script as it stands in the page: the places that a reader sees are those of the program.
 #[test]
 #[ignore = "needs node"]

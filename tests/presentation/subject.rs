@@ -374,12 +374,65 @@ fn factors_stand_in_the_order_of_how_sure_their_changes_are() {
             change / subject.log_deviation(e).unwrap_or(1.0)
         };
         let order = subject.by_sureness();
-        assert!(order.windows(2).all(|pair| sure(pair[0]) >= sure(pair[1])));
+        let key = |e: usize| (subject.is_unseen(e), -sure(e));
+        assert!(order.is_sorted_by(|&a, &b| key(a) <= key(b)));
         let table = factor_table(&subject);
         let labels: Vec<&String> = table.rows.iter().map(|row| &row.label).collect();
         let expected: Vec<&String> = order.iter().map(|&e| &subject.parameters[e]).collect();
         assert_eq!(labels, expected);
     }
+}
+
+/// What stands against it first, then the errors, the surest changes, and what is known.
+#[test]
+fn the_answer_says_what_is_sure_and_no_more() {
+    let subject = chain("rod", &[0.9, 1.1, 0.95, 1.0], along);
+    let of = |deviations: Option<Vec<Option<f64>>>| {
+        let subject = Report {
+            deviations,
+            ..subject.clone()
+        };
+        subject.answer()
+    };
+    let [first, last] = [&subject.initial, subject.corrected()].map(|check| check.errors);
+    let errors = format!(
+        "Frequency error {:.2} → {:.2} %, shape error {:.2} → {:.2} %; ",
+        100.0 * first.frequency_rms(),
+        100.0 * last.frequency_rms(),
+        100.0 * first.shape_rms(),
+        100.0 * last.shape_rms()
+    );
+    let surest = |deviations: Option<Vec<Option<f64>>>| of(deviations).replace(&errors, "");
+    // A tenth of every factor is nothing sure, a thousandth is, and where none is known only the errors and changes are told.
+    assert_eq!(
+        surest(Some(vec![Some(0.1); 4])),
+        "no factor surely changed; 0 of 4 factors known within 5 %."
+    );
+    let sure = surest(Some(vec![Some(0.001); 4]));
+    assert!(
+        sure.ends_with("; 4 of 4 factors known within 5 %."),
+        "{sure}"
+    );
+    for e in [0, 1] {
+        let percent = 100.0 * (subject.factors()[e] - 1.0);
+        let sign = if percent < 0.0 { "−" } else { "+" };
+        let words = format!("rod {e} {sign}{:.0} %", percent.abs());
+        assert!(sure.contains(&words), "{sure}: {words}");
+    }
+    assert!(surest(Some(vec![None; 4])).ends_with("; no factor has an interval."));
+    assert!(!surest(None).contains("known"));
+    let mut failed = subject.clone();
+    if let Some(verdict) = &mut failed.verdict {
+        verdict.is_within = false;
+    }
+    assert!(
+        failed
+            .answer()
+            .starts_with("Outside tolerance: frequency error ")
+    );
+    failed.is_judged_by_noise = true;
+    let words = "The model does not explain the test: frequency error ";
+    assert!(failed.answer().starts_with(words));
 }
 
 #[test]

@@ -23,7 +23,9 @@ fn ticks(low: f64, high: f64) -> Vec<f64> {
     let within: Vec<f64> = all.filter(|tick| (low..=high).contains(tick)).collect();
     let many = within.len().div_ceil(5).max(1);
     if within.len() > 2 {
-        return within.into_iter().step_by(many).collect();
+        // One, from which factors are drawn, is always among them.
+        let one = within.iter().position(|tick| *tick == 1.0).unwrap_or(0);
+        return within.into_iter().skip(one % many).step_by(many).collect();
     }
     let rough = (high - low) / 6.0;
     let ten = 10f64.powf(rough.log10().floor());
@@ -356,7 +358,7 @@ fn paired_hertz(check: &ExactResult) -> (Vec<f64>, Vec<f64>) {
 }
 
 /// Side of the plot of pairs, room of its axes, and radius of its marks.
-const PLOT: [f64; 3] = [400.0, 46.0, 4.5];
+const PLOT: [f64; 3] = [400.0, 54.0, 4.5];
 /// Distance from equal frequencies that lines of the plot of pairs mark, a fraction.
 const NEAR: f64 = 0.05;
 
@@ -384,8 +386,8 @@ impl Axis {
         for tick in ticks(low, high) {
             svg += &self.line("grid", [tick, low], [tick, high]);
             svg += &self.line("grid", [low, tick], [high, tick]);
-            let (word, x, y) = (short(tick), self.x(tick), self.y(tick) + 4.5);
-            let (down, left) = (size - room + 17.0, room - 6.0);
+            let (word, x, y) = (short(tick), self.x(tick), self.y(tick) + 5.0);
+            let (down, left) = (size - room + 19.0, room - 6.0);
             svg += &format!(
                 "<text x=\"{x:.1}\" y=\"{down:.1}\" text-anchor=\"middle\">{word}</text>\n"
             );

@@ -67,7 +67,7 @@ pub fn report_page(
     };
     let lead = format!("<strong>{}</strong>", escaped(&report.answer()));
     let answer = format!(
-        "<p{class}>{}</p>\n<div class=\"first\">\n{}{}</div>\n<div class=\"pairs\">\n{}{}</div>\n",
+        "<p{class}>{}</p>\n<div class=\"first\">\n{}{}<div class=\"pairs\">\n{}{}</div>\n</div>\n",
         escaped(&report.words()),
         moving(report)?,
         factor_bars(report),

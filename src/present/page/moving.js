@@ -55,7 +55,7 @@ function moving(data) {
     const high = Math.min(Math.max((cell - 12) / (asked + 0.08) * (above + 0.22) + 48, 170), 340);
     canvas.width = ratio * wide; canvas.height = ratio * high * 3 / across; canvas.style.height = high * 3 / across + "px";
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-    const now = mode(), isDifference = get("difference").checked, kind = get("color").value, phase = +slider.value;
+    const isFine = data.pieces.length > 400, now = mode(), isDifference = get("difference").checked, kind = get("color").value, phase = +slider.value;
     const plus = tones("plus"), minus = tones("minus"), soft = tones("soft"), hatch = hatched(soft);
     const [[left, right], [top, bottom]] = size(turn, rise);
     const scale = Math.min((cell - 12) / (right - left + 0.08), (high - 48) / (bottom - top + 0.22));
@@ -84,15 +84,17 @@ function moving(data) {
         pen.beginPath();
         piece.nodes.forEach((node, row) => row ? pen.lineTo(...spot(at[node])) : pen.moveTo(...spot(at[node])));
         pen.globalAlpha = strength;
-        if (isLine) { pen.strokeStyle = color; pen.lineWidth = color === soft ? 1.5 : 4; pen.stroke(); continue; }
+        if (isLine) { pen.strokeStyle = color; pen.lineWidth = isFine ? 1 : color === soft ? 1.5 : 4; pen.stroke(); continue; }
         pen.closePath(); pen.fillStyle = color; pen.fill();
+        // The edges of thousands of elements would hide them.
+        if (isFine) continue;
         pen.globalAlpha = 0.35; pen.strokeStyle = ink; pen.lineWidth = 0.7; pen.stroke();
       }
       pen.globalAlpha = 1;
       for (const [node, row] of data.sensors) {
         const off = kind === "residuals" && state === 2 && now.residuals ? now.residuals[row] : null, [across_, down] = spot(at[node]);
         pen.beginPath();
-        pen.arc(across_, down, off === null ? 2.2 : 2 + 2.2 * Math.min(4, Math.abs(off)), 0, 7);
+        pen.arc(across_, down, off === null ? (isFine ? 1 : 2.2) : 2 + 2.2 * Math.min(4, Math.abs(off)), 0, 7);
         pen.fillStyle = off === null ? soft : off < 0 ? minus : plus;
         pen.globalAlpha = off === null ? 0.9 : 0.75; pen.fill();
       }

@@ -46,13 +46,18 @@ impl Report {
         if change == 0.0 { 0.0 } else { change / unit }
     }
 
-    /// Parameters, that with the surest change first.
+    /// Parameters, that with the surest change first, those that the test hardly sees last.
     pub fn by_sureness(&self) -> Vec<usize> {
-        let sureness: Vec<f64> = (0..self.parameters.len())
-            .map(|e| self.sureness(e))
+        let all = 0..self.parameters.len();
+        let keys: Vec<(bool, f64)> = all
+            .clone()
+            .map(|e| (self.is_unseen(e), -self.sureness(e)))
             .collect();
-        let mut order: Vec<usize> = (0..self.parameters.len()).collect();
-        order.sort_by(|&a, &b| sureness[b].total_cmp(&sureness[a]));
+        let mut order: Vec<usize> = all.collect();
+        order.sort_by(|&a, &b| {
+            let sure = keys[a].1.total_cmp(&keys[b].1);
+            keys[a].0.cmp(&keys[b].0).then(sure)
+        });
         order
     }
 
