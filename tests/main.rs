@@ -7,6 +7,8 @@ mod common;
 mod equations;
 mod ledgers;
 
+use common::presentation::paper;
+
 mod spec;
 
 mod refuses;

@@ -5,28 +5,17 @@
 //! that is not finite is `null`. Every function that writes a document has the errors of [`document`].
 
 use super::PresentError;
-use super::report::{ModeResiduals, Report, Stage};
-use super::tables::cases::{outcome, published_iterations};
+use super::report::{Report, Stage};
 use super::tables::deck::{not_read, unit_shapes};
 use crate::files::deck::Unread;
 use crate::files::test_data::DIRECTIONS;
 use crate::files::turns;
-use crate::job::concern::Answered;
-use crate::job::verdict::Verdict;
-use crate::job::{Trial, Trust, of_bodies};
+use crate::job::{Trust, of_bodies};
 use crate::method::inner_loop::Iteration;
-use crate::method::step::Bounds;
-use crate::method::step::Limit;
 use crate::method::structure::StructuralDof;
-use crate::sparse::Work;
 use crate::sparse::whole_modes::WholeModes;
-use crate::torque_box::CaseResult;
-use crate::torque_box::wing_box::TEST_GAGE;
 use crate::weighted::comparison::ExactResult;
-use crate::weighted::intervals::Withheld;
-use crate::weighted::misfit::Misfit;
-use crate::weighted::starts::{Minimum, StartEnd};
-use nalgebra::{DMatrix, RowDVector};
+use nalgebra::RowDVector;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -79,158 +68,39 @@ fn in_units(units: &'static str, content: impl Serialize) -> Result<String, Pres
     Ok(text + "\n")
 }
 
-/// A report as the document has it.
-#[derive(Serialize)]
-struct ReportValue<'a> {
-    name: &'a str,
-    converged: bool,
-    trust: &'a Option<Trust>,
-    checks: Option<Vec<Answered>>,
-    verdict: &'a Option<Verdict>,
-    verdict_in_words: String,
-    parameters: &'a [String],
-    ranges: &'a [Option<Bounds>],
-    factors: &'a [f64],
-    standard_deviations: &'a Option<Vec<Option<f64>>>,
-    prior_shares: &'a Option<Vec<f64>>,
-    misfit: &'a Option<Misfit>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    analyses: Option<usize>,
-    #[serde(flatten)]
-    work: Option<Work>,
-    minima: &'a [Minimum],
-    failed_starts: usize,
-    starts: &'a [Option<StartEnd>],
-    trials: &'a [Trial],
-    intervals: Vec<Value>,
-    residuals: &'a [ModeResiduals],
-    at_bound: Vec<bool>,
-    best_pass: Option<usize>,
-    test_mode_numbers: &'a [usize],
-    test_frequencies_hz: Vec<f64>,
-    frequencies_alone: Vec<Value>,
-    sensors: Vec<&'a str>,
-    initial: SolutionValue<'a>,
-    corrected_agreement: AgreementValue,
-    passes: Vec<PassValue<'a>>,
-    derivatives: Option<DerivativesValue<'a>>,
-}
-
-/// An exact solution, and the agreement of its modes with the test's where that is asked for.
-#[derive(Serialize)]
-struct SolutionValue<'a> {
-    frequencies_hz: &'a [f64],
-    frequency_rms: f64,
-    shape_rms: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    agreement: Option<AgreementValue>,
-}
-
-/// Modal assurance and cross-orthogonality, analysis modes by test modes, and the paired analysis modes, from one.
-#[derive(Serialize)]
-struct AgreementValue {
-    paired_analysis_modes: Vec<usize>,
-    modal_assurance: MatrixRows,
-    cross_orthogonality: Option<MatrixRows>,
-}
-
-#[derive(Serialize)]
-struct PassValue<'a> {
-    iterations: usize,
-    stop: Value,
-    unlimited_factors: Option<&'a [f64]>,
-    factors: &'a [f64],
-    exact: SolutionValue<'a>,
-    history: Vec<IterationValue<'a>>,
-}
-
-#[derive(Serialize)]
-pub(super) struct IterationValue<'a> {
-    frequency_error: f64,
-    shape_error: f64,
-    error_sum: f64,
-    halvings: usize,
-    unlimited_factors: &'a [f64],
-    factors: &'a [f64],
-    limits: &'a [Limit],
-}
-
-#[derive(Serialize)]
-struct DerivativesValue<'a> {
-    frequency_percent_per_percent: MatrixRows,
-    error_sum_per_percent: &'a [f64],
-}
-
 /// Any correlation: its parameters by name, its test, its verdict, and its whole history.
 ///
 /// # Errors
 /// The errors of [`Report::agreement`].
 pub fn report(report: &Report) -> Result<Value, PresentError> {
-    let at_bound = |(e, factor): (usize, &f64)| report.is_at_bound(e, *factor);
     let factors = report.factors();
-    let value = ReportValue {
-        name: &report.title,
-        converged: report.converged(),
-        trust: &report.trust,
-        checks: report.trust.as_ref().map(Trust::answers),
-        verdict: &report.verdict,
-        verdict_in_words: report.words(),
-        parameters: &report.parameters,
-        ranges: &report.ranges,
-        factors: &factors,
-        standard_deviations: &report.deviations,
-        prior_shares: &report.prior_shares,
-        misfit: &report.misfit,
-        analyses: report.analyses,
-        work: report.work,
-        minima: &report.minima,
-        failed_starts: report.failed_starts(),
-        starts: &report.starts,
-        trials: &report.trials,
-        intervals: report.intervals.iter().map(interval).collect(),
-        residuals: &report.residuals,
-        at_bound: factors.iter().enumerate().map(at_bound).collect(),
-        best_pass: report.best.map(|best| best + 1),
-        test_mode_numbers: &report.mode_numbers,
-        test_frequencies_hz: report.test.frequencies_hz(),
-        frequencies_alone: (0..report.initial.lone.len())
+    let at_bound = factors.iter().enumerate();
+    let at_bound = at_bound.map(|(e, factor)| report.is_at_bound(e, *factor));
+    let mut initial = solution(&report.initial);
+    initial["agreement"] = json!(report.agreement(&report.initial)?);
+    let mut value = serde_json::to_value(report)?;
+    let follows = json!({
+        "answer": report.answer(),
+        "converged": report.converged(),
+        "checks": report.trust.as_ref().map(Trust::answers),
+        "verdict_in_words": report.words(),
+        "factors": factors,
+        "prior_shares": report.prior_shares(),
+        "failed_starts": report.failed_starts(),
+        "at_bound": at_bound.collect::<Vec<_>>(),
+        "best_pass": report.best.map(|best| best + 1),
+        "test_frequencies_hz": report.test.frequencies_hz(),
+        "frequencies_alone": (0..report.initial.lone.len())
             .map(|place| frequency_alone(report, place))
-            .collect(),
-        sensors: report
-            .sensors
-            .iter()
-            .map(|sensor| &sensor.name[..])
-            .collect(),
-        initial: SolutionValue {
-            agreement: Some(agreement(report, &report.initial)?),
-            ..solution(&report.initial)
-        },
-        corrected_agreement: agreement(report, report.corrected())?,
-        passes: report.stages.iter().map(pass).collect(),
-        derivatives: report.derivatives.as_ref().map(|at| DerivativesValue {
-            frequency_percent_per_percent: matrix_rows(&at.frequency),
-            error_sum_per_percent: &at.error_sum,
-        }),
-    };
-    Ok(serde_json::to_value(value)?)
-}
-
-fn agreement(report: &Report, check: &ExactResult) -> Result<AgreementValue, PresentError> {
-    let found = report.agreement(check)?;
-    let modes = check.pairing.analysis_mode.iter();
-    Ok(AgreementValue {
-        paired_analysis_modes: modes.map(|mode| mode + 1).collect(),
-        modal_assurance: matrix_rows(&found.assurance),
-        cross_orthogonality: found.orthogonality.as_ref().map(matrix_rows),
-    })
-}
-
-/// The ends of a parameter's 95 % interval, or why they are withheld.
-fn interval(interval: &Result<Bounds, Withheld>) -> Value {
-    match interval {
-        Ok(ends) => json!(ends),
-        Err(withheld) => json!({ "withheld": withheld }),
+            .collect::<Value>(),
+        "initial": initial,
+        "corrected_agreement": report.agreement(report.corrected())?,
+        "passes": report.stages.iter().map(pass).collect::<Value>(),
+    });
+    if let (Some(all), Value::Object(follows)) = (value.as_object_mut(), follows) {
+        all.extend(follows);
     }
+    Ok(value)
 }
 
 /// A frequency of the test without a shape with its partners in the first and the corrected model; places count from one.
@@ -246,73 +116,38 @@ fn frequency_alone(report: &Report, place: usize) -> Value {
     })
 }
 
-/// The rows of a matrix.
-pub(super) type MatrixRows = Vec<Vec<f64>>;
-
-pub(super) fn matrix_rows(matrix: &DMatrix<f64>) -> MatrixRows {
-    let rows = matrix.row_iter();
-    rows.map(|row| row.iter().copied().collect()).collect()
+fn solution(check: &ExactResult) -> Value {
+    json!({
+        "frequencies_hz": check.frequencies_hz,
+        "frequency_rms": check.errors.frequency_rms(),
+        "shape_rms": check.errors.shape_rms(),
+    })
 }
 
-fn solution(check: &ExactResult) -> SolutionValue<'_> {
-    SolutionValue {
-        frequencies_hz: &check.frequencies_hz,
-        frequency_rms: check.errors.frequency_rms(),
-        shape_rms: check.errors.shape_rms(),
-        agreement: None,
-    }
-}
-
-fn pass(stage: &Stage) -> PassValue<'_> {
+fn pass(stage: &Stage) -> Value {
     let inner = stage.inner.as_ref();
     let history = inner.map_or(&[][..], |inner| &inner.iterations);
-    PassValue {
-        iterations: inner.map_or(1, |inner| inner.iterations.len()),
-        stop: inner.map_or_else(|| json!(stage.stop), |inner| json!(inner.stop)),
-        unlimited_factors: inner.map(|inner| &inner.first_unlimited_factors[..]),
-        factors: &stage.factors,
-        exact: solution(&stage.check),
-        history: history.iter().map(iteration).collect(),
-    }
+    json!({
+        "iterations": inner.map_or(1, |inner| inner.iterations.len()),
+        "stop": inner.map_or_else(|| json!(stage.stop), |inner| json!(inner.stop)),
+        "unlimited_factors": inner.map(|inner| &inner.first_unlimited_factors),
+        "factors": stage.factors,
+        "exact": solution(&stage.check),
+        "history": history.iter().map(iteration).collect::<Value>(),
+    })
 }
 
-pub(super) fn iteration(iteration: &Iteration) -> IterationValue<'_> {
-    IterationValue {
-        frequency_error: iteration.errors.frequency,
-        shape_error: iteration.errors.shape,
-        error_sum: iteration.errors.sum(),
-        halvings: iteration.halvings,
-        unlimited_factors: &iteration.unlimited_factors,
-        factors: &iteration.factors,
-        limits: &iteration.limits,
-    }
-}
-
-/// The history of the cases run.
-///
-/// # Errors
-/// [`PresentError::Case`] if Table 13 were damaged; the errors of [`document`].
-pub fn cases(results: &[CaseResult]) -> Result<String, PresentError> {
-    let cases = results.iter().map(case).collect::<Result<Value, _>>()?;
-    document(json!({ "cases": cases }))
-}
-
-fn case(result: &CaseResult) -> Result<Value, PresentError> {
-    Ok(json!({
-        "case": result.case.number,
-        "settings": result.case.settings,
-        "outcome": outcome(result),
-        "succeeded": result.succeeded(),
-        "correlation": report(&Report::from_case(result)?)?,
-        "published_iterations": published_iterations(result)?,
-        "element_numbers": result.case.panels.iter().map(|panel| panel.label).collect::<Value>(),
-        "test_gage_in": TEST_GAGE,
-        "first_gages_in": result.case.first_gages(),
-        "pass_gages_in": result.pass_gages,
-        "anomaly": result.anomaly,
-        "next_step": result.next_step,
-        "gage_errors": result.gage_errors(),
-    }))
+/// One iteration of an inner loop: its errors, halvings, factors and the limits that held them.
+pub fn iteration(iteration: &Iteration) -> Value {
+    json!({
+        "frequency_error": iteration.errors.frequency,
+        "shape_error": iteration.errors.shape,
+        "error_sum": iteration.errors.sum(),
+        "halvings": iteration.halvings,
+        "unlimited_factors": iteration.unlimited_factors,
+        "factors": iteration.factors,
+        "limits": iteration.limits,
+    })
 }
 
 /// The lowest `count` modes of a deck or of matrices, every shape scaled to a largest component of one; components in the order of

@@ -1,16 +1,12 @@
-//! The reader's view of results: tables as data and as text, Markdown or CSV, JSON, figures, and the report as one page.
+//! The reader's view of results: tables as data and as text, Markdown or CSV, JSON, and the report as one page.
 //!
-//! A [`report::Report`] is any correlation with all that a reader needs; [`tables::report`], [`figures::report`],
-//! [`json::report`] and [`page::report_page`] show it. The paper's cases and the delta wing are reports with more beside them.
+//! A [`report::Report`] is any correlation with all that a reader needs; [`tables::report`], [`json::report`],
+//! [`rows`] and [`page::report_page`] are views of it. The paper's cases are reports with more beside them, which `paper/presentation` shows.
 
 #[doc(hidden)]
-pub mod dump;
-#[doc(hidden)]
-pub mod figures;
+pub mod frame;
 #[doc(hidden)]
 pub mod json;
-#[doc(hidden)]
-pub mod overview;
 #[doc(hidden)]
 pub mod page;
 #[doc(hidden)]

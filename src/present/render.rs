@@ -5,7 +5,7 @@ use crate::files::test_data::quoted;
 use crate::files::{inert, one_line};
 
 /// Length of the longest line of text, characters.
-pub const WIDTH: usize = 100;
+pub const WIDTH: usize = 80;
 /// Blanks between two columns of text.
 const GAP: usize = 2;
 /// Least width of a column whose heading has several words: room for `Pass 1` in one line.
@@ -21,7 +21,9 @@ pub fn text(tables: &[Table]) -> String {
     let head = "Computed values; the paper's are in the rows marked \"published\".";
     paragraphs(tables, head, |table| {
         let notes = table.notes.iter().map(|note| wrapped(&one_line(note)));
-        let body = if table.has_sentences() {
+        let body = if table.rows.is_empty() {
+            Vec::new()
+        } else if table.has_sentences() {
             vec![list(table)]
         } else {
             grids(table)
@@ -264,7 +266,7 @@ fn wrapped(paragraph: &str) -> String {
 }
 
 /// Words in lines of at most a width; a word that is longer continues on the next line.
-pub(super) fn lines<'a>(words: impl IntoIterator<Item = &'a str>, width: usize) -> Vec<String> {
+pub fn lines<'a>(words: impl IntoIterator<Item = &'a str>, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in words {
         let letters: Vec<char> = word.chars().collect();

@@ -2,32 +2,27 @@
 
 use super::report::{Report, Stage};
 use crate::files::test_data::quoted;
-use crate::job::JobResult;
 use crate::method::error::Error;
 use crate::method::modes::Modes;
 use crate::weighted::comparison::ExactResult;
 use crate::weighted::identifiability::MOSTLY_PRIOR;
 use nalgebra::DVectorView;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// A row a parameter, `parameter,first,factor,deviation,low,high,test`: its first and its best factor, the standard deviation of this and
 /// the ends of its 95 % interval, empty where there is none, and what the test says of it: `seen`, `mostly prior`, `blind`, `at bound`, or
 /// `group` and the others that it does not tell from it.
-pub fn factor_rows(report: &Report, result: &JobResult) -> String {
-    let names: Vec<&str> = result.found.prepared.loaded.parameter_names().collect();
+pub fn factor_rows(report: &Report) -> String {
     let mut text = "parameter,first,factor,deviation,low,high,test\n".to_owned();
-    for (e, name) in names.iter().enumerate() {
-        let interval = result
-            .intervals
-            .get(e)
-            .and_then(|interval| interval.as_ref().ok());
+    for (e, (name, factor)) in report.parameters.iter().zip(report.factors()).enumerate() {
+        let interval = report.intervals.get(e).and_then(|it| it.as_ref().ok());
         let ends = interval.map_or(",".to_owned(), |ends| {
             format!("{},{}", ends.lower, ends.upper)
         });
-        let factor = result.found.factors[e];
         let deviation = report.deviations.as_ref().and_then(|all| all[e]);
         let deviation = deviation.map_or(String::new(), |deviation| deviation.to_string());
-        let said = quoted(&said_of(result, &names, e));
+        let said = quoted(&said_of(report, e, factor));
         let _ = writeln!(
             text,
             "{},1,{factor},{deviation},{ends},{said}",
@@ -38,20 +33,23 @@ pub fn factor_rows(report: &Report, result: &JobResult) -> String {
 }
 
 /// Words for a parameter as the test sees it.
-fn said_of(result: &JobResult, names: &[&str], e: usize) -> String {
-    let seen = &result.seen;
+fn said_of(report: &Report, e: usize, factor: f64) -> String {
+    let Some([_, seen]) = &report.seen else {
+        return String::new();
+    };
     let pairs = seen.parallel.iter().map(|&(a, b, _)| vec![a, b]);
     let groups = pairs.chain(seen.dependent.iter().cloned());
     let others = groups
         .filter(|group| group.contains(&e))
         .flatten()
         .filter(|&other| other != e);
-    let mut others: Vec<usize> = others.collect();
-    others.sort_unstable();
-    others.dedup();
-    let others: Vec<&str> = others.into_iter().map(|other| names[other]).collect();
+    let others: BTreeSet<usize> = others.collect();
+    let others = others
+        .into_iter()
+        .map(|other| &report.parameters[other][..]);
+    let others: Vec<&str> = others.collect();
     match () {
-        () if result.verdict.at_bound.contains(&e) => "at bound".to_owned(),
+        () if report.is_at_bound(e, factor) => "at bound".to_owned(),
         () if seen.blind.contains(&e) => "blind".to_owned(),
         () if !others.is_empty() => format!("group: {}", others.join(", ")),
         () if seen.learned[e] < MOSTLY_PRIOR => "mostly prior".to_owned(),

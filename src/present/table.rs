@@ -216,6 +216,18 @@ impl Table {
         self
     }
 
+    /// The table with only the columns of these names, in their order.
+    pub fn only(mut self, names: &[&str]) -> Self {
+        let columns = &self.columns;
+        let place = |name: &&str| columns.iter().position(|column| column.name == **name);
+        let kept: Vec<usize> = names.iter().filter_map(place).collect();
+        for row in &mut self.rows {
+            row.cells = kept.iter().map(|&at| row.cells[at].clone()).collect();
+        }
+        self.columns = kept.iter().map(|&at| self.columns[at].clone()).collect();
+        self
+    }
+
     /// The table with more sentences under it.
     pub fn notes<S: Into<String>>(mut self, sentences: impl IntoIterator<Item = S>) -> Self {
         self.notes.extend(sentences.into_iter().map(Into::into));

@@ -1,7 +1,6 @@
 //! The verdict on a correlation in words.
 
 use crate::job::verdict::{Outcome, Stationary, Verdict};
-use crate::torque_box::CaseResult;
 use crate::weighted::lower_place::PLACES;
 
 /// The verdict in sentences, with the parameters' names and the numbers of the test modes; places from one stand for those that
@@ -81,36 +80,6 @@ pub fn verdict_in_words(
                 " Try other parameters or groups, or look at how the elements of the worst mode are modeled."
             }
         };
-    }
-    words
-}
-
-/// [`verdict_in_words`] on a case, with the parameters that its test cannot tell apart, and the change that a weighted step would
-/// still make.
-pub(crate) fn case_in_words(result: &CaseResult) -> String {
-    let names = &result.parameter_names;
-    let mut words = verdict_in_words(&Verdict::of_case(result), None, names, &[]);
-    let Some(next) = &result.next_step else {
-        return words;
-    };
-    let pairs = next.seen.parallel.iter();
-    let pairs: Vec<String> = pairs
-        .map(|&(a, b, _)| format!("{} and {}", names[a], names[b]))
-        .collect();
-    let moved = next.moved().into_iter();
-    let moved: Vec<String> = moved
-        .map(|(e, size)| format!("{} by {size:.1}", names[e]))
-        .collect();
-    let step = format!(
-        "In standard deviations of a test with errors of {} % in frequencies and {} % in shapes, one weighted step from here would \
-         still move",
-        100.0 * next.noise.frequency,
-        100.0 * next.noise.shape,
-    );
-    for (start, list) in [("The test cannot tell apart:", pairs), (&step, moved)] {
-        if !list.is_empty() {
-            words += &format!(" {start} {}.", list.join(", "));
-        }
     }
     words
 }

@@ -1,12 +1,13 @@
 //! `corfem cases`: the paper's cases.
 
 use super::output::{OutputArguments, note, reconstruction};
+use super::paper::{json, overview::overview, tables};
 use super::progress;
 use super::settings::SettingsArguments;
 use clap::Args;
 use corfem::method::error::Error;
+use corfem::present::PresentError;
 use corfem::present::table::counted;
-use corfem::present::{PresentError, json, overview::overview, tables};
 use corfem::torque_box::wing_box::Reconstruction;
 use corfem::torque_box::{CASES, Case, CaseResult, Grouping, run_case};
 use std::path::PathBuf;

@@ -17,9 +17,12 @@ use corfem::present::report::Report;
 use corfem::present::table::Table;
 use corfem::present::tables::deck::not_read;
 use corfem::present::tables::job::{
-    inputs_table, minima_table, places_table, seen_table, suspects_table, trust_table,
+    doubts_and_remarks, inputs_table, places_table, suspects_table, trust_table,
 };
-use corfem::present::tables::report::{factor_table, history_table, paired_table};
+use corfem::present::tables::report::{
+    BRIEF_FACTORS, BRIEF_MODES, answer_table, factor_table, history_table, minima_table,
+    paired_table,
+};
 use corfem::present::universal::universal;
 use corfem::present::{PresentError, json, rows};
 use serde_json::json;
@@ -171,28 +174,33 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
     let (stop, _postponed) = signals::postpone_first();
     let (prepared, result) = corrected(arguments, quiet, stop)?;
     let report = Report::from_job(&prepared, Some(&result))?;
-    // The verdict stands under the history, at the end.
-    let [paired, factors, history] = [
-        paired_table(&report)?,
-        factor_table(&report),
-        history_table(&report),
+    let (paired, factors) = (paired_table(&report)?, factor_table(&report));
+    let [doubts, remarks] = doubts_and_remarks(&result.trust);
+    let last = || {
+        let minima = minima_table(&report).into_iter();
+        minima.chain([history_table(&report)])
+    };
+    // A terminal has the answer first, and no room for every column.
+    let brief = [
+        answer_table(&report),
+        doubts,
+        factors.clone().only(&BRIEF_FACTORS),
+        paired.clone().only(&BRIEF_MODES),
+        remarks,
     ];
-    let trust = trust_table(&result.trust);
-    let seen = seen_table(&result);
-    let minima = minima_table(&report);
-    let head = [trust, paired, factors, seen.clone()].into_iter();
-    let tables: Vec<Table> = head.chain(minima.clone()).chain([history]).collect();
+    let brief: Vec<Table> = brief.into_iter().chain(last()).collect();
+    let all = [trust_table(&result.trust), factors, paired].into_iter();
+    let all: Vec<Table> = all.chain(last()).collect();
     let document = || json::own_document(json::report(&report)?);
-    arguments.output.write(&tables, document)?;
+    arguments.output.write_in_brief(&brief, &all, document)?;
     if let Some(folder) = &arguments.folder {
         let places = [
             places_table(&prepared.loaded, Some(&result))?,
             inputs_table(&prepared),
         ];
-        let extra: Vec<Table> = [seen].into_iter().chain(minima).chain(places).collect();
         let page = report_page(
             &report,
-            &extra,
+            &places,
             &command(arguments),
             &prepared.loaded.job.text,
         )?;
@@ -200,7 +208,7 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
             ("report.html".to_owned(), page.into_bytes()),
             (
                 "factors.csv".to_owned(),
-                rows::factor_rows(&report, &result).into_bytes(),
+                rows::factor_rows(&report).into_bytes(),
             ),
             (
                 "shapes.csv".to_owned(),

@@ -6,6 +6,8 @@ mod example;
 mod folder;
 mod job;
 mod output;
+#[path = "../../paper/presentation/mod.rs"]
+mod paper;
 mod pictures;
 mod place;
 mod progress;

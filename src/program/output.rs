@@ -22,7 +22,7 @@ pub struct OutputArguments {
 
 #[derive(Debug, Clone, Copy, Default, PartialEq, ValueEnum)]
 enum FormatArgument {
-    /// Tables for a terminal, 100 columns wide
+    /// Tables for a terminal, 80 columns wide
     #[default]
     Text,
     /// Tables in Markdown
@@ -45,11 +45,21 @@ impl OutputArguments {
         tables: &[Table],
         json: impl FnOnce() -> Result<String, PresentError>,
     ) -> Result<(), PresentError> {
+        self.write_in_brief(tables, tables, json)
+    }
+
+    /// As [`Self::write`], with other tables for a reader than for a script.
+    pub fn write_in_brief(
+        &self,
+        brief: &[Table],
+        all: &[Table],
+        json: impl FnOnce() -> Result<String, PresentError>,
+    ) -> Result<(), PresentError> {
         let report = match self.format {
-            FormatArgument::Text => render::text(tables),
-            FormatArgument::Markdown => render::markdown(tables),
+            FormatArgument::Text => render::text(brief),
+            FormatArgument::Markdown => render::markdown(brief),
             FormatArgument::Json => json()?,
-            FormatArgument::Csv => render::csv(tables),
+            FormatArgument::Csv => render::csv(all),
         };
         self.write_text(&report)
     }

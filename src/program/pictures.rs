@@ -2,12 +2,12 @@
 
 use super::folder::write_files;
 use super::output::note;
+use super::paper::dump::dump as open;
+use super::paper::figures::{Figure, case_figures, comparison_figures};
+use super::paper::page::{Contents, page};
 use super::place::write_report;
 use clap::Args;
 use corfem::present::PresentError;
-use corfem::present::dump::dump as open;
-use corfem::present::figures::{Figure, case_figures, comparison_figures};
-use corfem::present::page::{Contents, page};
 use corfem::present::table::counted;
 use corfem::torque_box::fewer_modes::{FewerModesRun, PUBLISHED_CASE, all_runs};
 use corfem::torque_box::{CASES, Case, CaseResult, run_case};

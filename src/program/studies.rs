@@ -1,10 +1,11 @@
 //! `corfem tables` and `fewer-modes`.
 
 use super::output::OutputArguments;
+use super::paper::tables;
 use super::progress::during;
 use super::settings::SettingsArguments;
 use clap::Args;
-use corfem::present::{PresentError, json, tables};
+use corfem::present::{PresentError, json};
 use corfem::torque_box::Case;
 use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, all_runs, published_runs};
 use serde_json::json;

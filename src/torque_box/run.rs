@@ -82,7 +82,7 @@ impl CaseResult {
 
     /// True if the run is that of the paper's Case 4: a single iteration that is to detect a modeling error, and corrects
     /// nothing.
-    pub(crate) fn is_detection(&self) -> bool {
+    pub fn is_detection(&self) -> bool {
         (self.case.number, self.case.settings.inner.iterations) == (4, 1)
     }
 

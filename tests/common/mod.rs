@@ -1,5 +1,6 @@
 //! What the tests share: the ledger of tolerances, the strategies, and small structures.
 
+pub mod presentation;
 #[macro_use]
 pub mod properties;
 

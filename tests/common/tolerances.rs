@@ -329,3 +329,6 @@ pub const EXACT_SLOPES: f64 = 2e-3;
 pub const STATIONARY: f64 = 1e-5;
 /// Error of slopes, relative to them: it moves a stop by as much times the root of chi-squared, in deviations.
 pub const SLOPES_TOLD: f64 = 1e-6;
+/// Places on a page, of the largest extent: motions are written in thousandths and drawn an eighth of it long, places to four digits and
+/// heights up to seven times as long.
+pub const DRAWN_THOUSANDTHS: f64 = 0.125 * 0.5e-3 + 7.0 * 0.5e-4 + 1e-9;

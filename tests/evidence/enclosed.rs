@@ -5,13 +5,13 @@
 //! of 1e-40 in its place. Its iterations, halvings and pairs are those of the enclosure, of which no decision hangs on less than 4e-4.
 
 use crate::common::tolerances::{CHAIN_ROUND_OFF, NEAREST_DECISION, ROUND_OFF};
+use crate::paper::tables::cases::{frequency_table, gage_table};
 use corfem::method::analysis::State;
 use corfem::method::modes::Modes;
 use corfem::method::outer_loop::{Correlation, Settings, correlate};
 use corfem::method::step::StepRule;
 use corfem::method::structure::ElementKind;
 use corfem::present::table::{Cell, Table};
-use corfem::present::tables::cases::{frequency_table, gage_table};
 use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, PUBLISHED_RUNS};
 use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE, rms};
 use corfem::torque_box::{CASES, Case, run_case};

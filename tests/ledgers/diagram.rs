@@ -1,24 +1,10 @@
 //! Diagrams of documents: a few series over two axes, drawn as the report's figures are.
 
-#[path = "../../src/present/figures/canvas.rs"]
-#[allow(
-    dead_code,
-    unused_imports,
-    reason = "the report's figures use the rest"
-)]
-mod canvas;
-#[path = "../../src/present/figures/chart.rs"]
-mod chart;
-#[path = "../../src/present/figures/colors.rs"]
-#[allow(dead_code, reason = "the report's figures use the rest")]
-mod colors;
-
-use canvas::{
+use crate::paper::figures::canvas::{
     Area, BLUE, Dash, Drawn, Form, GRAY, INK, KEY, Mark, Named, ORANGE, Pen, SKY, VERMILION, axes,
     chart, line, mark, name_ends, name_upright, placed, rectangle, svg,
 };
-use chart::Chart;
-use corfem::files::escaped;
+use crate::paper::figures::chart::Chart;
 use corfem::present::PresentError;
 use plotters::coord::ranged1d::ValueFormatter;
 use plotters::prelude::*;

@@ -946,9 +946,9 @@ fn real_test() -> [(&'static str, String); 2] {
                 |name| {
                     let of = |column, digits| computed("garteur_seen", name, column, digits);
                     vec![
-                        of("factor", 2),
-                        of("deviation before", 0),
-                        of("deviation", 0),
+                        of("Factor", 2),
+                        of("Deviation before", 0),
+                        of("Deviation", 0),
                     ]
                 },
             ),

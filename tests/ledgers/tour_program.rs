@@ -1,6 +1,6 @@
 //! A program in another language, written from the text of the tour alone, against the cases.
 
-use corfem::present::dump::dump;
+use crate::paper::dump::dump;
 use corfem::torque_box::Case;
 use std::io::Write;
 use std::path::Path;

@@ -3,16 +3,19 @@
 use crate::common::jobs::{loaded, worked};
 use crate::common::tolerances::{CENTRAL_DIFFERENCE_FREQUENCY, MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::wing_subjects::wing_subjects;
+use crate::paper::figures::error_history::error_history;
+use crate::paper::figures::mode_shapes::panel_parts;
+use crate::paper::figures::report::{derivatives, mode_agreement};
+use crate::paper::figures::{Figure, report_figures};
+use crate::paper::figures::{case_figures, comparison_figures};
+use crate::paper::report::case_report;
+use crate::paper::tables::cases::{frequency_table, iteration_table};
+use crate::paper::tables::unlimited::{ANOMALY, unlimited_factors, unlimited_table};
 use approx::assert_relative_eq;
 use corfem::method::step::StepRule;
-use corfem::present::figures::error_history::error_history;
-use corfem::present::figures::mode_shapes::DrawnModes;
-use corfem::present::figures::report::{derivatives, mode_agreement};
-use corfem::present::figures::{Figure, case_figures, comparison_figures, report_figures};
+use corfem::present::frame::DrawnModes;
 use corfem::present::report::Report;
 use corfem::present::table::{Cell, Column, Table};
-use corfem::present::tables::cases::{frequency_table, iteration_table};
-use corfem::present::tables::unlimited::{ANOMALY, unlimited_factors, unlimited_table};
 use corfem::torque_box::fewer_modes::{FewerModesRun, PUBLISHED_CASE, all_runs};
 use corfem::torque_box::{CASES, Case, CaseResult, run_case};
 use corfem::weighted::comparison::ExactResult;
@@ -99,7 +102,7 @@ fn cell(table: &Table, row: &str, column: &str, unit: &str) -> (f64, Option<f64>
 fn error_histories_begin_and_end_with_the_tables_and_count_as_table_13() {
     let counts = iteration_table(results()).expect("it reads");
     for result in &results()[..3] {
-        let data = error_history(&Report::from_case(result).expect("a subject"));
+        let data = error_history(&case_report(result).expect("a subject"));
         let table = frequency_table(result).expect("it reads");
         let case = result.case.number.to_string();
         assert_eq!(data.len(), result.correlation.passes.len());
@@ -146,7 +149,7 @@ fn error_histories_begin_and_end_with_the_tables_and_count_as_table_13() {
 #[test]
 fn drawn_modes_are_those_of_the_tables() {
     for result in &results()[..3] {
-        let subject = Report::from_case(result).expect("a subject");
+        let subject = case_report(result).expect("a subject");
         let modes = DrawnModes::from_report(&subject)
             .expect("nine points")
             .expect("places");
@@ -178,7 +181,7 @@ fn drawn_modes_are_those_of_the_tables() {
             }
         }
         // The first bending mode moves everything one way; the color of every part is that of its place.
-        let parts = modes.frame.parts(&Vector3::z(), &modes.modes[0].moved[0]);
+        let parts = panel_parts(&modes.frame, &Vector3::z(), &modes.modes[0].moved[0]);
         let sign = parts[0].1.signum();
         assert!(
             parts
@@ -192,7 +195,7 @@ fn drawn_modes_are_those_of_the_tables() {
 fn mode_agreement_is_complete_before_and_nearly_the_identity_after() {
     for result in &results()[..3] {
         let masses = &result.case.reconstruction.masses;
-        let subject = Report::from_case(result).expect("a subject");
+        let subject = case_report(result).expect("a subject");
         let initial = ExactResult::from(&result.correlation.initial);
         let checks = [&initial, subject.corrected()];
         let maps = mode_agreement(&subject).expect("shapes fit");
@@ -235,8 +238,7 @@ fn mode_agreement_is_complete_before_and_nearly_the_identity_after() {
 #[test]
 fn derivatives_are_central_differences_and_give_the_factors_of_the_table() {
     for result in results() {
-        let maps =
-            derivatives(&Report::from_case(result).expect("a subject")).expect("they were taken");
+        let maps = derivatives(&case_report(result).expect("a subject")).expect("they were taken");
         let values = maps
             .each_ref()
             .map(|map| map.values.map(|value| value.expect("a cell")));

@@ -1,11 +1,11 @@
 //! Axes and numbers of the figures on other data than the four cases': what holds them, and how they are written.
 
 use crate::common::drawings::words;
+use crate::paper::figures::cover_gages::draw;
+use crate::paper::figures::error_history::{self, PassHistory, error_history};
+use crate::paper::figures::factors::{DrawnFactor, Factors};
+use crate::paper::report::case_report;
 use crate::presentation::figures::results;
-use corfem::present::figures::cover_gages::draw;
-use corfem::present::figures::error_history::{self, PassHistory, error_history};
-use corfem::present::figures::factors::{DrawnFactor, Factors};
-use corfem::present::report::Report;
 use corfem::torque_box::Case;
 
 #[test]
@@ -31,7 +31,7 @@ fn thin_gages_are_written_with_the_decimals_they_need() {
 #[test]
 fn error_axis_ends_at_the_ticks_around_the_errors() {
     let result = &results()[0];
-    let history = error_history(&Report::from_case(result).expect("a subject"));
+    let history = error_history(&case_report(result).expect("a subject"));
     let ticks = |history: &[PassHistory]| -> Vec<f64> {
         let said = words(&error_history::draw("errors", "errors", history).expect("drawn"));
         // Numbers of the iterations are whole and follow one another; those of the errors are 1, 2 and 5 times tens.

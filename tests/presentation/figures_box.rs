@@ -2,10 +2,10 @@
 
 use crate::common::drawings::{words, written};
 use crate::common::tolerances::MATRIX_ROUND_OFF;
+use crate::paper::figures::box_elements::Layer;
+use crate::paper::figures::cover_gages::draw;
+use crate::paper::report::case_report;
 use crate::presentation::figures::results;
-use corfem::present::figures::box_elements::Layer;
-use corfem::present::figures::cover_gages::draw;
-use corfem::present::report::Report;
 use corfem::torque_box::Case;
 use corfem::torque_box::published::PublishedTable;
 use nalgebra::DVector;
@@ -14,7 +14,7 @@ use nalgebra::DVector;
 fn box_points_are_the_grids_and_where_the_load_distribution_acts() {
     let case = &results()[0].case;
     let model = case.model().expect("a model");
-    let subject = Report::from_case(&results()[0])
+    let subject = case_report(&results()[0])
         .expect("a subject")
         .with_structure(model.structure());
     let numbers: Vec<usize> = subject.grids.iter().map(|(label, _)| *label).collect();

@@ -1,9 +1,9 @@
 //! The data of the figure of fewer modes are what its tables say.
 
+use crate::paper::figures::comparisons::truncation;
+use crate::paper::tables::fewer_modes::truncation_tables;
 use crate::presentation::figures::fewer_modes_runs;
-use corfem::present::figures::comparisons::truncation;
 use corfem::present::table::{Cell, Table};
-use corfem::present::tables::fewer_modes::truncation_tables;
 use corfem::torque_box::fewer_modes::FewerModesRun;
 
 fn named<'a>(tables: &'a [Table], name: &str) -> &'a Table {

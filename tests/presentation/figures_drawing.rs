@@ -5,8 +5,8 @@ use crate::common::golden::Numbers;
 use crate::ledgers::counted_figures::counted_figures;
 use crate::ledgers::diagram::Diagram;
 use crate::ledgers::tour_figures;
+use crate::paper::figures::Figure;
 use crate::presentation::figures::{all_figures, draw_all, figures, job_figures};
-use corfem::present::figures::Figure;
 
 #[test]
 fn figures_of_a_run_in_the_order_of_the_report() {

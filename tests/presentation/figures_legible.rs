@@ -3,12 +3,14 @@
 
 use crate::common::drawings::{words, written};
 use crate::common::jobs::building;
+use crate::paper::figures::matrices::{HeatMap, draw_by_twos};
+use crate::paper::figures::mode_shapes;
+use crate::paper::figures::{Figure, report_figures};
+use crate::paper::report::case_report;
 use crate::presentation::figures::{all_figures, job_figures, results};
 use crate::presentation::subject::chain;
 use crate::readers::job_prepared::prepared;
-use corfem::present::figures::matrices::{HeatMap, draw_by_twos};
-use corfem::present::figures::mode_shapes::DrawnModes;
-use corfem::present::figures::{Figure, report_figures};
+use corfem::present::frame::DrawnModes;
 use corfem::present::report::Report;
 use nalgebra::{DMatrix, Vector3};
 use std::collections::BTreeSet;
@@ -90,7 +92,7 @@ fn digits_have_a_contrast_of_four_and_a_half_on_every_color_of_a_cell() {
 #[test]
 fn colors_of_a_shape_stay_out_of_the_strip_between_root_and_first_rib() {
     for result in &results()[..3] {
-        let subject = Report::from_case(result).expect("a subject");
+        let subject = case_report(result).expect("a subject");
         let modes = DrawnModes::from_report(&subject)
             .expect("nine points")
             .expect("places");
@@ -143,7 +145,7 @@ fn each_state_is_seen_where_all_three_lie_on_each_other() {
     let modes = DrawnModes::from_report(&chain)
         .expect("fits")
         .expect("places");
-    let svg = modes.draw("modes", "Modes").expect("drawn");
+    let svg = mode_shapes::draw(&modes, "modes", "Modes").expect("drawn");
     // Lines of the legend, from the one below to the one above.
     let lines = svg
         .split("<polyline")
@@ -224,9 +226,9 @@ const PROMISES: [(&str, &str); 11] = [
 
 #[test]
 fn captions_promise_nothing_that_is_not_drawn() {
-    // Sensors of matrices are joined by lines.
+    // Grids of matrices are joined where their stiffness couples them.
     let report = Report::from_job(&prepared(&building()), None).expect("a report");
-    assert_eq!(report.frame.len() + 1, report.sensors.len());
+    assert_eq!(report.frame.len() + 1, report.grids.len());
     let chain = chain("rod", &[0.9, 1.1, 0.95, 1.0], |row| {
         (Vector3::new(row as f64, 0.0, 0.0), Vector3::z())
     });

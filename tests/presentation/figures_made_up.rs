@@ -3,11 +3,11 @@
 
 use crate::common::drawings::words;
 use crate::common::golden::{Numbers, assert_golden};
+use crate::paper::figures::error_history::{self, PassHistory};
+use crate::paper::figures::factors::{DrawnFactor, Factors};
+use crate::paper::figures::matrices::{HeatMap, draw_by_twos};
 use corfem::method::error_sum::Errors;
 use corfem::method::step::Bounds;
-use corfem::present::figures::error_history::{self, PassHistory};
-use corfem::present::figures::factors::{DrawnFactor, Factors};
-use corfem::present::figures::matrices::{HeatMap, draw_by_twos};
 use nalgebra::DMatrix;
 
 fn factor(name: &str, value: f64) -> DrawnFactor {

@@ -3,9 +3,10 @@
 use super::subject::chain;
 use crate::common::drawings::{Written, words, written};
 use crate::common::golden::{Numbers, assert_golden};
-use corfem::present::figures::frame::Frame;
-use corfem::present::figures::mode_shapes::{DrawnMode, DrawnModes};
-use corfem::present::figures::structure::draw_structure;
+use crate::paper::figures::mode_shapes;
+use crate::paper::figures::structure::draw_structure;
+use corfem::present::frame::Frame;
+use corfem::present::frame::{DrawnMode, DrawnModes};
 use corfem::present::report::{Report, SensorPoint};
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -230,6 +231,7 @@ fn frame(nodes: [Vector3<f64>; 4], lines: Vec<Vec<usize>>) -> Frame {
         nodes: nodes.to_vec(),
         lines,
         panels: Vec::new(),
+        pieces: Vec::new(),
         known,
         grids: vec![None; 4],
     }
@@ -255,7 +257,7 @@ fn modes_are_drawn_in_their_plane_in_depth_and_as_marks() {
     });
     assert_golden(
         "drawing_modes_in_plane",
-        &in_plane.draw("modes", "Modes").expect("drawn"),
+        &mode_shapes::draw(&in_plane, "modes", "Modes").expect("drawn"),
         Numbers::DRAWN,
     );
     let in_depth = modes(frame(deep, lines()), |row| {
@@ -263,7 +265,7 @@ fn modes_are_drawn_in_their_plane_in_depth_and_as_marks() {
     });
     assert_golden(
         "drawing_modes_in_depth",
-        &in_depth.draw("modes", "Modes").expect("drawn"),
+        &mode_shapes::draw(&in_depth, "modes", "Modes").expect("drawn"),
         Numbers::DRAWN,
     );
     // Out of a plane that is flat but for round-off no depth is exaggerated.
@@ -278,7 +280,7 @@ fn modes_are_drawn_in_their_plane_in_depth_and_as_marks() {
         let modes = modes(frame(nodes, lines()), |row| {
             at(0.0, 0.1 * (row as f64).cos(), (row as f64).sin())
         });
-        modes.draw("modes", "Modes").expect("drawn")
+        mode_shapes::draw(&modes, "modes", "Modes").expect("drawn")
     });
     assert!(Numbers::DRAWN.agree(&bent, &even));
     let marks = modes(frame(deep, Vec::new()), |row| {
@@ -286,7 +288,7 @@ fn modes_are_drawn_in_their_plane_in_depth_and_as_marks() {
     });
     assert_golden(
         "drawing_modes_as_marks",
-        &marks.draw("modes", "Modes").expect("drawn"),
+        &mode_shapes::draw(&marks, "modes", "Modes").expect("drawn"),
         Numbers::DRAWN,
     );
 }

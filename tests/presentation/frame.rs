@@ -2,7 +2,8 @@
 
 use super::subject::chain;
 use crate::common::tolerances::INTERPOLATED;
-use corfem::present::figures::frame::Frame;
+use crate::paper::figures::mode_shapes::panel_parts;
+use corfem::present::frame::Frame;
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
@@ -46,7 +47,7 @@ properties! {
         let plane = |at: Vector3<f64>| at.x - zero + tilt * (at.y - 0.5);
         let shape: Vec<f64> = (0..8).map(|row| plane(at((row / 2) as f64, (row % 2) as f64))).collect();
         let largest = shape.iter().fold(0.0, |most: f64, w| most.max(w.abs()));
-        let parts = frame.parts(&Vector3::z(), &frame.moved(&shape, None));
+        let parts = panel_parts(&frame, &Vector3::z(), &frame.moved(&shape, None));
         let mut area = 0.0;
         for (corners, motion) in &parts {
             let middle = corners.iter().sum::<Vector3<f64>>() / corners.len() as f64;
@@ -69,6 +70,7 @@ fn of_places(nodes: Vec<Vector3<f64>>, sensors: &[Vector3<f64>], panels: Vec<Vec
         lines: Vec::new(),
         nodes,
         panels,
+        pieces: Vec::new(),
         known,
     }
 }

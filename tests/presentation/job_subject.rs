@@ -8,6 +8,7 @@ use crate::common::known::planted;
 use crate::common::known::wing::Wing;
 use crate::common::tolerances::{CENTRAL_DIFFERENCE_GRADIENT, ROUND_OFF};
 use crate::common::whole_models::of_dense;
+use crate::paper::report::case_report;
 use crate::presentation::figures::{results, wings};
 use crate::readers::job_errors::{placed, with};
 use crate::readers::job_prepared::prepared;
@@ -257,7 +258,7 @@ fn suspects_have_their_own_unlimited_factors() {
 #[test]
 fn a_case_and_both_wings_have_the_bounds_and_the_places_of_their_models() {
     let result = &results()[1];
-    let subject = Report::from_case(result).expect("a subject");
+    let subject = case_report(result).expect("a subject");
     assert_eq!(
         subject.ranges,
         result

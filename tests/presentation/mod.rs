@@ -15,6 +15,7 @@ pub mod figures_structure;
 pub mod frame;
 pub mod job_subject;
 pub mod matrix_tables;
+pub mod moving;
 pub mod noisy_tables;
 pub mod page;
 pub mod play;

@@ -1,11 +1,12 @@
 //! The report as one page: every table and figure in it, nothing needed beside it.
 
+use crate::paper::figures::Figure;
+use crate::paper::page::{Contents, page};
+use crate::paper::tables::cases::{all_tables, frequency_table, summary};
+use crate::paper::tables::fewer_modes::{published_tables, truncation_tables};
 use crate::presentation::figures::{fewer_modes_runs, figures, results};
-use corfem::present::figures::Figure;
-use corfem::present::page::{Contents, page};
+use crate::presentation::subject::is_well_formed;
 use corfem::present::table::{Cell, Table};
-use corfem::present::tables::cases::{all_tables, frequency_table, summary};
-use corfem::present::tables::fewer_modes::{published_tables, truncation_tables};
 use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, published_runs};
 use corfem::torque_box::{Case, CaseResult};
 
@@ -234,25 +235,7 @@ fn every_link_leads_somewhere_and_every_tag_is_closed() {
         let id = link.split('"').next().expect("an id");
         assert_eq!(html.matches(&format!(" id=\"{id}\"")).count(), 1, "{id}");
     }
-    let mut open: Vec<&str> = Vec::new();
-    // The script and its style hold no tags of the page.
-    let (before, script) = html
-        .split_once("<script>")
-        .expect("the figure to play with");
-    let after = script.split_once("</script>").expect("its end").1;
-    for tag in [before, after]
-        .into_iter()
-        .flat_map(|text| text.split('<').skip(1))
-    {
-        let tag = tag.split('>').next().expect("a tag");
-        let name = tag.split([' ', '\n']).next().expect("a name");
-        if let Some(closed) = name.strip_prefix('/') {
-            assert_eq!(open.pop(), Some(closed));
-        } else if !tag.ends_with('/') && !["!DOCTYPE", "meta", "br", "input"].contains(&name) {
-            open.push(name);
-        }
-    }
-    assert!(open.is_empty(), "{open:?}");
+    assert!(is_well_formed(&html));
 }
 
 #[test]

@@ -4,10 +4,10 @@ use crate::common::draws::Draws;
 use crate::common::golden::Numbers;
 use crate::common::loops::exact_state;
 use crate::common::tolerances::PLAYED;
+use crate::paper::page::play::play;
 use crate::presentation::figures::results;
 use corfem::method::analysis::State;
 use corfem::method::step::Accumulation;
-use corfem::present::page::play;
 use serde_json::{Value, json};
 use std::process::Command;
 

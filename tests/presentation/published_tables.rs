@@ -1,9 +1,9 @@
 //! The paper's tables as printed: every cell of the files, and the CPU seconds among them.
 
+use crate::paper::tables::paper_tables;
+use crate::paper::tables::published::published_table;
 use corfem::present::render::{csv, text};
 use corfem::present::table::Cell;
-use corfem::present::tables::paper_tables;
-use corfem::present::tables::published::published_table;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;

@@ -6,6 +6,7 @@ use crate::common::known::delta_wing::DeltaWing;
 use crate::common::known::delta_wing::correlation::correlate_wing;
 use crate::common::structures::spring_stiffness;
 use crate::common::wing_subjects::wing_subject;
+use crate::paper::figures::{Figure, report_figures};
 use corfem::job::verdict::Judged;
 use corfem::method::error_sum::{Errors, mode_errors};
 use corfem::method::model::DynamicModel;
@@ -13,12 +14,11 @@ use corfem::method::modes::{Modes, solve};
 use corfem::method::outer_loop::{Settings, correlate};
 use corfem::method::sorting::Pairing;
 use corfem::method::step::Bounds;
-use corfem::present::figures::{Figure, report_figures};
 use corfem::present::json;
 use corfem::present::page::report_page;
 use corfem::present::render::{WIDTH, csv, text};
 use corfem::present::report::{Derivatives, Report, SensorPoint};
-use corfem::present::table::{Cell, Table};
+use corfem::present::table::{Cell, Digits, Table};
 use corfem::present::tables::report::{
     derivative_table, factor_table, history_table, paired_table,
 };
@@ -122,9 +122,18 @@ fn subject_tables(subject: &Report) -> Vec<Table> {
     ]
 }
 
+/// The document without its scripts, which hold no tags of it.
+pub fn without_scripts(html: &str) -> String {
+    let (first, rest) = html.split_once("<script>").unwrap_or((html, ""));
+    let rest = rest.split("<script>");
+    let behind = rest.filter_map(|part| part.split_once("</script>"));
+    first.to_owned() + &behind.map(|(_, behind)| behind).collect::<String>()
+}
+
 /// Whether every tag of a document is closed in its order and every `&` begins an entity.
-fn is_well_formed(xml: &str) -> bool {
+pub fn is_well_formed(xml: &str) -> bool {
     let mut open: Vec<&str> = Vec::new();
+    let xml = without_scripts(xml);
     for tag in xml.split('<').skip(1) {
         let Some((tag, words)) = tag.split_once('>') else {
             return false;
@@ -137,7 +146,7 @@ fn is_well_formed(xml: &str) -> bool {
             if open.pop() != Some(name) {
                 return false;
             }
-        } else if !tag.ends_with('/') && !["!DOCTYPE", "meta", "br"].contains(&name) {
+        } else if !tag.ends_with('/') && !["!DOCTYPE", "meta", "br", "input"].contains(&name) {
             open.push(name);
         }
         let is_entity = |after: &str| after.chars().take(7).any(|letter| letter == ';');
@@ -315,24 +324,115 @@ fn pairs_are_marked_by_the_usual_limits_of_cross_orthogonality() {
 fn a_factor_at_its_bound_says_so_and_one_within_does_not() {
     let subject = chain("rod", &[0.5, 1.0, 1.0, 1.0], along);
     let table = factor_table(&subject);
-    let remark = |row: usize| table.rows[row].cells[4].computed();
+    let column = |name: &str| {
+        let mut columns = table.columns.iter();
+        columns
+            .position(|column| column.name == name)
+            .expect("the column")
+    };
+    let cell = |e: usize, name: &str| {
+        let mut rows = table.rows.iter();
+        let row = rows
+            .find(|row| row.label == subject.parameters[e])
+            .expect("a row");
+        row.cells[column(name)].computed()
+    };
     assert_eq!(
-        (remark(0).as_str(), subject.factors()[0]),
+        (cell(0, "Remark").as_str(), subject.factors()[0]),
         ("at bound", 1.4)
     );
     for (e, factor) in subject.factors().into_iter().enumerate().skip(1) {
         assert_eq!(
-            remark(e).contains("at bound"),
+            cell(e, "Remark").contains("at bound"),
             subject.is_at_bound(e, factor)
         );
     }
-    assert_eq!(table.rows[2].cells[1].computed(), "0.020");
-    assert_eq!(table.columns.len(), 5);
+    let percent = 100.0 * 0.02 / subject.factors()[2];
+    assert_eq!(cell(2, "Deviation"), Digits::Significant(3).write(percent));
     let without = Report {
         deviations: None,
-        ..subject
+        ..subject.clone()
     };
-    assert_eq!(factor_table(&without).columns.len(), 4);
+    let columns = factor_table(&without).columns;
+    assert!(columns.iter().all(|column| column.name != "Deviation"));
+}
+
+/// The surest change stands first: by deviations where they are known, else by size.
+#[test]
+fn factors_stand_in_the_order_of_how_sure_their_changes_are() {
+    let subject = chain("rod", &[0.9, 1.1, 0.95, 1.0], along);
+    for deviations in [
+        None,
+        Some(vec![Some(0.9), Some(0.01), Some(0.02), Some(0.5)]),
+    ] {
+        let subject = Report {
+            deviations,
+            ..subject.clone()
+        };
+        let sure = |e: usize| {
+            let change = subject.factors()[e].ln().abs();
+            change / subject.log_deviation(e).unwrap_or(1.0)
+        };
+        let order = subject.by_sureness();
+        let key = |e: usize| (subject.is_unseen(e), -sure(e));
+        assert!(order.is_sorted_by(|&a, &b| key(a) <= key(b)));
+        let table = factor_table(&subject);
+        let labels: Vec<&String> = table.rows.iter().map(|row| &row.label).collect();
+        let expected: Vec<&String> = order.iter().map(|&e| &subject.parameters[e]).collect();
+        assert_eq!(labels, expected);
+    }
+}
+
+/// What stands against it first, then the errors, the surest changes, and what is known.
+#[test]
+fn the_answer_says_what_is_sure_and_no_more() {
+    let subject = chain("rod", &[0.9, 1.1, 0.95, 1.0], along);
+    let of = |deviations: Option<Vec<Option<f64>>>| {
+        let subject = Report {
+            deviations,
+            ..subject.clone()
+        };
+        subject.answer()
+    };
+    let [first, last] = [&subject.initial, subject.corrected()].map(|check| check.errors);
+    let errors = format!(
+        "Frequency error {:.2} → {:.2} %, shape error {:.2} → {:.2} %; ",
+        100.0 * first.frequency_rms(),
+        100.0 * last.frequency_rms(),
+        100.0 * first.shape_rms(),
+        100.0 * last.shape_rms()
+    );
+    let surest = |deviations: Option<Vec<Option<f64>>>| of(deviations).replace(&errors, "");
+    // A tenth of every factor is nothing sure, a thousandth is, and where none is known only the errors and changes are told.
+    assert_eq!(
+        surest(Some(vec![Some(0.1); 4])),
+        "no factor surely changed; 0 of 4 factors known within 5 %."
+    );
+    let sure = surest(Some(vec![Some(0.001); 4]));
+    assert!(
+        sure.ends_with("; 4 of 4 factors known within 5 %."),
+        "{sure}"
+    );
+    for e in [0, 1] {
+        let percent = 100.0 * (subject.factors()[e] - 1.0);
+        let sign = if percent < 0.0 { "−" } else { "+" };
+        let words = format!("rod {e} {sign}{:.0} %", percent.abs());
+        assert!(sure.contains(&words), "{sure}: {words}");
+    }
+    assert!(surest(Some(vec![None; 4])).ends_with("; no factor has an interval."));
+    assert!(!surest(None).contains("known"));
+    let mut failed = subject.clone();
+    if let Some(verdict) = &mut failed.verdict {
+        verdict.is_within = false;
+    }
+    assert!(
+        failed
+            .answer()
+            .starts_with("Outside tolerance: frequency error ")
+    );
+    failed.is_judged_by_noise = true;
+    let words = "The model does not explain the test: frequency error ";
+    assert!(failed.answer().starts_with(words));
 }
 
 #[test]

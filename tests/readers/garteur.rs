@@ -10,8 +10,7 @@ use corfem::method::analysis::DERIVATIVE_STEP;
 use corfem::present::render::csv;
 use corfem::present::report::Report;
 use corfem::present::table::{Cell, Digits, Table, numbers};
-use corfem::present::tables::job::seen_table;
-use corfem::present::tables::report::paired_table;
+use corfem::present::tables::report::{factor_table, paired_table};
 use corfem::weighted::comparison::Comparison;
 use corfem::weighted::gauss_newton::WeightedStop;
 use corfem::weighted::residuals::residuals;
@@ -114,7 +113,7 @@ fn the_real_test_has_its_golden() {
             numbers(chi_squared(), Digits::Significant(4)),
         )
         .column("Numbers", "", [8, 8].map(Cell::count));
-    let mut seen = seen_table(&RESULT);
+    let mut seen = factor_table(&report);
     seen.name = "garteur_seen".to_owned();
     let mut modes = paired_table(&report).expect("a table");
     modes.name = "garteur_modes".to_owned();

@@ -15,7 +15,7 @@ use corfem::method::modes::Modes;
 use corfem::method::step::Bounds;
 use corfem::present::page::report_page;
 use corfem::present::report::Report;
-use corfem::present::tables::job::minima_table;
+use corfem::present::tables::report::minima_table;
 use corfem::present::{json, render};
 use corfem::weighted::identifiability::{NORMAL_95, PRIOR_DEVIATION};
 use corfem::weighted::intervals::Withheld;

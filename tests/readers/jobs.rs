@@ -20,7 +20,7 @@ use corfem::method::model::Model;
 use corfem::method::outer_loop::correlate;
 use corfem::present::render;
 use corfem::present::report::Report;
-use corfem::present::tables::job::{places_table, seen_table, trust_table};
+use corfem::present::tables::job::{places_table, trust_table};
 use corfem::present::tables::report::{factor_table, history_table, paired_table, swaps};
 use corfem::weighted::comparison::Comparison;
 use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
@@ -70,7 +70,6 @@ fn finished(name: &str) -> (PreparedJob, &'static JobResult) {
         factor_table(&subject),
         history_table(&subject),
     ]);
-    tables.push(seen_table(finished));
     let text = render::text(&tables);
     assert!(
         text.lines().all(|line| line.chars().count() <= 100),

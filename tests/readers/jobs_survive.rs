@@ -11,7 +11,7 @@ use crate::readers::readers_survive::asked;
 use corfem::job::{TEMPLATE, Trust};
 use corfem::present::page::report_page;
 use corfem::present::report::Report;
-use corfem::present::tables::job::{places_table, seen_table, suspects_table, trust_table};
+use corfem::present::tables::job::{places_table, suspects_table, trust_table};
 use corfem::present::tables::report::{factor_table, history_table, paired_table};
 use corfem::present::{PresentError, json, render};
 use std::cell::Cell;
@@ -142,7 +142,6 @@ fn corrected(path: &std::path::Path) -> Result<bool, PresentError> {
         paired_table(&report)?,
         factor_table(&report),
         history_table(&report),
-        seen_table(&result),
         places_table(&loaded.loaded, Some(&result))?,
     ];
     assert!(!render::csv(&tables).is_empty() && !render::text(&tables).is_empty());

@@ -287,7 +287,7 @@ fn other_cases_report_no_anomaly_by_any_reading() {
 fn same_input_gives_the_same_bytes() {
     let json = || {
         let results: Vec<_> = CASES.into_iter().map(result).collect();
-        corfem::present::json::cases(&results).expect("written")
+        crate::paper::json::cases(&results).expect("written")
     };
     assert_eq!(json(), json());
 }

@@ -2,13 +2,13 @@
 
 use crate::common::golden::{Numbers, assert_golden, assert_table};
 use crate::common::tolerances::{EIGEN_ROUND_OFF, ROUND_OFF};
+use crate::paper::tables::fewer_modes::{published_tables, truncation_tables};
 use corfem::method::analysis::Analysis;
 use corfem::method::error::Error;
 use corfem::method::inner_loop::Stop;
 use corfem::method::step::Accumulation;
 use corfem::method::structure::ElementKind;
 use corfem::present::render::{csv, text};
-use corfem::present::tables::fewer_modes::{published_tables, truncation_tables};
 use corfem::torque_box::error::CaseError;
 use corfem::torque_box::fewer_modes::{
     Agreement, FewerModesRun, PUBLISHED_RUNS, all_runs, fewer_modes_run, published_runs,

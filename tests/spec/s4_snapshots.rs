@@ -3,10 +3,10 @@
 use crate::common::golden::{Numbers, assert_golden, assert_table};
 use crate::common::tolerances::{GOLDEN_ABSOLUTE_ROOT_PERCENT, GOLDEN_RELATIVE};
 use crate::evidence::fit::{fit, fit_table};
+use crate::paper::tables::cases::all_tables;
+use crate::paper::tables::published::root_error_table;
 use corfem::present::render::{csv, markdown, text};
 use corfem::present::table::{Cell, Table};
-use corfem::present::tables::cases::all_tables;
-use corfem::present::tables::published::root_error_table;
 use corfem::torque_box::wing_box::Reconstruction;
 use corfem::torque_box::{CASES, Case, Grouping, run_case};
 

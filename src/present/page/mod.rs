@@ -1,167 +1,33 @@
-//! The report as one web page that needs nothing beside it: the story, then tables, figures, assumptions, and what made it.
-//!
-//! Texts on the box and on the differences from the published results are those of `paper/`, so that they are written
-//! once.
+//! The report as one web page that needs nothing beside it: the answer, the structure moving and the factors on its first screen, then
+//! tables, and what made it.
 
-mod html;
-mod play;
-mod story;
+pub mod charts;
+pub mod html;
+pub mod moving;
 
-use super::figures::{Figure, SHOWN, report_figures};
 use super::report::Report;
-use super::table::{Cell, Table};
-use super::tables::cases::{iteration_table, outcome_table, settings_table, summary, tables_of};
+use super::table::Table;
 use super::tables::job::trust_table;
-use super::tables::report::{derivative_table, factor_table, history_table, paired_table};
-use super::tables::{fewer_modes, paper_tables};
+use super::tables::report::{
+    derivative_table, factor_table, history_table, minima_table, paired_table,
+};
 use crate::present::PresentError;
-use crate::torque_box::fewer_modes::{FewerModesRun, PUBLISHED_CASE, PUBLISHED_RUNS};
-use crate::torque_box::{Case, CaseResult};
-use html::{escaped, figure, figures, prose, section, section_of, table};
-pub use play::play;
-use story::story;
+use charts::{assurance_map, derivative_map, factor_bars, pairing_plot, residual_map};
+use html::{escaped, section, table};
+use moving::moving;
 
-/// The content of the page.
-#[derive(Debug, Clone, Copy)]
-pub struct Contents<'a> {
-    /// The cases.
-    pub results: &'a [CaseResult],
-    /// Runs with fewer modes, all pairs.
-    pub fewer_modes: &'a [FewerModesRun],
-    /// The figures of all these.
-    pub figures: &'a [Figure],
-    /// The command that makes the page again.
-    pub command: &'a str,
-}
-
-const TITLE: &str = "The wing torque box, correlated";
-const LEAD: &str = "Element stiffnesses of a finite element model, corrected until its natural frequencies and mode shapes agree with \
-    those of a ground vibration test.";
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// The page.
-///
-/// # Errors
-/// [`PresentError::Case`] for damaged published tables.
-pub fn page(contents: &Contents) -> Result<String, PresentError> {
-    let answer = answer(contents)?;
-    let mut parts = story(contents);
-    if let Some(shown) = contents.results.iter().find(|it| it.case.number == SHOWN) {
-        let heading = format!("Case {SHOWN}, by hand");
-        parts.insert(0, named("try", "Try it", &heading, play(shown)?));
-    }
-    let (mut story_html, appendix): (String, usize) = (
-        parts.iter().map(|(.., body)| body.as_str()).collect(),
-        parts.len(),
-    );
-    story_html += &answer;
-    let is_left =
-        |figure: &&Figure| !story_html.contains(&format!("<figure id=\"{}\">", figure.name));
-    let left: Vec<Figure> = contents.figures.iter().filter(is_left).cloned().collect();
-    let contents = &Contents {
-        figures: &left,
-        ..*contents
-    };
-    parts.push(named("box", "The box", "The box", box_section(contents)));
-    for result in contents.results {
-        let number = result.case.number;
-        let body = part(
-            &tables_of(result)?,
-            contents.figures,
-            &[format!("case_{number}_")],
-        );
-        let heading = format!("Tables of Case {number}");
-        parts.push(named(&format!("case-{number}"), &heading, &heading, body));
-    }
-    let differences = prose(
-        include_str!("../../../paper/results.md").trim_start_matches(|letter| letter != '\n'),
-    );
-    let why = "Where the results differ from the published ones, and why";
-    let cost = table(&outcome_table(contents.results))
-        + &table(&iteration_table(contents.results)?)
-        + &table(&settings_table(contents.results));
-    parts.extend([
-        named(
-            "fewer-modes",
-            "Fewer modes",
-            "With fewer modes",
-            fewer_modes_section(contents)?,
-        ),
-        named("cost", "Outcomes", "Outcomes and iterations", cost),
-        named("differences", "Differences", why, differences),
-        named(
-            "made",
-            "How it was made",
-            "How it was made",
-            made("Units: inch, pound-force, second", contents.command),
-        ),
-    ]);
-    let bodies = parts.iter().map(|(.., body)| body.as_str());
-    let tables = std::iter::once(answer.as_str())
-        .chain(bodies)
-        .flat_map(|body| body.split("<table id=\"").skip(1))
-        .filter_map(|rest| rest.split('"').next());
-    let note = format!(
-        "<p>Every computed number has the published one behind it in parentheses. {}</p>\n",
-        paper_tables(tables)
-    );
-    parts.insert(
-        appendix,
-        named(
-            "appendix",
-            "Appendix",
-            "Appendix: the tables, and the other figures",
-            note,
-        ),
-    );
-    Ok(document(TITLE, LEAD, &answer, &parts))
-}
-
-/// The outcome of all cases, before anything else: a sentence, the summary, and one case's gages and frequencies before and after.
-fn answer(contents: &Contents) -> Result<String, PresentError> {
-    let results = contents.results;
-    let summary = summary(results)?;
-    let corrected = || {
-        let rows = results.iter().zip(&summary.rows);
-        rows.filter(|(result, _)| !result.is_detection())
-            .map(|(_, row)| row)
-    };
-    let all = |cell: usize| {
-        let numbers = corrected().filter_map(|row| row.cells.get(cell));
-        numbers.map(Cell::computed).collect::<Vec<_>>().join(", ")
-    };
-    let mut body = format!(
-        "<p>Frequency errors of {} % RMS fall to {} % in the cases that are corrected.{}</p>\n",
-        all(0),
-        all(1),
-        if results.iter().all(CaseResult::succeeded) {
-            " Every case did what was asked of it: correlated within the tolerances, or named its modeling error."
-        } else {
-            " <strong>At least one case did not converge within its limits; the best found is shown.</strong>"
-        }
-    );
-    let shown = |what: &str| {
-        let drawn = contents.figures.iter().find(|figure| figure.name == what);
-        drawn.map_or_else(String::new, |drawn| figure(drawn, ""))
-    };
-    let frequencies = shown(&format!("case_{SHOWN}_frequencies"));
-    body += &format!(
-        "<div class=\"answer\">\n<div>\n{}{frequencies}</div>\n{}</div>\n",
-        table(&summary),
-        shown("box_gages")
-    );
-    Ok(body)
-}
-
 /// A section: its id, the words of a link to it, its heading, its HTML.
-type Part = (String, String, String, String);
+pub type Part = (String, String, String, String);
 
-fn named(id: &str, link: &str, heading: &str, body: String) -> Part {
+/// A section of these parts.
+pub fn named(id: &str, link: &str, heading: &str, body: String) -> Part {
     (id.to_owned(), link.to_owned(), heading.to_owned(), body)
 }
 
-/// A whole page: its answer, then sections.
-fn document(title: &str, lead: &str, answer: &str, parts: &[Part]) -> String {
+/// A whole page: its answer, then sections. It has the script of [`moving()`](moving::moving).
+pub fn document(title: &str, lead: &str, answer: &str, parts: &[Part]) -> String {
     let links: String = parts
         .iter()
         .map(|(id, link, ..)| format!("<a href=\"#{id}\">{link}</a>\n"))
@@ -175,132 +41,81 @@ fn document(title: &str, lead: &str, answer: &str, parts: &[Part]) -> String {
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta name=\"generator\" content=\"corfem {VERSION}\">\n<title>corfem: {title}</title>\n\
-         <style>\n{}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n<p>{}</p>\n{answer}</header>\n\
+         <style>\n{}</style>\n<script>\n{}</script>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n<p>{}</p>\n{answer}</header>\n\
          <nav aria-label=\"Contents\">\n{links}</nav>\n<main>\n{sections}</main>\n</body>\n</html>\n",
         include_str!("report.css"),
-        escaped(lead),
+        moving::SCRIPT,
+        lead,
     )
 }
 
-/// The report on one correlation: its outcome, modes, factors, structure and history, with other tables at its end; `command` makes
-/// it again from the job's `text`.
+/// The report on one correlation: its answer, the structure moving, factors and pairs; then doubts, modes, factors, residuals and history,
+/// with other tables at its end; `command` makes it again from the job's `text`.
 ///
 /// # Errors
-/// A figure that cannot be drawn; the errors of [`Report::agreement`], as in [`report_figures`].
+/// The errors of [`moving()`](moving::moving) and of [`Report::agreement`].
 pub fn report_page(
     report: &Report,
     extra: &[Table],
     command: &str,
     text: &str,
 ) -> Result<String, PresentError> {
-    let figures = report_figures(report)?;
-    let of = |tables: &[Table], whats: &[&str]| {
-        part(
-            tables,
-            &figures,
-            &whats
-                .iter()
-                .map(|what| format!("{}_{what}", report.name))
-                .collect::<Vec<_>>(),
-        )
-    };
     let class = if report.converged() {
         ""
     } else {
         " class=\"finding\""
     };
-    let words = format!("<p{class}>{}</p>\n", escaped(&report.words()));
-    let shown = ["frequencies", "factors"].map(|what| of(&[], &[what]));
-    let answer = words + &format!("<div class=\"answer\">\n{}</div>\n", shown.concat());
+    let lead = format!("<strong>{}</strong>", escaped(&report.answer()));
+    let answer = format!(
+        "<p{class}>{}</p>\n<div class=\"first\">\n{}{}<div class=\"pairs\">\n{}{}</div>\n</div>\n",
+        escaped(&report.words()),
+        moving(report)?,
+        factor_bars(report),
+        pairing_plot(report),
+        assurance_map(report)?,
+    );
+    let all = |tables: &[Table]| tables.iter().map(table).collect::<String>();
+    let optional = |found: Option<Table>| found.iter().map(table).collect::<String>();
+    let job = format!(
+        "<p>The job:</p>\n<pre><code>{}</code></pre>\n",
+        escaped(text)
+    );
     let trust = report.trust.as_ref().map(trust_table);
-    let trust: String = trust.iter().map(table).collect();
-    let summary = trust + &table(&paired_table(report)?);
-    let derivatives: Vec<Table> = derivative_table(report).into_iter().collect();
     let parts = [
-        ("summary", "Summary", summary),
-        ("factors", "Factors", of(&[factor_table(report)], &[])),
-        ("structure", "Structure", of(&[], &["structure"])),
+        ("trust", "What to know", optional(trust)),
+        ("modes", "Modes", table(&paired_table(report)?)),
+        ("residuals", "Residuals", residual_map(report)),
         (
-            "modes",
-            "Mode shapes",
-            of(&[], &["mode_shapes", "agreement"]),
+            "factors",
+            "Factors",
+            table(&factor_table(report)) + &optional(minima_table(report)),
         ),
-        (
-            "history",
-            "History",
-            of(&[history_table(report)], &["errors"]),
-        ),
+        ("history", "History", table(&history_table(report))),
         (
             "derivatives",
             "Derivatives",
-            of(&derivatives, &["derivatives"]),
+            derivative_map(report) + &optional(derivative_table(report)),
         ),
-        ("others", "Further results", of(extra, &[])),
+        ("others", "Further results", all(extra)),
         (
             "made",
             "How it was made",
-            made("Units are the model's own", command)
-                + &format!(
-                    "<p>The job:</p>\n<pre><code>{}</code></pre>\n",
-                    escaped(text)
-                ),
+            made("Units are the model's own", command) + &job,
         ),
     ];
     let parts = parts.into_iter().filter(|(.., body)| !body.is_empty());
     let parts =
         parts.map(|(id, heading, body)| named(&format!("{id}-section"), heading, heading, body));
-    let lead = "A finite element model, corrected until its natural frequencies and mode shapes agree with measured ones.";
     Ok(document(
         &report.title,
-        lead,
+        &lead,
         &answer,
         &parts.collect::<Vec<_>>(),
     ))
 }
 
-/// Tables, then the figures whose names begin with one of the prefixes.
-fn part(tables: &[Table], drawn: &[Figure], prefixes: &[impl AsRef<str>]) -> String {
-    let starts = |figure: &&Figure| {
-        prefixes
-            .iter()
-            .any(|prefix| figure.name.starts_with(prefix.as_ref()))
-    };
-    let drawn = drawn.iter().filter(starts).map(|drawn| figure(drawn, ""));
-    tables.iter().map(table).collect::<String>() + &figures("figures", drawn)
-}
-
-fn box_section(contents: &Contents) -> String {
-    let assumed = section_of(
-        include_str!("../../../paper/reconstruction.md"),
-        "Assumed beyond the paper",
-    );
-    format!(
-        "<p>The paper prints neither coordinates nor masses. The box here was reconstructed from its results and \
-         reproduces its published frequencies to 1.106 % RMS, 5.20 % at worst. Agreement with those frequencies \
-         is calibration; agreement with everything else is evidence.</p>\n{}<h3>Assumed beyond the paper</h3>\n\
-         {assumed}",
-        part(&[], contents.figures, &["box_", "cover_"]),
-    )
-}
-
-/// Tables 9 to 12, and the figure of the cost of truncation, which has its numbers.
-fn fewer_modes_section(contents: &Contents) -> Result<String, PresentError> {
-    let is_published =
-        |run: &&FewerModesRun| PUBLISHED_RUNS.contains(&(run.test_modes, run.analysis_modes));
-    let runs: Vec<FewerModesRun> = contents
-        .fewer_modes
-        .iter()
-        .filter(is_published)
-        .cloned()
-        .collect();
-    let tables = fewer_modes::published_tables(&Case::new(PUBLISHED_CASE)?, &runs)?;
-    let lead = "<p>Case 2 again, one pass from its first gages, with its lowest test modes alone and its lowest \
-    analysis modes.</p>\n";
-    Ok(lead.to_owned() + &part(&tables, contents.figures, &["truncation"]))
-}
-
 /// The command and version that made a page, with words about its units.
-fn made(units: &str, command: &str) -> String {
+pub fn made(units: &str, command: &str) -> String {
     format!(
         "<p>corfem {VERSION}, by the command</p>\n<pre><code>{}</code></pre>\n<p>{units}; frequency in hertz. The same command \
          gives the same page.</p>\n",

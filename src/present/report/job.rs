@@ -2,24 +2,28 @@
 
 use super::{Derivatives, ModeResiduals, Report, SensorPoint, Stage};
 use crate::job::expansion::expand;
-use crate::job::{CorrelatedJob, History, JobResult, Method, PlacedSensor, PreparedJob};
+use crate::job::{
+    CorrelatedJob, History, JobResult, LoadedJob, Method, ModelSource, PlacedSensor, PreparedJob,
+};
 use crate::method::error::Error;
 use crate::method::modes::Modes;
 use crate::method::step::Bounds;
 use crate::method::structure::StructuralDof;
 use crate::present::PresentError;
+use crate::sparse::SparseMatrix;
 use crate::weighted::comparison::{Comparison, ExactResult};
 use crate::weighted::gauss_newton::{WeightedCorrelation, WeightedStop};
 use crate::weighted::identifiability::NORMAL_95;
 use crate::weighted::intervals::Withheld;
 use crate::weighted::residuals::residuals;
 use nalgebra::{DMatrix, DVectorView, Vector3};
+use std::collections::{BTreeMap, BTreeSet};
 
 impl Report {
     /// A job, before its first step or with its result.
     ///
     /// # Errors
-    /// Those of the first analysis.
+    /// Errors of the first analysis.
     pub fn from_job(
         prepared: &PreparedJob,
         result: Option<&JobResult>,
@@ -37,30 +41,7 @@ impl Report {
         )?;
         let stem = loaded.job.stem();
         let geometry = &loaded.source.geometry;
-        let corners = |grids: &Vec<usize>| {
-            grids
-                .iter()
-                .filter_map(|grid| geometry.places.get(grid).copied())
-                .collect()
-        };
-        let lines = loaded
-            .data
-            .lines
-            .iter()
-            .filter(|_| geometry.elements.is_empty())
-            .map(|line| corners(&line.to_vec()));
-        let mut frame: Vec<Vec<Vector3<f64>>> =
-            geometry.elements.iter().map(corners).chain(lines).collect();
-        frame.retain(|corners| corners.len() > 1);
-        if frame.is_empty() {
-            frame = joined(
-                loaded
-                    .placed
-                    .iter()
-                    .filter_map(|sensor| sensor.place)
-                    .collect(),
-            );
-        }
+        let (frame, owners) = pieces(loaded)?.into_iter().unzip();
         let still = |grid: &&usize| {
             let dof = |direction| StructuralDof {
                 grid: **grid,
@@ -89,6 +70,8 @@ impl Report {
             ranges: whole.ranges(),
             sensors: loaded.placed.iter().map(sensor_point).collect(),
             frame,
+            owners,
+            left_out: left_out(prepared),
             grids: geometry
                 .places
                 .iter()
@@ -108,7 +91,7 @@ impl Report {
             found,
             trust,
             verdict,
-            seen_first: _,
+            seen_first,
             seen,
             misfit,
             intervals,
@@ -133,7 +116,7 @@ impl Report {
                     .map(deviation)
                     .collect(),
             ),
-            prior_shares: Some(seen.learned.iter().map(|learned| 1.0 - learned).collect()),
+            seen: Some([seen_first.clone(), seen.clone()]),
             misfit: Some(*misfit),
             is_judged_by_noise: loaded.job.compare.method == Method::GaussNewton,
             analyses: Some(found.analyses),
@@ -201,46 +184,146 @@ fn mode_residuals(found: &CorrelatedJob) -> Result<Vec<ModeResiduals>, Error> {
     Ok(prepared.compared().zip(each).map(of_mode).collect())
 }
 
-/// How the grids move, see [`Report::moved`]: the models as their own shapes at all degrees of freedom, the test as the nearest
-/// combination of the corrected model's modes. None where the sensors cannot tell these apart.
+/// Test modes of a frequency above zero that are not compared: their numbers and frequencies, Hz.
+fn left_out(prepared: &PreparedJob) -> Vec<(usize, f64)> {
+    let data = &prepared.loaded.data;
+    let compared: Vec<usize> = prepared.compared().collect();
+    let modes = data.frequencies_hz.iter().copied().enumerate();
+    modes
+        .filter(|(mode, _)| !compared.contains(mode) && !data.rigid.contains(mode))
+        .map(|(mode, hertz)| (mode + 1, hertz))
+        .collect()
+}
+
+/// Corners of a piece of the structure, and the parameters that scale it.
+type Piece = (Vec<Vector3<f64>>, Vec<usize>);
+
+/// The structure: the elements of a deck, else the lines of the test, else lines between grids that the stiffness couples, else lines that
+/// join the sensors.
+fn pieces(loaded: &LoadedJob) -> Result<Vec<Piece>, Error> {
+    let (source, geometry) = (&loaded.source, &loaded.source.geometry);
+    let corners = |grids: &[usize]| -> Vec<Vector3<f64>> {
+        let places = grids.iter().map(|grid| geometry.places.get(grid));
+        places.flatten().copied().collect()
+    };
+    let labels = source
+        .deck
+        .iter()
+        .flat_map(|(_, deck)| &deck.model.elements);
+    let owners = |label: usize| {
+        let members = source.members.iter().enumerate();
+        let of = members.filter(|(_, members)| members.elements.contains(&label));
+        of.map(|(e, _)| e).collect()
+    };
+    let elements = geometry.elements.iter().zip(labels);
+    let mut pieces: Vec<Piece> = elements
+        .map(|(grids, element)| (corners(grids), owners(element.label)))
+        .collect();
+    pieces.extend(
+        loaded
+            .data
+            .lines
+            .iter()
+            .filter(|_| geometry.elements.is_empty())
+            .map(|line| (corners(line), Vec::new())),
+    );
+    pieces.retain(|(corners, _)| corners.len() > 1);
+    if pieces.is_empty() {
+        pieces = coupled(source)?;
+    }
+    if pieces.is_empty() {
+        let places = loaded.placed.iter().filter_map(|sensor| sensor.place);
+        let lines = joined(places.collect()).into_iter();
+        pieces = lines.map(|line| (line, Vec::new())).collect();
+    }
+    Ok(pieces)
+}
+
+/// Couplings to a grid beyond which matrices are condensed, and their lines show nothing.
+const MOST_COUPLED: usize = 8;
+
+/// Lines between the grids that the stiffness of matrices couples, with the parameters that couple them too.
+fn coupled(source: &ModelSource) -> Result<Vec<Piece>, Error> {
+    let places = &source.geometry.places;
+    let mut grid_of = BTreeMap::new();
+    for (dof, rows) in &source.motions {
+        grid_of.extend(rows.iter().map(|(row, _)| (*row, dof.grid)));
+    }
+    let lines = |matrix: &SparseMatrix| -> BTreeSet<[usize; 2]> {
+        let entries = matrix.entries();
+        let pairs = entries.filter_map(|(i, j, _)| Some([*grid_of.get(&i)?, *grid_of.get(&j)?]));
+        pairs.filter(|[a, b]| a < b).collect()
+    };
+    let parameters = source.whole.parameters();
+    let (stiffness, _) = source.whole.at(&vec![1.0; parameters.len()])?;
+    let all = lines(&stiffness);
+    if all.len() > MOST_COUPLED * places.len() {
+        return Ok(Vec::new());
+    }
+    let shares: Vec<_> = parameters
+        .iter()
+        .map(|parameter| lines(parameter.share.matrix()))
+        .collect();
+    let piece = |line: &[usize; 2]| {
+        let ends = line.map(|grid| places.get(&grid).copied());
+        let ends: Option<Vec<_>> = ends.into_iter().collect();
+        let owners = shares.iter().enumerate();
+        let owners = owners.filter(|(_, share)| share.contains(line));
+        Some((ends?, owners.map(|(e, _)| e).collect()))
+    };
+    Ok(all.iter().filter_map(piece).collect())
+}
+
+/// Motions of the grids, see [`Report::moved`]: the models as their own shapes at all degrees of freedom, the test as the nearest
+/// combination of the corrected model's modes, where the sensors tell these apart.
 fn moved(found: &CorrelatedJob) -> Option<[Vec<Vec<Vector3<f64>>>; 3]> {
     let (source, sensors) = (
         &found.prepared.loaded.source,
         &found.prepared.loaded.sensors,
     );
     let ones = vec![1.0; found.factors.len()];
-    let whole = |factors: &[f64], Comparison { model, .. }: &Comparison| {
-        let pairs = &model.exact.pairing.analysis_mode;
+    let whole = |factors: &[f64], comparison: &Comparison| {
+        let model = &comparison.model;
+        let lone = comparison.lone().iter().map(|lone| lone.partner);
+        let pairs: Vec<usize> = model
+            .exact
+            .pairing
+            .analysis_mode
+            .iter()
+            .copied()
+            .chain(lone)
+            .collect();
         let count = pairs.iter().max().map_or(0, |mode| mode + 1);
-        let anew = || {
-            Some(
-                source
-                    .whole
-                    .exactly(factors, sensors, count..=count, None)
-                    .ok()?
-                    .shapes(count)
-                    .shapes,
-            )
-        };
         let all = match model.whole() {
             Some(whole) => whole.shapes(count).shapes,
-            None => anew()?,
+            None => {
+                let exactly = source.whole.exactly(factors, sensors, count..=count, None);
+                exactly.ok()?.shapes(count).shapes
+            }
         };
         let seen = sensors.times(&all).ok()?;
         // Give them the scale and sign of the shapes that are compared.
-        let mut paired = all.select_columns(pairs);
-        for (j, mut shape) in paired.column_iter_mut().enumerate() {
-            let (own, compared) = (
-                seen.column(pairs[j]),
-                model.exact.modes.shapes.column(pairs[j]),
-            );
-            shape *= model.exact.pairing.sign[j] * own.dot(&compared) / own.norm_squared();
+        let mut paired = all.select_columns(&pairs);
+        let signs = model.exact.pairing.sign.iter();
+        for (mut shape, (&pair, sign)) in paired.column_iter_mut().zip(pairs.iter().zip(signs)) {
+            let own = seen.column(pair);
+            let compared = model.exact.modes.shapes.column(pair);
+            shape *= sign * own.dot(&compared) / own.norm_squared();
         }
         Some((paired, all, seen))
     };
     let (first, ..) = whole(&ones, &found.first)?;
-    let (last, all, seen) = whole(&found.factors, &found.last)?;
-    let test = expand(&all, &seen, &found.first.model.test.shapes).ok()?;
+    let (mut last, all, seen) = whole(&found.factors, &found.last)?;
+    // What has no measured shape to tell its sign keeps that of the first model.
+    for mut pair in first
+        .column_iter()
+        .zip(last.column_iter_mut())
+        .skip(found.first.model.test.len())
+    {
+        let sign = pair.0.dot(&pair.1).signum();
+        pair.1 *= sign;
+    }
+    let test = expand(&all, &seen, &found.first.model.test.shapes).ok();
     let at = |shape: DVectorView<f64>, grid: usize| {
         Vector3::from_fn(|direction, _| {
             let motion = source.motions.get(&StructuralDof { grid, direction });
@@ -252,13 +335,13 @@ fn moved(found: &CorrelatedJob) -> Option<[Vec<Vec<Vector3<f64>>>; 3]> {
         })
     };
     let grids = || source.geometry.places.keys();
-    let of = |shapes: DMatrix<f64>| {
+    let of = |shapes: DMatrix<f64>| -> Vec<Vec<Vector3<f64>>> {
         shapes
             .column_iter()
             .map(|shape| grids().map(|&grid| at(shape, grid)).collect())
             .collect()
     };
-    Some([of(test), of(first), of(last)])
+    Some([test.map(of).unwrap_or_default(), of(first), of(last)])
 }
 
 /// Lines that join all places, each to the nearest one that is joined already.

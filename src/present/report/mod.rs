@@ -1,7 +1,7 @@
 //! The content of a report on any correlation.
 
+mod answer;
 mod job;
-mod case;
 
 use crate::job::concern::Grade;
 use crate::job::verdict::Verdict;
@@ -19,19 +19,21 @@ use crate::present::verdict::verdict_in_words;
 use crate::sparse::{ParameterMatrix, Work, modal_assurance};
 use crate::weighted::close_modes::turned;
 use crate::weighted::comparison::{Comparison, ExactResult};
+use crate::weighted::identifiability::Identifiability;
 use crate::weighted::intervals::{Withheld, is_at_end};
 use crate::weighted::misfit::Misfit;
 use crate::weighted::starts::{Minimum, StartEnd};
 use nalgebra::{DMatrix, Vector3};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
+use serde_json::json;
 
 /// A row of the shapes.
 #[doc(hidden)]
 #[derive(Debug, Clone, PartialEq)]
 pub struct SensorPoint {
-    /// What it is called.
+    /// Name.
     pub name: String,
-    /// Where it is, if that is known.
+    /// Place, if that is known.
     pub place: Option<Vector3<f64>>,
     /// Unit vector along which it measures; zero for a rotation.
     pub direction: Vector3<f64>,
@@ -64,36 +66,79 @@ pub struct ModeResiduals {
 
 /// Derivatives at the first model by the relative stiffness or mass of each parameter.
 #[doc(hidden)]
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Derivatives {
     /// $\partial \ln f_i/\partial \ln s_e$ of the mode paired with test mode $i$ (parameters × test modes, those without shapes last).
+    #[serde(rename = "frequency_percent_per_percent", serialize_with = "by_rows")]
     pub frequency: DMatrix<f64>,
     /// $\partial e_S/\partial \ln s_e$ of the error sum, by (12).
+    #[serde(rename = "error_sum_per_percent")]
     pub error_sum: Vec<f64>,
 }
 
-/// The content of a report on any correlation. Lengths are in the model's own unit.
-#[derive(Debug, Clone)]
+/// The rows of a matrix.
+#[doc(hidden)]
+pub fn matrix_rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    let rows = matrix.row_iter();
+    rows.map(|row| row.iter().copied().collect()).collect()
+}
+
+/// A matrix as the list of its rows.
+fn by_rows<S: Serializer>(matrix: &DMatrix<f64>, to: S) -> Result<S::Ok, S::Error> {
+    matrix_rows(matrix).serialize(to)
+}
+
+/// As [`by_rows`], or nothing.
+fn by_rows_if_any<S: Serializer>(matrix: &Option<DMatrix<f64>>, to: S) -> Result<S::Ok, S::Error> {
+    matrix.as_ref().map(matrix_rows).serialize(to)
+}
+
+/// The ends of every parameter's 95 % interval, or why they are withheld.
+fn ends_or_reasons<S: Serializer>(
+    intervals: &[Result<Bounds, Withheld>],
+    to: S,
+) -> Result<S::Ok, S::Error> {
+    to.collect_seq(intervals.iter().map(|interval| match interval {
+        Ok(ends) => json!(ends),
+        Err(withheld) => json!({ "withheld": withheld }),
+    }))
+}
+
+/// Names alone.
+fn names<S: Serializer>(sensors: &[SensorPoint], to: S) -> Result<S::Ok, S::Error> {
+    to.collect_seq(sensors.iter().map(|sensor| &sensor.name))
+}
+
+/// The content of a report on any correlation. Lengths are in the model's own unit. Text, CSV, page and JSON are views of it; the last
+/// has what is serialized here and what follows from it ([`json::report`](crate::present::json::report)).
+#[derive(Debug, Clone, Serialize)]
 pub struct Report {
     /// Stem of the names of its tables, figures and files.
+    #[serde(skip)]
     pub name: String,
     /// The title that readers see.
+    #[serde(rename = "name")]
     pub title: String,
     /// Names of the parameters.
     pub parameters: Vec<String>,
     /// Bounds on their factors, if any.
     pub ranges: Vec<Option<Bounds>>,
     /// Standard deviation of every factor of the best stage, where an interval holds.
+    #[serde(rename = "standard_deviations")]
     pub deviations: Option<Vec<Option<f64>>>,
-    /// The part of every parameter's prior variance that is left, where it is known.
-    pub prior_shares: Option<Vec<f64>>,
-    /// How a job's residuals at its end are to the noise.
+    /// Identifiability of the parameters by the test, at the first model and at the best factors, where that is known.
+    #[serde(skip)]
+    pub seen: Option<[Identifiability; 2]>,
+    /// Residuals at a job's end, compared with the noise.
     pub misfit: Option<Misfit>,
-    /// Whether that decides the verdict, and not the tolerances.
+    /// True if that decides the verdict, and not the tolerances.
+    #[serde(skip)]
     pub is_judged_by_noise: bool,
     /// Number of exact analyses that the result took.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub analyses: Option<usize>,
     /// Work that they took.
+    #[serde(flatten)]
     pub work: Option<Work>,
     /// The minima that noise allows, of several starts.
     pub minima: Vec<Minimum>,
@@ -102,37 +147,57 @@ pub struct Report {
     /// Trials of other results, in their order.
     pub trials: Vec<Trial>,
     /// The interval of every parameter, or why it has none; none of a report without a result.
+    #[serde(serialize_with = "ends_or_reasons")]
     pub intervals: Vec<Result<Bounds, Withheld>>,
     /// Residuals at the best factors over their standard deviations, of every test mode, those without shapes last.
     pub residuals: Vec<ModeResiduals>,
     /// Factors that make the model right, where they are known.
+    #[serde(skip)]
     pub truth: Vec<f64>,
     /// Test modes, sensors × modes.
+    #[serde(skip)]
     pub test: Modes,
     /// The numbers in the test's file of the test modes, then of those without shapes.
+    #[serde(rename = "test_mode_numbers")]
     pub mode_numbers: Vec<usize>,
-    /// What may lower the trust in it; none of the paper's cases.
+    /// Test modes that are not compared: their numbers and frequencies, Hz.
+    #[serde(skip)]
+    pub left_out: Vec<(usize, f64)>,
+    /// Doubts about it and remarks; none of the paper's cases.
     pub trust: Option<Trust>,
     /// Rows of the shapes; none where nothing is known of them.
+    #[serde(serialize_with = "names")]
     pub sensors: Vec<SensorPoint>,
     /// The structure, or the wire frame of its test: corners of panels, and ends of rods and lines.
+    #[serde(skip)]
     pub frame: Vec<Vec<Vector3<f64>>>,
+    /// The parameters that scale each piece of it; none where that is not known.
+    #[serde(skip)]
+    pub owners: Vec<Vec<usize>>,
     /// Numbered grids.
+    #[serde(skip)]
     pub grids: Vec<(usize, Vector3<f64>)>,
-    /// How the grids move in the modes paired with the test modes, of test, first and corrected model, in the scale and with the signs
-    /// of the shapes; the test's by expansion. None where the whole model is not known.
+    /// Motions of the grids in the modes paired with the test modes, of test, first and corrected model, in the scale and with the signs
+    /// of the shapes; the test's by expansion, where it has shapes. None where the whole model is not known.
+    #[serde(skip)]
     pub moved: Option<[Vec<Vec<Vector3<f64>>>; 3]>,
     /// Places that do not move.
+    #[serde(skip)]
     pub supports: Vec<Vector3<f64>>,
     /// Mass at the sensors, for cross-orthogonality.
+    #[serde(skip)]
     pub mass: Option<DMatrix<f64>>,
     /// The exact solution of the first model.
+    #[serde(skip)]
     pub initial: ExactResult,
     /// Settings of the loops, where their tolerances are to be drawn.
+    #[serde(skip)]
     pub settings: Option<Settings>,
     /// The stages after it.
+    #[serde(skip)]
     pub stages: Vec<Stage>,
     /// The stage with the best factors, from zero; none when none is better than the first model.
+    #[serde(skip)]
     pub best: Option<usize>,
     /// The verdict, once it ran.
     pub verdict: Option<Verdict>,
@@ -140,13 +205,18 @@ pub struct Report {
     pub derivatives: Option<Derivatives>,
 }
 
-/// How analysis modes (rows) and test modes (columns) agree.
+/// Agreement of analysis modes (rows) and test modes (columns).
 #[doc(hidden)]
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PairAgreement {
+    /// The analysis mode paired with every test mode, from one.
+    #[serde(rename = "paired_analysis_modes")]
+    pub partners: Vec<usize>,
     /// Modal assurance criterion, which uses no mass.
+    #[serde(rename = "modal_assurance", serialize_with = "by_rows")]
     pub assurance: DMatrix<f64>,
     /// Cross-orthogonality (4) of shapes of unit generalized mass, where the mass at the sensors is known.
+    #[serde(rename = "cross_orthogonality", serialize_with = "by_rows_if_any")]
     pub orthogonality: Option<DMatrix<f64>>,
 }
 
@@ -220,7 +290,7 @@ impl Report {
             parameters: parameters.to_vec(),
             ranges: vec![None; parameters.len()],
             deviations: None,
-            prior_shares: None,
+            seen: None,
             misfit: None,
             is_judged_by_noise: false,
             analyses: None,
@@ -233,9 +303,11 @@ impl Report {
             truth: Vec::new(),
             test: test.clone(),
             mode_numbers: (1..=test.len()).collect(),
+            left_out: Vec::new(),
             trust: None,
             sensors: Vec::new(),
             frame: Vec::new(),
+            owners: Vec::new(),
             grids: Vec::new(),
             moved: None,
             supports: Vec::new(),
@@ -249,7 +321,7 @@ impl Report {
         }
     }
 
-    /// The same with the panels, rods, grids and supports of a structure.
+    /// This report with the panels, rods, grids and supports of a structure.
     pub fn with_structure(mut self, structure: &Structure) -> Self {
         self.frame = structure.corners().to_vec();
         self.grids = structure
@@ -265,7 +337,7 @@ impl Report {
         self
     }
 
-    /// Whether the best is within tolerance.
+    /// True if the best is within tolerance.
     pub fn converged(&self) -> bool {
         self.verdict
             .as_ref()
@@ -273,7 +345,7 @@ impl Report {
     }
 
     /// The number of a test mode (its place from zero) in the test's file; its place from one where that is not known.
-    pub(crate) fn mode_number(&self, place: usize) -> usize {
+    pub fn mode_number(&self, place: usize) -> usize {
         self.mode_numbers.get(place).copied().unwrap_or(place + 1)
     }
 
@@ -314,7 +386,7 @@ impl Report {
     }
 
     /// Number of starts that failed.
-    pub(crate) fn failed_starts(&self) -> usize {
+    pub fn failed_starts(&self) -> usize {
         self.starts.iter().filter(|start| start.is_none()).count()
     }
 
@@ -336,7 +408,7 @@ impl Report {
         )
     }
 
-    /// Whether the factor of a parameter is at an end of its range.
+    /// True if the factor of a parameter is at an end of its range.
     pub fn is_at_bound(&self, parameter: usize, factor: f64) -> bool {
         self.ranges
             .get(parameter)
@@ -346,7 +418,7 @@ impl Report {
     }
 
     /// Errors of a stage: of the exact solution it starts from, then after every iteration of its inner loop.
-    pub(crate) fn inner_errors(&self, stage: usize) -> Vec<Errors> {
+    pub fn inner_errors(&self, stage: usize) -> Vec<Errors> {
         let before = stage
             .checked_sub(1)
             .map_or(&self.initial, |before| &self.stages[before].check);
@@ -359,13 +431,14 @@ impl Report {
             .collect()
     }
 
-    /// How the modes of an exact solution, up to the highest that is paired by shape, agree with the test's; paired ones are signed like them.
+    /// Agreement of the modes of an exact solution, up to the highest that is paired by shape, with the test's; paired ones are signed like them.
     ///
     /// # Errors
     /// [`Error::WrongShape`] when shapes and mass do not fit; [`Error::Value`] for a shape that is zero or has no mass.
     pub fn agreement(&self, check: &ExactResult) -> Result<PairAgreement, Error> {
         let Some(highest) = check.pairing.analysis_mode.iter().max() else {
             return Ok(PairAgreement {
+                partners: Vec::new(),
                 assurance: DMatrix::zeros(0, 0),
                 orthogonality: None,
             });
@@ -391,7 +464,9 @@ impl Report {
             }
             cross_orthogonality(&unit, &self.test.scaled_with(mass)?, mass)
         };
+        let partners = check.pairing.analysis_mode.iter();
         Ok(PairAgreement {
+            partners: partners.map(|mode| mode + 1).collect(),
             assurance: modal_assurance(&modes.shapes, &self.test.shapes)?,
             orthogonality: self.mass.as_ref().map(orthogonality).transpose()?,
         })

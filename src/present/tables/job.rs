@@ -7,14 +7,9 @@ use crate::job::concern::Grade;
 use crate::job::localization::{by_factor, by_single_fit};
 use crate::job::metrics::coordinate_assurance;
 use crate::job::{
-    Concern, JobResult, Kind, LoadedJob, Method, PlacedSensor, PreparedJob, Study, Summary, Trust,
-    Vary,
+    Concern, JobResult, LoadedJob, Method, PlacedSensor, PreparedJob, Study, Summary, Trust, Vary,
 };
-use crate::method::step::Bounds;
-use crate::present::report::Report;
-use crate::present::table::{Cell, Digits, Table, counted, numbers, percents};
-use crate::weighted::identifiability::Identifiability;
-use crate::weighted::intervals::MOST_FOLLOWED;
+use crate::present::table::{Cell, Digits, Table, counted, numbers};
 use crate::weighted::residuals::residuals;
 
 /// Most parameters in the table of suspects.
@@ -123,15 +118,32 @@ pub fn inputs_table(prepared: &PreparedJob) -> Table {
 
 /// Doubts about a job or its result, and remarks, most important first.
 pub fn trust_table(trust: &Trust) -> Table {
-    let all = || trust.all().iter();
+    concerns_table("What to know before trusting this", trust, |_| true)
+}
+
+/// Doubts alone with what is left out, and remarks alone.
+pub fn doubts_and_remarks(trust: &Trust) -> [Table; 2] {
+    let is_remark = |concern: &Concern| concern.grade() == Grade::Remark;
+    let doubts = concerns_table("What stands against it", trust, |concern| {
+        !is_remark(concern)
+    });
+    [
+        doubts,
+        concerns_table("What to know before trusting this", trust, is_remark),
+    ]
+}
+
+fn concerns_table(title: &str, trust: &Trust, is_of_it: impl Fn(&Concern) -> bool) -> Table {
+    let all = || trust.all().iter().filter(|concern| is_of_it(concern));
     let kind = |concern: &Concern| match concern.grade() {
         Grade::Doubt if concern.is_accepted => "doubt, accepted",
         Grade::Doubt => "doubt",
         Grade::LeftOut => "left out",
         Grade::Remark => "remark",
     };
+    let has_doubt = all().any(|concern| concern.grade() == Grade::Doubt);
     let standing = "A doubt names a mistake; --accept IDENTIFIER answers for it.";
-    Table::new("trust", "What to know before trusting this", "Identifier")
+    Table::new("trust", title, "Identifier")
         .labels(all().map(Concern::identifier))
         .column("Kind", "", all().map(|concern| Cell::text(kind(concern))))
         .column(
@@ -139,7 +151,7 @@ pub fn trust_table(trust: &Trust) -> Table {
             "",
             all().map(|concern| Cell::Sentence(concern.words())),
         )
-        .notes(trust.has_doubt().then(|| standing.to_owned()))
+        .notes(has_doubt.then(|| standing.to_owned()))
 }
 
 /// Parameters that may be the one that is wrong, by how much of the test's chi-squared each alone can take away, at most
@@ -225,88 +237,6 @@ pub fn suspects_table(prepared: &PreparedJob) -> Result<Table, FileError> {
         .notes([note])
         .notes((!at_edge.is_empty()).then_some(edge))
         .notes((left > 0).then_some(less)))
-}
-
-/// The parameters as the test sees them, at the first model and at the best factors: 95 % intervals, and the blind and the parallel
-/// ones.
-pub fn seen_table(result: &JobResult) -> Table {
-    let loaded = &result.found.prepared.loaded;
-    let names: Vec<&str> = loaded.parameter_names().collect();
-    let (before, after) = (&result.seen_first, &result.seen);
-    let intervals = &result.intervals;
-    let apart = format!(
-        "Of {}, the test tells {} apart (singular values {:.3e} to {:.3e}). Deviations are those of the logarithm of the factor, \
-         from the standard deviations of the measurement{}{}.",
-        counted(names.len(), "parameter", "parameters"),
-        after.subset.len(),
-        after.singular_values.first().copied().unwrap_or_default(),
-        after.singular_values.last().copied().unwrap_or_default(),
-        match &result.trust.about(Kind::AssumedDeviations)[..] {
-            [] => String::new(),
-            assumed => format!(", assumed: {}", assumed.join(" and ")),
-        },
-        match result.misfit.widening() {
-            1.0 => String::new(),
-            widening => format!(", at the best factors {widening:.2} times as large"),
-        },
-    );
-    let ends = |end: fn(&Bounds) -> f64| {
-        let ends = intervals
-            .iter()
-            .map(move |interval| interval.as_ref().ok().map(end));
-        numbers(ends, Digits::Fixed(4))
-    };
-    let withheld = intervals.iter().filter(|interval| interval.is_err());
-    let withheld = match withheld.count() {
-        0 => None,
-        count => Some(format!(
-            "{} without an interval; the remarks say why.",
-            counted(count, "parameter", "parameters")
-        )),
-    };
-    let is_by_slope = names.len() > MOST_FOLLOWED && intervals.iter().any(Result::is_ok);
-    let by_slope =
-        format!("Intervals of more than {MOST_FOLLOWED} parameters are by slopes alone.");
-    let learned = after.learned.iter().map(|learned| 1.0 - learned);
-    let deviations =
-        |seen: &Identifiability| percents(seen.deviations.clone(), Digits::Significant(3));
-    Table::new("seen", "What the test sees of the parameters", "Parameter")
-        .labels(&names)
-        .column(
-            "factor",
-            "",
-            numbers(result.found.factors.iter().copied(), Digits::Fixed(4)),
-        )
-        .column("least (95 %)", "", ends(|interval| interval.lower))
-        .column("most (95 %)", "", ends(|interval| interval.upper))
-        .column("deviation", "%", deviations(after))
-        .column("deviation before", "%", deviations(before))
-        .column("prior's share", "%", percents(learned, Digits::Fixed(1)))
-        .notes([apart])
-        .notes(withheld)
-        .notes(is_by_slope.then_some(by_slope))
-        .filled()
-}
-
-/// The minima that noise allows, one column each, with their chi-squared, the number of starts that end there, and their factors;
-/// none for a single start.
-pub fn minima_table(report: &Report) -> Option<Table> {
-    let minima = || report.minima.iter();
-    let mut table = Table::new("minima", "Minima that noise allows", "Minimum")
-        .headings((1..=minima().count()).map(|place| place.to_string()), "")
-        .notes([format!(
-            "{} failed. Any other that ends in none of them came to no minimum, or to one that this test excludes.",
-            counted(report.failed_starts(), "start", "starts")
-        )]);
-    let chi_squared = minima().map(|minimum| minimum.chi_squared);
-    table.row("chi-squared", numbers(chi_squared, Digits::Fixed(2)));
-    let starts = minima().map(|minimum| Cell::count(minimum.starts));
-    table.row("starts", starts);
-    for (e, name) in report.parameters.iter().enumerate() {
-        let factors = minima().map(|minimum| minimum.factors[e]);
-        table.row(name, numbers(factors, Digits::Fixed(4)));
-    }
-    minima().next().map(|_| table)
 }
 
 /// Mean, standard deviation and quantiles of every factor over the samples that did not fail.

@@ -1,15 +1,18 @@
 //! Tables of any correlation: paired modes, factors, and its history.
 
 use super::{HERTZ, RMS_PERCENT};
+use crate::job::Kind;
 use crate::method::error::Error;
-use crate::method::step::Bounds;
 use crate::present::report::{PairAgreement, Report};
-use crate::present::table::{Cell, Digits, Table, numbers, percents};
+use crate::present::table::{Cell, Digits, Table, counted, numbers, percents};
 use crate::weighted::comparison::ExactResult;
-use crate::weighted::identifiability::MOSTLY_PRIOR;
+use crate::weighted::intervals::MOST_FOLLOWED;
+use crate::weighted::misfit::Misfit;
 
 /// Three decimals, of criteria between zero and one and of factors.
 const THREE: Digits = Digits::Fixed(3);
+/// Three digits, of deviations in percent.
+const THREE_DIGITS: Digits = Digits::Significant(3);
 /// Words for a pair of modes, with the least of it and the most of any other pair of its two modes.
 const MARKS: [(&str, f64, f64); 2] = [("good", 0.95, 0.05), ("acceptable", 0.90, 0.10)];
 
@@ -139,46 +142,159 @@ impl PairAgreement {
     }
 }
 
-/// Factors of the corrected model with their standard deviations, their bounds, and remarks on each.
+/// Columns of the factors that a terminal has room for.
+pub const BRIEF_FACTORS: [&str; 6] = [
+    "Factor",
+    "Change",
+    "Deviation",
+    "Least (95 %)",
+    "Most (95 %)",
+    "Remark",
+];
+/// Columns of the modes that a terminal has room for.
+pub const BRIEF_MODES: [&str; 7] = [
+    "Test",
+    "First",
+    "First error",
+    "Corrected",
+    "Corrected error",
+    "Corrected MAC",
+    "Corrected is",
+];
+
+/// Factors of the corrected model, that with the surest change first: their changes, the standard deviations of their logarithms, 95 %
+/// intervals, what is left of the prior, bounds, and a remark on each that stands out.
 pub fn factor_table(report: &Report) -> Table {
-    let factors = report.factors();
-    let bounds = |end: fn(Bounds) -> f64| {
-        numbers(report.ranges.iter().map(move |range| range.map(end)), THREE)
+    let (order, factors) = (report.by_sureness(), report.factors());
+    let each = |of: &dyn Fn(usize) -> Option<f64>, digits: Digits| {
+        let all: Vec<Cell> = numbers(order.iter().map(|&e| of(e)), digits).collect();
+        all
     };
-    let remark = |(e, factor): (usize, &f64)| {
-        let is_unseen = report
-            .verdict
-            .as_ref()
-            .is_some_and(|verdict| verdict.unseen.contains(&e));
-        let share = report.prior_shares.as_ref().map(|shares| shares[e]);
-        let is_mostly_prior = share.is_some_and(|share| share > MOSTLY_PRIOR);
+    let percent = |of: Option<f64>| of.map(|fraction| 100.0 * fraction);
+    let interval = |e: usize| report.intervals.get(e)?.as_ref().ok();
+    let range = |e: usize| report.ranges.get(e).copied().flatten();
+    let shares = report.prior_shares();
+    let before = report.seen.as_ref().map(|[first, _]| &first.deviations);
+    let remark = |&e: &usize| {
         let remarks = [
-            (report.is_at_bound(e, *factor), "at bound"),
-            (is_unseen, "hardly seen"),
-            (is_mostly_prior, "mostly prior"),
+            (report.is_at_bound(e, factors[e]), "at bound"),
+            (report.is_unseen(e), "hardly seen"),
         ];
-        let remarks: Vec<&str> = remarks
-            .into_iter()
-            .filter(|(is_so, _)| *is_so)
-            .map(|(_, remark)| remark)
-            .collect();
-        Cell::text(remarks.join(", "))
+        let remarks = remarks.into_iter().filter(|(is_so, _)| *is_so);
+        Cell::text(
+            remarks
+                .map(|(_, remark)| remark)
+                .collect::<Vec<_>>()
+                .join(", "),
+        )
     };
-    let mut table = table_of(report, "factors", "factors on the first model", "Parameter")
-        .labels(&report.parameters)
-        .column("Factor", "", numbers(factors.iter().copied(), THREE));
-    if let Some(deviations) = &report.deviations {
-        table = table.column(
-            "Standard deviation",
-            "",
-            numbers(deviations.iter().copied(), THREE),
-        );
+    let four = Digits::Fixed(4);
+    table_of(
+        report,
+        "factors",
+        "factors on the first model, the surest change first",
+        "Parameter",
+    )
+    .labels(order.iter().map(|&e| &report.parameters[e]))
+    .column("Factor", "", each(&|e| Some(factors[e]), four))
+    .column(
+        "Change",
+        "%",
+        each(&|e| Some(100.0 * (factors[e] - 1.0)), Digits::Fixed(1)),
+    )
+    .column(
+        "Deviation",
+        "%",
+        each(&|e| percent(report.log_deviation(e)), THREE_DIGITS),
+    )
+    .column(
+        "Least (95 %)",
+        "",
+        each(&|e| Some(interval(e)?.lower), four),
+    )
+    .column("Most (95 %)", "", each(&|e| Some(interval(e)?.upper), four))
+    .column("Remark", "", order.iter().map(remark))
+    .column(
+        "Deviation before",
+        "%",
+        each(&|e| percent(before.map(|all| all[e])), THREE_DIGITS),
+    )
+    .column(
+        "Prior's share",
+        "%",
+        each(
+            &|e| percent(shares.as_ref().map(|all| all[e])),
+            Digits::Fixed(1),
+        ),
+    )
+    .column("Lower bound", "", each(&|e| Some(range(e)?.lower), THREE))
+    .column("Upper bound", "", each(&|e| Some(range(e)?.upper), THREE))
+    .notes(told_apart(report))
+    .notes(intervals_in_words(report))
+    .filled()
+}
+
+/// Sentences on the intervals that are withheld, and on how the others were found.
+fn intervals_in_words(report: &Report) -> Vec<String> {
+    let all = || report.intervals.iter();
+    let withheld = all().filter(|interval| interval.is_err()).count();
+    let is_by_slope = report.parameters.len() > MOST_FOLLOWED && all().any(Result::is_ok);
+    let withheld = (withheld > 0).then(|| {
+        let count = counted(withheld, "parameter", "parameters");
+        format!("{count} without an interval; the remarks say why.")
+    });
+    let by_slope = is_by_slope
+        .then(|| format!("Intervals of more than {MOST_FOLLOWED} parameters are by slopes alone."));
+    withheld.into_iter().chain(by_slope).collect()
+}
+
+/// A sentence on how many parameters the test tells apart, and on their deviations.
+fn told_apart(report: &Report) -> Option<String> {
+    let [_, seen] = report.seen.as_ref()?;
+    let trust = report.trust.as_ref();
+    let assumed = trust.map_or_else(Vec::new, |trust| trust.about(Kind::AssumedDeviations));
+    let assumed = match &assumed[..] {
+        [] => String::new(),
+        assumed => format!(", assumed: {}", assumed.join(" and ")),
+    };
+    let widening = match report.misfit.as_ref().map_or(1.0, Misfit::widening) {
+        1.0 => String::new(),
+        widening => format!(", at the best factors {widening:.2} times as large"),
+    };
+    Some(format!(
+        "Of {}, the test tells {} apart (singular values {:.3e} to {:.3e}). Deviations are those of the logarithm of the factor, \
+         from the standard deviations of the measurement{assumed}{widening}.",
+        counted(report.parameters.len(), "parameter", "parameters"),
+        seen.subset.len(),
+        seen.singular_values.first().copied().unwrap_or_default(),
+        seen.singular_values.last().copied().unwrap_or_default(),
+    ))
+}
+
+/// The answer in one line, and the verdict under it.
+pub fn answer_table(report: &Report) -> Table {
+    Table::new("answer", report.answer(), "").notes([report.words()])
+}
+
+/// The minima that noise allows, one column each, with their chi-squared, the number of starts that end there, and their factors;
+/// none for a single start.
+pub fn minima_table(report: &Report) -> Option<Table> {
+    let minima = || report.minima.iter();
+    let mut table = Table::new("minima", "Minima that noise allows", "Minimum")
+        .headings((1..=minima().count()).map(|place| place.to_string()), "")
+        .notes([format!(
+            "{} failed. Any other that ends in none of them came to no minimum, or to one that this test excludes.",
+            counted(report.failed_starts(), "start", "starts")
+        )]);
+    let chi_squared = minima().map(|minimum| minimum.chi_squared);
+    table.row("chi-squared", numbers(chi_squared, Digits::Fixed(2)));
+    let starts = minima().map(|minimum| Cell::count(minimum.starts));
+    table.row("starts", starts);
+    for (e, name) in report.parameters.iter().enumerate() {
+        let factors = minima().map(|minimum| minimum.factors[e]);
+        table.row(name, numbers(factors, Digits::Fixed(4)));
     }
-    table
-        .column("Lower bound", "", bounds(|range| range.lower))
-        .column("Upper bound", "", bounds(|range| range.upper))
-        .column("Remark", "", factors.iter().enumerate().map(remark))
-        .filled()
+    minima().next().map(|_| table)
 }
 
 /// Stages of a correlation: iterations, the reason for their end, and the error sum by the inner loop and exactly.
@@ -233,11 +349,7 @@ pub fn history_table(report: &Report) -> Table {
             compared / sum
         )
     });
-    table
-        .filled()
-        .notes(swapped)
-        .notes(measure)
-        .notes([report.words()])
+    table.filled().notes(swapped).notes(measure)
 }
 
 /// Change of the mode that a test mode is paired with; numbers count from one.

@@ -234,7 +234,8 @@ fn a_test_in_radians_a_second_never_passes_unless_the_doubt_is_accepted() {
     let (status, words, _) = status_of(&path, &[]);
     assert_eq!(status, Some(3), "{words}");
     assert!(
-        words.starts_with("What to know before trusting this doubt common-factor: "),
+        words.starts_with("Not to be trusted as it stands: ")
+            && words.contains("What stands against it doubt common-factor: "),
         "{words}"
     );
     let job = path.to_str().expect("UTF-8");

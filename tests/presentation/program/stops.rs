@@ -29,7 +29,7 @@ fn asked_for() -> Option<u64> {
 
 /// How many files are new; the others are old, or not there where there was none before.
 fn new_files(folder: &Path, had_old: bool) -> usize {
-    let is_new = |figure: &&corfem::present::figures::Figure| {
+    let is_new = |figure: &&crate::paper::figures::Figure| {
         let text = fs::read_to_string(folder.join(format!("{}.svg", figure.name))).ok();
         match text.as_deref() {
             None => assert!(!had_old, "{} is gone", figure.name),

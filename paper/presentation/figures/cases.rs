@@ -1,0 +1,114 @@
+//! The figures of the box and of the paper's cases, from what the runs gave.
+
+use super::super::report::case_report;
+use super::super::tables::unlimited::unlimited_factors;
+use super::factors::Factors;
+use super::structure::draw_structure;
+use super::{Figure, report_figures};
+use super::{box_elements, cover_gages};
+use corfem::present::PresentError;
+use corfem::torque_box::{CASES, Case, CaseResult};
+
+/// The case that the box is shown with before and after its correlation, and whose first pass can be played with.
+pub const SHOWN: usize = 2;
+
+/// Every figure of the cases, in the order of the report: the box, then each case.
+///
+/// # Errors
+/// The errors of the figures' data; [`PresentError::Drawing`].
+pub fn case_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError> {
+    let mut figures = Vec::new();
+    if let Some(first) = results.first() {
+        let case = &first.case;
+        let caption = "Cases 1 to 4: the wing torque box with its structural and dynamic points (the paper's Figure 2).";
+        let title = "Cases 1 to 4: the wing torque box, its structural and dynamic points";
+        let report = case_report(first)?.with_structure(case.model()?.structure());
+        figures.push(Figure::new(
+            "box_points",
+            caption,
+            draw_structure("box_points", title, &report)?,
+        ));
+        // From the second case on covers are membranes.
+        let case = &results.get(1).unwrap_or(first).case;
+        let caption = "the box taken apart, its elements numbered (the paper's Figure 3).";
+        let caption = format!("Case {}: {caption}", case.number);
+        figures.push(Figure::new(
+            "box_elements",
+            caption,
+            box_elements::draw(case)?,
+        ));
+    }
+    if let Some(shown) = results.iter().find(|result| result.case.number == SHOWN) {
+        let caption = format!(
+            "Case {SHOWN}: how far every gage is off before and after, the box taken apart."
+        );
+        let svg = box_elements::draw_gages(shown)?;
+        figures.push(Figure::new("box_gages", caption, svg));
+    }
+    let cases: Vec<Case> = results.iter().map(|result| result.case.clone()).collect();
+    let caption = "Cases 1 to 4: cover gages of the test configuration (GVT) and of each first model (the paper's Figure 4); root at \
+        the left.";
+    figures.push(Figure::new(
+        "cover_gages",
+        caption,
+        cover_gages::draw(&cases)?,
+    ));
+    for result in results {
+        add_figures_of(result, &mut figures)?;
+    }
+    Ok(figures)
+}
+
+/// Adds the figures of one case: those of its correlation, or of Case 4 the factors that its single iteration asks for; and its
+/// derivatives.
+fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), PresentError> {
+    let report = case_report(result)?;
+    let case = result.case.number;
+    let all = report_figures(&report)?;
+    let kept = |what: &str| {
+        let mut figure = all
+            .iter()
+            .find(|figure| figure.name == format!("case_{case}_{what}"))?
+            .clone();
+        let number = match (what, case) {
+            ("errors", 1) => 5,
+            ("mode_shapes", 1) => 6,
+            ("errors", 2) => 7,
+            ("errors", 3) => 8,
+            _ => return Some(figure),
+        };
+        figure.caption = format!(
+            "{} (the paper's Figure {number}).",
+            figure.caption.trim_end_matches('.')
+        );
+        Some(figure)
+    };
+    if case == CASES[3] {
+        let drawn = Factors {
+            rows: unlimited_factors(result),
+            limits: Some(result.case.settings.inner.factor_range),
+            across: "unlimited stiffness change factor, first iteration".to_owned(),
+            down: "element",
+            origin: 1.0,
+            decimals: 1,
+            published: "published (“about 60”)",
+        };
+        let svg = drawn.draw(
+            "case_4_factors",
+            "Case 4: unlimited stiffness change factors",
+        )?;
+        let caption = "Case 4: what the first iteration asks of every panel before any limit, on a linear scale.";
+        figures.push(Figure::new("case_4_factors", caption, svg));
+        figures.extend(kept("derivatives"));
+        return Ok(());
+    }
+    let whats = [
+        "frequencies",
+        "errors",
+        "mode_shapes",
+        "agreement",
+        "derivatives",
+    ];
+    figures.extend(whats.into_iter().filter_map(kept));
+    Ok(())
+}

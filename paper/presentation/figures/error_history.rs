@@ -1,0 +1,232 @@
+//! Frequency error, shape error and their sum against iteration (Figures 5, 7 and 8).
+
+use super::canvas::*;
+use corfem::method::error_sum::Errors;
+use corfem::present::report::{Report, Stage};
+use plotters::prelude::{BindKeyPoints, IntoLogRange};
+
+/// The SRSS errors of one stage, fractions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PassHistory {
+    /// Iterations before the pass.
+    pub from: usize,
+    /// Errors of the exact solution that the pass starts from, then after every iteration by perturbation.
+    pub inner: Vec<Errors>,
+    /// Errors of the exact check at the end of the pass.
+    pub check: Errors,
+    /// Tolerance of its inner loop on the error sum, a fraction, if known.
+    pub tolerance: Option<f64>,
+    /// True if the pass has an inner loop; without one it is one iteration.
+    pub is_inner: bool,
+}
+
+/// The history of a correlation.
+pub fn error_history(report: &Report) -> Vec<PassHistory> {
+    let mut from = 0;
+    let history = |(row, stage): (usize, &Stage)| {
+        let (tolerance, is_inner) = (
+            report.settings.as_ref().map(|settings| match row {
+                0 => settings.inner.tolerance,
+                _ => settings.later_inner_tolerance,
+            }),
+            stage.inner.is_some(),
+        );
+        let pass = PassHistory {
+            from,
+            inner: report.inner_errors(row),
+            check: stage.check.errors,
+            tolerance,
+            is_inner,
+        };
+        from = pass.to();
+        pass
+    };
+    report.stages.iter().enumerate().map(history).collect()
+}
+
+impl PassHistory {
+    /// Iterations at its end.
+    pub fn to(&self) -> usize {
+        self.from
+            + if self.is_inner {
+                self.inner.len() - 1
+            } else {
+                1
+            }
+    }
+}
+
+/// The three errors as drawn: name, value, color, form and dash.
+type Measure = (&'static str, fn(&Errors) -> f64, RGBColor, Form, Dash);
+const SERIES: [Measure; 3] = [
+    ("sum of both", Errors::sum, INK, Form::Diamond, Dash::Solid),
+    (
+        "frequency error",
+        |e| e.frequency,
+        VERMILION,
+        Form::Square,
+        Dash::Dashed,
+    ),
+    ("shape error", |e| e.shape, BLUE, Form::Circle, Dash::Dotted),
+];
+
+/// Powers of ten that the error axis begins and ends with at most, percent.
+const DECADES: (i32, i32) = (-3, 4);
+/// The foot of the longest axis, percent: smaller errors are drawn on it.
+const FOOT: f64 = 1e-3;
+/// Decades up to which an axis has ticks at two and five times their powers of ten.
+const FEW_DECADES: f64 = 3.1;
+/// Margins of the plot: left, right, top, bottom, px.
+const MARGINS: [f64; 4] = [72.0, 150.0, 64.0, 48.0];
+const HEIGHT: f64 = 426.0;
+
+/// The history as SVG: errors on a logarithmic scale, passes side by side.
+pub fn draw(name: &str, title: &str, passes: &[PassHistory]) -> Result<String, PresentError> {
+    svg(name, title, HEIGHT, |area| draw_on(area, passes))
+}
+
+/// An error in percent as it is drawn: a logarithmic scale has no zero.
+fn percent(error: f64) -> f64 {
+    (100.0 * error).clamp(1.2 * 10f64.powi(DECADES.0), 0.8 * 10f64.powi(DECADES.1))
+}
+
+/// The errors that are drawn: all three, or the one part that is not zero throughout, as where no shapes are measured.
+fn measures(passes: &[PassHistory]) -> Vec<Measure> {
+    let errors = || {
+        passes
+            .iter()
+            .flat_map(|pass| pass.inner.iter().chain([&pass.check]))
+    };
+    let [sum, parts @ ..] = SERIES;
+    let is_there = |part: &Measure| errors().any(|errors| part.1(errors) != 0.0);
+    match parts.into_iter().filter(is_there).collect::<Vec<_>>() {
+        one if one.len() == 1 => one,
+        both => [vec![sum], both].concat(),
+    }
+}
+
+/// Ends of the axis that just hold every error, and its ticks, percent.
+fn ticks(passes: &[PassHistory]) -> (f64, f64, Vec<f64>) {
+    let errors = passes
+        .iter()
+        .flat_map(|pass| pass.inner.iter().chain([&pass.check]));
+    let measures = measures(passes);
+    let values = errors.flat_map(|errors| measures.iter().map(|it| percent(it.1(errors))));
+    let (least, most) = values.fold((f64::INFINITY, 0.0), |(low, high), value| {
+        (value.min(low), value.max(high))
+    });
+    // Parsed from decimal text: a product of powers of ten may be off in the last digit.
+    let tick = |part: u8, decade| Some((part, format!("{part}e{decade}").parse::<f64>().ok()?));
+    let decades =
+        (DECADES.0..=DECADES.1).flat_map(|decade| [1, 2, 5].map(|part| tick(part, decade)));
+    let all: Vec<(u8, f64)> = decades.flatten().collect();
+    let low = all
+        .iter()
+        .rposition(|(_, tick)| *tick < 0.9 * least)
+        .unwrap_or(0);
+    let high = all
+        .iter()
+        .position(|(_, tick)| *tick > 1.1 * most)
+        .unwrap_or(low);
+    let (low, high) = (all[low].1, all[high].1);
+    let few = (high / low).log10() < FEW_DECADES;
+    let shown = all
+        .into_iter()
+        .filter(|(part, tick)| (low..=high).contains(tick) && (few || *part == 1));
+    (low, high, shown.map(|(_, tick)| tick).collect())
+}
+
+fn draw_on(area: &Area, passes: &[PassHistory]) -> Drawn {
+    let last = passes.last().map_or(0, PassHistory::to);
+    let (low, high, ticks) = ticks(passes);
+    // As many as there is room for.
+    let most_labels = (526.0 / (10.0 + 7.8 * last.to_string().len() as f64)) as usize;
+    let range = (low..high).log_scale().with_key_points(ticks);
+    let mut chart = chart(area, MARGINS).build_cartesian_2d(-0.4..last as f64 + 0.4, range)?;
+    axes(&mut chart)
+        .disable_x_mesh()
+        .x_labels((last + 1).min(most_labels))
+        .x_label_formatter(&|x| format!("{x:.0}"))
+        .y_label_formatter(&|y| format!("{}{y}", if *y == FOOT { "≤ " } else { "" }))
+        .x_desc(if passes.iter().any(|pass| pass.is_inner) {
+            "accepted iterations of the inner loop"
+        } else {
+            "iterations"
+        })
+        .draw()?;
+    let place = |iteration: usize, percent: f64| placed(&chart, iteration as f64, percent);
+    for (row, pass) in passes.iter().enumerate() {
+        if !pass.is_inner {
+            continue;
+        }
+        let (from, to, number) = (pass.from, pass.to(), row + 1);
+        let (begin, end) = (place(from, high), place(to, high));
+        let name = match (end.0 - begin.0, pass.tolerance) {
+            (wide, Some(most)) if wide > 180.0 => {
+                format!("pass {number} (tolerance {:.1} %)", 100.0 * most)
+            }
+            (wide, _) if wide > 50.0 => format!("pass {number}"),
+            _ => number.to_string(),
+        };
+        write(
+            area,
+            &name,
+            (0.5 * (begin.0 + end.0), begin.1 - 11.0),
+            MIDDLE,
+        )?;
+        line(area, &[place(to, low), end], Pen::dashed(GRAY, 1.0))?;
+        if let Some(most) = pass.tolerance.map(|most| percent(most).clamp(low, high)) {
+            line(
+                area,
+                &[place(from, most), place(to, most)],
+                Pen::solid(GRAY, 1.4),
+            )?;
+        }
+    }
+    name_upright(
+        area,
+        "SRSS error, percent (log scale)",
+        0.5 * (HEIGHT + MARGINS[2] - MARGINS[3]),
+    )?;
+    // Lines first, so that no line crosses the open marks of exact solutions.
+    let mut ends = Vec::new();
+    for (name, value, color, form, dash) in measures(passes) {
+        let at = |iteration: usize, errors: &Errors| place(iteration, percent(value(errors)));
+        let pen = Pen(color, 1.8, dash);
+        let dot = Mark(form, 2.6, Some(color), Pen::solid(color, 1.0));
+        for pass in passes {
+            let exact = (!pass.is_inner).then_some(&pass.check);
+            let points = (pass.from..)
+                .zip(pass.inner.iter().chain(exact))
+                .map(|(row, errors)| at(row, errors));
+            let points: Vec<Place> = points.collect();
+            line(area, &points, pen)?;
+            for &point in &points[1..pass.inner.len()] {
+                mark(area, point, dot)?;
+            }
+        }
+        let start = passes.first().map(|pass| at(pass.from, &pass.inner[0]));
+        let checks = passes.iter().map(|pass| at(pass.to(), &pass.check));
+        let exact: Vec<Place> = start.into_iter().chain(checks).collect();
+        for &exact in &exact {
+            mark(area, exact, Mark(form, 5.5, None, Pen::solid(color, 1.8)))?;
+        }
+        let end = exact.last();
+        ends.extend(end.map(|&end| Named(end, name, Some(pen), Some(dot))));
+    }
+    name_ends(area, ends)?;
+    let open = Mark(Form::Circle, 5.5, Some(WHITE), Pen::solid(INK, 1.8));
+    marked(
+        area,
+        (MARGINS[0] + 8.0, 18.0),
+        open,
+        "large, open: exact solution",
+    )?;
+    if passes.iter().any(|pass| pass.tolerance.is_some()) {
+        let (left, right) = (MARGINS[0] + 250.0, MARGINS[0] + 284.0);
+        line(area, &[(left, 18.0), (right, 18.0)], Pen::solid(GRAY, 1.4))?;
+        let words = "tolerance of the pass on the sum";
+        write(area, words, (right + 7.0, 18.0), START)?;
+    }
+    Ok(())
+}

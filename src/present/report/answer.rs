@@ -1,0 +1,126 @@
+//! The answer of a report in one line, and its parameters in the order of what is surest.
+
+use super::Report;
+use crate::present::table::Digits;
+use crate::present::tables::RMS_PERCENT;
+use crate::weighted::identifiability::MOSTLY_PRIOR;
+
+/// Standard deviations of a logarithm beyond which its change is sure.
+const SURE: f64 = 2.0;
+/// Change of a factor that is named where no deviation is known.
+const CHANGED: f64 = 0.005;
+/// Standard deviation of a factor, a fraction of it, within which it counts as known.
+const KNOWN: f64 = 0.05;
+/// Most factors that the line names.
+const NAMED: usize = 3;
+
+impl Report {
+    /// The part of every parameter's prior variance that is left, where it is known.
+    pub fn prior_shares(&self) -> Option<Vec<f64>> {
+        let [_, best] = self.seen.as_ref()?;
+        Some(best.learned.iter().map(|learned| 1.0 - learned).collect())
+    }
+
+    /// True of a parameter that the test modes hardly move, or that is known more from its prior than from the test.
+    pub fn is_unseen(&self, parameter: usize) -> bool {
+        let mut verdict = self.verdict.iter();
+        let shares = self.prior_shares();
+        verdict.any(|verdict| verdict.unseen.contains(&parameter))
+            || shares.is_some_and(|shares| shares[parameter] > MOSTLY_PRIOR)
+    }
+
+    /// The standard deviation of the logarithm of a parameter's best factor, from data and prior, where it is known.
+    pub fn log_deviation(&self, parameter: usize) -> Option<f64> {
+        let seen = self
+            .seen
+            .as_ref()
+            .map(|[_, best]| best.deviations[parameter]);
+        let deviation = || *self.deviations.as_ref()?.get(parameter)?;
+        seen.or_else(|| Some(deviation()? / self.factors()[parameter]))
+    }
+
+    /// The change of a factor's logarithm in standard deviations; in units of [`CHANGED`] where none is known.
+    fn sureness(&self, parameter: usize) -> f64 {
+        let change = self.factors()[parameter].ln().abs();
+        let unit = self.log_deviation(parameter).unwrap_or(CHANGED / SURE);
+        if change == 0.0 { 0.0 } else { change / unit }
+    }
+
+    /// Parameters, that with the surest change first, those that the test hardly sees last.
+    pub fn by_sureness(&self) -> Vec<usize> {
+        let all = 0..self.parameters.len();
+        let keys: Vec<(bool, f64)> = all
+            .clone()
+            .map(|e| (self.is_unseen(e), -self.sureness(e)))
+            .collect();
+        let mut order: Vec<usize> = all.collect();
+        order.sort_by(|&a, &b| {
+            let sure = keys[a].1.total_cmp(&keys[b].1);
+            keys[a].0.cmp(&keys[b].0).then(sure)
+        });
+        order
+    }
+
+    /// One line: what is against it, the errors before and after, the surest changes, and how many factors are known.
+    pub fn answer(&self) -> String {
+        let against = match &self.verdict {
+            _ if self.trust.iter().any(|trust| trust.stands_against()) => {
+                "Not to be trusted as it stands: "
+            }
+            Some(verdict) if !verdict.is_within && self.is_judged_by_noise => {
+                "The model does not explain the test: "
+            }
+            Some(verdict) if !verdict.is_within => "Outside tolerance: ",
+            _ => "",
+        };
+        let (first, last) = (&self.initial.errors, &self.corrected().errors);
+        let fall = |what: &str, first: f64, last: f64| {
+            let [first, last] = [first, last].map(|error| RMS_PERCENT.write(100.0 * error));
+            format!("{what} error {first} → {last} %")
+        };
+        let mut parts = vec![fall(
+            "frequency",
+            first.frequency_rms(),
+            last.frequency_rms(),
+        )];
+        if self.test.len() > 0 {
+            parts.push(fall("shape", first.shape_rms(), last.shape_rms()));
+        }
+        let errors = parts.join(", ");
+        let surest = self.by_sureness().into_iter().take(NAMED);
+        let changed: Vec<String> = surest
+            .filter(|&e| self.sureness(e) > SURE && !self.is_unseen(e))
+            .map(|e| {
+                let percent = 100.0 * (self.factors()[e] - 1.0);
+                let sign = if percent < 0.0 { "−" } else { "+" };
+                format!(
+                    "{} {sign}{} %",
+                    self.parameters[e],
+                    Digits::Fixed(0).write(percent.abs())
+                )
+            })
+            .collect();
+        let changed = match &changed[..] {
+            [] if self.stages.is_empty() => None,
+            [] => Some("no factor surely changed".to_owned()),
+            _ => Some(changed.join(", ")),
+        };
+        let count = self.parameters.len();
+        let known = self.deviations.as_ref().map(|deviations| {
+            let is_known = |e: &usize| {
+                deviations[*e].is_some() && self.log_deviation(*e).is_some_and(|it| it <= KNOWN)
+            };
+            match deviations.iter().flatten().count() {
+                0 => "no factor has an interval".to_owned(),
+                _ => format!(
+                    "{} of {count} factors known within {:.0} %",
+                    (0..count).filter(is_known).count(),
+                    100.0 * KNOWN
+                ),
+            }
+        });
+        let parts: Vec<String> = [errors].into_iter().chain(changed).chain(known).collect();
+        let line = format!("{against}{}.", parts.join("; "));
+        line[..1].to_uppercase() + &line[1..]
+    }
+}

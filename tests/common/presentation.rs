@@ -1,0 +1,5 @@
+//! How the paper's own cases are shown, which the program has as a module of its commands.
+
+#[path = "../../paper/presentation/mod.rs"]
+#[allow(dead_code, reason = "the program uses the rest")]
+pub mod paper;

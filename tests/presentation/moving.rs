@@ -1,0 +1,386 @@
+//! The page of a job: its first screen, its moving structure, and that every view says the same.
+
+use crate::common::jobs::{loaded, worked};
+use crate::common::tolerances::DRAWN_THOUSANDTHS;
+use crate::paper::report::moving_case;
+use crate::presentation::figures::results;
+use crate::presentation::subject::{chain, is_well_formed, without_scripts};
+use corfem::present::frame::{DrawnModes, extents};
+use corfem::present::page::charts::{factor_bars, pairing_plot, residual_map};
+use corfem::present::page::moving::{SCRIPT, moving};
+use corfem::present::page::report_page;
+use corfem::present::render::{csv, text};
+use corfem::present::report::{ModeResiduals, Report};
+use corfem::present::table::Digits;
+use corfem::present::tables::report::{answer_table, factor_table};
+use corfem::present::{json, rows};
+use nalgebra::Vector3;
+use serde_json::{Value, json};
+use std::process::Command;
+
+const JOBS: [&str; 4] = ["box", "building", "garteur", "wing"];
+
+fn report(name: &str) -> Report {
+    Report::from_job(&loaded(name), Some(worked(name))).expect("a report")
+}
+
+/// The data of the first moving structure of a page.
+fn data(page: &str) -> Value {
+    let (_, rest) = page.split_once("<script>moving(").expect("a structure");
+    let (data, _) = rest.split_once(")</script>").expect("its end");
+    serde_json::from_str(data).expect("JSON")
+}
+
+#[test]
+fn the_answer_the_structure_and_the_factors_stand_before_all_else() {
+    for name in JOBS {
+        let report = report(name);
+        let page = report_page(&report, &[], "corfem", "").expect("a page");
+        assert!(is_well_formed(&page), "{name}");
+        let at = |what: &str| page.find(what).unwrap_or_else(|| panic!("{name}: {what}"));
+        let parts = [
+            at(&format!("<strong>{}</strong>", report.answer())),
+            at("<figure class=\"moving\""),
+            at("<figure class=\"bars\""),
+            at("<figure class=\"pairing\""),
+            at("<nav "),
+            at("<section "),
+        ];
+        assert!(parts.is_sorted(), "{name}: {parts:?}");
+    }
+}
+
+/// Text, CSV, JSON, rows and page are views of one value.
+#[test]
+fn every_view_tells_the_same_factors_and_errors() {
+    for name in JOBS {
+        let report = report(name);
+        let table = factor_table(&report);
+        let document = json::report(&report).expect("a value");
+        let bars = factor_bars(&report);
+        let (plain, separated, rows) = (
+            text(&[answer_table(&report), table.clone()]),
+            csv(&[table]),
+            rows::factor_rows(&report),
+        );
+        assert_eq!(document["answer"], report.answer());
+        let answer = plain.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(answer.starts_with(&report.answer()), "{plain}");
+        for (e, parameter) in report.parameters.iter().enumerate() {
+            let factor = document["factors"][e].as_f64().expect("a number");
+            assert_eq!(factor, report.factors()[e]);
+            let row = plain
+                .lines()
+                .find(|line| line.starts_with(&format!("{parameter} ")));
+            let four = Digits::Fixed(4).write(factor);
+            assert!(
+                row.is_some_and(|row| row.contains(&four)),
+                "{parameter}: {plain}"
+            );
+            let is_of = |line: &&str| line.contains(&format!(",{parameter},Factor,,"));
+            let read = separated.lines().find(is_of).expect("a line");
+            let read: f64 = read
+                .split(',')
+                .nth(4)
+                .expect("a field")
+                .parse()
+                .expect("a number");
+            assert!((read / factor - 1.0).abs() < 1e-9, "{read} {factor}");
+            assert!(
+                rows.contains(&format!(",1,{factor},")),
+                "{parameter}: {rows}"
+            );
+            let three = Digits::Fixed(3).write(factor);
+            assert!(
+                bars.contains(&format!("</td><td>{three}")),
+                "{parameter}: {bars}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_structure_is_moved_by_keys_and_still_on_paper_and_for_readers_who_ask() {
+    for words in [
+        "ArrowLeft",
+        "ArrowUp",
+        "\"Home\"",
+        "event.key === \" \"",
+        "onpointerdown",
+        "(prefers-reduced-motion: reduce)",
+        "isPlaying = !isCalm.matches",
+        "\"beforeprint\"",
+    ] {
+        assert!(SCRIPT.contains(words), "{words}");
+    }
+    let page = moving(&report("wing")).expect("a figure");
+    for words in [
+        "tabindex=\"0\"",
+        "type=\"radio\"",
+        "class=\"phase\" type=\"range\"",
+        "class=\"difference\"",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    // The phase at which it stands where it does not move has the largest motion.
+    assert!(page.contains("max=\"360\" value=\"90\""));
+    for outside in ["http", "src=", "url(", "import ", "fetch", "eval"] {
+        assert!(!SCRIPT.contains(outside), "{outside}");
+    }
+}
+
+#[test]
+fn no_name_ends_the_script_or_a_tag() {
+    let name = "</script><b a=\"x\">&amp;'@DATA@";
+    let along = |row: usize| (Vector3::new(row as f64, 0.0, 0.0), Vector3::z());
+    let subject = chain(name, &[0.9, 1.1, 0.95, 1.0], along);
+    let page = report_page(&subject, &[], name, name).expect("a page");
+    assert!(is_well_formed(&page), "{page}");
+    assert!(!page.contains("<b a"));
+    assert_eq!(
+        page.matches("<script>").count(),
+        page.matches("</script>").count()
+    );
+    assert_eq!(data(&page)["modes"].as_array().map(Vec::len), Some(3));
+}
+
+/// Residuals at a sensor that measures the other way stand out.
+#[test]
+fn a_sensor_that_is_reversed_is_named_under_its_residuals() {
+    let subject = chain("rod", &[1.0; 4], |row| {
+        (Vector3::new(row as f64, 0.0, 0.0), Vector3::x())
+    });
+    let residuals = |mode: usize| ModeResiduals {
+        mode,
+        frequency: 0.5,
+        shape: (0..4)
+            .map(|row| if row == 2 { 20.0 } else { 1.0 })
+            .collect(),
+    };
+    let map = residual_map(&Report {
+        residuals: (1..=3).map(residuals).collect(),
+        ..subject.clone()
+    });
+    assert!(
+        map.contains("Largest over all modes: rod s2, 20.0 deviations RMS."),
+        "{map}"
+    );
+    assert_eq!(residual_map(&subject), "");
+}
+
+/// Letters are 11 px high on a phone of 390, and no two of an axis meet.
+#[test]
+fn the_plot_of_pairs_can_be_read_at_any_width() {
+    /// Width that a phone leaves, and the height of letters below which nobody reads, px.
+    const PHONE: [f64; 2] = [358.0, 11.0];
+    let css = include_str!("../../src/present/page/report.css");
+    let (_, rule) = css.split_once(".pairing svg {").expect("a rule");
+    let (_, size) = rule.split_once("font-size: ").expect("a size");
+    let size: f64 = size
+        .split("px")
+        .next()
+        .expect("px")
+        .parse()
+        .expect("a number");
+    assert!(size * PHONE[0] / 400.0 >= PHONE[1], "{size}");
+    for name in JOBS {
+        let plot = pairing_plot(&report(name));
+        assert!(!plot.contains("NaN") && !plot.contains("inf"), "{name}");
+        let mut along = Vec::new();
+        for tag in plot.split("<text ").skip(1) {
+            let (tag, words) = tag.split_once('>').expect("a tag");
+            let words = words.split('<').next().unwrap_or_default();
+            if let Some((_, x)) = tag
+                .split_once("x=\"")
+                .filter(|_| tag.contains("\"middle\"") && !tag.contains("transform"))
+            {
+                let x: f64 = x
+                    .split('"')
+                    .next()
+                    .expect("a place")
+                    .parse()
+                    .expect("a number");
+                if words.parse::<f64>().is_ok() {
+                    along.push((x, 0.6 * size * words.len() as f64));
+                }
+            }
+        }
+        assert!(along.len() > 1, "{name}");
+        for pair in along.windows(2) {
+            assert!(
+                pair[1].0 - pair[0].0 > 0.5 * (pair[0].1 + pair[1].1),
+                "{name}: {along:?}"
+            );
+        }
+    }
+}
+
+/// Relative luminance of a color such as `#0072b2` (WCAG 2.2).
+fn luminance(parts: [f64; 3]) -> f64 {
+    let linear = parts.map(|part| match part / 255.0 {
+        part if part <= 0.04045 => part / 12.92,
+        part => ((part + 0.055) / 1.055).powf(2.4),
+    });
+    0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+}
+
+/// Numbers can be read on every color of a cell, on light and on dark pages.
+#[test]
+fn numbers_have_a_contrast_of_four_and_a_half_on_every_cell_of_both_palettes() {
+    let css = include_str!("../../src/present/page/report.css");
+    let palettes: Vec<&str> = css.split("--ink: ").skip(1).collect();
+    assert_eq!(palettes.len(), 2);
+    for palette in palettes {
+        let palette = format!("--ink: {palette}");
+        let color = |name: &str| {
+            let (_, rest) = palette
+                .split_once(&format!("--{name}: #"))
+                .expect("a color");
+            let digits = rest.split(';').next().expect("digits");
+            let long: String = match digits.len() {
+                3 => digits.chars().flat_map(|digit| [digit, digit]).collect(),
+                _ => digits.to_owned(),
+            };
+            [0, 2, 4].map(|at| f64::from(u8::from_str_radix(&long[at..at + 2], 16).expect("hex")))
+        };
+        let (ink, page) = (luminance(color("ink")), color("page"));
+        for tone in ["plus", "minus"].map(color) {
+            for step in 0..=60 {
+                let part = f64::from(step) / 100.0;
+                let mixed = [0, 1, 2].map(|at| part * tone[at] + (1.0 - part) * page[at]);
+                let (one, other) = (ink + 0.05, luminance(mixed) + 0.05);
+                let contrast = one.max(other) / one.min(other);
+                assert!(contrast >= 4.5, "{tone:?} {step}: {contrast}");
+            }
+        }
+    }
+    assert_eq!(css.matches("calc(var(--v) * 60%)").count(), 2);
+}
+
+#[test]
+fn every_case_of_the_box_moves_whole_with_its_panels_named() {
+    for result in results() {
+        let report = moving_case(result).expect("a report");
+        let data = data(&moving(&report).expect("a figure"));
+        let pieces = data["pieces"].as_array().expect("pieces");
+        assert_eq!(pieces.len(), report.frame.len());
+        let owned: Vec<u64> = pieces
+            .iter()
+            .flat_map(|piece| piece["owners"].as_array().expect("owners"))
+            .map(|owner| owner.as_u64().expect("a number"))
+            .collect();
+        for e in 0..report.parameters.len() as u64 {
+            assert!(owned.contains(&e), "panel {e}");
+        }
+        assert_eq!(data["modes"].as_array().map(Vec::len), Some(9));
+    }
+}
+
+/// Matrices have the lines that their stiffness couples, and every one knows whose it is.
+#[test]
+fn a_job_of_matrices_has_its_lines_from_its_stiffness() {
+    let report = report("building");
+    assert_eq!(report.frame.len(), 9);
+    // The first story stands on the ground alone.
+    let owners: Vec<usize> = report.owners.iter().flatten().copied().collect();
+    assert_eq!(owners, (1..10).collect::<Vec<_>>());
+}
+
+/// A real test of frequencies alone: the models move, the test's shapes are not made up, and pairs of one root keep their sign.
+#[test]
+fn a_test_without_shapes_moves_its_models_alone() {
+    let report = report("garteur");
+    let drawn = DrawnModes::from_report(&report)
+        .expect("modes")
+        .expect("places");
+    assert_eq!(drawn.modes.len(), 8);
+    for mode in &drawn.modes {
+        let [test, first, last] = &mode.moved;
+        assert!(test.is_empty());
+        let largest = |moved: &[Vector3<f64>]| moved.iter().map(Vector3::amax).fold(0.0, f64::max);
+        assert!((largest(first) - 1.0).abs() < 1e-12 && (largest(last) - 1.0).abs() < 1e-12);
+        let along: f64 = first.iter().zip(last).map(|(a, b)| a.dot(b)).sum();
+        assert!(along > 0.0, "mode {}", mode.number);
+    }
+    // Beams that are joined, and nothing else: every grid has a line.
+    let on_lines: Vec<&Vector3<f64>> = report.frame.iter().flatten().collect();
+    assert!(report.grids.iter().all(|(_, at)| on_lines.contains(&at)));
+    assert!(
+        moving(&report)
+            .expect("a figure")
+            .contains("The test has frequencies alone.")
+    );
+}
+
+/// Node runs the script as it stands in the page: the places that a reader sees are those of the program.
+#[test]
+#[ignore = "needs node"]
+fn node_moves_every_structure_as_the_program_does() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("moving.js");
+    std::fs::write(&path, SCRIPT).expect("written");
+    for name in JOBS {
+        let report = report(name);
+        let drawn = DrawnModes::from_report(&report)
+            .expect("modes")
+            .expect("places");
+        let data = data(&moving(&report).expect("a figure"));
+        let stored = folder.path().join("data.json");
+        std::fs::write(&stored, data.to_string()).expect("written");
+        let program = format!(
+            "const page = require({}), data = require({});\
+             console.log(JSON.stringify(data.modes.map(mode => [0, 1, 2].map(state => {{\
+               const moved = page.motion(mode, state, false);\
+               return moved && page.displaced(data, moved, 90);\
+             }}))))",
+            json!(path),
+            json!(stored)
+        );
+        let output = Command::new("node")
+            .args(["-e", &program])
+            .output()
+            .expect("it runs");
+        let words = String::from_utf8_lossy(&output.stderr);
+        let found: Value = serde_json::from_slice(&output.stdout)
+            .unwrap_or_else(|error| panic!("{error}: {words}"));
+        let nodes = &drawn.frame.nodes;
+        let extent = extents(nodes);
+        let low = nodes
+            .iter()
+            .copied()
+            .reduce(|low, node| low.inf(&node))
+            .expect("nodes");
+        let heights = data["heights"].as_f64().expect("a number");
+        let mut compared = 0;
+        for (mode, found) in drawn.modes.iter().zip(found.as_array().expect("modes")) {
+            for state in 0..3 {
+                for (node, motion) in mode.moved[state].iter().enumerate() {
+                    let mut expected = (nodes[node] - low - 0.5 * extent) / extent.max();
+                    expected.z *= heights;
+                    expected += 0.125 * motion;
+                    for axis in 0..3 {
+                        let read = found[state][node][axis].as_f64().expect("a number");
+                        let off = (read - expected[axis]).abs();
+                        assert!(off < DRAWN_THOUSANDTHS, "{name}: {read} {}", expected[axis]);
+                        compared += 1;
+                    }
+                }
+            }
+        }
+        assert!(compared > 2 * 3 * nodes.len(), "{name}");
+    }
+}
+
+/// The words of a page that a reader without scripts has.
+#[test]
+fn everything_but_the_motion_is_there_without_scripts() {
+    let report = report("wing");
+    let page = without_scripts(&report_page(&report, &[], "corfem", "").expect("a page"));
+    for name in report
+        .parameters
+        .iter()
+        .chain(report.sensors.iter().map(|sensor| &sensor.name))
+    {
+        assert!(page.contains(name.as_str()), "{name}");
+    }
+}
