@@ -6,6 +6,7 @@
 mod common;
 mod equations;
 mod ledgers;
+mod prelude;
 
 mod spec;
 

@@ -1,8 +1,6 @@
 //! Test modes and measures for Appendix B.
 
-use corfem::method::appendix_b::Movement;
-use corfem::method::modes::Modes;
-use nalgebra::{DMatrix, DVector};
+use crate::prelude::*;
 
 /// Test modes from squared circular frequencies and shapes by columns.
 pub fn modes(omega_squared: &[f64], shapes: DMatrix<f64>) -> Modes {
@@ -38,8 +36,6 @@ pub fn slight_overlap() -> (Modes, DMatrix<f64>, Vec<Movement>) {
         unit_shapes(&[[1.0, 0.0, 0.0, 0.0], [0.05, 1.0, 0.0, 0.0]]),
     );
     let mass = DMatrix::identity(4, 4);
-    let movement = corfem::method::appendix_b::orthogonalize(&raw, &mass)
-        .unwrap()
-        .movement;
+    let movement = orthogonalize(&raw, &mass).unwrap().movement;
     (raw, mass, movement)
 }

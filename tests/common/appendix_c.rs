@@ -1,14 +1,6 @@
 //! Strategies and small problems for Appendix C in full: changes of stiffness and mass, clusters of roots.
 
-use corfem::method::appendix_c::{LeftRightModes, Pencil};
-use corfem::method::error::Error;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::perturbation::{Perturbed, first_order, recursive_1, recursive_1_converged};
-use corfem::method::sorting::pair_modes;
-use nalgebra::{Complex, DMatrix, DVector, dmatrix, dvector};
-use proptest::prelude::*;
-
-use super::strategies::symmetric;
+use crate::prelude::*;
 
 /// Modes of vibration on either side: $\lambda = 1/\omega^2$ and $U = V$, for a symmetric pencil is its own transpose.
 pub fn on_either_side(modes: &Modes) -> LeftRightModes<f64> {

@@ -11,14 +11,8 @@
 //! where $P_s$ is a row of the identity for $s$ in $C$. With blocks of one mode these are the equations of Recursive 1
 //! (C.22). The modes of a block come at last from the symmetric eigenproblem of $A$ and $G$ within its span.
 
-use super::appendix_c::ModalChange;
-use corfem::method::error::Error;
-use corfem::method::linear_algebra::{check_finite, symmetric_part};
-use corfem::method::modes::{apply_sign_rule, solve};
-use corfem::method::perturbation::{
-    LARGEST_UNSETTLED_CHANGE, Perturbed, SMALLEST_SEPARATION, Settled,
-};
-use nalgebra::{DMatrix, DVector};
+use crate::prelude::*;
+use corfem::method::perturbation::Settled;
 
 /// Stiffness $k + \beta$ and mass $k\Lambda + \alpha$.
 type Pencil = (DMatrix<f64>, DMatrix<f64>);

@@ -1,11 +1,7 @@
 //! The torque box as the loops see it, and boxes like it with other gages.
 
-use corfem::method::model::Model;
-use corfem::torque_box::Case;
-use corfem::torque_box::wing_box::{PANEL_COUNT, Reconstruction};
-use proptest::prelude::*;
-use proptest::strategy::ValueTree;
-use proptest::test_runner::{Config, RngAlgorithm, RngSeed, TestRunner};
+use crate::prelude::*;
+use proptest::test_runner::{RngAlgorithm, RngSeed};
 
 /// The problem of a case's first pass: its first gages, its test modes, all nine analysis modes.
 pub fn first_problem(number: usize) -> Model {

@@ -1,10 +1,6 @@
 //! Chains with known spectra, and how far modes solved in blocks are from the exact ones.
 
-use super::appendix_c::{ModalChange, ascending, three_mass_chain};
-use crate::common::blocks::{CloseRootsSettings, SolvedInBlocks, close_roots};
-use corfem::method::modes::Modes;
-use corfem::method::perturbation::Perturbed;
-use nalgebra::{DMatrix, DVector, dvector};
+use crate::prelude::*;
 
 pub fn solved(change: &ModalChange) -> SolvedInBlocks {
     close_roots(change, CloseRootsSettings::default()).expect("a change the method can follow")
@@ -22,7 +18,7 @@ pub fn changed(change: &ModalChange) -> (DMatrix<f64>, DMatrix<f64>) {
 /// Largest relative distance of sorted ω² from those of the eigensolution of the changed matrices.
 pub fn root_error(roots: &DVector<f64>, change: &ModalChange) -> f64 {
     let (stiffness, mass) = changed(change);
-    let exact = corfem::method::modes::solve(&stiffness, &mass, roots.len()).expect("vibrations");
+    let exact = solve(&stiffness, &mass, roots.len()).expect("vibrations");
     ascending(roots.map(f64::recip).iter())
         .iter()
         .zip(exact.omega_squared().iter())
@@ -41,7 +37,7 @@ pub fn residual(solved: &SolvedInBlocks, change: &ModalChange) -> f64 {
 pub fn repeated_chain() -> (DMatrix<f64>, DMatrix<f64>, Modes) {
     let stiffness = three_mass_chain([0.0, 8.0, 0.0], [2.0, 2.0, 1.0]);
     let mass = DMatrix::from_diagonal(&dvector![1.0, 4.0, 1.0]);
-    let modes = corfem::method::modes::solve(&stiffness, &mass, 3).unwrap();
+    let modes = solve(&stiffness, &mass, 3).unwrap();
     (stiffness, mass, modes)
 }
 
@@ -49,7 +45,7 @@ pub fn repeated_chain() -> (DMatrix<f64>, DMatrix<f64>, Modes) {
 pub fn separate_chain() -> (DMatrix<f64>, DMatrix<f64>, Modes) {
     let stiffness = three_mass_chain([1.0, 1.0, 1.0], [1.0, 1.0, 3.0]);
     let mass = DMatrix::identity(3, 3);
-    let modes = corfem::method::modes::solve(&stiffness, &mass, 3).unwrap();
+    let modes = solve(&stiffness, &mass, 3).unwrap();
     (stiffness, mass, modes)
 }
 

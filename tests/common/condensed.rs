@@ -1,15 +1,7 @@
 //! The paper's condensation of a whole model to its sensors, which no job compares any more, and what it costs: the condensed modes beside
 //! those of the whole model.
 
-use corfem::method::appendix_a::{Condensed, condense};
-use corfem::method::error::Error;
-use corfem::method::model::DynamicModel;
-use corfem::method::model::Model;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::sorting::pair_modes;
-use corfem::sparse::modal_assurance;
-use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// Largest part by which condensation may raise a frequency that is compared, twice the loop's own tolerance on frequencies: beyond it
 /// the correlation would correct elements for what the choice of measuring points did.

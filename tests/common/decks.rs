@@ -1,9 +1,7 @@
 //! Strategies of models that a deck can hold, and of decks that say the same in another way.
 
-use corfem::files::deck::{self, BulkData, PointMass, Tie};
-use corfem::files::error::FileError;
-use corfem::method::structure::{Element, ElementKind, Grid, Material, StructuralDof};
-use proptest::prelude::*;
+use crate::prelude::*;
+use corfem::files::deck::PointMass;
 
 /// Columns of a field of the small and of the large format.
 const WIDTHS: [usize; 2] = [8, 16];
@@ -227,8 +225,8 @@ fn free(line: &str) -> Vec<String> {
     let data = (8..72)
         .step_by(width)
         .map(|start| line[start..start + width].trim().to_owned());
-    std::iter::once(name)
+    once(name)
         .chain(data)
-        .chain(std::iter::once(line[72..].trim().to_owned()))
+        .chain(once(line[72..].trim().to_owned()))
         .collect()
 }

@@ -1,8 +1,6 @@
 //! Reproducible draws for tests that make more calls than a property would, and how often a strategy's draws reach something.
 
-use corfem::sparse::random::split_mix_64;
-use proptest::strategy::{Strategy, ValueTree};
-use proptest::test_runner::TestRunner;
+use crate::prelude::*;
 
 /// A stream of draws from a seed.
 pub struct Draws(pub u64);

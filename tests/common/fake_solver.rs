@@ -1,20 +1,17 @@
 //! NASTRAN-95 played by a small shell script, and its answers written as module OUTPUT5 writes them.
 
-use crate::common::outer_loop::program::Nastran95;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 use std::fmt::Write;
 use std::os::unix::fs::PermissionsExt;
-use std::time::Duration;
-use tempfile::TempDir;
 
 /// A folder that looks like NASTRAN-95, its program the given shell script.
 pub fn fake(script: &str) -> TempDir {
     let home = tempfile::tempdir().expect("a folder");
-    std::fs::create_dir_all(home.path().join("bin")).expect("bin");
-    std::fs::create_dir_all(home.path().join("rf")).expect("rf");
+    fs::create_dir_all(home.path().join("bin")).expect("bin");
+    fs::create_dir_all(home.path().join("rf")).expect("rf");
     let program = home.path().join("bin/nastrn");
-    std::fs::write(&program, format!("#!/bin/sh\n{script}\n")).expect("written");
-    std::fs::set_permissions(&program, PermissionsExt::from_mode(0o755)).expect("executable");
+    fs::write(&program, format!("#!/bin/sh\n{script}\n")).expect("written");
+    fs::set_permissions(&program, PermissionsExt::from_mode(0o755)).expect("executable");
     home
 }
 

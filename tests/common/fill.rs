@@ -1,6 +1,6 @@
 //! How much a factorization stores and computes, by its order of elimination.
 
-use corfem::method::appendix_a::ElementMatrix;
+use crate::prelude::*;
 use faer::Side;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{

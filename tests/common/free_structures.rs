@@ -1,9 +1,8 @@
 //! Drawn structures with a place for every row, held or free, as matrices that a program writes with so many digits.
 
-use crate::common::draws::Draws;
+use crate::prelude::*;
 use corfem::files::matrices::read;
-use corfem::sparse::{Places, SparseMatrix, Support};
-use nalgebra::{DMatrix, Vector3};
+use corfem::sparse::Places;
 use std::fmt::Write;
 
 /// A structure by its stiffness and mass, with place and direction of every row, and how many motions nothing resists.
@@ -124,7 +123,7 @@ fn beam(draws: &mut Draws, is_held: bool) -> Drawn {
 fn frame(draws: &mut Draws, is_held: bool) -> Drawn {
     let (bays, unit) = (2 + draws.below(6), [1.0, 1e3][draws.below(2)]);
     let [wide, high] = [(); 2].map(|()| draws.between(0.5, 3.0) * unit);
-    let (sin, cos) = draws.between(0.0, std::f64::consts::TAU).sin_cos();
+    let (sin, cos) = draws.between(0.0, TAU).sin_cos();
     let place = |at: usize| {
         let (x, y) = ((at % 2) as f64 * wide, (at / 2) as f64 * high);
         Vector3::new(cos * x - sin * y, sin * x + cos * y, 0.0)

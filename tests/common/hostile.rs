@@ -1,20 +1,6 @@
 //! Matrices, modes and models that nobody means: of any size, of extreme numbers, of what is no number.
 
-use super::draws::Draws;
-use crate::common::appendix_c::ModalChange;
-use crate::common::structures::spring_stiffness;
-use corfem::method::analysis::{Analysis, State};
-use corfem::method::appendix_a::{ElementMatrix, element_matrices};
-use corfem::method::error::Error;
-use corfem::method::error_sum::Errors;
-use corfem::method::model::Model;
-use corfem::method::model::{DynamicModel, FiniteElementModel, Parameter};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::sorting::Pairing;
-use corfem::method::step::Bounds;
-use corfem::method::structure::{Element, ElementKind, Grid, Material, StructuralDof, Structure};
-use corfem::sparse::ParameterMatrix;
-use nalgebra::{DMatrix, DVector, Vector3};
+use crate::prelude::*;
 
 /// Numbers that break things: zeros, ends of the range, and what is no number.
 const NASTY: [f64; 16] = [

@@ -1,23 +1,7 @@
 //! The worked jobs of `tests/jobs`, made anew: what they were made of is known here, and only here.
 
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::known::delta_wing::correlation::{first_model, measured_grids};
-use crate::common::test_files::{write_csv, write_universal};
-use corfem::files::deck::{self, BulkData, Task};
-use corfem::files::error::FileError;
-use corfem::files::matrices::write_matrix_market;
-use corfem::files::test_data::{Sensor, TestData};
-use corfem::job::{JobResult, LoadedJob, PreparedJob, Trust};
-use corfem::method::modes::Modes;
-use corfem::sparse::{SparseMatrix, WholeModel, WholeShare};
-use corfem::torque_box::Case;
-use corfem::torque_box::wing_box::{TEST_GAGE, dynamic_points};
-use corfem::weighted::noise::{Noise, with_noise};
-use nalgebra::{DMatrix, Vector3};
-use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
-
-use super::whole_models::{seen_by, sensors_at, shear_building};
+use crate::prelude::*;
+use corfem::job::LoadedJob;
 
 /// Stiffness of every story of the real building over that of the model, from the ground up.
 pub const STORIES: [f64; 10] = [0.70, 1.0, 1.2, 0.9, 1.0, 0.8, 1.1, 1.0, 0.85, 1.0];

@@ -1,7 +1,6 @@
 //! What tests ask of a matrix: how far from another, symmetric, of which rank.
 
-use super::tolerances::RANK_THRESHOLD;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// Largest difference of two matrices of one shape, relative to the largest entry of the second.
 pub fn relative_distance(found: &DMatrix<f64>, expected: &DMatrix<f64>) -> f64 {

@@ -1,14 +1,6 @@
 //! Measured modes: structures without supports and with them, exact modes, and the ways a test goes wrong.
 
-use crate::common::alter;
-use corfem::method::appendix_b::MeasuringPoint;
-use corfem::method::elements::rod;
-use corfem::method::modes::Modes;
-use corfem::sparse::ModeWeight;
-use corfem::weighted::noise::Noise;
-use nalgebra::{DMatrix, DVector, SymmetricEigen, Vector3};
-use proptest::prelude::*;
-use std::f64::consts::PI;
+use crate::prelude::*;
 
 /// A structure that nothing holds, with a diagonal mass.
 #[derive(Debug, Clone)]

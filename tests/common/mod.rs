@@ -42,10 +42,8 @@ pub mod vibrations;
 pub mod whole_models;
 pub mod wing_subjects;
 
-use corfem::method::error::Error;
-use corfem::method::modes::Modes;
-use nalgebra::{DMatrix, DVector};
-use proptest::test_runner::{Config, FileFailurePersistence};
+use crate::prelude::*;
+use proptest::test_runner::FileFailurePersistence;
 
 /// Proptest's configuration for every property: `PROPTEST_CASES` sets the depth, failures are kept beside the
 /// source for good.
@@ -95,7 +93,7 @@ pub fn alter(modes: &mut Modes, change: impl FnOnce(&mut DVector<f64>, &mut DMat
 }
 
 /// Words of a refusal, or that there is none.
-pub fn said<T>(answer: Result<T, impl std::fmt::Display>) -> String {
+pub fn said<T>(answer: Result<T, impl Display>) -> String {
     answer.map_or_else(|refusal| refusal.to_string(), |_| "an answer".into())
 }
 

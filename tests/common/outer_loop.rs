@@ -3,9 +3,7 @@
 #[path = "../../paper/nastran95.rs"]
 pub mod program;
 
-use corfem::method::analysis::State;
-use corfem::torque_box::CASES;
-use serde::Deserialize;
+use crate::prelude::*;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -54,7 +52,7 @@ pub struct StoredWingCheck {
 impl StoredWing {
     /// The exact solutions: the initial one, and that after every pass.
     pub fn checks(&self) -> impl Iterator<Item = &StoredWingCheck> {
-        std::iter::once(&self.initial).chain(&self.passes)
+        once(&self.initial).chain(&self.passes)
     }
 }
 

@@ -1,7 +1,6 @@
 //! Strategies of mode sets that are the same but for order and sign, and of cross-orthogonality matrices.
 
-use nalgebra::DMatrix;
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// A rearrangement of modes: position j holds mode `order[j]` times `sign[j]`.
 #[derive(Debug, Clone)]

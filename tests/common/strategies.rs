@@ -1,7 +1,6 @@
 //! Proptest strategies: every random number is drawn here, within bounds that are explained, and shrinks.
 
-use nalgebra::{DMatrix, Rotation3, Vector3};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// A point within 100 inches of the origin along each axis: a structure's size.
 pub fn point() -> impl Strategy<Value = Vector3<f64>> {
@@ -41,7 +40,7 @@ pub fn positive_definite(
     decades: f64,
 ) -> impl Strategy<Value = (DMatrix<f64>, Vec<f64>)> {
     (orthogonal(size), prop::collection::vec(0.0..=decades, size)).prop_map(|(q, exponents)| {
-        let diagonal = DMatrix::from_diagonal(&nalgebra::DVector::from_iterator(
+        let diagonal = DMatrix::from_diagonal(&DVector::from_iterator(
             exponents.len(),
             exponents.iter().map(|e| 10f64.powf(*e)),
         ));

@@ -1,16 +1,7 @@
 //! Small structures with known answers, and strategies of structures and their sizes.
 
 pub use crate::common::known::weighed::lumped_mass;
-use crate::common::known::wing::Wing;
-use corfem::chain::rods;
-use corfem::method::appendix_a::{assemble, element_matrices};
-use corfem::method::error::Error;
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::step::Bounds;
-use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use corfem::sparse::{Factor, SparseMatrix};
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// A material of which a rod of length one and area k is a spring of stiffness k.
 pub fn unit_material() -> Material {

@@ -1,14 +1,8 @@
 //! The paper's torque box as a subject of properties.
 
 use crate::common::structures::of_dense;
-use corfem::method::appendix_a::assemble;
-use corfem::method::model::{FiniteElementModel, Parameter};
+use crate::prelude::*;
 use corfem::sparse::factorization::Factor;
-use corfem::torque_box::Case;
-use corfem::torque_box::wing_box::{Reconstruction, load_distribution, structure};
-use nalgebra::DMatrix;
-use proptest::prelude::*;
-use std::collections::BTreeMap;
 
 /// One of the paper's four cases: shear or membrane covers, thick or thin rods, like gages or one far too thin.
 pub fn case() -> impl Strategy<Value = Case> {

@@ -1,13 +1,7 @@
 //! Strategies of vibrating systems: pencils, modal problems under a change, chains of springs; and the slow, obvious
 //! ways of computing what the crate computes, through nalgebra where the crate goes through faer.
 
-use super::pairings::pairs_by_sorting;
-use super::strategies::positive_definite;
-use crate::common::structures::spring_stiffness;
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::Modes;
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Stiffness and mass of 1 to 6 DOF with the mass's condition number. The stiffness has condition numbers up to
 /// 1e10, as stiff and soft elements in one structure give; masses up to 1e4, which is a wide structure.
@@ -137,8 +131,7 @@ impl Chain {
     /// All exact modes with its springs multiplied by factors.
     pub fn modes(&self, factors: &[f64]) -> Modes {
         let model = self.model(factors);
-        corfem::method::modes::solve(&model.stiffness, &model.mass, self.masses.len())
-            .expect("a chain vibrates")
+        solve(&model.stiffness, &model.mass, self.masses.len()).expect("a chain vibrates")
     }
 }
 

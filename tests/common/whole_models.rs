@@ -1,17 +1,6 @@
 //! Whole models of springs and masses as sparse matrices.
 
-use crate::common::closed_forms::analytical::ChainEnds;
-use crate::common::structures::{lumped_mass, sizes};
-use corfem::method::appendix_a::{ElementMatrix, assemble, element_matrices};
-use corfem::method::error::Error;
-use corfem::method::modes::Modes;
-use corfem::method::step::Bounds;
-use corfem::method::structure::Structure;
-use corfem::sparse::{
-    CountedModes, FINITE, RigidBodies, SparseMatrix, Support, WholeModel, WholeParameter,
-    WholeShare,
-};
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// A matrix by the entries that are not zero.
 ///
@@ -129,10 +118,10 @@ pub fn sensors_at(rows: &[usize], count: usize) -> SparseMatrix {
 pub fn of_dense(
     stiffness: &DMatrix<f64>,
     mass: &DMatrix<f64>,
-    shares: &[corfem::sparse::ParameterMatrix],
+    shares: &[ParameterMatrix],
 ) -> Result<(WholeModel, SparseMatrix), Error> {
     use corfem::sparse::Share::{Mass, Stiffness};
-    let parameter = |(place, share): (usize, &corfem::sparse::ParameterMatrix)| {
+    let parameter = |(place, share): (usize, &ParameterMatrix)| {
         Ok(WholeParameter {
             name: place.to_string(),
             share: match share {

@@ -9,8 +9,7 @@
 //! 7. `\sum` and `\max` bind their index to the one term behind them, without what stands after `\ne`.
 //! 8. A clause whose left side is a letter that nothing gives defines it, for all its indices.
 
-use nalgebra::{Complex, DMatrix};
-use std::collections::BTreeMap;
+use crate::prelude::*;
 
 pub type Value = DMatrix<Complex<f64>>;
 /// Ranges of indices, or where they are, from zero.

@@ -5,11 +5,7 @@ use super::formula::{Letter, Refused};
 use super::vectors::{flat, vectors};
 use super::world::{World, clauses};
 use super::{EQUATIONS, LETTERS, text, wrong_forms};
-use crate::common::tolerances::WRONG_ANSWER;
-use nalgebra::Complex;
-use serde_json::{Value, json};
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use crate::prelude::*;
 
 /// The numbers, row by row, that a wrong formula makes of the right side of a clause.
 fn wrong(
@@ -100,10 +96,10 @@ fn wrong_answers_name_the_mistake() {
     let new = format!("[\n{}\n]\n", lines.join(",\n"));
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/wrong_answers.json");
     if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "1") {
-        std::fs::write(&path, &new).expect("it can be written");
+        fs::write(&path, &new).expect("it can be written");
     }
     let old: Vec<Value> =
-        serde_json::from_str(&std::fs::read_to_string(path).expect("it reads")).expect("it reads");
+        serde_json::from_str(&fs::read_to_string(path).expect("it reads")).expect("it reads");
     assert_eq!(old.len(), found.len());
     for (old, new) in old.iter().zip(&found) {
         let (before, now) = (flat(&old["answer"]), flat(&new["answer"]));

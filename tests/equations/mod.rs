@@ -13,10 +13,7 @@ mod mistakes;
 mod vectors;
 mod world;
 
-use crate::common::tolerances::{FORMULA, MISPRINT};
-use serde::Deserialize;
-use std::collections::BTreeMap;
-use std::sync::LazyLock;
+use crate::prelude::*;
 use toml::Table;
 use world::World;
 

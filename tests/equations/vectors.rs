@@ -3,30 +3,9 @@
 //! This program's answers are left beside its own files for `golden/mark.py`, which marks any implementation's.
 
 use super::formula::Letter;
-use crate::common::loops::Eigensolved;
-use crate::common::structures::lumped_mass;
 use crate::common::structures::of_dense;
-use corfem::method::analysis::Analysis;
-use corfem::method::appendix_a::{ElementMatrix, assemble};
-use corfem::method::appendix_b::{balance, orthogonalize};
-use corfem::method::appendix_c::Pencil;
-use corfem::method::appendix_c::{self, LeftRightModes};
-use corfem::method::error_sum::errors;
-use corfem::method::inner_loop::run;
-use corfem::method::linear_algebra::symmetric_part;
-use corfem::method::model::{DynamicModel, FiniteElementModel, Parameter};
-use corfem::method::modes::{Modes, generalized_mass, solve};
-use corfem::method::outer_loop::Settings;
-use corfem::method::perturbation::{Perturbed, recursive_1};
-use corfem::method::sorting::{cross_orthogonality, pair_modes};
-use corfem::method::step::{StepRule, unlimited_factor};
-use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use corfem::torque_box::Case;
-use nalgebra::{Complex, DMatrix, DVector, Vector3};
-use serde_json::{Map, Value, json};
-use std::collections::BTreeSet;
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
+use serde_json::Map;
 
 /// Bytes of the file at most: a program in another language has it beside itself.
 const LARGEST: usize = 150_000;

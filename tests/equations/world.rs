@@ -3,8 +3,7 @@
 use super::FORMULAS;
 use super::formula::{Formula, Letter, Letters, Places, Refused, Value, add};
 use super::vectors::{found, letter};
-use serde::Deserialize;
-use std::collections::BTreeMap;
+use crate::prelude::*;
 
 /// Known answers in which equations must hold.
 #[derive(Clone, Deserialize)]

@@ -2,16 +2,8 @@
 //! iterations, Table 9 the inner loop's own frequencies there.
 
 use super::RMS_PERCENT;
-use crate::common::boxes::other_boxes;
 use crate::evidence::detection::SIZES;
-use corfem::method::modes::solve;
-use corfem::present::table::{Cell, Table};
-use corfem::torque_box::Case;
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::fewer_modes::PUBLISHED_CASE;
-use corfem::torque_box::published::PublishedTable;
-use corfem::torque_box::wing_box::Reconstruction;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// Other boxes of each size.
 pub const ADDED_BOXES: usize = 10;

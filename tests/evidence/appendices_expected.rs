@@ -1,22 +1,7 @@
 //! Appendix B, the general formulae of Appendix C, gradients, and exact checks of truncated sets, against numpy's
 //! (golden/reference/appendices.py).
 
-use crate::common::appendix_c::{ModalChange, eigensolution};
-use crate::common::gradient::gradient;
-use crate::common::matrices::relative_distance;
-use crate::common::tolerances::{
-    EXPECTED_FREQUENCY, EXPECTED_GRADIENT, EXPECTED_HISTORY, MATRIX_ROUND_OFF,
-};
-use approx::assert_relative_eq;
-use corfem::method::analysis::Analysis;
-use corfem::method::appendix_b::{balance, orthogonalize};
-use corfem::method::appendix_c::LeftRightModes;
-use corfem::method::appendix_c::Pencil;
-use corfem::method::modes::Modes;
-use corfem::method::perturbation::Perturbed;
-use corfem::torque_box::Case;
-use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, published_runs};
-use nalgebra::{Complex, DMatrix, DVector};
+use crate::prelude::*;
 use toml::{Table, Value};
 
 fn expected() -> Table {

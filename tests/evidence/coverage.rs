@@ -2,29 +2,10 @@
 //! models, and how often a test is called explained.
 
 use super::PERCENT;
-use crate::common::jobs::{Files, building, of_whole};
-use crate::common::jobs::{prepare, run};
-use crate::common::known::Known;
-use crate::common::known::weighed::Weighed;
-use crate::common::measured::equal_weights;
-use crate::common::test_files::write_csv;
-use crate::common::whole_models::{masses, shear_building, springs};
-use crate::readers::job_errors::{placed, with};
-use corfem::files::error::FileError;
-use corfem::job::{JobResult, PreparedJob};
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::modes::Modes;
-use corfem::method::step::Bounds;
-use corfem::present::table::{Cell, Digits, Table, numbers, percents};
-use corfem::sparse::{WholeModel, WholeParameter, WholeShare};
-use corfem::torque_box::error::CaseError;
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop, gauss_newton};
-use corfem::weighted::intervals::{Withheld, intervals};
-use corfem::weighted::misfit::Misfit;
-use corfem::weighted::noise::{Noise, with_noise, with_noise_by_mode};
+use crate::common::jobs::of_whole;
+use crate::common::jobs::run;
+use crate::prelude::*;
 use std::error::Error;
-use std::ops::RangeInclusive;
 
 /// Seeds of the noise, one test each.
 pub const SEEDS: RangeInclusive<u64> = 1..=300;
@@ -339,7 +320,7 @@ fn subjects() -> Result<Vec<Subject>, Box<dyn Error>> {
         case_2_by_bays()?,
     ];
     let mut all: Vec<Subject> = known.into_iter().map(of_known).collect();
-    let stories = crate::common::jobs::STORIES;
+    let stories = STORIES;
     all.push(of_job("Building", building(), &stories)?);
     let eight = [0.7, 1.0, 1.2, 0.9, 1.0, 0.8, 1.1, 1.3];
     let fine = Noise {

@@ -4,20 +4,8 @@
 //! The crate's distance from a proven number is held to its condition: how much one rounding counts, which the program measures by a noise
 //! of 1e-40 in its place. Its iterations, halvings and pairs are those of the enclosure, of which no decision hangs on less than 4e-4.
 
-use crate::common::tolerances::{CHAIN_ROUND_OFF, NEAREST_DECISION, ROUND_OFF};
-use corfem::method::analysis::State;
-use corfem::method::modes::Modes;
-use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::method::step::StepRule;
-use corfem::method::structure::ElementKind;
-use corfem::present::table::{Cell, Table};
+use crate::prelude::*;
 use corfem::present::tables::cases::{frequency_table, gage_table};
-use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, PUBLISHED_RUNS};
-use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE, rms};
-use corfem::torque_box::{CASES, Case, run_case};
-use serde::Deserialize;
-use std::collections::BTreeMap;
-use std::sync::LazyLock;
 
 /// Decimals of twenty digits.
 type Decimals = Vec<String>;
@@ -63,7 +51,7 @@ struct Conditions {
 
 static ENCLOSED: LazyLock<BTreeMap<String, Run>> = LazyLock::new(|| {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/golden/enclosed.json");
-    let text = std::fs::read_to_string(file).expect("the golden");
+    let text = fs::read_to_string(file).expect("the golden");
     serde_json::from_str(&text).expect("runs")
 });
 
@@ -274,8 +262,7 @@ fn every_digit_of_tables_3_to_8_is_proven() {
     for (number, reading) in [(1, "own"), (2, "relative"), (3, "relative")] {
         let run = &ENCLOSED[&format!("case {number}, {reading}")];
         let found = run_case(&Case::new(number).expect("a case"), |_, _| {}).expect("it runs");
-        let stages =
-            || std::iter::once(&run.initial).chain(run.passes.iter().map(|pass| &pass.check));
+        let stages = || once(&run.initial).chain(run.passes.iter().map(|pass| &pass.check));
         let table = frequency_table(&found).expect("a table");
         let test = numbers(&run.test_frequencies);
         let mut prints = |table: &Table, row: &str, column: usize, exact: f64| {
@@ -298,8 +285,7 @@ fn every_digit_of_tables_3_to_8_is_proven() {
         }
         let table = gage_table(&found).expect("a table");
         let first = found.case.first_gages();
-        let gages =
-            std::iter::once(first).chain(run.passes.iter().map(|pass| numbers(&pass.gages)));
+        let gages = once(first).chain(run.passes.iter().map(|pass| numbers(&pass.gages)));
         for row in &table.rows[..PANEL_COUNT] {
             prints(&table, &row.label, 1, TEST_GAGE);
         }

@@ -1,12 +1,7 @@
 //! How well the reconstructed box reproduces the published frequencies.
 
 use super::RMS_PERCENT;
-use corfem::method::analysis::Analysis;
-use corfem::present::table::{Table, percents};
-use corfem::torque_box::Case;
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::published::PublishedTable;
-use corfem::torque_box::wing_box::{PANEL_COUNT, Reconstruction, rms};
+use crate::prelude::*;
 
 /// The published columns: case, table of frequencies, table of gages, column prefixes.
 ///

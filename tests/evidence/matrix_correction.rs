@@ -7,9 +7,7 @@
 //! Journal* 16 (1978), 1208–1210; Berman and Nagy, "Improvement of a Large Analytical Model Using Test Data", *AIAA
 //! Journal* 21 (1983), 1168–1173.
 
-use corfem::method::linear_algebra::{cholesky, symmetric_part};
-use corfem::method::modes::Modes;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// Baruch's correction of the stiffness, lbf/in (d × d):
 ///

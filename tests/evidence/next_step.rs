@@ -1,10 +1,8 @@
 //! What the test still says where the paper's loop ends: one weighted step from there.
 
+use crate::prelude::*;
 use crate::presentation::figures::results;
-use corfem::present::render::text;
-use corfem::present::tables::cases::{all_tables, next_step_table};
-use corfem::torque_box::CaseResult;
-use corfem::torque_box::wing_box::COVERS;
+use corfem::present::tables::cases::next_step_table;
 
 fn case(number: usize) -> &'static CaseResult {
     &results()[number - 1]

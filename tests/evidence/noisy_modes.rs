@@ -2,25 +2,8 @@
 //! What is wrong with the gages each time says what its steps are worth.
 
 use super::{PERCENT, RMS_PERCENT, noise_words};
-use corfem::method::analysis::Analysis;
-use corfem::method::appendix_b::{
-    Examination, LARGEST_SUSPENSION_RATIO, MeasuringPoint, Motion, MovementLimits, Supports,
-    balance, examine, rigid_body_vectors,
-};
-use corfem::method::error::Error;
-use corfem::method::model::FiniteElementModel;
-use corfem::method::modes::Modes;
-use corfem::method::outer_loop::correlate;
-use corfem::method::step::StepRule;
-use corfem::method::structure::ElementKind;
-use corfem::present::table::{Cell, Digits, Table, numbers};
-use corfem::torque_box::Case;
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::wing_box::rms;
-use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE, dynamic_points, gage_rms};
-use corfem::weighted::noise::{Noise, with_noise};
-use nalgebra::Vector3;
-use std::ops::RangeInclusive;
+use crate::prelude::*;
+use corfem::method::appendix_b::Examination;
 
 /// The case whose test modes get noise.
 pub const NOISY_CASE: usize = 2;

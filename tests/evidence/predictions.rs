@@ -3,17 +3,7 @@
 //! The paper's section 6 calls Van de Vooren's formulae more accurate than a Taylor series type linearization. All of them know the
 //! same: the modes before the step and $\beta = V^t \Delta K V$, whose entries are the exact derivatives of $K_D$.
 
-use crate::common::known::Known;
-use crate::common::known::weighed::Weighed;
-use corfem::method::error::Error;
-use corfem::method::error_sum::{Errors, errors};
-use corfem::method::linear_algebra::symmetric_part;
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::perturbation::{Perturbed, first_order, recursive_1};
-use corfem::method::sorting::{cross_orthogonality, pair_modes};
-use corfem::torque_box::error::CaseError;
-use nalgebra::{DMatrix, DVector};
+use crate::prelude::*;
 
 /// What predicts modes, in the order of [`Prediction::errors`].
 pub const METHODS: [&str; 4] = [

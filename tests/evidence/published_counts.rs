@@ -3,17 +3,7 @@
 
 use super::PERCENT;
 use crate::evidence::readings::READINGS;
-use corfem::method::analysis::{Analysis, DERIVATIVE_STEP};
-use corfem::method::error::Error;
-use corfem::method::inner_loop::{InnerSettings, run};
-use corfem::method::model::Model;
-use corfem::method::step::{Bounds, StepRule, limited_factor, unlimited_factor};
-use corfem::present::table::{Cell, Table};
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, PUBLISHED_RUNS};
-use corfem::torque_box::published::PublishedTable;
-use corfem::torque_box::wing_box::{PANEL_COUNT, Reconstruction, TEST_GAGE, rms};
-use corfem::torque_box::{Case, published_passes};
+use crate::prelude::*;
 
 /// A rule of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,11 +2,8 @@
 
 use super::{PERCENT, RMS_PERCENT};
 use crate::evidence::readings::{Detection, READINGS, ReadingColumn};
-use corfem::method::step::StepRule;
-use corfem::present::PresentError;
-use corfem::present::table::{Cell, Digits, Table, numbers};
-use corfem::torque_box::published::PublishedTable;
-use corfem::torque_box::{CASES, published_reading};
+use crate::prelude::*;
+use corfem::torque_box::published_reading;
 
 /// A quantity of a column of gages: its label, its heading where it stands across, its digits and its value.
 type Quantity = (

@@ -1,16 +1,9 @@
 //! How often mistakes in a test's readings are named on structures unlike the box: a chain, a symmetric ring and net with repeated
 //! modes, a chain with light oscillators, and a truss whose points move in two directions.
 
-use crate::common::structures::spring_stiffness;
-use corfem::job::Concern;
+use crate::prelude::*;
 use corfem::job::Kind as Doubt;
-use corfem::job::preflight::{Change, Names, SeenModes, preflight_at_sensors};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::outer_loop::Settings;
-use corfem::sparse::ParameterMatrix;
 use corfem::sparse::random::uniform;
-use corfem::weighted::noise::{Noise, with_noise};
-use nalgebra::{DMatrix, DVector};
 
 /// Tests of each mistake.
 pub const TESTS: u64 = 30;
@@ -97,7 +90,7 @@ pub const KINDS: [Kind; 5] = [
 /// A normal number (Box and Muller).
 pub fn normal(state: &mut u64) -> f64 {
     let radius = (-2.0 * (1.0 - uniform(state)).ln()).sqrt();
-    radius * (std::f64::consts::TAU * uniform(state)).cos()
+    radius * (TAU * uniform(state)).cos()
 }
 
 /// A whole number below another.

@@ -2,8 +2,7 @@
 //! `benches/least_squares.py` writes, and from the golden of the two rules.
 
 use crate::ledgers::tables::{computed, table};
-use serde_json::{Value, json};
-use std::sync::LazyLock;
+use crate::prelude::*;
 
 const SUBJECTS: [&str; 5] = ["Case 1", "Case 2", "Case 3", "building", "GARTEUR"];
 const FIRST: &str = "first model";

@@ -3,8 +3,7 @@
 
 use crate::ledgers::documents::documents;
 use crate::ledgers::equations::defines;
-use serde::Deserialize;
-use std::collections::{BTreeMap, BTreeSet};
+use crate::prelude::*;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

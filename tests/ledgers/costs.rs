@@ -1,9 +1,8 @@
 //! What a wing of any size costs: the tables of `paper/cost.md` are made from `paper/costs.csv`, where the benches store what they
 //! measure.
 
-use crate::common::log_log_slope;
 use crate::ledgers::tables::table;
-use std::sync::LazyLock;
+use crate::prelude::*;
 
 const ANALYSIS: &str = "analysis with all shares";
 const FACTOR: &str = "ordering and factorization";

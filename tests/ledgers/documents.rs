@@ -5,14 +5,11 @@
 //! stand in their document word for word and are changed by hand. Numbers of other origin stand in tables marked `measured:`
 //! (with machine and date) or `stored:` (with the file).
 
-use crate::common::golden::Numbers;
 use crate::ledgers::counted_figures::counted_figures;
 use crate::ledgers::diagram::Diagram;
 use crate::ledgers::tour_figures::{figures, pictures};
 use crate::ledgers::{files_below, specification, tables};
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
 
 /// README.md, the texts in `paper/` and the tour, by their path.
 pub fn documents() -> BTreeMap<String, String> {

@@ -2,9 +2,7 @@
 //! sentence has a wrong form. `wrong_forms.rs` has what is done with these.
 
 use crate::ledgers::files_below;
-use std::collections::BTreeSet;
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
 use toml::{Table, Value};
 
 /// Every equation number the paper has: 1 to 13, A.1 to A.9, B.1 to B.7, C.1 to C.24.

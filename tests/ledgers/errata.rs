@@ -3,8 +3,7 @@
 
 use crate::ledgers::equations;
 use crate::ledgers::files_below;
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
 
 /// The entries: paragraphs that begin in bold, with the lists that belong to them.
 fn entries(text: &str) -> Vec<&str> {

@@ -5,10 +5,7 @@
 //! `[K](V)` as a link, `\,` as a comma and `'` as a quotation mark.
 
 use crate::ledgers::files_below;
-use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
-use std::collections::BTreeSet;
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
 
 /// The extensions of Markdown that rustdoc turns on.
 fn rustdoc_options() -> Options {

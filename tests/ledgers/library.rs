@@ -1,8 +1,6 @@
 //! What a user of the library needs: this crate and nothing beside it.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use crate::prelude::*;
 
 /// The folder of everything this test program was compiled from, and the newest build of the library in it.
 fn built() -> (PathBuf, PathBuf) {

@@ -27,8 +27,7 @@ pub mod tour_program;
 pub mod weight;
 pub mod wrong_forms;
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use crate::prelude::*;
 
 /// Every file of a folder and of those in it.
 pub fn files_below(folder: &Path) -> Vec<PathBuf> {

@@ -1,10 +1,8 @@
 //! What is published: the package has all that its own text and its own sources name, and nothing of the workshop.
 
 use crate::ledgers::files_below;
-use std::collections::BTreeSet;
-use std::fs;
-use std::path::{Component, Path, PathBuf};
-use std::process::Command;
+use crate::prelude::*;
+use std::path::Component;
 
 pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))

@@ -1,9 +1,7 @@
 //! The front page: its length, its links, and that what it prints is what the program prints.
 
+use crate::prelude::*;
 use crate::presentation::program::cli::{corfem, text};
-use pulldown_cmark::{Event, Parser, Tag, TagEnd};
-use std::collections::BTreeSet;
-use std::path::Path;
 
 const README: &str = include_str!("../../README.md");
 

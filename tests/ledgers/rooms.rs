@@ -1,9 +1,7 @@
 //! The rooms of `src/`: each imports only from those before it, and no two files import each other.
 
 use crate::ledgers::files_below;
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
 
 /// In order.
 const ROOMS: [&str; 8] = [

@@ -2,11 +2,7 @@
 
 use crate::evidence::coverage::SEEDS;
 use crate::ledgers::{alternative, costs, files_below};
-use std::collections::BTreeMap;
-use std::fmt::Display;
-use std::fs;
-use std::path::Path;
-use std::sync::LazyLock;
+use crate::prelude::*;
 
 /// A line of a golden in CSV.
 #[derive(serde::Deserialize)]

@@ -1,9 +1,6 @@
 //! The tour in `paper/tour`: every number in its sentences stands in its code, which the documentation tests compile and run.
 
-use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
+use crate::prelude::*;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("paper/tour")

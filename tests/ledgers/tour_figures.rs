@@ -1,20 +1,9 @@
 //! The figures of the tour, by the number of their chapter: what is drawn is computed here. Those of the box stand beside.
 
-use crate::common::gradient::gradient;
-use crate::common::loops::exact_state;
-use crate::common::structures::spring_stiffness;
 use crate::ledgers::diagram::{Diagram, Series, SeriesMark};
 use crate::ledgers::tour_figures_box::{bounds, demands, deviations, gages, history, orders};
-use corfem::method::analysis::{Analysis, DERIVATIVE_STEP};
-use corfem::method::error_sum::Errors;
-use corfem::method::model::{DynamicModel, Model};
-use corfem::method::modes::solve;
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::step::{StepRule, unlimited_factor};
+use crate::prelude::*;
 use corfem::present::figures::case_figures;
-use corfem::torque_box::table_1::TwoMasses;
-use corfem::torque_box::{Case, run_case};
-use nalgebra::DMatrix;
 
 /// Every chapter's figure.
 pub fn figures() -> [(&'static str, Diagram); 10] {
@@ -35,7 +24,7 @@ pub fn figures() -> [(&'static str, Diagram); 10] {
 /// What is drawn beside the diagrams: the two springs of chapter 1, and the box and two of its modes, from the report.
 pub fn pictures() -> Vec<(String, String)> {
     let result = run_case(&Case::new(1).expect("a case"), |_, _| {}).expect("a run");
-    let drawn = case_figures(std::slice::from_ref(&result)).expect("figures");
+    let drawn = case_figures(from_ref(&result)).expect("figures");
     let of = |name: &str| {
         let figure = drawn.iter().find(|figure| figure.name == name);
         figure.unwrap_or_else(|| panic!("no {name}")).svg.clone()

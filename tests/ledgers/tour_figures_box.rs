@@ -1,21 +1,7 @@
 //! The figures of the tour that show the paper's box.
 
-use crate::common::appendix_c::{ModalChange, eigensolution};
-use crate::common::measured::equal_weights;
 use crate::ledgers::diagram::{Diagram, Series, SeriesMark};
-use corfem::method::analysis::Analysis;
-use corfem::method::error_sum::Errors;
-use corfem::method::model::Model;
-use corfem::method::modes::solve;
-use corfem::method::perturbation::{Perturbed, recursive_1};
-use corfem::torque_box::published::PublishedTable;
-use corfem::torque_box::wing_box::TEST_GAGE;
-use corfem::torque_box::{Case, run_case};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::identifiability::identifiability;
-use corfem::weighted::noise::Noise;
-use corfem::weighted::residuals::jacobian;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// A case's first model, and the change of its first pass in modal coordinates.
 fn first_pass(number: usize) -> (Model, DMatrix<f64>) {
@@ -84,11 +70,7 @@ pub fn history() -> Diagram {
         (Vec::new(), Vec::new(), 0, run.initial.errors);
     for pass in &run.passes {
         let errors = pass.inner.iterations.iter().map(|step| step.errors);
-        passes.push(
-            (begin..)
-                .zip(std::iter::once(start).chain(errors))
-                .collect::<Vec<_>>(),
-        );
+        passes.push((begin..).zip(once(start).chain(errors)).collect::<Vec<_>>());
         begin += pass.inner.iterations.len();
         start = pass.check.errors;
         checks.push((begin as f64, 100.0 * start.sum()));

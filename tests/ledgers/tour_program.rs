@@ -1,10 +1,8 @@
 //! A program in another language, written from the text of the tour alone, against the cases.
 
+use crate::prelude::*;
 use corfem::present::dump::dump;
-use corfem::torque_box::Case;
 use std::io::Write;
-use std::path::Path;
-use std::process::{Command, Stdio};
 
 fn python() -> Command {
     let mut command = Command::new("python3");
@@ -43,7 +41,7 @@ fn a_program_written_from_the_tour_matches_every_case() {
         let said = compared(&document).unwrap_or_else(|error| panic!("case {number}: {error}"));
         assert!(said.starts_with(&format!("case {number}: ")), "{said}");
         // Another number in the first iteration is noticed.
-        let mut other: serde_json::Value = serde_json::from_str(&document).expect("JSON");
+        let mut other: Value = serde_json::from_str(&document).expect("JSON");
         let gage = &mut other["passes"][0]["iterations"][0]["factors"][7];
         *gage = (gage.as_f64().expect("a number") * (1.0 + 1e-8)).into();
         let said = compared(&other.to_string()).expect_err("a difference");

@@ -5,9 +5,7 @@
 
 use crate::ledgers::files_below;
 use crate::ledgers::package::root;
-use serde::Deserialize;
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
+use crate::prelude::*;
 
 /// The ledger, `tests/ceilings.toml`.
 #[derive(Deserialize)]

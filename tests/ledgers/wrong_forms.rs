@@ -7,21 +7,15 @@
 
 use crate::ledgers::equations::{entries, strings, test_of};
 use crate::ledgers::files_below;
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::ops::Range;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use crate::prelude::*;
+use std::sync::atomic::AtomicUsize;
 use std::thread;
-use std::time::{Duration, Instant};
 use toml::{Table, Value};
 
 /// The environment variable that says which form holds, and the function of the copy that asks it. The function reads it once.
 const SWITCH: &str = "CORFEM_WRONG_FORM";
 const SWITCH_SOURCE: &str = r#"//! Which wrong form holds.
 
-use std::sync::LazyLock;
 
 static FORM: LazyLock<usize> = LazyLock::new(|| {
     let form = std::env::var("CORFEM_WRONG_FORM").ok();

@@ -1,15 +1,7 @@
 //! Test modes closer than their deviations tell: what is compared is the subspace of their shapes.
 
-use super::job_errors::placed;
-use crate::common::jobs::Files;
-use crate::common::jobs::{prepare, run};
-use crate::common::test_files::write_csv;
-use corfem::files::test_data::{Sensor, TestData};
-use corfem::job::verdict::Outcome;
-use corfem::job::{JobResult, Kind, PreparedJob};
-use corfem::present::report::Report;
-use corfem::present::tables::report::paired_table;
-use nalgebra::DMatrix;
+use crate::common::jobs::run;
+use crate::prelude::*;
 
 /// Two towers of three floors side by side, one stiffer than the other by `split`, and a test of both in which every pair of modes is
 /// turned by an angle (radians) and its stiffer tower is stiffer by `truth`.
@@ -49,8 +41,8 @@ fn towers([split, truth, angle]: [f64; 3]) -> Files {
     // Roots and shapes of a fixed and free chain of three.
     let (mut hertz, mut shapes) = (Vec::new(), DMatrix::zeros(6, 6));
     for mode in 0..3 {
-        let phase = std::f64::consts::PI * (2 * mode + 1) as f64 / 7.0;
-        let frequency = (2e3_f64 * (2.0 - 2.0 * phase.cos())).sqrt() / std::f64::consts::TAU;
+        let phase = PI * (2 * mode + 1) as f64 / 7.0;
+        let frequency = (2e3_f64 * (2.0 - 2.0 * phase.cos())).sqrt() / TAU;
         hertz.extend([frequency, frequency * truth.sqrt()]);
         for floor in 0..3 {
             let moved = (phase * (floor + 1) as f64).sin();

@@ -1,10 +1,7 @@
 //! Real shapes in place of complex ones, and modal phase collinearity.
 
-use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
-use corfem::files::test_data::complex_modes::realize;
-use corfem::method::error::Error;
-use nalgebra::{Complex, DMatrix, dmatrix};
-use proptest::prelude::*;
+use crate::prelude::*;
+use test_data::complex_modes::realize;
 
 fn shape(count: usize) -> impl Strategy<Value = DMatrix<Complex<f64>>> {
     prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64), count)
@@ -27,8 +24,6 @@ fn factor() -> impl Strategy<Value = Complex<f64>> {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn a_real_mode_times_any_complex_number_is_collinear_and_comes_back(
         mode in prop::collection::vec(-1.0..1.0_f64, 5).prop_filter("not zero", |mode| mode.iter().any(|x| x.abs() > 0.1)),

@@ -1,19 +1,9 @@
 //! Decks: the identity of writing and reading, and the theorem that NASTRAN's reduction of a deck is Appendix A.
 
-use crate::common::decks::{bulk_data, bulk_text as written, restyled, style};
-use crate::common::known::whole;
-use crate::common::tolerances::{DECK_ROUNDING, ROUND_OFF, SINGULAR_MASS_ROOT};
-use corfem::files::deck::number::nearest_in_field;
-use corfem::files::deck::{self, BulkData, Task};
-use corfem::method::modes::{Modes, apply_sign_rule};
-use corfem::torque_box::wing_box::dynamic_points;
-use corfem::torque_box::{CASES, Case};
-use nalgebra::{DMatrix, SymmetricEigen};
-use proptest::prelude::*;
+use crate::common::decks::{bulk_text as written, restyled, style};
+use crate::prelude::*;
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn deck_to_model_to_deck_is_the_identity(model in bulk_data()) {
         let text = written(&model).expect("a deck");
@@ -42,8 +32,8 @@ properties! {
     /// $(K_S, T M T^t)$ has d finite roots, those of $(K_D, M)$, for any stiffness, full-rank T and masses.
     #[test]
     fn finite_roots_of_the_singular_pencil_are_those_of_the_dynamic_one(
-        (stiffness, _) in crate::common::strategies::positive_definite(6, 3.0),
-        directions in crate::common::strategies::orthogonal(6),
+        (stiffness, _) in positive_definite(6, 3.0),
+        directions in orthogonal(6),
         scales in prop::collection::vec(0.1..10.0_f64, 4),
         masses in prop::collection::vec(0.1..10.0_f64, 4),
     ) {
@@ -51,7 +41,7 @@ properties! {
         let mass = DMatrix::from_diagonal(&masses.into());
         let flexibility = t.tr_mul(&stiffness.clone().try_inverse().expect("definite")) .clone() * &t;
         let dynamic_stiffness = flexibility.try_inverse().expect("full rank");
-        let dynamic = corfem::method::modes::solve(&symmetric(&dynamic_stiffness), &mass, 4).expect("modes");
+        let dynamic = solve(&symmetric(&dynamic_stiffness), &mass, 4).expect("modes");
         let roots = singular_pencil_roots(&stiffness, &(&t * &mass * t.transpose()));
         prop_assert_eq!(roots.len(), 6);
         for (omega_squared, root) in dynamic.omega_squared().iter().zip(&roots) {
@@ -96,16 +86,14 @@ fn nine_finite_roots_of_the_box_are_its_dynamic_modes() {
         let case = Case::new(number).expect("a case");
         let model = case.model().expect("a model");
         let dynamic = model.matrices(&[1.0; 15]).expect("an analysis");
-        let modes =
-            corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
+        let modes = solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
         let sizes = model.sizes(&[1.0; 15]).expect("sizes");
-        let stiffness = corfem::method::appendix_a::assemble(model.element_matrices(), &sizes, 36)
-            .expect("stiffness");
+        let stiffness = assemble(model.element_matrices(), &sizes, 36).expect("stiffness");
         let t = &model.load_distribution().clone();
         let roots = singular_pencil_roots(&stiffness, &(t * model.mass() * t.transpose()));
         assert_eq!(roots.len(), 36);
         for (omega_squared, root) in modes.omega_squared().iter().zip(&roots) {
-            approx::assert_relative_eq!(omega_squared * root, 1.0, epsilon = SINGULAR_MASS_ROOT);
+            assert_relative_eq!(omega_squared * root, 1.0, epsilon = SINGULAR_MASS_ROOT);
         }
         assert!(
             roots[9].abs() < SINGULAR_MASS_ROOT * roots[8],
@@ -157,15 +145,11 @@ fn the_box_read_from_its_deck_has_its_modes() {
             .zip(expected.frequencies_hz())
             .zip(lowest)
         {
-            approx::assert_relative_eq!(
-                *a,
-                b,
-                max_relative = DECK_ROUNDING + f64::EPSILON * spread
-            );
+            assert_relative_eq!(*a, b, max_relative = DECK_ROUNDING + f64::EPSILON * spread);
         }
         // A shape component moves with the tenth digit of T by as much as modes are close.
         let largest = expected.shapes().amax();
-        approx::assert_relative_eq!(
+        assert_relative_eq!(
             found.modes.shapes(),
             expected.shapes(),
             epsilon = 1e3 * DECK_ROUNDING * largest
@@ -174,7 +158,7 @@ fn the_box_read_from_its_deck_has_its_modes() {
             .modes
             .shapes()
             .tr_mul(&(model.mass() * found.modes.shapes()));
-        approx::assert_relative_eq!(
+        assert_relative_eq!(
             generalized,
             DMatrix::identity(9, 9),
             epsilon = 1e3 * ROUND_OFF
@@ -208,20 +192,20 @@ fn dynamic_points_lie_at_mid_depth() {
     let (bulk, _) = box_deck(1, &[1.0; 15]);
     let grids = &case.reconstruction.grids;
     for (rib, first) in [(0, 1), (1, 5), (2, 9)] {
-        let at = |grid: usize| nalgebra::Vector3::from(grids[&grid]);
+        let at = |grid: usize| Vector3::from(grids[&grid]);
         let point = |k: usize| bulk.grids[16 + 3 * rib + k].position;
-        approx::assert_relative_eq!(
+        assert_relative_eq!(
             point(0),
             0.5 * (at(first) + at(first + 1)),
             epsilon = ROUND_OFF
         );
-        approx::assert_relative_eq!(
+        assert_relative_eq!(
             point(2),
             0.5 * (at(first + 2) + at(first + 3)),
             epsilon = ROUND_OFF
         );
         let fraction = case.reconstruction.mid_chord_fraction;
-        approx::assert_relative_eq!(
+        assert_relative_eq!(
             point(1) - point(0),
             fraction * (point(2) - point(0)),
             epsilon = 100.0 * ROUND_OFF

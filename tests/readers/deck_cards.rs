@@ -1,8 +1,7 @@
 //! Cards that are not understood: added to a good deck, each of them makes it fail.
 
+use crate::prelude::*;
 use crate::readers::deck_errors::GOOD;
-use corfem::files::deck::{self, Reason, Unread};
-use corfem::files::error::FileError;
 
 /// The cards that a deck is refused for.
 fn refused(deck: &str) -> Vec<Unread> {
@@ -51,7 +50,7 @@ macro_rules! families {
                 assert_eq!(refused(&format!("{GOOD}{}\n", card.to_lowercase())), expected, "in small letters");
                 assert_eq!(refused(&format!("SPC = 1\nBEGIN BULK\n{GOOD}{card}\n"))[0].line, 10, "with case control");
                 let deck = format!("{GOOD}{card}\n");
-                let names = std::slice::from_ref(&name);
+                let names = from_ref(&name);
                 let ignored = deck::read("wing.dat", deck.as_bytes(), names).expect(card);
                 assert_eq!(ignored.unread, [Unread { reason: Reason::Ignored, ..unknown(&name, 8, 1) }]);
                 assert_eq!(ignored.model, deck::read("wing.dat", GOOD.as_bytes(), &[]).expect("good").model);

@@ -1,16 +1,7 @@
 //! Decks of every supported card, each in a form of its own: in small, large or free field, with tabs, in lower case, with continuations
 //! by tag, by star, by plus and by blanks, with replication and remarks. They are read back as the model that they were made of.
 
-use crate::common::decks::bulk_data;
-use crate::common::draws::Draws;
-use corfem::files::deck::number::large_real;
-use corfem::files::deck::{self, BulkData, Reason, Tie};
-use corfem::method::structure::{Element, ElementKind, Grid, Material};
-use nalgebra::Vector3;
-use proptest::prelude::*;
-use proptest::strategy::ValueTree;
-use proptest::test_runner::TestRunner;
-use std::collections::{BTreeMap, BTreeSet};
+use crate::prelude::*;
 
 /// Names of all cards that are read.
 const CARDS: [&str; 31] = [
@@ -754,8 +745,8 @@ fn write_masses_and_ties(deck: &mut Deck, model: &BulkData, systems: &BTreeMap<u
         terms,
     } in &model.ties
     {
-        let all = std::iter::once((dependent, coefficient))
-            .chain(terms.iter().map(|(dof, value)| (dof, value)));
+        let all =
+            once((dependent, coefficient)).chain(terms.iter().map(|(dof, value)| (dof, value)));
         let set = deck.pick(&["3", "4"]);
         used.insert(set.to_owned());
         let mut fields = words([set]);
@@ -782,8 +773,6 @@ fn write_masses_and_ties(deck: &mut Deck, model: &BulkData, systems: &BTreeMap<u
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn decks_of_every_card_in_every_form_are_read_back_equal(model in bulk_data(), seed in any::<u64>()) {
         let (text, model, _) = drawn(model, seed);

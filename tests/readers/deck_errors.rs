@@ -1,8 +1,6 @@
 //! What is wrong with a deck is named: file, line, card and field.
 
-use corfem::files::deck;
-use corfem::files::error::FileError;
-use corfem::method::error::Error;
+use crate::prelude::*;
 
 /// A structure that reads: two grids, a rod, a material, its constraints, a mass.
 pub const GOOD: &str = "\

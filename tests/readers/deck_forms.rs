@@ -1,10 +1,6 @@
 //! One deck in the forms in which programs write it: what is read is the same, or the line is named.
 
-use crate::common::tolerances::ROUND_OFF;
-use corfem::files::deck::{self, BulkData, Reason};
-use corfem::method::structure::{DIRECTIONS, StructuralDof};
-use nalgebra::Vector3;
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Two rods in a row and a mass, as fields of cards.
 const CARDS: [&str; 9] = [
@@ -36,8 +32,6 @@ fn all() -> String {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// A free real number of any length, with any exponent, is the number that it says.
     #[test]
     fn free_reals_of_any_length_are_read(value in -1e6..1e6_f64, digits in 1..25_usize, letter in prop::sample::select(vec!["E", "D", "e", ""])) {

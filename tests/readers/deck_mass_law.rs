@@ -1,16 +1,7 @@
 //! One law for gage and mass, for the model and for its deck: stiffness factors leave every mass alone.
 
-use crate::common::decks::bulk_text;
-use crate::common::structures::lumped_mass;
-use crate::common::tolerances::{DECK_ROOTS, DECK_ROUNDING, ROUND_OFF};
+use crate::prelude::*;
 use crate::spec::s2_parameters_mass::DENSITY;
-use corfem::files::deck::{self, BulkData};
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::modes::solve;
-use corfem::method::structure::Structure;
-use corfem::torque_box::Case;
-use nalgebra::{DMatrix, DVector, Vector3};
-use proptest::prelude::*;
 
 /// Structural DOF of the box, all of them dynamic here.
 pub const DOF: usize = 36;
@@ -72,8 +63,6 @@ fn both(model: &FiniteElementModel, factors: &[f64]) -> [Vec<f64>; 2] {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn modes_of_the_written_deck_are_those_of_the_model(
         stiffness in prop::array::uniform2(0.3..3.0_f64),

@@ -1,16 +1,6 @@
 //! Modes of decks whose answers are known in closed form.
 
-use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
-use crate::common::tolerances::{
-    COUNTED_ROOT, DIFFERENCE_ROUND_OFF, EIGEN_ROUND_OFF, UNLIKE_STIFFNESS,
-};
-use corfem::files::deck::number::{large_real, nearest_in_field};
-use corfem::files::deck::{self, Reason};
-use corfem::files::error::FileError;
-use corfem::method::error::Error;
-use corfem::sparse::whole_modes::WholeModes;
-use proptest::prelude::*;
-use std::f64::consts::PI;
+use crate::prelude::*;
 
 fn modes(text: &str) -> Result<WholeModes, FileError> {
     deck::modes(&deck::read("test", text.as_bytes(), &[])?.model, usize::MAX)
@@ -201,8 +191,6 @@ fn real(value: f64) -> String {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// However unlike the parts, there are both modes and they are right, or an error says which parts are too unlike.
     #[test]
     fn no_mode_is_lost_in_silence(

@@ -1,9 +1,8 @@
 //! Real numbers in the fields of a deck.
 
 use crate::common::decks::field_number;
-use crate::common::tolerances::{DECK_ROUNDING, FIELD_ROUNDING};
-use corfem::files::deck::number::{exact_real, large_real, nearest_in_field, parse_real};
-use proptest::prelude::*;
+use crate::prelude::*;
+use corfem::files::deck::number::{exact_real, parse_real};
 
 #[test]
 fn reals_read_as_nastran_reads_them() {
@@ -67,8 +66,6 @@ fn reals_are_written_short() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn every_number_reads_back_exactly_if_its_field_is_wide_enough(bits in any::<u64>()) {
         let value = f64::from_bits(bits);

@@ -1,10 +1,6 @@
 //! What a deck may say and how: sets, two to a card, defaults, ranges, formats.
 
-use crate::common::decks::bulk_text;
-use crate::common::tolerances::ROUND_OFF;
-use corfem::files::deck::{self, Reason, Unread};
-use corfem::files::error::FileError;
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// A rod of E A/L = 1000 lbf/in from a fixed grid 1 along x to grid 2, which moves along x alone.
 const ROD: &str = "\
@@ -166,8 +162,6 @@ fn sets_that_do_not_exist_or_that_nothing_selects_are_refused() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// The deck of a weighted model is another deck of the same model, without the parameter.
     #[test]
     fn wtmass_multiplies_masses_and_densities(model in crate::common::decks::bulk_data(), factor in 1e-4..1e4_f64) {

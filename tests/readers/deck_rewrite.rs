@@ -1,12 +1,7 @@
 //! A deck with other sizes: what changes in it, and that nothing else does.
 
+use crate::prelude::*;
 use crate::readers::matrices::{assert_written, table};
-use corfem::files::deck::number::nearest_in_field;
-use corfem::files::deck::{self, rewrite};
-use corfem::files::error::FileError;
-use corfem::method::error::Error;
-use corfem::method::structure::Element;
-use std::collections::BTreeSet;
 
 const ORIGINAL: &str = include_str!("../../golden/formats/original.bdf");
 

@@ -1,16 +1,9 @@
 //! Decks drawn at random with other sizes: what they then say, and their modes.
 
 use super::deck_rewrite::elements;
-use crate::common::decks::bulk_text;
-use crate::common::tolerances::{DECK_ROUNDING, ROUND_OFF};
+use crate::prelude::*;
 use crate::readers::deck_mass_law::{DOF, roots, whole_box};
 use crate::spec::s2_parameters_mass::DENSITY;
-use corfem::files::deck::number::nearest_in_field;
-use corfem::files::deck::{self, BulkData, rewrite};
-use corfem::method::structure::Element;
-use nalgebra::Vector3;
-use proptest::prelude::*;
-use std::collections::BTreeMap;
 
 /// How a card is written: with small fields to either side, with large ones with or without a tag, or in free format.
 fn card(name: &str, fields: &[String], style: usize, tag: usize) -> String {
@@ -116,8 +109,6 @@ fn decks() -> impl Strategy<Value = (String, Vec<Element>)> {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn a_rewritten_deck_says_the_new_sizes_and_else_the_same((text, wanted) in decks()) {
         let result = rewrite("deck", text.as_bytes(), &wanted, &[]).expect("it rewrites");
@@ -200,7 +191,7 @@ properties! {
     /// Other point masses, and nothing else.
     #[test]
     fn point_masses_are_rewritten_and_every_other_line_stays(
-        model in crate::common::decks::bulk_data(),
+        model in bulk_data(),
         factors in prop::collection::vec(prop::option::of(1e-3..1e3_f64), 4),
     ) {
         let text = bulk_text(&model).expect("a deck");

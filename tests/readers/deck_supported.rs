@@ -1,11 +1,7 @@
 //! Decks of every card that is read, with what programs write around them: all are read, and what has no part in the model is named.
 
-use crate::common::decks::bulk_data;
+use crate::prelude::*;
 use crate::readers::deck_errors::GOOD;
-use corfem::files::deck::number::large_real;
-use corfem::files::deck::{self, BulkData, Reason, Tie};
-use corfem::method::structure::{ElementKind, Material};
-use proptest::prelude::*;
 
 /// Cards of loads, optimization, sets and aerodynamics.
 const WITHOUT_PART: [&str; 8] = [
@@ -184,8 +180,8 @@ fn written(model: &BulkData, around: &Around) -> String {
         terms,
     } in &model.ties
     {
-        let all = std::iter::once((dependent, coefficient))
-            .chain(terms.iter().map(|(dof, value)| (dof, value)));
+        let all =
+            once((dependent, coefficient)).chain(terms.iter().map(|(dof, value)| (dof, value)));
         let mut fields = vec!["3".to_owned()];
         for (row, (dof, coefficient)) in all.enumerate() {
             if row > 0 && row % 2 == 0 {
@@ -228,8 +224,6 @@ fn written(model: &BulkData, around: &Around) -> String {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn decks_of_every_supported_card_are_read_whatever_stands_around_them(model in bulk_data(), around in around()) {
         let text = written(&model, &around);

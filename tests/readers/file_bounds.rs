@@ -1,15 +1,12 @@
 //! Files that are none or have no end: refused before a byte of them is read.
 #![cfg(unix)]
 
-use super::job_errors::placed;
-use crate::common::jobs::prepare;
-use crate::common::jobs::{building, rods};
+use crate::common::jobs::rods;
+use crate::prelude::*;
 use corfem::files::{MOST_BYTES, read_bytes};
 
 use std::fs::{File, remove_file};
 use std::os::unix::fs::symlink;
-use std::path::Path;
-use std::process::Command;
 
 /// Puts something endless in the place of a file; the reason for which it is refused.
 fn endless(path: &Path, kind: usize) -> &'static str {
@@ -25,7 +22,7 @@ fn endless(path: &Path, kind: usize) -> &'static str {
                 .success()
         ),
         2 => {
-            std::fs::create_dir(path).expect("made");
+            fs::create_dir(path).expect("made");
             return "it is a folder; name a file in it";
         }
         _ => {
@@ -74,7 +71,7 @@ fn every_file_of_a_job_is_a_regular_file_of_bounded_length() {
 fn a_file_that_ends_is_read_whole() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("file");
-    std::fs::write(&path, "\u{0}a file\n").expect("written");
+    fs::write(&path, "\u{0}a file\n").expect("written");
     assert_eq!(read_bytes(&path).expect("it reads"), b"\0a file\n");
     assert_eq!(MOST_BYTES, 2 << 30);
 }

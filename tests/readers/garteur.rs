@@ -1,21 +1,7 @@
 //! A real test: the GARTEUR SM-AG19 airplane, of which eight frequencies are published.
 
-use crate::common::golden::{Numbers, assert_golden};
-use crate::common::jobs::worked;
-use crate::common::tolerances::{FORWARD_DIFFERENCE, JOB_RESULTS};
+use crate::prelude::*;
 use crate::readers::job_concerns::rigid_bodies;
-use corfem::job::verdict::Outcome;
-use corfem::job::{History, JobResult, Kind};
-use corfem::method::analysis::DERIVATIVE_STEP;
-use corfem::present::render::csv;
-use corfem::present::report::Report;
-use corfem::present::table::{Cell, Digits, Table, numbers};
-use corfem::present::tables::job::seen_table;
-use corfem::present::tables::report::paired_table;
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::WeightedStop;
-use corfem::weighted::residuals::residuals;
-use std::sync::LazyLock;
 
 /// Balmes and Wright, *Results from the Test of a Single Structure by 12 Laboratories in Europe* (ASME DETC'97).
 const PUBLISHED_HZ: [f64; 8] = [6.38, 16.10, 33.12, 33.53, 35.65, 48.38, 49.43, 55.08];

@@ -1,32 +1,10 @@
 //! Three worked jobs: their files are what `tests/common/jobs.rs` makes, and their results are known from how they were made.
 
-use crate::common::condensed::analyze_condensed;
-use crate::common::golden::{Numbers, assert_golden};
-use crate::common::jobs::{
-    Files, STORIES, building, delta_wing, folder_of, loaded, rods, torque_box, torque_box_truth,
-    worked,
-};
-use crate::common::jobs::{prepare, run};
-use crate::common::known::delta_wing::correlation::GROUPS;
-use crate::common::test_files::write_universal;
-use crate::common::tolerances::{
-    CONDENSED_GAGES, JOB_BOX, JOB_RESULTS, JOB_WING, OPTIMUM, PLACED_WITHIN, WEIGHTED_FACTOR,
-    WEIGHTED_STORY, WHOLE_SHAPE,
-};
-use corfem::job::{History, JobResult, Method, PreparedJob};
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::model::Model;
-use corfem::method::outer_loop::correlate;
-use corfem::present::render;
-use corfem::present::report::Report;
-use corfem::present::tables::job::{places_table, seen_table, trust_table};
-use corfem::present::tables::report::{factor_table, history_table, paired_table, swaps};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use corfem::weighted::intervals::Withheld;
-use corfem::weighted::residuals::residuals;
-use nalgebra::{DMatrix, DVector, Vector3};
+use crate::common::jobs::run;
+use crate::common::jobs::{delta_wing, folder_of, loaded, rods, torque_box, torque_box_truth};
+use crate::prelude::*;
+use corfem::job::Method;
+use corfem::present::tables::report::swaps;
 use std::sync::Arc;
 
 const NUMBERS: Numbers = Numbers {
@@ -43,10 +21,10 @@ fn check_files(name: &str, files: &Files) {
     for (file, text) in files {
         let path = folder.join(file);
         if writes {
-            std::fs::create_dir_all(&folder).expect("a folder");
-            std::fs::write(&path, text).expect("it writes");
+            fs::create_dir_all(&folder).expect("a folder");
+            fs::write(&path, text).expect("it writes");
         }
-        let stored = std::fs::read_to_string(&path).expect("it reads");
+        let stored = fs::read_to_string(&path).expect("it reads");
         // Numbers that were computed may differ in their last digit on another machine.
         let numbers = Numbers {
             relative: JOB_RESULTS,
@@ -148,7 +126,7 @@ fn condensed_to_five_floors_the_building_is_not_found() {
 fn sensors_along_axes_of_their_own_find_the_same_rods() {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, text) in rods() {
-        std::fs::write(folder.path().join(name), text).expect("written");
+        fs::write(folder.path().join(name), text).expect("written");
     }
     let path = folder.path().join("job.toml");
     let finished = || {
@@ -185,7 +163,7 @@ fn sensors_along_axes_of_their_own_find_the_same_rods() {
     let points = "         3         0         0         8         1\nSYS\n   0. 0. 0. 0. 1. 0.\n   0. 0. 1.\n";
     let rows = "         1\nPart\n         4         0         8\nCS\n  0. 1. 0.\n  0. 0. 1.\n  1. 0. 0.\n  0. 0. 0.\n";
     let systems = format!("    -1\n    18\n{points}    -1\n    -1\n  2420\n{rows}    -1\n");
-    std::fs::write(
+    fs::write(
         folder.path().join("test.csv"),
         systems + &lines.join("\n") + "\n",
     )

@@ -2,20 +2,15 @@
 //!
 //! `CORFEM_CALLS=100000 cargo test --release jobs_survive -- --nocapture` damages so many; `CORFEM_SEED` goes on behind them.
 
-use crate::common::draws::Draws;
-use crate::common::jobs::{Files, building, rods};
-use crate::common::jobs::{prepare, run};
-use crate::readers::job_errors::placed;
+use crate::common::jobs::rods;
+use crate::common::jobs::run;
+use crate::prelude::*;
 use crate::readers::job_prepared::measured_building;
 use crate::readers::readers_survive::asked;
-use corfem::job::{TEMPLATE, Trust};
+use corfem::job::TEMPLATE;
+use corfem::present::json;
 use corfem::present::page::report_page;
-use corfem::present::report::Report;
-use corfem::present::tables::job::{places_table, seen_table, suspects_table, trust_table};
-use corfem::present::tables::report::{factor_table, history_table, paired_table};
-use corfem::present::{PresentError, json, render};
 use std::cell::Cell;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Values in the place of numbers, of lists and of any other.
 const NUMBERS: [&str; 12] = [
@@ -116,7 +111,7 @@ fn mutated(files: &Files, draws: &mut Draws) -> Vec<(String, Vec<u8>)> {
 }
 
 /// Everything that `check` and `correlate` print of a job, which a request stops after some analyses.
-fn corrected(path: &std::path::Path) -> Result<bool, PresentError> {
+fn corrected(path: &Path) -> Result<bool, PresentError> {
     let loaded = prepare(path)?;
     let trust = Trust::before(&loaded)?;
     let before = Report::from_job(&loaded, None)?;
@@ -167,7 +162,7 @@ fn no_job_panics_whatever_stands_in_it() {
         let files = mutated(&jobs[job], &mut draws);
         let (folder, path) = placed(&Vec::new());
         for (name, bytes) in &files {
-            std::fs::write(folder.path().join(name), bytes).expect("written");
+            fs::write(folder.path().join(name), bytes).expect("written");
         }
         match catch_unwind(AssertUnwindSafe(|| corrected(&path))) {
             Ok(Ok(is_finite)) => assert!(is_finite, "seed {seed}"),

@@ -1,12 +1,8 @@
 //! Tests that know of some modes, or of all, the frequency alone.
 
-use super::job_errors::{placed, said, with};
-use crate::common::jobs::{Files, STORIES, building};
-use crate::common::jobs::{prepare, run};
-use crate::common::tolerances::{ROUND_OFF, WEIGHTED_FACTOR};
-use corfem::files::test_data;
-use corfem::job::verdict::Outcome;
-use corfem::job::{JobResult, Kind, Trust};
+use super::job_errors::said;
+use crate::common::jobs::run;
+use crate::prelude::*;
 
 /// The building by weighted steps, whose test lacks the shapes of these modes (from one).
 pub fn without_shapes(modes: &[usize]) -> Files {

@@ -1,12 +1,7 @@
 //! Matrices of other programs: what SciPy and pyNastran wrote (golden/formats/), what NASTRAN's manual says, and the way back.
 
-use corfem::files::error::FileError;
-use corfem::files::matrices::{Label, LabeledMatrix, read, write_matrix_market};
-use corfem::sparse::SparseMatrix;
-use proptest::prelude::*;
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
+use crate::prelude::*;
+use matrices::{Label, LabeledMatrix, read};
 
 pub fn golden(file: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -311,7 +306,7 @@ fn the_owners_programs_read_what_the_crate_writes() {
         (3, 0, -1.5e10),
         (1, 1, 0.1 + 0.2),
         (4, 2, f64::MAX),
-        (0, 2, std::f64::consts::PI),
+        (0, 2, PI),
     ];
     let mut symmetric: Vec<_> = (0..12)
         .map(|row| (row, row, 2.0 + 1.0 / (row + 1) as f64))
@@ -352,8 +347,6 @@ fn the_owners_programs_read_what_the_crate_writes() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn a_written_matrix_reads_back_exactly(
         size in (1..30_usize, 1..30_usize),

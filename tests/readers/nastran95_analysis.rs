@@ -4,16 +4,7 @@
 
 use crate::common::fake_solver::{fake, output5, solver};
 use crate::common::outer_loop::program::Matrices;
-use crate::common::structures::lumped_mass;
-use crate::common::tolerances::MATRIX_ROUND_OFF;
-use corfem::files::deck::BulkData;
-use corfem::files::error::FileError;
-use corfem::method::elements::unit_stiffness;
-use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, FiniteElementModel};
-use corfem::torque_box::Case;
-use nalgebra::DMatrix;
-use tempfile::TempDir;
+use crate::prelude::*;
 
 /// What NASTRAN-95 would answer for a model if its elements were this crate's.
 fn own_answer(model: &FiniteElementModel, factors: &[f64]) -> Matrices {
@@ -23,8 +14,7 @@ fn own_answer(model: &FiniteElementModel, factors: &[f64]) -> Matrices {
     let mut order: Vec<usize> = (0..free.len()).collect();
     order.sort_by_key(|&row| (free[row].grid, free[row].direction));
     let sorted = |matrix: &DMatrix<f64>| matrix.select_rows(&order).select_columns(&order);
-    let kaa = corfem::method::appendix_a::assemble(model.element_matrices(), &sizes, free.len())
-        .expect("stiffness");
+    let kaa = assemble(model.element_matrices(), &sizes, free.len()).expect("stiffness");
     let t = &model.load_distribution().clone();
     // Stiffness factors leave every element the mass of its first size.
     let lumped = DMatrix::from_diagonal(&lumped_mass(structure));
@@ -60,13 +50,13 @@ fn answering(matrices: &Matrices) -> TempDir {
         .iter()
         .map(|(name, matrix)| (name.as_str(), matrix))
         .collect();
-    std::fs::write(home.path().join("rf/answer"), output5(&list)).expect("written");
+    fs::write(home.path().join("rf/answer"), output5(&list)).expect("written");
     home
 }
 
 fn assert_same(found: &DynamicModel, expected: &DynamicModel) {
     let same = |a: &DMatrix<f64>, b: &DMatrix<f64>| {
-        approx::assert_relative_eq!(a, b, epsilon = MATRIX_ROUND_OFF * b.amax())
+        assert_relative_eq!(a, b, epsilon = MATRIX_ROUND_OFF * b.amax())
     };
     same(&found.stiffness, &expected.stiffness);
     same(&found.mass, &expected.mass);
@@ -105,8 +95,6 @@ fn elements_and_grids_in_any_order_find_their_matrices() {
 
 /// A frame of three rods and a triangle on grids 7, 3, 9, 5 with z at two dynamic points.
 pub fn disordered() -> FiniteElementModel {
-    use corfem::method::model::Parameter;
-    use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
     let grid = |label, position: [f64; 3], constrained| Grid {
         label,
         position: position.into(),
@@ -146,7 +134,7 @@ pub fn disordered() -> FiniteElementModel {
     t[(2, 0)] = 1.0;
     t[(5, 1)] = 0.5;
     t[(3, 1)] = 0.25;
-    let mass = DMatrix::from_diagonal(&nalgebra::dvector![0.5, 0.25]);
+    let mass = DMatrix::from_diagonal(&dvector![0.5, 0.25]);
     FiniteElementModel::new(
         structure,
         t,

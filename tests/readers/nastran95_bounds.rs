@@ -4,8 +4,7 @@
 #![cfg(unix)]
 
 use crate::common::fake_solver::{fake, solver};
-use corfem::files::error::FileError;
-use std::time::{Duration, Instant};
+use crate::prelude::*;
 
 #[test]
 fn what_a_run_leaves_running_is_ended_with_it() {
@@ -16,10 +15,10 @@ fn what_a_run_leaves_running_is_ended_with_it() {
         file.display()
     ));
     solver(&home).run("").expect("a run");
-    let process = std::fs::read_to_string(file).expect("its number");
+    let process = fs::read_to_string(file).expect("its number");
     let is_alive = || {
         let state =
-            std::fs::read_to_string(format!("/proc/{}/stat", process.trim())).unwrap_or_default();
+            fs::read_to_string(format!("/proc/{}/stat", process.trim())).unwrap_or_default();
         state.split(' ').nth(2).is_some_and(|state| state != "Z")
     };
     let limit = Instant::now() + Duration::from_secs(20);
@@ -72,7 +71,7 @@ fn a_folder_that_is_gone_is_no_run_without_output() {
         panic!("{error}")
     };
     assert!(path.ends_with("printed"), "{error}");
-    std::fs::remove_file(path.parent().expect("a folder")).expect("removed");
+    fs::remove_file(path.parent().expect("a folder")).expect("removed");
 }
 
 #[test]

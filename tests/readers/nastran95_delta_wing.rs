@@ -3,17 +3,7 @@
 //! `golden/nastran95/delta_wing.toml` is what its correlation with NASTRAN-95 found; `golden/nastran95/README.md` says how
 //! it was made and what to expect of it.
 
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::known::delta_wing::correlation::{
-    GROUPS, WingCorrelation, correlate_wing, correlate_wing_with, first_model, settings, test_modes,
-};
-use crate::common::outer_loop::{assert_near, paired_hz, stored_wing};
-use crate::common::tolerances::{NASTRAN_AGAIN, NASTRAN_FREQUENCY, NASTRAN_GAGE};
-use corfem::files::error::FileError;
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::model::FiniteElementModel;
-use std::sync::LazyLock;
+use crate::prelude::*;
 
 static RUN: LazyLock<WingCorrelation> =
     LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).expect("it runs"));

@@ -3,16 +3,10 @@
 #![cfg(unix)]
 
 use crate::common::fake_solver::{fake, solver};
-use crate::common::outer_loop::program::{HEADING, correlate_case};
-use crate::common::outer_loop::{paired_hz, read_cases};
-use crate::common::tolerances::{GOLDEN_RELATIVE, MATRIX_ROUND_OFF};
+use crate::common::outer_loop::program::HEADING;
+use crate::common::outer_loop::read_cases;
+use crate::prelude::*;
 use crate::readers::nastran95_analysis::disordered;
-use corfem::files::deck::BulkData;
-use corfem::files::error::FileError;
-use corfem::method::error::Error;
-use corfem::method::model::FiniteElementModel;
-use corfem::torque_box::{Case, run_case};
-use nalgebra::DMatrix;
 
 #[test]
 fn the_deck_of_an_analysis_has_every_element_twice() {
@@ -22,7 +16,7 @@ fn the_deck_of_an_analysis_has_every_element_twice() {
         .elements(&model, &[2.0, 1.0])
         .expect_err("no answer");
     assert!(error.to_string().contains("nothing was written"), "{error}");
-    let text = std::fs::read_to_string(home.path().join("rf/deck")).expect("a deck");
+    let text = fs::read_to_string(home.path().join("rf/deck")).expect("a deck");
     for line in [
         "INSERT READ,-1 $",
         "OUTPUT5 KGG,KAA,MAA,,//-1/15/*CORFEM*/1 $",
@@ -78,7 +72,7 @@ fn a_deck_holds_point_masses_alone() {
         model.parameters().to_vec(),
     )
     .expect("a model");
-    let error = BulkData::from_model(&coupled, &[1.0, 1.0], &[nalgebra::Vector3::zeros(); 2]);
+    let error = BulkData::from_model(&coupled, &[1.0, 1.0], &[Vector3::zeros(); 2]);
     assert!(matches!(
         error,
         Err(FileError::Method(Error::Value {
@@ -104,7 +98,7 @@ fn element_matrices_of_another_origin_must_fit() {
         stiffer.matrices(&[1.0, 1.0]).expect("an analysis"),
     );
     let expected = 2.0 * once.stiffness;
-    approx::assert_relative_eq!(
+    assert_relative_eq!(
         twice.stiffness,
         expected,
         epsilon = MATRIX_ROUND_OFF * expected.amax()
@@ -189,10 +183,10 @@ fn a_case_runs_with_the_analysis_it_is_given() {
         ),
     ] {
         let doubled = b.omega_squared().map(|root| root / 4.0);
-        approx::assert_relative_eq!(doubled, a.omega_squared(), max_relative = GOLDEN_RELATIVE);
+        assert_relative_eq!(doubled, a.omega_squared(), max_relative = GOLDEN_RELATIVE);
     }
     for (a, b) in own.pass_gages[1].iter().zip(&other.pass_gages[1]) {
-        approx::assert_relative_eq!(a, b, max_relative = GOLDEN_RELATIVE);
+        assert_relative_eq!(a, b, max_relative = GOLDEN_RELATIVE);
     }
 }
 

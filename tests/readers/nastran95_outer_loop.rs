@@ -3,17 +3,7 @@
 //! `golden/nastran95/outer_loop.toml` is what `cargo run --example nastran95` found; `golden/nastran95/README.md` says how it
 //! was made and what to expect of it.
 
-use crate::common::outer_loop::{assert_near, paired_hz, stored};
-use crate::common::tolerances::{
-    NASTRAN_EIGENVALUE, NASTRAN_FREQUENCY, NASTRAN_GAGE, NASTRAN_GAGE_CASE_1,
-    NASTRAN_SINGLE_PRECISION, PRINTED_SNAP_FACTOR,
-};
-use corfem::method::elements::{energy_coefficient, mean_plane};
-use corfem::method::modes::solve;
-use corfem::method::structure::{Element, ElementKind, Material};
-use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
-use corfem::torque_box::{CASES, Case, published_passes, run_case};
-use nalgebra::Vector3;
+use crate::prelude::*;
 
 /// Energy of a unit shear panel where NASTRAN-95 takes sides 1-2 and 3-4, or 1-4 and 2-3, for parallel, over what it is.
 ///

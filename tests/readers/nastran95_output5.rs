@@ -3,8 +3,7 @@
 #![cfg(unix)]
 
 use crate::common::fake_solver::output5;
-use crate::common::outer_loop::program::read_output5;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 #[test]
 fn a_file_of_module_output5_reads() {

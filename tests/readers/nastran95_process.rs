@@ -3,29 +3,23 @@
 #![cfg(unix)]
 
 use crate::common::fake_solver::{fake, solver};
-use crate::common::outer_loop::program::{Nastran95, case_numbers, default_folder, status};
+use crate::common::outer_loop::program::{case_numbers, status};
 use crate::common::signals::send;
-use corfem::files::error::FileError;
-use corfem::torque_box::CASES;
-use rustix::process::Signal;
+use crate::prelude::*;
 use std::os::unix::fs::PermissionsExt;
-use std::path::Path;
-use std::process::{Command, Output, Stdio};
-use std::sync::atomic::Ordering;
-use std::time::{Duration, Instant};
-use tempfile::TempDir;
+use std::process::Output;
 
 fn entries(folder: &Path) -> usize {
-    std::fs::read_dir(folder).expect("a folder").count()
+    fs::read_dir(folder).expect("a folder").count()
 }
 
 #[test]
 fn a_missing_solver_is_named() {
     let empty = tempfile::tempdir().expect("a folder");
     let no_formats = fake("exit 0");
-    std::fs::remove_dir(no_formats.path().join("rf")).expect("removed");
+    fs::remove_dir(no_formats.path().join("rf")).expect("removed");
     let no_program = fake("exit 0");
-    std::fs::remove_file(no_program.path().join("bin/nastrn")).expect("removed");
+    fs::remove_file(no_program.path().join("bin/nastrn")).expect("removed");
     for folder in [
         empty.path(),
         no_formats.path(),
@@ -188,7 +182,7 @@ fn a_request_to_stop_ends_the_run() {
 #[test]
 #[ignore = "needs NASTRAN-95"]
 fn the_program_prints_a_case() {
-    assert_eq!(status(std::iter::once("4".to_owned())), 0);
+    assert_eq!(status(once("4".to_owned())), 0);
 }
 
 /// The program asked for Case 4 as a process of its own, with a fake solver and its temporary files in a folder.
@@ -254,7 +248,7 @@ fn a_signal_ends_the_solver_and_then_the_program_and_leaves_nothing() {
         let mut child = program(&home, temporary.path());
         let child = child.spawn().expect("it starts");
         let started = || {
-            let folders = std::fs::read_dir(temporary.path()).expect("a folder");
+            let folders = fs::read_dir(temporary.path()).expect("a folder");
             let mut folders = folders.flatten();
             folders.any(|folder| folder.path().join("started").exists())
         };

@@ -1,23 +1,6 @@
 //! NASTRAN-95 itself, for which it must be installed: it answers as stored, and runs the decks as they are written.
 
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::known::delta_wing::correlation::{
-    correlate_wing_with, first_model, settings, test_modes,
-};
-use crate::common::known::weighed::Weighed;
-use crate::common::outer_loop::program::{Nastran95, correlate_case, default_folder};
-use crate::common::outer_loop::{assert_near, paired_hz, stored, stored_wing};
-use crate::common::tolerances::{
-    NASTRAN_AGAIN, NASTRAN_EIGENVALUE, NASTRAN_FREQUENCY, NASTRAN_GAGE, NASTRAN_PRINTED_EIGENVALUE,
-    NASTRAN_SINGLE_PRECISION, SAME_HISTORY,
-};
-use corfem::files::deck::{self, BulkData, Task};
-use corfem::method::analysis::Analysis;
-use corfem::method::model::{DynamicModel, FiniteElementModel};
-use corfem::method::modes::solve;
-use corfem::torque_box::Case;
-use corfem::torque_box::wing_box::{PANEL_COUNT, dynamic_points};
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// The program, which these tests need: `cargo test nastran -- --include-ignored` runs them too.
 fn program() -> Nastran95 {
@@ -33,7 +16,7 @@ fn nastran_answers_as_stored() {
     let nastran = program();
     for stored in stored() {
         let case = Case::new(stored.number).expect("a case");
-        for check in std::iter::once(&stored.initial).chain(&stored.passes) {
+        for check in once(&stored.initial).chain(&stored.passes) {
             let model = case.model_with(&check.gages_in).expect("a model");
             let dynamic = nastran
                 .elements(&model, &[1.0; PANEL_COUNT])

@@ -4,17 +4,11 @@
 //! extreme. `CORFEM_CALLS=100000 CORFEM_READER=OUTPUT4 cargo test --release readers_survive -- --nocapture` makes so many calls of every
 //! reader with that word in its name, all of them without, and says how many and in what time. `CORFEM_SEED=100000` goes on behind them.
 
-use crate::common::draws::Draws;
-use crate::common::jobs::prepare;
-use crate::common::outer_loop::program::read_output5;
-use crate::common::test_files::{write_csv, write_universal};
-use corfem::files::deck::{modes, read as read_deck, rewrite};
+use crate::prelude::*;
+use corfem::files::deck::{modes, read as read_deck};
 use corfem::files::matrices::read as read_matrix;
 use corfem::files::test_data::read as read_test;
 use corfem::job::Job;
-use corfem::torque_box::published::PublishedTable;
-use corfem::torque_box::wing_box::Reconstruction;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// What damage puts in: field separators, signs, ends of numbers, ends of lines, and bytes that are no text.
 const BYTES: &[u8] = b" ,.+-*=0123456789eEdD$#\"'\t\r\n[]\0\xff\xefAG";
@@ -69,8 +63,8 @@ fn prepares(job: &[u8], rows: &[u8]) -> bool {
         text = text.replace(&format!("\"{name}"), &format!("\"{files}{name}"));
     }
     let path = folder.path().join("job.toml");
-    std::fs::write(&path, text).expect("written");
-    std::fs::write(folder.path().join("rows.csv"), rows).expect("written");
+    fs::write(&path, text).expect("written");
+    fs::write(folder.path().join("rows.csv"), rows).expect("written");
     prepare(&path).is_ok()
 }
 
@@ -142,7 +136,7 @@ fn no_reader_panics_on_a_damaged_file() {
     let reader = std::env::var("CORFEM_READER").unwrap_or_default();
     let mut faults = Vec::new();
     for (name, valid, read) in READERS.iter().filter(|(name, ..)| name.contains(&reader)) {
-        let start = std::time::Instant::now();
+        let start = Instant::now();
         assert!(read(valid), "{name}: the file without damage reads");
         let mut refused = 0;
         for seed in from..from + calls {

@@ -1,18 +1,8 @@
 //! Repeated tests: their mean, what their scatter says, and what a job makes of it.
 
-use super::job_errors::{placed, said, with};
-use crate::common::draws::Draws;
-use crate::common::jobs::{Files, building};
-use crate::common::jobs::{prepare, run};
-use crate::common::test_files::write_csv;
-use crate::common::tolerances::{MATRIX_ROUND_OFF, STANDARD_ERRORS};
-use corfem::files::test_data::TestData;
-use corfem::job::{Concern, Kind, PreparedJob, Trust};
-use corfem::method::analysis::{Analysis, State};
-use corfem::method::modes::Modes;
-use corfem::weighted::noise::{Noise, with_noise};
-use corfem::weighted::residuals::residuals;
-use nalgebra::DMatrix;
+use super::job_errors::said;
+use crate::common::jobs::run;
+use crate::prelude::*;
 
 /// The building's exact test.
 fn exact() -> TestData {

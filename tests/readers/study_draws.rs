@@ -1,12 +1,9 @@
 //! What a study is known by, and which sensors and modes its samples leave out.
 
-use super::job_errors::{placed, with};
-use crate::common::jobs::{building, rods};
-use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
+use crate::common::jobs::rods;
+use crate::prelude::*;
 use corfem::job::{Study, Vary};
-use corfem::sparse::random::split_mix_64;
 use sha2::{Digest, Sha256};
-use std::path::PathBuf;
 
 /// Bytes in hexadecimal.
 fn hexadecimal(bytes: &[u8]) -> String {
@@ -26,9 +23,9 @@ fn a_study_is_known_by_the_digest_of_its_files_seed_and_choice() {
     };
     let head = format!("{} 7 [Noise, Start]", env!("CARGO_PKG_VERSION"));
     let names = ["model.bdf", "test.csv", "job.toml"].map(|name| folder.path().join(name));
-    let file = |path: &PathBuf| std::fs::read(path).expect("it reads");
+    let file = |path: &PathBuf| fs::read(path).expect("it reads");
     let mut all = Vec::new();
-    for part in std::iter::once(head.into_bytes()).chain(names.iter().map(file)) {
+    for part in once(head.into_bytes()).chain(names.iter().map(file)) {
         all.extend((part.len() as u64).to_be_bytes());
         all.extend(part);
     }
@@ -38,9 +35,9 @@ fn a_study_is_known_by_the_digest_of_its_files_seed_and_choice() {
     let with_line = |at: usize, place: usize| {
         let mut text = texts[at].clone();
         text.insert(place, b'\n');
-        std::fs::write(&names[at], text).expect("written");
+        fs::write(&names[at], text).expect("written");
         let identity = identity();
-        std::fs::write(&names[at], &texts[at]).expect("written");
+        fs::write(&names[at], &texts[at]).expect("written");
         identity
     };
     assert_ne!(with_line(1, texts[1].len()), with_line(2, 0));
@@ -93,7 +90,7 @@ fn a_sample_that_is_neither_within_nor_outside_is_refused() {
     let study = Study::new(&path, 7, &[Vary::Noise], &[]).unwrap_or_else(|error| panic!("{error}"));
     let samples = folder.path().join("samples.csv");
     let read = |within: &str| {
-        std::fs::write(
+        fs::write(
             &samples,
             format!("1,cap,{within},0.5,3,1.0,1.0,{}\n", study.identity),
         )

@@ -1,9 +1,6 @@
 //! What a test must be, whichever file it comes from.
 
-use crate::common::ground_tests::wing_test;
-use corfem::files::test_data::TestData;
-use corfem::method::error::Error;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 fn refused(change: impl Fn(&mut TestData)) -> Error {
     let mut data = wing_test();

@@ -1,9 +1,7 @@
 //! Coordinate systems of a Universal File: along which axes its nodes are placed and its sensors measure.
 
 use super::test_data_universal::{TIP, dataset, parsed, real_mode};
-use crate::common::tolerances::{BESIDE_AN_AXIS, ROUND_OFF};
-use corfem::files::test_data::read;
-use nalgebra::Vector3;
+use crate::prelude::*;
 
 pub fn row(values: &[f64], width: usize) -> String {
     values

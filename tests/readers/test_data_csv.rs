@@ -1,11 +1,6 @@
 //! The table of a test: the layout that its documentation states, as spreadsheets vary it, and its faults.
 
-use crate::common::ground_tests::{ground_test, wing_test};
-use crate::common::test_files::write_csv;
-use corfem::files::error::FileError;
-use corfem::files::test_data::{TestData, read};
-use nalgebra::{Vector3, dmatrix};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// The example of the documentation.
 const WING: &str = "# Wing test of 3 May, soft suspension
@@ -345,8 +340,6 @@ fn what_is_written_reads_back_as_it_was() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn every_test_reads_back_from_its_table_to_the_last_digit(data in ground_test()) {
         prop_assert_eq!(wing(&write_csv(&data)), data);

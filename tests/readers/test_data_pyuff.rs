@@ -1,14 +1,6 @@
 //! Universal Files that pyuff wrote, with what pyuff reads in them, and one of the crate's that pyuff has read.
 
-use crate::common::ground_tests::wing_test;
-use crate::common::test_files::write_universal;
-use crate::common::tolerances::{ROUND_OFF, UNIVERSAL_ROUNDING};
-use corfem::files::test_data::{TestData, read};
-use nalgebra::{Complex, DVector, Vector3};
-use serde::Deserialize;
-use std::collections::BTreeMap;
-use std::f64::consts::PI;
-use std::path::{Path, PathBuf};
+use crate::prelude::*;
 
 #[derive(Deserialize)]
 struct Nodes {
@@ -49,13 +41,13 @@ fn path(name: &str) -> PathBuf {
 }
 
 fn answers() -> BTreeMap<String, Answer> {
-    toml::from_str(&std::fs::read_to_string(path("universal_expected.toml")).expect("it reads"))
+    toml::from_str(&fs::read_to_string(path("universal_expected.toml")).expect("it reads"))
         .expect("answers")
 }
 
 fn file(name: &str) -> TestData {
     let name = format!("universal_{name}.unv");
-    read(&name, &std::fs::read(path(&name)).expect("it is there")).expect("it reads")
+    read(&name, &fs::read(path(&name)).expect("it is there")).expect("it reads")
 }
 
 impl Mode {
@@ -241,7 +233,7 @@ fn complex_modes_are_made_real_once_each_and_keep_their_collinearity() {
         assert!(found.norm() >= best && found.norm() <= shape.norm());
         // It is itself the real part at some phase: what is left of it at all phases is round-off.
         let (real, imaginary) = (part(0.0), part(0.5 * PI));
-        let plane = nalgebra::DMatrix::from_columns(&[real, imaginary]);
+        let plane = DMatrix::from_columns(&[real, imaginary]);
         let (q, _) = plane.qr().unpack();
         assert!((found - &q * q.tr_mul(&found)).norm() < ROUND_OFF * found.norm());
         let ratio = (found.norm() / shape.norm()).powi(2);
@@ -259,9 +251,9 @@ fn complex_modes_are_made_real_once_each_and_keep_their_collinearity() {
 fn the_file_that_pyuff_has_read_is_what_the_crate_writes() {
     let (written, path) = (write_universal(&wing_test()), path("universal_written.unv"));
     if std::env::var("CORFEM_FORMATS").is_ok_and(|wish| wish == "write") {
-        std::fs::write(&path, &written).expect("it writes");
+        fs::write(&path, &written).expect("it writes");
     }
-    assert_eq!(std::fs::read_to_string(path).expect("it reads"), written);
+    assert_eq!(fs::read_to_string(path).expect("it reads"), written);
     let (answer, data) = (&answers()["written"], wing_test());
     for (mode, expected) in answer.modes.iter().enumerate() {
         for (row, sensor) in data.sensors.iter().enumerate() {

@@ -1,13 +1,6 @@
 //! The Universal File: fixed columns, marks and what looks like them, and files that are not what they should be.
 
-use crate::common::ground_tests::{ground_test, wing_test};
-use crate::common::test_files::write_universal;
-use crate::common::tolerances::{ROUND_OFF, UNIVERSAL_ROUNDING};
-use corfem::files::error::FileError;
-use corfem::files::test_data::{TestData, read};
-use nalgebra::{DMatrix, Vector3, dmatrix};
-use proptest::prelude::*;
-use std::collections::BTreeMap;
+use crate::prelude::*;
 
 pub const NONE: &str = "NONE\nNONE\nNONE\nNONE\nNONE\n";
 
@@ -76,7 +69,7 @@ fn a_complex_root_is_read_unless_its_imaginary_part_is_negative() {
     let data = parsed(&(root(4.0) + &root(-4.0) + &root(0.0)));
     for (found, magnitude) in data.frequencies_hz.iter().zip([5.0, 3.0]) {
         assert!(
-            (found - magnitude / (2.0 * std::f64::consts::PI)).abs() < ROUND_OFF,
+            (found - magnitude / (2.0 * PI)).abs() < ROUND_OFF,
             "{found}"
         );
     }
@@ -458,8 +451,6 @@ fn what_is_written_reads_back_to_six_digits() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn every_test_reads_back_from_its_universal_file_to_six_digits(data in ground_test()) {
         assert_six_digits(&parsed(&write_universal(&data)), &data);

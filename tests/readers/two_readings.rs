@@ -1,15 +1,10 @@
 //! Lines that can be cut in two ways, and the forms in which other programs write what is one thing: read as what they say, or refused.
 
-use super::job_errors::{placed, said, with};
+use super::job_errors::said;
 use super::test_data_axes::{node, system};
 use super::test_data_universal::{TIP, dataset, parsed, real_mode};
-use crate::common::jobs::{Files, building, prepare, run};
-use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
-use corfem::files::matrices;
-use corfem::files::test_data::{TestData, read};
-use corfem::job::Kind;
-use nalgebra::{DMatrix, Vector3, dmatrix};
-use proptest::prelude::*;
+use crate::common::jobs::run;
+use crate::prelude::*;
 
 fn table(text: &str) -> TestData {
     read("test.csv", text.as_bytes()).unwrap_or_else(|error| panic!("{error}\n{text}"))
@@ -22,8 +17,6 @@ fn refused(text: impl AsRef<[u8]>) -> String {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// Numbers in columns of any width, with an exponent of any form, touching or apart, are those that were written, or are refused.
     #[test]
     fn numbers_of_any_width_are_read_back_or_refused(
@@ -165,7 +158,7 @@ fn a_table_names_its_separator_its_encoding_and_its_modes() {
         (&[1.5, 2.5][..], &[7, 8][..])
     );
     for order in [u16::to_le_bytes, u16::to_be_bytes] {
-        let units = std::iter::once(0xfeff).chain(text.encode_utf16());
+        let units = once(0xfeff).chain(text.encode_utf16());
         let bytes: Vec<u8> = units.flat_map(order).collect();
         assert_eq!(read("test.csv", &bytes).expect("UTF-16"), data);
     }

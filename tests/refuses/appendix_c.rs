@@ -1,17 +1,7 @@
 //! What the perturbation refuses, rule by rule: bad input, lost roots, coalescing modes, roots that do not settle, orders of
 //! zero.
 
-use crate::common::appendix_c::{
-    FORMULAE, exact, largest_change, of_stiffness, original, recursive_2, rules, stiffness_rules,
-};
-use crate::common::said;
-use crate::common::tolerances::{CANCELLED_DIFFERENCE, ROUND_OFF};
-use corfem::method::error::Error;
-use corfem::method::perturbation::{
-    LARGEST_UNSETTLED_CHANGE, MOST_ORDERS, ROOT_TOLERANCE, SMALLEST_SEPARATION, first_order,
-    recursive_1, recursive_1_converged,
-};
-use nalgebra::{DMatrix, DVector, dmatrix, dvector};
+use crate::prelude::*;
 
 #[test]
 fn every_rule_needs_modes() {

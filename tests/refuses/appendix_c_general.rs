@@ -1,14 +1,6 @@
 //! What the general formulae of Appendix C refuse, and that the offender is named.
 
-use crate::common::appendix_c::{ModalChange, four_modes};
-use crate::common::said;
-use crate::common::tolerances::{CANCELLED_DIFFERENCE, ROUND_OFF};
-use corfem::method::appendix_c::LeftRightModes;
-use corfem::method::appendix_c::Pencil;
-use corfem::method::error::Error;
-use corfem::method::perturbation::Perturbed;
-use corfem::sparse::normalize_with_mass;
-use nalgebra::{DMatrix, DVector, dmatrix, dvector};
+use crate::prelude::*;
 
 fn pencil(change: &ModalChange) -> Pencil<f64> {
     change.pencil().expect("a pencil")

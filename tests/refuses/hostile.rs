@@ -1,29 +1,6 @@
 //! Numbers and sizes that fit nothing, given to what stands around the method: each call ends in an answer or a refusal, none in a panic.
 
-use corfem::job::assignment::pair_optimally;
-use corfem::job::expansion::mass_by_modes;
-use corfem::job::localization::{by_factor, by_single_fit};
-use corfem::job::metrics::coordinate_assurance;
-use corfem::method::error::Error;
-use corfem::method::inner_loop::InnerSettings;
-use corfem::method::modes::Modes;
-use corfem::method::sorting::pair_modes;
-use corfem::sparse::{
-    BasisSize, ModeWeight, Pair, SparseMatrix, WholeModel, WholeParameter, WholeShare,
-    modal_assurance,
-};
-use corfem::weighted::close_modes::{assurance_of_roots, indistinct_groups};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use corfem::weighted::identifiability::identifiability;
-use corfem::weighted::intervals::intervals;
-use corfem::weighted::misfit::Misfit;
-use corfem::weighted::next_step::NextStep;
-use corfem::weighted::noise::{Noise, with_noise, with_noise_by_mode};
-use corfem::weighted::residuals::{jacobian, residuals};
-use corfem::weighted::starts::from_several_starts;
-use nalgebra::{DMatrix, DVector, dmatrix};
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use crate::prelude::*;
 
 /// The calls that end in a panic, by name.
 #[derive(Default)]

@@ -1,19 +1,6 @@
 //! What the inner loop refuses before it takes a step.
 
-use crate::common::appendix_c::{ModalChange, eigensolution};
-use crate::common::loops::{chain_problem, inner_for_modes};
-use crate::common::said;
-use crate::common::vibrations::Chain;
-use crate::common::whole_models::of_dense;
-use corfem::method::analysis::{Analysis, State};
-use corfem::method::error::Error;
-use corfem::method::inner_loop::{InnerRun, InnerSettings, first_factors, run};
-use corfem::method::model::{DynamicModel, Model};
-use corfem::method::modes::Modes;
-use corfem::method::sorting::pair_modes;
-use corfem::method::step::{Bounds, StepRule};
-use corfem::sparse::{BasisSize, ParameterMatrix, SensorModel};
-use nalgebra::{DMatrix, DVector, dmatrix, dvector};
+use crate::prelude::*;
 
 /// Two springs, the given lists, and the default settings with one change.
 fn run_with(
@@ -64,7 +51,7 @@ impl Uncoupled<'_> {
             &[1.0],
             &sensors,
             &test,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+            Pair::by(|of| pair_modes(of.cross)),
             BasisSize {
                 modes: mass.nrows(),
                 residual_vectors: 0,

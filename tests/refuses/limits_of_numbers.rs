@@ -1,18 +1,8 @@
 //! What would leave the range of numbers is refused, and named.
 
-use crate::common::loops::chain_problem;
-use crate::common::said;
-use crate::common::structures::{chain_model, grid, group, rod};
-use crate::common::vibrations::Chain;
-use corfem::files::deck::{BulkData, modes};
-use corfem::method::appendix_b::balance;
-use corfem::method::appendix_c::Pencil;
-use corfem::method::error::Error;
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::modes::Modes;
-use corfem::method::structure::{Element, Material, Structure};
-use corfem::sparse::{ModeWeight, SensorModel};
-use nalgebra::{DMatrix, dmatrix, dvector};
+use crate::common::structures::{chain_model, rod};
+use crate::prelude::*;
+use deck::modes;
 
 /// A rod along x, held at one end.
 fn rod_of(length: f64, area: f64, material: Material) -> Result<Structure, Error> {

@@ -1,12 +1,6 @@
 //! Mass parameters that cannot be are refused.
 
-use crate::common::said;
-use crate::common::structures::spring_stiffness;
-use crate::common::whole_models::{of_dense, sparse};
-use corfem::method::error::Error;
-use corfem::method::step::Bounds;
-use corfem::sparse::{ParameterMatrix, SparseMatrix, WholeModel, WholeParameter, WholeShare};
-use nalgebra::{DMatrix, dmatrix};
+use crate::prelude::*;
 
 /// Two unit masses on two springs with these shares.
 fn whole(shares: &[ParameterMatrix]) -> Result<(WholeModel, SparseMatrix), Error> {

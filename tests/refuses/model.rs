@@ -1,12 +1,7 @@
 //! What cannot be a model, a parameter or a factor: each refusal names who is at fault.
 
-use crate::common::structures::{chain_model as chain, group, spring_chain};
-use crate::common::{not_definite, said};
-use corfem::method::error::Error;
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::step::Bounds;
-use corfem::torque_box::Case;
-use nalgebra::{DMatrix, dmatrix};
+use crate::common::structures::chain_model as chain;
+use crate::prelude::*;
 
 fn with_mass(t: DMatrix<f64>, mass: DMatrix<f64>) -> Result<FiniteElementModel, Error> {
     let structure = spring_chain(&[2.0, 4.0, 8.0], [true, false]);

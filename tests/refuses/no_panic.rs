@@ -10,15 +10,8 @@ mod matrices;
 mod perturbation;
 mod structures;
 
-use crate::common::draws::Draws;
 use crate::ledgers::files_below;
-use corfem::method::error::Error;
-use corfem::method::model::Model;
-use corfem::method::modes::Modes;
-use nalgebra::DMatrix;
-use std::fs;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
+use crate::prelude::*;
 
 /// The numbers of an answer, or that there is an error instead.
 type Answer = Result<Vec<f64>, Error>;

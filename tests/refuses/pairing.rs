@@ -1,11 +1,6 @@
 //! What mode sorting refuses.
 
-use crate::common::said;
-use corfem::method::error_sum::mode_errors;
-use corfem::method::modes::Modes;
-use corfem::method::sorting::{Pairing, cross_orthogonality, pair_modes};
-use corfem::sparse::modal_assurance;
-use nalgebra::{DMatrix, DVector, dmatrix};
+use crate::prelude::*;
 
 /// Modes of one shape, at some DOF.
 fn modes(dof: usize, count: usize) -> Modes {

@@ -1,16 +1,7 @@
 //! Singular structures: whatever nothing holds is named, and nothing that is held is refused.
 
-use crate::common::nastran95::boxes;
-use crate::common::structures::{
-    dense, free_motions, grid, linkage, linkage_data, rod, spring_chain,
-};
-use crate::common::tolerances::TAKES_PART;
-use corfem::method::appendix_a::condense;
-use corfem::method::error::Error;
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::structure::{DIRECTIONS, Structure};
-use nalgebra::DMatrix;
-use proptest::prelude::*;
+use crate::common::structures::{free_motions, rod};
+use crate::prelude::*;
 
 /// Grid and direction that a singular structure is refused with.
 fn refusal(structure: &Structure) -> (usize, char) {
@@ -54,8 +45,6 @@ fn row_of(structure: &Structure, grid: usize, direction: char) -> usize {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// A linkage has one free motion and no DOF without stiffness; the grid named is one of those that move in it.
     #[test]
     fn a_mechanism_is_refused_by_a_grid_that_moves((apex, areas) in linkage_data()) {

@@ -1,18 +1,7 @@
 //! The property that lets the fast forms stand in for the text: the modes of the whole model at the sensors are those of the text's
 //! dense matrices, over random structures, the paper's cases and the delta wing.
 
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::known::delta_wing::correlation::first_model;
-use crate::common::known::whole;
-use crate::common::structures::{dense, lumped_mass};
-use crate::common::tolerances::TWO_PROGRAMS;
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::structure::Structure;
-use corfem::torque_box::wing_box::{Reconstruction, load_distribution, structure};
-use corfem::torque_box::{CASES, Case};
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Condition beyond which round-off leaves less than the digits compared: of the structural stiffness scaled to unit diagonal, of the
 /// dynamic stiffness, and of the squared frequencies.
@@ -121,7 +110,7 @@ fn assert_same_modes(model: &FiniteElementModel, count: usize) {
 }
 
 properties! {
-    #![proptest_config(crate::common::costly_config())]
+    #![proptest_config(costly_config())]
 
     #[test]
     fn a_random_structure_has_the_same_modes_at_its_sensors(model in random_model()) {

@@ -3,12 +3,7 @@
 #[path = "../../paper/plain.rs"]
 mod program;
 
-use crate::common::tolerances::{SAME_CORRELATION, SAME_ON_THE_WAY};
-use corfem::method::model::FiniteElementModel;
-use corfem::method::outer_loop::correlate;
-use corfem::method::step::StepRule;
-use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, PUBLISHED_RUNS};
-use corfem::torque_box::{CASES, Case};
+use crate::prelude::*;
 
 fn assert_same(what: &str, model: &FiniteElementModel, case: &Case, modes: (usize, usize)) {
     let test = case

@@ -1,19 +1,10 @@
 //! Rods in a row against the closed forms of chains and of the uniform rod.
 
-use crate::common::closed_forms::analytical::{
-    ChainEnds, chain_eigenvalues, fixed_free_rod_frequencies_hz,
-};
-use crate::common::log_log_slope;
-use crate::common::structures::{dense, sizes, spring_chain};
-use crate::common::tolerances::{CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF, SLOPE};
-use corfem::method::appendix_a::condense;
+use crate::common::closed_forms::analytical::fixed_free_rod_frequencies_hz;
+use crate::prelude::*;
 use corfem::method::modes;
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// The whole way: rods, assembly, factorization, condensation with T the identity, and modes.
     #[test]
     fn rods_in_a_row_have_the_spectrum_of_a_chain(

@@ -1,16 +1,6 @@
 //! Lumped masses of single elements.
 
-use crate::common::panels::{Sample, sample};
-use crate::common::said;
-use crate::common::strategies::{point, rotation};
-use crate::common::structures::grid;
-use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
-use approx::assert_relative_eq;
-use corfem::files::deck::BulkData;
-use corfem::method::structure::{Element, ElementKind, Material, Structure, check_corners};
-use corfem::sparse::elements::{corner_volumes, lumped_masses};
-use nalgebra::Vector3;
-use proptest::prelude::*;
+use crate::prelude::*;
 
 #[test]
 fn rectangle_and_triangle_lump_equally_and_rod_by_halves() {
@@ -69,8 +59,6 @@ fn warped_quadrilateral_lumps_the_area_of_its_diagonals_beside_true_corner_trian
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn lumped_volumes_do_not_depend_on_place_or_orientation(
         offset in point(), turn in rotation(), x3 in 1.0..8.0, y3 in 1.0..8.0, x4 in -1.0..1.0, y4 in 1.0..8.0,

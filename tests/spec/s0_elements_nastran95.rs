@@ -3,9 +3,8 @@
 //! Two things are NASTRAN's and not the theory's (`golden/nastran95/README.md`): it takes the sides of a shear panel for
 //! parallel when they nearly are, and its general closed form loses digits in slender panels.
 
-use crate::common::matrices::relative_distance;
-use crate::common::nastran95::{elements, snap_factor};
-use crate::common::tolerances::NASTRAN_SINGLE_PRECISION;
+use crate::common::nastran95::elements;
+use crate::prelude::*;
 
 #[test]
 fn every_stored_element_is_one_of_a_known_kind() {

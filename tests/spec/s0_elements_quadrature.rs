@@ -1,8 +1,7 @@
 //! Gauss-Legendre quadrature: exactness, and the same rule from the eigenvalues of a tridiagonal matrix.
 
-use crate::common::tolerances::ROUND_OFF;
+use crate::prelude::*;
 use corfem::method::elements::GAUSS_LEGENDRE;
-use nalgebra::DMatrix;
 
 /// Points of the rule.
 const COUNT: usize = 20;

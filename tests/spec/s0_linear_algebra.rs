@@ -1,16 +1,6 @@
 //! Dense decompositions: each against another library or its own definition, and each refusal by name.
 
-use crate::common::matrices::relative_distance;
-use crate::common::strategies::{orthogonal, positive_definite, symmetric};
-use crate::common::tolerances::{CONDITIONED_ROUND_OFF, DIFFERENCE_ROUND_OFF, MATRIX_ROUND_OFF};
-use crate::common::{not_definite, said};
-use corfem::method::error::Error;
-use corfem::method::linear_algebra::{
-    check_finite, check_shape, check_symmetric, cholesky, symmetric_eigen, symmetric_part,
-};
-use corfem::sparse::check_solution;
-use nalgebra::{Complex, DMatrix, DVector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Any size from a single DOF to the box's.
 fn size() -> impl Strategy<Value = usize> {
@@ -18,8 +8,6 @@ fn size() -> impl Strategy<Value = usize> {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn the_cholesky_factor_is_lower_and_multiplies_back(
         (matrix, _) in size().prop_flat_map(|n| positive_definite(n, 8.0)),

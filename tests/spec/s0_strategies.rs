@@ -1,19 +1,9 @@
 //! The strategies of vibrating systems themselves: what they draw is what their descriptions promise.
 
-use crate::common::boxes::uneven_box;
-use crate::common::log_log_slope;
-use crate::common::loops::given;
-use crate::common::pairings::{counts, cross, noisy_pairs, rearrangement};
-use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
-use crate::common::vibrations::{
-    any_change, chain, chain_and_truth, full_change, modes_by_nalgebra, pencil,
-};
-use nalgebra::{DMatrix, dmatrix};
-use proptest::prelude::*;
+use crate::common::pairings::counts;
+use crate::prelude::*;
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn pencils_are_definite_with_their_condition((stiffness, mass, condition) in pencil()) {
         prop_assert!((1..=6).contains(&stiffness.nrows()));
@@ -115,7 +105,7 @@ properties! {
 }
 
 properties! {
-    #![proptest_config(crate::common::costly_config())]
+    #![proptest_config(costly_config())]
 
     #[test]
     fn uneven_boxes_have_uneven_gages(case in uneven_box()) {

@@ -1,15 +1,9 @@
 //! (1), the dynamic stiffness of a load distribution.
 
 use super::sA_eq_05_to_08_condensation::stiffness_and_kept;
-use crate::common::matrices::relative_distance;
-use crate::common::tolerances::CONDITIONED_ROUND_OFF;
-use corfem::method::appendix_a::condense;
-use nalgebra::DMatrix;
-use proptest::prelude::*;
+use crate::prelude::*;
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// T that only selects DOF makes K_D what static condensation makes it: K_aa − K_ab K_bb⁻¹ K_ba.
     #[test]
     fn selecting_dof_is_static_condensation((stiffness, condition, kept) in stiffness_and_kept()) {

@@ -1,18 +1,8 @@
 //! Natural modes (3): order, scale and sign; faer's route against nalgebra's and against a closed form.
 
-use crate::common::closed_forms::uniform_chain::uniform_held_modes;
-use crate::common::strategies::positive_definite;
-use crate::common::structures::spring_stiffness;
-use crate::common::tolerances::{EIGEN_ROUND_OFF, EQUALLY_LARGE, MATRIX_ROUND_OFF, ROUND_OFF};
-use crate::common::vibrations::{modes_by_nalgebra, pencil};
-use corfem::method::modes::{Modes, apply_sign_rule, solve};
-use nalgebra::{DMatrix, dmatrix, dvector};
-use proptest::prelude::*;
-use std::f64::consts::PI;
+use crate::prelude::*;
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn shapes_are_mass_orthonormal((stiffness, mass, condition) in pencil()) {
         let size = stiffness.nrows();

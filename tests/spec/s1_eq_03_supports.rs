@@ -7,13 +7,7 @@
 //!
 //! The test structure has other areas than the model. All its elastic modes are measured; the method must find the areas.
 
-use crate::common::tolerances::{RECOVERED_AREA, RIGID_ON_SUSPENSION};
-use corfem::method::error::Error;
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use nalgebra::{DMatrix, DVector, Vector3};
+use crate::prelude::*;
 
 const MASSES: [f64; 6] = [0.010, 0.012, 0.009, 0.014, 0.011, 0.013];
 /// Area of a suspension rod: softer than the structure by six decades.

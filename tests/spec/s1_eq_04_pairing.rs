@@ -1,16 +1,7 @@
 //! Mode sorting (4): every test mode gets its own analysis mode, whatever the order and signs they come in.
 
-use crate::common::pairings::{
-    cross, cross_with_ties, noisy_pairs, pairs_by_sorting, rearrangement,
-};
-use crate::common::strategies::orthogonal;
-use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
-use crate::common::vibrations::{chain, pencil};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::sorting::{Pairing, cross_orthogonality, pair_modes};
-use corfem::sparse::modal_assurance;
-use nalgebra::{DMatrix, DVector, dmatrix, dvector};
-use proptest::prelude::*;
+use crate::common::pairings::cross_with_ties;
+use crate::prelude::*;
 
 fn assert_is_injective(pairing: &Pairing, cross: &DMatrix<f64>) {
     assert_eq!(pairing.analysis_mode.len(), cross.ncols());
@@ -23,8 +14,6 @@ fn assert_is_injective(pairing: &Pairing, cross: &DMatrix<f64>) {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn every_test_mode_gets_its_own_analysis_mode(cross in cross()) {
         assert_is_injective(&pair_modes(&cross).unwrap(), &cross);

@@ -1,7 +1,6 @@
 //! (5) as printed: the error of a frequency is relative.
 
-use crate::common::tolerances::PRINTED_SRSS;
-use corfem::torque_box::published::PublishedTable;
+use crate::prelude::*;
 
 #[test]
 fn frequency_error_is_relative() {

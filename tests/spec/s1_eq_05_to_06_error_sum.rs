@@ -1,19 +1,6 @@
 //! The objective (5, 6): zero only on equal modes, blind to scale and sign of shapes, relative in frequency.
 
-use crate::common::boxes::first_problem;
-use crate::common::pairings::rearrangement;
-use crate::common::tolerances::{MATRIX_ROUND_OFF, PRINTED_PERCENT, ROUND_OFF};
-use crate::common::vibrations::{chain_and_truth, error_sum_by_definition};
-use crate::common::{alter, assert_refused};
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::error_sum::{Errors, errors, mode_errors};
-use corfem::method::modes::Modes;
-use corfem::method::sorting::{Pairing, cross_orthogonality, pair_modes};
-use corfem::sparse::{ModeWeight, SensorModel};
-use corfem::torque_box::published::PublishedTable;
-use nalgebra::{DMatrix, DVector, dmatrix, dvector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Analysis modes that are the test modes' partners in order, with the test's signs.
 fn in_order(count: usize) -> Pairing {
@@ -24,8 +11,6 @@ fn in_order(count: usize) -> Pairing {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn errors_of_equal_modes_are_zero((chain, truth) in chain_and_truth()) {
         let modes = chain.modes(&truth);

@@ -1,24 +1,8 @@
 //! The modal model: what the loops are handed, and the state they make of factors.
 
-use crate::common::alter;
-use crate::common::assert_refused;
-use crate::common::boxes::{first_problem, problem_of, uneven_box};
-use crate::common::loops::{chain_problem, exact_state};
-use crate::common::tolerances::{CONVERGED_STATE, MATRIX_ROUND_OFF, PRINTED_RMS, ROUND_OFF};
-use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
-use corfem::method::analysis::{Analysis, State};
-use corfem::method::appendix_a::generalized_stiffness;
-use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, Parameter};
-use corfem::method::modes::Modes;
-use corfem::method::perturbation::{ROOT_TOLERANCE, recursive_1_converged};
-use corfem::torque_box::Case;
-use nalgebra::{DMatrix, dmatrix};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn generalized_shares_sum_to_the_generalized_stiffness((chain, truth) in chain_and_truth()) {
         let problem = chain_problem(&chain, &truth);
@@ -115,7 +99,7 @@ properties! {
 }
 
 properties! {
-    #![proptest_config(crate::common::costly_config())]
+    #![proptest_config(costly_config())]
 
     #[test]
     fn shares_of_the_box_leave_the_rods_out(case in uneven_box()) {
@@ -313,8 +297,6 @@ fn the_scale_of_the_test_shapes_does_not_matter() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn no_scale_or_sign_of_a_test_shape_changes_pairing_errors_or_shares(
         (chain, truth) in chain_and_truth(),

@@ -1,19 +1,7 @@
 //! Derivatives of the error sum (12) by the paper's difference, against exact differences.
 
-use crate::common::boxes::{first_problem, problem_of, uneven_box};
-use crate::common::gradient::gradient;
-use crate::common::loops::exact_state;
-use crate::common::tolerances::{CENTRAL_DIFFERENCE, CONVERGED_STATE, FIRST_ORDER_REMAINDER};
-use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
-use corfem::method::analysis::{
-    Analysis, DERIVATIVE_STEP, HELD_SEPARATION, State, without_close_couplings,
-};
-use corfem::method::error_sum::{Errors, ModeError, mode_errors};
-use corfem::method::model::{DynamicModel, Model};
-use corfem::method::modes::solve;
-use corfem::sparse::{ModeWeight, SensorModel};
-use nalgebra::{DMatrix, dmatrix};
-use proptest::prelude::*;
+use crate::prelude::*;
+use corfem::method::analysis::HELD_SEPARATION;
 
 /// The error sum by eigensolution in modal coordinates at the given factors.
 pub fn exact_error_sum(problem: &Model, factors: &[f64]) -> f64 {
@@ -57,8 +45,6 @@ pub fn assert_near(found: &[f64], expected: &[f64], tolerance: f64) {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn the_error_change_is_exact_to_second_order_of_the_step(
         (chain, truth) in chain_and_truth(),
@@ -169,7 +155,7 @@ properties! {
 }
 
 properties! {
-    #![proptest_config(crate::common::costly_config())]
+    #![proptest_config(costly_config())]
 
     #[test]
     fn derivatives_of_boxes_are_exact_to_second_order_of_the_step(case in uneven_box()) {

@@ -1,23 +1,8 @@
 //! The second route to (12): the gradient of the error sum, the limit of the paper's difference, against exact differences and against
 //! the paper's.
 
-use crate::common::boxes::first_problem;
-use crate::common::gradient::gradient;
-use crate::common::log_log_slope;
-use crate::common::loops::exact_state;
-use crate::common::tolerances::{
-    CENTRAL_DIFFERENCE, CENTRAL_DIFFERENCE_GRADIENT, CONVERGED_STATE, DERIVATIVE_ROUND_OFF,
-    ORDER_SLACK, ROUND_OFF,
-};
-use crate::common::vibrations::{Chain, chain_and_truth};
+use crate::prelude::*;
 use crate::spec::s1_eq_12_derivatives::{assert_near, exact_error_sum, with_one};
-use corfem::method::analysis::{Analysis, DERIVATIVE_STEP, State};
-use corfem::method::model::{DynamicModel, Model};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::perturbation::SMALLEST_SEPARATION;
-use corfem::torque_box::{CASES, Case};
-use nalgebra::{DMatrix, dmatrix};
-use proptest::prelude::*;
 
 /// The paper's difference over its step.
 fn slopes(problem: &Model, state: &State) -> Vec<f64> {
@@ -29,8 +14,6 @@ fn slopes(problem: &Model, state: &State) -> Vec<f64> {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn the_gradient_is_a_central_difference_of_exact_solutions(
         (chain, truth) in chain_and_truth(),

@@ -1,20 +1,6 @@
 //! The step (13): factors from derivatives by every rule, and the bounds that limit them.
 
-use crate::common::assert_refused;
-use crate::common::loops::STEP_RULES;
-use crate::common::structures::spring_chain;
-use crate::common::tolerances::ROUND_OFF;
-use crate::common::vibrations::chain_and_truth;
-use corfem::method::analysis::{Analysis, State};
-use corfem::method::error::Error;
-use corfem::method::inner_loop::InnerSettings;
-use corfem::method::model::{DynamicModel, FiniteElementModel, Model, Parameter};
-use corfem::method::modes::Modes;
-use corfem::method::step::{
-    Accumulation, Bounds, LEAST_SHARE, Limit, StepRule, limited_factor, unlimited_factor,
-};
-use nalgebra::{DMatrix, dmatrix, dvector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// A range around one, wide or narrow.
 fn range() -> impl Strategy<Value = Bounds> {
@@ -22,8 +8,6 @@ fn range() -> impl Strategy<Value = Bounds> {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn steps_are_in_proportion_to_relaxation_and_error_sum(
         // The stiffness of parameters is within a factor of a hundred of each other.

@@ -1,15 +1,6 @@
 //! The library's own measure of a change of stiffness: the norm of the whole relative generalized stiffness, and what it is.
 
-use crate::common::alter;
-use crate::common::loops::chain_problem;
-use crate::common::tolerances::MATRIX_ROUND_OFF;
-use crate::common::vibrations::chain_and_truth;
-use corfem::method::analysis::{Analysis, DERIVATIVE_STEP};
-use corfem::method::model::{DynamicModel, Model};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::step::StepRule;
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 fn changes(model: &Model, rule: StepRule) -> Vec<f64> {
     model.stiffness_changes(model.exact(), &model.exact().factors, rule)
@@ -77,8 +68,6 @@ fn rank_one(more: usize) -> impl Strategy<Value = RankOne> {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn with_all_modes_it_is_the_norm_in_the_measure_of_the_tests_stiffness((chain, truth) in chain_and_truth()) {
         // Computed without any mode, from the symmetric root of the test's stiffness.

@@ -1,16 +1,6 @@
 //! The step and the tolerances mean the same whatever number of modes is compared, and the step that is halved is the one taken.
 
-use crate::common::boxes::first_problem;
-use crate::common::loops::inner_for_modes;
-use crate::common::tolerances::ROUND_OFF;
-use crate::common::vibrations::Chain;
-use corfem::method::inner_loop::{InnerSettings, Stop, run};
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::step::StepRule;
-use corfem::torque_box::Case;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// A chain whose springs are one parameter, with a test of 1.1 times its stiffness: the first step over Newton's.
 fn first_step_over_newtons(
@@ -116,10 +106,7 @@ fn both_copies(modes: &Modes, copies: usize) -> Modes {
 #[test]
 fn a_test_in_other_units_still_descends() {
     // Frequencies three times and 2π times the right ones: every element asks for far more than its bound.
-    for (times, stated, below) in [
-        (3.0, "1.82", 1.75),
-        (2.0 * std::f64::consts::PI, "2.45", 2.40),
-    ] {
+    for (times, stated, below) in [(3.0, "1.82", 1.75), (2.0 * PI, "2.45", 2.40)] {
         let case = Case::new(2).expect("a case");
         let model = case.model().expect("a model");
         let test = case.test_modes().expect("modes");

@@ -1,21 +1,9 @@
 //! The inner loop: steps by perturbation that only ever lower the error sum, within their limits, until one of
 //! three reasons to stop.
 
-use crate::common::boxes::{problem_of, uneven_box};
-use crate::common::loops::{
-    Given, assert_error_sum_only_falls, assert_limits_hold, chain_problem, given, inner_for_modes,
-};
-use crate::common::vibrations::chain_and_truth;
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
-use corfem::method::model::Model;
-use corfem::method::step::Bounds;
-use corfem::torque_box::Case;
+use crate::common::loops::Given;
+use crate::prelude::*;
 use corfem::torque_box::wing_box::Panel;
-use proptest::prelude::*;
-use proptest::strategy::ValueTree;
-use proptest::test_runner::TestRunner;
 
 /// A run as given; where roots are so close that no first step settles there is nothing to look at.
 fn run_given(given: &Given) -> Result<(Model, InnerRun), TestCaseError> {
@@ -60,8 +48,6 @@ fn small_step(modes: usize) -> InnerSettings {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn a_small_step_lowers_the_error_sum((chain, truth) in chain_and_truth()) {
         let problem = chain_problem(&chain, &truth);
@@ -96,7 +82,7 @@ properties! {
 }
 
 properties! {
-    #![proptest_config(crate::common::costly_config())]
+    #![proptest_config(costly_config())]
 
     #[test]
     fn a_small_step_lowers_the_error_sum_of_a_box(case in uneven_box()) {

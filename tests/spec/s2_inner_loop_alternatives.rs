@@ -1,22 +1,6 @@
 //! The alternatives to the loop's recursion and to its halvings, on the torque box by the library's own reading of the step.
 
-use crate::common::appendix_c::{exact, recursive_2};
-use crate::common::boxes::{first_problem, problem_of};
-use crate::common::loops::Eigensolved;
-use crate::common::tolerances::{ROUND_OFF, SAME_HISTORY, STATED_ERROR_SUM};
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::error_sum::errors;
-use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
-use corfem::method::model::Model;
-use corfem::method::modes::Modes;
-use corfem::method::perturbation::{Perturbed, first_order, recursive_1};
-use corfem::method::sorting::pair_modes;
-use corfem::method::step::StepRule;
-use corfem::sparse::normalize_with_mass;
-use corfem::torque_box::Case;
-use corfem::torque_box::published::PublishedTable;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// A case's first pass with other rules and any analysis of it.
 fn first_pass_of(

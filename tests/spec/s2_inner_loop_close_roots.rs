@@ -1,16 +1,6 @@
 //! The inner loop where roots are close or repeated: an eigensolution can follow them, and the recursion says that it cannot.
 
-use crate::common::loops::{Eigensolved, inner_for_modes};
-use crate::common::tolerances::{ROUND_OFF, STOPPED_FACTOR, STOPPED_FACTOR_BY_DEFAULT};
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::inner_loop::{InnerSettings, Stop, run};
-use corfem::method::model::{DynamicModel, Model};
-use corfem::method::modes::solve;
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::perturbation::{LARGEST_UNSETTLED_CHANGE, MOST_ORDERS};
-use corfem::method::step::Bounds;
-use nalgebra::{DMatrix, dmatrix};
+use crate::prelude::*;
 
 /// Two like oscillators side by side, stiffened together: a repeated root from the first to the last iteration.
 #[test]

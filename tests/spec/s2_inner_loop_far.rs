@@ -1,18 +1,6 @@
 //! The inner loop far from its start: the least share of a stiffness, factors beyond a half and two, and roots that cross.
 
-use crate::common::draws::reached;
-use crate::common::loops::{exact_state, inner_for_modes};
-use crate::common::pairings::pairs_by_sorting;
-use crate::common::tolerances::{CONVERGED_STATE, FAR_RECURSION, LEAST_REACHED, ROUND_OFF};
-use crate::common::vibrations::{Chain, chain, error_sum_by_definition, modes_by_nalgebra};
-use corfem::method::analysis::{Analysis, State};
-use corfem::method::error::Error;
-use corfem::method::inner_loop::{InnerRun, InnerSettings, run};
-use corfem::method::model::{DynamicModel, Model};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::step::LEAST_SHARE;
-use nalgebra::{DMatrix, DVector, dmatrix, dvector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// A mass on a spring that is a hundred to a thousand times too stiff: three steps to nearly a half each take more than all of it.
 fn much_too_stiff() -> impl Strategy<Value = (f64, f64)> {
@@ -58,8 +46,6 @@ fn draws_reach_the_least_share() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn stiffness_never_falls_below_its_least_share((stiffness, truth) in much_too_stiff()) {
         let inner = run_down(stiffness, truth);
@@ -118,8 +104,6 @@ fn draws_reach_beyond_a_half_and_two() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn the_state_is_the_exact_solution_far_from_its_start((chain, factors) in far_chain()) {
         let model = start(&chain);
@@ -210,8 +194,6 @@ fn draws_cross_roots() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// A mode that overtakes another keeps its place, its test mode, and the exact root and shape.
     #[test]
     fn modes_whose_roots_cross_keep_their_places(draw in crossing()) {

@@ -1,19 +1,7 @@
 //! Pairing that changes inside an inner loop, without a new analysis: as test shapes that noise has turned half way from one mode to
 //! another change hands while the modes turn.
 
-use crate::common::draws::reached;
-use crate::common::loops::{Eigensolved, exact_state, inner_for_modes};
-use crate::common::structures::spring_stiffness;
-use crate::common::tolerances::{CONVERGED_STATE, LEAST_REACHED, SECOND_ORDER_CHANGE};
-use crate::common::vibrations::error_sum_by_definition;
-use corfem::method::analysis::{Analysis, DERIVATIVE_STEP};
-use corfem::method::error_sum::errors;
-use corfem::method::inner_loop::{InnerRun, InnerSettings, run};
-use corfem::method::model::{DynamicModel, Model};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::sorting::Pairing;
-use nalgebra::DMatrix;
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Three unit masses on springs of their own, the first two nearly alike, with soft springs between them that are no parameters; and the
 /// test: frequencies of a stiffer structure, and shapes of this one, of which the first two are turned into each other, the way that
@@ -50,7 +38,7 @@ impl Turned {
         let (sin, cos) = self.degrees.to_radians().sin_cos();
         let mut turn = DMatrix::identity(3, 3);
         turn.view_mut((0, 0), (2, 2))
-            .copy_from(&nalgebra::dmatrix![cos, -sin; sin, cos]);
+            .copy_from(&dmatrix![cos, -sin; sin, cos]);
         let squares = modes(&self.truth).omega_squared().clone();
         let shapes = modes(&[1.0; 3]).shapes() * turn;
         Modes::new(squares, shapes).expect("modes")
@@ -94,8 +82,6 @@ fn draws_change_the_pairing_inside_a_loop() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn pairing_that_changes_inside_a_loop_is_that_of_the_eigensolution(draw in turned()) {
         let (model, inner) = draw.run();

@@ -1,18 +1,7 @@
 //! Appendix C as the inner loop meets it: the state of a chain by recursion and by eigensolution, near a meeting of two roots and at
 //! it, and changes of mass that take too much.
 
-use crate::common::appendix_c::three_mass_chain;
-use crate::common::assert_refused;
-use crate::common::loops::exact_state;
-use crate::common::tolerances::EIGEN_ROUND_OFF;
-use crate::common::whole_models::of_dense;
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, Model};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::sorting::pair_modes;
-use corfem::sparse::{BasisSize, ParameterMatrix};
-use nalgebra::{DMatrix, dmatrix};
+use crate::prelude::*;
 
 /// The chain with λ = 1, 4, 8, its six springs as parameters, and the modes of a stiffer chain as test modes.
 fn chain() -> Model {
@@ -102,7 +91,7 @@ fn mass_that_is_taken_whole_loses_the_root() {
         &[1.0],
         &sensors,
         &test,
-        corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+        Pair::by(|of| pair_modes(of.cross)),
         BasisSize {
             modes: 2,
             residual_vectors: 0,

@@ -1,19 +1,6 @@
 //! The inner loop by hand: one spring, a step that is halved, a step that fails, and the three reasons to stop.
 
-use crate::common::boxes::{first_problem, problem_of};
-use crate::common::loops::{
-    Eigensolved, assert_error_sum_only_falls, assert_limits_hold, chain_problem, inner_for_modes,
-};
-use crate::common::tolerances::{FIRST_FACTOR, ROUND_OFF};
-use crate::common::vibrations::Chain;
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
-use corfem::method::model::{DynamicModel, Model};
-use corfem::method::modes::solve;
-use corfem::method::step::{Bounds, Limit, StepRule};
-use corfem::torque_box::Case;
-use nalgebra::dmatrix;
+use crate::prelude::*;
 
 /// One spring whose test structure has 0.81 of its stiffness: $e_S = 1/9$, and the step goes to $1 - R/20$.
 fn one_spring() -> Model {

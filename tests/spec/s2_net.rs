@@ -2,31 +2,8 @@
 //! `CORFEM_WRITE=loops cargo test s2_net` records the golden again. It does not take the `1` that rewrites documents, after which
 //! small differences of many changes could add up.
 
-use crate::common::loops::STEP_RULES;
-use crate::common::structures::spring_stiffness;
-use crate::common::tolerances::SAME_LOOPS;
-use crate::common::whole_models::{seen_by, sensors_at, sparse};
-use corfem::chain::rods;
-use corfem::job::assignment::pair_optimally;
-use corfem::method::analysis::{Analysis, DERIVATIVE_STEP, State, without_close_couplings};
-use corfem::method::appendix_c::Pencil;
-use corfem::method::error::Error;
-use corfem::method::error_sum::errors;
-use corfem::method::inner_loop::InnerSettings;
-use corfem::method::linear_algebra::symmetric_part;
-use corfem::method::model::{DynamicModel, FiniteElementModel, Parameter};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::outer_loop::{Correlation, Pass, Settings, correlate};
-use corfem::method::perturbation::{Perturbed, first_order};
-use corfem::method::sorting::{Pairing, cross_orthogonality, pair_modes};
-use corfem::method::step::{Bounds, REFERENCE_GAGE, StepRule};
-use corfem::sparse::{
-    BasisSize, ModeWeight, Pair, ParameterMatrix, WholeModel, WholeParameter, WholeShare,
-    normalize_with_mass,
-};
-use nalgebra::{DMatrix, DVector, dmatrix, dvector};
-use serde::{Deserialize, Serialize};
-use std::path::Path;
+use crate::prelude::*;
+use serde::Serialize;
 
 /// A part of the stiffness or the mass that is scaled by one factor, and the factor that the test's structure has.
 #[derive(Debug, Clone)]
@@ -617,9 +594,9 @@ fn the_loops_lead_where_they_led() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/loops.toml");
     if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "loops") {
         let golden = toml::to_string(&Golden { run: found }).expect("it is TOML");
-        return std::fs::write(path, golden).expect("it can be written");
+        return fs::write(path, golden).expect("it can be written");
     }
-    let text = std::fs::read_to_string(path).expect("golden/loops.toml");
+    let text = fs::read_to_string(path).expect("golden/loops.toml");
     let Golden { run: stored } = toml::from_str(&text).expect("it reads");
     let names = |runs: &[Recorded]| runs.iter().map(|run| run.name.clone()).collect::<Vec<_>>();
     assert_eq!(names(&found), names(&stored));

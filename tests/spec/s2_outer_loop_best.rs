@@ -1,14 +1,6 @@
 //! Passes that make the exact error worse: the loops take stiffness to be linear in what changes, as in a gage, and here it is a power.
 
-use crate::common::draws::reached;
-use crate::common::loops::Eigensolved;
-use crate::common::tolerances::{CONVERGED_STATE, LEAST_REACHED};
-use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::Modes;
-use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use nalgebra::{DMatrix, dmatrix, dvector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// A chain and the truth on its springs, which are powers of the factors: from a gage's, 1, to a bent plate's, 3.
 fn bent() -> impl Strategy<Value = (Chain, Vec<f64>, f64)> {
@@ -43,7 +35,7 @@ fn three_passes((chain, truth, power): &(Chain, Vec<f64>, f64)) -> Correlation {
 /// The exact error sums, that of the start first.
 fn sums(found: &Correlation) -> Vec<f64> {
     let checks = found.passes.iter().map(|pass| &pass.check);
-    let all = std::iter::once(&found.initial).chain(checks);
+    let all = once(&found.initial).chain(checks);
     all.map(|check| check.errors.sum()).collect()
 }
 
@@ -58,7 +50,7 @@ fn draws_have_a_last_pass_that_is_not_the_best() {
 }
 
 properties! {
-    #![proptest_config(crate::common::costly_config())]
+    #![proptest_config(costly_config())]
 
     #[test]
     fn a_pass_that_makes_the_exact_error_worse_is_not_chosen(draw in bent()) {

@@ -1,10 +1,7 @@
 //! Correlation by mass, and by stiffness and mass together.
 
-use crate::common::tolerances::ROUND_OFF;
+use crate::prelude::*;
 use crate::spec::s2_parameters_mass::{DENSITY, analyze, both, boxed, modes, point_masses};
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::step::Bounds;
-use corfem::sparse::{WholeModel, WholeParameter};
 
 #[test]
 fn wrong_point_masses_are_found() {

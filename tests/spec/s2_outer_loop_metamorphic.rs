@@ -6,20 +6,7 @@
 //! The error sum is a root over all modes and all DOF, so that the steps of two structures that nothing couples depend on each
 //! other: that each then comes out as alone is a law of weighted correlations (`s5_weighted_metamorphic.rs`).
 
-use crate::common::structures::{linkage, linkage_data};
-use crate::common::tolerances::{CONDITIONED_ROUND_OFF, MOST_AMPLIFIED, SAME_CORRELATION, SHAKE};
-use crate::common::{alter, costly_config};
-use corfem::method::appendix_a::assemble;
-use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, FiniteElementModel, Parameter};
-use corfem::method::modes::Modes;
-use corfem::method::outer_loop::{Correlation, Pass, Settings, correlate};
-use corfem::method::step::Bounds;
-use corfem::method::structure::{Element, ElementKind, Grid, StructuralDof, Structure};
-use corfem::torque_box::{CASES, Case};
-use nalgebra::{DMatrix, DVector, Rotation3, Vector3};
-use proptest::prelude::*;
-use proptest::test_runner::TestRunner;
+use crate::prelude::*;
 use std::cell::Cell;
 
 /// What a correlation is given.
@@ -691,10 +678,7 @@ fn condensing_to_all_dof_is_not_condensing() {
     for number in CASES {
         let mut given = given(number);
         // The step by gage knows the sizes of elements, which the matrices do not tell.
-        assert_ne!(
-            given.settings.inner.step,
-            corfem::method::step::StepRule::Gage
-        );
+        assert_ne!(given.settings.inner.step, StepRule::Gage);
         let free = given.structure().free_dof().len();
         given.analysis_modes = Some(free);
         let truth: Vec<f64> = (0..given.parameters.len())

@@ -1,15 +1,6 @@
 //! The outer loop by hand: when it begins, goes on and ends, and what its settings mean.
 
-use crate::common::alter;
-use crate::common::loops::{chain_problem, correlate_chain, inner_for_modes};
-use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
-use crate::common::vibrations::Chain;
-use approx::assert_relative_eq;
-use corfem::method::analysis::Analysis;
-use corfem::method::inner_loop::{InnerSettings, Stop, run};
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::torque_box::Case;
-use corfem::weighted::comparison::ExactResult;
+use crate::prelude::*;
 
 #[test]
 fn a_model_that_is_right_needs_no_pass() {

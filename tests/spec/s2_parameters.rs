@@ -1,14 +1,7 @@
 //! The model the correlation sees: parameters, their sizes and bounds.
 
-use crate::common::matrices::relative_distance;
-use crate::common::structures::{chain_model as chain, group};
-use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
-use crate::common::torque_boxes::{case, factors, with_every_element, with_parameters};
-use corfem::method::model::Parameter;
-use corfem::method::step::Bounds;
-use corfem::torque_box::Case;
-use nalgebra::DMatrix;
-use proptest::prelude::*;
+use crate::common::structures::chain_model as chain;
+use crate::prelude::*;
 
 /// The paper's substructures: covers, spars, ribs, and the rods as one more.
 const SUBSTRUCTURES: [(&str, &[usize]); 4] = [
@@ -25,8 +18,6 @@ const SUBSTRUCTURES: [(&str, &[usize]); 4] = [
 ];
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// A group's factor is that factor on each of its elements, and its share the sum of theirs.
     #[test]
     fn a_group_is_its_elements_together(case in case(), factors in factors(4)) {

@@ -1,13 +1,6 @@
 //! Groups: the paper's substructures, all elements of one scaled together.
 
-use crate::common::tolerances::{GROUPED_GAGE, ROUND_OFF};
-use crate::common::torque_boxes::with_parameters;
-use corfem::method::error::Error;
-use corfem::method::model::Parameter;
-use corfem::method::step::REFERENCE_GAGE;
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::wing_box::TEST_GAGE;
-use corfem::torque_box::{CASES, Case, CaseResult, Grouping, run_case};
+use crate::prelude::*;
 
 fn grouped(number: usize) -> CaseResult {
     let mut case = Case::new(number).expect("a case");
@@ -65,7 +58,7 @@ fn one_factor_moves_every_element_of_a_group() {
             for (group, &factor) in groups.iter().zip(&pass.factors) {
                 for &label in group {
                     let first = result.case.panels[label - 1].gage;
-                    approx::assert_relative_eq!(
+                    assert_relative_eq!(
                         gages[label - 1],
                         first * factor,
                         max_relative = 0.1 * ROUND_OFF

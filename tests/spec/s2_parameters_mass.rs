@@ -1,27 +1,6 @@
 //! Changes of mass: masses of elements and points as parameters of a whole model, and their derivatives.
 
-use crate::common::appendix_c::{ModalChange, eigensolution};
-use crate::common::condensed::condensed;
-use crate::common::log_log_slope;
-use crate::common::tolerances::{FORWARD_DIFFERENCE, MATRIX_ROUND_OFF};
-use crate::common::whole_models::{of_dense, seen_by, sparse};
-use approx::assert_relative_eq;
-use corfem::method::analysis::{Analysis, DERIVATIVE_STEP};
-use corfem::method::appendix_a::{assemble, condense};
-use corfem::method::error::Error;
-use corfem::method::error_sum::errors;
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::modes::Modes;
-use corfem::method::perturbation::Perturbed;
-use corfem::method::sorting::pair_modes;
-use corfem::method::structure::Structure;
-use corfem::sparse::elements::{corner_volumes, lumped_masses};
-use corfem::sparse::{
-    BasisSize, ParameterMatrix, SensorModel, SparseMatrix, WholeModel, WholeParameter, WholeShare,
-    normalize_with_mass,
-};
-use corfem::torque_box::Case;
-use nalgebra::{DMatrix, DVector};
+use crate::prelude::*;
 
 /// Aluminum, lbf·s²/in⁴.
 pub const DENSITY: f64 = 2.5e-4;
@@ -140,7 +119,7 @@ pub fn analyze(
         factors,
         sensors,
         test,
-        corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+        Pair::by(|of| pair_modes(of.cross)),
         BasisSize {
             modes: POINTS,
             residual_vectors: 0,

@@ -1,23 +1,9 @@
 //! The verdict on a correlation.
 
-use crate::common::jobs::{Files, building, of_matrices};
-use crate::common::jobs::{prepare, run};
-use crate::common::loops::{chain_problem, correlate_chain, verdict_of};
-use crate::common::structures::spring_stiffness;
-use crate::common::tolerances::ROUND_OFF;
-use crate::common::vibrations::{Chain, chain_and_truth};
-use crate::readers::job_errors::{placed, with};
-use corfem::job::verdict::{Outcome, Verdict};
-use corfem::job::{History, JobResult};
-use corfem::method::error_sum::{ModeError, errors, mode_errors};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::method::step::Bounds;
+use crate::common::jobs::run;
+use crate::prelude::*;
 use corfem::present::verdict::verdict_in_words;
-use corfem::torque_box::{Case, run_case};
 use corfem::weighted::comparison::ModeErrors;
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
 
 const TRUTH: [f64; 3] = [1.3, 0.8, 1.1];
 
@@ -186,8 +172,6 @@ fn the_worst_mode_and_its_errors_are_those_of_the_error_sum() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// Of frequency and shape together: the one may be large where the other is small.
     #[test]
     fn no_mode_of_the_first_model_is_worse_than_the_worst((chain, truth) in chain_and_truth()) {

@@ -1,16 +1,9 @@
 //! The paper's box: the connectivity of Table 2 and the loads of the nine dynamic points.
 
-use crate::common::nastran95::boxes;
-use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::torque_boxes::reconstruction;
-use corfem::method::structure::ElementKind;
-use corfem::torque_box::Case;
-use corfem::torque_box::wing_box::{
-    PANEL_COUNT, Reconstruction, TEST_GAGE, load_distribution, rod_ends, structure,
-};
-use nalgebra::{DVector, Matrix4, Vector3, Vector4};
-use proptest::prelude::*;
-use std::collections::BTreeSet;
+use crate::prelude::*;
+use corfem::torque_box::wing_box::rod_ends;
+use nalgebra::{Matrix4, Vector4};
 
 /// The grids of a rib from the tip in: rear upper, rear lower, front upper, front lower.
 fn rib(number: usize) -> [usize; 4] {
@@ -63,8 +56,6 @@ fn clamped_beam_by_elements(xi: f64) -> [f64; 4] {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// What the structure does as a rigid body its dynamic points do: q_D = Tᵗq_S is their motion along z.
     #[test]
     fn dynamic_points_follow_rigid_bodies(

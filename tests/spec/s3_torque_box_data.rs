@@ -1,11 +1,6 @@
 //! The box's data: the file it comes from, its masses, and data that cannot be a box.
 
-use crate::common::tolerances::ROUND_OFF;
-use corfem::method::error::Error;
-use corfem::torque_box::Case;
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::wing_box::{Reconstruction, dynamic_points, load_distribution, structure};
-use nalgebra::{DMatrix, DVector};
+use crate::prelude::*;
 
 const TEXT: &str = include_str!("../../paper/reconstruction.toml");
 

@@ -1,17 +1,8 @@
 //! Whole torque boxes against the stored stiffness and eigenvalues of NASTRAN-95: the paper's outer loop.
 
-use crate::common::matrices::relative_distance;
-use crate::common::nastran95::{StoredBox, StoredBoxes, boxes, snap_factor};
-use crate::common::tolerances::{
-    NASTRAN_EIGENVALUE, NASTRAN_PRINTED_EIGENVALUE, NASTRAN_SINGLE_PRECISION, ROUND_OFF,
-};
-use corfem::method::appendix_a::condense;
-use corfem::method::appendix_a::{ElementMatrix, assemble, element_matrices};
+use crate::common::nastran95::{StoredBox, StoredBoxes};
+use crate::prelude::*;
 use corfem::method::modes;
-use corfem::method::structure::Structure;
-use corfem::torque_box::Case;
-use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
-use nalgebra::DMatrix;
 
 fn sizes(structure: &Structure) -> Vec<f64> {
     structure

@@ -1,16 +1,9 @@
 //! The four cases by every reading of the step against the independent program (golden/reference/), whole history and all.
 
-use crate::common::tolerances::{EXPECTED_FREQUENCY, EXPECTED_HISTORY, ROUND_OFF};
 use crate::evidence::fit::fit;
 use crate::evidence::readings::{READINGS, detection, run_by_reading};
-use approx::assert_relative_eq;
-use corfem::method::step::StepRule;
-use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, published_runs};
-use corfem::torque_box::wing_box::Reconstruction;
-use corfem::torque_box::{
-    ANOMALY_RATIO, CASES, Case, CaseResult, published_passes, run_case, stands_out,
-};
-use corfem::weighted::comparison::ExactResult;
+use crate::prelude::*;
+use corfem::torque_box::ANOMALY_RATIO;
 use toml::Table;
 
 fn expected(reading: StepRule) -> Table {

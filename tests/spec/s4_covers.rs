@@ -1,17 +1,10 @@
 //! Upper and lower covers of a box that is symmetric about its mid-plane: no rule of the step tells them apart, while the print does.
 
 use crate::common::boxes::other_box;
-use crate::common::costly_config;
-use crate::common::tolerances::{MIRRORED_COVERS, SAME_HISTORY};
 use crate::evidence::claims::published_counts::COUNTED;
 use crate::evidence::published_counts::run_by;
 use crate::evidence::readings::correlation;
-use corfem::method::analysis::Analysis;
-use corfem::method::inner_loop::InnerSettings;
-use corfem::torque_box::Case;
-use corfem::torque_box::published::PublishedTable;
-use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE, rms};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// The covers of the root, tip and middle bays, elements from zero.
 const BAYS: [[usize; 2]; 3] = [[1, 14], [3, 7], [8, 10]];

@@ -1,8 +1,6 @@
 //! `paper/errata.md` again: printed numbers that cannot all be right.
 
-use crate::common::tolerances::PRINTED_RMS;
-use corfem::torque_box::Case;
-use corfem::torque_box::published::PublishedTable;
+use crate::prelude::*;
 
 /// How many characters of two equally long texts differ, and whether both have the same ones in whatever order.
 fn differ(one: &str, other: &str) -> (usize, bool) {

@@ -1,22 +1,8 @@
 //! Correlation with fewer modes: Tables 9 to 12, and what their numbers can and cannot be.
 
-use crate::common::golden::{Numbers, assert_golden, assert_table};
-use crate::common::tolerances::{EIGEN_ROUND_OFF, ROUND_OFF};
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::inner_loop::Stop;
-use corfem::method::step::Accumulation;
-use corfem::method::structure::ElementKind;
-use corfem::present::render::{csv, text};
+use crate::prelude::*;
 use corfem::present::tables::fewer_modes::{published_tables, truncation_tables};
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::fewer_modes::{
-    Agreement, FewerModesRun, PUBLISHED_RUNS, all_runs, fewer_modes_run, published_runs,
-};
-use corfem::torque_box::published::PublishedTable;
-use corfem::torque_box::wing_box::TEST_GAGE;
-use corfem::torque_box::{Case, run_case};
-use corfem::weighted::comparison::ExactResult;
+use corfem::torque_box::fewer_modes::{Agreement, FewerModesRun, all_runs, fewer_modes_run};
 
 fn case_2() -> Case {
     Case::new(2).expect("a case")

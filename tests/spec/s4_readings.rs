@@ -1,8 +1,5 @@
 //! How near each reading of the step comes to the printed gages on this box, and what the print says of the sum.
 
-use crate::common::boxes::other_boxes;
-use crate::common::golden::Numbers;
-use crate::common::tolerances::ROUND_OFF;
 use crate::evidence::accumulation::{
     ADDED_BOXES, accumulation_table, frequencies_by_both, mean_of_ratios,
 };
@@ -13,12 +10,7 @@ use crate::evidence::reading_tables::readings_tables;
 use crate::evidence::readings::{
     READINGS, ReadingColumn, all_columns, columns_of, detection, run_by_reading,
 };
-use corfem::method::step::StepRule;
-use corfem::present::render::csv;
-use corfem::torque_box::wing_box::{Reconstruction, TEST_GAGE};
-use corfem::torque_box::{CASES, Case, run_case};
-use std::path::Path;
-use std::sync::LazyLock;
+use crate::prelude::*;
 
 fn the_box() -> Reconstruction {
     Reconstruction::embedded().expect("the box")
@@ -141,9 +133,9 @@ fn table_of_readings_is_the_stored_one() {
     let found = csv(&tables);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("paper/readings.csv");
     if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "1") {
-        std::fs::write(&path, &found).expect("written");
+        fs::write(&path, &found).expect("written");
     }
-    let stored = std::fs::read_to_string(&path).expect("paper/readings.csv");
+    let stored = fs::read_to_string(&path).expect("paper/readings.csv");
     let numbers = Numbers::BY_UNIT;
     assert!(
         numbers.agree(&found, &stored),

@@ -1,14 +1,9 @@
 //! Goldens of the report: Tables 3 to 8 and 13, and Case 4.
 
-use crate::common::golden::{Numbers, assert_golden, assert_table};
-use crate::common::tolerances::{GOLDEN_ABSOLUTE_ROOT_PERCENT, GOLDEN_RELATIVE};
 use crate::evidence::fit::{fit, fit_table};
-use corfem::present::render::{csv, markdown, text};
-use corfem::present::table::{Cell, Table};
-use corfem::present::tables::cases::all_tables;
+use crate::prelude::*;
+use corfem::present::render::markdown;
 use corfem::present::tables::published::root_error_table;
-use corfem::torque_box::wing_box::Reconstruction;
-use corfem::torque_box::{CASES, Case, Grouping, run_case};
 
 fn tables() -> Vec<Table> {
     let results: Vec<_> = CASES
@@ -96,7 +91,7 @@ fn root_errors_of_table_1() {
     let table = root_error_table().expect("separate roots");
     assert_eq!((table.rows.len(), table.columns.len()), (24, 14));
     // Errors over many decades: a reader sees a digit and a power of ten.
-    let written = text(std::slice::from_ref(&table));
+    let written = text(from_ref(&table));
     let cells = written.split_whitespace().filter(|word| {
         let parts = word.split_once("e-");
         parts.is_some_and(|(digits, _)| digits.trim_start_matches('-').len() == 3)

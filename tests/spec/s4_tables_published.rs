@@ -1,13 +1,7 @@
 //! The report against the published tables: how near they are, and that what was promised is kept.
 
-use crate::common::tolerances::{
-    FINAL_GAGE_ERROR, FITTED_FREQUENCY_ERROR, FITTED_SHAPE_ERROR, ROUND_OFF,
-};
 use crate::evidence::fit::fit;
-use corfem::method::structure::ElementKind;
-use corfem::torque_box::published::PublishedTable;
-use corfem::torque_box::wing_box::{Reconstruction, gage_rms};
-use corfem::torque_box::{Case, CaseResult, run_case};
+use crate::prelude::*;
 
 fn results() -> Vec<CaseResult> {
     [1, 2, 3]

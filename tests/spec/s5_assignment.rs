@@ -1,11 +1,6 @@
 //! The pairing with the largest total, beside all pairings there are.
 
-use crate::common::tolerances::ROUND_OFF;
-use corfem::job::assignment::pair_optimally;
-use corfem::method::error::Error;
-use corfem::method::sorting::pair_modes;
-use nalgebra::{DMatrix, dmatrix};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// The largest total of test modes from `test` on, by trying every analysis mode that is left, and none.
 fn largest_total(closeness: &DMatrix<f64>, floor: f64, test: usize, taken: &mut Vec<usize>) -> f64 {
@@ -47,8 +42,6 @@ fn closeness() -> impl Strategy<Value = DMatrix<f64>> {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn the_total_is_the_largest_of_all_pairings(closeness in closeness(), floor in 0.0..0.9_f64) {
         let pairs = pair_optimally(&closeness, floor).unwrap();

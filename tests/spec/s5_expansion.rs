@@ -1,12 +1,7 @@
 //! Test shapes from the sensors to all degrees of freedom.
 
-use crate::common::closed_forms::uniform_chain::uniform_held_modes;
-use crate::common::said;
-use crate::common::tolerances::MATRIX_ROUND_OFF;
-use corfem::job::expansion::{expand, mass_by_modes};
-use corfem::method::error::Error;
-use nalgebra::{DMatrix, dmatrix};
-use proptest::prelude::*;
+use crate::prelude::*;
+use corfem::job::expansion::expand;
 
 /// Where the sensors of a chain of eight are.
 const SENSORS: [usize; 4] = [1, 3, 4, 7];
@@ -19,8 +14,6 @@ fn modes() -> DMatrix<f64> {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn shapes_in_the_span_of_the_modes_are_reproduced(shares in prop::collection::vec(-1.0..1.0_f64, 6)) {
         let all = modes();

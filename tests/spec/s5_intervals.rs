@@ -1,17 +1,7 @@
 //! 95 % intervals: by slopes where these tell, by the objective itself elsewhere, and none where neither is true.
 
-use crate::common::known::Known;
-use crate::common::measured::equal_weights;
-use crate::common::tolerances::{END_OF_INTERVAL, MATRIX_ROUND_OFF};
-use corfem::method::error::Error;
-use corfem::method::modes::Modes;
-use corfem::method::step::Bounds;
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{WeightedCorrelation, WeightedSettings, gauss_newton};
-use corfem::weighted::identifiability::{NORMAL_95, PRIOR_DEVIATION, identifiability};
-use corfem::weighted::intervals::{Withheld, intervals};
-use corfem::weighted::noise::{Noise, with_noise};
-use corfem::weighted::residuals::jacobian;
+use crate::prelude::*;
+use corfem::weighted::identifiability::PRIOR_DEVIATION;
 
 type Ranges = [Option<Bounds>; 15];
 

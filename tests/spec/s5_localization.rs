@@ -1,17 +1,8 @@
 //! Rankings of suspects: by the first iteration's own factors, and by what one parameter alone explains.
 
-use crate::common::known::Known;
-use crate::common::loops::inner_for_modes;
-use crate::common::measured::equal_weights;
-use crate::common::tolerances::{MATRIX_ROUND_OFF, SINGLE_FIT_FACTOR};
 use crate::evidence::localization::NOISE;
+use crate::prelude::*;
 use crate::spec::s5_weighted::at;
-use corfem::job::localization::{by_factor, by_single_fit};
-use corfem::method::inner_loop::{InnerSettings, run};
-use corfem::method::modes::Modes;
-use corfem::torque_box::Case;
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::residuals::residuals;
 
 #[test]
 fn the_first_ranking_is_by_what_the_first_iteration_asks_for() {

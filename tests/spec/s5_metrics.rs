@@ -1,11 +1,6 @@
 //! Coordinate assurance by what its definition promises.
 
-use crate::common::closed_forms::uniform_chain::uniform_held_modes;
-use crate::common::said;
-use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
-use corfem::job::metrics::coordinate_assurance;
-use nalgebra::{DMatrix, DVector, dmatrix};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Shapes none of which is near zero.
 fn shapes(dof: usize, modes: usize) -> impl Strategy<Value = DMatrix<f64>> {
@@ -34,8 +29,6 @@ fn scales(modes: usize) -> impl Strategy<Value = DMatrix<f64>> {
 const PAIRS: [Option<usize>; 3] = [Some(2), None, Some(0)];
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn scales_and_signs_change_no_coordinate_assurance(
         (analysis, test) in (shapes(5, 4), shapes(5, 3)),

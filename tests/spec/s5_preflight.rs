@@ -1,21 +1,7 @@
 //! The pre-flight: mistakes made by hand on the box, the delta wing and a spring chain, and what is said of none.
 
-use crate::common::alter;
-use crate::common::structures::spring_stiffness;
-use crate::common::tolerances::{FIRST_FREQUENCY_RATIO, ROUND_OFF};
 use crate::evidence::specimen::Specimen;
-use corfem::job::preflight::{Change, FACTORS, Names, SeenModes, preflight_at_sensors};
-use corfem::job::{Concern, Kind};
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::sorting::pair_modes;
-use corfem::sparse::random::split_mix_64;
-use corfem::sparse::{ParameterMatrix, modal_assurance};
-use corfem::torque_box::Case;
-use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
-use corfem::weighted::noise::{Noise, with_noise};
-use nalgebra::{DMatrix, DVector};
+use crate::prelude::*;
 
 pub fn case(number: usize) -> Specimen {
     Specimen::of_case(&Case::new(number).unwrap()).unwrap()
@@ -164,7 +150,7 @@ fn factors_are_what_they_are_called() {
         FACTORS
             .iter()
             .step_by(2)
-            .zip([std::f64::consts::TAU.powi(2), 3600.0, 1000.0, 386.09, 9.81])
+            .zip([TAU.powi(2), 3600.0, 1000.0, 386.09, 9.81])
     {
         assert!(
             (known.factor.powi(2) / squared - 1.0).abs() < ROUND_OFF,

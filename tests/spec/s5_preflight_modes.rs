@@ -1,14 +1,9 @@
 //! The pre-flight: what it says of frequencies, of modes, of settings and of two mistakes at once.
 
-use crate::common::alter;
-use crate::common::tolerances::{DEPENDENT_SHAPES, ROUND_OFF};
 use crate::evidence::specimen::Specimen;
+use crate::prelude::*;
 use crate::spec::s5_preflight::{case, chain, findings, is_of, wing, with_shapes};
-use corfem::job::preflight::{Change, FACTORS, LARGEST_TOLERANCE, Names};
-use corfem::job::{Concern, Kind};
-use corfem::method::model::DynamicModel;
-use corfem::method::outer_loop::Settings;
-use corfem::method::step::Bounds;
+use corfem::job::preflight::LARGEST_TOLERANCE;
 
 #[test]
 fn exchanged_frequencies_are_named_where_models_are_closer_than_modes() {

@@ -1,33 +1,7 @@
 //! Weighted residuals, their Jacobian, and Gauss–Newton steps on them.
 
-use crate::common::alter;
-use crate::common::draws::Draws;
-use crate::common::known::Known;
-use crate::common::measured::equal_weights;
-use crate::common::said;
-use crate::common::tolerances::{
-    CENTRAL_DIFFERENCE_GRADIENT, MATRIX_ROUND_OFF, ROUND_OFF, WEIGHTED_FACTOR,
-};
-use crate::common::whole_models::of_dense;
 use crate::evidence::rules::compare_all;
-use corfem::method::analysis::{Analysis, State};
-use corfem::method::error::Error;
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::sorting::pair_modes;
-use corfem::method::step::Bounds;
-use corfem::nalgebra::{DMatrix, DVector};
-use corfem::sparse::{BasisSize, ModeWeight, ParameterMatrix, SparseMatrix, WholeModel};
-use corfem::torque_box::Case;
-use corfem::weighted::close_modes::{indistinct_groups, turned};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{
-    WeightedCorrelation, WeightedSettings, WeightedStop, gauss_newton,
-};
-use corfem::weighted::identifiability::identifiability;
-use corfem::weighted::noise::{Noise, with_noise};
-use corfem::weighted::residuals::{DEVIATIONS, jacobian, residuals};
-use corfem::weighted::starts::{WeightedHistory, from_several_starts};
+use crate::prelude::*;
 
 /// The box of Case 2 by its matrices, with a stiffness parameter for every panel.
 fn by_matrices() -> DynamicModel {
@@ -110,7 +84,7 @@ fn the_jacobian_is_the_derivative_of_exact_analyses() {
                 factors,
                 &sensors,
                 &test,
-                corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+                Pair::by(|of| pair_modes(of.cross)),
                 BasisSize {
                     modes: 9,
                     residual_vectors: 0,

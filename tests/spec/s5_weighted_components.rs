@@ -1,32 +1,9 @@
 //! Standard deviations of components and covariances of all numbers: what residuals and jobs make of them, and whether intervals hold
 //! the truth.
 
-use crate::common::draws::Draws;
-use crate::common::jobs::{Files, building};
-use crate::common::jobs::{prepare, run};
-use crate::common::measured::equal_weights;
-use crate::common::test_files::write_csv;
-use crate::common::tolerances::{
-    CENTRAL_DIFFERENCE_GRADIENT, CORRECTION_ROUND_OFF, MATRIX_ROUND_OFF, STANDARD_ERRORS,
-    WEIGHTED_FACTOR,
-};
-use crate::common::whole_models::shear_building;
-use crate::readers::job_errors::placed;
+use crate::common::jobs::run;
+use crate::prelude::*;
 use crate::spec::s5_weighted::at;
-use corfem::files::test_data::TestData;
-use corfem::job::{JobResult, Kind};
-use corfem::method::analysis::{Analysis, State};
-use corfem::method::linear_algebra::symmetric_part;
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::{Modes, solve};
-use corfem::nalgebra::{DMatrix, DVector};
-use corfem::sparse::WholeShare;
-use corfem::weighted::comparison::{Comparison, LoneFrequency};
-use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use corfem::weighted::identifiability::NORMAL_95;
-use corfem::weighted::noise::{Noise, with_noise};
-use corfem::weighted::residuals::{jacobian, residuals};
-use std::collections::BTreeMap;
 
 /// A chain of six masses by its matrices, every spring a parameter.
 fn chain() -> DynamicModel {
@@ -67,7 +44,7 @@ fn intervals_hold_the_truth_where_every_component_has_its_own_deviation() {
         let mut held = [0; 6];
         for seed in 1..=tests {
             let mut test = with_noise(&exact, noise, seed).unwrap();
-            crate::common::alter(&mut test, |_, shapes| {
+            alter(&mut test, |_, shapes| {
                 let drawn = &*shapes - exact.shapes();
                 for (row, own) in own.iter().enumerate() {
                     let mut there = shapes.row_mut(row);

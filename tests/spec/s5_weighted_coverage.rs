@@ -1,21 +1,9 @@
 //! How often 95 % intervals hold the truth, and how often a culprit is found.
 
-use crate::common::golden::{Numbers, assert_golden};
-use crate::common::measured::equal_weights;
-use crate::common::tolerances::{
-    COVERAGE, FEW_COVERAGE, GOLDEN_COUNT, GOLDEN_COVERAGE, GOLDEN_RELATIVE, LEAST_COVER,
-    LEAST_DETECTIONS, LEAST_PARAMETER_COVERAGE, MATRIX_ROUND_OFF, MEAN_MISFIT, SINGLE_FIT_FACTOR,
-};
 use crate::evidence::coverage::{ENOUGH, SEEDS, SEEN, all_coverages, coverage_tables};
 use crate::evidence::localization::{self, NOISE, localization, localization_tables};
+use crate::prelude::*;
 use crate::spec::s5_weighted::at;
-use corfem::job::localization::by_single_fit;
-use corfem::method::modes::solve;
-use corfem::present::render::csv;
-use corfem::torque_box::Case;
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::residuals::residuals;
-use std::ops::RangeInclusive;
 
 /// Seeds of the tests that every run makes.
 const FEW: RangeInclusive<u64> = 1..=4;

@@ -1,26 +1,7 @@
 //! Laws of weighted steps by numbers that are worked out by hand, and both sides of every limit.
 
-use crate::common::structures::spring_stiffness;
-use crate::common::tolerances::{
-    DIFFERENCE_ROUND_OFF, END_OF_INTERVAL, MATRIX_ROUND_OFF, QUANTILE, ROUND_OFF, SET_UP,
-    WEIGHTED_FACTOR,
-};
+use crate::prelude::*;
 use crate::spec::s5_weighted::at;
-use corfem::method::error::Error;
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::perturbation::SMALLEST_SEPARATION;
-use corfem::method::step::Bounds;
-use corfem::sparse::ModeWeight;
-use corfem::weighted::close_modes::assurance_of_roots;
-use corfem::weighted::comparison::{Comparison, LoneFrequency};
-use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop, gauss_newton};
-use corfem::weighted::identifiability::{NORMAL_95, identifiability};
-use corfem::weighted::intervals::{Withheld, intervals};
-use corfem::weighted::misfit::Misfit;
-use corfem::weighted::residuals::residuals;
-use corfem::weighted::starts::from_several_starts;
-use nalgebra::{DMatrix, DVector, dmatrix};
 
 #[track_caller]
 fn assert_close(found: f64, expected: f64, tolerance: f64) {
@@ -886,7 +867,7 @@ fn a_frequency_without_a_shape_follows_its_mode_through_a_crossing() {
     let test = Modes::new(DVector::from_element(1, 200.0), dmatrix![0.0; 1.0]).unwrap();
     let analyze = |factors: &[f64]| {
         let lone = LoneFrequency {
-            frequency_hz: 10.0 / std::f64::consts::TAU,
+            frequency_hz: 10.0 / TAU,
             partner: usize::from(400.0 * factors[0] > 200.0 * factors[1]),
         };
         Comparison::from(&at(&first, factors).analyze(&test, None)?)

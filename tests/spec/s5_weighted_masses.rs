@@ -1,22 +1,7 @@
 //! Masses as parameters of structures on supports and of those that hang free: with all modes, rigid-body modes in the basis,
 //! derivatives and the perturbation are exact.
 
-use crate::common::draws::Draws;
-use crate::common::measured::equal_weights;
-use crate::common::tolerances::{CONVERGED_STATE, FAR_RECURSION, FORWARD_DIFFERENCE};
-use crate::common::vibrations::modes_by_nalgebra;
-use crate::common::whole_models::{masses, seen_by, sensors_at, springs};
-use corfem::method::analysis::{Analysis, DERIVATIVE_STEP, State};
-use corfem::method::error::Error;
-use corfem::method::modes::Modes;
-use corfem::method::sorting::pair_modes;
-use corfem::nalgebra::DMatrix;
-use corfem::sparse::{
-    BasisSize, ParameterMatrix, SensorModel, SparseMatrix, WholeModel, WholeParameter, WholeShare,
-};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use corfem::weighted::residuals::{DEVIATIONS, jacobian, residuals};
+use crate::prelude::*;
 
 /// Four springs and three masses of a random net are parameters; all but one point have sensors.
 struct Net {
@@ -83,7 +68,7 @@ impl Net {
     }
 
     fn analyze(&self, factors: &[f64]) -> Result<SensorModel, Error> {
-        let pair = corfem::sparse::Pair::by(|of| pair_modes(of.cross));
+        let pair = Pair::by(|of| pair_modes(of.cross));
         self.model.analyze(
             factors,
             &self.sensors,

@@ -1,18 +1,6 @@
 //! Metamorphic relations of whole weighted correlations: what must not change when the same problem is put in another way.
 
-use crate::common::costly_config;
-use crate::common::tolerances::SAME_ON_THE_WAY;
-use crate::common::vibrations::{Chain, chain_and_truth};
-use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, Model};
-use corfem::method::modes::Modes;
-use corfem::sparse::ModeWeight;
-use corfem::torque_box::{CASES, Case};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{WeightedCorrelation, WeightedSettings, gauss_newton};
-use corfem::weighted::noise::{Noise, with_noise};
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Steps until nothing moves by more than a ten-billionth of its standard deviation.
 fn settings(unit: f64) -> WeightedSettings {

@@ -1,22 +1,8 @@
 //! Where weighted correlations begin, and what their Jacobian holds of modes that are all but one.
 
-use crate::common::known::Known;
-use crate::common::measured::equal_weights;
-use crate::common::tolerances::{ORDER_SLACK, ROUND_OFF, STANDARD_ERRORS, WEIGHTED_FACTOR};
+use crate::prelude::*;
 use crate::spec::s5_weighted::{at, compare};
-use approx::assert_relative_eq;
-use corfem::method::error::Error;
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::solve;
-use corfem::sparse::ModeWeight;
-use corfem::torque_box::{Case, Grouping};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop};
-use corfem::weighted::next_step::NextStep;
-use corfem::weighted::noise::Noise;
-use corfem::weighted::residuals::{DEVIATIONS, jacobian};
-use corfem::weighted::starts::{Minimum, StartEnd, WeightedHistory, from_several_starts};
-use nalgebra::{DMatrix, DVector, dmatrix};
+use corfem::weighted::starts::{Minimum, StartEnd};
 
 #[test]
 fn random_starts_are_log_uniform_from_half_to_twice_the_first_factors() {

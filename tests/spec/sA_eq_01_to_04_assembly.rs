@@ -1,18 +1,7 @@
 //! Assembly and factorization: two routes to the same deflections, and every refusal by name.
 
-use crate::common::matrices::relative_distance;
-use crate::common::said;
-use crate::common::strategies::positive_definite;
-use crate::common::structures::{
-    condition, dense, factorized, grid, of_dense, rod, sizes_of, spring_chain, unit_material,
-};
-use crate::common::tolerances::{CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF};
-use corfem::method::appendix_a::{assemble, element_matrices};
-use corfem::method::elements::unit_stiffness;
-use corfem::method::structure::{Element, ElementKind, Structure};
-use corfem::torque_box::Case;
-use nalgebra::DMatrix;
-use proptest::prelude::*;
+use crate::common::structures::{of_dense, rod, unit_material};
+use crate::prelude::*;
 
 /// Loads on `count` DOF, two sets of them.
 fn loads(count: usize) -> impl Strategy<Value = DMatrix<f64>> {
@@ -57,8 +46,6 @@ fn square(constrained: &[bool]) -> Structure {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// All twelve DOF at once, the constrained ones struck out afterwards: the slow obvious way.
     #[test]
     fn assembly_scatters_elements_and_strikes_out_the_held_dof(

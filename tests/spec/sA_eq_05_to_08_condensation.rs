@@ -1,14 +1,6 @@
 //! Appendix A: from structural to dynamic DOF, by more than one route.
 
-use crate::common::draws::reached;
-use crate::common::matrices::relative_distance;
-use crate::common::strategies::{orthogonal, positive_definite};
-use crate::common::tolerances::{CONDITIONED_ROUND_OFF, LEAST_REACHED, MATRIX_ROUND_OFF};
-use crate::common::{not_definite, said};
-use corfem::method::appendix_a::{Condensed, condense};
-use corfem::method::error::Error;
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Condition numbers of the random stiffness matrices, in decades. Round-off grows with their square here: five decades
 /// leave three digits to compare in the worst case.
@@ -81,8 +73,6 @@ fn condensed(stiffness: &DMatrix<f64>, t: &DMatrix<f64>) -> Result<Condensed, Er
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// (A.3) to (A.8): the flexibility is TᵗK_S⁻¹T; B carries it back, K_D = B K_S Bᵗ; by equal work TᵗBᵗ = I.
     #[test]
     fn condensed_stiffness_and_transformation_satisfy_appendix_a(

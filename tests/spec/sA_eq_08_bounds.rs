@@ -1,12 +1,6 @@
 //! What freezing does to a condensed stiffness: old shapes bound it from above, old internal loads from below.
 
-use crate::common::strategies::orthogonal;
-use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
-use crate::common::torque_boxes::{case, factors, with_every_element};
-use corfem::method::appendix_a::{Condensed, condense};
-use corfem::method::modes::solve;
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// A structure of elements k aaᵗ with a load distribution, and new factors on its elements.
 #[derive(Debug, Clone)]
@@ -100,8 +94,6 @@ fn least(above: &DMatrix<f64>, below: &DMatrix<f64>) -> f64 {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn an_elements_share_is_its_flexibility_by_virtual_work(given in framework(4)) {
         // B K_e Bᵗ = K_D F_e K_D
@@ -144,7 +136,7 @@ properties! {
 }
 
 properties! {
-    #![proptest_config(crate::common::costly_config())]
+    #![proptest_config(costly_config())]
 
     #[test]
     fn the_box_lies_between_its_bounds((case, factors) in (case(), factors(39))) {

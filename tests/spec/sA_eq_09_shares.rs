@@ -1,17 +1,8 @@
 //! Appendix A on the paper's box: shares of elements, and what freezing B does.
 
-use crate::common::matrices::relative_distance;
-use crate::common::structures::{condition, sizes_of};
-use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
-use crate::common::torque_boxes::{case, factors, stiffness, with_every_element};
-use crate::common::{not_definite, said};
-use corfem::method::appendix_a::condense;
-use corfem::method::model::DynamicModel;
+use crate::common::torque_boxes::stiffness;
+use crate::prelude::*;
 use corfem::method::modes;
-use corfem::torque_box::Case;
-use corfem::torque_box::published::PublishedTable;
-use nalgebra::DMatrix;
-use proptest::prelude::*;
 
 /// K_D at factors on the shares, B left as it was.
 fn frozen(start: &DynamicModel, factors: &[f64]) -> DMatrix<f64> {
@@ -38,8 +29,6 @@ fn largest_excess(frozen: &DMatrix<f64>, exact: &DynamicModel) -> f64 {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// With the load between the spars shared by them as if it rode on no rib, the mid points would be averages of the
     /// spars' and the dynamic flexibility singular: the third point of the tip rib follows from the two before it.
     #[test]

@@ -1,18 +1,7 @@
 //! Balance of forces and moments (B.1 to B.4).
 
-use crate::common::alter;
-use crate::common::appendix_b::{mass_norm, modes, relative_difference};
-use crate::common::measured::{FreeStructure, free_beam, free_truss, held_chain, with_raw_shapes};
-use crate::common::tolerances::{
-    BALANCE_EQUATIONS, BALANCE_RESIDUAL, EXACT_MODE_RESIDUAL, ROUND_OFF,
-};
-use approx::assert_relative_eq;
-use corfem::method::appendix_b::{
-    ANTISYMMETRIC, LARGEST_SUSPENSION_RATIO, SYMMETRIC, balance, rigid_body_vectors,
-};
-use corfem::method::error::Error;
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
+use crate::common::measured::FreeStructure;
+use crate::prelude::*;
 
 /// A force or moment that remains, relative to the sum of the magnitudes that make it up.
 fn relative_resultant(
@@ -38,8 +27,6 @@ fn rates(structure: &FreeStructure, lowest: f64, fractions: &[f64]) -> Vec<f64> 
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// (B.1) and (B.2), written out, on a free structure and on soft suspensions.
     #[test]
     fn symmetric_forces_and_moments_balance(
@@ -172,7 +159,7 @@ properties! {
     #[test]
     fn any_rigid_body_motion_is_removed(
         (beam, raw) in with_raw_shapes(free_beam(), 2),
-        shift in crate::common::measured::noise(2, 2),
+        shift in noise(2, 2),
     ) {
         let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs).unwrap();
         let free = DMatrix::zeros(beam.dofs.len(), beam.dofs.len());
@@ -209,7 +196,7 @@ properties! {
     /// the test modes the ratio is at least one and the error certain.
     #[test]
     fn a_held_structure_is_refused((stiffness, mass) in held_chain(6)) {
-        let exact = corfem::method::modes::solve(&stiffness, &mass, 6).unwrap();
+        let exact = solve(&stiffness, &mass, 6).unwrap();
         let ones = DMatrix::repeat(6, 1, 1.0);
         let quotient = stiffness.sum() / (mass.trace() * exact.omega_squared()[0]);
         match balance(&exact, &stiffness, &mass, &ones) {

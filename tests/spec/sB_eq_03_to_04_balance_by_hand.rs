@@ -1,12 +1,6 @@
 //! Balance of forces and moments (B.1 to B.4) on three masses, and what is refused.
 
-use crate::common::appendix_b::modes;
-use crate::common::tolerances::{FAR_REFERENCE_AXIS, ROUND_OFF};
-use crate::common::{not_definite, said};
-use approx::assert_relative_eq;
-use corfem::method::appendix_b::{LARGEST_SUSPENSION_RATIO, balance};
-use corfem::method::error::Error;
-use nalgebra::{DMatrix, dmatrix, dvector};
+use crate::prelude::*;
 
 /// Three unit masses at −1, 0 and 1, one of the outer moved: {1} takes a third, {x} a half, 1/6 (1, −2, 1) remains.
 fn three_masses() -> (DMatrix<f64>, DMatrix<f64>) {
@@ -155,7 +149,7 @@ fn a_suspension_at_the_limit_is_allowed() {
 
 #[test]
 fn the_wing_box_on_its_root_is_refused() {
-    let case = corfem::torque_box::Case::new(1).unwrap();
+    let case = Case::new(1).unwrap();
     let model = case.model().unwrap();
     let dynamic = model.matrices(&[1.0; 15]).unwrap();
     let outcome = balance(

@@ -1,18 +1,6 @@
 //! Orthogonal test modes (B.5 to B.7).
 
-use crate::common::appendix_b::{mass_norm, modes, relative_difference};
-use crate::common::log_log_slope;
-use crate::common::measured::{noise, orthonormal_modes};
-use crate::common::tolerances::{
-    ASYMPTOTIC_SLOPE, EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ORTHOGONAL_INPUT, ROUND_OFF,
-};
-use crate::common::{alter, not_definite, said};
-use approx::assert_relative_eq;
-use corfem::method::appendix_b::orthogonalize;
-use corfem::method::modes::{Modes, generalized_mass};
-use corfem::sparse::modal_assurance;
-use nalgebra::{DMatrix, DVector, SymmetricEigen, dmatrix};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 const DOF: usize = 7;
 const MODES: usize = 5;
@@ -46,8 +34,6 @@ fn sorted(values: &DVector<f64>) -> Vec<f64> {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn orthogonalized_shapes_are_mass_orthonormal((raw, mass) in noisy()) {
         let found = orthogonalize(&raw, &mass).unwrap();
@@ -204,7 +190,7 @@ properties! {
         for size in [3e-3, 1e-3, 3e-4, 1e-4] {
             let noisy = exact.shapes() * (DMatrix::identity(MODES, MODES) + size * &mixing);
             let found = orthogonalize(&modes(exact.omega_squared().as_slice(), noisy), &mass).unwrap();
-            let largest = |of: fn(&corfem::method::appendix_b::Movement) -> f64| found.movement.iter().map(of).fold(0.0, f64::max);
+            let largest = |of: fn(&Movement) -> f64| found.movement.iter().map(of).fold(0.0, f64::max);
             frequency.push((size, largest(|movement| movement.frequency.abs())));
             shape.push((size, largest(|movement| movement.shape)));
         }

@@ -1,13 +1,6 @@
 //! Orthogonal test modes (B.6, B.7) on two and three shapes, and what is refused.
 
-use crate::common::appendix_b::modes;
-use crate::common::tolerances::{ORTHOGONAL_INPUT, ROUND_OFF};
-use crate::common::{not_definite, said};
-use approx::assert_relative_eq;
-use corfem::method::appendix_b::orthogonalize;
-use corfem::method::modes::{Modes, generalized_mass};
-use nalgebra::{DMatrix, DVector, dmatrix};
-use std::f64::consts::PI;
+use crate::prelude::*;
 
 #[test]
 fn generalized_mass_by_hand() {

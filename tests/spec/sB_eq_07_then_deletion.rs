@@ -1,8 +1,6 @@
 //! Which of overlapping test modes is deleted, by hand: unit masses, so overlaps are plain products.
 
-use crate::common::appendix_b::{modes, slight_overlap, unit_shapes};
-use corfem::method::appendix_b::{ModeVerdict, MovementLimits, Supports, examine, orthogonalize};
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 #[test]
 fn of_two_overlapping_modes_the_higher_is_deleted() {

@@ -1,16 +1,6 @@
 //! The report on test modes, and the deletion of deviant ones.
 
-use crate::common::appendix_b::relative_difference;
-use crate::common::measured::{free_beam, held_chain, mixture, noise};
-use crate::common::tolerances::{BALANCE_RESIDUAL, EXACT_MODE_RESIDUAL, ORTHOGONAL_INPUT};
-use crate::common::{alter, not_definite, said};
-use approx::assert_relative_eq;
-use corfem::method::appendix_b::{
-    ModeVerdict, MovementLimits, SYMMETRIC, Supports, examine, orthogonalize, rigid_body_vectors,
-};
-use corfem::method::modes::{Modes, generalized_mass, solve};
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// The modes without one of them.
 fn without(all: &Modes, mode: usize) -> Modes {
@@ -22,8 +12,6 @@ fn without(all: &Modes, mode: usize) -> Modes {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// Exact modes of a held structure pass unchanged.
     #[test]
     fn exact_modes_of_a_held_structure_are_kept((stiffness, mass) in held_chain(7)) {

@@ -1,12 +1,6 @@
 //! The report on test modes by hand: balance and its limit, settings, and what is refused.
 
-use crate::common::appendix_b::{modes, relative_difference, slight_overlap, unit_shapes};
-use crate::common::tolerances::{ORTHOGONAL_INPUT, ROUND_OFF};
-use crate::common::{not_definite, said};
-use approx::assert_relative_eq;
-use corfem::method::appendix_b::{MovementLimits, Supports, balance, examine};
-use corfem::method::error::Error;
-use nalgebra::{DMatrix, dmatrix};
+use crate::prelude::*;
 
 #[test]
 fn a_balance_at_its_limit_is_allowed_and_past_it_not() {
@@ -47,7 +41,7 @@ fn a_balance_at_its_limit_is_allowed_and_past_it_not() {
 fn balancing_uses_the_suspension_that_is_given() {
     let mass = DMatrix::identity(3, 3);
     let rigid_body = dmatrix![1.0, -1.0; 1.0, 0.0; 1.0, 1.0];
-    let stiffness = DMatrix::from_diagonal(&nalgebra::dvector![3.0, 0.0, 3.0]);
+    let stiffness = DMatrix::from_diagonal(&dvector![3.0, 0.0, 3.0]);
     let raw = modes(&[100.0], dmatrix![1.1; -2.0; 1.0]);
     let supports = Supports::Free {
         stiffness: &stiffness,
@@ -141,7 +135,7 @@ fn limits_out_of_range_are_refused() {
 
 #[test]
 fn the_wing_box_s_own_test_modes_are_kept() {
-    let case = corfem::torque_box::Case::new(2).unwrap();
+    let case = Case::new(2).unwrap();
     let raw = case.test_modes().unwrap();
     let found = examine(
         &raw,

@@ -1,12 +1,6 @@
 //! The strategies of this subject are what they claim.
 
-use crate::common::appendix_b::mass_norm;
-use crate::common::measured::{
-    free_beam, free_truss, held_chain, mixture, orthonormal_modes, with_raw_shapes,
-};
-use crate::common::tolerances::MATRIX_ROUND_OFF;
-use nalgebra::{DMatrix, SymmetricEigen};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Eigenvalues above round-off of the largest: the number of elastic modes.
 fn elastic_count(stiffness: &DMatrix<f64>) -> usize {
@@ -16,8 +10,6 @@ fn elastic_count(stiffness: &DMatrix<f64>) -> usize {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn free_beams_have_two_rigid_body_modes(beam in free_beam()) {
         let count = beam.dofs.len();
@@ -74,7 +66,7 @@ properties! {
 
     #[test]
     fn mixtures_overlap_two_modes((stiffness, mass) in held_chain(7), wrong in mixture(5)) {
-        let exact = corfem::method::modes::solve(&stiffness, &mass, 5).unwrap();
+        let exact = solve(&stiffness, &mass, 5).unwrap();
         let spoiled = wrong.spoil(&exact);
         let [mode, first, second] = wrong.modes;
         prop_assert!(mode != first && mode != second && first != second);

@@ -1,20 +1,10 @@
 //! Modes of complex unsymmetric pencils, left and right: biorthogonality, order, scale and phase, against dense
 //! complex eigensolutions by another route (QZ on the pencil itself).
 
-use crate::common::appendix_c::{largest_root_error, on_either_side, three_mass_chain};
-use crate::common::assert_refused;
-use crate::common::complex_pencils::{
-    ComplexPencil, Complexes, amax, complex, complex_pencil, complex_square, roots_by_qz, through,
-};
+use crate::common::complex_pencils::{ComplexPencil, complex_pencil, complex_square};
 use crate::common::strategies;
-use crate::common::tolerances::{
-    COMPLEX_EIGEN_ROUND_OFF, DEFECTIVE_COSINE, EIGEN_ROUND_OFF, EQUALLY_LARGE, ROUND_OFF,
-};
-use corfem::method::appendix_c::Pencil;
-use corfem::method::appendix_c::solve;
-use corfem::method::error::Error;
-use nalgebra::{Complex, DMatrix, DVector, dmatrix, dvector};
-use proptest::prelude::*;
+use crate::prelude::*;
+use appendix_c::solve;
 
 fn identity(size: usize) -> Complexes {
     DMatrix::identity(size, size)
@@ -34,8 +24,6 @@ fn defective_cosine(error: &Error, mode: usize) -> Option<f64> {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// (C.8) to (C.10): UᵗKV = I and UᵗGV = Λ, and both sets solve their own pencil (C.1), (C.2).
     #[test]
     fn left_and_right_modes_are_biorthogonal(pencil in complex_pencil()) {

@@ -1,16 +1,8 @@
 //! Appendix C on a wing section with aileron in a flow: complex and unsymmetric, against the dense complex eigensolution.
 
-use crate::common::appendix_c::largest_root_error;
-use crate::common::assert_refused;
-use crate::common::complex_pencils::{
-    Complexes, aeroelastic_section, amax, complex, roots_by_qz, through,
-};
-use crate::common::log_log_slope;
-use crate::common::tolerances::{COMPLEX_EIGEN_ROUND_OFF, EIGEN_ROUND_OFF, ORDER_SLACK, ROUND_OFF};
-use corfem::method::appendix_c::Pencil;
-use corfem::method::appendix_c::{LeftRightModes, solve};
-use corfem::method::error::Error;
-use nalgebra::{Complex, DMatrix, DVector};
+use crate::common::complex_pencils::aeroelastic_section;
+use crate::prelude::*;
+use appendix_c::solve;
 
 /// The wing section before and after a change of flow and structure.
 struct Section {

@@ -1,22 +1,9 @@
 //! Appendix C in full on real numbers: equal to the plain path where that applies, and mass changes beside stiffness.
 
-use crate::common::appendix_c::{
-    ModalChange, ascending, eigensolution, errors, four_modes, on_either_side, rules,
-    separate_change, three_mass_chain,
-};
-use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF};
-use corfem::method::appendix_c::LeftRightModes;
-use corfem::method::appendix_c::Pencil;
-use corfem::method::perturbation::{
-    ROOT_TOLERANCE, first_order, recursive_1, recursive_1_converged,
-};
-use corfem::sparse::normalize_with_mass;
-use nalgebra::{DMatrix, dmatrix, dvector};
-use proptest::prelude::*;
+use crate::common::appendix_c::errors;
+use crate::prelude::*;
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// The general formulae with α = 0, k = 1/λ are the plain ones, order by order.
     #[test]
     fn general_path_is_the_plain_path_for_stiffness_alone(mut change in separate_change(), order in 1..=6_usize) {
@@ -89,7 +76,7 @@ properties! {
 fn mass_added_to_a_chain_lowers_its_frequencies_as_the_eigensolution_says() {
     let stiffness = three_mass_chain([1.0, 1.0, 1.0], [1.0, 1.0, 3.0]);
     let mass = DMatrix::from_diagonal(&dvector![1.0, 1.5, 0.8]);
-    let modes = corfem::method::modes::solve(&stiffness, &mass, 3).unwrap();
+    let modes = solve(&stiffness, &mass, 3).unwrap();
     let base = on_either_side(&modes);
     assert_eq!(base.left, base.right);
     assert_eq!(&base.right, modes.shapes());
@@ -102,9 +89,7 @@ fn mass_added_to_a_chain_lowers_its_frequencies_as_the_eigensolution_says() {
     assert!((pencil.a() - beta - k).amax() < MATRIX_ROUND_OFF);
     assert!((pencil.g() - &alpha - DMatrix::identity(3, 3)).amax() < MATRIX_ROUND_OFF);
     let converged = pencil.recursive_1_converged().unwrap().perturbed;
-    let exact =
-        corfem::method::modes::solve(&(&stiffness + &share_change), &(&mass + &mass_change), 3)
-            .unwrap();
+    let exact = solve(&(&stiffness + &share_change), &(&mass + &mass_change), 3).unwrap();
     let found = ascending(converged.roots.map(f64::recip).iter());
     for (found, exact) in found.iter().zip(exact.omega_squared().iter()) {
         assert!(
@@ -115,7 +100,7 @@ fn mass_added_to_a_chain_lowers_its_frequencies_as_the_eigensolution_says() {
     let mut shapes = converged.shapes;
     normalize_with_mass(&mut shapes, &alpha).unwrap();
     let mut structural = modes.shapes() * shapes;
-    corfem::method::modes::apply_sign_rule(&mut structural);
+    apply_sign_rule(&mut structural);
     assert!((structural - exact.shapes()).amax() < EIGEN_ROUND_OFF);
 }
 

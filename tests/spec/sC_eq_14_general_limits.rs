@@ -1,9 +1,6 @@
 //! The general formulae of Appendix C at their limits: roots that meet, vanish, or exceed all numbers.
 
-use crate::common::appendix_c::{FORMULAE, ModalChange};
-use crate::common::tolerances::CANCELLED_DIFFERENCE;
-use corfem::method::error::Error;
-use nalgebra::{DMatrix, dmatrix, dvector};
+use crate::prelude::*;
 
 /// The separation that an error names is the denominator relative to $(k_{ii} + \beta_{ii})\gamma_j$, here ten.
 #[test]

@@ -1,24 +1,12 @@
 //! Appendix C for a change of stiffness: what holds for every way of solving it, and the exact solution they tend to.
 
-use crate::common::appendix_c::{EIGENSOLUTION, exact, rules, stiffness_rules};
-use crate::common::assert_refused;
-use crate::common::pairings::rearrangement;
-use crate::common::tolerances::{
-    CONVERGED_RECURSION, EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, NEARLY_UNCOUPLED, ROUND_OFF,
-};
-use crate::common::vibrations::{any_change, full_change, modes_by_nalgebra};
-use corfem::method::error::Error;
-use corfem::method::perturbation::{Perturbed, recursive_1_converged};
-use corfem::sparse::normalize_with_mass;
-use nalgebra::{DMatrix, dmatrix, dvector};
-use proptest::prelude::*;
+use crate::common::appendix_c::EIGENSOLUTION;
+use crate::prelude::*;
 
 /// Size of change at which every rule holds for every change a strategy gives.
 const SMALL: f64 = 0.02;
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn no_change_changes_nothing(change in full_change(4)) {
         for rule in rules() {

@@ -1,22 +1,12 @@
 //! What the rows of Appendix C say of first order and Recursive 2, and when Recursive 1 stops.
 
-use crate::common::appendix_c::{ModalChange, errors, four_modes, largest_change, recursive_2};
-use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
-use crate::common::vibrations::full_change;
-use corfem::method::error::Error;
-use corfem::method::perturbation::{
-    LARGEST_UNSETTLED_CHANGE, MOST_ORDERS, ROOT_TOLERANCE, first_order, recursive_1,
-    recursive_1_converged,
-};
-use nalgebra::{DMatrix, dmatrix, dvector};
-use proptest::prelude::*;
+use crate::common::appendix_c::errors;
+use crate::prelude::*;
 
 /// Size of change at which every rule holds for every change a strategy gives.
 const SIZE: f64 = 0.03;
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn first_order_is_rayleighs_quotient_on_the_old_shape(change in full_change(4)) {
         let (k, beta) = (&change.stiffness, change.beta(SIZE));

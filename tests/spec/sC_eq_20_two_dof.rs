@@ -4,22 +4,11 @@
 //! Recursive 1 of order r has roots of order 2⌊r/2⌋ + 2 and shapes of order 2⌈r/2⌉ + 1, Recursive 2 roots of order 2r and
 //! shapes of order 2r + 1, the original formulae roots of order 4.
 
-use crate::common::appendix_c::{Plain, exact, original, recursive_2};
+use crate::common::appendix_c::Plain;
 use crate::common::closed_forms::two_dof::{perturbed, squared_frequencies};
-use crate::common::log_log_slope;
-use crate::common::strategies::{positive_definite, symmetric};
-use crate::common::tolerances::{
-    CONVERGED_RECURSION, EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, MEASURABLE_ERROR, ORDER_HALFWAY,
-    ROUND_OFF,
-};
-use crate::common::vibrations::{full_change, modes_by_nalgebra};
-use corfem::method::perturbation::{first_order, recursive_1, recursive_1_converged};
-use nalgebra::{DMatrix, dmatrix, dvector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn the_closed_form_roots_are_those_of_the_eigensolver(
         (stiffness, _) in positive_definite(2, 6.0),

@@ -1,13 +1,8 @@
 //! Close and repeated roots: three-mass chains with known spectra, and how blocks form.
 
-use crate::common::appendix_c::{FORMULAE, ModalChange, Rule, three_mass_chain};
-use crate::common::close_roots::{
-    repeated_chain, residual, root_error, separate_chain, solved, spring_change,
-};
-use crate::common::tolerances::{EIGEN_ROUND_OFF, EQUALLY_LARGE, MATRIX_ROUND_OFF, ROUND_OFF};
-use corfem::method::error::Error;
-use corfem::method::perturbation::recursive_1_converged;
-use nalgebra::{DMatrix, dmatrix, dvector};
+use crate::common::appendix_c::Rule;
+use crate::common::close_roots::separate_chain;
+use crate::prelude::*;
 
 #[test]
 fn chains_have_the_spectra_they_are_said_to_have() {

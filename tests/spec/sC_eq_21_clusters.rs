@@ -1,24 +1,10 @@
 //! Clusters of roots down to exact repetition, against exact eigensolutions, and the orders of the recursion with blocks.
 
-use crate::common::appendix_c::{
-    Clustered, ModalChange, change_of, clustered, four_modes, largest_change, separate_change,
-    separate_spectrum,
-};
-use crate::common::blocks::{CloseRootsSettings, SolvedInBlocks, close_roots};
-use crate::common::close_roots::{
-    changed, repeated_chain, residual, root_error, solved, spring_change,
-};
-use crate::common::log_log_slope;
-use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF, ORDER_SLACK, ROUND_OFF};
-use corfem::method::error::Error;
-use corfem::method::perturbation::{LARGEST_UNSETTLED_CHANGE, Perturbed};
-use corfem::sparse::normalize_with_mass;
-use nalgebra::{DMatrix, dvector};
-use proptest::prelude::*;
+use crate::common::appendix_c::{Clustered, clustered};
+use crate::common::close_roots::changed;
+use crate::prelude::*;
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// Clusters of roots down to exact repetition, stiffness and mass changed: roots and shapes are those of the
     /// eigensolution, shapes orthonormal in the changed mass, and the blocks are the clusters.
     #[test]
@@ -179,7 +165,7 @@ fn roots_of_a_block_gain_two_orders_each_time() {
             assert_eq!(found.blocks, [vec![1, 2]]);
             assert_eq!(found.settled.order, orders);
             let (stiffness, mass) = changed(&change);
-            let exact = corfem::method::modes::solve(&stiffness, &mass, 4).unwrap();
+            let exact = solve(&stiffness, &mass, 4).unwrap();
             let roots = found.settled.perturbed.roots;
             let error = |i: usize| (roots[i] * exact.omega_squared()[i] - 1.0).abs();
             let (block, single) = (error(1).max(error(2)), error(0).max(error(3)));

@@ -1,11 +1,6 @@
 //! A recursion that has settled has every mode once.
 
-use crate::common::appendix_c::{ModalChange, change_of, of_stiffness};
-use crate::common::tolerances::SETTLED_ROOTS;
-use corfem::method::error::Error;
-use corfem::method::perturbation::recursive_1_converged;
-use nalgebra::{DMatrix, dmatrix, dvector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Modes 1 and 2 come to rest on one mode and mode 3 is missed: all rows of (7) and (8) hold, and the set is none.
 #[test]
@@ -25,8 +20,6 @@ fn a_recursion_that_finds_one_mode_twice_is_refused() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// Whatever the change, an accepted answer has every mode once: its roots are those of the eigensolution.
     #[test]
     fn an_accepted_recursion_has_every_mode_once(change in change_of(dvector![1.0, 1.5, 2.2, 4.0], 0.6)) {

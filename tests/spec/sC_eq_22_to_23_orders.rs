@@ -11,20 +11,8 @@
 //! | Recursive 1, order r | r + 1 | r + 1 |
 //! | Recursive 2, order r ≥ 2 | 2r − 1 | 2r |
 
-use crate::common::appendix_c::{
-    ModalChange, eigensolution, errors, exact, four_modes, largest_change, original,
-};
-use crate::common::log_log_slope;
-use crate::common::tolerances::{EIGEN_ROUND_OFF, ORDER_SLACK, ROUND_OFF, SECOND_ORDER_REMAINDER};
-use crate::common::vibrations::full_change;
-use corfem::method::appendix_c::LeftRightModes;
-use corfem::method::appendix_c::Pencil;
-use corfem::method::error::Error;
-use corfem::method::perturbation::{
-    LARGEST_UNSETTLED_CHANGE, MOST_ORDERS, Perturbed, ROOT_TOLERANCE, first_order, recursive_1,
-};
-use nalgebra::{DMatrix, dmatrix, dvector};
-use proptest::prelude::*;
+use crate::common::appendix_c::errors;
+use crate::prelude::*;
 
 fn pencil_of(change: &ModalChange) -> Pencil<f64> {
     change.pencil().expect("a pencil")
@@ -168,8 +156,6 @@ fn root_of_a_massless_motion_stays_zero() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn the_first_order_root_errs_by_the_second_order_term(change in full_change(4)) {
         // Rayleigh and Schroedinger: 1/γ_i = k_i + β_ii − Σ_j β_ij²/(k_j − k_i) + O(ε³).

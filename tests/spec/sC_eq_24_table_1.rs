@@ -1,14 +1,8 @@
 //! Table 1: root errors of the original formulae, Recursive 1 and Recursive 2 on two-degree-of-freedom problems, and who
 //! wins where. The paper's own numbers are lost in the scan, so the statements and not the digits are tested.
 
-use crate::common::appendix_c::{ascending, exact};
-use crate::common::assert_refused;
-use crate::common::log_log_slope;
-use crate::common::tolerances::{EIGEN_ROUND_OFF, ORDER_SLACK, ROUND_OFF};
-use corfem::method::error::Error;
-use corfem::torque_box::table_1::{Formula, TwoMasses, formulae, problems};
-use nalgebra::{DMatrix, dmatrix};
-use proptest::prelude::*;
+use crate::prelude::*;
+use corfem::torque_box::table_1::{Formula, formulae, problems};
 
 fn worst(errors: [f64; 2]) -> f64 {
     errors[0].abs().max(errors[1].abs())
@@ -26,19 +20,17 @@ fn two_masses() -> impl Strategy<Value = TwoMasses> {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// The closed form is the eigensolution of the two masses' own matrices, and the modes before the change are those
     /// of k and β.
     #[test]
     fn exact_roots_are_those_of_the_structure(problem in two_masses()) {
         let TwoMasses { coupling, change } = problem;
         let stiffness = dmatrix![1.0 + coupling + change, -coupling; -coupling, 1.0 + coupling];
-        let modes = corfem::method::modes::solve(&stiffness, &DMatrix::identity(2, 2), 2)?;
+        let modes = solve(&stiffness, &DMatrix::identity(2, 2), 2)?;
         let roots = problem.exact_roots();
         let of_eigensolution = exact(&problem.generalized_stiffness(), &problem.beta())?.roots;
         let modal = DMatrix::from_diagonal(&problem.generalized_stiffness()) + problem.beta();
-        let of_modal = ascending(nalgebra::SymmetricEigen::new(modal).eigenvalues.iter());
+        let of_modal = ascending(SymmetricEigen::new(modal).eigenvalues.iter());
         for i in 0..2 {
             prop_assert!((roots[i] * modes.omega_squared()[i] - 1.0).abs() < EIGEN_ROUND_OFF);
             prop_assert!((roots[i] * of_modal[i] - 1.0).abs() < EIGEN_ROUND_OFF);

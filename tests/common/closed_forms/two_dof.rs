@@ -1,7 +1,6 @@
 //! Closed forms of two degrees of freedom: the exact answers that every approximation is measured against.
 
-use corfem::method::perturbation::Perturbed;
-use nalgebra::{DMatrix, DVector, dvector};
+use crate::prelude::*;
 
 /// Squared circular frequencies of $K v = \omega^2 M v$ (2 × 2), ascending, rad²/s².
 ///

@@ -1,13 +1,6 @@
 //! A caller's own analysis: the paper's, but with an eigensolution where it has Recursive 1.
 
-use corfem::method::analysis::{Analysis, State};
-use corfem::method::error::Error;
-use corfem::method::error_sum::errors;
-use corfem::method::model::Model;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::sorting::pair_modes;
-use corfem::method::step::StepRule;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// State of a model at factors by an eigensolution in its modal coordinates, each mode in the place of the exact mode that it is most like.
 ///

@@ -6,12 +6,7 @@ pub mod weighed;
 pub mod whole;
 pub mod wing;
 
-use corfem::method::error::Error;
-use corfem::method::modes::Modes;
-use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::torque_box::Case;
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::wing_box::TEST_GAGE;
+use crate::prelude::*;
 use delta_wing::DeltaWing;
 use delta_wing::correlation::{self, GROUPS, Group, first_model, test_modes};
 use eigensolved::Eigensolved;

@@ -1,14 +1,6 @@
 //! Models of elements at all their degrees of freedom.
 
-use corfem::method::appendix_a::{ElementMatrix, element_matrices};
-use corfem::method::error::Error;
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::step::Bounds;
-use corfem::method::structure::Structure;
-use corfem::sparse::elements::{lumped_masses, support};
-use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
-use nalgebra::DMatrix;
-use std::collections::HashMap;
+use crate::prelude::*;
 
 /// A finite element model at all its structural degrees of freedom, and the matrix $T^t$ that reads its dynamic ones.
 ///

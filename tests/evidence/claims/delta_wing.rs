@@ -14,11 +14,7 @@
 //!      x  0   10    30    50    70    90
 //! ```
 
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::tolerances::ROUND_OFF;
-use approx::assert_relative_eq;
-use corfem::method::structure::{Element, ElementKind, Structure};
-use nalgebra::Vector3;
+use crate::prelude::*;
 
 const DATA: &str = include_str!("../../../paper/delta_wing.toml");
 

@@ -1,18 +1,7 @@
 //! What the delta wing does under load and in vibration, beside what NASTRAN printed, what was measured, and what an analog
 //! computer gave: an experiment nobody here can tune.
 
-use crate::common::decks::bulk_text;
-use crate::common::known::delta_wing::{
-    DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies,
-};
-use crate::common::structures::lumped_mass;
-use crate::common::tolerances::{
-    ANALOG_FREQUENCY, CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF, PRINTED_SEVEN_DIGITS, ROUND_OFF,
-};
-use approx::assert_relative_eq;
-use corfem::files::deck::{self, BulkData};
-use corfem::method::appendix_a::{assemble, element_matrices};
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 fn wing() -> DeltaWing {
     DeltaWing::embedded()
@@ -122,7 +111,7 @@ fn modes_are_those_of_the_dense_pencil() {
     let count = structure.free_dof().len();
     let stiffness = assemble(&elements, &sizes, count).expect("a matrix");
     let mass = lumped_mass(&structure);
-    let dense = corfem::method::modes::solve(&stiffness, &DMatrix::from_diagonal(&mass), count);
+    let dense = solve(&stiffness, &DMatrix::from_diagonal(&mass), count);
     let dense = dense.expect("modes").omega_squared().clone();
     let found = wing().modes().expect("modes").modes.omega_squared().clone();
     // The dense solution rounds at its highest root; the lowest dozen keep what that leaves.

@@ -1,16 +1,6 @@
 //! Wrong gages of the delta wing recovered from ten modes at 19 points.
 
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::known::delta_wing::correlation::{
-    GROUPS, Group, TEST_MODES, WingCorrelation, correlate_wing, first_model, settings,
-};
-use crate::common::tolerances::{
-    HIDDEN_GAGE, MATRIX_ROUND_OFF, RECOVERED_GAGE, ROUND_OFF, SAME_HISTORY, SEEN_SHARE,
-};
-use approx::assert_relative_eq;
-use corfem::method::inner_loop::Stop;
-use corfem::method::outer_loop::correlate;
-use std::sync::LazyLock;
+use crate::prelude::*;
 
 /// The whole scenario, run once for all tests.
 static RUN: LazyLock<WingCorrelation> =

@@ -1,15 +1,6 @@
 //! The scenario of the delta wing's correlation: groups, wrong gages, dynamic points, masses and test modes.
 
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::known::delta_wing::correlation::{
-    GROUPS, TEST_MODES, first_model, measured_grids, test_modes,
-};
-use crate::common::structures::lumped_mass;
-use crate::common::tolerances::{CONDENSED_WING, MATRIX_ROUND_OFF, ROUND_OFF};
-use approx::assert_relative_eq;
-use corfem::method::modes::solve;
-use corfem::method::sorting::{cross_orthogonality, pair_modes};
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 fn wing() -> DeltaWing {
     DeltaWing::embedded()

@@ -1,14 +1,10 @@
 //! What is named off the reconstructed box, and how often.
 
-use crate::common::golden::{Numbers, assert_golden};
-use crate::common::tolerances::{
-    LEAST_DETECTED_BOXES, LEAST_FIRST_SUSPECTS, LEAST_FIRST_SUSPECTS_OF_TEN,
-};
 use crate::evidence::detection::{
     BOXES, BoxRates, SIZES, TESTS, all_job_rates, box_rates, detection_tables, right_model_alarms,
 };
 use crate::evidence::readings::correlation;
-use corfem::present::render::csv;
+use crate::prelude::*;
 
 /// Alarms by each reading in noisy tests of right models of Cases 1 and 2, so many of each.
 fn alarms(tests: u64) -> [usize; 4] {

@@ -1,10 +1,7 @@
 //! Full eigensolutions by perturbation and by re-analysis, counted.
 
-use crate::common::known::wing::Wing;
-use crate::common::known::{Known, planted};
 use crate::evidence::eigensolutions::{Counted, counted};
-use corfem::method::analysis::Analysis;
-use corfem::torque_box::{Case, run_case};
+use crate::prelude::*;
 
 fn case(number: usize, error: f64) -> Counted {
     let settings = Case::new(number).expect("a case").settings;
@@ -70,7 +67,7 @@ fn a_small_wing_is_planted_and_found() {
         .model
         .analyze(&known.truth, &known.test, Some(10))
         .expect("it runs");
-    assert!(at_truth.exact().errors.sum() < crate::common::tolerances::ROUND_OFF_FLOOR);
+    assert!(at_truth.exact().errors.sum() < ROUND_OFF_FLOOR);
     let start = known
         .model
         .analyze(&[1.0; 15], &known.test, Some(10))

@@ -1,10 +1,9 @@
 //! The bars of the pre-flight on five structures that are not shipped.
 
-use crate::common::golden::{Numbers, assert_golden};
 use crate::evidence::five_structures::{
     Counts, FIVE, MISTAKES, Mistake, STRUCTURES, Structure, counts, interval_rates, repeat_rates,
 };
-use corfem::weighted::noise::Noise;
+use crate::prelude::*;
 use std::fmt::Write;
 
 /// Most doubted right tests in so many, and least mistakes named or said to be open, of so many.

@@ -1,14 +1,9 @@
 //! Predicted modes beside exact ones: the order of every formula, and which is the more accurate.
 
-use crate::common::known::Known;
-use crate::common::tolerances::{
-    MEASURABLE_ERROR, ORDER_HALFWAY, ORDER_SLACK, ROUND_OFF, ROUND_OFF_FLOOR,
-};
 use crate::evidence::predictions::{
     Exact, MEASURES, Prediction, STEPS, both_structures, predictions,
 };
-use approx::assert_relative_eq;
-use corfem::method::error_sum::Errors;
+use crate::prelude::*;
 
 const FIRST: usize = 0;
 const RECURSIVE: usize = 1;

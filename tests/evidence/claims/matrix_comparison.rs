@@ -1,16 +1,10 @@
 //! Why elements and not matrices: the comparison's numbers by other routes, and what they show.
 
-use crate::common::tolerances::{
-    CORRECTION_ROUND_OFF, EIGEN_ROUND_OFF, ROUND_OFF, UNMEASURED_MODE,
-};
 use crate::evidence::matrix_comparison::{
     COVER_DOUBLER, MatrixComparison, Prediction, USUAL_TEST_MODES, compare_matrices,
 };
 use crate::evidence::matrix_correction::baruch_stiffness;
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::solve;
-use corfem::torque_box::Case;
-use corfem::torque_box::wing_box::COVERS;
+use crate::prelude::*;
 
 pub const TEST_MODES: usize = USUAL_TEST_MODES;
 

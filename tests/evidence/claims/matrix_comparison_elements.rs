@@ -1,10 +1,8 @@
 //! What of a change of the matrix elements could have made.
 
-use crate::common::tolerances::CORRECTION_ROUND_OFF;
 use crate::evidence::claims::matrix_comparison::{TEST_MODES, by_name, compared, gages, model};
 use crate::evidence::matrix_correction::{baruch_stiffness, weighted_norm};
-use corfem::torque_box::Case;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 #[test]
 fn nearest_factors_leave_the_least() {

@@ -1,11 +1,7 @@
 //! Baruch's and Berman and Nagy's corrections: exact for the test modes, symmetric, and the smallest change that is.
 
-use crate::common::strategies::{positive_definite, symmetric};
-use crate::common::tolerances::CORRECTION_ROUND_OFF;
 use crate::evidence::matrix_correction::{baruch_stiffness, berman_nagy_mass, weighted_norm};
-use corfem::method::modes::{Modes, solve};
-use nalgebra::{DMatrix, DVector, dmatrix, dvector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Degrees of freedom: enough that tests are fewer than they by several.
 const SIZE: usize = 6;
@@ -75,8 +71,6 @@ fn admissible(problem: &Problem, mass: &DMatrix<f64>, shapes: &DMatrix<f64>) -> 
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn corrected_stiffness_has_the_test_modes_exactly(problem in problem()) {
         let Problem { stiffness, mass, test, .. } = &problem;

@@ -1,24 +1,7 @@
 //! Noisy test modes: the noise, what Appendix B makes of it, and the numbers of the study by other routes.
 
-use crate::common::tolerances::{
-    BALANCE_EQUATIONS, DIFFERENCE_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF, SAME_HISTORY,
-    STANDARD_ERRORS,
-};
 use crate::evidence::noisy_modes::{Found, NOISY_CASE, NoisyModes, NoisyRun, SEEDS, noisy_modes};
-use corfem::method::analysis::Analysis;
-use corfem::method::appendix_b::{
-    LARGEST_SUSPENSION_RATIO, MovementLimits, Supports, examine, orthogonalize,
-};
-use corfem::method::error::Error;
-use corfem::method::modes::{Modes, generalized_mass};
-use corfem::method::step::StepRule;
-use corfem::sparse::random::split_mix_64;
-use corfem::torque_box::wing_box::dynamic_points;
-use corfem::torque_box::{Case, run_case};
-use corfem::weighted::noise::{Noise, with_noise};
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
-use std::sync::OnceLock;
+use crate::prelude::*;
 
 fn case() -> Case {
     Case::new(NOISY_CASE).expect("a case")
@@ -135,8 +118,6 @@ fn noise_that_turns_a_frequency_negative_is_an_error() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn noise_comes_again_from_its_seed_and_grows_with_its_size(seed in any::<u64>(), times in 0.0..3.0_f64) {
         let exact = exact();

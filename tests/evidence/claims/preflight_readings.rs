@@ -1,8 +1,7 @@
 //! How often mistakes in readings are named on structures with repeated modes, light points and two directions.
 
-use crate::common::golden::{Numbers, assert_golden};
-use crate::common::tolerances::{LEAST_OF_THIRTY, LEAST_REVERSED_OF_THIRTY, MOST_FALSE_OF_THIRTY};
 use crate::evidence::readings_rates::{KINDS, SLIPS, Slip, findings, named};
+use crate::prelude::*;
 use std::fmt::Write;
 
 const NOISE: f64 = 0.01;

@@ -1,12 +1,8 @@
 //! The printed columns of gages one by one, with exactly the published iterations, against the independent program
 //! (golden/reference/published_counts.py).
 
-use crate::common::tolerances::EXPECTED_COUNTED;
 use crate::evidence::published_counts::{Counted, RULES, Rule, counted, pooled};
-use approx::assert_relative_eq;
-use corfem::method::step::StepRule;
-use corfem::torque_box::wing_box::Reconstruction;
-use std::sync::LazyLock;
+use crate::prelude::*;
 use toml::Table;
 
 pub static COUNTED: LazyLock<Vec<Counted>> =

@@ -1,21 +1,7 @@
 //! Errors, analyses, steps and the loops.
 
 use super::{Entry, chain};
-use crate::common::draws::Draws;
-use crate::common::structures::spring_stiffness;
-use crate::common::whole_models::of_dense;
-use corfem::method::analysis::{Analysis, without_close_couplings};
-use corfem::method::error::Error;
-use corfem::method::error_sum::{Errors, ModeError, errors, mode_errors};
-use corfem::method::inner_loop::{InnerSettings, first_factors, run};
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::sorting::pair_modes;
-use corfem::method::step::{Accumulation, Bounds, StepRule, limited_factor, unlimited_factor};
-use corfem::sparse::{BasisSize, ModeWeight, ParameterMatrix, SensorModel};
-use corfem::weighted::close_modes::turned;
-use corfem::weighted::comparison::{Comparison, LoneFrequency};
-use corfem::weighted::residuals::residuals;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// A chain as sensors see it, with a share of its stiffness or of its mass.
 fn sensed(d: &mut Draws) -> Result<SensorModel, Error> {
@@ -38,7 +24,7 @@ fn sensed(d: &mut Draws) -> Result<SensorModel, Error> {
         &[1.0; 2],
         &sensors,
         model.test(),
-        corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+        Pair::by(|of| pair_modes(of.cross)),
         BasisSize {
             modes: count,
             residual_vectors: 0,

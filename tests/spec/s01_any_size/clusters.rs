@@ -1,10 +1,6 @@
 //! Roots repeated more often than a block has directions, and other nasty pencils: 144 of them beside dense decompositions.
 
-use crate::common::draws::Draws;
-use crate::common::tolerances::{CLUSTERED_ROOT, ROUND_OFF_FLOOR};
-use crate::common::whole_models::{lowest_modes, masses, springs};
-use corfem::sparse::SparseMatrix;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// Springs between two rows, or one and the ground.
 type Springs = Vec<(usize, Option<usize>, f64)>;

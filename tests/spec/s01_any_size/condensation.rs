@@ -1,20 +1,7 @@
 //! What condensation to the measured DOF costs, and that the test is not blamed for it: a bar of ten rods measured at five joints.
 
-use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
-use crate::common::condensed::{
-    LARGEST_CONDENSATION_ERROR, condensation_errors, condensed, seen_modes,
-};
-use crate::common::structures::{dense, lumped_mass};
-use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
-use crate::common::vibrations::modes_by_nalgebra;
-use crate::common::whole_models::{chain_of_springs, masses, of_structure, sensors_at, springs};
-use corfem::method::appendix_a::condense;
-use corfem::method::error::Error;
-use corfem::method::modes::solve;
-use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use corfem::sparse::{FINITE, SparseMatrix, WholeModel, WholeParameter, WholeShare};
-use nalgebra::{DMatrix, DVector, Vector3};
-use proptest::prelude::*;
+use crate::common::condensed::{LARGEST_CONDENSATION_ERROR, condensation_errors, seen_modes};
+use crate::prelude::*;
 
 const RODS: usize = 10;
 
@@ -54,8 +41,6 @@ const FIVE: [usize; 5] = [2, 4, 6, 8, 10];
 const ONES: [f64; RODS] = [1.0; RODS];
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn whole_modes_are_those_of_the_assembled_pencil(areas in prop::collection::vec(0.5..2.0_f64, RODS)) {
         let bar = bar(&areas);

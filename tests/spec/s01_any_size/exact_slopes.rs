@@ -1,15 +1,6 @@
 //! Slopes of weighted residuals at whole models: exact, though most modes are not known.
 
-use crate::common::costly_config;
-use crate::common::measured::equal_weights;
-use crate::common::tolerances::EXACT_SLOPES;
-use crate::common::whole_models::{masses, seen_by, sensors_at, springs};
-use corfem::method::modes::Modes;
-use corfem::method::sorting::pair_modes;
-use corfem::nalgebra::{DMatrix, DVector};
-use corfem::sparse::{BasisSize, SparseMatrix, WholeModel, WholeParameter, WholeShare};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::residuals::{DEVIATIONS, jacobian, residuals};
+use crate::prelude::*;
 use proptest::collection::vec;
 use proptest::prelude::{Strategy, any};
 
@@ -73,7 +64,7 @@ impl Row {
             modes: MODES[1],
             residual_vectors: 0,
         };
-        let pair = corfem::sparse::Pair::by(|of| pair_modes(of.cross));
+        let pair = Pair::by(|of| pair_modes(of.cross));
         self.model
             .analyze(factors, &self.sensors, &self.test, pair, size)
             .expect("an analysis")

@@ -1,20 +1,7 @@
 //! The plan of a factorization, and shares of elements that no theory of elasticity made.
 
-use crate::common::assert_refused;
-use crate::common::draws::Draws;
 use crate::common::fill::{self, Fill};
-use crate::common::known::wing::Wing;
-use crate::common::log_log_slope;
-use crate::common::strategies::symmetric;
-use crate::common::tolerances::{FILL_ORDER, MATRIX_ROUND_OFF};
-use corfem::chain::rods;
-use corfem::method::appendix_a::{ElementMatrix, element_matrices};
-use corfem::method::error::Error;
-use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use corfem::sparse::{Factor, SparseMatrix};
-use corfem::torque_box::Case;
-use nalgebra::{DMatrix, Vector3};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// A square net of membranes and rods in the plane, swept, with one edge held and every grid free in x and y.
 fn net(cells: usize) -> Structure {
@@ -281,8 +268,6 @@ fn a_load_distribution_says_what_is_wrong_with_it() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// An element's share needs no theory of elasticity: matrices of another origin, indefinite ones among them, give B Kₑ Bᵗ,
     /// and all shares sum to K_D.
     #[test]

@@ -1,17 +1,6 @@
 //! Free structures and massless degrees of freedom: every mode found once, and counted another way.
 
-use crate::common::assert_refused;
-use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
-use crate::common::draws::Draws;
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::structures::{dense, lumped_mass, spring_stiffness};
-use crate::common::tolerances::{COUNTED_ROOT, EIGEN_ROUND_OFF};
-use crate::common::whole_models::{counted_modes, lowest_modes, sparse};
-use corfem::method::error::Error;
-use corfem::method::structure::{Grid, Structure};
-use corfem::sparse::{Factor, SparseMatrix};
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// How many squared frequencies lie below a bound.
 fn count_below(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, bound: f64) -> Result<usize, Error> {
@@ -143,8 +132,6 @@ fn a_free_spring_chain_has_the_closed_form() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// Other units of every degree of freedom are a congruence.
     #[test]
     fn a_count_does_not_depend_on_units(decades in prop::collection::vec(-9..=9_i32, 6), below in 0..=6_usize) {

@@ -1,19 +1,6 @@
 //! Residual vectors: further shapes of the basis in which changes of a whole model are followed.
 
-use crate::common::measured::equal_weights;
-use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
-use crate::common::whole_models::{masses, seen_by, sensors_at, springs};
-use corfem::method::error::Error;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::sorting::pair_modes;
-use corfem::nalgebra::DMatrix;
-use corfem::sparse::{
-    BasisSize, SensorModel, SparseMatrix, WholeModel, WholeParameter, WholeShare,
-};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop, gauss_newton};
-use corfem::weighted::residuals::DEVIATIONS;
+use crate::prelude::*;
 
 /// A net of springs between masses that move out of its plane, held at one edge; every column of it is a parameter. Springs and masses
 /// vary from place to place by a rule, so that `golden/residual_vectors.py` has the same.
@@ -77,7 +64,7 @@ impl Net {
     }
 
     fn analyze(&self, factors: &[f64], further: usize) -> SensorModel {
-        let pair = corfem::sparse::Pair::by(|of| pair_modes(of.cross));
+        let pair = Pair::by(|of| pair_modes(of.cross));
         self.model
             .analyze(
                 factors,
@@ -146,7 +133,7 @@ fn every_spring_has_one_residual_vector() {
                 &[1.0; 3],
                 &sensors,
                 &test,
-                corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+                Pair::by(|of| pair_modes(of.cross)),
                 BasisSize {
                     modes: 4,
                     residual_vectors: 4,

@@ -1,16 +1,7 @@
 //! Rigid-body modes are the null space of the stiffness, whatever its stiffest part.
 
-use crate::common::draws::Draws;
-use crate::common::known::whole::of_elements;
-use crate::common::tolerances::DIFFERENCE_ROUND_OFF;
-use crate::common::whole_models::{free_motions, lowest_modes, masses, springs};
-use corfem::chain::rods;
-use corfem::files::deck::{self, BulkData};
-use corfem::files::matrices::read;
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use corfem::sparse::{RigidBodies, SparseMatrix, Support, WholeModel};
-use nalgebra::{DMatrix, Vector3};
+use crate::prelude::*;
+use matrices::read;
 
 fn of(stiffness: &SparseMatrix) -> RigidBodies {
     free_motions(stiffness, &Support::default()).expect("a null space")

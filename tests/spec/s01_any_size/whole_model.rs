@@ -1,33 +1,6 @@
 //! Models without condensation, correlated at the sensors alone.
 
-use crate::common::condensed::analyze_condensed;
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::known::delta_wing::correlation::GROUPS;
-use crate::common::known::whole;
-use crate::common::measured::equal_weights;
-use crate::common::strategies::symmetric;
-use crate::common::tolerances::{MATRIX_ROUND_OFF, RECOVERED_STORY, ROUND_OFF, SAME_ANALYSIS};
-use crate::common::whole_models::{
-    counted_modes, lowest_modes, masses, of_structure, seen_by, sensors_at, shear_building, sparse,
-    springs,
-};
-use corfem::method::analysis::{Analysis, DERIVATIVE_STEP, State};
-use corfem::method::error::Error;
-use corfem::method::inner_loop::InnerSettings;
-use corfem::method::modes::Modes;
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::sorting::pair_modes;
-use corfem::method::step::StepRule;
-use corfem::method::structure::{Element, Grid, Material, Structure};
-use corfem::sparse::{
-    BasisSize, CountedModes, SparseMatrix, WholeModel, WholeParameter, WholeShare, modal_assurance,
-};
-use corfem::torque_box::Case;
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use corfem::weighted::noise::Noise;
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// A mode that moves no sensor resembles no test mode; that is no reason to refuse the analysis.
 #[test]
@@ -47,7 +20,7 @@ fn a_mode_that_no_sensor_sees_is_like_no_test_mode() {
                 &[1.0],
                 &sensors,
                 &test?,
-                corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+                Pair::by(|of| pair_modes(of.cross)),
                 BasisSize {
                     modes: 1,
                     residual_vectors: 0,
@@ -83,7 +56,7 @@ fn a_mode_that_no_sensor_sees_cannot_be_compared() {
                 &[1.0],
                 &sensors,
                 &test,
-                corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+                Pair::by(|of| pair_modes(of.cross)),
                 BasisSize {
                     modes,
                     residual_vectors: 0,
@@ -136,7 +109,7 @@ fn a_state_in_which_rigid_body_modes_have_no_mass_is_refused() {
             &[1.0],
             &sensors_at(&[0, 1], 2),
             &test,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+            Pair::by(|of| pair_modes(of.cross)),
             BasisSize {
                 modes: 1,
                 residual_vectors: 0,
@@ -174,7 +147,7 @@ fn share_and_congruence(matrix: DMatrix<f64>) -> [DMatrix<f64>; 2] {
             &[1.0],
             &sensors,
             &test,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+            Pair::by(|of| pair_modes(of.cross)),
             BasisSize {
                 modes: 3,
                 residual_vectors: 0,
@@ -187,8 +160,6 @@ fn share_and_congruence(matrix: DMatrix<f64>) -> [DMatrix<f64>; 2] {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// An element's share needs no theory of elasticity: any symmetric matrix gives its congruence, in any unit.
     #[test]
     fn the_share_of_any_matrix_is_its_congruence(unit in symmetric(3), decades in -12..=12_i32) {
@@ -220,7 +191,7 @@ fn a_share_on_the_test_shapes_is_that_on_their_modes() {
             &[1.0; 3],
             &sensors,
             &test,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+            Pair::by(|of| pair_modes(of.cross)),
             BasisSize {
                 modes: 3,
                 residual_vectors: 0,
@@ -266,7 +237,7 @@ fn the_error_change_by_a_mass_of_a_free_structure_is_near_its_limit() {
             &[factor],
             &sensors,
             &test,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+            Pair::by(|of| pair_modes(of.cross)),
             size,
         );
         found.expect("an analysis")
@@ -298,7 +269,7 @@ fn five_of_ten_floors_recover_every_story_without_condensation() {
             factors,
             &sensors,
             &test,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+            Pair::by(|of| pair_modes(of.cross)),
             BasisSize {
                 modes: 10,
                 residual_vectors: 0,
@@ -361,7 +332,7 @@ fn test_shapes_at_sensors_are_scaled_to_their_modes() {
                 &[1.0; 10],
                 &sensors,
                 test,
-                corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+                Pair::by(|of| pair_modes(of.cross)),
                 BasisSize {
                     modes: 10,
                     residual_vectors: 0,
@@ -415,7 +386,7 @@ fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
             &factors,
             &sensors,
             &test,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+            Pair::by(|of| pair_modes(of.cross)),
             BasisSize {
                 modes: 9,
                 residual_vectors: 0,
@@ -474,7 +445,7 @@ fn a_free_chain_is_corrected_without_its_rigid_body_mode() {
             factors,
             &sensors,
             &modes.vibrations,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+            Pair::by(|of| pair_modes(of.cross)),
             BasisSize {
                 modes: count - 1,
                 residual_vectors: 0,
@@ -550,7 +521,7 @@ fn a_free_delta_wing_is_corrected_without_its_rigid_body_modes() {
             factors,
             &sensors,
             &test,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+            Pair::by(|of| pair_modes(of.cross)),
             size,
         )?;
         Ok::<_, Error>(Comparison::from(found))

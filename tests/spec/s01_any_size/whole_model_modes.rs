@@ -1,14 +1,8 @@
 //! Modes of sparse pencils by a subspace that counts: closed forms, dense matrices, and a mode that is missing.
 
-use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
-use crate::common::draws::Draws;
-use crate::common::tolerances::{COUNTED_ROOT, JOB_RESULTS, TWO_PROGRAMS, WHOLE_SHAPE};
-use crate::common::whole_models::{
-    chain_of_springs as chain, counted_modes, lowest_modes, masses, springs,
-};
-use corfem::sparse::whole_modes::{MassDof, whole_modes};
-use corfem::sparse::{BodyFinding, Factor, MOST_DENSE_ROWS, SparseMatrix, Support};
-use nalgebra::{DMatrix, DVector};
+use crate::prelude::*;
+use chain_of_springs as chain;
+use corfem::sparse::BodyFinding;
 
 #[test]
 fn a_long_chain_has_the_closed_form_whatever_holds_it() {
@@ -179,7 +173,7 @@ fn what_counts_as_free_by_its_digits_says_what_they_would_hide() {
     assert_eq!(found.rigid_body, 1);
     // The slack, 30 roundings of twice the spring at both rows, on the whole mass.
     let slack = 4.0 * 30.0 * f64::EPSILON * 1.5e4 / 0.7;
-    let hertz = (slack / 5.0).sqrt() / std::f64::consts::TAU;
+    let hertz = (slack / 5.0).sqrt() / TAU;
     assert!(
         (hidden_hz / hertz - 1.0).abs() < JOB_RESULTS,
         "{hidden_hz} {hertz}"

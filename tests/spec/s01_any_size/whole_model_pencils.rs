@@ -1,11 +1,6 @@
 //! Sparse pencils that are hard to find modes of: in unlike units, with loose parts, with few masses, and with roots that repeat.
 
-use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
-use crate::common::tolerances::{COUNTED_ROOT, WHOLE_SHAPE};
-use crate::common::whole_models::{chain_of_springs, lowest_modes, masses, springs};
-use corfem::method::error::Error;
-use corfem::sparse::{CountedModes, MOST_DENSE_ROWS, SparseMatrix};
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// More than are solved as dense matrices.
 const ROWS: usize = MOST_DENSE_ROWS + 50;

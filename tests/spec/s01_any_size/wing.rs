@@ -1,16 +1,8 @@
 //! A wing of any size: a box of ribs and spars, every member in one group.
 
-use crate::common::known::wing::{MESHES, SORTS, Wing};
-use crate::common::structures::{factorized, wings};
-use crate::common::tolerances::{
-    COARSE_WING, ELEMENT_ROUND_OFF, ROUND_OFF, SLENDER_BEAM, TWO_PROGRAMS,
-};
-use approx::assert_relative_eq;
-use corfem::method::structure::{ElementKind, Material, Structure};
-use corfem::sparse::elements::corner_volumes;
-use nalgebra::DMatrix;
-use proptest::prelude::*;
-use std::f64::consts::PI;
+use crate::common::known::wing::{MESHES, SORTS};
+use crate::common::structures::wings;
+use crate::prelude::*;
 
 /// Numbers of covers, spar webs, rib webs, spanwise caps, and posts with rib caps.
 fn counts([ribs, chord, depth]: [usize; 3]) -> [usize; 5] {
@@ -220,7 +212,6 @@ fn whole_wing_has_the_modes_of_its_points() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
     #[test]
     fn every_wing_is_held_and_counted(wing in wings()) {
         let model = wing.model().expect("a wing");

@@ -1,17 +1,10 @@
 //! What the wing does under load and in vibration, and what others found.
 
 use super::super::weighed::lumped_mass;
-use super::{DeltaWing, STATIONS, upper_grid};
+use super::{STATIONS, upper_grid};
+use crate::prelude::*;
 use corfem::files::test_data::row_name;
-use corfem::method::appendix_a::{ElementMatrix, assemble, element_matrices};
-use corfem::method::error::Error;
-use corfem::method::structure::Structure;
 use corfem::sparse::factorization::Factor;
-use corfem::sparse::whole_modes::{MassDof, WholeModes, whole_modes};
-use corfem::sparse::{SparseMatrix, Support};
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::published::PublishedTable;
-use nalgebra::DMatrix;
 
 /// Direction of every load and measured deflection.
 const Z: usize = 2;

@@ -13,17 +13,7 @@
 //! - **Held fixed** are posts and caps, rods of known cross section.
 
 use super::super::eigensolved::Eigensolved;
-use super::super::weighed::Weighed;
-use super::DeltaWing;
-use corfem::method::error::Error;
-use corfem::method::inner_loop::InnerSettings;
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::modes::Modes;
-use corfem::method::outer_loop::{Correlation, Pass, Settings, correlate};
-use corfem::method::step::{Accumulation, StepRule};
-use corfem::method::structure::{Element, Material, Structure};
-use corfem::sparse::SparseMatrix;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// Elements that are scaled together.
 #[derive(Debug, Clone, Copy, PartialEq)]

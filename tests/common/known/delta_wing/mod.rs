@@ -20,10 +20,7 @@ pub mod correlation;
 
 pub use answers::{MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies};
 
-use corfem::method::error::Error;
-use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use nalgebra::Vector3;
-use serde::Deserialize;
+use crate::prelude::*;
 
 /// Stations outboard of the root's center, in.
 const STATIONS: [f64; 6] = [0.0, 10.0, 30.0, 50.0, 70.0, 90.0];
