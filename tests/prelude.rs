@@ -8,13 +8,10 @@ pub use crate::{
         appendix_c::{
             FORMULAE, ModalChange, ascending, change_of, eigensolution, exact, four_modes,
             largest_change, largest_root_error, of_stiffness, on_either_side, original,
-            recursive_2, rules, separate_change, separate_spectrum, stiffness_rules,
-            three_mass_chain,
+            recursive_2, separate_change, separate_spectrum, stiffness_rules, three_mass_chain,
         },
         assert_refused,
-        blocks::{CloseRootsSettings, SolvedInBlocks, close_roots},
         boxes::{first_problem, other_boxes, problem_of, uneven_box},
-        close_roots::{repeated_chain, residual, root_error, solved, spring_change},
         closed_forms::{
             analytical::{
                 ChainEnds, chain_eigenvalues, no_sides_parallel_energy, parallelogram_energy,
@@ -72,20 +69,6 @@ pub use crate::{
             sizes_of, spring_chain, spring_stiffness,
         },
         test_files::{write_csv, write_universal},
-        tolerances::{
-            BALANCE_EQUATIONS, BALANCE_RESIDUAL, CANCELLED_DIFFERENCE, CENTRAL_DIFFERENCE,
-            CENTRAL_DIFFERENCE_GRADIENT, COMPLEX_EIGEN_ROUND_OFF, CONDITIONED_ROUND_OFF,
-            CONVERGED_RECURSION, CONVERGED_STATE, CORRECTION_ROUND_OFF, COUNTED_ROOT,
-            DECK_ROUNDING, DIFFERENCE_ROUND_OFF, EIGEN_ROUND_OFF, ELEMENT_ROUND_OFF,
-            END_OF_INTERVAL, EQUALLY_LARGE, EXACT_MODE_RESIDUAL, EXPECTED_FREQUENCY,
-            EXPECTED_HISTORY, FAR_RECURSION, FORWARD_DIFFERENCE, GOLDEN_COUNT, GOLDEN_RELATIVE,
-            JOB_RESULTS, LEAST_REACHED, MATRIX_ROUND_OFF, MEASURABLE_ERROR, NASTRAN_AGAIN,
-            NASTRAN_EIGENVALUE, NASTRAN_FREQUENCY, NASTRAN_GAGE, NASTRAN_PRINTED_EIGENVALUE,
-            NASTRAN_SINGLE_PRECISION, ORDER_HALFWAY, ORDER_SLACK, ORTHOGONAL_INPUT, PRINTED_RMS,
-            ROUND_OFF, ROUND_OFF_FLOOR, SAME_CORRELATION, SAME_HISTORY, SAME_ON_THE_WAY,
-            SINGLE_FIT_FACTOR, SLOPE, STANDARD_ERRORS, TWO_PROGRAMS, UNIVERSAL_ROUNDING,
-            WEIGHTED_FACTOR, WHOLE_SHAPE,
-        },
         torque_boxes::{case, factors, with_every_element, with_parameters},
         vibrations::{
             Chain, any_change, chain, chain_and_truth, error_sum_by_definition, full_change,

@@ -127,18 +127,6 @@ pub fn stiffness_rules() -> impl Iterator<Item = Rule> {
         .filter(|rule| rule.name.starts_with("first order") || rule.name.starts_with("Recursive 1"))
 }
 
-/// What they approach.
-pub const EIGENSOLUTION: Rule = Rule {
-    name: "eigensolution",
-    plain: exact,
-    general: eigensolution,
-};
-
-/// The formulae and the eigensolution.
-pub fn rules() -> impl Iterator<Item = Rule> {
-    FORMULAE.into_iter().chain([EIGENSOLUTION])
-}
-
 /// A change of stiffness alone.
 pub fn of_stiffness(k: &DVector<f64>, beta: &DMatrix<f64>) -> ModalChange {
     ModalChange::of_vibrations(k, beta.clone(), DMatrix::zeros(k.len(), k.len()))
@@ -208,44 +196,6 @@ pub fn separate_change() -> impl Strategy<Value = ModalChange> {
     (2..=6_usize)
         .prop_flat_map(separate_spectrum)
         .prop_flat_map(|k| change_of(k, LARGEST_CHANGE))
-}
-
-/// Modes in clusters and their change, with the clusters expected as blocks at 10 % separation.
-#[derive(Debug, Clone)]
-pub struct Clustered {
-    pub change: ModalChange,
-    pub blocks: Vec<Vec<usize>>,
-}
-
-/// One to three clusters of one to three modes, cluster centers a factor 2 to 4 apart, modes within a cluster apart by
-/// at most 1e-3 of the center and down to nothing; changes of at most 2 % move roots by at most 4 %, so 10 % tells
-/// the clusters apart in every case.
-pub fn clustered() -> impl Strategy<Value = Clustered> {
-    let cluster = (
-        2.0..4.0_f64,
-        prop::collection::vec(
-            prop_oneof![Just(0.0), (-16.0..-3.0_f64).prop_map(|e| 10f64.powf(e))],
-            1..=3,
-        ),
-    );
-    prop::collection::vec(cluster, 1..=3)
-        .prop_flat_map(|clusters| {
-            let mut k = Vec::new();
-            let mut blocks = Vec::new();
-            let mut center = 1.0;
-            for (ratio, splits) in clusters {
-                if splits.len() > 1 {
-                    blocks.push((k.len()..k.len() + splits.len()).collect());
-                }
-                k.extend(splits.iter().map(|split| center * (1.0 + split)));
-                center *= ratio;
-            }
-            (
-                change_of(DVector::from_vec(k), LARGEST_CHANGE),
-                Just(blocks),
-            )
-        })
-        .prop_map(|(change, blocks)| Clustered { change, blocks })
 }
 
 /// A chain of three masses: springs to the ground, and between masses 1-2, 2-3 and 1-3.

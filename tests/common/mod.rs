@@ -6,8 +6,6 @@ pub mod properties;
 pub mod appendix_b;
 pub mod appendix_c;
 pub mod boxes;
-pub mod blocks;
-pub mod close_roots;
 pub mod closed_forms;
 pub mod complex_pencils;
 pub mod condensed;

@@ -5,7 +5,7 @@ use crate::prelude::*;
 
 #[test]
 fn every_rule_needs_modes() {
-    for rule in rules() {
+    for rule in FORMULAE {
         let answer = (rule.plain)(&DVector::zeros(0), &DMatrix::zeros(0, 0));
         assert_eq!(
             said(answer),
@@ -19,7 +19,7 @@ fn every_rule_needs_modes() {
 #[test]
 fn every_rule_refuses_a_change_that_is_none_of_its_modes() {
     let nan = dmatrix![0.0, f64::NAN; 0.0, 0.0];
-    for rule in rules() {
+    for rule in FORMULAE {
         for (beta, words) in [
             (DMatrix::zeros(3, 3), ": 3 x 3 instead of 2 x 2"),
             (DMatrix::zeros(2, 3), ": 2 x 3 instead of 2 x 2"),
