@@ -6,7 +6,6 @@
 mod common;
 mod equations;
 mod ledgers;
-mod prelude;
 
 mod spec;
 
@@ -17,3 +16,5 @@ mod evidence;
 mod readers;
 
 mod presentation;
+
+use common::prelude;

@@ -25,7 +25,7 @@ pub fn unit_shapes(columns: &[[f64; 4]]) -> DMatrix<f64> {
         &columns
             .iter()
             .map(|column| DVector::from_column_slice(column).normalize())
-            .collect::<Vec<_>>(),
+            .collect_vec(),
     )
 }
 
@@ -35,7 +35,7 @@ pub fn slight_overlap() -> (Modes, DMatrix<f64>, Vec<Movement>) {
         &[100.0, 400.0],
         unit_shapes(&[[1.0, 0.0, 0.0, 0.0], [0.05, 1.0, 0.0, 0.0]]),
     );
-    let mass = DMatrix::identity(4, 4);
+    let mass = eye(4);
     let movement = orthogonalize(&raw, &mass).unwrap().movement;
     (raw, mass, movement)
 }

@@ -129,7 +129,7 @@ pub fn stiffness_rules() -> impl Iterator<Item = Rule> {
 
 /// A change of stiffness alone.
 pub fn of_stiffness(k: &DVector<f64>, beta: &DMatrix<f64>) -> ModalChange {
-    ModalChange::of_vibrations(k, beta.clone(), DMatrix::zeros(k.len(), k.len()))
+    ModalChange::of_vibrations(k, beta.clone(), zero_square(k.len()))
 }
 
 /// The eigensolution for a change of stiffness alone.
@@ -156,7 +156,7 @@ pub fn largest_change(new: &DVector<f64>, old: &DVector<f64>) -> f64 {
     let changes = new
         .iter()
         .zip(old.iter())
-        .map(|(new, old)| (new / old - 1.0).abs());
+        .map(|(new, old)| relative_error(new, old));
     changes.fold(0.0, f64::max)
 }
 
@@ -212,7 +212,7 @@ pub fn three_mass_chain(ground: [f64; 3], between: [f64; 3]) -> DMatrix<f64> {
 
 /// Real numbers in ascending order.
 pub fn ascending<'a>(values: impl IntoIterator<Item = &'a f64>) -> Vec<f64> {
-    let mut sorted: Vec<f64> = values.into_iter().copied().collect();
+    let mut sorted = values.into_iter().copied().collect_vec();
     sorted.sort_by(f64::total_cmp);
     sorted
 }

@@ -44,7 +44,7 @@ pub fn complex_pencil() -> impl Strategy<Value = ComplexPencil> {
             let small = |factor: f64| Complex::from(factor);
             ComplexPencil {
                 stiffness: 0.5 * (&stiffness + stiffness.transpose()),
-                g: DMatrix::identity(size, size) + aerodynamic * small(0.02),
+                g: eye(size) + aerodynamic * small(0.02),
                 // Relative to the stiffness of the modes it acts on, as the change of a structure is.
                 stiffness_change: &root * stiffness_noise * &root * small(0.01),
                 g_change: g_noise * small(0.01),

@@ -42,7 +42,7 @@ pub fn seen_modes(
         let shapes = sensors.times(modes.vibrations.shapes())?;
         let most = shapes.amax();
         let seen = (0..squares.len()).filter(|&mode| shapes.column(mode).amax() > UNSEEN * most);
-        let seen: Vec<usize> = seen.take(count).collect();
+        let seen = seen.take(count).collect_vec();
         if seen.len() == count {
             return Modes::new(squares.select_rows(&seen), shapes.select_columns(&seen));
         }

@@ -112,7 +112,7 @@ pub fn bulk_data() -> impl Strategy<Value = BulkData> {
     );
     (grids, elements, ties, masses).prop_map(|(grids, elements, ties, masses)| {
         let (labels, places) = grids;
-        let mut grids: Vec<Grid> = labels
+        let mut grids = labels
             .into_iter()
             .zip(places)
             .map(|(label, (position, constrained))| Grid {
@@ -120,7 +120,7 @@ pub fn bulk_data() -> impl Strategy<Value = BulkData> {
                 position: position.into(),
                 constrained,
             })
-            .collect();
+            .collect_vec();
         let (labels, drawn, materials) = elements;
         let kinds = [
             ElementKind::Rod,
@@ -207,10 +207,10 @@ pub fn restyled(line: &str, style: Style) -> String {
         Style::Fixed => line.to_owned(),
         Style::Free => free(line).join(","),
         Style::Relaxed => {
-            let fields: Vec<String> = free(line)
+            let fields = free(line)
                 .iter()
                 .map(|field| format!(" {}  ", field.to_lowercase()))
-                .collect();
+                .collect_vec();
             format!("{} $ a remark, with commas", fields.join(","))
         }
         Style::Commented => format!("$ before\n\n{line}\n$ after"),

@@ -25,20 +25,19 @@ pub fn of_order(order: &[usize], elements: &[ElementMatrix]) -> Fill {
     let mut turn = vec![0; count];
     (order.iter().enumerate()).for_each(|(place, &dof)| turn[dof] = place);
     let coupled = |element: &ElementMatrix| {
-        let turns: Vec<usize> = element.dof.iter().map(|&dof| turn[dof]).collect();
+        let turns = element.dof.iter().map(|&dof| turn[dof]).collect_vec();
         let all = turns
             .iter()
             .flat_map(|&row| turns.iter().map(move |&column| (row, column)));
-        all.filter(|(row, column)| row <= column)
-            .collect::<Vec<_>>()
+        all.filter(|(row, column)| row <= column).collect_vec()
     };
     let entries = elements
         .iter()
         .flat_map(coupled)
         .chain((0..count).map(|at| (at, at)));
-    let entries: Vec<_> = entries
+    let entries = entries
         .map(|(row, column)| Triplet::new(row, column, 1.0))
-        .collect();
+        .collect_vec();
     let upper = SparseColMat::<usize, f64>::try_new_from_triplets(count, count, &entries);
     let upper = upper.expect("a matrix");
     let symbolic = |threshold| {

@@ -146,7 +146,7 @@ pub fn assert_table(table: &Table) {
 /// Splits a text into numbers and the single characters between them.
 fn tokens(text: &str) -> Vec<String> {
     let mut tokens: Vec<String> = Vec::new();
-    let characters: Vec<char> = text.chars().collect();
+    let characters = text.chars().collect_vec();
     let mut at = 0;
     while at < characters.len() {
         let end = number_end(&characters, at).max(at + 1);

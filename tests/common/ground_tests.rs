@@ -73,7 +73,7 @@ pub fn ground_test() -> impl Strategy<Value = TestData> {
                             axis: None,
                             place: place.map(|(x, y, z)| Vector3::new(x, y, z)),
                         });
-                    let sensors: Vec<Sensor> = sensors.collect();
+                    let sensors = sensors.collect_vec();
                     let mut shapes = DMatrix::from_vec(sensors.len(), modes, values);
                     shapes
                         .row_mut(0)

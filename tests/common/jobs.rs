@@ -47,9 +47,7 @@ fn sensor(name: String, grid: usize, direction: usize, place: Option<Vector3<f64
 
 /// A folder of `tests/jobs`.
 pub fn folder_of(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/jobs")
-        .join(name)
+    in_root("tests/jobs").join(name)
 }
 
 /// A job read, with its first analysis and its pairs.
@@ -93,7 +91,7 @@ pub fn torque_box() -> Files {
     let points = dynamic_points(&case.reconstruction).expect("points");
     let ones = vec![1.0; model.parameters().len()];
     let bulk = BulkData::from_model(&model, &ones, &points).expect("a deck");
-    let grids: Vec<usize> = bulk.ties.iter().map(|tie| tie.dependent.grid).collect();
+    let grids = bulk.ties.iter().map(|tie| tie.dependent.grid).collect_vec();
     let noisy = with_noise(&case.test_modes().expect("modes"), Noise::USUAL, SEED).expect("noise");
     let sensors = grids
         .iter()
@@ -271,7 +269,7 @@ pub fn delta_wing() -> Files {
             .position(|dof| dof.grid == *grid && dof.direction == 2)
             .expect("a row")
     };
-    let rows: Vec<usize> = grids.iter().map(row).collect();
+    let rows = grids.iter().map(row).collect_vec();
     let modes = Modes::new(
         lowest.omega_squared().clone(),
         lowest.shapes().select_rows(&rows),
@@ -296,7 +294,11 @@ pub fn delta_wing() -> Files {
                    method = \"gauss_newton\"\nfrequency_deviation = 0.001\nshape_deviation = 0.005\n"
         .to_owned();
     for parameter in model.parameters() {
-        let list: Vec<String> = parameter.elements.iter().map(usize::to_string).collect();
+        let list = parameter
+            .elements
+            .iter()
+            .map(usize::to_string)
+            .collect_vec();
         job += &format!(
             "\n[[parameter]]\nname = \"{}\"\nelements = [{}]\n",
             parameter.name,

@@ -154,7 +154,7 @@ pub fn inner_for_modes(inner: InnerSettings, modes: usize) -> InnerSettings {
 /// The verdict on a correlation that began at this model.
 pub fn verdict_of(found: &Correlation, first: &Model, ranges: &[Option<Bounds>]) -> Verdict {
     let seen = first.test_shares().iter();
-    let seen: Vec<f64> = seen.map(|share| share.diagonal().amax()).collect();
+    let seen = seen.map(|share| share.diagonal().amax()).collect_vec();
     let best = found.best_check();
     let each = mode_errors(&best.modes, &best.pairing, first.test()).expect("paired modes");
     Judged {

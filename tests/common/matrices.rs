@@ -22,7 +22,7 @@ pub fn spectrum(matrix: &DMatrix<f64>) -> Vec<f64> {
         asymmetry < super::tolerances::ROUND_OFF,
         "asymmetry {asymmetry:e}"
     );
-    let mut values: Vec<f64> = matrix.symmetric_eigenvalues().iter().copied().collect();
+    let mut values = matrix.symmetric_eigenvalues().iter().copied().collect_vec();
     values.sort_by(|a, b| b.total_cmp(a));
     values
 }

@@ -3,6 +3,8 @@
 #[macro_use]
 pub mod properties;
 
+pub mod prelude;
+
 pub mod appendix_b;
 pub mod appendix_c;
 pub mod boxes;
@@ -41,7 +43,9 @@ pub mod whole_models;
 pub mod wing_subjects;
 
 use crate::prelude::*;
+use nalgebra::ComplexField;
 use proptest::test_runner::FileFailurePersistence;
+use std::borrow::Borrow;
 
 /// Proptest's configuration for every property: `PROPTEST_CASES` sets the depth, failures are kept beside the
 /// source for good.
@@ -67,7 +71,7 @@ pub fn costly_config() -> Config {
 pub fn log_log_slope(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     assert!(n >= 2.0, "a slope needs two points");
-    let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
+    let logs = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect_vec();
     let (mx, my) = (
         logs.iter().map(|p| p.0).sum::<f64>() / n,
         logs.iter().map(|p| p.1).sum::<f64>() / n,
@@ -100,4 +104,43 @@ pub fn not_definite(what: &str, row: usize) -> String {
     format!(
         "{what} is not positive definite: row {row} (from zero) is a combination of those before it, or not positive"
     )
+}
+
+/// Vectors of what iterators give, with less to say than `collect`.
+pub trait CollectVec: Iterator + Sized {
+    fn collect_vec(self) -> Vec<Self::Item> {
+        self.collect()
+    }
+}
+
+impl<I: Iterator> CollectVec for I {}
+
+/// The identity of a size.
+pub fn eye<T: ComplexField>(size: usize) -> DMatrix<T> {
+    DMatrix::identity(size, size)
+}
+
+/// A square of zeros.
+pub fn zero_square<T: ComplexField>(size: usize) -> DMatrix<T> {
+    DMatrix::zeros(size, size)
+}
+
+/// |found/expected − 1|.
+pub fn relative_error(found: impl Borrow<f64>, expected: impl Borrow<f64>) -> f64 {
+    (found.borrow() / expected.borrow() - 1.0).abs()
+}
+
+/// Modes paired by sorting.
+pub fn by_sorting() -> Pair {
+    Pair::by(|of| pair_modes(of.cross))
+}
+
+/// A case of the paper.
+pub fn case_of(number: usize) -> Case {
+    Case::new(number).expect("a case")
+}
+
+/// A file of the repository.
+pub fn in_root(path: impl AsRef<Path>) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }

@@ -45,7 +45,7 @@ impl StoredElement {
 
     /// Its stiffness as NASTRAN-95 has it.
     pub fn stored(&self) -> DMatrix<f64> {
-        let rows: Vec<_> = self.stiffness.iter().flatten().copied().collect();
+        let rows = self.stiffness.iter().flatten().copied().collect_vec();
         DMatrix::from_row_slice(self.stiffness.len(), self.stiffness.len(), &rows)
     }
 }

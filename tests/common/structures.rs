@@ -54,7 +54,7 @@ pub fn group(name: &str, elements: &[usize], size_range: Option<Bounds>) -> Para
 
 /// Three springs in a row of stiffness 2, 4 and 8, fixed at one end, with T and M the identity.
 pub fn chain_model(parameters: Vec<Parameter>) -> Result<FiniteElementModel, Error> {
-    let identity = DMatrix::identity(3, 3);
+    let identity = eye(3);
     FiniteElementModel::new(
         spring_chain(&[2.0, 4.0, 8.0], [true, false]),
         identity.clone(),
@@ -110,7 +110,7 @@ pub fn sizes(structure: &Structure) -> Vec<f64> {
 
 /// The stiffness of a structure by dense assembly.
 pub fn dense(structure: &Structure) -> DMatrix<f64> {
-    let matrices: Vec<_> = element_matrices(structure).collect();
+    let matrices = element_matrices(structure).collect_vec();
     assemble(&matrices, &sizes(structure), structure.free_dof().len()).expect("a size each")
 }
 
@@ -147,9 +147,9 @@ pub fn condition(stiffness: &DMatrix<f64>) -> f64 {
 pub fn free_motions(stiffness: &DMatrix<f64>) -> DMatrix<f64> {
     let (scaled, scale) = unit_diagonal(stiffness);
     let eigen = scaled.symmetric_eigen();
-    let free: Vec<usize> = (0..scale.len())
+    let free = (0..scale.len())
         .filter(|&k| eigen.eigenvalues[k].abs() < super::tolerances::MATRIX_ROUND_OFF)
-        .collect();
+        .collect_vec();
     DMatrix::from_diagonal(&scale) * eigen.eigenvectors.select_columns(&free)
 }
 

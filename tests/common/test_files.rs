@@ -75,11 +75,11 @@ pub fn write_universal(data: &TestData) -> String {
         .max()
         .unwrap_or(0);
     let mut free = last.saturating_add(1)..;
-    let nodes: Vec<usize> = data
+    let nodes = data
         .sensors
         .iter()
         .filter_map(|sensor| sensor.grid.or_else(|| free.next()))
-        .collect();
+        .collect_vec();
     let places = nodes
         .iter()
         .zip(&data.sensors)

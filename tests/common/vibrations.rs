@@ -57,7 +57,7 @@ pub fn full_change(size: usize) -> impl Strategy<Value = Change> {
     )
         .prop_map(move |(stiffness, entries)| {
             let mut entry = entries.into_iter();
-            let mut direction = DMatrix::zeros(size, size);
+            let mut direction = zero_square(size);
             for column in 0..size {
                 for row in 0..=column {
                     let (magnitude, negative) = entry.next().unwrap_or((0.5, false));
@@ -118,9 +118,9 @@ impl Chain {
     /// The model with its springs multiplied by factors: the analysis of a structure whose B never changes.
     pub fn model(&self, factors: &[f64]) -> DynamicModel {
         let count = self.masses.len();
-        let shares: Vec<DMatrix<f64>> = (0..count)
+        let shares = (0..count)
             .map(|s| spring_stiffness(count, s, factors[s] * self.springs[s]))
-            .collect();
+            .collect_vec();
         DynamicModel {
             stiffness: shares.iter().sum(),
             mass: self.mass(),
@@ -165,7 +165,7 @@ pub fn modes_by_nalgebra(
     let inverse_root = &of_mass.eigenvectors * root * of_mass.eigenvectors.transpose();
     let reduced = &inverse_root * stiffness * &inverse_root;
     let eigen = (0.5 * (&reduced + reduced.transpose())).symmetric_eigen();
-    let mut order: Vec<usize> = (0..stiffness.nrows()).collect();
+    let mut order = (0..stiffness.nrows()).collect_vec();
     order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
     (
         eigen.eigenvalues.select_rows(&order),

@@ -59,7 +59,9 @@ pub fn springs(count: usize, springs: &[(usize, Option<usize>, f64)]) -> SparseM
 
 /// Equal springs in a row between points.
 pub fn chain_of_springs(ends: ChainEnds, count: usize, spring: f64) -> SparseMatrix {
-    let mut all: Vec<_> = (1..count).map(|row| (row, Some(row - 1), spring)).collect();
+    let mut all = (1..count)
+        .map(|row| (row, Some(row - 1), spring))
+        .collect_vec();
     match ends {
         ChainEnds::FreeFree => {}
         ChainEnds::FixedFree => all.push((0, None, spring)),
@@ -86,7 +88,7 @@ pub fn shear_building(stories: &[f64], mass: f64, range: Option<Bounds>) -> Whol
         share: WholeShare::Stiffness(springs(count, &[story(floor)])),
         range,
     });
-    let all: Vec<_> = (0..count).map(story).collect();
+    let all = (0..count).map(story).collect_vec();
     WholeModel::new(
         springs(count, &all),
         masses(&vec![mass; count]),
@@ -134,7 +136,7 @@ pub fn of_dense(
     let parameters = shares.iter().enumerate().map(parameter);
     let parameters = parameters.collect::<Result<_, Error>>()?;
     let whole = WholeModel::new(sparse(stiffness)?, sparse(mass)?, parameters)?;
-    let sensors = sparse(&DMatrix::identity(mass.nrows(), mass.nrows()))?;
+    let sensors = sparse(&eye(mass.nrows()))?;
     Ok((whole, sensors))
 }
 
@@ -143,7 +145,7 @@ pub fn of_dense(
 /// # Errors
 /// What [`WholeModel::new`] refuses.
 pub fn of_structure(structure: &Structure, groups: &[Vec<usize>]) -> Result<WholeModel, Error> {
-    let elements: Vec<ElementMatrix> = element_matrices(structure).collect();
+    let elements = element_matrices(structure).collect_vec();
     let sizes = sizes(structure);
     let stiffness = assemble(&elements, &sizes, structure.free_dof().len())?;
     let parameter = |labels: &Vec<usize>| {

@@ -53,12 +53,12 @@ pub fn wing_subject(wing: &DeltaWing, run: &WingCorrelation) -> Result<Report, P
 /// Those of both correlations, and of [`wing_subject`].
 pub fn wing_subjects() -> Result<[Report; 2], PresentError> {
     let (wing, (known, run)) = (DeltaWing::embedded(), recovered()?);
-    let names: Vec<String> = known
+    let names = known
         .model
         .parameters()
         .iter()
         .map(|group| group.name.clone())
-        .collect();
+        .collect_vec();
     let (title, ranges) = (
         "Wing of 1,458 DOF with wrong gages".to_owned(),
         known.model.factor_ranges()?,

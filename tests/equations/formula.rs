@@ -127,11 +127,11 @@ impl<'a> Formula<'a> {
             return vec![self.take()];
         }
         let rest = &self.tokens[self.at..];
-        let found: Vec<_> = rest
+        let found = rest
             .iter()
             .copied()
             .take_while(|token| *token != "}")
-            .collect();
+            .collect_vec();
         self.at += found.len() + 1;
         found
     }

@@ -50,7 +50,7 @@ fn wrong_answers() -> Vec<Value> {
             .world
             .iter()
             .filter(|world| world.equations.contains(&number));
-        let worlds: Vec<&World> = worlds.collect();
+        let worlds = worlds.collect_vec();
         for (what, formula) in wrong_forms(equation) {
             for (world, (left, right, _)) in worlds
                 .iter()
@@ -67,7 +67,7 @@ fn wrong_answers() -> Vec<Value> {
                     .find(|vector| vector["name"] == *world.vector)
                     .expect("a vector");
                 for (end, part) in [
-                    ("", numbers.iter().map(|z| z.re).collect::<Vec<_>>()),
+                    ("", numbers.iter().map(|z| z.re).collect_vec()),
                     ("_imaginary", numbers.iter().map(|z| z.im).collect()),
                 ] {
                     let key = format!("{}{end}", answer[2]);
@@ -92,9 +92,9 @@ fn wrong_answers() -> Vec<Value> {
 #[test]
 fn wrong_answers_name_the_mistake() {
     let found = wrong_answers();
-    let lines: Vec<String> = found.iter().map(Value::to_string).collect();
+    let lines = found.iter().map(Value::to_string).collect_vec();
     let new = format!("[\n{}\n]\n", lines.join(",\n"));
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/wrong_answers.json");
+    let path = in_root("golden/wrong_answers.json");
     if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "1") {
         fs::write(&path, &new).expect("it can be written");
     }

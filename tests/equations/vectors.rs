@@ -57,7 +57,7 @@ pub fn letter(found: &Value, keys: &str) -> Letter {
         }
         _ => vec![complex(found, key)],
     };
-    let mut members: Vec<_> = keys.split(", ").flat_map(members).collect();
+    let mut members = keys.split(", ").flat_map(members).collect_vec();
     match members.len() {
         1 => Letter::One(members.remove(0)),
         _ => Letter::Family((0..).zip(members).collect()),
@@ -66,7 +66,7 @@ pub fn letter(found: &Value, keys: &str) -> Letter {
 
 fn rows(matrix: &DMatrix<f64>) -> Value {
     let row = |i| matrix.row(i).iter().copied().collect::<Vec<f64>>();
-    json!((0..matrix.nrows()).map(row).collect::<Vec<_>>())
+    json!((0..matrix.nrows()).map(row).collect_vec())
 }
 
 /// Puts down a matrix, or a column as a list, with its imaginary part if the known answer has one.
@@ -153,7 +153,7 @@ fn analysis(given: &Value) -> Value {
     let sizes = model.sizes(&factors).expect("sizes");
     let stiffness = assemble(elements, &sizes, free.len()).expect("sizes");
     let whole = |element: &ElementMatrix| {
-        let mut unit = DMatrix::zeros(free.len(), free.len());
+        let mut unit = zero_square(free.len());
         for (b, &column) in element.dof.iter().enumerate() {
             for (a, &row) in element.dof.iter().enumerate() {
                 unit[(row, column)] = element.unit[(a, b)];
@@ -174,18 +174,18 @@ fn analysis(given: &Value) -> Value {
         "dynamic_flexibility": rows(&flexibility),
         "dynamic_stiffness": rows(&condensed.stiffness),
         "transformation": rows(&condensed.transformation),
-        "shares": shares.iter().map(rows).collect::<Vec<_>>(),
+        "shares": shares.iter().map(rows).collect_vec(),
         "structures_mass": rows(&(&mass - model.mass())),
         "mass": rows(&mass),
         "load_distribution": rows(t),
         "sizes": sizes,
-        "unit_stiffness": elements.iter().map(whole).collect::<Vec<_>>(),
+        "unit_stiffness": elements.iter().map(whole).collect_vec(),
         "structural_mass": rows(&DMatrix::from_diagonal(&lumped_mass(model.structure()))),
     })
 }
 
 fn box_loads(given: &Value) -> Value {
-    let model = Case::new(1).expect("a case").model().expect("a model");
+    let model = case_of(1).model().expect("a model");
     let t = model.load_distribution();
     let loads = t * list(&given["dynamic_loads"]);
     json!({ "structural_loads": loads.as_slice(), "load_distribution": rows(t) })
@@ -247,7 +247,7 @@ fn with_mass(given: &Value) -> Value {
     let k = list(&given["k"]);
     let [beta, alpha] = ["beta", "alpha"].map(|key| complex(given, key));
     // Unit shapes of a diagonal pencil: the change is seen as it is.
-    let own = DMatrix::identity(k.len(), k.len());
+    let own = eye(k.len());
     let modes = LeftRightModes {
         roots: k.map(|k| Complex::from(1.0 / k)),
         right: own.clone(),
@@ -355,7 +355,7 @@ fn state_and_step(given: &Value) -> Value {
         "start_shapes": rows(start.shapes()),
         "generalized_shapes": rows(&state.generalized_shapes),
         "mass": rows(&dynamic.mass),
-        "shares": dynamic.shares.iter().map(rows).collect::<Vec<_>>(),
+        "shares": dynamic.shares.iter().map(rows).collect_vec(),
         "omega_squared": state.modes.omega_squared().as_slice(),
         "shapes": rows(state.modes.shapes()),
         "frequencies_hz": state.modes.frequencies_hz(),

@@ -42,7 +42,7 @@ pub fn frequencies_by_both(reconstruction: &Reconstruction) -> Result<Vec<ByBoth
                 stiffness += (change(gage / panel.gage) - 1.0) * share;
             }
             let reduced = first.shapes().transpose() * stiffness * first.shapes();
-            let found = solve(&reduced, &DMatrix::identity(modes, modes), modes)?;
+            let found = solve(&reduced, &eye(modes), modes)?;
             let mut means = [0.0; 2];
             for (mode, hz) in found.frequencies_hz().iter().enumerate() {
                 let row = (mode + 1).to_string();

@@ -95,7 +95,7 @@ fn appendix_b_is_numpys() {
                 .movement
                 .iter()
                 .map(|moved| [moved.frequency, moved.shape][part])
-                .collect::<Vec<_>>(),
+                .collect_vec(),
         )
     });
     assert_near(
@@ -145,7 +145,7 @@ fn the_general_formulae_are_numpys() {
         let k = DVector::from_vec(list(&table["k"]));
         let [beta, alpha] = ["beta", "alpha"].map(|name| complex(table, name));
         // Unit shapes of a diagonal pencil: the change is seen as it is.
-        let own = DMatrix::identity(k.len(), k.len());
+        let own = eye(k.len());
         let modes = LeftRightModes {
             roots: k.map(|k| Complex::from(1.0 / k)),
             right: own.clone(),
@@ -195,7 +195,7 @@ fn gradients_are_numpys() {
     ] {
         let table = &expected()
             [&format!("gradient, case {number}, {tests} test and {analysis} analysis modes")];
-        let case = Case::new(number).expect("a case");
+        let case = case_of(number);
         let test = case.test_modes().expect("solved");
         let test = test.lowest(tests).expect("as many");
         let model = case.model().expect("a model");
@@ -209,7 +209,7 @@ fn gradients_are_numpys() {
 
 #[test]
 fn exact_checks_of_truncated_sets_are_numpys() {
-    for run in published_runs(&Case::new(PUBLISHED_CASE).expect("a case")).expect("they run") {
+    for run in published_runs(&case_of(PUBLISHED_CASE)).expect("they run") {
         let table = &expected()[&format!(
             "case 2, {} test and {} analysis modes",
             run.test_modes, run.analysis_modes

@@ -66,7 +66,7 @@ impl Coverage {
 
     /// Mean over the parameters seen of the part of their intervals that hold the truth; none where none is seen.
     pub fn overall(&self) -> Option<f64> {
-        let parts: Vec<f64> = self.seen().filter_map(Held::part).collect();
+        let parts = self.seen().filter_map(Held::part).collect_vec();
         (!parts.is_empty()).then(|| parts.iter().sum::<f64>() / parts.len() as f64)
     }
 
@@ -227,12 +227,12 @@ fn noisy(
     let mut data = loaded.loaded.data.clone();
     let exact = Modes::from_measured(&data.frequencies_hz, &data.shapes)?;
     let noise = (0..exact.len()).map(|mode| loaded.loaded.deviations(mode));
-    let noise: Vec<Noise> = noise
+    let noise = noise
         .map(|noise| Noise {
             shape: times * noise.shape,
             frequency: times * noise.frequency,
         })
-        .collect();
+        .collect_vec();
     let noisy = with_noise_by_mode(&exact, &noise, seed)?;
     (data.frequencies_hz, data.shapes) = (noisy.frequencies_hz(), noisy.shapes().clone());
     let mut files = files.clone();
@@ -281,7 +281,7 @@ fn chain(springs_at: &[f64], is_held: bool, group: usize, masses_at: &[usize]) -
         true => (place, place.checked_sub(1), springs_at[place]),
         false => (place + 1, Some(place), springs_at[place]),
     };
-    let all: Vec<_> = (0..springs_at.len()).map(spring).collect();
+    let all = (0..springs_at.len()).map(spring).collect_vec();
     let of_springs = all
         .chunks(group)
         .enumerate()
@@ -319,7 +319,7 @@ fn subjects() -> Result<Vec<Subject>, Box<dyn Error>> {
         Known::delta_wing()?,
         case_2_by_bays()?,
     ];
-    let mut all: Vec<Subject> = known.into_iter().map(of_known).collect();
+    let mut all = known.into_iter().map(of_known).collect_vec();
     let stories = STORIES;
     all.push(of_job("Building", building(), &stories)?);
     let eight = [0.7, 1.0, 1.2, 0.9, 1.0, 0.8, 1.1, 1.3];
@@ -345,20 +345,20 @@ fn subjects() -> Result<Vec<Subject>, Box<dyn Error>> {
     }
     let long = chain(&[SPRING; 60], true, 6, &[]);
     let ten = [0.8, 1.0, 1.2, 0.9, 1.0, 0.75, 1.1, 1.0, 0.85, 1.25];
-    let every_fourth: Vec<usize> = (3..60).step_by(4).collect();
+    let every_fourth = (3..60).step_by(4).collect_vec();
     let files = of_whole(&long, &ten, &every_fourth, 8, Noise::USUAL);
     all.push(of_job("60 DOF, truncated", files, &ten)?);
     let free = chain(&[SPRING; 9], false, 3, &[2, 7]);
     let five = [0.8, 1.2, 0.9, 1.3, 0.8];
-    let files = of_whole(&free, &five, &(0..10).collect::<Vec<_>>(), 6, Noise::USUAL);
+    let files = of_whole(&free, &five, &(0..10).collect_vec(), 6, Noise::USUAL);
     all.push(of_job("Free chain with masses", files, &five)?);
-    let decades: Vec<f64> = (0..8)
+    let decades = (0..8)
         .map(|place| 1e7 * 10.0_f64.powf(-f64::from(place) * 4.0 / 7.0))
-        .collect();
+        .collect_vec();
     let files = of_whole(
         &chain(&decades, true, 1, &[]),
         &eight,
-        &(0..8).collect::<Vec<_>>(),
+        &(0..8).collect_vec(),
         8,
         Noise::USUAL,
     );

@@ -66,7 +66,7 @@ fn assert_near(what: &str, found: &[f64], exact: &Decimals, conditions: &BTreeMa
     let allowed = CHAIN_ROUND_OFF * conditions[name].max(1.0);
     assert_eq!(found.len(), exact.len(), "{what}");
     for (found, exact) in found.iter().zip(numbers(exact)) {
-        let apart = (found / exact - 1.0).abs();
+        let apart = relative_error(found, exact);
         assert!(
             apart <= allowed,
             "{what}: {found} for {exact}, {apart:e} of {allowed:e}"
@@ -113,7 +113,7 @@ fn assert_run(name: &str, test: &Modes, found: &Correlation, gages: &[Vec<f64>],
             &run.conditions.passes[at],
         );
         let steps = &pass.inner.iterations;
-        let halvings: Vec<usize> = steps.iter().map(|step| step.halvings).collect();
+        let halvings = steps.iter().map(|step| step.halvings).collect_vec();
         assert_eq!(
             (steps.len(), &halvings),
             (exact.iterations, &exact.halvings),
@@ -124,7 +124,7 @@ fn assert_run(name: &str, test: &Modes, found: &Correlation, gages: &[Vec<f64>],
             exact.converged,
             "{what}"
         );
-        let sums: Vec<f64> = steps.iter().map(|step| step.errors.sum()).collect();
+        let sums = steps.iter().map(|step| step.errors.sum()).collect_vec();
         let mut inner = pass.inner.last.modes.frequencies_hz();
         inner.sort_by(f64::total_cmp);
         let asked = &pass.inner.first_unlimited_factors;
@@ -149,7 +149,7 @@ const READINGS: [(&str, StepRule); 4] = [
 
 /// A case by a reading of the step, with as many passes as its enclosure has.
 fn case(number: usize, reading: &str, step: StepRule) -> Case {
-    let case = Case::new(number).expect("a case");
+    let case = case_of(number);
     let passes = ENCLOSED[&format!("case {number}, {reading}")].passes.len();
     Case {
         settings: Settings {
@@ -199,11 +199,11 @@ fn passes_with_fewer_modes_by_every_reading_are_the_enclosed_ones() {
             let found = correlate(analyze, &ranges, &settings, |_, _| true).expect("it runs");
             let of_pass =
                 |factors: &[f64]| model.sizes(factors).expect("gages")[..PANEL_COUNT].to_vec();
-            let gages: Vec<_> = found
+            let gages = found
                 .passes
                 .iter()
                 .map(|pass| of_pass(&pass.factors))
-                .collect();
+                .collect_vec();
             let name = format!(
                 "case {PUBLISHED_CASE}, {reading}, {tests} test and {modes} analysis modes"
             );
@@ -261,7 +261,7 @@ fn every_digit_of_tables_3_to_8_is_proven() {
     let mut cells = 0;
     for (number, reading) in [(1, "own"), (2, "relative"), (3, "relative")] {
         let run = &ENCLOSED[&format!("case {number}, {reading}")];
-        let found = run_case(&Case::new(number).expect("a case"), |_, _| {}).expect("it runs");
+        let found = run_case(&case_of(number), |_, _| {}).expect("it runs");
         let stages = || once(&run.initial).chain(run.passes.iter().map(|pass| &pass.check));
         let table = frequency_table(&found).expect("a table");
         let test = numbers(&run.test_frequencies);
@@ -290,10 +290,10 @@ fn every_digit_of_tables_3_to_8_is_proven() {
             prints(&table, &row.label, 1, TEST_GAGE);
         }
         for (at, gages) in gages.enumerate() {
-            let errors: Vec<f64> = gages
+            let errors = gages
                 .iter()
                 .map(|gage| 100.0 * (gage / TEST_GAGE - 1.0))
-                .collect();
+                .collect_vec();
             for (panel, gage) in gages.iter().enumerate() {
                 let row = &table.rows[panel].label;
                 prints(&table, row, 2 + 2 * at, *gage);
@@ -309,7 +309,7 @@ fn every_digit_of_tables_3_to_8_is_proven() {
                     .iter()
                     .zip(&errors)
                     .filter(|(panel, _)| panel.kind == kind);
-                let own: Vec<f64> = of_kind.map(|(_, error)| *error).collect();
+                let own = of_kind.map(|(_, error)| *error).collect_vec();
                 if !own.is_empty() {
                     prints(&table, row, 3 + 2 * at, rms(&own));
                 }

@@ -91,7 +91,7 @@ pub fn localization_tables(located: &[Located]) -> Vec<Table> {
             .headings(["Factor, no noise", "Factor first", "Factor in three"], "")
             .headings(["Fit, no noise", "Fit first", "Fit in three"], "");
         let mut sums = [0; 6];
-        for pair in of_ratio().collect::<Vec<_>>().chunks_exact(2) {
+        for pair in of_ratio().collect_vec().chunks_exact(2) {
             let (exact, noisy) = (pair[0], pair[1]);
             let ([factor, factor_three], [fit, fit_three]) = (noisy.by_factor, noisy.by_single_fit);
             let counts = [

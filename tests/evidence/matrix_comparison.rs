@@ -224,7 +224,7 @@ fn nearest_factors(change: &DMatrix<f64>, start: &DynamicModel) -> Result<(Vec<f
         .iter()
         .map(weighted)
         .collect::<Result<_, _>>()?;
-    let norms: Vec<f64> = shares.iter_mut().map(DVector::normalize_mut).collect();
+    let norms = shares.iter_mut().map(DVector::normalize_mut).collect_vec();
     let shares = DMatrix::from_columns(&shares);
     let target = weighted(change)?;
     let nearest = shares

@@ -42,7 +42,7 @@ pub fn berman_nagy_mass(mass: &DMatrix<f64>, shapes: &DMatrix<f64>) -> DMatrix<f
     let mut solved = inertia.transpose();
     lower.solve_lower_triangular_unchecked_mut(&mut solved);
     lower.tr_solve_lower_triangular_unchecked_mut(&mut solved);
-    let missing = DMatrix::identity(shapes.ncols(), shapes.ncols()) - generalized;
+    let missing = eye(shapes.ncols()) - generalized;
     symmetric_part(&(mass + solved.tr_mul(&(missing * &solved))))
 }
 

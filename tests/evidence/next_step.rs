@@ -75,7 +75,7 @@ fn the_verdict_of_a_correlated_case_names_the_pairs_and_what_a_weighted_step_wou
             assert!(
                 written.lines().any(|line| line
                     .split_whitespace()
-                    .collect::<Vec<_>>()
+                    .collect_vec()
                     .join(" ")
                     .starts_with(&row)),
                 "no row {row:?} in\n{written}"

@@ -92,10 +92,10 @@ pub fn predictions(
             .map(|(share, factor)| step * (factor - 1.0) * share);
         let change: DMatrix<f64> = changes.sum();
         let beta = symmetric_part(&shapes.tr_mul(&(&change * shapes)));
-        let factors: Vec<f64> = toward
+        let factors = toward
             .iter()
             .map(|factor| 1.0 + step * (factor - 1.0))
-            .collect();
+            .collect_vec();
         let answer = match exact {
             Exact::SameCondensation => solve(&(&stiffness + &change), &mass, k.len())?,
             Exact::NewCondensation => model.modes(&factors)?,

@@ -74,10 +74,10 @@ pub fn readings_tables(
     columns: &[ReadingColumn],
     detections: &[Detection],
 ) -> Result<Vec<Table>, PresentError> {
-    let rows: Vec<_> = columns
+    let rows = columns
         .iter()
         .filter(|column| column.reading == READINGS[0])
-        .collect();
+        .collect_vec();
     let one = |name: &str, title: &str, quantities: &[Quantity]| {
         let labels = rows.iter().map(|row| column_name(row));
         let mut table = Table::new(format!("readings_{name}"), title, "Column").labels(labels);

@@ -73,9 +73,7 @@ impl ReadingColumn {
     /// Root mean square difference of the gage errors from the printed ones, a fraction.
     pub fn difference(&self) -> f64 {
         let pairs = self.errors().zip(&self.published_errors);
-        rms(&pairs
-            .map(|(error, printed)| error - printed)
-            .collect::<Vec<_>>())
+        rms(&pairs.map(|(error, printed)| error - printed).collect_vec())
     }
 }
 

@@ -117,13 +117,13 @@ fn chain(state: &mut u64) -> Built {
 
 fn ring(_: &mut u64) -> Built {
     let one = |from: usize| {
-        let mut part = DMatrix::zeros(12, 12);
+        let mut part = zero_square(12);
         spring(&mut part, Some(from), (from + 1) % 12, 1e5);
         part
     };
-    let ground = DMatrix::identity(12, 12) * 2e4;
+    let ground = eye(12) * 2e4;
     let parts = (0..12).map(one).chain([ground]).collect();
-    (parts, DMatrix::identity(12, 12) * 60.0, (0..12).collect())
+    (parts, eye(12) * 60.0, (0..12).collect())
 }
 
 fn net(_: &mut u64) -> Built {
@@ -149,14 +149,14 @@ fn net(_: &mut u64) -> Built {
     };
     (
         (0..rows).map(one).collect(),
-        DMatrix::identity(20, 20) * 60.0,
+        eye(20) * 60.0,
         (0..20).collect(),
     )
 }
 
 fn oscillators(_: &mut u64) -> Built {
     let one = |at: usize| {
-        let mut part = DMatrix::zeros(12, 12);
+        let mut part = zero_square(12);
         match at {
             0..8 => spring(&mut part, at.checked_sub(1), at, 1e5),
             _ => spring(&mut part, Some(2 * (at - 8)), at, 300.0),
@@ -199,11 +199,7 @@ fn truss(_: &mut u64) -> Built {
     };
     let sensors = (0..12).map(|point| 2 * point + 1);
     let sensors = sensors.chain((0..6).map(|bay| 4 * bay + 2)).collect();
-    (
-        rods.iter().map(one).collect(),
-        DMatrix::identity(24, 24) * 10.0,
-        sensors,
-    )
+    (rods.iter().map(one).collect(), eye(24) * 10.0, sensors)
 }
 
 /// Of how many tests a slip was named with all its places, and in how many anything else was named.
@@ -245,7 +241,7 @@ pub fn findings(
 ) -> Option<(Vec<Concern>, Option<Change>)> {
     let (parts, mass, sensors) = (kind.build)(state);
     let first: DMatrix<f64> = parts.iter().sum();
-    let mut true_stiffness = DMatrix::zeros(mass.nrows(), mass.nrows());
+    let mut true_stiffness = zero_square(mass.nrows());
     for part in &parts {
         true_stiffness += part * (MODEL * normal(state)).exp();
     }
@@ -255,7 +251,7 @@ pub fn findings(
     let b = (a + 1 + below(state, sensors.len() - 1)) % sensors.len();
     let mut read = sensors.clone();
     // Rows of a point follow one another, x before y.
-    let directions: Vec<_> = (0..sensors.len())
+    let directions = (0..sensors.len())
         .filter(|_| kind.name == "Truss")
         .filter(|place| !sensors.contains(&(sensors[*place] ^ 1)))
         .map(|place| {
@@ -265,7 +261,7 @@ pub fn findings(
                 model.shapes().row(sensors[place] ^ 1) * units,
             )
         })
-        .collect();
+        .collect_vec();
     let turned = directions.get(below(state, directions.len().max(1)));
     if slip == Slip::Direction {
         read[turned?.0] ^= 1;
@@ -311,7 +307,7 @@ pub fn findings(
             None
         }
         Slip::Backward => {
-            let order: Vec<usize> = (0..sensors.len()).rev().collect();
+            let order = (0..sensors.len()).rev().collect_vec();
             shapes = shapes.select_rows(&order);
             Some(Change::Reordered(order))
         }

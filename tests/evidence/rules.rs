@@ -27,11 +27,11 @@ fn compared(
     [steps, analyses]: [usize; 2],
     factors: &[f64],
 ) -> Compared {
-    let errors: Vec<f64> = factors
+    let errors = factors
         .iter()
         .zip(&known.truth)
         .map(|(found, right)| found / right - 1.0)
-        .collect();
+        .collect_vec();
     let largest = errors
         .iter()
         .fold(0.0, |largest, error| error.abs().max(largest));

@@ -119,7 +119,7 @@ pub fn sentence() -> String {
 #[test]
 fn three_combinations_of_gages_are_open() {
     let open = |case: &&str| ANSWERS[*case][FIRST]["open"].clone();
-    let found: Vec<Value> = SUBJECTS[..3].iter().map(open).collect();
+    let found = SUBJECTS[..3].iter().map(open).collect_vec();
     assert_eq!(found, [json!([3, 3]), json!([3, 0]), json!([3, 0])]);
 }
 

@@ -95,11 +95,11 @@ fn growth(what: &str, usual: &str, is_wanted: fn(&[String]) -> bool) -> String {
         |line| {
             let costs = numbers(line);
             let known = sizes().into_iter().zip(&costs);
-            let known: Vec<_> = known
+            let known = known
                 .filter_map(|(dof, &cost)| Some((dof, cost?)))
-                .collect();
-            let steps: Vec<String> = known.windows(2).map(exponent).collect();
-            let mut cells: Vec<String> = costs.into_iter().map(written).collect();
+                .collect_vec();
+            let steps = known.windows(2).map(exponent).collect_vec();
+            let mut cells = costs.into_iter().map(written).collect_vec();
             cells.extend([steps.join(", "), exponent(&known)]);
             cells
         },

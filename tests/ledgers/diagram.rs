@@ -13,6 +13,7 @@ mod chart;
 #[allow(dead_code, reason = "the report's figures use the rest")]
 mod colors;
 
+use crate::prelude::*;
 use canvas::{
     Area, BLUE, Dash, Drawn, Form, GRAY, INK, KEY, Mark, Named, ORANGE, Pen, SKY, VERMILION, axes,
     chart, line, mark, name_ends, name_upright, placed, rectangle, svg,
@@ -97,7 +98,7 @@ impl Diagram {
                     .series
                     .iter()
                     .map(|series| Named((0.0, 0.0), series.name, None, None));
-                margins[1] = name_margin(&names.collect::<Vec<_>>());
+                margins[1] = name_margin(&names.collect_vec());
             }
             let mut builder = chart(area, margins);
             if !self.is_logarithmic {
@@ -168,10 +169,10 @@ impl Diagram {
             let places = points
                 .iter()
                 .map(|&(x, y)| (placed(&chart, x, y), placed(&chart, x, ground)));
-            let places: Vec<_> = places.collect();
+            let places = places.collect_vec();
             match form {
                 SeriesMark::Line | SeriesMark::Dashed => {
-                    let line_of = places.iter().map(|(at, _)| *at).collect::<Vec<_>>();
+                    let line_of = places.iter().map(|(at, _)| *at).collect_vec();
                     line(area, &line_of, Pen(color, 1.8, dash))?;
                 }
                 SeriesMark::Dots => places.iter().try_for_each(|(at, _)| mark(area, *at, dot))?,

@@ -69,7 +69,7 @@ fn computed_blocks_are_what_the_program_computes() {
             seen.insert(name.to_owned());
         }
         if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "1") {
-            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(&document);
+            let path = in_root(&document);
             fs::write(path, written).expect("it can be written");
             wrong.clear();
         }
@@ -87,7 +87,7 @@ fn computed_blocks_are_what_the_program_computes() {
 #[test]
 fn sentences_in_documents_are_what_the_program_computes() {
     let documents = documents();
-    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = |text: &str| text.split_whitespace().collect_vec().join(" ");
     let mut wrong = tables::sentences();
     wrong.retain(|(document, sentence)| !words(&documents[*document]).contains(&words(sentence)));
     assert!(wrong.is_empty(), "these documents should say: {wrong:#?}");

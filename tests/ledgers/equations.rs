@@ -43,7 +43,7 @@ pub fn strings(entry: &Table, key: &str) -> Vec<String> {
 }
 
 fn source(folder: &str, module: &str) -> Option<String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+    let root = in_root(folder);
     let path = module.replace("::", "/");
     [format!("{path}.rs"), format!("{path}/mod.rs")]
         .iter()
@@ -67,7 +67,7 @@ pub fn defines(folder: &str, full_name: &str, keywords: &[&str]) -> bool {
 
 #[test]
 fn every_equation_is_listed_once_and_in_order() {
-    let listed: Vec<String> = entries().into_iter().map(|(owner, _)| owner).collect();
+    let listed = entries().into_iter().map(|(owner, _)| owner).collect_vec();
     let (equations, sentences) = listed.split_at(numbers().len());
     assert_eq!(equations, numbers());
     let different: BTreeSet<&String> = sentences.iter().collect();
@@ -109,8 +109,8 @@ fn every_equation_is_executed_in_the_papers_order() {
         let number = word.strip_prefix("eq_");
         number.is_some_and(|number| !number.contains('"'))
     });
-    let tests: Vec<String> = numbers().iter().map(|number| test_of(number)).collect();
-    assert_eq!(listed.collect::<Vec<_>>(), tests);
+    let tests = numbers().iter().map(|number| test_of(number)).collect_vec();
+    assert_eq!(listed.collect_vec(), tests);
     assert!(tests.is_sorted());
 }
 
@@ -195,7 +195,7 @@ fn the_check_itself_finds_what_is_missing() {
 /// A file that nobody lists is a test that never runs.
 #[test]
 fn every_file_of_tests_is_part_of_the_test_program() {
-    let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let tests = in_root("tests");
     assert_eq!(found(&tests, "main"), listed(&tests.join("main.rs")));
     for room in listed(&tests.join("main.rs")) {
         let folder = tests.join(&room);

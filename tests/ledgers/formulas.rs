@@ -42,7 +42,7 @@ impl TextNode {
 
     /// Its formulas and, of each, whether it is the source's; an error for a `$` without a partner.
     fn formulas(&self, source: &str) -> Result<Vec<String>, String> {
-        let dollars: Vec<usize> = self.text.match_indices('$').map(|(at, _)| at).collect();
+        let dollars = self.text.match_indices('$').map(|(at, _)| at).collect_vec();
         let mut marks: Vec<(usize, usize)> = Vec::new();
         for at in dollars {
             match marks.last_mut() {
@@ -57,7 +57,7 @@ impl TextNode {
             };
             let inside = &self.text[start + length..end];
             let written = &source[self.source(start) + length..self.source(end)];
-            let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+            let words = |text: &str| text.split_whitespace().collect_vec().join(" ");
             if length != same_length || words(inside) != words(written) {
                 return Err(format!(
                     "the source has\n    {written}\nthe reader gets\n    {inside}"

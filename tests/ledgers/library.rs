@@ -44,12 +44,12 @@ fn program_of(document: &str) -> String {
     let lines = code
         .lines()
         .map(|line| line.strip_prefix("# ").unwrap_or(line));
-    let body = lines.collect::<Vec<_>>().join("\n");
+    let body = lines.collect_vec().join("\n");
     format!("fn main() -> Result<(), Box<dyn std::error::Error>> {{\n{body}\n}}")
 }
 
 fn document(name: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
+    let path = in_root(name);
     fs::read_to_string(path).expect("it reads")
 }
 

@@ -81,7 +81,7 @@ fn the_package_has_what_a_user_needs() {
         "src/main.rs",
     ];
     needed.extend(others.map(str::to_owned));
-    let missing: Vec<&String> = needed.difference(&list).collect();
+    let missing = needed.difference(&list).collect_vec();
     assert!(missing.is_empty(), "{missing:?}");
 }
 

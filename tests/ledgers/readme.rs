@@ -46,10 +46,10 @@ fn links_and_names(markdown: &str) -> (BTreeSet<String>, Vec<String>) {
 fn every_path_of_the_front_page_is_a_link_that_leads_somewhere() {
     let (links, names) = links_and_names(README);
     assert!(links.len() > 15, "{links:?}");
-    let nowhere: Vec<&String> = links
+    let nowhere = links
         .iter()
         .filter(|link| !root().join(link).is_file())
-        .collect();
+        .collect_vec();
     assert!(nowhere.is_empty(), "{nowhere:?}");
     assert!(names.is_empty(), "not links: {names:?}");
     let (links, names) = links_and_names("See `src/lib.rs`, [here](src/main.rs) and README.md.");
@@ -61,7 +61,7 @@ fn every_path_of_the_front_page_is_a_link_that_leads_somewhere() {
 
 #[test]
 fn what_the_front_page_shows_is_what_the_program_prints() {
-    let cells = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+    let cells = |line: &str| line.split_whitespace().collect_vec().join(" ");
     let scratch = tempfile::tempdir().expect("a folder");
     let mine = scratch.path().join("mine");
     let path = |name: &str| mine.join(name).to_str().expect("UTF-8").to_owned();
@@ -75,10 +75,10 @@ fn what_the_front_page_shows_is_what_the_program_prints() {
         corfem(&["correlate", "-q", &path("job.toml")]),
     ];
     let printed = printed.map(|output| text(&output.stdout));
-    let blocks: Vec<&str> = README.split("```text\n").skip(1).collect();
+    let blocks = README.split("```text\n").skip(1).collect_vec();
     assert_eq!(blocks.len(), printed.len());
     for (block, printed) in blocks.into_iter().zip(&printed) {
-        let shown: Vec<String> = printed.lines().map(cells).collect();
+        let shown = printed.lines().map(cells).collect_vec();
         for line in block.split("```").next().expect("its end").lines() {
             assert!(shown.contains(&cells(line)), "{line}\n{printed}");
         }
@@ -98,7 +98,7 @@ fn the_time_of_the_front_page_is_the_measured_one() {
         .trim()
         .parse()
         .expect("a number");
-    let words = README.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = README.split_whitespace().collect_vec().join(" ");
     assert!(
         words.contains(&format!("take `corfem correlate` {seconds:.1} s")),
         "{words}"

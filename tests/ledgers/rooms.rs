@@ -60,7 +60,7 @@ fn expand(before: &str, tree: &str, paths: &mut Vec<String>) {
 
 /// The absolute form of a path in a module such as `method::model`.
 fn absolute(module: &str, path: &str) -> String {
-    let mut place: Vec<&str> = module.split("::").collect();
+    let mut place = module.split("::").collect_vec();
     let mut rest = path;
     if let Some(path) = rest.strip_prefix("crate::") {
         return path.to_owned();
@@ -75,7 +75,7 @@ fn absolute(module: &str, path: &str) -> String {
 
 /// The paths that every file of `src/` imports, in absolute form, by the file's module.
 fn modules() -> BTreeMap<String, Vec<String>> {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let source = in_root("src");
     let mut modules = BTreeMap::new();
     for file in files_below(&source) {
         let path = file
@@ -158,10 +158,10 @@ fn the_tour_is_documentation_alone() {
 #[test]
 fn the_check_finds_every_import() {
     let text = "use crate::method::{modes, model::{Pair,\n    ParameterMatrix}};\nuse super::state;\npub use state::At;";
-    let found: Vec<String> = imports(text)
+    let found = imports(text)
         .iter()
         .map(|path| absolute("a::b", path))
-        .collect();
+        .collect_vec();
     assert_eq!(
         found,
         [
@@ -176,13 +176,13 @@ fn the_check_finds_every_import() {
 /// Whatever touches a file goes through one module, so that a test can make it fail.
 #[test]
 fn one_module_alone_calls_the_operating_system_for_files() {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let source = in_root("src");
     let alone = source.join("files/disk.rs");
     let calls = ["std::fs", "fs::", "tempfile::", "File::", "OpenOptions"];
     for file in files_below(&source) {
         let text = fs::read_to_string(&file).expect("it reads");
         let has = |call: &&&str| text.contains(**call);
-        let found: Vec<&&str> = calls.iter().filter(has).collect();
+        let found = calls.iter().filter(has).collect_vec();
         assert_eq!(
             found.is_empty(),
             file != alone,

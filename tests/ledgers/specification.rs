@@ -1,6 +1,7 @@
 //! The one page of the specification, `paper/specification.md`, made from `paper/equations.toml`: `documents.rs` holds them equal.
 
 use crate::ledgers::equations::{entries, strings, test_of};
+use crate::prelude::*;
 use std::fmt::Write;
 use toml::{Table, Value};
 
@@ -28,7 +29,7 @@ pub fn page() -> String {
             let names = names
                 .iter()
                 .map(|name| format!("`{}`", name.trim_start_matches("spec::")));
-            names.collect::<Vec<_>>().join(", ")
+            names.collect_vec().join(", ")
         };
         for (key, title) in [("print", "The paper prints"), ("scan", "The scan has")] {
             page += &text(key).map_or(String::new(), |formula| {

@@ -56,9 +56,9 @@ fn all(start: &str, end: &str) -> Vec<f64> {
     let found = ENTRIES
         .iter()
         .filter(|(name, _)| name.starts_with(start) && name.ends_with(end));
-    let numbers: Vec<f64> = found
+    let numbers = found
         .map(|(name, entry)| entry.computed.parse().expect(name))
-        .collect();
+        .collect_vec();
     assert!(!numbers.is_empty(), "{start}…{end}");
     numbers
 }
@@ -188,7 +188,7 @@ fn cases() -> String {
         let each = |of: Source| {
             let counts =
                 (1..=passes).map(|pass| of("table_13/table_13", case, &format!("Pass {pass}"), 0));
-            counts.collect::<Vec<_>>().join(", ")
+            counts.collect_vec().join(", ")
         };
         format!("{} ({})", each(computed), each(published))
     });
@@ -462,7 +462,7 @@ fn readings() -> [(&'static str, String); 5] {
             let numbers = quantities
                 .iter()
                 .map(|quantity| source(of, run, &format!("{quantity}{reading}"), decimals));
-            numbers.collect::<Vec<_>>().join(what)
+            numbers.collect_vec().join(what)
         };
         let mut cells = vec![cell("matrix", published)];
         cells.extend(READINGS.map(|reading| cell(reading, computed)));
@@ -571,7 +571,7 @@ fn step() -> [(&'static str, String); 4] {
         (12, 9),
     ];
     let fewer = fewer.map(|(table, modes)| format!("Table {table} FEM {modes}"));
-    let columns: Vec<String> = passes.into_iter().chain(fewer).collect();
+    let columns = passes.into_iter().chain(fewer).collect_vec();
     let runs = || columns.iter().map(|name| (name.clone(), name.clone()));
     let added = (1..=10).map(|number| format!("box {number}"));
     let added = ["this box".to_owned()].into_iter().chain(added);
@@ -1029,8 +1029,8 @@ pub fn sentences() -> Vec<(&'static str, String)> {
                 .map(move |panel| computed("case_2_next_step", panel, column, 1))
         };
         let number = |text: String| text.parse::<f64>().expect("a number");
-        let ends: Vec<f64> = of("Error at the end").map(number).collect();
-        let after = largest(&of("Error after the step").map(number).collect::<Vec<_>>());
+        let ends = of("Error at the end").map(number).collect_vec();
+        let after = largest(&of("Error after the step").map(number).collect_vec());
         let least = ends.iter().copied().fold(f64::INFINITY, f64::min);
         [least.round(), largest(&ends).round(), after.ceil()]
     };

@@ -23,7 +23,7 @@ pub fn figures() -> [(&'static str, Diagram); 10] {
 
 /// What is drawn beside the diagrams: the two springs of chapter 1, and the box and two of its modes, from the report.
 pub fn pictures() -> Vec<(String, String)> {
-    let result = run_case(&Case::new(1).expect("a case"), |_, _| {}).expect("a run");
+    let result = run_case(&case_of(1), |_, _| {}).expect("a run");
     let drawn = case_figures(from_ref(&result)).expect("figures");
     let of = |name: &str| {
         let figure = drawn.iter().find(|figure| figure.name == name);
@@ -103,7 +103,7 @@ fn two_springs() -> Diagram {
 fn too_stiff(shares: Vec<DMatrix<f64>>, too_stiff: f64) -> Model {
     let stiffness: DMatrix<f64> = shares.iter().sum();
     let count = stiffness.nrows();
-    let mass = DMatrix::identity(count, count);
+    let mass = eye(count);
     let test = solve(&(&stiffness / too_stiff), &mass, count).expect("modes");
     DynamicModel {
         stiffness,
@@ -129,7 +129,7 @@ fn crease() -> Diagram {
             mark,
             range(0.5, 1.5, 40)
                 .map(|factor| (factor, of(&at(factor))))
-                .collect::<Vec<_>>(),
+                .collect_vec(),
         )
     };
     Diagram {
@@ -164,7 +164,7 @@ fn first_step() -> Diagram {
     let as_it_is: Scaled = |settings, _| settings.clone();
     let series = |name, mark, most: usize, rule, scaled: Scaled| {
         let of = |n| ratio(n, rule, &scaled(&Settings::default(), n));
-        Series::new(name, mark, (1..=most).map(of).collect::<Vec<_>>())
+        Series::new(name, mark, (1..=most).map(of).collect_vec())
     };
     Diagram {
         title: "The first step beside Newton's",
@@ -195,10 +195,10 @@ fn first_step() -> Diagram {
 fn stories() -> Diagram {
     let analyze = |factors: &[f64]| {
         let share = |(story, factor)| spring_stiffness(4, story, 4000.0 * factor);
-        let shares: Vec<DMatrix<f64>> = factors.iter().enumerate().map(share).collect();
+        let shares = factors.iter().enumerate().map(share).collect_vec();
         DynamicModel {
             stiffness: shares.iter().sum(),
-            mass: DMatrix::identity(4, 4),
+            mass: eye(4),
             shares,
         }
     };
@@ -230,7 +230,7 @@ fn stories() -> Diagram {
                 .iterations
                 .iter()
                 .map(|step| product(&step.factors))
-                .collect::<Vec<_>>(),
+                .collect_vec(),
         );
     }
     let names = ["story 1", "story 2", "story 3", "story 4"];

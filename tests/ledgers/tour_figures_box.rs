@@ -5,7 +5,7 @@ use crate::prelude::*;
 
 /// A case's first model, and the change of its first pass in modal coordinates.
 fn first_pass(number: usize) -> (Model, DMatrix<f64>) {
-    let case = Case::new(number).expect("a case");
+    let case = case_of(number);
     let test = case.test_modes().expect("modes");
     let modal = case
         .model()
@@ -33,7 +33,7 @@ pub fn orders() -> Diagram {
     let of_case = |name, number, mark, is_first: bool| {
         let (modal, beta) = first_pass(number);
         let k = modal.exact().modes.omega_squared();
-        let change = ModalChange::of_vibrations(k, beta.clone(), DMatrix::zeros(9, 9));
+        let change = ModalChange::of_vibrations(k, beta.clone(), zero_square(9));
         let exact = eigensolution(&change).expect("modes");
         let by = |order| {
             if is_first {
@@ -43,7 +43,7 @@ pub fn orders() -> Diagram {
             }
         };
         let point = |order| (order as f64, error(&by(order).expect("an order"), &exact));
-        Series::new(name, mark, (1..=6).map(point).collect::<Vec<_>>())
+        Series::new(name, mark, (1..=6).map(point).collect_vec())
     };
     Diagram {
         title: "Frequency errors of the recursions against their order",
@@ -70,7 +70,7 @@ pub fn history() -> Diagram {
         (Vec::new(), Vec::new(), 0, run.initial.errors);
     for pass in &run.passes {
         let errors = pass.inner.iterations.iter().map(|step| step.errors);
-        passes.push((begin..).zip(once(start).chain(errors)).collect::<Vec<_>>());
+        passes.push((begin..).zip(once(start).chain(errors)).collect_vec());
         begin += pass.inner.iterations.len();
         start = pass.check.errors;
         checks.push((begin as f64, 100.0 * start.sum()));
@@ -80,11 +80,7 @@ pub fn history() -> Diagram {
             let points = errors
                 .iter()
                 .map(|(n, errors)| (*n as f64, 100.0 * of(errors)));
-            Series::new(
-                if row == 0 { name } else { "" },
-                mark,
-                points.collect::<Vec<_>>(),
-            )
+            Series::new(if row == 0 { name } else { "" }, mark, points.collect_vec())
         })
     };
     Diagram {
@@ -114,7 +110,7 @@ pub fn bounds() -> Diagram {
             .required(&panel.to_string(), "pass_1_in")
             .expect("a gage")
     };
-    let factors: Vec<f64> = (1..=15).map(|panel| gage(panel) / 0.015).collect();
+    let factors = (1..=15).map(|panel| gage(panel) / 0.015).collect_vec();
     let first = model.matrices(&[1.0; 15]).expect("matrices");
     let flexibility = first.stiffness.clone().try_inverse().expect("regular");
     let (mut above, mut below) = (first.stiffness.clone(), flexibility.clone());
@@ -214,7 +210,7 @@ pub fn demands() -> Diagram {
 }
 
 pub fn deviations() -> Diagram {
-    let case = Case::new(2).expect("a case");
+    let case = case_of(2);
     let test = case.test_modes().expect("modes");
     let model = case
         .model_with(&[TEST_GAGE; 15])

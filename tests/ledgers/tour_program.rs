@@ -35,9 +35,7 @@ fn compared(document: &str) -> Result<String, String> {
 #[ignore = "needs python3 with numpy"]
 fn a_program_written_from_the_tour_matches_every_case() {
     for number in 1..=3 {
-        let document = dump(&Case::new(number).expect("a case"))
-            .expect("a dump")
-            .json;
+        let document = dump(&case_of(number)).expect("a dump").json;
         let said = compared(&document).unwrap_or_else(|error| panic!("case {number}: {error}"));
         assert!(said.starts_with(&format!("case {number}: ")), "{said}");
         // Another number in the first iteration is noticed.

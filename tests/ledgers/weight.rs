@@ -249,11 +249,11 @@ fn no_function_is_long_but_those_listed() {
         }
     }
     let listed = ceilings().long_functions;
-    let new: Vec<_> = long.difference(&listed).collect();
+    let new = long.difference(&listed).collect_vec();
     assert!(new.is_empty(), "longer than {LONGEST} lines: {new:#?}");
     let is_short = |name: &&String| SHORT.iter().any(|room| name.starts_with(room));
     assert_eq!(listed.iter().find(is_short), None, "tests/ceilings.toml");
-    let gone: Vec<_> = listed.difference(&long).collect();
+    let gone = listed.difference(&long).collect_vec();
     assert!(
         gone.is_empty(),
         "no longer long, to be taken from tests/ceilings.toml: {gone:#?}"
@@ -266,7 +266,7 @@ fn tokens_are_what_the_compiler_reads() {
         tokens(code)
             .into_iter()
             .map(|(_, token)| token)
-            .collect::<Vec<_>>()
+            .collect_vec()
     };
     let code =
         "#[doc = \"a // b\"] // c\nfn f<'a>(x: &'a str) -> u8 { /* } */ b'\\'' + 'b' != 0.5e1 }";

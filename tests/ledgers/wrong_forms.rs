@@ -130,14 +130,14 @@ fn code(source: &str) -> Vec<(char, usize)> {
 
 /// Where the source has a piece of code, if it has it once.
 fn place(code: &[(char, usize)], piece: &str) -> Result<Range<usize>, String> {
-    let piece: Vec<char> = self::code(piece).into_iter().map(|(c, _)| c).collect();
+    let piece = self::code(piece).into_iter().map(|(c, _)| c).collect_vec();
     let is_here = |at: &usize| {
         let here = code[*at..].iter().map(|(character, _)| character);
         here.take(piece.len()).eq(&piece)
     };
-    let found: Vec<usize> = (0..=code.len() - piece.len().min(code.len()))
+    let found = (0..=code.len() - piece.len().min(code.len()))
         .filter(is_here)
-        .collect();
+        .collect_vec();
     match found[..] {
         [at] if !piece.is_empty() => Ok(at..at + piece.len()),
         _ => Err(format!("stands there {} times", found.len())),
@@ -307,14 +307,14 @@ fn modules(forms: &[Form]) -> BTreeMap<String, BTreeSet<String>> {
     let is_name = |c: &char| c.is_alphanumeric() || *c == '_';
     let name = |rest: &str| rest.chars().take_while(is_name).collect::<String>();
     let tests = forms.iter().flat_map(|form| &form.tests);
-    let mut wanted: Vec<(String, String)> = tests
+    let mut wanted = tests
         .filter(|test| !test.starts_with("equations::"))
         .map(|test| {
             let mut parts = test.split("::").map(str::to_owned);
             let mut part = || parts.next().expect("a room and a module");
             (part(), part())
         })
-        .collect();
+        .collect_vec();
     let mut modules: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     while let Some((room, module)) = wanted.pop() {
         assert!(
@@ -532,7 +532,7 @@ fn failures(
     let failed = said
         .lines()
         .filter_map(|line| line.strip_prefix("test ")?.split_once(" ... FAILED"));
-    let failed: Vec<String> = failed.map(|(test, _)| test.to_owned()).collect();
+    let failed = failed.map(|(test, _)| test.to_owned()).collect_vec();
     match (status.success(), failed.is_empty()) {
         (true, true) | (false, false) => Ok(failed),
         _ => Err(format!("{status} without a failed test:\n{said}")),
@@ -554,7 +554,7 @@ fn every_wrong_form_is_noticed_by_a_test_named_for_its_equation() {
     copy(&forms, &folder);
     let program = build(&folder, &target);
     let all: BTreeSet<String> = forms.iter().flat_map(|form| form.tests.clone()).collect();
-    let all: Vec<String> = all.into_iter().collect();
+    let all = all.into_iter().collect_vec();
     let right = failures(&program, &folder, 0, &all).expect("they run");
     assert!(right.is_empty(), "fail without a wrong form: {right:?}");
     let named: Option<Vec<usize>> = std::env::var(SWITCH).ok().map(|list| {
@@ -562,14 +562,14 @@ fn every_wrong_form_is_noticed_by_a_test_named_for_its_equation() {
             .map(|number| number.trim().parse().expect("a number"))
             .collect()
     });
-    let wanted: Vec<&Form> = forms
+    let wanted = forms
         .iter()
         .filter(|form| {
             named
                 .as_ref()
                 .is_none_or(|named| named.contains(&form.number))
         })
-        .collect();
+        .collect_vec();
     let next = AtomicUsize::new(0);
     let work = || {
         let mut unnoticed = Vec::new();
@@ -585,7 +585,7 @@ fn every_wrong_form_is_noticed_by_a_test_named_for_its_equation() {
     };
     let threads = thread::available_parallelism().map_or(1, usize::from);
     let unnoticed: Vec<String> = thread::scope(|scope| {
-        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        let workers = (0..threads).map(|_| scope.spawn(work)).collect_vec();
         let results = workers
             .into_iter()
             .map(|worker| worker.join().expect("it ends"));

@@ -39,7 +39,7 @@ fn towers([split, truth, angle]: [f64; 3]) -> Files {
             .collect::<String>()
     );
     // Roots and shapes of a fixed and free chain of three.
-    let (mut hertz, mut shapes) = (Vec::new(), DMatrix::zeros(6, 6));
+    let (mut hertz, mut shapes) = (Vec::new(), zero_square(6));
     for mode in 0..3 {
         let phase = PI * (2 * mode + 1) as f64 / 7.0;
         let frequency = (2e3_f64 * (2.0 - 2.0 * phase.cos())).sqrt() / TAU;
@@ -136,7 +136,7 @@ fn modes_that_model_and_test_tell_apart_are_compared_alone() {
     assert_eq!(loaded.together().len(), 3);
     assert_eq!(
         result.found.prepared.together(),
-        (0..6).map(|mode| vec![mode]).collect::<Vec<_>>()
+        (0..6).map(|mode| vec![mode]).collect_vec()
     );
     let factors = &result.found.factors;
     assert!((factors[1] / factors[0] - 1.2).abs() < 1e-3, "{factors:?}");

@@ -17,11 +17,11 @@ properties! {
     fn order_and_format_of_lines_do_not_matter(
         (model, lines) in bulk_data().prop_flat_map(|model| {
             let text = written(&model).expect("a deck");
-            let lines: Vec<String> = text.lines().map(str::to_owned).collect();
+            let lines = text.lines().map(str::to_owned).collect_vec();
             let count = lines.len();
             let styles = prop::collection::vec(style(), count);
             (Just(model), (Just(lines), styles).prop_map(|(lines, styles)| {
-                lines.iter().zip(styles).map(|(line, style)| restyled(line, style)).collect::<Vec<_>>()
+                lines.iter().zip(styles).map(|(line, style)| restyled(line, style)).collect_vec()
             }).prop_shuffle())
         })
     ) {
@@ -71,11 +71,11 @@ fn singular_pencil_roots(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Vec<f
     let reduced = lower
         .solve_lower_triangular(&half.transpose())
         .expect("a nonzero diagonal");
-    let mut roots: Vec<f64> = SymmetricEigen::new(symmetric(&reduced))
+    let mut roots = SymmetricEigen::new(symmetric(&reduced))
         .eigenvalues
         .iter()
         .copied()
-        .collect();
+        .collect_vec();
     roots.sort_by(|a, b| b.total_cmp(a));
     roots
 }
@@ -83,7 +83,7 @@ fn singular_pencil_roots(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Vec<f
 #[test]
 fn nine_finite_roots_of_the_box_are_its_dynamic_modes() {
     for number in CASES {
-        let case = Case::new(number).expect("a case");
+        let case = case_of(number);
         let model = case.model().expect("a model");
         let dynamic = model.matrices(&[1.0; 15]).expect("an analysis");
         let modes = solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
@@ -104,7 +104,7 @@ fn nine_finite_roots_of_the_box_are_its_dynamic_modes() {
 
 /// The deck of a case at its first gages times `factors`.
 fn box_deck(number: usize, factors: &[f64]) -> (BulkData, String) {
-    let case = Case::new(number).expect("a case");
+    let case = case_of(number);
     let points = dynamic_points(&case.reconstruction).expect("points");
     let bulk =
         BulkData::from_model(&case.model().expect("a model"), factors, &points).expect("bulk data");
@@ -119,20 +119,20 @@ fn box_deck(number: usize, factors: &[f64]) -> (BulkData, String) {
 #[test]
 fn the_box_read_from_its_deck_has_its_modes() {
     for number in CASES {
-        let factors: Vec<f64> = (0..15).map(|row| 1.0 + f64::from(row) / 7.0).collect();
+        let factors = (0..15).map(|row| 1.0 + f64::from(row) / 7.0).collect_vec();
         let (_, text) = box_deck(number, &factors);
         let read = deck::read("box", text.as_bytes(), &[]).expect("it reads");
         assert!(read.unread.is_empty(), "{:?}", read.unread);
         let found = deck::modes(&read.model, usize::MAX).expect("modes");
-        let model = Case::new(number).expect("a case").model().expect("a model");
+        let model = case_of(number).model().expect("a model");
         // By the same factorization, so that the digits of the deck are all that differs.
         let (whole, sensors) = whole::of(&model).expect("a whole model");
         let expected = whole.modes(&factors, 9).expect("modes").vibrations;
         let mut shapes = sensors.times(expected.shapes()).expect("they fit");
         apply_sign_rule(&mut shapes);
         let expected = Modes::new(expected.omega_squared().clone(), shapes).expect("modes");
-        let labels: Vec<usize> = found.dof.iter().map(|dof| dof.grid).collect();
-        assert_eq!(labels, (101..=109).collect::<Vec<_>>());
+        let labels = found.dof.iter().map(|dof| dof.grid).collect_vec();
+        assert_eq!(labels, (101..=109).collect_vec());
         assert!(found.dof.iter().all(|dof| dof.direction == 2));
         assert_eq!(found.modes.shapes().shape(), (9, 9));
         // An eigensolution rounds by the largest of its eigenvalues, in the lowest mode 1e5 times its own.
@@ -158,11 +158,7 @@ fn the_box_read_from_its_deck_has_its_modes() {
             .modes
             .shapes()
             .tr_mul(&(model.mass() * found.modes.shapes()));
-        assert_relative_eq!(
-            generalized,
-            DMatrix::identity(9, 9),
-            epsilon = 1e3 * ROUND_OFF
-        );
+        assert_relative_eq!(generalized, eye(9), epsilon = 1e3 * ROUND_OFF);
     }
 }
 
@@ -173,7 +169,7 @@ fn mpc_cards_are_the_load_distribution() {
         .expect("it reads")
         .model;
     let structure = read.structure().expect("a structure");
-    let model = Case::new(2).expect("a case").model().expect("a model");
+    let model = case_of(2).model().expect("a model");
     assert_eq!(structure.free_dof(), model.structure().free_dof());
     let dynamic = read.mass_dof(&structure).expect("masses");
     let loads = dynamic.load_distribution.dense();
@@ -188,7 +184,7 @@ fn mpc_cards_are_the_load_distribution() {
 
 #[test]
 fn dynamic_points_lie_at_mid_depth() {
-    let case = Case::new(1).expect("a case");
+    let case = case_of(1);
     let (bulk, _) = box_deck(1, &[1.0; 15]);
     let grids = &case.reconstruction.grids;
     for (rib, first) in [(0, 1), (1, 5), (2, 9)] {

@@ -123,7 +123,7 @@ fn a_slip_in_any_name_is_refused() {
         for place in 0..name.len() {
             let without = format!("{}{}", &name[..place], &name[place + 1..]);
             let doubled = format!("{}{}", &name[..=place], &name[place..]);
-            let mut exchanged: Vec<char> = name.chars().collect();
+            let mut exchanged = name.chars().collect_vec();
             exchanged.swap(place, (place + 1) % name.len());
             for slip in [without, doubled, exchanged.into_iter().collect()] {
                 if slip.starts_with(|c: char| c.is_ascii_alphabetic())

@@ -114,7 +114,7 @@ impl Deck {
         if fields.len() > 9 && self.chance(4) {
             return (vec![self.many(name, fields)], Vec::new());
         }
-        let rows: Vec<&[String]> = fields.chunks(8).collect();
+        let rows = fields.chunks(8).collect_vec();
         // Every row is one small line, or two large ones of which the last may be missing.
         let mut parts: Vec<(&[String], bool)> = Vec::new();
         for (at, row) in rows.iter().enumerate() {
@@ -193,7 +193,7 @@ impl Deck {
             self.see("ten free fields and more, without");
             ","
         };
-        let rows: Vec<String> = fields.chunks(8).map(|row| row.join(",")).collect();
+        let rows = fields.chunks(8).map(|row| row.join(",")).collect_vec();
         format!("{name},{}", rows.join(separator))
     }
 
@@ -384,7 +384,7 @@ fn drawn(mut model: BulkData, seed: u64) -> (String, BulkData, BTreeSet<String>)
         order.push((deck.draws.below(1 << 30), unit));
     }
     order.sort();
-    let bulk: Vec<String> = order.into_iter().flat_map(|(_, unit)| unit).collect();
+    let bulk = order.into_iter().flat_map(|(_, unit)| unit).collect_vec();
     let mpc = if model.ties.is_empty() {
         ""
     } else {
@@ -414,10 +414,10 @@ fn write_grids(deck: &mut Deck, model: &mut BulkData, has_common: bool) -> BTree
         [2.5, 0.0, 4.0],
         [0.0, 0.0, 3.0],
     ];
-    let mut extra: Vec<Grid> = (base..)
+    let mut extra = (base..)
         .zip(places)
         .map(|(label, at)| fixed(label, at.into()))
-        .collect();
+        .collect_vec();
     let run = base + 10;
     extra.extend(
         (0..4).map(|place| fixed(run + 2 * place, Vector3::new(1.5 * place as f64, 0.0, 0.0))),
@@ -593,7 +593,7 @@ fn write_supports(
     for (held, grids) in lists {
         let rotations = deck.pick(&["", "456", "4"]);
         let mut fields = vec!["2".to_owned(), format!("{held}{rotations}")];
-        let labels: Vec<usize> = model.grids.iter().map(|grid| grid.label).collect();
+        let labels = model.grids.iter().map(|grid| grid.label).collect_vec();
         let mut rest = &grids[..];
         while let [first, more @ ..] = rest {
             fields.push(first.to_string());
@@ -644,7 +644,7 @@ fn write_elements(deck: &mut Deck, model: &BulkData) {
         });
         let (label, material) = (label.to_string(), (row + 1).to_string());
         let size = deck.number(*size);
-        let corners: Vec<String> = grids.iter().map(usize::to_string).collect();
+        let corners = grids.iter().map(usize::to_string).collect_vec();
         let (connection, property) = match kind {
             ElementKind::Rod if deck.chance(2) => {
                 let [a, b] = [corners[0].clone(), corners[1].clone()];
@@ -767,7 +767,7 @@ fn write_masses_and_ties(deck: &mut Deck, model: &BulkData, systems: &BTreeMap<u
     let last = model.grids.last().expect("a grid").label.to_string();
     deck.card("MPC", &words(["9", &last, "1", "1."]));
     if !model.ties.is_empty() {
-        let fields: Vec<String> = words(["8"]).into_iter().chain(used).collect();
+        let fields = words(["8"]).into_iter().chain(used).collect_vec();
         deck.card("MPCADD", &fields);
     }
 }
@@ -797,6 +797,6 @@ fn drawn_decks_have_every_card_in_every_form() {
         .iter()
         .flat_map(|card| ["small", "large", "free"].map(|form| format!("{card} {form}")));
     let all = cards.chain(FORMS.map(str::to_owned));
-    let missing: Vec<String> = all.filter(|form| !seen.contains(form)).collect();
+    let missing = all.filter(|form| !seen.contains(form)).collect_vec();
     assert!(missing.is_empty(), "{missing:?}");
 }

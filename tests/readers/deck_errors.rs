@@ -15,7 +15,7 @@ CMASS2,7,.4,2,1
 
 /// The error of [`GOOD`] with one more card, or with one of its lines replaced.
 pub fn error(line: Option<usize>, card: &str) -> FileError {
-    let mut lines: Vec<&str> = GOOD.lines().collect();
+    let mut lines = GOOD.lines().collect_vec();
     match line {
         Some(line) => lines[line - 1] = card,
         None => lines.push(card),
@@ -106,7 +106,7 @@ const BAD_FIELDS: &str = "\
 #[test]
 fn a_bad_field_is_named_with_file_line_and_card() {
     for row in BAD_FIELDS.lines() {
-        let [line, card, field, expected, found] = row.split(" | ").collect::<Vec<_>>()[..] else {
+        let [line, card, field, expected, found] = row.split(" | ").collect_vec()[..] else {
             panic!("{row}");
         };
         let line = line.parse().ok();

@@ -74,7 +74,7 @@ fn free_lines_of_many_fields_go_on() {
         let held = grids
             .into_iter()
             .filter(|grid| grid.constrained == [true, false, false]);
-        held.map(|grid| grid.label).collect::<Vec<_>>()
+        held.map(|grid| grid.label).collect_vec()
     };
     assert_eq!(held("SPC1,1,1,1,2,3,4,5,6,+,7,8"), [1, 2, 3, 4, 5, 6, 7, 8]);
     assert_eq!(
@@ -86,10 +86,10 @@ fn free_lines_of_many_fields_go_on() {
 #[test]
 fn a_card_repeats_the_one_before() {
     let grids = read("GRID,1,,0.,2.5,0.,,13\n=,*(2),=,*(1.5),==\n=(2)\nGRID,9,,1.\n").grids;
-    let found: Vec<_> = grids
+    let found = grids
         .iter()
         .map(|grid| (grid.label, grid.position.x, grid.position.y))
-        .collect();
+        .collect_vec();
     assert_eq!(
         found,
         [
@@ -270,10 +270,10 @@ fn a_grid_that_nothing_touches_is_held_and_said() {
         &[],
     );
     let unread = found.expect("it reads").unread;
-    let said: Vec<_> = unread
+    let said = unread
         .iter()
         .map(|card| (card.place(), card.reason))
-        .collect();
+        .collect_vec();
     assert_eq!(
         said,
         [("GRID (line 10, 2 cards)".to_owned(), Reason::Untouched)]

@@ -33,7 +33,7 @@ pub fn whole_box([covers, webs, rods]: [f64; 3], points: &[f64]) -> FiniteElemen
     let grids = model.structure().grids().to_vec();
     FiniteElementModel::new(
         Structure::new(grids, elements).expect("a structure"),
-        DMatrix::identity(DOF, DOF),
+        eye(DOF),
         DMatrix::from_diagonal(&points.to_vec().into()),
         vec![
             Parameter::new("covers", &COVERS),
@@ -84,7 +84,7 @@ properties! {
         let tolerance = 2.0 * DECK_ROUNDING + ROUND_OFF * spread;
         prop_assert!(tolerance < DECK_ROOTS, "{}", spread);
         for (own, written) in own.iter().zip(&written) {
-            prop_assert!((own / written - 1.0).abs() < tolerance, "{own} {written} {tolerance}");
+            prop_assert!(relative_error(own, written) < tolerance, "{own} {written} {tolerance}");
         }
     }
 }

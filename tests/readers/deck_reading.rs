@@ -270,7 +270,11 @@ MAT1,1,1.04+7,4.+6
     let model = deck::read("test", deck.as_bytes(), &[])
         .expect("it reads")
         .model;
-    let sizes: Vec<f64> = model.elements.iter().map(|element| element.size).collect();
+    let sizes = model
+        .elements
+        .iter()
+        .map(|element| element.size)
+        .collect_vec();
     assert_eq!(sizes, [0.5, 0.25, 0.1, 0.4, 0.5]);
     assert_eq!(model.elements[1].grids, [2, 3]);
     assert_eq!(model.elements[2].grids, [1, 2, 3]);
@@ -384,11 +388,11 @@ fn neighbors_constrained_alike_are_written_as_a_range_and_one_alone_is_not() {
         .expect("it reads")
         .model;
     let text = bulk_text(&model).expect("a deck");
-    let constrained: Vec<Vec<&str>> = text
+    let constrained = text
         .lines()
         .filter(|line| line.starts_with("SPC1"))
-        .map(|line| line.split_whitespace().skip(2).collect())
-        .collect();
+        .map(|line| line.split_whitespace().skip(2).collect_vec())
+        .collect_vec();
     assert_eq!(
         constrained,
         [

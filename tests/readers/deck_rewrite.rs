@@ -87,7 +87,7 @@ fn elements_that_need_other_sizes_get_properties_of_their_own() {
         3,
         "the first property stays"
     );
-    let lines: Vec<&str> = text.lines().collect();
+    let lines = text.lines().collect_vec();
     let first = lines
         .iter()
         .position(|line| line.starts_with("PROD    7 "))
@@ -169,7 +169,7 @@ fn a_new_material_has_the_other_numbers_as_they_were_written() {
         only_in(&text, &deck)
             .into_iter()
             .filter(|line| line.starts_with("MAT1"))
-            .collect::<Vec<_>>()
+            .collect_vec()
             .concat()
     };
     assert_eq!(
@@ -247,10 +247,10 @@ fn two_on_a_card_are_rewritten_one_by_one() {
         with(deck, &[(2, 2.0, 1.0), (4, 2.0, 1.0)])
     );
     let long = rewritten(deck, &[(1, 1.0 + 1e-9, 1.0)]);
-    let sizes: Vec<f64> = elements(long.as_bytes())
+    let sizes = elements(long.as_bytes())
         .iter()
         .map(|element| element.size)
-        .collect();
+        .collect_vec();
     assert_eq!(sizes, [0.100_000_000_1, 0.2, 0.5, 0.5]);
     assert_eq!(only_in(&long, deck).len(), 2);
 }
@@ -354,11 +354,7 @@ fn the_owners_programs_read_a_rewritten_deck() {
         let expected = expected
             .iter()
             .map(|element| (element.label, element.size, element.material.density));
-        assert_eq!(
-            read.collect::<Vec<_>>(),
-            expected.collect::<Vec<_>>(),
-            "{file}"
-        );
+        assert_eq!(read.collect_vec(), expected.collect_vec(), "{file}");
     }
 }
 

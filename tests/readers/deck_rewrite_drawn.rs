@@ -86,7 +86,7 @@ fn decks() -> impl Strategy<Value = (String, Vec<Element>)> {
                     .into_iter()
                     .chain(1..=corners)
                     .map(|label| label.to_string());
-                text += &card(name, &labels.collect::<Vec<_>>(), *style, 10 + row);
+                text += &card(name, &labels.collect_vec(), *style, 10 + row);
             }
             if let Some(weight) = weight {
                 text += &format!("PARAM,WTMASS,{weight:.4}\n");
@@ -182,7 +182,7 @@ properties! {
         let tolerance = 2.0 * DECK_ROUNDING + ROUND_OFF * own[DOF - 1] / own[0];
         prop_assert!(tolerance < 1e-4);
         for (own, found) in own.iter().zip(&found) {
-            prop_assert!((own / found - 1.0).abs() < tolerance, "{own} {found} {tolerance}");
+            prop_assert!(relative_error(own, found) < tolerance, "{own} {found} {tolerance}");
         }
         let untouched = BulkData::from_model(&model, &ones, &places).expect("bulk data").elements;
         prop_assert_eq!(rewrite("box", first.as_bytes(), &untouched, &[]).expect("it rewrites"), first.as_bytes());
@@ -202,7 +202,7 @@ properties! {
         let written = rewrite("deck", text.as_bytes(), &[], &wanted.masses).expect("it rewrites");
         prop_assert_eq!(&deck::read("deck", &written, &[]).expect("it reads").model, &wanted);
         let is_mass = |line: &&str| line.starts_with("CMASS2") || line.starts_with("CONM2") || line.starts_with('*');
-        let others = |text: &str| text.lines().filter(|line| !is_mass(line)).map(str::to_owned).collect::<Vec<_>>();
+        let others = |text: &str| text.lines().filter(|line| !is_mass(line)).map(str::to_owned).collect_vec();
         prop_assert_eq!(others(&String::from_utf8_lossy(&written)), others(&text));
     }
 }

@@ -126,7 +126,7 @@ fn written(model: &BulkData, around: &Around) -> String {
             row.to_string(),
             number(element.size),
         ];
-        let corners: Vec<String> = element.grids.iter().map(usize::to_string).collect();
+        let corners = element.grids.iter().map(usize::to_string).collect_vec();
         let torsion = if around.has_torsion {
             ".25".to_owned()
         } else {
@@ -310,11 +310,11 @@ fn a_property_of_shear_panels_may_end_in_zeros_or_in_another_property() {
 fn torsion_of_rods_is_named_and_in_no_stiffness() {
     let text = GOOD.replace("PROD,1,1,.01", "PROD,1,1,.01,.5") + "CONROD,2,1,2,1,.5,.25\n";
     let read = deck::read("wing.bdf", text.as_bytes(), &[]).expect("a deck");
-    let said: Vec<String> = read
+    let said = read
         .unread
         .iter()
         .map(corfem::present::tables::deck::not_read)
-        .collect();
+        .collect_vec();
     assert_eq!(
         said,
         [

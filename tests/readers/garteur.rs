@@ -20,13 +20,13 @@ fn chi_squared() -> [f64; 2] {
 
 #[test]
 fn the_airplane_hangs_free_and_its_test_is_eight_published_frequencies() {
-    let hertz: Vec<f64> = RESULT
+    let hertz = RESULT
         .found
         .prepared
         .alone()
         .iter()
         .map(|(_, lone)| lone.frequency_hz)
-        .collect();
+        .collect_vec();
     assert_eq!(hertz, PUBLISHED_HZ);
     assert_eq!(rigid_bodies(&RESULT.trust), 6.0);
     assert!(RESULT.found.prepared.loaded.placed.is_empty());

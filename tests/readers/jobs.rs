@@ -108,14 +108,14 @@ fn condensed_to_five_floors_the_building_is_not_found() {
     let factors = found.best_factors;
     for pair in factors.chunks(2) {
         assert!(
-            (pair[0] / pair[1] - 1.0).abs() < WEIGHTED_FACTOR,
+            relative_error(pair[0], pair[1]) < WEIGHTED_FACTOR,
             "{pair:?}"
         );
     }
     let worst = factors
         .iter()
         .zip(&STORIES)
-        .map(|(found, truth)| (found / truth - 1.0).abs())
+        .map(|(found, truth)| relative_error(found, truth))
         .fold(0.0, f64::max);
     assert!(worst > 0.2, "{worst}");
 }
@@ -136,7 +136,7 @@ fn sensors_along_axes_of_their_own_find_the_same_rods() {
     };
     let (prepared, expected) = finished();
     let text = write_universal(&prepared.loaded.data);
-    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    let mut lines = text.lines().map(str::to_owned).collect_vec();
     let nodes = lines
         .iter()
         .position(|line| line.trim() == "2411")
@@ -169,30 +169,30 @@ fn sensors_along_axes_of_their_own_find_the_same_rods() {
     )
     .expect("written");
     let (prepared, found) = finished();
-    let directions: Vec<usize> = prepared
+    let directions = prepared
         .loaded
         .placed
         .iter()
         .map(|sensor| sensor.direction)
-        .collect();
+        .collect_vec();
     assert_eq!(directions, [1, 2, 0]);
     for (a, b) in found.iter().zip(&expected) {
         assert!(
-            (a / b - 1.0).abs() < WEIGHTED_FACTOR,
+            relative_error(a, b) < WEIGHTED_FACTOR,
             "{found:?} {expected:?}"
         );
     }
     let dense = prepared.loaded.sensors.dense();
     assert_eq!(
-        (0..3).map(|row| dense[(row, row)]).collect::<Vec<_>>(),
+        (0..3).map(|row| dense[(row, row)]).collect_vec(),
         [-1.0, 1.0, 1.0]
     );
     let table = places_table(&prepared.loaded, None).expect("a table");
-    let own: Vec<String> = table
+    let own = table
         .rows
         .iter()
         .map(|row| row.cells[1].computed())
-        .collect();
+        .collect_vec();
     assert_eq!(own, ["y", "z", "x"]);
 }
 
@@ -250,7 +250,7 @@ fn condensed_the_wing_has_the_same_gages() {
         .iter()
         .zip(&condensed.factors)
     {
-        assert!((a / b - 1.0).abs() < CONDENSED_GAGES, "{a} {b}");
+        assert!(relative_error(a, b) < CONDENSED_GAGES, "{a} {b}");
     }
 }
 
@@ -261,7 +261,7 @@ fn the_building_is_found_story_by_story_from_five_floors() {
     assert!(found.found.analyses <= 6, "{}", found.found.analyses);
     for (story, (found, truth)) in found.found.factors.iter().zip(&STORIES).enumerate() {
         assert!(
-            (found / truth - 1.0).abs() < WEIGHTED_STORY,
+            relative_error(found, truth) < WEIGHTED_STORY,
             "story {}: {found} for {truth}",
             story + 1
         );
@@ -287,11 +287,11 @@ fn the_wing_is_found_from_ten_modes_at_its_upper_grids() {
     let mut places = pairing.analysis_mode.to_vec();
     places.swap(0, 1);
     pairing.analysis_mode = places;
-    let new: Vec<_> = swaps(&exchanged)
+    let new = swaps(&exchanged)
         .into_iter()
         .filter(|swap| !swaps(&subject).contains(swap))
         .map(|swap| [swap.stage, swap.test_mode, swap.from, swap.to])
-        .collect();
+        .collect_vec();
     assert_eq!(
         new,
         [[2, 1, 1, 2], [2, 2, 2, 1], [3, 1, 2, 1], [3, 2, 1, 2]]
@@ -386,17 +386,17 @@ fn worked_jobs_end_within_a_thousandth_of_a_deviation_of_their_optimum() {
         let weights = prepared.weights();
         let (factors, priors) = (&result.found.factors, &prepared.loaded.source.priors);
         let free = |e: &usize| !result.verdict.at_bound.contains(e);
-        let free: Vec<usize> = (0..factors.len()).filter(free).collect();
+        let free = (0..factors.len()).filter(free).collect_vec();
         let at = |parameter: usize, step: f64| {
             let mut changed = factors.clone();
             changed[parameter] *= step.exp();
             let model = prepared.analyze(&changed).expect("an analysis");
             residuals(&model, &weights).expect("residuals")
         };
-        let columns: Vec<DVector<f64>> = free
+        let columns = free
             .iter()
             .map(|&e| (at(e, STEP) - at(e, -STEP)) / (2.0 * STEP))
-            .collect();
+            .collect_vec();
         let jacobian = DMatrix::from_columns(&columns);
         let own = residuals(&result.found.last, &weights).expect("residuals");
         let of = |e: usize| priors.get(e).unwrap_or(&priors[0]).powi(-2);

@@ -63,10 +63,10 @@ fn entry(draws: &mut Draws) -> [String; 2] {
 
 /// The job with an entry more, or with damage in one of its files.
 fn mutated(files: &Files, draws: &mut Draws) -> Vec<(String, Vec<u8>)> {
-    let mut files: Vec<(String, Vec<u8>)> = files
+    let mut files = files
         .iter()
         .map(|(name, text)| (name.clone(), text.clone().into_bytes()))
-        .collect();
+        .collect_vec();
     if draws.unit() < 0.6 {
         let job = files
             .iter_mut()
@@ -76,10 +76,10 @@ fn mutated(files: &Files, draws: &mut Draws) -> Vec<(String, Vec<u8>)> {
         for _ in 0..1 + draws.below(2) {
             let [heading, line] = entry(draws);
             let own = line.split(" = ").next().unwrap_or("");
-            let kept: Vec<&str> = text
+            let kept = text
                 .lines()
                 .filter(|line| line.split(" = ").next() != Some(own) || draws.unit() < 0.1)
-                .collect();
+                .collect_vec();
             let mut kept = kept.join("\n") + "\n";
             match kept.find(&format!("{heading}\n")) {
                 Some(at) if !heading.is_empty() => {
@@ -94,10 +94,10 @@ fn mutated(files: &Files, draws: &mut Draws) -> Vec<(String, Vec<u8>)> {
     } else {
         let file = draws.below(files.len());
         let text = String::from_utf8_lossy(&files[file].1).into_owned();
-        let numbers: Vec<(usize, char)> = text
+        let numbers = text
             .char_indices()
             .filter(|(_, digit)| digit.is_ascii_digit())
-            .collect();
+            .collect_vec();
         files[file].1 = if draws.unit() < 0.6 && !numbers.is_empty() {
             // Another digit somewhere: most often still a file.
             let (at, _) = numbers[draws.below(numbers.len())];

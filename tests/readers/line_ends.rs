@@ -53,7 +53,7 @@ const FILES: [(&str, &[u8], Reader); 18] = files! {
 
 /// The bytes with other ends of lines.
 fn ended(bytes: &[u8], end: &[u8]) -> Vec<u8> {
-    let lines: Vec<&[u8]> = bytes.split(|byte| *byte == b'\n').collect();
+    let lines = bytes.split(|byte| *byte == b'\n').collect_vec();
     lines.join(end)
 }
 

@@ -16,7 +16,7 @@ pub fn without_shapes(modes: &[usize]) -> Files {
     let text = &mut test.expect("a test").1;
     let mut columns: Vec<usize> = Vec::new();
     let lines = text.lines().map(|line| {
-        let mut cells: Vec<&str> = line.split(',').collect();
+        let mut cells = line.split(',').collect_vec();
         let is_sensor = !columns.is_empty() && line.contains("floor");
         if let Some(first) = cells.iter().position(|cell| *cell == "mode 1") {
             columns = modes.iter().map(|mode| first + mode - 1).collect();
@@ -77,7 +77,7 @@ fn frequencies_without_shapes_count_as_frequencies_and_nowhere_else() {
         .alone()
         .iter()
         .map(|(mode, lone)| (*mode, lone.partner));
-    assert_eq!(partners.collect::<Vec<_>>(), [(1, 1), (3, 3)]);
+    assert_eq!(partners.collect_vec(), [(1, 1), (3, 3)]);
     // By hand: the frequencies of all five modes, the shapes of three.
     let hertz = exact.modes.frequencies_hz();
     let squares =
@@ -94,7 +94,7 @@ fn frequencies_without_shapes_count_as_frequencies_and_nowhere_else() {
     // What is left of the test still finds every story.
     for (factor, story) in found.found.factors.iter().zip(STORIES) {
         assert!(
-            (factor / story - 1.0).abs() <= WEIGHTED_FACTOR,
+            relative_error(factor, story) <= WEIGHTED_FACTOR,
             "{factor} {story}"
         );
     }
@@ -122,7 +122,7 @@ fn a_whole_test_may_be_frequencies() {
         .data
         .frequencies_hz
         .clone();
-    let cells: Vec<String> = hertz.iter().map(f64::to_string).collect();
+    let cells = hertz.iter().map(f64::to_string).collect_vec();
     test.1 = format!(
         "frequency_hz,{}\n,mode 1,mode 2,mode 3,mode 4,mode 5\n",
         cells.join(",")
@@ -158,7 +158,7 @@ fn the_job_may_name_the_partners_of_frequencies() {
             .alone()
             .iter()
             .map(|(_, lone)| lone.partner)
-            .collect::<Vec<_>>(),
+            .collect_vec(),
         [5, 3]
     );
     for (partners, expected) in [

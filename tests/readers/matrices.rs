@@ -4,9 +4,7 @@ use crate::prelude::*;
 use matrices::{Label, LabeledMatrix, read};
 
 pub fn golden(file: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("golden/formats")
-        .join(file)
+    in_root("golden/formats").join(file)
 }
 
 /// The lines of a stored table.
@@ -146,7 +144,7 @@ fn strings_with_nastrans_words_read() {
         .matrix;
     assert_eq!((a.rows(), a.columns()), (70, 3));
     assert_eq!(
-        a.entries().collect::<Vec<_>>(),
+        a.entries().collect_vec(),
         [
             (1, 0, -1e-300),
             (2, 0, 2.5),
@@ -160,7 +158,7 @@ fn strings_with_nastrans_words_read() {
         .matrix;
     assert_eq!((b.rows(), b.columns()), (70000, 2));
     assert_eq!(
-        b.entries().collect::<Vec<_>>(),
+        b.entries().collect_vec(),
         [(65989, 1, 1.0), (65990, 1, -2.0), (69998, 1, 3.0)]
     );
     let error = read("m", text.as_bytes(), Some("C"))
@@ -179,7 +177,7 @@ fn strings_with_nastrans_words_read() {
             .expect("zeros")
             .matrix
             .entries()
-            .collect::<Vec<_>>()
+            .collect_vec()
             .is_empty()
     );
 }
@@ -203,7 +201,7 @@ fn a_matrix_before_the_one_asked_for_is_passed_over() {
             .expect("a matrix")
             .matrix
             .entries()
-            .collect::<Vec<_>>(),
+            .collect_vec(),
         [(0, 0, 2.0)]
     );
     assert_eq!(
@@ -211,7 +209,7 @@ fn a_matrix_before_the_one_asked_for_is_passed_over() {
             .expect("a matrix")
             .matrix
             .entries()
-            .collect::<Vec<_>>(),
+            .collect_vec(),
         [(0, 0, 1.0)]
     );
     let none = read("m", text.as_bytes(), Some("C"))
@@ -239,7 +237,7 @@ fn one_triangle_of_a_symmetric_matrix_is_mirrored() {
                 .expect("a matrix")
                 .matrix
                 .entries()
-                .collect::<Vec<_>>(),
+                .collect_vec(),
             whole
         );
     }
@@ -253,7 +251,7 @@ fn one_triangle_of_a_symmetric_matrix_is_mirrored() {
             .expect("a matrix")
             .matrix
             .entries()
-            .collect::<Vec<_>>(),
+            .collect_vec(),
         whole
     );
 }
@@ -270,7 +268,7 @@ fn fields_without_blanks_and_scalar_points_of_dmig_read() {
     let found = read("m", text.as_bytes(), Some("K")).expect("a matrix");
     assert_eq!(found.rows, labels(&[(7, 0), (12_345_678, 2)]));
     assert_eq!(
-        found.matrix.entries().collect::<Vec<_>>(),
+        found.matrix.entries().collect_vec(),
         [(0, 0, 1.5), (1, 0, -2e-3), (0, 1, -2e-3), (1, 1, 100.0)]
     );
     let error = read("m", text.as_bytes(), Some("C"))
@@ -285,17 +283,14 @@ fn fields_without_blanks_and_scalar_points_of_dmig_read() {
     let found = read("m", text.as_bytes(), None).expect("a matrix");
     assert_eq!(found.rows, labels(&[(2, 1), (3, 1), (4, 1)]));
     assert_eq!(
-        found.matrix.entries().collect::<Vec<_>>(),
+        found.matrix.entries().collect_vec(),
         [(0, 0, 2.0), (1, 0, 3.0), (2, 0, 4.0)]
     );
     // Fields of eight characters that touch.
     let text = "DMIG    K       0       1       1       0\nDMIG    K       12345678       3        12345679       1-1.234-3\n";
     let found = read("m", text.as_bytes(), None).expect("a matrix");
     assert_eq!(found.rows, labels(&[(12_345_678, 3), (12_345_679, 1)]));
-    assert_eq!(
-        found.matrix.entries().collect::<Vec<_>>(),
-        [(1, 0, -1.234e-3)]
-    );
+    assert_eq!(found.matrix.entries().collect_vec(), [(1, 0, -1.234e-3)]);
 }
 
 /// What the crate writes, and what SciPy reads from it.
@@ -308,9 +303,9 @@ fn the_owners_programs_read_what_the_crate_writes() {
         (4, 2, f64::MAX),
         (0, 2, PI),
     ];
-    let mut symmetric: Vec<_> = (0..12)
+    let mut symmetric = (0..12)
         .map(|row| (row, row, 2.0 + 1.0 / (row + 1) as f64))
-        .collect();
+        .collect_vec();
     symmetric.extend((1..12).flat_map(|row| {
         [
             (row, row - 1, -1.0 / row as f64),
@@ -380,7 +375,7 @@ properties! {
         let file = files[which];
         let text = fs::read_to_string(golden(file)).expect("it reads");
         let wanted = file.ends_with("op4").then_some("T");
-        let lines: Vec<&str> = text.lines().collect();
+        let lines = text.lines().collect_vec();
         // What follows the last record of OUTPUT4 says nothing.
         let left = ((part * lines.len() as f64) as usize).clamp(1, lines.len() - 2);
         let error = read(file, lines[..left].join("\n").as_bytes(), wanted).expect_err("it is cut off");

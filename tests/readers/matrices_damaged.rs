@@ -1,5 +1,6 @@
 //! Matrix files that are damaged, complex or too much: each is refused by its line.
 
+use crate::prelude::*;
 use corfem::files::matrices::read;
 
 #[track_caller]
@@ -128,10 +129,7 @@ fn a_promise_takes_no_memory() {
         "%%MatrixMarket matrix coordinate real general\n{most} {most} 1\n{most} {most} 1D0\n"
     );
     let matrix = read("m", text.as_bytes(), None).expect("one entry").matrix;
-    assert_eq!(
-        matrix.entries().collect::<Vec<_>>(),
-        [(most - 1, most - 1, 1.0)]
-    );
+    assert_eq!(matrix.entries().collect_vec(), [(most - 1, most - 1, 1.0)]);
 }
 
 #[test]
@@ -212,7 +210,7 @@ fn output4_is_refused_by_line() {
             .expect("the other one")
             .matrix
             .entries()
-            .collect::<Vec<_>>()
+            .collect_vec()
             .is_empty()
     );
 }

@@ -11,7 +11,7 @@ fn own_answer(model: &FiniteElementModel, factors: &[f64]) -> Matrices {
     let sizes = model.sizes(factors).expect("sizes");
     let structure = model.structure();
     let free = structure.free_dof();
-    let mut order: Vec<usize> = (0..free.len()).collect();
+    let mut order = (0..free.len()).collect_vec();
     order.sort_by_key(|&row| (free[row].grid, free[row].direction));
     let sorted = |matrix: &DMatrix<f64>| matrix.select_rows(&order).select_columns(&order);
     let kaa = assemble(model.element_matrices(), &sizes, free.len()).expect("stiffness");
@@ -20,7 +20,7 @@ fn own_answer(model: &FiniteElementModel, factors: &[f64]) -> Matrices {
     let lumped = DMatrix::from_diagonal(&lumped_mass(structure));
     let maa = t * model.mass() * t.transpose() + lumped;
     // In KGG the elements stand by themselves after all grids, in the order of their numbers.
-    let mut rows: Vec<usize> = (0..structure.elements().len()).collect();
+    let mut rows = (0..structure.elements().len()).collect_vec();
     rows.sort_by_key(|&row| structure.elements()[row].label);
     let corners: usize = structure
         .elements()
@@ -46,10 +46,10 @@ fn own_answer(model: &FiniteElementModel, factors: &[f64]) -> Matrices {
 /// A solver that answers every deck with the same matrices.
 fn answering(matrices: &Matrices) -> TempDir {
     let home = fake("cat \"$RFDIR/answer\" > \"$FTN15\"");
-    let list: Vec<(&str, &DMatrix<f64>)> = matrices
+    let list = matrices
         .iter()
         .map(|(name, matrix)| (name.as_str(), matrix))
-        .collect();
+        .collect_vec();
     fs::write(home.path().join("rf/answer"), output5(&list)).expect("written");
     home
 }
@@ -69,8 +69,8 @@ fn assert_same(found: &DynamicModel, expected: &DynamicModel) {
 #[test]
 fn a_solver_with_the_crates_elements_gives_the_crates_analysis() {
     for number in [1, 3] {
-        let model = Case::new(number).expect("a case").model().expect("a model");
-        let factors: Vec<f64> = (0..15).map(|row| 0.8 + f64::from(row) / 20.0).collect();
+        let model = case_of(number).model().expect("a model");
+        let factors = (0..15).map(|row| 0.8 + f64::from(row) / 20.0).collect_vec();
         let home = answering(&own_answer(&model, &factors));
         let found = solver(&home)
             .elements(&model, &factors)

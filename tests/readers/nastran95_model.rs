@@ -30,15 +30,19 @@ fn the_deck_of_an_analysis_has_every_element_twice() {
         .expect("it reads")
         .model;
     // Five grids and two dynamic points, then a grid for every corner, after all of them and held.
-    let labels: Vec<usize> = read.grids.iter().map(|grid| grid.label).collect();
+    let labels = read.grids.iter().map(|grid| grid.label).collect_vec();
     assert_eq!(labels[..7], [1, 3, 5, 7, 9, 101, 102]);
-    assert_eq!(labels[7..], (201..=213).collect::<Vec<_>>());
+    assert_eq!(labels[7..], (201..=213).collect_vec());
     assert!(
         read.grids[7..]
             .iter()
             .all(|grid| grid.constrained == [true; 3])
     );
-    let labels: Vec<usize> = read.elements.iter().map(|element| element.label).collect();
+    let labels = read
+        .elements
+        .iter()
+        .map(|element| element.label)
+        .collect_vec();
     assert_eq!(labels, [2, 4, 6, 8, 12, 40, 201, 202, 203, 204, 205, 206]);
     assert_eq!(read.elements[5].size, 0.2);
     let position = |label: usize| {
@@ -61,7 +65,7 @@ fn the_deck_of_an_analysis_has_every_element_twice() {
 
 #[test]
 fn a_deck_holds_point_masses_alone() {
-    let mut mass = DMatrix::identity(2, 2);
+    let mut mass = eye(2);
     mass[(0, 1)] = 0.1;
     mass[(1, 0)] = 0.1;
     let model = disordered();
@@ -86,11 +90,11 @@ fn a_deck_holds_point_masses_alone() {
 #[test]
 fn element_matrices_of_another_origin_must_fit() {
     let model = disordered();
-    let own: Vec<DMatrix<f64>> = model
+    let own = model
         .element_matrices()
         .iter()
         .map(|element| element.unit.clone())
-        .collect();
+        .collect_vec();
     let doubled = own.iter().map(|unit| 2.0 * unit).collect();
     let stiffer = model.with_unit_stiffness(doubled).expect("they fit");
     let (once, twice) = (
@@ -123,7 +127,7 @@ fn element_matrices_of_another_origin_must_fit() {
         ),
         "{error}"
     );
-    let error = changed(&|units| units[1] = DMatrix::identity(4, 4));
+    let error = changed(&|units| units[1] = eye(4));
     assert!(
         matches!(
             error,
@@ -167,7 +171,7 @@ fn element_matrices_of_another_origin_must_fit() {
 /// frequency and leaves every factor alone.
 #[test]
 fn a_case_runs_with_the_analysis_it_is_given() {
-    let case = Case::new(2).expect("a case");
+    let case = case_of(2);
     let stiffer = |model: &FiniteElementModel, _: &[f64]| {
         let elements = model.element_matrices().iter();
         let units = elements.map(|element| 4.0 * &element.unit).collect();
@@ -196,7 +200,7 @@ fn a_history_reads_as_the_golden_does() {
     let golden = include_str!("../../golden/nastran95/outer_loop.toml");
     assert!(golden.starts_with(&format!("{HEADING}\n[[case]]\nnumber = 1\n")));
     for number in [2, 4] {
-        let case = Case::new(number).expect("a case");
+        let case = case_of(number);
         let own = run_case(&case, |_, _| ()).expect("a run");
         let run = correlate_case(&case, |model, _| Ok(model.clone())).expect("a run");
         let [read] = &read_cases(&run.toml().expect("a text"))[..] else {

@@ -66,11 +66,11 @@ fn frequencies(case: &Case, gages: &[f64]) -> Vec<f64> {
 #[test]
 fn only_three_panels_of_the_box_are_snapped() {
     for number in CASES {
-        let case = Case::new(number).expect("a case");
-        let snapped: Vec<(usize, f64)> = (1..)
+        let case = case_of(number);
+        let snapped = (1..)
             .zip(snap_factors(&case))
             .filter(|(_, factor)| (factor - 1.0).abs() > NASTRAN_EIGENVALUE)
-            .collect();
+            .collect_vec();
         // golden/nastran95/README.md: panel 14 by 1.0000022, and the covers 2 and 15 by 0.9972 where they are shear panels.
         let expected: &[(usize, f64)] = if number == 1 {
             &[(2, 0.9972), (14, 1.000_002_2), (15, 0.9972)]
@@ -101,11 +101,11 @@ fn stored_frequencies_are_the_crates_at_the_same_gages() {
         let case = Case::new(stored.number).expect("a case");
         let factors = snap_factors(&case);
         let at = |gages: &[f64]| {
-            let gages: Vec<f64> = gages
+            let gages = gages
                 .iter()
                 .zip(&factors)
                 .map(|(gage, factor)| gage * factor)
-                .collect();
+                .collect_vec();
             frequencies(&case, &gages)
         };
         assert_near(

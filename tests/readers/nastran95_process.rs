@@ -59,7 +59,7 @@ fn a_run_gets_its_deck_and_its_files_and_gives_back_what_it_wrote() {
     let answer = solver(&home).run("BEGIN BULK\n").expect("a run");
     assert_eq!(answer.unit_15.as_deref(), Some("matrices"));
     let formats = home.path().canonicalize().expect("a path").join("rf");
-    let lines: Vec<&str> = answer.printed.lines().map(str::trim).collect();
+    let lines = answer.printed.lines().map(str::trim).collect_vec();
     assert_eq!(lines[0], "BEGIN BULK");
     assert_eq!(
         lines[1],

@@ -39,7 +39,7 @@ fn nastran_answers_as_stored() {
             assert!(rods.symmetric_eigenvalues().min() > -NASTRAN_AGAIN * dynamic.stiffness.amax());
         }
     }
-    let case = Case::new(2).expect("a case");
+    let case = case_of(2);
     let by_nastran = |model: &_, factors: &[f64]| nastran.elements(model, factors);
     let run = correlate_case(&case, by_nastran).expect("a run");
     let expected = &stored()[1].passes[1];
@@ -56,7 +56,7 @@ fn nastran_answers_as_stored() {
 fn nastran_solves_the_written_deck_for_its_modes() {
     let nastran = program();
     for number in [2, 3] {
-        let case = Case::new(number).expect("a case");
+        let case = case_of(number);
         let model = case.model().expect("a model");
         let (own, bulk) = modes_and_deck(&case, &model);
         // By NASTRAN-95's own eigensolution with the singular mass.
@@ -92,11 +92,11 @@ fn nastran_solves_the_written_deck_for_its_modes() {
         let reduced = lower
             .solve_lower_triangular(&half.transpose())
             .expect("a nonzero diagonal");
-        let mut roots: Vec<f64> = (0.5 * (&reduced + reduced.transpose()))
+        let mut roots = (0.5 * (&reduced + reduced.transpose()))
             .symmetric_eigenvalues()
             .iter()
             .map(|root| root.recip())
-            .collect();
+            .collect_vec();
         roots.retain(|root| *root > 0.0 && *root < 1e3 * own[8]);
         roots.sort_by(f64::total_cmp);
         assert_near(&roots, &own, NASTRAN_EIGENVALUE, "KAA and MAA");
@@ -120,7 +120,7 @@ fn printed_eigenvalues(printed: &str) -> Vec<f64> {
         .expect("a table");
     table
         .lines()
-        .map(|line| line.split_whitespace().collect::<Vec<_>>())
+        .map(|line| line.split_whitespace().collect_vec())
         .filter(|fields| {
             fields.len() == 7
                 && fields[0].parse::<usize>().is_ok()

@@ -39,8 +39,7 @@ impl Draws {
                     text.splice(at..end.max(at), word.iter().copied());
                 }
                 4 => {
-                    let mut lines: Vec<&[u8]> =
-                        text.split_inclusive(|byte| *byte == b'\n').collect();
+                    let mut lines = text.split_inclusive(|byte| *byte == b'\n').collect_vec();
                     let (a, b) = (self.below(lines.len()), self.below(lines.len()));
                     if a < lines.len() && b < lines.len() {
                         lines.swap(a, b);

@@ -27,9 +27,9 @@ fn noisy(exact: &TestData, seed: u64) -> TestData {
 
 /// The building's job with these tests as repeats, and these modes of them (from one).
 fn repeated(tests: &[TestData], modes: &str) -> Files {
-    let names: Vec<String> = (1..=tests.len())
+    let names = (1..=tests.len())
         .map(|number| format!("{number}.csv"))
-        .collect();
+        .collect_vec();
     let entry = format!("repeats = {names:?}\nmodes = {modes}");
     let mut files = with(building(), "job.toml", "file = \"test.csv\"", &entry);
     files.extend(
@@ -51,9 +51,9 @@ const ALL: &str = "[1, 2, 3, 4, 5]";
 #[test]
 fn neither_scale_nor_sign_nor_order_of_repeats_matters() {
     let exact = exact();
-    let tests: Vec<TestData> = (1..=6).map(|seed| noisy(&exact, seed)).collect();
+    let tests = (1..=6).map(|seed| noisy(&exact, seed)).collect_vec();
     let one = loaded(&repeated(&tests, ALL)).loaded.data.clone();
-    let mut others: Vec<TestData> = tests.into_iter().rev().collect();
+    let mut others = tests.into_iter().rev().collect_vec();
     for (place, test) in others.iter_mut().enumerate() {
         test.shapes *= [-0.3, 12.0][place % 2];
         // Sensors in another order too.
@@ -81,11 +81,11 @@ fn neither_scale_nor_sign_nor_order_of_repeats_matters() {
             assert!(off.abs() < MATRIX_ROUND_OFF, "{mode} {}", sensor.name);
             let [own, other] = [(&one, same), (&two, place)]
                 .map(|(data, row)| data.component_deviation[&mode][row]);
-            assert!((own / other - 1.0).abs() < MATRIX_ROUND_OFF);
+            assert!(relative_error(own, other) < MATRIX_ROUND_OFF);
         }
     }
     for (own, other) in one.frequencies_hz.iter().zip(&two.frequencies_hz) {
-        assert!((own / other - 1.0).abs() < MATRIX_ROUND_OFF);
+        assert!(relative_error(own, other) < MATRIX_ROUND_OFF);
     }
 }
 
@@ -94,7 +94,7 @@ fn neither_scale_nor_sign_nor_order_of_repeats_matters() {
 fn repeats_that_drift_are_said_and_widen_the_deviations() {
     const KEPT: f64 = 0.8;
     let exact = exact();
-    let independent: Vec<TestData> = (1..=20).map(|seed| noisy(&exact, seed)).collect();
+    let independent = (1..=20).map(|seed| noisy(&exact, seed)).collect_vec();
     let unit = |data: &TestData, mode: usize| {
         let shape = data.shapes.column(mode);
         let along =
@@ -123,14 +123,14 @@ fn repeats_that_drift_are_said_and_widen_the_deviations() {
         let prepared = loaded(&repeated(tests, ALL));
         let said = Trust::before(&prepared).unwrap();
         let data = prepared.loaded.data.clone();
-        let told: Vec<Vec<f64>> = said
+        let told = said
             .of(Kind::Drift)
             .map(|own| own.measure.clone())
-            .collect();
+            .collect_vec();
         let known = data
             .drift
             .map(|lag| vec![lag, ((1.0 + lag) / (1.0 - lag)).sqrt()]);
-        assert_eq!(told, known.into_iter().collect::<Vec<_>>());
+        assert_eq!(told, known.into_iter().collect_vec());
         (data.drift, data.frequency_deviation.unwrap())
     };
     let (none, own) = lag(&independent);
@@ -153,7 +153,7 @@ fn repeats_that_drift_are_said_and_widen_the_deviations() {
 
 /// Mean over many jobs of chi-squared over its degrees of freedom, with its standard error, by so many repeats of `test`.
 fn chi_squared(jobs: u64, repeats: u64, modes: &str, test: impl Fn(u64) -> TestData) -> (f64, f64) {
-    let ratios: Vec<f64> = (0..jobs)
+    let ratios = (0..jobs)
         .map(|job| {
             let tests: Vec<TestData> = (1..=repeats)
                 .map(|seed| test(repeats * job + seed))
@@ -163,7 +163,7 @@ fn chi_squared(jobs: u64, repeats: u64, modes: &str, test: impl Fn(u64) -> TestD
                 .misfit;
             misfit.chi_squared / misfit.degrees_of_freedom
         })
-        .collect();
+        .collect_vec();
     let (count, mean) = (jobs as f64, ratios.iter().sum::<f64>() / jobs as f64);
     let squares: f64 = ratios.iter().map(|ratio| (ratio - mean).powi(2)).sum();
     (mean, (squares / (count - 1.0) / count).sqrt())
@@ -214,7 +214,7 @@ fn is_whitened(loaded: &PreparedJob) -> bool {
 fn with_enough_repeats_their_covariance_counts() {
     let exact = exact();
     // Two modes of five sensors have ten numbers beside their scales.
-    let tests: Vec<TestData> = (1..=13).map(|seed| correlated(&exact, seed)).collect();
+    let tests = (1..=13).map(|seed| correlated(&exact, seed)).collect_vec();
     for (tests, counts) in [(&tests[..12], false), (&tests[..], true)] {
         let files = repeated(tests, "[1, 2]");
         let loaded = loaded(&files);
@@ -250,7 +250,7 @@ fn with_enough_repeats_their_covariance_counts() {
 #[test]
 fn repeats_that_do_not_go_together_are_refused() {
     let exact = exact();
-    let tests: Vec<TestData> = (1..=4).map(|seed| noisy(&exact, seed)).collect();
+    let tests = (1..=4).map(|seed| noisy(&exact, seed)).collect_vec();
     let changed = |change: fn(&mut TestData)| {
         let mut tests = tests.clone();
         change(&mut tests[2]);
@@ -296,7 +296,7 @@ fn repeats_that_do_not_go_together_are_refused() {
 #[test]
 fn a_covariance_is_that_of_what_is_compared() {
     let exact = exact();
-    let tests: Vec<TestData> = (1..=13).map(|seed| correlated(&exact, seed)).collect();
+    let tests = (1..=13).map(|seed| correlated(&exact, seed)).collect_vec();
     let files = with(
         repeated(&tests, "[2, 4]"),
         "job.toml",
@@ -343,7 +343,7 @@ fn a_covariance_is_that_of_what_is_compared() {
 #[test]
 fn modes_held_out_leave_the_covariance_of_the_others() {
     let exact = exact();
-    let tests: Vec<TestData> = (1..=13).map(|seed| correlated(&exact, seed)).collect();
+    let tests = (1..=13).map(|seed| correlated(&exact, seed)).collect_vec();
     let held = with(
         repeated(&tests, "[1, 2, 3]"),
         "job.toml",

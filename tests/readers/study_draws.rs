@@ -52,12 +52,12 @@ fn any_sensor_and_any_mode_may_be_left_out() {
     let (mut left, mut counts) = ([[[0; 2]; 5]; 2], [[0; 5]; 2]);
     for sample in 1..=60 {
         let (prepared, _) = study.draw(sample).expect("a draw");
-        let sensors: Vec<usize> = prepared
+        let sensors = prepared
             .loaded
             .placed
             .iter()
             .map(|sensor| sensor.row)
-            .collect();
+            .collect_vec();
         let (what, there) = if sensors.len() < 5 {
             (0, &sensors)
         } else {
@@ -185,12 +185,12 @@ fn a_seed_draws_the_same_numbers_for_ever() {
         (6, false, &[0, 1, 4]),
     ] {
         let (drawn, _) = study.draw(sample).expect("a draw");
-        let sensors: Vec<usize> = drawn
+        let sensors = drawn
             .loaded
             .placed
             .iter()
             .map(|sensor| sensor.row)
-            .collect();
+            .collect_vec();
         let found = if is_sensors { &sensors } else { &drawn.modes };
         assert_eq!(
             (&found[..], sensors.len() < 5),

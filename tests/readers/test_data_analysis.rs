@@ -224,7 +224,7 @@ fn written(frequencies: &[f64], values: &[Vec<[f64; 2]>], layout: Layout) -> Str
             1,
             codes,
             [[0.0, frequency, 0.0, 1.0, 0.0, 0.0], [0.0; 6]],
-            &nodes.collect::<Vec<_>>(),
+            &nodes.collect_vec(),
             layout,
         )
     });

@@ -35,9 +35,7 @@ struct Answer {
 }
 
 fn path(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("golden/formats")
-        .join(name)
+    in_root("golden/formats").join(name)
 }
 
 fn answers() -> BTreeMap<String, Answer> {
@@ -82,18 +80,18 @@ impl Mode {
 fn assert_frame(name: &str, data: &TestData, answer: &Answer, modes: &[&Mode]) {
     assert_eq!(data.units, answer.units, "{name}");
     let width = modes[0].real.len();
-    let mut expected: Vec<(usize, usize)> = modes[0]
+    let mut expected = modes[0]
         .nodes
         .iter()
         .flat_map(|node| (0..width).map(move |direction| (*node, direction)))
-        .collect();
+        .collect_vec();
     expected.retain(|(node, direction)| modes.iter().any(|mode| mode.moves(*node, *direction)));
     expected.sort_unstable();
-    let found: Vec<_> = data
+    let found = data
         .sensors
         .iter()
         .map(|sensor| (sensor.grid.expect("a node"), sensor.direction))
-        .collect();
+        .collect_vec();
     assert_eq!(found, expected, "{name}");
     for sensor in &data.sensors {
         let at = |nodes: &Nodes| {
@@ -120,7 +118,7 @@ fn assert_frame(name: &str, data: &TestData, answer: &Answer, modes: &[&Mode]) {
         .filter(|pair| !pair.contains(&0));
     assert_eq!(
         data.lines,
-        pairs.map(|pair| [pair[0], pair[1]]).collect::<Vec<_>>(),
+        pairs.map(|pair| [pair[0], pair[1]]).collect_vec(),
         "{name}"
     );
 }
@@ -130,14 +128,11 @@ fn real_modes_of_three_and_six_components_are_as_pyuff_reads_them() {
     let answers = answers();
     for name in ["real", "six", "written"] {
         let (data, answer) = (file(name), &answers[name]);
-        let modes: Vec<&Mode> = answer.modes.iter().collect();
+        let modes = answer.modes.iter().collect_vec();
         assert_frame(name, &data, answer, &modes);
         assert_eq!(
             data.frequencies_hz,
-            modes
-                .iter()
-                .map(|mode| mode.frequency())
-                .collect::<Vec<_>>(),
+            modes.iter().map(|mode| mode.frequency()).collect_vec(),
             "{name}"
         );
         for (shape, mode) in data.shapes.column_iter().zip(&modes) {
@@ -169,11 +164,11 @@ fn real_modes_of_three_and_six_components_are_as_pyuff_reads_them() {
 #[test]
 fn velocities_and_accelerations_become_displacements_and_a_response_is_no_mode() {
     let (data, answers) = (file("moving"), answers());
-    let modes: Vec<&Mode> = answers["moving"]
+    let modes = answers["moving"]
         .modes
         .iter()
         .filter(|mode| mode.analysis == 2)
-        .collect();
+        .collect_vec();
     assert_eq!(data.skipped, [55]);
     assert_frame("moving", &data, &answers["moving"], &modes);
     for (mode, expected) in modes.into_iter().enumerate() {
@@ -197,11 +192,11 @@ fn velocities_and_accelerations_become_displacements_and_a_response_is_no_mode()
 #[test]
 fn complex_modes_are_made_real_once_each_and_keep_their_collinearity() {
     let (data, answers) = (file("complex"), answers());
-    let modes: Vec<&Mode> = answers["complex"]
+    let modes = answers["complex"]
         .modes
         .iter()
         .filter(|mode| mode.root[1] > 0.0)
-        .collect();
+        .collect_vec();
     assert_eq!(
         (modes.len(), answers["complex"].modes.len()),
         (2, 3),
@@ -210,10 +205,7 @@ fn complex_modes_are_made_real_once_each_and_keep_their_collinearity() {
     assert_frame("complex", &data, &answers["complex"], &modes);
     assert_eq!(
         data.frequencies_hz,
-        modes
-            .iter()
-            .map(|mode| mode.frequency())
-            .collect::<Vec<_>>()
+        modes.iter().map(|mode| mode.frequency()).collect_vec()
     );
     for (column, mode) in modes.into_iter().enumerate() {
         let at = |row: usize| {
@@ -274,11 +266,11 @@ fn the_file_that_pyuff_has_read_is_what_the_crate_writes() {
 #[test]
 fn axes_that_pyuff_wrote_are_turned() {
     let data = file("axes");
-    let places: Vec<Vector3<f64>> = data
+    let places = data
         .sensors
         .iter()
         .filter_map(|sensor| sensor.place)
-        .collect();
+        .collect_vec();
     let expected = [
         Vector3::new(1.0, 2.0, 3.0),
         Vector3::new(9.0, 22.0, 33.0),

@@ -24,17 +24,17 @@ properties! {
         (width, digits) in (8..31_usize).prop_flat_map(|width| (Just(width), 0..width - 6)),
         letter in prop::sample::select(vec!["E", "D", "e", "d"]),
     ) {
-        let written: Vec<String> = values
+        let written = values
             .iter()
             .map(|(mantissa, exponent)| format!("{mantissa:.digits$}{letter}{exponent:+03}"))
-            .collect();
+            .collect_vec();
         let line: String = written.iter().map(|word| format!("{word:>width$}")).collect();
         let text = real_mode(&format!("        12\n{line}\n"));
         if let Ok(data) = read("wing.unv", text.as_bytes()) {
-            let found: Vec<f64> = data.shapes.iter().copied().collect();
+            let found = data.shapes.iter().copied().collect_vec();
             let meant = written.iter().map(|word| word.to_lowercase().replace('d', "e").parse::<f64>().expect("a number"));
             // A direction that is zero in every mode is no sensor.
-            let meant: Vec<f64> = meant.filter(|value| *value != 0.0).collect();
+            let meant = meant.filter(|value| *value != 0.0).collect_vec();
             prop_assert_eq!(found, meant, "{}", text);
         }
     }
@@ -135,7 +135,7 @@ const ROWS: &str = "name,direction,mode 1,mode 2\nfrequency_hz,,1.5,2.5\n";
 fn a_row_below_the_header_may_be_a_sensor_with_a_number_sign() {
     let names = |text: &str| {
         let sensors = table(&(ROWS.to_owned() + text)).sensors.into_iter();
-        sensors.map(|sensor| sensor.name).collect::<Vec<_>>()
+        sensors.map(|sensor| sensor.name).collect_vec()
     };
     assert_eq!(names("#1,z,1.,2.\n#2,z,3.,4.\n"), ["#1", "#2"]);
     assert_eq!(
@@ -159,7 +159,7 @@ fn a_table_names_its_separator_its_encoding_and_its_modes() {
     );
     for order in [u16::to_le_bytes, u16::to_be_bytes] {
         let units = once(0xfeff).chain(text.encode_utf16());
-        let bytes: Vec<u8> = units.flat_map(order).collect();
+        let bytes = units.flat_map(order).collect_vec();
         assert_eq!(read("test.csv", &bytes).expect("UTF-16"), data);
     }
     for (bytes, what) in [
@@ -291,12 +291,12 @@ fn abaqus_labels_name_the_rows() {
     for text in [lower, both] {
         let found = matrices::read("K", text.as_bytes(), None).expect("a matrix");
         assert_eq!(found.matrix.dense(), dmatrix![2.0, -1.0; -1.0, 3.0]);
-        let rows: Vec<_> = found
+        let rows = found
             .rows
             .expect("labels")
             .iter()
             .map(|label| (label.grid, label.component))
-            .collect();
+            .collect_vec();
         assert_eq!(rows, [(7, 1), (7, 3)]);
     }
     let error = matrix(&lower.replace("7,3, 7,3", "0,3, 7,3"), None).expect_err("no node");
@@ -400,7 +400,7 @@ fn a_parameter_may_be_a_second_whole_matrix() {
     for at in [1.1, 0.5] {
         for (found, expected) in factors(&with_second(at, 16)).iter().zip(&expected) {
             assert!(
-                (found / expected - 1.0).abs() < 100.0 * MATRIX_ROUND_OFF,
+                relative_error(found, expected) < 100.0 * MATRIX_ROUND_OFF,
                 "{found} {expected}"
             );
         }

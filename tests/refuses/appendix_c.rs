@@ -6,7 +6,7 @@ use crate::prelude::*;
 #[test]
 fn every_rule_needs_modes() {
     for rule in FORMULAE {
-        let answer = (rule.plain)(&DVector::zeros(0), &DMatrix::zeros(0, 0));
+        let answer = (rule.plain)(&DVector::zeros(0), &zero_square(0));
         assert_eq!(
             said(answer),
             "modes: 0 given or asked for; there must be at least 1",
@@ -21,7 +21,7 @@ fn every_rule_refuses_a_change_that_is_none_of_its_modes() {
     let nan = dmatrix![0.0, f64::NAN; 0.0, 0.0];
     for rule in FORMULAE {
         for (beta, words) in [
-            (DMatrix::zeros(3, 3), ": 3 x 3 instead of 2 x 2"),
+            (zero_square(3), ": 3 x 3 instead of 2 x 2"),
             (DMatrix::zeros(2, 3), ": 2 x 3 instead of 2 x 2"),
             (DMatrix::zeros(1, 2), ": 1 x 2 instead of 2 x 2"),
             (
@@ -45,7 +45,7 @@ fn every_formula_of_the_loops_starts_from_vibrations() {
             (f64::INFINITY, "inf"),
             (f64::NAN, "NaN"),
         ] {
-            let answer = (rule.plain)(&dvector![1.0, bad], &DMatrix::zeros(2, 2));
+            let answer = (rule.plain)(&dvector![1.0, bad], &zero_square(2));
             let words = format!(
                 "mode 1 (from zero) is no vibration: its eigenvalue is {value}; it must be positive and finite"
             );
@@ -59,7 +59,7 @@ fn every_formula_of_the_loops_starts_from_vibrations() {
 fn the_general_formulae_start_from_roots_that_are_numbers() {
     for rule in FORMULAE {
         for (bad, value) in [(0.0, "inf"), (f64::NAN, "NaN")] {
-            let change = of_stiffness(&dvector![1.0, bad], &DMatrix::zeros(2, 2));
+            let change = of_stiffness(&dvector![1.0, bad], &zero_square(2));
             let answer = (rule.general)(&change);
             let words =
                 format!("perturbed roots of entry (1, 1) is {value}; it must be a finite number");
@@ -127,7 +127,7 @@ fn coupled_modes_coalesce_below_the_smallest_separation() {
     for scale in [1e-6, 1.0, 1e6] {
         let shapes = separated_by(2.0, scale).unwrap().shapes;
         let turn = coupling / (2.0 * SMALLEST_SEPARATION);
-        assert!((shapes[(0, 1)] / turn - 1.0).abs() < CANCELLED_DIFFERENCE);
+        assert!(relative_error(shapes[(0, 1)], turn) < CANCELLED_DIFFERENCE);
         assert!((shapes[(1, 0)] / turn + 1.0).abs() < CANCELLED_DIFFERENCE);
         match separated_by(0.5, scale) {
             Err(Error::CoalescingModes {
@@ -137,7 +137,7 @@ fn coupled_modes_coalesce_below_the_smallest_separation() {
             }) => {
                 assert_eq!((first, second), (1, 0));
                 let ratio = separation / SMALLEST_SEPARATION;
-                assert!((ratio / 0.5 - 1.0).abs() < CANCELLED_DIFFERENCE, "{ratio}");
+                assert!(relative_error(ratio, 0.5) < CANCELLED_DIFFERENCE, "{ratio}");
             }
             other => panic!("{other:?}"),
         }
@@ -158,7 +158,7 @@ fn a_mode_on_a_root_of_the_others_makes_the_linear_system_singular() {
 
 #[test]
 fn order_zero_is_no_order() {
-    let (k, beta) = (dvector![1.0, 2.0], DMatrix::zeros(2, 2));
+    let (k, beta) = (dvector![1.0, 2.0], zero_square(2));
     let words = "order: 0 given or asked for; there must be at least 1";
     assert_eq!(said(recursive_1(&k, &beta, 0)), words);
     assert_eq!(said(recursive_2(&k, &beta, 0)), words);

@@ -22,11 +22,8 @@ fn matrix(dense: &DMatrix<f64>) -> SparseMatrix {
 fn no_call_around_the_method_ends_in_a_panic() {
     let mut calls = Calls::default();
     let stiffness = dmatrix![3.0, -1.0, 0.0; -1.0, 2.0, -1.0; 0.0, -1.0, 1.5];
-    let (one, flat) = (
-        DMatrix::<f64>::identity(3, 3),
-        DMatrix::from_element(2, 3, 1.0),
-    );
-    let (empty, nan) = (DMatrix::<f64>::zeros(0, 0), f64::NAN);
+    let (one, flat) = (eye(3), DMatrix::from_element(2, 3, 1.0));
+    let (empty, nan) = (zero_square(0), f64::NAN);
     let share = |dense: &DMatrix<f64>| WholeParameter {
         name: "a".to_owned(),
         share: WholeShare::Stiffness(matrix(dense)),
@@ -39,7 +36,7 @@ fn no_call_around_the_method_ends_in_a_panic() {
         one.columns(0, 2).into_owned(),
     );
     let test = test.expect("modes");
-    let pair = || Pair::by(|of| pair_modes(of.cross));
+    let pair = || by_sorting();
     let sensors = matrix(&one);
     let analyze = |modes, residual_vectors| {
         let size = BasisSize {
@@ -51,7 +48,7 @@ fn no_call_around_the_method_ends_in_a_panic() {
     calls.of("analyze 0", || analyze(0, 0));
     calls.of("analyze all", || analyze(usize::MAX, 4));
     calls.of("analyze residual vectors", || analyze(2, usize::MAX));
-    let sensors_of_two = matrix(&DMatrix::identity(2, 2));
+    let sensors_of_two = matrix(&eye(2));
     let size = BasisSize {
         modes: 2,
         residual_vectors: 0,
@@ -197,8 +194,8 @@ fn no_call_around_the_method_ends_in_a_panic() {
         calls.of("model of no square", || {
             WholeModel::new(odd.clone(), odd.clone(), Vec::new())
         });
-        calls.of("times", || odd.times(&DMatrix::zeros(2, 2)));
-        calls.of("through", || odd.through(&DMatrix::zeros(2, 2)));
+        calls.of("times", || odd.times(&zero_square(2)));
+        calls.of("through", || odd.through(&zero_square(2)));
         calls.of("is symmetric", || odd.is_symmetric());
         calls.of("symmetric", || odd.check_symmetric("m"));
     }

@@ -27,7 +27,7 @@ struct Uncoupled<'a> {
 impl Uncoupled<'_> {
     fn matrices(&self) -> (DMatrix<f64>, DMatrix<f64>, Modes) {
         let [springs, squares] = [self.springs, self.test].map(DVector::from_column_slice);
-        let mass = DMatrix::identity(springs.len(), springs.len());
+        let mass = eye(springs.len());
         let test = Modes::new(squares, mass.clone()).expect("modes");
         (DMatrix::from_diagonal(&springs), mass, test)
     }
@@ -51,7 +51,7 @@ impl Uncoupled<'_> {
             &[1.0],
             &sensors,
             &test,
-            Pair::by(|of| pair_modes(of.cross)),
+            by_sorting(),
             BasisSize {
                 modes: mass.nrows(),
                 residual_vectors: 0,
@@ -206,7 +206,7 @@ fn a_change_of_mass_that_the_recursion_does_not_settle_on_is_refused() {
         test: &[1.0, 1.1],
     };
     let problem = springs.with_mass(share.clone());
-    let none = DMatrix::zeros(2, 2);
+    let none = zero_square(2);
     let change = ModalChange::of_vibrations(&dvector![1.0, 1.1], none, 2.0 * share);
     assert!(eigensolution(&change).is_ok());
     let refused = problem.at(&[3.0]);

@@ -21,7 +21,7 @@ fn rod_of(length: f64, area: f64, material: Material) -> Result<Structure, Error
 fn an_element_too_stiff_for_a_number_is_refused() {
     let stiff = Material::isotropic(1e308, 0.25).expect("a material");
     let model = |length: f64| {
-        let (one, parameters) = (DMatrix::identity(1, 1), vec![Parameter::new(7, &[7])]);
+        let (one, parameters) = (eye(1), vec![Parameter::new(7, &[7])]);
         FiniteElementModel::new(rod_of(length, 1.0, stiff)?, one.clone(), one, parameters)
     };
     assert!(model(1.0).is_ok());
@@ -65,7 +65,7 @@ fn a_suspension_too_stiff_for_a_number_is_refused() {
     let balanced = |size: f64| {
         let stiffness = size * dmatrix![1.0, -1.0; -1.0, 1.0];
         let both = dmatrix![1e10; 1e10];
-        balance(&raw, &stiffness, &DMatrix::identity(2, 2), &both)
+        balance(&raw, &stiffness, &eye(2), &both)
     };
     assert!(balanced(1.0).is_ok());
     assert_eq!(
@@ -95,7 +95,7 @@ fn a_weight_whose_square_is_no_number_is_refused() {
 #[test]
 fn shapes_that_leave_the_range_of_numbers_at_a_later_order_are_refused() {
     let beta = dmatrix![0.0, 0.0, 0.0; 1e307, 0.0, -1e307; 2.0, 0.0, 0.0];
-    let pencil = Pencil::of_vibrations(&dvector![0.1, 1.0, 2.0], &beta, &DMatrix::zeros(3, 3));
+    let pencil = Pencil::of_vibrations(&dvector![0.1, 1.0, 2.0], &beta, &zero_square(3));
     let pencil = pencil.expect("a pencil");
     assert!(pencil.recursive_1(1).is_ok());
     assert_eq!(

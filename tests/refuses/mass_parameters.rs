@@ -5,17 +5,14 @@ use crate::prelude::*;
 /// Two unit masses on two springs with these shares.
 fn whole(shares: &[ParameterMatrix]) -> Result<(WholeModel, SparseMatrix), Error> {
     let stiffness = spring_stiffness(2, 0, 1.0) + spring_stiffness(2, 1, 1.0);
-    of_dense(&stiffness, &DMatrix::identity(2, 2), shares)
+    of_dense(&stiffness, &eye(2), shares)
 }
 
 #[test]
 fn shares_of_the_mass_that_cannot_be_are_named() {
     for (share, words) in [
-        (DMatrix::identity(2, 2), "an answer"),
-        (
-            DMatrix::identity(3, 3),
-            "mass of a parameter: 3 x 1 instead of 2 x 1",
-        ),
+        (eye(2), "an answer"),
+        (eye(3), "mass of a parameter: 3 x 1 instead of 2 x 1"),
         (
             DMatrix::identity(2, 3),
             "mass of a parameter: 3 x 1 instead of 2 x 1",
@@ -38,7 +35,7 @@ fn shares_of_the_mass_that_cannot_be_are_named() {
 fn factors_on_masses_are_refused_by_their_parameter() {
     let shares = [
         ParameterMatrix::Stiffness(spring_stiffness(2, 1, 1.0)),
-        ParameterMatrix::Mass(DMatrix::identity(2, 2)),
+        ParameterMatrix::Mass(eye(2)),
     ];
     let (model, _) = whole(&shares).expect("a model");
     assert_eq!(said(model.at(&[1.0, 0.5])), "an answer");

@@ -76,15 +76,15 @@ fn factors_that_cannot_be_are_refused_by_their_parameter() {
 fn a_mass_that_is_not_positive_is_refused_by_its_dof() {
     for value in [0.0, -0.5] {
         for dof in 0..3 {
-            let mut mass = DMatrix::identity(3, 3);
+            let mut mass = eye(3);
             mass[(dof, dof)] = value;
             assert_eq!(
-                said(with_mass(DMatrix::identity(3, 3), mass)),
+                said(with_mass(eye(3), mass)),
                 not_definite("dynamic mass", dof)
             );
         }
     }
-    let mut data = Case::new(1).unwrap().reconstruction;
+    let mut data = case_of(1).reconstruction;
     data.masses[4] = f64::NAN;
     assert_eq!(
         said(Case::from_reconstruction(1, data).unwrap().model()),
@@ -94,7 +94,7 @@ fn a_mass_that_is_not_positive_is_refused_by_its_dof() {
 
 #[test]
 fn matrices_that_do_not_fit_are_refused_by_name() {
-    let identity = || DMatrix::identity(3, 3);
+    let identity = || eye(3);
     let nan = dmatrix![1.0, 0.0, 0.0; 0.0, 1.0, 0.0; 0.0, f64::NAN, 1.0];
     let skew = dmatrix![1.0, 0.0, 0.0; 0.0, 1.0, 0.0; 0.0, 0.5, 1.0];
     for (t, mass, words) in [
@@ -105,7 +105,7 @@ fn matrices_that_do_not_fit_are_refused_by_name() {
         ),
         (
             identity(),
-            DMatrix::identity(2, 2),
+            eye(2),
             "load distribution: 3 x 3 instead of 3 x 2",
         ),
         (
@@ -120,7 +120,7 @@ fn matrices_that_do_not_fit_are_refused_by_name() {
         ),
         (
             DMatrix::zeros(3, 0),
-            DMatrix::zeros(0, 0),
+            zero_square(0),
             "dynamic degrees of freedom: 0 given or asked for; there must be at least 1",
         ),
     ] {
@@ -135,7 +135,7 @@ fn a_structure_that_nothing_holds_is_refused_by_a_direction() {
         DMatrix::identity(2, 1),
     );
     let parameters = vec![Parameter::new(1, &[1])];
-    let model = FiniteElementModel::new(free, t, DMatrix::identity(1, 1), parameters).unwrap();
+    let model = FiniteElementModel::new(free, t, eye(1), parameters).unwrap();
     let refused = model.matrices(&[1.0]);
     assert!(
         matches!(
@@ -151,8 +151,8 @@ fn a_structure_that_nothing_holds_is_refused_by_a_direction() {
 fn element_matrices_that_do_not_fit_are_refused() {
     let model = chain(vec![Parameter::new(1, &[1])]).unwrap();
     let with = |units: Vec<DMatrix<f64>>| said(model.with_unit_stiffness(units));
-    let one = || DMatrix::identity(1, 1);
-    let two = || DMatrix::identity(2, 2);
+    let one = || eye(1);
+    let two = || eye(2);
     assert_eq!(with(vec![one(), two(), two()]), "an answer");
     assert_eq!(
         with(vec![one(), two()]),

@@ -3,7 +3,7 @@
 use crate::prelude::*;
 
 fn identity(size: usize) -> DMatrix<f64> {
-    DMatrix::identity(size, size)
+    eye(size)
 }
 
 fn diagonal(entries: &[f64]) -> DMatrix<f64> {

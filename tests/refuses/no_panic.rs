@@ -68,7 +68,7 @@ fn is_name(text: &str) -> bool {
 fn public_functions(module: &str, source: &str) -> Vec<String> {
     let (mut owner, mut found) = (module.to_owned(), Vec::new());
     let mut is_analysis = false;
-    let lines: Vec<&str> = source.lines().collect();
+    let lines = source.lines().collect_vec();
     for (at, &line) in lines.iter().enumerate() {
         // One that hands out a field does nothing that could go wrong.
         let body = lines
@@ -123,7 +123,7 @@ fn uncalled<'a>(functions: &'a [String], entries: &str, excused: &[&str]) -> Vec
 #[test]
 fn every_public_function_of_the_method_is_called() {
     let mut functions = Vec::new();
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let source = in_root("src");
     let mut files = files_below(&source.join("method"));
     files.extend(files_below(&source.join("sparse/factorization")));
     let others = [
@@ -159,7 +159,7 @@ fn every_public_function_of_the_method_is_called() {
         functions.len()
     );
     let tests = ["matrices", "perturbation", "structures", "loops"];
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/refuses/no_panic");
+    let folder = in_root("tests/refuses/no_panic");
     let texts = tests
         .map(|name| fs::read_to_string(folder.join(name).with_extension("rs")).expect("it reads"));
     let missing = uncalled(&functions, &texts.concat(), &NOT_CALLED);
@@ -170,10 +170,10 @@ fn every_public_function_of_the_method_is_called() {
     );
     let known = |name: &&str| functions.iter().any(|function| function == name);
     let called = LISTS.iter().copied().flatten().map(|(name, _)| *name);
-    let gone: Vec<&str> = called
+    let gone = called
         .chain(NOT_CALLED)
         .filter(|name| !known(name))
-        .collect();
+        .collect_vec();
     assert!(gone.is_empty(), "no longer public functions: {gone:?}");
 }
 

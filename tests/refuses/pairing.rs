@@ -30,7 +30,7 @@ fn no_test_modes_too_many_or_nan_are_refused() {
 
 #[test]
 fn shapes_and_mass_must_fit() {
-    let identity = |size: usize| DMatrix::<f64>::identity(size, size);
+    let identity = |size: usize| eye(size);
     for (analysis, test, mass, words) in [
         (
             modes(2, 1),

@@ -17,7 +17,7 @@ fn named(error: Error) -> (usize, char) {
 
 /// A model of the structure with its first DOF as the dynamic one.
 fn model_of(structure: &Structure) -> FiniteElementModel {
-    let (one, count) = (DMatrix::identity(1, 1), structure.free_dof().len());
+    let (one, count) = (eye(1), structure.free_dof().len());
     let parameters = vec![Parameter::new(1, &[1])];
     let t = DMatrix::identity(count, 1);
     FiniteElementModel::new(structure.clone(), t, one, parameters).expect("a model")
@@ -116,7 +116,7 @@ fn a_box_without_some_of_its_shear_covers_is_a_mechanism() {
 #[test]
 fn a_stiffness_within_round_off_of_singular_is_refused() {
     let coupled = |count: usize, delta: f64| {
-        let mut stiffness = DMatrix::identity(count, count);
+        let mut stiffness = eye(count);
         stiffness[(0, 1)] = delta - 1.0;
         stiffness[(1, 0)] = delta - 1.0;
         condense(&stiffness, &DMatrix::identity(count, 1)).map(drop)
@@ -140,11 +140,8 @@ fn an_indefinite_stiffness_is_refused_where_it_shows() {
     let structure = spring_chain(&[1.0, 1.0], [true, false]);
     let unit = |sign: f64| DMatrix::from_row_slice(2, 2, &[1.0, -sign, -sign, sign]);
     for units in [
-        vec![DMatrix::identity(1, 1), unit(-1.0)],
-        vec![
-            DMatrix::identity(1, 1),
-            4.0 * unit(1.0) - 3.5 * DMatrix::identity(2, 2),
-        ],
+        vec![eye(1), unit(-1.0)],
+        vec![eye(1), 4.0 * unit(1.0) - 3.5 * eye(2)],
     ] {
         assert_eq!(named(refused(&structure, Some(units))), (3, 'x'));
     }
@@ -172,7 +169,7 @@ fn a_motion_is_named_in_any_unit() {
     for power in [-20, 0, 20] {
         let units = |delta: f64| {
             let coupled = DMatrix::from_row_slice(2, 2, &[1.0, delta - 1.0, delta - 1.0, 1.0]);
-            vec![DMatrix::zeros(1, 1), 2.0_f64.powi(power) * coupled]
+            vec![zero_square(1), 2.0_f64.powi(power) * coupled]
         };
         assert_eq!(named(refused(&structure, Some(units(3e-15)))), (3, 'x'));
         let held = model_of(&structure).with_unit_stiffness(units(3e-14));

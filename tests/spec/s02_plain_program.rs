@@ -34,7 +34,7 @@ fn assert_same(what: &str, model: &FiniteElementModel, case: &Case, modes: (usiz
         }
         let sizes = model.sizes(&expected.factors).expect("sizes");
         for (found, expected) in gages.iter().zip(sizes) {
-            let apart = (found / expected - 1.0).abs();
+            let apart = relative_error(found, expected);
             assert!(apart <= SAME_CORRELATION, "{what}: {apart:e}");
         }
         let apart = (errors.sum() - expected.check.errors.sum()).abs();
@@ -51,7 +51,7 @@ fn the_plain_program_corrects_every_case_by_every_reading_as_the_crate_does() {
             StepRule::Relative,
             StepRule::Gage,
         ] {
-            let mut case = Case::new(number).expect("a case");
+            let mut case = case_of(number);
             case.settings = case.settings_by(rule);
             let model = case.model().expect("a model");
             assert_same(
@@ -66,7 +66,7 @@ fn the_plain_program_corrects_every_case_by_every_reading_as_the_crate_does() {
 
 #[test]
 fn the_plain_program_corrects_with_fewer_modes_as_the_crate_does() {
-    let mut case = Case::new(PUBLISHED_CASE).expect("a case");
+    let mut case = case_of(PUBLISHED_CASE);
     case.settings.most_passes = 1;
     let model = case.model().expect("a model");
     for (test, analysis) in PUBLISHED_RUNS {

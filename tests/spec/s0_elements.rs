@@ -26,10 +26,10 @@ const ROUND_THE_TRIANGLE: [[usize; 3]; 6] = [
 
 /// The same matrix with the corners' DOF in another order.
 fn permuted(stiffness: &DMatrix<f64>, order: &[usize]) -> DMatrix<f64> {
-    let dof: Vec<usize> = order
+    let dof = order
         .iter()
         .flat_map(|&corner| 3 * corner..3 * corner + 3)
-        .collect();
+        .collect_vec();
     stiffness.select_rows(&dof).select_columns(&dof)
 }
 

@@ -30,10 +30,10 @@ fn elements_equal_nastran95() {
 #[test]
 fn only_the_slender_taper_needs_a_bar_of_its_own() {
     let elements = elements();
-    let own: Vec<_> = elements
+    let own = elements
         .iter()
         .filter(|element| element.tolerance.is_some())
-        .collect();
+        .collect_vec();
     assert_eq!(own.len(), 1);
     assert_eq!(
         (own[0].name.as_str(), own[0].tolerance),
@@ -51,7 +51,7 @@ fn only_the_slender_taper_needs_a_bar_of_its_own() {
 #[test]
 fn a_snapped_panel_differs_by_the_factor_of_its_closed_form_alone() {
     let elements = elements();
-    let snapped: Vec<_> = elements.iter().filter(|element| element.snap).collect();
+    let snapped = elements.iter().filter(|element| element.snap).collect_vec();
     assert_eq!(snapped.len(), 2);
     for (element, published) in snapped.iter().zip(["1.001", "0.982"]) {
         let (ours, theirs) = (element.computed(), element.stored());
@@ -71,7 +71,7 @@ fn a_snapped_panel_differs_by_the_factor_of_its_closed_form_alone() {
         );
         let explained = snap_factor(&element.corners(), &element.material());
         assert!(
-            (explained / factor - 1.0).abs() <= NASTRAN_SINGLE_PRECISION,
+            relative_error(explained, factor) <= NASTRAN_SINGLE_PRECISION,
             "{}: {explained} {factor}",
             element.name
         );

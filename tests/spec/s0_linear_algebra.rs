@@ -31,7 +31,7 @@ properties! {
         (matrix, exponents) in size().prop_flat_map(|n| positive_definite(n, 10.0)),
     ) {
         let (values, vectors) = symmetric_eigen("test matrix", &matrix).unwrap();
-        let mut drawn: Vec<f64> = exponents.iter().map(|e| 10f64.powf(*e)).collect();
+        let mut drawn = exponents.iter().map(|e| 10f64.powf(*e)).collect_vec();
         drawn.sort_by(f64::total_cmp);
         let largest = drawn[drawn.len() - 1];
         prop_assert_eq!(values.len(), drawn.len());
@@ -39,7 +39,7 @@ properties! {
             prop_assert!((found - drawn).abs() <= MATRIX_ROUND_OFF * largest);
         }
         prop_assert_eq!(vectors.shape(), matrix.shape());
-        let identity = DMatrix::identity(matrix.nrows(), matrix.nrows());
+        let identity = eye(matrix.nrows());
         prop_assert!(relative_distance(&vectors.tr_mul(&vectors), &identity) <= MATRIX_ROUND_OFF);
         let restored = &vectors * DMatrix::from_diagonal(&values) * vectors.transpose();
         prop_assert!(relative_distance(&restored, &matrix) <= MATRIX_ROUND_OFF);
@@ -48,7 +48,7 @@ properties! {
     #[test]
     fn eigenvalues_agree_with_nalgebra(matrix in size().prop_flat_map(symmetric)) {
         let (values, _) = symmetric_eigen("test matrix", &matrix).unwrap();
-        let mut theirs: Vec<f64> = matrix.symmetric_eigenvalues().iter().copied().collect();
+        let mut theirs = matrix.symmetric_eigenvalues().iter().copied().collect_vec();
         theirs.sort_by(f64::total_cmp);
         for (ours, theirs) in values.iter().zip(theirs) {
             prop_assert!((ours - theirs).abs() <= MATRIX_ROUND_OFF);
@@ -82,7 +82,7 @@ properties! {
     fn of_two_bad_pivots_the_first_is_named((size, first, later) in (3..12_usize).prop_flat_map(|n| {
         (Just(n), 1..n - 1).prop_flat_map(|(n, first)| (Just(n), Just(first), first + 1..n))
     })) {
-        let mut matrix = DMatrix::identity(size, size);
+        let mut matrix = eye(size);
         matrix[(first, 0)] = 1.0 - 1e-9;
         matrix[(0, first)] = 1.0 - 1e-9;
         matrix[(later, later)] = -1.0;
@@ -98,7 +98,7 @@ properties! {
         scale in -3.0..3.0_f64,
     ) {
         let (ratio, scale) = (10f64.powf(-decades), 10f64.powf(scale));
-        let mut matrix = DMatrix::identity(size, size);
+        let mut matrix = eye(size);
         matrix[(dof, dof)] = scale * scale;
         matrix[(dof, dof - 1)] = scale * (1.0 - ratio).sqrt();
         matrix[(dof - 1, dof)] = matrix[(dof, dof - 1)];
@@ -120,7 +120,7 @@ fn a_number_that_is_not_finite_is_refused_by_its_place() {
         // Of a complex number the part is named.
         let complex = matrix.map(|entry| Complex::new(1.0, entry));
         assert_eq!(said(check_finite("test matrix", &complex)), words(1, 2));
-        let mut square = DMatrix::identity(3, 3);
+        let mut square = eye(3);
         square[(2, 1)] = value;
         for refused in [
             said(check_symmetric("test matrix", &square)),
@@ -151,7 +151,7 @@ fn another_shape_is_refused_with_both() {
         assert_eq!(refused, "test matrix: 3 x 4 instead of 3 x 3");
     }
     assert_eq!(
-        said(symmetric_eigen("test matrix", &DMatrix::zeros(0, 0))),
+        said(symmetric_eigen("test matrix", &zero_square(0))),
         "test matrix: 0 given or asked for; there must be at least 1"
     );
 }
@@ -217,10 +217,10 @@ fn residual_and_allowed(refused: Result<(), Error>) -> [f64; 2] {
     let Err(Error::Failed { why, .. }) = refused else {
         panic!("a wrong solution passes: {refused:?}")
     };
-    let numbers: Vec<f64> = why
+    let numbers = why
         .split([' ', ','])
         .filter_map(|word| word.parse().ok())
-        .collect();
+        .collect_vec();
     assert_eq!(
         why,
         format!(
@@ -247,7 +247,7 @@ fn eigenvalues_of_very_large_and_small_matrices_scale() {
             "{size}, {power}"
         );
         assert!(
-            (shapes.tr_mul(&shapes) - DMatrix::identity(size, size)).amax() <= MATRIX_ROUND_OFF,
+            (shapes.tr_mul(&shapes) - eye(size)).amax() <= MATRIX_ROUND_OFF,
             "{size}, {power}"
         );
     }

@@ -15,7 +15,7 @@ properties! {
         let ((softest, stiffness_spread), (lightest, mass_spread)) = (spread(&stiffness), spread(&mass));
         prop_assert!(softest > 0.9 && lightest > 0.9);
         prop_assert!(stiffness_spread <= 1.1e10 && condition <= 1e4 * (1.0 + ROUND_OFF));
-        prop_assert!((mass_spread / condition - 1.0).abs() <= MATRIX_ROUND_OFF * condition);
+        prop_assert!(relative_error(mass_spread, condition) <= MATRIX_ROUND_OFF * condition);
     }
 
     #[test]
@@ -66,7 +66,7 @@ properties! {
     fn rearrangements_are_permutations_with_signs(change in rearrangement(6)) {
         let mut order = change.order.clone();
         order.sort_unstable();
-        prop_assert_eq!(order, (0..6).collect::<Vec<_>>());
+        prop_assert_eq!(order, (0..6).collect_vec());
         prop_assert!(change.sign.iter().all(|sign| sign.abs() == 1.0));
         let matrix = DMatrix::from_fn(2, 6, |row, column| (row * 6 + column) as f64);
         prop_assert_eq!(change.rows(&matrix.transpose()).transpose(), change.columns(&matrix));

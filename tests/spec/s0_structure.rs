@@ -223,6 +223,6 @@ properties! {
         let material = Material::isotropic(modulus, nu).unwrap();
         prop_assert_eq!((material.youngs_modulus, material.poissons_ratio), (modulus, nu));
         let found = 2.0 * material.shear_modulus * (1.0 + nu);
-        prop_assert!((found / modulus - 1.0).abs() <= ROUND_OFF);
+        prop_assert!(relative_error(found, modulus) <= ROUND_OFF);
     }
 }

@@ -8,8 +8,8 @@ properties! {
     #[test]
     fn selecting_dof_is_static_condensation((stiffness, condition, kept) in stiffness_and_kept()) {
         let count = stiffness.nrows();
-        let dropped: Vec<usize> = (0..count).filter(|row| !kept.contains(row)).collect();
-        let t = DMatrix::identity(count, count).select_columns(&kept);
+        let dropped = (0..count).filter(|row| !kept.contains(row)).collect_vec();
+        let t = eye(count).select_columns(&kept);
         let part = |rows: &[usize], columns: &[usize]| stiffness.select_rows(rows).select_columns(columns);
         let mut expected = part(&kept, &kept);
         let mut follow = DMatrix::zeros(dropped.len(), kept.len());
@@ -25,7 +25,7 @@ properties! {
         prop_assert!(distance <= bar, "{distance:e} at condition {condition:e}");
         // The kept DOF follow themselves, the others as the structure makes them.
         prop_assert_eq!(found.transformation.shape(), (count, kept.len()));
-        let identity = DMatrix::identity(kept.len(), kept.len());
+        let identity = eye(kept.len());
         prop_assert!(relative_distance(&found.transformation.select_rows(&kept), &identity) <= bar);
         let others = found.transformation.select_rows(&dropped) - follow;
         prop_assert!(dropped.is_empty() || others.amax() <= bar * found.transformation.amax());

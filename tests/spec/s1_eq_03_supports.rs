@@ -30,13 +30,13 @@ fn chain(areas: [f64; 5], support: Support) -> Result<FiniteElementModel, Error>
         Support::FixedFixed => label == 1 || label == 6,
         Support::SoftSuspension => false,
     };
-    let mut grids: Vec<Grid> = (1..=6)
+    let mut grids = (1..=6)
         .map(|label| Grid {
             label,
             position: Vector3::new(10.0 * label as f64, 0.0, 0.0),
             constrained: [constrained(label), true, true],
         })
-        .collect();
+        .collect_vec();
     let rod = |label: usize, ends: [usize; 2], size| Element {
         label,
         kind: ElementKind::Rod,
@@ -44,11 +44,11 @@ fn chain(areas: [f64; 5], support: Support) -> Result<FiniteElementModel, Error>
         size,
         material,
     };
-    let mut elements: Vec<Element> = areas
+    let mut elements = areas
         .iter()
         .enumerate()
         .map(|(k, &area)| rod(k + 1, [k + 1, k + 2], area))
-        .collect();
+        .collect_vec();
     if support == Support::SoftSuspension {
         for (label, joint, x) in [(101, 1, 0.0), (102, 6, 70.0)] {
             grids.push(Grid {
@@ -61,10 +61,10 @@ fn chain(areas: [f64; 5], support: Support) -> Result<FiniteElementModel, Error>
     }
     let structure = Structure::new(grids, elements)?;
     let free = structure.free_dof().to_vec();
-    let masses: Vec<f64> = free.iter().map(|dof| MASSES[dof.grid - 1]).collect();
+    let masses = free.iter().map(|dof| MASSES[dof.grid - 1]).collect_vec();
     FiniteElementModel::new(
         structure,
-        DMatrix::identity(free.len(), free.len()),
+        eye(free.len()),
         DMatrix::from_diagonal(&DVector::from_vec(masses)),
         (1..=5)
             .map(|label| Parameter::new(label, &[label]))
@@ -111,7 +111,7 @@ fn assert_areas_found(result: &Correlation) {
     for ((factor, model), truth) in last.factors.iter().zip(MODEL_AREAS).zip(TRUE_AREAS) {
         let area = factor * model;
         assert!(
-            (area / truth - 1.0).abs() < RECOVERED_AREA,
+            relative_error(area, truth) < RECOVERED_AREA,
             "{area} for {truth}"
         );
     }
@@ -163,8 +163,7 @@ fn chain_that_nothing_holds_is_refused() {
         .expect("a structure");
     let mass = DMatrix::from_diagonal(&DVector::from_row_slice(&MASSES));
     let parameters = vec![Parameter::new(1, &[1])];
-    let model =
-        FiniteElementModel::new(free, DMatrix::identity(6, 6), mass, parameters).expect("a model");
+    let model = FiniteElementModel::new(free, eye(6), mass, parameters).expect("a model");
     let error = model.matrices(&[1.0]).expect_err("it moves as a whole");
     assert!(
         matches!(error, Error::SingularStiffness { direction: 'x', .. }),

@@ -55,14 +55,14 @@ properties! {
         change in rearrangement(7),
     ) {
         let count = cross.nrows();
-        let keep: Vec<usize> = (0..7).filter(|&place| change.order[place] < count).collect();
-        let order: Vec<usize> = keep.iter().map(|&place| change.order[place]).collect();
+        let keep = (0..7).filter(|&place| change.order[place] < count).collect_vec();
+        let order = keep.iter().map(|&place| change.order[place]).collect_vec();
         let mut rearranged = cross.select_rows(&order);
         for (row, &place) in keep.iter().enumerate() {
             rearranged.row_mut(row).scale_mut(change.sign[place]);
         }
         // Equal entries may change hands when the order does.
-        let mut magnitudes: Vec<f64> = cross.iter().map(|m| (m.abs() - 1.0).abs()).collect();
+        let mut magnitudes = cross.iter().map(|m| (m.abs() - 1.0).abs()).collect_vec();
         magnitudes.sort_by(f64::total_cmp);
         prop_assume!(magnitudes.windows(2).all(|pair| pair[0] < pair[1]));
         let (before, after) = (pair_modes(&cross).unwrap(), pair_modes(&rearranged).unwrap());
@@ -100,7 +100,7 @@ properties! {
         let modes = solve(&stiffness, &mass, stiffness.nrows()).unwrap();
         let cross = cross_orthogonality(&modes, &modes, &mass).unwrap();
         prop_assert_eq!(cross.shape(), (modes.len(), modes.len()));
-        let error = (cross - DMatrix::identity(modes.len(), modes.len())).amax();
+        let error = (cross - eye(modes.len())).amax();
         prop_assert!(error <= MATRIX_ROUND_OFF * condition, "{error:e}");
     }
 
@@ -130,7 +130,7 @@ properties! {
             column *= if flip { -scale } else { scale };
         }
         let mac = modal_assurance(&shapes, &scaled).unwrap();
-        let error = (mac - DMatrix::identity(4, 4)).amax();
+        let error = (mac - eye(4)).amax();
         prop_assert!(error <= ROUND_OFF, "{error:e}");
     }
 }

@@ -54,7 +54,7 @@ properties! {
     ) {
         let (analysis, test) = (chain.modes(&vec![1.0; truth.len()]), chain.modes(&truth));
         let expected = errors(&analysis, &in_order(test.len()), &test).unwrap();
-        let order: Vec<usize> = change.order.iter().copied().filter(|&i| i < test.len()).collect();
+        let order = change.order.iter().copied().filter(|&i| i < test.len()).collect_vec();
         let reordered = Modes::new(test.omega_squared().select_rows(&order), test.shapes().select_columns(&order)).expect("modes");
         let pairing = Pairing { analysis_mode: order, sign: vec![1.0; test.len()] };
         let found = errors(&analysis, &pairing, &reordered).unwrap();
@@ -140,7 +140,7 @@ fn weights_multiply_the_errors_of_their_modes() {
         frequency: mode as f64 % 3.0,
         shape: (mode + 1) as f64 % 3.0,
     };
-    let weights: Vec<ModeWeight> = (0..plain.test().len()).map(weight).collect();
+    let weights = (0..plain.test().len()).map(weight).collect_vec();
     let exact = plain.exact();
     let of_modes = mode_errors(&exact.modes, &exact.pairing, plain.test()).unwrap();
     let both = of_modes.iter().zip(&weights);
@@ -203,8 +203,7 @@ fn the_frequency_error_is_the_relative_one_of_table_3() {
             .map(|mode| table.required(&mode.to_string(), heading).unwrap())
             .collect()
     };
-    let modes =
-        |frequencies: &[f64]| Modes::from_measured(frequencies, &DMatrix::identity(9, 9)).unwrap();
+    let modes = |frequencies: &[f64]| Modes::from_measured(frequencies, &eye(9)).unwrap();
     let (test, analysis) = (modes(&column("gvt_hz")), modes(&column("initial_hz")));
     let found = errors(&analysis, &in_order(9), &test).unwrap();
     assert!((found.frequency - 0.3828).abs() <= PRINTED_PERCENT / 100.0);

@@ -31,7 +31,7 @@ properties! {
         let test = chain.modes(&truth);
         let problem = chain.model(&truth).analyze(&test, Some(count)).unwrap();
         let sum: DMatrix<f64> = problem.test_shares().iter().sum();
-        let error = (&sum - DMatrix::identity(count, count)).amax();
+        let error = (&sum - eye(count)).amax();
         prop_assert!(error <= MATRIX_ROUND_OFF, "{error:e}");
     }
 
@@ -41,7 +41,7 @@ properties! {
         let (state, ones) = (problem.exact(), vec![1.0; truth.len()]);
         prop_assert_eq!(&state.factors, &ones);
         prop_assert_eq!(&state.modes, &chain.modes(&ones));
-        prop_assert_eq!(&state.generalized_shapes, &DMatrix::identity(truth.len(), truth.len()));
+        prop_assert_eq!(&state.generalized_shapes, &eye(truth.len()));
         // One is a factor like any other.
         let same = problem.at(&ones).unwrap();
         prop_assert_eq!(&same.factors, &ones);
@@ -73,7 +73,7 @@ properties! {
             let v = modes.shapes();
             prop_assert_eq!(v.shape(), (count, count));
             let mass = v.tr_mul(&(&model.mass * v));
-            prop_assert!((mass - DMatrix::identity(count, count)).amax() <= CONVERGED_STATE);
+            prop_assert!((mass - eye(count)).amax() <= CONVERGED_STATE);
             let stiffness = v.tr_mul(&(&model.stiffness * v));
             let diagonal = DMatrix::from_diagonal(modes.omega_squared());
             prop_assert!((stiffness - &diagonal).amax() <= CONVERGED_STATE * diagonal.amax());
@@ -145,7 +145,7 @@ fn problems_that_do_not_fit_are_refused() {
         model.analyze(&test, Some(3))
     };
     assert_refused(
-        new(&|model| model.shares[1] = DMatrix::identity(2, 2)),
+        new(&|model| model.shares[1] = eye(2)),
         Error::WrongShape {
             what: "parameter share",
             expected_rows: 3,
@@ -236,12 +236,12 @@ fn there_is_one_factor_a_parameter() {
 #[test]
 fn shares_by_rows_are_shares_by_matrices() {
     for number in 1..=4 {
-        let case = Case::new(number).unwrap();
+        let case = case_of(number);
         let (model, test) = (
             case.model().unwrap(),
             case.test_modes().unwrap().lowest(7).unwrap(),
         );
-        let factors: Vec<f64> = (0..15).map(|e| 0.8 + 0.03 * e as f64).collect();
+        let factors = (0..15).map(|e| 0.8 + 0.03 * e as f64).collect_vec();
         let by_matrices = model.analyze(&factors, &test, Some(8)).unwrap();
         let exact = &by_matrices.exact().modes;
         assert_eq!(*exact, model.modes(&factors).unwrap().lowest(8).unwrap());
@@ -273,7 +273,7 @@ fn shares_by_rows_are_shares_by_matrices() {
 /// Test modes of any scale and sign give the same model: pairing, errors and everything the loops use.
 #[test]
 fn the_scale_of_the_test_shapes_does_not_matter() {
-    let case = Case::new(2).unwrap();
+    let case = case_of(2);
     let model = case.model().unwrap();
     let test = case.test_modes().unwrap();
     let mut rescaled = test.clone();
@@ -313,7 +313,7 @@ properties! {
             prop_assert_eq!(a * scale.signum(), *b);
         }
         for (a, b) in one.test_shares().iter().zip(other.test_shares()) {
-            prop_assert!((a.norm() / b.norm() - 1.0).abs() <= MATRIX_ROUND_OFF);
+            prop_assert!(relative_error(a.norm(), b.norm()) <= MATRIX_ROUND_OFF);
         }
     }
 }

@@ -77,7 +77,7 @@ properties! {
         let count = truth.len();
         let plain = chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), None).unwrap();
         let weight = |&(frequency, shape): &(f64, f64)| ModeWeight { frequency, shape };
-        let weights: Vec<ModeWeight> = weights.iter().take(count).map(weight).collect();
+        let weights = weights.iter().take(count).map(weight).collect_vec();
         let at = |factors: &[f64]| {
             let state = exact_state(&plain, factors).unwrap();
             let each = mode_errors(&state.modes, &state.pairing, plain.test()).unwrap();
@@ -85,7 +85,7 @@ properties! {
                 frequency: weight.frequency * error.frequency,
                 shape: weight.shape * error.shape,
             };
-            let weighted: Vec<ModeError> = each.iter().zip(&weights).map(weighted).collect();
+            let weighted = each.iter().zip(&weights).map(weighted).collect_vec();
             State { errors: Errors::of(&weighted).unwrap(), ..state }
         };
         let state = at(&factors[..count]);
@@ -134,12 +134,12 @@ properties! {
         let state = problem.exact();
         let found = problem.error_changes(state).unwrap();
         let sum: f64 = found.iter().sum();
-        let ratios: Vec<f64> = (0..count)
+        let ratios = (0..count)
             .map(|j| {
                 let i = state.pairing.analysis_mode[j];
                 (state.modes.omega_squared()[i] / problem.test().omega_squared()[j]).sqrt()
             })
-            .collect();
+            .collect_vec();
         let slope: f64 = ratios.iter().map(|r| (r - 1.0) * r / 2.0).sum::<f64>() / state.errors.frequency;
         let mut bound = 0.0;
         for e in 0..count {
@@ -182,17 +182,17 @@ fn derivatives_of_the_box_are_central_differences() {
         let state = problem.exact();
         let found = problem.error_changes(state).unwrap();
         let h = DERIVATIVE_STEP / 10.0;
-        let central: Vec<f64> = (0..15)
+        let central = (0..15)
             .map(|e| {
                 let ahead = exact_error_sum(&problem, &with_one(&state.factors, e, 1.0 + h));
                 let behind = exact_error_sum(&problem, &with_one(&state.factors, e, 1.0 - h));
                 (ahead - behind) / (2.0 * h)
             })
-            .collect();
-        let slopes: Vec<f64> = found
+            .collect_vec();
+        let slopes = found
             .iter()
             .map(|change| change / DERIVATIVE_STEP)
-            .collect();
+            .collect_vec();
         assert_near(&slopes, &central, CENTRAL_DIFFERENCE);
     }
 }
@@ -227,7 +227,7 @@ fn close_modes_are_held_to_their_own_shapes() {
         let shares = vec![dmatrix![30.0, coupling; coupling, 50.0]];
         let model = DynamicModel {
             shares,
-            mass: DMatrix::identity(2, 2),
+            mass: eye(2),
             stiffness,
         };
         let test = solve(&dmatrix![121.0, 5.0; 5.0, 144.0], &model.mass, 2).unwrap();

@@ -42,9 +42,9 @@ fn the_gradient_of_boxes_is_a_central_difference() {
         let state = problem.exact();
         let h = 1e-5;
         let at = |e: usize, by: f64| exact_error_sum(&problem, &with_one(&state.factors, e, by));
-        let central: Vec<f64> = (0..problem.shares().len())
+        let central = (0..problem.shares().len())
             .map(|e| (at(e, 1.0 + h) - at(e, 1.0 - h)) / (2.0 * h))
-            .collect();
+            .collect_vec();
         assert_near(
             &gradient(&problem, state).unwrap(),
             &central,
@@ -78,12 +78,12 @@ fn with_smaller_shares(dynamic: &DynamicModel, test: &Modes, part: f64) -> Model
 #[test]
 fn the_papers_difference_tends_to_the_gradient_with_slope_one() {
     for number in [1, 2, 3] {
-        let case = Case::new(number).unwrap();
+        let case = case_of(number);
         let dynamic = case.model().unwrap().matrices(&[1.0; 15]).unwrap();
         let test = case.test_modes().unwrap();
         let problem = with_smaller_shares(&dynamic, &test, 1.0);
         let exact = gradient(&problem, problem.exact()).unwrap();
-        let points: Vec<(f64, f64)> = [1.0, 0.3, 0.1, 0.03]
+        let points = [1.0, 0.3, 0.1, 0.03]
             .into_iter()
             .map(|part| {
                 let smaller = with_smaller_shares(&dynamic, &test, part);
@@ -92,7 +92,7 @@ fn the_papers_difference_tends_to_the_gradient_with_slope_one() {
                 let off = off.map(|(found, exact)| found / part - exact);
                 (part, off.map(|off| off * off).sum::<f64>().sqrt())
             })
-            .collect();
+            .collect_vec();
         let slope = log_log_slope(&points);
         assert!((slope - 1.0).abs() <= ORDER_SLACK, "{slope}: {points:?}");
     }
@@ -101,12 +101,12 @@ fn the_papers_difference_tends_to_the_gradient_with_slope_one() {
 /// Two like oscillators, one stiffened: at equal roots the shapes have no derivative, but the roots have one.
 #[test]
 fn derivatives_at_repeated_roots_are_those_of_the_roots() {
-    let stiffness = DMatrix::identity(2, 2) * 100.0;
+    let stiffness = eye(2) * 100.0;
     let first = dmatrix![100.0, 0.0; 0.0, 0.0];
     let coupled = dmatrix![50.0, 50.0; 50.0, 50.0];
     let model = DynamicModel {
         shares: vec![first, coupled],
-        mass: DMatrix::identity(2, 2),
+        mass: eye(2),
         stiffness,
     };
     let test = solve(&dmatrix![121.0, 0.0; 0.0, 144.0], &model.mass, 2).unwrap();
@@ -130,7 +130,7 @@ fn roots_apart_by_round_off_count_as_equal() {
         let stiffness = dmatrix![100.0, 0.0; 0.0, 100.0 * (1.0 + apart)];
         let model = DynamicModel {
             shares: vec![first, coupled],
-            mass: DMatrix::identity(2, 2),
+            mass: eye(2),
             stiffness,
         };
         let test = solve(&dmatrix![121.0, 5.0; 5.0, 144.0], &model.mass, 2).unwrap();
@@ -178,10 +178,10 @@ fn an_error_of_zero_has_no_slope() {
 fn where_shapes_are_equal_the_gradient_is_that_of_frequencies() {
     let model = DynamicModel {
         stiffness: dmatrix![4.0, 0.0; 0.0, 16.0],
-        mass: DMatrix::identity(2, 2),
+        mass: eye(2),
         shares: vec![dmatrix![4.0, 1.0; 1.0, 0.0]],
     };
-    let test = Modes::new(vec![9.0, 16.0].into(), DMatrix::identity(2, 2)).expect("modes");
+    let test = Modes::new(vec![9.0, 16.0].into(), eye(2)).expect("modes");
     let problem = model.analyze(&test, None).expect("a problem");
     assert_eq!(problem.exact().errors.shape, 0.0);
     let found = gradient(&problem, problem.exact()).expect("a gradient");
@@ -198,11 +198,11 @@ fn an_error_of_zero_counts_as_constant() {
     ];
     let apart = DynamicModel {
         stiffness: dmatrix![4.0, 0.0; 0.0, 9.0],
-        mass: DMatrix::identity(2, 2),
+        mass: eye(2),
         shares: shares.to_vec(),
     };
     let modes = |squares: [f64; 2], shapes| Modes::new(squares.to_vec().into(), shapes).unwrap();
-    let unit = DMatrix::identity(2, 2);
+    let unit = eye(2);
     let frequencies = modes([5.0, 8.0], unit.clone());
     let shapes = modes([4.0, 9.0], dmatrix![1.0, 0.1; 0.2, 1.0]);
     let alike = modes([4.0, 9.0], unit);
@@ -223,7 +223,7 @@ fn derivatives_are_the_same_in_any_unit() {
         let coupled = DynamicModel {
             shares: vec![unit * &first, unit * &second],
             stiffness: unit * (first + second),
-            mass: DMatrix::identity(2, 2),
+            mass: eye(2),
         };
         let shapes = dmatrix![1.0, 0.1; -0.5, 1.0];
         let test = Modes::new(vec![unit * 5.0, unit * 8.0].into(), shapes).unwrap();

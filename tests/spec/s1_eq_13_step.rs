@@ -102,10 +102,10 @@ fn by_hand() -> (Model, Vec<f64>) {
     let share = |relative: DMatrix<f64>| relative.component_mul(&(&omega * omega.transpose()));
     let model = DynamicModel {
         stiffness: dmatrix![3.0, 0.0; 0.0, 14.0],
-        mass: DMatrix::identity(2, 2),
+        mass: eye(2),
         shares: relative.map(share).to_vec(),
     };
-    let test = Modes::new(dvector![4.0, 16.0], DMatrix::identity(2, 2)).expect("modes");
+    let test = Modes::new(dvector![4.0, 16.0], eye(2)).expect("modes");
     let model = model.analyze(&test, None).unwrap();
     (model, vec![0.002, -0.001, 0.0])
 }
@@ -154,7 +154,7 @@ fn gage_is_in_hundredths_of_an_inch_by_hand() {
     let parameters = (1..=3)
         .map(|label| Parameter::new(label, &[label]))
         .collect();
-    let identity = DMatrix::identity(3, 3);
+    let identity = eye(3);
     let model = FiniteElementModel::new(rods, identity.clone(), identity, parameters).unwrap();
     let test = model.modes(&[1.0; 3]).unwrap();
     let model = model.analyze(&[1.0; 3], &test, None).unwrap();

@@ -79,7 +79,7 @@ properties! {
         let found = changes(&chain_problem(&chain, &truth), StepRule::Matrix);
         for (found, share) in found.iter().zip(&model.shares) {
             let expected = DERIVATIVE_STEP * (&inverse_root * share * &inverse_root).norm();
-            prop_assert!((found / expected - 1.0).abs() < MATRIX_ROUND_OFF);
+            prop_assert!(relative_error(found, expected) < MATRIX_ROUND_OFF);
         }
     }
 
@@ -91,7 +91,7 @@ properties! {
         for (e, found) in changes(&model, StepRule::Matrix).into_iter().enumerate() {
             let a = &given.vectors[e];
             let expected = DERIVATIVE_STEP * given.stiffness[e] * a.dot(&(&flexibility * a));
-            prop_assert!((found / expected - 1.0).abs() < MATRIX_ROUND_OFF);
+            prop_assert!(relative_error(found, expected) < MATRIX_ROUND_OFF);
         }
     }
 
@@ -125,7 +125,7 @@ properties! {
         alter(&mut scaled, |_, shapes| shapes.column_iter_mut().zip(&scales).for_each(|(mut shape, scale)| shape *= *scale));
         let of = |test: &Modes| changes(&model.analyze(test, None).expect("a model"), StepRule::Matrix);
         for (found, expected) in of(&scaled).iter().zip(of(&test)) {
-            prop_assert!((found / expected - 1.0).abs() < MATRIX_ROUND_OFF);
+            prop_assert!(relative_error(found, expected) < MATRIX_ROUND_OFF);
         }
     }
 }

@@ -25,7 +25,7 @@ fn limited_run(case: &Case) -> (InnerRun, Vec<Option<Bounds>>) {
             upper: 0.013 / panel.gage,
         })
     };
-    let ranges: Vec<Option<Bounds>> = case.panels.iter().map(of_panel).collect();
+    let ranges = case.panels.iter().map(of_panel).collect_vec();
     let run = run(
         &problem_of(case),
         &[1.0; 15],
@@ -107,10 +107,10 @@ properties! {
 fn nearly_all_of_three_hundred_boxes_reach_the_tolerance_within_limits() {
     let mut runner = TestRunner::deterministic();
     let draw = |_| uneven_box().new_tree(&mut runner).unwrap().current();
-    let stops: Vec<Stop> = (0..300)
+    let stops = (0..300)
         .map(draw)
         .map(|case| limited_run(&case).0.stop)
-        .collect();
+        .collect_vec();
     let reached = stops
         .iter()
         .filter(|stop| **stop == Stop::Tolerance)

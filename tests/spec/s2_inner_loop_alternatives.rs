@@ -8,7 +8,7 @@ fn first_pass_of(
     analysis: &dyn Analysis,
     change: impl Fn(&mut InnerSettings),
 ) -> InnerRun {
-    let case = Case::new(number).unwrap();
+    let case = case_of(number);
     let ranges = case.model().unwrap().factor_ranges().unwrap();
     let mut settings = case.settings.inner.clone();
     settings.step = StepRule::Matrix;
@@ -52,7 +52,7 @@ fn the_converged_recursion_makes_the_history_of_the_eigensolution() {
         assert_eq!(primary.iterations.len(), exact.iterations.len());
         for (a, b) in primary.iterations.iter().zip(&exact.iterations) {
             assert_eq!(a.halvings, b.halvings);
-            assert!((a.errors.sum() / b.errors.sum() - 1.0).abs() <= SAME_HISTORY);
+            assert!(relative_error(a.errors.sum(), b.errors.sum()) <= SAME_HISTORY);
         }
     }
 }
@@ -75,7 +75,7 @@ fn fixed_orders_come_nearer_to_that_history_as_they_rise() {
         let beta = change_by(&problem, &run.last.factors);
         let distance = |found: Result<Perturbed, Error>| {
             let Perturbed { roots, mut shapes } = found.unwrap();
-            normalize_with_mass(&mut shapes, &DMatrix::zeros(k.len(), k.len())).unwrap();
+            normalize_with_mass(&mut shapes, &zero_square(k.len())).unwrap();
             let pairing = pair_modes(&shapes.tr_mul(problem.cross())).unwrap();
             let modes = Modes::new(
                 roots.map(f64::recip),
@@ -106,11 +106,11 @@ fn largest_frequency_error(case: &Case, problem: &Model, table: usize, order: us
         "pass_1_in"
     };
     let table = PublishedTable::number(table).unwrap();
-    let factors: Vec<f64> = case
+    let factors = case
         .panels
         .iter()
         .map(|panel| table.required(&panel.label.to_string(), column).unwrap() / panel.gage)
-        .collect();
+        .collect_vec();
     let (k, beta) = (
         problem.exact().modes.omega_squared(),
         change_by(problem, &factors),
@@ -134,7 +134,7 @@ fn recursive_1_gains_about_a_digit_an_order_on_the_box() {
         (2, 6, ["0.085", "0.0013", "0.00009", "0.000003", "0.000000"]),
         (3, 8, ["2.3", "0.094", "0.14", "0.007", "0.0008"]),
     ] {
-        let case = Case::new(number).unwrap();
+        let case = case_of(number);
         let problem = problem_of(&case);
         for (order, printed) in orders.into_iter().zip(expected) {
             let digits = printed.len() - 1 - printed.find('.').unwrap();

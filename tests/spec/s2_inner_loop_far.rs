@@ -141,11 +141,11 @@ struct Crossing {
 impl Crossing {
     fn model(&self, factors: &[f64]) -> DynamicModel {
         let ground = |mass: usize| {
-            let mut stiffness = DMatrix::zeros(3, 3);
+            let mut stiffness = zero_square(3);
             stiffness[(mass, mass)] = factors[mass] * self.grounds[mass];
             stiffness
         };
-        let shares: Vec<DMatrix<f64>> = (0..3).map(ground).collect();
+        let shares = (0..3).map(ground).collect_vec();
         let mut stiffness: DMatrix<f64> = shares.iter().sum();
         for (spring, coupling) in self.coupling.iter().enumerate() {
             stiffness[(spring, spring + 1)] = *coupling;
@@ -153,7 +153,7 @@ impl Crossing {
         }
         DynamicModel {
             stiffness,
-            mass: DMatrix::identity(3, 3),
+            mass: eye(3),
             shares,
         }
     }

@@ -17,15 +17,15 @@ struct Turned {
 impl Turned {
     fn model(&self, factors: &[f64]) -> DynamicModel {
         let ground = |mass: usize| {
-            let mut stiffness = DMatrix::zeros(3, 3);
+            let mut stiffness = zero_square(3);
             stiffness[(mass, mass)] = factors[mass] * self.grounds[mass];
             stiffness
         };
-        let shares: Vec<DMatrix<f64>> = (0..3).map(ground).collect();
+        let shares = (0..3).map(ground).collect_vec();
         let between = |spring: usize| spring_stiffness(3, spring, self.between[spring - 1]);
         DynamicModel {
             stiffness: shares.iter().sum::<DMatrix<f64>>() + between(1) + between(2),
-            mass: DMatrix::identity(3, 3),
+            mass: eye(3),
             shares,
         }
     }
@@ -36,7 +36,7 @@ impl Turned {
             solve(&model.stiffness, &model.mass, 3).expect("held")
         };
         let (sin, cos) = self.degrees.to_radians().sin_cos();
-        let mut turn = DMatrix::identity(3, 3);
+        let mut turn = eye(3);
         turn.view_mut((0, 0), (2, 2))
             .copy_from(&dmatrix![cos, -sin; sin, cos]);
         let squares = modes(&self.truth).omega_squared().clone();

@@ -100,10 +100,10 @@ properties! {
         (chain, truth) in chain_and_truth(),
         bounds in prop::collection::vec((0.8..0.95_f64, 1.05..1.2_f64), 5),
     ) {
-        let ranges: Vec<Option<Bounds>> = bounds[..truth.len()]
+        let ranges = bounds[..truth.len()]
             .iter()
             .map(|&(lower, upper)| Some(Bounds { lower, upper }))
-            .collect();
+            .collect_vec();
         let settings = Settings { least_passes: 3, most_passes: 3, ..Settings::default() };
         let settings = settings.for_modes(truth.len());
         let test = chain.modes(&truth);
@@ -143,7 +143,7 @@ fn passes_are_told_by_their_number_from_one() {
     let found = found.expect("a correlation");
     let count = found.passes.len();
     assert!(count > 1);
-    assert_eq!(told, (1..=count).collect::<Vec<_>>());
+    assert_eq!(told, (1..=count).collect_vec());
     // The caller may end it after any pass, and what was found until then is kept.
     let ended = correlate(analyze, &[None; 3], &settings, |_, _| false);
     let ended = ended.expect("a correlation");

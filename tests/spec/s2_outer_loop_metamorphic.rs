@@ -24,7 +24,7 @@ struct Given {
 }
 
 fn given(number: usize) -> Given {
-    let case = Case::new(number).expect("a case");
+    let case = case_of(number);
     let model = case.model().expect("a model");
     let test = case.test_modes().expect("test modes");
     Given::of(format!("case {number}"), &model, test, case.settings)
@@ -42,8 +42,7 @@ fn frame() -> impl Strategy<Value = Given> {
             let structure = linkage(apex, areas.map(|area| area.powf(0.25)), true);
             let mass = DMatrix::from_diagonal(&DVector::from_vec(masses));
             let rods = (1..=4).map(|rod| Parameter::new(rod, &[rod])).collect();
-            let model = FiniteElementModel::new(structure, DMatrix::identity(4, 4), mass, rods)
-                .expect("a model");
+            let model = FiniteElementModel::new(structure, eye(4), mass, rods).expect("a model");
             let test = model.modes(&truth).expect("modes");
             let settings = Settings {
                 error_sum_tolerance: 0.01,
@@ -213,7 +212,7 @@ fn difference([first, other]: [&Correlation; 2], place: impl Fn(usize, usize) ->
     let sums = passes.map(|(a, b)| (sum(a) - sum(b)).abs());
     let count = first.best_factors.len();
     let factors = first.best_factors.iter().enumerate();
-    let factors = factors.map(|(e, a)| (a / other.best_factors[place(e, count)] - 1.0).abs());
+    let factors = factors.map(|(e, a)| relative_error(a, other.best_factors[place(e, count)]));
     // NaN counts as the largest.
     let worse = |a: f64, b: f64| if b <= a { a } else { b };
     sums.chain(factors).fold(0.0, worse)
@@ -511,7 +510,7 @@ fn an_analysis_mode_that_nothing_couples_changes_nothing() {
         given.add_on_rod(fixed.expect("a fixed grid").label, 0);
         given.loaded_as(&before, Some);
         let count = given.mass.nrows();
-        let t = std::mem::replace(&mut given.load_distribution, DMatrix::zeros(0, 0));
+        let t = std::mem::replace(&mut given.load_distribution, zero_square(0));
         let mut t = t.insert_column(count, 0.0);
         let added = StructuralDof {
             grid: ADDED,
@@ -576,10 +575,10 @@ fn stopping_after_a_pass_and_starting_anew_gives_the_next_passes() {
                     upper: upper / base,
                 })
             };
-            let ranges: Vec<_> = ranges.iter().zip(base).map(range).collect();
+            let ranges = ranges.iter().zip(base).map(range).collect_vec();
             let found = correlate(analyze, &ranges, settings, |_, _| true).expect("a correlation");
             let pass = |pass: &Pass| (pass.inner.iterations.len(), product(&pass.factors));
-            found.passes.iter().map(pass).collect::<Vec<_>>()
+            found.passes.iter().map(pass).collect_vec()
         };
         let passes = |count: usize| Settings {
             least_passes: count,
@@ -598,7 +597,7 @@ fn stopping_after_a_pass_and_starting_anew_gives_the_next_passes() {
             assert_eq!(iterations, steps, "{}", given.name);
             for (a, b) in factors.iter().zip(parts) {
                 assert!(
-                    (a / b - 1.0).abs() <= SAME_CORRELATION,
+                    relative_error(a, b) <= SAME_CORRELATION,
                     "{}: {a} {b}",
                     given.name
                 );
@@ -619,7 +618,7 @@ fn condensing_to_all_dof_is_not_condensing() {
     let same = |given: &Given, mass: DMatrix<f64>, truth: &[f64], is_drawn: bool| {
         let mut given = given.clone();
         let free = given.structure().free_dof().len();
-        given.load_distribution = DMatrix::identity(free, free);
+        given.load_distribution = eye(free);
         given.mass = mass;
         let model = given.model();
         given.test = model
@@ -651,11 +650,11 @@ fn condensing_to_all_dof_is_not_condensing() {
                     .expect("it is there")
             };
             let share = |parameter: &Parameter| {
-                let rows: Vec<usize> = parameter.elements.iter().map(row).collect();
+                let rows = parameter.elements.iter().map(row).collect_vec();
                 matrix(&rows)
             };
             let dynamic = DynamicModel {
-                stiffness: matrix(&(0..all.len()).collect::<Vec<_>>()),
+                stiffness: matrix(&(0..all.len()).collect_vec()),
                 mass: given.mass.clone(),
                 shares: given.parameters.iter().map(share).collect(),
             };
@@ -681,9 +680,9 @@ fn condensing_to_all_dof_is_not_condensing() {
         assert_ne!(given.settings.inner.step, StepRule::Gage);
         let free = given.structure().free_dof().len();
         given.analysis_modes = Some(free);
-        let truth: Vec<f64> = (0..given.parameters.len())
+        let truth = (0..given.parameters.len())
             .map(|e| if e % 2 == 0 { 0.8 } else { 1.2 })
-            .collect();
+            .collect_vec();
         let mass = DVector::from_fn(free, |row, _| 0.01 + 0.001 * row as f64);
         assert!(same(&given, DMatrix::from_diagonal(&mass), &truth, false));
     }

@@ -97,11 +97,11 @@ fn passes_after_the_first_have_their_own_tolerance() {
         ..Settings::default()
     };
     let found = correlate_chain(&chain, &[1.4, 0.8, 1.2, 0.7], &settings.for_modes(4));
-    let sums: Vec<f64> = found
+    let sums = found
         .passes
         .iter()
         .map(|pass| pass.inner.last.errors.sum())
-        .collect();
+        .collect_vec();
     // As the sums of nine modes: four are compared.
     assert!(1.5 * sums[0] < 0.1 && 1.5 * sums[0] > 0.02);
     assert!(1.5 * sums[1] < 0.02);
@@ -191,7 +191,7 @@ fn the_default_settings_are_as_documented() {
 
 #[test]
 fn the_box_needs_a_second_pass_because_b_was_frozen() {
-    let case = Case::new(1).unwrap();
+    let case = case_of(1);
     let model = case.model().unwrap();
     let test = case.test_modes().unwrap();
     let ranges = model.factor_ranges().unwrap();

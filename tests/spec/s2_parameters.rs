@@ -85,14 +85,14 @@ fn a_model_keeps_what_it_was_made_of() {
         Some(range)
     );
     assert_eq!(model.structure().elements().len(), 3);
-    let labels: Vec<usize> = model
+    let labels = model
         .element_matrices()
         .iter()
         .map(|matrix| matrix.label)
-        .collect();
+        .collect_vec();
     assert_eq!(labels, [1, 2, 3]);
-    assert_eq!(model.load_distribution().clone(), DMatrix::identity(3, 3));
-    assert_eq!(model.mass(), &DMatrix::identity(3, 3));
+    assert_eq!(model.load_distribution().clone(), eye(3));
+    assert_eq!(model.mass(), &eye(3));
     assert_eq!(model.sizes(&[3.0, 0.5]).unwrap(), [1.0, 12.0, 4.0]);
     // T and M the identity: K_D is K_S, and a spring's share its own matrix.
     let dynamic = model.matrices(&[3.0, 0.5]).unwrap();
@@ -136,12 +136,7 @@ fn factor_ranges_are_size_bounds_over_first_sizes() {
         together.unwrap().factor_ranges().unwrap(),
         [bounds(0.5, 2.0)]
     );
-    let paper = Case::new(3)
-        .unwrap()
-        .model()
-        .unwrap()
-        .factor_ranges()
-        .unwrap();
+    let paper = case_of(3).model().unwrap().factor_ranges().unwrap();
     assert_eq!(paper.len(), 15);
     assert_eq!(
         (paper[0], paper[1]),

@@ -3,7 +3,7 @@
 use crate::prelude::*;
 
 fn grouped(number: usize) -> CaseResult {
-    let mut case = Case::new(number).expect("a case");
+    let mut case = case_of(number);
     case.grouping = Grouping::Substructures;
     run_case(&case, |_, _| {}).expect("it runs")
 }
@@ -37,10 +37,14 @@ fn by_geometry(case: &Case) -> [Vec<usize>; 3] {
 fn substructures_are_what_the_geometry_says() {
     let case = Case {
         grouping: Grouping::Substructures,
-        ..Case::new(2).expect("a case")
+        ..case_of(2)
     };
     let model = case.model().expect("a model");
-    let names: Vec<&str> = model.parameters().iter().map(|p| p.name.as_str()).collect();
+    let names = model
+        .parameters()
+        .iter()
+        .map(|p| p.name.as_str())
+        .collect_vec();
     assert_eq!(names, ["covers", "spars", "ribs"]);
     for (parameter, expected) in model.parameters().iter().zip(by_geometry(&case)) {
         assert_eq!(parameter.elements, expected);
@@ -77,7 +81,7 @@ fn error_common_to_a_group_is_found() {
         assert!(result.correlation.converged, "Case {number}");
         let covers = result.pass_gages.last().expect("a pass")[1];
         assert!(
-            (covers / TEST_GAGE - 1.0).abs() < GROUPED_GAGE,
+            relative_error(covers, TEST_GAGE) < GROUPED_GAGE,
             "Case {number}: covers at {covers}"
         );
     }
@@ -104,7 +108,7 @@ fn error_within_a_group_is_out_of_reach_and_said_to_be() {
 /// A group may have panels at both gage bounds, and the factor that takes one bound to the other is allowed.
 #[test]
 fn a_groups_factor_may_take_a_gage_from_bound_to_bound() {
-    let mut case = Case::new(3).expect("a case");
+    let mut case = case_of(3);
     case.grouping = Grouping::Substructures;
     let gages = case.gage_range.expect("bounds of the gages");
     let model = case.model().expect("a model");
@@ -119,7 +123,7 @@ fn a_groups_factor_may_take_a_gage_from_bound_to_bound() {
 
 #[test]
 fn there_is_a_gage_for_every_panel() {
-    let case = Case::new(1).expect("a case");
+    let case = case_of(1);
     for count in [14, 16] {
         match case.model_with(&vec![TEST_GAGE; count]) {
             Err(CaseError::Method(Error::WrongShape {
@@ -138,7 +142,7 @@ fn there_is_a_gage_for_every_panel() {
 /// What steps are taken in: a group's size is the mean of its elements', and a model by its matrices has none.
 #[test]
 fn the_size_of_a_group_is_the_mean_of_its_elements() {
-    let case = Case::new(1).unwrap();
+    let case = case_of(1);
     let own = case.model().unwrap();
     let structure = own.structure();
     let (panel, other, rod) = (
@@ -160,7 +164,7 @@ fn the_size_of_a_group_is_the_mean_of_its_elements() {
     assert_eq!(analysis.gages().len(), 2);
     for (found, expected) in analysis.gages().iter().zip(expected) {
         assert!(
-            (found / expected - 1.0).abs() <= ROUND_OFF,
+            relative_error(found, expected) <= ROUND_OFF,
             "{found} {expected}"
         );
     }

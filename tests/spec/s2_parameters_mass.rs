@@ -30,7 +30,7 @@ fn element_masses() -> Vec<Part> {
 
 /// The box of Case 2 at its test gages as the paper has it, with a density, of which that model knows nothing.
 fn the_box(density: f64) -> FiniteElementModel {
-    let case = Case::new(2).expect("a case");
+    let case = case_of(2);
     let model = case.model_with(&[0.010; 15]).expect("a model");
     let mut elements = model.structure().elements().to_vec();
     for element in &mut elements {
@@ -62,7 +62,7 @@ fn whole_box(
     };
     let mass_of = |label: usize| {
         let (element, corners) = (&elements[label - 1], &structure.corners()[label - 1]);
-        let mut mass = DMatrix::zeros(FREE, FREE);
+        let mut mass = zero_square(FREE);
         for (row, lumped) in lumped_masses(structure, element, corners) {
             mass[(row, row)] += lumped;
         }
@@ -77,7 +77,7 @@ fn whole_box(
         Part::ElementMass(label) => ParameterMatrix::Mass(mass_of(label)),
         Part::PointMass(point) => ParameterMatrix::Mass(mass_at(point)),
     };
-    let shares: Vec<ParameterMatrix> = parts.iter().map(share).collect();
+    let shares = parts.iter().map(share).collect_vec();
     let stiffness: DMatrix<f64> = (1..=ELEMENTS).map(stiffness_of).sum();
     let of_elements: DMatrix<f64> = (1..=ELEMENTS).map(mass_of).sum();
     let of_points: DMatrix<f64> = (0..POINTS).map(mass_at).sum();
@@ -119,7 +119,7 @@ pub fn analyze(
         factors,
         sensors,
         test,
-        Pair::by(|of| pair_modes(of.cross)),
+        by_sorting(),
         BasisSize {
             modes: POINTS,
             residual_vectors: 0,
@@ -137,7 +137,7 @@ fn dynamic_mass_holds_the_kinetic_energy_of_the_structural_mass() {
     let b_t = condense(&stiffness, model.load_distribution())
         .expect("independent")
         .transformation;
-    let mut structural = DMatrix::zeros(FREE, FREE);
+    let mut structural = zero_square(FREE);
     for (element, corners) in structure.elements().iter().zip(structure.corners()) {
         let volumes = corner_volumes(element.kind, corners);
         for (grid, volume) in element.grids.iter().zip(volumes) {
@@ -188,14 +188,14 @@ fn mass_shares_sum_to_the_mass() {
             other => panic!("{other:?}"),
         };
         let sum: DMatrix<f64> = analysis.shares().iter().map(through).sum();
-        let one = DMatrix::identity(POINTS, POINTS);
+        let one = eye(POINTS);
         assert_relative_eq!(sum, one, epsilon = MATRIX_ROUND_OFF);
     }
 }
 
 #[test]
 fn mass_factors_leave_the_stiffness_alone() {
-    let stiffness: Vec<Part> = (1..=ELEMENTS).map(Part::Stiffness).collect();
+    let stiffness = (1..=ELEMENTS).map(Part::Stiffness).collect_vec();
     let parts = [stiffness, element_masses()].concat();
     let (model, sensors) = whole_box(&parts, DENSITY, [1.0; POINTS]);
     let at = |mass_factor: f64| {
@@ -232,7 +232,7 @@ fn mass_share_is_symmetric_and_semidefinite() {
 pub fn both() -> ((WholeModel, SparseMatrix), Modes) {
     let (truth, _) = boxed(&point_masses(), DENSITY, [1.0; POINTS]);
     let wrong = [1.3, 0.8, 1.2, 0.75, 1.25, 0.9, 1.1, 0.85, 1.15];
-    let panels: Vec<Part> = (1..=15).map(Part::Stiffness).collect();
+    let panels = (1..=15).map(Part::Stiffness).collect_vec();
     let parts = [panels, point_masses()].concat();
     (boxed(&parts, DENSITY, wrong), modes(&truth))
 }
@@ -269,10 +269,7 @@ fn mass_derivatives_are_central_differences() {
 /// The change by factors on a model's parameters, seen through its modes.
 fn change_by(problem: &SensorModel, factors: &[f64]) -> ModalChange {
     let k = problem.omega_squared();
-    let (mut beta, mut alpha) = (
-        DMatrix::zeros(k.len(), k.len()),
-        DMatrix::zeros(k.len(), k.len()),
-    );
+    let (mut beta, mut alpha) = (zero_square(k.len()), zero_square(k.len()));
     for (share, factor) in problem.shares().iter().zip(factors) {
         match share {
             ParameterMatrix::Stiffness(matrix) => beta += (factor - 1.0) * matrix,
@@ -286,7 +283,7 @@ fn change_by(problem: &SensorModel, factors: &[f64]) -> ModalChange {
 fn perturbation_by_mass_approaches_the_eigensolution_of_the_changed_pencil() {
     let (model, test) = both();
     let problem = analyze(&model, &[1.0; 24], &test).expect("solved");
-    let points: Vec<(f64, f64)> = [0.005, 0.01, 0.02, 0.04]
+    let points = [0.005, 0.01, 0.02, 0.04]
         .into_iter()
         .map(|size| {
             let factors: Vec<f64> = (0..24)
@@ -298,7 +295,7 @@ fn perturbation_by_mass_approaches_the_eigensolution_of_the_changed_pencil() {
             let pairs = exact.component_div(&first.expect("apart").roots);
             (size, pairs.add_scalar(-1.0).amax())
         })
-        .collect();
+        .collect_vec();
     let slope = log_log_slope(&points);
     assert!((1.9..2.2).contains(&slope), "{slope}");
 }
@@ -307,9 +304,9 @@ fn perturbation_by_mass_approaches_the_eigensolution_of_the_changed_pencil() {
 fn converged_perturbation_by_stiffness_and_mass_is_the_eigensolution() {
     let (model, test) = both();
     let problem = analyze(&model, &[1.0; 24], &test).expect("solved");
-    let factors: Vec<f64> = (0..24)
+    let factors = (0..24)
         .map(|e| 1.0 + 0.05 * ((e * 5 % 7) as f64 - 3.0) / 3.0)
-        .collect();
+        .collect_vec();
     let ours = problem.at(&factors).expect("solved");
     let change = change_by(&problem, &factors);
     let Perturbed { roots, mut shapes } = eigensolution(&change).expect("solved");
@@ -340,7 +337,7 @@ fn converged_perturbation_by_stiffness_and_mass_is_the_eigensolution() {
 /// doubles; were the mass to follow the gages, they would not. The density is a hundred times aluminum's, so that it shows.
 #[test]
 fn gages_twice_as_thick_double_every_squared_frequency() {
-    let stiffness: Vec<Part> = (1..=ELEMENTS).map(Part::Stiffness).collect();
+    let stiffness = (1..=ELEMENTS).map(Part::Stiffness).collect_vec();
     let (model, sensors) = whole_box(&stiffness, 100.0 * DENSITY, [1.0; POINTS]);
     let of_paper = the_box(100.0 * DENSITY);
     let mass = |factor: f64| {

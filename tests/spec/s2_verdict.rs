@@ -102,7 +102,7 @@ fn what_no_frequency_without_a_shape_sees_is_unseen() {
     // Beside the first of three springs one a hundred-thousandth as stiff.
     let parts = [(0, 1e5), (1, 1e5), (2, 1e5), (0, 1.0)];
     let parts = parts.map(|(spring, stiffness)| spring_stiffness(3, spring, stiffness));
-    let mass = DMatrix::identity(3, 3);
+    let mass = eye(3);
     let modes = solve(&parts.iter().sum(), &mass, 3).unwrap();
     // The first mode, and the third's frequency.
     let squares = modes.omega_squared();
@@ -150,7 +150,7 @@ fn a_job_tells_the_error_sum_that_nine_modes_would_have() {
         panic!("{:?}", found.found.history)
     };
     let sum = 3.0 / 5_f64.sqrt() * run.best_check().errors.sum();
-    assert!((found.verdict.error_sum / sum - 1.0).abs() <= ROUND_OFF);
+    assert!(relative_error(found.verdict.error_sum, sum) <= ROUND_OFF);
     assert_eq!(found.verdict.is_within, run.converged);
 }
 
@@ -208,7 +208,7 @@ fn an_element_in_no_test_mode_is_named_as_unseen() {
 
 #[test]
 fn case_4_is_never_called_within_tolerance() {
-    let result = run_case(&Case::new(4).unwrap(), |_, _| {}).unwrap();
+    let result = run_case(&case_of(4), |_, _| {}).unwrap();
     let verdict = Verdict::of_case(&result);
     assert_eq!((verdict.outcome, verdict.is_within), (Outcome::Cap, false));
     assert!(!result.correlation.converged);

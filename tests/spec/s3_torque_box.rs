@@ -148,14 +148,13 @@ properties! {
 #[test]
 fn rods_run_along_every_free_edge_of_the_panels() {
     let edge = |a: usize, b: usize| (a.min(b), a.max(b));
-    let edges: BTreeSet<_> = Case::new(1)
-        .unwrap()
+    let edges: BTreeSet<_> = case_of(1)
         .panels
         .iter()
         .flat_map(|panel| {
             (0..4)
                 .map(|k| edge(panel.grids[k], panel.grids[(k + 1) % 4]))
-                .collect::<Vec<_>>()
+                .collect_vec()
         })
         .collect();
     assert_eq!(edges.len(), 28);
@@ -172,14 +171,14 @@ fn rods_run_along_every_free_edge_of_the_panels() {
 /// Even grids are the lower surface: the outboard bottom cover is element 8, the one Case 4 makes too thin.
 #[test]
 fn the_structure_has_table_2s_elements_and_a_fixed_root() {
-    let case = Case::new(4).unwrap();
+    let case = case_of(4);
     let found = structure(&case.reconstruction, &case.panels, case.rod_area).unwrap();
-    let labels: Vec<usize> = found
+    let labels = found
         .elements()
         .iter()
         .map(|element| element.label)
-        .collect();
-    assert_eq!(labels, (1..=39).collect::<Vec<_>>());
+        .collect_vec();
+    assert_eq!(labels, (1..=39).collect_vec());
     for (element, panel) in found.elements().iter().zip(&case.panels) {
         assert_eq!(
             (element.kind, &element.grids, element.size),

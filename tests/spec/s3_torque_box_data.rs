@@ -146,7 +146,7 @@ fn a_rib_without_chord_or_depth_is_refused() {
 
 #[test]
 fn numbers_that_cannot_be_are_refused_where_they_are_used() {
-    let panels = Case::new(2).unwrap().panels;
+    let panels = case_of(2).panels;
     let mut data = Reconstruction::embedded().unwrap();
     data.youngs_modulus = -1.0;
     let refused = structure(&data, &panels, 0.01).unwrap_err();

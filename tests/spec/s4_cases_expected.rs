@@ -36,7 +36,7 @@ fn assert_all_close(found: &[f64], expected: &[f64], relative: f64) {
 }
 
 fn result(number: usize) -> CaseResult {
-    run_case(&Case::new(number).expect("a case"), |_, _| {}).expect("it runs")
+    run_case(&case_of(number), |_, _| {}).expect("it runs")
 }
 
 #[test]
@@ -104,12 +104,12 @@ fn assert_history(result: &CaseResult) {
         let section = format!("case {} computed pass {}", result.case.number, row + 1);
         let iterations = table[&section]["iterations"].as_integer().expect("a count");
         assert_eq!(pass.inner.iterations.len() as i64, iterations, "{section}");
-        let sums: Vec<f64> = pass
+        let sums = pass
             .inner
             .iterations
             .iter()
             .map(|i| i.errors.sum())
-            .collect();
+            .collect_vec();
         assert_all_close(
             &sums,
             &list(&table, &section, "inner_error_sums"),
@@ -147,8 +147,7 @@ fn assert_history(result: &CaseResult) {
 fn every_reading_makes_the_expected_history_of_cases_1_to_3() {
     for reading in READINGS {
         for (number, passes) in [(1, 2), (2, 2), (3, 3)] {
-            let result =
-                run_by_reading(&Case::new(number).expect("a case"), reading).expect("it runs");
+            let result = run_by_reading(&case_of(number), reading).expect("it runs");
             assert_eq!(result.correlation.passes.len(), passes);
             assert_history(&result);
         }
@@ -181,7 +180,7 @@ fn cases_stop_by_their_tolerances_after_the_printed_passes() {
 fn every_reading_makes_the_expected_passes_with_fewer_modes() {
     for reading in READINGS {
         let table = expected(reading);
-        let mut case = Case::new(PUBLISHED_CASE).expect("a case");
+        let mut case = case_of(PUBLISHED_CASE);
         case.settings.inner.step = reading;
         for run in published_runs(&case).expect("they run") {
             let section = format!(
@@ -228,7 +227,7 @@ fn case_4_names_its_faulty_element() {
             .zip(["46.1 3.8", "58.4 4.6", "2.5 2.5", "148.7 2.5"])
     {
         let table = expected(reading);
-        let result = run_by_reading(&Case::new(4).expect("a case"), reading).expect("it runs");
+        let result = run_by_reading(&case_of(4), reading).expect("it runs");
         assert_all_close(
             result.unlimited_factors(),
             &list(&table, section, "unlimited_factors"),
@@ -265,8 +264,7 @@ fn case_4_names_its_faulty_element() {
 fn other_cases_report_no_anomaly_by_any_reading() {
     for reading in READINGS {
         for number in [1, 2, 3] {
-            let result =
-                run_by_reading(&Case::new(number).expect("a case"), reading).expect("it runs");
+            let result = run_by_reading(&case_of(number), reading).expect("it runs");
             // The largest factor stays near the next: what ANOMALY_RATIO lies between.
             let mut factors = result.unlimited_factors().to_vec();
             factors.sort_by(f64::total_cmp);
@@ -279,7 +277,7 @@ fn other_cases_report_no_anomaly_by_any_reading() {
 #[test]
 fn same_input_gives_the_same_bytes() {
     let json = || {
-        let results: Vec<_> = CASES.into_iter().map(result).collect();
+        let results = CASES.into_iter().map(result).collect_vec();
         corfem::present::json::cases(&results).expect("written")
     };
     assert_eq!(json(), json());
@@ -308,7 +306,7 @@ fn what_stands_out_is_many_times_the_next_demand() {
 #[test]
 fn one_iteration_is_enough_for_case_4_alone() {
     let with_iterations = |number: usize, iterations: usize| {
-        let mut case = Case::new(number).expect("a case");
+        let mut case = case_of(number);
         case.settings.inner.iterations = iterations;
         run_case(&case, |_, _| {}).expect("it runs")
     };

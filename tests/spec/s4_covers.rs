@@ -51,7 +51,7 @@ properties! {
         };
         let (factors, _) = run_by(&modal, &[None; PANEL_COUNT], &settings, &rule).expect("it runs");
         for [one, other] in BAYS {
-            prop_assert!((factors[one] / factors[other] - 1.0).abs() < SAME_HISTORY);
+            prop_assert!(relative_error(factors[one], factors[other]) < SAME_HISTORY);
         }
     }
 }
@@ -67,13 +67,17 @@ fn the_print_of_case_1_bounds_what_any_rule_can_reach_on_a_symmetric_box() {
             / TEST_GAGE
             - 1.0
     };
-    let printed: Vec<f64> = (1..=PANEL_COUNT).map(error).collect();
+    let printed = (1..=PANEL_COUNT).map(error).collect_vec();
     let mut nearest = printed.clone();
     for [one, other] in BAYS {
         let mean = 0.5 * (printed[one] + printed[other]);
         (nearest[one], nearest[other]) = (mean, mean);
     }
-    let apart: Vec<f64> = nearest.iter().zip(&printed).map(|(a, b)| a - b).collect();
+    let apart = nearest
+        .iter()
+        .zip(&printed)
+        .map(|(a, b)| a - b)
+        .collect_vec();
     let (most, least) = (correlation(nearest, printed.clone()), rms(&apart));
     assert_eq!(format!("{most:.2} {:.1}", 100.0 * least), "0.68 5.0");
     let of_column = COUNTED

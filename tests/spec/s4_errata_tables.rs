@@ -5,7 +5,7 @@ use crate::prelude::*;
 /// How many characters of two equally long texts differ, and whether both have the same ones in whatever order.
 fn differ(one: &str, other: &str) -> (usize, bool) {
     let sorted = |text: &str| {
-        let mut characters: Vec<char> = text.chars().collect();
+        let mut characters = text.chars().collect_vec();
         characters.sort_unstable();
         characters
     };
@@ -80,10 +80,10 @@ fn printed_frequencies_of_table_9_are_not_exact_solutions_of_table_11() {
         PublishedTable::number(9).expect("it reads"),
         PublishedTable::number(11).expect("it reads"),
     );
-    let case = Case::new(2).expect("a case");
-    let printed: Vec<f64> = (1..=15)
+    let case = case_of(2);
+    let printed = (1..=15)
         .map(|e| gages.required(&e.to_string(), "fem_9_in").expect("printed"))
-        .collect();
+        .collect_vec();
     let model = case.model_with(&printed).expect("a model");
     let exact = model.modes(&[1.0; 15]).expect("solved").frequencies_hz();
     for (mode, computed) in exact.iter().take(5).enumerate() {

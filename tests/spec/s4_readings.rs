@@ -77,7 +77,7 @@ fn those_of_own_and_matrix_lie_nearest_in_case_1() {
         of(reading, 4)
             .iter()
             .map(|c| (1000.0 * c.gage_rms[0]).round() as i64)
-            .collect::<Vec<_>>()
+            .collect_vec()
     };
     assert_eq!(
         (shear(StepRule::Own), shear(StepRule::Matrix)),
@@ -131,7 +131,7 @@ fn table_of_readings_is_the_stored_one() {
     tables.extend(counted_tables(&COUNTED));
     tables.push(accumulation_table(&the_box()).expect("they solve"));
     let found = csv(&tables);
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("paper/readings.csv");
+    let path = in_root("paper/readings.csv");
     if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "1") {
         fs::write(&path, &found).expect("written");
     }
@@ -147,12 +147,12 @@ fn table_of_readings_is_the_stored_one() {
 #[test]
 fn a_case_is_its_column() {
     for number in [1, 2, 3] {
-        let case = Case::new(number).expect("a case");
+        let case = case_of(number);
         let columns = columns_of(&run_case(&case, |_, _| {}).expect("it runs")).expect("columns");
-        let expected: Vec<ReadingColumn> = of(case.settings.inner.step, 2 * number + 2)
+        let expected = of(case.settings.inner.step, 2 * number + 2)
             .into_iter()
             .cloned()
-            .collect();
+            .collect_vec();
         assert_eq!(columns.len(), expected.len());
         for (found, expected) in columns.iter().zip(&expected) {
             assert_eq!(
@@ -162,8 +162,7 @@ fn a_case_is_its_column() {
         }
     }
     assert_eq!(
-        columns_of(&run_case(&Case::new(4).expect("a case"), |_, _| {}).expect("it runs"))
-            .expect("none"),
+        columns_of(&run_case(&case_of(4), |_, _| {}).expect("it runs")).expect("none"),
         []
     );
 }
@@ -217,10 +216,7 @@ fn case_4_depends_on_two_close_modes() {
         .min_by(|a, b| (a[1] / a[0]).total_cmp(&(b[1] / b[0])))
         .expect("two modes");
     assert_eq!(
-        close
-            .iter()
-            .map(|hz| format!("{hz:.1}"))
-            .collect::<Vec<_>>(),
+        close.iter().map(|hz| format!("{hz:.1}")).collect_vec(),
         ["73.2", "74.8"]
     );
     assert_eq!(result.case.panels[7].gage / TEST_GAGE, 0.01);

@@ -6,17 +6,17 @@ use corfem::present::render::markdown;
 use corfem::present::tables::published::root_error_table;
 
 fn tables() -> Vec<Table> {
-    let results: Vec<_> = CASES
+    let results = CASES
         .into_iter()
-        .map(|number| run_case(&Case::new(number).expect("a case"), |_, _| {}).expect("it runs"))
-        .collect();
+        .map(|number| run_case(&case_of(number), |_, _| {}).expect("it runs"))
+        .collect_vec();
     all_tables(&results).expect("published tables read")
 }
 
 #[test]
 fn every_table_as_numbers() {
     let tables = tables();
-    let names: Vec<&str> = tables.iter().map(|table| table.name.as_str()).collect();
+    let names = tables.iter().map(|table| table.name.as_str()).collect_vec();
     assert_eq!(
         names,
         [
@@ -63,14 +63,14 @@ fn report_as_text_and_markdown() {
 #[test]
 fn cases_by_substructures() {
     let numbers = Numbers::BY_UNIT;
-    let results: Vec<_> = CASES
+    let results = CASES
         .into_iter()
         .map(|number| {
-            let mut case = Case::new(number).expect("a case");
+            let mut case = case_of(number);
             case.grouping = Grouping::Substructures;
             run_case(&case, |_, _| {}).expect("it runs")
         })
-        .collect();
+        .collect_vec();
     let tables = all_tables(&results).expect("published tables read");
     assert!(
         tables.iter().all(|table| !table.title.contains("Table 3")),

@@ -53,7 +53,7 @@ properties! {
     fn no_mode_has_two_partners_and_no_pair_is_below_the_floor(closeness in closeness(), floor in 0.0..0.9_f64) {
         let pairs = pair_optimally(&closeness, floor).unwrap();
         prop_assert_eq!(pairs.len(), closeness.ncols());
-        let mut taken: Vec<usize> = pairs.iter().flatten().copied().collect();
+        let mut taken = pairs.iter().flatten().copied().collect_vec();
         taken.sort_unstable();
         prop_assert!(taken.windows(2).all(|pair| pair[0] != pair[1]), "{:?}", pairs);
         for (test, mode) in pairs.iter().enumerate() {
@@ -66,7 +66,7 @@ properties! {
         // The method's own needs a test mode, and an analysis mode for each.
         let closeness = if closeness.ncols() > closeness.nrows() { closeness.transpose() } else { closeness };
         let closeness = closeness.abs().resize_horizontally(closeness.ncols().max(1), 0.5).resize_vertically(closeness.nrows().max(1), 0.5);
-        let closest_first: Vec<Option<usize>> = pair_modes(&closeness).unwrap().analysis_mode.iter().copied().map(Some).collect();
+        let closest_first = pair_modes(&closeness).unwrap().analysis_mode.iter().copied().map(Some).collect_vec();
         let pairs = pair_optimally(&closeness, 0.0).unwrap();
         prop_assert!(total(&closeness, &pairs) >= total(&closeness, &closest_first) - ROUND_OFF * 6.0);
     }
@@ -98,7 +98,7 @@ fn modes_that_are_all_alike_are_paired_in_their_order_and_the_last_are_left_over
     assert_eq!(alike(2, 0), [None; 0]);
     // A pair that counts nothing is still a pair.
     assert_eq!(
-        pair_optimally(&DMatrix::zeros(2, 2), 0.0).expect("pairs"),
+        pair_optimally(&zero_square(2), 0.0).expect("pairs"),
         [Some(0), Some(1)]
     );
 }

@@ -40,15 +40,12 @@ fn with_the_mass_by_modes_they_are_orthonormal_and_a_test_shape_weighs_what_its_
  {
     let at_sensors = modes().select_rows(&SENSORS);
     let mass = mass_by_modes(&at_sensors).unwrap();
-    assert!(
-        (at_sensors.tr_mul(&(&mass * &at_sensors)) - DMatrix::identity(3, 3)).amax()
-            < MATRIX_ROUND_OFF
-    );
+    assert!((at_sensors.tr_mul(&(&mass * &at_sensors)) - eye(3)).amax() < MATRIX_ROUND_OFF);
     let measured = dmatrix![0.3; -1.0; 0.8; 0.1];
-    let shares = expand(&DMatrix::identity(3, 3), &at_sensors, &measured).unwrap();
+    let shares = expand(&eye(3), &at_sensors, &measured).unwrap();
     let weight = (measured.tr_mul(&(&mass * &measured)))[(0, 0)];
     assert!(
-        (weight / shares.norm_squared() - 1.0).abs() < MATRIX_ROUND_OFF,
+        relative_error(weight, shares.norm_squared()) < MATRIX_ROUND_OFF,
         "{weight}"
     );
     assert!(matches!(
@@ -113,10 +110,7 @@ fn modes_are_dependent_that_differ_by_a_billionth_of_their_length() {
 
 #[test]
 fn what_does_not_fit_is_refused() {
-    let (two, three) = (
-        DMatrix::<f64>::identity(2, 2),
-        DMatrix::<f64>::identity(3, 3),
-    );
+    let (two, three) = (eye(2), eye(3));
     let (none, no_number) = (DMatrix::zeros(2, 0), f64::NAN * &two);
     for (all, at_sensors, test, words) in [
         (&two, &two, &two, "an answer"),

@@ -67,7 +67,7 @@ fn at_the_ends_of_an_interval_the_objective_is_as_much_higher() {
             let held = noisy.optimum(&best.factors, &ranges);
             let root = (2.0 * (held.objective - best.objective)).sqrt();
             assert!(
-                (root / NORMAL_95 - 1.0).abs() < END_OF_INTERVAL,
+                relative_error(root, NORMAL_95) < END_OF_INTERVAL,
                 "{e}: {root}"
             );
         }
@@ -97,7 +97,7 @@ fn widening_scales_the_measurement_and_never_the_prior() {
         if widening < 2.0 {
             let own = 2.0 * NORMAL_95 * seen.deviations[0];
             let width = width(&all[0].unwrap());
-            assert!((width / own - 1.0).abs() < MATRIX_ROUND_OFF, "{widening}");
+            assert!(relative_error(width, own) < MATRIX_ROUND_OFF, "{widening}");
         }
         for (e, interval) in all.iter().enumerate() {
             match interval {
@@ -117,7 +117,7 @@ fn widening_scales_the_measurement_and_never_the_prior() {
 fn no_interval_stands_where_the_objective_falls_below_that_at_the_factors() {
     let (noisy, free) = (Noisy::new(3), [None; 15]);
     let best = noisy.optimum(&[1.0; 15], &free).factors;
-    let beside: Vec<f64> = (0..15).map(|e| best[e] * [0.93, 1.08][e % 2]).collect();
+    let beside = (0..15).map(|e| best[e] * [0.93, 1.08][e % 2]).collect_vec();
     let withheld = |factors: &[f64]| {
         let all = noisy.intervals(factors, &free, 1.0).into_iter();
         all.filter(|interval| *interval == Err(Withheld::Lower))

@@ -62,7 +62,7 @@ fn a_sensor_at_fault_has_the_lowest_coordinate_assurance_of_all_that_move() {
     test.swap_rows(0, 3);
     let pairs = [Some(0), Some(1), Some(2), Some(3)];
     let comac = coordinate_assurance(modes.shapes(), &test, &pairs).expect("pairs");
-    let mut order: Vec<usize> = (0..6).collect();
+    let mut order = (0..6).collect_vec();
     order.sort_by(|a, b| comac[*a].total_cmp(&comac[*b]));
     order.truncate(2);
     order.sort_unstable();
@@ -79,10 +79,7 @@ fn coordinates_that_do_not_move_are_as_good_as_they_agree() {
 
 #[test]
 fn what_does_not_fit_is_refused() {
-    let (two, three) = (
-        DMatrix::<f64>::identity(2, 2),
-        DMatrix::<f64>::identity(3, 3),
-    );
+    let (two, three) = (eye(2), eye(3));
     let (zero, no_number) = (DMatrix::zeros(2, 1), f64::NAN * &two);
     for (analysis, test, pairs, words) in [
         (&two, &two, &[Some(0), None][..], "an answer"),

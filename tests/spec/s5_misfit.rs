@@ -6,10 +6,10 @@ use crate::prelude::*;
 fn building(truth: &[f64; 4]) -> Comparison {
     let model = |factors: &[f64; 4]| {
         let story = |story: usize| spring_stiffness(4, story, 1e5 * factors[story]);
-        let shares: Vec<DMatrix<f64>> = (0..4).map(story).collect();
+        let shares = (0..4).map(story).collect_vec();
         DynamicModel {
             stiffness: shares.iter().sum(),
-            mass: 60.0 * DMatrix::identity(4, 4),
+            mass: 60.0 * eye(4),
             shares,
         }
     };

@@ -4,7 +4,7 @@ use crate::evidence::specimen::Specimen;
 use crate::prelude::*;
 
 pub fn case(number: usize) -> Specimen {
-    Specimen::of_case(&Case::new(number).unwrap()).unwrap()
+    Specimen::of_case(&case_of(number)).unwrap()
 }
 
 /// Eight masses and eight springs in a row, held at one end, both less toward the other, with springs up to 30 % wrong.
@@ -88,12 +88,12 @@ fn nothing_is_said_of_right_tests_but_what_is_so() {
 #[test]
 fn models_with_any_gages_within_two_thirds_cause_no_false_alarm() {
     let right = case(2);
-    let (case, mut state) = (Case::new(2).unwrap(), 7);
+    let (case, mut state) = (case_of(2), 7);
     let mut unit = || (split_mix_64(&mut state) >> 11) as f64 / (1_u64 << 53) as f64;
     for seed in 1..=100 {
-        let gages: Vec<f64> = (0..PANEL_COUNT)
+        let gages = (0..PANEL_COUNT)
             .map(|_| TEST_GAGE * 0.6_f64.powf(2.0 * unit() - 1.0))
-            .collect();
+            .collect_vec();
         let model = case.model_with(&gages).unwrap();
         let noisy = Specimen {
             model: model.matrices(&[1.0; PANEL_COUNT]).unwrap(),
@@ -153,7 +153,7 @@ fn factors_are_what_they_are_called() {
             .zip([TAU.powi(2), 3600.0, 1000.0, 386.09, 9.81])
     {
         assert!(
-            (known.factor.powi(2) / squared - 1.0).abs() < ROUND_OFF,
+            relative_error(known.factor.powi(2), squared) < ROUND_OFF,
             "{}",
             known.name
         );
@@ -178,7 +178,7 @@ fn every_reversed_sensor_is_named() {
 
 #[test]
 fn the_loops_take_a_reversed_sensor_for_wrong_gages() {
-    let case = Case::new(2).unwrap();
+    let case = case_of(2);
     let (model, mut test) = (case.model().unwrap(), case.test_modes().unwrap());
     alter(&mut test, |_, shapes| shapes.row_mut(6).neg_mut());
     let analyze = |factors: &[f64]| model.analyze(factors, &test, None);
@@ -259,11 +259,11 @@ fn the_common_factor_is_the_median_of_the_ratios_of_pairs() {
         let assurance = modal_assurance(analysis.shapes(), specimen.test.shapes()).unwrap();
         let (test, all) = (wrong.test.frequencies_hz(), analysis.frequencies_hz());
         let pairs = pair_modes(&assurance).unwrap().analysis_mode.to_vec();
-        let mut ratios: Vec<f64> = test
+        let mut ratios = test
             .iter()
             .zip(pairs)
             .map(|(test, mode)| test / all[mode])
-            .collect();
+            .collect_vec();
         ratios.sort_by(f64::total_cmp);
         let (below, above) = (ratios[(ratios.len() - 1) / 2], ratios[ratios.len() / 2]);
         assert!(

@@ -186,12 +186,12 @@ fn findings_are_said_with_places_from_one() {
         lower: 55.0,
         upper: 150.0,
     });
-    let said: Vec<String> = wrong
+    let said = wrong
         .findings()
         .unwrap()
         .iter()
         .map(Concern::words)
-        .collect();
+        .collect_vec();
     let all = said.join("\n");
     for words in [
         "times the model's, near 2π: the test is in rad/s?",

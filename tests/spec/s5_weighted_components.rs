@@ -131,10 +131,10 @@ fn equal_deviations_of_components_are_the_deviation_of_the_shape() {
         .iter()
         .zip(&of_components.found.factors)
     {
-        assert!((one / two - 1.0).abs() < WEIGHTED_FACTOR, "{one} {two}");
+        assert!(relative_error(one, two) < WEIGHTED_FACTOR, "{one} {two}");
     }
     let [one, two] = [&of_shapes, &of_components].map(|of| of.misfit.chi_squared);
-    assert!((one / two - 1.0).abs() < WEIGHTED_FACTOR, "{one} {two}");
+    assert!(relative_error(one, two) < WEIGHTED_FACTOR, "{one} {two}");
     let others = of_components.trust.about(Kind::AssumedDeviations);
     assert_eq!(others.len(), 1, "frequencies alone are assumed: {others:?}");
 }
@@ -164,7 +164,7 @@ fn a_component_of_boundless_deviation_is_as_one_without_a_sensor() {
         data.sensors.remove(row);
     });
     for (one, two) in vague.found.factors.iter().zip(&without.found.factors) {
-        assert!((one / two - 1.0).abs() < WEIGHTED_FACTOR, "{one} {two}");
+        assert!(relative_error(one, two) < WEIGHTED_FACTOR, "{one} {two}");
     }
 }
 
@@ -191,7 +191,7 @@ fn residuals_with_a_covariance_are_those_of_generalized_least_squares() {
             let model = model.with_groups(groups.clone()).unwrap();
             model.with_covariance(&covariance).unwrap()
         };
-        let factors: Vec<f64> = (0..6).map(|_| draws.between(0.8, 1.2)).collect();
+        let factors = (0..6).map(|_| draws.between(0.8, 1.2)).collect_vec();
         let (model, inverse) = (
             analyzed(&factors),
             covariance.clone().try_inverse().unwrap(),
@@ -224,7 +224,7 @@ fn residuals_with_a_covariance_are_those_of_generalized_least_squares() {
             .solve(&(free.transpose() * &inverse * &plain));
         let least = &plain - free * scales;
         let expected = (least.transpose() * &inverse * &least)[(0, 0)];
-        let off = (found.norm_squared() / expected - 1.0).abs();
+        let off = relative_error(found.norm_squared(), expected);
         assert!(off < CORRECTION_ROUND_OFF, "seed {seed}: {off:e}");
         // The gradient of half of it.
         let gradient = jacobian(&model, &weights).unwrap().tr_mul(&found);
@@ -246,10 +246,7 @@ fn residuals_with_a_covariance_are_those_of_generalized_least_squares() {
         }
         // Independent ones of unit variance are what they were, and so is the gradient.
         let plain = Comparison::from(&at(&first, &factors).analyze(&test, None).unwrap());
-        let unit = plain
-            .clone()
-            .with_covariance(&DMatrix::identity(28, 28))
-            .unwrap();
+        let unit = plain.clone().with_covariance(&eye(28)).unwrap();
         let [one, two] = [&plain, &unit].map(|model| {
             let residuals = residuals(model, &weights).unwrap();
             let gradient = jacobian(model, &weights).unwrap().tr_mul(&residuals);
@@ -259,12 +256,7 @@ fn residuals_with_a_covariance_are_those_of_generalized_least_squares() {
         assert!((&one.1 - &two.1).amax() < MATRIX_ROUND_OFF * one.1.amax());
         let singular = DMatrix::from_element(28, 28, 1.0);
         assert!(plain.clone().with_covariance(&singular).is_err());
-        assert!(
-            plain
-                .clone()
-                .with_covariance(&DMatrix::identity(27, 27))
-                .is_err()
-        );
+        assert!(plain.clone().with_covariance(&eye(27)).is_err());
         // A frequency without a shape is one more number.
         let lone = LoneFrequency {
             frequency_hz: 10.0,
@@ -272,7 +264,7 @@ fn residuals_with_a_covariance_are_those_of_generalized_least_squares() {
         };
         let more = plain.with_lone_frequencies(vec![lone]).unwrap();
         for (count, is_right) in [(27, false), (28, false), (29, true)] {
-            let unit = DMatrix::identity(count, count);
+            let unit = eye(count);
             assert_eq!(more.clone().with_covariance(&unit).is_ok(), is_right);
         }
     }

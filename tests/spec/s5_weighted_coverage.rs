@@ -11,7 +11,7 @@ const FEW: RangeInclusive<u64> = 1..=4;
 #[test]
 fn intervals_hold_the_truth_in_most_of_a_few_tests() {
     let all = all_coverages(FEW).unwrap();
-    let counts: Vec<usize> = all.iter().map(|of| of.parameters.len()).collect();
+    let counts = all.iter().map(|of| of.parameters.len()).collect_vec();
     assert_eq!(counts, [15, 15, 21, 12, 10, 8, 8, 8, 8, 10, 5, 8]);
     for of in &all {
         assert_eq!(of.tests, FEW.count());
@@ -23,7 +23,7 @@ fn intervals_hold_the_truth_in_most_of_a_few_tests() {
     }
     // The ratio of both covers of a bay is left to the prior.
     let unseen = all[0].parameters.iter().filter(|held| held.learned < SEEN);
-    let unseen: Vec<&str> = unseen.map(|held| held.parameter.as_str()).collect();
+    let unseen = unseen.map(|held| held.parameter.as_str()).collect_vec();
     assert_eq!(unseen, ["2", "4", "8", "9", "11", "15"]);
     assert_eq!(
         (&all[3].name[..], all[3].seen().count()),
@@ -73,7 +73,7 @@ fn intervals_hold_the_truth_in_93_to_97_of_100_tests() {
 
 #[test]
 fn a_single_error_is_undone_by_its_own_factor() {
-    let case = Case::new(4).unwrap();
+    let case = case_of(4);
     let right = case
         .model_with(&[0.01; 15])
         .unwrap()
@@ -89,7 +89,7 @@ fn a_single_error_is_undone_by_its_own_factor() {
         assert_eq!(suspects.len(), 15);
         assert_eq!(suspects[0].parameter, culprit);
         assert!(
-            (suspects[0].factor / 20.0 - 1.0).abs() < SINGLE_FIT_FACTOR,
+            relative_error(suspects[0].factor, 20.0) < SINGLE_FIT_FACTOR,
             "{:?}",
             suspects[0]
         );
@@ -118,7 +118,7 @@ fn a_panel_too_thin_is_the_first_suspect() {
     let gross = located
         .iter()
         .filter(|of| of.ratio == localization::RATIOS[0] && of.by_factor[0] == 0);
-    let mut missed: Vec<usize> = gross.map(|of| of.panel).collect();
+    let mut missed = gross.map(|of| of.panel).collect_vec();
     missed.dedup();
     assert_eq!(missed, [9, 11]);
 }

@@ -32,7 +32,7 @@ fn correlated(
 fn assert_same(one: &[f64], other: &[f64]) {
     assert_eq!(one.len(), other.len());
     for (a, b) in one.iter().zip(other) {
-        assert!((a / b - 1.0).abs() <= SAME_ON_THE_WAY, "{one:?} {other:?}");
+        assert!(relative_error(a, b) <= SAME_ON_THE_WAY, "{one:?} {other:?}");
     }
 }
 
@@ -47,19 +47,19 @@ fn assert_unit_does_not_matter(
     assert_eq!(one.iterations.len(), other.iterations.len());
     let relative = (one.objective / (other.objective / 64.0) - 1.0).abs();
     assert!(relative <= SAME_ON_THE_WAY, "{relative}");
-    let scaled: Vec<f64> = other
+    let scaled = other
         .identifiability
         .deviations
         .iter()
         .map(|of| 8.0 * of)
-        .collect();
+        .collect_vec();
     assert_same(&one.identifiability.deviations, &scaled);
 }
 
 #[test]
 fn the_unit_of_all_deviations_does_not_matter_on_the_cases() {
     for number in CASES {
-        let case = Case::new(number).expect("a case");
+        let case = case_of(number);
         let (model, exact) = (
             case.model().expect("a model"),
             case.test_modes().expect("modes"),
@@ -105,13 +105,13 @@ properties! {
         };
         let apart = [alone(&one, &test), alone(&other, &tests)].concat();
         let count = truth.len();
-        let squares: Vec<f64> = test.omega_squared().iter().chain(tests.omega_squared()).copied().collect();
+        let squares = test.omega_squared().iter().chain(tests.omega_squared()).copied().collect_vec();
         let all = Modes::new(DVector::from_vec(squares), both(test.shapes(), tests.shapes())).expect("modes");
         let together = |factors: &[f64]| {
             let (a, b) = (one.model(&factors[..count]), other.model(&factors[count..]));
             let (n, m) = (a.mass.nrows(), b.mass.nrows());
-            let first = a.shares.iter().map(|share| both(share, &DMatrix::zeros(m, m)));
-            let second = b.shares.iter().map(|share| both(&DMatrix::zeros(n, n), share));
+            let first = a.shares.iter().map(|share| both(share, &zero_square(m)));
+            let second = b.shares.iter().map(|share| both(&zero_square(n), share));
             DynamicModel {
                 stiffness: both(&a.stiffness, &b.stiffness),
                 mass: both(&a.mass, &b.mass),

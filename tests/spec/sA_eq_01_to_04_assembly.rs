@@ -52,7 +52,7 @@ properties! {
         constrained in prop::collection::vec(prop::bool::ANY, 12).prop_filter("all constrained", |constrained| constrained.contains(&false)),
     ) {
         let structure = square(&constrained);
-        let mut whole = DMatrix::zeros(12, 12);
+        let mut whole = zero_square(12);
         for (element, corners) in structure.elements().iter().zip(structure.corners()) {
             let unit = unit_stiffness(element.kind, corners, &element.material);
             for a in 0..unit.nrows() {
@@ -62,7 +62,7 @@ properties! {
                 }
             }
         }
-        let free: Vec<usize> = (0..12).filter(|&k| !constrained[k]).collect();
+        let free = (0..12).filter(|&k| !constrained[k]).collect_vec();
         let expected = whole.select_rows(&free).select_columns(&free);
         let found = dense(&structure);
         prop_assert_eq!(found.shape(), expected.shape());
@@ -75,9 +75,9 @@ properties! {
 
     #[test]
     fn stiffness_is_linear_in_gage_and_area(a in sizes_of(3), b in sizes_of(3), factor in 0.1..10.0_f64) {
-        let matrices: Vec<_> = element_matrices(&square(&[false; 12])).collect();
+        let matrices = element_matrices(&square(&[false; 12])).collect_vec();
         let at = |sizes: &[f64]| assemble(&matrices, sizes, 12).unwrap();
-        let mixed: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a + factor * b).collect();
+        let mixed = a.iter().zip(&b).map(|(a, b)| a + factor * b).collect_vec();
         prop_assert!(relative_distance(&at(&mixed), &(at(&a) + factor * at(&b))) <= ROUND_OFF);
     }
 
@@ -85,7 +85,7 @@ properties! {
     /// decades.
     #[test]
     fn sparse_and_dense_deflections_agree(number in 1..=4_usize, sizes in sizes_of(39), loads in loads(36)) {
-        let model = Case::new(number).unwrap().model().unwrap();
+        let model = case_of(number).model().unwrap();
         let matrices = model.element_matrices();
         let stiffness = assemble(matrices, &sizes, 36).unwrap();
         let found = of_dense(&stiffness).unwrap().solve(&loads).unwrap();
@@ -98,7 +98,7 @@ properties! {
     /// numbers of 1e10, which is no reason to refuse.
     #[test]
     fn springs_in_series_add_their_flexibilities(decades in prop::collection::vec(0.0..10.0_f64, 1..8)) {
-        let springs: Vec<f64> = decades.iter().map(|d| 10f64.powf(*d)).collect();
+        let springs = decades.iter().map(|d| 10f64.powf(*d)).collect_vec();
         let structure = spring_chain(&springs, [true, false]);
         let tip = DMatrix::from_fn(springs.len(), 1, |row, _| f64::from(row + 1 == springs.len()));
         let deflections = factorized(&structure).unwrap().solve(&tip).unwrap();
@@ -127,7 +127,7 @@ properties! {
 #[test]
 fn wrong_sizes_and_loads_are_refused_by_name() {
     let structure = spring_chain(&[1.0, 2.0, 3.0], [true, false]);
-    let matrices: Vec<_> = element_matrices(&structure).collect();
+    let matrices = element_matrices(&structure).collect_vec();
     for sizes in [vec![1.0; 2], vec![1.0; 4]] {
         let words = format!("element sizes: {} x 1 instead of 3 x 1", sizes.len());
         assert_eq!(said(assemble(&matrices, &sizes, 3)), words);
@@ -167,7 +167,7 @@ fn bad_geometry_is_refused_by_its_element() {
         said(Structure::new(points.collect(), vec![element]))
     };
     let with = |kind, positions: &[[f64; 3]]| {
-        structure(kind, positions, &(1..=positions.len()).collect::<Vec<_>>())
+        structure(kind, positions, &(1..=positions.len()).collect_vec())
     };
     let [a, b, c, d] = [
         [0.0, 0.0, 0.0],

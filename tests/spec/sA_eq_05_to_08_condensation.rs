@@ -12,7 +12,7 @@ pub fn stiffness_and_kept() -> impl Strategy<Value = (DMatrix<f64>, f64, Vec<usi
         .prop_flat_map(|n| {
             (
                 positive_definite(n, DECADES),
-                prop::sample::subsequence((0..n).collect::<Vec<_>>(), 1..=n),
+                prop::sample::subsequence((0..n).collect_vec(), 1..=n),
             )
         })
         .prop_map(|((stiffness, exponents), kept)| {
@@ -88,7 +88,7 @@ properties! {
         prop_assert_eq!(&found.stiffness, &found.stiffness.transpose());
         let bt = &found.transformation;
         prop_assert_eq!(bt.shape(), t.shape());
-        let identity = DMatrix::identity(t.ncols(), t.ncols());
+        let identity = eye(t.ncols());
         prop_assert!(relative_distance(&t.tr_mul(bt), &identity) <= bar);
         let through_b = bt.tr_mul(&(&stiffness * bt));
         prop_assert!((through_b - &found.stiffness).amax() <= bar * stiffness.amax());
@@ -175,6 +175,6 @@ fn a_bad_load_distribution_is_refused_by_name() {
         // A dynamic DOF that no load reaches is a combination of none.
         (DMatrix::zeros(3, 1), not_definite("dynamic flexibility", 0)),
     ] {
-        assert_eq!(said(condensed(&DMatrix::identity(3, 3), &t)), words);
+        assert_eq!(said(condensed(&eye(3), &t)), words);
     }
 }

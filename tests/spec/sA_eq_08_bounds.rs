@@ -112,7 +112,7 @@ properties! {
         prop_assert!(least(&exact, &below) > -MATRIX_ROUND_OFF);
         // And so does every frequency, whatever the mass; here of one.
         let count = exact.nrows();
-        let mass = DMatrix::identity(count, count);
+        let mass = eye(count);
         let [above, below, exact] =
             [above, below, exact].map(|k| solve(&(0.5 * (&k + k.transpose())), &mass, count).expect("modes"));
         for mode in 0..count {
@@ -143,7 +143,7 @@ properties! {
         let model = with_every_element(&case);
         let (first, exact) = (model.matrices(&[1.0; 39]).expect("matrices"), model.modes(&factors).expect("modes"));
         let flexibility = first.stiffness.clone().try_inverse().expect("regular");
-        let (mut above, mut below) = (DMatrix::zeros(9, 9), DMatrix::zeros(9, 9));
+        let (mut above, mut below) = (zero_square(9), zero_square(9));
         for (share, factor) in first.shares.iter().zip(&factors) {
             above += *factor * share;
             below += &flexibility * share * &flexibility / *factor;

@@ -65,7 +65,7 @@ properties! {
         let (factor, _) = stiffness(&model, &sizes);
         let bt = condense(&factor, model.load_distribution()).unwrap().transformation;
         let element = &model.element_matrices()[row];
-        let mut spread = DMatrix::zeros(36, 36);
+        let mut spread = zero_square(36);
         for (a, &at) in element.dof.iter().enumerate() {
             for (b, &to) in element.dof.iter().enumerate() {
                 spread[(at, to)] = element.unit[(a, b)];
@@ -109,17 +109,18 @@ properties! {
 #[test]
 fn frozen_b_overstates_the_published_first_steps_by_up_to_3_percent() {
     for (number, table, percent) in [(1, 4, "1.4"), (2, 6, "0.6"), (3, 8, "2.6")] {
-        let (case, table) = (
-            Case::new(number).unwrap(),
-            PublishedTable::number(table).unwrap(),
-        );
+        let (case, table) = (case_of(number), PublishedTable::number(table).unwrap());
         let gages = |column: &str| -> Vec<f64> {
             (1..=15)
                 .map(|label| table.required(&label.to_string(), column).unwrap())
                 .collect()
         };
         let (from, to) = (gages("initial_in"), gages("pass_1_in"));
-        let factors: Vec<f64> = to.iter().zip(&from).map(|(to, from)| to / from).collect();
+        let factors = to
+            .iter()
+            .zip(&from)
+            .map(|(to, from)| to / from)
+            .collect_vec();
         let model = case.model_with(&from).unwrap();
         let start = model.matrices(&[1.0; 15]).unwrap();
         let exact = model.matrices(&factors).unwrap();
@@ -131,12 +132,12 @@ fn frozen_b_overstates_the_published_first_steps_by_up_to_3_percent() {
 /// An element matrix of another origin need not be semidefinite, and its share counts what no way to deform explains.
 #[test]
 fn shares_of_an_indefinite_element_sum_to_the_stiffness() {
-    let model = with_every_element(&Case::new(1).unwrap());
-    let mut units: Vec<DMatrix<f64>> = model
+    let model = with_every_element(&case_of(1));
+    let mut units = model
         .element_matrices()
         .iter()
         .map(|element| element.unit.clone())
-        .collect();
+        .collect_vec();
     let (size, last) = (0.01 * units[4].amax(), units[4].nrows() - 1);
     units[4][(0, last)] += size;
     units[4][(last, 0)] += size;

@@ -4,17 +4,14 @@ use crate::prelude::*;
 
 /// Three unit masses at −1, 0 and 1, one of the outer moved: {1} takes a third, {x} a half, 1/6 (1, −2, 1) remains.
 fn three_masses() -> (DMatrix<f64>, DMatrix<f64>) {
-    (
-        DMatrix::identity(3, 3),
-        dmatrix![1.0, -1.0; 1.0, 0.0; 1.0, 1.0],
-    )
+    (eye(3), dmatrix![1.0, -1.0; 1.0, 0.0; 1.0, 1.0])
 }
 
 #[test]
 fn three_free_masses_by_hand() {
     let (mass, rigid_body) = three_masses();
     let raw = modes(&[7.0], dmatrix![1.0; 0.0; 0.0]);
-    let balanced = balance(&raw, &DMatrix::zeros(3, 3), &mass, &rigid_body).unwrap();
+    let balanced = balance(&raw, &zero_square(3), &mass, &rigid_body).unwrap();
     assert_relative_eq!(
         balanced.coefficients,
         dmatrix![-1.0 / 3.0; 0.5],
@@ -76,7 +73,7 @@ fn each_mode_is_balanced_at_its_own_frequency() {
 fn a_rigid_body_shape_is_all_change() {
     let (mass, rigid_body) = three_masses();
     let raw = modes(&[7.0], dmatrix![1.0; 3.0; 5.0]);
-    let balanced = balance(&raw, &DMatrix::zeros(3, 3), &mass, &rigid_body).unwrap();
+    let balanced = balance(&raw, &zero_square(3), &mass, &rigid_body).unwrap();
     assert_relative_eq!(balanced.change[0], 1.0, max_relative = ROUND_OFF);
     assert!(balanced.shapes.amax() <= ROUND_OFF * 5.0);
 }
@@ -86,7 +83,7 @@ fn suspension_is_refused_past_the_limit_and_named() {
     // Masses 1, 2, 3 on springs of c times the mass: every suspension mode has μ = c.
     let mass = DMatrix::from_diagonal(&dvector![1.0, 2.0, 3.0]);
     let rigid_body = three_masses().1;
-    let raw = modes(&[400.0, 100.0, 50.0], DMatrix::identity(3, 3));
+    let raw = modes(&[400.0, 100.0, 50.0], eye(3));
     let allowed = LARGEST_SUSPENSION_RATIO * 50.0;
     for (rate, refused) in [
         (0.999_999 * allowed, None),
@@ -134,12 +131,7 @@ fn a_suspension_at_the_limit_is_allowed() {
     let raw = modes(&[100.0], dmatrix![1.0; 1.0; 0.0]);
     let rate = LARGEST_SUSPENSION_RATIO * 100.0;
     let stiffness = DMatrix::from_diagonal(&dvector![rate, 0.0, 0.0]);
-    let outcome = balance(
-        &raw,
-        &stiffness,
-        &DMatrix::identity(3, 3),
-        &dmatrix![1.0; 0.0; 0.0],
-    );
+    let outcome = balance(&raw, &stiffness, &eye(3), &dmatrix![1.0; 0.0; 0.0]);
     assert_relative_eq!(
         outcome.unwrap().shapes,
         dmatrix![0.0; 1.0; 0.0],
@@ -149,7 +141,7 @@ fn a_suspension_at_the_limit_is_allowed() {
 
 #[test]
 fn the_wing_box_on_its_root_is_refused() {
-    let case = Case::new(1).unwrap();
+    let case = case_of(1);
     let model = case.model().unwrap();
     let dynamic = model.matrices(&[1.0; 15]).unwrap();
     let outcome = balance(
@@ -167,7 +159,7 @@ fn the_wing_box_on_its_root_is_refused() {
 #[test]
 fn dependent_rigid_body_vectors_are_named() {
     let (mass, _) = three_masses();
-    let free = DMatrix::zeros(3, 3);
+    let free = zero_square(3);
     let raw = modes(&[7.0], dmatrix![1.0; 0.0; 0.0]);
     for (rigid_body, dependent) in [
         // All points at one station: pitch is plunge.
@@ -192,7 +184,7 @@ fn a_far_reference_axis_is_not_dependence() {
     let (mass, _) = three_masses();
     let rigid_body = dmatrix![1.0, 999.0; 1.0, 1000.0; 1.0, 1001.0];
     let raw = modes(&[7.0], dmatrix![1.0; 0.0; 0.0]);
-    let balanced = balance(&raw, &DMatrix::zeros(3, 3), &mass, &rigid_body).unwrap();
+    let balanced = balance(&raw, &zero_square(3), &mass, &rigid_body).unwrap();
     assert_relative_eq!(
         balanced.shapes,
         dmatrix![1.0; -2.0; 1.0] / 6.0,
@@ -208,7 +200,7 @@ fn aerodynamic_forces_in_the_mass_are_refused() {
     mass[(0, 2)] = 0.1;
     let outcome = balance(
         &modes(&[7.0], dmatrix![1.0; 0.0; 0.0]),
-        &DMatrix::zeros(3, 3),
+        &zero_square(3),
         &mass,
         &rigid_body,
     );
@@ -221,13 +213,13 @@ fn aerodynamic_forces_in_the_mass_are_refused() {
 #[test]
 fn bad_input_is_refused() {
     let (mass, rigid_body) = three_masses();
-    let free = || DMatrix::<f64>::zeros(3, 3);
+    let free = || zero_square(3);
     let raw = modes(&[7.0], dmatrix![1.0; 0.0; 0.0]);
     let skew = dmatrix![0.0, 1.0, 0.0; 0.0, 0.0, 0.0; 0.0, 0.0, 0.0];
     let unknown = dmatrix![1.0, -1.0; 1.0, 0.0; 1.0, f64::NAN];
     for (stiffness, rigid, words) in [
         (
-            DMatrix::zeros(2, 2),
+            zero_square(2),
             rigid_body.clone(),
             "dynamic stiffness: 2 x 2 instead of 3 x 3",
         ),
@@ -241,11 +233,7 @@ fn bad_input_is_refused() {
             DMatrix::zeros(3, 0),
             "rigid-body stiffness: 0 given or asked for; there must be at least 1",
         ),
-        (
-            free(),
-            DMatrix::identity(2, 2),
-            "rigid-body vectors: 2 x 2 instead of 3 x 2",
-        ),
+        (free(), eye(2), "rigid-body vectors: 2 x 2 instead of 3 x 2"),
         (
             free(),
             unknown,

@@ -40,7 +40,7 @@ properties! {
         prop_assert_eq!(found.modes.shapes().shape(), (DOF, MODES));
         prop_assert_eq!(found.modes.len(), MODES);
         prop_assert_eq!(found.movement.len(), MODES);
-        let identity = DMatrix::identity(MODES, MODES);
+        let identity = eye(MODES);
         prop_assert!((generalized_mass(found.modes.shapes(), &mass).unwrap() - identity).amax() <= MATRIX_ROUND_OFF);
     }
 
@@ -87,7 +87,7 @@ properties! {
     #[test]
     fn roots_stay_within_ostrowskis_bounds((raw, mass) in noisy()) {
         let found = orthogonalize(&raw, &mass).unwrap();
-        let e = SymmetricEigen::new(overlap(raw.shapes(), &mass) - DMatrix::identity(MODES, MODES)).eigenvalues.amax();
+        let e = SymmetricEigen::new(overlap(raw.shapes(), &mass) - eye(MODES)).eigenvalues.amax();
         prop_assert!(e < 1.0);
         for (new, old) in sorted(found.modes.omega_squared()).into_iter().zip(sorted(raw.omega_squared())) {
             prop_assert!(new / old <= (1.0 + MATRIX_ROUND_OFF) / (1.0 - e));
@@ -100,7 +100,7 @@ properties! {
     fn orthogonal_modes_are_a_fixed_point(
         (exact, mass) in orthonormal_modes(DOF, MODES),
         scales in prop::collection::vec(prop_oneof![-10.0..-0.1_f64, 0.1..10.0_f64], MODES),
-        order in Just((0..MODES).collect::<Vec<_>>()).prop_shuffle(),
+        order in Just((0..MODES).collect_vec()).prop_shuffle(),
         repeated in any::<bool>(),
     ) {
         let mut omega_squared = DVector::from_fn(MODES, |i, _| exact.omega_squared()[order[i]]);
@@ -123,11 +123,11 @@ properties! {
     fn order_and_scale_carry_over(
         (raw, mass) in noisy(),
         scales in prop::collection::vec(prop_oneof![-10.0..-0.1_f64, 0.1..10.0_f64], MODES),
-        order in Just((0..MODES).collect::<Vec<_>>()).prop_shuffle(),
+        order in Just((0..MODES).collect_vec()).prop_shuffle(),
     ) {
         let found = orthogonalize(&raw, &mass).unwrap();
         let shuffled = DMatrix::from_fn(DOF, MODES, |row, i| raw.shapes()[(row, order[i])] * scales[i]);
-        let omega_squared: Vec<f64> = order.iter().map(|&i| raw.omega_squared()[i]).collect();
+        let omega_squared = order.iter().map(|&i| raw.omega_squared()[i]).collect_vec();
         let other = orthogonalize(&modes(&omega_squared, shuffled), &mass).unwrap();
         let condition = raw.omega_squared().max() / raw.omega_squared().min();
         let tolerance = EIGEN_ROUND_OFF * condition;
@@ -188,7 +188,7 @@ properties! {
         mixing[(MODES - 1, 0)] = first_and_last;
         let (mut frequency, mut shape) = (Vec::new(), Vec::new());
         for size in [3e-3, 1e-3, 3e-4, 1e-4] {
-            let noisy = exact.shapes() * (DMatrix::identity(MODES, MODES) + size * &mixing);
+            let noisy = exact.shapes() * (eye(MODES) + size * &mixing);
             let found = orthogonalize(&modes(exact.omega_squared().as_slice(), noisy), &mass).unwrap();
             let largest = |of: fn(&Movement) -> f64| found.movement.iter().map(of).fold(0.0, f64::max);
             frequency.push((size, largest(|movement| movement.frequency.abs())));
@@ -207,7 +207,7 @@ properties! {
         scales in (0.1..10.0_f64, 0.1..10.0_f64),
     ) {
         let (a, b) = (lower, lower * ratio);
-        let mass = DMatrix::<f64>::identity(2, 2);
+        let mass = eye(2);
         let shapes = dmatrix![scales.0, scales.1 * e; 0.0, scales.1 * (1.0 - e * e).sqrt()];
         let found = orthogonalize(&modes(&[a, b], shapes), &mass).unwrap();
         let middle = (a + b) / (2.0 * (1.0 - e * e));

@@ -37,7 +37,7 @@ properties! {
         let supports = Supports::Free { stiffness: &beam.stiffness, rigid_body: &rigid_body };
         let found = examine(&exact, &beam.mass, supports, &MovementLimits::default()).unwrap();
         let spread = exact.omega_squared().max() / exact.omega_squared().min();
-        prop_assert_eq!(found.kept, (0..exact.len()).collect::<Vec<_>>());
+        prop_assert_eq!(found.kept, (0..exact.len()).collect_vec());
         prop_assert!(relative_difference(exact.shapes(), found.modes.shapes()) <= EXACT_MODE_RESIDUAL * spread);
         for report in &found.reports {
             prop_assert_eq!(report.verdict, ModeVerdict::Kept);
@@ -54,7 +54,7 @@ properties! {
         let exact = solve(&stiffness, &mass, 5).unwrap();
         let mode = wrong.modes[0];
         let found = examine(&wrong.spoil(&exact), &mass, Supports::Held, &MovementLimits::default()).unwrap();
-        prop_assert_eq!(&found.kept, &(0..5).filter(|&other| other != mode).collect::<Vec<_>>());
+        prop_assert_eq!(&found.kept, &(0..5).filter(|&other| other != mode).collect_vec());
         for (other, report) in found.reports.iter().enumerate() {
             prop_assert_eq!(report.verdict, if other == mode { ModeVerdict::NotOrthogonal } else { ModeVerdict::Kept });
         }
@@ -79,7 +79,7 @@ properties! {
         let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs).unwrap();
         let supports = Supports::Free { stiffness: &beam.stiffness, rigid_body: &rigid_body };
         let found = examine(&raw, &beam.mass, supports, &MovementLimits::default()).unwrap();
-        prop_assert_eq!(&found.kept, &(0..exact.len()).filter(|&other| other != mode).collect::<Vec<_>>());
+        prop_assert_eq!(&found.kept, &(0..exact.len()).filter(|&other| other != mode).collect_vec());
         prop_assert_eq!(found.reports.len(), exact.len());
         let report = found.reports[mode];
         prop_assert_eq!((report.verdict, report.movement), (ModeVerdict::Unbalanced, None));
@@ -109,7 +109,7 @@ properties! {
         let count = found.kept.len();
         prop_assert_eq!(found.modes.shapes().shape(), (beam.dofs.len(), count));
         prop_assert_eq!(found.modes.len(), count);
-        let overlap = generalized_mass(found.modes.shapes(), &beam.mass).unwrap() - DMatrix::identity(count, count);
+        let overlap = generalized_mass(found.modes.shapes(), &beam.mass).unwrap() - eye(count);
         prop_assert!(overlap.amax() <= ORTHOGONAL_INPUT);
         for (place, omega_squared) in found.modes.omega_squared().iter().enumerate() {
             let shape = found.modes.shapes().column(place);
@@ -140,7 +140,7 @@ properties! {
         let chosen = Modes::new(DVector::from_iterator(found.kept.len(), found.kept.iter().map(|&mode| raw.omega_squared()[mode])), raw.shapes().select_columns(&found.kept)).expect("modes");
         let again = examine(&chosen, &mass, Supports::Held, &MovementLimits::default()).unwrap();
         prop_assert_eq!(again.modes, found.modes);
-        prop_assert_eq!(again.kept, (0..found.kept.len()).collect::<Vec<_>>());
+        prop_assert_eq!(again.kept, (0..found.kept.len()).collect_vec());
     }
 }
 
@@ -148,7 +148,7 @@ properties! {
 #[test]
 fn an_indefinite_mass_is_refused() {
     let mass = DMatrix::from_row_slice(2, 2, &[1.0, 2.0, 2.0, 1.0]);
-    let raw = Modes::new(vec![1.0, 4.0].into(), DMatrix::identity(2, 2)).expect("modes");
+    let raw = Modes::new(vec![1.0, 4.0].into(), eye(2)).expect("modes");
     let refused = examine(&raw, &mass, Supports::Held, &MovementLimits::default());
     assert_eq!(said(refused), not_definite("dynamic mass", 1));
 }

@@ -4,7 +4,7 @@ use crate::prelude::*;
 
 #[test]
 fn a_balance_at_its_limit_is_allowed_and_past_it_not() {
-    let (mass, stiffness) = (DMatrix::identity(3, 3), DMatrix::zeros(3, 3));
+    let (mass, stiffness) = (eye(3), zero_square(3));
     let rigid_body = dmatrix![1.0, -1.0; 1.0, 0.0; 1.0, 1.0];
     let supports = Supports::Free {
         stiffness: &stiffness,
@@ -39,7 +39,7 @@ fn a_balance_at_its_limit_is_allowed_and_past_it_not() {
 
 #[test]
 fn balancing_uses_the_suspension_that_is_given() {
-    let mass = DMatrix::identity(3, 3);
+    let mass = eye(3);
     let rigid_body = dmatrix![1.0, -1.0; 1.0, 0.0; 1.0, 1.0];
     let stiffness = DMatrix::from_diagonal(&dvector![3.0, 0.0, 3.0]);
     let raw = modes(&[100.0], dmatrix![1.1; -2.0; 1.0]);
@@ -60,7 +60,7 @@ fn balancing_uses_the_suspension_that_is_given() {
 
 #[test]
 fn a_held_structure_called_free_is_refused() {
-    let mass = DMatrix::<f64>::identity(3, 3);
+    let mass = eye(3);
     let rigid_body = DMatrix::repeat(3, 1, 1.0);
     let supports = Supports::Free {
         stiffness: &mass,
@@ -76,8 +76,8 @@ fn a_held_structure_called_free_is_refused() {
 
 #[test]
 fn dependent_modes_are_numbered_among_those_that_are_left() {
-    let mass = DMatrix::<f64>::identity(4, 4);
-    let stiffness = DMatrix::zeros(4, 4);
+    let mass = eye(4);
+    let stiffness = zero_square(4);
     let rigid_body = DMatrix::repeat(4, 1, 1.0);
     let supports = Supports::Free {
         stiffness: &stiffness,
@@ -135,7 +135,7 @@ fn limits_out_of_range_are_refused() {
 
 #[test]
 fn the_wing_box_s_own_test_modes_are_kept() {
-    let case = Case::new(2).unwrap();
+    let case = case_of(2);
     let raw = case.test_modes().unwrap();
     let found = examine(
         &raw,
@@ -144,6 +144,6 @@ fn the_wing_box_s_own_test_modes_are_kept() {
         &MovementLimits::default(),
     )
     .unwrap();
-    assert_eq!(found.kept, (0..9).collect::<Vec<_>>());
+    assert_eq!(found.kept, (0..9).collect_vec());
     assert!(relative_difference(raw.shapes(), found.modes.shapes()) <= ORTHOGONAL_INPUT);
 }

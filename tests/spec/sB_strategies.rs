@@ -52,7 +52,7 @@ properties! {
     #[test]
     fn orthonormal_modes_are((exact, mass) in orthonormal_modes(7, 5)) {
         let overlap = exact.shapes().tr_mul(&(&mass * exact.shapes()));
-        prop_assert!((overlap - DMatrix::identity(5, 5)).amax() <= MATRIX_ROUND_OFF);
+        prop_assert!((overlap - eye(5)).amax() <= MATRIX_ROUND_OFF);
         for pair in exact.omega_squared().as_slice().windows(2) {
             prop_assert!(pair[1] / pair[0] >= 1.2_f64.powi(2) * (1.0 - MATRIX_ROUND_OFF));
         }

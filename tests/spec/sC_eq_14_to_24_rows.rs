@@ -23,7 +23,7 @@ impl Rows {
     fn recursive_1(&self, order: usize) -> Perturbed {
         let (a, g, n) = (&self.a, &self.g, self.a.nrows());
         let mut roots = g.diagonal().component_div(&a.diagonal());
-        let mut shapes = DMatrix::identity(n, n);
+        let mut shapes = eye(n);
         for _ in 0..order {
             let sum = |i: usize, j: usize| -> f64 {
                 let others = (0..n).filter(|&s| s != i);
@@ -76,7 +76,7 @@ fn unsymmetric() -> impl Strategy<Value = ModalChange> {
             ratios
                 .into_iter()
                 .scan(10_f64.powf(unit), after)
-                .collect::<Vec<_>>()
+                .collect_vec()
         });
         let full = || {
             prop::collection::vec(entry(), n * n).prop_map(move |all| DMatrix::from_vec(n, n, all))
@@ -94,7 +94,7 @@ fn rows(change: &ModalChange) -> Rows {
     let (k, n) = (&change.generalized_stiffness, change.beta.nrows());
     Rows {
         a: DMatrix::from_diagonal(k) + &change.beta,
-        g: DMatrix::identity(n, n) + &change.alpha,
+        g: eye(n) + &change.alpha,
     }
 }
 
@@ -107,7 +107,7 @@ properties! {
         let back = scale.clone().try_inverse().unwrap();
         let modes = LeftRightModes {
             roots: unit * k.map(f64::recip),
-            right: DMatrix::identity(n, n),
+            right: eye(n),
             left: scale,
         };
         let general = Pencil::new(&(&back * DMatrix::from_diagonal(k)), &modes, &(&back * &change.beta), &(unit * &back * &change.alpha))?;
@@ -151,7 +151,7 @@ properties! {
             prop_assert!(errors(found, &eigensolution(change)?).0 < EIGEN_ROUND_OFF);
             let (omega_squared, _) = modes_by_nalgebra(pencil.a(), pencil.g());
             for (root, exact) in ascending(found.roots.map(f64::recip).iter()).iter().zip(omega_squared.iter()) {
-                prop_assert!((root / exact - 1.0).abs() < EIGEN_ROUND_OFF);
+                prop_assert!(relative_error(root, exact) < EIGEN_ROUND_OFF);
             }
             let of_order = |order| match quiet {
                 1 => recursive_1(k, beta, order),
@@ -172,7 +172,7 @@ properties! {
         normalize_with_mass(&mut shapes, &change.alpha)?;
         let size = shapes.nrows();
         let product = shapes.tr_mul(&(rows(&change).g * &shapes));
-        prop_assert!((product - DMatrix::identity(size, size)).amax() < EIGEN_ROUND_OFF);
+        prop_assert!((product - eye(size)).amax() < EIGEN_ROUND_OFF);
         prop_assert!(shapes.diagonal().iter().all(|&own| own > 0.0));
     }
 
@@ -180,12 +180,12 @@ properties! {
     #[test]
     fn no_change_changes_nothing(k in (2..=6_usize).prop_flat_map(separate_spectrum), scale in -0.5..1.0_f64) {
         let (size, k_matrix) = (k.len(), DMatrix::from_diagonal(&k));
-        let alike = ModalChange::of_vibrations(&k, scale * k_matrix, scale * DMatrix::identity(size, size));
-        let none = of_stiffness(&k, &DMatrix::zeros(size, size));
+        let alike = ModalChange::of_vibrations(&k, scale * k_matrix, scale * eye(size));
+        let none = of_stiffness(&k, &zero_square(size));
         for rule in FORMULAE {
             for found in [(rule.general)(&alike)?, (rule.plain)(&k, &none.beta)?] {
                 prop_assert!(found.roots.component_mul(&k).add_scalar(-1.0).amax() < MATRIX_ROUND_OFF, "{}", rule.name);
-                prop_assert!((found.shapes - DMatrix::identity(size, size)).amax() < MATRIX_ROUND_OFF);
+                prop_assert!((found.shapes - eye(size)).amax() < MATRIX_ROUND_OFF);
             }
         }
     }
@@ -312,7 +312,7 @@ fn the_recursion_stops_at_its_last_order_and_says_how_far_it_was() {
 #[test]
 fn quiet_order_between_two_others_does_not_stop_the_recursion() {
     let alpha = dmatrix![0.0, 0.02; 0.02, 0.0];
-    let change = ModalChange::of_vibrations(&dvector![1.0, 1.5], DMatrix::zeros(2, 2), alpha);
+    let change = ModalChange::of_vibrations(&dvector![1.0, 1.5], zero_square(2), alpha);
     let pencil = change.pencil().unwrap();
     let of_order = |order| pencil.recursive_1(order).unwrap().roots;
     assert_eq!(of_order(3), of_order(2));
@@ -325,18 +325,18 @@ fn quiet_order_between_two_others_does_not_stop_the_recursion() {
 /// A massless motion has λ = 0: a change of stiffness leaves it there, and the recursion comes to rest beside it.
 #[test]
 fn root_of_a_massless_motion_stays_zero() {
-    let one = DMatrix::identity(2, 2);
+    let one = eye(2);
     let modes = LeftRightModes {
         roots: dvector![1.0, 0.0],
         right: one.clone(),
         left: one,
     };
     let (stiffness, change) = (dmatrix![1.0, 0.0; 0.0, 2.0], dmatrix![0.1, 0.2; 0.2, 0.3]);
-    let pencil = Pencil::new(&stiffness, &modes, &change, &DMatrix::zeros(2, 2)).unwrap();
+    let pencil = Pencil::new(&stiffness, &modes, &change, &zero_square(2)).unwrap();
     // (k + β)x λ = diag(1, 0)x: λ is the first entry of the flexibility.
     let exact = dmatrix![1.1_f64, 0.2; 0.2, 2.3].try_inverse().unwrap()[(0, 0)];
     let converged = pencil.recursive_1_converged().unwrap();
-    assert!((converged.perturbed.roots[0] / exact - 1.0).abs() < ROUND_OFF);
+    assert!(relative_error(converged.perturbed.roots[0], exact) < ROUND_OFF);
     assert_eq!(converged.perturbed.roots[1], 0.0);
     assert!(converged.order < MOST_ORDERS);
 }
@@ -347,7 +347,7 @@ fn separation_is_relative_to_the_rows_own_stiffness_times_the_root() {
     // A slight coupling, for modes without any may meet.
     let meeting_at = |separation: f64| {
         let alpha = dmatrix![0.0, 1e-12; 1e-12, 9.0 - 10.0 * separation];
-        let change = ModalChange::of_vibrations(&dvector![1.0, 10.0], DMatrix::zeros(2, 2), alpha);
+        let change = ModalChange::of_vibrations(&dvector![1.0, 10.0], zero_square(2), alpha);
         change.pencil().unwrap().first_order()
     };
     let refused = meeting_at(1e-10);
@@ -364,11 +364,11 @@ fn separation_is_relative_to_the_rows_own_stiffness_times_the_root() {
 fn roots_that_are_not_positive_are_roots_here() {
     for (taken, root) in [(-1.0, 0.0), (-1.5, -0.125)] {
         let alpha = dmatrix![0.0, 0.0; 0.0, taken];
-        let change = ModalChange::of_vibrations(&dvector![1.0, 4.0], DMatrix::zeros(2, 2), alpha);
+        let change = ModalChange::of_vibrations(&dvector![1.0, 4.0], zero_square(2), alpha);
         for rule in FORMULAE {
             let found = (rule.general)(&change).unwrap();
             assert_eq!(found.roots, dvector![1.0, root], "{}", rule.name);
-            assert_eq!(found.shapes, DMatrix::identity(2, 2), "{}", rule.name);
+            assert_eq!(found.shapes, eye(2), "{}", rule.name);
         }
     }
 }
@@ -377,7 +377,7 @@ fn roots_that_are_not_positive_are_roots_here() {
 #[test]
 fn a_root_beyond_all_numbers_is_refused() {
     let alpha = dmatrix![0.0, 1e200; 1e200, 0.0];
-    let change = ModalChange::of_vibrations(&dvector![1.0, 4.0], DMatrix::zeros(2, 2), alpha);
+    let change = ModalChange::of_vibrations(&dvector![1.0, 4.0], zero_square(2), alpha);
     let words = said(change.pencil().unwrap().recursive_1(2));
     assert!(
         words.starts_with("perturbed roots of entry (0, 0) is ")
@@ -389,7 +389,7 @@ fn a_root_beyond_all_numbers_is_refused() {
 /// A repeated root, λ = 1, 4, 4, and a change that couples its two modes and leaves their roots together.
 #[test]
 fn a_coupled_repeated_root_is_refused_and_named() {
-    let mut change = of_stiffness(&dvector![1.0, 4.0, 4.0], &DMatrix::zeros(3, 3));
+    let mut change = of_stiffness(&dvector![1.0, 4.0, 4.0], &zero_square(3));
     (change.beta[(1, 2)], change.beta[(2, 1)]) = (0.1, 0.1);
     for rule in FORMULAE {
         for result in [
@@ -440,7 +440,7 @@ fn uncoupled_modes_may_have_equal_roots() {
             .iter()
             .zip(exact.iter())
         {
-            assert!((found / exact - 1.0).abs() < EIGEN_ROUND_OFF);
+            assert!(relative_error(found, exact) < EIGEN_ROUND_OFF);
         }
     }
 }

@@ -8,12 +8,12 @@ use crate::prelude::*;
 /// A model that is not a vibration at these factors, or whose modes do not pair with the test's.
 pub fn exact_state(model: &Model, factors: &[f64]) -> Result<State, Error> {
     let size = model.exact().modes.len();
-    let mut beta = DMatrix::zeros(size, size);
+    let mut beta = zero_square(size);
     for (share, factor) in model.shares().iter().zip(factors) {
         beta += (factor - 1.0) * share;
     }
     let stiffness = DMatrix::from_diagonal(model.exact().modes.omega_squared()) + beta;
-    let found = solve(&stiffness, &DMatrix::identity(size, size), size)?;
+    let found = solve(&stiffness, &eye(size), size)?;
     // Rows of the shapes are the exact modes, so their transpose is the cross-orthogonality of the new modes with these.
     let places = pair_modes(&found.shapes().transpose())?;
     let mut generalized = found.shapes().select_columns(&places.analysis_mode);

@@ -31,11 +31,11 @@ pub fn of_elements(
     ranges: &[Option<Bounds>],
 ) -> Result<WholeModel, Error> {
     let (all, count) = (structure.elements(), structure.free_dof().len());
-    let matrices: Vec<_> = element_matrices(structure).collect();
+    let matrices = element_matrices(structure).collect_vec();
     let entries = |ElementMatrix { dof, unit, .. }: &ElementMatrix, size: f64| {
         let places = (0..dof.len()).flat_map(|a| (0..dof.len()).map(move |b| (a, b)));
         let entry = |(a, b)| (dof[a], dof[b], size * unit[(a, b)]);
-        places.map(entry).collect::<Vec<_>>()
+        places.map(entry).collect_vec()
     };
     let stiffness = matrices.iter().zip(all);
     let stiffness = stiffness.flat_map(|(matrix, element)| entries(matrix, element.size));

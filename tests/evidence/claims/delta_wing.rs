@@ -38,8 +38,12 @@ fn element(label: usize) -> Element {
 #[test]
 fn wing_is_counted_and_numbered_as_in_the_demonstration() {
     let structure = structure();
-    let labels: Vec<usize> = structure.grids().iter().map(|grid| grid.label).collect();
-    let expected: Vec<usize> = [
+    let labels = structure
+        .grids()
+        .iter()
+        .map(|grid| grid.label)
+        .collect_vec();
+    let expected = [
         1..=6,
         11..=16,
         21..=26,
@@ -53,7 +57,7 @@ fn wing_is_counted_and_numbered_as_in_the_demonstration() {
     ]
     .into_iter()
     .flatten()
-    .collect();
+    .collect_vec();
     assert_eq!(labels, expected);
     assert_eq!(labels.len(), 48);
     let of = |kind: ElementKind| -> Vec<usize> {
@@ -64,13 +68,15 @@ fn wing_is_counted_and_numbered_as_in_the_demonstration() {
             .collect()
     };
     assert_eq!(of(ElementKind::Triangle), [10, 14, 17]);
-    let membranes: Vec<usize> = (1..=16).filter(|label| ![10, 14].contains(label)).collect();
+    let membranes = (1..=16)
+        .filter(|label| ![10, 14].contains(label))
+        .collect_vec();
     assert_eq!(of(ElementKind::Membrane), membranes);
     assert_eq!(membranes.len(), 14);
-    assert_eq!(of(ElementKind::ShearPanel), (18..=53).collect::<Vec<_>>());
+    assert_eq!(of(ElementKind::ShearPanel), (18..=53).collect_vec());
     assert_eq!(
         of(ElementKind::Rod),
-        (60..=83).chain(100..=135).collect::<Vec<_>>()
+        (60..=83).chain(100..=135).collect_vec()
     );
     assert_eq!(of(ElementKind::Rod).len(), 60);
     assert_eq!(structure.free_dof().len(), 86);
@@ -153,7 +159,7 @@ fn covers_fill_the_planform() {
     let mut area = 0.0;
     let elements = structure.elements().iter().zip(structure.corners());
     for (_, corners) in elements.filter(|(element, _)| element.label <= 17) {
-        let flat: Vec<_> = corners.iter().map(|corner| corner.xy()).collect();
+        let flat = corners.iter().map(|corner| corner.xy()).collect_vec();
         for n in 0..flat.len() {
             area += 0.5 * flat[n].perp(&flat[(n + 1) % flat.len()]);
         }

@@ -34,10 +34,7 @@ fn wrong_gages_are_recovered_where_test_modes_see_them() {
         .partition(|(_, share, _)| *share < SEEN_SHARE);
     assert_eq!(hidden.len() + seen.len(), 21);
     assert_eq!(
-        hidden
-            .iter()
-            .map(|(group, ..)| group.name)
-            .collect::<Vec<_>>(),
+        hidden.iter().map(|(group, ..)| group.name).collect_vec(),
         ["webs x 30", "web x 90"]
     );
     for (groups, allowed) in [(&hidden, HIDDEN_GAGE), (&seen, RECOVERED_GAGE)] {
@@ -75,10 +72,10 @@ fn history_is_three_passes_to_the_tolerances() {
     let run = correlate_wing(&wing(), |pass, _| told.push(pass)).expect("it runs");
     assert_eq!(told, [1, 2, 3]);
     let passes = &run.correlation.passes;
-    let counts: Vec<(usize, Stop)> = passes
+    let counts = passes
         .iter()
         .map(|pass| (pass.inner.iterations.len(), pass.inner.stop))
-        .collect();
+        .collect_vec();
     assert_eq!(
         counts,
         [

@@ -12,15 +12,19 @@ fn true_factors() -> Vec<f64> {
 
 #[test]
 fn groups_are_all_covers_and_webs_once() {
-    let mut members: Vec<usize> = GROUPS.iter().flat_map(|g| g.elements).copied().collect();
+    let mut members = GROUPS
+        .iter()
+        .flat_map(|g| g.elements)
+        .copied()
+        .collect_vec();
     members.sort_unstable();
-    assert_eq!(members, (1..=53).collect::<Vec<_>>());
+    assert_eq!(members, (1..=53).collect_vec());
     assert_eq!(GROUPS.len(), 21);
-    let wrong: Vec<(&str, f64)> = GROUPS
+    let wrong = GROUPS
         .iter()
         .filter(|g| g.first_over_true != 1.0)
         .map(|g| (g.name, g.first_over_true))
-        .collect();
+        .collect_vec();
     assert_eq!(
         wrong,
         [
@@ -94,7 +98,11 @@ fn first_model_has_wrong_gages_and_true_masses() {
             max_relative = ROUND_OFF
         );
     }
-    let names: Vec<&str> = model.parameters().iter().map(|p| p.name.as_str()).collect();
+    let names = model
+        .parameters()
+        .iter()
+        .map(|p| p.name.as_str())
+        .collect_vec();
     assert_eq!(names, GROUPS.map(|g| g.name));
     let condensed = model.matrices(&[1.0; 21]).expect("an analysis").mass;
     let b = model.condense(&[1.0; 21]).expect("held").transformation;
@@ -168,14 +176,14 @@ fn test_modes_are_ten_of_the_whole_wing_sampled() {
             1.0,
             max_relative = MATRIX_ROUND_OFF
         );
-        let sampled: Vec<f64> = grids
+        let sampled = grids
             .iter()
             .map(|&grid| {
                 let mut dof = whole.dof.iter();
                 let row = dof.position(|dof| dof.grid == grid && dof.direction == 2);
                 whole.modes.shapes()[(row.expect("it moves"), mode - 1)]
             })
-            .collect();
+            .collect_vec();
         let ratio = shape[4] / sampled[4];
         for (a, b) in shape.iter().zip(&sampled) {
             assert!((a - ratio * b).abs() <= ROUND_OFF * shape.amax());
@@ -187,7 +195,9 @@ fn test_modes_are_ten_of_the_whole_wing_sampled() {
 fn modes_left_out_are_close_and_exchanged_by_the_wrong_gages() {
     let whole = wing().modes().expect("modes").modes.frequencies_hz();
     let separation = |mode: usize| whole[mode] / whole[mode - 1] - 1.0;
-    let left_out: Vec<usize> = (1..=12).filter(|mode| !TEST_MODES.contains(mode)).collect();
+    let left_out = (1..=12)
+        .filter(|mode| !TEST_MODES.contains(mode))
+        .collect_vec();
     assert_eq!(left_out, [8, 9]);
     // The closest pair of the lowest twelve.
     assert_eq!(format!("{:.4}", separation(8)), "0.0160");
@@ -206,7 +216,7 @@ fn modes_left_out_are_close_and_exchanged_by_the_wrong_gages() {
         .expect("enough modes")
         .analysis_mode
         .to_vec();
-    let mut expected: Vec<usize> = (0..12).collect();
+    let mut expected = (0..12).collect_vec();
     expected.swap(7, 8);
     assert_eq!(answers, expected);
 }

@@ -4,7 +4,7 @@ use crate::evidence::eigensolutions::{Counted, counted};
 use crate::prelude::*;
 
 fn case(number: usize, error: f64) -> Counted {
-    let settings = Case::new(number).expect("a case").settings;
+    let settings = case_of(number).settings;
     counted(
         &Known::of_case(number).expect("a case"),
         None,
@@ -16,7 +16,7 @@ fn case(number: usize, error: f64) -> Counted {
 
 #[test]
 fn analyses_are_the_passes_and_the_start() {
-    let run = run_case(&Case::new(1).expect("a case"), |_, _| {}).expect("it runs");
+    let run = run_case(&case_of(1), |_, _| {}).expect("it runs");
     assert!(run.correlation.converged);
     let found = case(1, 0.025);
     assert_eq!(

@@ -49,11 +49,11 @@ fn intervals_hold_the_truth_on_structures_built_later() {
     let noises = noises.map(|(frequency, shape)| Noise { shape, frequency });
     let places = 0..STRUCTURES.len();
     let lines: Vec<String> = std::thread::scope(|scope| {
-        let runs: Vec<_> = places
+        let runs = places
             .flat_map(|structure| {
                 noises.map(|noise| scope.spawn(move || interval_rates(structure, noise)))
             })
-            .collect();
+            .collect_vec();
         runs.into_iter()
             .map(|run| run.join().expect("lines"))
             .collect()

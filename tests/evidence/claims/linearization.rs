@@ -112,6 +112,6 @@ fn whole_step_ends_at_the_test_and_lost_roots_are_no_prediction() {
     let thrice = vec![3.0; known.truth.len()];
     let found =
         predictions(&known.model, &thrice, &[1.0], Exact::SameCondensation).expect("it runs");
-    let lost: Vec<bool> = found[0].errors.iter().map(Option::is_none).collect();
+    let lost = found[0].errors.iter().map(Option::is_none).collect_vec();
     assert_eq!(lost, [false, false, false, true]);
 }

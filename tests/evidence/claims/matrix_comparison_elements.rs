@@ -9,8 +9,7 @@ fn nearest_factors_leave_the_least() {
     for case in 1..=3 {
         let comparison = compared(case);
         let first = model(case, &gages(case, &[1.0; 15], false));
-        let test = Case::new(case)
-            .unwrap()
+        let test = case_of(case)
             .test_modes()
             .unwrap()
             .lowest(TEST_MODES)
@@ -22,11 +21,11 @@ fn nearest_factors_leave_the_least() {
             let made: DMatrix<f64> = made.map(|(share, c)| (c - 1.0) * share).sum();
             weighted_norm(&(&change - made), &first.mass) / weighted_norm(&change, &first.mass)
         };
-        let nearest: Vec<f64> = comparison
+        let nearest = comparison
             .factors
             .iter()
             .map(|f| f.nearest_to_baruch)
-            .collect();
+            .collect_vec();
         let least = left(&nearest);
         let beyond = by_name(&comparison, "Baruch").beyond_elements;
         assert!(

@@ -48,8 +48,7 @@ fn problem() -> impl Strategy<Value = Problem> {
 /// independent.
 fn mixed(problem: &Problem) -> DMatrix<f64> {
     let count = problem.test.len();
-    let mixing =
-        DMatrix::identity(count, count) + 0.15 * problem.other.view((0, 0), (count, count));
+    let mixing = eye(count) + 0.15 * problem.other.view((0, 0), (count, count));
     problem.test.shapes() * mixing
 }
 
@@ -65,7 +64,7 @@ fn admissible(problem: &Problem, mass: &DMatrix<f64>, shapes: &DMatrix<f64>) -> 
     let size = mass.nrows();
     let generalized = shapes.tr_mul(&(mass * shapes));
     let inverse = generalized.try_inverse().expect("independent shapes");
-    let complement = DMatrix::identity(size, size) - mass * shapes * inverse * shapes.transpose();
+    let complement = eye(size) - mass * shapes * inverse * shapes.transpose();
     let change = &complement * &problem.other * complement.transpose();
     0.5 * (&change + change.transpose())
 }
@@ -135,7 +134,7 @@ properties! {
         prop_assert_eq!(mass.shape(), (SIZE, SIZE));
         prop_assert_eq!(&mass, &mass.transpose());
         let count = shapes.ncols();
-        let orthonormality = shapes.tr_mul(&(&mass * &shapes)) - DMatrix::identity(count, count);
+        let orthonormality = shapes.tr_mul(&(&mass * &shapes)) - eye(count);
         prop_assert!(orthonormality.amax() <= CORRECTION_ROUND_OFF);
         // The nearest such mass, and the stiffness that follows it.
         let beside = admissible(&problem, &problem.mass, &shapes);
@@ -162,7 +161,7 @@ fn one_mode(shape: DVector<f64>, omega_squared: f64) -> Modes {
 fn two_degrees_of_freedom_by_hand() {
     // The first DOF is a mode of ω² = 3, so nothing may couple it; what does not touch it stays.
     let stiffness = dmatrix![2.0, -1.0; -1.0, 2.0];
-    let identity = DMatrix::identity(2, 2);
+    let identity = eye(2);
     let test = one_mode(dvector![1.0, 0.0], 3.0);
     let expected = dmatrix![3.0, 0.0; 0.0, 2.0];
     assert_eq!(baruch_stiffness(&stiffness, &identity, &test), expected);

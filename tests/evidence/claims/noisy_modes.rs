@@ -4,7 +4,7 @@ use crate::evidence::noisy_modes::{Found, NOISY_CASE, NoisyModes, NoisyRun, SEED
 use crate::prelude::*;
 
 fn case() -> Case {
-    Case::new(NOISY_CASE).expect("a case")
+    case_of(NOISY_CASE)
 }
 
 fn exact() -> Modes {
@@ -65,20 +65,20 @@ fn noise_is_normal_and_of_the_stated_size() {
             frequency: 0.004,
         },
     );
-    let noisy: Vec<Modes> = (1..=100)
+    let noisy = (1..=100)
         .map(|seed| with_noise(&exact, noise, seed).unwrap())
-        .collect();
-    let shapes: Vec<f64> = noisy
+        .collect_vec();
+    let shapes = noisy
         .iter()
         .flat_map(|noisy| shape_changes(&exact, noisy))
-        .collect();
-    let frequencies: Vec<f64> = noisy
+        .collect_vec();
+    let frequencies = noisy
         .iter()
         .flat_map(|noisy| frequency_changes(&exact, noisy))
-        .collect();
+        .collect_vec();
     assert_eq!((shapes.len(), frequencies.len()), (8100, 900));
     for (changes, size) in [(shapes, noise.shape), (frequencies, noise.frequency)] {
-        let z: Vec<f64> = changes.iter().map(|change| change / size).collect();
+        let z = changes.iter().map(|change| change / size).collect_vec();
         let n = z.len() as f64;
         let mean = |of: &dyn Fn(f64) -> f64| z.iter().map(|&z| of(z)).sum::<f64>() / n;
         let off = |found: f64, expected: f64, variance: f64| {
@@ -140,7 +140,7 @@ properties! {
         let all = orthogonalize(&raw, &mass).unwrap();
         let screened = examine(&raw, &mass, Supports::Held, &limits).unwrap();
         for modes in [&all.modes, &screened.modes] {
-            let off = generalized_mass(modes.shapes(), &mass).unwrap() - DMatrix::identity(modes.len(), modes.len());
+            let off = generalized_mass(modes.shapes(), &mass).unwrap() - eye(modes.len());
             prop_assert!(off.amax() < MATRIX_ROUND_OFF, "{}", off.amax());
         }
         let flexibility = |modes: &Modes| modes.omega_squared().map(f64::recip).sum();
@@ -169,9 +169,9 @@ fn orthogonalization_cleans_the_highest_mode_and_spoils_mode_6() {
             after[mode] += error(&orthogonal);
         }
     }
-    let growth: Vec<f64> = (0..9)
+    let growth = (0..9)
         .map(|mode| (after[mode] / before[mode]).sqrt())
-        .collect();
+        .collect_vec();
     // The growth is largest where the mode moves the heaviest points, and the highest mode moves the lightest alone.
     let generalized_mass = |mode: usize| {
         let shape = unit(exact.shapes().column(mode).into_owned());
@@ -205,7 +205,7 @@ fn the_box_is_held_so_that_its_modes_are_not_balanced() {
     let expected = roots.max() / exact().omega_squared()[0];
     let ratio = study().support_ratio.expect("held");
     assert!(
-        (ratio / expected - 1.0).abs() < BALANCE_EQUATIONS,
+        relative_error(ratio, expected) < BALANCE_EQUATIONS,
         "{ratio} {expected}"
     );
     assert!(ratio > LARGEST_SUSPENSION_RATIO);
@@ -251,9 +251,9 @@ fn without_noise_it_is_the_case_itself_by_the_librarys_own_rule() {
                 .sum::<usize>()
         );
         for (gage, expected) in found.gages_in.iter().zip(&result.pass_gages[best]) {
-            assert!((gage / expected - 1.0).abs() < SAME_HISTORY);
+            assert!(relative_error(gage, expected) < SAME_HISTORY);
         }
-        assert!((found.error_sum / passes[best].check.errors.sum() - 1.0).abs() < SAME_HISTORY);
+        assert!(relative_error(found.error_sum, passes[best].check.errors.sum()) < SAME_HISTORY);
     }
 }
 
@@ -261,12 +261,8 @@ fn without_noise_it_is_the_case_itself_by_the_librarys_own_rule() {
 fn errors_are_those_of_a_model_with_the_gages_found() {
     let case = case();
     assert_eq!(
-        study()
-            .runs
-            .iter()
-            .filter_map(|run| run.seed)
-            .collect::<Vec<_>>(),
-        SEEDS.collect::<Vec<_>>()
+        study().runs.iter().filter_map(|run| run.seed).collect_vec(),
+        SEEDS.collect_vec()
     );
     for run in &study().runs {
         for (found, test) in sides(run) {
@@ -289,7 +285,7 @@ fn errors_are_those_of_a_model_with_the_gages_found() {
                 (found.gage_rms, (squares / 15.0).sqrt()),
             ] {
                 assert!(
-                    (found / expected - 1.0).abs() < DIFFERENCE_ROUND_OFF,
+                    relative_error(found, expected) < DIFFERENCE_ROUND_OFF,
                     "{found} {expected}"
                 );
             }

@@ -105,7 +105,7 @@ fn error_sums_after_the_printed_iterations_are_not_the_printed_ones() {
             .iter()
             .map(of)
             .map(|ratio| format!("{ratio:.1}"))
-            .collect::<Vec<_>>()
+            .collect_vec()
     };
     let table_10 = ["Table 10 FEM 7", "Table 10 FEM 9"];
     let ended = [

@@ -72,10 +72,7 @@ pub const MATRICES: &[Entry] = &[
         let mut motions = d.matrix(size, rigid);
         if d.below(2) == 0 {
             // A free structure and its motion, so that some calls are answered.
-            (stiffness, motions) = (
-                DMatrix::zeros(size, size),
-                DMatrix::from_element(size, 1, 1.0),
-            );
+            (stiffness, motions) = (zero_square(size), DMatrix::from_element(size, 1, 1.0));
         }
         balance(&set, &stiffness, &mass, &motions).map(|found| entries(&found.shapes))
     }),

@@ -31,7 +31,7 @@ pub const PERTURBATION: &[Entry] = &[
         let size = d.size();
         let (stiffness, change, g_change) =
             (d.symmetric(size), d.symmetric(size), d.symmetric(size));
-        let modes = match solve(&stiffness, &DMatrix::identity(size, size), size) {
+        let modes = match solve(&stiffness, &eye(size), size) {
             Ok(modes) if d.below(4) > 0 => on_either_side(&modes),
             _ => LeftRightModes {
                 roots: d.vector(size),

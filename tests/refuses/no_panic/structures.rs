@@ -156,7 +156,7 @@ pub const STRUCTURES: &[Entry] = &[
     }),
     ("elements::support", |d| {
         let structure = d.structure()?;
-        let elements: Vec<_> = element_matrices(&structure).collect();
+        let elements = element_matrices(&structure).collect_vec();
         let found = support(&structure, &elements)?;
         let entries = found.resisting.iter().flat_map(|matrix| matrix.entries());
         Ok(entries.map(|entry| entry.2).collect())
@@ -165,7 +165,7 @@ pub const STRUCTURES: &[Entry] = &[
         let (model, factors) = d.finite_element()?;
         let ranges = model
             .factor_ranges()
-            .map(|ranges| ranges.into_iter().flatten().collect::<Vec<_>>())?;
+            .map(|ranges| ranges.into_iter().flatten().collect_vec())?;
         Ok(ranges
             .iter()
             .flat_map(|range| [range.lower, range.upper])

@@ -50,7 +50,7 @@ properties! {
         let way: DMatrix<f64> = DMatrix::from_fn(6, 1, |row, _| if row < 3 { -beside[row % 3] } else { beside[row % 3] });
         let mut stiffness = of.stiffness.clone().resize(count + 3, count + 3, 0.0);
         let bar = 1e6 * &way * way.transpose();
-        let places: Vec<usize> = (3..6).chain(count..count + 3).collect();
+        let places = (3..6).chain(count..count + 3).collect_vec();
         for (i, &row) in places.iter().enumerate() {
             places.iter().enumerate().for_each(|(j, &column)| stiffness[(row, column)] += bar[(i, j)]);
         }

@@ -29,8 +29,8 @@ fn bar(areas: &[f64]) -> Structure {
 
 /// The same as a whole model, and what reads the joints (1 to 10, from the wall) that are measured.
 fn whole(bar: &Structure, measured: &[usize]) -> (WholeModel, SparseMatrix) {
-    let rods: Vec<Vec<usize>> = (1..=RODS).map(|rod| vec![rod]).collect();
-    let joints: Vec<usize> = measured.iter().map(|joint| joint - 1).collect();
+    let rods = (1..=RODS).map(|rod| vec![rod]).collect_vec();
+    let joints = measured.iter().map(|joint| joint - 1).collect_vec();
     (
         of_structure(bar, &rods).expect("a whole model"),
         sensors_at(&joints, RODS),
@@ -49,7 +49,7 @@ properties! {
         let (whole, joints) = whole(&bar, &FIVE);
         let found = seen_modes(&whole, &ONES, &joints, 5).expect("modes");
         for mode in 0..5 {
-            prop_assert!((found.omega_squared()[mode] / omega_squared[mode] - 1.0).abs() < 1e2 * EIGEN_ROUND_OFF);
+            prop_assert!(relative_error(found.omega_squared()[mode], omega_squared[mode]) < 1e2 * EIGEN_ROUND_OFF);
             let expected = DVector::from_fn(5, |row, _| shapes[(FIVE[row] - 1, mode)]);
             let (a, b) = (found.shapes().column(mode), &expected);
             let sign = a.dot(b).signum();
@@ -71,7 +71,7 @@ properties! {
 
     #[test]
     fn where_every_joint_is_measured_condensation_costs_nothing(areas in prop::collection::vec(0.5..2.0_f64, RODS)) {
-        let all: Vec<usize> = (1..=RODS).collect();
+        let all = (1..=RODS).collect_vec();
         let (whole, joints) = whole(&bar(&areas), &all);
         for error in condensation_errors(&whole, &ONES, &joints, RODS).expect("errors") {
             prop_assert!(error.frequency.abs() < MATRIX_ROUND_OFF && error.shape.abs() < MATRIX_ROUND_OFF);
@@ -83,7 +83,7 @@ properties! {
 #[test]
 fn the_mass_of_elements_alone_is_condensed_as_the_method_does() {
     let bar = bar(&ONES);
-    let t = DMatrix::identity(RODS, RODS).select_columns(&FIVE.map(|joint| joint - 1));
+    let t = eye(RODS).select_columns(&FIVE.map(|joint| joint - 1));
     let b = condense(&dense(&bar), &t).expect("held").transformation;
     let plain = b.tr_mul(&(DMatrix::from_diagonal(&lumped_mass(&bar)) * &b));
     let (model, joints) = whole(&bar, &FIVE);
@@ -131,7 +131,7 @@ fn modes_that_move_no_sensor_are_passed_over_in_any_units() {
             let found = seen_modes(&model, &[1.0], &sensors, count).expect("modes");
             for (found, expected) in found.omega_squared().iter().zip([roots[0], roots[2]]) {
                 assert!(
-                    (found / expected - 1.0).abs() < MATRIX_ROUND_OFF,
+                    relative_error(found, expected) < MATRIX_ROUND_OFF,
                     "{found} {expected}"
                 );
             }

@@ -51,7 +51,7 @@ fn order_of(count: usize, elements: &[ElementMatrix]) -> Vec<usize> {
         pairs
             .filter(|(a, b)| a != b)
             .flat_map(|(a, b)| [(a, b, -1.0), (a, a, 1.0)])
-            .collect::<Vec<_>>()
+            .collect_vec()
     };
     let ground = (0..count).map(|row| (row, row, 1.0));
     let entries = elements.iter().flat_map(coupled).chain(ground).collect();
@@ -60,7 +60,7 @@ fn order_of(count: usize, elements: &[ElementMatrix]) -> Vec<usize> {
 }
 
 fn fill_of(structure: &Structure) -> Fill {
-    let elements: Vec<_> = element_matrices(structure).collect();
+    let elements = element_matrices(structure).collect_vec();
     let order = order_of(structure.free_dof().len(), &elements);
     let fill = fill::of_order(&order, &elements);
     // Dense blocks store zeros too.
@@ -102,7 +102,7 @@ fn eliminated(order: &[usize], elements: &[ElementMatrix]) -> usize {
     let mut entries = 0;
     for (at, &row) in order.iter().enumerate() {
         let later = order[at..].iter().copied();
-        let below: Vec<usize> = later.filter(|&other| coupled[row][other]).collect();
+        let below = later.filter(|&other| coupled[row][other]).collect_vec();
         entries += below.len();
         for &a in &below {
             below.iter().for_each(|&b| coupled[a][b] = true);
@@ -124,21 +124,21 @@ fn network(count: usize, springs: &[(usize, usize)]) -> (Structure, Vec<ElementM
 
 /// A square net of such springs whose points are numbered at random.
 fn shuffled_net(side: usize, draws: &mut Draws) -> Vec<(usize, usize)> {
-    let mut label: Vec<usize> = (0..side * side).collect();
+    let mut label = (0..side * side).collect_vec();
     (1..label.len())
         .rev()
         .for_each(|at| label.swap(at, draws.below(at + 1)));
     let across = (0..side * side).filter(|at| at % side > 0);
-    let across: Vec<_> = across.map(|at| (label[at], label[at - 1])).collect();
+    let across = across.map(|at| (label[at], label[at - 1])).collect_vec();
     let along = (side..side * side).map(|at| (label[at], label[at - side]));
     along.chain(across).collect()
 }
 
 /// A tree in which every point hangs on one of the three before it, and as many springs again between points not far from each other.
 fn branches(count: usize, draws: &mut Draws) -> Vec<(usize, usize)> {
-    let tree: Vec<_> = (1..count)
+    let tree = (1..count)
         .map(|at| (at, at - 1 - draws.below(at.min(3))))
-        .collect();
+        .collect_vec();
     let more = (12..count).map(|at| (at, at - 1 - draws.below(12)));
     more.chain(tree).collect()
 }
@@ -170,10 +170,10 @@ fn fill_is_what_the_cuts_of_nested_dissection_promise_and_elimination_by_hand_co
     let second =
         |springs: Vec<(usize, usize)>| springs.into_iter().map(|(a, b)| (100 + a, 100 + b));
     let loops = |count: usize| (0..count).map(move |at| (at, (at + 1) % count));
-    let two: Vec<_> = shuffled_net(10, &mut draws)
+    let two = shuffled_net(10, &mut draws)
         .into_iter()
         .chain(second(shuffled_net(7, &mut draws)))
-        .collect();
+        .collect_vec();
     let rings = loops(40).chain(loops(25).map(|(a, b)| (40 + a, 40 + b)));
     let meshes = [
         of_wing(Wing::default().bays),
@@ -184,7 +184,7 @@ fn fill_is_what_the_cuts_of_nested_dissection_promise_and_elimination_by_hand_co
         network(400, &shuffled_net(20, &mut draws)),
         network(149, &two),
         network(300, &branches(300, &mut draws)),
-        network(65, &rings.collect::<Vec<_>>()),
+        network(65, &rings.collect_vec()),
     ];
     let counted = FILL
         .iter()
@@ -195,7 +195,7 @@ fn fill_is_what_the_cuts_of_nested_dissection_promise_and_elimination_by_hand_co
             assert_eq!(needed, eliminated(&order, elements), "{name}");
             (*name, needed)
         });
-    assert_eq!(counted.collect::<Vec<_>>(), FILL);
+    assert_eq!(counted.collect_vec(), FILL);
 }
 
 #[test]
@@ -261,7 +261,7 @@ fn a_load_distribution_says_what_is_wrong_with_it() {
     let t = DMatrix::from_row_slice(3, 2, &[1.0, 0.0, 0.0, 0.0, 0.5, 2.0]);
     let sparse = SparseMatrix::of_dense("load distribution", &t).expect("finite");
     assert_eq!(
-        sparse.entries().collect::<Vec<_>>(),
+        sparse.entries().collect_vec(),
         [(0, 0, 1.0), (2, 0, 0.5), (2, 1, 2.0)]
     );
     assert_eq!((sparse.dense(), sparse.rows()), (t, 3));
@@ -272,12 +272,12 @@ properties! {
     /// and all shares sum to K_D.
     #[test]
     fn shares_of_any_element_matrix_are_its_congruence(change in symmetric(12), strength in 0.0..0.02_f64) {
-        let model = Case::new(1).unwrap().model().unwrap();
+        let model = case_of(1).model().unwrap();
         let units = model.element_matrices().iter().map(|element| {
             let count = element.dof.len();
             &element.unit + strength * element.unit.amax() * change.view((0, 0), (count, count))
         });
-        let units: Vec<DMatrix<f64>> = units.collect();
+        let units = units.collect_vec();
         let model = model.with_unit_stiffness(units.clone()).unwrap();
         let ones = vec![1.0; model.parameters().len()];
         // Changes beyond what the structure bears are refused, and are not this property's matter.

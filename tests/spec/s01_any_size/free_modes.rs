@@ -26,9 +26,9 @@ fn random_pencils_are_counted_and_solved_every_time() {
     for number in 0..10_000 {
         let (rigid, massless, vibrations) = (draws.below(3), draws.below(3), 1 + draws.below(4));
         let size = rigid + massless + vibrations;
-        let mut roots: Vec<f64> = (0..vibrations)
+        let mut roots = (0..vibrations)
             .map(|_| [1.0, 1.0, 4.0, 30.0, 30.5, 900.0][draws.below(6)])
-            .collect();
+            .collect_vec();
         roots.sort_by(f64::total_cmp);
         repeated += usize::from(roots.windows(2).any(|pair| pair[0] == pair[1]));
         (free, massless_ones) = (
@@ -58,7 +58,7 @@ fn random_pencils_are_counted_and_solved_every_time() {
         assert_eq!(found.vibrations.len(), vibrations, "pencil {number}");
         for (omega_squared, root) in found.vibrations.omega_squared().iter().zip(&roots) {
             assert!(
-                (omega_squared / root - 1.0).abs() < COUNTED_ROOT,
+                relative_error(omega_squared, root) < COUNTED_ROOT,
                 "pencil {number}: {omega_squared} for {root}"
             );
         }
@@ -95,7 +95,7 @@ fn random_pencils_are_counted_and_solved_every_time() {
 #[test]
 fn a_free_spring_chain_has_the_closed_form() {
     for count in 2..=9 {
-        let mut stiffness = DMatrix::zeros(count, count);
+        let mut stiffness = zero_square(count);
         for spring in 0..count - 1 {
             let mut ends = DVector::zeros(count);
             (ends[spring], ends[spring + 1]) = (1.0, -1.0);
@@ -105,10 +105,13 @@ fn a_free_spring_chain_has_the_closed_form() {
         let found = counted_modes(&stiffness, &mass).expect("modes");
         assert_eq!(found.rigid_body.ncols(), 1);
         let expected = chain_eigenvalues(ChainEnds::FreeFree, count, 100.0, 0.01);
-        let expected: Vec<f64> = expected.into_iter().filter(|value| *value > 1e-6).collect();
+        let expected = expected
+            .into_iter()
+            .filter(|value| *value > 1e-6)
+            .collect_vec();
         assert_eq!(found.vibrations.len(), expected.len());
         for (found, expected) in found.vibrations.omega_squared().iter().zip(&expected) {
-            assert!((found / expected - 1.0).abs() < COUNTED_ROOT);
+            assert!(relative_error(found, expected) < COUNTED_ROOT);
         }
         // The chain moves as one.
         let first = found.rigid_body[(0, 0)];
@@ -116,7 +119,7 @@ fn a_free_spring_chain_has_the_closed_form() {
             found
                 .rigid_body
                 .iter()
-                .all(|component| (component / first - 1.0).abs() < COUNTED_ROOT)
+                .all(|component| relative_error(component, first) < COUNTED_ROOT)
         );
         for (below, bound) in [
             (0, -1.0),
@@ -179,7 +182,7 @@ fn a_free_delta_wing_has_its_rigid_body_modes_and_no_mode_is_lost() {
 fn a_soft_suspension_is_a_vibration_and_no_rigid_body_mode() {
     // A hundred-millionth of the other's stiffness, and still no zero.
     let stiffness = DMatrix::from_diagonal(&DVector::from_vec(vec![1e-8, 1.0]));
-    let found = counted_modes(&stiffness, &DMatrix::identity(2, 2)).expect("modes");
+    let found = counted_modes(&stiffness, &eye(2)).expect("modes");
     assert_eq!((found.rigid_body.ncols(), found.vibrations.len()), (0, 2));
     assert!((found.vibrations.omega_squared()[0] / 1e-8 - 1.0).abs() < COUNTED_ROOT);
 }
@@ -190,7 +193,7 @@ fn a_mode_that_is_lost_beside_a_far_lower_one_is_missed_by_the_count() {
     let stiffness = DMatrix::from_diagonal(&DVector::from_vec(vec![0.0, 1.0, 0.9e13, 1.1e13]));
     let (stiffness, mass) = (
         sparse(&stiffness).expect("a matrix"),
-        sparse(&DMatrix::identity(4, 4)).expect("a matrix"),
+        sparse(&eye(4)).expect("a matrix"),
     );
     // Above the last that is found, as far as that is from three times itself, half way.
     let refused = lowest_modes(&stiffness, &mass, 2);
@@ -207,7 +210,7 @@ fn a_mode_that_is_lost_beside_a_far_lower_one_is_missed_by_the_count() {
 
 #[test]
 fn what_is_no_mass_is_named_by_its_row() {
-    let stiffness = sparse(&DMatrix::identity(3, 3)).expect("a matrix");
+    let stiffness = sparse(&eye(3)).expect("a matrix");
     let coupled = vec![(0, 0, 1.0), (1, 2, 1.0), (2, 1, 1.0)];
     let mass = SparseMatrix::new("mass", 3, 3, coupled).expect("a matrix");
     // Both rows move alike in the motion of negative mass; the first is named.
@@ -220,9 +223,9 @@ fn what_is_no_mass_is_named_by_its_row() {
 
 #[test]
 fn what_cannot_be_counted_is_refused() {
-    let two = DMatrix::identity(2, 2);
+    let two = eye(2);
     assert!(matches!(
-        counted_modes(&two, &DMatrix::zeros(2, 2)),
+        counted_modes(&two, &zero_square(2)),
         Err(Error::Count { found: 0, .. })
     ));
     let negative = DMatrix::from_diagonal(&DVector::from_vec(vec![1.0, -1.0]));
@@ -237,7 +240,7 @@ fn what_cannot_be_counted_is_refused() {
         Err(Error::NotPositiveDefinite { .. })
     ));
     assert!(matches!(
-        counted_modes(&two, &DMatrix::identity(3, 3)),
+        counted_modes(&two, &eye(3)),
         Err(Error::WrongShape { .. })
     ));
     assert!(matches!(

@@ -43,7 +43,7 @@ fn one_stiff_or_soft_spring_of_a_matrix_never_changes_the_count_to_ratios_that_d
                 let ground = is_held.then_some((0, None, draws.between(1e4, 9e4)));
                 let tree =
                     (1..size).map(|row| (draws.below(row), Some(row), draws.between(1e4, 9e4)));
-                let mut all: Vec<_> = tree.collect();
+                let mut all = tree.collect_vec();
                 all.extend(ground);
                 // Of the network, or of the supports.
                 let odd = if draws.unit() < 0.5 {
@@ -107,7 +107,7 @@ fn truss(
     };
     let mut rods = Vec::new();
     for point in 1..points {
-        let mut others: Vec<usize> = (0..point).collect();
+        let mut others = (0..point).collect_vec();
         while others.len() > 6 {
             others.remove(draws.below(others.len()));
         }
@@ -148,7 +148,7 @@ fn a_thousand_structures_have_neither_one_too_many_nor_one_too_few() {
         }
         for (one, other) in frequencies[0].iter().zip(&frequencies[1]) {
             assert!(
-                (one / other - 1.0).abs() < DIFFERENCE_ROUND_OFF,
+                relative_error(one, other) < DIFFERENCE_ROUND_OFF,
                 "truss {number}: {one} and {other}"
             );
         }
@@ -163,7 +163,7 @@ fn where_there_is_no_stiffness_every_motion_is_free() {
         let found = of(&nothing);
         let mut rows = found.rows.clone();
         rows.sort_unstable();
-        assert_eq!(rows, (0..size).collect::<Vec<_>>());
+        assert_eq!(rows, (0..size).collect_vec());
     }
 }
 

@@ -20,7 +20,7 @@ fn a_long_chain_has_the_closed_form_whatever_holds_it() {
         for (mode, omega_squared) in found.vibrations.omega_squared().iter().enumerate() {
             let expected = expected[mode + rigid];
             assert!(
-                (omega_squared / expected - 1.0).abs() < COUNTED_ROOT,
+                relative_error(omega_squared, expected) < COUNTED_ROOT,
                 "{ends:?} {mode}: {omega_squared} {expected}"
             );
         }
@@ -72,10 +72,10 @@ fn repeated_roots_of_a_square_net_are_all_found() {
         }
     }
     let one = chain_eigenvalues(ChainEnds::FixedFixed, side, 1.0e4, 0.5);
-    let mut expected: Vec<f64> = one
+    let mut expected = one
         .iter()
         .flat_map(|a| one.iter().map(move |b| a + b))
-        .collect();
+        .collect_vec();
     expected.sort_by(f64::total_cmp);
     for count in [1, 2, 7, 24] {
         let found = lowest_modes(
@@ -86,13 +86,13 @@ fn repeated_roots_of_a_square_net_are_all_found() {
         .expect("modes");
         for (found, expected) in found.vibrations.omega_squared().iter().zip(&expected) {
             assert!(
-                (found / expected - 1.0).abs() < COUNTED_ROOT,
+                relative_error(found, expected) < COUNTED_ROOT,
                 "{found} {expected}"
             );
         }
         let (m, shapes) = (masses(&vec![0.5; side * side]), found.vibrations.shapes());
         let unit = shapes.tr_mul(&m.times(shapes).expect("it fits"));
-        assert!((unit - DMatrix::identity(count, count)).amax() < WHOLE_SHAPE);
+        assert!((unit - eye(count)).amax() < WHOLE_SHAPE);
     }
 }
 
@@ -103,7 +103,7 @@ fn random_sparse_pencils_have_the_modes_of_their_dense_ones() {
     for number in 0..30 {
         let count = MOST_DENSE_ROWS + 1 + draws.below(100);
         let is_held = draws.below(2) == 0;
-        let mut all: Vec<_> = (1..count)
+        let mut all = (1..count)
             .map(|row| {
                 (
                     row,
@@ -111,13 +111,13 @@ fn random_sparse_pencils_have_the_modes_of_their_dense_ones() {
                     10.0_f64.powf(4.0 + draws.unit()),
                 )
             })
-            .collect();
+            .collect_vec();
         all.extend(
             (0..count).map(|row| (row, Some((row + 7) % count), 1.0e4 * (0.1 + draws.unit()))),
         );
         all.extend(is_held.then_some((0, None, 1.0e4)));
         let massless = draws.below(3);
-        let values: Vec<f64> = (0..count)
+        let values = (0..count)
             .map(|row| {
                 if massless > 0 && row % (massless + 1) == 0 {
                     0.0
@@ -125,7 +125,7 @@ fn random_sparse_pencils_have_the_modes_of_their_dense_ones() {
                     0.1 + draws.unit()
                 }
             })
-            .collect();
+            .collect_vec();
         let (stiffness, mass) = (springs(count, &all), masses(&values));
         let wanted = 1 + draws.below(12);
         let found = lowest_modes(&stiffness, &mass, wanted)
@@ -135,7 +135,7 @@ fn random_sparse_pencils_have_the_modes_of_their_dense_ones() {
         for (mode, omega_squared) in found.vibrations.omega_squared().iter().enumerate() {
             let expected = dense.vibrations.omega_squared()[mode];
             assert!(
-                (omega_squared / expected - 1.0).abs() < COUNTED_ROOT,
+                relative_error(omega_squared, expected) < COUNTED_ROOT,
                 "{number} {mode}: {omega_squared} {expected}"
             );
             let shape = found.vibrations.shapes().columns(mode, 1).into_owned();
@@ -175,7 +175,7 @@ fn what_counts_as_free_by_its_digits_says_what_they_would_hide() {
     let slack = 4.0 * 30.0 * f64::EPSILON * 1.5e4 / 0.7;
     let hertz = (slack / 5.0).sqrt() / TAU;
     assert!(
-        (hidden_hz / hertz - 1.0).abs() < JOB_RESULTS,
+        relative_error(hidden_hz, hertz) < JOB_RESULTS,
         "{hidden_hz} {hertz}"
     );
 }
@@ -227,7 +227,7 @@ fn a_search_takes_as_many_solutions_as_it_took() {
         )
     };
     let nine = (0..9 * 40).map(|row| (row, (row % 40 > 0).then(|| row - 1), 1.0));
-    let nine = springs(9 * 40, &nine.collect::<Vec<_>>());
+    let nine = springs(9 * 40, &nine.collect_vec());
     let solutions = |stiffness: &SparseMatrix, count| {
         let mass = masses(&vec![1.0; stiffness.rows()]);
         let found = lowest_modes(stiffness, &mass, count).expect("modes");

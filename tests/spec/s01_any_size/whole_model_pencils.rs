@@ -9,7 +9,7 @@ fn assert_roots(found: &CountedModes, expected: &[f64], what: &str) {
     assert_eq!(found.vibrations.len(), expected.len(), "{what}");
     for (found, expected) in found.vibrations.omega_squared().iter().zip(expected) {
         assert!(
-            (found / expected - 1.0).abs() < COUNTED_ROOT,
+            relative_error(found, expected) < COUNTED_ROOT,
             "{what}: {found} {expected}"
         );
     }
@@ -23,7 +23,7 @@ fn oscillators(omega_squared: &[f64]) -> SparseMatrix {
             .iter()
             .enumerate()
             .map(|(row, &k)| (row, None, k))
-            .collect::<Vec<_>>(),
+            .collect_vec(),
     )
 }
 
@@ -50,7 +50,7 @@ fn units_of_stiffness_and_mass_only_scale_the_roots_and_shapes() {
             );
             let shapes = found.vibrations.shapes();
             assert!(
-                (mass * shapes.tr_mul(shapes) - DMatrix::identity(10, 10)).amax() < WHOLE_SHAPE,
+                (mass * shapes.tr_mul(shapes) - eye(10)).amax() < WHOLE_SHAPE,
                 "{what}"
             );
         }
@@ -71,12 +71,12 @@ fn every_loose_part_has_a_rigid_body_motion() {
             )
         })
     });
-    let stiffness = springs(parts * length, &all.collect::<Vec<_>>());
+    let stiffness = springs(parts * length, &all.collect_vec());
     let mass = masses(&vec![0.5; parts * length]);
     let vibrations = |part: usize| {
         chain_eigenvalues(ChainEnds::FreeFree, length, stiffness_of(part), 0.5).split_off(1)
     };
-    let mut expected: Vec<f64> = (0..parts).flat_map(vibrations).collect();
+    let mut expected = (0..parts).flat_map(vibrations).collect_vec();
     expected.sort_by(f64::total_cmp);
     for count in [1, 2, 12] {
         let found = lowest_modes(&stiffness, &mass, count).expect("modes");
@@ -92,9 +92,9 @@ fn a_free_chain_of_a_few_masses_has_as_many_modes_and_no_more() {
     for between in [10, 37, 40] {
         let count = ROWS / between + 1;
         let rows = between * (count - 1) + 1;
-        let values: Vec<f64> = (0..rows)
+        let values = (0..rows)
             .map(|row| if row % between == 0 { 3.0 } else { 0.0 })
-            .collect();
+            .collect_vec();
         let spring = 100.0 * between as f64;
         let (stiffness, mass) = (
             chain_of_springs(ChainEnds::FreeFree, rows, spring),
@@ -124,7 +124,7 @@ fn a_root_more_often_repeated_than_modes_are_asked_for_is_found_whole() {
                     .repeat(times)
                     .into_iter()
                     .chain(others)
-                    .collect::<Vec<_>>(),
+                    .collect_vec(),
             )
         };
         let mass = masses(&[1.0; ROWS]);

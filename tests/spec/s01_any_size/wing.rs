@@ -236,14 +236,14 @@ properties! {
         prop_assert_eq!(model.parameters().len(), SORTS.len() * wing.zones);
         let members = |sort: usize| {
             let zones = &model.parameters()[sort * wing.zones..(sort + 1) * wing.zones];
-            zones.iter().flat_map(|p| p.elements.clone()).collect::<Vec<_>>()
+            zones.iter().flat_map(|p| p.elements.clone()).collect_vec()
         };
-        let mut all: Vec<usize> = (0..SORTS.len()).flat_map(members).collect();
+        let mut all = (0..SORTS.len()).flat_map(members).collect_vec();
         for (sort, expected) in counts(wing.bays).into_iter().enumerate() {
             prop_assert_eq!(members(sort).len(), expected, "{}", SORTS[sort]);
         }
         all.sort_unstable();
-        prop_assert_eq!(all, (1..=model.structure().elements().len()).collect::<Vec<_>>());
+        prop_assert_eq!(all, (1..=model.structure().elements().len()).collect_vec());
     }
 
     #[test]
@@ -251,7 +251,7 @@ properties! {
         let model = wing.model().expect("a wing");
         let (t, free) = (model.load_distribution(), model.structure().free_dof());
         for column in t.column_iter() {
-            let rows: Vec<usize> = (0..t.nrows()).filter(|&row| column[row] != 0.0).collect();
+            let rows = (0..t.nrows()).filter(|&row| column[row] != 0.0).collect_vec();
             prop_assert_eq!(rows.len(), 2);
             prop_assert!(rows.iter().all(|&row| column[row] == 0.5 && free[row].direction == 2));
             prop_assert_eq!(free[rows[1]].grid - free[rows[0]].grid, wing.bays[2]);

@@ -38,7 +38,7 @@ impl DeltaWing {
         let mass = lumped_mass(&structure);
         let dof = structure.free_dof().to_vec();
         let dense = assemble(&elements, &sizes, dof.len())?;
-        let t = DMatrix::identity(dof.len(), dof.len());
+        let t = eye(dof.len());
         let stiffness = SparseMatrix::of_dense("stiffness", &dense)?;
         whole_modes(
             &stiffness,
@@ -56,8 +56,8 @@ impl DeltaWing {
     /// The structure, its unit element matrices, sizes and stiffness.
     fn parts(&self) -> Result<(Structure, Vec<ElementMatrix>, Vec<f64>, Factor), Error> {
         let structure = self.structure()?;
-        let elements: Vec<_> = element_matrices(&structure).collect();
-        let sizes: Vec<f64> = structure.elements().iter().map(|e| e.size).collect();
+        let elements = element_matrices(&structure).collect_vec();
+        let sizes = structure.elements().iter().map(|e| e.size).collect_vec();
         let dense = assemble(&elements, &sizes, structure.free_dof().len())?;
         let stiffness = Factor::new("stiffness", &SparseMatrix::of_dense("stiffness", &dense)?)?;
         Ok((structure, elements, sizes, stiffness))

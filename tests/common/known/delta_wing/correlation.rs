@@ -126,10 +126,10 @@ pub fn first_model(wing: &DeltaWing) -> Result<Weighed, Error> {
     });
     let structure = Structure::new(right.grids().to_vec(), elements.collect())?;
     let column = |grid| Some(vec![(structure.free_dof_index(grid, Z)?, 1.0)]);
-    let columns: Vec<_> = measured_grids(&structure)
+    let columns = measured_grids(&structure)
         .into_iter()
         .filter_map(column)
-        .collect();
+        .collect_vec();
     let mass = DMatrix::from_diagonal_element(columns.len(), columns.len(), POINT_MASS);
     let rows = structure.free_dof().len();
     let loads = SparseMatrix::of_columns("load distribution", rows, &columns)?;
@@ -148,10 +148,10 @@ pub fn test_modes(wing: &DeltaWing) -> Result<Modes, Error> {
     let (structure, whole) = (wing.structure()?, wing.modes()?.modes);
     let (places, all_hz) = (TEST_MODES.map(|mode| mode - 1), whole.frequencies_hz());
     let row = |grid: usize| structure.free_dof_index(grid, Z);
-    let rows: Vec<usize> = measured_grids(&structure)
+    let rows = measured_grids(&structure)
         .into_iter()
         .filter_map(row)
-        .collect();
+        .collect_vec();
     let shapes = whole.shapes().select_rows(&rows).select_columns(&places);
     Modes::from_measured(&places.map(|place| all_hz[place]), &shapes)
 }

@@ -3,7 +3,7 @@
 pub use crate::common::tolerances::*;
 pub use crate::{
     common::{
-        alter,
+        CollectVec, alter,
         appendix_b::{mass_norm, modes, relative_difference, slight_overlap, unit_shapes},
         appendix_c::{
             FORMULAE, ModalChange, ascending, change_of, eigensolution, exact, four_modes,
@@ -12,6 +12,7 @@ pub use crate::{
         },
         assert_refused,
         boxes::{first_problem, other_boxes, problem_of, uneven_box},
+        by_sorting, case_of,
         closed_forms::{
             analytical::{
                 ChainEnds, chain_eigenvalues, no_sides_parallel_energy, parallelogram_energy,
@@ -24,9 +25,11 @@ pub use crate::{
         costly_config,
         decks::{bulk_data, bulk_text},
         draws::{Draws, reached},
+        eye,
         golden::{Numbers, assert_golden, assert_table},
         gradient::gradient,
         ground_tests::{ground_test, wing_test},
+        in_root,
         jobs::{Files, STORIES, building, of_matrices, prepare, worked},
         known::{
             Known,
@@ -62,7 +65,7 @@ pub use crate::{
         },
         pairings::{cross, noisy_pairs, pairs_by_sorting, rearrangement},
         panels::{Sample, flat_panel, material, sample, warped_panel},
-        said,
+        relative_error, said,
         strategies::{orthogonal, point, positive_definite, rotation, symmetric},
         structures::{
             condition, dense, factorized, grid, group, linkage, linkage_data, lumped_mass, sizes,
@@ -78,6 +81,7 @@ pub use crate::{
             chain_of_springs, counted_modes, free_motions, lowest_modes, masses, of_dense,
             of_structure, seen_by, sensors_at, shear_building, sparse, springs,
         },
+        zero_square,
     },
     readers::job_errors::{placed, with},
 };
