@@ -4,7 +4,7 @@ use crate::prelude::*;
 
 /// Test modes from squared circular frequencies and shapes by columns.
 pub fn modes(omega_squared: &[f64], shapes: DMatrix<f64>) -> Modes {
-    Modes::new(DVector::from_column_slice(omega_squared), shapes).expect("modes")
+    Modes::new(DVector::from_column_slice(omega_squared), shapes).unwrap()
 }
 
 /// The mass norm of a shape.

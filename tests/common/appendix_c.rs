@@ -231,7 +231,7 @@ pub fn largest_root_error(roots: &[Complex<f64>], exact: &[Complex<f64>]) -> f64
                 .enumerate()
                 .map(|(i, other)| (i, (root - other).norm() / other.norm()))
                 .min_by(|a, b| a.1.total_cmp(&b.1))
-                .expect("there are roots");
+                .unwrap();
             assert!(
                 !used[nearest],
                 "two roots are nearest to {}",

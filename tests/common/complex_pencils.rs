@@ -83,9 +83,7 @@ pub fn roots_by_qz(stiffness: &Complexes, g: &Complexes) -> Vec<Complex<f64>> {
     let to_faer = |matrix: &Complexes| {
         faer::Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)])
     };
-    let eigen = to_faer(g)
-        .generalized_eigen(to_faer(stiffness))
-        .expect("QZ converges");
+    let eigen = to_faer(g).generalized_eigen(to_faer(stiffness)).unwrap();
     (0..g.nrows())
         .map(|i| eigen.S_a()[i] / eigen.S_b()[i])
         .collect()

@@ -12,7 +12,7 @@ const WIDTHS: [usize; 2] = [8, 16];
 /// Those of [`deck::write`].
 pub fn bulk_text(model: &BulkData) -> Result<String, FileError> {
     let deck = deck::write(model, "", &deck::Task::Matrices)?;
-    let bulk = deck.split_once("BEGIN BULK\n").expect("bulk data").1;
+    let bulk = deck.split_once("BEGIN BULK\n").unwrap().1;
     Ok(bulk
         .split_inclusive('\n')
         .take_while(|line| !line.starts_with("EIGR"))
@@ -22,19 +22,13 @@ pub fn bulk_text(model: &BulkData) -> Result<String, FileError> {
 /// A decimal number of up to ten digits between 1e-15 and 1e15: a field of 16 characters holds it exactly, with its
 /// sign and an exponent.
 pub fn field_number() -> impl Strategy<Value = f64> {
-    (-9_999_999_999..=9_999_999_999_i64, -15..=5_i32).prop_map(|(digits, power)| {
-        format!("{digits}e{power}")
-            .parse()
-            .expect("a decimal number")
-    })
+    (-9_999_999_999..=9_999_999_999_i64, -15..=5_i32)
+        .prop_map(|(digits, power)| format!("{digits}e{power}").parse().unwrap())
 }
 
 fn positive_number() -> impl Strategy<Value = f64> {
-    (1..=9_999_999_999_i64, -15..=5_i32).prop_map(|(digits, power)| {
-        format!("{digits}e{power}")
-            .parse()
-            .expect("a decimal number")
-    })
+    (1..=9_999_999_999_i64, -15..=5_i32)
+        .prop_map(|(digits, power)| format!("{digits}e{power}").parse().unwrap())
 }
 
 /// Two materials: Poisson's ratio of four digits, a shear modulus that follows from it or one of its own, with or without
@@ -47,7 +41,7 @@ fn materials() -> impl Strategy<Value = Vec<Material>> {
         prop::option::of(positive_number()),
     )
         .prop_map(|(e, nu, g, density)| {
-            let material = Material::isotropic(e, f64::from(nu) / 1e4).expect("a material");
+            let material = Material::isotropic(e, f64::from(nu) / 1e4).unwrap();
             Material {
                 shear_modulus: g.unwrap_or(material.shear_modulus),
                 density: density.unwrap_or(0.0),

@@ -32,7 +32,7 @@ pub fn reached<S: Strategy>(
     is_reached: impl Fn(S::Value) -> bool,
 ) -> f64 {
     let mut runner = TestRunner::new(super::config());
-    let draw = |_| strategy.new_tree(&mut runner).expect("a draw").current();
+    let draw = |_| strategy.new_tree(&mut runner).unwrap().current();
     let count = (0..LOOKED_AT)
         .map(draw)
         .map(is_reached)

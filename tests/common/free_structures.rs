@@ -243,15 +243,13 @@ pub fn written(matrix: &DMatrix<f64>, digits: usize) -> String {
 /// The matrix as read from a file with so many digits.
 pub fn rewritten(matrix: &DMatrix<f64>, digits: usize) -> SparseMatrix {
     let text = written(matrix, digits);
-    read("matrix", text.as_bytes(), None)
-        .expect("a matrix")
-        .matrix
+    read("matrix", text.as_bytes(), None).unwrap().matrix
 }
 
 impl Drawn {
     /// What places of so many digits tell of its motions.
     pub fn support(&self, digits: usize) -> Support {
-        let rounded = |part: f64| format!("{part:.*e}", digits - 1).parse().expect("a number");
+        let rounded = |part: f64| format!("{part:.*e}", digits - 1).parse().unwrap();
         let rows = self
             .rows
             .iter()

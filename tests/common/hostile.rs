@@ -101,7 +101,7 @@ impl Draws {
     }
 
     pub fn material(&mut self) -> Material {
-        let mut metal = Material::isotropic(1e7, 0.3).expect("a metal");
+        let mut metal = Material::isotropic(1e7, 0.3).unwrap();
         if self.below(2) == 0 {
             (metal.youngs_modulus, metal.poissons_ratio) = (self.number(), self.number());
             (metal.shear_modulus, metal.density) = (self.number(), self.number());

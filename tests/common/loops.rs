@@ -156,7 +156,7 @@ pub fn verdict_of(found: &Correlation, first: &Model, ranges: &[Option<Bounds>])
     let seen = first.test_shares().iter();
     let seen = seen.map(|share| share.diagonal().amax()).collect_vec();
     let best = found.best_check();
-    let each = mode_errors(&best.modes, &best.pairing, first.test()).expect("paired modes");
+    let each = mode_errors(&best.modes, &best.pairing, first.test()).unwrap();
     Judged {
         seen: &seen,
         ranges,

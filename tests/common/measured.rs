@@ -156,7 +156,7 @@ pub fn with_raw_shapes(
                     raw[(mode, mode)] += 2.0;
                 }
                 let omega = DVector::from_vec(decades).map(|decade| 10_f64.powf(2.0 * decade));
-                let modes = Modes::new(omega, raw).expect("modes");
+                let modes = Modes::new(omega, raw).unwrap();
                 (structure.clone(), modes)
             })
     })
@@ -190,7 +190,7 @@ pub fn orthonormal_modes(
                     Some(omega.powi(2))
                 }),
             );
-            let modes = Modes::new(omega_squared, shapes).expect("modes");
+            let modes = Modes::new(omega_squared, shapes).unwrap();
             (modes, mass)
         })
 }

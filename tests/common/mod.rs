@@ -91,7 +91,7 @@ pub fn assert_refused<T>(answer: Result<T, Error>, error: Error) {
 pub fn alter(modes: &mut Modes, change: impl FnOnce(&mut DVector<f64>, &mut DMatrix<f64>)) {
     let (mut omega_squared, mut shapes) = (modes.omega_squared().clone(), modes.shapes().clone());
     change(&mut omega_squared, &mut shapes);
-    *modes = Modes::new(omega_squared, shapes).expect("modes");
+    *modes = Modes::new(omega_squared, shapes).unwrap();
 }
 
 /// Words of a refusal, or that there is none.
@@ -137,7 +137,7 @@ pub fn by_sorting() -> Pair {
 
 /// A case of the paper.
 pub fn case_of(number: usize) -> Case {
-    Case::new(number).expect("a case")
+    Case::new(number).unwrap()
 }
 
 /// A file of the repository.

@@ -63,7 +63,7 @@ pub fn check<S>(
     });
     run(config, &drawn.boxed(), &|Drawn { values, .. }| {
         let values: Box<dyn Any> = values;
-        law(*values.downcast().expect("what the strategy drew"))
+        law(*values.downcast().unwrap())
     });
 }
 

@@ -5,7 +5,7 @@ use crate::prelude::*;
 
 /// A material of which a rod of length one and area k is a spring of stiffness k.
 pub fn unit_material() -> Material {
-    Material::isotropic(1.0, 0.25).expect("a material")
+    Material::isotropic(1.0, 0.25).unwrap()
 }
 
 pub fn grid(label: usize, position: [f64; 3], constrained: [bool; 3]) -> Grid {
@@ -41,7 +41,7 @@ pub fn spring_stiffness(mass_count: usize, spring: usize, stiffness: f64) -> DMa
 
 /// Springs in a row along x between grids 1, 2, …, free along x alone; `constrained` says which ends are fixed.
 pub fn spring_chain(springs: &[f64], constrained: [bool; 2]) -> Structure {
-    rods(springs, constrained).expect("a chain")
+    rods(springs, constrained).unwrap()
 }
 
 /// Elements that change together, with bounds on their sizes.
@@ -77,7 +77,7 @@ pub fn linkage(apex: [[f64; 2]; 2], areas: [f64; 4], braced: bool) -> Structure 
     let rods = (0..if braced { 4 } else { 3 })
         .map(|k| rod(k + 1, ends[k], areas[k]))
         .collect();
-    Structure::new(grids, rods).expect("a linkage")
+    Structure::new(grids, rods).unwrap()
 }
 
 /// Feet of a linkage a unit apart, its upper corners leaning either way by up to 0.4 and 0.5 to 1.5 high, its areas
@@ -111,7 +111,7 @@ pub fn sizes(structure: &Structure) -> Vec<f64> {
 /// The stiffness of a structure by dense assembly.
 pub fn dense(structure: &Structure) -> DMatrix<f64> {
     let matrices = element_matrices(structure).collect_vec();
-    assemble(&matrices, &sizes(structure), structure.free_dof().len()).expect("a size each")
+    assemble(&matrices, &sizes(structure), structure.free_dof().len()).unwrap()
 }
 
 /// The stiffness of a structure, factorized.

@@ -54,7 +54,7 @@ pub fn springs(count: usize, springs: &[(usize, Option<usize>, f64)]) -> SparseM
         Some(b) => vec![(a, a, k), (b, b, k), (a, b, -k), (b, a, -k)],
         None => vec![(a, a, k)],
     });
-    SparseMatrix::new("stiffness", count, count, entries.collect()).expect("springs")
+    SparseMatrix::new("stiffness", count, count, entries.collect()).unwrap()
 }
 
 /// Equal springs in a row between points.
@@ -76,7 +76,7 @@ pub fn masses(values: &[f64]) -> SparseMatrix {
         .iter()
         .enumerate()
         .map(|(row, &value)| (row, row, value));
-    SparseMatrix::new("mass", values.len(), values.len(), entries.collect()).expect("masses")
+    SparseMatrix::new("mass", values.len(), values.len(), entries.collect()).unwrap()
 }
 
 /// A building of as many stories as stiffnesses, one mass a floor, each story a parameter.
@@ -94,13 +94,13 @@ pub fn shear_building(stories: &[f64], mass: f64, range: Option<Bounds>) -> Whol
         masses(&vec![mass; count]),
         parameters.collect(),
     )
-    .expect("a building")
+    .unwrap()
 }
 
 /// Modes of a whole model as sensors see them.
 pub fn seen_by(sensors: &SparseMatrix, modes: &Modes) -> Modes {
-    let shapes = sensors.times(modes.shapes()).expect("they fit");
-    Modes::new(modes.omega_squared().clone(), shapes).expect("shapes that fit")
+    let shapes = sensors.times(modes.shapes()).unwrap();
+    Modes::new(modes.omega_squared().clone(), shapes).unwrap()
 }
 
 /// Sensors that read single degrees of freedom.
@@ -110,7 +110,7 @@ pub fn sensors_at(rows: &[usize], count: usize) -> SparseMatrix {
         .enumerate()
         .map(|(sensor, &row)| (sensor, row, 1.0))
         .collect();
-    SparseMatrix::new("sensors", rows.len(), count, entries).expect("sensors")
+    SparseMatrix::new("sensors", rows.len(), count, entries).unwrap()
 }
 
 /// A model of dense matrices with every part as a parameter, and sensors at all its degrees of freedom.

@@ -37,7 +37,7 @@ fn wrong(
 }
 
 fn digits(numbers: &[f64]) -> Vec<f64> {
-    let six = |x: &f64| format!("{x:.5e}").parse().expect("a number");
+    let six = |x: &f64| format!("{x:.5e}").parse().unwrap();
     numbers.iter().map(six).collect()
 }
 
@@ -65,7 +65,7 @@ fn wrong_answers() -> Vec<Value> {
                 let vector = known
                     .iter()
                     .find(|vector| vector["name"] == *world.vector)
-                    .expect("a vector");
+                    .unwrap();
                 for (end, part) in [
                     ("", numbers.iter().map(|z| z.re).collect_vec()),
                     ("_imaginary", numbers.iter().map(|z| z.im).collect()),
@@ -96,10 +96,9 @@ fn wrong_answers_name_the_mistake() {
     let new = format!("[\n{}\n]\n", lines.join(",\n"));
     let path = in_root("golden/wrong_answers.json");
     if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "1") {
-        fs::write(&path, &new).expect("it can be written");
+        fs::write(&path, &new).unwrap();
     }
-    let old: Vec<Value> =
-        serde_json::from_str(&fs::read_to_string(path).expect("it reads")).expect("it reads");
+    let old: Vec<Value> = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
     assert_eq!(old.len(), found.len());
     for (old, new) in old.iter().zip(&found) {
         let (before, now) = (flat(&old["answer"]), flat(&new["answer"]));
@@ -120,7 +119,7 @@ fn wrong_answers_name_the_mistake() {
 fn no_two_mistakes_have_the_same_answers() {
     let mut answers: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for mut wrong in wrong_answers() {
-        let entry = wrong.as_object_mut().expect("an object");
+        let entry = wrong.as_object_mut().unwrap();
         let mistake = [entry.remove("what"), entry.remove("equation")];
         answers
             .entry(json!(mistake).to_string())

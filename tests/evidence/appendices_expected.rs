@@ -7,22 +7,22 @@ use toml::{Table, Value};
 fn expected() -> Table {
     include_str!("../../golden/reference/expected_appendices.toml")
         .parse()
-        .expect("the golden reads")
+        .unwrap()
 }
 
 fn number(value: &Value) -> f64 {
     value
         .as_float()
         .or(value.as_integer().map(|integer| integer as f64))
-        .expect("a number")
+        .unwrap()
 }
 
 /// Rows as a matrix; a list is a column.
 fn matrix(value: &Value) -> DMatrix<f64> {
-    let rows = value.as_array().expect("a list");
+    let rows = value.as_array().unwrap();
     match rows.first().and_then(Value::as_array) {
         Some(first) => DMatrix::from_fn(rows.len(), first.len(), |i, j| {
-            number(&rows[i].as_array().expect("a row")[j])
+            number(&rows[i].as_array().unwrap()[j])
         }),
         None => DMatrix::from_fn(rows.len(), 1, |i, _| number(&rows[i])),
     }
@@ -47,9 +47,8 @@ fn appendix_b_is_numpys() {
     let table = &expected()["appendix_b"];
     let (stiffness, mass) = (matrix(&table["stiffness"]), matrix(&table["mass"]));
     let omega_squared = DVector::from_vec(list(&table["omega_squared"]));
-    let raw = Modes::new(omega_squared, matrix(&table["raw"])).expect("modes");
-    let balanced =
-        balance(&raw, &stiffness, &mass, &matrix(&table["rigid_body"])).expect("balanced");
+    let raw = Modes::new(omega_squared, matrix(&table["raw"])).unwrap();
+    let balanced = balance(&raw, &stiffness, &mass, &matrix(&table["rigid_body"])).unwrap();
     assert_near(
         "coefficients",
         &balanced.coefficients,
@@ -68,8 +67,8 @@ fn appendix_b_is_numpys() {
         &table["change"],
         MATRIX_ROUND_OFF,
     );
-    let balanced = Modes::new(raw.omega_squared().clone(), balanced.shapes).expect("modes");
-    let found = orthogonalize(&balanced, &mass).expect("orthogonal");
+    let balanced = Modes::new(raw.omega_squared().clone(), balanced.shapes).unwrap();
+    let found = orthogonalize(&balanced, &mass).unwrap();
     assert_near(
         "overlap",
         &found.overlap,
@@ -152,26 +151,26 @@ fn the_general_formulae_are_numpys() {
             left: own,
         };
         let stiffness = DMatrix::from_diagonal(&k.map(Complex::from));
-        let pencil = Pencil::new(&stiffness, &modes, &beta, &alpha).expect("a pencil");
-        assert_perturbed(table, "original", &pencil.original().expect("apart"));
+        let pencil = Pencil::new(&stiffness, &modes, &beta, &alpha).unwrap();
+        assert_perturbed(table, "original", &pencil.original().unwrap());
         for order in [1, 2, 3, 5] {
             assert_perturbed(
                 table,
                 &format!("recursive_1_{order}"),
-                &pencil.recursive_1(order).expect("apart"),
+                &pencil.recursive_1(order).unwrap(),
             );
             assert_perturbed(
                 table,
                 &format!("recursive_2_{order}"),
-                &pencil.recursive_2(order).expect("apart"),
+                &pencil.recursive_2(order).unwrap(),
             );
         }
-        let settled = pencil.recursive_1_converged().expect("it settles");
+        let settled = pencil.recursive_1_converged().unwrap();
         assert_perturbed(table, "exact", &settled.perturbed);
         if name == "symmetric" {
             let real = |matrix: &DMatrix<Complex<f64>>| matrix.map(|entry| entry.re);
             let exact = ModalChange::of_vibrations(&k, real(&beta), real(&alpha));
-            let Perturbed { roots, shapes } = eigensolution(&exact).expect("solved");
+            let Perturbed { roots, shapes } = eigensolution(&exact).unwrap();
             let exact = Perturbed {
                 roots: roots.map(Complex::from),
                 shapes: shapes.map(Complex::from),
@@ -196,12 +195,12 @@ fn gradients_are_numpys() {
         let table = &expected()
             [&format!("gradient, case {number}, {tests} test and {analysis} analysis modes")];
         let case = case_of(number);
-        let test = case.test_modes().expect("solved");
-        let test = test.lowest(tests).expect("as many");
-        let model = case.model().expect("a model");
+        let test = case.test_modes().unwrap();
+        let test = test.lowest(tests).unwrap();
+        let model = case.model().unwrap();
         let modal = model.analyze(&[1.0; 15], &test, Some(analysis));
-        let modal = modal.expect("solved");
-        let found = gradient(&modal, modal.exact()).expect("a gradient");
+        let modal = modal.unwrap();
+        let found = gradient(&modal, modal.exact()).unwrap();
         let expected = &table["stiffness"];
         assert_near("stiffness", &column(&found), expected, EXPECTED_GRADIENT);
     }
@@ -209,7 +208,7 @@ fn gradients_are_numpys() {
 
 #[test]
 fn exact_checks_of_truncated_sets_are_numpys() {
-    for run in published_runs(&case_of(PUBLISHED_CASE)).expect("they run") {
+    for run in published_runs(&case_of(PUBLISHED_CASE)).unwrap() {
         let table = &expected()[&format!(
             "case 2, {} test and {} analysis modes",
             run.test_modes, run.analysis_modes

@@ -300,7 +300,7 @@ fn chain(springs_at: &[f64], is_held: bool, group: usize, masses_at: &[usize]) -
         }
     });
     let parameters = of_springs.chain(of_masses).collect();
-    WholeModel::new(springs(count, &all), masses(&vec![MASS; count]), parameters).expect("a chain")
+    WholeModel::new(springs(count, &all), masses(&vec![MASS; count]), parameters).unwrap()
 }
 
 /// Stiffness of a spring, lbf/in, and a mass, lbf·s²/in.

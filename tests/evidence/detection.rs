@@ -143,19 +143,19 @@ pub fn job_rates(kind: Kind, tests: u64) -> JobRates {
         let culprit = below(&mut state, parts.len());
         let mut real: DMatrix<f64> = parts.iter().sum();
         real -= 0.99 * &parts[culprit];
-        let exact = solve(&real, &mass, MODES).expect("modes");
+        let exact = solve(&real, &mass, MODES).unwrap();
         let shapes = unit(exact.shapes().clone());
-        let exact = Modes::new(exact.omega_squared().clone(), shapes).expect("shapes");
-        let test = with_noise(&exact, NOISE, seed).expect("noise");
+        let exact = Modes::new(exact.omega_squared().clone(), shapes).unwrap();
+        let test = with_noise(&exact, NOISE, seed).unwrap();
         let loaded = prepared(&of_matrices(&parts, &mass, &test));
-        let table = suspects_table(&loaded).expect("suspects");
+        let table = suspects_table(&loaded).unwrap();
         let name = format!("p{}", culprit + 1);
         let place = table.rows.iter().position(|row| row.label == name);
         rates.fit[0] += usize::from(place == Some(0));
         rates.fit[1] += usize::from(place.is_some_and(|place| place < 3));
-        let first = loaded.analyze(&vec![1.0; parts.len()]).expect("modes");
+        let first = loaded.analyze(&vec![1.0; parts.len()]).unwrap();
         let settings = loaded.loaded.job.correlation.for_modes(MODES).inner;
-        let largest = by_factor(first.model(), &settings).expect("factors");
+        let largest = by_factor(first.model(), &settings).unwrap();
         rates.factor += usize::from(largest[0].parameter == culprit);
     }
     rates

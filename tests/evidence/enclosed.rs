@@ -51,18 +51,18 @@ struct Conditions {
 
 static ENCLOSED: LazyLock<BTreeMap<String, Run>> = LazyLock::new(|| {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/golden/enclosed.json");
-    let text = fs::read_to_string(file).expect("the golden");
-    serde_json::from_str(&text).expect("runs")
+    let text = fs::read_to_string(file).unwrap();
+    serde_json::from_str(&text).unwrap()
 });
 
 fn numbers(decimals: &Decimals) -> Vec<f64> {
     let parsed = decimals.iter().map(|digits| digits.parse());
-    parsed.collect::<Result<_, _>>().expect("decimals")
+    parsed.collect::<Result<_, _>>().unwrap()
 }
 
 /// Numbers of the crate against enclosed ones, as far apart as roundings of this condition go.
 fn assert_near(what: &str, found: &[f64], exact: &Decimals, conditions: &BTreeMap<String, f64>) {
-    let name = what.rsplit(", ").next().expect("a name");
+    let name = what.rsplit(", ").next().unwrap();
     let allowed = CHAIN_ROUND_OFF * conditions[name].max(1.0);
     assert_eq!(found.len(), exact.len(), "{what}");
     for (found, exact) in found.iter().zip(numbers(exact)) {
@@ -166,7 +166,7 @@ fn the_cases_by_every_reading_are_the_enclosed_ones() {
     for number in CASES {
         for (reading, step) in READINGS {
             let case = case(number, reading, step);
-            let found = run_case(&case, |_, _| {}).expect("it runs");
+            let found = run_case(&case, |_, _| {}).unwrap();
             let (name, met) = (format!("case {number}, {reading}"), &case.settings);
             assert_run(
                 &name,
@@ -188,17 +188,13 @@ fn passes_with_fewer_modes_by_every_reading_are_the_enclosed_ones() {
             most_passes: 1,
             ..case.settings.clone()
         };
-        let (model, all) = (
-            case.model().expect("a model"),
-            case.test_modes().expect("modes"),
-        );
-        let ranges = model.factor_ranges().expect("ranges");
+        let (model, all) = (case.model().unwrap(), case.test_modes().unwrap());
+        let ranges = model.factor_ranges().unwrap();
         for (tests, modes) in PUBLISHED_RUNS {
-            let test = all.lowest(tests).expect("modes");
+            let test = all.lowest(tests).unwrap();
             let analyze = |factors: &[f64]| model.analyze(factors, &test, Some(modes));
-            let found = correlate(analyze, &ranges, &settings, |_, _| true).expect("it runs");
-            let of_pass =
-                |factors: &[f64]| model.sizes(factors).expect("gages")[..PANEL_COUNT].to_vec();
+            let found = correlate(analyze, &ranges, &settings, |_, _| true).unwrap();
+            let of_pass = |factors: &[f64]| model.sizes(factors).unwrap()[..PANEL_COUNT].to_vec();
             let gages = found
                 .passes
                 .iter()
@@ -228,11 +224,7 @@ fn no_decision_of_a_run_is_near_to_falling_otherwise() {
 /// A computed cell against the number that it is of: the printed digits are those of the exact number, which is no nearer to rounding
 /// otherwise than its own digits.
 fn assert_prints(table: &Table, row: &str, column: usize, exact: f64) {
-    let rows = table
-        .rows
-        .iter()
-        .find(|own| own.label == row)
-        .expect("a row");
+    let rows = table.rows.iter().find(|own| own.label == row).unwrap();
     let cell = &rows.cells[column];
     let Cell::Number { .. } = cell else {
         panic!("{}, {row}: {cell:?}", table.name)
@@ -248,7 +240,7 @@ fn assert_prints(table: &Table, row: &str, column: usize, exact: f64) {
         units == units.round() || from_half > ROUND_OFF * units.abs(),
         "{what}"
     );
-    let printed: f64 = printed.parse().expect("a number");
+    let printed: f64 = printed.parse().unwrap();
     assert!(
         (printed * 10.0_f64.powi(digits as i32) - units).abs() <= 0.5,
         "{what}"
@@ -261,9 +253,9 @@ fn every_digit_of_tables_3_to_8_is_proven() {
     let mut cells = 0;
     for (number, reading) in [(1, "own"), (2, "relative"), (3, "relative")] {
         let run = &ENCLOSED[&format!("case {number}, {reading}")];
-        let found = run_case(&case_of(number), |_, _| {}).expect("it runs");
+        let found = run_case(&case_of(number), |_, _| {}).unwrap();
         let stages = || once(&run.initial).chain(run.passes.iter().map(|pass| &pass.check));
-        let table = frequency_table(&found).expect("a table");
+        let table = frequency_table(&found).unwrap();
         let test = numbers(&run.test_frequencies);
         let mut prints = |table: &Table, row: &str, column: usize, exact: f64| {
             assert_prints(table, row, column, exact);
@@ -283,7 +275,7 @@ fn every_digit_of_tables_3_to_8_is_proven() {
                 prints(&table, row, 2 + 2 * at, 100.0 * error / 3.0);
             }
         }
-        let table = gage_table(&found).expect("a table");
+        let table = gage_table(&found).unwrap();
         let first = found.case.first_gages();
         let gages = once(first).chain(run.passes.iter().map(|pass| numbers(&pass.gages)));
         for row in &table.rows[..PANEL_COUNT] {

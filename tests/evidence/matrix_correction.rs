@@ -37,7 +37,7 @@ pub fn baruch_stiffness(
 pub fn berman_nagy_mass(mass: &DMatrix<f64>, shapes: &DMatrix<f64>) -> DMatrix<f64> {
     let inertia = mass * shapes;
     let generalized = symmetric_part(&shapes.tr_mul(&inertia));
-    let lower = cholesky("generalized mass", &generalized, 0.0).expect("shapes of their own");
+    let lower = cholesky("generalized mass", &generalized, 0.0).unwrap();
     // X = m⁻¹ Φᵗ M, and Xᵗ (I − m) X is the change.
     let mut solved = inertia.transpose();
     lower.solve_lower_triangular_unchecked_mut(&mut solved);
@@ -56,7 +56,7 @@ pub fn weighted_norm(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> f64 {
 
 /// $L^{-1} \Delta L^{-t}$ with $M = L L^t$: up to a rotation the same as $M^{-1/2} \Delta M^{-1/2}$.
 pub fn mass_weighted(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> DMatrix<f64> {
-    let lower = cholesky("dynamic mass", mass, 0.0).expect("a mass");
+    let lower = cholesky("dynamic mass", mass, 0.0).unwrap();
     let mut reduced = change.clone();
     lower.solve_lower_triangular_unchecked_mut(&mut reduced);
     reduced.transpose_mut();

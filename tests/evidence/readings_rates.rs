@@ -245,8 +245,8 @@ pub fn findings(
     for part in &parts {
         true_stiffness += part * (MODEL * normal(state)).exp();
     }
-    let model = solve(&first, &mass, mass.nrows()).expect("modes");
-    let modes = solve(&true_stiffness, &mass, MODES).expect("modes");
+    let model = solve(&first, &mass, mass.nrows()).unwrap();
+    let modes = solve(&true_stiffness, &mass, MODES).unwrap();
     let a = below(state, sensors.len());
     let b = (a + 1 + below(state, sensors.len() - 1)) % sensors.len();
     let mut read = sensors.clone();
@@ -267,12 +267,12 @@ pub fn findings(
         read[turned?.0] ^= 1;
     }
     let shapes = unit(modes.shapes().select_rows(&read));
-    let exact = Modes::new(modes.omega_squared().clone(), shapes).expect("shapes");
+    let exact = Modes::new(modes.omega_squared().clone(), shapes).unwrap();
     let usual = Noise {
         frequency: 0.003,
         shape: noise,
     };
-    let noisy = with_noise(&exact, usual, seed).expect("noise");
+    let noisy = with_noise(&exact, usual, seed).unwrap();
     let (mut squares, mut shapes) = (noisy.omega_squared().clone(), noisy.shapes().clone());
     let expected = match slip {
         Slip::None => None,
@@ -318,13 +318,12 @@ pub fn findings(
     let at_sensors = model.shapes().select_rows(&sensors) * units;
     let seen = SeenModes {
         shares: shares.collect(),
-        modes: Modes::new(model.omega_squared().clone(), at_sensors).expect("shapes"),
+        modes: Modes::new(model.omega_squared().clone(), at_sensors).unwrap(),
         directions,
     };
-    let test = Modes::new(squares, shapes).expect("modes");
+    let test = Modes::new(squares, shapes).unwrap();
     let (settings, names) = (Settings::default(), Names::default());
-    let found =
-        preflight_at_sensors(&seen, (&test, &[]), &settings, &[], &names).expect("findings");
+    let found = preflight_at_sensors(&seen, (&test, &[]), &settings, &[], &names).unwrap();
     Some((found, expected))
 }
 

@@ -22,13 +22,13 @@ static LINES: LazyLock<Vec<Vec<String>>> = LazyLock::new(|| {
 /// Degrees of freedom of the wings.
 fn sizes() -> Vec<f64> {
     let sizes = LINES[0][2..].iter();
-    sizes.map(|dof| dof.parse().expect("a size")).collect()
+    sizes.map(|dof| dof.parse().unwrap()).collect()
 }
 
 fn numbers(line: &[String]) -> Vec<Option<f64>> {
     let costs = line[2..].iter();
     costs
-        .map(|cost| (!cost.is_empty()).then(|| cost.parse().expect("a number")))
+        .map(|cost| (!cost.is_empty()).then(|| cost.parse().unwrap()))
         .collect()
 }
 

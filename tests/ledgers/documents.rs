@@ -20,8 +20,8 @@ pub fn documents() -> BTreeMap<String, String> {
     files
         .into_iter()
         .map(|file| {
-            let name = file.strip_prefix(root).expect("below the root");
-            let text = fs::read_to_string(&file).expect("it reads");
+            let name = file.strip_prefix(root).unwrap();
+            let text = fs::read_to_string(&file).unwrap();
             (name.display().to_string(), text)
         })
         .collect()
@@ -37,7 +37,7 @@ fn computed_blocks_are_what_the_program_computes() {
     let mut blocks = tables::tables();
     blocks.insert("specification".to_owned(), specification::page());
     let svg = |(name, diagram): (&str, Diagram)| {
-        let svg = diagram.svg().expect("it can be drawn");
+        let svg = diagram.svg().unwrap();
         (format!("{FIGURE}{name}"), svg)
     };
     // The documentation's header lets them scroll, and turns them over on a dark page.
@@ -70,7 +70,7 @@ fn computed_blocks_are_what_the_program_computes() {
         }
         if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "1") {
             let path = in_root(&document);
-            fs::write(path, written).expect("it can be written");
+            fs::write(path, written).unwrap();
             wrong.clear();
         }
     }

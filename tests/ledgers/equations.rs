@@ -19,12 +19,12 @@ pub fn numbers() -> Vec<String> {
 /// Every equation and then every sentence, by its number or name.
 pub fn entries() -> Vec<(String, Table)> {
     let text = include_str!("../../paper/equations.toml");
-    let document: Table = text.parse().expect("it reads");
+    let document: Table = text.parse().unwrap();
     let list = |kind: &str, key: &'static str| {
-        let list = document[kind].as_array().expect("a list").clone();
+        let list = document[kind].as_array().unwrap().clone();
         list.into_iter().map(move |entry| {
-            let entry = entry.as_table().expect("a table").clone();
-            (entry[key].as_str().expect("a string").to_owned(), entry)
+            let entry = entry.as_table().unwrap().clone();
+            (entry[key].as_str().unwrap().to_owned(), entry)
         })
     };
     list("equation", "number")
@@ -38,7 +38,7 @@ pub fn strings(entry: &Table, key: &str) -> Vec<String> {
         .and_then(Value::as_array)
         .unwrap_or_else(|| panic!("{key} in {entry}"));
     list.iter()
-        .map(|value| value.as_str().expect("a string").to_owned())
+        .map(|value| value.as_str().unwrap().to_owned())
         .collect()
 }
 
@@ -209,7 +209,7 @@ fn every_file_of_tests_is_part_of_the_test_program() {
 
 /// The modules that a file lists.
 fn listed(file: &Path) -> BTreeSet<String> {
-    let text = fs::read_to_string(file).expect("it reads");
+    let text = fs::read_to_string(file).unwrap();
     text.lines()
         .filter_map(|line| {
             line.trim_start_matches("pub ")
@@ -222,9 +222,9 @@ fn listed(file: &Path) -> BTreeSet<String> {
 
 /// The modules that stand in a folder, without the file that lists them.
 fn found(folder: &Path, list: &str) -> BTreeSet<String> {
-    let entries = fs::read_dir(folder).expect("it reads");
+    let entries = fs::read_dir(folder).unwrap();
     entries
-        .map(|entry| entry.expect("an entry").path())
+        .map(|entry| entry.unwrap().path())
         // A folder without source holds data.
         .filter(|path| {
             !path.is_dir()
@@ -233,12 +233,7 @@ fn found(folder: &Path, list: &str) -> BTreeSet<String> {
                     .any(|file| file.extension().is_some_and(|end| end == "rs"))
         })
         .filter(|path| path.is_dir() || path.extension().is_some_and(|end| end == "rs"))
-        .map(|path| {
-            path.file_stem()
-                .expect("a name")
-                .to_string_lossy()
-                .into_owned()
-        })
+        .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
         .filter(|name| name != list)
         .collect()
 }

@@ -81,7 +81,7 @@ fn exists(name: &str) -> bool {
     let mut files = files_below(&tests);
     files.retain(|file| file.extension().is_some_and(|end| end == "rs"));
     files.iter().any(|file| {
-        let text = fs::read_to_string(file).expect("it reads");
+        let text = fs::read_to_string(file).unwrap();
         text.contains(&format!("#[test]\nfn {name}("))
             || text.contains(&format!("#[test]\n    fn {name}("))
     })

@@ -113,7 +113,7 @@ fn documentation(source: &str) -> Vec<String> {
             .or_else(|| line.strip_prefix("//!"))
         {
             Some(text) => {
-                let last = comments.last_mut().expect("never empty");
+                let last = comments.last_mut().unwrap();
                 last.push_str(text.strip_prefix(' ').unwrap_or(text));
                 last.push('\n');
             }
@@ -131,7 +131,7 @@ fn documents() -> Vec<(String, String)> {
     for folder in ["src", "paper", "golden"] {
         for file in files_below(&root.join(folder)) {
             let name = file.display().to_string();
-            let read = || fs::read_to_string(&file).expect("it reads");
+            let read = || fs::read_to_string(&file).unwrap();
             match file.extension().and_then(|end| end.to_str()) {
                 Some("rs") => documents.extend(
                     documentation(&read())
@@ -143,7 +143,7 @@ fn documents() -> Vec<(String, String)> {
             }
         }
     }
-    let readme = fs::read_to_string(root.join("README.md")).expect("it reads");
+    let readme = fs::read_to_string(root.join("README.md")).unwrap();
     documents.push(("README.md".to_owned(), readme));
     documents
 }
@@ -231,7 +231,7 @@ $$ \begin{bmatrix} 1 & 0 \newline 0 & 1 \end{bmatrix},
 |---|---|
 | and | *$y$* |
 ";
-    let found = formulas(sound).expect("nothing is wrong");
+    let found = formulas(sound).unwrap();
     assert_eq!(found.len(), 4, "{found:?}");
     assert_eq!(commands(&found[0]), ["gamma", "rho"].into());
 }

@@ -21,13 +21,13 @@ fn packaged() -> BTreeSet<String> {
         .args(arguments)
         .current_dir(root())
         .output()
-        .expect("cargo runs");
+        .unwrap();
     assert!(
         output.status.success(),
         "{}",
         String::from_utf8_lossy(&output.stderr)
     );
-    let list = String::from_utf8(output.stdout).expect("UTF-8");
+    let list = String::from_utf8(output.stdout).unwrap();
     list.lines().map(|line| line.replace('\\', "/")).collect()
 }
 
@@ -35,17 +35,17 @@ fn packaged() -> BTreeSet<String> {
 pub fn included() -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     for file in files_below(&root().join("src")) {
-        let text = fs::read_to_string(&file).expect("it reads");
+        let text = fs::read_to_string(&file).unwrap();
         for rest in text.split("include_str!(\"").skip(1) {
-            let name = rest.split('"').next().expect("a name");
+            let name = rest.split('"').next().unwrap();
             let mut path = PathBuf::new();
-            for part in file.parent().expect("a folder").join(name).components() {
+            for part in file.parent().unwrap().join(name).components() {
                 match part {
                     Component::ParentDir => drop(path.pop()),
                     part => path.push(part),
                 }
             }
-            let below = path.strip_prefix(root()).expect("below the root");
+            let below = path.strip_prefix(root()).unwrap();
             found.insert(below.to_string_lossy().into_owned());
         }
     }
@@ -69,7 +69,7 @@ fn the_package_has_what_a_user_needs() {
     needed.extend(readme);
     // Every chapter's code, and what its readers are sent to.
     for file in files_below(&root().join("paper/tour")) {
-        needed.extend(named(&fs::read_to_string(file).expect("it reads")));
+        needed.extend(named(&fs::read_to_string(file).unwrap()));
     }
     let others = [
         "Cargo.lock",

@@ -62,9 +62,9 @@ fn every_path_of_the_front_page_is_a_link_that_leads_somewhere() {
 #[test]
 fn what_the_front_page_shows_is_what_the_program_prints() {
     let cells = |line: &str| line.split_whitespace().collect_vec().join(" ");
-    let scratch = tempfile::tempdir().expect("a folder");
+    let scratch = tempfile::tempdir().unwrap();
     let mine = scratch.path().join("mine");
-    let path = |name: &str| mine.join(name).to_str().expect("UTF-8").to_owned();
+    let path = |name: &str| mine.join(name).to_str().unwrap().to_owned();
     assert!(
         corfem(&["init", "-q", "--example", "building", &path("")])
             .status
@@ -79,7 +79,7 @@ fn what_the_front_page_shows_is_what_the_program_prints() {
     assert_eq!(blocks.len(), printed.len());
     for (block, printed) in blocks.into_iter().zip(&printed) {
         let shown = printed.lines().map(cells).collect_vec();
-        for line in block.split("```").next().expect("its end").lines() {
+        for line in block.split("```").next().unwrap().lines() {
             assert!(shown.contains(&cells(line)), "{line}\n{printed}");
         }
     }
@@ -90,14 +90,8 @@ fn what_the_front_page_shows_is_what_the_program_prints() {
 fn the_time_of_the_front_page_is_the_measured_one() {
     let cost = include_str!("../../paper/cost.md");
     let row = cost.lines().find(|line| line.starts_with("| 10,098 DOF |"));
-    let cell = row.expect("a row").split('|').nth(4).expect("a column");
-    let seconds: f64 = cell
-        .split(',')
-        .next()
-        .expect("a time")
-        .trim()
-        .parse()
-        .expect("a number");
+    let cell = row.unwrap().split('|').nth(4).unwrap();
+    let seconds: f64 = cell.split(',').next().unwrap().trim().parse().unwrap();
     let words = README.split_whitespace().collect_vec().join(" ");
     assert!(
         words.contains(&format!("take `corfem correlate` {seconds:.1} s")),

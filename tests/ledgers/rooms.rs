@@ -29,7 +29,7 @@ fn imports(text: &str) -> Vec<String> {
         if let Some(start) = line.trim_start().strip_prefix("use ") {
             let mut statement = start.to_owned();
             while !statement.ends_with(';') {
-                statement += lines.next().expect("a semicolon").trim();
+                statement += lines.next().unwrap().trim();
             }
             expand("", &statement.replace([' ', ';'], ""), &mut paths);
         }
@@ -78,14 +78,11 @@ fn modules() -> BTreeMap<String, Vec<String>> {
     let source = in_root("src");
     let mut modules = BTreeMap::new();
     for file in files_below(&source) {
-        let path = file
-            .strip_prefix(&source)
-            .expect("below")
-            .with_extension("");
+        let path = file.strip_prefix(&source).unwrap().with_extension("");
         let module = path.to_string_lossy().replace('/', "::");
         let module = module.trim_end_matches("::mod").to_owned();
         if file.extension().is_some_and(|end| end == "rs") {
-            let paths = imports(&fs::read_to_string(file).expect("it reads"));
+            let paths = imports(&fs::read_to_string(file).unwrap());
             let paths = paths.iter().map(|path| absolute(&module, path)).collect();
             modules.insert(module, paths);
         }
@@ -180,7 +177,7 @@ fn one_module_alone_calls_the_operating_system_for_files() {
     let alone = source.join("files/disk.rs");
     let calls = ["std::fs", "fs::", "tempfile::", "File::", "OpenOptions"];
     for file in files_below(&source) {
-        let text = fs::read_to_string(&file).expect("it reads");
+        let text = fs::read_to_string(&file).unwrap();
         let has = |call: &&&str| text.contains(**call);
         let found = calls.iter().filter(has).collect_vec();
         assert_eq!(

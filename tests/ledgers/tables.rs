@@ -21,11 +21,11 @@ static ENTRIES: LazyLock<Vec<(String, Entry)>> = LazyLock::new(|| {
     files.push(root.join("paper/readings.csv"));
     let mut entries = Vec::new();
     for file in files {
-        let text = fs::read_to_string(&file).expect("it reads");
+        let text = fs::read_to_string(&file).unwrap();
         let Some(start) = text.find("table,row,column,unit,computed,published\n") else {
             continue;
         };
-        let golden = file.file_stem().expect("a name").to_string_lossy();
+        let golden = file.file_stem().unwrap().to_string_lossy();
         let lines = csv::Reader::from_reader(&text.as_bytes()[start..]).into_deserialize();
         entries.extend(lines.map(|entry| {
             let entry: Entry = entry.unwrap_or_else(|what| panic!("{}: {what}", file.display()));
@@ -999,11 +999,8 @@ pub fn sentences() -> Vec<(&'static str, String)> {
         "the difference is {rms:.3} % RMS and {:.2} % at most",
         largest(&worst)
     );
-    let held = |structure: &str| -> f64 {
-        computed("coverage", structure, "Held", 3)
-            .parse()
-            .expect("a number")
-    };
+    let held =
+        |structure: &str| -> f64 { computed("coverage", structure, "Held", 3).parse().unwrap() };
     let tests = SEEDS.count();
     let faulty = [
         computed("case_4_factors", "8", "Factor", 1),
@@ -1028,7 +1025,7 @@ pub fn sentences() -> Vec<(&'static str, String)> {
                 .iter()
                 .map(move |panel| computed("case_2_next_step", panel, column, 1))
         };
-        let number = |text: String| text.parse::<f64>().expect("a number");
+        let number = |text: String| text.parse::<f64>().unwrap();
         let ends = of("Error at the end").map(number).collect_vec();
         let after = largest(&of("Error after the step").map(number).collect_vec());
         let least = ends.iter().copied().fold(f64::INFINITY, f64::min);
@@ -1058,7 +1055,7 @@ pub fn sentences() -> Vec<(&'static str, String)> {
     let nearer = |run: &str, other: &str, used: &str| {
         let points = |reading: &str| -> f64 {
             let difference = computed("readings_agreement", run, &format!("d {reading}"), 6);
-            difference.parse().expect("a number")
+            difference.parse().unwrap()
         };
         points(used) - points(other)
     };

@@ -9,15 +9,11 @@ fn folder() -> PathBuf {
 /// The chapters by the two digits of their number.
 fn chapters() -> BTreeMap<String, (PathBuf, String)> {
     let files = fs::read_dir(folder())
-        .expect("it reads")
-        .map(|entry| entry.expect("an entry").path());
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
     let chapter = |path: PathBuf| {
-        let name = path
-            .file_name()
-            .expect("a name")
-            .to_string_lossy()
-            .into_owned();
-        let text = fs::read_to_string(&path).expect("it reads");
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        let text = fs::read_to_string(&path).unwrap();
         (name[..2].to_owned(), (path, text))
     };
     let is_text = |path: &PathBuf| path.extension().is_some_and(|kind| kind == "md");
@@ -92,10 +88,7 @@ fn every_chapter_has_its_parts() {
         ] {
             assert!(text.contains(part), "chapter {number} has no {part:?}");
         }
-        let answer = text
-            .split("<summary>Answer</summary>")
-            .nth(1)
-            .expect("an answer");
+        let answer = text.split("<summary>Answer</summary>").nth(1).unwrap();
         assert!(
             answer.contains("```rust\n"),
             "the answer of chapter {number} is not computed"
@@ -142,9 +135,9 @@ fn what_the_tour_quotes_are_the_lines_of_the_method() {
             let (file, rest) = quote
                 .split_once(" -->\n```text\n")
                 .expect("a fence below its source");
-            let lines = dedented(rest.split("```").next().expect("an end"));
+            let lines = dedented(rest.split("```").next().unwrap());
             let path = in_root(file);
-            let source = fs::read_to_string(&path).expect("it reads");
+            let source = fs::read_to_string(&path).unwrap();
             let source = source.lines().collect_vec();
             let is_there = |window: &[&str]| dedented(&window.join("\n")) == lines;
             let found = source
@@ -167,15 +160,8 @@ fn what_the_tour_quotes_are_the_lines_of_the_method() {
 #[test]
 fn the_whole_loop_has_fifteen_lines_at_most() {
     let (_, text) = &chapters()["05"];
-    let (_, rest) = text
-        .split_once("## The whole loop\n\n```text\n")
-        .expect("the loop");
-    let lines = rest
-        .split("```")
-        .next()
-        .expect("an end")
-        .lines()
-        .collect_vec();
+    let (_, rest) = text.split_once("## The whole loop\n\n```text\n").unwrap();
+    let lines = rest.split("```").next().unwrap().lines().collect_vec();
     assert!((10..=15).contains(&lines.len()), "{} lines", lines.len());
     assert!(
         lines.iter().all(|line| line.chars().count() <= 100),
@@ -186,16 +172,12 @@ fn the_whole_loop_has_fifteen_lines_at_most() {
 #[test]
 fn every_chapter_leads_to_its_neighbors_and_the_last_to_the_plain_program() {
     let chapters = chapters();
-    let tour = fs::read_to_string(in_root("src/tour.rs")).expect("it reads");
+    let tour = fs::read_to_string(in_root("src/tour.rs")).unwrap();
     let links = chapters
         .values()
         .map(|(path, text)| {
-            let name = path.file_stem().expect("a name").to_string_lossy();
-            let title = text
-                .lines()
-                .next()
-                .expect("a title")
-                .trim_start_matches("# ");
+            let name = path.file_stem().unwrap().to_string_lossy();
+            let title = text.lines().next().unwrap().trim_start_matches("# ");
             (
                 format!("[{title}](crate::tour::chapter_{name})"),
                 format!("pub mod chapter_{name} {{"),
@@ -203,7 +185,7 @@ fn every_chapter_leads_to_its_neighbors_and_the_last_to_the_plain_program() {
         })
         .collect_vec();
     for (at, (_, text)) in chapters.values().enumerate() {
-        let end = text.rsplit("</details>").next().expect("an end");
+        let end = text.rsplit("</details>").next().unwrap();
         for (word, other) in [("Previous", at.checked_sub(1)), ("Next", Some(at + 1))] {
             let link = other.and_then(|other| links.get(other));
             assert_eq!(
@@ -220,11 +202,11 @@ fn every_chapter_leads_to_its_neighbors_and_the_last_to_the_plain_program() {
             }
         }
     }
-    let (_, last) = chapters.values().last().expect("a chapter");
+    let (_, last) = chapters.values().last().unwrap();
     assert!(
         last.rsplit("</details>")
             .next()
-            .expect("an end")
+            .unwrap()
             .contains("`paper/plain.rs`")
     );
 }

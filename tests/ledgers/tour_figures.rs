@@ -23,8 +23,8 @@ pub fn figures() -> [(&'static str, Diagram); 10] {
 
 /// What is drawn beside the diagrams: the two springs of chapter 1, and the box and two of its modes, from the report.
 pub fn pictures() -> Vec<(String, String)> {
-    let result = run_case(&case_of(1), |_, _| {}).expect("a run");
-    let drawn = case_figures(from_ref(&result)).expect("figures");
+    let result = run_case(&case_of(1), |_, _| {}).unwrap();
+    let drawn = case_figures(from_ref(&result)).unwrap();
     let of = |name: &str| {
         let figure = drawn.iter().find(|figure| figure.name == name);
         figure.unwrap_or_else(|| panic!("no {name}")).svg.clone()
@@ -104,14 +104,14 @@ fn too_stiff(shares: Vec<DMatrix<f64>>, too_stiff: f64) -> Model {
     let stiffness: DMatrix<f64> = shares.iter().sum();
     let count = stiffness.nrows();
     let mass = eye(count);
-    let test = solve(&(&stiffness / too_stiff), &mass, count).expect("modes");
+    let test = solve(&(&stiffness / too_stiff), &mass, count).unwrap();
     DynamicModel {
         stiffness,
         mass,
         shares,
     }
     .analyze(&test, None)
-    .expect("a model")
+    .unwrap()
 }
 
 fn crease() -> Diagram {
@@ -121,7 +121,7 @@ fn crease() -> Diagram {
     );
     let at = |factor: f64| {
         let state = exact_state(&modal, &[factor, 1.0]);
-        state.expect("a state").errors
+        state.unwrap().errors
     };
     let series = |name, mark, of: fn(&Errors) -> f64| {
         Series::new(
@@ -153,7 +153,7 @@ fn first_step() -> Diagram {
         let whole = (0..n).map(|spring| spring_stiffness(n, spring, 1.0)).sum();
         let modal = too_stiff(vec![whole], 1.001);
         let start = modal.exact();
-        let slope = gradient(&modal, start).expect("a slope")[0];
+        let slope = gradient(&modal, start).unwrap()[0];
         let stiffness = modal.stiffness_changes(start, &[1.0], rule)[0];
         let (sum, relaxation) = (start.errors.sum(), settings.inner.relaxation);
         let factor = unlimited_factor(DERIVATIVE_STEP * slope, stiffness, sum, relaxation);
@@ -203,7 +203,7 @@ fn stories() -> Diagram {
         }
     };
     let truth = analyze(&[0.7, 1.0, 1.1, 1.0]);
-    let test = solve(&truth.stiffness, &truth.mass, 4).expect("modes");
+    let test = solve(&truth.stiffness, &truth.mass, 4).unwrap();
     let settings = Settings {
         error_sum_tolerance: 0.005,
         later_inner_tolerance: 0.0025,
@@ -217,8 +217,8 @@ fn stories() -> Diagram {
         |_, _| true,
     );
     let mut history = vec![vec![1.0; 4]];
-    for pass in run.expect("a run").passes {
-        let base = history.last().expect("a start").clone();
+    for pass in run.unwrap().passes {
+        let base = history.last().unwrap().clone();
         let product = |factors: &Vec<f64>| {
             base.iter()
                 .zip(factors)

@@ -26,7 +26,7 @@ struct Ceiling {
 }
 
 pub fn ceilings() -> Ceilings {
-    toml::from_str(include_str!("../ceilings.toml")).expect("it reads")
+    toml::from_str(include_str!("../ceilings.toml")).unwrap()
 }
 
 /// The Rust files of `src/` with their texts, by room; files beside the rooms are of the room `.`.
@@ -34,11 +34,11 @@ pub fn rooms() -> BTreeMap<String, Vec<(String, String)>> {
     let source = root().join("src");
     let mut rooms: BTreeMap<String, Vec<(String, String)>> = BTreeMap::new();
     for file in files_below(&source) {
-        let name = file.strip_prefix(&source).expect("below");
+        let name = file.strip_prefix(&source).unwrap();
         let name = name.to_string_lossy().replace('\\', "/");
         if name.ends_with(".rs") {
             let room = name.split_once('/').map_or(".", |(room, _)| room);
-            let text = fs::read_to_string(&file).expect("it reads");
+            let text = fs::read_to_string(&file).unwrap();
             let files = rooms.entry(room.to_owned()).or_default();
             files.push((name, text));
         }
@@ -121,7 +121,7 @@ fn blank(code: &str) -> Option<usize> {
 
 /// Length of the token at the head of the code.
 fn token(code: &str) -> usize {
-    let first = code.chars().next().expect("there is code");
+    let first = code.chars().next().unwrap();
     let unprefixed = code.strip_prefix('b');
     let quoted = |code: &str| string(code).or_else(|| character(code));
     let prefixed = || Some(1 + quoted(unprefixed?)?);

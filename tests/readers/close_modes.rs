@@ -115,8 +115,8 @@ fn turned_shapes_of_close_modes_are_no_error() {
             "{:?}",
             result.found.factors
         );
-        let report = Report::from_job(&loaded, Some(&result)).expect("a report");
-        let agreement = report.agreement(report.corrected()).expect("agreement");
+        let report = Report::from_job(&loaded, Some(&result)).unwrap();
+        let agreement = report.agreement(report.corrected()).unwrap();
         for (mode, &partner) in report.corrected().pairing.analysis_mode.iter().enumerate() {
             assert!(
                 agreement.assurance[(partner, mode)] > 1.0 - 1e-9,

@@ -6,17 +6,17 @@ use crate::prelude::*;
 properties! {
     #[test]
     fn deck_to_model_to_deck_is_the_identity(model in bulk_data()) {
-        let text = written(&model).expect("a deck");
-        let read = deck::read("deck", text.as_bytes(), &[]).expect("it reads");
+        let text = written(&model)?;
+        let read = deck::read("deck", text.as_bytes(), &[])?;
         prop_assert_eq!(&read.model, &model);
         prop_assert!(read.unread.iter().all(|card| card.reason == deck::Reason::Untouched));
-        prop_assert_eq!(written(&read.model).expect("a deck"), text);
+        prop_assert_eq!(written(&read.model)?, text);
     }
 
     #[test]
     fn order_and_format_of_lines_do_not_matter(
         (model, lines) in bulk_data().prop_flat_map(|model| {
-            let text = written(&model).expect("a deck");
+            let text = written(&model).unwrap();
             let lines = text.lines().map(str::to_owned).collect_vec();
             let count = lines.len();
             let styles = prop::collection::vec(style(), count);
@@ -25,7 +25,7 @@ properties! {
             }).prop_shuffle())
         })
     ) {
-        let read = deck::read("deck", lines.join("\n").as_bytes(), &[]).expect("it reads");
+        let read = deck::read("deck", lines.join("\n").as_bytes(), &[])?;
         prop_assert_eq!(read.model, model);
     }
 
@@ -39,9 +39,9 @@ properties! {
     ) {
         let t = directions.columns(0, 4) * DMatrix::from_diagonal(&scales.into());
         let mass = DMatrix::from_diagonal(&masses.into());
-        let flexibility = t.tr_mul(&stiffness.clone().try_inverse().expect("definite")) .clone() * &t;
-        let dynamic_stiffness = flexibility.try_inverse().expect("full rank");
-        let dynamic = solve(&symmetric(&dynamic_stiffness), &mass, 4).expect("modes");
+        let flexibility = t.tr_mul(&stiffness.clone().try_inverse().unwrap()) .clone() * &t;
+        let dynamic_stiffness = flexibility.try_inverse().unwrap();
+        let dynamic = solve(&symmetric(&dynamic_stiffness), &mass, 4)?;
         let roots = singular_pencil_roots(&stiffness, &(&t * &mass * t.transpose()));
         prop_assert_eq!(roots.len(), 6);
         for (omega_squared, root) in dynamic.omega_squared().iter().zip(&roots) {
@@ -60,17 +60,9 @@ fn symmetric(matrix: &DMatrix<f64>) -> DMatrix<f64> {
 
 /// All roots $\lambda = 1/\omega^2$ of $\lambda K v = M v$, largest first, by nalgebra: zero where $\omega$ is infinite.
 fn singular_pencil_roots(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Vec<f64> {
-    let lower = stiffness
-        .clone()
-        .cholesky()
-        .expect("a constrained structure")
-        .l();
-    let half = lower
-        .solve_lower_triangular(mass)
-        .expect("a nonzero diagonal");
-    let reduced = lower
-        .solve_lower_triangular(&half.transpose())
-        .expect("a nonzero diagonal");
+    let lower = stiffness.clone().cholesky().unwrap().l();
+    let half = lower.solve_lower_triangular(mass).unwrap();
+    let reduced = lower.solve_lower_triangular(&half.transpose()).unwrap();
     let mut roots = SymmetricEigen::new(symmetric(&reduced))
         .eigenvalues
         .iter()
@@ -84,11 +76,11 @@ fn singular_pencil_roots(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Vec<f
 fn nine_finite_roots_of_the_box_are_its_dynamic_modes() {
     for number in CASES {
         let case = case_of(number);
-        let model = case.model().expect("a model");
-        let dynamic = model.matrices(&[1.0; 15]).expect("an analysis");
-        let modes = solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
-        let sizes = model.sizes(&[1.0; 15]).expect("sizes");
-        let stiffness = assemble(model.element_matrices(), &sizes, 36).expect("stiffness");
+        let model = case.model().unwrap();
+        let dynamic = model.matrices(&[1.0; 15]).unwrap();
+        let modes = solve(&dynamic.stiffness, &dynamic.mass, 9).unwrap();
+        let sizes = model.sizes(&[1.0; 15]).unwrap();
+        let stiffness = assemble(model.element_matrices(), &sizes, 36).unwrap();
         let t = &model.load_distribution().clone();
         let roots = singular_pencil_roots(&stiffness, &(t * model.mass() * t.transpose()));
         assert_eq!(roots.len(), 36);
@@ -105,14 +97,13 @@ fn nine_finite_roots_of_the_box_are_its_dynamic_modes() {
 /// The deck of a case at its first gages times `factors`.
 fn box_deck(number: usize, factors: &[f64]) -> (BulkData, String) {
     let case = case_of(number);
-    let points = dynamic_points(&case.reconstruction).expect("points");
-    let bulk =
-        BulkData::from_model(&case.model().expect("a model"), factors, &points).expect("bulk data");
+    let points = dynamic_points(&case.reconstruction).unwrap();
+    let bulk = BulkData::from_model(&case.model().unwrap(), factors, &points).unwrap();
     let task = Task::Modes {
         count: 9,
         range_hz: [5.0, 3000.0],
     };
-    let text = deck::write(&bulk, "box", &task).expect("a deck");
+    let text = deck::write(&bulk, "box", &task).unwrap();
     (bulk, text)
 }
 
@@ -121,16 +112,16 @@ fn the_box_read_from_its_deck_has_its_modes() {
     for number in CASES {
         let factors = (0..15).map(|row| 1.0 + f64::from(row) / 7.0).collect_vec();
         let (_, text) = box_deck(number, &factors);
-        let read = deck::read("box", text.as_bytes(), &[]).expect("it reads");
+        let read = deck::read("box", text.as_bytes(), &[]).unwrap();
         assert!(read.unread.is_empty(), "{:?}", read.unread);
-        let found = deck::modes(&read.model, usize::MAX).expect("modes");
-        let model = case_of(number).model().expect("a model");
+        let found = deck::modes(&read.model, usize::MAX).unwrap();
+        let model = case_of(number).model().unwrap();
         // By the same factorization, so that the digits of the deck are all that differs.
-        let (whole, sensors) = whole::of(&model).expect("a whole model");
-        let expected = whole.modes(&factors, 9).expect("modes").vibrations;
-        let mut shapes = sensors.times(expected.shapes()).expect("they fit");
+        let (whole, sensors) = whole::of(&model).unwrap();
+        let expected = whole.modes(&factors, 9).unwrap().vibrations;
+        let mut shapes = sensors.times(expected.shapes()).unwrap();
         apply_sign_rule(&mut shapes);
-        let expected = Modes::new(expected.omega_squared().clone(), shapes).expect("modes");
+        let expected = Modes::new(expected.omega_squared().clone(), shapes).unwrap();
         let labels = found.dof.iter().map(|dof| dof.grid).collect_vec();
         assert_eq!(labels, (101..=109).collect_vec());
         assert!(found.dof.iter().all(|dof| dof.direction == 2));
@@ -165,13 +156,11 @@ fn the_box_read_from_its_deck_has_its_modes() {
 #[test]
 fn mpc_cards_are_the_load_distribution() {
     let (_, text) = box_deck(2, &[1.0; 15]);
-    let read = deck::read("box", text.as_bytes(), &[])
-        .expect("it reads")
-        .model;
-    let structure = read.structure().expect("a structure");
-    let model = case_of(2).model().expect("a model");
+    let read = deck::read("box", text.as_bytes(), &[]).unwrap().model;
+    let structure = read.structure().unwrap();
+    let model = case_of(2).model().unwrap();
     assert_eq!(structure.free_dof(), model.structure().free_dof());
-    let dynamic = read.mass_dof(&structure).expect("masses");
+    let dynamic = read.mass_dof(&structure).unwrap();
     let loads = dynamic.load_distribution.dense();
     assert_eq!(loads.shape(), (36, 9));
     for (read, meant) in loads.iter().zip(model.load_distribution().clone().iter()) {

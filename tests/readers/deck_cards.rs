@@ -42,8 +42,8 @@ macro_rules! families {
         #[test]
         fn $family() {
             for card in [$($card),+] {
-                let name = card.split([',', ' ']).next().expect("a name");
-                let parameter = || card[..card.rfind(',').expect("a value")].replace(',', " ");
+                let name = card.split([',', ' ']).next().unwrap();
+                let parameter = || card[..card.rfind(',').unwrap()].replace(',', " ");
                 let name = if name == "PARAM" { parameter() } else { name.to_owned() };
                 let expected = [unknown(&name, 8, 1)];
                 assert_eq!(refused(&format!("{GOOD}{card}\n")), expected, "behind the others");
@@ -53,7 +53,7 @@ macro_rules! families {
                 let names = from_ref(&name);
                 let ignored = deck::read("wing.dat", deck.as_bytes(), names).expect(card);
                 assert_eq!(ignored.unread, [Unread { reason: Reason::Ignored, ..unknown(&name, 8, 1) }]);
-                assert_eq!(ignored.model, deck::read("wing.dat", GOOD.as_bytes(), &[]).expect("good").model);
+                assert_eq!(ignored.model, deck::read("wing.dat", GOOD.as_bytes(), &[]).unwrap().model);
             }
         }
     )+};
@@ -168,7 +168,7 @@ fn what_is_read_cannot_be_ignored() {
             GOOD.as_bytes(),
             &["CBAR".into(), "FORCE".into()]
         )
-        .expect("it reads")
+        .unwrap()
         .unread
         .is_empty()
     );

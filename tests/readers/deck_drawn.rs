@@ -85,7 +85,7 @@ impl Deck {
 
     /// A real number of at most 16 characters.
     fn number(&mut self, value: f64) -> String {
-        let short = large_real(value).expect("a number");
+        let short = large_real(value).unwrap();
         let exponent = short.rfind(['+', '-']).filter(|at| *at > 0);
         match exponent {
             Some(at) if short.len() < 16 && self.chance(3) => {
@@ -171,7 +171,7 @@ impl Deck {
             }
             let form = if at == 0 { name } else { "" };
             let line = self.line(form, &begin, cells, *is_large, &end);
-            lines.last_mut().expect("a unit").push(line);
+            lines.last_mut().unwrap().push(line);
             begin = next_begin;
             if moves {
                 self.see("a continuation elsewhere");
@@ -305,7 +305,7 @@ fn words<const N: usize>(all: [&str; N]) -> Vec<String> {
 
 /// Numbers of three digits, which small fields hold.
 fn shortened(model: &mut BulkData) {
-    let short = |value: f64| format!("{value:.2e}").parse::<f64>().expect("a number");
+    let short = |value: f64| format!("{value:.2e}").parse::<f64>().unwrap();
     for grid in &mut model.grids {
         grid.position.apply(|value| *value = short(*value));
     }
@@ -317,7 +317,7 @@ fn shortened(model: &mut BulkData) {
         own.youngs_modulus = short(own.youngs_modulus);
         own.density = short(own.density);
         own.shear_modulus = match is_derived {
-            true => derived(own).expect("a material").shear_modulus,
+            true => derived(own).unwrap().shear_modulus,
             false => short(own.shear_modulus),
         };
     }
@@ -361,7 +361,7 @@ fn drawn(mut model: BulkData, seed: u64) -> (String, BulkData, BTreeSet<String>)
                 density,
                 ..
             } = element.material;
-            let axial = Material::isotropic(youngs_modulus, 0.0).expect("a material");
+            let axial = Material::isotropic(youngs_modulus, 0.0).unwrap();
             element.material = Material { density, ..axial };
         }
     }
@@ -504,7 +504,7 @@ fn write_grids(deck: &mut Deck, model: &mut BulkData, has_common: bool) -> BTree
                 system.to_string()
             });
         }
-        let of_motion = fields.pop().expect("a system");
+        let of_motion = fields.pop().unwrap();
         for value in local {
             fields.push(deck.number(value));
         }
@@ -523,7 +523,7 @@ fn write_grids(deck: &mut Deck, model: &mut BulkData, has_common: bool) -> BTree
         let earlier = before.take().filter(|_| is_one_line);
         if let Some(earlier) = earlier.filter(|_| deck.chance(2)) {
             let line = replica(deck, &earlier, &fields);
-            deck.units.last_mut().expect("a card").push(line);
+            deck.units.last_mut().unwrap().push(line);
             continue;
         }
         // A line of eight fields may be repeated.
@@ -554,7 +554,7 @@ fn write_grids(deck: &mut Deck, model: &mut BulkData, has_common: bool) -> BTree
 /// The card that repeats the one before with the differences of another.
 fn replica(deck: &mut Deck, earlier: &[String], fields: &[String]) -> String {
     deck.see("a replica");
-    let labels = [earlier, fields].map(|all| all[0].parse::<usize>().expect("a number"));
+    let labels = [earlier, fields].map(|all| all[0].parse::<usize>().unwrap());
     let mut changes = vec![format!("*({})", labels[1] - labels[0])];
     for (place, (old, new)) in earlier.iter().zip(fields).enumerate().skip(1) {
         if earlier[place..] == fields[place..] {
@@ -612,7 +612,7 @@ fn write_supports(
         deck.card("SPC1", &fields);
     }
     // Sets 1 and 2 must exist; what these hold is held anyway, and set 9 is not selected.
-    let last = model.grids.last().expect("a grid").label.to_string();
+    let last = model.grids.last().unwrap().label.to_string();
     deck.card("SPC", &words(["1", &last, "123456"]));
     let first = model.grids[0].label.to_string();
     deck.card("SPC1", &words(["2", "1", &last]));
@@ -707,7 +707,7 @@ fn write_masses_and_ties(deck: &mut Deck, model: &BulkData, systems: &BTreeMap<u
     let own = |grid: usize, direction: usize| {
         let (along, signs) = turned(systems.get(&grid).copied().unwrap_or(0));
         let axis = along.iter().position(|basic| *basic == direction);
-        let axis = axis.expect("a direction");
+        let axis = axis.unwrap();
         ((axis + 1).to_string(), signs[axis])
     };
     let mut properties: Vec<String> = Vec::new();
@@ -764,7 +764,7 @@ fn write_masses_and_ties(deck: &mut Deck, model: &BulkData, systems: &BTreeMap<u
         deck.card("MPC", &fields);
     }
     // An equation of a set that nothing selects.
-    let last = model.grids.last().expect("a grid").label.to_string();
+    let last = model.grids.last().unwrap().label.to_string();
     deck.card("MPC", &words(["9", &last, "1", "1."]));
     if !model.ties.is_empty() {
         let fields = words(["8"]).into_iter().chain(used).collect_vec();
@@ -790,7 +790,7 @@ fn drawn_decks_have_every_card_in_every_form() {
     let mut runner = TestRunner::deterministic();
     let mut seen = BTreeSet::new();
     for seed in 0..300 {
-        let model = bulk_data().new_tree(&mut runner).expect("a draw").current();
+        let model = bulk_data().new_tree(&mut runner).unwrap().current();
         seen.extend(drawn(model, seed).2);
     }
     let cards = CARDS

@@ -112,7 +112,7 @@ fn a_bad_field_is_named_with_file_line_and_card() {
         let line = line.parse().ok();
         let field: usize = field.parse().expect(row);
         let error = error(line, card);
-        let name = card.split([',', '*']).next().expect("a name");
+        let name = card.split([',', '*']).next().unwrap();
         let FileError::DeckField {
             file,
             line: at,
@@ -208,9 +208,7 @@ fn messages_say_what_is_wrong_and_where() {
 
 #[test]
 fn what_no_deck_can_hold_is_refused() {
-    let mut model = deck::read("wing.dat", GOOD.as_bytes(), &[])
-        .expect("it reads")
-        .model;
+    let mut model = deck::read("wing.dat", GOOD.as_bytes(), &[]).unwrap().model;
     let write = |model: &deck::BulkData| deck::write(model, "", &deck::Task::Matrices);
     model.grids[0].position.y = f64::NAN;
     let error = write(&model).expect_err("not a number");

@@ -36,11 +36,11 @@ properties! {
     #[test]
     fn free_reals_of_any_length_are_read(value in -1e6..1e6_f64, digits in 1..25_usize, letter in prop::sample::select(vec!["E", "D", "e", ""])) {
         let written = format!("{value:.digits$e}").replace('e', "E");
-        let (mantissa, exponent) = written.split_once('E').expect("an exponent");
-        let exponent: i32 = exponent.parse().expect("an integer");
+        let (mantissa, exponent) = written.split_once('E').unwrap();
+        let exponent: i32 = exponent.parse()?;
         let word = format!("{mantissa}{letter}{exponent:+}");
         let grid = read(&all().replace("10.5", &word)).grids[1].position.x;
-        prop_assert_eq!(grid, written.parse::<f64>().expect("a number"), "{}", word);
+        prop_assert_eq!(grid, written.parse::<f64>()?, "{}", word);
     }
 }
 
@@ -174,10 +174,7 @@ GRID,13,,0.,0.,2.
 ";
     let grid = |fields: &str| {
         let grids = read(&format!("{systems}GRID,20,{fields}\n")).grids;
-        grids
-            .into_iter()
-            .find(|grid| grid.label == 20)
-            .expect("the grid")
+        grids.into_iter().find(|grid| grid.label == 20).unwrap()
     };
     let near = |place: Vector3<f64>, x: f64, y: f64, z: f64| {
         assert!(
@@ -269,7 +266,7 @@ fn a_grid_that_nothing_touches_is_held_and_said() {
         (all() + "GRID,8,,1.\nGRID,9,,2.\n").as_bytes(),
         &[],
     );
-    let unread = found.expect("it reads").unread;
+    let unread = found.unwrap().unread;
     let said = unread
         .iter()
         .map(|card| (card.place(), card.reason))

@@ -21,7 +21,7 @@ enum Changed {
 /// With all these DOF dynamic nothing is condensed, so that the modes of the model are those of the structure. Its parameters are the
 /// stiffness of covers and of webs.
 pub fn whole_box([covers, webs, rods]: [f64; 3], points: &[f64]) -> FiniteElementModel {
-    let model = Case::new(2).and_then(|case| case.model()).expect("a model");
+    let model = Case::new(2).and_then(|case| case.model()).unwrap();
     let mut elements = model.structure().elements().to_vec();
     for element in &mut elements {
         element.material.density = match element.label {
@@ -32,7 +32,7 @@ pub fn whole_box([covers, webs, rods]: [f64; 3], points: &[f64]) -> FiniteElemen
     }
     let grids = model.structure().grids().to_vec();
     FiniteElementModel::new(
-        Structure::new(grids, elements).expect("a structure"),
+        Structure::new(grids, elements).unwrap(),
         eye(DOF),
         DMatrix::from_diagonal(&points.to_vec().into()),
         vec![
@@ -40,25 +40,23 @@ pub fn whole_box([covers, webs, rods]: [f64; 3], points: &[f64]) -> FiniteElemen
             Parameter::new("webs", &WEBS),
         ],
     )
-    .expect("a model")
+    .unwrap()
 }
 
 /// Squared frequencies of a box with the masses of its points and those that its elements have at their first sizes.
 pub fn roots(model: &FiniteElementModel, factors: &[f64]) -> DVector<f64> {
     let mass = model.mass() + DMatrix::from_diagonal(&lumped_mass(model.structure()));
-    let stiffness = model.condense(factors).expect("held").stiffness;
-    let modes = solve(&stiffness, &mass, DOF).expect("modes");
+    let stiffness = model.condense(factors).unwrap().stiffness;
+    let modes = solve(&stiffness, &mass, DOF).unwrap();
     modes.omega_squared().clone()
 }
 
 /// Squared frequencies of the model, and of its deck written and read again.
 fn both(model: &FiniteElementModel, factors: &[f64]) -> [Vec<f64>; 2] {
-    let bulk = BulkData::from_model(model, factors, &[Vector3::zeros(); DOF]).expect("bulk data");
-    let text = bulk_text(&bulk).expect("a deck");
-    let read = deck::read("box", text.as_bytes(), &[])
-        .expect("it reads")
-        .model;
-    let modes = deck::modes(&read, usize::MAX).expect("modes").modes;
+    let bulk = BulkData::from_model(model, factors, &[Vector3::zeros(); DOF]).unwrap();
+    let text = bulk_text(&bulk).unwrap();
+    let read = deck::read("box", text.as_bytes(), &[]).unwrap().model;
+    let modes = deck::modes(&read, usize::MAX).unwrap().modes;
     [&roots(model, factors), modes.omega_squared()].map(|squared| squared.as_slice().to_vec())
 }
 
@@ -95,7 +93,7 @@ fn the_deck_keeps_the_mass_of_the_first_size() {
     let [first, heavy] =
         [1.0, 4.0].map(|rods| whole_box([DENSITY, DENSITY, rods * DENSITY], &[0.002; DOF]));
     let bulk = BulkData::from_model(&heavy, &[1.5, 1.0], &[Vector3::zeros(); DOF]);
-    let bulk = bulk.expect("bulk data");
+    let bulk = bulk.unwrap();
     let before = BulkData::from_structure(first.structure());
     for (element, before) in bulk.elements.iter().zip(&before.elements) {
         let gage = element.size / before.size;

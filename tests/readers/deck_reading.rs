@@ -19,7 +19,7 @@ fn case_control_selects_the_sets() {
         "ID A,B\nCEND\nSPC = 1\n  mpc=4\nBEGIN  BULK\n{ROD}GRID,3,,20.,0.,0.,,23456\nMPC,4,3,1,-1.,2,1,1.\n\
          MPC,5,3,1,-1.,2,1,3.\nSPC1,2,1,2\nCMASS2,8,.4,3,1\nENDDATA\nnonsense"
     );
-    let read = deck::read("test", deck.as_bytes(), &[]).expect("it reads");
+    let read = deck::read("test", deck.as_bytes(), &[]).unwrap();
     let skipped = |card: &str, line, count| Unread {
         card: card.into(),
         line,
@@ -32,7 +32,7 @@ fn case_control_selects_the_sets() {
     assert!(!read.model.grids[1].constrained[0]);
     // Case control that selects nothing holds nothing.
     let loose = format!("CEND\nBEGIN BULK\n{ROD}CMASS2,8,.4,2,1");
-    let read = deck::read("test", loose.as_bytes(), &[]).expect("it reads");
+    let read = deck::read("test", loose.as_bytes(), &[]).unwrap();
     assert_eq!(read.unread, [skipped("SPC1", 8, 2)]);
     assert!(
         read.model
@@ -52,7 +52,7 @@ fn cards_without_part_in_the_model_are_listed_by_name() {
         matches!(error, FileError::DeckLine { line: 13, .. }),
         "{error}"
     );
-    let read = deck::read("test", deck.replace("+X,MAX\n", "").as_bytes(), &[]).expect("it reads");
+    let read = deck::read("test", deck.replace("+X,MAX\n", "").as_bytes(), &[]).unwrap();
     let listed = |card: &str, line, count| Unread {
         card: card.into(),
         line,
@@ -72,10 +72,7 @@ fn held(control: &str, supports: &str) -> Result<Vec<bool>, FileError> {
 #[test]
 fn spcadd_joins_sets() {
     let supports = "SPCADD,10,1,2\nSPC1,1,1,1\nSPC1,2,1,2,3\n";
-    assert_eq!(
-        held("", supports).expect("one union"),
-        [true, true, true, false]
-    );
+    assert_eq!(held("", supports).unwrap(), [true, true, true, false]);
     let more = format!("{supports}SPC1,7,1,4\nSPCADD,11,1,,7\n");
     for (set, expected) in [
         (10, [true, true, true, false]),
@@ -83,22 +80,19 @@ fn spcadd_joins_sets() {
         (2, [false, true, true, false]),
     ] {
         assert_eq!(
-            held(&format!("SPC = {set}\nBEGIN BULK\n"), &more).expect("it reads"),
+            held(&format!("SPC = {set}\nBEGIN BULK\n"), &more).unwrap(),
             expected,
             "{set}"
         );
     }
     let own = format!("{supports}SPC1,10,1,4\n");
     assert_eq!(
-        held("SPC = 10\nBEGIN BULK\n", &own).expect("it reads"),
+        held("SPC = 10\nBEGIN BULK\n", &own).unwrap(),
         [true, true, true, false],
         "its sets alone"
     );
     let long = "SPCADD,10,1,1,1,1,1,1,1,+A\n+A,2\nSPC1,1,1,1\nSPC1,2,1,2\n";
-    assert_eq!(
-        held("", long).expect("it reads"),
-        [true, true, false, false]
-    );
+    assert_eq!(held("", long).unwrap(), [true, true, false, false]);
 }
 
 #[test]
@@ -109,7 +103,7 @@ fn mpcadd_joins_sets() {
         format!("GRID,1\nGRID,2\nGRID,3\n{ties}").as_bytes(),
         &[],
     )
-    .expect("it reads");
+    .unwrap();
     assert_eq!(read.model.ties.len(), 2);
 }
 
@@ -166,9 +160,9 @@ properties! {
     #[test]
     fn wtmass_multiplies_masses_and_densities(model in crate::common::decks::bulk_data(), factor in 1e-4..1e4_f64) {
         let factor = deck::number::nearest_in_field(factor);
-        let value = deck::number::large_real(factor).expect("a number");
-        let text = bulk_text(&model).expect("a deck");
-        let weighted = deck::read("test", format!("PARAM*,WTMASS,{value}\n{text}").as_bytes(), &[]).expect("it reads");
+        let value = deck::number::large_real(factor).unwrap();
+        let text = bulk_text(&model)?;
+        let weighted = deck::read("test", format!("PARAM*,WTMASS,{value}\n{text}").as_bytes(), &[])?;
         prop_assert!(weighted.unread.iter().all(|card| card.reason == deck::Reason::Untouched));
         let mut expected = model;
         for element in &mut expected.elements {
@@ -178,7 +172,7 @@ properties! {
             point.mass = deck::number::nearest_in_field(factor * point.mass);
         }
         prop_assert_eq!(&weighted.model, &expected);
-        let again = deck::read("test", bulk_text(&weighted.model).expect("a deck").as_bytes(), &[]).expect("it reads");
+        let again = deck::read("test", bulk_text(&weighted.model)?.as_bytes(), &[])?;
         prop_assert_eq!(&again.model, &expected);
     }
 }
@@ -189,7 +183,7 @@ fn wtmass_may_stand_in_case_control_and_counts_once() {
     for text in [text.clone(), format!("SUBCASE 1\n  {text}")] {
         assert_eq!(
             deck::read("test", text.as_bytes(), &[])
-                .expect("it reads")
+                .unwrap()
                 .model
                 .masses[0]
                 .mass,
@@ -223,7 +217,7 @@ fn wtmass_may_stand_in_case_control_and_counts_once() {
 
 #[test]
 fn latin_1_and_a_byte_order_mark_are_read() {
-    let expected = deck::read("test", ROD.as_bytes(), &[]).expect("it reads");
+    let expected = deck::read("test", ROD.as_bytes(), &[]).unwrap();
     let marked = [
         b"\xEF\xBB\xBF$ \xC3\x84nderung\n".as_slice(),
         ROD.as_bytes(),
@@ -239,7 +233,7 @@ fn latin_1_and_a_byte_order_mark_are_read() {
         marked,
         latin_1,
     ] {
-        assert_eq!(deck::read("test", &bytes, &[]).expect("it reads"), expected);
+        assert_eq!(deck::read("test", &bytes, &[]).unwrap(), expected);
     }
     let name = [ROD.as_bytes(), b"CR\xD6D,2,1,1,2\n"].concat();
     let error = deck::read("test", &name, &[]).expect_err("no card has such a letter");
@@ -267,9 +261,7 @@ PSHEAR,41,1,.3,,40,1,.4
 PQDMEM,50,1,.5
 MAT1,1,1.04+7,4.+6
 ";
-    let model = deck::read("test", deck.as_bytes(), &[])
-        .expect("it reads")
-        .model;
+    let model = deck::read("test", deck.as_bytes(), &[]).unwrap().model;
     let sizes = model
         .elements
         .iter()
@@ -300,16 +292,16 @@ fn mat1_derives_what_is_blank() {
         let deck = ROD.replace("MAT1,1,1.+6,,.3", &format!("MAT1,1,{fields}"));
         deck::read("test", deck.as_bytes(), &[]).map(|deck| deck.model.elements[0].material)
     };
-    let material = with("1.+7,,.25,3.-4").expect("E and nu");
+    let material = with("1.+7,,.25,3.-4").unwrap();
     assert_eq!((material.shear_modulus, material.density), (4e6, 3e-4));
-    let material = with(",4.+6,.25").expect("G and nu");
+    let material = with(",4.+6,.25").unwrap();
     assert_eq!(
         (material.youngs_modulus, material.shear_modulus),
         (1e7, 4e6)
     );
-    let material = with("1.+7").expect("E alone, of rods");
+    let material = with("1.+7").unwrap();
     assert_eq!(material.youngs_modulus, 1e7);
-    let material = with("1.+7,3.+6,.25").expect("all three");
+    let material = with("1.+7,3.+6,.25").unwrap();
     assert_eq!(material.shear_modulus, 3e6);
     for (fields, field) in [
         (",4.+6", 3),
@@ -341,9 +333,7 @@ SPC1,1,23,5,,9,,,,+B
 SPC1,1,3,12,THRU,12
 +B,12
 ";
-    let model = deck::read("test", deck.as_bytes(), &[])
-        .expect("it reads")
-        .model;
+    let model = deck::read("test", deck.as_bytes(), &[]).unwrap().model;
     let constrained: Vec<[bool; 3]> = model.grids.iter().map(|grid| grid.constrained).collect();
     let x = [true, false, false];
     let yz = [false, true, true];
@@ -356,7 +346,7 @@ fn a_range_may_go_on_in_the_next_line() {
     let grids = "GRID,1\nGRID,2\nGRID,3\nGRID,4\n";
     let supports = "SPC1,1,1,,,,,,1,+B\n+B,THRU,3\nSPC1,1,2,,,,,2,THRU,+C\n+C,3,4\n";
     let model = deck::read("test", format!("{grids}{supports}").as_bytes(), &[])
-        .expect("it reads")
+        .unwrap()
         .model;
     let constrained = model.grids.iter().map(|grid| grid.constrained);
     let x = [true, false, false];
@@ -374,7 +364,7 @@ fn a_range_may_go_on_in_the_next_line() {
 fn grdset_holds_where_a_grid_says_nothing() {
     let deck = "GRDSET,,,,,,,3\nGRID,1\nGRID,2,,1.,,,,1\n";
     let grids = deck::read("test", deck.as_bytes(), &[])
-        .expect("it reads")
+        .unwrap()
         .model
         .grids;
     assert_eq!(grids[0].constrained, [false, false, true]);
@@ -384,10 +374,8 @@ fn grdset_holds_where_a_grid_says_nothing() {
 #[test]
 fn neighbors_constrained_alike_are_written_as_a_range_and_one_alone_is_not() {
     let deck = "GRID,1,,,,,,12\nGRID,2,,1.,,,,12\nGRID,3,,2.,,,,3\nGRID,4,,3.\n";
-    let model = deck::read("test", deck.as_bytes(), &[])
-        .expect("it reads")
-        .model;
-    let text = bulk_text(&model).expect("a deck");
+    let model = deck::read("test", deck.as_bytes(), &[]).unwrap().model;
+    let text = bulk_text(&model).unwrap();
     let constrained = text
         .lines()
         .filter(|line| line.starts_with("SPC1"))
@@ -412,9 +400,7 @@ GRID\t2\t\t3.\t4.\t5.\t\t12\t\tremark
 MPC     1       1       1       1.      2       3       .5
         \t2\t3\t1.5
 ";
-    let model = deck::read("test", deck.as_bytes(), &[])
-        .expect("it reads")
-        .model;
+    let model = deck::read("test", deck.as_bytes(), &[]).unwrap().model;
     assert_eq!(model.grids[0].position.as_slice(), [1.0, 2.0, 0.0]);
     assert_eq!(model.grids[1].position.as_slice(), [3.0, 4.0, 5.0]);
     assert_eq!(model.grids[1].constrained, [true, true, false]);
@@ -430,7 +416,7 @@ fn what_stands_behind_column_80_does_not_count() {
         "GRID*                  2                              1.              2."
     );
     let model = deck::read("test", format!("{card}\n{more}\n").as_bytes(), &[])
-        .expect("it reads")
+        .unwrap()
         .model;
     assert_eq!(model.grids[0].position.as_slice(), [1.0, 0.0, 0.0]);
     assert_eq!(model.grids[1].position.as_slice(), [1.0, 2.0, 0.0]);

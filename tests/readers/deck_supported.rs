@@ -64,7 +64,7 @@ fn card(name: &str, fields: &[String]) -> String {
 }
 
 fn number(value: f64) -> String {
-    large_real(value).expect("a number")
+    large_real(value).unwrap()
 }
 
 /// The deck of a model.
@@ -242,9 +242,7 @@ properties! {
 /// Several programs write a checksum there.
 #[test]
 fn what_follows_enddata_does_not_count() {
-    let good = deck::read("wing.bdf", GOOD.as_bytes(), &[])
-        .expect("a deck")
-        .model;
+    let good = deck::read("wing.bdf", GOOD.as_bytes(), &[]).unwrap().model;
     for end in [
         "ENDDATA 13664a4e",
         "enddata",
@@ -299,17 +297,14 @@ fn a_property_of_shear_panels_may_end_in_zeros_or_in_another_property() {
     ] {
         assert_eq!(read(card).unwrap_or_else(|error| panic!("{error}")), 0.5);
     }
-    assert_eq!(
-        read("PSHEAR,3,1,.1,,2,1,.25").expect("two properties"),
-        0.25
-    );
+    assert_eq!(read("PSHEAR,3,1,.1,,2,1,.25").unwrap(), 0.25);
     assert!(read("PSHEAR,2,1,.5,0.,1.,0.").is_err());
 }
 
 #[test]
 fn torsion_of_rods_is_named_and_in_no_stiffness() {
     let text = GOOD.replace("PROD,1,1,.01", "PROD,1,1,.01,.5") + "CONROD,2,1,2,1,.5,.25\n";
-    let read = deck::read("wing.bdf", text.as_bytes(), &[]).expect("a deck");
+    let read = deck::read("wing.bdf", text.as_bytes(), &[]).unwrap();
     let said = read
         .unread
         .iter()
@@ -329,5 +324,5 @@ fn torsion_of_rods_is_named_and_in_no_stiffness() {
             .as_bytes(),
         &[],
     );
-    assert_eq!(read.model, plain.expect("a deck").model);
+    assert_eq!(read.model, plain.unwrap().model);
 }

@@ -12,7 +12,7 @@ static RESULT: LazyLock<&JobResult> = LazyLock::new(|| worked("garteur"));
 fn chi_squared() -> [f64; 2] {
     let weights = RESULT.found.prepared.weights();
     [&RESULT.found.first, &RESULT.found.last].map(|model| {
-        let residuals = residuals(model, &weights).expect("residuals");
+        let residuals = residuals(model, &weights).unwrap();
         assert_eq!(residuals.len(), PUBLISHED_HZ.len());
         residuals.norm_squared()
     })
@@ -57,12 +57,12 @@ fn the_corrected_airplane_is_nearer_and_still_not_explained() {
 
 #[test]
 fn slopes_of_the_error_sum_count_frequencies_without_shapes() {
-    let report = Report::from_job(&RESULT.found.prepared, None).expect("a report");
-    let slopes = report.derivatives.expect("derivatives").error_sum;
+    let report = Report::from_job(&RESULT.found.prepared, None).unwrap();
+    let slopes = report.derivatives.unwrap().error_sum;
     let ones = vec![1.0; slopes.len()];
     let sum = |factors: &[f64]| {
-        let comparison = RESULT.found.prepared.analyze(factors).expect("an analysis");
-        comparison.result().expect("errors").errors.sum()
+        let comparison = RESULT.found.prepared.analyze(factors).unwrap();
+        comparison.result().unwrap().errors.sum()
     };
     let first = sum(&ones);
     let largest = slopes
@@ -91,7 +91,7 @@ fn partners_are_followed_by_shape_where_modes_change_places() {
 
 #[test]
 fn the_real_test_has_its_golden() {
-    let report = Report::from_job(&RESULT.found.prepared, Some(&RESULT)).expect("a report");
+    let report = Report::from_job(&RESULT.found.prepared, Some(&RESULT)).unwrap();
     let chi = Table::new("garteur_chi_squared", "Chi-squared", "Model")
         .labels(["First", "Corrected"])
         .column(
@@ -102,7 +102,7 @@ fn the_real_test_has_its_golden() {
         .column("Numbers", "", [8, 8].map(Cell::count));
     let mut seen = seen_table(&RESULT);
     seen.name = "garteur_seen".to_owned();
-    let mut modes = paired_table(&report).expect("a table");
+    let mut modes = paired_table(&report).unwrap();
     modes.name = "garteur_modes".to_owned();
     let numbers = Numbers {
         relative: JOB_RESULTS,

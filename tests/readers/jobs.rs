@@ -21,10 +21,10 @@ fn check_files(name: &str, files: &Files) {
     for (file, text) in files {
         let path = folder.join(file);
         if writes {
-            fs::create_dir_all(&folder).expect("a folder");
-            fs::write(&path, text).expect("it writes");
+            fs::create_dir_all(&folder).unwrap();
+            fs::write(&path, text).unwrap();
         }
-        let stored = fs::read_to_string(&path).expect("it reads");
+        let stored = fs::read_to_string(&path).unwrap();
         // Numbers that were computed may differ in their last digit on another machine.
         let numbers = Numbers {
             relative: JOB_RESULTS,
@@ -38,13 +38,13 @@ fn check_files(name: &str, files: &Files) {
 
 fn finished(name: &str) -> (PreparedJob, &'static JobResult) {
     let (prepared, finished) = (loaded(name), worked(name));
-    let subject = Report::from_job(&prepared, Some(finished)).expect("a subject");
+    let subject = Report::from_job(&prepared, Some(finished)).unwrap();
     let mut tables = vec![
         trust_table(&finished.trust),
-        places_table(&prepared.loaded, Some(finished)).expect("sensors"),
+        places_table(&prepared.loaded, Some(finished)).unwrap(),
     ];
     tables.extend([
-        paired_table(&subject).expect("modes"),
+        paired_table(&subject).unwrap(),
         factor_table(&subject),
         history_table(&subject),
     ]);
@@ -100,7 +100,7 @@ fn condensed_to_five_floors_the_building_is_not_found() {
     let (job, analyze) = condensed("building");
     let analyze = |factors: &[f64]| analyze(&job, factors);
     let settings = job.loaded.job.correlation.for_modes(job.modes.len());
-    let found = correlate(analyze, &[None; 10], &settings, |_, _| true).expect("it runs");
+    let found = correlate(analyze, &[None; 10], &settings, |_, _| true).unwrap();
     // The error sum that nine modes of the same errors would have.
     let errors = &found.best_check().errors;
     let of_nine = 3.0 * (errors.frequency_rms() + errors.shape_rms());
@@ -124,9 +124,9 @@ fn condensed_to_five_floors_the_building_is_not_found() {
 /// node 4 along x.
 #[test]
 fn sensors_along_axes_of_their_own_find_the_same_rods() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = tempfile::tempdir().unwrap();
     for (name, text) in rods() {
-        fs::write(folder.path().join(name), text).expect("written");
+        fs::write(folder.path().join(name), text).unwrap();
     }
     let path = folder.path().join("job.toml");
     let finished = || {
@@ -137,11 +137,7 @@ fn sensors_along_axes_of_their_own_find_the_same_rods() {
     let (prepared, expected) = finished();
     let text = write_universal(&prepared.loaded.data);
     let mut lines = text.lines().map(str::to_owned).collect_vec();
-    let nodes = lines
-        .iter()
-        .position(|line| line.trim() == "2411")
-        .expect("nodes")
-        + 1;
+    let nodes = lines.iter().position(|line| line.trim() == "2411").unwrap() + 1;
     for (row, system) in [(0, 3), (1, 4)] {
         lines[nodes + 2 * row].replace_range(20..30, &format!("{system:10}"));
     }
@@ -167,7 +163,7 @@ fn sensors_along_axes_of_their_own_find_the_same_rods() {
         folder.path().join("test.csv"),
         systems + &lines.join("\n") + "\n",
     )
-    .expect("written");
+    .unwrap();
     let (prepared, found) = finished();
     let directions = prepared
         .loaded
@@ -187,7 +183,7 @@ fn sensors_along_axes_of_their_own_find_the_same_rods() {
         (0..3).map(|row| dense[(row, row)]).collect_vec(),
         [-1.0, 1.0, 1.0]
     );
-    let table = places_table(&prepared.loaded, None).expect("a table");
+    let table = places_table(&prepared.loaded, None).unwrap();
     let own = table
         .rows
         .iter()
@@ -207,10 +203,10 @@ fn negated(value: &str) -> String {
 #[test]
 fn the_first_model_is_the_one_that_was_prepared() {
     let prepared = loaded("building");
-    let first = prepared.analyze(&[1.0; 10]).expect("a model");
+    let first = prepared.analyze(&[1.0; 10]).unwrap();
     let mut fewer = prepared.clone();
     fewer.analysis_modes = 7;
-    let other = fewer.analyze(&[1.0; 10]).expect("a model");
+    let other = fewer.analyze(&[1.0; 10]).unwrap();
     let modes_of = |comparison: &Comparison| comparison.model().exact().modes.clone();
     assert_eq!((modes_of(&first).len(), modes_of(&other).len()), (10, 7));
     let near = fewer
@@ -218,12 +214,12 @@ fn the_first_model_is_the_one_that_was_prepared() {
         .source
         .whole
         .modes(&[1.0; 10], 10)
-        .expect("modes")
+        .unwrap()
         .vibrations;
     assert_eq!(modes_of(&first).frequencies_hz(), near.frequencies_hz());
     let mut by_paper = prepared.clone();
     Arc::make_mut(&mut by_paper.loaded).job.compare.method = Method::Paper;
-    let finished = run(&by_paper, |_| {}, || true).expect("it runs");
+    let finished = run(&by_paper, |_| {}, || true).unwrap();
     let History::Paper(run) = &finished.found.history else {
         panic!("by the paper's loops")
     };
@@ -242,7 +238,7 @@ fn condensed_the_wing_has_the_same_gages() {
         &job.weights(),
         &WeightedSettings::default(),
     )
-    .expect("it runs");
+    .unwrap();
     for (a, b) in finished("wing")
         .1
         .found
@@ -280,7 +276,7 @@ fn the_wing_is_found_from_ten_modes_at_its_upper_grids() {
     }));
     shapes_at_all_grids_are_those_of_the_sensors(&prepared, found);
     // Modes 8 and 9 are 1.6 % apart: where another mode of the model answers than before, the report says so.
-    let mut subject = Report::from_job(&prepared, Some(found)).expect("a subject");
+    let mut subject = Report::from_job(&prepared, Some(found)).unwrap();
     subject.stages = vec![subject.stages[0].clone(); 3];
     let mut exchanged = subject.clone();
     let pairing = &mut exchanged.stages[1].check.pairing;
@@ -305,18 +301,18 @@ fn the_wing_is_found_from_ten_modes_at_its_upper_grids() {
 
 /// How the grids move in a picture: along the sensors as is compared, and in the test nearly as in the corrected model.
 fn shapes_at_all_grids_are_those_of_the_sensors(prepared: &PreparedJob, found: &JobResult) {
-    let subject = Report::from_job(prepared, Some(found)).expect("a subject");
-    let moved = subject.moved.as_ref().expect("the whole model");
+    let subject = Report::from_job(prepared, Some(found)).unwrap();
+    let moved = subject.moved.as_ref().unwrap();
     let states = [&found.found.first, &found.found.last].map(|comparison| {
         let exact = comparison.model().exact();
-        exact.pairing.paired(&exact.modes).expect("modes")
+        exact.pairing.paired(&exact.modes).unwrap()
     });
     let row = |grid: usize| {
         subject
             .grids
             .iter()
             .position(|(label, _)| *label == grid)
-            .expect("a grid")
+            .unwrap()
     };
     for mode in 0..subject.test.len() {
         let (test, last) = (&moved[0][mode], &moved[2][mode]);
@@ -390,21 +386,21 @@ fn worked_jobs_end_within_a_thousandth_of_a_deviation_of_their_optimum() {
         let at = |parameter: usize, step: f64| {
             let mut changed = factors.clone();
             changed[parameter] *= step.exp();
-            let model = prepared.analyze(&changed).expect("an analysis");
-            residuals(&model, &weights).expect("residuals")
+            let model = prepared.analyze(&changed).unwrap();
+            residuals(&model, &weights).unwrap()
         };
         let columns = free
             .iter()
             .map(|&e| (at(e, STEP) - at(e, -STEP)) / (2.0 * STEP))
             .collect_vec();
         let jacobian = DMatrix::from_columns(&columns);
-        let own = residuals(&result.found.last, &weights).expect("residuals");
+        let own = residuals(&result.found.last, &weights).unwrap();
         let of = |e: usize| priors.get(e).unwrap_or(&priors[0]).powi(-2);
         let prior = DVector::from_iterator(free.len(), free.iter().map(|&e| of(e)));
         let logarithms = DVector::from_iterator(free.len(), free.iter().map(|&e| factors[e].ln()));
         let gradient = jacobian.tr_mul(&own) + prior.component_mul(&logarithms);
         let information = jacobian.tr_mul(&jacobian) + DMatrix::from_diagonal(&prior);
-        let step = information.cholesky().expect("definite").solve(&gradient);
+        let step = information.cholesky().unwrap().solve(&gradient);
         let away = step.dot(&gradient).sqrt();
         assert!(away < OPTIMUM, "{name}: {away:.1e} deviations");
     }

@@ -71,8 +71,8 @@ fn mutated(files: &Files, draws: &mut Draws) -> Vec<(String, Vec<u8>)> {
         let job = files
             .iter_mut()
             .find(|(name, _)| name == "job.toml")
-            .expect("a job");
-        let mut text = String::from_utf8(job.1.clone()).expect("a text");
+            .unwrap();
+        let mut text = String::from_utf8(job.1.clone()).unwrap();
         for _ in 0..1 + draws.below(2) {
             let [heading, line] = entry(draws);
             let own = line.split(" = ").next().unwrap_or("");
@@ -162,7 +162,7 @@ fn no_job_panics_whatever_stands_in_it() {
         let files = mutated(&jobs[job], &mut draws);
         let (folder, path) = placed(&Vec::new());
         for (name, bytes) in &files {
-            fs::write(folder.path().join(name), bytes).expect("written");
+            fs::write(folder.path().join(name), bytes).unwrap();
         }
         match catch_unwind(AssertUnwindSafe(|| corrected(&path))) {
             Ok(Ok(is_finite)) => assert!(is_finite, "seed {seed}"),

@@ -9,21 +9,21 @@ pub fn golden(file: &str) -> PathBuf {
 
 /// The lines of a stored table.
 pub fn table(file: &str) -> Vec<Vec<String>> {
-    let mut reader = csv::Reader::from_path(golden(file)).expect("a table");
+    let mut reader = csv::Reader::from_path(golden(file)).unwrap();
     reader
         .records()
-        .map(|line| line.expect("a line").iter().map(str::to_owned).collect())
+        .map(|line| line.unwrap().iter().map(str::to_owned).collect())
         .collect()
 }
 
 /// Compares what the crate wrote with the file that another program was given; writes that file on request.
 pub fn assert_written(file: &str, written: &[u8]) {
     if std::env::var("CORFEM_WRITTEN").is_ok_and(|value| value == "write") {
-        fs::write(golden(file), written).expect("it writes");
+        fs::write(golden(file), written).unwrap();
     }
     assert_eq!(
         String::from_utf8_lossy(written),
-        fs::read_to_string(golden(file)).expect("it reads"),
+        fs::read_to_string(golden(file)).unwrap(),
         "{file}"
     );
 }
@@ -58,7 +58,7 @@ fn matrices_of_the_owners_programs_read_to_the_last_digit() {
         let [file, name, row, column, value] = &line[..] else {
             panic!("{line:?}")
         };
-        let value = value.parse().expect("a number");
+        let value = value.parse().unwrap();
         expected
             .entry((file.clone(), name.clone()))
             .or_default()
@@ -70,9 +70,9 @@ fn matrices_of_the_owners_programs_read_to_the_last_digit() {
         let [file, name, rows, columns] = &line[..] else {
             panic!("{line:?}")
         };
-        let bytes = fs::read(golden(file)).expect("it reads");
+        let bytes = fs::read(golden(file)).unwrap();
         let wanted = (!name.is_empty()).then_some(name.as_str());
-        let found = read(file, &bytes, wanted).expect("a matrix");
+        let found = read(file, &bytes, wanted).unwrap();
         assert_eq!(
             by_name(&found),
             expected[&(file.clone(), name.clone())],
@@ -91,11 +91,9 @@ fn matrices_of_the_owners_programs_read_to_the_last_digit() {
             assert!(found.matrix.is_symmetric());
         }
         // The same with the line ends of Windows.
-        let text = String::from_utf8(bytes)
-            .expect("a text")
-            .replace('\n', "\r\n");
+        let text = String::from_utf8(bytes).unwrap().replace('\n', "\r\n");
         assert_eq!(
-            read(file, text.as_bytes(), wanted).expect("a matrix"),
+            read(file, text.as_bytes(), wanted).unwrap(),
             found,
             "{file} {name}"
         );
@@ -104,11 +102,10 @@ fn matrices_of_the_owners_programs_read_to_the_last_digit() {
 
 #[test]
 fn a_matrix_is_chosen_by_its_name() {
-    let bytes = fs::read(golden("sparse.op4")).expect("it reads");
-    let [one, other] =
-        ["kaa", "KAA"].map(|name| read("m", &bytes, Some(name)).expect("in any case"));
+    let bytes = fs::read(golden("sparse.op4")).unwrap();
+    let [one, other] = ["kaa", "KAA"].map(|name| read("m", &bytes, Some(name)).unwrap());
     assert_eq!(one, other);
-    let dmig = fs::read(golden("small.dmig")).expect("it reads");
+    let dmig = fs::read(golden("small.dmig")).unwrap();
     for (bytes, wanted, found) in [
         (&bytes[..], None, "KAA, T"),
         (&bytes[..], Some("MAA"), "KAA, T"),
@@ -139,9 +136,7 @@ fn strings_with_nastrans_words_read() {
         is(2, 70),
         is(2, 1),
     );
-    let a = read("m", text.as_bytes(), Some("A"))
-        .expect("a matrix")
-        .matrix;
+    let a = read("m", text.as_bytes(), Some("A")).unwrap().matrix;
     assert_eq!((a.rows(), a.columns()), (70, 3));
     assert_eq!(
         a.entries().collect_vec(),
@@ -153,9 +148,7 @@ fn strings_with_nastrans_words_read() {
             (0, 2, 4e101)
         ]
     );
-    let b = read("m", text.as_bytes(), Some("B"))
-        .expect("a matrix")
-        .matrix;
+    let b = read("m", text.as_bytes(), Some("B")).unwrap().matrix;
     assert_eq!((b.rows(), b.columns()), (70000, 2));
     assert_eq!(
         b.entries().collect_vec(),
@@ -174,7 +167,7 @@ fn strings_with_nastrans_words_read() {
     );
     assert!(
         read("m", zero.as_bytes(), Some("C"))
-            .expect("zeros")
+            .unwrap()
             .matrix
             .entries()
             .collect_vec()
@@ -198,7 +191,7 @@ fn a_matrix_before_the_one_asked_for_is_passed_over() {
     let text = wide + &one("B", "1P,3E23.16", " 2.0000000000000000E+00");
     assert_eq!(
         read("m", text.as_bytes(), Some("B"))
-            .expect("a matrix")
+            .unwrap()
             .matrix
             .entries()
             .collect_vec(),
@@ -206,7 +199,7 @@ fn a_matrix_before_the_one_asked_for_is_passed_over() {
     );
     assert_eq!(
         read("m", text.as_bytes(), Some("A"))
-            .expect("a matrix")
+            .unwrap()
             .matrix
             .entries()
             .collect_vec(),
@@ -234,7 +227,7 @@ fn one_triangle_of_a_symmetric_matrix_is_mirrored() {
         let second = format!("       2{row:8}{:8}\n{numbers}\n", 3 - row);
         assert_eq!(
             read("m", text(&second).as_bytes(), None)
-                .expect("a matrix")
+                .unwrap()
                 .matrix
                 .entries()
                 .collect_vec(),
@@ -248,7 +241,7 @@ fn one_triangle_of_a_symmetric_matrix_is_mirrored() {
     );
     assert_eq!(
         read("m", upper.as_bytes(), None)
-            .expect("a matrix")
+            .unwrap()
             .matrix
             .entries()
             .collect_vec(),
@@ -265,7 +258,7 @@ fn fields_without_blanks_and_scalar_points_of_dmig_read() {
                 DMIG,K,7,0,,7,,1.5\n\
                 DMIG    C       0       6       3       0\nDMIG    C       1       1               1       1       1.      2.\n"
         .replace("123456780", " 12345678");
-    let found = read("m", text.as_bytes(), Some("K")).expect("a matrix");
+    let found = read("m", text.as_bytes(), Some("K")).unwrap();
     assert_eq!(found.rows, labels(&[(7, 0), (12_345_678, 2)]));
     assert_eq!(
         found.matrix.entries().collect_vec(),
@@ -280,7 +273,7 @@ fn fields_without_blanks_and_scalar_points_of_dmig_read() {
     );
     // Three entries on a card, and a place for one that has none.
     let text = "DMIG,K,0,2,2,0\nDMIG,K,1,1,,2,1,2.,,+A\n+A,,,,,3,1,3.,,+B\n+B,4,1,4.\n";
-    let found = read("m", text.as_bytes(), None).expect("a matrix");
+    let found = read("m", text.as_bytes(), None).unwrap();
     assert_eq!(found.rows, labels(&[(2, 1), (3, 1), (4, 1)]));
     assert_eq!(
         found.matrix.entries().collect_vec(),
@@ -288,7 +281,7 @@ fn fields_without_blanks_and_scalar_points_of_dmig_read() {
     );
     // Fields of eight characters that touch.
     let text = "DMIG    K       0       1       1       0\nDMIG    K       12345678       3        12345679       1-1.234-3\n";
-    let found = read("m", text.as_bytes(), None).expect("a matrix");
+    let found = read("m", text.as_bytes(), None).unwrap();
     assert_eq!(found.rows, labels(&[(12_345_678, 3), (12_345_679, 1)]));
     assert_eq!(found.matrix.entries().collect_vec(), [(1, 0, -1.234e-3)]);
 }
@@ -317,24 +310,17 @@ fn the_owners_programs_read_what_the_crate_writes() {
         ("written_symmetric.mtx", 12, 12, symmetric),
     ]
     .map(|(file, rows, columns, entries)| {
-        let matrix = SparseMatrix::new("test", rows, columns, entries).expect("a matrix");
+        let matrix = SparseMatrix::new("test", rows, columns, entries).unwrap();
         assert_written(file, write_matrix_market(&matrix).as_bytes());
         (file, matrix)
     });
     let stored = table("read_back_matrices.csv");
     for (file, matrix) in written {
         let read = stored.iter().filter(|line| line[0] == file);
-        let number = |text: &str| text.parse::<usize>().expect("a number") - 1;
-        let read = read.map(|line| {
-            (
-                number(&line[1]),
-                number(&line[2]),
-                line[3].parse().expect("a number"),
-            )
-        });
+        let number = |text: &str| text.parse::<usize>().unwrap() - 1;
+        let read = read.map(|line| (number(&line[1]), number(&line[2]), line[3].parse().unwrap()));
         assert_eq!(
-            SparseMatrix::new("test", matrix.rows(), matrix.columns(), read.collect())
-                .expect("a matrix"),
+            SparseMatrix::new("test", matrix.rows(), matrix.columns(), read.collect()).unwrap(),
             matrix,
             "{file}"
         );
@@ -358,11 +344,11 @@ properties! {
             }
         }
         let entries = places.into_iter().map(|((row, column), value)| (row, column, value)).collect();
-        let matrix = SparseMatrix::new("test", rows, columns, entries).expect("a matrix");
+        let matrix = SparseMatrix::new("test", rows, columns, entries)?;
         let text = write_matrix_market(&matrix);
         prop_assert_eq!(text.starts_with("%%MatrixMarket matrix coordinate real symmetric\n"), matrix.is_symmetric());
         prop_assert!(!is_symmetric || matrix.is_symmetric());
-        let back = read("test", text.as_bytes(), None).expect("it reads").matrix;
+        let back = read("test", text.as_bytes(), None)?.matrix;
         prop_assert_eq!((back.rows(), back.columns()), (rows, columns));
         prop_assert!(back.entries().eq(matrix.entries()));
     }
@@ -373,7 +359,7 @@ properties! {
         let files = ["general.mtx", "general_array.mtx", "symmetric.mtx", "symmetric_array.mtx", "skew.mtx", "skew_array.mtx",
             "dense.op4", "sparse.op4", "bigmat.op4"];
         let file = files[which];
-        let text = fs::read_to_string(golden(file)).expect("it reads");
+        let text = fs::read_to_string(golden(file))?;
         let wanted = file.ends_with("op4").then_some("T");
         let lines = text.lines().collect_vec();
         // What follows the last record of OUTPUT4 says nothing.

@@ -8,13 +8,13 @@ use crate::prelude::*;
 
 /// What NASTRAN-95 would answer for a model if its elements were this crate's.
 fn own_answer(model: &FiniteElementModel, factors: &[f64]) -> Matrices {
-    let sizes = model.sizes(factors).expect("sizes");
+    let sizes = model.sizes(factors).unwrap();
     let structure = model.structure();
     let free = structure.free_dof();
     let mut order = (0..free.len()).collect_vec();
     order.sort_by_key(|&row| (free[row].grid, free[row].direction));
     let sorted = |matrix: &DMatrix<f64>| matrix.select_rows(&order).select_columns(&order);
-    let kaa = assemble(model.element_matrices(), &sizes, free.len()).expect("stiffness");
+    let kaa = assemble(model.element_matrices(), &sizes, free.len()).unwrap();
     let t = &model.load_distribution().clone();
     // Stiffness factors leave every element the mass of its first size.
     let lumped = DMatrix::from_diagonal(&lumped_mass(structure));
@@ -50,7 +50,7 @@ fn answering(matrices: &Matrices) -> TempDir {
         .iter()
         .map(|(name, matrix)| (name.as_str(), matrix))
         .collect_vec();
-    fs::write(home.path().join("rf/answer"), output5(&list)).expect("written");
+    fs::write(home.path().join("rf/answer"), output5(&list)).unwrap();
     home
 }
 
@@ -69,14 +69,14 @@ fn assert_same(found: &DynamicModel, expected: &DynamicModel) {
 #[test]
 fn a_solver_with_the_crates_elements_gives_the_crates_analysis() {
     for number in [1, 3] {
-        let model = case_of(number).model().expect("a model");
+        let model = case_of(number).model().unwrap();
         let factors = (0..15).map(|row| 0.8 + f64::from(row) / 20.0).collect_vec();
         let home = answering(&own_answer(&model, &factors));
         let found = solver(&home)
             .elements(&model, &factors)
             .and_then(|model| Ok(model.matrices(&factors)?))
-            .expect("an analysis");
-        assert_same(&found, &model.matrices(&factors).expect("an analysis"));
+            .unwrap();
+        assert_same(&found, &model.matrices(&factors).unwrap());
     }
 }
 
@@ -89,8 +89,8 @@ fn elements_and_grids_in_any_order_find_their_matrices() {
     let found = solver(&home)
         .elements(&model, &factors)
         .and_then(|model| Ok(model.matrices(&factors)?))
-        .expect("an analysis");
-    assert_same(&found, &model.matrices(&factors).expect("an analysis"));
+        .unwrap();
+    assert_same(&found, &model.matrices(&factors).unwrap());
 }
 
 /// A frame of three rods and a triangle on grids 7, 3, 9, 5 with z at two dynamic points.
@@ -100,7 +100,7 @@ pub fn disordered() -> FiniteElementModel {
         position: position.into(),
         constrained: [constrained; 3],
     };
-    let light = Material::isotropic(1e7, 0.3).expect("a material");
+    let light = Material::isotropic(1e7, 0.3).unwrap();
     let heavy = Material {
         density: 1e-4,
         ..light
@@ -129,7 +129,7 @@ pub fn disordered() -> FiniteElementModel {
             element(6, ElementKind::Rod, &[5, 1], light),
         ],
     )
-    .expect("a structure");
+    .unwrap();
     let mut t = DMatrix::zeros(6, 2);
     t[(2, 0)] = 1.0;
     t[(5, 1)] = 0.5;
@@ -144,7 +144,7 @@ pub fn disordered() -> FiniteElementModel {
             Parameter::new("others", &[4, 12, 6]),
         ],
     )
-    .expect("a model")
+    .unwrap()
 }
 
 #[test]
@@ -159,7 +159,7 @@ fn an_answer_to_another_question_is_refused() {
     };
     let entry = |name: &'static str, part: f64| {
         move |answer: &mut Matrices| {
-            let matrix = answer.get_mut(name).expect("it is there");
+            let matrix = answer.get_mut(name).unwrap();
             let largest = matrix.amax();
             matrix[(0, 0)] += part * largest;
         }

@@ -6,7 +6,7 @@
 use crate::prelude::*;
 
 static RUN: LazyLock<WingCorrelation> =
-    LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).expect("it runs"));
+    LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).unwrap());
 
 fn wing() -> DeltaWing {
     DeltaWing::embedded()
@@ -17,9 +17,9 @@ fn wing() -> DeltaWing {
 #[test]
 fn stored_frequencies_are_the_crates_at_the_same_factors() {
     let stored = stored_wing();
-    let model = first_model(&wing()).expect("a model");
+    let model = first_model(&wing()).unwrap();
     assert_eq!(stored.initial.factors, [1.0; GROUPS.len()]);
-    let test = test_modes(&wing()).expect("test modes");
+    let test = test_modes(&wing()).unwrap();
     // They are the crate's own on both sides, perhaps by another processor.
     assert_near(
         &stored.test_frequencies_hz,
@@ -30,7 +30,7 @@ fn stored_frequencies_are_the_crates_at_the_same_factors() {
     for found in stored.checks() {
         let own = model
             .analyze(&found.factors, &test, None)
-            .expect("an analysis")
+            .unwrap()
             .exact()
             .clone();
         assert_near(
@@ -102,7 +102,7 @@ fn another_analysis_is_asked_for_every_model() {
         },
         |pass, _| told.push(pass),
     )
-    .expect("it runs");
+    .unwrap();
     assert_eq!(run.correlation.passes.len(), RUN.correlation.passes.len());
     assert_eq!(told, [1, 2, 3]);
     // For the shares of the first model, at the start of the loop, and after every pass.

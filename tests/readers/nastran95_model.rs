@@ -16,7 +16,7 @@ fn the_deck_of_an_analysis_has_every_element_twice() {
         .elements(&model, &[2.0, 1.0])
         .expect_err("no answer");
     assert!(error.to_string().contains("nothing was written"), "{error}");
-    let text = fs::read_to_string(home.path().join("rf/deck")).expect("a deck");
+    let text = fs::read_to_string(home.path().join("rf/deck")).unwrap();
     for line in [
         "INSERT READ,-1 $",
         "OUTPUT5 KGG,KAA,MAA,,//-1/15/*CORFEM*/1 $",
@@ -27,7 +27,7 @@ fn the_deck_of_an_analysis_has_every_element_twice() {
         assert!(text.lines().any(|found| found == line), "{line}");
     }
     let read = corfem::files::deck::read("deck", text.as_bytes(), &[])
-        .expect("it reads")
+        .unwrap()
         .model;
     // Five grids and two dynamic points, then a grid for every corner, after all of them and held.
     let labels = read.grids.iter().map(|grid| grid.label).collect_vec();
@@ -75,7 +75,7 @@ fn a_deck_holds_point_masses_alone() {
         mass,
         model.parameters().to_vec(),
     )
-    .expect("a model");
+    .unwrap();
     let error = BulkData::from_model(&coupled, &[1.0, 1.0], &[Vector3::zeros(); 2]);
     assert!(matches!(
         error,
@@ -96,10 +96,10 @@ fn element_matrices_of_another_origin_must_fit() {
         .map(|element| element.unit.clone())
         .collect_vec();
     let doubled = own.iter().map(|unit| 2.0 * unit).collect();
-    let stiffer = model.with_unit_stiffness(doubled).expect("they fit");
+    let stiffer = model.with_unit_stiffness(doubled).unwrap();
     let (once, twice) = (
-        model.matrices(&[1.0, 1.0]).expect("an analysis"),
-        stiffer.matrices(&[1.0, 1.0]).expect("an analysis"),
+        model.matrices(&[1.0, 1.0]).unwrap(),
+        stiffer.matrices(&[1.0, 1.0]).unwrap(),
     );
     let expected = 2.0 * once.stiffness;
     assert_relative_eq!(
@@ -177,8 +177,8 @@ fn a_case_runs_with_the_analysis_it_is_given() {
         let units = elements.map(|element| 4.0 * &element.unit).collect();
         Ok(model.with_unit_stiffness(units)?)
     };
-    let own = run_case(&case, |_, _| ()).expect("a run");
-    let other = correlate_case(&case, stiffer).expect("a run");
+    let own = run_case(&case, |_, _| ()).unwrap();
+    let other = correlate_case(&case, stiffer).unwrap();
     for (a, b) in [
         (&own.test, &other.test),
         (
@@ -201,9 +201,9 @@ fn a_history_reads_as_the_golden_does() {
     assert!(golden.starts_with(&format!("{HEADING}\n[[case]]\nnumber = 1\n")));
     for number in [2, 4] {
         let case = case_of(number);
-        let own = run_case(&case, |_, _| ()).expect("a run");
-        let run = correlate_case(&case, |model, _| Ok(model.clone())).expect("a run");
-        let [read] = &read_cases(&run.toml().expect("a text"))[..] else {
+        let own = run_case(&case, |_, _| ()).unwrap();
+        let run = correlate_case(&case, |model, _| Ok(model.clone())).unwrap();
+        let [read] = &read_cases(&run.toml().unwrap())[..] else {
             panic!("case {number}: not one case")
         };
         assert_eq!(read.number, number);

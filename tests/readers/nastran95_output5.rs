@@ -8,7 +8,7 @@ use crate::prelude::*;
 #[test]
 fn a_file_of_module_output5_reads() {
     let text = include_str!("../../golden/nastran95/output5_rod.txt");
-    let matrices = read_output5(text, 144).expect("it reads");
+    let matrices = read_output5(text, 144).unwrap();
     assert_eq!(matrices.len(), 1);
     let kgg = &matrices["KGG"];
     assert_eq!(kgg.shape(), (12, 12));
@@ -23,7 +23,7 @@ fn a_file_of_module_output5_reads() {
         ),
         ("B", &zero_square(1)),
     ]);
-    let read = read_output5(&two, 7).expect("it reads");
+    let read = read_output5(&two, 7).unwrap();
     assert_eq!(
         read["A"],
         DMatrix::from_row_slice(2, 3, &[0.0, 2.0, 0.0, 1.0, -3.0, 0.0])
@@ -43,7 +43,7 @@ fn a_damaged_file_of_module_output5_is_refused_by_line() {
         lines[line - 1] = text;
         let error = read_output5(&lines.join("\n"), 144).expect_err(text);
         let reason = error.to_string();
-        let (what, line) = expected.rsplit_once(" in ").expect("a line");
+        let (what, line) = expected.rsplit_once(" in ").unwrap();
         assert!(
             reason.starts_with(&format!("NASTRAN-95: OUTPUT5 file, {line}: "))
                 && reason.contains(what),

@@ -55,15 +55,15 @@ impl Draws {
 
 /// Whether the building's job, with another table of rows, can be prepared; its matrices and its test are where they are.
 fn prepares(job: &[u8], rows: &[u8]) -> bool {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = tempfile::tempdir().unwrap();
     let files = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/jobs/building/");
     let mut text = String::from_utf8_lossy(job).into_owned();
     for name in ["stiffness.mtx", "mass.mtx", "story_", "test.csv"] {
         text = text.replace(&format!("\"{name}"), &format!("\"{files}{name}"));
     }
     let path = folder.path().join("job.toml");
-    fs::write(&path, text).expect("written");
-    fs::write(folder.path().join("rows.csv"), rows).expect("written");
+    fs::write(&path, text).unwrap();
+    fs::write(folder.path().join("rows.csv"), rows).unwrap();
     prepare(&path).is_ok()
 }
 
@@ -84,7 +84,7 @@ const READERS: &[Reader] = &[
         read_output5(&String::from_utf8_lossy(text), 10_000).is_ok()
     }),
     ("deck to be rewritten", include_bytes!("../../golden/formats/original.bdf"), |text| {
-        let deck = read_deck("deck", include_bytes!("../../golden/formats/rewritten.bdf"), &[]).expect("it reads");
+        let deck = read_deck("deck", include_bytes!("../../golden/formats/rewritten.bdf"), &[]).unwrap();
         rewrite("deck", text, &deck.model.elements, &[]).is_ok()
     }),
     ("Matrix Market", include_bytes!("../../golden/formats/symmetric.mtx"), |text| read_matrix("m", text, None).is_ok()),

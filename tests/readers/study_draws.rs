@@ -23,7 +23,7 @@ fn a_study_is_known_by_the_digest_of_its_files_seed_and_choice() {
     };
     let head = format!("{} 7 [Noise, Start]", env!("CARGO_PKG_VERSION"));
     let names = ["model.bdf", "test.csv", "job.toml"].map(|name| folder.path().join(name));
-    let file = |path: &PathBuf| fs::read(path).expect("it reads");
+    let file = |path: &PathBuf| fs::read(path).unwrap();
     let mut all = Vec::new();
     for part in once(head.into_bytes()).chain(names.iter().map(file)) {
         all.extend((part.len() as u64).to_be_bytes());
@@ -35,9 +35,9 @@ fn a_study_is_known_by_the_digest_of_its_files_seed_and_choice() {
     let with_line = |at: usize, place: usize| {
         let mut text = texts[at].clone();
         text.insert(place, b'\n');
-        fs::write(&names[at], text).expect("written");
+        fs::write(&names[at], text).unwrap();
         let identity = identity();
-        fs::write(&names[at], &texts[at]).expect("written");
+        fs::write(&names[at], &texts[at]).unwrap();
         identity
     };
     assert_ne!(with_line(1, texts[1].len()), with_line(2, 0));
@@ -51,7 +51,7 @@ fn any_sensor_and_any_mode_may_be_left_out() {
         Study::new(&path, 3, &[Vary::Subset], &[]).unwrap_or_else(|error| panic!("{error}"));
     let (mut left, mut counts) = ([[[0; 2]; 5]; 2], [[0; 5]; 2]);
     for sample in 1..=60 {
-        let (prepared, _) = study.draw(sample).expect("a draw");
+        let (prepared, _) = study.draw(sample).unwrap();
         let sensors = prepared
             .loaded
             .placed
@@ -94,7 +94,7 @@ fn a_sample_that_is_neither_within_nor_outside_is_refused() {
             &samples,
             format!("1,cap,{within},0.5,3,1.0,1.0,{}\n", study.identity),
         )
-        .expect("written");
+        .unwrap();
         corfem::job::Samples::read(&samples, &study)
     };
     assert!(read("true").is_ok() && read("false").is_ok());
@@ -153,7 +153,7 @@ fn a_seed_draws_the_same_numbers_for_ever() {
             ],
         ),
     ] {
-        let (drawn, start) = study.draw(sample).expect("a draw");
+        let (drawn, start) = study.draw(sample).unwrap();
         for (found, expected) in start.iter().zip(starts) {
             assert!((found - expected).abs() <= ROUND_OFF, "{sample}: {start:?}");
         }
@@ -184,7 +184,7 @@ fn a_seed_draws_the_same_numbers_for_ever() {
         (5, true, &[1, 2, 3, 4]),
         (6, false, &[0, 1, 4]),
     ] {
-        let (drawn, _) = study.draw(sample).expect("a draw");
+        let (drawn, _) = study.draw(sample).unwrap();
         let sensors = drawn
             .loaded
             .placed

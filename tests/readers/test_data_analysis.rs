@@ -32,8 +32,8 @@ fn analysis(
     let number = |value: &f64, blanks: bool| {
         let (mantissa, exponent) = format!("{value:.5e}")
             .split_once('e')
-            .map(|(m, e)| (m.to_owned(), e.parse::<i32>().expect("an exponent")))
-            .expect("scientific");
+            .map(|(m, e)| (m.to_owned(), e.parse::<i32>().unwrap()))
+            .unwrap();
         let letter = if layout.fortran { 'D' } else { 'E' };
         let text = format!("{mantissa}{letter}{exponent:+03}");
         if blanks {

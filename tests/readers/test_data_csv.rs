@@ -87,7 +87,7 @@ fn spreadsheets_may_separate_by_semicolons_or_tabs_and_write_decimal_commas() {
         .map(|c| c as u8)
         .collect_vec();
     assert_eq!(
-        read("wing.csv", &latin).expect("it reads").sensors[0].name,
+        read("wing.csv", &latin).unwrap().sensors[0].name,
         "fl\u{fc}gel"
     );
 }
@@ -311,7 +311,7 @@ fn titles_of_modes_are_in_order_and_none_is_there_twice() {
     };
     assert_eq!(said("mode 7", "mode 2"), place(9, "mode 2", 8));
     assert_eq!(said("Mode_2", "Mode_1"), place(9, "Mode_1", 3));
-    let numbers = |first, second| said(first, second).expect("a test").numbers;
+    let numbers = |first, second| said(first, second).unwrap().numbers;
     assert_eq!(numbers("mode 7", "mode 8"), [7, 8]);
     assert_eq!(numbers("mode 1", "mode 2"), [0; 0]);
     assert_eq!(

@@ -39,13 +39,12 @@ fn path(name: &str) -> PathBuf {
 }
 
 fn answers() -> BTreeMap<String, Answer> {
-    toml::from_str(&fs::read_to_string(path("universal_expected.toml")).expect("it reads"))
-        .expect("answers")
+    toml::from_str(&fs::read_to_string(path("universal_expected.toml")).unwrap()).unwrap()
 }
 
 fn file(name: &str) -> TestData {
     let name = format!("universal_{name}.unv");
-    read(&name, &fs::read(path(&name)).expect("it is there")).expect("it reads")
+    read(&name, &fs::read(path(&name)).unwrap()).unwrap()
 }
 
 impl Mode {
@@ -90,7 +89,7 @@ fn assert_frame(name: &str, data: &TestData, answer: &Answer, modes: &[&Mode]) {
     let found = data
         .sensors
         .iter()
-        .map(|sensor| (sensor.grid.expect("a node"), sensor.direction))
+        .map(|sensor| (sensor.grid.unwrap(), sensor.direction))
         .collect_vec();
     assert_eq!(found, expected, "{name}");
     for sensor in &data.sensors {
@@ -137,7 +136,7 @@ fn real_modes_of_three_and_six_components_are_as_pyuff_reads_them() {
         );
         for (shape, mode) in data.shapes.column_iter().zip(&modes) {
             for (sensor, value) in data.sensors.iter().zip(shape.iter()) {
-                let expected = mode.at(sensor.grid.expect("a node"), sensor.direction);
+                let expected = mode.at(sensor.grid.unwrap(), sensor.direction);
                 assert_eq!(
                     (*value, 0.0),
                     (expected.re, expected.im),
@@ -174,9 +173,7 @@ fn velocities_and_accelerations_become_displacements_and_a_response_is_no_mode()
     for (mode, expected) in modes.into_iter().enumerate() {
         let omega = 2.0 * PI * expected.frequency();
         for (row, sensor) in data.sensors.iter().enumerate() {
-            let measured = expected
-                .at(sensor.grid.expect("a node"), sensor.direction)
-                .re;
+            let measured = expected.at(sensor.grid.unwrap(), sensor.direction).re;
             let factor = if expected.kind == 11 {
                 omega
             } else {
@@ -208,12 +205,7 @@ fn complex_modes_are_made_real_once_each_and_keep_their_collinearity() {
         modes.iter().map(|mode| mode.frequency()).collect_vec()
     );
     for (column, mode) in modes.into_iter().enumerate() {
-        let at = |row: usize| {
-            mode.at(
-                data.sensors[row].grid.expect("a node"),
-                data.sensors[row].direction,
-            )
-        };
+        let at = |row: usize| mode.at(data.sensors[row].grid.unwrap(), data.sensors[row].direction);
         let shape = DVector::from_fn(data.sensors.len(), |row, _| at(row));
         // The largest real part of any phase, found by trying a thousand.
         let part = |angle: f64| shape.map(|value| (value * Complex::from_polar(1.0, angle)).re);
@@ -243,9 +235,9 @@ fn complex_modes_are_made_real_once_each_and_keep_their_collinearity() {
 fn the_file_that_pyuff_has_read_is_what_the_crate_writes() {
     let (written, path) = (write_universal(&wing_test()), path("universal_written.unv"));
     if std::env::var("CORFEM_FORMATS").is_ok_and(|wish| wish == "write") {
-        fs::write(&path, &written).expect("it writes");
+        fs::write(&path, &written).unwrap();
     }
-    assert_eq!(fs::read_to_string(path).expect("it reads"), written);
+    assert_eq!(fs::read_to_string(path).unwrap(), written);
     let (answer, data) = (&answers()["written"], wing_test());
     for (mode, expected) in answer.modes.iter().enumerate() {
         for (row, sensor) in data.sensors.iter().enumerate() {
@@ -277,7 +269,7 @@ fn axes_that_pyuff_wrote_are_turned() {
         Vector3::new(6.0, 23.0, 30.0),
     ];
     for (sensor, place) in data.sensors.iter().zip(&places) {
-        let node = sensor.grid.expect("a node");
+        let node = sensor.grid.unwrap();
         assert!(
             (place - expected[node - 1]).amax() < ROUND_OFF,
             "{node}: {place}"

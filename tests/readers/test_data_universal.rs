@@ -143,7 +143,7 @@ fn binary_data_are_passed_over_to_their_mark() {
         b"    -1\n    58b     1     2          11           8\nNONE\n\xff\x00\n\xfe\xff    -1\n"
             .to_vec();
     bytes.extend(real_mode(TIP).bytes());
-    let data = read("wing.unv", &bytes).expect("it reads");
+    let data = read("wing.unv", &bytes).unwrap();
     assert_eq!((data.skipped, data.shapes), (vec![58], dmatrix![1.0]));
 }
 

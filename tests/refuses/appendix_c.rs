@@ -173,7 +173,7 @@ fn roots_that_do_not_settle_are_refused_with_their_last_change() {
     let last_change = |coupling: f64| {
         let of_order = |order| {
             let beta = dmatrix![0.0, coupling; coupling, 0.0];
-            recursive_1(&k, &beta, order).expect("an order").roots
+            recursive_1(&k, &beta, order).unwrap().roots
         };
         largest_change(&of_order(MOST_ORDERS), &of_order(MOST_ORDERS - 1))
     };
@@ -191,14 +191,14 @@ fn roots_that_do_not_settle_are_refused_with_their_last_change() {
         said(refused),
         format!("the roots still change by {found:.1e} after 60 orders; they must settle to 1e-6")
     );
-    let slow = converged(1.9).expect("nearly settled");
+    let slow = converged(1.9).unwrap();
     assert_eq!(
         (slow.order, slow.last_change),
         (MOST_ORDERS, last_change(1.9))
     );
     assert!(slow.last_change > 1e-8 && slow.last_change < LARGEST_UNSETTLED_CHANGE);
     let settled = recursive_1_converged(&dvector![1.0, 2.0], &dmatrix![0.0, 0.1; 0.1, 0.0]);
-    assert!(settled.expect("settled").last_change < ROOT_TOLERANCE);
+    assert!(settled.unwrap().last_change < ROOT_TOLERANCE);
 }
 
 /// Mode 0 comes down to mode 1 at the second order: with mode 2 its root is 1 + 1/2, with mode 1 it changes by 0.01/(k₁ - 1), and k₁ is
@@ -208,7 +208,7 @@ fn modes_that_an_order_after_the_first_brings_together_are_refused() {
     let k1 = (2.49 - (2.49_f64.powi(2) - 6.0).sqrt()) / 3.0;
     let k = dvector![1.0, k1, 3.0];
     let beta = dmatrix![0.0, 0.1, 1.0; 0.1, 0.0, 0.0; 1.0, 0.0, 0.0];
-    let second = recursive_1(&k, &beta, 2).expect("two orders");
+    let second = recursive_1(&k, &beta, 2).unwrap();
     assert!((second.roots[0] * k1 - 1.0).abs() < ROUND_OFF);
     let refused = recursive_1(&k, &beta, 3);
     assert!(

@@ -3,7 +3,7 @@
 use crate::prelude::*;
 
 fn pencil(change: &ModalChange) -> Pencil<f64> {
-    change.pencil().expect("a pencil")
+    change.pencil().unwrap()
 }
 
 fn first_order(change: &ModalChange) -> Result<Perturbed, Error> {

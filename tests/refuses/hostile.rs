@@ -15,7 +15,7 @@ impl Calls {
 }
 
 fn matrix(dense: &DMatrix<f64>) -> SparseMatrix {
-    SparseMatrix::of_dense("matrix", dense).expect("a matrix")
+    SparseMatrix::of_dense("matrix", dense).unwrap()
 }
 
 #[test]
@@ -30,12 +30,12 @@ fn no_call_around_the_method_ends_in_a_panic() {
         range: None,
     };
     let whole = WholeModel::new(matrix(&stiffness), matrix(&one), vec![share(&stiffness)]);
-    let whole = whole.expect("a model");
+    let whole = whole.unwrap();
     let test = Modes::new(
         DVector::from_vec(vec![1.0, 3.0]),
         one.columns(0, 2).into_owned(),
     );
-    let test = test.expect("modes");
+    let test = test.unwrap();
     let pair = || by_sorting();
     let sensors = matrix(&one);
     let analyze = |modes, residual_vectors| {
@@ -66,7 +66,7 @@ fn no_call_around_the_method_ends_in_a_panic() {
         });
     }
     calls.of("modes all", || whole.modes(&[1.0], usize::MAX));
-    let model = analyze(3, 0).expect("a model");
+    let model = analyze(3, 0).unwrap();
     let comparison = || Comparison::from(model.clone());
     let weight = |frequency, shape| ModeWeight { frequency, shape };
     let (ones, settings) = ([weight(1.0, 1.0); 2], WeightedSettings::default());

@@ -28,7 +28,7 @@ impl Uncoupled<'_> {
     fn matrices(&self) -> (DMatrix<f64>, DMatrix<f64>, Modes) {
         let [springs, squares] = [self.springs, self.test].map(DVector::from_column_slice);
         let mass = eye(springs.len());
-        let test = Modes::new(squares, mass.clone()).expect("modes");
+        let test = Modes::new(squares, mass.clone()).unwrap();
         (DMatrix::from_diagonal(&springs), mass, test)
     }
 
@@ -40,13 +40,13 @@ impl Uncoupled<'_> {
             mass,
             shares,
         };
-        model.analyze(&test, None).expect("a problem")
+        model.analyze(&test, None).unwrap()
     }
 
     fn with_mass(&self, share: DMatrix<f64>) -> SensorModel {
         let (stiffness, mass, test) = self.matrices();
         let shares = [ParameterMatrix::Mass(share)];
-        let (whole, sensors) = of_dense(&stiffness, &mass, &shares).expect("a model");
+        let (whole, sensors) = of_dense(&stiffness, &mass, &shares).unwrap();
         let found = whole.analyze(
             &[1.0],
             &sensors,
@@ -57,7 +57,7 @@ impl Uncoupled<'_> {
                 residual_vectors: 0,
             },
         );
-        found.expect("a problem")
+        found.unwrap()
     }
 }
 
@@ -144,7 +144,7 @@ fn a_share_so_negative_that_no_difference_can_be_taken_is_refused() {
 
 fn assert_lost_root(problem: &dyn Analysis) {
     let settings = InnerSettings::default();
-    let start = problem.at(&[1.0]).expect("a state");
+    let start = problem.at(&[1.0]).unwrap();
     let refusals = [
         problem.error_changes(&start).map(drop),
         first_factors(problem, &settings).map(drop),
@@ -168,7 +168,7 @@ fn a_share_that_brings_modes_together_has_no_difference() {
     let stiffness = springs.with_stiffness(dmatrix![500.0, 1.0; 1.0, 0.0]);
     let mass = springs.with_mass(dmatrix![-1000.0 / 3.0, 1.0; 1.0, 0.0]);
     for problem in [&stiffness as &dyn Analysis, &mass] {
-        let start = problem.at(&[1.0]).expect("a state");
+        let start = problem.at(&[1.0]).unwrap();
         let refused = problem.error_changes(&start);
         assert!(
             matches!(refused, Err(Error::CoalescingModes { .. })),

@@ -19,7 +19,7 @@ fn rod_of(length: f64, area: f64, material: Material) -> Result<Structure, Error
 
 #[test]
 fn an_element_too_stiff_for_a_number_is_refused() {
-    let stiff = Material::isotropic(1e308, 0.25).expect("a material");
+    let stiff = Material::isotropic(1e308, 0.25).unwrap();
     let model = |length: f64| {
         let (one, parameters) = (eye(1), vec![Parameter::new(7, &[7])]);
         FiniteElementModel::new(rod_of(length, 1.0, stiff)?, one.clone(), one, parameters)
@@ -36,9 +36,9 @@ fn a_mass_too_large_for_a_number_is_refused() {
     let of_density = |density: f64| {
         let material = Material {
             density,
-            ..Material::isotropic(1.0, 0.25).expect("a material")
+            ..Material::isotropic(1.0, 0.25).unwrap()
         };
-        let structure = rod_of(1.0, 10.0, material).expect("a rod");
+        let structure = rod_of(1.0, 10.0, material).unwrap();
         modes(&BulkData::from_structure(&structure), 1)
     };
     assert!(of_density(1.0).is_ok());
@@ -51,7 +51,7 @@ fn a_mass_too_large_for_a_number_is_refused() {
 #[test]
 fn a_factor_that_takes_a_size_beyond_the_largest_number_is_refused() {
     // The size is two.
-    let model = chain_model(vec![group("some", &[1], None)]).expect("a model");
+    let model = chain_model(vec![group("some", &[1], None)]).unwrap();
     assert!(model.sizes(&[f64::MAX / 2.0]).is_ok());
     assert_eq!(
         said(model.sizes(&[f64::MAX])),
@@ -61,7 +61,7 @@ fn a_factor_that_takes_a_size_beyond_the_largest_number_is_refused() {
 
 #[test]
 fn a_suspension_too_stiff_for_a_number_is_refused() {
-    let raw = Modes::new(dvector![2.0], dmatrix![1.0; -0.9]).expect("a mode");
+    let raw = Modes::new(dvector![2.0], dmatrix![1.0; -0.9]).unwrap();
     let balanced = |size: f64| {
         let stiffness = size * dmatrix![1.0, -1.0; -1.0, 1.0];
         let both = dmatrix![1e10; 1e10];
@@ -96,7 +96,7 @@ fn a_weight_whose_square_is_no_number_is_refused() {
 fn shapes_that_leave_the_range_of_numbers_at_a_later_order_are_refused() {
     let beta = dmatrix![0.0, 0.0, 0.0; 1e307, 0.0, -1e307; 2.0, 0.0, 0.0];
     let pencil = Pencil::of_vibrations(&dvector![0.1, 1.0, 2.0], &beta, &zero_square(3));
-    let pencil = pencil.expect("a pencil");
+    let pencil = pencil.unwrap();
     assert!(pencil.recursive_1(1).is_ok());
     assert_eq!(
         said(pencil.recursive_1(2)),

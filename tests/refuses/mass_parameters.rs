@@ -37,7 +37,7 @@ fn factors_on_masses_are_refused_by_their_parameter() {
         ParameterMatrix::Stiffness(spring_stiffness(2, 1, 1.0)),
         ParameterMatrix::Mass(eye(2)),
     ];
-    let (model, _) = whole(&shares).expect("a model");
+    let (model, _) = whole(&shares).unwrap();
     assert_eq!(said(model.at(&[1.0, 0.5])), "an answer");
     for (factors, words) in [
         (&[1.0][..], "parameter factors: 1 x 1 instead of 2 x 1"),
@@ -56,7 +56,7 @@ fn factors_on_masses_are_refused_by_their_parameter() {
 
 #[test]
 fn bounds_on_masses_are_refused_by_their_parameter() {
-    let one = || sparse(&dmatrix![1.0]).expect("a matrix");
+    let one = || sparse(&dmatrix![1.0]).unwrap();
     let bounded = |lower: f64, upper: f64| {
         let parameter = WholeParameter {
             name: "fuel".into(),

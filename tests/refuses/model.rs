@@ -12,7 +12,7 @@ fn with_mass(t: DMatrix<f64>, mass: DMatrix<f64>) -> Result<FiniteElementModel, 
 fn bounds_that_no_factor_or_not_the_start_satisfies_are_refused_by_their_parameter() {
     let refused = |elements: &[usize], lower: f64, upper: f64| {
         let some = group("some", elements, Some(Bounds { lower, upper }));
-        said(chain(vec![some]).expect("a model").factor_ranges())
+        said(chain(vec![some]).unwrap().factor_ranges())
     };
     let crossed = "is no range; the lower limit must be positive, the upper one larger and finite";
     let start = "exclude the starting factor 1";

@@ -137,20 +137,15 @@ fn every_public_function_of_the_method_is_called() {
     ];
     files.extend(others.map(|name| source.join(name)));
     for file in files {
-        let stem = |path: &Path| {
-            path.file_stem()
-                .expect("a name")
-                .to_string_lossy()
-                .into_owned()
-        };
+        let stem = |path: &Path| path.file_stem().unwrap().to_string_lossy().into_owned();
         let module = if stem(&file) == "mod" {
-            stem(file.parent().expect("a folder"))
+            stem(file.parent().unwrap())
         } else {
             stem(&file)
         };
         functions.extend(public_functions(
             &module,
-            &fs::read_to_string(&file).expect("it reads"),
+            &fs::read_to_string(&file).unwrap(),
         ));
     }
     assert!(
@@ -160,8 +155,8 @@ fn every_public_function_of_the_method_is_called() {
     );
     let tests = ["matrices", "perturbation", "structures", "loops"];
     let folder = in_root("tests/refuses/no_panic");
-    let texts = tests
-        .map(|name| fs::read_to_string(folder.join(name).with_extension("rs")).expect("it reads"));
+    let texts =
+        tests.map(|name| fs::read_to_string(folder.join(name).with_extension("rs")).unwrap());
     let missing = uncalled(&functions, &texts.concat(), &NOT_CALLED);
     assert!(
         missing.is_empty(),

@@ -20,14 +20,14 @@ fn model_of(structure: &Structure) -> FiniteElementModel {
     let (one, count) = (eye(1), structure.free_dof().len());
     let parameters = vec![Parameter::new(1, &[1])];
     let t = DMatrix::identity(count, 1);
-    FiniteElementModel::new(structure.clone(), t, one, parameters).expect("a model")
+    FiniteElementModel::new(structure.clone(), t, one, parameters).unwrap()
 }
 
 /// Why a model of the structure has no matrices, with another stiffness of its elements if one is given.
 fn refused(structure: &Structure, units: Option<Vec<DMatrix<f64>>>) -> Error {
     let model = model_of(structure);
     let model = match units {
-        Some(units) => model.with_unit_stiffness(units).expect("they fit"),
+        Some(units) => model.with_unit_stiffness(units).unwrap(),
         None => model,
     };
     model
@@ -68,7 +68,7 @@ properties! {
             grids.push(grid(k + 2, at, [false; 3]));
         }
         let rods = (1..=steps.len()).map(|k| rod(k, [k, k + 1], 1.0)).collect();
-        let structure = Structure::new(grids, rods).unwrap();
+        let structure = Structure::new(grids, rods)?;
         let (grid, direction) = refusal(&structure);
         let motions = free_motions(&dense(&structure));
         prop_assert_eq!(motions.ncols(), 2 * steps.len());

@@ -18,8 +18,8 @@ properties! {
             false => (ChainEnds::FixedFree, count),
         };
         let structure = spring_chain(&vec![spring; springs], [true, both]);
-        let condensed = condense(&dense(&structure), &eye(count)).unwrap();
-        let found = modes::solve(&condensed.stiffness, &(mass * eye(count)), count).unwrap();
+        let condensed = condense(&dense(&structure), &eye(count))?;
+        let found = modes::solve(&condensed.stiffness, &(mass * eye(count)), count)?;
         let expected = chain_eigenvalues(ends, count, spring, mass);
         prop_assert_eq!(found.len(), expected.len());
         let bar = CONDITIONED_ROUND_OFF * expected[count - 1] / expected[0];

@@ -220,7 +220,7 @@ properties! {
     /// E, G and ν of an isotropic material are two numbers: E = 2G(1 + ν).
     #[test]
     fn an_isotropic_materials_moduli_fit(modulus in 1e5..1e8_f64, nu in -0.9..0.5_f64) {
-        let material = Material::isotropic(modulus, nu).unwrap();
+        let material = Material::isotropic(modulus, nu)?;
         prop_assert_eq!((material.youngs_modulus, material.poissons_ratio), (modulus, nu));
         let found = 2.0 * material.shear_modulus * (1.0 + nu);
         prop_assert!(relative_error(found, modulus) <= ROUND_OFF);

@@ -17,7 +17,7 @@ properties! {
             follow = -part(&dropped, &dropped).cholesky().unwrap().solve(&part(&dropped, &kept));
             expected += part(&kept, &dropped) * &follow;
         }
-        let found = condense(&stiffness, &t).unwrap();
+        let found = condense(&stiffness, &t)?;
         // Round-off of the flexibility grows once more in its inverse.
         let spread = expected.symmetric_eigenvalues();
         let bar = CONDITIONED_ROUND_OFF * condition * spread.max() / spread.min();

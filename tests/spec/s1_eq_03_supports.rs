@@ -75,17 +75,17 @@ fn chain(areas: [f64; 5], support: Support) -> Result<FiniteElementModel, Error>
 /// Correlates the wrong chain with the modes of the right one, its `rigid` lowest left out.
 fn correlated(support: Support, rigid: usize) -> (Correlation, Modes) {
     let truth = chain(TRUE_AREAS, support)
-        .expect("a chain")
+        .unwrap()
         .matrices(&[1.0; 5])
-        .expect("held");
+        .unwrap();
     let count = truth.mass.nrows();
-    let all = solve(&truth.stiffness, &truth.mass, count).expect("solved");
+    let all = solve(&truth.stiffness, &truth.mass, count).unwrap();
     let test = Modes::new(
         all.omega_squared().rows(rigid, count - rigid).into_owned(),
         all.shapes().columns(rigid, count - rigid).into_owned(),
     )
-    .expect("modes");
-    let model = chain(MODEL_AREAS, support).expect("a chain");
+    .unwrap();
+    let model = chain(MODEL_AREAS, support).unwrap();
     let mut settings = Settings {
         least_passes: 3,
         ..Settings::default()
@@ -94,20 +94,20 @@ fn correlated(support: Support, rigid: usize) -> (Correlation, Modes) {
     settings.inner.tolerance = 0.002;
     settings.later_inner_tolerance = 0.002;
     let settings = settings.for_modes(test.len());
-    let ranges = model.factor_ranges().expect("no bounds");
+    let ranges = model.factor_ranges().unwrap();
     let result = correlate(
         |factors| model.analyze(factors, &test, None),
         &ranges,
         &settings,
         |_, _| true,
     )
-    .expect("it runs");
+    .unwrap();
     (result, all)
 }
 
 fn assert_areas_found(result: &Correlation) {
     assert!(result.converged);
-    let last = result.passes.last().expect("a pass");
+    let last = result.passes.last().unwrap();
     for ((factor, model), truth) in last.factors.iter().zip(MODEL_AREAS).zip(TRUE_AREAS) {
         let area = factor * model;
         assert!(
@@ -142,7 +142,7 @@ fn free_chain_on_a_soft_suspension_is_found_again_without_its_rigid_body_mode() 
     assert_areas_found(&result);
     // The test has five modes and the model six: the lowest, rigid one answers none of them.
     assert_eq!(result.initial.modes.len(), 6);
-    let last = result.passes.last().expect("a pass");
+    let last = result.passes.last().unwrap();
     assert!(
         last.check
             .pairing
@@ -154,16 +154,15 @@ fn free_chain_on_a_soft_suspension_is_found_again_without_its_rigid_body_mode() 
 
 #[test]
 fn chain_that_nothing_holds_is_refused() {
-    let model = chain(MODEL_AREAS, Support::FixedFree).expect("a chain");
+    let model = chain(MODEL_AREAS, Support::FixedFree).unwrap();
     let grids = model.structure().grids().iter().map(|grid| Grid {
         constrained: [false, true, true],
         ..grid.clone()
     });
-    let free = Structure::new(grids.collect(), model.structure().elements().to_vec())
-        .expect("a structure");
+    let free = Structure::new(grids.collect(), model.structure().elements().to_vec()).unwrap();
     let mass = DMatrix::from_diagonal(&DVector::from_row_slice(&MASSES));
     let parameters = vec![Parameter::new(1, &[1])];
-    let model = FiniteElementModel::new(free, eye(6), mass, parameters).expect("a model");
+    let model = FiniteElementModel::new(free, eye(6), mass, parameters).unwrap();
     let error = model.matrices(&[1.0]).expect_err("it moves as a whole");
     assert!(
         matches!(error, Error::SingularStiffness { direction: 'x', .. }),

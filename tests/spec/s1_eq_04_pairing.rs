@@ -16,25 +16,25 @@ fn assert_is_injective(pairing: &Pairing, cross: &DMatrix<f64>) {
 properties! {
     #[test]
     fn every_test_mode_gets_its_own_analysis_mode(cross in cross()) {
-        assert_is_injective(&pair_modes(&cross).unwrap(), &cross);
+        assert_is_injective(&pair_modes(&cross)?, &cross);
     }
 
     #[test]
     fn ties_go_to_the_lower_modes(cross in cross_with_ties()) {
-        let pairing = pair_modes(&cross).unwrap();
+        let pairing = pair_modes(&cross)?;
         assert_is_injective(&pairing, &cross);
         prop_assert_eq!(pairing.analysis_mode, pairs_by_sorting(&cross));
     }
 
     #[test]
     fn the_closest_pair_is_made_first(cross in cross()) {
-        let found = pair_modes(&cross).unwrap();
+        let found = pair_modes(&cross)?;
         prop_assert_eq!(found.analysis_mode, pairs_by_sorting(&cross));
     }
 
     #[test]
     fn signs_are_those_of_the_paired_entries(cross in cross()) {
-        let pairing = pair_modes(&cross).unwrap();
+        let pairing = pair_modes(&cross)?;
         for j in 0..cross.ncols() {
             let entry = cross[(pairing.analysis_mode[j], j)];
             prop_assert_eq!(pairing.sign[j].abs(), 1.0);
@@ -44,7 +44,7 @@ properties! {
 
     #[test]
     fn order_and_signs_are_recovered_under_noise((cross, pairs) in noisy_pairs()) {
-        let pairing = pair_modes(&cross).unwrap();
+        let pairing = pair_modes(&cross)?;
         prop_assert_eq!(pairing.analysis_mode, pairs.order);
         prop_assert_eq!(pairing.sign, pairs.sign);
     }
@@ -65,7 +65,7 @@ properties! {
         let mut magnitudes = cross.iter().map(|m| (m.abs() - 1.0).abs()).collect_vec();
         magnitudes.sort_by(f64::total_cmp);
         prop_assume!(magnitudes.windows(2).all(|pair| pair[0] < pair[1]));
-        let (before, after) = (pair_modes(&cross).unwrap(), pair_modes(&rearranged).unwrap());
+        let (before, after) = (pair_modes(&cross)?, pair_modes(&rearranged)?);
         for j in 0..cross.ncols() {
             let place = after.analysis_mode[j];
             prop_assert_eq!(order[place], before.analysis_mode[j]);
@@ -86,10 +86,10 @@ properties! {
         };
         let expected = paired(&analysis, &test);
         prop_assert_eq!(expected.shapes().shape(), (5, 5));
-        let rearranged = Modes::new(analysis.omega_squared().select_rows(&change.order), change.columns(analysis.shapes())).expect("modes");
+        let rearranged = Modes::new(analysis.omega_squared().select_rows(&change.order), change.columns(analysis.shapes()))?;
         prop_assert_eq!(paired(&rearranged, &test), expected.clone());
         // Test modes in another order and sign take their partners with them.
-        let test = Modes::new(test.omega_squared().select_rows(&other.order), other.columns(test.shapes())).expect("modes");
+        let test = Modes::new(test.omega_squared().select_rows(&other.order), other.columns(test.shapes()))?;
         let followed = paired(&analysis, &test);
         prop_assert_eq!(followed.omega_squared(), &expected.omega_squared().select_rows(&other.order));
         prop_assert_eq!(followed.shapes(), &other.columns(expected.shapes()));
@@ -97,8 +97,8 @@ properties! {
 
     #[test]
     fn modes_are_orthogonal_to_each_other_and_not_to_themselves((stiffness, mass, condition) in pencil()) {
-        let modes = solve(&stiffness, &mass, stiffness.nrows()).unwrap();
-        let cross = cross_orthogonality(&modes, &modes, &mass).unwrap();
+        let modes = solve(&stiffness, &mass, stiffness.nrows())?;
+        let cross = cross_orthogonality(&modes, &modes, &mass)?;
         prop_assert_eq!(cross.shape(), (modes.len(), modes.len()));
         let error = (cross - eye(modes.len())).amax();
         prop_assert!(error <= MATRIX_ROUND_OFF * condition, "{error:e}");
@@ -113,7 +113,7 @@ properties! {
             &DMatrix::from_vec(4, 3, shapes),
             &DMatrix::from_vec(4, 2, others),
         )
-        .unwrap();
+        ?;
         prop_assert_eq!(mac.shape(), (3, 2));
         for &value in mac.iter() {
             prop_assert!((0.0..=1.0 + ROUND_OFF).contains(&value));
@@ -129,7 +129,7 @@ properties! {
         for (mut column, (scale, flip)) in scaled.column_iter_mut().zip(scales) {
             column *= if flip { -scale } else { scale };
         }
-        let mac = modal_assurance(&shapes, &scaled).unwrap();
+        let mac = modal_assurance(&shapes, &scaled)?;
         let error = (mac - eye(4)).amax();
         prop_assert!(error <= ROUND_OFF, "{error:e}");
     }
@@ -164,7 +164,7 @@ fn a_shape_without_a_sign_keeps_its_own() {
 #[test]
 fn cross_orthogonality_by_hand() {
     let modes = |shapes: DMatrix<f64>| {
-        Modes::new(DVector::from_element(shapes.ncols(), 1.0), shapes).expect("modes")
+        Modes::new(DVector::from_element(shapes.ncols(), 1.0), shapes).unwrap()
     };
     let analysis = modes(dmatrix![1.0, 2.0, 0.0; 0.0, 1.0, -1.0]);
     let test = modes(dmatrix![3.0; 5.0]);
@@ -180,7 +180,7 @@ fn paired_by_hand() {
         dvector![1.0, 4.0, 9.0],
         dmatrix![1.0, 2.0, 3.0; 4.0, 5.0, 6.0],
     )
-    .expect("modes");
+    .unwrap();
     let pairing = Pairing {
         analysis_mode: vec![2, 0],
         sign: vec![-1.0, 1.0],

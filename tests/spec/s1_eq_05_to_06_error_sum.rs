@@ -14,7 +14,7 @@ properties! {
     #[test]
     fn errors_of_equal_modes_are_zero((chain, truth) in chain_and_truth()) {
         let modes = chain.modes(&truth);
-        let found = errors(&modes, &in_order(modes.len()), &modes).unwrap();
+        let found = errors(&modes, &in_order(modes.len()), &modes)?;
         prop_assert_eq!((found.frequency, found.shape, found.sum()), (0.0, 0.0, 0.0));
         prop_assert_eq!((found.frequency_count, found.shape_count), (modes.len(), modes.len()));
     }
@@ -22,7 +22,7 @@ properties! {
     #[test]
     fn errors_of_different_modes_are_not((chain, truth) in chain_and_truth()) {
         let (analysis, test) = (chain.modes(&vec![1.0; truth.len()]), chain.modes(&truth));
-        let found = errors(&analysis, &in_order(test.len()), &test).unwrap();
+        let found = errors(&analysis, &in_order(test.len()), &test)?;
         prop_assert!(found.frequency > 0.0);
         prop_assert!(found.shape > 0.0);
     }
@@ -33,7 +33,7 @@ properties! {
         scales in prop::collection::vec((1e-3..1e3_f64, any::<bool>(), 1e-3..1e3_f64), 5),
     ) {
         let (analysis, test) = (chain.modes(&vec![1.0; truth.len()]), chain.modes(&truth));
-        let expected = errors(&analysis, &in_order(test.len()), &test).unwrap();
+        let expected = errors(&analysis, &in_order(test.len()), &test)?;
         let (mut scaled, mut scaled_test) = (analysis.clone(), test.clone());
         let mut signs = vec![1.0; test.len()];
         for (mode, (scale, flip, test_scale)) in scales.into_iter().take(test.len()).enumerate() {
@@ -42,7 +42,7 @@ properties! {
             signs[mode] = sign;
             alter(&mut scaled_test, |_, shapes| shapes.column_mut(mode).scale_mut(test_scale));
         }
-        let found = errors(&scaled, &Pairing { analysis_mode: (0..test.len()).collect(), sign: signs }, &scaled_test).unwrap();
+        let found = errors(&scaled, &Pairing { analysis_mode: (0..test.len()).collect(), sign: signs }, &scaled_test)?;
         prop_assert_eq!(found.frequency, expected.frequency);
         prop_assert!((found.shape - expected.shape).abs() <= ROUND_OFF);
     }
@@ -53,11 +53,11 @@ properties! {
         change in rearrangement(5),
     ) {
         let (analysis, test) = (chain.modes(&vec![1.0; truth.len()]), chain.modes(&truth));
-        let expected = errors(&analysis, &in_order(test.len()), &test).unwrap();
+        let expected = errors(&analysis, &in_order(test.len()), &test)?;
         let order = change.order.iter().copied().filter(|&i| i < test.len()).collect_vec();
-        let reordered = Modes::new(test.omega_squared().select_rows(&order), test.shapes().select_columns(&order)).expect("modes");
+        let reordered = Modes::new(test.omega_squared().select_rows(&order), test.shapes().select_columns(&order))?;
         let pairing = Pairing { analysis_mode: order, sign: vec![1.0; test.len()] };
-        let found = errors(&analysis, &pairing, &reordered).unwrap();
+        let found = errors(&analysis, &pairing, &reordered)?;
         prop_assert!((found.frequency - expected.frequency).abs() <= ROUND_OFF);
         prop_assert!((found.shape - expected.shape).abs() <= ROUND_OFF);
     }
@@ -68,8 +68,8 @@ properties! {
         error in -0.5..1.0_f64,
     ) {
         let test = chain.modes(&truth);
-        let analysis = Modes::new((1.0 + error).powi(2) * test.omega_squared(), test.shapes().clone()).expect("modes");
-        let found = errors(&analysis, &in_order(test.len()), &test).unwrap();
+        let analysis = Modes::new((1.0 + error).powi(2) * test.omega_squared(), test.shapes().clone())?;
+        let found = errors(&analysis, &in_order(test.len()), &test)?;
         let count = test.len() as f64;
         prop_assert!((found.frequency - error.abs() * count.sqrt()).abs() <= ROUND_OFF);
         prop_assert!((found.frequency_rms() - error.abs()).abs() <= ROUND_OFF);
@@ -80,9 +80,9 @@ properties! {
     fn the_error_sum_is_that_of_its_definition((chain, truth) in chain_and_truth()) {
         let analysis = chain.modes(&vec![1.0; truth.len()]);
         let test = chain.modes(&truth);
-        let cross = cross_orthogonality(&analysis, &test, &chain.mass()).unwrap();
-        let pairing = pair_modes(&cross).unwrap();
-        let found = errors(&analysis, &pairing, &test).unwrap().sum();
+        let cross = cross_orthogonality(&analysis, &test, &chain.mass())?;
+        let pairing = pair_modes(&cross)?;
+        let found = errors(&analysis, &pairing, &test)?.sum();
         let model = chain.model(&vec![1.0; truth.len()]);
         let expected = error_sum_by_definition(&model.stiffness, &model.mass, &test);
         prop_assert!((found - expected).abs() <= MATRIX_ROUND_OFF, "{found} {expected}");
@@ -93,8 +93,8 @@ properties! {
 fn errors_by_hand() {
     // Frequencies 1.1 and 1.8 against 1 and 2: (0.1)^2 + (-0.1)^2. Shapes (2, 1) against (1, 0) is (1, 1/2) against
     // (1, 0), and (1, -3) against (-1, 4), turned, is (-1/3, 1) against (-1/4, 1): (1/4 + 1/144)/2.
-    let analysis = Modes::new(dvector![3.24, 1.21], dmatrix![1.0, 2.0; -3.0, 1.0]).expect("modes");
-    let test = Modes::new(dvector![1.0, 4.0], dmatrix![1.0, -1.0; 0.0, 4.0]).expect("modes");
+    let analysis = Modes::new(dvector![3.24, 1.21], dmatrix![1.0, 2.0; -3.0, 1.0]).unwrap();
+    let test = Modes::new(dvector![1.0, 4.0], dmatrix![1.0, -1.0; 0.0, 4.0]).unwrap();
     let pairing = Pairing {
         analysis_mode: vec![1, 0],
         sign: vec![1.0, -1.0],
@@ -107,7 +107,7 @@ fn errors_by_hand() {
 
 #[test]
 fn squares_too_large_for_a_number_are_refused_as_such() {
-    let modes = |scale| Modes::new(dvector![scale], dmatrix![1.0]).expect("modes");
+    let modes = |scale| Modes::new(dvector![scale], dmatrix![1.0]).unwrap();
     assert_refused(
         errors(&modes(1e300), &in_order(1), &modes(1e-20)),
         Error::Value {

@@ -29,7 +29,7 @@ properties! {
         // Σ_e V_G^t K_e V_G is diag(ω_G²) on the structure that was tested, so that the relative shares sum to the identity.
         let count = truth.len();
         let test = chain.modes(&truth);
-        let problem = chain.model(&truth).analyze(&test, Some(count)).unwrap();
+        let problem = chain.model(&truth).analyze(&test, Some(count))?;
         let sum: DMatrix<f64> = problem.test_shares().iter().sum();
         let error = (&sum - eye(count)).amax();
         prop_assert!(error <= MATRIX_ROUND_OFF, "{error:e}");
@@ -43,7 +43,7 @@ properties! {
         prop_assert_eq!(&state.modes, &chain.modes(&ones));
         prop_assert_eq!(&state.generalized_shapes, &eye(truth.len()));
         // One is a factor like any other.
-        let same = problem.at(&ones).unwrap();
+        let same = problem.at(&ones)?;
         prop_assert_eq!(&same.factors, &ones);
         prop_assert!((same.errors.sum() - state.errors.sum()).abs() <= ROUND_OFF);
         prop_assert_eq!(same.pairing, state.pairing.clone());
@@ -62,10 +62,10 @@ properties! {
         let expected = error_sum_by_definition(&model.stiffness, &model.mass, &chain.modes(&truth));
         let changes = problem.shares().iter().zip(factors).map(|(share, factor)| (factor - 1.0) * share);
         let recursion = recursive_1_converged(problem.exact().modes.omega_squared(), &changes.sum());
-        let mut states = vec![("eigensolution", exact_state(&problem, factors).unwrap())];
+        let mut states = vec![("eigensolution", exact_state(&problem, factors)?)];
         // Where roots are close the recursion gains little an order, and sixty may not be enough for every digit.
         if recursion.is_ok_and(|it| it.last_change < ROOT_TOLERANCE) {
-            states.push(("Recursive 1", problem.at(factors).unwrap()));
+            states.push(("Recursive 1", problem.at(factors)?));
         }
         for (rule, State { factors: found, modes, generalized_shapes, errors, .. }) in states {
             prop_assert_eq!(found, factors);
@@ -88,7 +88,7 @@ properties! {
         factor in 0.5..1.5_f64,
     ) {
         let problem = chain_problem(&chain, &truth);
-        let state = problem.at(&vec![factor; truth.len()]).unwrap();
+        let state = problem.at(&vec![factor; truth.len()])?;
         let before = &problem.exact().modes;
         let expected = factor * before.omega_squared();
         let error = (state.modes.omega_squared() - &expected).amax();
@@ -181,7 +181,7 @@ fn problems_that_do_not_fit_are_refused() {
     );
     let at_four = Modes::new(test.omega_squared().clone(), DMatrix::identity(4, 3));
     assert_refused(
-        model.analyze(&at_four.expect("modes"), Some(3)),
+        model.analyze(&at_four.unwrap(), Some(3)),
         Error::WrongShape {
             what: "test mode shapes",
             expected_rows: 3,
@@ -306,7 +306,7 @@ properties! {
         let test = chain.modes(&truth);
         let mut scaled = test.clone();
         alter(&mut scaled, |_, shapes| shapes.column_iter_mut().zip(&scales).for_each(|(mut shape, scale)| shape *= *scale));
-        let (one, other) = (model.analyze(&test, None).unwrap(), model.analyze(&scaled, None).unwrap());
+        let (one, other) = (model.analyze(&test, None)?, model.analyze(&scaled, None)?);
         prop_assert_eq!(&one.exact().pairing.analysis_mode, &other.exact().pairing.analysis_mode);
         prop_assert!((one.exact().errors.sum() - other.exact().errors.sum()).abs() <= MATRIX_ROUND_OFF);
         for ((a, b), scale) in one.exact().pairing.sign.iter().zip(&other.exact().pairing.sign).zip(&scales) {

@@ -52,13 +52,13 @@ properties! {
     ) {
         let count = truth.len();
         let problem =
-            chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), Some(count)).unwrap();
-        let state = exact_state(&problem, &factors[..count]).unwrap();
-        let found = problem.error_changes(&state).unwrap();
+            chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), Some(count))?;
+        let state = exact_state(&problem, &factors[..count])?;
+        let found = problem.error_changes(&state)?;
         prop_assert_eq!(found.len(), count);
         for (e, change) in found.iter().enumerate() {
             let factors = with_one(&state.factors, e, 1.0 + DERIVATIVE_STEP);
-            let ahead = exact_state(&problem, &factors).unwrap();
+            let ahead = exact_state(&problem, &factors)?;
             // The derivative keeps the present pairing; where that changes the error sum jumps.
             prop_assume!(ahead.pairing == state.pairing);
             let exact = ahead.errors.sum() - state.errors.sum();
@@ -75,7 +75,7 @@ properties! {
         weights in prop::collection::vec((0.0..1.0_f64, 0.1..1.0_f64), 5),
     ) {
         let count = truth.len();
-        let plain = chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), None).unwrap();
+        let plain = chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), None)?;
         let weight = |&(frequency, shape): &(f64, f64)| ModeWeight { frequency, shape };
         let weights = weights.iter().take(count).map(weight).collect_vec();
         let at = |factors: &[f64]| {
@@ -89,8 +89,8 @@ properties! {
             State { errors: Errors::of(&weighted).unwrap(), ..state }
         };
         let state = at(&factors[..count]);
-        let weighted = SensorModel::from(&plain).weighted(&weights).unwrap();
-        for (e, change) in weighted.error_changes(&state).unwrap().iter().enumerate() {
+        let weighted = SensorModel::from(&plain).weighted(&weights)?;
+        for (e, change) in weighted.error_changes(&state)?.iter().enumerate() {
             let ahead = at(&with_one(&state.factors, e, 1.0 + DERIVATIVE_STEP));
             prop_assume!(ahead.pairing == state.pairing);
             let exact = ahead.errors.sum() - state.errors.sum();
@@ -106,14 +106,14 @@ properties! {
         let count = truth.len();
         let start = vec![1.0; count];
         let test = chain.modes(&truth);
-        let problem = chain.model(&start).analyze(&test, None).unwrap();
+        let problem = chain.model(&start).analyze(&test, None)?;
         let state = problem.exact();
         let error_sum = |factors: &[f64]| {
             let model = chain.model(factors);
             error_sum_by_definition(&model.stiffness, &model.mass, &test)
         };
         let (h, here) = (DERIVATIVE_STEP, error_sum(&start));
-        let found = problem.error_changes(state).unwrap();
+        let found = problem.error_changes(state)?;
         for (e, change) in found.iter().enumerate() {
             let ahead = error_sum(&with_one(&start, e, 1.0 + h));
             let behind = error_sum(&with_one(&start, e, 1.0 - h));
@@ -130,9 +130,9 @@ properties! {
         // A factor on everything leaves shapes alone and multiplies frequencies by its root.
         let count = truth.len();
         let problem =
-            chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), Some(count)).unwrap();
+            chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), Some(count))?;
         let state = problem.exact();
-        let found = problem.error_changes(state).unwrap();
+        let found = problem.error_changes(state)?;
         let sum: f64 = found.iter().sum();
         let ratios = (0..count)
             .map(|j| {
@@ -161,11 +161,11 @@ properties! {
     fn derivatives_of_boxes_are_exact_to_second_order_of_the_step(case in uneven_box()) {
         let problem = problem_of(&case);
         let state = problem.exact();
-        let found = problem.error_changes(state).unwrap();
+        let found = problem.error_changes(state)?;
         prop_assert_eq!(found.len(), 15);
         for (e, change) in found.iter().enumerate() {
             let factors = with_one(&state.factors, e, 1.0 + DERIVATIVE_STEP);
-            let ahead = exact_state(&problem, &factors).unwrap();
+            let ahead = exact_state(&problem, &factors)?;
             // The derivative keeps the present pairing; where that changes the error sum jumps.
             prop_assume!(ahead.pairing == state.pairing);
             let exact = ahead.errors.sum() - state.errors.sum();

@@ -20,10 +20,10 @@ properties! {
         factors in prop::collection::vec(0.95..1.05_f64, 5),
     ) {
         let count = truth.len();
-        let problem = chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), None).unwrap();
-        let state = exact_state(&problem, &factors[..count]).unwrap();
+        let problem = chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), None)?;
+        let state = exact_state(&problem, &factors[..count])?;
         let h = 1e-6;
-        for (e, slope) in gradient(&problem, &state).unwrap().iter().enumerate() {
+        for (e, slope) in gradient(&problem, &state)?.iter().enumerate() {
             let at = |by: f64| exact_state(&problem, &with_one(&state.factors, e, by)).unwrap();
             let (ahead, behind) = (at(1.0 + h), at(1.0 - h));
             prop_assume!(ahead.pairing == state.pairing && behind.pairing == state.pairing);
@@ -181,10 +181,10 @@ fn where_shapes_are_equal_the_gradient_is_that_of_frequencies() {
         mass: eye(2),
         shares: vec![dmatrix![4.0, 1.0; 1.0, 0.0]],
     };
-    let test = Modes::new(vec![9.0, 16.0].into(), eye(2)).expect("modes");
-    let problem = model.analyze(&test, None).expect("a problem");
+    let test = Modes::new(vec![9.0, 16.0].into(), eye(2)).unwrap();
+    let problem = model.analyze(&test, None).unwrap();
     assert_eq!(problem.exact().errors.shape, 0.0);
-    let found = gradient(&problem, problem.exact()).expect("a gradient");
+    let found = gradient(&problem, problem.exact()).unwrap();
     assert_near(&found, &[-1.0 / 3.0], CONVERGED_STATE);
 }
 

@@ -24,8 +24,8 @@ properties! {
     #[test]
     fn every_rule_goes_downhill((chain, truth) in chain_and_truth()) {
         let count = truth.len();
-        let model = chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), None).unwrap();
-        let errors = model.error_changes(model.exact()).unwrap();
+        let model = chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), None)?;
+        let errors = model.error_changes(model.exact())?;
         for rule in STEP_RULES {
             let factors = unlimited(&errors, &at_start(&model, rule), 0.3, 1.0);
             for (factor, change) in factors.iter().zip(&errors) {
@@ -105,7 +105,7 @@ fn by_hand() -> (Model, Vec<f64>) {
         mass: eye(2),
         shares: relative.map(share).to_vec(),
     };
-    let test = Modes::new(dvector![4.0, 16.0], eye(2)).expect("modes");
+    let test = Modes::new(dvector![4.0, 16.0], eye(2)).unwrap();
     let model = model.analyze(&test, None).unwrap();
     (model, vec![0.002, -0.001, 0.0])
 }

@@ -34,8 +34,8 @@ impl RankOne {
             shares,
         };
         let test_stiffness = self.matrix(&self.truth);
-        let test = solve(&test_stiffness, &mass, self.mass.len()).expect("test modes");
-        (model.analyze(&test, None).expect("a model"), test_stiffness)
+        let test = solve(&test_stiffness, &mass, self.mass.len()).unwrap();
+        (model.analyze(&test, None).unwrap(), test_stiffness)
     }
 }
 
@@ -87,7 +87,7 @@ properties! {
     fn a_rank_one_element_has_its_energy_under_its_own_load_on_the_test_structure(given in rank_one(2)) {
         // 0.001 k aᵗ K_G⁻¹ a: k times the deflection of the test structure along a under a unit load along a.
         let (model, test_stiffness) = given.model();
-        let flexibility = test_stiffness.try_inverse().expect("it is regular");
+        let flexibility = test_stiffness.try_inverse().unwrap();
         for (e, found) in changes(&model, StepRule::Matrix).into_iter().enumerate() {
             let a = &given.vectors[e];
             let expected = DERIVATIVE_STEP * given.stiffness[e] * a.dot(&(&flexibility * a));
@@ -107,8 +107,8 @@ properties! {
     #[test]
     fn own_is_at_most_matrix_and_that_at_most_the_sum_of_magnitudes((chain, truth) in chain_and_truth(), modes in 1..=5_usize) {
         let count = truth.len();
-        let test = chain.modes(&truth).lowest(modes.min(count)).expect("so many modes");
-        let model = chain.model(&vec![1.0; count]).analyze(&test, None).expect("a model");
+        let test = chain.modes(&truth).lowest(modes.min(count))?;
+        let model = chain.model(&vec![1.0; count]).analyze(&test, None)?;
         let (own, matrix) = (changes(&model, StepRule::Own), changes(&model, StepRule::Matrix));
         for ((own, matrix), share) in own.iter().zip(matrix).zip(model.test_shares()) {
             let sum: f64 = share.iter().map(|entry| entry.abs()).sum();
@@ -123,7 +123,7 @@ properties! {
         let test = chain.modes(&truth);
         let mut scaled = test.clone();
         alter(&mut scaled, |_, shapes| shapes.column_iter_mut().zip(&scales).for_each(|(mut shape, scale)| shape *= *scale));
-        let of = |test: &Modes| changes(&model.analyze(test, None).expect("a model"), StepRule::Matrix);
+        let of = |test: &Modes| changes(&model.analyze(test, None).unwrap(), StepRule::Matrix);
         for (found, expected) in of(&scaled).iter().zip(of(&test)) {
             prop_assert!(relative_error(found, expected) < MATRIX_ROUND_OFF);
         }

@@ -13,14 +13,14 @@ fn first_step_over_newtons(
         shares: vec![whole.stiffness.clone()],
         ..whole
     };
-    let test = solve(&(1.1 * &model.stiffness), &model.mass, modes).expect("modes");
-    let problem = model.analyze(&test, None).expect("a model");
+    let test = solve(&(1.1 * &model.stiffness), &model.mass, modes).unwrap();
+    let problem = model.analyze(&test, None).unwrap();
     let settings = InnerSettings {
         first_relaxation: 1.0,
         iterations: 1,
         ..InnerSettings::default()
     };
-    let run = run(&problem, &[1.0], &[None], &scaled(settings, modes)).expect("a step");
+    let run = run(&problem, &[1.0], &[None], &scaled(settings, modes)).unwrap();
     (run.first_unlimited_factors[0] - 1.0) / 0.1
 }
 
@@ -69,16 +69,16 @@ fn doubling_every_test_mode_changes_neither_factors_nor_stop() {
     };
     let by = |model: &DynamicModel| {
         let test = both_copies(
-            &solve(&(1.2 * &one.stiffness), &one.mass, 3).expect("modes"),
+            &solve(&(1.2 * &one.stiffness), &one.mass, 3).unwrap(),
             model.mass.nrows() / 3,
         );
-        let problem = model.analyze(&test, None).expect("a model");
+        let problem = model.analyze(&test, None).unwrap();
         let settings = InnerSettings {
             step: StepRule::Own,
             ..InnerSettings::default()
         };
         let settings = inner_for_modes(settings, test.len());
-        run(&problem, &[1.0], &[None], &settings).expect("it runs")
+        run(&problem, &[1.0], &[None], &settings).unwrap()
     };
     let (once, twice) = (by(&one), by(&doubled(&one)));
     assert_eq!(
@@ -100,7 +100,7 @@ fn both_copies(modes: &Modes, copies: usize) -> Modes {
             .copy_from(modes.shapes());
         frequencies.extend(modes.frequencies_hz());
     }
-    Modes::from_measured(&frequencies, &shapes).expect("modes")
+    Modes::from_measured(&frequencies, &shapes).unwrap()
 }
 
 #[test]
@@ -108,14 +108,14 @@ fn a_test_in_other_units_still_descends() {
     // Frequencies three times and 2π times the right ones: every element asks for far more than its bound.
     for (times, stated, below) in [(3.0, "1.82", 1.75), (2.0 * PI, "2.45", 2.40)] {
         let case = case_of(2);
-        let model = case.model().expect("a model");
-        let test = case.test_modes().expect("modes");
+        let model = case.model().unwrap();
+        let test = case.test_modes().unwrap();
         let hz = test
             .frequencies_hz()
             .iter()
             .map(|hz| times * hz)
             .collect_vec();
-        let test = Modes::from_measured(&hz, test.shapes()).expect("modes");
+        let test = Modes::from_measured(&hz, test.shapes()).unwrap();
         let settings = Settings {
             most_passes: 2,
             ..case.settings.clone()
@@ -126,7 +126,7 @@ fn a_test_in_other_units_still_descends() {
             &settings,
             |_, _| true,
         )
-        .expect("it runs");
+        .unwrap();
         let start = found.initial.errors.sum();
         let sums = found
             .passes
@@ -149,15 +149,15 @@ fn masses_a_thousand_times_too_large_still_descend() {
         .masses
         .iter_mut()
         .for_each(|mass| *mass *= 1000.0);
-    let model = heavy.model().expect("a model");
-    let test = case.test_modes().expect("modes");
+    let model = heavy.model().unwrap();
+    let test = case.test_modes().unwrap();
     let found = correlate(
         |factors| model.analyze(factors, &test, None),
         &[None; 15],
         &Settings::default(),
         |_, _| true,
     )
-    .expect("it runs");
+    .unwrap();
     let start = found.initial.errors.sum();
     let first = &found.passes[0].inner;
     assert!(first.last.errors.sum() < start && !first.iterations.is_empty());
@@ -172,7 +172,7 @@ fn halvings_shorten_the_step_that_is_taken() {
         iterations: 1,
         ..InnerSettings::default()
     };
-    let run = run(&problem, &[1.0; 15], &[None; 15], &settings).expect("a step");
+    let run = run(&problem, &[1.0; 15], &[None; 15], &settings).unwrap();
     let record = &run.iterations[0];
     assert!(record.unlimited_factors[7] > 50.0);
     let expected = 1.0 + 0.5_f64.powi(record.halvings as i32 + 1);

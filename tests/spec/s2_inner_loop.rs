@@ -55,7 +55,7 @@ properties! {
         let start = problem.exact().errors;
         // Near zero either error has a kink, and no slope to go down.
         prop_assume!(start.frequency > 0.02 && start.shape > 0.02);
-        let run = run(&problem, &vec![1.0; count], &vec![None; count], &small_step(count)).unwrap();
+        let run = run(&problem, &vec![1.0; count], &vec![None; count], &small_step(count))?;
         prop_assert_eq!(run.iterations.len(), 1);
         prop_assert!(run.last.errors.sum() < start.sum());
     }
@@ -87,7 +87,7 @@ properties! {
     #[test]
     fn a_small_step_lowers_the_error_sum_of_a_box(case in uneven_box()) {
         let problem = problem_of(&case);
-        let run = run(&problem, &[1.0; 15], &[None; 15], &small_step(9)).unwrap();
+        let run = run(&problem, &[1.0; 15], &[None; 15], &small_step(9))?;
         prop_assert_eq!(run.iterations.len(), 1);
         prop_assert!(run.last.errors.sum() < run.start.sum());
     }

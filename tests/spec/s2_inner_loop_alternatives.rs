@@ -81,7 +81,7 @@ fn fixed_orders_come_nearer_to_that_history_as_they_rise() {
                 roots.map(f64::recip),
                 problem.exact().modes.shapes() * shapes,
             )
-            .expect("modes");
+            .unwrap();
             let sum = errors(&modes, &pairing, problem.test()).unwrap().sum();
             (sum - run.last.errors.sum()).abs()
         };

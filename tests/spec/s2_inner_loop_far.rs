@@ -9,15 +9,15 @@ fn much_too_stiff() -> impl Strategy<Value = (f64, f64)> {
 
 fn run_down(stiffness: f64, truth: f64) -> InnerRun {
     let stiffness = dmatrix![stiffness];
-    let test = Modes::new(dvector![truth * stiffness[0]], dmatrix![1.0]).expect("a mode");
+    let test = Modes::new(dvector![truth * stiffness[0]], dmatrix![1.0]).unwrap();
     let model = DynamicModel {
         shares: vec![stiffness.clone()],
         stiffness,
         mass: dmatrix![1.0],
     };
-    let model = model.analyze(&test, None).expect("solved");
+    let model = model.analyze(&test, None).unwrap();
     let settings = inner_for_modes(InnerSettings::default(), 1);
-    run(&model, &[1.0], &[None], &settings).expect("a loop")
+    run(&model, &[1.0], &[None], &settings).unwrap()
 }
 
 /// The share factors on the way: each step adds to the one before what it takes of the gage.
@@ -84,7 +84,7 @@ fn far_chain() -> impl Strategy<Value = (Chain, Vec<f64>)> {
 fn start(chain: &Chain) -> Model {
     let count = chain.masses.len();
     let (test, ones) = (chain.modes(&vec![1.1; count]), vec![1.0; count]);
-    chain.model(&ones).analyze(&test, None).expect("solved")
+    chain.model(&ones).analyze(&test, None).unwrap()
 }
 
 #[test]
@@ -109,7 +109,7 @@ properties! {
         let model = start(&chain);
         let there = chain.model(&factors);
         let expected = error_sum_by_definition(&there.stiffness, &there.mass, model.test());
-        let exact = exact_state(&model, &factors).unwrap();
+        let exact = exact_state(&model, &factors)?;
         prop_assert!((exact.errors.sum() - expected).abs() <= CONVERGED_STATE * expected);
         // So far off the recursion may not settle; where it has settled, on roots to a millionth, it is at the same place.
         if let Ok(state) = model.at(&factors) {
@@ -160,8 +160,8 @@ impl Crossing {
 
     fn state(&self, way: Way) -> Option<(Model, State)> {
         let model = self.model(&[1.0; 3]);
-        let test = solve(&model.stiffness, &model.mass, 3).expect("held");
-        let model = model.analyze(&test, None).expect("solved");
+        let test = solve(&model.stiffness, &model.mass, 3).unwrap();
+        let model = model.analyze(&test, None).unwrap();
         let state = way(&model, &self.factors).ok()?;
         Some((model, state))
     }

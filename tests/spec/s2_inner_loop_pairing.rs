@@ -33,7 +33,7 @@ impl Turned {
     fn test(&self) -> Modes {
         let modes = |factors: &[f64]| {
             let model = self.model(factors);
-            solve(&model.stiffness, &model.mass, 3).expect("held")
+            solve(&model.stiffness, &model.mass, 3).unwrap()
         };
         let (sin, cos) = self.degrees.to_radians().sin_cos();
         let mut turn = eye(3);
@@ -41,18 +41,18 @@ impl Turned {
             .copy_from(&dmatrix![cos, -sin; sin, cos]);
         let squares = modes(&self.truth).omega_squared().clone();
         let shapes = modes(&[1.0; 3]).shapes() * turn;
-        Modes::new(squares, shapes).expect("modes")
+        Modes::new(squares, shapes).unwrap()
     }
 
     fn run(&self) -> (Model, InnerRun) {
         let model = self.model(&[1.0; 3]).analyze(&self.test(), None);
-        let exactly = Eigensolved(model.expect("solved"));
+        let exactly = Eigensolved(model.unwrap());
         let settings = InnerSettings {
             iterations: 10,
             ..InnerSettings::default()
         };
         let settings = inner_for_modes(settings, 3);
-        let inner = run(&exactly, &[1.0; 3], &[None; 3], &settings).expect("a loop");
+        let inner = run(&exactly, &[1.0; 3], &[None; 3], &settings).unwrap();
         (exactly.0, inner)
     }
 }
@@ -86,7 +86,7 @@ properties! {
     fn pairing_that_changes_inside_a_loop_is_that_of_the_eigensolution(draw in turned()) {
         let (model, inner) = draw.run();
         // Where the loop ends, which a wrong pairing would choose for itself, and where the test's stiffness is.
-        let at_truth = exact_state(&model, &draw.truth).unwrap();
+        let at_truth = exact_state(&model, &draw.truth)?;
         for state in [&at_truth, &inner.last] {
             let there = draw.model(&state.factors);
             let expected = error_sum_by_definition(&there.stiffness, &there.mass, model.test());
@@ -114,7 +114,7 @@ properties! {
             let pairing = Pairing { analysis_mode: partners, sign: signs };
             errors(&there.modes, &pairing, model.test()).unwrap().sum() - found
         };
-        for (parameter, change) in model.error_changes(&inner.last).unwrap().into_iter().enumerate() {
+        for (parameter, change) in model.error_changes(&inner.last)?.into_iter().enumerate() {
             let apart = (change - changed(parameter)).abs() / DERIVATIVE_STEP;
             prop_assert!(apart <= SECOND_ORDER_CHANGE, "{parameter}: {apart}");
         }

@@ -593,11 +593,11 @@ fn the_loops_lead_where_they_led() {
     let found = runs.iter().map(Run::record).collect_vec();
     let path = in_root("golden/loops.toml");
     if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "loops") {
-        let golden = toml::to_string(&Golden { run: found }).expect("it is TOML");
-        return fs::write(path, golden).expect("it can be written");
+        let golden = toml::to_string(&Golden { run: found }).unwrap();
+        return fs::write(path, golden).unwrap();
     }
-    let text = fs::read_to_string(path).expect("golden/loops.toml");
-    let Golden { run: stored } = toml::from_str(&text).expect("it reads");
+    let text = fs::read_to_string(path).unwrap();
+    let Golden { run: stored } = toml::from_str(&text).unwrap();
     let names = |runs: &[Recorded]| runs.iter().map(|run| run.name.clone()).collect_vec();
     assert_eq!(names(&found), names(&stored));
     let pairs = found.iter().zip(&stored);

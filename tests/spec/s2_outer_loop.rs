@@ -115,7 +115,7 @@ properties! {
         );
         // Where roots are so close that no first step settles there is no pass to look at.
         prop_assume!(!matches!(found, Err(Error::UnsettledRoots { .. })));
-        for pass in found.unwrap().passes {
+        for pass in found?.passes {
             for (factor, (lower, upper)) in pass.factors.iter().zip(&bounds) {
                 prop_assert!(*factor >= lower * (1.0 - ROUND_OFF));
                 prop_assert!(*factor <= upper * (1.0 + ROUND_OFF));
@@ -140,13 +140,13 @@ fn passes_are_told_by_their_number_from_one() {
         told.push(number);
         true
     });
-    let found = found.expect("a correlation");
+    let found = found.unwrap();
     let count = found.passes.len();
     assert!(count > 1);
     assert_eq!(told, (1..=count).collect_vec());
     // The caller may end it after any pass, and what was found until then is kept.
     let ended = correlate(analyze, &[None; 3], &settings, |_, _| false);
-    let ended = ended.expect("a correlation");
+    let ended = ended.unwrap();
     assert_eq!(ended.passes.len(), 1);
     assert_eq!(ended.passes[0].factors, found.passes[0].factors);
 }

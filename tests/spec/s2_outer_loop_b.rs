@@ -7,11 +7,11 @@ fn condensed_chain(springs: &[f64]) -> (FiniteElementModel, Modes) {
     let mut t = DMatrix::zeros(5, 2);
     (t[(1, 0)], t[(4, 1)]) = (1.0, 1.0);
     let parameters = (1..=5).map(|spring| Parameter::new(spring, &[spring]));
-    let structure = rods(springs, [true, false]).expect("a chain");
+    let structure = rods(springs, [true, false]).unwrap();
     let mass = eye(2);
     let model = FiniteElementModel::new(structure, t, mass, parameters.collect());
     let test = Modes::new(dvector![100.0, 1000.0], dmatrix![0.5, 1.0; 1.0, -0.5]);
-    (model.expect("a model"), test.expect("modes"))
+    (model.unwrap(), test.unwrap())
 }
 
 properties! {
@@ -22,7 +22,7 @@ properties! {
         factors in prop::collection::vec(0.3..3.0_f64, 5),
     ) {
         let (model, test) = condensed_chain(&springs);
-        let modal = model.analyze(&factors, &test, None).unwrap();
+        let modal = model.analyze(&factors, &test, None)?;
         let sum: DMatrix<f64> = modal.shares().iter().sum();
         let expected = DMatrix::from_diagonal(modal.exact().modes.omega_squared());
         let error = (sum - &expected).amax();

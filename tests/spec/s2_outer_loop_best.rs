@@ -70,7 +70,7 @@ properties! {
 /// with shapes turned by 0.03. The sum is larger, and within the tolerances.
 #[test]
 fn what_is_within_the_tolerances_comes_before_a_smaller_sum_outside() {
-    let test = Modes::new(dvector![1.0, 4.0], eye(2)).expect("modes");
+    let test = Modes::new(dvector![1.0, 4.0], eye(2)).unwrap();
     let analysis = |ratio: f64, tangent: f64| {
         let turn = dmatrix![1.0, -tangent; tangent, 1.0] / 1.0_f64.hypot(tangent);
         let squares = DMatrix::from_diagonal(&dvector![ratio * ratio, 4.0]);
@@ -96,7 +96,7 @@ fn what_is_within_the_tolerances_comes_before_a_smaller_sum_outside() {
         true => analysis(1.02, 0.0),
         false => analysis(1.01, 0.03),
     };
-    let found = correlate(analyze, &[None], &settings, |_, _| true).expect("a correlation");
+    let found = correlate(analyze, &[None], &settings, |_, _| true).unwrap();
     assert!(found.passes[0].check.errors.sum() > found.initial.errors.sum());
     assert!(found.converged);
     assert_eq!(found.best, Some(0));

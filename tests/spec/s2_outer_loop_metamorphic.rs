@@ -25,8 +25,8 @@ struct Given {
 
 fn given(number: usize) -> Given {
     let case = case_of(number);
-    let model = case.model().expect("a model");
-    let test = case.test_modes().expect("test modes");
+    let model = case.model().unwrap();
+    let test = case.test_modes().unwrap();
     Given::of(format!("case {number}"), &model, test, case.settings)
 }
 
@@ -42,8 +42,8 @@ fn frame() -> impl Strategy<Value = Given> {
             let structure = linkage(apex, areas.map(|area| area.powf(0.25)), true);
             let mass = DMatrix::from_diagonal(&DVector::from_vec(masses));
             let rods = (1..=4).map(|rod| Parameter::new(rod, &[rod])).collect();
-            let model = FiniteElementModel::new(structure, eye(4), mass, rods).expect("a model");
-            let test = model.modes(&truth).expect("modes");
+            let model = FiniteElementModel::new(structure, eye(4), mass, rods).unwrap();
+            let test = model.modes(&truth).unwrap();
             let settings = Settings {
                 error_sum_tolerance: 0.01,
                 later_inner_tolerance: 0.005,
@@ -80,7 +80,7 @@ impl Given {
     }
 
     fn structure(&self) -> Structure {
-        Structure::new(self.grids.clone(), self.elements.clone()).expect("a structure")
+        Structure::new(self.grids.clone(), self.elements.clone()).unwrap()
     }
 
     fn model(&self) -> FiniteElementModel {
@@ -90,7 +90,7 @@ impl Given {
             self.mass.clone(),
             self.parameters.clone(),
         )
-        .expect("a model")
+        .unwrap()
     }
 
     fn correlated(&self) -> Correlation {
@@ -100,7 +100,7 @@ impl Given {
 
     fn try_correlated(&self) -> Result<Correlation, Error> {
         let model = self.model();
-        let ranges = model.factor_ranges().expect("ranges");
+        let ranges = model.factor_ranges().unwrap();
         let analyze = |factors: &[f64]| model.analyze(factors, &self.test, self.analysis_modes);
         correlate(analyze, &ranges, &self.settings, |_, _| true)
     }
@@ -144,11 +144,7 @@ impl Given {
 
     /// Adds a grid that moves along one direction alone, beyond a grid, on a rod of the last one's kind.
     fn add_on_rod(&mut self, beyond: usize, direction: usize) {
-        let at = self
-            .grids
-            .iter()
-            .find(|grid| grid.label == beyond)
-            .expect("a grid");
+        let at = self.grids.iter().find(|grid| grid.label == beyond).unwrap();
         let mut offset = Vector3::zeros();
         offset[direction] = 7.0;
         let mut constrained = [true; 3];
@@ -158,7 +154,7 @@ impl Given {
             position: at.position + offset,
             constrained,
         });
-        let rod = self.elements.last().expect("a rod").clone();
+        let rod = self.elements.last().unwrap().clone();
         assert_eq!(rod.kind, ElementKind::Rod);
         self.elements.push(Element {
             label: ADDED,
@@ -427,7 +423,7 @@ fn a_parameter_without_effect_changes_nothing() {
     nothing_changes(
         |given| {
             // A rod between two fixed grids.
-            let rod = given.elements.last().expect("a rod").clone();
+            let rod = given.elements.last().unwrap().clone();
             given.elements.push(Element {
                 label: ADDED,
                 grids: vec![13, 14],
@@ -507,7 +503,7 @@ fn an_analysis_mode_that_nothing_couples_changes_nothing() {
             .grids
             .iter()
             .find(|grid| grid.constrained == [true; 3]);
-        given.add_on_rod(fixed.expect("a fixed grid").label, 0);
+        given.add_on_rod(fixed.unwrap().label, 0);
         given.loaded_as(&before, Some);
         let count = given.mass.nrows();
         let t = std::mem::replace(&mut given.load_distribution, zero_square(0));
@@ -521,10 +517,10 @@ fn an_analysis_mode_that_nothing_couples_changes_nothing() {
             .free_dof()
             .iter()
             .position(|dof| *dof == added);
-        t[(row.expect("it is free"), count)] = 1.0;
+        t[(row.unwrap(), count)] = 1.0;
         given.load_distribution = t;
         let highest = given.test.omega_squared().max();
-        let rod = given.elements.last().expect("a rod");
+        let rod = given.elements.last().unwrap();
         let stiffness = rod.material.youngs_modulus * rod.size / 7.0;
         let mut mass = given
             .mass
@@ -541,10 +537,7 @@ fn an_analysis_mode_that_nothing_couples_changes_nothing() {
     let same = |given: &Given| {
         let mut all = with_a_mode_apart(given);
         let count = all.mass.nrows();
-        let highest = all
-            .model()
-            .modes(&vec![1.0; all.parameters.len()])
-            .expect("modes");
+        let highest = all.model().modes(&vec![1.0; all.parameters.len()]).unwrap();
         let highest = highest.shapes().column(count - 1);
         assert_eq!(highest.icamax(), count - 1, "{}", given.name);
         let all_modes = all.correlated();
@@ -560,7 +553,7 @@ fn an_analysis_mode_that_nothing_couples_changes_nothing() {
 fn stopping_after_a_pass_and_starting_anew_gives_the_next_passes() {
     let same = |given: &Given| {
         let (model, count) = (given.model(), given.parameters.len());
-        let ranges = model.factor_ranges().expect("ranges");
+        let ranges = model.factor_ranges().unwrap();
         let run = |base: &[f64], settings: &Settings| {
             let product = |factors: &[f64]| -> Vec<f64> {
                 base.iter()
@@ -576,7 +569,7 @@ fn stopping_after_a_pass_and_starting_anew_gives_the_next_passes() {
                 })
             };
             let ranges = ranges.iter().zip(base).map(range).collect_vec();
-            let found = correlate(analyze, &ranges, settings, |_, _| true).expect("a correlation");
+            let found = correlate(analyze, &ranges, settings, |_, _| true).unwrap();
             let pass = |pass: &Pass| (pass.inner.iterations.len(), product(&pass.factors));
             found.passes.iter().map(pass).collect_vec()
         };
@@ -590,7 +583,7 @@ fn stopping_after_a_pass_and_starting_anew_gives_the_next_passes() {
         while parts.len() < whole.len() {
             let mut anew = passes(1);
             anew.inner.tolerance = anew.later_inner_tolerance;
-            let base = parts.last().expect("a pass").1.clone();
+            let base = parts.last().unwrap().1.clone();
             parts.extend(run(&base, &anew));
         }
         for ((iterations, factors), (steps, parts)) in whole.iter().zip(&parts) {
@@ -621,11 +614,7 @@ fn condensing_to_all_dof_is_not_condensing() {
         given.load_distribution = eye(free);
         given.mass = mass;
         let model = given.model();
-        given.test = model
-            .modes(truth)
-            .expect("modes")
-            .lowest(9.min(free))
-            .expect("modes");
+        given.test = model.modes(truth).unwrap().lowest(9.min(free)).unwrap();
         // A frame whose loops make more of round-off was drawn for another test.
         let amplified = if is_drawn {
             given.amplification(false)
@@ -636,18 +625,18 @@ fn condensing_to_all_dof_is_not_condensing() {
             return false;
         };
         let whole = |factors: &[f64]| {
-            let all = model.sizes(factors).expect("sizes");
+            let all = model.sizes(factors).unwrap();
             let matrix = |rows: &[usize]| {
                 let mut sizes = vec![0.0; all.len()];
                 rows.iter().for_each(|&row| sizes[row] = all[row]);
-                assemble(model.element_matrices(), &sizes, free).expect("a size each")
+                assemble(model.element_matrices(), &sizes, free).unwrap()
             };
             let row = |label: &usize| {
                 let elements = model.structure().elements().iter();
                 elements
                     .clone()
                     .position(|element| element.label == *label)
-                    .expect("it is there")
+                    .unwrap()
             };
             let share = |parameter: &Parameter| {
                 let rows = parameter.elements.iter().map(row).collect_vec();
@@ -660,13 +649,11 @@ fn condensing_to_all_dof_is_not_condensing() {
             };
             dynamic.analyze(&given.test, given.analysis_modes)
         };
-        let ranges = model.factor_ranges().expect("ranges");
-        let whole = correlate(whole, &ranges, &given.settings, |_, _| true).expect("a correlation");
+        let ranges = model.factor_ranges().unwrap();
+        let whole = correlate(whole, &ranges, &given.settings, |_, _| true).unwrap();
         // Condensing inverts the stiffness, which costs its condition number in round-off.
-        let all = model
-            .sizes(&vec![1.0; given.parameters.len()])
-            .expect("sizes");
-        let stiffness = assemble(model.element_matrices(), &all, free).expect("a size each");
+        let all = model.sizes(&vec![1.0; given.parameters.len()]).unwrap();
+        let stiffness = assemble(model.element_matrices(), &all, free).unwrap();
         let values = stiffness.symmetric_eigenvalues();
         let condition = values.max() / values.min();
         let bar = SAME_CORRELATION + CONDITIONED_ROUND_OFF * condition * amplified.max(1.0);

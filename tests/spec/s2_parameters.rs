@@ -29,8 +29,8 @@ properties! {
                 each[element - 1] = *factor;
             }
         }
-        prop_assert_eq!(groups.sizes(&factors).unwrap(), single.sizes(&each).unwrap());
-        let (together, apart) = (groups.matrices(&factors).unwrap(), single.matrices(&each).unwrap());
+        prop_assert_eq!(groups.sizes(&factors)?, single.sizes(&each)?);
+        let (together, apart) = (groups.matrices(&factors)?, single.matrices(&each)?);
         prop_assert_eq!(together.shares.len(), 4);
         prop_assert!(relative_distance(&together.stiffness, &apart.stiffness) <= ROUND_OFF);
         for ((_, elements), share) in SUBSTRUCTURES.iter().zip(&together.shares) {
@@ -43,8 +43,8 @@ properties! {
     /// Sizes are the first ones times the factors, element by element; those in no parameter stay.
     #[test]
     fn sizes_are_first_sizes_times_factors(case in case(), factors in factors(15)) {
-        let model = case.model().unwrap();
-        let sizes = model.sizes(&factors).unwrap();
+        let model = case.model()?;
+        let sizes = model.sizes(&factors)?;
         prop_assert_eq!(sizes.len(), 39);
         for (panel, (size, factor)) in case.panels.iter().zip(sizes.iter().zip(&factors)) {
             prop_assert_eq!(*size, panel.gage * factor);
@@ -55,8 +55,8 @@ properties! {
     /// Factors within their range keep every element of the parameter within its bounds, those outside do not.
     #[test]
     fn factor_ranges_keep_sizes_within_bounds(lower in 0.5..2.0_f64, upper in 8.0..20.0_f64, beyond in 1e-6..0.1_f64) {
-        let model = chain(vec![group("all", &[1, 2, 3], Some(Bounds { lower, upper }))]).unwrap();
-        let range = model.factor_ranges().unwrap()[0].unwrap();
+        let model = chain(vec![group("all", &[1, 2, 3], Some(Bounds { lower, upper }))])?;
+        let range = model.factor_ranges()?[0].unwrap();
         let within = |factor: f64| model.sizes(&[factor]).unwrap().iter().all(|&size| {
             size >= lower * (1.0 - ROUND_OFF) && size <= upper * (1.0 + ROUND_OFF)
         });

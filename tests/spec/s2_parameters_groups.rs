@@ -5,7 +5,7 @@ use crate::prelude::*;
 fn grouped(number: usize) -> CaseResult {
     let mut case = case_of(number);
     case.grouping = Grouping::Substructures;
-    run_case(&case, |_, _| {}).expect("it runs")
+    run_case(&case, |_, _| {}).unwrap()
 }
 
 /// Panels of each substructure, from the geometry: covers join upper or lower grids alone (odd or even), ribs four
@@ -39,7 +39,7 @@ fn substructures_are_what_the_geometry_says() {
         grouping: Grouping::Substructures,
         ..case_of(2)
     };
-    let model = case.model().expect("a model");
+    let model = case.model().unwrap();
     let names = model
         .parameters()
         .iter()
@@ -79,7 +79,7 @@ fn error_common_to_a_group_is_found() {
     for number in [1, 2] {
         let result = grouped(number);
         assert!(result.correlation.converged, "Case {number}");
-        let covers = result.pass_gages.last().expect("a pass")[1];
+        let covers = result.pass_gages.last().unwrap()[1];
         assert!(
             relative_error(covers, TEST_GAGE) < GROUPED_GAGE,
             "Case {number}: covers at {covers}"
@@ -94,7 +94,7 @@ fn error_within_a_group_is_out_of_reach_and_said_to_be() {
     assert!(!result.correlation.converged && !result.succeeded());
     let (first, last) = (
         &result.correlation.initial,
-        result.correlation.passes.last().expect("a pass"),
+        result.correlation.passes.last().unwrap(),
     );
     assert!(last.check.errors.sum() < first.errors.sum());
     for pass in &result.correlation.passes {
@@ -110,11 +110,11 @@ fn error_within_a_group_is_out_of_reach_and_said_to_be() {
 fn a_groups_factor_may_take_a_gage_from_bound_to_bound() {
     let mut case = case_of(3);
     case.grouping = Grouping::Substructures;
-    let gages = case.gage_range.expect("bounds of the gages");
-    let model = case.model().expect("a model");
+    let gages = case.gage_range.unwrap();
+    let model = case.model().unwrap();
     assert_eq!(model.parameters().len(), 3);
     for parameter in model.parameters() {
-        let range = parameter.factor_range.expect("bounds of the factor");
+        let range = parameter.factor_range.unwrap();
         assert_eq!(range.lower, gages.lower / gages.upper);
         assert_eq!(range.upper, gages.upper / gages.lower);
         assert!(range.lower < 1.0 && 1.0 < range.upper);

@@ -125,9 +125,9 @@ fn without_last_shape(mut files: Files) -> Files {
     let (_, test) = files
         .iter_mut()
         .find(|(name, _)| name == "test.csv")
-        .expect("a test");
+        .unwrap();
     let cut = |line: &str| match line.starts_with(|first: char| first.is_ascii_digit()) {
-        true => line.rsplit_once(',').expect("a cell").0.to_owned() + ",\n",
+        true => line.rsplit_once(',').unwrap().0.to_owned() + ",\n",
         false => line.to_owned() + "\n",
     };
     *test = test.lines().map(cut).collect();
@@ -168,7 +168,7 @@ fn the_worst_mode_and_its_errors_are_those_of_the_error_sum() {
     assert!((0..3).all(|mode| size(mode) <= size(verdict.worst_mode)));
     let (worst, expected) = (verdict.worst, each[verdict.worst_mode]);
     assert!((worst.frequency - expected.frequency).abs() <= ROUND_OFF);
-    assert!((worst.shape.expect("a shape") - expected.shape).abs() <= ROUND_OFF);
+    assert!((worst.shape.unwrap() - expected.shape).abs() <= ROUND_OFF);
 }
 
 properties! {
@@ -177,7 +177,7 @@ properties! {
     fn no_mode_of_the_first_model_is_worse_than_the_worst((chain, truth) in chain_and_truth()) {
         let settings = Settings { most_passes: 0, ..Settings::default() };
         let (found, verdict) = judged(&chain, &truth, &settings);
-        let each = mode_errors(&found.initial.modes, &found.initial.pairing, &chain.modes(&truth)).unwrap();
+        let each = mode_errors(&found.initial.modes, &found.initial.pairing, &chain.modes(&truth))?;
         let size = |error: &ModeError| error.frequency.powi(2) + error.shape.powi(2);
         let worst = size(&each[verdict.worst_mode]);
         prop_assert!(each.iter().all(|error| size(error) <= worst + ROUND_OFF));

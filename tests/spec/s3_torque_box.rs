@@ -65,7 +65,7 @@ properties! {
     ) {
         let motion = |at: &Vector3<f64>| shift + spin.cross(at);
         let structural = DVector::from_iterator(36, (1..=12).flat_map(|grid| motion(&at(&data, grid)).data.0[0]));
-        let t = load_distribution(&data).unwrap();
+        let t = load_distribution(&data)?;
         prop_assert_eq!(t.shape(), (36, 9));
         let dynamic = t.tr_mul(&structural);
         for number in 0..3 {
@@ -80,7 +80,7 @@ properties! {
     /// A unit force on each dynamic point arrives as a unit force along z and none in the plane.
     #[test]
     fn a_unit_force_arrives_whole(data in reconstruction()) {
-        let t = load_distribution(&data).unwrap();
+        let t = load_distribution(&data)?;
         for column in t.column_iter() {
             for (axis, expected) in [0.0, 0.0, 1.0].into_iter().enumerate() {
                 let sum: f64 = (0..12).map(|grid| column[3 * grid + axis]).sum();
@@ -92,7 +92,7 @@ properties! {
     /// A point on a spar loads the spar's two grids equally, and nothing else.
     #[test]
     fn a_spars_point_loads_its_two_grids_alone(data in reconstruction()) {
-        let t = load_distribution(&data).unwrap();
+        let t = load_distribution(&data)?;
         for number in 0..3 {
             let [rear_upper, rear_lower, front_upper, front_lower] = rib(number);
             for (column, grids) in [(0, [rear_upper, rear_lower]), (2, [front_upper, front_lower])] {
@@ -109,7 +109,7 @@ properties! {
     /// moments, as couples along the rib on upper and lower grid; the beam by elements and by the textbook's formulas.
     #[test]
     fn a_mid_points_load_is_a_clamped_beams(data in reconstruction()) {
-        let t = load_distribution(&data).unwrap();
+        let t = load_distribution(&data)?;
         let xi = data.mid_chord_fraction;
         let by_elements = clamped_beam_by_elements(xi);
         let textbook = Vector4::new(

@@ -20,7 +20,7 @@ properties! {
         gages in prop::collection::vec(0.008..0.015_f64, PANEL_COUNT),
         (of_stiffness, of_gage, step) in (0.0..1.5_f64, 0.0..1.5_f64, 0.2..2.0_f64),
     ) {
-        let mut case = Case::from_reconstruction(kind, reconstruction).expect("a case");
+        let mut case = Case::from_reconstruction(kind, reconstruction)?;
         for (panel, gage) in case.panels.iter_mut().zip(&gages) {
             panel.gage = *gage;
         }
@@ -30,8 +30,8 @@ properties! {
         let model = case.model();
         // Panels must be convex.
         prop_assume!(model.is_ok());
-        let (model, test) = (model.expect("a model"), case.test_modes().expect("modes"));
-        let modal = model.analyze(&[1.0; PANEL_COUNT], &test, None).expect("modes");
+        let (model, test) = (model?, case.test_modes()?);
+        let modal = model.analyze(&[1.0; PANEL_COUNT], &test, None)?;
         let shares = modal.shares();
         // Round-off of the condensation is that of the whole structure, however little of it a cover is.
         let largest = shares.iter().map(|share| share.norm()).fold(0.0, f64::max);
@@ -41,7 +41,7 @@ properties! {
         }
         let settings = InnerSettings { iterations: 3, ..case.settings.inner.clone() };
         let changes = modal.error_changes(modal.exact());
-        let largest = changes.expect("derivatives").iter().fold(0.0_f64, |most, e| most.max(e.abs()));
+        let largest = changes?.iter().fold(0.0_f64, |most, e| most.max(e.abs()));
         let rule = |_: &[f64], kappa: &[f64], factors: &[f64]| {
             let divisor = |e: usize| {
                 let gage = case.panels[e].gage * factors[e] / TEST_GAGE;
@@ -49,7 +49,7 @@ properties! {
             };
             (0..PANEL_COUNT).map(divisor).collect()
         };
-        let (factors, _) = run_by(&modal, &[None; PANEL_COUNT], &settings, &rule).expect("it runs");
+        let (factors, _) = run_by(&modal, &[None; PANEL_COUNT], &settings, &rule)?;
         for [one, other] in BAYS {
             prop_assert!(relative_error(factors[one], factors[other]) < SAME_HISTORY);
         }
@@ -59,14 +59,9 @@ properties! {
 /// Case 1 begins with equal covers, and prints unlike ones after its first pass. Equal covers can come no nearer than their means do.
 #[test]
 fn the_print_of_case_1_bounds_what_any_rule_can_reach_on_a_symmetric_box() {
-    let table = PublishedTable::number(4).expect("Table 4");
-    let error = |panel: usize| {
-        table
-            .required(&panel.to_string(), "pass_1_in")
-            .expect("printed")
-            / TEST_GAGE
-            - 1.0
-    };
+    let table = PublishedTable::number(4).unwrap();
+    let error =
+        |panel: usize| table.required(&panel.to_string(), "pass_1_in").unwrap() / TEST_GAGE - 1.0;
     let printed = (1..=PANEL_COUNT).map(error).collect_vec();
     let mut nearest = printed.clone();
     for [one, other] in BAYS {

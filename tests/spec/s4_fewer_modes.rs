@@ -9,7 +9,7 @@ fn case_2() -> Case {
 }
 
 fn run(test_modes: usize, analysis_modes: usize) -> FewerModesRun {
-    fewer_modes_run(&case_2(), test_modes, analysis_modes).expect("it runs")
+    fewer_modes_run(&case_2(), test_modes, analysis_modes).unwrap()
 }
 
 fn sorted(values: &[f64]) -> Vec<f64> {

@@ -8,9 +8,9 @@ use corfem::present::tables::published::root_error_table;
 fn tables() -> Vec<Table> {
     let results = CASES
         .into_iter()
-        .map(|number| run_case(&case_of(number), |_, _| {}).expect("it runs"))
+        .map(|number| run_case(&case_of(number), |_, _| {}).unwrap())
         .collect_vec();
-    all_tables(&results).expect("published tables read")
+    all_tables(&results).unwrap()
 }
 
 #[test]
@@ -47,7 +47,7 @@ fn every_table_as_numbers() {
 
 #[test]
 fn fit_of_the_box_as_numbers() {
-    let fit = fit(&Reconstruction::embedded().expect("the box")).expect("solved");
+    let fit = fit(&Reconstruction::embedded().unwrap()).unwrap();
     let table = fit_table(&fit);
     assert_golden("fit", &csv(&[table]), Numbers::BY_UNIT);
 }
@@ -68,10 +68,10 @@ fn cases_by_substructures() {
         .map(|number| {
             let mut case = case_of(number);
             case.grouping = Grouping::Substructures;
-            run_case(&case, |_, _| {}).expect("it runs")
+            run_case(&case, |_, _| {}).unwrap()
         })
         .collect_vec();
-    let tables = all_tables(&results).expect("published tables read");
+    let tables = all_tables(&results).unwrap();
     assert!(
         tables.iter().all(|table| !table.title.contains("Table 3")),
         "the paper has no grouped run"
@@ -88,7 +88,7 @@ fn root_errors_of_table_1() {
         last_digit: false,
         ..Numbers::AS_WRITTEN
     };
-    let table = root_error_table().expect("separate roots");
+    let table = root_error_table().unwrap();
     assert_eq!((table.rows.len(), table.columns.len()), (24, 14));
     // Errors over many decades: a reader sees a digit and a power of ten.
     let written = text(from_ref(&table));
@@ -113,7 +113,7 @@ fn published_numbers_are_written_as_they_are() {
             else {
                 continue;
             };
-            let written = cell.published().expect("it is published");
+            let written = cell.published().unwrap();
             assert_eq!(
                 written.parse().ok(),
                 Some(*number),

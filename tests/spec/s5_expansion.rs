@@ -18,7 +18,7 @@ properties! {
     fn shapes_in_the_span_of_the_modes_are_reproduced(shares in prop::collection::vec(-1.0..1.0_f64, 6)) {
         let all = modes();
         let shapes = &all * DMatrix::from_vec(3, 2, shares);
-        let expanded = expand(&all, &all.select_rows(&SENSORS), &shapes.select_rows(&SENSORS)).unwrap();
+        let expanded = expand(&all, &all.select_rows(&SENSORS), &shapes.select_rows(&SENSORS))?;
         prop_assert!((expanded - &shapes).amax() < MATRIX_ROUND_OFF * all.amax());
     }
 
@@ -29,7 +29,7 @@ properties! {
     ) {
         let (all, measured) = (modes() * 10_f64.powi(scale), DMatrix::from_vec(4, 1, measured));
         let at_sensors = all.select_rows(&SENSORS);
-        let expanded = expand(&all, &at_sensors, &measured).unwrap();
+        let expanded = expand(&all, &at_sensors, &measured)?;
         let left = measured - expanded.select_rows(&SENSORS);
         prop_assert!(at_sensors.tr_mul(&left).amax() < MATRIX_ROUND_OFF * at_sensors.amax());
     }

@@ -13,7 +13,7 @@ fn the_first_ranking_is_by_what_the_first_iteration_asks_for() {
             known.test.omega_squared().select_rows(&lowest),
             known.test.shapes().select_columns(&lowest),
         );
-        let test = Modes::new(omega_squared, shapes).expect("modes");
+        let test = Modes::new(omega_squared, shapes).unwrap();
         let model = known.model.analyze(&[1.0; 15], &test, None).unwrap();
         let settings = InnerSettings {
             iterations: 1,

@@ -34,21 +34,21 @@ properties! {
         (analysis, test) in (shapes(5, 4), shapes(5, 3)),
         (a, b) in (scales(4), scales(3)),
     ) {
-        let comac = coordinate_assurance(&analysis, &test, &PAIRS).unwrap();
-        let scaled = coordinate_assurance(&(analysis * a), &(test * b), &PAIRS).unwrap();
+        let comac = coordinate_assurance(&analysis, &test, &PAIRS)?;
+        let scaled = coordinate_assurance(&(analysis * a), &(test * b), &PAIRS)?;
         prop_assert!((scaled - comac).amax() < MATRIX_ROUND_OFF);
     }
 
     #[test]
     fn no_coordinate_assurance_is_beyond_one((analysis, test) in (shapes(5, 4), shapes(5, 3))) {
-        let comac = coordinate_assurance(&analysis, &test, &PAIRS).unwrap();
+        let comac = coordinate_assurance(&analysis, &test, &PAIRS)?;
         prop_assert!(comac.iter().all(|value| (0.0..=1.0).contains(value)), "{}", comac);
     }
 
     #[test]
     fn equal_shapes_have_assurance_one_at_every_coordinate(test in shapes(5, 3), scale in scales(3)) {
         let pairs = [Some(0), Some(1), Some(2)];
-        let comac = coordinate_assurance(&test, &(&test * scale), &pairs).unwrap();
+        let comac = coordinate_assurance(&test, &(&test * scale), &pairs)?;
         prop_assert!(comac.iter().all(|value| (value - 1.0).abs() < ROUND_OFF), "{}", comac);
     }
 
@@ -61,7 +61,7 @@ fn a_sensor_at_fault_has_the_lowest_coordinate_assurance_of_all_that_move() {
     // Two cables exchanged.
     test.swap_rows(0, 3);
     let pairs = [Some(0), Some(1), Some(2), Some(3)];
-    let comac = coordinate_assurance(modes.shapes(), &test, &pairs).expect("pairs");
+    let comac = coordinate_assurance(modes.shapes(), &test, &pairs).unwrap();
     let mut order = (0..6).collect_vec();
     order.sort_by(|a, b| comac[*a].total_cmp(&comac[*b]));
     order.truncate(2);
@@ -73,7 +73,7 @@ fn a_sensor_at_fault_has_the_lowest_coordinate_assurance_of_all_that_move() {
 fn coordinates_that_do_not_move_are_as_good_as_they_agree() {
     let analysis = dmatrix![1.0; 0.0; 0.0; 1.0];
     let test = dmatrix![1.0; 0.0; 0.5; 0.0];
-    let comac = coordinate_assurance(&analysis, &test, &[Some(0)]).expect("a pair");
+    let comac = coordinate_assurance(&analysis, &test, &[Some(0)]).unwrap();
     assert_eq!(comac.as_slice(), [1.0, 1.0, 0.0, 0.0]);
 }
 

@@ -81,7 +81,7 @@ fn more_modes_than_points_are_told_and_nothing_else() {
     };
     let mut found = findings(&few);
     found.retain(|own| own.kind != Kind::NotChecked);
-    let (last, others) = found.split_last().expect("a finding");
+    let (last, others) = found.split_last().unwrap();
     let [modes, points, distinct, smallest] = last.measure[..] else {
         panic!("{found:?}")
     };

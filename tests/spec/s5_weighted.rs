@@ -405,7 +405,7 @@ fn modes_that_change_places_are_followed_and_recorded() {
     let iteration = 1
         + (0..found.iterations.len())
             .find(|&iteration| modes(iteration) == [0, 1])
-            .expect("they change");
+            .unwrap();
     assert!((iteration..found.iterations.len()).all(|later| modes(later) == [0, 1]));
     let order = |factors: &[f64]| factors[0] * 400.0 < factors[1] * 200.0;
     assert!(order(&found.iterations[iteration - 1].factors));

@@ -26,7 +26,7 @@ fn correlated(
     let weights: Vec<ModeWeight> = vec![noise.weight(); modes];
     let (first, ranges) = (vec![1.0; parameters], vec![None; parameters]);
     let compare = |factors: &[f64]| analyze(factors).map(|model| Comparison::from(&model));
-    gauss_newton(compare, &first, &ranges, &weights, &settings(unit)).expect("a correlation")
+    gauss_newton(compare, &first, &ranges, &weights, &settings(unit)).unwrap()
 }
 
 fn assert_same(one: &[f64], other: &[f64]) {
@@ -60,11 +60,8 @@ fn assert_unit_does_not_matter(
 fn the_unit_of_all_deviations_does_not_matter_on_the_cases() {
     for number in CASES {
         let case = case_of(number);
-        let (model, exact) = (
-            case.model().expect("a model"),
-            case.test_modes().expect("modes"),
-        );
-        let test = with_noise(&exact, Noise::USUAL, 3).expect("noise");
+        let (model, exact) = (case.model().unwrap(), case.test_modes().unwrap());
+        let test = with_noise(&exact, Noise::USUAL, 3).unwrap();
         let analyze = |factors: &[f64]| model.analyze(factors, &test, None);
         assert_unit_does_not_matter(analyze, test.len(), model.parameters().len());
     }
@@ -84,7 +81,7 @@ properties! {
 
     #[test]
     fn the_unit_of_all_deviations_does_not_matter_on_chains((chain, truth) in chain_and_truth(), seed in any::<u64>()) {
-        let test = with_noise(&chain.modes(&truth), Noise::USUAL, seed).expect("noise");
+        let test = with_noise(&chain.modes(&truth), Noise::USUAL, seed)?;
         let analyze = |factors: &[f64]| chain.model(factors).analyze(&test, None);
         assert_unit_does_not_matter(analyze, test.len(), truth.len());
     }
@@ -98,7 +95,7 @@ properties! {
     ) {
         // The other's frequencies a hundred times as high: no mode of the one is close to one of it.
         let other = Chain { masses: other.masses.iter().map(|mass| 1e-4 * mass).collect(), ..other };
-        let test = |chain: &Chain, truth: &[f64], seed| with_noise(&chain.modes(truth), Noise::USUAL, seed).expect("noise");
+        let test = |chain: &Chain, truth: &[f64], seed| with_noise(&chain.modes(truth), Noise::USUAL, seed).unwrap();
         let (test, tests) = (test(&one, &truth, seed), test(&other, &others, seed ^ 1));
         let alone = |chain: &Chain, test: &Modes| {
             correlated(|factors: &[f64]| chain.model(factors).analyze(test, None), test.len(), chain.masses.len(), 1.0).factors
@@ -106,7 +103,7 @@ properties! {
         let apart = [alone(&one, &test), alone(&other, &tests)].concat();
         let count = truth.len();
         let squares = test.omega_squared().iter().chain(tests.omega_squared()).copied().collect_vec();
-        let all = Modes::new(DVector::from_vec(squares), both(test.shapes(), tests.shapes())).expect("modes");
+        let all = Modes::new(DVector::from_vec(squares), both(test.shapes(), tests.shapes()))?;
         let together = |factors: &[f64]| {
             let (a, b) = (one.model(&factors[..count]), other.model(&factors[count..]));
             let (n, m) = (a.mass.nrows(), b.mass.nrows());

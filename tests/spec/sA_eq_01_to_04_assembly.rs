@@ -85,10 +85,10 @@ properties! {
     /// decades.
     #[test]
     fn sparse_and_dense_deflections_agree(number in 1..=4_usize, sizes in sizes_of(39), loads in loads(36)) {
-        let model = case_of(number).model().unwrap();
+        let model = case_of(number).model()?;
         let matrices = model.element_matrices();
-        let stiffness = assemble(matrices, &sizes, 36).unwrap();
-        let found = of_dense(&stiffness).unwrap().solve(&loads).unwrap();
+        let stiffness = assemble(matrices, &sizes, 36)?;
+        let found = of_dense(&stiffness)?.solve(&loads)?;
         let expected = stiffness.clone().cholesky().unwrap().solve(&loads);
         let bar = CONDITIONED_ROUND_OFF * condition(&stiffness);
         prop_assert!(relative_distance(&found, &expected) <= bar, "{:e}", relative_distance(&found, &expected));
@@ -101,7 +101,7 @@ properties! {
         let springs = decades.iter().map(|d| 10f64.powf(*d)).collect_vec();
         let structure = spring_chain(&springs, [true, false]);
         let tip = DMatrix::from_fn(springs.len(), 1, |row, _| f64::from(row + 1 == springs.len()));
-        let deflections = factorized(&structure).unwrap().solve(&tip).unwrap();
+        let deflections = factorized(&structure)?.solve(&tip)?;
         let bar = CONDITIONED_ROUND_OFF * condition(&dense(&structure));
         let mut expected = 0.0;
         for (deflection, spring) in deflections.iter().zip(&springs) {
@@ -112,7 +112,7 @@ properties! {
 
     #[test]
     fn a_positive_definite_matrix_of_condition_1e10_is_solved((stiffness, _) in positive_definite(9, 10.0), loads in loads(9)) {
-        let found = of_dense(&stiffness).unwrap().solve(&loads).unwrap();
+        let found = of_dense(&stiffness)?.solve(&loads)?;
         // What a backward stable solution leaves, whatever the condition.
         let residual = (&stiffness * &found - &loads).amax();
         prop_assert!(residual <= MATRIX_ROUND_OFF * stiffness.amax() * found.amax());

@@ -20,8 +20,7 @@ impl Framework {
     }
 
     fn condensed(&self, factors: &[f64]) -> Condensed {
-        condense(&self.stiffness(factors), &self.load_distribution)
-            .expect("independent dynamic DOF")
+        condense(&self.stiffness(factors), &self.load_distribution).unwrap()
     }
 
     /// The first structure's, with the shapes kept, with the internal loads kept, and exactly, at the new factors.
@@ -35,7 +34,7 @@ impl Framework {
             .zip(&self.factors)
             .map(|(f, factor)| f / *factor)
             .sum();
-        let below = flexibility.try_inverse().expect("regular");
+        let below = flexibility.try_inverse().unwrap();
         [above, below, self.condensed(&self.factors).stiffness]
     }
 
@@ -44,7 +43,7 @@ impl Framework {
         let inverse = self
             .stiffness(&vec![1.0; self.factors.len()])
             .try_inverse()
-            .expect("regular");
+            .unwrap();
         let deflections = inverse * &self.load_distribution;
         self.elements
             .iter()
@@ -114,7 +113,7 @@ properties! {
         let count = exact.nrows();
         let mass = eye(count);
         let [above, below, exact] =
-            [above, below, exact].map(|k| solve(&(0.5 * (&k + k.transpose())), &mass, count).expect("modes"));
+            [above, below, exact].map(|k| solve(&(0.5 * (&k + k.transpose())), &mass, count).unwrap());
         for mode in 0..count {
             let [high, low, exact] = [&above, &below, &exact].map(|modes| modes.omega_squared()[mode]);
             prop_assert!(low <= exact * (1.0 + 1e2 * EIGEN_ROUND_OFF) && exact <= high * (1.0 + 1e2 * EIGEN_ROUND_OFF));
@@ -141,16 +140,16 @@ properties! {
     #[test]
     fn the_box_lies_between_its_bounds((case, factors) in (case(), factors(39))) {
         let model = with_every_element(&case);
-        let (first, exact) = (model.matrices(&[1.0; 39]).expect("matrices"), model.modes(&factors).expect("modes"));
-        let flexibility = first.stiffness.clone().try_inverse().expect("regular");
+        let (first, exact) = (model.matrices(&[1.0; 39])?, model.modes(&factors)?);
+        let flexibility = first.stiffness.clone().try_inverse().unwrap();
         let (mut above, mut below) = (zero_square(9), zero_square(9));
         for (share, factor) in first.shares.iter().zip(&factors) {
             above += *factor * share;
             below += &flexibility * share * &flexibility / *factor;
         }
-        let below = below.try_inverse().expect("regular");
+        let below = below.try_inverse().unwrap();
         let [above, below] =
-            [above, below].map(|k| solve(&(0.5 * (&k + k.transpose())), &first.mass, 9).expect("modes"));
+            [above, below].map(|k| solve(&(0.5 * (&k + k.transpose())), &first.mass, 9).unwrap());
         for mode in 0..9 {
             let [high, low, exact] = [&above, &below, &exact].map(|modes| modes.omega_squared()[mode]);
             prop_assert!(low <= exact * (1.0 + 1e2 * EIGEN_ROUND_OFF) && exact <= high * (1.0 + 1e2 * EIGEN_ROUND_OFF));

@@ -33,7 +33,7 @@ properties! {
     /// spars' and the dynamic flexibility singular: the third point of the tip rib follows from the two before it.
     #[test]
     fn averaged_mid_points_would_make_the_boxs_flexibility_singular(case in case(), sizes in sizes_of(39)) {
-        let model = case.model().unwrap();
+        let model = case.model()?;
         let (factor, _) = stiffness(&model, &sizes);
         prop_assert!(condense(&factor, model.load_distribution()).is_ok());
         let mut t = model.load_distribution().clone();
@@ -48,7 +48,7 @@ properties! {
     #[test]
     fn element_shares_sum_to_the_dynamic_stiffness(case in case(), factors in factors(39)) {
         let model = with_every_element(&case);
-        let dynamic = model.matrices(&factors).unwrap();
+        let dynamic = model.matrices(&factors)?;
         prop_assert_eq!(dynamic.shares.len(), 39);
         let sum: DMatrix<f64> = dynamic.shares.iter().sum();
         prop_assert!(relative_distance(&sum, &dynamic.stiffness) <= MATRIX_ROUND_OFF);
@@ -61,9 +61,9 @@ properties! {
     #[test]
     fn a_share_is_the_elements_stiffness_through_b(case in case(), factors in factors(39), row in 0..39_usize) {
         let model = with_every_element(&case);
-        let sizes = model.sizes(&factors).unwrap();
+        let sizes = model.sizes(&factors)?;
         let (factor, _) = stiffness(&model, &sizes);
-        let bt = condense(&factor, model.load_distribution()).unwrap().transformation;
+        let bt = condense(&factor, model.load_distribution())?.transformation;
         let element = &model.element_matrices()[row];
         let mut spread = zero_square(36);
         for (a, &at) in element.dof.iter().enumerate() {
@@ -73,7 +73,7 @@ properties! {
         }
         let expected = bt.tr_mul(&(spread * &bt));
         let scale = element.unit.amax() * bt.amax().powi(2);
-        let shares = model.matrices(&factors).unwrap().shares;
+        let shares = model.matrices(&factors)?.shares;
         prop_assert!((&shares[row] / sizes[row] - &expected).amax() <= MATRIX_ROUND_OFF * scale);
         prop_assert_eq!(expected.shape(), (9, 9));
     }
@@ -82,9 +82,9 @@ properties! {
     /// K_D with frozen B exceeds the exact one, and every frequency lies above.
     #[test]
     fn frozen_b_frequencies_bound_exact_ones_from_above(case in case(), factors in factors(15)) {
-        let model = case.model().unwrap();
-        let start = model.matrices(&[1.0; 15]).unwrap();
-        let exact = model.matrices(&factors).unwrap();
+        let model = case.model()?;
+        let start = model.matrices(&[1.0; 15])?;
+        let exact = model.matrices(&factors)?;
         let frozen = frozen(&start, &factors);
         let excess = (&frozen - &exact.stiffness).symmetric_eigenvalues();
         prop_assert!(excess.min() >= -MATRIX_ROUND_OFF * frozen.amax(), "{:e}", excess.min());
@@ -98,8 +98,8 @@ properties! {
     #[test]
     fn a_common_factor_leaves_b_exact(case in case(), factor in 0.55..=1.5_f64) {
         let model = with_every_element(&case);
-        let start = model.matrices(&[1.0; 39]).unwrap();
-        let scaled = model.matrices(&[factor; 39]).unwrap();
+        let start = model.matrices(&[1.0; 39])?;
+        let scaled = model.matrices(&[factor; 39])?;
         prop_assert!(relative_distance(&scaled.stiffness, &(factor * start.stiffness)) <= MATRIX_ROUND_OFF);
     }
 }

@@ -39,8 +39,8 @@ properties! {
         } else {
             beam.suspended(&rates(&beam, raw.omega_squared().min(), &fractions))
         };
-        let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs).unwrap();
-        let balanced = balance(&raw, &stiffness, &beam.mass, &rigid_body).unwrap();
+        let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs)?;
+        let balanced = balance(&raw, &stiffness, &beam.mass, &rigid_body)?;
         let (ones, x) = (DVector::repeat(beam.dofs.len(), 1.0), beam.x());
         prop_assert_eq!(balanced.shapes.shape(), (beam.dofs.len(), 3));
         prop_assert_eq!(balanced.coefficients.shape(), (2, 3));
@@ -65,8 +65,8 @@ properties! {
     /// Side force, rolling and yawing moment, written out from positions and forces, on a truss in space.
     #[test]
     fn antisymmetric_forces_and_moments_balance((truss, raw) in with_raw_shapes(free_truss(), 3)) {
-        let rigid_body = rigid_body_vectors(&ANTISYMMETRIC, &truss.dofs).unwrap();
-        let balanced = balance(&raw, &truss.stiffness, &truss.mass, &rigid_body).unwrap();
+        let rigid_body = rigid_body_vectors(&ANTISYMMETRIC, &truss.dofs)?;
+        let balanced = balance(&raw, &truss.stiffness, &truss.mass, &rigid_body)?;
         prop_assert_eq!(balanced.shapes.shape(), (15, 3));
         prop_assert_eq!(balanced.coefficients.shape(), (3, 3));
         for mode in 0..3 {
@@ -95,8 +95,8 @@ properties! {
         fractions in prop::collection::vec(0.0..0.99_f64, 8),
     ) {
         let stiffness = beam.suspended(&rates(&beam, raw.omega_squared().min(), &fractions));
-        let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs).unwrap();
-        let balanced = balance(&raw, &stiffness, &beam.mass, &rigid_body).unwrap();
+        let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs)?;
+        let balanced = balance(&raw, &stiffness, &beam.mass, &rigid_body)?;
         for mode in 0..2 {
             let impedance = raw.omega_squared()[mode] * &beam.mass - &stiffness;
             let left = rigid_body.tr_mul(&(&impedance * &rigid_body));
@@ -118,8 +118,8 @@ properties! {
     #[test]
     fn free_balancing_is_a_projection((beam, raw) in with_raw_shapes(free_beam(), 3)) {
         let free = DMatrix::zeros(beam.dofs.len(), beam.dofs.len());
-        let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs).unwrap();
-        let balanced = balance(&raw, &free, &beam.mass, &rigid_body).unwrap();
+        let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs)?;
+        let balanced = balance(&raw, &free, &beam.mass, &rigid_body)?;
         for mode in 0..3 {
             let before = mass_norm(&raw.shapes().column(mode).into_owned(), &beam.mass);
             let after = mass_norm(&balanced.shapes.column(mode).into_owned(), &beam.mass);
@@ -132,7 +132,7 @@ properties! {
             &free,
             &beam.mass,
             &rigid_body,
-        ).unwrap();
+        )?;
         prop_assert!(again.change.iter().all(|&change| change <= BALANCE_EQUATIONS * raw.shapes().amax() / balanced.shapes.amax()));
     }
 
@@ -148,8 +148,8 @@ properties! {
             structure.stiffness = beam.suspended(&rates(&beam, beam.elastic_modes(2).omega_squared()[0], &fractions));
         }
         let exact = structure.elastic_modes(2);
-        let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs).unwrap();
-        let balanced = balance(&exact, &structure.stiffness, &beam.mass, &rigid_body).unwrap();
+        let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs)?;
+        let balanced = balance(&exact, &structure.stiffness, &beam.mass, &rigid_body)?;
         let spread = exact.omega_squared().max() / exact.omega_squared().min();
         prop_assert!(relative_difference(exact.shapes(), &balanced.shapes) <= EXACT_MODE_RESIDUAL * spread);
         prop_assert!(balanced.change.iter().all(|&change| change <= EXACT_MODE_RESIDUAL * spread));
@@ -161,12 +161,12 @@ properties! {
         (beam, raw) in with_raw_shapes(free_beam(), 2),
         shift in noise(2, 2),
     ) {
-        let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs).unwrap();
+        let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs)?;
         let free = DMatrix::zeros(beam.dofs.len(), beam.dofs.len());
         let mut shifted = raw.clone();
         alter(&mut shifted, |_, shapes| *shapes += &rigid_body * shift);
-        let one = balance(&raw, &free, &beam.mass, &rigid_body).unwrap();
-        let other = balance(&shifted, &free, &beam.mass, &rigid_body).unwrap();
+        let one = balance(&raw, &free, &beam.mass, &rigid_body)?;
+        let other = balance(&shifted, &free, &beam.mass, &rigid_body)?;
         prop_assert!((one.shapes - other.shapes).amax() <= BALANCE_EQUATIONS * shifted.shapes().amax().max(raw.shapes().amax()));
     }
 
@@ -181,8 +181,8 @@ properties! {
         for dof in &mut moved.dofs {
             dof.position.x -= axis;
         }
-        let here = balance(&raw, &free, &beam.mass, &rigid_body_vectors(&SYMMETRIC, &beam.dofs).unwrap()).unwrap();
-        let there = balance(&raw, &free, &beam.mass, &rigid_body_vectors(&SYMMETRIC, &moved.dofs).unwrap()).unwrap();
+        let here = balance(&raw, &free, &beam.mass, &rigid_body_vectors(&SYMMETRIC, &beam.dofs)?)?;
+        let there = balance(&raw, &free, &beam.mass, &rigid_body_vectors(&SYMMETRIC, &moved.dofs)?)?;
         prop_assert!((&here.shapes - &there.shapes).amax() <= BALANCE_EQUATIONS * raw.shapes().amax());
         for mode in 0..2 {
             let (r1, r2) = (here.coefficients[(0, mode)], here.coefficients[(1, mode)]);
@@ -196,7 +196,7 @@ properties! {
     /// the test modes the ratio is at least one and the error certain.
     #[test]
     fn a_held_structure_is_refused((stiffness, mass) in held_chain(6)) {
-        let exact = solve(&stiffness, &mass, 6).unwrap();
+        let exact = solve(&stiffness, &mass, 6)?;
         let ones = DMatrix::repeat(6, 1, 1.0);
         let quotient = stiffness.sum() / (mass.trace() * exact.omega_squared()[0]);
         match balance(&exact, &stiffness, &mass, &ones) {

@@ -25,7 +25,7 @@ fn section(size: f64) -> Section {
     g_change[(2, 2)] += Complex::from(0.01 * size);
     let modes = solve(&real_stiffness, &g).expect("the section has three modes");
     let stiffness = complex(&real_stiffness);
-    let changed = Pencil::new(&stiffness, &modes, &stiffness_change, &g_change).expect("it fits");
+    let changed = Pencil::new(&stiffness, &modes, &stiffness_change, &g_change).unwrap();
     let exact = roots_by_qz(&(&stiffness + &stiffness_change), &(&g + &g_change));
     Section {
         stiffness,
@@ -90,7 +90,7 @@ fn orders_of_recursive_1_hold_for_complex_roots() {
             .into_iter()
             .map(|size| {
                 let Section { changed, exact, .. } = section(size);
-                let found = changed.recursive_1(order).expect("separate roots");
+                let found = changed.recursive_1(order).unwrap();
                 (size, largest_root_error(found.roots.as_slice(), &exact))
             })
             .collect_vec();

@@ -9,7 +9,7 @@ fn worst(errors: [f64; 2]) -> f64 {
 }
 
 fn errors(problem: TwoMasses, formula: Formula) -> [f64; 2] {
-    problem.root_errors(formula).expect("roots apart")
+    problem.root_errors(formula).unwrap()
 }
 
 /// Couplings of a quarter to four ground springs, changes of −50 to +100 %: the range of the table and a little more.

@@ -18,5 +18,5 @@ pub fn uniform_held_modes(mass_count: usize, stiffness: f64, mass: f64) -> Modes
     });
     apply_sign_rule(&mut shapes);
     let omega_squared = chain_eigenvalues(ChainEnds::FixedFixed, mass_count, stiffness, mass);
-    Modes::new(DVector::from_vec(omega_squared), shapes).expect("modes")
+    Modes::new(DVector::from_vec(omega_squared), shapes).unwrap()
 }

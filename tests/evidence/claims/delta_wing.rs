@@ -23,16 +23,13 @@ fn wing() -> DeltaWing {
 }
 
 fn structure() -> Structure {
-    wing().structure().expect("a structure")
+    wing().structure().unwrap()
 }
 
 fn element(label: usize) -> Element {
     let structure = structure();
     let mut elements = structure.elements().iter();
-    elements
-        .find(|e| e.label == label)
-        .expect("it exists")
-        .clone()
+    elements.find(|e| e.label == label).unwrap().clone()
 }
 
 #[test]
@@ -87,7 +84,7 @@ fn grids_lie_behind_the_leading_edge_at_half_the_depth() {
     let structure = structure();
     let grid = |label: usize| {
         let mut grids = structure.grids().iter();
-        grids.find(|grid| grid.label == label).expect("it exists")
+        grids.find(|grid| grid.label == label).unwrap()
     };
     for (label, [x, y, z]) in [
         (1, [0.0, 0.0, 0.0]),
@@ -174,8 +171,8 @@ fn data_say_what_the_wing_is_made_of() {
         .replace("web_gage = 0.14", "web_gage = 0.1")
         .replace("youngs_modulus = 1.04e7", "youngs_modulus = 2.0e7")
         .replace("poissons_ratio = 0.3", "poissons_ratio = 0.25");
-    let other = toml::from_str::<DeltaWing>(&other).expect("it reads");
-    for element in other.structure().expect("a structure").elements() {
+    let other = toml::from_str::<DeltaWing>(&other).unwrap();
+    for element in other.structure().unwrap().elements() {
         match element.kind {
             ElementKind::Membrane | ElementKind::Triangle => assert_eq!(element.size, 0.2),
             ElementKind::ShearPanel => assert_eq!(element.size, 0.1),

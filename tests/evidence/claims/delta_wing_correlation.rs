@@ -4,7 +4,7 @@ use crate::prelude::*;
 
 /// The whole scenario, run once for all tests.
 static RUN: LazyLock<WingCorrelation> =
-    LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).expect("it runs"));
+    LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).unwrap());
 
 fn wing() -> DeltaWing {
     DeltaWing::embedded()
@@ -69,7 +69,7 @@ fn the_true_factor_of_a_group_undoes_its_error() {
 #[test]
 fn history_is_three_passes_to_the_tolerances() {
     let mut told = Vec::new();
-    let run = correlate_wing(&wing(), |pass, _| told.push(pass)).expect("it runs");
+    let run = correlate_wing(&wing(), |pass, _| told.push(pass)).unwrap();
     assert_eq!(told, [1, 2, 3]);
     let passes = &run.correlation.passes;
     let counts = passes
@@ -99,10 +99,10 @@ fn history_is_three_passes_to_the_tolerances() {
 
 #[test]
 fn largest_share_is_that_of_the_stiffness_of_a_test_mode() {
-    let model = first_model(&wing()).expect("a model");
-    let dynamic = model.matrices(&[1.0; 21]).expect("an analysis");
+    let model = first_model(&wing()).unwrap();
+    let dynamic = model.matrices(&[1.0; 21]).unwrap();
     let run = &*RUN;
-    let test = run.test.scaled_with(&dynamic.mass).expect("they fit");
+    let test = run.test.scaled_with(&dynamic.mass).unwrap();
     let mut all = vec![0.0; 10];
     for (share, found) in dynamic.shares.iter().zip(&run.shares) {
         let of_mode = |mode: usize| {
@@ -127,7 +127,7 @@ fn history_does_not_hang_on_round_off() {
         youngs_modulus: wing().youngs_modulus * (1.0 + 1e-12),
         ..wing()
     };
-    let other = correlate_wing(&other, |_, _| {}).expect("it runs");
+    let other = correlate_wing(&other, |_, _| {}).unwrap();
     for (&a, b) in run
         .correlation
         .best_factors
@@ -143,15 +143,15 @@ fn history_does_not_hang_on_round_off() {
 #[test]
 fn plain_recursion_takes_more_passes_to_gages_nearly_as_good() {
     let (wing, solved) = (wing(), &*RUN);
-    let model = first_model(&wing).expect("the model");
-    let ranges = model.factor_ranges().expect("ranges");
+    let model = first_model(&wing).unwrap();
+    let ranges = model.factor_ranges().unwrap();
     let plain = correlate(
         |factors| model.analyze(factors, &solved.test, None),
         &ranges,
         &settings(),
         |_, _| true,
     )
-    .expect("it runs");
+    .unwrap();
     assert!(plain.converged);
     assert!(plain.passes.len() > solved.correlation.passes.len());
     assert_eq!(plain.passes[0].inner.stop, Stop::LocalMinimum);

@@ -41,7 +41,7 @@ fn groups_are_all_covers_and_webs_once() {
 
 #[test]
 fn groups_lie_where_their_names_say() {
-    let structure = wing().structure().expect("a structure");
+    let structure = wing().structure().unwrap();
     for group in GROUPS {
         let mut words = group.name.split(' ');
         let (kind, axis, place) = (words.next(), words.next(), words.next());
@@ -85,8 +85,8 @@ fn groups_lie_where_their_names_say() {
 
 #[test]
 fn first_model_has_wrong_gages_and_true_masses() {
-    let model = first_model(&wing()).expect("a model");
-    let right = wing().structure().expect("a structure");
+    let model = first_model(&wing()).unwrap();
+    let right = wing().structure().unwrap();
     let pairs = model.structure().elements().iter().zip(right.elements());
     for (first, right) in pairs {
         let group = GROUPS.iter().find(|g| g.elements.contains(&right.label));
@@ -104,8 +104,8 @@ fn first_model_has_wrong_gages_and_true_masses() {
         .map(|p| p.name.as_str())
         .collect_vec();
     assert_eq!(names, GROUPS.map(|g| g.name));
-    let condensed = model.matrices(&[1.0; 21]).expect("an analysis").mass;
-    let b = model.condense(&[1.0; 21]).expect("held").transformation;
+    let condensed = model.matrices(&[1.0; 21]).unwrap().mass;
+    let b = model.condense(&[1.0; 21]).unwrap().transformation;
     let expected = b.tr_mul(&(DMatrix::from_diagonal(&lumped_mass(&right)) * &b));
     assert_relative_eq!(
         condensed,
@@ -116,7 +116,7 @@ fn first_model_has_wrong_gages_and_true_masses() {
 
 #[test]
 fn load_distribution_selects_z_of_19_upper_grids() {
-    let model = first_model(&wing()).expect("a model");
+    let model = first_model(&wing()).unwrap();
     let grids = measured_grids(model.structure());
     assert_eq!(
         grids,
@@ -128,10 +128,7 @@ fn load_distribution_selects_z_of_19_upper_grids() {
     assert_eq!(t.shape(), (86, 19));
     assert_eq!(t.iter().filter(|entry| **entry != 0.0).count(), 19);
     for (column, &grid) in grids.iter().enumerate() {
-        let row = model
-            .structure()
-            .free_dof_index(grid, 2)
-            .expect("it is free");
+        let row = model.structure().free_dof_index(grid, 2).unwrap();
         assert_eq!(t[(row, column)], 1.0);
     }
 }
@@ -140,10 +137,10 @@ fn load_distribution_selects_z_of_19_upper_grids() {
 fn condensed_frequencies_bound_those_of_the_whole_wing_from_above() {
     let dynamic = first_model(&wing())
         .and_then(|model| model.matrices(&true_factors()))
-        .expect("an analysis");
+        .unwrap();
     assert_eq!(dynamic.mass.shape(), (19, 19));
-    let condensed = solve(&dynamic.stiffness, &dynamic.mass, 12).expect("modes");
-    let whole = wing().modes().expect("modes").modes.frequencies_hz();
+    let condensed = solve(&dynamic.stiffness, &dynamic.mass, 12).unwrap();
+    let whole = wing().modes().unwrap().modes.frequencies_hz();
     for (mode, frequency) in condensed.frequencies_hz().iter().enumerate() {
         let above = frequency / whole[mode] - 1.0;
         assert!(
@@ -156,13 +153,13 @@ fn condensed_frequencies_bound_those_of_the_whole_wing_from_above() {
 
 #[test]
 fn test_modes_are_ten_of_the_whole_wing_sampled() {
-    let model = first_model(&wing()).expect("a model");
-    let mass = model.matrices(&[1.0; 21]).expect("an analysis").mass;
+    let model = first_model(&wing()).unwrap();
+    let mass = model.matrices(&[1.0; 21]).unwrap().mass;
     let test = test_modes(&wing())
         .and_then(|test| test.scaled_with(&mass))
-        .expect("test modes");
+        .unwrap();
     assert_eq!((test.len(), test.shapes().shape()), (10, (19, 10)));
-    let whole = wing().modes().expect("modes");
+    let whole = wing().modes().unwrap();
     let grids = measured_grids(model.structure());
     for (column, mode) in TEST_MODES.into_iter().enumerate() {
         assert_relative_eq!(
@@ -181,7 +178,7 @@ fn test_modes_are_ten_of_the_whole_wing_sampled() {
             .map(|&grid| {
                 let mut dof = whole.dof.iter();
                 let row = dof.position(|dof| dof.grid == grid && dof.direction == 2);
-                whole.modes.shapes()[(row.expect("it moves"), mode - 1)]
+                whole.modes.shapes()[(row.unwrap(), mode - 1)]
             })
             .collect_vec();
         let ratio = shape[4] / sampled[4];
@@ -193,7 +190,7 @@ fn test_modes_are_ten_of_the_whole_wing_sampled() {
 
 #[test]
 fn modes_left_out_are_close_and_exchanged_by_the_wrong_gages() {
-    let whole = wing().modes().expect("modes").modes.frequencies_hz();
+    let whole = wing().modes().unwrap().modes.frequencies_hz();
     let separation = |mode: usize| whole[mode] / whole[mode - 1] - 1.0;
     let left_out = (1..=12)
         .filter(|mode| !TEST_MODES.contains(mode))
@@ -205,17 +202,14 @@ fn modes_left_out_are_close_and_exchanged_by_the_wrong_gages() {
     // The wrong gages exchange them: what answers mode 8 is above what answers mode 9.
     let first = first_model(&wing())
         .and_then(|model| model.matrices(&[1.0; 21]))
-        .expect("an analysis");
-    let modes = solve(&first.stiffness, &first.mass, 19).expect("modes");
+        .unwrap();
+    let modes = solve(&first.stiffness, &first.mass, 19).unwrap();
     let right = first_model(&wing())
         .and_then(|model| model.matrices(&true_factors()))
-        .expect("an analysis");
-    let truth = solve(&right.stiffness, &right.mass, 12).expect("modes");
-    let cross = cross_orthogonality(&modes, &truth, &first.mass).expect("they fit");
-    let answers = pair_modes(&cross)
-        .expect("enough modes")
-        .analysis_mode
-        .to_vec();
+        .unwrap();
+    let truth = solve(&right.stiffness, &right.mass, 12).unwrap();
+    let cross = cross_orthogonality(&modes, &truth, &first.mass).unwrap();
+    let answers = pair_modes(&cross).unwrap().analysis_mode.to_vec();
     let mut expected = (0..12).collect_vec();
     expected.swap(7, 8);
     assert_eq!(answers, expected);

@@ -27,7 +27,7 @@ fn bars(table: &mut String, right: usize, wrong: usize, missing: usize) -> Vec<S
                 table,
                 "{name},{mistake:?},{tests},{named},{not_checked},{other},{silent}"
             )
-            .expect("a line");
+            .unwrap();
             let is_met = match mistake {
                 Mistake::None => named + other <= (2 * tests).div_ceil(300),
                 Mistake::Exchanged => named + not_checked + missing + 1 >= tests,
@@ -54,9 +54,7 @@ fn intervals_hold_the_truth_on_structures_built_later() {
                 noises.map(|noise| scope.spawn(move || interval_rates(structure, noise)))
             })
             .collect_vec();
-        runs.into_iter()
-            .map(|run| run.join().expect("lines"))
-            .collect()
+        runs.into_iter().map(|run| run.join().unwrap()).collect()
     });
     let table = "table,row,column,unit,computed,published\n".to_owned() + &lines.concat();
     println!("{table}");

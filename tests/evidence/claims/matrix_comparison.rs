@@ -9,15 +9,15 @@ use crate::prelude::*;
 pub const TEST_MODES: usize = USUAL_TEST_MODES;
 
 pub fn compared(case: usize) -> MatrixComparison {
-    compare_matrices(&case_of(case), TEST_MODES).expect("it runs")
+    compare_matrices(&case_of(case), TEST_MODES).unwrap()
 }
 
 pub fn model(case: usize, gages: &[f64]) -> DynamicModel {
     let case = case_of(case);
     case.model_with(gages)
-        .expect("a model")
+        .unwrap()
         .matrices(&[1.0; 15])
-        .expect("analyzed")
+        .unwrap()
 }
 
 pub fn by_name<'a>(comparison: &'a MatrixComparison, name: &str) -> &'a Prediction {
@@ -25,7 +25,7 @@ pub fn by_name<'a>(comparison: &'a MatrixComparison, name: &str) -> &'a Predicti
         .predictions
         .iter()
         .find(|p| p.model == name)
-        .expect("it is compared")
+        .unwrap()
 }
 
 fn largest(errors: &[f64]) -> f64 {

@@ -31,9 +31,9 @@ fn problem() -> impl Strategy<Value = Problem> {
     )
         .prop_map(
             |((stiffness, _), (mass, _), (true_stiffness, _), count, other)| {
-                let all = solve(&true_stiffness, &mass, SIZE).expect("positive definite");
+                let all = solve(&true_stiffness, &mass, SIZE).unwrap();
                 Problem {
-                    test: all.lowest(count).expect("fewer than there are"),
+                    test: all.lowest(count).unwrap(),
                     stiffness,
                     mass,
                     all,
@@ -63,7 +63,7 @@ fn difference(found: &DMatrix<f64>, expected: &DMatrix<f64>) -> f64 {
 fn admissible(problem: &Problem, mass: &DMatrix<f64>, shapes: &DMatrix<f64>) -> DMatrix<f64> {
     let size = mass.nrows();
     let generalized = shapes.tr_mul(&(mass * shapes));
-    let inverse = generalized.try_inverse().expect("independent shapes");
+    let inverse = generalized.try_inverse().unwrap();
     let complement = eye(size) - mass * shapes * inverse * shapes.transpose();
     let change = &complement * &problem.other * complement.transpose();
     0.5 * (&change + change.transpose())
@@ -145,7 +145,7 @@ properties! {
             weighted_norm(&beside, &problem.mass).powi(2),
         ];
         prop_assert!((squares[0] - squares[1] - squares[2]).abs() <= CORRECTION_ROUND_OFF * squares[0]);
-        let measured = Modes::new(problem.test.omega_squared().clone(), shapes).expect("modes");
+        let measured = Modes::new(problem.test.omega_squared().clone(), shapes)?;
         let stiffness = baruch_stiffness(&problem.stiffness, &mass, &measured);
         let inertia = &mass * measured.shapes() * DMatrix::from_diagonal(measured.omega_squared());
         let scale = problem.stiffness.amax().max(problem.true_stiffness.amax()) * measured.shapes().amax();
@@ -154,7 +154,7 @@ properties! {
 }
 
 fn one_mode(shape: DVector<f64>, omega_squared: f64) -> Modes {
-    Modes::new(dvector![omega_squared], DMatrix::from_columns(&[shape])).expect("modes")
+    Modes::new(dvector![omega_squared], DMatrix::from_columns(&[shape])).unwrap()
 }
 
 #[test]

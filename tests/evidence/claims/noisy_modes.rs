@@ -8,12 +8,12 @@ fn case() -> Case {
 }
 
 fn exact() -> Modes {
-    case().test_modes().expect("test modes")
+    case().test_modes().unwrap()
 }
 
 pub fn study() -> &'static NoisyModes {
     static STUDY: OnceLock<NoisyModes> = OnceLock::new();
-    STUDY.get_or_init(|| noisy_modes(&case(), Noise::USUAL, SEEDS).expect("it runs"))
+    STUDY.get_or_init(|| noisy_modes(&case(), Noise::USUAL, SEEDS).unwrap())
 }
 
 fn unit(shape: DVector<f64>) -> DVector<f64> {
@@ -121,11 +121,11 @@ properties! {
     #[test]
     fn noise_comes_again_from_its_seed_and_grows_with_its_size(seed in any::<u64>(), times in 0.0..3.0_f64) {
         let exact = exact();
-        let once = with_noise(&exact, Noise::USUAL, seed).unwrap();
-        prop_assert_eq!(&once, &with_noise(&exact, Noise::USUAL, seed).unwrap());
-        prop_assert_ne!(&once, &with_noise(&exact, Noise::USUAL, seed.wrapping_add(1)).unwrap());
+        let once = with_noise(&exact, Noise::USUAL, seed)?;
+        prop_assert_eq!(&once, &with_noise(&exact, Noise::USUAL, seed)?);
+        prop_assert_ne!(&once, &with_noise(&exact, Noise::USUAL, seed.wrapping_add(1))?);
         let noise = Noise { shape: times * Noise::USUAL.shape, frequency: times * Noise::USUAL.frequency };
-        let more = with_noise(&exact, noise, seed).unwrap();
+        let more = with_noise(&exact, noise, seed)?;
         for changes in [shape_changes, frequency_changes] {
             for (once, more) in changes(&exact, &once).iter().zip(changes(&exact, &more)) {
                 prop_assert!((times * once - more).abs() < ROUND_OFF);
@@ -136,11 +136,11 @@ properties! {
     #[test]
     fn noisy_modes_come_out_orthonormal_and_screened_within_the_limits(seed in any::<u64>()) {
         let (mass, limits) = (case().reconstruction.mass(), MovementLimits::default());
-        let raw = with_noise(&exact(), Noise::USUAL, seed).unwrap();
-        let all = orthogonalize(&raw, &mass).unwrap();
-        let screened = examine(&raw, &mass, Supports::Held, &limits).unwrap();
+        let raw = with_noise(&exact(), Noise::USUAL, seed)?;
+        let all = orthogonalize(&raw, &mass)?;
+        let screened = examine(&raw, &mass, Supports::Held, &limits)?;
         for modes in [&all.modes, &screened.modes] {
-            let off = generalized_mass(modes.shapes(), &mass).unwrap() - eye(modes.len());
+            let off = generalized_mass(modes.shapes(), &mass)? - eye(modes.len());
             prop_assert!(off.amax() < MATRIX_ROUND_OFF, "{}", off.amax());
         }
         let flexibility = |modes: &Modes| modes.omega_squared().map(f64::recip).sum();
@@ -203,7 +203,7 @@ fn the_box_is_held_so_that_its_modes_are_not_balanced() {
         .complex_eigenvalues()
         .map(|root| root.re);
     let expected = roots.max() / exact().omega_squared()[0];
-    let ratio = study().support_ratio.expect("held");
+    let ratio = study().support_ratio.unwrap();
     assert!(
         relative_error(ratio, expected) < BALANCE_EQUATIONS,
         "{ratio} {expected}"
@@ -240,7 +240,7 @@ fn without_noise_it_is_the_case_itself_by_the_librarys_own_rule() {
         let sum = |pass: &usize| passes[*pass].check.errors.sum();
         sum(a).total_cmp(&sum(b))
     });
-    let best = best.expect("a pass");
+    let best = best.unwrap();
     for found in [&first.raw, &first.orthogonal, &first.screened] {
         assert_eq!(found.converged, result.correlation.converged);
         assert_eq!(

@@ -9,7 +9,7 @@ const RODS: usize = 10;
 fn bar(areas: &[f64]) -> Structure {
     let material = Material {
         density: 2.5e-4,
-        ..Material::isotropic(1.0e7, 0.3).expect("a metal")
+        ..Material::isotropic(1.0e7, 0.3).unwrap()
     };
     let grids = (0..=RODS).map(|joint| Grid {
         label: joint + 1,
@@ -24,17 +24,14 @@ fn bar(areas: &[f64]) -> Structure {
         size,
         material,
     });
-    Structure::new(grids.collect(), rods.collect()).expect("a bar")
+    Structure::new(grids.collect(), rods.collect()).unwrap()
 }
 
 /// The same as a whole model, and what reads the joints (1 to 10, from the wall) that are measured.
 fn whole(bar: &Structure, measured: &[usize]) -> (WholeModel, SparseMatrix) {
     let rods = (1..=RODS).map(|rod| vec![rod]).collect_vec();
     let joints = measured.iter().map(|joint| joint - 1).collect_vec();
-    (
-        of_structure(bar, &rods).expect("a whole model"),
-        sensors_at(&joints, RODS),
-    )
+    (of_structure(bar, &rods).unwrap(), sensors_at(&joints, RODS))
 }
 
 const FIVE: [usize; 5] = [2, 4, 6, 8, 10];
@@ -47,7 +44,7 @@ properties! {
         let mass = DMatrix::from_diagonal(&lumped_mass(&bar));
         let (omega_squared, shapes) = modes_by_nalgebra(&dense(&bar), &mass);
         let (whole, joints) = whole(&bar, &FIVE);
-        let found = seen_modes(&whole, &ONES, &joints, 5).expect("modes");
+        let found = seen_modes(&whole, &ONES, &joints, 5)?;
         for mode in 0..5 {
             prop_assert!(relative_error(found.omega_squared()[mode], omega_squared[mode]) < 1e2 * EIGEN_ROUND_OFF);
             let expected = DVector::from_fn(5, |row, _| shapes[(FIVE[row] - 1, mode)]);
@@ -61,9 +58,9 @@ properties! {
     fn condensed_frequencies_are_those_of_a_ritz_approximation(areas in prop::collection::vec(0.5..2.0_f64, RODS)) {
         // Mode by mode none lies below the whole structure's.
         let (whole, joints) = whole(&bar(&areas), &FIVE);
-        let (condensed, mass) = condensed(&whole, &ONES, &joints).expect("held");
-        let condensed = solve(&condensed.stiffness, &mass, 5).expect("modes").frequencies_hz();
-        let whole = seen_modes(&whole, &ONES, &joints, 5).expect("modes").frequencies_hz();
+        let (condensed, mass) = condensed(&whole, &ONES, &joints)?;
+        let condensed = solve(&condensed.stiffness, &mass, 5)?.frequencies_hz();
+        let whole = seen_modes(&whole, &ONES, &joints, 5)?.frequencies_hz();
         for (condensed, whole) in condensed.iter().zip(whole) {
             prop_assert!(*condensed >= whole * (1.0 - EIGEN_ROUND_OFF));
         }
@@ -73,7 +70,7 @@ properties! {
     fn where_every_joint_is_measured_condensation_costs_nothing(areas in prop::collection::vec(0.5..2.0_f64, RODS)) {
         let all = (1..=RODS).collect_vec();
         let (whole, joints) = whole(&bar(&areas), &all);
-        for error in condensation_errors(&whole, &ONES, &joints, RODS).expect("errors") {
+        for error in condensation_errors(&whole, &ONES, &joints, RODS)? {
             prop_assert!(error.frequency.abs() < MATRIX_ROUND_OFF && error.shape.abs() < MATRIX_ROUND_OFF);
         }
     }
@@ -84,10 +81,10 @@ properties! {
 fn the_mass_of_elements_alone_is_condensed_as_the_method_does() {
     let bar = bar(&ONES);
     let t = eye(RODS).select_columns(&FIVE.map(|joint| joint - 1));
-    let b = condense(&dense(&bar), &t).expect("held").transformation;
+    let b = condense(&dense(&bar), &t).unwrap().transformation;
     let plain = b.tr_mul(&(DMatrix::from_diagonal(&lumped_mass(&bar)) * &b));
     let (model, joints) = whole(&bar, &FIVE);
-    let (_, found) = condensed(&model, &ONES, &joints).expect("held");
+    let (_, found) = condensed(&model, &ONES, &joints).unwrap();
     assert!(plain.amax() > 0.0);
     assert!((found - &plain).amax() <= MATRIX_ROUND_OFF * plain.amax());
 }
@@ -95,7 +92,7 @@ fn the_mass_of_elements_alone_is_condensed_as_the_method_does() {
 #[test]
 fn five_of_ten_joints_are_too_few_for_the_higher_modes() {
     let (model, joints) = whole(&bar(&ONES), &FIVE);
-    let errors = condensation_errors(&model, &ONES, &joints, 5).expect("errors");
+    let errors = condensation_errors(&model, &ONES, &joints, 5).unwrap();
     // Static condensation raises the fourth and the fifth frequency by several percent, the first by next to nothing.
     assert!(errors[0].frequency < 0.005 && errors[0].frequency > 0.0);
     assert!(errors[4].frequency > 0.03, "{errors:?}");
@@ -114,7 +111,7 @@ fn of_matrices(stiffness: SparseMatrix, values: &[f64]) -> WholeModel {
         share,
         range: None,
     };
-    WholeModel::new(stiffness, masses(values), vec![all]).expect("a model")
+    WholeModel::new(stiffness, masses(values), vec![all]).unwrap()
 }
 
 #[test]
@@ -128,7 +125,7 @@ fn modes_that_move_no_sensor_are_passed_over_in_any_units() {
         let sensors = sensors_at(&[1], 3);
         let roots = chain_eigenvalues(ChainEnds::FixedFixed, 3, spring, mass);
         for count in [1, 2] {
-            let found = seen_modes(&model, &[1.0], &sensors, count).expect("modes");
+            let found = seen_modes(&model, &[1.0], &sensors, count).unwrap();
             for (found, expected) in found.omega_squared().iter().zip([roots[0], roots[2]]) {
                 assert!(
                     relative_error(found, expected) < MATRIX_ROUND_OFF,
@@ -155,7 +152,7 @@ fn modes_that_move_no_sensor_are_passed_over_in_any_units() {
             springs(2, &[(0, None, spring), (1, None, 4.0 * spring)]),
             &[mass; 2],
         );
-        let found = seen_modes(&alone, &[1.0], &sensors_at(&[1], 2), 1).expect("a mode");
+        let found = seen_modes(&alone, &[1.0], &sensors_at(&[1], 2), 1).unwrap();
         assert!((found.omega_squared()[0] / (4.0 * spring / mass) - 1.0).abs() < MATRIX_ROUND_OFF);
     }
 }

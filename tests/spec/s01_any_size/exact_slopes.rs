@@ -45,12 +45,12 @@ impl Row {
         let parameters = all.iter().step_by(spacing).map(of_spring);
         let parameters = parameters.chain((1..count).step_by(2 * spacing).map(of_mass));
         let model = WholeModel::new(springs(count, &all), masses(&mass), parameters.collect());
-        let model = model.expect("a model");
+        let model = model.unwrap();
         let sensors = sensors_at(&(0..count).step_by(seen).collect_vec(), count);
         let other = (0..model.parameters().len())
             .map(|e| 1.0 + 0.1 * (e % 3) as f64)
             .collect_vec();
-        let found = model.modes(&other, MODES[0]).expect("modes").vibrations;
+        let found = model.modes(&other, MODES[0]).unwrap().vibrations;
         let test = seen_by(&sensors, &found);
         Self {
             model,
@@ -67,7 +67,7 @@ impl Row {
         let pair = by_sorting();
         self.model
             .analyze(factors, &self.sensors, &self.test, pair, size)
-            .expect("an analysis")
+            .unwrap()
             .into()
     }
 }
@@ -88,13 +88,13 @@ properties! {
     #[test]
     fn slopes_are_those_of_differences_of_exact_analyses((row, _) in rows()) {
         let (count, weights) = (row.model.parameters().len(), equal_weights(DEVIATIONS, MODES[0]));
-        let exact = jacobian(&row.at(&vec![1.0; count]), &weights).expect("slopes");
+        let exact = jacobian(&row.at(&vec![1.0; count]), &weights)?;
         let step = 1e-4_f64;
         let differences = (0..count).map(|e| {
             let side = |log: f64| {
                 let mut factors = vec![1.0; count];
                 factors[e] = log.exp();
-                residuals(&row.at(&factors), &weights).expect("residuals")
+                residuals(&row.at(&factors), &weights).unwrap()
             };
             (side(step) - side(-step)) / (2.0 * step)
         }).collect_vec();

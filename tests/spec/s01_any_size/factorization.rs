@@ -6,7 +6,7 @@ use crate::prelude::*;
 /// A square net of membranes and rods in the plane, swept, with one edge held and every grid free in x and y.
 fn net(cells: usize) -> Structure {
     let label = |i: usize, j: usize| 1 + i + (cells + 1) * j;
-    let material = Material::isotropic(1.0e7, 0.3).expect("a material");
+    let material = Material::isotropic(1.0e7, 0.3).unwrap();
     let place = |i: usize, j: usize| Vector3::new(i as f64 + 0.5 * j as f64, j as f64, 0.0);
     let all = || (0..=cells).flat_map(|j| (0..=cells).map(move |i| (i, j)));
     let grid = |(i, j)| Grid {
@@ -34,7 +34,7 @@ fn net(cells: usize) -> Structure {
         all().map(grid).collect(),
         cells.enumerate().map(element).collect(),
     )
-    .expect("a structure")
+    .unwrap()
 }
 
 /// A structure with its own elements.
@@ -55,8 +55,8 @@ fn order_of(count: usize, elements: &[ElementMatrix]) -> Vec<usize> {
     };
     let ground = (0..count).map(|row| (row, row, 1.0));
     let entries = elements.iter().flat_map(coupled).chain(ground).collect();
-    let matrix = SparseMatrix::new("net", count, count, entries).expect("a matrix");
-    Factor::new("net", &matrix).expect("held").order().to_vec()
+    let matrix = SparseMatrix::new("net", count, count, entries).unwrap();
+    Factor::new("net", &matrix).unwrap().order().to_vec()
 }
 
 fn fill_of(structure: &Structure) -> Fill {
@@ -113,8 +113,8 @@ fn eliminated(order: &[usize], elements: &[ElementMatrix]) -> usize {
 
 /// Springs between so many grids in a row, whose places say nothing of what is coupled.
 fn network(count: usize, springs: &[(usize, usize)]) -> (Structure, Vec<ElementMatrix>) {
-    let row = rods(&vec![1.0; count], [true, false]).expect("a chain");
-    let one = element_matrices(&row).last().expect("a rod");
+    let row = rods(&vec![1.0; count], [true, false]).unwrap();
+    let one = element_matrices(&row).last().unwrap();
     let spring = |&(a, b): &(usize, usize)| ElementMatrix {
         dof: vec![a, b],
         ..one.clone()
@@ -164,7 +164,7 @@ fn fill_is_what_the_cuts_of_nested_dissection_promise_and_elimination_by_hand_co
             bays,
             ..Wing::default()
         };
-        of_structure(wing.structure().expect("a wing"))
+        of_structure(wing.structure().unwrap())
     };
     let mut draws = Draws(1973);
     let second =
@@ -201,7 +201,7 @@ fn fill_is_what_the_cuts_of_nested_dissection_promise_and_elimination_by_hand_co
 #[test]
 fn a_factor_that_overflows_is_refused_by_its_row() {
     let coupled = vec![(0, 0, 1.0), (1, 1, 1.0), (0, 1, 1e200), (1, 0, 1e200)];
-    let matrix = SparseMatrix::new("pair", 2, 2, coupled).expect("finite");
+    let matrix = SparseMatrix::new("pair", 2, 2, coupled).unwrap();
     let error = Error::NotPositiveDefinite {
         what: "pair",
         row: 1,
@@ -222,7 +222,7 @@ fn a_factor_that_does_not_solve_its_own_matrix_is_refused() {
         rows[row][column] + 1e-15 * f64::from(u8::from(row == 1 && column == 1))
     });
     assert!(matrix.clone().lu().is_invertible());
-    let matrix = SparseMatrix::of_dense("weak", &matrix).expect("finite");
+    let matrix = SparseMatrix::of_dense("weak", &matrix).unwrap();
     let Err(Error::Failed { what: "weak", why }) = Factor::new("weak", &matrix) else {
         panic!("it solves")
     };
@@ -259,7 +259,7 @@ fn a_load_distribution_says_what_is_wrong_with_it() {
         "{refused:?}"
     );
     let t = DMatrix::from_row_slice(3, 2, &[1.0, 0.0, 0.0, 0.0, 0.5, 2.0]);
-    let sparse = SparseMatrix::of_dense("load distribution", &t).expect("finite");
+    let sparse = SparseMatrix::of_dense("load distribution", &t).unwrap();
     assert_eq!(
         sparse.entries().collect_vec(),
         [(0, 0, 1.0), (2, 0, 0.5), (2, 1, 2.0)]
@@ -272,17 +272,17 @@ properties! {
     /// and all shares sum to K_D.
     #[test]
     fn shares_of_any_element_matrix_are_its_congruence(change in symmetric(12), strength in 0.0..0.02_f64) {
-        let model = case_of(1).model().unwrap();
+        let model = case_of(1).model()?;
         let units = model.element_matrices().iter().map(|element| {
             let count = element.dof.len();
             &element.unit + strength * element.unit.amax() * change.view((0, 0), (count, count))
         });
         let units = units.collect_vec();
-        let model = model.with_unit_stiffness(units.clone()).unwrap();
+        let model = model.with_unit_stiffness(units.clone())?;
         let ones = vec![1.0; model.parameters().len()];
         // Changes beyond what the structure bears are refused, and are not this property's matter.
         let Ok(matrices) = model.matrices(&ones) else { return Ok(()) };
-        let b = model.condense(&ones).unwrap().transformation;
+        let b = model.condense(&ones)?.transformation;
         for (row, share) in matrices.shares.iter().enumerate() {
             let label = model.parameters()[row].elements[0];
             let at = model.structure().elements().iter().position(|element| element.label == label).unwrap();

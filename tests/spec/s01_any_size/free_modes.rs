@@ -102,7 +102,7 @@ fn a_free_spring_chain_has_the_closed_form() {
             stiffness += 100.0 * &ends * ends.transpose();
         }
         let mass = DMatrix::from_diagonal_element(count, count, 0.01);
-        let found = counted_modes(&stiffness, &mass).expect("modes");
+        let found = counted_modes(&stiffness, &mass).unwrap();
         assert_eq!(found.rigid_body.ncols(), 1);
         let expected = chain_eigenvalues(ChainEnds::FreeFree, count, 100.0, 0.01);
         let expected = expected
@@ -126,10 +126,7 @@ fn a_free_spring_chain_has_the_closed_form() {
             (1, 0.45 * expected[0]),
             (count, 2.0 * expected[count - 2]),
         ] {
-            assert_eq!(
-                count_below(&stiffness, &mass, bound).expect("a count"),
-                below
-            );
+            assert_eq!(count_below(&stiffness, &mass, bound).unwrap(), below);
         }
     }
 }
@@ -146,21 +143,21 @@ properties! {
         };
         let stiffness: DMatrix<f64> = (0..6).map(|spring| spring_stiffness(6, spring, 1.0)).sum();
         let units = DMatrix::from_diagonal(&DVector::from_iterator(6, decades.iter().map(|&ten| 10_f64.powi(ten))));
-        prop_assert_eq!(count_below(&(&units * stiffness * &units), &(&units * &units), bound).expect("a count"), below);
+        prop_assert_eq!(count_below(&(&units * stiffness * &units), &(&units * &units), bound)?, below);
     }
 }
 
 #[test]
 fn a_free_delta_wing_has_its_rigid_body_modes_and_no_mode_is_lost() {
     let wing = DeltaWing::embedded();
-    let held = wing.structure().expect("a structure");
+    let held = wing.structure().unwrap();
     let free = held.grids().iter().map(|grid| Grid {
         constrained: [false; 3],
         ..grid.clone()
     });
-    let free = Structure::new(free.collect(), held.elements().to_vec()).expect("it hangs free");
+    let free = Structure::new(free.collect(), held.elements().to_vec()).unwrap();
     let (stiffness, lumped, count) = (dense(&free), lumped_mass(&free), free.free_dof().len());
-    let found = counted_modes(&stiffness, &DMatrix::from_diagonal(&lumped)).expect("modes");
+    let found = counted_modes(&stiffness, &DMatrix::from_diagonal(&lumped)).unwrap();
     let heavy = lumped.iter().filter(|mass| **mass > 0.0).count();
     assert_eq!(found.rigid_body.ncols() + found.vibrations.len(), heavy);
     // Every motion of a rigid body is among the modes without strain.
@@ -182,7 +179,7 @@ fn a_free_delta_wing_has_its_rigid_body_modes_and_no_mode_is_lost() {
 fn a_soft_suspension_is_a_vibration_and_no_rigid_body_mode() {
     // A hundred-millionth of the other's stiffness, and still no zero.
     let stiffness = DMatrix::from_diagonal(&DVector::from_vec(vec![1e-8, 1.0]));
-    let found = counted_modes(&stiffness, &eye(2)).expect("modes");
+    let found = counted_modes(&stiffness, &eye(2)).unwrap();
     assert_eq!((found.rigid_body.ncols(), found.vibrations.len()), (0, 2));
     assert!((found.vibrations.omega_squared()[0] / 1e-8 - 1.0).abs() < COUNTED_ROOT);
 }
@@ -191,10 +188,7 @@ fn a_soft_suspension_is_a_vibration_and_no_rigid_body_mode() {
 #[test]
 fn a_mode_that_is_lost_beside_a_far_lower_one_is_missed_by_the_count() {
     let stiffness = DMatrix::from_diagonal(&DVector::from_vec(vec![0.0, 1.0, 0.9e13, 1.1e13]));
-    let (stiffness, mass) = (
-        sparse(&stiffness).expect("a matrix"),
-        sparse(&eye(4)).expect("a matrix"),
-    );
+    let (stiffness, mass) = (sparse(&stiffness).unwrap(), sparse(&eye(4)).unwrap());
     // Above the last that is found, as far as that is from three times itself, half way.
     let refused = lowest_modes(&stiffness, &mass, 2);
     let why = "3 were found below 1.800000e13 rad^2/s^2, but the shifted pencil's inertia counts 4";
@@ -204,15 +198,15 @@ fn a_mode_that_is_lost_beside_a_far_lower_one_is_missed_by_the_count() {
     };
     assert_refused(refused, error);
     // One mode is told apart from the others well below them.
-    let one = lowest_modes(&stiffness, &mass, 1).expect("modes");
+    let one = lowest_modes(&stiffness, &mass, 1).unwrap();
     assert_eq!((one.rigid_body.ncols(), one.vibrations.len()), (1, 1));
 }
 
 #[test]
 fn what_is_no_mass_is_named_by_its_row() {
-    let stiffness = sparse(&eye(3)).expect("a matrix");
+    let stiffness = sparse(&eye(3)).unwrap();
     let coupled = vec![(0, 0, 1.0), (1, 2, 1.0), (2, 1, 1.0)];
-    let mass = SparseMatrix::new("mass", 3, 3, coupled).expect("a matrix");
+    let mass = SparseMatrix::new("mass", 3, 3, coupled).unwrap();
     // Both rows move alike in the motion of negative mass; the first is named.
     let error = Error::NotPositiveDefinite {
         what: "mass",

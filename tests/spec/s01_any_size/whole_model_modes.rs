@@ -13,8 +13,8 @@ fn a_long_chain_has_the_closed_form_whatever_holds_it() {
     ] {
         let (count, spring, mass) = (2000, 3.0e5, 0.02);
         let expected = chain_eigenvalues(ends, count, spring, mass);
-        let found = lowest_modes(&chain(ends, count, spring), &masses(&vec![mass; count]), 20)
-            .expect("modes");
+        let found =
+            lowest_modes(&chain(ends, count, spring), &masses(&vec![mass; count]), 20).unwrap();
         let rigid = usize::from(matches!(ends, ChainEnds::FreeFree));
         assert_eq!(found.rigid_body.ncols(), rigid);
         for (mode, omega_squared) in found.vibrations.omega_squared().iter().enumerate() {
@@ -34,13 +34,11 @@ fn shapes_are_found_as_well_as_frequencies() {
         let stiffness = chain(ChainEnds::FixedFree, count, spring);
         let mass = masses(&vec![mass; count]);
         for modes in [1, 2, 3, 5, 8, 12, 20, 30] {
-            let found = lowest_modes(&stiffness, &mass, modes)
-                .expect("modes")
-                .vibrations;
+            let found = lowest_modes(&stiffness, &mass, modes).unwrap().vibrations;
             for (mode, omega_squared) in found.omega_squared().iter().enumerate() {
                 let shape = found.shapes().columns(mode, 1).into_owned();
-                let forces = stiffness.times(&shape).expect("it fits");
-                let residual = &forces - *omega_squared * mass.times(&shape).expect("it fits");
+                let forces = stiffness.times(&shape).unwrap();
+                let residual = &forces - *omega_squared * mass.times(&shape).unwrap();
                 let part = residual.norm() / forces.norm();
                 assert!(part < TWO_PROGRAMS, "{mode} of {modes}: {part:e}");
             }
@@ -83,7 +81,7 @@ fn repeated_roots_of_a_square_net_are_all_found() {
             &masses(&vec![0.5; side * side]),
             count,
         )
-        .expect("modes");
+        .unwrap();
         for (found, expected) in found.vibrations.omega_squared().iter().zip(&expected) {
             assert!(
                 relative_error(found, expected) < COUNTED_ROOT,
@@ -91,7 +89,7 @@ fn repeated_roots_of_a_square_net_are_all_found() {
             );
         }
         let (m, shapes) = (masses(&vec![0.5; side * side]), found.vibrations.shapes());
-        let unit = shapes.tr_mul(&m.times(shapes).expect("it fits"));
+        let unit = shapes.tr_mul(&m.times(shapes).unwrap());
         assert!((unit - eye(count)).amax() < WHOLE_SHAPE);
     }
 }
@@ -130,7 +128,7 @@ fn random_sparse_pencils_have_the_modes_of_their_dense_ones() {
         let wanted = 1 + draws.below(12);
         let found = lowest_modes(&stiffness, &mass, wanted)
             .unwrap_or_else(|error| panic!("{number}: {error}"));
-        let dense = counted_modes(&stiffness.dense(), &mass.dense()).expect("modes");
+        let dense = counted_modes(&stiffness.dense(), &mass.dense()).unwrap();
         assert_eq!(found.rigid_body.ncols(), usize::from(!is_held), "{number}");
         for (mode, omega_squared) in found.vibrations.omega_squared().iter().enumerate() {
             let expected = dense.vibrations.omega_squared()[mode];
@@ -139,10 +137,10 @@ fn random_sparse_pencils_have_the_modes_of_their_dense_ones() {
                 "{number} {mode}: {omega_squared} {expected}"
             );
             let shape = found.vibrations.shapes().columns(mode, 1).into_owned();
-            let residual = stiffness.times(&shape).expect("fits")
-                - *omega_squared * mass.times(&shape).expect("fits");
+            let residual =
+                stiffness.times(&shape).unwrap() - *omega_squared * mass.times(&shape).unwrap();
             assert!(
-                residual.norm() < WHOLE_SHAPE * stiffness.times(&shape).expect("fits").norm(),
+                residual.norm() < WHOLE_SHAPE * stiffness.times(&shape).unwrap().norm(),
                 "{number} {mode}"
             );
         }
@@ -159,7 +157,7 @@ fn what_counts_as_free_by_its_digits_says_what_they_would_hide() {
         mass: DVector::from_vec(vec![2.0, 3.0]),
     };
     let name = |row: usize| format!("row {row}");
-    let found = whole_modes(&stiffness, at, 2, &Support::default(), name).expect("modes");
+    let found = whole_modes(&stiffness, at, 2, &Support::default(), name).unwrap();
     let [
         BodyFinding::ByDigits {
             count: 1,
@@ -194,17 +192,16 @@ fn a_factor_counts_negative_eigenvalues_and_solves() {
             };
             [vec![(row, row, own)], pair].concat()
         });
-        let matrix =
-            SparseMatrix::new("random", count, count, entries.collect()).expect("a matrix");
+        let matrix = SparseMatrix::new("random", count, count, entries.collect()).unwrap();
         let eigenvalues = matrix.dense().symmetric_eigenvalues();
-        let factor = Factor::new("random", &matrix).expect("a factor");
+        let factor = Factor::new("random", &matrix).unwrap();
         assert_eq!(
             factor.negative_count(),
             eigenvalues.iter().filter(|value| **value < 0.0).count()
         );
         let right = DMatrix::from_fn(count, 2, |_, _| draws.unit());
-        let solved = factor.solve(&right).expect("a solution");
-        let residual = matrix.times(&solved).expect("fits") - &right;
+        let solved = factor.solve(&right).unwrap();
+        let residual = matrix.times(&solved).unwrap() - &right;
         assert!(
             residual.amax() < COUNTED_ROOT * (1.0 + solved.amax()),
             "{count}: {}",
@@ -230,7 +227,7 @@ fn a_search_takes_as_many_solutions_as_it_took() {
     let nine = springs(9 * 40, &nine.collect_vec());
     let solutions = |stiffness: &SparseMatrix, count| {
         let mass = masses(&vec![1.0; stiffness.rows()]);
-        let found = lowest_modes(stiffness, &mass, count).expect("modes");
+        let found = lowest_modes(stiffness, &mass, count).unwrap();
         found.solutions
     };
     let took = [

@@ -34,8 +34,8 @@ fn measured_sizes_are_those_of_their_names() {
     let dof = MESHES.map(|(_, bays)| free_dof(bays));
     assert_eq!(dof, [1_458, 10_098, 100_116, 1_002_000]);
     for (name, bays) in &MESHES[..2] {
-        let wing = Wing::named(name).expect("it is known");
-        let model = wing.model().expect("a wing");
+        let wing = Wing::named(name).unwrap();
+        let model = wing.model().unwrap();
         assert_eq!(model.structure().free_dof().len(), free_dof(*bays));
         assert_eq!(model.load_distribution().ncols(), 108);
         assert_eq!(model.parameters().len(), 25);
@@ -51,7 +51,7 @@ fn sizes_of_a_sort_sum_to_what_was_given() {
         measured: [6, 3],
         ..Wing::default()
     };
-    let model = wing.model().expect("a wing");
+    let model = wing.model().unwrap();
     let [covers, spars, ribs] = wing.gages;
     let [caps, rib_caps, posts] = wing.areas;
     // Webs of two cells stand on each other; every bay along the span has its own caps and spar webs.
@@ -83,7 +83,7 @@ fn covers_and_ribs_fill_planform_and_sections() {
             angles: [35.0, twist],
             ..Wing::default()
         };
-        let structure = wing.structure().expect("a wing");
+        let structure = wing.structure().unwrap();
         let [root, tip] = wing.chords;
         let [covers, spars, ribs, ..] = counts(wing.bays);
         if twist == 0.0 {
@@ -112,7 +112,7 @@ fn tip_is_swept_and_twisted_about_half_the_chord() {
         angles: [30.0, 10.0],
         ..Wing::default()
     };
-    let structure = wing.structure().expect("a wing");
+    let structure = wing.structure().unwrap();
     let at = |place| structure.grids()[wing.grid(place) - 1].position;
     let middle = at([4, 1, 1]);
     assert_relative_eq!(middle.x, 300.0 * (PI / 6.0).tan(), max_relative = ROUND_OFF);
@@ -152,9 +152,9 @@ fn slender_wing_bends_as_a_beam() {
     };
     let first = wing
         .model()
-        .expect("a wing")
+        .unwrap()
         .modes(&[1.0; 25])
-        .expect("modes")
+        .unwrap()
         .frequencies_hz()[0];
     // Covers and caps at half the depth; a cantilever's flexibility between masses at twenty stations.
     let [depth, sheet] = [6.0, 2.0 * wing.gages[0] * 12.0];
@@ -175,12 +175,8 @@ fn lowest_modes_hardly_depend_on_the_mesh() {
             measured: [9, 3],
             ..Wing::default()
         };
-        let modes = wing
-            .model()
-            .expect("a wing")
-            .modes(&[1.0; 25])
-            .expect("modes");
-        modes.lowest(4).expect("four").frequencies_hz()
+        let modes = wing.model().unwrap().modes(&[1.0; 25]).unwrap();
+        modes.lowest(4).unwrap().frequencies_hz()
     };
     // Of the same depth: caps in mid-depth would bend less.
     let (coarse, fine) = (frequencies([9, 4, 1]), frequencies([18, 8, 1]));
@@ -197,14 +193,14 @@ fn whole_wing_has_the_modes_of_its_points() {
         measured: [9, 3],
         ..Wing::default()
     };
-    let expected = wing.model().expect("a wing").modes(&[1.0; 25]);
-    let expected = expected.expect("modes").lowest(8).expect("eight");
-    let (whole, points) = wing.whole().expect("a wing");
-    let found = whole.modes(&[1.0; 25], 8).expect("modes").vibrations;
+    let expected = wing.model().unwrap().modes(&[1.0; 25]);
+    let expected = expected.unwrap().lowest(8).unwrap();
+    let (whole, points) = wing.whole().unwrap();
+    let found = whole.modes(&[1.0; 25], 8).unwrap().vibrations;
     for (a, b) in found.frequencies_hz().iter().zip(expected.frequencies_hz()) {
         assert_relative_eq!(*a, b, max_relative = TWO_PROGRAMS);
     }
-    let seen = points.times(found.shapes()).expect("they fit");
+    let seen = points.times(found.shapes()).unwrap();
     for (a, b) in seen.column_iter().zip(expected.shapes().column_iter()) {
         let apart = (a * a.dot(&b).signum() - b).amax();
         assert!(apart <= TWO_PROGRAMS * b.amax(), "{apart:e}");
@@ -214,7 +210,7 @@ fn whole_wing_has_the_modes_of_its_points() {
 properties! {
     #[test]
     fn every_wing_is_held_and_counted(wing in wings()) {
-        let model = wing.model().expect("a wing");
+        let model = wing.model()?;
         let structure = model.structure();
         let [ribs, chord, depth] = wing.bays;
         prop_assert_eq!(structure.grids().len(), (ribs + 1) * (chord + 1) * (depth + 1));
@@ -224,15 +220,15 @@ properties! {
         let of = |kind| structure.elements().iter().filter(|element| element.kind == kind).count();
         prop_assert_eq!(of(ElementKind::Membrane), expected[0]);
         prop_assert_eq!(of(ElementKind::ShearPanel), expected[1] + expected[2]);
-        factorized(structure).expect("no free motion");
+        factorized(structure)?;
         let factors = vec![1.0; model.parameters().len()];
-        let modes = model.modes(&factors).expect("positive definite");
+        let modes = model.modes(&factors)?;
         prop_assert_eq!(modes.len(), wing.measured[0] * wing.measured[1]);
     }
 
     #[test]
     fn every_element_is_in_one_group(wing in wings()) {
-        let model = wing.model().expect("a wing");
+        let model = wing.model()?;
         prop_assert_eq!(model.parameters().len(), SORTS.len() * wing.zones);
         let members = |sort: usize| {
             let zones = &model.parameters()[sort * wing.zones..(sort + 1) * wing.zones];
@@ -248,7 +244,7 @@ properties! {
 
     #[test]
     fn measured_is_the_mean_of_both_surfaces_up_to_the_tip(wing in wings()) {
-        let model = wing.model().expect("a wing");
+        let model = wing.model()?;
         let (t, free) = (model.load_distribution(), model.structure().free_dof());
         for column in t.column_iter() {
             let rows = (0..t.nrows()).filter(|&row| column[row] != 0.0).collect_vec();
