@@ -20,11 +20,6 @@ impl Rearrangement {
         }
         rearranged
     }
-
-    /// The rows of a matrix, rearranged.
-    pub fn rows(&self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
-        self.columns(&matrix.transpose()).transpose()
-    }
 }
 
 /// Any order of `count` modes with any signs; shrinks towards no change.

@@ -74,8 +74,8 @@ pub use crate::{
         test_files::{write_csv, write_universal},
         torque_boxes::{case, factors, with_every_element, with_parameters},
         vibrations::{
-            Chain, any_change, chain, chain_and_truth, error_sum_by_definition, full_change,
-            modes_by_nalgebra, pencil,
+            Chain, any_change, chain, chain_and_truth, error_sum_by_definition, modes_by_nalgebra,
+            pencil,
         },
         whole_models::{
             chain_of_springs, counted_modes, free_motions, lowest_modes, masses, of_dense,

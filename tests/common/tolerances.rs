@@ -134,8 +134,6 @@ pub const EXACT_MODE_RESIDUAL: f64 = 1e-11;
 /// Modes orthogonal to a matrix product's round-off, after a Cholesky factor and an eigensolution of a matrix that is
 /// diagonal to that round-off.
 pub const ORTHOGONAL_INPUT: f64 = 1e-11;
-/// A slope over a decade and a half of noise below 0.3 %: the next order contributes a few percent at the upper end.
-pub const ASYMPTOTIC_SLOPE: f64 = 0.1;
 /// The balance equations with the reference axis a thousand lengths away, where their condition is 6e6.
 pub const FAR_REFERENCE_AXIS: f64 = 1e-8;
 /// A relative separation of 1e-10 is a difference of numbers of order one: six digits are left, half of them asked for.

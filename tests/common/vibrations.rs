@@ -48,32 +48,6 @@ pub fn separated_spectrum(size: usize) -> impl Strategy<Value = DVector<f64>> {
     })
 }
 
-/// A change in which every pair of modes is coupled, |S_ij| from half to all of √(k_i k_j), either sign: no
-/// coefficient of the error's expansion is small by accident of a zero entry.
-pub fn full_change(size: usize) -> impl Strategy<Value = Change> {
-    (
-        separated_spectrum(size),
-        prop::collection::vec((0.5..1.0_f64, any::<bool>()), size * (size + 1) / 2),
-    )
-        .prop_map(move |(stiffness, entries)| {
-            let mut entry = entries.into_iter();
-            let mut direction = zero_square(size);
-            for column in 0..size {
-                for row in 0..=column {
-                    let (magnitude, negative) = entry.next().unwrap_or((0.5, false));
-                    let sign = if negative { -1.0 } else { 1.0 };
-                    let value = sign * magnitude * (stiffness[row] * stiffness[column]).sqrt();
-                    direction[(row, column)] = value;
-                    direction[(column, row)] = value;
-                }
-            }
-            Change {
-                stiffness,
-                direction,
-            }
-        })
-}
-
 /// Any symmetric change of 1 to 5 modes, up to three times their stiffness: far beyond where the perturbation holds.
 pub fn any_change() -> impl Strategy<Value = Change> {
     (1..=5_usize).prop_flat_map(|size| {

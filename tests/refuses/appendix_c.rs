@@ -156,51 +156,6 @@ fn a_mode_on_a_root_of_the_others_makes_the_linear_system_singular() {
     );
 }
 
-#[test]
-fn order_zero_is_no_order() {
-    let (k, beta) = (dvector![1.0, 2.0], zero_square(2));
-    let words = "order: 0 given or asked for; there must be at least 1";
-    assert_eq!(said(recursive_1(&k, &beta, 0)), words);
-    assert_eq!(said(recursive_2(&k, &beta, 0)), words);
-}
-
-/// Coupled by twice their distance, two modes gain a digit in a dozen orders: the most orders allowed are too few, or nearly so.
-#[test]
-fn roots_that_do_not_settle_are_refused_with_their_last_change() {
-    let k = dvector![10.0, 11.0];
-    let converged =
-        |coupling: f64| recursive_1_converged(&k, &dmatrix![0.0, coupling; coupling, 0.0]);
-    let last_change = |coupling: f64| {
-        let of_order = |order| {
-            let beta = dmatrix![0.0, coupling; coupling, 0.0];
-            recursive_1(&k, &beta, order).unwrap().roots
-        };
-        largest_change(&of_order(MOST_ORDERS), &of_order(MOST_ORDERS - 1))
-    };
-    let refused = converged(2.1);
-    let Err(Error::UnsettledRoots {
-        orders,
-        last_change: found,
-    }) = refused
-    else {
-        panic!("{refused:?}")
-    };
-    assert_eq!((orders, found), (MOST_ORDERS, last_change(2.1)));
-    assert!(found > LARGEST_UNSETTLED_CHANGE, "{found:e}");
-    assert_eq!(
-        said(refused),
-        format!("the roots still change by {found:.1e} after 60 orders; they must settle to 1e-6")
-    );
-    let slow = converged(1.9).unwrap();
-    assert_eq!(
-        (slow.order, slow.last_change),
-        (MOST_ORDERS, last_change(1.9))
-    );
-    assert!(slow.last_change > 1e-8 && slow.last_change < LARGEST_UNSETTLED_CHANGE);
-    let settled = recursive_1_converged(&dvector![1.0, 2.0], &dmatrix![0.0, 0.1; 0.1, 0.0]);
-    assert!(settled.unwrap().last_change < ROOT_TOLERANCE);
-}
-
 /// Mode 0 comes down to mode 1 at the second order: with mode 2 its root is 1 + 1/2, with mode 1 it changes by 0.01/(k₁ - 1), and k₁ is
 /// chosen so that the two together are 1/k₁.
 #[test]

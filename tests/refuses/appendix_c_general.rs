@@ -168,10 +168,18 @@ fn shapes_that_do_not_fit_a_stiffness_are_refused() {
 
 #[test]
 fn order_zero_is_refused() {
-    let found = pencil(&four_modes(0.05));
-    let words = "order: 0 given or asked for; there must be at least 1";
-    assert_eq!(said(found.recursive_1(0)), words);
-    assert_eq!(said(found.recursive_2(0)), words);
+    let change = four_modes(0.05);
+    let (k, beta, found) = (&change.generalized_stiffness, &change.beta, pencil(&change));
+    for answer in [
+        found.recursive_1(0),
+        found.recursive_2(0),
+        recursive_1(k, beta, 0),
+    ] {
+        assert_eq!(
+            said(answer),
+            "order: 0 given or asked for; there must be at least 1"
+        );
+    }
 }
 
 #[test]

@@ -14,16 +14,6 @@ properties! {
     }
 
     #[test]
-    fn shapes_diagonalize_the_stiffness((stiffness, mass, condition) in pencil()) {
-        let size = stiffness.nrows();
-        let modes = solve(&stiffness, &mass, size)?;
-        prop_assert_eq!(modes.omega_squared().len(), size);
-        let diagonal = modes.shapes().tr_mul(&(&stiffness * modes.shapes()));
-        let error = (diagonal - DMatrix::from_diagonal(modes.omega_squared())).amax();
-        prop_assert!(error <= MATRIX_ROUND_OFF * condition * modes.omega_squared().amax(), "{error:e}");
-    }
-
-    #[test]
     fn frequencies_ascend((stiffness, mass, _) in pencil()) {
         let modes = solve(&stiffness, &mass, stiffness.nrows())?;
         let frequencies = modes.frequencies_hz();
@@ -77,17 +67,6 @@ properties! {
     }
 
     #[test]
-    fn frequencies_do_not_depend_on_the_unit_of_force(
-        (stiffness, mass, condition) in pencil(),
-        scale in 1e-3..1e3_f64,
-    ) {
-        let modes = solve(&stiffness, &mass, stiffness.nrows())?;
-        let scaled = solve(&(scale * &stiffness), &(scale * &mass), stiffness.nrows())?;
-        let error = (modes.omega_squared() - scaled.omega_squared()).amax();
-        prop_assert!(error <= EIGEN_ROUND_OFF * condition * modes.omega_squared().amax(), "{error:e}");
-    }
-
-    #[test]
     fn measured_shapes_may_have_any_scale_and_sign(
         (stiffness, mass, condition) in pencil(),
         scales in prop::collection::vec((1e-3..1e3_f64, any::<bool>()), 6),
@@ -129,22 +108,6 @@ properties! {
         prop_assert!(roots <= EIGEN_ROUND_OFF * stiffness / mass, "{roots:e}");
         let shapes = (modes.shapes() - expected.shapes()).amax() * mass.sqrt();
         prop_assert!(shapes <= MATRIX_ROUND_OFF, "{shapes:e}");
-    }
-
-    #[test]
-    fn stiffer_structures_have_higher_frequencies(
-        (stiffness, mass, condition) in pencil(),
-        seed in positive_definite(6, 2.0),
-    ) {
-        // Weyl: adding a semidefinite stiffness lowers no root.
-        let size = stiffness.nrows();
-        let added = seed.0.view((0, 0), (size, size)).into_owned();
-        let before = solve(&stiffness, &mass, size)?.omega_squared().clone();
-        let after = solve(&(&stiffness + added), &mass, size)?.omega_squared().clone();
-        let slack = EIGEN_ROUND_OFF * condition * after.amax();
-        for i in 0..size {
-            prop_assert!(after[i] >= before[i] - slack);
-        }
     }
 }
 

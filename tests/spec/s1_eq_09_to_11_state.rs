@@ -81,21 +81,6 @@ properties! {
             prop_assert!((from_exact - v).amax() <= MATRIX_ROUND_OFF * v.amax());
         }
     }
-
-    #[test]
-    fn a_common_factor_scales_frequencies_and_keeps_shapes(
-        (chain, truth) in chain_and_truth(),
-        factor in 0.5..1.5_f64,
-    ) {
-        let problem = chain_problem(&chain, &truth);
-        let state = problem.at(&vec![factor; truth.len()])?;
-        let before = &problem.exact().modes;
-        let expected = factor * before.omega_squared();
-        let error = (state.modes.omega_squared() - &expected).amax();
-        prop_assert!(error <= MATRIX_ROUND_OFF * expected.amax(), "{error:e}");
-        let shapes = (state.modes.shapes() - before.shapes()).amax();
-        prop_assert!(shapes <= MATRIX_ROUND_OFF * before.shapes().amax(), "{shapes:e}");
-    }
 }
 
 properties! {

@@ -124,34 +124,6 @@ properties! {
             prop_assert!((change - (ahead - behind) / 2.0).abs() <= bound, "{e} {bound:e}");
         }
     }
-
-    #[test]
-    fn the_sum_of_all_derivatives_is_that_of_a_common_factor((chain, truth) in chain_and_truth()) {
-        // A factor on everything leaves shapes alone and multiplies frequencies by its root.
-        let count = truth.len();
-        let problem =
-            chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), Some(count))?;
-        let state = problem.exact();
-        let found = problem.error_changes(state)?;
-        let sum: f64 = found.iter().sum();
-        let ratios = (0..count)
-            .map(|j| {
-                let i = state.pairing.analysis_mode[j];
-                (state.modes.omega_squared()[i] / problem.test().omega_squared()[j]).sqrt()
-            })
-            .collect_vec();
-        let slope: f64 = ratios.iter().map(|r| (r - 1.0) * r / 2.0).sum::<f64>() / state.errors.frequency;
-        let mut bound = 0.0;
-        for e in 0..count {
-            let ahead = exact_error_sum(&problem, &with_one(&state.factors, e, 1.0 + DERIVATIVE_STEP));
-            let behind = exact_error_sum(&problem, &with_one(&state.factors, e, 1.0 - DERIVATIVE_STEP));
-            // A kink within the step, where another component becomes the largest, costs a whole second difference.
-            bound += (ahead - 2.0 * state.errors.sum() + behind).abs()
-                + first_order_remainder(&problem, state, e);
-        }
-        let expected = slope * DERIVATIVE_STEP;
-        prop_assert!((sum - expected).abs() <= bound, "{sum:e} {expected:e} {bound:e}");
-    }
 }
 
 properties! {

@@ -53,18 +53,6 @@ fn the_gradient_of_boxes_is_a_central_difference() {
     }
 }
 
-#[test]
-fn the_papers_difference_is_the_gradient_but_for_its_step() {
-    for problem in CASES.map(first_problem) {
-        let state = problem.exact();
-        assert_near(
-            &slopes(&problem, state),
-            &gradient(&problem, state).unwrap(),
-            CENTRAL_DIFFERENCE,
-        );
-    }
-}
-
 /// A model with every share a part of what it was: a tenth of a share changed by 0.1 % is the share changed by 0.01 %.
 fn with_smaller_shares(dynamic: &DynamicModel, test: &Modes, part: f64) -> Model {
     let shares = dynamic.shares.iter().map(|share| part * share).collect();

@@ -295,15 +295,15 @@ fn the_recursion_stops_at_its_last_order_and_says_how_far_it_was() {
                 );
                 assert!((found.last_change - moved).abs() < ROUND_OFF);
             }
-            Err(Error::UnsettledRoots {
-                orders,
-                last_change,
-            }) => {
+            Err(refused) => {
                 assert!(!is_settled && moved > LARGEST_UNSETTLED_CHANGE, "{size}");
-                assert_eq!(orders, MOST_ORDERS);
-                assert!((last_change - moved).abs() < ROUND_OFF);
+                let words = format!(
+                    "the roots still change by {moved:.1e} after 60 orders; they must settle to 1e-6"
+                );
+                assert_eq!(refused.to_string(), words);
+                let is_last = matches!(refused, Error::UnsettledRoots { last_change, .. } if (last_change - moved).abs() < ROUND_OFF);
+                assert!(is_last, "{size}");
             }
-            Err(other) => panic!("{other}"),
         }
     }
 }
@@ -384,22 +384,6 @@ fn a_root_beyond_all_numbers_is_refused() {
             && words.ends_with("it must be a finite number"),
         "{words}"
     );
-}
-
-/// A repeated root, λ = 1, 4, 4, and a change that couples its two modes and leaves their roots together.
-#[test]
-fn a_coupled_repeated_root_is_refused_and_named() {
-    let mut change = of_stiffness(&dvector![1.0, 4.0, 4.0], &zero_square(3));
-    (change.beta[(1, 2)], change.beta[(2, 1)]) = (0.1, 0.1);
-    for rule in FORMULAE {
-        for result in [
-            (rule.plain)(&change.generalized_stiffness, &change.beta),
-            (rule.general)(&change),
-        ] {
-            let is_named = matches!(result, Err(Error::CoalescingModes { first: 2, second: 1, separation }) if separation < 1e-9);
-            assert!(is_named, "{}", rule.name);
-        }
-    }
 }
 
 /// Modes that a change does not couple turn nowhere, however close their roots: first order and Recursive 1 follow them

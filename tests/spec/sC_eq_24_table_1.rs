@@ -38,15 +38,6 @@ properties! {
         }
     }
 
-    /// The original formulae are Recursive 2 at second order, to the last digit.
-    #[test]
-    fn original_roots_are_those_of_recursive_2_at_second_order(problem in two_masses()) {
-        prop_assert_eq!(
-            errors(problem, Formula::Original),
-            errors(problem, Formula::Recursive2 { order: 2 })
-        );
-    }
-
     /// From third order on Recursive 2 is ahead of Recursive 1 at the same order.
     #[test]
     fn recursive_2_needs_fewer_orders_than_recursive_1(problem in two_masses(), order in 3..7_usize) {
