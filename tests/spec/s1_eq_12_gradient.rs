@@ -109,41 +109,6 @@ fn derivatives_at_repeated_roots_are_those_of_the_roots() {
     assert_near(&slopes(&problem, state), &expected, CENTRAL_DIFFERENCE);
 }
 
-/// Roots that differ by round-off are one root, and their derivatives are those of equal ones.
-#[test]
-fn roots_apart_by_round_off_count_as_equal() {
-    let problem_at = |apart: f64| {
-        let first = dmatrix![100.0, 0.0; 0.0, 0.0];
-        let coupled = dmatrix![50.0, 50.0; 50.0, 50.0];
-        let stiffness = dmatrix![100.0, 0.0; 0.0, 100.0 * (1.0 + apart)];
-        let model = DynamicModel {
-            shares: vec![first, coupled],
-            mass: eye(2),
-            stiffness,
-        };
-        let test = solve(&dmatrix![121.0, 5.0; 5.0, 144.0], &model.mass, 2).unwrap();
-        model.analyze(&test, None).unwrap()
-    };
-    let gradient_at = |apart: f64| {
-        let problem = problem_at(apart);
-        gradient(&problem, problem.exact()).unwrap()
-    };
-    let equal = gradient_at(0.0);
-    assert_near(
-        &gradient_at(0.5 * SMALLEST_SEPARATION),
-        &equal,
-        CENTRAL_DIFFERENCE,
-    );
-    // A little further apart the shapes have a derivative, and it is large.
-    assert!(gradient_at(2.0 * SMALLEST_SEPARATION)[1].abs() > 1e3 * equal[1].abs());
-    // The paper's difference, whose step would turn them, holds them to their own shapes.
-    for apart in [0.0, 0.5, 2.0] {
-        let problem = problem_at(apart * SMALLEST_SEPARATION);
-        let found = slopes(&problem, problem.exact());
-        assert_near(&found, &equal, CENTRAL_DIFFERENCE);
-    }
-}
-
 #[test]
 fn an_error_of_zero_has_no_slope() {
     // The frequencies agree and the shapes too: the error sum has a kink here, and no direction to go.
@@ -158,77 +123,4 @@ fn an_error_of_zero_has_no_slope() {
     // The paper's difference goes uphill on one side of it.
     let found = problem.error_changes(state).unwrap();
     assert!((found[0] - ((1.0 + DERIVATIVE_STEP).sqrt() - 1.0)).abs() <= ROUND_OFF);
-}
-
-/// Two DOF apart have the shapes of the test exactly. The error is that of the first frequency, 1 - (2/3)√c, whose derivative at c = 1
-/// is -1/3.
-#[test]
-fn where_shapes_are_equal_the_gradient_is_that_of_frequencies() {
-    let model = DynamicModel {
-        stiffness: dmatrix![4.0, 0.0; 0.0, 16.0],
-        mass: eye(2),
-        shares: vec![dmatrix![4.0, 1.0; 1.0, 0.0]],
-    };
-    let test = Modes::new(vec![9.0, 16.0].into(), eye(2)).unwrap();
-    let problem = model.analyze(&test, None).unwrap();
-    assert_eq!(problem.exact().errors.shape, 0.0);
-    let found = gradient(&problem, problem.exact()).unwrap();
-    assert_near(&found, &[-1.0 / 3.0], CONVERGED_STATE);
-}
-
-/// Where an error is zero its root has a kink, and counts as constant: frequencies alone, shapes alone, both.
-#[test]
-fn an_error_of_zero_counts_as_constant() {
-    let shares = [
-        dmatrix![4.0, 0.0; 0.0, 0.0],
-        dmatrix![0.0, 0.0; 0.0, 9.0],
-        dmatrix![1.0, 0.5; 0.5, 1.0],
-    ];
-    let apart = DynamicModel {
-        stiffness: dmatrix![4.0, 0.0; 0.0, 9.0],
-        mass: eye(2),
-        shares: shares.to_vec(),
-    };
-    let modes = |squares: [f64; 2], shapes| Modes::new(squares.to_vec().into(), shapes).unwrap();
-    let unit = eye(2);
-    let frequencies = modes([5.0, 8.0], unit.clone());
-    let shapes = modes([4.0, 9.0], dmatrix![1.0, 0.1; 0.2, 1.0]);
-    let alike = modes([4.0, 9.0], unit);
-    for (test, has_slope) in [(frequencies, true), (shapes, true), (alike, false)] {
-        let problem = apart.analyze(&test, None).unwrap();
-        let errors = problem.exact().errors;
-        assert!(errors.frequency == 0.0 || errors.shape == 0.0);
-        let found = gradient(&problem, problem.exact()).unwrap();
-        assert_eq!(found.iter().any(|slope| *slope != 0.0), has_slope);
-    }
-}
-
-/// Squared frequencies of a trillionth are apart by as much of themselves as those of a trillion.
-#[test]
-fn derivatives_are_the_same_in_any_unit() {
-    let problem_in = |unit: f64| {
-        let [first, second] = [dmatrix![4.0, 1.0; 1.0, 2.0], dmatrix![1.0, 0.5; 0.5, 7.0]];
-        let coupled = DynamicModel {
-            shares: vec![unit * &first, unit * &second],
-            stiffness: unit * (first + second),
-            mass: eye(2),
-        };
-        let shapes = dmatrix![1.0, 0.1; -0.5, 1.0];
-        let test = Modes::new(vec![unit * 5.0, unit * 8.0].into(), shapes).unwrap();
-        coupled.analyze(&test, None).unwrap()
-    };
-    let one = problem_in(1.0);
-    for unit in [1e-12, 1e12] {
-        let other = problem_in(unit);
-        assert_near(
-            &gradient(&other, other.exact()).unwrap(),
-            &gradient(&one, one.exact()).unwrap(),
-            CONVERGED_STATE,
-        );
-        assert_near(
-            &slopes(&other, other.exact()),
-            &slopes(&one, one.exact()),
-            CONVERGED_STATE,
-        );
-    }
 }

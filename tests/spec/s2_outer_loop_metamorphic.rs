@@ -7,7 +7,6 @@
 //! other: that each then comes out as alone is a law of weighted correlations (`s5_weighted_metamorphic.rs`).
 
 use crate::prelude::*;
-use std::cell::Cell;
 
 /// What a correlation is given.
 #[derive(Debug, Clone)]
@@ -603,82 +602,4 @@ fn stopping_after_a_pass_and_starting_anew_gives_the_next_passes() {
     of_frames(|frame| {
         same(frame);
     });
-}
-
-/// With T the identity B is one too, and the analysis is that of the structure's own matrices.
-#[test]
-fn condensing_to_all_dof_is_not_condensing() {
-    let same = |given: &Given, mass: DMatrix<f64>, truth: &[f64], is_drawn: bool| {
-        let mut given = given.clone();
-        let free = given.structure().free_dof().len();
-        given.load_distribution = eye(free);
-        given.mass = mass;
-        let model = given.model();
-        given.test = model.modes(truth).unwrap().lowest(9.min(free)).unwrap();
-        // A frame whose loops make more of round-off was drawn for another test.
-        let amplified = if is_drawn {
-            given.amplification(false)
-        } else {
-            Some(1.0)
-        };
-        let Some(amplified) = amplified.filter(|amplified| *amplified <= MOST_AMPLIFIED) else {
-            return false;
-        };
-        let whole = |factors: &[f64]| {
-            let all = model.sizes(factors).unwrap();
-            let matrix = |rows: &[usize]| {
-                let mut sizes = vec![0.0; all.len()];
-                rows.iter().for_each(|&row| sizes[row] = all[row]);
-                assemble(model.element_matrices(), &sizes, free).unwrap()
-            };
-            let row = |label: &usize| {
-                let elements = model.structure().elements().iter();
-                elements
-                    .clone()
-                    .position(|element| element.label == *label)
-                    .unwrap()
-            };
-            let share = |parameter: &Parameter| {
-                let rows = parameter.elements.iter().map(row).collect_vec();
-                matrix(&rows)
-            };
-            let dynamic = DynamicModel {
-                stiffness: matrix(&(0..all.len()).collect_vec()),
-                mass: given.mass.clone(),
-                shares: given.parameters.iter().map(share).collect(),
-            };
-            dynamic.analyze(&given.test, given.analysis_modes)
-        };
-        let ranges = model.factor_ranges().unwrap();
-        let whole = correlate(whole, &ranges, &given.settings, |_, _| true).unwrap();
-        // Condensing inverts the stiffness, which costs its condition number in round-off.
-        let all = model.sizes(&vec![1.0; given.parameters.len()]).unwrap();
-        let stiffness = assemble(model.element_matrices(), &all, free).unwrap();
-        let values = stiffness.symmetric_eigenvalues();
-        let condition = values.max() / values.min();
-        let bar = SAME_CORRELATION + CONDITIONED_ROUND_OFF * condition * amplified.max(1.0);
-        assert!(bar < 1e-6, "{bar:e}");
-        assert_same_within(bar, &given.name, [&given.correlated(), &whole], in_place);
-        true
-    };
-    for number in CASES {
-        let mut given = given(number);
-        // The step by gage knows the sizes of elements, which the matrices do not tell.
-        assert_ne!(given.settings.inner.step, StepRule::Gage);
-        let free = given.structure().free_dof().len();
-        given.analysis_modes = Some(free);
-        let truth = (0..given.parameters.len())
-            .map(|e| if e % 2 == 0 { 0.8 } else { 1.2 })
-            .collect_vec();
-        let mass = DVector::from_fn(free, |row, _| 0.01 + 0.001 * row as f64);
-        assert!(same(&given, DMatrix::from_diagonal(&mass), &truth, false));
-    }
-    let (drawn, asked) = (Cell::new(0), Cell::new(0));
-    of_frames(|frame| {
-        let is_asked = same(frame, frame.mass.clone(), &[0.8, 1.2, 0.8, 1.2], true);
-        drawn.set(drawn.get() + 1);
-        asked.set(asked.get() + usize::from(is_asked));
-    });
-    let (drawn, asked) = (drawn.get(), asked.get());
-    assert!(2 * asked >= drawn, "{asked} of {drawn}");
 }

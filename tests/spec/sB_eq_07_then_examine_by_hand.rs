@@ -132,18 +132,3 @@ fn limits_out_of_range_are_refused() {
         }
     }
 }
-
-#[test]
-fn the_wing_box_s_own_test_modes_are_kept() {
-    let case = case_of(2);
-    let raw = case.test_modes().unwrap();
-    let found = examine(
-        &raw,
-        &case.reconstruction.mass(),
-        Supports::Held,
-        &MovementLimits::default(),
-    )
-    .unwrap();
-    assert_eq!(found.kept, (0..9).collect_vec());
-    assert!(relative_difference(raw.shapes(), found.modes.shapes()) <= ORTHOGONAL_INPUT);
-}

@@ -11,79 +11,6 @@ fn true_factors() -> Vec<f64> {
 }
 
 #[test]
-fn groups_are_all_covers_and_webs_once() {
-    let mut members = GROUPS
-        .iter()
-        .flat_map(|g| g.elements)
-        .copied()
-        .collect_vec();
-    members.sort_unstable();
-    assert_eq!(members, (1..=53).collect_vec());
-    assert_eq!(GROUPS.len(), 21);
-    let wrong = GROUPS
-        .iter()
-        .filter(|g| g.first_over_true != 1.0)
-        .map(|g| (g.name, g.first_over_true))
-        .collect_vec();
-    assert_eq!(
-        wrong,
-        [
-            ("covers x 30-50 forward", 1.4),
-            ("covers x 70-90", 0.85),
-            ("webs y 20 outboard", 0.7),
-            ("webs y 60 inboard", 1.2),
-            ("webs x 30", 0.8),
-            ("webs x 50", 0.8),
-            ("webs leading edge", 1.25),
-        ]
-    );
-}
-
-#[test]
-fn groups_lie_where_their_names_say() {
-    let structure = wing().structure().unwrap();
-    for group in GROUPS {
-        let mut words = group.name.split(' ');
-        let (kind, axis, place) = (words.next(), words.next(), words.next());
-        for (element, corners) in structure.elements().iter().zip(structure.corners()) {
-            if !group.elements.contains(&element.label) {
-                continue;
-            }
-            let range = |axis: usize| {
-                let values = corners.iter().map(|corner| corner[axis]);
-                values.fold((f64::MAX, f64::MIN), |(low, high), value| {
-                    (low.min(value), high.max(value))
-                })
-            };
-            let (x, y) = (range(0), range(1));
-            let name = group.name;
-            match (kind, axis, place) {
-                (Some("covers"), Some("x"), Some(bay)) => {
-                    assert_eq!(format!("{}-{}", x.0, x.1), bay, "{name}");
-                    match words.clone().next() {
-                        Some("aft") => assert!(y.1 <= 40.0, "{name}"),
-                        Some(_) => assert!(y.0 >= 40.0, "{name}"),
-                        None => {}
-                    }
-                }
-                (Some(_), Some("leading"), _) => assert_eq!(x.0 + y.1, 110.0, "{name}"),
-                (Some(_), Some(axis), Some(place)) => {
-                    let (along, across) = if axis == "x" { (x, y) } else { (y, x) };
-                    assert_eq!(along.0, along.1, "{name}");
-                    assert_eq!(along.0.to_string(), place, "{name}");
-                    match words.clone().next() {
-                        Some("inboard") => assert!(across.1 <= 30.0, "{name}"),
-                        Some(_) => assert!(across.0 >= 30.0, "{name}"),
-                        None => {}
-                    }
-                }
-                _ => panic!("{name} has no place"),
-            }
-        }
-    }
-}
-
-#[test]
 fn first_model_has_wrong_gages_and_true_masses() {
     let model = first_model(&wing()).unwrap();
     let right = wing().structure().unwrap();
@@ -112,25 +39,6 @@ fn first_model_has_wrong_gages_and_true_masses() {
         expected,
         epsilon = MATRIX_ROUND_OFF * expected.amax()
     );
-}
-
-#[test]
-fn load_distribution_selects_z_of_19_upper_grids() {
-    let model = first_model(&wing()).unwrap();
-    let grids = measured_grids(model.structure());
-    assert_eq!(
-        grids,
-        [
-            11, 12, 14, 15, 16, 31, 32, 34, 35, 36, 51, 52, 54, 55, 71, 72, 74, 91, 92
-        ]
-    );
-    let t = &model.load_distribution().clone();
-    assert_eq!(t.shape(), (86, 19));
-    assert_eq!(t.iter().filter(|entry| **entry != 0.0).count(), 19);
-    for (column, &grid) in grids.iter().enumerate() {
-        let row = model.structure().free_dof_index(grid, 2).unwrap();
-        assert_eq!(t[(row, column)], 1.0);
-    }
 }
 
 #[test]
