@@ -42,7 +42,7 @@ impl Rows {
     }
 
     fn explicit(&self, shapes: DMatrix<f64>) -> Perturbed {
-        let of = |rows: &DMatrix<f64>, j: usize| rows.row(j).tr_dot(&shapes.column(j).transpose());
+        let of = |rows: &DMatrix<f64>, j: usize| rows.row(j).tr_dot(&shapes.column(j));
         let roots = DVector::from_fn(shapes.ncols(), |j, _| of(&self.g, j) / of(&self.a, j));
         Perturbed { roots, shapes }
     }
