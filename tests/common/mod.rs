@@ -144,3 +144,19 @@ pub fn case_of(number: usize) -> Case {
 pub fn in_root(path: impl AsRef<Path>) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
+
+/// Asserts that every number found is the expected one but for a part of it.
+#[track_caller]
+pub fn assert_alike(
+    found: impl IntoIterator<Item = impl Borrow<f64>>,
+    expected: impl IntoIterator<Item = impl Borrow<f64>>,
+    tolerance: f64,
+) {
+    for (found, expected) in found.into_iter().zip(expected) {
+        let (found, expected) = (found.borrow(), expected.borrow());
+        assert!(
+            relative_error(found, expected) <= tolerance,
+            "{found} for {expected}"
+        );
+    }
+}

@@ -10,7 +10,7 @@ pub use crate::{
             largest_change, largest_root_error, of_stiffness, on_either_side, original,
             recursive_2, separate_change, separate_spectrum, stiffness_rules, three_mass_chain,
         },
-        assert_refused,
+        assert_alike, assert_refused,
         boxes::{first_problem, other_boxes, problem_of, uneven_box},
         by_sorting, case_of,
         closed_forms::{

@@ -239,15 +239,11 @@ fn condensed_the_wing_has_the_same_gages() {
         &WeightedSettings::default(),
     )
     .unwrap();
-    for (a, b) in finished("wing")
-        .1
-        .found
-        .factors
-        .iter()
-        .zip(&condensed.factors)
-    {
-        assert!(relative_error(a, b) < CONDENSED_GAGES, "{a} {b}");
-    }
+    assert_alike(
+        finished("wing").1.found.factors.iter(),
+        &condensed.factors,
+        CONDENSED_GAGES,
+    );
 }
 
 #[test]

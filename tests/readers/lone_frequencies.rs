@@ -89,12 +89,7 @@ fn frequencies_without_shapes_count_as_frequencies_and_nowhere_else() {
     let residuals = corfem::weighted::residuals::residuals(&found.found.first, &loaded.weights());
     assert_eq!(residuals.unwrap().len(), 3 * (1 + 5) + 2);
     // What is left of the test still finds every story.
-    for (factor, story) in found.found.factors.iter().zip(STORIES) {
-        assert!(
-            relative_error(factor, story) <= WEIGHTED_FACTOR,
-            "{factor} {story}"
-        );
-    }
+    assert_alike(found.found.factors.iter(), STORIES, WEIGHTED_FACTOR);
     let trust = Trust::before(loaded).unwrap();
     let alone = trust.of(Kind::FrequenciesAlone).next();
     assert!(

@@ -84,9 +84,11 @@ fn neither_scale_nor_sign_nor_order_of_repeats_matters() {
             assert!(relative_error(own, other) < MATRIX_ROUND_OFF);
         }
     }
-    for (own, other) in one.frequencies_hz.iter().zip(&two.frequencies_hz) {
-        assert!(relative_error(own, other) < MATRIX_ROUND_OFF);
-    }
+    assert_alike(
+        one.frequencies_hz.iter(),
+        &two.frequencies_hz,
+        MATRIX_ROUND_OFF,
+    );
 }
 
 /// Twenty repeats, each with eight tenths of the noise of the one before, and twenty with noise of their own.

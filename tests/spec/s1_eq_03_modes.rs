@@ -87,9 +87,7 @@ properties! {
             let error = (measured.shapes().column(mode) - sign * modes.shapes().column(mode)).amax();
             prop_assert!(error <= MATRIX_ROUND_OFF * condition * largest, "{error:e} of {largest:e}");
         }
-        for (a, b) in measured.omega_squared().iter().zip(modes.omega_squared().iter()) {
-            prop_assert!(relative_error(a, b) <= ROUND_OFF);
-        }
+        assert_alike(measured.omega_squared().iter(), modes.omega_squared().iter(), ROUND_OFF);
     }
 
     #[test]
@@ -119,13 +117,11 @@ fn two_masses_by_hand() {
     let mass = dmatrix![0.25, 0.0; 0.0, 0.5];
     let modes = solve(&stiffness, &mass, 2).unwrap();
     assert_eq!(modes.len(), 2);
-    for (found, expected) in modes
-        .omega_squared()
-        .iter()
-        .zip([4.0 * (3.0 - 6_f64.sqrt()), 4.0 * (3.0 + 6_f64.sqrt())])
-    {
-        assert!(relative_error(found, expected) <= ROUND_OFF);
-    }
+    assert_alike(
+        modes.omega_squared().iter(),
+        [4.0 * (3.0 - 6_f64.sqrt()), 4.0 * (3.0 + 6_f64.sqrt())],
+        ROUND_OFF,
+    );
     let frequency = (4.0 * (3.0 - 6_f64.sqrt())).sqrt() / (2.0 * PI);
     assert!(relative_error(modes.frequencies_hz()[0], frequency) <= ROUND_OFF);
 }

@@ -124,8 +124,6 @@ properties! {
         let mut scaled = test.clone();
         alter(&mut scaled, |_, shapes| shapes.column_iter_mut().zip(&scales).for_each(|(mut shape, scale)| shape *= *scale));
         let of = |test: &Modes| changes(&model.analyze(test, None).unwrap(), StepRule::Matrix);
-        for (found, expected) in of(&scaled).iter().zip(of(&test)) {
-            prop_assert!(relative_error(found, expected) < MATRIX_ROUND_OFF);
-        }
+        assert_alike(of(&scaled).iter(), of(&test), MATRIX_ROUND_OFF);
     }
 }

@@ -32,16 +32,11 @@ fn recursion_and_eigensolution_reach_the_same_state() {
         let found = model.at(&factors).unwrap();
         let exact = exact_state(&model, &factors).unwrap();
         let (modes, exact_modes) = (&found.modes, &exact.modes);
-        for (found, exact) in modes
-            .omega_squared()
-            .iter()
-            .zip(exact_modes.omega_squared().iter())
-        {
-            assert!(
-                relative_error(found, exact) < EIGEN_ROUND_OFF,
-                "{found} {exact}"
-            );
-        }
+        assert_alike(
+            modes.omega_squared().iter(),
+            exact_modes.omega_squared().iter(),
+            EIGEN_ROUND_OFF,
+        );
         assert!((modes.shapes() - exact_modes.shapes()).amax() < EIGEN_ROUND_OFF);
         let generalized = &found.generalized_shapes - &exact.generalized_shapes;
         assert!(generalized.amax() < EIGEN_ROUND_OFF);

@@ -51,18 +51,6 @@ properties! {
         }
         prop_assert!(sizes[15..].iter().all(|&area| area == case.rod_area));
     }
-
-    /// Factors within their range keep every element of the parameter within its bounds, those outside do not.
-    #[test]
-    fn factor_ranges_keep_sizes_within_bounds(lower in 0.5..2.0_f64, upper in 8.0..20.0_f64, beyond in 1e-6..0.1_f64) {
-        let model = chain(vec![group("all", &[1, 2, 3], Some(Bounds { lower, upper }))])?;
-        let range = model.factor_ranges()?[0].unwrap();
-        let within = |factor: f64| model.sizes(&[factor]).unwrap().iter().all(|&size| {
-            size >= lower * (1.0 - ROUND_OFF) && size <= upper * (1.0 + ROUND_OFF)
-        });
-        prop_assert!(within(range.lower) && within(range.upper));
-        prop_assert!(!within(range.lower * (1.0 - beyond)) && !within(range.upper * (1.0 + beyond)));
-    }
 }
 
 #[test]

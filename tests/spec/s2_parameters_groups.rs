@@ -162,12 +162,7 @@ fn the_size_of_a_group_is_the_mean_of_its_elements() {
     );
     let analysis = model.analyze(&[2.0, 3.0], &test, None).unwrap();
     assert_eq!(analysis.gages().len(), 2);
-    for (found, expected) in analysis.gages().iter().zip(expected) {
-        assert!(
-            relative_error(found, expected) <= ROUND_OFF,
-            "{found} {expected}"
-        );
-    }
+    assert_alike(analysis.gages().iter(), expected, ROUND_OFF);
     let matrices = model.matrices(&[2.0, 3.0]).unwrap();
     let analysis = matrices.analyze(&test, None).unwrap();
     assert_eq!(analysis.gages(), [REFERENCE_GAGE; 2]);

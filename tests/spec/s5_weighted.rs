@@ -305,12 +305,7 @@ fn with_a_vague_prior_it_finds_the_gages_of_case_2() {
             .iter()
             .all(|it| it.check.pairing.analysis_mode == found.initial.pairing.analysis_mode)
     );
-    for (factor, truth) in found.factors.iter().zip(&known.truth) {
-        assert!(
-            relative_error(factor, truth) < WEIGHTED_FACTOR,
-            "{factor} {truth}"
-        );
-    }
+    assert_alike(found.factors.iter(), &known.truth, WEIGHTED_FACTOR);
     assert!(
         found
             .iterations

@@ -125,14 +125,11 @@ fn equal_deviations_of_components_are_the_deviation_of_the_shape() {
         // A column takes the place of the row's number.
         data.shape_deviation = Some(vec![0.4; 5]);
     });
-    for (one, two) in of_shapes
-        .found
-        .factors
-        .iter()
-        .zip(&of_components.found.factors)
-    {
-        assert!(relative_error(one, two) < WEIGHTED_FACTOR, "{one} {two}");
-    }
+    assert_alike(
+        of_shapes.found.factors.iter(),
+        &of_components.found.factors,
+        WEIGHTED_FACTOR,
+    );
     let [one, two] = [&of_shapes, &of_components].map(|of| of.misfit.chi_squared);
     assert!(relative_error(one, two) < WEIGHTED_FACTOR, "{one} {two}");
     let others = of_components.trust.about(Kind::AssumedDeviations);
@@ -163,9 +160,11 @@ fn a_component_of_boundless_deviation_is_as_one_without_a_sensor() {
         data.shapes = data.shapes.clone().remove_row(row);
         data.sensors.remove(row);
     });
-    for (one, two) in vague.found.factors.iter().zip(&without.found.factors) {
-        assert!(relative_error(one, two) < WEIGHTED_FACTOR, "{one} {two}");
-    }
+    assert_alike(
+        vague.found.factors.iter(),
+        &without.found.factors,
+        WEIGHTED_FACTOR,
+    );
 }
 
 /// Residuals of any covariance by their definition: the least of all scales of the shapes, by normal equations.

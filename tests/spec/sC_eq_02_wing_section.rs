@@ -82,26 +82,6 @@ fn wing_section_in_a_faster_flow_has_the_roots_of_the_dense_eigensolution() {
     assert!(converged < COMPLEX_EIGEN_ROUND_OFF, "{converged:e}");
 }
 
-/// Order r of Recursive 1 leaves an error of order r + 1 in complex roots too.
-#[test]
-fn orders_of_recursive_1_hold_for_complex_roots() {
-    for order in 1..=3 {
-        let points = [0.08, 0.04, 0.02]
-            .into_iter()
-            .map(|size| {
-                let Section { changed, exact, .. } = section(size);
-                let found = changed.recursive_1(order).unwrap();
-                (size, largest_root_error(found.roots.as_slice(), &exact))
-            })
-            .collect_vec();
-        let slope = log_log_slope(&points);
-        assert!(
-            slope > order as f64 + 1.0 - ORDER_SLACK,
-            "order {order}: {slope}"
-        );
-    }
-}
-
 /// The transposed change exchanges rows and columns and nothing else.
 #[test]
 fn transposed_change_belongs_to_the_left_shapes() {

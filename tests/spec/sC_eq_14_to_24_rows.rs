@@ -150,9 +150,7 @@ properties! {
             prop_assert!(residual.amax() < EIGEN_ROUND_OFF, "{:e}", residual.amax());
             prop_assert!(errors(found, &eigensolution(change)?).0 < EIGEN_ROUND_OFF);
             let (omega_squared, _) = modes_by_nalgebra(pencil.a(), pencil.g());
-            for (root, exact) in ascending(found.roots.map(f64::recip).iter()).iter().zip(omega_squared.iter()) {
-                prop_assert!(relative_error(root, exact) < EIGEN_ROUND_OFF);
-            }
+            assert_alike(ascending(found.roots.map(f64::recip).iter()).iter(), omega_squared.iter(), EIGEN_ROUND_OFF);
             let of_order = |order| match quiet {
                 1 => recursive_1(k, beta, order),
                 _ => pencil.recursive_1(order),
@@ -420,11 +418,10 @@ fn uncoupled_modes_may_have_equal_roots() {
             .unwrap();
         let found = with_mass.recursive_1_converged().unwrap().perturbed.roots;
         let (exact, _) = modes_by_nalgebra(with_mass.a(), with_mass.g());
-        for (found, exact) in ascending(found.map(f64::recip).iter())
-            .iter()
-            .zip(exact.iter())
-        {
-            assert!(relative_error(found, exact) < EIGEN_ROUND_OFF);
-        }
+        assert_alike(
+            ascending(found.map(f64::recip).iter()).iter(),
+            exact.iter(),
+            EIGEN_ROUND_OFF,
+        );
     }
 }

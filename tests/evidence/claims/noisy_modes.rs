@@ -250,9 +250,11 @@ fn without_noise_it_is_the_case_itself_by_the_librarys_own_rule() {
                 .map(|pass| pass.inner.iterations.len())
                 .sum::<usize>()
         );
-        for (gage, expected) in found.gages_in.iter().zip(&result.pass_gages[best]) {
-            assert!(relative_error(gage, expected) < SAME_HISTORY);
-        }
+        assert_alike(
+            found.gages_in.iter(),
+            &result.pass_gages[best],
+            SAME_HISTORY,
+        );
         assert!(relative_error(found.error_sum, passes[best].check.errors.sum()) < SAME_HISTORY);
     }
 }

@@ -126,12 +126,11 @@ fn modes_that_move_no_sensor_are_passed_over_in_any_units() {
         let roots = chain_eigenvalues(ChainEnds::FixedFixed, 3, spring, mass);
         for count in [1, 2] {
             let found = seen_modes(&model, &[1.0], &sensors, count).unwrap();
-            for (found, expected) in found.omega_squared().iter().zip([roots[0], roots[2]]) {
-                assert!(
-                    relative_error(found, expected) < MATRIX_ROUND_OFF,
-                    "{found} {expected}"
-                );
-            }
+            assert_alike(
+                found.omega_squared().iter(),
+                [roots[0], roots[2]],
+                MATRIX_ROUND_OFF,
+            );
             assert_eq!(found.len(), count);
         }
         let refused = seen_modes(&model, &[1.0], &sensors, 3);

@@ -366,9 +366,7 @@ fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
         paired.unwrap().frequencies_hz()
     };
     let expected_hz = paired_hz(expected.exact());
-    for (a, b) in paired_hz(found.exact()).iter().zip(&expected_hz) {
-        assert!(relative_error(a, b) < SAME_ANALYSIS, "{a} {b}");
-    }
+    assert_alike(paired_hz(found.exact()).iter(), &expected_hz, SAME_ANALYSIS);
     for (a, b) in found.shares().iter().zip(expected.shares()) {
         assert!((a - b).amax() < SAME_ANALYSIS * b.amax());
     }

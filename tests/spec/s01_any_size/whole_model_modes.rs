@@ -82,12 +82,11 @@ fn repeated_roots_of_a_square_net_are_all_found() {
             count,
         )
         .unwrap();
-        for (found, expected) in found.vibrations.omega_squared().iter().zip(&expected) {
-            assert!(
-                relative_error(found, expected) < COUNTED_ROOT,
-                "{found} {expected}"
-            );
-        }
+        assert_alike(
+            found.vibrations.omega_squared().iter(),
+            &expected,
+            COUNTED_ROOT,
+        );
         let (m, shapes) = (masses(&vec![0.5; side * side]), found.vibrations.shapes());
         let unit = shapes.tr_mul(&m.times(shapes).unwrap());
         assert!((unit - eye(count)).amax() < WHOLE_SHAPE);
