@@ -1,10 +1,7 @@
 //! Strategies of models that a deck can hold, and of decks that say the same in another way.
 
 use crate::prelude::*;
-use corfem::files::deck::PointMass;
-
-/// Columns of a field of the small and of the large format.
-const WIDTHS: [usize; 2] = [8, 16];
+use corfem::files::deck::{Deck, PointMass};
 
 /// The bulk data alone of the deck that is written of a model.
 ///
@@ -173,54 +170,7 @@ pub fn bulk_data() -> impl Strategy<Value = BulkData> {
     })
 }
 
-/// How a line is written.
-#[derive(Debug, Clone, Copy)]
-pub enum Style {
-    /// As it was.
-    Fixed,
-    /// In free format.
-    Free,
-    /// In free format, in small letters, with blanks and a comment.
-    Relaxed,
-    /// As it was, between comments.
-    Commented,
-}
-
-pub fn style() -> impl Strategy<Value = Style> {
-    prop_oneof![
-        Just(Style::Fixed),
-        Just(Style::Free),
-        Just(Style::Relaxed),
-        Just(Style::Commented),
-    ]
-}
-
-/// A line of fixed format in another style.
-pub fn restyled(line: &str, style: Style) -> String {
-    match style {
-        Style::Fixed => line.to_owned(),
-        Style::Free => free(line).join(","),
-        Style::Relaxed => {
-            let fields = free(line)
-                .iter()
-                .map(|field| format!(" {}  ", field.to_lowercase()))
-                .collect_vec();
-            format!("{} $ a remark, with commas", fields.join(","))
-        }
-        Style::Commented => format!("$ before\n\n{line}\n$ after"),
-    }
-}
-
-/// The fields of a line of fixed format.
-fn free(line: &str) -> Vec<String> {
-    let line = format!("{line:80}");
-    let name = line[..8].trim().to_owned();
-    let width = WIDTHS[usize::from(name.contains('*'))];
-    let data = (8..72)
-        .step_by(width)
-        .map(|start| line[start..start + width].trim().to_owned());
-    once(name)
-        .chain(data)
-        .chain(once(line[72..].trim().to_owned()))
-        .collect()
+/// Reads a deck that is called "test", with nothing to ignore.
+pub fn read_deck(text: impl AsRef<str>) -> Result<Deck, FileError> {
+    deck::read("test", text.as_ref().as_bytes(), &[])
 }

@@ -23,7 +23,7 @@ pub use crate::{
         complex_pencils::{Complexes, amax, complex, roots_by_qz, through},
         condensed::{analyze_condensed, condensed},
         costly_config,
-        decks::{bulk_data, bulk_text},
+        decks::{bulk_data, bulk_text, read_deck},
         draws::{Draws, reached},
         eye,
         golden::{Numbers, assert_golden, assert_table},

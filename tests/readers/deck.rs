@@ -1,6 +1,6 @@
 //! Decks: the identity of writing and reading, and the theorem that NASTRAN's reduction of a deck is Appendix A.
 
-use crate::common::decks::{bulk_text as written, restyled, style};
+use crate::common::decks::bulk_text as written;
 use crate::prelude::*;
 
 properties! {
@@ -11,22 +11,6 @@ properties! {
         prop_assert_eq!(&read.model, &model);
         prop_assert!(read.unread.iter().all(|card| card.reason == deck::Reason::Untouched));
         prop_assert_eq!(written(&read.model)?, text);
-    }
-
-    #[test]
-    fn order_and_format_of_lines_do_not_matter(
-        (model, lines) in bulk_data().prop_flat_map(|model| {
-            let text = written(&model).unwrap();
-            let lines = text.lines().map(str::to_owned).collect_vec();
-            let count = lines.len();
-            let styles = prop::collection::vec(style(), count);
-            (Just(model), (Just(lines), styles).prop_map(|(lines, styles)| {
-                lines.iter().zip(styles).map(|(line, style)| restyled(line, style)).collect_vec()
-            }).prop_shuffle())
-        })
-    ) {
-        let read = deck::read("deck", lines.join("\n").as_bytes(), &[])?;
-        prop_assert_eq!(read.model, model);
     }
 
     /// $(K_S, T M T^t)$ has d finite roots, those of $(K_D, M)$, for any stiffness, full-rank T and masses.

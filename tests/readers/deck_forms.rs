@@ -63,26 +63,6 @@ fn what_stands_around_the_bulk_data_may_be_short() {
     );
 }
 
-/// A line of more than ten free fields goes on as its next would.
-#[test]
-fn free_lines_of_many_fields_go_on() {
-    let grids: String = (1..=12)
-        .map(|label| format!("GRID,{label},,{label}.\n"))
-        .collect();
-    let held = |card: &str| {
-        let grids = read(&format!("{grids}{card}\n")).grids;
-        let held = grids
-            .into_iter()
-            .filter(|grid| grid.constrained == [true, false, false]);
-        held.map(|grid| grid.label).collect_vec()
-    };
-    assert_eq!(held("SPC1,1,1,1,2,3,4,5,6,+,7,8"), [1, 2, 3, 4, 5, 6, 7, 8]);
-    assert_eq!(
-        held("SPC1,1,1,1,2,3,4,5,6,7,8,9"),
-        [1, 2, 3, 4, 5, 6, 7, 8, 9]
-    );
-}
-
 #[test]
 fn a_card_repeats_the_one_before() {
     let grids = read("GRID,1,,0.,2.5,0.,,13\n=,*(2),=,*(1.5),==\n=(2)\nGRID,9,,1.\n").grids;
