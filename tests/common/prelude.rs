@@ -1,89 +1,86 @@
 //! What most tests name: a file of tests says `use crate::prelude::*;` once.
 
 pub use crate::common::tolerances::*;
-pub use crate::{
-    common::{
-        CollectVec, alter,
-        appendix_b::{mass_norm, modes, relative_difference, slight_overlap, unit_shapes},
-        appendix_c::{
-            FORMULAE, ModalChange, ascending, change_of, eigensolution, exact, four_modes,
-            largest_change, largest_root_error, of_stiffness, on_either_side, original,
-            recursive_2, separate_change, separate_spectrum, stiffness_rules, three_mass_chain,
-        },
-        assert_alike, assert_refused,
-        boxes::{first_problem, other_boxes, problem_of, uneven_box},
-        by_sorting, case_of,
-        closed_forms::{
-            analytical::{
-                ChainEnds, chain_eigenvalues, no_sides_parallel_energy, parallelogram_energy,
-                sides_12_34_parallel_energy, sides_14_23_parallel_energy,
-            },
-            uniform_chain::uniform_held_modes,
-        },
-        complex_pencils::{Complexes, amax, complex, roots_by_qz, through},
-        condensed::{analyze_condensed, condensed},
-        costly_config,
-        decks::{bulk_data, bulk_text, read_deck},
-        draws::{Draws, reached},
-        eye,
-        golden::{Numbers, assert_golden, assert_table},
-        gradient::gradient,
-        ground_tests::{ground_test, wing_test},
-        in_root,
-        jobs::{Files, STORIES, building, of_matrices, prepare, worked},
-        known::{
-            Known,
-            delta_wing::{
-                DeltaWing, MEASURED_GRIDS, TipLoad,
-                correlation::{
-                    self, GROUPS, Group, TEST_MODES, WingCorrelation, correlate_wing,
-                    correlate_wing_with, first_model, measured_grids, settings, test_modes,
-                },
-                known_deflections, known_frequencies,
-            },
-            planted,
-            weighed::Weighed,
-            whole::{self, of_elements},
-            wing::Wing,
-        },
-        log_log_slope,
-        loops::{
-            Eigensolved, STEP_RULES, assert_error_sum_only_falls, assert_limits_hold,
-            chain_problem, correlate_chain, exact_state, given, inner_for_modes, verdict_of,
-        },
-        matrices::relative_distance,
-        measured::{
-            equal_weights, free_beam, free_truss, held_chain, mixture, noise, orthonormal_modes,
-            with_raw_shapes,
-        },
-        nastran95::{boxes, snap_factor},
-        not_definite,
-        outer_loop::{
-            assert_near, paired_hz,
-            program::{Nastran95, correlate_case, default_folder, read_output5},
-            stored, stored_wing,
-        },
-        pairings::{cross, noisy_pairs, pairs_by_sorting, rearrangement},
-        panels::{Sample, flat_panel, material, sample, warped_panel},
-        relative_error, said,
-        strategies::{orthogonal, point, positive_definite, rotation, symmetric},
-        structures::{
-            condition, dense, factorized, grid, group, linkage, linkage_data, lumped_mass, sizes,
-            sizes_of, spring_chain, spring_stiffness,
-        },
-        test_files::{write_csv, write_universal},
-        torque_boxes::{case, factors, with_every_element, with_parameters},
-        vibrations::{
-            Chain, any_change, chain, chain_and_truth, error_sum_by_definition, modes_by_nalgebra,
-            pencil,
-        },
-        whole_models::{
-            chain_of_springs, counted_modes, free_motions, lowest_modes, masses, of_dense,
-            of_structure, seen_by, sensors_at, shear_building, sparse, springs,
-        },
-        zero_square,
+pub use crate::common::{
+    CollectVec, alter,
+    appendix_b::{mass_norm, modes, relative_difference, slight_overlap, unit_shapes},
+    appendix_c::{
+        FORMULAE, ModalChange, ascending, change_of, eigensolution, exact, four_modes,
+        largest_change, largest_root_error, of_stiffness, on_either_side, original, recursive_2,
+        separate_change, separate_spectrum, stiffness_rules, three_mass_chain,
     },
-    readers::job_errors::{placed, with},
+    assert_alike, assert_refused,
+    boxes::{first_problem, other_boxes, problem_of, uneven_box},
+    by_sorting, case_of,
+    closed_forms::{
+        analytical::{
+            ChainEnds, chain_eigenvalues, no_sides_parallel_energy, parallelogram_energy,
+            sides_12_34_parallel_energy, sides_14_23_parallel_energy,
+        },
+        uniform_chain::uniform_held_modes,
+    },
+    complex_pencils::{Complexes, amax, complex, roots_by_qz, through},
+    condensed::{analyze_condensed, condensed},
+    costly_config,
+    decks::{bulk_data, bulk_text, read_deck},
+    draws::{Draws, reached},
+    eye,
+    golden::{Numbers, assert_golden, assert_table},
+    gradient::gradient,
+    ground_tests::{ground_test, wing_test},
+    in_root,
+    jobs::{Files, STORIES, building, of_matrices, prepare, worked},
+    known::{
+        Known,
+        delta_wing::{
+            DeltaWing, MEASURED_GRIDS, TipLoad,
+            correlation::{
+                self, GROUPS, Group, TEST_MODES, WingCorrelation, correlate_wing,
+                correlate_wing_with, first_model, measured_grids, settings, test_modes,
+            },
+            known_deflections, known_frequencies,
+        },
+        planted,
+        weighed::Weighed,
+        whole::{self, of_elements},
+        wing::Wing,
+    },
+    log_log_slope,
+    loops::{
+        Eigensolved, STEP_RULES, assert_error_sum_only_falls, assert_limits_hold, chain_problem,
+        correlate_chain, exact_state, given, inner_for_modes, verdict_of,
+    },
+    matrices::relative_distance,
+    measured::{
+        equal_weights, free_beam, free_truss, held_chain, mixture, noise, orthonormal_modes,
+        with_raw_shapes,
+    },
+    nastran95::{boxes, snap_factor},
+    not_definite,
+    outer_loop::{
+        assert_near, paired_hz,
+        program::{Nastran95, correlate_case, default_folder, read_output5},
+        stored, stored_wing,
+    },
+    pairings::{cross, noisy_pairs, pairs_by_sorting, rearrangement},
+    panels::{Sample, flat_panel, material, sample, warped_panel},
+    relative_error, said,
+    strategies::{orthogonal, point, positive_definite, rotation, symmetric},
+    structures::{
+        condition, dense, factorized, grid, group, linkage, linkage_data, lumped_mass, sizes,
+        sizes_of, spring_chain, spring_stiffness,
+    },
+    test_files::{write_csv, write_universal},
+    torque_boxes::{case, factors, with_every_element, with_parameters},
+    vibrations::{
+        Chain, any_change, chain, chain_and_truth, error_sum_by_definition, modes_by_nalgebra,
+        pencil,
+    },
+    whole_models::{
+        chain_of_springs, counted_modes, free_motions, lowest_modes, masses, of_dense,
+        of_structure, seen_by, sensors_at, shear_building, sparse, springs,
+    },
+    zero_square,
 };
 pub use approx::assert_relative_eq;
 pub use corfem::{

@@ -16,6 +16,7 @@ use toml::{Table, Value};
 const SWITCH: &str = "CORFEM_WRONG_FORM";
 const SWITCH_SOURCE: &str = r#"//! Which wrong form holds.
 
+use std::sync::LazyLock;
 
 static FORM: LazyLock<usize> = LazyLock::new(|| {
     let form = std::env::var("CORFEM_WRONG_FORM").ok();
@@ -392,7 +393,7 @@ fn copy(forms: &[Form], folder: &Path) {
     let lists = modules(forms);
     let rooms: String = lists.keys().map(|room| format!("mod {room};\n")).collect();
     let main = format!(
-        "#![allow(warnings, reason = \"a copy\")]\n#[macro_use]\nmod common;\nmod equations;\n{rooms}"
+        "#![allow(warnings, reason = \"a copy\")]\n#[macro_use]\nmod common;\nmod equations;\n{rooms}use common::prelude;\n"
     );
     let mut changed = BTreeMap::from([
         (PathBuf::from("tests/main.rs"), main),

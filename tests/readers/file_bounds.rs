@@ -3,6 +3,7 @@
 
 use crate::common::jobs::rods;
 use crate::prelude::*;
+use crate::readers::job_errors::placed;
 use corfem::files::{MOST_BYTES, read_bytes};
 
 use std::fs::{File, remove_file};

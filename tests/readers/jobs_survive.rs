@@ -5,6 +5,7 @@
 use crate::common::jobs::rods;
 use crate::common::jobs::run;
 use crate::prelude::*;
+use crate::readers::job_errors::placed;
 use crate::readers::job_prepared::measured_building;
 use crate::readers::readers_survive::asked;
 use corfem::job::TEMPLATE;

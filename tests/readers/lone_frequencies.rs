@@ -3,6 +3,7 @@
 use super::job_errors::said;
 use crate::common::jobs::run;
 use crate::prelude::*;
+use crate::readers::job_errors::{placed, with};
 
 /// The building by weighted steps, whose test lacks the shapes of these modes (from one).
 pub fn without_shapes(modes: &[usize]) -> Files {

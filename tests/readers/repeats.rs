@@ -3,6 +3,7 @@
 use super::job_errors::said;
 use crate::common::jobs::run;
 use crate::prelude::*;
+use crate::readers::job_errors::{placed, with};
 
 /// The building's exact test.
 fn exact() -> TestData {

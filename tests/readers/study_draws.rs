@@ -2,6 +2,7 @@
 
 use crate::common::jobs::rods;
 use crate::prelude::*;
+use crate::readers::job_errors::{placed, with};
 use corfem::job::{Study, Vary};
 use sha2::{Digest, Sha256};
 

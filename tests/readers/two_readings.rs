@@ -5,6 +5,7 @@ use super::test_data_axes::{node, system};
 use super::test_data_universal::{TIP, dataset, parsed, real_mode};
 use crate::common::jobs::run;
 use crate::prelude::*;
+use crate::readers::job_errors::{placed, with};
 
 fn table(text: &str) -> TestData {
     read("test.csv", text.as_bytes()).unwrap_or_else(|error| panic!("{error}\n{text}"))

@@ -2,6 +2,7 @@
 
 use crate::common::jobs::run;
 use crate::prelude::*;
+use crate::readers::job_errors::{placed, with};
 use corfem::present::verdict::verdict_in_words;
 use corfem::weighted::comparison::ModeErrors;
 
