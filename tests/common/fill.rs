@@ -1,6 +1,6 @@
 //! How much a factorization stores and computes, by its order of elimination.
 
-use crate::prelude::*;
+use corfem::method::appendix_a::ElementMatrix;
 use faer::Side;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
@@ -25,28 +25,30 @@ pub fn of_order(order: &[usize], elements: &[ElementMatrix]) -> Fill {
     let mut turn = vec![0; count];
     (order.iter().enumerate()).for_each(|(place, &dof)| turn[dof] = place);
     let coupled = |element: &ElementMatrix| {
-        let turns = element.dof.iter().map(|&dof| turn[dof]).collect_vec();
+        let turns: Vec<usize> = element.dof.iter().map(|&dof| turn[dof]).collect();
         let all = turns
             .iter()
             .flat_map(|&row| turns.iter().map(move |&column| (row, column)));
-        all.filter(|(row, column)| row <= column).collect_vec()
+        all.filter(|(row, column)| row <= column)
+            .collect::<Vec<_>>()
     };
     let entries = elements
         .iter()
         .flat_map(coupled)
         .chain((0..count).map(|at| (at, at)));
-    let entries = entries
+    let entries: Vec<_> = entries
         .map(|(row, column)| Triplet::new(row, column, 1.0))
-        .collect_vec();
+        .collect();
     let upper = SparseColMat::<usize, f64>::try_new_from_triplets(count, count, &entries);
-    let upper = upper.unwrap();
+    let upper = upper.expect("a matrix");
     let symbolic = |threshold| {
         let parameters = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: threshold,
             ..CholeskySymbolicParams::default()
         };
         let identity = SymmetricOrdering::Identity;
-        factorize_symbolic_cholesky(upper.symbolic(), Side::Upper, identity, parameters).unwrap()
+        factorize_symbolic_cholesky(upper.symbolic(), Side::Upper, identity, parameters)
+            .expect("a factor")
     };
     let needed = symbolic(SupernodalThreshold::FORCE_SIMPLICIAL).len_val();
     let symbolic = symbolic(SupernodalThreshold::FORCE_SUPERNODAL);

@@ -201,7 +201,7 @@ pub use rustix::process::Signal;
 pub use serde::Deserialize;
 pub use serde_json::{Value, json};
 pub use std::{
-    collections::{BTreeMap, BTreeSet, HashMap},
+    collections::{BTreeMap, BTreeSet},
     f64::consts::{PI, TAU},
     fmt::{Debug, Display},
     fs,

@@ -3,7 +3,7 @@
 use crate::prelude::*;
 
 fn modes(text: &str) -> Result<WholeModes, FileError> {
-    deck::modes(&read_deck(&text)?.model, usize::MAX)
+    deck::modes(&read_deck(text)?.model, usize::MAX)
 }
 
 /// A rod of E A/L = 1000 lbf/in from a fixed grid 1 along x to grid 2, which moves along x alone.

@@ -196,7 +196,7 @@ fn wtmass_may_stand_in_case_control_and_counts_once() {
 
 #[test]
 fn latin_1_and_a_byte_order_mark_are_read() {
-    let expected = read_deck(&ROD).unwrap();
+    let expected = read_deck(ROD).unwrap();
     let marked = [
         b"\xEF\xBB\xBF$ \xC3\x84nderung\n".as_slice(),
         ROD.as_bytes(),
@@ -240,7 +240,7 @@ PSHEAR,41,1,.3,,40,1,.4
 PQDMEM,50,1,.5
 MAT1,1,1.04+7,4.+6
 ";
-    let model = read_deck(&deck).unwrap().model;
+    let model = read_deck(deck).unwrap().model;
     let sizes = model
         .elements
         .iter()
@@ -312,7 +312,7 @@ SPC1,1,23,5,,9,,,,+B
 SPC1,1,3,12,THRU,12
 +B,12
 ";
-    let model = read_deck(&deck).unwrap().model;
+    let model = read_deck(deck).unwrap().model;
     let constrained: Vec<[bool; 3]> = model.grids.iter().map(|grid| grid.constrained).collect();
     let x = [true, false, false];
     let yz = [false, true, true];
@@ -340,7 +340,7 @@ fn a_range_may_go_on_in_the_next_line() {
 #[test]
 fn neighbors_constrained_alike_are_written_as_a_range_and_one_alone_is_not() {
     let deck = "GRID,1,,,,,,12\nGRID,2,,1.,,,,12\nGRID,3,,2.,,,,3\nGRID,4,,3.\n";
-    let model = read_deck(&deck).unwrap().model;
+    let model = read_deck(deck).unwrap().model;
     let text = bulk_text(&model).unwrap();
     let constrained = text
         .lines()

@@ -1,6 +1,13 @@
 //! A caller's own analysis: the paper's, but with an eigensolution where it has Recursive 1.
 
-use crate::prelude::*;
+use corfem::method::analysis::{Analysis, State};
+use corfem::method::error::Error;
+use corfem::method::error_sum::errors;
+use corfem::method::model::Model;
+use corfem::method::modes::{Modes, solve};
+use corfem::method::sorting::pair_modes;
+use corfem::method::step::StepRule;
+use nalgebra::DMatrix;
 
 /// State of a model at factors by an eigensolution in its modal coordinates, each mode in the place of the exact mode that it is most like.
 ///
@@ -8,12 +15,12 @@ use crate::prelude::*;
 /// A model that is not a vibration at these factors, or whose modes do not pair with the test's.
 pub fn exact_state(model: &Model, factors: &[f64]) -> Result<State, Error> {
     let size = model.exact().modes.len();
-    let mut beta = zero_square(size);
+    let mut beta = DMatrix::zeros(size, size);
     for (share, factor) in model.shares().iter().zip(factors) {
         beta += (factor - 1.0) * share;
     }
     let stiffness = DMatrix::from_diagonal(model.exact().modes.omega_squared()) + beta;
-    let found = solve(&stiffness, &eye(size), size)?;
+    let found = solve(&stiffness, &DMatrix::identity(size, size), size)?;
     // Rows of the shapes are the exact modes, so their transpose is the cross-orthogonality of the new modes with these.
     let places = pair_modes(&found.shapes().transpose())?;
     let mut generalized = found.shapes().select_columns(&places.analysis_mode);

@@ -6,7 +6,12 @@ pub mod weighed;
 pub mod whole;
 pub mod wing;
 
-use crate::prelude::*;
+use corfem::method::error::Error;
+use corfem::method::modes::Modes;
+use corfem::method::outer_loop::{Correlation, Settings, correlate};
+use corfem::torque_box::Case;
+use corfem::torque_box::error::CaseError;
+use corfem::torque_box::wing_box::TEST_GAGE;
 use delta_wing::DeltaWing;
 use delta_wing::correlation::{self, GROUPS, Group, first_model, test_modes};
 use eigensolved::Eigensolved;

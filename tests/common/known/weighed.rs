@@ -1,6 +1,15 @@
 //! Models whose elements have masses of their own, which the crate's have not: they are condensed with the stiffness, anew at all factors.
 
-use crate::prelude::*;
+use corfem::method::appendix_a::{Condensed, ElementMatrix, generalized_stiffness};
+use corfem::method::error::Error;
+use corfem::method::linear_algebra::symmetric_part;
+use corfem::method::model::{DynamicModel, FiniteElementModel, Model};
+use corfem::method::modes::{Modes, solve};
+use corfem::method::structure::Structure;
+use corfem::sparse::elements::lumped_masses;
+use corfem::sparse::{Factor, SparseMatrix};
+use nalgebra::{DMatrix, DVector};
+use std::collections::HashMap;
 use std::ops::Deref;
 
 /// Lumped masses of the elements of a structure at its free DOF, lbf·s²/in.

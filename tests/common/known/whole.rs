@@ -1,6 +1,14 @@
 //! Models of elements at all their degrees of freedom.
 
-use crate::prelude::*;
+use corfem::method::appendix_a::{ElementMatrix, element_matrices};
+use corfem::method::error::Error;
+use corfem::method::model::{FiniteElementModel, Parameter};
+use corfem::method::step::Bounds;
+use corfem::method::structure::Structure;
+use corfem::sparse::elements::{lumped_masses, support};
+use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
+use nalgebra::DMatrix;
+use std::collections::HashMap;
 
 /// A finite element model at all its structural degrees of freedom, and the matrix $T^t$ that reads its dynamic ones.
 ///
@@ -31,11 +39,11 @@ pub fn of_elements(
     ranges: &[Option<Bounds>],
 ) -> Result<WholeModel, Error> {
     let (all, count) = (structure.elements(), structure.free_dof().len());
-    let matrices = element_matrices(structure).collect_vec();
+    let matrices: Vec<_> = element_matrices(structure).collect();
     let entries = |ElementMatrix { dof, unit, .. }: &ElementMatrix, size: f64| {
         let places = (0..dof.len()).flat_map(|a| (0..dof.len()).map(move |b| (a, b)));
         let entry = |(a, b)| (dof[a], dof[b], size * unit[(a, b)]);
-        places.map(entry).collect_vec()
+        places.map(entry).collect::<Vec<_>>()
     };
     let stiffness = matrices.iter().zip(all);
     let stiffness = stiffness.flat_map(|(matrix, element)| entries(matrix, element.size));

@@ -3,7 +3,12 @@
 //! Rods lie between neighboring grids, a shear panel in every cell of a rib or spar, membranes on both surfaces; the root is held.
 //! So no grid can move freely, whatever the numbers are. $x$ points aft, $y$ outboard, $z$ up; ribs lie along the stream.
 
-use crate::prelude::*;
+use super::whole::of_elements;
+use corfem::method::error::Error;
+use corfem::method::model::{FiniteElementModel, Parameter};
+use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
+use corfem::sparse::{SparseMatrix, WholeModel};
+use nalgebra::{DMatrix, Vector3};
 
 /// Sorts of members, each of which is divided into zones along the span.
 pub const SORTS: [&str; 5] = [

@@ -1,10 +1,17 @@
 //! What the wing does under load and in vibration, and what others found.
 
 use super::super::weighed::lumped_mass;
-use super::{STATIONS, upper_grid};
-use crate::prelude::*;
+use super::{DeltaWing, STATIONS, upper_grid};
 use corfem::files::test_data::row_name;
+use corfem::method::appendix_a::{ElementMatrix, assemble, element_matrices};
+use corfem::method::error::Error;
+use corfem::method::structure::Structure;
 use corfem::sparse::factorization::Factor;
+use corfem::sparse::whole_modes::{MassDof, WholeModes, whole_modes};
+use corfem::sparse::{SparseMatrix, Support};
+use corfem::torque_box::error::CaseError;
+use corfem::torque_box::published::PublishedTable;
+use nalgebra::DMatrix;
 
 /// Direction of every load and measured deflection.
 const Z: usize = 2;
@@ -38,7 +45,7 @@ impl DeltaWing {
         let mass = lumped_mass(&structure);
         let dof = structure.free_dof().to_vec();
         let dense = assemble(&elements, &sizes, dof.len())?;
-        let t = eye(dof.len());
+        let t = DMatrix::identity(dof.len(), dof.len());
         let stiffness = SparseMatrix::of_dense("stiffness", &dense)?;
         whole_modes(
             &stiffness,
@@ -56,8 +63,8 @@ impl DeltaWing {
     /// The structure, its unit element matrices, sizes and stiffness.
     fn parts(&self) -> Result<(Structure, Vec<ElementMatrix>, Vec<f64>, Factor), Error> {
         let structure = self.structure()?;
-        let elements = element_matrices(&structure).collect_vec();
-        let sizes = structure.elements().iter().map(|e| e.size).collect_vec();
+        let elements: Vec<_> = element_matrices(&structure).collect();
+        let sizes: Vec<f64> = structure.elements().iter().map(|e| e.size).collect();
         let dense = assemble(&elements, &sizes, structure.free_dof().len())?;
         let stiffness = Factor::new("stiffness", &SparseMatrix::of_dense("stiffness", &dense)?)?;
         Ok((structure, elements, sizes, stiffness))

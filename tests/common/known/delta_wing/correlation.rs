@@ -13,7 +13,17 @@
 //! - **Held fixed** are posts and caps, rods of known cross section.
 
 use super::super::eigensolved::Eigensolved;
-use crate::prelude::*;
+use super::super::weighed::Weighed;
+use super::DeltaWing;
+use corfem::method::error::Error;
+use corfem::method::inner_loop::InnerSettings;
+use corfem::method::model::{FiniteElementModel, Parameter};
+use corfem::method::modes::Modes;
+use corfem::method::outer_loop::{Correlation, Pass, Settings, correlate};
+use corfem::method::step::{Accumulation, StepRule};
+use corfem::method::structure::{Element, Material, Structure};
+use corfem::sparse::SparseMatrix;
+use nalgebra::DMatrix;
 
 /// Elements that are scaled together.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -126,10 +136,10 @@ pub fn first_model(wing: &DeltaWing) -> Result<Weighed, Error> {
     });
     let structure = Structure::new(right.grids().to_vec(), elements.collect())?;
     let column = |grid| Some(vec![(structure.free_dof_index(grid, Z)?, 1.0)]);
-    let columns = measured_grids(&structure)
+    let columns: Vec<_> = measured_grids(&structure)
         .into_iter()
         .filter_map(column)
-        .collect_vec();
+        .collect();
     let mass = DMatrix::from_diagonal_element(columns.len(), columns.len(), POINT_MASS);
     let rows = structure.free_dof().len();
     let loads = SparseMatrix::of_columns("load distribution", rows, &columns)?;
@@ -148,10 +158,10 @@ pub fn test_modes(wing: &DeltaWing) -> Result<Modes, Error> {
     let (structure, whole) = (wing.structure()?, wing.modes()?.modes);
     let (places, all_hz) = (TEST_MODES.map(|mode| mode - 1), whole.frequencies_hz());
     let row = |grid: usize| structure.free_dof_index(grid, Z);
-    let rows = measured_grids(&structure)
+    let rows: Vec<usize> = measured_grids(&structure)
         .into_iter()
         .filter_map(row)
-        .collect_vec();
+        .collect();
     let shapes = whole.shapes().select_rows(&rows).select_columns(&places);
     Modes::from_measured(&places.map(|place| all_hz[place]), &shapes)
 }

@@ -20,7 +20,10 @@ pub mod correlation;
 
 pub use answers::{MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies};
 
-use crate::prelude::*;
+use corfem::method::error::Error;
+use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
+use nalgebra::Vector3;
+use serde::Deserialize;
 
 /// Stations outboard of the root's center, in.
 const STATIONS: [f64; 6] = [0.0, 10.0, 30.0, 50.0, 70.0, 90.0];
@@ -69,7 +72,7 @@ pub struct DeltaWing {
 impl DeltaWing {
     /// The wing of `paper/delta_wing.toml`.
     pub fn embedded() -> Self {
-        toml::from_str(include_str!("../../../../paper/delta_wing.toml")).unwrap()
+        toml::from_str(include_str!("../../../../paper/delta_wing.toml")).expect("a delta wing")
     }
 
     /// The wing as a structure: 48 grids; 14 membranes and 3 triangles (covers, 1 to 17), 36 shear panels (webs, 18 to
