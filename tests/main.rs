@@ -18,3 +18,5 @@ mod evidence;
 mod readers;
 
 mod presentation;
+
+use common::prelude;

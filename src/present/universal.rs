@@ -1,6 +1,7 @@
 //! Shapes of a correlation as a Universal File, for programs that draw and compare modes.
 
 use super::report::Report;
+use super::report::job::joined;
 use super::rows::shapes;
 use crate::job::LoadedJob;
 use crate::method::error::Error;
@@ -108,7 +109,7 @@ fn frame(report: &Report, loaded: &LoadedJob) -> String {
     text
 }
 
-/// Lines between grids of sensors: those of the test's wire frame, or else edges of the structure.
+/// Lines between grids of sensors: those of the test's wire frame, or else edges of the structure, or else lines that join the sensors.
 fn lines(report: &Report, loaded: &LoadedJob) -> BTreeSet<[usize; 2]> {
     let sensors = loaded.placed.iter();
     let of_node = sensors
@@ -126,19 +127,26 @@ fn lines(report: &Report, loaded: &LoadedJob) -> BTreeSet<[usize; 2]> {
     let of_test = loaded.data.lines.iter();
     let of_test = of_test.filter_map(|[from, to]| between(of_node.get(from), of_node.get(to)));
     let of_test: BTreeSet<[usize; 2]> = of_test.collect();
-    let edges = report.frame.iter().flat_map(|corners| {
-        let next = corners.iter().cycle().skip(1);
-        let grid = |corner: &Vector3<f64>| of_place.get(&bits(*corner));
-        corners
-            .iter()
-            .zip(next)
-            .filter_map(move |(from, to)| between(grid(from), grid(to)))
-    });
-    if of_test.is_empty() {
-        edges.collect()
-    } else {
-        of_test
+    if !of_test.is_empty() {
+        return of_test;
     }
+    let edges = |frame: &[Vec<Vector3<f64>>]| -> BTreeSet<[usize; 2]> {
+        let grid = |corner: &Vector3<f64>| of_place.get(&bits(*corner));
+        let edges = frame.iter().flat_map(|corners| {
+            let next = corners.iter().cycle().skip(1);
+            corners.iter().zip(next)
+        });
+        edges
+            .filter_map(|(from, to)| between(grid(from), grid(to)))
+            .collect()
+    };
+    let own = edges(&report.frame);
+    if own.is_empty() {
+        // No piece of the structure goes from sensor to sensor.
+        let places = loaded.placed.iter().filter_map(|own| own.place);
+        return edges(&joined(places.collect()));
+    }
+    own
 }
 
 /// A number in columns of 13 with five digits behind the point, or of 25 with sixteen.

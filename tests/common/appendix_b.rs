@@ -1,12 +1,10 @@
 //! Test modes and measures for Appendix B.
 
-use corfem::method::appendix_b::Movement;
-use corfem::method::modes::Modes;
-use nalgebra::{DMatrix, DVector};
+use crate::prelude::*;
 
 /// Test modes from squared circular frequencies and shapes by columns.
 pub fn modes(omega_squared: &[f64], shapes: DMatrix<f64>) -> Modes {
-    Modes::new(DVector::from_column_slice(omega_squared), shapes).expect("modes")
+    Modes::new(DVector::from_column_slice(omega_squared), shapes).unwrap()
 }
 
 /// The mass norm of a shape.
@@ -27,7 +25,7 @@ pub fn unit_shapes(columns: &[[f64; 4]]) -> DMatrix<f64> {
         &columns
             .iter()
             .map(|column| DVector::from_column_slice(column).normalize())
-            .collect::<Vec<_>>(),
+            .collect_vec(),
     )
 }
 
@@ -37,9 +35,7 @@ pub fn slight_overlap() -> (Modes, DMatrix<f64>, Vec<Movement>) {
         &[100.0, 400.0],
         unit_shapes(&[[1.0, 0.0, 0.0, 0.0], [0.05, 1.0, 0.0, 0.0]]),
     );
-    let mass = DMatrix::identity(4, 4);
-    let movement = corfem::method::appendix_b::orthogonalize(&raw, &mass)
-        .unwrap()
-        .movement;
+    let mass = eye(4);
+    let movement = orthogonalize(&raw, &mass).unwrap().movement;
     (raw, mass, movement)
 }

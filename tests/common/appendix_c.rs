@@ -1,14 +1,6 @@
 //! Strategies and small problems for Appendix C in full: changes of stiffness and mass, clusters of roots.
 
-use corfem::method::appendix_c::{LeftRightModes, Pencil};
-use corfem::method::error::Error;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::perturbation::{Perturbed, first_order, recursive_1, recursive_1_converged};
-use corfem::method::sorting::pair_modes;
-use nalgebra::{Complex, DMatrix, DVector, dmatrix, dvector};
-use proptest::prelude::*;
-
-use super::strategies::symmetric;
+use crate::prelude::*;
 
 /// Modes of vibration on either side: $\lambda = 1/\omega^2$ and $U = V$, for a symmetric pencil is its own transpose.
 pub fn on_either_side(modes: &Modes) -> LeftRightModes<f64> {
@@ -151,21 +143,9 @@ pub fn stiffness_rules() -> impl Iterator<Item = Rule> {
         .filter(|rule| rule.name.starts_with("first order") || rule.name.starts_with("Recursive 1"))
 }
 
-/// What they approach.
-pub const EIGENSOLUTION: Rule = Rule {
-    name: "eigensolution",
-    plain: exact,
-    general: eigensolution,
-};
-
-/// The formulae and the eigensolution.
-pub fn rules() -> impl Iterator<Item = Rule> {
-    FORMULAE.into_iter().chain([EIGENSOLUTION])
-}
-
 /// A change of stiffness alone.
 pub fn of_stiffness(k: &DVector<f64>, beta: &DMatrix<f64>) -> ModalChange {
-    ModalChange::of_vibrations(k, beta.clone(), DMatrix::zeros(k.len(), k.len()))
+    ModalChange::of_vibrations(k, beta.clone(), zero_square(k.len()))
 }
 
 /// The eigensolution for a change of stiffness alone.
@@ -192,7 +172,7 @@ pub fn largest_change(new: &DVector<f64>, old: &DVector<f64>) -> f64 {
     let changes = new
         .iter()
         .zip(old.iter())
-        .map(|(new, old)| (new / old - 1.0).abs());
+        .map(|(new, old)| relative_error(new, old));
     changes.fold(0.0, f64::max)
 }
 
@@ -234,44 +214,6 @@ pub fn separate_change() -> impl Strategy<Value = ModalChange> {
         .prop_flat_map(|k| change_of(k, LARGEST_CHANGE))
 }
 
-/// Modes in clusters and their change, with the clusters expected as blocks at 10 % separation.
-#[derive(Debug, Clone)]
-pub struct Clustered {
-    pub change: ModalChange,
-    pub blocks: Vec<Vec<usize>>,
-}
-
-/// One to three clusters of one to three modes, cluster centers a factor 2 to 4 apart, modes within a cluster apart by
-/// at most 1e-3 of the center and down to nothing; changes of at most 2 % move roots by at most 4 %, so 10 % tells
-/// the clusters apart in every case.
-pub fn clustered() -> impl Strategy<Value = Clustered> {
-    let cluster = (
-        2.0..4.0_f64,
-        prop::collection::vec(
-            prop_oneof![Just(0.0), (-16.0..-3.0_f64).prop_map(|e| 10f64.powf(e))],
-            1..=3,
-        ),
-    );
-    prop::collection::vec(cluster, 1..=3)
-        .prop_flat_map(|clusters| {
-            let mut k = Vec::new();
-            let mut blocks = Vec::new();
-            let mut center = 1.0;
-            for (ratio, splits) in clusters {
-                if splits.len() > 1 {
-                    blocks.push((k.len()..k.len() + splits.len()).collect());
-                }
-                k.extend(splits.iter().map(|split| center * (1.0 + split)));
-                center *= ratio;
-            }
-            (
-                change_of(DVector::from_vec(k), LARGEST_CHANGE),
-                Just(blocks),
-            )
-        })
-        .prop_map(|(change, blocks)| Clustered { change, blocks })
-}
-
 /// A chain of three masses: springs to the ground, and between masses 1-2, 2-3 and 1-3.
 pub fn three_mass_chain(ground: [f64; 3], between: [f64; 3]) -> DMatrix<f64> {
     let mut stiffness = DMatrix::from_diagonal(&DVector::from_row_slice(&ground));
@@ -286,7 +228,7 @@ pub fn three_mass_chain(ground: [f64; 3], between: [f64; 3]) -> DMatrix<f64> {
 
 /// Real numbers in ascending order.
 pub fn ascending<'a>(values: impl IntoIterator<Item = &'a f64>) -> Vec<f64> {
-    let mut sorted: Vec<f64> = values.into_iter().copied().collect();
+    let mut sorted = values.into_iter().copied().collect_vec();
     sorted.sort_by(f64::total_cmp);
     sorted
 }
@@ -305,7 +247,7 @@ pub fn largest_root_error(roots: &[Complex<f64>], exact: &[Complex<f64>]) -> f64
                 .enumerate()
                 .map(|(i, other)| (i, (root - other).norm() / other.norm()))
                 .min_by(|a, b| a.1.total_cmp(&b.1))
-                .expect("there are roots");
+                .unwrap();
             assert!(
                 !used[nearest],
                 "two roots are nearest to {}",

@@ -1,11 +1,7 @@
 //! The torque box as the loops see it, and boxes like it with other gages.
 
-use corfem::method::model::Model;
-use corfem::torque_box::Case;
-use corfem::torque_box::wing_box::{PANEL_COUNT, Reconstruction};
-use proptest::prelude::*;
-use proptest::strategy::ValueTree;
-use proptest::test_runner::{Config, RngAlgorithm, RngSeed, TestRunner};
+use crate::prelude::*;
+use proptest::test_runner::{RngAlgorithm, RngSeed};
 
 /// The problem of a case's first pass: its first gages, its test modes, all nine analysis modes.
 pub fn first_problem(number: usize) -> Model {
@@ -15,11 +11,9 @@ pub fn first_problem(number: usize) -> Model {
 
 /// The same for a case with other gages or settings.
 pub fn problem_of(case: &Case) -> Model {
-    let model = case.model().expect("a model");
-    let test = case.test_modes().expect("test modes");
-    model
-        .analyze(&[1.0; PANEL_COUNT], &test, None)
-        .expect("a problem")
+    let model = case.model().unwrap();
+    let test = case.test_modes().unwrap();
+    model.analyze(&[1.0; PANEL_COUNT], &test, None).unwrap()
 }
 
 /// Case 2's box, of membranes and shear panels, with first gages of 0.008 to 0.013 in: up to 30 % off the test's
@@ -42,7 +36,7 @@ pub fn other_box(coordinates: f64, masses: f64) -> impl Strategy<Value = Reconst
         prop::collection::vec(-masses..masses, 9),
     );
     drawn.prop_map(|(places, masses)| {
-        let mut other = Reconstruction::embedded().expect("the box");
+        let mut other = Reconstruction::embedded().unwrap();
         for (grid, position) in &mut other.grids {
             for (axis, value) in position.iter_mut().enumerate() {
                 *value *= 1.0 + places[3 * ((grid - 1) / 2) + axis];
@@ -62,9 +56,9 @@ pub fn other_boxes(coordinates: f64, masses: f64) -> impl Iterator<Item = Recons
         rng_seed: RngSeed::Fixed(12),
         ..Config::default()
     });
-    let all = std::iter::repeat_with(move || boxes.new_tree(&mut runner).expect("a box").current());
+    let all = std::iter::repeat_with(move || boxes.new_tree(&mut runner).unwrap().current());
     all.filter(|other| {
-        let case = Case::from_reconstruction(2, other.clone()).expect("a case");
+        let case = Case::from_reconstruction(2, other.clone()).unwrap();
         case.model().is_ok()
     })
 }

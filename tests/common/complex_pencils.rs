@@ -1,10 +1,6 @@
 //! Strategies and small problems for complex unsymmetric pencils, and their roots by another route.
 
-use nalgebra::{Complex, DMatrix};
-use proptest::prelude::*;
-
-use super::appendix_c::separate_spectrum;
-use super::strategies::orthogonal;
+use crate::prelude::*;
 
 /// A stiffness and a complex unsymmetric $G$ with their changes.
 #[derive(Debug, Clone)]
@@ -48,7 +44,7 @@ pub fn complex_pencil() -> impl Strategy<Value = ComplexPencil> {
             let small = |factor: f64| Complex::from(factor);
             ComplexPencil {
                 stiffness: 0.5 * (&stiffness + stiffness.transpose()),
-                g: DMatrix::identity(size, size) + aerodynamic * small(0.02),
+                g: eye(size) + aerodynamic * small(0.02),
                 // Relative to the stiffness of the modes it acts on, as the change of a structure is.
                 stiffness_change: &root * stiffness_noise * &root * small(0.01),
                 g_change: g_noise * small(0.01),
@@ -62,10 +58,10 @@ pub fn complex_pencil() -> impl Strategy<Value = ComplexPencil> {
 /// and hinge moment follow twist and aileron in phase (stiffness-like, here part of $G$ as in the paper) and lag
 /// behind them (the imaginary part), and no force on the twist follows bending: complex and unsymmetric.
 pub fn aeroelastic_section(q: f64) -> (DMatrix<f64>, DMatrix<Complex<f64>>) {
-    let stiffness = nalgebra::dmatrix![1.0, 0.0, 0.0; 0.0, 1.5, -0.05; 0.0, -0.05, 0.4];
-    let mass = nalgebra::dmatrix![1.0, 0.2, 0.05; 0.2, 0.5, 0.06; 0.05, 0.06, 0.04];
-    let in_phase = nalgebra::dmatrix![0.1, 1.2, 0.5; 0.0, 0.3, 0.2; 0.0, 0.02, 0.05];
-    let lagging = nalgebra::dmatrix![0.8, 0.4, 0.1; -0.2, 0.3, 0.05; 0.0, 0.01, 0.02];
+    let stiffness = dmatrix![1.0, 0.0, 0.0; 0.0, 1.5, -0.05; 0.0, -0.05, 0.4];
+    let mass = dmatrix![1.0, 0.2, 0.05; 0.2, 0.5, 0.06; 0.05, 0.06, 0.04];
+    let in_phase = dmatrix![0.1, 1.2, 0.5; 0.0, 0.3, 0.2; 0.0, 0.02, 0.05];
+    let lagging = dmatrix![0.8, 0.4, 0.1; -0.2, 0.3, 0.05; 0.0, 0.01, 0.02];
     let g = DMatrix::from_fn(3, 3, |i, j| {
         Complex::new(mass[(i, j)] + q * in_phase[(i, j)], -q * lagging[(i, j)])
     });
@@ -87,9 +83,7 @@ pub fn roots_by_qz(stiffness: &Complexes, g: &Complexes) -> Vec<Complex<f64>> {
     let to_faer = |matrix: &Complexes| {
         faer::Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)])
     };
-    let eigen = to_faer(g)
-        .generalized_eigen(to_faer(stiffness))
-        .expect("QZ converges");
+    let eigen = to_faer(g).generalized_eigen(to_faer(stiffness)).unwrap();
     (0..g.nrows())
         .map(|i| eigen.S_a()[i] / eigen.S_b()[i])
         .collect()

@@ -1,15 +1,7 @@
 //! The paper's condensation of a whole model to its sensors, which no job compares any more, and what it costs: the condensed modes beside
 //! those of the whole model.
 
-use corfem::method::appendix_a::{Condensed, condense};
-use corfem::method::error::Error;
-use corfem::method::model::DynamicModel;
-use corfem::method::model::Model;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::sorting::pair_modes;
-use corfem::sparse::modal_assurance;
-use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// Largest part by which condensation may raise a frequency that is compared, twice the loop's own tolerance on frequencies: beyond it
 /// the correlation would correct elements for what the choice of measuring points did.
@@ -50,7 +42,7 @@ pub fn seen_modes(
         let shapes = sensors.times(modes.vibrations.shapes())?;
         let most = shapes.amax();
         let seen = (0..squares.len()).filter(|&mode| shapes.column(mode).amax() > UNSEEN * most);
-        let seen: Vec<usize> = seen.take(count).collect();
+        let seen = seen.take(count).collect_vec();
         if seen.len() == count {
             return Modes::new(squares.select_rows(&seen), shapes.select_columns(&seen));
         }

@@ -1,12 +1,7 @@
 //! Strategies of models that a deck can hold, and of decks that say the same in another way.
 
-use corfem::files::deck::{self, BulkData, PointMass, Tie};
-use corfem::files::error::FileError;
-use corfem::method::structure::{Element, ElementKind, Grid, Material, StructuralDof};
-use proptest::prelude::*;
-
-/// Columns of a field of the small and of the large format.
-const WIDTHS: [usize; 2] = [8, 16];
+use crate::prelude::*;
+use corfem::files::deck::{Deck, PointMass};
 
 /// The bulk data alone of the deck that is written of a model.
 ///
@@ -14,7 +9,7 @@ const WIDTHS: [usize; 2] = [8, 16];
 /// Those of [`deck::write`].
 pub fn bulk_text(model: &BulkData) -> Result<String, FileError> {
     let deck = deck::write(model, "", &deck::Task::Matrices)?;
-    let bulk = deck.split_once("BEGIN BULK\n").expect("bulk data").1;
+    let bulk = deck.split_once("BEGIN BULK\n").unwrap().1;
     Ok(bulk
         .split_inclusive('\n')
         .take_while(|line| !line.starts_with("EIGR"))
@@ -24,19 +19,13 @@ pub fn bulk_text(model: &BulkData) -> Result<String, FileError> {
 /// A decimal number of up to ten digits between 1e-15 and 1e15: a field of 16 characters holds it exactly, with its
 /// sign and an exponent.
 pub fn field_number() -> impl Strategy<Value = f64> {
-    (-9_999_999_999..=9_999_999_999_i64, -15..=5_i32).prop_map(|(digits, power)| {
-        format!("{digits}e{power}")
-            .parse()
-            .expect("a decimal number")
-    })
+    (-9_999_999_999..=9_999_999_999_i64, -15..=5_i32)
+        .prop_map(|(digits, power)| format!("{digits}e{power}").parse().unwrap())
 }
 
 fn positive_number() -> impl Strategy<Value = f64> {
-    (1..=9_999_999_999_i64, -15..=5_i32).prop_map(|(digits, power)| {
-        format!("{digits}e{power}")
-            .parse()
-            .expect("a decimal number")
-    })
+    (1..=9_999_999_999_i64, -15..=5_i32)
+        .prop_map(|(digits, power)| format!("{digits}e{power}").parse().unwrap())
 }
 
 /// Two materials: Poisson's ratio of four digits, a shear modulus that follows from it or one of its own, with or without
@@ -49,7 +38,7 @@ fn materials() -> impl Strategy<Value = Vec<Material>> {
         prop::option::of(positive_number()),
     )
         .prop_map(|(e, nu, g, density)| {
-            let material = Material::isotropic(e, f64::from(nu) / 1e4).expect("a material");
+            let material = Material::isotropic(e, f64::from(nu) / 1e4).unwrap();
             Material {
                 shear_modulus: g.unwrap_or(material.shear_modulus),
                 density: density.unwrap_or(0.0),
@@ -114,7 +103,7 @@ pub fn bulk_data() -> impl Strategy<Value = BulkData> {
     );
     (grids, elements, ties, masses).prop_map(|(grids, elements, ties, masses)| {
         let (labels, places) = grids;
-        let mut grids: Vec<Grid> = labels
+        let mut grids = labels
             .into_iter()
             .zip(places)
             .map(|(label, (position, constrained))| Grid {
@@ -122,7 +111,7 @@ pub fn bulk_data() -> impl Strategy<Value = BulkData> {
                 position: position.into(),
                 constrained,
             })
-            .collect();
+            .collect_vec();
         let (labels, drawn, materials) = elements;
         let kinds = [
             ElementKind::Rod,
@@ -181,54 +170,7 @@ pub fn bulk_data() -> impl Strategy<Value = BulkData> {
     })
 }
 
-/// How a line is written.
-#[derive(Debug, Clone, Copy)]
-pub enum Style {
-    /// As it was.
-    Fixed,
-    /// In free format.
-    Free,
-    /// In free format, in small letters, with blanks and a comment.
-    Relaxed,
-    /// As it was, between comments.
-    Commented,
-}
-
-pub fn style() -> impl Strategy<Value = Style> {
-    prop_oneof![
-        Just(Style::Fixed),
-        Just(Style::Free),
-        Just(Style::Relaxed),
-        Just(Style::Commented),
-    ]
-}
-
-/// A line of fixed format in another style.
-pub fn restyled(line: &str, style: Style) -> String {
-    match style {
-        Style::Fixed => line.to_owned(),
-        Style::Free => free(line).join(","),
-        Style::Relaxed => {
-            let fields: Vec<String> = free(line)
-                .iter()
-                .map(|field| format!(" {}  ", field.to_lowercase()))
-                .collect();
-            format!("{} $ a remark, with commas", fields.join(","))
-        }
-        Style::Commented => format!("$ before\n\n{line}\n$ after"),
-    }
-}
-
-/// The fields of a line of fixed format.
-fn free(line: &str) -> Vec<String> {
-    let line = format!("{line:80}");
-    let name = line[..8].trim().to_owned();
-    let width = WIDTHS[usize::from(name.contains('*'))];
-    let data = (8..72)
-        .step_by(width)
-        .map(|start| line[start..start + width].trim().to_owned());
-    std::iter::once(name)
-        .chain(data)
-        .chain(std::iter::once(line[72..].trim().to_owned()))
-        .collect()
+/// Reads a deck that is called "test", with nothing to ignore.
+pub fn read_deck(text: impl AsRef<str>) -> Result<Deck, FileError> {
+    deck::read("test", text.as_ref().as_bytes(), &[])
 }

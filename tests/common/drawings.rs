@@ -28,7 +28,7 @@ pub fn words(svg: &str) -> Vec<String> {
 
 fn one(element: &str) -> Written {
     const UNITS: f64 = 10.0;
-    let (tag, rest) = element.split_once('>').expect("a tag");
+    let (tag, rest) = element.split_once('>').unwrap();
     let entities = [
         ("&lt;", "<"),
         ("&gt;", ">"),
@@ -36,7 +36,7 @@ fn one(element: &str) -> Written {
         ("&apos;", "'"),
         ("&amp;", "&"),
     ];
-    let text = rest.split("</text>").next().expect("words").trim();
+    let text = rest.split("</text>").next().unwrap().trim();
     let text = entities
         .iter()
         .fold(text.to_owned(), |text, (entity, letter)| {
@@ -74,10 +74,10 @@ fn word<'a>(tag: &'a str, name: &str) -> &'a str {
         None if tag.starts_with(&start[1..]) => start.len() - 1,
         None => panic!("no {name} in {tag}"),
     };
-    tag[at..].split('"').next().expect("a value")
+    tag[at..].split('"').next().unwrap()
 }
 
 /// A number that a tag has by name.
 pub fn attribute(tag: &str, name: &str) -> f64 {
-    word(tag, name).parse().expect("a number")
+    word(tag, name).parse().unwrap()
 }

@@ -1,8 +1,6 @@
 //! Reproducible draws for tests that make more calls than a property would, and how often a strategy's draws reach something.
 
-use corfem::sparse::random::split_mix_64;
-use proptest::strategy::{Strategy, ValueTree};
-use proptest::test_runner::TestRunner;
+use crate::prelude::*;
 
 /// A stream of draws from a seed.
 pub struct Draws(pub u64);
@@ -34,7 +32,7 @@ pub fn reached<S: Strategy>(
     is_reached: impl Fn(S::Value) -> bool,
 ) -> f64 {
     let mut runner = TestRunner::new(super::config());
-    let draw = |_| strategy.new_tree(&mut runner).expect("a draw").current();
+    let draw = |_| strategy.new_tree(&mut runner).unwrap().current();
     let count = (0..LOOKED_AT)
         .map(draw)
         .map(is_reached)

@@ -1,20 +1,17 @@
 //! NASTRAN-95 played by a small shell script, and its answers written as module OUTPUT5 writes them.
 
-use crate::common::outer_loop::program::Nastran95;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 use std::fmt::Write;
 use std::os::unix::fs::PermissionsExt;
-use std::time::Duration;
-use tempfile::TempDir;
 
 /// A folder that looks like NASTRAN-95, its program the given shell script.
 pub fn fake(script: &str) -> TempDir {
-    let home = tempfile::tempdir().expect("a folder");
-    std::fs::create_dir_all(home.path().join("bin")).expect("bin");
-    std::fs::create_dir_all(home.path().join("rf")).expect("rf");
+    let home = tempfile::tempdir().unwrap();
+    fs::create_dir_all(home.path().join("bin")).unwrap();
+    fs::create_dir_all(home.path().join("rf")).unwrap();
     let program = home.path().join("bin/nastrn");
-    std::fs::write(&program, format!("#!/bin/sh\n{script}\n")).expect("written");
-    std::fs::set_permissions(&program, PermissionsExt::from_mode(0o755)).expect("executable");
+    fs::write(&program, format!("#!/bin/sh\n{script}\n")).unwrap();
+    fs::set_permissions(&program, PermissionsExt::from_mode(0o755)).unwrap();
     home
 }
 
@@ -46,10 +43,7 @@ pub fn output5(matrices: &[(&str, &DMatrix<f64>)]) -> String {
             let Some(first) = entries.iter().position(|x| *x != 0.0) else {
                 continue;
             };
-            let last = entries
-                .iter()
-                .rposition(|x| *x != 0.0)
-                .expect("there is one");
+            let last = entries.iter().rposition(|x| *x != 0.0).unwrap();
             let _ = writeln!(text, "{:8}{:8}{:8}", column + 1, first + 1, last + 1);
             for line in entries.as_slice()[first..=last].chunks(5) {
                 let fields: String = line

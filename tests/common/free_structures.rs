@@ -1,9 +1,8 @@
 //! Drawn structures with a place for every row, held or free, as matrices that a program writes with so many digits.
 
-use crate::common::draws::Draws;
+use crate::prelude::*;
 use corfem::files::matrices::read;
-use corfem::sparse::{Places, SparseMatrix, Support};
-use nalgebra::{DMatrix, Vector3};
+use corfem::sparse::Places;
 use std::fmt::Write;
 
 /// A structure by its stiffness and mass, with place and direction of every row, and how many motions nothing resists.
@@ -39,7 +38,7 @@ fn without(all: Drawn, first: usize, free: usize) -> Drawn {
 }
 
 fn nothing(rows: Vec<(Vector3<f64>, usize)>, free: usize) -> Drawn {
-    let zeros = DMatrix::zeros(rows.len(), rows.len());
+    let zeros = zero_square(rows.len());
     Drawn {
         stiffness: zeros.clone(),
         mass: zeros,
@@ -87,9 +86,9 @@ fn bending(length: f64) -> DMatrix<f64> {
 /// A beam along x in z and about y, in meters or millimeters.
 fn beam(draws: &mut Draws, is_held: bool) -> Drawn {
     let (count, unit) = (10 + draws.below(40), [1.0, 1e3][draws.below(2)]);
-    let lengths: Vec<f64> = (0..count)
+    let lengths = (0..count)
         .map(|_| draws.between(0.5, 2.0) * unit * 10.0 / count as f64)
-        .collect();
+        .collect_vec();
     let mut x = 0.0;
     let mut rows = Vec::new();
     for at in 0..=count {
@@ -101,7 +100,7 @@ fn beam(draws: &mut Draws, is_held: bool) -> Drawn {
     let sign = DMatrix::from_fn(4, 4, |i, j| if (i + j) % 2 == 0 { 1.0 } else { -1.0 });
     for (at, &length) in lengths.iter().enumerate() {
         let size = 1e5 * draws.between(0.5, 2.0) * unit * unit;
-        let own: Vec<usize> = (2 * at..2 * at + 4).collect();
+        let own = (2 * at..2 * at + 4).collect_vec();
         add(
             &mut all.stiffness,
             &own,
@@ -124,7 +123,7 @@ fn beam(draws: &mut Draws, is_held: bool) -> Drawn {
 fn frame(draws: &mut Draws, is_held: bool) -> Drawn {
     let (bays, unit) = (2 + draws.below(6), [1.0, 1e3][draws.below(2)]);
     let [wide, high] = [(); 2].map(|()| draws.between(0.5, 3.0) * unit);
-    let (sin, cos) = draws.between(0.0, std::f64::consts::TAU).sin_cos();
+    let (sin, cos) = draws.between(0.0, TAU).sin_cos();
     let place = |at: usize| {
         let (x, y) = ((at % 2) as f64 * wide, (at / 2) as f64 * high);
         Vector3::new(cos * x - sin * y, sin * x + cos * y, 0.0)
@@ -144,20 +143,20 @@ fn frame(draws: &mut Draws, is_held: bool) -> Drawn {
         let along = place(b) - place(a);
         let length = along.norm();
         let (c, s) = (along.x / length, along.y / length);
-        let mut own = DMatrix::zeros(6, 6);
+        let mut own = zero_square(6);
         let bar = DMatrix::from_row_slice(2, 2, &[1.0, -1.0, -1.0, 1.0]);
         add(&mut own, &[0, 3], &(stretched * unit / length * bar));
         let size = bent * unit * unit * draws.between(0.5, 2.0);
         add(&mut own, &[1, 2, 4, 5], &(size * bending(length)));
         let turn = DMatrix::from_row_slice(3, 3, &[c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0]);
-        let mut turns = DMatrix::zeros(6, 6);
+        let mut turns = zero_square(6);
         add(&mut turns, &[0, 1, 2], &turn);
         add(&mut turns, &[3, 4, 5], &turn);
         let own = turns.tr_mul(&own) * turns;
-        let places: Vec<usize> = [a, b]
+        let places = [a, b]
             .iter()
             .flat_map(|at| [3 * at, 3 * at + 1, 3 * at + 2])
-            .collect();
+            .collect_vec();
         add(
             &mut all.stiffness,
             &places,
@@ -182,12 +181,12 @@ fn truss(draws: &mut Draws, is_held: bool) -> Drawn {
         .map(|at| [at / 4, at / 2 % 2, at % 2])
         .collect();
     let sizes = Vector3::from_fn(|_, _| draws.between(0.5, 2.0));
-    let places: Vec<Vector3<f64>> = lattice
+    let places = lattice
         .iter()
         .map(|at| {
             Vector3::from_fn(|axis, _| at[axis] as f64 * sizes[axis] + draws.between(-0.05, 0.05))
         })
-        .collect();
+        .collect_vec();
     let rows = places
         .iter()
         .flat_map(|&place| [0, 1, 2].map(|direction| (place, direction)));
@@ -206,10 +205,10 @@ fn truss(draws: &mut Draws, is_held: bool) -> Drawn {
                 |row, _| if row < 3 { -unit[row] } else { unit[row - 3] },
             );
             let size = 1e6 * draws.between(0.5, 2.0) / along.norm();
-            let own: Vec<usize> = [b, a]
+            let own = [b, a]
                 .iter()
                 .flat_map(|at| [3 * at, 3 * at + 1, 3 * at + 2])
-                .collect();
+                .collect_vec();
             add(&mut all.stiffness, &own, &(size * &way * way.transpose()));
         }
     }
@@ -223,7 +222,7 @@ fn truss(draws: &mut Draws, is_held: bool) -> Drawn {
 pub fn written(matrix: &DMatrix<f64>, digits: usize) -> String {
     let size = matrix.nrows();
     let lower = (0..size).flat_map(|column| (column..size).map(move |row| (row, column)));
-    let lower: Vec<_> = lower.filter(|at| matrix[*at] != 0.0).collect();
+    let lower = lower.filter(|at| matrix[*at] != 0.0).collect_vec();
     let mut text = format!(
         "%%MatrixMarket matrix coordinate real symmetric\n{size} {size} {}\n",
         lower.len()
@@ -244,20 +243,18 @@ pub fn written(matrix: &DMatrix<f64>, digits: usize) -> String {
 /// The matrix as read from a file with so many digits.
 pub fn rewritten(matrix: &DMatrix<f64>, digits: usize) -> SparseMatrix {
     let text = written(matrix, digits);
-    read("matrix", text.as_bytes(), None)
-        .expect("a matrix")
-        .matrix
+    read("matrix", text.as_bytes(), None).unwrap().matrix
 }
 
 impl Drawn {
     /// What places of so many digits tell of its motions.
     pub fn support(&self, digits: usize) -> Support {
-        let rounded = |part: f64| format!("{part:.*e}", digits - 1).parse().expect("a number");
-        let rows: Vec<_> = self
+        let rounded = |part: f64| format!("{part:.*e}", digits - 1).parse().unwrap();
+        let rows = self
             .rows
             .iter()
             .map(|(place, direction)| (place.map(rounded), *direction))
-            .collect();
+            .collect_vec();
         Support {
             places: Some(Places::new(&rows, 0.5 * 10_f64.powf(1.0 - digits as f64))),
             ..Support::default()

@@ -1,10 +1,6 @@
 //! Snapshots compared number by number, so that another machine's last digit does not fail them.
 
-use crate::common::tolerances::{
-    GOLDEN_AS_WRITTEN, GOLDEN_COUNT, GOLDEN_FREQUENCY, GOLDEN_GAGE, GOLDEN_PERCENT, GOLDEN_RELATIVE,
-};
-use corfem::present::render::{csv, text};
-use corfem::present::table::Table;
+use crate::prelude::*;
 use insta::Snapshot;
 use insta::comparator::Comparator;
 use insta::internals::SnapshotContents;
@@ -142,7 +138,7 @@ pub fn assert_golden(name: &str, text: &str, numbers: Numbers) {
 
 /// Asserts the golden of a table: as a reader sees it, with the paper's numbers below, and behind it every number with ten digits.
 pub fn assert_table(table: &Table) {
-    let one = std::slice::from_ref(table);
+    let one = from_ref(table);
     let golden = format!("{}\n{}", text(one), csv(one));
     assert_golden(&table.name, &golden, Numbers::BY_UNIT);
 }
@@ -150,7 +146,7 @@ pub fn assert_table(table: &Table) {
 /// Splits a text into numbers and the single characters between them.
 fn tokens(text: &str) -> Vec<String> {
     let mut tokens: Vec<String> = Vec::new();
-    let characters: Vec<char> = text.chars().collect();
+    let characters = text.chars().collect_vec();
     let mut at = 0;
     while at < characters.len() {
         let end = number_end(&characters, at).max(at + 1);

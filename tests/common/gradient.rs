@@ -1,10 +1,6 @@
 //! The gradient of the error sum: the limit of the paper's difference (12) for all parameters at once, and a second route to it.
 
-use corfem::method::analysis::State;
-use corfem::method::error::Error;
-use corfem::method::model::Model;
-use corfem::method::perturbation::SMALLEST_SEPARATION;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// Derivative of the error sum with respect to every parameter's factor, relative to the present one: the limit of
 /// $\Delta e_e/0.001$ for smaller and smaller changes.

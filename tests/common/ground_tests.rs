@@ -1,8 +1,6 @@
 //! Ground vibration tests, drawn and written by hand.
 
-use corfem::files::test_data::{Sensor, TestData};
-use nalgebra::{DMatrix, DVector, Vector3, dmatrix};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// A wing test with everything that a test may have: rotations, a sensor without grid, places and a wire frame.
 pub fn wing_test() -> TestData {
@@ -31,7 +29,7 @@ pub fn wing_test() -> TestData {
 }
 
 /// A place for a number, or nothing there.
-fn sometimes<T: std::fmt::Debug + Clone + 'static>(
+fn sometimes<T: Debug + Clone + 'static>(
     value: impl Strategy<Value = T> + 'static,
 ) -> BoxedStrategy<Option<T>> {
     prop::option::of(value).boxed()
@@ -75,7 +73,7 @@ pub fn ground_test() -> impl Strategy<Value = TestData> {
                             axis: None,
                             place: place.map(|(x, y, z)| Vector3::new(x, y, z)),
                         });
-                    let sensors: Vec<Sensor> = sensors.collect();
+                    let sensors = sensors.collect_vec();
                     let mut shapes = DMatrix::from_vec(sensors.len(), modes, values);
                     shapes
                         .row_mut(0)

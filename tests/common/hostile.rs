@@ -1,20 +1,6 @@
 //! Matrices, modes and models that nobody means: of any size, of extreme numbers, of what is no number.
 
-use super::draws::Draws;
-use crate::common::appendix_c::ModalChange;
-use crate::common::structures::spring_stiffness;
-use corfem::method::analysis::{Analysis, State};
-use corfem::method::appendix_a::{ElementMatrix, element_matrices};
-use corfem::method::error::Error;
-use corfem::method::error_sum::Errors;
-use corfem::method::model::Model;
-use corfem::method::model::{DynamicModel, FiniteElementModel, Parameter};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::sorting::Pairing;
-use corfem::method::step::Bounds;
-use corfem::method::structure::{Element, ElementKind, Grid, Material, StructuralDof, Structure};
-use corfem::sparse::ParameterMatrix;
-use nalgebra::{DMatrix, DVector, Vector3};
+use crate::prelude::*;
 
 /// Numbers that break things: zeros, ends of the range, and what is no number.
 const NASTY: [f64; 16] = [
@@ -85,7 +71,7 @@ impl Draws {
             _ if rows == columns => {
                 let tame = matrix.map(|entry| if entry.abs() < 1e3 { entry } else { 1.0 });
                 let scale = [1.0, 1.0, 1e160, 1e-160, 1e300, 1e-300][self.below(6)];
-                (&tame * tame.transpose() + DMatrix::identity(rows, rows)) * scale
+                (&tame * tame.transpose() + eye(rows)) * scale
             }
             _ => matrix,
         }
@@ -115,7 +101,7 @@ impl Draws {
     }
 
     pub fn material(&mut self) -> Material {
-        let mut metal = Material::isotropic(1e7, 0.3).expect("a metal");
+        let mut metal = Material::isotropic(1e7, 0.3).unwrap();
         if self.below(2) == 0 {
             (metal.youngs_modulus, metal.poissons_ratio) = (self.number(), self.number());
             (metal.shear_modulus, metal.density) = (self.number(), self.number());
@@ -152,9 +138,9 @@ impl Draws {
     pub fn chain(&mut self) -> Option<Model> {
         let count = 1 + self.below(4);
         let share = |spring: usize| spring_stiffness(count, spring, 100.0);
-        let shares: Vec<DMatrix<f64>> = (0..count).map(share).collect();
+        let shares = (0..count).map(share).collect_vec();
         let stiffness = shares.iter().sum::<DMatrix<f64>>();
-        let mass = DMatrix::identity(count, count);
+        let mass = eye(count);
         let test = solve(&(1.2 * &stiffness), &mass, count).ok()?;
         DynamicModel {
             stiffness,
@@ -227,7 +213,12 @@ impl Draws {
             position,
             constrained: held[row],
         };
-        let mut grids: Vec<Grid> = self.corners().into_iter().enumerate().map(place).collect();
+        let mut grids = self
+            .corners()
+            .into_iter()
+            .enumerate()
+            .map(place)
+            .collect_vec();
         if self.below(8) == 0 {
             grids[self.size() % 4].constrained = [self.below(2) == 0; 3];
         }
@@ -275,7 +266,7 @@ impl Draws {
     /// Element matrices, their sizes and the DOF they belong to, of which a part may not fit the others.
     pub fn elements(&mut self) -> Result<Elements, Error> {
         let structure = self.structure()?;
-        let mut elements: Vec<ElementMatrix> = element_matrices(&structure).collect();
+        let mut elements = element_matrices(&structure).collect_vec();
         let mut free = structure.free_dof().to_vec();
         let count = self.about(elements.len());
         let sizes = (0..count)
@@ -348,7 +339,7 @@ impl Draws {
         let mass = if self.below(4) == 0 {
             self.symmetric(points)
         } else {
-            0.01 * DMatrix::identity(points, points)
+            0.01 * eye(points)
         };
         let parameters = self.parameters();
         let count = self.about(parameters.len());

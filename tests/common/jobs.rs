@@ -1,23 +1,7 @@
 //! The worked jobs of `tests/jobs`, made anew: what they were made of is known here, and only here.
 
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::known::delta_wing::correlation::{first_model, measured_grids};
-use crate::common::test_files::{write_csv, write_universal};
-use corfem::files::deck::{self, BulkData, Task};
-use corfem::files::error::FileError;
-use corfem::files::matrices::write_matrix_market;
-use corfem::files::test_data::{Sensor, TestData};
-use corfem::job::{JobResult, LoadedJob, PreparedJob, Trust};
-use corfem::method::modes::Modes;
-use corfem::sparse::{SparseMatrix, WholeModel, WholeShare};
-use corfem::torque_box::Case;
-use corfem::torque_box::wing_box::{TEST_GAGE, dynamic_points};
-use corfem::weighted::noise::{Noise, with_noise};
-use nalgebra::{DMatrix, Vector3};
-use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
-
-use super::whole_models::{seen_by, sensors_at, shear_building};
+use crate::prelude::*;
+use corfem::job::LoadedJob;
 
 /// Stiffness of every story of the real building over that of the model, from the ground up.
 pub const STORIES: [f64; 10] = [0.70, 1.0, 1.2, 0.9, 1.0, 0.8, 1.1, 1.0, 0.85, 1.0];
@@ -63,9 +47,7 @@ fn sensor(name: String, grid: usize, direction: usize, place: Option<Vector3<f64
 
 /// A folder of `tests/jobs`.
 pub fn folder_of(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/jobs")
-        .join(name)
+    in_root("tests/jobs").join(name)
 }
 
 /// A job read, with its first analysis and its pairs.
@@ -96,7 +78,7 @@ pub fn worked(name: &str) -> &'static JobResult {
         ("garteur", OnceLock::new()),
         ("wing", OnceLock::new()),
     ];
-    let (_, result) = RUNS.iter().find(|(of, _)| *of == name).expect("a job");
+    let (_, result) = RUNS.iter().find(|(of, _)| *of == name).unwrap();
     result.get_or_init(|| {
         run(&loaded(name), |_| {}, || true).unwrap_or_else(|error| panic!("{error}"))
     })
@@ -104,13 +86,13 @@ pub fn worked(name: &str) -> &'static JobResult {
 
 /// The paper's box of Case 2 from its deck, and its nine modes with noise.
 pub fn torque_box() -> Files {
-    let case = Case::new(2).expect("Case 2");
-    let model = case.model().expect("a model");
-    let points = dynamic_points(&case.reconstruction).expect("points");
+    let case = Case::new(2).unwrap();
+    let model = case.model().unwrap();
+    let points = dynamic_points(&case.reconstruction).unwrap();
     let ones = vec![1.0; model.parameters().len()];
-    let bulk = BulkData::from_model(&model, &ones, &points).expect("a deck");
-    let grids: Vec<usize> = bulk.ties.iter().map(|tie| tie.dependent.grid).collect();
-    let noisy = with_noise(&case.test_modes().expect("modes"), Noise::USUAL, SEED).expect("noise");
+    let bulk = BulkData::from_model(&model, &ones, &points).unwrap();
+    let grids = bulk.ties.iter().map(|tie| tie.dependent.grid).collect_vec();
+    let noisy = with_noise(&case.test_modes().unwrap(), Noise::USUAL, SEED).unwrap();
     let sensors = grids
         .iter()
         .zip(&points)
@@ -119,7 +101,7 @@ pub fn torque_box() -> Files {
     let mut data = test_data(&noisy, sensors.collect());
     data.frequency_deviation = Some(vec![Noise::USUAL.frequency; noisy.len()]);
     data.shape_deviation = Some(vec![Noise::USUAL.shape; noisy.len()]);
-    let ranges = model.factor_ranges().expect("ranges");
+    let ranges = model.factor_ranges().unwrap();
     let mut job = "title = \"torque box\"\n\n[model]\ndeck = \"model.bdf\"\n\n[test]\nfile = \"test.csv\"\n\n\
                    [compare]\nmethod = \"gauss_newton\"\n"
         .to_owned();
@@ -132,7 +114,7 @@ pub fn torque_box() -> Files {
             parameter.name
         );
     }
-    let deck = deck::write(&bulk, "torque box", &task()).expect("a deck");
+    let deck = deck::write(&bulk, "torque box", &task()).unwrap();
     vec![
         ("job.toml".to_owned(), job),
         ("model.bdf".to_owned(), deck),
@@ -143,7 +125,7 @@ pub fn torque_box() -> Files {
 /// True gages of the box over those of its deck, panel by panel.
 pub fn torque_box_truth() -> Vec<f64> {
     Case::new(2)
-        .expect("Case 2")
+        .unwrap()
         .first_gages()
         .iter()
         .map(|gage| TEST_GAGE / gage)
@@ -156,14 +138,14 @@ pub fn building() -> Files {
     let real = shear_building(&STORIES.map(|factor| factor * STORY), FLOOR, None);
     let measured = [1, 3, 5, 7, 9];
     let sensors = sensors_at(&measured, 10);
-    let modes = real.modes(&[1.0; 10], 5).expect("modes").vibrations;
+    let modes = real.modes(&[1.0; 10], 5).unwrap().vibrations;
     let seen = seen_by(&sensors, &modes);
     let places =
         measured.map(|row| sensor(format!("floor {}", row + 1), row + 1, 0, Some(floor(row))));
     let mut job = "title = \"ten-story building\"\n\n[model]\nstiffness = \"stiffness.mtx\"\nmass = \"mass.mtx\"\n\
                    rows = \"rows.csv\"\n\n[test]\nfile = \"test.csv\"\n\n[compare]\nanalysis_modes = 10\n"
         .to_owned();
-    let (stiffness, mass) = model.at(&[1.0; 10]).expect("matrices");
+    let (stiffness, mass) = model.at(&[1.0; 10]).unwrap();
     let rows = (0..10)
         .map(|row| format!("{},x,0.,0.,{}\n", row + 1, floor(row).z))
         .collect::<String>();
@@ -204,7 +186,7 @@ pub fn of_whole(
     noise: Noise,
 ) -> Files {
     let count = model.dof_count();
-    let real = model.modes(truth, modes).expect("modes").vibrations;
+    let real = model.modes(truth, modes).unwrap().vibrations;
     let seen = seen_by(&sensors_at(sensors, count), &real);
     let sensors = sensors
         .iter()
@@ -212,7 +194,7 @@ pub fn of_whole(
     let mut data = test_data(&seen, sensors.collect());
     data.frequency_deviation = Some(vec![noise.frequency; modes]);
     data.shape_deviation = Some(vec![noise.shape; modes]);
-    let (stiffness, mass) = model.at(&vec![1.0; truth.len()]).expect("matrices");
+    let (stiffness, mass) = model.at(&vec![1.0; truth.len()]).unwrap();
     let rows = (0..count).map(|row| format!("{},x,0.,0.,{}\n", row + 1, floor(row).z));
     let mut job = "[model]\nstiffness = \"stiffness.mtx\"\nmass = \"mass.mtx\"\nrows = \"rows.csv\"\n[test]\n\
                    file = \"test.csv\"\n"
@@ -242,7 +224,7 @@ pub fn of_whole(
 /// A structure of one matrix a parameter, p1, p2 …, with a sensor at every row and some modes as its test.
 pub fn of_matrices(parts: &[DMatrix<f64>], mass: &DMatrix<f64>, modes: &Modes) -> Files {
     let text = |matrix: &DMatrix<f64>| {
-        write_matrix_market(&SparseMatrix::of_dense("matrix", matrix).expect("a matrix"))
+        write_matrix_market(&SparseMatrix::of_dense("matrix", matrix).unwrap())
     };
     let rows = 1..=mass.nrows();
     let sensors = rows
@@ -276,23 +258,23 @@ fn floor(row: usize) -> Vector3<f64> {
 /// The delta wing with wrong gages, and the ten lowest modes of its right half as a Universal File.
 pub fn delta_wing() -> Files {
     let wing = DeltaWing::embedded();
-    let model = first_model(&wing).expect("a model");
-    let whole = wing.modes().expect("modes");
-    let lowest = whole.modes.lowest(10).expect("ten modes");
+    let model = first_model(&wing).unwrap();
+    let whole = wing.modes().unwrap();
+    let lowest = whole.modes.lowest(10).unwrap();
     let grids = measured_grids(model.structure());
     let row = |grid: &usize| {
         whole
             .dof
             .iter()
             .position(|dof| dof.grid == *grid && dof.direction == 2)
-            .expect("a row")
+            .unwrap()
     };
-    let rows: Vec<usize> = grids.iter().map(row).collect();
+    let rows = grids.iter().map(row).collect_vec();
     let modes = Modes::new(
         lowest.omega_squared().clone(),
         lowest.shapes().select_rows(&rows),
     )
-    .expect("modes");
+    .unwrap();
     let place = |grid: &usize| {
         model
             .structure()
@@ -312,7 +294,11 @@ pub fn delta_wing() -> Files {
                    method = \"gauss_newton\"\nfrequency_deviation = 0.001\nshape_deviation = 0.005\n"
         .to_owned();
     for parameter in model.parameters() {
-        let list: Vec<String> = parameter.elements.iter().map(usize::to_string).collect();
+        let list = parameter
+            .elements
+            .iter()
+            .map(usize::to_string)
+            .collect_vec();
         job += &format!(
             "\n[[parameter]]\nname = \"{}\"\nelements = [{}]\n",
             parameter.name,
@@ -324,7 +310,7 @@ pub fn delta_wing() -> Files {
         "delta wing",
         &task(),
     )
-    .expect("a deck");
+    .unwrap();
     vec![
         ("job.toml".to_owned(), job),
         ("model.bdf".to_owned(), deck),
@@ -337,7 +323,7 @@ pub fn delta_wing() -> Files {
 /// point mass `1k` is at grid k.
 pub fn rods() -> Files {
     let real = shear_building(&[0.8e4, 1.1e4, 1.0e4], 1.0, None);
-    let modes = real.modes(&[1.0; 3], 3).expect("modes").vibrations;
+    let modes = real.modes(&[1.0; 3], 3).unwrap().vibrations;
     let place = |grid: usize| Vector3::new(10.0 * (grid - 1) as f64, 0.0, 0.0);
     let sensors = (2..=4).map(|grid| sensor(format!("S{grid}"), grid, 0, Some(place(grid))));
     let deck = "GRID,1,,0.,0.,0.,,123456\nGRID,2,,10.,0.,0.,,23456\nGRID,3,,20.,0.,0.,,23456\nGRID,4,,30.,0.,0.,,23456\n\

@@ -1,16 +1,7 @@
 //! Strategies of inner-loop problems and settings, and the loop told again from its own record.
 
 pub use super::known::eigensolved::{Eigensolved, exact_state};
-use super::tolerances::ROUND_OFF;
-use super::vibrations::{Chain, chain_and_truth};
-use corfem::job::verdict::{Judged, Verdict};
-use corfem::method::error_sum::{Errors, mode_errors};
-use corfem::method::inner_loop::{InnerRun, InnerSettings};
-use corfem::method::model::Model;
-use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::method::step::Bounds;
-use corfem::method::step::{Accumulation, StepRule};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// All rules of the step.
 pub const STEP_RULES: [StepRule; 4] = [
@@ -163,9 +154,9 @@ pub fn inner_for_modes(inner: InnerSettings, modes: usize) -> InnerSettings {
 /// The verdict on a correlation that began at this model.
 pub fn verdict_of(found: &Correlation, first: &Model, ranges: &[Option<Bounds>]) -> Verdict {
     let seen = first.test_shares().iter();
-    let seen: Vec<f64> = seen.map(|share| share.diagonal().amax()).collect();
+    let seen = seen.map(|share| share.diagonal().amax()).collect_vec();
     let best = found.best_check();
-    let each = mode_errors(&best.modes, &best.pairing, first.test()).expect("paired modes");
+    let each = mode_errors(&best.modes, &best.pairing, first.test()).unwrap();
     Judged {
         seen: &seen,
         ranges,

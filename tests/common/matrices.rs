@@ -1,7 +1,6 @@
 //! What tests ask of a matrix: how far from another, symmetric, of which rank.
 
-use super::tolerances::RANK_THRESHOLD;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// Largest difference of two matrices of one shape, relative to the largest entry of the second.
 pub fn relative_distance(found: &DMatrix<f64>, expected: &DMatrix<f64>) -> f64 {
@@ -23,7 +22,7 @@ pub fn spectrum(matrix: &DMatrix<f64>) -> Vec<f64> {
         asymmetry < super::tolerances::ROUND_OFF,
         "asymmetry {asymmetry:e}"
     );
-    let mut values: Vec<f64> = matrix.symmetric_eigenvalues().iter().copied().collect();
+    let mut values = matrix.symmetric_eigenvalues().iter().copied().collect_vec();
     values.sort_by(|a, b| b.total_cmp(a));
     values
 }

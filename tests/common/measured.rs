@@ -1,14 +1,6 @@
 //! Measured modes: structures without supports and with them, exact modes, and the ways a test goes wrong.
 
-use crate::common::alter;
-use corfem::method::appendix_b::MeasuringPoint;
-use corfem::method::elements::rod;
-use corfem::method::modes::Modes;
-use corfem::sparse::ModeWeight;
-use corfem::weighted::noise::Noise;
-use nalgebra::{DMatrix, DVector, SymmetricEigen, Vector3};
-use proptest::prelude::*;
-use std::f64::consts::PI;
+use crate::prelude::*;
 
 /// A structure that nothing holds, with a diagonal mass.
 #[derive(Debug, Clone)]
@@ -36,13 +28,13 @@ impl FreeStructure {
         let root = self.mass.diagonal().map(|m| m.sqrt().recip());
         let root = DMatrix::from_diagonal(&root);
         let eigen = SymmetricEigen::new(&root * &self.stiffness * &root);
-        let mut order: Vec<usize> = (0..self.dofs.len()).collect();
+        let mut order = (0..self.dofs.len()).collect_vec();
         order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
         let elastic = &order[rigid..];
-        let frequencies: Vec<f64> = elastic
+        let frequencies = elastic
             .iter()
             .map(|&mode| eigen.eigenvalues[mode].sqrt() / (2.0 * PI))
-            .collect();
+            .collect_vec();
         let shapes = root * eigen.eigenvectors.select_columns(elastic);
         Modes::from_measured(&frequencies, &shapes)
             .unwrap()
@@ -63,7 +55,7 @@ pub fn free_beam() -> impl Strategy<Value = FreeStructure> {
             prop::collection::vec(0.5..1.0_f64, count),
         )
             .prop_map(move |(start, links, decades, masses)| {
-                let mut stiffness = DMatrix::zeros(count, count);
+                let mut stiffness = zero_square(count);
                 for (hinge, decade) in decades.iter().enumerate() {
                     let (before, after) = (links[hinge].recip(), links[hinge + 1].recip());
                     let mut turn = DVector::zeros(count);
@@ -109,12 +101,12 @@ pub fn free_truss() -> impl Strategy<Value = FreeStructure> {
         prop::collection::vec(0.5..1.0_f64, 5),
     )
         .prop_map(|(shift, areas, masses)| {
-            let joints: Vec<Vector3<f64>> = (0..5)
+            let joints = (0..5)
                 .map(|j| {
                     Vector3::from(JOINTS[j]) + Vector3::from_column_slice(&shift[3 * j..3 * j + 3])
                 })
-                .collect();
-            let mut stiffness = DMatrix::zeros(15, 15);
+                .collect_vec();
+            let mut stiffness = zero_square(15);
             let mut area = areas.iter();
             for a in 0..5 {
                 for b in a + 1..5 {
@@ -164,7 +156,7 @@ pub fn with_raw_shapes(
                     raw[(mode, mode)] += 2.0;
                 }
                 let omega = DVector::from_vec(decades).map(|decade| 10_f64.powf(2.0 * decade));
-                let modes = Modes::new(omega, raw).expect("modes");
+                let modes = Modes::new(omega, raw).unwrap();
                 (structure.clone(), modes)
             })
     })
@@ -198,7 +190,7 @@ pub fn orthonormal_modes(
                     Some(omega.powi(2))
                 }),
             );
-            let modes = Modes::new(omega_squared, shapes).expect("modes");
+            let modes = Modes::new(omega_squared, shapes).unwrap();
             (modes, mass)
         })
 }
@@ -210,7 +202,7 @@ pub fn held_chain(size: usize) -> impl Strategy<Value = (DMatrix<f64>, DMatrix<f
         prop::collection::vec(0.5..2.0_f64, size),
     )
         .prop_map(move |(decades, masses)| {
-            let mut stiffness = DMatrix::zeros(size, size);
+            let mut stiffness = zero_square(size);
             for (end, decade) in decades.iter().enumerate() {
                 let spring = 10_f64.powf(*decade);
                 stiffness[(end, end)] += spring;
@@ -256,7 +248,7 @@ pub fn mixture(modes: usize) -> impl Strategy<Value = Mixture> {
     let fraction =
         || (0.3..0.5_f64, any::<bool>()).prop_map(|(size, up)| if up { size } else { -size });
     (
-        Just((0..modes).collect::<Vec<_>>()).prop_shuffle(),
+        Just((0..modes).collect_vec()).prop_shuffle(),
         fraction(),
         fraction(),
     )

@@ -4,11 +4,11 @@ pub mod presentation;
 #[macro_use]
 pub mod properties;
 
+pub mod prelude;
+
 pub mod appendix_b;
 pub mod appendix_c;
 pub mod boxes;
-pub mod blocks;
-pub mod close_roots;
 pub mod closed_forms;
 pub mod complex_pencils;
 pub mod condensed;
@@ -43,10 +43,10 @@ pub mod vibrations;
 pub mod whole_models;
 pub mod wing_subjects;
 
-use corfem::method::error::Error;
-use corfem::method::modes::Modes;
-use nalgebra::{DMatrix, DVector};
-use proptest::test_runner::{Config, FileFailurePersistence};
+use crate::prelude::*;
+use nalgebra::ComplexField;
+use proptest::test_runner::FileFailurePersistence;
+use std::borrow::Borrow;
 
 /// Proptest's configuration for every property: `PROPTEST_CASES` sets the depth, failures are kept beside the
 /// source for good.
@@ -72,7 +72,7 @@ pub fn costly_config() -> Config {
 pub fn log_log_slope(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     assert!(n >= 2.0, "a slope needs two points");
-    let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
+    let logs = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect_vec();
     let (mx, my) = (
         logs.iter().map(|p| p.0).sum::<f64>() / n,
         logs.iter().map(|p| p.1).sum::<f64>() / n,
@@ -92,11 +92,11 @@ pub fn assert_refused<T>(answer: Result<T, Error>, error: Error) {
 pub fn alter(modes: &mut Modes, change: impl FnOnce(&mut DVector<f64>, &mut DMatrix<f64>)) {
     let (mut omega_squared, mut shapes) = (modes.omega_squared().clone(), modes.shapes().clone());
     change(&mut omega_squared, &mut shapes);
-    *modes = Modes::new(omega_squared, shapes).expect("modes");
+    *modes = Modes::new(omega_squared, shapes).unwrap();
 }
 
 /// Words of a refusal, or that there is none.
-pub fn said<T>(answer: Result<T, impl std::fmt::Display>) -> String {
+pub fn said<T>(answer: Result<T, impl Display>) -> String {
     answer.map_or_else(|refusal| refusal.to_string(), |_| "an answer".into())
 }
 
@@ -105,4 +105,59 @@ pub fn not_definite(what: &str, row: usize) -> String {
     format!(
         "{what} is not positive definite: row {row} (from zero) is a combination of those before it, or not positive"
     )
+}
+
+/// Vectors of what iterators give, with less to say than `collect`.
+pub trait CollectVec: Iterator + Sized {
+    fn collect_vec(self) -> Vec<Self::Item> {
+        self.collect()
+    }
+}
+
+impl<I: Iterator> CollectVec for I {}
+
+/// The identity of a size.
+pub fn eye<T: ComplexField>(size: usize) -> DMatrix<T> {
+    DMatrix::identity(size, size)
+}
+
+/// A square of zeros.
+pub fn zero_square<T: ComplexField>(size: usize) -> DMatrix<T> {
+    DMatrix::zeros(size, size)
+}
+
+/// |found/expected − 1|.
+pub fn relative_error(found: impl Borrow<f64>, expected: impl Borrow<f64>) -> f64 {
+    (found.borrow() / expected.borrow() - 1.0).abs()
+}
+
+/// Modes paired by sorting.
+pub fn by_sorting() -> Pair {
+    Pair::by(|of| pair_modes(of.cross))
+}
+
+/// A case of the paper.
+pub fn case_of(number: usize) -> Case {
+    Case::new(number).unwrap()
+}
+
+/// A file of the repository.
+pub fn in_root(path: impl AsRef<Path>) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+}
+
+/// Asserts that every number found is the expected one but for a part of it.
+#[track_caller]
+pub fn assert_alike(
+    found: impl IntoIterator<Item = impl Borrow<f64>>,
+    expected: impl IntoIterator<Item = impl Borrow<f64>>,
+    tolerance: f64,
+) {
+    for (found, expected) in found.into_iter().zip(expected) {
+        let (found, expected) = (found.borrow(), expected.borrow());
+        assert!(
+            relative_error(found, expected) <= tolerance,
+            "{found} for {expected}"
+        );
+    }
 }

@@ -1,9 +1,6 @@
 //! The stored answers of NASTRAN-95 (`golden/nastran95/README.md`), read as they are.
 
-use corfem::method::elements::unit_stiffness;
-use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use nalgebra::{DMatrix, Vector3};
-use serde::Deserialize;
+use crate::prelude::*;
 
 /// One element with its stiffness.
 #[derive(Debug, Deserialize)]
@@ -48,7 +45,7 @@ impl StoredElement {
 
     /// Its stiffness as NASTRAN-95 has it.
     pub fn stored(&self) -> DMatrix<f64> {
-        let rows: Vec<_> = self.stiffness.iter().flatten().copied().collect();
+        let rows = self.stiffness.iter().flatten().copied().collect_vec();
         DMatrix::from_row_slice(self.stiffness.len(), self.stiffness.len(), &rows)
     }
 }
@@ -147,11 +144,7 @@ pub fn boxes() -> StoredBoxes {
 /// The factor NASTRAN-95 puts on a shear panel's stiffness: its own energy, with sides taken for parallel when the
 /// tangent of the angle between them is below 0.01, under the true one.
 pub fn snap_factor(corners: &[Vector3<f64>], material: &Material) -> f64 {
-    use crate::common::closed_forms::analytical::{
-        no_sides_parallel_energy, parallelogram_energy, sides_12_34_parallel_energy,
-        sides_14_23_parallel_energy,
-    };
-    let flat = corfem::method::elements::mean_plane(corners);
+    let flat = mean_plane(corners);
     let [_, c2, c3, c4] = flat;
     let tangent = 0.01;
     let parallel_12_34 = (c3.y - c4.y).abs() < tangent * (c3.x - c4.x).abs();
@@ -163,5 +156,5 @@ pub fn snap_factor(corners: &[Vector3<f64>], material: &Material) -> f64 {
         (false, true) => sides_14_23_parallel_energy,
         (false, false) => no_sides_parallel_energy,
     };
-    corfem::method::elements::energy_coefficient(corners, material) / energy(&flat, material)
+    energy_coefficient(corners, material) / energy(&flat, material)
 }

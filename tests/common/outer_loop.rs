@@ -3,9 +3,7 @@
 #[path = "../../paper/nastran95.rs"]
 pub mod program;
 
-use corfem::method::analysis::State;
-use corfem::torque_box::CASES;
-use serde::Deserialize;
+use crate::prelude::*;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -54,13 +52,13 @@ pub struct StoredWingCheck {
 impl StoredWing {
     /// The exact solutions: the initial one, and that after every pass.
     pub fn checks(&self) -> impl Iterator<Item = &StoredWingCheck> {
-        std::iter::once(&self.initial).chain(&self.passes)
+        once(&self.initial).chain(&self.passes)
     }
 }
 
 pub fn stored_wing() -> StoredWing {
     let text = include_str!("../../golden/nastran95/delta_wing.toml");
-    toml::from_str(text).expect("the golden reads")
+    toml::from_str(text).unwrap()
 }
 
 pub fn stored() -> Vec<StoredCase> {
@@ -71,14 +69,14 @@ pub fn stored() -> Vec<StoredCase> {
 
 /// Cases of a text such as the golden's.
 pub fn read_cases(text: &str) -> Vec<StoredCase> {
-    let stored: Stored = toml::from_str(text).expect("it reads");
+    let stored: Stored = toml::from_str(text).unwrap();
     stored.case
 }
 
 /// Frequencies of the modes that answer the test's, in its order, Hz.
 pub fn paired_hz(state: &State) -> Vec<f64> {
     let paired = state.pairing.paired(&state.modes);
-    paired.expect("its own modes").frequencies_hz()
+    paired.unwrap().frequencies_hz()
 }
 
 pub fn assert_near(found: &[f64], expected: &[f64], relative: f64, what: &str) {

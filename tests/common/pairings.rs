@@ -1,7 +1,6 @@
 //! Strategies of mode sets that are the same but for order and sign, and of cross-orthogonality matrices.
 
-use nalgebra::DMatrix;
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// A rearrangement of modes: position j holds mode `order[j]` times `sign[j]`.
 #[derive(Debug, Clone)]
@@ -21,17 +20,12 @@ impl Rearrangement {
         }
         rearranged
     }
-
-    /// The rows of a matrix, rearranged.
-    pub fn rows(&self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
-        self.columns(&matrix.transpose()).transpose()
-    }
 }
 
 /// Any order of `count` modes with any signs; shrinks towards no change.
 pub fn rearrangement(count: usize) -> impl Strategy<Value = Rearrangement> {
     (
-        Just((0..count).collect::<Vec<_>>()).prop_shuffle(),
+        Just((0..count).collect_vec()).prop_shuffle(),
         prop::collection::vec(prop::bool::ANY, count),
     )
         .prop_map(|(order, flips)| Rearrangement {
@@ -92,10 +86,10 @@ pub fn noisy_pairs() -> impl Strategy<Value = (DMatrix<f64>, Rearrangement)> {
 
 /// The slow, obvious pairing: all pairs in the order of their claims, each made unless one of its modes is taken.
 pub fn pairs_by_sorting(cross: &DMatrix<f64>) -> Vec<usize> {
-    let mut claims: Vec<(f64, usize, usize)> = (0..cross.ncols())
+    let mut claims = (0..cross.ncols())
         .flat_map(|j| (0..cross.nrows()).map(move |i| (j, i)))
         .map(|(j, i)| ((cross[(i, j)].abs() - 1.0).abs(), j, i))
-        .collect();
+        .collect_vec();
     claims.sort_by(|a, b| a.partial_cmp(b).unwrap());
     let mut pairs = vec![None; cross.ncols()];
     for (_, j, i) in claims {

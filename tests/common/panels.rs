@@ -1,10 +1,6 @@
 //! Strategies of elements: materials, convex panels flat and warped, anywhere in space.
 
-use super::strategies::{point, rotation};
-use corfem::method::elements::unit_stiffness;
-use corfem::method::structure::{ElementKind, Material};
-use nalgebra::{DMatrix, Rotation3, Vector3};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// An isotropic material: a modulus between plastic and tungsten, every Poisson's ratio from a foam's to nearly that
 /// of rubber; shrinks to ν = 0. (At ν = 1/2 plane stress is still regular; at −1 it is not.)

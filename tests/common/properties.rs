@@ -1,11 +1,12 @@
 //! Properties by proptest, of values whose type one runner need not know: it is compiled once, not for every property.
 
-use proptest::strategy::{BoxedStrategy, Strategy};
-use proptest::test_runner::{Config, TestCaseResult, TestRunner};
+use crate::prelude::*;
+use proptest::strategy::BoxedStrategy;
+use proptest::test_runner::TestCaseResult;
 use std::any::Any;
-use std::fmt::{self, Debug, Formatter};
+use std::fmt::{self, Formatter};
 
-/// `proptest!` with a configuration, of patterns in strategies.
+/// `proptest!` of patterns in strategies, with [`config`] where no other configuration is given.
 macro_rules! properties {
     (#![proptest_config($config:expr)] $(
         $(#[$about:meta])*
@@ -13,7 +14,7 @@ macro_rules! properties {
     )*) => { $(
         $(#[$about])*
         fn $name() {
-            let config = proptest::test_runner::Config {
+            let config = $crate::prelude::Config {
                 source_file: Some(file!()),
                 test_name: Some(concat!(module_path!(), "::", stringify!($name))),
                 ..$config
@@ -25,6 +26,9 @@ macro_rules! properties {
             });
         }
     )* };
+    (#[$($first:tt)*] $($laws:tt)*) => {
+        properties! { #![proptest_config($crate::common::config())] #[$($first)*] $($laws)* }
+    };
 }
 
 /// What a strategy drew, and the patterns that it is for.
@@ -59,7 +63,7 @@ pub fn check<S>(
     });
     run(config, &drawn.boxed(), &|Drawn { values, .. }| {
         let values: Box<dyn Any> = values;
-        law(*values.downcast().expect("what the strategy drew"))
+        law(*values.downcast().unwrap())
     });
 }
 

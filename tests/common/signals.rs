@@ -27,7 +27,7 @@ pub fn undisturbed() -> &'static [&'static str] {
 pub fn corfem_run_by(run_by: &[&str]) -> Command {
     let program = assert_cmd::cargo::cargo_bin("corfem");
     let mut words = run_by.iter().map(OsStr::new).chain([program.as_os_str()]);
-    let mut command = Command::new(words.next().expect("a program"));
+    let mut command = Command::new(words.next().unwrap());
     command.args(words);
     command
 }

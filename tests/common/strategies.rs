@@ -1,7 +1,6 @@
 //! Proptest strategies: every random number is drawn here, within bounds that are explained, and shrinks.
 
-use nalgebra::{DMatrix, Rotation3, Vector3};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// A point within 100 inches of the origin along each axis: a structure's size.
 pub fn point() -> impl Strategy<Value = Vector3<f64>> {
@@ -18,7 +17,7 @@ pub fn rotation() -> impl Strategy<Value = Rotation3<f64>> {
 /// An orthogonal matrix from n(n−1)/2 Givens angles; shrinks to the identity.
 pub fn orthogonal(size: usize) -> impl Strategy<Value = DMatrix<f64>> {
     prop::collection::vec(-3.2..3.2_f64, size * (size - 1) / 2).prop_map(move |angles| {
-        let mut q = DMatrix::identity(size, size);
+        let mut q = eye(size);
         let mut angle = angles.into_iter();
         for a in 0..size {
             for b in a + 1..size {
@@ -41,7 +40,7 @@ pub fn positive_definite(
     decades: f64,
 ) -> impl Strategy<Value = (DMatrix<f64>, Vec<f64>)> {
     (orthogonal(size), prop::collection::vec(0.0..=decades, size)).prop_map(|(q, exponents)| {
-        let diagonal = DMatrix::from_diagonal(&nalgebra::DVector::from_iterator(
+        let diagonal = DMatrix::from_diagonal(&DVector::from_iterator(
             exponents.len(),
             exponents.iter().map(|e| 10f64.powf(*e)),
         ));
@@ -53,7 +52,7 @@ pub fn positive_definite(
 /// A symmetric matrix with entries between −1 and 1.
 pub fn symmetric(size: usize) -> impl Strategy<Value = DMatrix<f64>> {
     prop::collection::vec(-1.0..1.0_f64, size * (size + 1) / 2).prop_map(move |entries| {
-        let mut matrix = DMatrix::zeros(size, size);
+        let mut matrix = zero_square(size);
         let mut entry = entries.into_iter();
         for column in 0..size {
             for row in 0..=column {

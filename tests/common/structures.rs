@@ -1,20 +1,11 @@
 //! Small structures with known answers, and strategies of structures and their sizes.
 
 pub use crate::common::known::weighed::lumped_mass;
-use crate::common::known::wing::Wing;
-use corfem::chain::rods;
-use corfem::method::appendix_a::{assemble, element_matrices};
-use corfem::method::error::Error;
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::step::Bounds;
-use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use corfem::sparse::{Factor, SparseMatrix};
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// A material of which a rod of length one and area k is a spring of stiffness k.
 pub fn unit_material() -> Material {
-    Material::isotropic(1.0, 0.25).expect("a material")
+    Material::isotropic(1.0, 0.25).unwrap()
 }
 
 pub fn grid(label: usize, position: [f64; 3], constrained: [bool; 3]) -> Grid {
@@ -50,7 +41,7 @@ pub fn spring_stiffness(mass_count: usize, spring: usize, stiffness: f64) -> DMa
 
 /// Springs in a row along x between grids 1, 2, …, free along x alone; `constrained` says which ends are fixed.
 pub fn spring_chain(springs: &[f64], constrained: [bool; 2]) -> Structure {
-    rods(springs, constrained).expect("a chain")
+    rods(springs, constrained).unwrap()
 }
 
 /// Elements that change together, with bounds on their sizes.
@@ -63,7 +54,7 @@ pub fn group(name: &str, elements: &[usize], size_range: Option<Bounds>) -> Para
 
 /// Three springs in a row of stiffness 2, 4 and 8, fixed at one end, with T and M the identity.
 pub fn chain_model(parameters: Vec<Parameter>) -> Result<FiniteElementModel, Error> {
-    let identity = DMatrix::identity(3, 3);
+    let identity = eye(3);
     FiniteElementModel::new(
         spring_chain(&[2.0, 4.0, 8.0], [true, false]),
         identity.clone(),
@@ -86,7 +77,7 @@ pub fn linkage(apex: [[f64; 2]; 2], areas: [f64; 4], braced: bool) -> Structure 
     let rods = (0..if braced { 4 } else { 3 })
         .map(|k| rod(k + 1, ends[k], areas[k]))
         .collect();
-    Structure::new(grids, rods).expect("a linkage")
+    Structure::new(grids, rods).unwrap()
 }
 
 /// Feet of a linkage a unit apart, its upper corners leaning either way by up to 0.4 and 0.5 to 1.5 high, its areas
@@ -119,8 +110,8 @@ pub fn sizes(structure: &Structure) -> Vec<f64> {
 
 /// The stiffness of a structure by dense assembly.
 pub fn dense(structure: &Structure) -> DMatrix<f64> {
-    let matrices: Vec<_> = element_matrices(structure).collect();
-    assemble(&matrices, &sizes(structure), structure.free_dof().len()).expect("a size each")
+    let matrices = element_matrices(structure).collect_vec();
+    assemble(&matrices, &sizes(structure), structure.free_dof().len()).unwrap()
 }
 
 /// The stiffness of a structure, factorized.
@@ -156,9 +147,9 @@ pub fn condition(stiffness: &DMatrix<f64>) -> f64 {
 pub fn free_motions(stiffness: &DMatrix<f64>) -> DMatrix<f64> {
     let (scaled, scale) = unit_diagonal(stiffness);
     let eigen = scaled.symmetric_eigen();
-    let free: Vec<usize> = (0..scale.len())
+    let free = (0..scale.len())
         .filter(|&k| eigen.eigenvalues[k].abs() < super::tolerances::MATRIX_ROUND_OFF)
-        .collect();
+        .collect_vec();
     DMatrix::from_diagonal(&scale) * eigen.eigenvectors.select_columns(&free)
 }
 

@@ -1,9 +1,8 @@
 //! Tests as files, written: a table as a spreadsheet has it, and a Universal File with nodes (dataset 15), wire frame (82) and
 //! every mode as a real normal one (55).
 
-use corfem::files::test_data::{DIRECTIONS, TestData};
-use nalgebra::Vector3;
-use std::collections::BTreeMap;
+use crate::prelude::*;
+use corfem::files::test_data::DIRECTIONS;
 
 /// Writes a test in the layout that the reader takes, with commas; every number reads back as it is.
 ///
@@ -76,11 +75,11 @@ pub fn write_universal(data: &TestData) -> String {
         .max()
         .unwrap_or(0);
     let mut free = last.saturating_add(1)..;
-    let nodes: Vec<usize> = data
+    let nodes = data
         .sensors
         .iter()
         .filter_map(|sensor| sensor.grid.or_else(|| free.next()))
-        .collect();
+        .collect_vec();
     let places = nodes
         .iter()
         .zip(&data.sensors)

@@ -110,17 +110,10 @@ pub const FORWARD_DIFFERENCE: f64 = 2e-3;
 /// Percent errors recomputed from frequencies printed to four digits: half a unit of the last digit of a frequency
 /// is 0.02 % of the lowest mode's, and nine of them are squared and summed.
 pub const PRINTED_PERCENT: f64 = 0.02;
-/// The recursion stops when roots change by less than 1e-13; with changes of some percent each order gains a digit
-/// or more, so that what is left is a fraction of that and round-off. Shapes follow the roots times the spread of the
-/// spectrum.
-pub const CONVERGED_RECURSION: f64 = 1e-12;
 /// Slopes this near an order are that order: half way to the next one.
 pub const ORDER_HALFWAY: f64 = 0.45;
 /// Errors below this are round-off of roots near one, a few hundred units in the last place.
 pub const MEASURABLE_ERROR: f64 = 5e-14;
-/// Coefficient of the third-order term of a root relative to the largest stiffness, with neighbours a factor of two
-/// apart and couplings up to one; below 3 in five thousand draws.
-pub const SECOND_ORDER_REMAINDER: f64 = 10.0;
 /// A state by Recursive 1 to roots within 1e-13, whose shapes then enter mass and stiffness products.
 pub const CONVERGED_STATE: f64 = 1e-9;
 /// Coefficient of the second-order terms of the error sum in the ratio of coupling to separation of two modes.
@@ -141,8 +134,6 @@ pub const EXACT_MODE_RESIDUAL: f64 = 1e-11;
 /// Modes orthogonal to a matrix product's round-off, after a Cholesky factor and an eigensolution of a matrix that is
 /// diagonal to that round-off.
 pub const ORTHOGONAL_INPUT: f64 = 1e-11;
-/// A slope over a decade and a half of noise below 0.3 %: the next order contributes a few percent at the upper end.
-pub const ASYMPTOTIC_SLOPE: f64 = 0.1;
 /// The balance equations with the reference axis a thousand lengths away, where their condition is 6e6.
 pub const FAR_REFERENCE_AXIS: f64 = 1e-8;
 /// A relative separation of 1e-10 is a difference of numbers of order one: six digits are left, half of them asked for.
@@ -219,8 +210,6 @@ pub const FIRST_FACTOR: f64 = 1e-3;
 pub const RECOVERED_AREA: f64 = 0.01;
 /// How much the joints of a chain differ in its motion on a suspension whose rods have a millionth of the chain's areas.
 pub const RIGID_ON_SUSPENSION: f64 = 1e-4;
-/// Root and shape of a mode that is weakly coupled to others well away: the root moves by the square of the coupling.
-pub const NEARLY_UNCOUPLED: f64 = 0.01;
 /// Covers as one group where the error is common to the group and the loop stops at the case's tolerance.
 pub const GROUPED_GAGE: f64 = 0.03;
 /// Components that count as equally large where the sign of a shape is chosen, relative.

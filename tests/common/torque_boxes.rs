@@ -1,14 +1,8 @@
 //! The paper's torque box as a subject of properties.
 
 use crate::common::structures::of_dense;
-use corfem::method::appendix_a::assemble;
-use corfem::method::model::{FiniteElementModel, Parameter};
+use crate::prelude::*;
 use corfem::sparse::factorization::Factor;
-use corfem::torque_box::Case;
-use corfem::torque_box::wing_box::{Reconstruction, load_distribution, structure};
-use nalgebra::DMatrix;
-use proptest::prelude::*;
-use std::collections::BTreeMap;
 
 /// One of the paper's four cases: shear or membrane covers, thick or thin rods, like gages or one far too thin.
 pub fn case() -> impl Strategy<Value = Case> {
@@ -33,12 +27,12 @@ pub fn with_every_element(case: &Case) -> FiniteElementModel {
 /// The model of a case with parameters of one's own.
 pub fn with_parameters(case: &Case, parameters: Vec<Parameter>) -> FiniteElementModel {
     FiniteElementModel::new(
-        structure(&case.reconstruction, &case.panels, case.rod_area).expect("a box"),
-        load_distribution(&case.reconstruction).expect("a box"),
+        structure(&case.reconstruction, &case.panels, case.rod_area).unwrap(),
+        load_distribution(&case.reconstruction).unwrap(),
         case.reconstruction.mass(),
         parameters,
     )
-    .expect("a model")
+    .unwrap()
 }
 
 /// A box with other ribs and mid points than the paper's: every rib's chord points any way in the plane, 1 to 20 in
@@ -73,7 +67,7 @@ pub fn reconstruction() -> impl Strategy<Value = Reconstruction> {
 /// The structural stiffness of a model at given sizes, dense and factorized.
 pub fn stiffness(model: &FiniteElementModel, sizes: &[f64]) -> (DMatrix<f64>, Factor) {
     let count = model.structure().free_dof().len();
-    let dense = assemble(model.element_matrices(), sizes, count).expect("a size each");
-    let factor = of_dense(&dense).expect("nothing free");
+    let dense = assemble(model.element_matrices(), sizes, count).unwrap();
+    let factor = of_dense(&dense).unwrap();
     (dense, factor)
 }

@@ -1,13 +1,7 @@
 //! Strategies of vibrating systems: pencils, modal problems under a change, chains of springs; and the slow, obvious
 //! ways of computing what the crate computes, through nalgebra where the crate goes through faer.
 
-use super::pairings::pairs_by_sorting;
-use super::strategies::positive_definite;
-use crate::common::structures::spring_stiffness;
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::Modes;
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Stiffness and mass of 1 to 6 DOF with the mass's condition number. The stiffness has condition numbers up to
 /// 1e10, as stiff and soft elements in one structure give; masses up to 1e4, which is a wide structure.
@@ -54,32 +48,6 @@ pub fn separated_spectrum(size: usize) -> impl Strategy<Value = DVector<f64>> {
     })
 }
 
-/// A change in which every pair of modes is coupled, |S_ij| from half to all of √(k_i k_j), either sign: no
-/// coefficient of the error's expansion is small by accident of a zero entry.
-pub fn full_change(size: usize) -> impl Strategy<Value = Change> {
-    (
-        separated_spectrum(size),
-        prop::collection::vec((0.5..1.0_f64, any::<bool>()), size * (size + 1) / 2),
-    )
-        .prop_map(move |(stiffness, entries)| {
-            let mut entry = entries.into_iter();
-            let mut direction = DMatrix::zeros(size, size);
-            for column in 0..size {
-                for row in 0..=column {
-                    let (magnitude, negative) = entry.next().unwrap_or((0.5, false));
-                    let sign = if negative { -1.0 } else { 1.0 };
-                    let value = sign * magnitude * (stiffness[row] * stiffness[column]).sqrt();
-                    direction[(row, column)] = value;
-                    direction[(column, row)] = value;
-                }
-            }
-            Change {
-                stiffness,
-                direction,
-            }
-        })
-}
-
 /// Any symmetric change of 1 to 5 modes, up to three times their stiffness: far beyond where the perturbation holds.
 pub fn any_change() -> impl Strategy<Value = Change> {
     (1..=5_usize).prop_flat_map(|size| {
@@ -124,9 +92,9 @@ impl Chain {
     /// The model with its springs multiplied by factors: the analysis of a structure whose B never changes.
     pub fn model(&self, factors: &[f64]) -> DynamicModel {
         let count = self.masses.len();
-        let shares: Vec<DMatrix<f64>> = (0..count)
+        let shares = (0..count)
             .map(|s| spring_stiffness(count, s, factors[s] * self.springs[s]))
-            .collect();
+            .collect_vec();
         DynamicModel {
             stiffness: shares.iter().sum(),
             mass: self.mass(),
@@ -137,8 +105,7 @@ impl Chain {
     /// All exact modes with its springs multiplied by factors.
     pub fn modes(&self, factors: &[f64]) -> Modes {
         let model = self.model(factors);
-        corfem::method::modes::solve(&model.stiffness, &model.mass, self.masses.len())
-            .expect("a chain vibrates")
+        solve(&model.stiffness, &model.mass, self.masses.len()).unwrap()
     }
 }
 
@@ -172,7 +139,7 @@ pub fn modes_by_nalgebra(
     let inverse_root = &of_mass.eigenvectors * root * of_mass.eigenvectors.transpose();
     let reduced = &inverse_root * stiffness * &inverse_root;
     let eigen = (0.5 * (&reduced + reduced.transpose())).symmetric_eigen();
-    let mut order: Vec<usize> = (0..stiffness.nrows()).collect();
+    let mut order = (0..stiffness.nrows()).collect_vec();
     order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
     (
         eigen.eigenvalues.select_rows(&order),

@@ -1,17 +1,6 @@
 //! Whole models of springs and masses as sparse matrices.
 
-use crate::common::closed_forms::analytical::ChainEnds;
-use crate::common::structures::{lumped_mass, sizes};
-use corfem::method::appendix_a::{ElementMatrix, assemble, element_matrices};
-use corfem::method::error::Error;
-use corfem::method::modes::Modes;
-use corfem::method::step::Bounds;
-use corfem::method::structure::Structure;
-use corfem::sparse::{
-    CountedModes, FINITE, RigidBodies, SparseMatrix, Support, WholeModel, WholeParameter,
-    WholeShare,
-};
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// A matrix by the entries that are not zero.
 ///
@@ -65,12 +54,14 @@ pub fn springs(count: usize, springs: &[(usize, Option<usize>, f64)]) -> SparseM
         Some(b) => vec![(a, a, k), (b, b, k), (a, b, -k), (b, a, -k)],
         None => vec![(a, a, k)],
     });
-    SparseMatrix::new("stiffness", count, count, entries.collect()).expect("springs")
+    SparseMatrix::new("stiffness", count, count, entries.collect()).unwrap()
 }
 
 /// Equal springs in a row between points.
 pub fn chain_of_springs(ends: ChainEnds, count: usize, spring: f64) -> SparseMatrix {
-    let mut all: Vec<_> = (1..count).map(|row| (row, Some(row - 1), spring)).collect();
+    let mut all = (1..count)
+        .map(|row| (row, Some(row - 1), spring))
+        .collect_vec();
     match ends {
         ChainEnds::FreeFree => {}
         ChainEnds::FixedFree => all.push((0, None, spring)),
@@ -85,7 +76,7 @@ pub fn masses(values: &[f64]) -> SparseMatrix {
         .iter()
         .enumerate()
         .map(|(row, &value)| (row, row, value));
-    SparseMatrix::new("mass", values.len(), values.len(), entries.collect()).expect("masses")
+    SparseMatrix::new("mass", values.len(), values.len(), entries.collect()).unwrap()
 }
 
 /// A building of as many stories as stiffnesses, one mass a floor, each story a parameter.
@@ -97,19 +88,19 @@ pub fn shear_building(stories: &[f64], mass: f64, range: Option<Bounds>) -> Whol
         share: WholeShare::Stiffness(springs(count, &[story(floor)])),
         range,
     });
-    let all: Vec<_> = (0..count).map(story).collect();
+    let all = (0..count).map(story).collect_vec();
     WholeModel::new(
         springs(count, &all),
         masses(&vec![mass; count]),
         parameters.collect(),
     )
-    .expect("a building")
+    .unwrap()
 }
 
 /// Modes of a whole model as sensors see them.
 pub fn seen_by(sensors: &SparseMatrix, modes: &Modes) -> Modes {
-    let shapes = sensors.times(modes.shapes()).expect("they fit");
-    Modes::new(modes.omega_squared().clone(), shapes).expect("shapes that fit")
+    let shapes = sensors.times(modes.shapes()).unwrap();
+    Modes::new(modes.omega_squared().clone(), shapes).unwrap()
 }
 
 /// Sensors that read single degrees of freedom.
@@ -119,7 +110,7 @@ pub fn sensors_at(rows: &[usize], count: usize) -> SparseMatrix {
         .enumerate()
         .map(|(sensor, &row)| (sensor, row, 1.0))
         .collect();
-    SparseMatrix::new("sensors", rows.len(), count, entries).expect("sensors")
+    SparseMatrix::new("sensors", rows.len(), count, entries).unwrap()
 }
 
 /// A model of dense matrices with every part as a parameter, and sensors at all its degrees of freedom.
@@ -129,10 +120,10 @@ pub fn sensors_at(rows: &[usize], count: usize) -> SparseMatrix {
 pub fn of_dense(
     stiffness: &DMatrix<f64>,
     mass: &DMatrix<f64>,
-    shares: &[corfem::sparse::ParameterMatrix],
+    shares: &[ParameterMatrix],
 ) -> Result<(WholeModel, SparseMatrix), Error> {
     use corfem::sparse::Share::{Mass, Stiffness};
-    let parameter = |(place, share): (usize, &corfem::sparse::ParameterMatrix)| {
+    let parameter = |(place, share): (usize, &ParameterMatrix)| {
         Ok(WholeParameter {
             name: place.to_string(),
             share: match share {
@@ -145,7 +136,7 @@ pub fn of_dense(
     let parameters = shares.iter().enumerate().map(parameter);
     let parameters = parameters.collect::<Result<_, Error>>()?;
     let whole = WholeModel::new(sparse(stiffness)?, sparse(mass)?, parameters)?;
-    let sensors = sparse(&DMatrix::identity(mass.nrows(), mass.nrows()))?;
+    let sensors = sparse(&eye(mass.nrows()))?;
     Ok((whole, sensors))
 }
 
@@ -154,7 +145,7 @@ pub fn of_dense(
 /// # Errors
 /// What [`WholeModel::new`] refuses.
 pub fn of_structure(structure: &Structure, groups: &[Vec<usize>]) -> Result<WholeModel, Error> {
-    let elements: Vec<ElementMatrix> = element_matrices(structure).collect();
+    let elements = element_matrices(structure).collect_vec();
     let sizes = sizes(structure);
     let stiffness = assemble(&elements, &sizes, structure.free_dof().len())?;
     let parameter = |labels: &Vec<usize>| {

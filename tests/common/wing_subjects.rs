@@ -1,21 +1,8 @@
 //! The wings with wrong gages, correlated, as a report shows a correlation.
 
-use super::known::delta_wing::DeltaWing;
-use super::known::delta_wing::correlation::{
-    GROUPS, Group, WingCorrelation, correlate_wing, first_model, measured_grids,
-};
 use super::known::recovered;
-use corfem::job::verdict::{Judged, Verdict};
-use corfem::method::error::Error;
-use corfem::method::error_sum::{Errors, mode_errors};
-use corfem::method::model::Model;
-use corfem::method::modes::Modes;
-use corfem::method::outer_loop::Correlation;
-use corfem::method::step::Bounds;
-use corfem::present::PresentError;
-use corfem::present::report::{Derivatives, Report, SensorPoint};
-use corfem::weighted::comparison::{Comparison, ExactResult};
-use nalgebra::Vector3;
+use crate::prelude::*;
+use corfem::present::report::{Derivatives, SensorPoint};
 
 /// The delta wing with wrong gages.
 ///
@@ -66,12 +53,12 @@ pub fn wing_subject(wing: &DeltaWing, run: &WingCorrelation) -> Result<Report, P
 /// Those of both correlations, and of [`wing_subject`].
 pub fn wing_subjects() -> Result<[Report; 2], PresentError> {
     let (wing, (known, run)) = (DeltaWing::embedded(), recovered()?);
-    let names: Vec<String> = known
+    let names = known
         .model
         .parameters()
         .iter()
         .map(|group| group.name.clone())
-        .collect();
+        .collect_vec();
     let (title, ranges) = (
         "Wing of 1,458 DOF with wrong gages".to_owned(),
         known.model.factor_ranges()?,

@@ -9,8 +9,7 @@
 //! 7. `\sum` and `\max` bind their index to the one term behind them, without what stands after `\ne`.
 //! 8. A clause whose left side is a letter that nothing gives defines it, for all its indices.
 
-use nalgebra::{Complex, DMatrix};
-use std::collections::BTreeMap;
+use crate::prelude::*;
 
 pub type Value = DMatrix<Complex<f64>>;
 /// Ranges of indices, or where they are, from zero.
@@ -128,11 +127,11 @@ impl<'a> Formula<'a> {
             return vec![self.take()];
         }
         let rest = &self.tokens[self.at..];
-        let found: Vec<_> = rest
+        let found = rest
             .iter()
             .copied()
             .take_while(|token| *token != "}")
-            .collect();
+            .collect_vec();
         self.at += found.len() + 1;
         found
     }

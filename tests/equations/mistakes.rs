@@ -5,11 +5,7 @@ use super::formula::{Letter, Refused};
 use super::vectors::{flat, vectors};
 use super::world::{World, clauses};
 use super::{EQUATIONS, LETTERS, text, wrong_forms};
-use crate::common::tolerances::WRONG_ANSWER;
-use nalgebra::Complex;
-use serde_json::{Value, json};
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use crate::prelude::*;
 
 /// The numbers, row by row, that a wrong formula makes of the right side of a clause.
 fn wrong(
@@ -41,7 +37,7 @@ fn wrong(
 }
 
 fn digits(numbers: &[f64]) -> Vec<f64> {
-    let six = |x: &f64| format!("{x:.5e}").parse().expect("a number");
+    let six = |x: &f64| format!("{x:.5e}").parse().unwrap();
     numbers.iter().map(six).collect()
 }
 
@@ -54,7 +50,7 @@ fn wrong_answers() -> Vec<Value> {
             .world
             .iter()
             .filter(|world| world.equations.contains(&number));
-        let worlds: Vec<&World> = worlds.collect();
+        let worlds = worlds.collect_vec();
         for (what, formula) in wrong_forms(equation) {
             for (world, (left, right, _)) in worlds
                 .iter()
@@ -69,9 +65,9 @@ fn wrong_answers() -> Vec<Value> {
                 let vector = known
                     .iter()
                     .find(|vector| vector["name"] == *world.vector)
-                    .expect("a vector");
+                    .unwrap();
                 for (end, part) in [
-                    ("", numbers.iter().map(|z| z.re).collect::<Vec<_>>()),
+                    ("", numbers.iter().map(|z| z.re).collect_vec()),
                     ("_imaginary", numbers.iter().map(|z| z.im).collect()),
                 ] {
                     let key = format!("{}{end}", answer[2]);
@@ -96,14 +92,13 @@ fn wrong_answers() -> Vec<Value> {
 #[test]
 fn wrong_answers_name_the_mistake() {
     let found = wrong_answers();
-    let lines: Vec<String> = found.iter().map(Value::to_string).collect();
+    let lines = found.iter().map(Value::to_string).collect_vec();
     let new = format!("[\n{}\n]\n", lines.join(",\n"));
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/wrong_answers.json");
+    let path = in_root("golden/wrong_answers.json");
     if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "1") {
-        std::fs::write(&path, &new).expect("it can be written");
+        fs::write(&path, &new).unwrap();
     }
-    let old: Vec<Value> =
-        serde_json::from_str(&std::fs::read_to_string(path).expect("it reads")).expect("it reads");
+    let old: Vec<Value> = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
     assert_eq!(old.len(), found.len());
     for (old, new) in old.iter().zip(&found) {
         let (before, now) = (flat(&old["answer"]), flat(&new["answer"]));
@@ -124,7 +119,7 @@ fn wrong_answers_name_the_mistake() {
 fn no_two_mistakes_have_the_same_answers() {
     let mut answers: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for mut wrong in wrong_answers() {
-        let entry = wrong.as_object_mut().expect("an object");
+        let entry = wrong.as_object_mut().unwrap();
         let mistake = [entry.remove("what"), entry.remove("equation")];
         answers
             .entry(json!(mistake).to_string())

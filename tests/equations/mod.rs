@@ -13,10 +13,7 @@ mod mistakes;
 mod vectors;
 mod world;
 
-use crate::common::tolerances::{FORMULA, MISPRINT};
-use serde::Deserialize;
-use std::collections::BTreeMap;
-use std::sync::LazyLock;
+use crate::prelude::*;
 use toml::Table;
 use world::World;
 
@@ -28,18 +25,16 @@ struct Letters {
 }
 
 static LETTERS: LazyLock<Letters> = LazyLock::new(|| {
-    let letters: Letters = toml::from_str(include_str!("letters.toml")).expect("letters");
+    let letters: Letters = toml::from_str(include_str!("letters.toml")).unwrap();
     let world = letters.world.into_iter().map(World::read).collect();
     Letters { world, ..letters }
 });
 
 static EQUATIONS: LazyLock<Vec<Table>> = LazyLock::new(|| {
-    let document: Table = include_str!("../../paper/equations.toml")
-        .parse()
-        .expect("it reads");
-    let equations = document["equation"].as_array().expect("a list").iter();
+    let document: Table = include_str!("../../paper/equations.toml").parse().unwrap();
+    let equations = document["equation"].as_array().unwrap().iter();
     equations
-        .map(|equation| equation.as_table().expect("a table").clone())
+        .map(|equation| equation.as_table().unwrap().clone())
         .collect()
 });
 
@@ -49,7 +44,7 @@ static FORMULAS: LazyLock<BTreeMap<String, String>> = LazyLock::new(|| {
 });
 
 fn text(table: &Table, key: &str) -> String {
-    table[key].as_str().expect("a string").to_owned()
+    table[key].as_str().unwrap().to_owned()
 }
 
 /// The relative differences of a formula's sides wherever its equation must hold; none if it does not run, NaN where nothing is compared.
@@ -116,7 +111,7 @@ fn misprints_are_noticed() {
 /// The wrong forms of an equation that are formulas, each with what is wrong.
 fn wrong_forms(equation: &Table) -> Vec<(String, String)> {
     let (number, formula) = (text(equation, "number"), text(equation, "formula"));
-    let forms = equation["wrong"].as_array().expect("a list").iter();
+    let forms = equation["wrong"].as_array().unwrap().iter();
     let forms = forms.filter_map(|form| form.as_table().filter(|form| !form.contains_key("file")));
     let wrong = |form: &Table| {
         let (what, old) = (text(form, "what"), text(form, "old"));
@@ -136,7 +131,7 @@ fn wrong_forms_are_noticed() {
         let printed = printed.map(|formula| {
             (
                 "as printed".to_owned(),
-                formula.as_str().expect("a formula").to_owned(),
+                formula.as_str().unwrap().to_owned(),
             )
         });
         for (what, formula) in wrong_forms(equation).into_iter().chain(printed) {

@@ -4,30 +4,9 @@
 
 use super::formula::Letter;
 use crate::common::appendix_c::diagonal_pencil;
-use crate::common::loops::Eigensolved;
-use crate::common::structures::lumped_mass;
 use crate::common::structures::of_dense;
-use corfem::method::analysis::Analysis;
-use corfem::method::appendix_a::{ElementMatrix, assemble};
-use corfem::method::appendix_b::{balance, orthogonalize};
-use corfem::method::appendix_c::Pencil;
-use corfem::method::appendix_c::{self, LeftRightModes};
-use corfem::method::error_sum::errors;
-use corfem::method::inner_loop::run;
-use corfem::method::linear_algebra::symmetric_part;
-use corfem::method::model::{DynamicModel, FiniteElementModel, Parameter};
-use corfem::method::modes::{Modes, generalized_mass, solve};
-use corfem::method::outer_loop::Settings;
-use corfem::method::perturbation::{Perturbed, recursive_1};
-use corfem::method::sorting::{cross_orthogonality, pair_modes};
-use corfem::method::step::{StepRule, unlimited_factor};
-use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use corfem::torque_box::Case;
-use nalgebra::{Complex, DMatrix, DVector, Vector3};
-use serde_json::{Map, Value, json};
-use std::collections::BTreeSet;
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
+use serde_json::Map;
 
 /// Bytes of the file at most: a program in another language has it beside itself.
 const LARGEST: usize = 150_000;
@@ -36,20 +15,20 @@ const STRUCTURES: usize = 50;
 
 pub fn vectors() -> Vec<Value> {
     let text = include_str!("../../golden/vectors.json");
-    let document: Value = serde_json::from_str(text).expect("it reads");
-    document["vectors"].as_array().expect("a list").clone()
+    let document: Value = serde_json::from_str(text).unwrap();
+    document["vectors"].as_array().unwrap().clone()
 }
 
 /// Numbers of a list, of rows one after the other.
 pub fn flat(value: &Value) -> Vec<f64> {
     match value {
         Value::Array(parts) => parts.iter().flat_map(flat).collect(),
-        number => vec![number.as_f64().expect("a number")],
+        number => vec![number.as_f64().unwrap()],
     }
 }
 
 fn matrix(value: &Value) -> DMatrix<f64> {
-    let rows = value.as_array().expect("rows");
+    let rows = value.as_array().unwrap();
     DMatrix::from_row_slice(rows.len(), flat(&rows[0]).len(), &flat(value))
 }
 
@@ -79,7 +58,7 @@ pub fn letter(found: &Value, keys: &str) -> Letter {
         }
         _ => vec![complex(found, key)],
     };
-    let mut members: Vec<_> = keys.split(", ").flat_map(members).collect();
+    let mut members = keys.split(", ").flat_map(members).collect_vec();
     match members.len() {
         1 => Letter::One(members.remove(0)),
         _ => Letter::Family((0..).zip(members).collect()),
@@ -88,7 +67,7 @@ pub fn letter(found: &Value, keys: &str) -> Letter {
 
 fn rows(matrix: &DMatrix<f64>) -> Value {
     let row = |i| matrix.row(i).iter().copied().collect::<Vec<f64>>();
-    json!((0..matrix.nrows()).map(row).collect::<Vec<_>>())
+    json!((0..matrix.nrows()).map(row).collect_vec())
 }
 
 /// Puts down a matrix, or a column as a list, with its imaginary part if the known answer has one.
@@ -108,11 +87,11 @@ fn put(answer: &mut Map<String, Value>, key: &str, found: &DMatrix<Complex<f64>>
 
 /// The finite element model of a structure, whose first elements are its parameters.
 fn model(given: &Value) -> FiniteElementModel {
-    let number = |key: &str| given[key].as_f64().expect("a number");
-    let count = |value: &Value| value.as_u64().expect("a whole number") as usize;
-    let entries = |key: &str| given[key].as_array().expect("a list").clone();
-    let mut material = Material::isotropic(number("youngs_modulus"), number("poissons_ratio"))
-        .expect("a material");
+    let number = |key: &str| given[key].as_f64().unwrap();
+    let count = |value: &Value| value.as_u64().unwrap() as usize;
+    let entries = |key: &str| given[key].as_array().unwrap().clone();
+    let mut material =
+        Material::isotropic(number("youngs_modulus"), number("poissons_ratio")).unwrap();
     material.density = number("density");
     let held = entries("held");
     let grids = entries("grids")
@@ -135,32 +114,26 @@ fn model(given: &Value) -> FiniteElementModel {
                 Some("shear") => ElementKind::ShearPanel,
                 _ => ElementKind::Membrane,
             },
-            grids: element[1]
-                .as_array()
-                .expect("a list")
-                .iter()
-                .map(count)
-                .collect(),
-            size: element[2].as_f64().expect("a number"),
+            grids: element[1].as_array().unwrap().iter().map(count).collect(),
+            size: element[2].as_f64().unwrap(),
             material,
         })
         .collect();
-    let structure = Structure::new(grids, elements).expect("a structure");
+    let structure = Structure::new(grids, elements).unwrap();
     let mut t = DMatrix::zeros(structure.free_dof().len(), count(&given["dynamic_dof"]));
     for entry in entries("load_distribution") {
-        t[(count(&entry[0]), count(&entry[1]))] = entry[2].as_f64().expect("a number");
+        t[(count(&entry[0]), count(&entry[1]))] = entry[2].as_f64().unwrap();
     }
     let parameters = (0..count(&given["parameters"])).map(|label| Parameter::new(label, &[label]));
-    FiniteElementModel::new(structure, t, matrix(&given["mass"]), parameters.collect())
-        .expect("a model")
+    FiniteElementModel::new(structure, t, matrix(&given["mass"]), parameters.collect()).unwrap()
 }
 
 /// The matrices of a model whose elements have the mass of their first sizes, lumped and condensed as its stiffness is.
 fn matrices(model: &FiniteElementModel, factors: &[f64]) -> DynamicModel {
-    let b = model.condense(factors).expect("held").transformation;
+    let b = model.condense(factors).unwrap().transformation;
     let lumped = DMatrix::from_diagonal(&lumped_mass(model.structure()));
     let seen = b.tr_mul(&(lumped * &b));
-    let mut dynamic = model.matrices(factors).expect("held");
+    let mut dynamic = model.matrices(factors).unwrap();
     dynamic.mass += symmetric_part(&seen);
     dynamic
 }
@@ -172,10 +145,10 @@ fn analysis(given: &Value) -> Value {
         matrix(&given["loads"]),
     );
     let (elements, free) = (model.element_matrices(), model.structure().free_dof());
-    let sizes = model.sizes(&factors).expect("sizes");
-    let stiffness = assemble(elements, &sizes, free.len()).expect("sizes");
+    let sizes = model.sizes(&factors).unwrap();
+    let stiffness = assemble(elements, &sizes, free.len()).unwrap();
     let whole = |element: &ElementMatrix| {
-        let mut unit = DMatrix::zeros(free.len(), free.len());
+        let mut unit = zero_square(free.len());
         for (b, &column) in element.dof.iter().enumerate() {
             for (a, &row) in element.dof.iter().enumerate() {
                 unit[(row, column)] = element.unit[(a, b)];
@@ -183,11 +156,11 @@ fn analysis(given: &Value) -> Value {
         }
         rows(&unit)
     };
-    let factor = of_dense(&stiffness).expect("held");
-    let deflections = factor.solve(&loads).expect("loads");
+    let factor = of_dense(&stiffness).unwrap();
+    let deflections = factor.solve(&loads).unwrap();
     let t = model.load_distribution();
-    let flexibility = t.tr_mul(&factor.solve(t).expect("loads"));
-    let condensed = model.condense(&factors).expect("held");
+    let flexibility = t.tr_mul(&factor.solve(t).unwrap());
+    let condensed = model.condense(&factors).unwrap();
     let DynamicModel { mass, shares, .. } = matrices(&model, &factors);
     json!({
         "structural_stiffness": rows(&stiffness),
@@ -196,18 +169,18 @@ fn analysis(given: &Value) -> Value {
         "dynamic_flexibility": rows(&flexibility),
         "dynamic_stiffness": rows(&condensed.stiffness),
         "transformation": rows(&condensed.transformation),
-        "shares": shares.iter().map(rows).collect::<Vec<_>>(),
+        "shares": shares.iter().map(rows).collect_vec(),
         "structures_mass": rows(&(&mass - model.mass())),
         "mass": rows(&mass),
         "load_distribution": rows(t),
         "sizes": sizes,
-        "unit_stiffness": elements.iter().map(whole).collect::<Vec<_>>(),
+        "unit_stiffness": elements.iter().map(whole).collect_vec(),
         "structural_mass": rows(&DMatrix::from_diagonal(&lumped_mass(model.structure()))),
     })
 }
 
 fn box_loads(given: &Value) -> Value {
-    let model = Case::new(1).expect("a case").model().expect("a model");
+    let model = case_of(1).model().unwrap();
     let t = model.load_distribution();
     let loads = t * list(&given["dynamic_loads"]);
     json!({ "structural_loads": loads.as_slice(), "load_distribution": rows(t) })
@@ -215,11 +188,9 @@ fn box_loads(given: &Value) -> Value {
 
 fn modes(given: &Value) -> Value {
     let (stiffness, mass) = (matrix(&given["stiffness"]), matrix(&given["mass"]));
-    let modes = solve(&stiffness, &mass, mass.nrows()).expect("solved");
+    let modes = solve(&stiffness, &mass, mass.nrows()).unwrap();
     let test = Modes::from_measured(&flat(&given["frequencies_hz"]), &matrix(&given["shapes"]));
-    let test = test
-        .and_then(|test| test.scaled_with(&mass))
-        .expect("modes");
+    let test = test.and_then(|test| test.scaled_with(&mass)).unwrap();
     json!({
         "omega_squared": modes.omega_squared().as_slice(),
         "shapes": rows(modes.shapes()),
@@ -231,16 +202,16 @@ fn modes(given: &Value) -> Value {
 
 fn comparison(given: &Value) -> Value {
     let set = |squares: &str, shapes: &str| {
-        Modes::new(list(&given[squares]), matrix(&given[shapes])).expect("modes")
+        Modes::new(list(&given[squares]), matrix(&given[shapes])).unwrap()
     };
     let (analysis, test) = (
         set("omega_squared", "shapes"),
         set("test_omega_squared", "test_shapes"),
     );
-    let cross = cross_orthogonality(&analysis, &test, &matrix(&given["mass"])).expect("fits");
-    let pairing = pair_modes(&cross).expect("pairs");
-    let errors = errors(&analysis, &pairing, &test).expect("errors");
-    let paired = pairing.paired(&analysis).expect("pairs");
+    let cross = cross_orthogonality(&analysis, &test, &matrix(&given["mass"])).unwrap();
+    let pairing = pair_modes(&cross).unwrap();
+    let errors = errors(&analysis, &pairing, &test).unwrap();
+    let paired = pairing.paired(&analysis).unwrap();
     json!({
         "paired_omega_squared": paired.omega_squared().as_slice(),
         "paired_shapes": rows(paired.shapes()),
@@ -256,7 +227,7 @@ fn stiffness_alone(given: &Value) -> Value {
     let (k, beta) = (list(&given["k"]), matrix(&given["beta"]));
     let mut answer = Map::new();
     for order in [1, 2, 3, 6] {
-        let Perturbed { roots, shapes } = recursive_1(&k, &beta, order).expect("apart");
+        let Perturbed { roots, shapes } = recursive_1(&k, &beta, order).unwrap();
         answer.insert(format!("roots_{order}"), json!(roots.as_slice()));
         let changes = roots - k.map(f64::recip);
         answer.insert(format!("root_changes_{order}"), json!(changes.as_slice()));
@@ -273,7 +244,7 @@ fn with_mass(given: &Value) -> Value {
     let column = |roots: &DVector<Complex<f64>>| {
         DMatrix::from_column_slice(roots.len(), 1, roots.as_slice())
     };
-    let first = pencil.first_order().expect("apart");
+    let first = pencil.first_order().unwrap();
     let changes = &first.roots - k.map(|k| Complex::from(1.0 / k));
     put(&mut answer, "root_changes", &column(&changes));
     let mut both = |rule: String, found: Perturbed<Complex<f64>>| {
@@ -283,19 +254,19 @@ fn with_mass(given: &Value) -> Value {
     for order in [1, 2, 4] {
         both(
             format!("recursive_1_{order}"),
-            pencil.recursive_1(order).expect("apart"),
+            pencil.recursive_1(order).unwrap(),
         );
         both(
             format!("recursive_2_{order}"),
-            pencil.recursive_2(order).expect("apart"),
+            pencil.recursive_2(order).unwrap(),
         );
     }
-    both("original".into(), pencil.original().expect("apart"));
-    let settled = pencil.recursive_1_converged().expect("it settles");
+    both("original".into(), pencil.original().unwrap());
+    let settled = pencil.recursive_1_converged().unwrap();
     both("exact".into(), settled.perturbed);
     let [beta, alpha] = [beta, alpha].map(|change| change.map(|z| z.re));
-    let vibrations = Pencil::of_vibrations(&k, &beta, &alpha).expect("a pencil");
-    let settled = vibrations.recursive_1_converged().expect("it settles");
+    let vibrations = Pencil::of_vibrations(&k, &beta, &alpha).unwrap();
+    let settled = vibrations.recursive_1_converged().unwrap();
     let Perturbed { roots, shapes } = settled.perturbed;
     answer.insert("vibrations_roots".into(), json!(roots.as_slice()));
     answer.insert("vibrations_shapes".into(), rows(&shapes));
@@ -304,22 +275,20 @@ fn with_mass(given: &Value) -> Value {
 
 fn left_and_right(given: &Value) -> Value {
     let real = |key: &str| matrix(&given[key]);
-    let modes = appendix_c::solve(&real("stiffness"), &complex(given, "g")).expect("solved");
+    let modes = appendix_c::solve(&real("stiffness"), &complex(given, "g")).unwrap();
     let [stiffness, stiffness_change, g_change] =
         ["stiffness", "stiffness_change", "g_change"].map(|key| complex(given, key));
     let none = DMatrix::zeros(stiffness.nrows(), stiffness.ncols());
-    let before = Pencil::new(&stiffness, &modes, &none, &none).expect("biorthogonal");
+    let before = Pencil::new(&stiffness, &modes, &none, &none).unwrap();
     let after = Pencil::new(&stiffness, &modes, &stiffness_change, &g_change);
-    let after = after.expect("biorthogonal");
+    let after = after.unwrap();
     let LeftRightModes { roots, right, left } = &modes;
     // The changed stiffness is not symmetric: its inverse goes to the other side.
-    let inverse = (&stiffness + &stiffness_change)
-        .try_inverse()
-        .expect("regular");
+    let inverse = (&stiffness + &stiffness_change).try_inverse().unwrap();
     let unit = DMatrix::identity(modes.roots.len(), modes.roots.len());
     let changed = appendix_c::solve(&unit, &(inverse * (complex(given, "g") + &g_change)));
-    let changed = changed.expect("solved");
-    let settled = after.recursive_1_converged().expect("it settles");
+    let changed = changed.unwrap();
+    let settled = after.recursive_1_converged().unwrap();
     let mut answer = Map::new();
     let column =
         |list: &DVector<Complex<f64>>| DMatrix::from_column_slice(list.len(), 1, list.as_slice());
@@ -348,13 +317,13 @@ fn state_and_step(given: &Value) -> Value {
         list(&given["test_omega_squared"]),
         matrix(&given["test_shapes"]),
     )
-    .expect("modes");
+    .unwrap();
     let modal = model
         .analyze(&vec![1.0; factors.len()], &test, None)
-        .expect("solved");
-    let state = modal.at(&factors).expect("it settles");
+        .unwrap();
+    let state = modal.at(&factors).unwrap();
     let by = |rule| modal.stiffness_changes(&state, &factors, rule);
-    let changes = modal.error_changes(&state).expect("apart");
+    let changes = modal.error_changes(&state).unwrap();
     let settings = Settings::default().for_modes(test.len()).inner;
     let stiffnesses = by(StepRule::Matrix);
     let unlimited = |relaxation| -> Vec<f64> {
@@ -369,7 +338,7 @@ fn state_and_step(given: &Value) -> Value {
         "start_shapes": rows(start.shapes()),
         "generalized_shapes": rows(&state.generalized_shapes),
         "mass": rows(&dynamic.mass),
-        "shares": dynamic.shares.iter().map(rows).collect::<Vec<_>>(),
+        "shares": dynamic.shares.iter().map(rows).collect_vec(),
         "omega_squared": state.modes.omega_squared().as_slice(),
         "shapes": rows(state.modes.shapes()),
         "frequencies_hz": state.modes.frequencies_hz(),
@@ -379,24 +348,24 @@ fn state_and_step(given: &Value) -> Value {
         "error_changes": changes,
         "stiffness_changes": stiffnesses,
         "diagonal_stiffness_changes": by(StepRule::Own),
-        "start_error_changes": modal.error_changes(modal.exact()).expect("apart"),
+        "start_error_changes": modal.error_changes(modal.exact()).unwrap(),
     })
 }
 
 fn appendix_b(given: &Value) -> Value {
     let [stiffness, mass, rigid_body, shapes] =
         ["stiffness", "mass", "rigid_body", "raw"].map(|key| matrix(&given[key]));
-    let raw = Modes::new(list(&given["omega_squared"]), shapes).expect("modes");
-    let balanced = balance(&raw, &stiffness, &mass, &rigid_body).expect("free");
-    let test = Modes::new(raw.omega_squared().clone(), balanced.shapes.clone()).expect("modes");
-    let found = orthogonalize(&test, &mass).expect("independent").modes;
-    let unit = test.scaled_with(&mass).expect("modes");
+    let raw = Modes::new(list(&given["omega_squared"]), shapes).unwrap();
+    let balanced = balance(&raw, &stiffness, &mass, &rigid_body).unwrap();
+    let test = Modes::new(raw.omega_squared().clone(), balanced.shapes.clone()).unwrap();
+    let found = orthogonalize(&test, &mass).unwrap().modes;
+    let unit = test.scaled_with(&mass).unwrap();
     json!({
         "coefficients": rows(&balanced.coefficients),
         "balanced": rows(&balanced.shapes),
-        "analysis_shapes": rows(solve(&stiffness, &mass, 4).expect("held").shapes()),
+        "analysis_shapes": rows(solve(&stiffness, &mass, 4).unwrap().shapes()),
         "unit": rows(unit.shapes()),
-        "generalized_mass": rows(&generalized_mass(unit.shapes(), &mass).expect("fits")),
+        "generalized_mass": rows(&generalized_mass(unit.shapes(), &mass).unwrap()),
         "omega_squared": found.omega_squared().as_slice(),
         "orthogonal": rows(found.shapes()),
     })
@@ -406,14 +375,14 @@ fn appendix_b(given: &Value) -> Value {
 fn one_pass(given: &Value) -> Value {
     let (model, truth) = (model(given), flat(&given["truth"]));
     let right = matrices(&model, &truth);
-    let test = solve(&right.stiffness, &right.mass, right.mass.nrows()).expect("solved");
+    let test = solve(&right.stiffness, &right.mass, right.mass.nrows()).unwrap();
     let ones = vec![1.0; truth.len()];
     let analyze = |factors: &[f64]| matrices(&model, factors).analyze(&test, None);
     // With the modes of an eigensolution after every step, which is what Recursive 1 approaches.
-    let start = Eigensolved(analyze(&ones).expect("solved"));
+    let start = Eigensolved(analyze(&ones).unwrap());
     let settings = Settings::default().for_modes(test.len()).inner;
-    let inner = run(&start, &ones, &vec![None; ones.len()], &settings).expect("a loop");
-    let check = analyze(&inner.factors).expect("solved");
+    let inner = run(&start, &ones, &vec![None; ones.len()], &settings).unwrap();
+    let check = analyze(&inner.factors).unwrap();
     let sums = inner
         .iterations
         .iter()
@@ -447,14 +416,14 @@ pub fn found(name: &str) -> Value {
         }
         false => answer(vector),
     };
-    for (key, value) in input.as_object().expect("an object") {
+    for (key, value) in input.as_object().unwrap() {
         found[&format!("given {key}")] = value.clone();
     }
     found
 }
 
 fn answer(vector: &Value) -> Value {
-    let function = match vector["function"].as_str().expect("a name") {
+    let function = match vector["function"].as_str().unwrap() {
         "analysis" => analysis,
         "box_loads" => box_loads,
         "modes" => modes,
@@ -474,14 +443,14 @@ fn answer(vector: &Value) -> Value {
 fn every_vector_is_answered_as_numpy_answers_it() {
     let (mut answers, mut wrong) = (Map::new(), Vec::new());
     for vector in vectors() {
-        let name = vector["name"].as_str().expect("a name");
+        let name = vector["name"].as_str().unwrap();
         let found = answer(&vector);
-        for (key, expected) in vector["answer"].as_object().expect("an object") {
+        for (key, expected) in vector["answer"].as_object().unwrap() {
             let (found, expected) = (flat(&found[key]), flat(expected));
             let largest = expected
                 .iter()
                 .fold(0.0, |largest: f64, number| largest.max(number.abs()));
-            let bar = vector["tolerance"].as_f64().expect("a number") * largest;
+            let bar = vector["tolerance"].as_f64().unwrap() * largest;
             let apart = found
                 .iter()
                 .zip(&expected)
@@ -497,7 +466,7 @@ fn every_vector_is_answered_as_numpy_answers_it() {
         answers.insert(name.to_owned(), found);
     }
     let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("vectors_answers.json");
-    fs::write(file, Value::from(answers).to_string()).expect("it can be written");
+    fs::write(file, Value::from(answers).to_string()).unwrap();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
@@ -512,8 +481,8 @@ fn every_equation_has_a_vector() {
             vector["name"]
         );
         structures += usize::from(vector["function"] == "one_pass");
-        for equation in vector["equations"].as_array().expect("a list") {
-            equations.insert(equation.as_str().expect("a number").to_owned());
+        for equation in vector["equations"].as_array().unwrap() {
+            equations.insert(equation.as_str().unwrap().to_owned());
         }
     }
     assert_eq!(structures, STRUCTURES);

@@ -3,8 +3,7 @@
 use super::FORMULAS;
 use super::formula::{Formula, Letter, Letters, Places, Refused, Value, add};
 use super::vectors::{found, letter};
-use serde::Deserialize;
-use std::collections::BTreeMap;
+use crate::prelude::*;
 
 /// Known answers in which equations must hold.
 #[derive(Clone, Deserialize)]
@@ -58,7 +57,7 @@ impl World {
             .then
             .iter()
             .map(|line| FORMULAS.get(line).unwrap_or(line));
-        let then: Vec<_> = then.flat_map(|line| clauses(line)).collect();
+        let then = then.flat_map(|line| clauses(line)).collect_vec();
         let mut letters = self.letters.clone();
         // What the formula defines may need what the world defines, or the other way round.
         for clause in &then {

@@ -2,16 +2,8 @@
 //! iterations, Table 9 the inner loop's own frequencies there.
 
 use super::RMS_PERCENT;
-use crate::common::boxes::other_boxes;
 use crate::evidence::detection::SIZES;
-use corfem::method::modes::solve;
-use corfem::present::table::{Cell, Table};
-use corfem::torque_box::Case;
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::fewer_modes::PUBLISHED_CASE;
-use corfem::torque_box::published::PublishedTable;
-use corfem::torque_box::wing_box::Reconstruction;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// Other boxes of each size.
 pub const ADDED_BOXES: usize = 10;
@@ -50,7 +42,7 @@ pub fn frequencies_by_both(reconstruction: &Reconstruction) -> Result<Vec<ByBoth
                 stiffness += (change(gage / panel.gage) - 1.0) * share;
             }
             let reduced = first.shapes().transpose() * stiffness * first.shapes();
-            let found = solve(&reduced, &DMatrix::identity(modes, modes), modes)?;
+            let found = solve(&reduced, &eye(modes), modes)?;
             let mut means = [0.0; 2];
             for (mode, hz) in found.frequencies_hz().iter().enumerate() {
                 let row = (mode + 1).to_string();

@@ -1,41 +1,29 @@
 //! Appendix B, the general formulae of Appendix C, gradients, and exact checks of truncated sets, against numpy's
 //! (golden/reference/appendices.py).
 
-use crate::common::appendix_c::{ModalChange, diagonal_pencil, eigensolution};
-use crate::common::gradient::gradient;
-use crate::common::matrices::relative_distance;
-use crate::common::tolerances::{
-    EXPECTED_FREQUENCY, EXPECTED_GRADIENT, EXPECTED_HISTORY, MATRIX_ROUND_OFF,
-};
-use approx::assert_relative_eq;
-use corfem::method::analysis::Analysis;
-use corfem::method::appendix_b::{balance, orthogonalize};
-use corfem::method::modes::Modes;
-use corfem::method::perturbation::Perturbed;
-use corfem::torque_box::Case;
-use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, published_runs};
-use nalgebra::{Complex, DMatrix, DVector};
+use crate::common::appendix_c::diagonal_pencil;
+use crate::prelude::*;
 use toml::{Table, Value};
 
 fn expected() -> Table {
     include_str!("../../golden/reference/expected_appendices.toml")
         .parse()
-        .expect("the golden reads")
+        .unwrap()
 }
 
 fn number(value: &Value) -> f64 {
     value
         .as_float()
         .or(value.as_integer().map(|integer| integer as f64))
-        .expect("a number")
+        .unwrap()
 }
 
 /// Rows as a matrix; a list is a column.
 fn matrix(value: &Value) -> DMatrix<f64> {
-    let rows = value.as_array().expect("a list");
+    let rows = value.as_array().unwrap();
     match rows.first().and_then(Value::as_array) {
         Some(first) => DMatrix::from_fn(rows.len(), first.len(), |i, j| {
-            number(&rows[i].as_array().expect("a row")[j])
+            number(&rows[i].as_array().unwrap()[j])
         }),
         None => DMatrix::from_fn(rows.len(), 1, |i, _| number(&rows[i])),
     }
@@ -60,9 +48,8 @@ fn appendix_b_is_numpys() {
     let table = &expected()["appendix_b"];
     let (stiffness, mass) = (matrix(&table["stiffness"]), matrix(&table["mass"]));
     let omega_squared = DVector::from_vec(list(&table["omega_squared"]));
-    let raw = Modes::new(omega_squared, matrix(&table["raw"])).expect("modes");
-    let balanced =
-        balance(&raw, &stiffness, &mass, &matrix(&table["rigid_body"])).expect("balanced");
+    let raw = Modes::new(omega_squared, matrix(&table["raw"])).unwrap();
+    let balanced = balance(&raw, &stiffness, &mass, &matrix(&table["rigid_body"])).unwrap();
     assert_near(
         "coefficients",
         &balanced.coefficients,
@@ -81,8 +68,8 @@ fn appendix_b_is_numpys() {
         &table["change"],
         MATRIX_ROUND_OFF,
     );
-    let balanced = Modes::new(raw.omega_squared().clone(), balanced.shapes).expect("modes");
-    let found = orthogonalize(&balanced, &mass).expect("orthogonal");
+    let balanced = Modes::new(raw.omega_squared().clone(), balanced.shapes).unwrap();
+    let found = orthogonalize(&balanced, &mass).unwrap();
     assert_near(
         "overlap",
         &found.overlap,
@@ -108,7 +95,7 @@ fn appendix_b_is_numpys() {
                 .movement
                 .iter()
                 .map(|moved| [moved.frequency, moved.shape][part])
-                .collect::<Vec<_>>(),
+                .collect_vec(),
         )
     });
     assert_near(
@@ -158,25 +145,25 @@ fn the_general_formulae_are_numpys() {
         let k = DVector::from_vec(list(&table["k"]));
         let [beta, alpha] = ["beta", "alpha"].map(|name| complex(table, name));
         let pencil = diagonal_pencil(&k, &beta, &alpha);
-        assert_perturbed(table, "original", &pencil.original().expect("apart"));
+        assert_perturbed(table, "original", &pencil.original().unwrap());
         for order in [1, 2, 3, 5] {
             assert_perturbed(
                 table,
                 &format!("recursive_1_{order}"),
-                &pencil.recursive_1(order).expect("apart"),
+                &pencil.recursive_1(order).unwrap(),
             );
             assert_perturbed(
                 table,
                 &format!("recursive_2_{order}"),
-                &pencil.recursive_2(order).expect("apart"),
+                &pencil.recursive_2(order).unwrap(),
             );
         }
-        let settled = pencil.recursive_1_converged().expect("it settles");
+        let settled = pencil.recursive_1_converged().unwrap();
         assert_perturbed(table, "exact", &settled.perturbed);
         if name == "symmetric" {
             let real = |matrix: &DMatrix<Complex<f64>>| matrix.map(|entry| entry.re);
             let exact = ModalChange::of_vibrations(&k, real(&beta), real(&alpha));
-            let Perturbed { roots, shapes } = eigensolution(&exact).expect("solved");
+            let Perturbed { roots, shapes } = eigensolution(&exact).unwrap();
             let exact = Perturbed {
                 roots: roots.map(Complex::from),
                 shapes: shapes.map(Complex::from),
@@ -200,13 +187,13 @@ fn gradients_are_numpys() {
     ] {
         let table = &expected()
             [&format!("gradient, case {number}, {tests} test and {analysis} analysis modes")];
-        let case = Case::new(number).expect("a case");
-        let test = case.test_modes().expect("solved");
-        let test = test.lowest(tests).expect("as many");
-        let model = case.model().expect("a model");
+        let case = case_of(number);
+        let test = case.test_modes().unwrap();
+        let test = test.lowest(tests).unwrap();
+        let model = case.model().unwrap();
         let modal = model.analyze(&[1.0; 15], &test, Some(analysis));
-        let modal = modal.expect("solved");
-        let found = gradient(&modal, modal.exact()).expect("a gradient");
+        let modal = modal.unwrap();
+        let found = gradient(&modal, modal.exact()).unwrap();
         let expected = &table["stiffness"];
         assert_near("stiffness", &column(&found), expected, EXPECTED_GRADIENT);
     }
@@ -214,7 +201,7 @@ fn gradients_are_numpys() {
 
 #[test]
 fn exact_checks_of_truncated_sets_are_numpys() {
-    for run in published_runs(&Case::new(PUBLISHED_CASE).expect("a case")).expect("they run") {
+    for run in published_runs(&case_of(PUBLISHED_CASE)).unwrap() {
         let table = &expected()[&format!(
             "case 2, {} test and {} analysis modes",
             run.test_modes, run.analysis_modes

@@ -2,29 +2,11 @@
 //! models, and how often a test is called explained.
 
 use super::PERCENT;
-use crate::common::jobs::{Files, building, of_whole};
-use crate::common::jobs::{prepare, run};
-use crate::common::known::Known;
-use crate::common::known::weighed::Weighed;
-use crate::common::measured::equal_weights;
-use crate::common::test_files::write_csv;
-use crate::common::whole_models::{masses, shear_building, springs};
+use crate::common::jobs::of_whole;
+use crate::common::jobs::run;
+use crate::prelude::*;
 use crate::readers::job_errors::{placed, with};
-use corfem::files::error::FileError;
-use corfem::job::{JobResult, PreparedJob};
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::modes::Modes;
-use corfem::method::step::Bounds;
-use corfem::present::table::{Cell, Digits, Table, numbers, percents};
-use corfem::sparse::{WholeModel, WholeParameter, WholeShare};
-use corfem::torque_box::error::CaseError;
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop, gauss_newton};
-use corfem::weighted::intervals::{Withheld, intervals};
-use corfem::weighted::misfit::Misfit;
-use corfem::weighted::noise::{Noise, with_noise, with_noise_by_mode};
 use std::error::Error;
-use std::ops::RangeInclusive;
 
 /// Seeds of the noise, one test each.
 pub const SEEDS: RangeInclusive<u64> = 1..=300;
@@ -85,7 +67,7 @@ impl Coverage {
 
     /// Mean over the parameters seen of the part of their intervals that hold the truth; none where none is seen.
     pub fn overall(&self) -> Option<f64> {
-        let parts: Vec<f64> = self.seen().filter_map(Held::part).collect();
+        let parts = self.seen().filter_map(Held::part).collect_vec();
         (!parts.is_empty()).then(|| parts.iter().sum::<f64>() / parts.len() as f64)
     }
 
@@ -246,12 +228,12 @@ fn noisy(
     let mut data = loaded.loaded.data.clone();
     let exact = Modes::from_measured(&data.frequencies_hz, &data.shapes)?;
     let noise = (0..exact.len()).map(|mode| loaded.loaded.deviations(mode));
-    let noise: Vec<Noise> = noise
+    let noise = noise
         .map(|noise| Noise {
             shape: times * noise.shape,
             frequency: times * noise.frequency,
         })
-        .collect();
+        .collect_vec();
     let noisy = with_noise_by_mode(&exact, &noise, seed)?;
     (data.frequencies_hz, data.shapes) = (noisy.frequencies_hz(), noisy.shapes().clone());
     let mut files = files.clone();
@@ -300,7 +282,7 @@ fn chain(springs_at: &[f64], is_held: bool, group: usize, masses_at: &[usize]) -
         true => (place, place.checked_sub(1), springs_at[place]),
         false => (place + 1, Some(place), springs_at[place]),
     };
-    let all: Vec<_> = (0..springs_at.len()).map(spring).collect();
+    let all = (0..springs_at.len()).map(spring).collect_vec();
     let of_springs = all
         .chunks(group)
         .enumerate()
@@ -319,7 +301,7 @@ fn chain(springs_at: &[f64], is_held: bool, group: usize, masses_at: &[usize]) -
         }
     });
     let parameters = of_springs.chain(of_masses).collect();
-    WholeModel::new(springs(count, &all), masses(&vec![MASS; count]), parameters).expect("a chain")
+    WholeModel::new(springs(count, &all), masses(&vec![MASS; count]), parameters).unwrap()
 }
 
 /// Stiffness of a spring, lbf/in, and a mass, lbf·s²/in.
@@ -338,8 +320,8 @@ fn subjects() -> Result<Vec<Subject>, Box<dyn Error>> {
         Known::delta_wing()?,
         case_2_by_bays()?,
     ];
-    let mut all: Vec<Subject> = known.into_iter().map(of_known).collect();
-    let stories = crate::common::jobs::STORIES;
+    let mut all = known.into_iter().map(of_known).collect_vec();
+    let stories = STORIES;
     all.push(of_job("Building", building(), &stories)?);
     let eight = [0.7, 1.0, 1.2, 0.9, 1.0, 0.8, 1.1, 1.3];
     let fine = Noise {
@@ -364,20 +346,20 @@ fn subjects() -> Result<Vec<Subject>, Box<dyn Error>> {
     }
     let long = chain(&[SPRING; 60], true, 6, &[]);
     let ten = [0.8, 1.0, 1.2, 0.9, 1.0, 0.75, 1.1, 1.0, 0.85, 1.25];
-    let every_fourth: Vec<usize> = (3..60).step_by(4).collect();
+    let every_fourth = (3..60).step_by(4).collect_vec();
     let files = of_whole(&long, &ten, &every_fourth, 8, Noise::USUAL);
     all.push(of_job("60 DOF, truncated", files, &ten)?);
     let free = chain(&[SPRING; 9], false, 3, &[2, 7]);
     let five = [0.8, 1.2, 0.9, 1.3, 0.8];
-    let files = of_whole(&free, &five, &(0..10).collect::<Vec<_>>(), 6, Noise::USUAL);
+    let files = of_whole(&free, &five, &(0..10).collect_vec(), 6, Noise::USUAL);
     all.push(of_job("Free chain with masses", files, &five)?);
-    let decades: Vec<f64> = (0..8)
+    let decades = (0..8)
         .map(|place| 1e7 * 10.0_f64.powf(-f64::from(place) * 4.0 / 7.0))
-        .collect();
+        .collect_vec();
     let files = of_whole(
         &chain(&decades, true, 1, &[]),
         &eight,
-        &(0..8).collect::<Vec<_>>(),
+        &(0..8).collect_vec(),
         8,
         Noise::USUAL,
     );

@@ -1,15 +1,8 @@
 //! The delta wing as tables: its answers beside others', and what a correlation finds of its gages.
 
 use super::{PERCENT, RMS_PERCENT};
-use crate::common::known::delta_wing::correlation::{GROUPS, Group, TEST_MODES, WingCorrelation};
-use crate::common::known::delta_wing::{
-    DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies,
-};
 use crate::common::wing_subjects::wing_subject;
-use corfem::present::PresentError;
-use corfem::present::table::{Digits, Table, numbers, percents};
-use corfem::present::tables::report::{history_table, paired_table};
-use corfem::torque_box::published::PublishedTable;
+use crate::prelude::*;
 
 /// NASTRAN printed seven digits.
 const PRINTED: Digits = Digits::Significant(7);

@@ -1,25 +1,11 @@
 //! How often a parameter a hundred times too thin is named off the reconstructed box: on other boxes by what the first iteration asks
 //! for, on other structures by the fit of a single parameter that `corfem check` prints.
 
-use crate::common::boxes::other_boxes;
-use crate::common::jobs::of_matrices;
 use crate::evidence::localization::NOISE;
 use crate::evidence::readings::{FAULTY_ELEMENT, READINGS};
 use crate::evidence::readings_rates::{KINDS, Kind, below, unit};
+use crate::prelude::*;
 use crate::readers::job_prepared::prepared;
-use corfem::job::localization::by_factor;
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::model::Model;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::step::{StepRule, unlimited_factor};
-use corfem::present::table::{Cell, Table};
-use corfem::present::tables::job::suspects_table;
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
-use corfem::torque_box::{CASES, Case, stands_out};
-use corfem::weighted::noise::with_noise;
-use nalgebra::DMatrix;
 
 /// By how much the coordinates and the masses of other boxes are off, parts of them.
 pub const SIZES: [(f64, f64); 3] = [(0.02, 0.05), (0.05, 0.10), (0.12, 0.30)];
@@ -50,7 +36,7 @@ pub struct BoxRates {
 }
 
 /// Half and twice the published factor of about 60.
-pub const ABOUT_60: std::ops::RangeInclusive<f64> = 30.0..=120.0;
+pub const ABOUT_60: RangeInclusive<f64> = 30.0..=120.0;
 
 impl BoxRates {
     /// On how many the factor of the faulty element is half to twice the published one.
@@ -157,19 +143,19 @@ pub fn job_rates(kind: Kind, tests: u64) -> JobRates {
         let culprit = below(&mut state, parts.len());
         let mut real: DMatrix<f64> = parts.iter().sum();
         real -= 0.99 * &parts[culprit];
-        let exact = solve(&real, &mass, MODES).expect("modes");
+        let exact = solve(&real, &mass, MODES).unwrap();
         let shapes = unit(exact.shapes().clone());
-        let exact = Modes::new(exact.omega_squared().clone(), shapes).expect("shapes");
-        let test = with_noise(&exact, NOISE, seed).expect("noise");
+        let exact = Modes::new(exact.omega_squared().clone(), shapes).unwrap();
+        let test = with_noise(&exact, NOISE, seed).unwrap();
         let loaded = prepared(&of_matrices(&parts, &mass, &test));
-        let table = suspects_table(&loaded).expect("suspects");
+        let table = suspects_table(&loaded).unwrap();
         let name = format!("p{}", culprit + 1);
         let place = table.rows.iter().position(|row| row.label == name);
         rates.fit[0] += usize::from(place == Some(0));
         rates.fit[1] += usize::from(place.is_some_and(|place| place < 3));
-        let first = loaded.analyze(&vec![1.0; parts.len()]).expect("modes");
+        let first = loaded.analyze(&vec![1.0; parts.len()]).unwrap();
         let settings = loaded.loaded.job.correlation.for_modes(MODES).inner;
-        let largest = by_factor(first.model(), &settings).expect("factors");
+        let largest = by_factor(first.model(), &settings).unwrap();
         rates.factor += usize::from(largest[0].parameter == culprit);
     }
     rates

@@ -1,17 +1,8 @@
 //! How many full eigensolutions a correlation takes: perturbation between exact checks against a new analysis after every step.
 
-use crate::common::known::delta_wing::correlation;
+use crate::common::known::WING_MODES;
 use crate::common::known::eigensolved::Eigensolved;
-use crate::common::known::wing::Wing;
-use crate::common::known::{Known, WING_MODES, planted};
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::inner_loop::InnerSettings;
-use corfem::method::model::Model;
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::present::table::{Cell, Table};
-use corfem::torque_box::Case;
-use corfem::torque_box::error::CaseError;
+use crate::prelude::*;
 
 /// Error sums to be reached, fractions.
 pub const ERRORS: [f64; 2] = [0.05, 0.025];

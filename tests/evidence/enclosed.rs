@@ -4,20 +4,8 @@
 //! The crate's distance from a proven number is held to its condition: how much one rounding counts, which the program measures by a noise
 //! of 1e-40 in its place. Its iterations, halvings and pairs are those of the enclosure, of which no decision hangs on less than 4e-4.
 
-use crate::common::tolerances::{CHAIN_ROUND_OFF, NEAREST_DECISION, ROUND_OFF};
 use crate::paper::tables::cases::{frequency_table, gage_table};
-use corfem::method::analysis::State;
-use corfem::method::modes::Modes;
-use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::method::step::StepRule;
-use corfem::method::structure::ElementKind;
-use corfem::present::table::{Cell, Table};
-use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, PUBLISHED_RUNS};
-use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE, rms};
-use corfem::torque_box::{CASES, Case, run_case};
-use serde::Deserialize;
-use std::collections::BTreeMap;
-use std::sync::LazyLock;
+use crate::prelude::*;
 
 /// Decimals of twenty digits.
 type Decimals = Vec<String>;
@@ -63,22 +51,22 @@ struct Conditions {
 
 static ENCLOSED: LazyLock<BTreeMap<String, Run>> = LazyLock::new(|| {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/golden/enclosed.json");
-    let text = std::fs::read_to_string(file).expect("the golden");
-    serde_json::from_str(&text).expect("runs")
+    let text = fs::read_to_string(file).unwrap();
+    serde_json::from_str(&text).unwrap()
 });
 
 fn numbers(decimals: &Decimals) -> Vec<f64> {
     let parsed = decimals.iter().map(|digits| digits.parse());
-    parsed.collect::<Result<_, _>>().expect("decimals")
+    parsed.collect::<Result<_, _>>().unwrap()
 }
 
 /// Numbers of the crate against enclosed ones, as far apart as roundings of this condition go.
 fn assert_near(what: &str, found: &[f64], exact: &Decimals, conditions: &BTreeMap<String, f64>) {
-    let name = what.rsplit(", ").next().expect("a name");
+    let name = what.rsplit(", ").next().unwrap();
     let allowed = CHAIN_ROUND_OFF * conditions[name].max(1.0);
     assert_eq!(found.len(), exact.len(), "{what}");
     for (found, exact) in found.iter().zip(numbers(exact)) {
-        let apart = (found / exact - 1.0).abs();
+        let apart = relative_error(found, exact);
         assert!(
             apart <= allowed,
             "{what}: {found} for {exact}, {apart:e} of {allowed:e}"
@@ -125,7 +113,7 @@ fn assert_run(name: &str, test: &Modes, found: &Correlation, gages: &[Vec<f64>],
             &run.conditions.passes[at],
         );
         let steps = &pass.inner.iterations;
-        let halvings: Vec<usize> = steps.iter().map(|step| step.halvings).collect();
+        let halvings = steps.iter().map(|step| step.halvings).collect_vec();
         assert_eq!(
             (steps.len(), &halvings),
             (exact.iterations, &exact.halvings),
@@ -136,7 +124,7 @@ fn assert_run(name: &str, test: &Modes, found: &Correlation, gages: &[Vec<f64>],
             exact.converged,
             "{what}"
         );
-        let sums: Vec<f64> = steps.iter().map(|step| step.errors.sum()).collect();
+        let sums = steps.iter().map(|step| step.errors.sum()).collect_vec();
         let mut inner = pass.inner.last.modes.frequencies_hz();
         inner.sort_by(f64::total_cmp);
         let asked = &pass.inner.first_unlimited_factors;
@@ -161,7 +149,7 @@ const READINGS: [(&str, StepRule); 4] = [
 
 /// A case by a reading of the step, with as many passes as its enclosure has.
 fn case(number: usize, reading: &str, step: StepRule) -> Case {
-    let case = Case::new(number).expect("a case");
+    let case = case_of(number);
     let passes = ENCLOSED[&format!("case {number}, {reading}")].passes.len();
     Case {
         settings: Settings {
@@ -178,7 +166,7 @@ fn the_cases_by_every_reading_are_the_enclosed_ones() {
     for number in CASES {
         for (reading, step) in READINGS {
             let case = case(number, reading, step);
-            let found = run_case(&case, |_, _| {}).expect("it runs");
+            let found = run_case(&case, |_, _| {}).unwrap();
             let (name, met) = (format!("case {number}, {reading}"), &case.settings);
             assert_run(
                 &name,
@@ -200,22 +188,18 @@ fn passes_with_fewer_modes_by_every_reading_are_the_enclosed_ones() {
             most_passes: 1,
             ..case.settings.clone()
         };
-        let (model, all) = (
-            case.model().expect("a model"),
-            case.test_modes().expect("modes"),
-        );
-        let ranges = model.factor_ranges().expect("ranges");
+        let (model, all) = (case.model().unwrap(), case.test_modes().unwrap());
+        let ranges = model.factor_ranges().unwrap();
         for (tests, modes) in PUBLISHED_RUNS {
-            let test = all.lowest(tests).expect("modes");
+            let test = all.lowest(tests).unwrap();
             let analyze = |factors: &[f64]| model.analyze(factors, &test, Some(modes));
-            let found = correlate(analyze, &ranges, &settings, |_, _| true).expect("it runs");
-            let of_pass =
-                |factors: &[f64]| model.sizes(factors).expect("gages")[..PANEL_COUNT].to_vec();
-            let gages: Vec<_> = found
+            let found = correlate(analyze, &ranges, &settings, |_, _| true).unwrap();
+            let of_pass = |factors: &[f64]| model.sizes(factors).unwrap()[..PANEL_COUNT].to_vec();
+            let gages = found
                 .passes
                 .iter()
                 .map(|pass| of_pass(&pass.factors))
-                .collect();
+                .collect_vec();
             let name = format!(
                 "case {PUBLISHED_CASE}, {reading}, {tests} test and {modes} analysis modes"
             );
@@ -240,11 +224,7 @@ fn no_decision_of_a_run_is_near_to_falling_otherwise() {
 /// A computed cell against the number that it is of: the printed digits are those of the exact number, which is no nearer to rounding
 /// otherwise than its own digits.
 fn assert_prints(table: &Table, row: &str, column: usize, exact: f64) {
-    let rows = table
-        .rows
-        .iter()
-        .find(|own| own.label == row)
-        .expect("a row");
+    let rows = table.rows.iter().find(|own| own.label == row).unwrap();
     let cell = &rows.cells[column];
     let Cell::Number { .. } = cell else {
         panic!("{}, {row}: {cell:?}", table.name)
@@ -260,7 +240,7 @@ fn assert_prints(table: &Table, row: &str, column: usize, exact: f64) {
         units == units.round() || from_half > ROUND_OFF * units.abs(),
         "{what}"
     );
-    let printed: f64 = printed.parse().expect("a number");
+    let printed: f64 = printed.parse().unwrap();
     assert!(
         (printed * 10.0_f64.powi(digits as i32) - units).abs() <= 0.5,
         "{what}"
@@ -273,10 +253,9 @@ fn every_digit_of_tables_3_to_8_is_proven() {
     let mut cells = 0;
     for (number, reading) in [(1, "own"), (2, "relative"), (3, "relative")] {
         let run = &ENCLOSED[&format!("case {number}, {reading}")];
-        let found = run_case(&Case::new(number).expect("a case"), |_, _| {}).expect("it runs");
-        let stages =
-            || std::iter::once(&run.initial).chain(run.passes.iter().map(|pass| &pass.check));
-        let table = frequency_table(&found).expect("a table");
+        let found = run_case(&case_of(number), |_, _| {}).unwrap();
+        let stages = || once(&run.initial).chain(run.passes.iter().map(|pass| &pass.check));
+        let table = frequency_table(&found).unwrap();
         let test = numbers(&run.test_frequencies);
         let mut prints = |table: &Table, row: &str, column: usize, exact: f64| {
             assert_prints(table, row, column, exact);
@@ -296,18 +275,17 @@ fn every_digit_of_tables_3_to_8_is_proven() {
                 prints(&table, row, 2 + 2 * at, 100.0 * error / 3.0);
             }
         }
-        let table = gage_table(&found).expect("a table");
+        let table = gage_table(&found).unwrap();
         let first = found.case.first_gages();
-        let gages =
-            std::iter::once(first).chain(run.passes.iter().map(|pass| numbers(&pass.gages)));
+        let gages = once(first).chain(run.passes.iter().map(|pass| numbers(&pass.gages)));
         for row in &table.rows[..PANEL_COUNT] {
             prints(&table, &row.label, 1, TEST_GAGE);
         }
         for (at, gages) in gages.enumerate() {
-            let errors: Vec<f64> = gages
+            let errors = gages
                 .iter()
                 .map(|gage| 100.0 * (gage / TEST_GAGE - 1.0))
-                .collect();
+                .collect_vec();
             for (panel, gage) in gages.iter().enumerate() {
                 let row = &table.rows[panel].label;
                 prints(&table, row, 2 + 2 * at, *gage);
@@ -323,7 +301,7 @@ fn every_digit_of_tables_3_to_8_is_proven() {
                     .iter()
                     .zip(&errors)
                     .filter(|(panel, _)| panel.kind == kind);
-                let own: Vec<f64> = of_kind.map(|(_, error)| *error).collect();
+                let own = of_kind.map(|(_, error)| *error).collect_vec();
                 if !own.is_empty() {
                     prints(&table, row, 3 + 2 * at, rms(&own));
                 }

@@ -1,12 +1,7 @@
 //! How well the reconstructed box reproduces the published frequencies.
 
 use super::RMS_PERCENT;
-use corfem::method::analysis::Analysis;
-use corfem::present::table::{Table, percents};
-use corfem::torque_box::Case;
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::published::PublishedTable;
-use corfem::torque_box::wing_box::{PANEL_COUNT, Reconstruction, rms};
+use crate::prelude::*;
 
 /// The published columns: case, table of frequencies, table of gages, column prefixes.
 ///
@@ -96,8 +91,8 @@ pub fn fit(reconstruction: &Reconstruction) -> Result<Fit, CaseError> {
             .enumerate()
             .map(move |(mode, off)| (off.abs(), at(column, mode)))
     };
-    let all: Vec<_> = columns.iter().flat_map(of).collect();
-    let rms = rms(&all.iter().map(|(off, _)| *off).collect::<Vec<_>>());
+    let all = columns.iter().flat_map(of).collect_vec();
+    let rms = rms(&all.iter().map(|(off, _)| *off).collect_vec());
     let (largest, largest_at) = all
         .into_iter()
         .max_by(|a, b| a.0.total_cmp(&b.0))
@@ -127,7 +122,7 @@ pub fn fit_table(fit: &Fit) -> Table {
         .headings(["RMS", "Largest"], "%")
         .notes([note]);
     for column in &fit.columns {
-        let differences: Vec<f64> = column.differences().collect();
+        let differences = column.differences().collect_vec();
         let largest = differences
             .iter()
             .copied()

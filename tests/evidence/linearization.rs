@@ -1,7 +1,7 @@
 //! How far the steps can be trusted: errors of predicted modes, as a table.
 
 use crate::evidence::predictions::{Exact, MEASURES, METHODS, Prediction};
-use corfem::present::table::{Digits, Table, percents};
+use crate::prelude::*;
 
 /// RMS errors of predicted frequencies and shapes, a whole step, a quarter and a sixteenth, beside exact ones.
 pub fn linearization_table(structures: &[(&str, Vec<Prediction>)], exact: Exact) -> Table {

@@ -1,16 +1,7 @@
 //! How often a panel that is too thin is named: every panel of the box in turn, by both rankings.
 
 use super::noise_words;
-use crate::common::measured::equal_weights;
-use corfem::job::localization::{by_factor, by_single_fit};
-use corfem::method::error::Error;
-use corfem::present::table::{Cell, Table};
-use corfem::torque_box::Case;
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::noise::{Noise, with_noise};
-use std::ops::RangeInclusive;
+use crate::prelude::*;
 
 /// Noise of the study: 1 % of shapes, 0.5 % of frequencies.
 pub const NOISE: Noise = Noise {
@@ -57,7 +48,7 @@ pub fn localization(seeds: RangeInclusive<u64>) -> Result<Vec<Located>, CaseErro
         let mut gages = [TEST_GAGE; PANEL_COUNT];
         gages[culprit] *= ratio;
         let model = case.model_with(&gages)?;
-        for (is_noisy, tests) in [(false, std::slice::from_ref(&exact)), (true, &noisy)] {
+        for (is_noisy, tests) in [(false, from_ref(&exact)), (true, &noisy)] {
             let mut found = [[0; 2]; 2];
             for test in tests {
                 let modal = model.analyze(&[1.0; PANEL_COUNT], test, None)?;
@@ -100,7 +91,7 @@ pub fn localization_tables(located: &[Located]) -> Vec<Table> {
             .headings(["Factor, no noise", "Factor first", "Factor in three"], "")
             .headings(["Fit, no noise", "Fit first", "Fit in three"], "");
         let mut sums = [0; 6];
-        for pair in of_ratio().collect::<Vec<_>>().chunks_exact(2) {
+        for pair in of_ratio().collect_vec().chunks_exact(2) {
             let (exact, noisy) = (pair[0], pair[1]);
             let ([factor, factor_three], [fit, fit_three]) = (noisy.by_factor, noisy.by_single_fit);
             let counts = [

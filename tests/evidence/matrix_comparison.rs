@@ -6,16 +6,7 @@
 use crate::evidence::matrix_correction::{
     baruch_stiffness, berman_nagy_mass, mass_weighted, weighted_norm,
 };
-use corfem::method::error::Error;
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::outer_loop::correlate;
-use corfem::method::sorting::{cross_orthogonality, pair_modes};
-use corfem::method::step::StepRule;
-use corfem::torque_box::Case;
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::wing_box::{COVERS, PANEL_COUNT, TEST_GAGE};
-use nalgebra::{DMatrix, DVector};
+use crate::prelude::*;
 
 /// Test modes given to the corrections unless told otherwise: about half, so that there are others to predict.
 pub const USUAL_TEST_MODES: usize = 5;
@@ -233,7 +224,7 @@ fn nearest_factors(change: &DMatrix<f64>, start: &DynamicModel) -> Result<(Vec<f
         .iter()
         .map(weighted)
         .collect::<Result<_, _>>()?;
-    let norms: Vec<f64> = shares.iter_mut().map(DVector::normalize_mut).collect();
+    let norms = shares.iter_mut().map(DVector::normalize_mut).collect_vec();
     let shares = DMatrix::from_columns(&shares);
     let target = weighted(change)?;
     let nearest = shares

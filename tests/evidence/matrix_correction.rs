@@ -7,9 +7,7 @@
 //! Journal* 16 (1978), 1208–1210; Berman and Nagy, "Improvement of a Large Analytical Model Using Test Data", *AIAA
 //! Journal* 21 (1983), 1168–1173.
 
-use corfem::method::linear_algebra::{cholesky, symmetric_part};
-use corfem::method::modes::Modes;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// Baruch's correction of the stiffness, lbf/in (d × d):
 ///
@@ -39,12 +37,12 @@ pub fn baruch_stiffness(
 pub fn berman_nagy_mass(mass: &DMatrix<f64>, shapes: &DMatrix<f64>) -> DMatrix<f64> {
     let inertia = mass * shapes;
     let generalized = symmetric_part(&shapes.tr_mul(&inertia));
-    let lower = cholesky("generalized mass", &generalized, 0.0).expect("shapes of their own");
+    let lower = cholesky("generalized mass", &generalized, 0.0).unwrap();
     // X = m⁻¹ Φᵗ M, and Xᵗ (I − m) X is the change.
     let mut solved = inertia.transpose();
     lower.solve_lower_triangular_unchecked_mut(&mut solved);
     lower.tr_solve_lower_triangular_unchecked_mut(&mut solved);
-    let missing = DMatrix::identity(shapes.ncols(), shapes.ncols()) - generalized;
+    let missing = eye(shapes.ncols()) - generalized;
     symmetric_part(&(mass + solved.tr_mul(&(missing * &solved))))
 }
 
@@ -58,7 +56,7 @@ pub fn weighted_norm(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> f64 {
 
 /// $L^{-1} \Delta L^{-t}$ with $M = L L^t$: up to a rotation the same as $M^{-1/2} \Delta M^{-1/2}$.
 pub fn mass_weighted(change: &DMatrix<f64>, mass: &DMatrix<f64>) -> DMatrix<f64> {
-    let lower = cholesky("dynamic mass", mass, 0.0).expect("a mass");
+    let lower = cholesky("dynamic mass", mass, 0.0).unwrap();
     let mut reduced = change.clone();
     lower.solve_lower_triangular_unchecked_mut(&mut reduced);
     reduced.transpose_mut();

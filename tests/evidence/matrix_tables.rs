@@ -4,10 +4,7 @@ use super::{HERTZ, PERCENT, RMS_PERCENT};
 use crate::evidence::matrix_comparison::{
     COVER_DOUBLER, ElementFactor, MatrixComparison, Prediction, TRUTH,
 };
-use corfem::method::structure::ElementKind;
-use corfem::present::table::{Cell, Digits, Table, numbers, percents};
-use corfem::torque_box::Case;
-use corfem::torque_box::wing_box::rms;
+use crate::prelude::*;
 
 /// All tables of a comparison: what the models know, the factors they stand for, and the changes entry by entry.
 pub fn matrix_tables(case: &Case, comparison: &MatrixComparison) -> Vec<Table> {

@@ -27,8 +27,7 @@ pub mod readings_rates;
 pub mod rules;
 pub mod specimen;
 
-use corfem::present::table::Digits;
-use corfem::weighted::noise::Noise;
+use crate::prelude::*;
 
 const HERTZ: Digits = Digits::Significant(4);
 const PERCENT: Digits = Digits::Fixed(1);

@@ -1,10 +1,8 @@
 //! What the test still says where the paper's loop ends: one weighted step from there.
 
 use crate::paper::tables::cases::{all_tables, next_step_table};
+use crate::prelude::*;
 use crate::presentation::figures::results;
-use corfem::present::render::text;
-use corfem::torque_box::CaseResult;
-use corfem::torque_box::wing_box::COVERS;
 
 fn case(number: usize) -> &'static CaseResult {
     &results()[number - 1]
@@ -12,7 +10,7 @@ fn case(number: usize) -> &'static CaseResult {
 
 /// Error of every panel's gage at the end of a case's loop, and after the step, in percent as its table prints them.
 fn errors(number: usize) -> Vec<[f64; 2]> {
-    let errors = case(number).gage_errors().expect("a correlated case");
+    let errors = case(number).gage_errors().unwrap();
     // A rounded zero has no sign.
     let rounded = |error: f64| (1e3 * error).round() / 10.0 + 0.0;
     errors.into_iter().map(|error| error.map(rounded)).collect()
@@ -22,7 +20,7 @@ fn errors(number: usize) -> Vec<[f64; 2]> {
 #[test]
 fn the_covers_of_each_bay_cannot_be_indistinct_groups() {
     for number in [1, 2, 3] {
-        let next = case(number).next_step.as_ref().expect("a step");
+        let next = case(number).next_step.as_ref().unwrap();
         let found: Vec<Vec<usize>> = next.seen.parallel_groups();
         assert_eq!(found, [[1, 14], [3, 7], [8, 10]], "Case {number}");
     }
@@ -52,7 +50,7 @@ fn one_weighted_step_from_the_end_of_case_3_brings_the_shear_panels_within_5_per
 /// The pairs and the panels stand in the notes of the outcome, and what they lack in a table of all fifteen.
 #[test]
 fn the_verdict_of_a_correlated_case_names_the_pairs_and_what_a_weighted_step_would_move() {
-    let tables = all_tables(results()).expect("published tables read");
+    let tables = all_tables(results()).unwrap();
     let outcome = tables[0].notes.join("\n");
     let said = "The test cannot tell apart: 2 and 15, 4 and 8, 9 and 11. In standard deviations of a test with errors of 0.3 % \
         in frequencies and 1 % in shapes, one weighted step from here would still move";
@@ -66,9 +64,9 @@ fn the_verdict_of_a_correlated_case_names_the_pairs_and_what_a_weighted_step_wou
         let verdict = outcome
             .lines()
             .find(|line| line.starts_with(&format!("Case {number}: ")))
-            .expect("its verdict");
+            .unwrap();
         assert!(verdict.ends_with(&format!("{said} {moved}")), "{verdict}");
-        let table = next_step_table(case(number)).expect("a table");
+        let table = next_step_table(case(number)).unwrap();
         assert!(tables.contains(&table));
         let written = text(&[table]);
         let rows = errors(number).into_iter().enumerate();
@@ -77,7 +75,7 @@ fn the_verdict_of_a_correlated_case_names_the_pairs_and_what_a_weighted_step_wou
             assert!(
                 written.lines().any(|line| line
                     .split_whitespace()
-                    .collect::<Vec<_>>()
+                    .collect_vec()
                     .join(" ")
                     .starts_with(&row)),
                 "no row {row:?} in\n{written}"

@@ -2,25 +2,8 @@
 //! What is wrong with the gages each time says what its steps are worth.
 
 use super::{PERCENT, RMS_PERCENT, noise_words};
-use corfem::method::analysis::Analysis;
-use corfem::method::appendix_b::{
-    Examination, LARGEST_SUSPENSION_RATIO, MeasuringPoint, Motion, MovementLimits, Supports,
-    balance, examine, rigid_body_vectors,
-};
-use corfem::method::error::Error;
-use corfem::method::model::FiniteElementModel;
-use corfem::method::modes::Modes;
-use corfem::method::outer_loop::correlate;
-use corfem::method::step::StepRule;
-use corfem::method::structure::ElementKind;
-use corfem::present::table::{Cell, Digits, Table, numbers};
-use corfem::torque_box::Case;
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::wing_box::rms;
-use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE, dynamic_points, gage_rms};
-use corfem::weighted::noise::{Noise, with_noise};
-use nalgebra::Vector3;
-use std::ops::RangeInclusive;
+use crate::prelude::*;
+use corfem::method::appendix_b::Examination;
 
 /// The case whose test modes get noise.
 pub const NOISY_CASE: usize = 2;
@@ -108,10 +91,10 @@ pub fn noisy_modes(
         position,
         direction: Vector3::z_axis(),
     };
-    let points: Vec<_> = dynamic_points(&case.reconstruction)?
+    let points = dynamic_points(&case.reconstruction)?
         .into_iter()
         .map(point)
-        .collect();
+        .collect_vec();
     let rigid_body = &rigid_body_vectors(&MOTIONS, &points)?;
     let (supports, support_ratio) = match balance(&exact, &first.stiffness, &first.mass, rigid_body)
     {
@@ -169,7 +152,10 @@ fn correlated(
     let factors = &correlation.best_factors;
     let gages = model.sizes(factors)?[..PANEL_COUNT].to_vec();
     let truth = model.analyze(factors, exact, None)?.exact().errors;
-    let errors: Vec<f64> = gages.iter().map(|gage| gage / TEST_GAGE - 1.0).collect();
+    let errors = gages
+        .iter()
+        .map(|gage| gage / TEST_GAGE - 1.0)
+        .collect_vec();
     Ok(Found {
         converged: correlation.converged,
         iterations: correlation
@@ -227,7 +213,11 @@ const SIDES: [(&str, Side); 3] = [
 /// The study's tables: the gages found, how the correlations went, and how far they end from the true modes; a row
 /// without noise, one for every seed, and the median and the worst over the seeds.
 pub fn noisy_tables(study: &NoisyModes) -> Vec<Table> {
-    let noisy: Vec<&NoisyRun> = study.runs.iter().filter(|run| run.seed.is_some()).collect();
+    let noisy = study
+        .runs
+        .iter()
+        .filter(|run| run.seed.is_some())
+        .collect_vec();
     let count = |fits: &dyn Fn(&NoisyRun) -> bool| noisy.iter().filter(|run| fits(run)).count();
     let better = |side: Side| count(&|run| side(run).gage_rms < run.raw.gage_rms);
     let [raw, orthogonal, screened] = SIDES.map(|(_, side)| side);
@@ -290,7 +280,7 @@ fn table(study: &NoisyModes, name: &str, what: &str, quantities: &[Quantity]) ->
                 .iter()
                 .filter(|run| run.seed.is_some())
                 .map(|run| value(side(run)));
-            let mut of_seeds: Vec<f64> = of_seeds.collect();
+            let mut of_seeds = of_seeds.collect_vec();
             of_seeds.sort_by(f64::total_cmp);
             let last = of_seeds.len().checked_sub(1);
             let median = last.map(|last| 0.5 * (of_seeds[last / 2] + of_seeds[last.div_ceil(2)]));

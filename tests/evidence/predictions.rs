@@ -3,17 +3,7 @@
 //! The paper's section 6 calls Van de Vooren's formulae more accurate than a Taylor series type linearization. All of them know the
 //! same: the modes before the step and $\beta = V^t \Delta K V$, whose entries are the exact derivatives of $K_D$.
 
-use crate::common::known::Known;
-use crate::common::known::weighed::Weighed;
-use corfem::method::error::Error;
-use corfem::method::error_sum::{Errors, errors};
-use corfem::method::linear_algebra::symmetric_part;
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::perturbation::{Perturbed, first_order, recursive_1};
-use corfem::method::sorting::{cross_orthogonality, pair_modes};
-use corfem::torque_box::error::CaseError;
-use nalgebra::{DMatrix, DVector};
+use crate::prelude::*;
 
 /// What predicts modes, in the order of [`Prediction::errors`].
 pub const METHODS: [&str; 4] = [
@@ -102,10 +92,10 @@ pub fn predictions(
             .map(|(share, factor)| step * (factor - 1.0) * share);
         let change: DMatrix<f64> = changes.sum();
         let beta = symmetric_part(&shapes.tr_mul(&(&change * shapes)));
-        let factors: Vec<f64> = toward
+        let factors = toward
             .iter()
             .map(|factor| 1.0 + step * (factor - 1.0))
-            .collect();
+            .collect_vec();
         let answer = match exact {
             Exact::SameCondensation => solve(&(&stiffness + &change), &mass, k.len())?,
             Exact::NewCondensation => model.modes(&factors)?,

@@ -3,17 +3,7 @@
 
 use super::PERCENT;
 use crate::evidence::readings::READINGS;
-use corfem::method::analysis::{Analysis, DERIVATIVE_STEP};
-use corfem::method::error::Error;
-use corfem::method::inner_loop::{InnerSettings, run};
-use corfem::method::model::Model;
-use corfem::method::step::{Bounds, StepRule, limited_factor, unlimited_factor};
-use corfem::present::table::{Cell, Table};
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, PUBLISHED_RUNS};
-use corfem::torque_box::published::PublishedTable;
-use corfem::torque_box::wing_box::{PANEL_COUNT, Reconstruction, TEST_GAGE, rms};
-use corfem::torque_box::{Case, published_passes};
+use crate::prelude::*;
 
 /// A rule of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -148,18 +138,18 @@ pub fn counted(reconstruction: &Reconstruction) -> Result<Vec<Counted>, CaseErro
                 }
                 Rule::Half => run_by_half(&modal, &ranges, &settings)?,
             };
-            let gages_in: Vec<f64> = column
+            let gages_in = column
                 .start
                 .iter()
                 .zip(factors)
                 .map(|(g, c)| g * c)
-                .collect();
+                .collect_vec();
             let pairs = gages_in.iter().zip(&column.gages);
             let differences = pairs.map(|(found, printed)| (found - printed) / TEST_GAGE);
             all.push(Counted {
                 rule,
                 name: column.name.clone(),
-                difference: rms(&differences.collect::<Vec<_>>()),
+                difference: rms(&differences.collect_vec()),
                 gages_in,
                 error_sum,
                 printed_sum: column.error_sum,
@@ -205,11 +195,11 @@ pub fn run_by(
     let (mut factors, mut state) = (vec![1.0; PANEL_COUNT], model.exact().clone());
     for iteration in 0..settings.iterations {
         let changes = model.error_changes(&state)?;
-        let kappa: Vec<f64> = model
+        let kappa = model
             .stiffness_changes(&state, &factors, StepRule::Matrix)
             .iter()
             .map(|change| change / DERIVATIVE_STEP)
-            .collect();
+            .collect_vec();
         let divisors = divisors(&changes, &kappa, &factors);
         let relaxation = match iteration {
             0 => settings.first_relaxation,
@@ -223,12 +213,12 @@ pub fn run_by(
                 let (bounds, range) = (settings.factor_range, ranges[e]);
                 limited_factor(unlimited(e), fraction, factors[e], 1.0, bounds, range).0
             };
-            let next: Vec<f64> = (0..PANEL_COUNT).map(next).collect();
+            let next = (0..PANEL_COUNT).map(next).collect_vec();
             let share = |e: usize| {
                 let accumulation = settings.accumulation;
                 accumulation.next_share_factor(state.factors[e], factors[e], next[e])
             };
-            let shares: Vec<f64> = (0..PANEL_COUNT).map(share).collect();
+            let shares = (0..PANEL_COUNT).map(share).collect_vec();
             let there = model.at(&shares).ok()?;
             (there.errors.sum() < error_sum).then_some((next, there))
         };
@@ -243,7 +233,7 @@ pub fn run_by(
 /// Difference of all columns of a rule together, a fraction.
 pub fn pooled(columns: &[Counted], rule: Rule) -> f64 {
     let of_rule = columns.iter().filter(|column| column.rule == rule);
-    rms(&of_rule.map(|column| column.difference).collect::<Vec<_>>())
+    rms(&of_rule.map(|column| column.difference).collect_vec())
 }
 
 /// Differences from the printed gages and error sums, column by column and rule by rule.
@@ -266,12 +256,12 @@ pub fn counted_tables(columns: &[Counted]) -> Vec<Table> {
             .map(|column| column.difference)
             .chain([pooled(columns, rule)]);
         let cells = differences.map(|difference| Cell::number(100.0 * difference, PERCENT));
-        gages = gages.column(rule.name(), "", cells.collect::<Vec<_>>());
+        gages = gages.column(rule.name(), "", cells.collect_vec());
         let cells = of(rule).map(|column| {
             let printed = column.printed_sum.map(|sum| 100.0 * sum);
             Cell::beside(100.0 * column.error_sum, PERCENT, printed)
         });
-        sums = sums.column(rule.name(), "", cells.collect::<Vec<_>>());
+        sums = sums.column(rule.name(), "", cells.collect_vec());
     }
     vec![gages, sums]
 }

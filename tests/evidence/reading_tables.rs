@@ -2,11 +2,8 @@
 
 use super::{PERCENT, RMS_PERCENT};
 use crate::evidence::readings::{Detection, READINGS, ReadingColumn};
-use corfem::method::step::StepRule;
-use corfem::present::PresentError;
-use corfem::present::table::{Cell, Digits, Table, numbers};
-use corfem::torque_box::published::PublishedTable;
-use corfem::torque_box::{CASES, published_reading};
+use crate::prelude::*;
+use corfem::torque_box::published_reading;
 
 /// A quantity of a column of gages: its label, its heading where it stands across, its digits and its value.
 type Quantity = (
@@ -77,10 +74,10 @@ pub fn readings_tables(
     columns: &[ReadingColumn],
     detections: &[Detection],
 ) -> Result<Vec<Table>, PresentError> {
-    let rows: Vec<_> = columns
+    let rows = columns
         .iter()
         .filter(|column| column.reading == READINGS[0])
-        .collect();
+        .collect_vec();
     let one = |name: &str, title: &str, quantities: &[Quantity]| {
         let labels = rows.iter().map(|row| column_name(row));
         let mut table = Table::new(format!("readings_{name}"), title, "Column").labels(labels);

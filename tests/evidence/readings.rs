@@ -1,15 +1,7 @@
 //! What each reading of the step (12, 13) makes of the paper's own tables: every reading is run on the same box, as many passes as the
 //! paper prints, and compared with the print gage by gage. That tells which lies nearest, not which it was.
 
-use corfem::method::outer_loop::{Pass, Settings};
-use corfem::method::step::StepRule;
-use corfem::method::structure::ElementKind;
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, published_runs};
-use corfem::torque_box::published::PublishedTable;
-use corfem::torque_box::wing_box::{PANEL_COUNT, Reconstruction, TEST_GAGE, gage_rms, rms};
-use corfem::torque_box::{Case, CaseResult, published_passes, run_case};
-use nalgebra::DVector;
+use crate::prelude::*;
 
 /// The readings of the step that the tables are asked about, the library's own first.
 pub const READINGS: [StepRule; 4] = [
@@ -81,9 +73,7 @@ impl ReadingColumn {
     /// Root mean square difference of the gage errors from the printed ones, a fraction.
     pub fn difference(&self) -> f64 {
         let pairs = self.errors().zip(&self.published_errors);
-        rms(&pairs
-            .map(|(error, printed)| error - printed)
-            .collect::<Vec<_>>())
+        rms(&pairs.map(|(error, printed)| error - printed).collect_vec())
     }
 }
 

@@ -1,16 +1,9 @@
 //! How often mistakes in a test's readings are named on structures unlike the box: a chain, a symmetric ring and net with repeated
 //! modes, a chain with light oscillators, and a truss whose points move in two directions.
 
-use crate::common::structures::spring_stiffness;
-use corfem::job::Concern;
+use crate::prelude::*;
 use corfem::job::Kind as Doubt;
-use corfem::job::preflight::{Change, Names, SeenModes, preflight_at_sensors};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::outer_loop::Settings;
-use corfem::sparse::ParameterMatrix;
 use corfem::sparse::random::uniform;
-use corfem::weighted::noise::{Noise, with_noise};
-use nalgebra::{DMatrix, DVector};
 
 /// Tests of each mistake.
 pub const TESTS: u64 = 30;
@@ -97,7 +90,7 @@ pub const KINDS: [Kind; 5] = [
 /// A normal number (Box and Muller).
 pub fn normal(state: &mut u64) -> f64 {
     let radius = (-2.0 * (1.0 - uniform(state)).ln()).sqrt();
-    radius * (std::f64::consts::TAU * uniform(state)).cos()
+    radius * (TAU * uniform(state)).cos()
 }
 
 /// A whole number below another.
@@ -124,13 +117,13 @@ fn chain(state: &mut u64) -> Built {
 
 fn ring(_: &mut u64) -> Built {
     let one = |from: usize| {
-        let mut part = DMatrix::zeros(12, 12);
+        let mut part = zero_square(12);
         spring(&mut part, Some(from), (from + 1) % 12, 1e5);
         part
     };
-    let ground = DMatrix::identity(12, 12) * 2e4;
+    let ground = eye(12) * 2e4;
     let parts = (0..12).map(one).chain([ground]).collect();
-    (parts, DMatrix::identity(12, 12) * 60.0, (0..12).collect())
+    (parts, eye(12) * 60.0, (0..12).collect())
 }
 
 fn net(_: &mut u64) -> Built {
@@ -156,14 +149,14 @@ fn net(_: &mut u64) -> Built {
     };
     (
         (0..rows).map(one).collect(),
-        DMatrix::identity(20, 20) * 60.0,
+        eye(20) * 60.0,
         (0..20).collect(),
     )
 }
 
 fn oscillators(_: &mut u64) -> Built {
     let one = |at: usize| {
-        let mut part = DMatrix::zeros(12, 12);
+        let mut part = zero_square(12);
         match at {
             0..8 => spring(&mut part, at.checked_sub(1), at, 1e5),
             _ => spring(&mut part, Some(2 * (at - 8)), at, 300.0),
@@ -206,11 +199,7 @@ fn truss(_: &mut u64) -> Built {
     };
     let sensors = (0..12).map(|point| 2 * point + 1);
     let sensors = sensors.chain((0..6).map(|bay| 4 * bay + 2)).collect();
-    (
-        rods.iter().map(one).collect(),
-        DMatrix::identity(24, 24) * 10.0,
-        sensors,
-    )
+    (rods.iter().map(one).collect(), eye(24) * 10.0, sensors)
 }
 
 /// Of how many tests a slip was named with all its places, and in how many anything else was named.
@@ -252,17 +241,17 @@ pub fn findings(
 ) -> Option<(Vec<Concern>, Option<Change>)> {
     let (parts, mass, sensors) = (kind.build)(state);
     let first: DMatrix<f64> = parts.iter().sum();
-    let mut true_stiffness = DMatrix::zeros(mass.nrows(), mass.nrows());
+    let mut true_stiffness = zero_square(mass.nrows());
     for part in &parts {
         true_stiffness += part * (MODEL * normal(state)).exp();
     }
-    let model = solve(&first, &mass, mass.nrows()).expect("modes");
-    let modes = solve(&true_stiffness, &mass, MODES).expect("modes");
+    let model = solve(&first, &mass, mass.nrows()).unwrap();
+    let modes = solve(&true_stiffness, &mass, MODES).unwrap();
     let a = below(state, sensors.len());
     let b = (a + 1 + below(state, sensors.len() - 1)) % sensors.len();
     let mut read = sensors.clone();
     // Rows of a point follow one another, x before y.
-    let directions: Vec<_> = (0..sensors.len())
+    let directions = (0..sensors.len())
         .filter(|_| kind.name == "Truss")
         .filter(|place| !sensors.contains(&(sensors[*place] ^ 1)))
         .map(|place| {
@@ -272,18 +261,18 @@ pub fn findings(
                 model.shapes().row(sensors[place] ^ 1) * units,
             )
         })
-        .collect();
+        .collect_vec();
     let turned = directions.get(below(state, directions.len().max(1)));
     if slip == Slip::Direction {
         read[turned?.0] ^= 1;
     }
     let shapes = unit(modes.shapes().select_rows(&read));
-    let exact = Modes::new(modes.omega_squared().clone(), shapes).expect("shapes");
+    let exact = Modes::new(modes.omega_squared().clone(), shapes).unwrap();
     let usual = Noise {
         frequency: 0.003,
         shape: noise,
     };
-    let noisy = with_noise(&exact, usual, seed).expect("noise");
+    let noisy = with_noise(&exact, usual, seed).unwrap();
     let (mut squares, mut shapes) = (noisy.omega_squared().clone(), noisy.shapes().clone());
     let expected = match slip {
         Slip::None => None,
@@ -318,7 +307,7 @@ pub fn findings(
             None
         }
         Slip::Backward => {
-            let order: Vec<usize> = (0..sensors.len()).rev().collect();
+            let order = (0..sensors.len()).rev().collect_vec();
             shapes = shapes.select_rows(&order);
             Some(Change::Reordered(order))
         }
@@ -329,13 +318,12 @@ pub fn findings(
     let at_sensors = model.shapes().select_rows(&sensors) * units;
     let seen = SeenModes {
         shares: shares.collect(),
-        modes: Modes::new(model.omega_squared().clone(), at_sensors).expect("shapes"),
+        modes: Modes::new(model.omega_squared().clone(), at_sensors).unwrap(),
         directions,
     };
-    let test = Modes::new(squares, shapes).expect("modes");
+    let test = Modes::new(squares, shapes).unwrap();
     let (settings, names) = (Settings::default(), Names::default());
-    let found =
-        preflight_at_sensors(&seen, (&test, &[]), &settings, &[], &names).expect("findings");
+    let found = preflight_at_sensors(&seen, (&test, &[]), &settings, &[], &names).unwrap();
     Some((found, expected))
 }
 

@@ -1,17 +1,7 @@
 //! The paper's rule and the weighted one on the same structures.
 
 use super::RMS_PERCENT;
-use crate::common::known::Known;
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::known::delta_wing::correlation::correlate_wing;
-use crate::common::measured::equal_weights;
-use corfem::present::table::{Cell, Table, percents};
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::wing_box::rms;
-use corfem::torque_box::{Case, run_case};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use corfem::weighted::residuals::DEVIATIONS;
+use crate::prelude::*;
 
 /// What a rule came to on a structure; errors are fractions.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,11 +27,11 @@ fn compared(
     [steps, analyses]: [usize; 2],
     factors: &[f64],
 ) -> Compared {
-    let errors: Vec<f64> = factors
+    let errors = factors
         .iter()
         .zip(&known.truth)
         .map(|(found, right)| found / right - 1.0)
-        .collect();
+        .collect_vec();
     let largest = errors
         .iter()
         .fold(0.0, |largest, error| error.abs().max(largest));

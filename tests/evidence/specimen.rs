@@ -1,17 +1,6 @@
 //! Structures before their correlation, whose tests measure at every dynamic DOF.
 
-use crate::common::known::delta_wing::{DeltaWing, correlation};
-use crate::common::known::weighed::Weighed;
-use corfem::job::Concern;
-use corfem::job::preflight::{Names, SeenModes, preflight_at_sensors};
-use corfem::method::error::Error;
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::outer_loop::Settings;
-use corfem::method::step::Bounds;
-use corfem::sparse::ParameterMatrix;
-use corfem::torque_box::Case;
-use corfem::torque_box::error::CaseError;
+use crate::prelude::*;
 
 /// A structure before its correlation, without mistakes.
 #[derive(Debug, Clone)]

@@ -2,8 +2,7 @@
 //! `benches/least_squares.py` writes, and from the golden of the two rules.
 
 use crate::ledgers::tables::{computed, table};
-use serde_json::{Value, json};
-use std::sync::LazyLock;
+use crate::prelude::*;
 
 const SUBJECTS: [&str; 5] = ["Case 1", "Case 2", "Case 3", "building", "GARTEUR"];
 const FIRST: &str = "first model";
@@ -21,7 +20,7 @@ const WAYS: [(&str, &str); 5] = [
 ];
 
 static ANSWERS: LazyLock<Value> = LazyLock::new(|| {
-    serde_json::from_str(include_str!("../../golden/least_squares.json")).expect("JSON")
+    serde_json::from_str(include_str!("../../golden/least_squares.json")).unwrap()
 });
 
 fn answer(subject: &str, way: &str, key: &str) -> Option<f64> {
@@ -76,15 +75,8 @@ pub fn least_squares() -> String {
 
 /// What becomes of the tailplane, GARTEUR's sixth parameter, of which the test says nothing.
 pub fn tailplane() -> String {
-    let values = ANSWERS["GARTEUR"][ANALYTIC]["values"]
-        .as_str()
-        .expect("factors");
-    let factor: f64 = values
-        .split(' ')
-        .nth(5)
-        .expect("a sixth")
-        .parse()
-        .expect("a factor");
+    let values = ANSWERS["GARTEUR"][ANALYTIC]["values"].as_str().unwrap();
+    let factor: f64 = values.split(' ').nth(5).unwrap().parse().unwrap();
     format!("on GARTEUR it makes the tailplane {factor:.0} times as stiff")
 }
 
@@ -120,7 +112,7 @@ pub fn sentence() -> String {
 #[test]
 fn three_combinations_of_gages_are_open() {
     let open = |case: &&str| ANSWERS[*case][FIRST]["open"].clone();
-    let found: Vec<Value> = SUBJECTS[..3].iter().map(open).collect();
+    let found = SUBJECTS[..3].iter().map(open).collect_vec();
     assert_eq!(found, [json!([3, 3]), json!([3, 0]), json!([3, 0])]);
 }
 
@@ -133,11 +125,7 @@ fn the_papers_rule_is_that_of_the_golden() {
             ["Analyses", "Factor RMS"].map(|column| computed("rules", &row, column, 4));
         let [found, error] =
             ["analyses", "factors"].map(|key| answer(subject, "paper's rule", key));
-        assert_eq!(
-            analyses,
-            format!("{:.4}", found.expect("counted")),
-            "{subject}"
-        );
-        assert_eq!(left, format!("{:.4}", error.expect("known")), "{subject}");
+        assert_eq!(analyses, format!("{:.4}", found.unwrap()), "{subject}");
+        assert_eq!(left, format!("{:.4}", error.unwrap()), "{subject}");
     }
 }

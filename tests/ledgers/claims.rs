@@ -3,8 +3,7 @@
 
 use crate::ledgers::documents::documents;
 use crate::ledgers::equations::defines;
-use serde::Deserialize;
-use std::collections::{BTreeMap, BTreeSet};
+use crate::prelude::*;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -103,10 +102,10 @@ fn paragraphs(text: &str) -> Vec<String> {
 
 /// The sentences of a paragraph.
 fn sentences(paragraph: &str) -> Vec<&str> {
-    let mut ends: Vec<usize> = [". ", ".** ", "? "]
+    let mut ends = [". ", ".** ", "? "]
         .iter()
         .flat_map(|end| paragraph.match_indices(end).map(|(at, _)| at + end.len()))
-        .collect();
+        .collect_vec();
     ends.push(paragraph.len());
     ends.sort_unstable();
     let mut start = 0;
@@ -135,7 +134,7 @@ fn claims_of_documents() -> BTreeMap<(String, String), String> {
 
 #[test]
 fn every_sentence_on_the_step_or_on_case_4_has_its_test() {
-    let ledger: Ledger = toml::from_str(include_str!("../claims.toml")).expect("it reads");
+    let ledger: Ledger = toml::from_str(include_str!("../claims.toml")).unwrap();
     let (documents, mut listed) = (claims_of_documents(), BTreeSet::new());
     for Claim {
         document,
@@ -164,10 +163,10 @@ fn every_sentence_on_the_step_or_on_case_4_has_its_test() {
         );
         listed.insert(place);
     }
-    let missing: Vec<_> = documents
+    let missing = documents
         .keys()
         .filter(|place| !listed.contains(*place))
-        .collect();
+        .collect_vec();
     assert!(missing.is_empty(), "not in tests/claims.toml: {missing:#?}");
     for test in OF_OTHER_BOXES {
         assert!(defines("tests", test, &["fn "]), "{test}");

@@ -1,9 +1,8 @@
 //! What a wing of any size costs: the tables of `paper/cost.md` are made from `paper/costs.csv`, where the benches store what they
 //! measure.
 
-use crate::common::log_log_slope;
 use crate::ledgers::tables::table;
-use std::sync::LazyLock;
+use crate::prelude::*;
 
 const ANALYSIS: &str = "analysis with all shares";
 const FACTOR: &str = "ordering and factorization";
@@ -23,13 +22,13 @@ static LINES: LazyLock<Vec<Vec<String>>> = LazyLock::new(|| {
 /// Degrees of freedom of the wings.
 fn sizes() -> Vec<f64> {
     let sizes = LINES[0][2..].iter();
-    sizes.map(|dof| dof.parse().expect("a size")).collect()
+    sizes.map(|dof| dof.parse().unwrap()).collect()
 }
 
 fn numbers(line: &[String]) -> Vec<Option<f64>> {
     let costs = line[2..].iter();
     costs
-        .map(|cost| (!cost.is_empty()).then(|| cost.parse().expect("a number")))
+        .map(|cost| (!cost.is_empty()).then(|| cost.parse().unwrap()))
         .collect()
 }
 
@@ -96,11 +95,11 @@ fn growth(what: &str, usual: &str, is_wanted: fn(&[String]) -> bool) -> String {
         |line| {
             let costs = numbers(line);
             let known = sizes().into_iter().zip(&costs);
-            let known: Vec<_> = known
+            let known = known
                 .filter_map(|(dof, &cost)| Some((dof, cost?)))
-                .collect();
-            let steps: Vec<String> = known.windows(2).map(exponent).collect();
-            let mut cells: Vec<String> = costs.into_iter().map(written).collect();
+                .collect_vec();
+            let steps = known.windows(2).map(exponent).collect_vec();
+            let mut cells = costs.into_iter().map(written).collect_vec();
             cells.extend([steps.join(", "), exponent(&known)]);
             cells
         },

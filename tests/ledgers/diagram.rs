@@ -5,6 +5,7 @@ use crate::paper::figures::canvas::{
     chart, line, mark, name_ends, name_upright, placed, rectangle, svg,
 };
 use crate::paper::figures::chart::Chart;
+use crate::prelude::*;
 use corfem::present::PresentError;
 use plotters::coord::ranged1d::ValueFormatter;
 use plotters::prelude::*;
@@ -83,7 +84,7 @@ impl Diagram {
                     .series
                     .iter()
                     .map(|series| Named((0.0, 0.0), series.name, None, None));
-                margins[1] = name_margin(&names.collect::<Vec<_>>());
+                margins[1] = name_margin(&names.collect_vec());
             }
             let mut builder = chart(area, margins);
             if !self.is_logarithmic {
@@ -154,10 +155,10 @@ impl Diagram {
             let places = points
                 .iter()
                 .map(|&(x, y)| (placed(&chart, x, y), placed(&chart, x, ground)));
-            let places: Vec<_> = places.collect();
+            let places = places.collect_vec();
             match form {
                 SeriesMark::Line | SeriesMark::Dashed => {
-                    let line_of = places.iter().map(|(at, _)| *at).collect::<Vec<_>>();
+                    let line_of = places.iter().map(|(at, _)| *at).collect_vec();
                     line(area, &line_of, Pen(color, 1.8, dash))?;
                 }
                 SeriesMark::Dots => places.iter().try_for_each(|(at, _)| mark(area, *at, dot))?,

@@ -5,14 +5,11 @@
 //! stand in their document word for word and are changed by hand. Numbers of other origin stand in tables marked `measured:`
 //! (with machine and date) or `stored:` (with the file).
 
-use crate::common::golden::Numbers;
 use crate::ledgers::counted_figures::counted_figures;
 use crate::ledgers::diagram::Diagram;
 use crate::ledgers::tour_figures::{figures, pictures};
 use crate::ledgers::{files_below, specification, tables};
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
 
 /// README.md, the texts in `paper/` and the tour, by their path.
 pub fn documents() -> BTreeMap<String, String> {
@@ -23,8 +20,8 @@ pub fn documents() -> BTreeMap<String, String> {
     files
         .into_iter()
         .map(|file| {
-            let name = file.strip_prefix(root).expect("below the root");
-            let text = fs::read_to_string(&file).expect("it reads");
+            let name = file.strip_prefix(root).unwrap();
+            let text = fs::read_to_string(&file).unwrap();
             (name.display().to_string(), text)
         })
         .collect()
@@ -40,7 +37,7 @@ fn computed_blocks_are_what_the_program_computes() {
     let mut blocks = tables::tables();
     blocks.insert("specification".to_owned(), specification::page());
     let svg = |(name, diagram): (&str, Diagram)| {
-        let svg = diagram.svg().expect("it can be drawn");
+        let svg = diagram.svg().unwrap();
         (format!("{FIGURE}{name}"), svg)
     };
     // The documentation's header lets them scroll, and turns them over on a dark page.
@@ -72,8 +69,8 @@ fn computed_blocks_are_what_the_program_computes() {
             seen.insert(name.to_owned());
         }
         if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "1") {
-            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(&document);
-            fs::write(path, written).expect("it can be written");
+            let path = in_root(&document);
+            fs::write(path, written).unwrap();
             wrong.clear();
         }
     }
@@ -90,7 +87,7 @@ fn computed_blocks_are_what_the_program_computes() {
 #[test]
 fn sentences_in_documents_are_what_the_program_computes() {
     let documents = documents();
-    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = |text: &str| text.split_whitespace().collect_vec().join(" ");
     let mut wrong = tables::sentences();
     wrong.retain(|(document, sentence)| !words(&documents[*document]).contains(&words(sentence)));
     assert!(wrong.is_empty(), "these documents should say: {wrong:#?}");

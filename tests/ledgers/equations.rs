@@ -2,9 +2,7 @@
 //! sentence has a wrong form. `wrong_forms.rs` has what is done with these.
 
 use crate::ledgers::files_below;
-use std::collections::BTreeSet;
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
 use toml::{Table, Value};
 
 /// Every equation number the paper has: 1 to 13, A.1 to A.9, B.1 to B.7, C.1 to C.24.
@@ -21,12 +19,12 @@ pub fn numbers() -> Vec<String> {
 /// Every equation and then every sentence, by its number or name.
 pub fn entries() -> Vec<(String, Table)> {
     let text = include_str!("../../paper/equations.toml");
-    let document: Table = text.parse().expect("it reads");
+    let document: Table = text.parse().unwrap();
     let list = |kind: &str, key: &'static str| {
-        let list = document[kind].as_array().expect("a list").clone();
+        let list = document[kind].as_array().unwrap().clone();
         list.into_iter().map(move |entry| {
-            let entry = entry.as_table().expect("a table").clone();
-            (entry[key].as_str().expect("a string").to_owned(), entry)
+            let entry = entry.as_table().unwrap().clone();
+            (entry[key].as_str().unwrap().to_owned(), entry)
         })
     };
     list("equation", "number")
@@ -40,12 +38,12 @@ pub fn strings(entry: &Table, key: &str) -> Vec<String> {
         .and_then(Value::as_array)
         .unwrap_or_else(|| panic!("{key} in {entry}"));
     list.iter()
-        .map(|value| value.as_str().expect("a string").to_owned())
+        .map(|value| value.as_str().unwrap().to_owned())
         .collect()
 }
 
 fn source(folder: &str, module: &str) -> Option<String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+    let root = in_root(folder);
     let path = module.replace("::", "/");
     [format!("{path}.rs"), format!("{path}/mod.rs")]
         .iter()
@@ -69,7 +67,7 @@ pub fn defines(folder: &str, full_name: &str, keywords: &[&str]) -> bool {
 
 #[test]
 fn every_equation_is_listed_once_and_in_order() {
-    let listed: Vec<String> = entries().into_iter().map(|(owner, _)| owner).collect();
+    let listed = entries().into_iter().map(|(owner, _)| owner).collect_vec();
     let (equations, sentences) = listed.split_at(numbers().len());
     assert_eq!(equations, numbers());
     let different: BTreeSet<&String> = sentences.iter().collect();
@@ -111,8 +109,8 @@ fn every_equation_is_executed_in_the_papers_order() {
         let number = word.strip_prefix("eq_");
         number.is_some_and(|number| !number.contains('"'))
     });
-    let tests: Vec<String> = numbers().iter().map(|number| test_of(number)).collect();
-    assert_eq!(listed.collect::<Vec<_>>(), tests);
+    let tests = numbers().iter().map(|number| test_of(number)).collect_vec();
+    assert_eq!(listed.collect_vec(), tests);
     assert!(tests.is_sorted());
 }
 
@@ -197,7 +195,7 @@ fn the_check_itself_finds_what_is_missing() {
 /// A file that nobody lists is a test that never runs.
 #[test]
 fn every_file_of_tests_is_part_of_the_test_program() {
-    let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let tests = in_root("tests");
     assert_eq!(found(&tests, "main"), listed(&tests.join("main.rs")));
     for room in listed(&tests.join("main.rs")) {
         let folder = tests.join(&room);
@@ -211,7 +209,7 @@ fn every_file_of_tests_is_part_of_the_test_program() {
 
 /// The modules that a file lists.
 fn listed(file: &Path) -> BTreeSet<String> {
-    let text = fs::read_to_string(file).expect("it reads");
+    let text = fs::read_to_string(file).unwrap();
     text.lines()
         .filter_map(|line| {
             line.trim_start_matches("pub ")
@@ -224,9 +222,9 @@ fn listed(file: &Path) -> BTreeSet<String> {
 
 /// The modules that stand in a folder, without the file that lists them.
 fn found(folder: &Path, list: &str) -> BTreeSet<String> {
-    let entries = fs::read_dir(folder).expect("it reads");
+    let entries = fs::read_dir(folder).unwrap();
     entries
-        .map(|entry| entry.expect("an entry").path())
+        .map(|entry| entry.unwrap().path())
         // A folder without source holds data.
         .filter(|path| {
             !path.is_dir()
@@ -235,12 +233,7 @@ fn found(folder: &Path, list: &str) -> BTreeSet<String> {
                     .any(|file| file.extension().is_some_and(|end| end == "rs"))
         })
         .filter(|path| path.is_dir() || path.extension().is_some_and(|end| end == "rs"))
-        .map(|path| {
-            path.file_stem()
-                .expect("a name")
-                .to_string_lossy()
-                .into_owned()
-        })
+        .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
         .filter(|name| name != list)
         .collect()
 }

@@ -3,12 +3,14 @@
 
 use crate::ledgers::equations;
 use crate::ledgers::files_below;
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
 
 /// The entries: paragraphs that begin in bold, with the lists that belong to them.
 fn entries(text: &str) -> Vec<&str> {
-    let starts: Vec<usize> = text.match_indices("\n\n**").map(|(at, _)| at + 2).collect();
+    let starts = text
+        .match_indices("\n\n**")
+        .map(|(at, _)| at + 2)
+        .collect_vec();
     let end = |start: usize| {
         let rest = &text[start..];
         rest.find("\n\n**")
@@ -53,9 +55,9 @@ fn keeps(number: &str, key: &str) -> bool {
 /// The lists of the errata are those formulas that differ from the right ones.
 #[test]
 fn print_and_scan_of_every_equation_are_in_their_list() {
-    let parts: Vec<&str> = include_str!("../../paper/errata.md")
+    let parts = include_str!("../../paper/errata.md")
         .split("\n## ")
-        .collect();
+        .collect_vec();
     for (part, key) in [(parts[1], "print"), (parts[2], "scan")] {
         let part = format!("\n\n{part}");
         for number in equations::numbers() {
@@ -75,11 +77,11 @@ fn print_and_scan_of_every_equation_are_in_their_list() {
 
 /// Whether some file of tests has the test.
 fn exists(name: &str) -> bool {
-    let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let tests = in_root("tests");
     let mut files = files_below(&tests);
     files.retain(|file| file.extension().is_some_and(|end| end == "rs"));
     files.iter().any(|file| {
-        let text = fs::read_to_string(file).expect("it reads");
+        let text = fs::read_to_string(file).unwrap();
         text.contains(&format!("#[test]\nfn {name}("))
             || text.contains(&format!("#[test]\n    fn {name}("))
     })
@@ -97,13 +99,10 @@ fn every_entry_of_the_errata_names_a_test_that_exists() {
     for entry in entries {
         let files = entry.split('`').filter(|word| word.starts_with("tests/"));
         for file in files.clone() {
-            assert!(
-                Path::new(env!("CARGO_MANIFEST_DIR")).join(file).is_file(),
-                "{file}"
-            );
+            assert!(in_root(file).is_file(), "{file}");
         }
         let names = tests_named(entry);
-        let one_line = entry.split_whitespace().collect::<Vec<_>>().join(" ");
+        let one_line = entry.split_whitespace().collect_vec().join(" ");
         let is_executed = |key| numbers(entry).any(|number| keeps(number, key));
         let shown = ["print", "scan"].into_iter().any(is_executed)
             || !names.is_empty()

@@ -5,10 +5,7 @@
 //! `[K](V)` as a link, `\,` as a comma and `'` as a quotation mark.
 
 use crate::ledgers::files_below;
-use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
-use std::collections::BTreeSet;
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
 
 /// The extensions of Markdown that rustdoc turns on.
 fn rustdoc_options() -> Options {
@@ -45,7 +42,7 @@ impl TextNode {
 
     /// Its formulas and, of each, whether it is the source's; an error for a `$` without a partner.
     fn formulas(&self, source: &str) -> Result<Vec<String>, String> {
-        let dollars: Vec<usize> = self.text.match_indices('$').map(|(at, _)| at).collect();
+        let dollars = self.text.match_indices('$').map(|(at, _)| at).collect_vec();
         let mut marks: Vec<(usize, usize)> = Vec::new();
         for at in dollars {
             match marks.last_mut() {
@@ -60,7 +57,7 @@ impl TextNode {
             };
             let inside = &self.text[start + length..end];
             let written = &source[self.source(start) + length..self.source(end)];
-            let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+            let words = |text: &str| text.split_whitespace().collect_vec().join(" ");
             if length != same_length || words(inside) != words(written) {
                 return Err(format!(
                     "the source has\n    {written}\nthe reader gets\n    {inside}"
@@ -116,7 +113,7 @@ fn documentation(source: &str) -> Vec<String> {
             .or_else(|| line.strip_prefix("//!"))
         {
             Some(text) => {
-                let last = comments.last_mut().expect("never empty");
+                let last = comments.last_mut().unwrap();
                 last.push_str(text.strip_prefix(' ').unwrap_or(text));
                 last.push('\n');
             }
@@ -134,7 +131,7 @@ fn documents() -> Vec<(String, String)> {
     for folder in ["src", "paper", "golden"] {
         for file in files_below(&root.join(folder)) {
             let name = file.display().to_string();
-            let read = || fs::read_to_string(&file).expect("it reads");
+            let read = || fs::read_to_string(&file).unwrap();
             match file.extension().and_then(|end| end.to_str()) {
                 Some("rs") => documents.extend(
                     documentation(&read())
@@ -146,7 +143,7 @@ fn documents() -> Vec<(String, String)> {
             }
         }
     }
-    let readme = fs::read_to_string(root.join("README.md")).expect("it reads");
+    let readme = fs::read_to_string(root.join("README.md")).unwrap();
     documents.push(("README.md".to_owned(), readme));
     documents
 }
@@ -234,7 +231,7 @@ $$ \begin{bmatrix} 1 & 0 \newline 0 & 1 \end{bmatrix},
 |---|---|
 | and | *$y$* |
 ";
-    let found = formulas(sound).expect("nothing is wrong");
+    let found = formulas(sound).unwrap();
     assert_eq!(found.len(), 4, "{found:?}");
     assert_eq!(commands(&found[0]), ["gamma", "rho"].into());
 }

@@ -1,30 +1,28 @@
 //! What a user of the library needs: this crate and nothing beside it.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use crate::prelude::*;
 
 /// The folder of everything this test program was compiled from, and the newest build of the library in it.
 fn built() -> (PathBuf, PathBuf) {
-    let folder = std::env::current_exe().expect("a path");
-    let folder = folder.parent().expect("a folder").to_owned();
+    let folder = std::env::current_exe().unwrap();
+    let folder = folder.parent().unwrap().to_owned();
     let is_library = |path: &PathBuf| {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         name.starts_with("libcorfem-") && name.ends_with(".rlib")
     };
-    let files = fs::read_dir(&folder).expect("it reads");
-    let files = files.map(|entry| entry.expect("an entry").path());
+    let files = fs::read_dir(&folder).unwrap();
+    let files = files.map(|entry| entry.unwrap().path());
     let newest = |path: &PathBuf| fs::metadata(path).and_then(|found| found.modified()).ok();
     let library = files.filter(is_library).max_by_key(newest);
-    (folder, library.expect("the library is built"))
+    (folder, library.unwrap())
 }
 
 /// What the compiler says of a program that has no dependency but this crate; nothing if it compiles.
 fn refused(program: &str) -> Option<String> {
     let (folder, library) = built();
-    let scratch = tempfile::tempdir().expect("a folder");
+    let scratch = tempfile::tempdir().unwrap();
     let source = scratch.path().join("user.rs");
-    fs::write(&source, program).expect("written");
+    fs::write(&source, program).unwrap();
     let compiler = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     let done = Command::new(compiler)
         .args(["--edition", "2024", "--emit", "metadata", "--extern"])
@@ -35,24 +33,24 @@ fn refused(program: &str) -> Option<String> {
         .arg(scratch.path())
         .arg(&source)
         .output()
-        .expect("the compiler starts");
+        .unwrap();
     (!done.status.success()).then(|| String::from_utf8_lossy(&done.stderr).into_owned())
 }
 
 /// The code of a document, as the body of a program's main function.
 fn program_of(document: &str) -> String {
-    let code = document.split("```rust\n").nth(1).expect("code");
-    let code = code.split("```").next().expect("its end");
+    let code = document.split("```rust\n").nth(1).unwrap();
+    let code = code.split("```").next().unwrap();
     let lines = code
         .lines()
         .map(|line| line.strip_prefix("# ").unwrap_or(line));
-    let body = lines.collect::<Vec<_>>().join("\n");
+    let body = lines.collect_vec().join("\n");
     format!("fn main() -> Result<(), Box<dyn std::error::Error>> {{\n{body}\n}}")
 }
 
 fn document(name: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
-    fs::read_to_string(path).expect("it reads")
+    let path = in_root(name);
+    fs::read_to_string(path).unwrap()
 }
 
 #[test]
@@ -67,7 +65,7 @@ fn the_wing_box_needs_no_dependency_but_this_crate_and_65_lines() {
     // Without the crate's own, the macros find no nalgebra: there is none beside it.
     let without = program.replace("nalgebra::{self, ", "nalgebra::{");
     assert_ne!(without, program);
-    let said = refused(&without).expect("it does not compile");
+    let said = refused(&without).unwrap();
     assert!(said.contains("nalgebra"), "{said}");
 }
 

@@ -27,14 +27,13 @@ pub mod tour_program;
 pub mod weight;
 pub mod wrong_forms;
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use crate::prelude::*;
 
 /// Every file of a folder and of those in it.
 pub fn files_below(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
-    for entry in fs::read_dir(folder).expect("it reads") {
-        let path = entry.expect("an entry").path();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
         if path.is_dir() {
             files.extend(files_below(&path));
         } else {

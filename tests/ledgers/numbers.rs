@@ -1,6 +1,6 @@
 //! How far numbers of goldens may be apart, and that everything else is the same to the letter.
 
-use crate::common::golden::Numbers;
+use crate::prelude::*;
 
 #[test]
 fn a_golden_holds_words_blanks_rules_and_whole_numbers() {

@@ -1,10 +1,8 @@
 //! What is published: the package has all that its own text and its own sources name, and nothing of the workshop.
 
 use crate::ledgers::files_below;
-use std::collections::BTreeSet;
-use std::fs;
-use std::path::{Component, Path, PathBuf};
-use std::process::Command;
+use crate::prelude::*;
+use std::path::Component;
 
 pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -23,13 +21,13 @@ fn packaged() -> BTreeSet<String> {
         .args(arguments)
         .current_dir(root())
         .output()
-        .expect("cargo runs");
+        .unwrap();
     assert!(
         output.status.success(),
         "{}",
         String::from_utf8_lossy(&output.stderr)
     );
-    let list = String::from_utf8(output.stdout).expect("UTF-8");
+    let list = String::from_utf8(output.stdout).unwrap();
     list.lines().map(|line| line.replace('\\', "/")).collect()
 }
 
@@ -37,17 +35,17 @@ fn packaged() -> BTreeSet<String> {
 pub fn included() -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     for file in files_below(&root().join("src")) {
-        let text = fs::read_to_string(&file).expect("it reads");
+        let text = fs::read_to_string(&file).unwrap();
         for rest in text.split("include_str!(\"").skip(1) {
-            let name = rest.split('"').next().expect("a name");
+            let name = rest.split('"').next().unwrap();
             let mut path = PathBuf::new();
-            for part in file.parent().expect("a folder").join(name).components() {
+            for part in file.parent().unwrap().join(name).components() {
                 match part {
                     Component::ParentDir => drop(path.pop()),
                     part => path.push(part),
                 }
             }
-            let below = path.strip_prefix(root()).expect("below the root");
+            let below = path.strip_prefix(root()).unwrap();
             found.insert(below.to_string_lossy().into_owned());
         }
     }
@@ -71,7 +69,7 @@ fn the_package_has_what_a_user_needs() {
     needed.extend(readme);
     // Every chapter's code, and what its readers are sent to.
     for file in files_below(&root().join("paper/tour")) {
-        needed.extend(named(&fs::read_to_string(file).expect("it reads")));
+        needed.extend(named(&fs::read_to_string(file).unwrap()));
     }
     let others = [
         "Cargo.lock",
@@ -83,7 +81,7 @@ fn the_package_has_what_a_user_needs() {
         "src/main.rs",
     ];
     needed.extend(others.map(str::to_owned));
-    let missing: Vec<&String> = needed.difference(&list).collect();
+    let missing = needed.difference(&list).collect_vec();
     assert!(missing.is_empty(), "{missing:?}");
 }
 

@@ -4,6 +4,7 @@
 //! `tests/ceilings.toml` has the number of such lines that each room still has; a number there only falls.
 
 use crate::ledgers::weight::{ceilings, rooms};
+use crate::prelude::*;
 
 /// The words with which a clause begins that has no noun.
 const OPENINGS: [&str; 11] = [
@@ -68,9 +69,9 @@ fn documentation_begins_with_its_noun() {
 fn a_clause_is_told_from_a_noun() {
     let code = "//! What it is.\n\n/// The same again.\n/// How it is.\n///\n/// # Errors\n///\n/// Those of [`x`].\n/// Such.\nfn x() {}\n\
                 /// Whatever is.\nfn y() {}\n// Where it is.\nlet z = \"///\";\n    /// That it is: text.\n//// Which.";
-    let numbers: Vec<usize> = clauses(code)
+    let numbers = clauses(code)
         .into_iter()
         .map(|(number, _)| number)
-        .collect();
+        .collect_vec();
     assert_eq!(numbers, [1, 3, 8, 15]);
 }

@@ -1,9 +1,7 @@
 //! The front page: its length, its links, and that what it prints is what the program prints.
 
+use crate::prelude::*;
 use crate::presentation::program::cli::{corfem, text};
-use pulldown_cmark::{Event, Parser, Tag, TagEnd};
-use std::collections::BTreeSet;
-use std::path::Path;
 
 const README: &str = include_str!("../../README.md");
 
@@ -48,10 +46,10 @@ fn links_and_names(markdown: &str) -> (BTreeSet<String>, Vec<String>) {
 fn every_path_of_the_front_page_is_a_link_that_leads_somewhere() {
     let (links, names) = links_and_names(README);
     assert!(links.len() > 15, "{links:?}");
-    let nowhere: Vec<&String> = links
+    let nowhere = links
         .iter()
         .filter(|link| !root().join(link).is_file())
-        .collect();
+        .collect_vec();
     assert!(nowhere.is_empty(), "{nowhere:?}");
     assert!(names.is_empty(), "not links: {names:?}");
     let (links, names) = links_and_names("See `src/lib.rs`, [here](src/main.rs) and README.md.");
@@ -63,10 +61,10 @@ fn every_path_of_the_front_page_is_a_link_that_leads_somewhere() {
 
 #[test]
 fn what_the_front_page_shows_is_what_the_program_prints() {
-    let cells = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
-    let scratch = tempfile::tempdir().expect("a folder");
+    let cells = |line: &str| line.split_whitespace().collect_vec().join(" ");
+    let scratch = tempfile::tempdir().unwrap();
     let mine = scratch.path().join("mine");
-    let path = |name: &str| mine.join(name).to_str().expect("UTF-8").to_owned();
+    let path = |name: &str| mine.join(name).to_str().unwrap().to_owned();
     assert!(
         corfem(&["init", "-q", "--example", "building", &path("")])
             .status
@@ -77,11 +75,11 @@ fn what_the_front_page_shows_is_what_the_program_prints() {
         corfem(&["correlate", "-q", &path("job.toml")]),
     ];
     let printed = printed.map(|output| text(&output.stdout));
-    let blocks: Vec<&str> = README.split("```text\n").skip(1).collect();
+    let blocks = README.split("```text\n").skip(1).collect_vec();
     assert_eq!(blocks.len(), printed.len());
     for (block, printed) in blocks.into_iter().zip(&printed) {
-        let shown: Vec<String> = printed.lines().map(cells).collect();
-        for line in block.split("```").next().expect("its end").lines() {
+        let shown = printed.lines().map(cells).collect_vec();
+        for line in block.split("```").next().unwrap().lines() {
             assert!(shown.contains(&cells(line)), "{line}\n{printed}");
         }
     }
@@ -92,15 +90,9 @@ fn what_the_front_page_shows_is_what_the_program_prints() {
 fn the_time_of_the_front_page_is_the_measured_one() {
     let cost = include_str!("../../paper/cost.md");
     let row = cost.lines().find(|line| line.starts_with("| 10,098 DOF |"));
-    let cell = row.expect("a row").split('|').nth(4).expect("a column");
-    let seconds: f64 = cell
-        .split(',')
-        .next()
-        .expect("a time")
-        .trim()
-        .parse()
-        .expect("a number");
-    let words = README.split_whitespace().collect::<Vec<_>>().join(" ");
+    let cell = row.unwrap().split('|').nth(4).unwrap();
+    let seconds: f64 = cell.split(',').next().unwrap().trim().parse().unwrap();
+    let words = README.split_whitespace().collect_vec().join(" ");
     assert!(
         words.contains(&format!("take `corfem correlate` {seconds:.1} s")),
         "{words}"

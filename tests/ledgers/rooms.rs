@@ -1,9 +1,7 @@
 //! The rooms of `src/`: each imports only from those before it, and no two files import each other.
 
 use crate::ledgers::files_below;
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
 
 /// In order.
 const ROOMS: [&str; 8] = [
@@ -31,7 +29,7 @@ fn imports(text: &str) -> Vec<String> {
         if let Some(start) = line.trim_start().strip_prefix("use ") {
             let mut statement = start.to_owned();
             while !statement.ends_with(';') {
-                statement += lines.next().expect("a semicolon").trim();
+                statement += lines.next().unwrap().trim();
             }
             expand("", &statement.replace([' ', ';'], ""), &mut paths);
         }
@@ -62,7 +60,7 @@ fn expand(before: &str, tree: &str, paths: &mut Vec<String>) {
 
 /// The absolute form of a path in a module such as `method::model`.
 fn absolute(module: &str, path: &str) -> String {
-    let mut place: Vec<&str> = module.split("::").collect();
+    let mut place = module.split("::").collect_vec();
     let mut rest = path;
     if let Some(path) = rest.strip_prefix("crate::") {
         return path.to_owned();
@@ -77,17 +75,14 @@ fn absolute(module: &str, path: &str) -> String {
 
 /// The paths that every file of `src/` imports, in absolute form, by the file's module.
 fn modules() -> BTreeMap<String, Vec<String>> {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let source = in_root("src");
     let mut modules = BTreeMap::new();
     for file in files_below(&source) {
-        let path = file
-            .strip_prefix(&source)
-            .expect("below")
-            .with_extension("");
+        let path = file.strip_prefix(&source).unwrap().with_extension("");
         let module = path.to_string_lossy().replace('/', "::");
         let module = module.trim_end_matches("::mod").to_owned();
         if file.extension().is_some_and(|end| end == "rs") {
-            let paths = imports(&fs::read_to_string(file).expect("it reads"));
+            let paths = imports(&fs::read_to_string(file).unwrap());
             let paths = paths.iter().map(|path| absolute(&module, path)).collect();
             modules.insert(module, paths);
         }
@@ -160,10 +155,10 @@ fn the_tour_is_documentation_alone() {
 #[test]
 fn the_check_finds_every_import() {
     let text = "use crate::method::{modes, model::{Pair,\n    ParameterMatrix}};\nuse super::state;\npub use state::At;";
-    let found: Vec<String> = imports(text)
+    let found = imports(text)
         .iter()
         .map(|path| absolute("a::b", path))
-        .collect();
+        .collect_vec();
     assert_eq!(
         found,
         [
@@ -178,13 +173,13 @@ fn the_check_finds_every_import() {
 /// Whatever touches a file goes through one module, so that a test can make it fail.
 #[test]
 fn one_module_alone_calls_the_operating_system_for_files() {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let source = in_root("src");
     let alone = source.join("files/disk.rs");
     let calls = ["std::fs", "fs::", "tempfile::", "File::", "OpenOptions"];
     for file in files_below(&source) {
-        let text = fs::read_to_string(&file).expect("it reads");
+        let text = fs::read_to_string(&file).unwrap();
         let has = |call: &&&str| text.contains(**call);
-        let found: Vec<&&str> = calls.iter().filter(has).collect();
+        let found = calls.iter().filter(has).collect_vec();
         assert_eq!(
             found.is_empty(),
             file != alone,

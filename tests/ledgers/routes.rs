@@ -5,10 +5,10 @@ use std::collections::BTreeSet;
 use toml::Table;
 
 fn entries() -> Vec<Table> {
-    let document: Table = include_str!("../routes.toml").parse().expect("it reads");
-    let list = document["number"].as_array().expect("a list");
+    let document: Table = include_str!("../routes.toml").parse().unwrap();
+    let list = document["number"].as_array().unwrap();
     list.iter()
-        .map(|entry| entry.as_table().expect("a table").clone())
+        .map(|entry| entry.as_table().unwrap().clone())
         .collect()
 }
 
@@ -16,7 +16,7 @@ fn entries() -> Vec<Table> {
 fn every_number_has_two_routes_and_tests_that_exist() {
     let mut seen = BTreeSet::new();
     for entry in entries() {
-        let what = entry["what"].as_str().expect("words").to_owned();
+        let what = entry["what"].as_str().unwrap().to_owned();
         let routes = strings(&entry, "routes");
         assert!(routes.len() >= 2, "{what}: {routes:?}");
         let different: BTreeSet<&String> = routes.iter().collect();

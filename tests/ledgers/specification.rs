@@ -1,13 +1,14 @@
 //! The one page of the specification, `paper/specification.md`, made from `paper/equations.toml`: `documents.rs` holds them equal.
 
 use crate::ledgers::equations::{entries, strings, test_of};
+use crate::prelude::*;
 use std::fmt::Write;
 use toml::{Table, Value};
 
 /// Every equation and sentence in the paper's order: what it is, what is it in the crate, what checks it, and how it could be wrong.
 pub fn page() -> String {
     let entries = entries();
-    let wrong = |entry: &Table| entry["wrong"].as_array().expect("a list").clone();
+    let wrong = |entry: &Table| entry["wrong"].as_array().unwrap().clone();
     let count: usize = entries.iter().map(|(_, entry)| wrong(entry).len()).sum();
     let is_equation = |(_, entry): &&(String, Table)| entry.contains_key("number");
     let equations = entries.iter().filter(is_equation).count();
@@ -15,7 +16,7 @@ pub fn page() -> String {
     let mut page = format!("{equations} equations, {sentences} sentences, {count} wrong forms.\n");
     for (owner, entry) in &entries {
         let text = |key: &str| entry.get(key).and_then(Value::as_str);
-        let what = text("what").expect("words");
+        let what = text("what").unwrap();
         match text("formula") {
             Some(formula) => page += &format!("\n### ({owner}) {what}\n\n$$ {formula} $$\n"),
             None => page += &format!("\n### Sentence: {owner}\n\n{what}.\n"),
@@ -28,7 +29,7 @@ pub fn page() -> String {
             let names = names
                 .iter()
                 .map(|name| format!("`{}`", name.trim_start_matches("spec::")));
-            names.collect::<Vec<_>>().join(", ")
+            names.collect_vec().join(", ")
         };
         for (key, title) in [("print", "The paper prints"), ("scan", "The scan has")] {
             page += &text(key).map_or(String::new(), |formula| {
@@ -43,7 +44,7 @@ pub fn page() -> String {
         }
         page += &format!("\nTests: {}.\n\n", code("tests"));
         for form in wrong(entry) {
-            let text = |key: &str| form.get(key).and_then(Value::as_str).expect("a string");
+            let text = |key: &str| form.get(key).and_then(Value::as_str).unwrap();
             let place = match form.get("file").and_then(Value::as_str) {
                 Some(file) => format!("`{file}`"),
                 None => "the formula".to_owned(),
@@ -53,7 +54,7 @@ pub fn page() -> String {
                 new => format!("for it `{new}`"),
             };
             let (what, old) = (text("what"), text("old"));
-            writeln!(page, "- Wrong: {what}. In {place} `{old}`, {to}.").expect("it is a string");
+            writeln!(page, "- Wrong: {what}. In {place} `{old}`, {to}.").unwrap();
         }
     }
     page

@@ -2,11 +2,7 @@
 
 use crate::evidence::coverage::SEEDS;
 use crate::ledgers::{alternative, costs, files_below};
-use std::collections::BTreeMap;
-use std::fmt::Display;
-use std::fs;
-use std::path::Path;
-use std::sync::LazyLock;
+use crate::prelude::*;
 
 /// A line of a golden in CSV.
 #[derive(serde::Deserialize)]
@@ -25,11 +21,11 @@ static ENTRIES: LazyLock<Vec<(String, Entry)>> = LazyLock::new(|| {
     files.push(root.join("paper/readings.csv"));
     let mut entries = Vec::new();
     for file in files {
-        let text = fs::read_to_string(&file).expect("it reads");
+        let text = fs::read_to_string(&file).unwrap();
         let Some(start) = text.find("table,row,column,unit,computed,published\n") else {
             continue;
         };
-        let golden = file.file_stem().expect("a name").to_string_lossy();
+        let golden = file.file_stem().unwrap().to_string_lossy();
         let lines = csv::Reader::from_reader(&text.as_bytes()[start..]).into_deserialize();
         entries.extend(lines.map(|entry| {
             let entry: Entry = entry.unwrap_or_else(|what| panic!("{}: {what}", file.display()));
@@ -60,9 +56,9 @@ fn all(start: &str, end: &str) -> Vec<f64> {
     let found = ENTRIES
         .iter()
         .filter(|(name, _)| name.starts_with(start) && name.ends_with(end));
-    let numbers: Vec<f64> = found
+    let numbers = found
         .map(|(name, entry)| entry.computed.parse().expect(name))
-        .collect();
+        .collect_vec();
     assert!(!numbers.is_empty(), "{start}…{end}");
     numbers
 }
@@ -192,7 +188,7 @@ fn cases() -> String {
         let each = |of: Source| {
             let counts =
                 (1..=passes).map(|pass| of("table_13/table_13", case, &format!("Pass {pass}"), 0));
-            counts.collect::<Vec<_>>().join(", ")
+            counts.collect_vec().join(", ")
         };
         format!("{} ({})", each(computed), each(published))
     });
@@ -466,7 +462,7 @@ fn readings() -> [(&'static str, String); 5] {
             let numbers = quantities
                 .iter()
                 .map(|quantity| source(of, run, &format!("{quantity}{reading}"), decimals));
-            numbers.collect::<Vec<_>>().join(what)
+            numbers.collect_vec().join(what)
         };
         let mut cells = vec![cell("matrix", published)];
         cells.extend(READINGS.map(|reading| cell(reading, computed)));
@@ -575,7 +571,7 @@ fn step() -> [(&'static str, String); 4] {
         (12, 9),
     ];
     let fewer = fewer.map(|(table, modes)| format!("Table {table} FEM {modes}"));
-    let columns: Vec<String> = passes.into_iter().chain(fewer).collect();
+    let columns = passes.into_iter().chain(fewer).collect_vec();
     let runs = || columns.iter().map(|name| (name.clone(), name.clone()));
     let added = (1..=10).map(|number| format!("box {number}"));
     let added = ["this box".to_owned()].into_iter().chain(added);
@@ -1003,11 +999,8 @@ pub fn sentences() -> Vec<(&'static str, String)> {
         "the difference is {rms:.3} % RMS and {:.2} % at most",
         largest(&worst)
     );
-    let held = |structure: &str| -> f64 {
-        computed("coverage", structure, "Held", 3)
-            .parse()
-            .expect("a number")
-    };
+    let held =
+        |structure: &str| -> f64 { computed("coverage", structure, "Held", 3).parse().unwrap() };
     let tests = SEEDS.count();
     let faulty = [
         computed("case_4_factors", "8", "Factor", 1),
@@ -1032,9 +1025,9 @@ pub fn sentences() -> Vec<(&'static str, String)> {
                 .iter()
                 .map(move |panel| computed("case_2_next_step", panel, column, 1))
         };
-        let number = |text: String| text.parse::<f64>().expect("a number");
-        let ends: Vec<f64> = of("Error at the end").map(number).collect();
-        let after = largest(&of("Error after the step").map(number).collect::<Vec<_>>());
+        let number = |text: String| text.parse::<f64>().unwrap();
+        let ends = of("Error at the end").map(number).collect_vec();
+        let after = largest(&of("Error after the step").map(number).collect_vec());
         let least = ends.iter().copied().fold(f64::INFINITY, f64::min);
         [least.round(), largest(&ends).round(), after.ceil()]
     };
@@ -1062,7 +1055,7 @@ pub fn sentences() -> Vec<(&'static str, String)> {
     let nearer = |run: &str, other: &str, used: &str| {
         let points = |reading: &str| -> f64 {
             let difference = computed("readings_agreement", run, &format!("d {reading}"), 6);
-            difference.parse().expect("a number")
+            difference.parse().unwrap()
         };
         points(used) - points(other)
     };

@@ -1,26 +1,19 @@
 //! The tour in `paper/tour`: every number in its sentences stands in its code, which the documentation tests compile and run.
 
-use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
+use crate::prelude::*;
 
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("paper/tour")
+    in_root("paper/tour")
 }
 
 /// The chapters by the two digits of their number.
 fn chapters() -> BTreeMap<String, (PathBuf, String)> {
     let files = fs::read_dir(folder())
-        .expect("it reads")
-        .map(|entry| entry.expect("an entry").path());
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
     let chapter = |path: PathBuf| {
-        let name = path
-            .file_name()
-            .expect("a name")
-            .to_string_lossy()
-            .into_owned();
-        let text = fs::read_to_string(&path).expect("it reads");
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        let text = fs::read_to_string(&path).unwrap();
         (name[..2].to_owned(), (path, text))
     };
     let is_text = |path: &PathBuf| path.extension().is_some_and(|kind| kind == "md");
@@ -59,7 +52,7 @@ fn said_and_computed(markdown: &str) -> (String, String) {
     let code = computed
         .lines()
         .map(|line| line.split("//").next().unwrap_or_default());
-    (said.clone(), code.collect::<Vec<_>>().join("\n"))
+    (said.clone(), code.collect_vec().join("\n"))
 }
 
 /// Numbers that are said and stand nowhere in the code.
@@ -95,10 +88,7 @@ fn every_chapter_has_its_parts() {
         ] {
             assert!(text.contains(part), "chapter {number} has no {part:?}");
         }
-        let answer = text
-            .split("<summary>Answer</summary>")
-            .nth(1)
-            .expect("an answer");
+        let answer = text.split("<summary>Answer</summary>").nth(1).unwrap();
         assert!(
             answer.contains("```rust\n"),
             "the answer of chapter {number} is not computed"
@@ -123,7 +113,7 @@ fn every_chapter_has_its_parts() {
 /// Lines without what their place adds in front of all of them.
 fn dedented(text: &str) -> Vec<String> {
     let margin = |line: &&str| line.len() - line.trim_start().len();
-    let lines: Vec<&str> = text.lines().collect();
+    let lines = text.lines().collect_vec();
     let least = lines
         .iter()
         .filter(|line| !line.trim().is_empty())
@@ -145,10 +135,10 @@ fn what_the_tour_quotes_are_the_lines_of_the_method() {
             let (file, rest) = quote
                 .split_once(" -->\n```text\n")
                 .expect("a fence below its source");
-            let lines = dedented(rest.split("```").next().expect("an end"));
-            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
-            let source = fs::read_to_string(&path).expect("it reads");
-            let source: Vec<&str> = source.lines().collect();
+            let lines = dedented(rest.split("```").next().unwrap());
+            let path = in_root(file);
+            let source = fs::read_to_string(&path).unwrap();
+            let source = source.lines().collect_vec();
             let is_there = |window: &[&str]| dedented(&window.join("\n")) == lines;
             let found = source
                 .windows(lines.len())
@@ -170,10 +160,8 @@ fn what_the_tour_quotes_are_the_lines_of_the_method() {
 #[test]
 fn the_whole_loop_has_fifteen_lines_at_most() {
     let (_, text) = &chapters()["05"];
-    let (_, rest) = text
-        .split_once("## The whole loop\n\n```text\n")
-        .expect("the loop");
-    let lines: Vec<&str> = rest.split("```").next().expect("an end").lines().collect();
+    let (_, rest) = text.split_once("## The whole loop\n\n```text\n").unwrap();
+    let lines = rest.split("```").next().unwrap().lines().collect_vec();
     assert!((10..=15).contains(&lines.len()), "{} lines", lines.len());
     assert!(
         lines.iter().all(|line| line.chars().count() <= 100),
@@ -184,25 +172,20 @@ fn the_whole_loop_has_fifteen_lines_at_most() {
 #[test]
 fn every_chapter_leads_to_its_neighbors_and_the_last_to_the_plain_program() {
     let chapters = chapters();
-    let tour = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/tour.rs"))
-        .expect("it reads");
-    let links: Vec<(String, String)> = chapters
+    let tour = fs::read_to_string(in_root("src/tour.rs")).unwrap();
+    let links = chapters
         .values()
         .map(|(path, text)| {
-            let name = path.file_stem().expect("a name").to_string_lossy();
-            let title = text
-                .lines()
-                .next()
-                .expect("a title")
-                .trim_start_matches("# ");
+            let name = path.file_stem().unwrap().to_string_lossy();
+            let title = text.lines().next().unwrap().trim_start_matches("# ");
             (
                 format!("[{title}](crate::tour::chapter_{name})"),
                 format!("pub mod chapter_{name} {{"),
             )
         })
-        .collect();
+        .collect_vec();
     for (at, (_, text)) in chapters.values().enumerate() {
-        let end = text.rsplit("</details>").next().expect("an end");
+        let end = text.rsplit("</details>").next().unwrap();
         for (word, other) in [("Previous", at.checked_sub(1)), ("Next", Some(at + 1))] {
             let link = other.and_then(|other| links.get(other));
             assert_eq!(
@@ -219,11 +202,11 @@ fn every_chapter_leads_to_its_neighbors_and_the_last_to_the_plain_program() {
             }
         }
     }
-    let (_, last) = chapters.values().last().expect("a chapter");
+    let (_, last) = chapters.values().last().unwrap();
     assert!(
         last.rsplit("</details>")
             .next()
-            .expect("an end")
+            .unwrap()
             .contains("`paper/plain.rs`")
     );
 }
@@ -234,14 +217,14 @@ const OF_NO_CHAPTER: [&str; 2] = ["error", "linear_algebra"];
 #[test]
 fn every_public_module_of_the_method_points_to_its_chapter() {
     let source = |path: &str| {
-        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(path);
+        let file = in_root("src").join(path);
         fs::read_to_string(&file).unwrap_or_else(|_| panic!("{path} does not read"))
     };
     let (list, tour) = (source("method/mod.rs"), source("tour.rs"));
-    let modules: Vec<&str> = list
+    let modules = list
         .lines()
         .filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'))
-        .collect();
+        .collect_vec();
     assert!(
         OF_NO_CHAPTER.iter().all(|module| modules.contains(module)),
         "{modules:?}"
@@ -251,10 +234,7 @@ fn every_public_module_of_the_method_points_to_its_chapter() {
         .filter(|module| !OF_NO_CHAPTER.contains(module))
     {
         let folder = format!("method/{module}/mod.rs");
-        let is_folder = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("src")
-            .join(&folder)
-            .exists();
+        let is_folder = in_root("src").join(&folder).exists();
         let text = source(&if is_folder {
             folder
         } else {

@@ -1,20 +1,9 @@
 //! The figures of the tour, by the number of their chapter: what is drawn is computed here. Those of the box stand beside.
 
-use crate::common::gradient::gradient;
-use crate::common::loops::exact_state;
-use crate::common::structures::spring_stiffness;
 use crate::ledgers::diagram::{Diagram, Series, SeriesMark};
 use crate::ledgers::tour_figures_box::{bounds, demands, deviations, gages, history, orders};
 use crate::paper::figures::case_figures;
-use corfem::method::analysis::{Analysis, DERIVATIVE_STEP};
-use corfem::method::error_sum::Errors;
-use corfem::method::model::{DynamicModel, Model};
-use corfem::method::modes::solve;
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::step::{StepRule, unlimited_factor};
-use corfem::torque_box::table_1::TwoMasses;
-use corfem::torque_box::{Case, run_case};
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// Every chapter's figure.
 pub fn figures() -> [(&'static str, Diagram); 10] {
@@ -34,8 +23,8 @@ pub fn figures() -> [(&'static str, Diagram); 10] {
 
 /// What is drawn beside the diagrams: the two springs of chapter 1, and the box and two of its modes, from the report.
 pub fn pictures() -> Vec<(String, String)> {
-    let result = run_case(&Case::new(1).expect("a case"), |_, _| {}).expect("a run");
-    let drawn = case_figures(std::slice::from_ref(&result)).expect("figures");
+    let result = run_case(&case_of(1), |_, _| {}).unwrap();
+    let drawn = case_figures(from_ref(&result)).unwrap();
     let of = |name: &str| {
         let figure = drawn.iter().find(|figure| figure.name == name);
         figure.unwrap_or_else(|| panic!("no {name}")).svg.clone()
@@ -114,15 +103,15 @@ fn two_springs() -> Diagram {
 fn too_stiff(shares: Vec<DMatrix<f64>>, too_stiff: f64) -> Model {
     let stiffness: DMatrix<f64> = shares.iter().sum();
     let count = stiffness.nrows();
-    let mass = DMatrix::identity(count, count);
-    let test = solve(&(&stiffness / too_stiff), &mass, count).expect("modes");
+    let mass = eye(count);
+    let test = solve(&(&stiffness / too_stiff), &mass, count).unwrap();
     DynamicModel {
         stiffness,
         mass,
         shares,
     }
     .analyze(&test, None)
-    .expect("a model")
+    .unwrap()
 }
 
 fn crease() -> Diagram {
@@ -132,7 +121,7 @@ fn crease() -> Diagram {
     );
     let at = |factor: f64| {
         let state = exact_state(&modal, &[factor, 1.0]);
-        state.expect("a state").errors
+        state.unwrap().errors
     };
     let series = |name, mark, of: fn(&Errors) -> f64| {
         Series::new(
@@ -140,7 +129,7 @@ fn crease() -> Diagram {
             mark,
             range(0.5, 1.5, 40)
                 .map(|factor| (factor, of(&at(factor))))
-                .collect::<Vec<_>>(),
+                .collect_vec(),
         )
     };
     Diagram {
@@ -164,7 +153,7 @@ fn first_step() -> Diagram {
         let whole = (0..n).map(|spring| spring_stiffness(n, spring, 1.0)).sum();
         let modal = too_stiff(vec![whole], 1.001);
         let start = modal.exact();
-        let slope = gradient(&modal, start).expect("a slope")[0];
+        let slope = gradient(&modal, start).unwrap()[0];
         let stiffness = modal.stiffness_changes(start, &[1.0], rule)[0];
         let (sum, relaxation) = (start.errors.sum(), settings.inner.relaxation);
         let factor = unlimited_factor(DERIVATIVE_STEP * slope, stiffness, sum, relaxation);
@@ -175,7 +164,7 @@ fn first_step() -> Diagram {
     let as_it_is: Scaled = |settings, _| settings.clone();
     let series = |name, mark, most: usize, rule, scaled: Scaled| {
         let of = |n| ratio(n, rule, &scaled(&Settings::default(), n));
-        Series::new(name, mark, (1..=most).map(of).collect::<Vec<_>>())
+        Series::new(name, mark, (1..=most).map(of).collect_vec())
     };
     Diagram {
         title: "The first step beside Newton's",
@@ -206,15 +195,15 @@ fn first_step() -> Diagram {
 fn stories() -> Diagram {
     let analyze = |factors: &[f64]| {
         let share = |(story, factor)| spring_stiffness(4, story, 4000.0 * factor);
-        let shares: Vec<DMatrix<f64>> = factors.iter().enumerate().map(share).collect();
+        let shares = factors.iter().enumerate().map(share).collect_vec();
         DynamicModel {
             stiffness: shares.iter().sum(),
-            mass: DMatrix::identity(4, 4),
+            mass: eye(4),
             shares,
         }
     };
     let truth = analyze(&[0.7, 1.0, 1.1, 1.0]);
-    let test = solve(&truth.stiffness, &truth.mass, 4).expect("modes");
+    let test = solve(&truth.stiffness, &truth.mass, 4).unwrap();
     let settings = Settings {
         error_sum_tolerance: 0.005,
         later_inner_tolerance: 0.0025,
@@ -228,8 +217,8 @@ fn stories() -> Diagram {
         |_, _| true,
     );
     let mut history = vec![vec![1.0; 4]];
-    for pass in run.expect("a run").passes {
-        let base = history.last().expect("a start").clone();
+    for pass in run.unwrap().passes {
+        let base = history.last().unwrap().clone();
         let product = |factors: &Vec<f64>| {
             base.iter()
                 .zip(factors)
@@ -241,7 +230,7 @@ fn stories() -> Diagram {
                 .iterations
                 .iter()
                 .map(|step| product(&step.factors))
-                .collect::<Vec<_>>(),
+                .collect_vec(),
         );
     }
     let names = ["story 1", "story 2", "story 3", "story 4"];

@@ -1,31 +1,17 @@
 //! The figures of the tour that show the paper's box.
 
-use crate::common::appendix_c::{ModalChange, eigensolution};
-use crate::common::measured::equal_weights;
 use crate::ledgers::diagram::{Diagram, Series, SeriesMark};
-use corfem::method::analysis::Analysis;
-use corfem::method::error_sum::Errors;
-use corfem::method::model::Model;
-use corfem::method::modes::solve;
-use corfem::method::perturbation::{Perturbed, recursive_1};
-use corfem::torque_box::published::PublishedTable;
-use corfem::torque_box::wing_box::TEST_GAGE;
-use corfem::torque_box::{Case, run_case};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::identifiability::identifiability;
-use corfem::weighted::noise::Noise;
-use corfem::weighted::residuals::jacobian;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// A case's first model, and the change of its first pass in modal coordinates.
 fn first_pass(number: usize) -> (Model, DMatrix<f64>) {
-    let case = Case::new(number).expect("a case");
-    let test = case.test_modes().expect("modes");
+    let case = case_of(number);
+    let test = case.test_modes().unwrap();
     let modal = case
         .model()
         .and_then(|model| Ok(model.analyze(&[1.0; 15], &test, None)?))
-        .expect("a model");
-    let result = run_case(&case, |_, _| {}).expect("a run");
+        .unwrap();
+    let result = run_case(&case, |_, _| {}).unwrap();
     let factors = &result.correlation.passes[0].inner.last.factors;
     let beta = modal
         .shares()
@@ -47,8 +33,8 @@ pub fn orders() -> Diagram {
     let of_case = |name, number, mark, is_first: bool| {
         let (modal, beta) = first_pass(number);
         let k = modal.exact().modes.omega_squared();
-        let change = ModalChange::of_vibrations(k, beta.clone(), DMatrix::zeros(9, 9));
-        let exact = eigensolution(&change).expect("modes");
+        let change = ModalChange::of_vibrations(k, beta.clone(), zero_square(9));
+        let exact = eigensolution(&change).unwrap();
         let by = |order| {
             if is_first {
                 recursive_1(k, &beta, order)
@@ -56,8 +42,8 @@ pub fn orders() -> Diagram {
                 change.pencil()?.recursive_2(order)
             }
         };
-        let point = |order| (order as f64, error(&by(order).expect("an order"), &exact));
-        Series::new(name, mark, (1..=6).map(point).collect::<Vec<_>>())
+        let point = |order| (order as f64, error(&by(order).unwrap(), &exact));
+        Series::new(name, mark, (1..=6).map(point).collect_vec())
     };
     Diagram {
         title: "Frequency errors of the recursions against their order",
@@ -77,18 +63,14 @@ pub fn orders() -> Diagram {
 pub fn history() -> Diagram {
     let result = Case::new(2)
         .and_then(|case| run_case(&case, |_, _| {}))
-        .expect("a run");
+        .unwrap();
     let run = &result.correlation;
     // Every pass begins where the exact check of the one before it ends, and ends where its own perturbation does.
     let (mut passes, mut checks, mut begin, mut start) =
         (Vec::new(), Vec::new(), 0, run.initial.errors);
     for pass in &run.passes {
         let errors = pass.inner.iterations.iter().map(|step| step.errors);
-        passes.push(
-            (begin..)
-                .zip(std::iter::once(start).chain(errors))
-                .collect::<Vec<_>>(),
-        );
+        passes.push((begin..).zip(once(start).chain(errors)).collect_vec());
         begin += pass.inner.iterations.len();
         start = pass.check.errors;
         checks.push((begin as f64, 100.0 * start.sum()));
@@ -98,11 +80,7 @@ pub fn history() -> Diagram {
             let points = errors
                 .iter()
                 .map(|(n, errors)| (*n as f64, 100.0 * of(errors)));
-            Series::new(
-                if row == 0 { name } else { "" },
-                mark,
-                points.collect::<Vec<_>>(),
-            )
+            Series::new(if row == 0 { name } else { "" }, mark, points.collect_vec())
         })
     };
     Diagram {
@@ -125,29 +103,25 @@ pub fn history() -> Diagram {
 
 /// Frequencies of Case 2 at its published gages, by shapes and by loads of the first model, beside the exact ones.
 pub fn bounds() -> Diagram {
-    let model = Case::new(2).and_then(|case| case.model()).expect("a model");
-    let table = PublishedTable::number(6).expect("Table 6");
-    let gage = |panel: usize| {
-        table
-            .required(&panel.to_string(), "pass_1_in")
-            .expect("a gage")
-    };
-    let factors: Vec<f64> = (1..=15).map(|panel| gage(panel) / 0.015).collect();
-    let first = model.matrices(&[1.0; 15]).expect("matrices");
-    let flexibility = first.stiffness.clone().try_inverse().expect("regular");
+    let model = Case::new(2).and_then(|case| case.model()).unwrap();
+    let table = PublishedTable::number(6).unwrap();
+    let gage = |panel: usize| table.required(&panel.to_string(), "pass_1_in").unwrap();
+    let factors = (1..=15).map(|panel| gage(panel) / 0.015).collect_vec();
+    let first = model.matrices(&[1.0; 15]).unwrap();
+    let flexibility = first.stiffness.clone().try_inverse().unwrap();
     let (mut above, mut below) = (first.stiffness.clone(), flexibility.clone());
     for (share, factor) in first.shares.iter().zip(&factors) {
         above += (factor - 1.0) * share;
         below += (1.0 / factor - 1.0) * &flexibility * share * &flexibility;
     }
-    let exact = model.modes(&factors).expect("modes").frequencies_hz();
+    let exact = model.modes(&factors).unwrap().frequencies_hz();
     let series = |name, mark, stiffness: DMatrix<f64>| {
         let found = solve(
             &(0.5 * (&stiffness + stiffness.transpose())),
             &first.mass,
             9,
         )
-        .expect("modes");
+        .unwrap();
         let ratios = found
             .frequencies_hz()
             .into_iter()
@@ -166,7 +140,7 @@ pub fn bounds() -> Diagram {
             series(
                 "loads frozen (below)",
                 SeriesMark::Bars,
-                below.try_inverse().expect("regular"),
+                below.try_inverse().unwrap(),
             ),
         ],
     }
@@ -176,8 +150,8 @@ pub fn bounds() -> Diagram {
 fn final_gage_errors() -> Vec<f64> {
     let result = Case::new(2)
         .and_then(|case| run_case(&case, |_, _| {}))
-        .expect("a run");
-    let gages = result.pass_gages.last().expect("a pass");
+        .unwrap();
+    let gages = result.pass_gages.last().unwrap();
     gages
         .iter()
         .map(|gage| 100.0 * (gage / TEST_GAGE - 1.0))
@@ -190,11 +164,11 @@ fn by_panel(values: Vec<f64>) -> Vec<(f64, f64)> {
 }
 
 pub fn gages() -> Diagram {
-    let table = PublishedTable::number(6).expect("Table 6");
+    let table = PublishedTable::number(6).unwrap();
     let published = |panel: usize| {
         table
             .required(&panel.to_string(), "pass_2_percent")
-            .expect("an error")
+            .unwrap()
     };
     Diagram {
         title: "Case 2: gage errors at the end",
@@ -216,7 +190,7 @@ pub fn gages() -> Diagram {
 pub fn demands() -> Diagram {
     let result = Case::new(4)
         .and_then(|case| run_case(&case, |_, _| {}))
-        .expect("a run");
+        .unwrap();
     Diagram {
         title: "Case 4: unlimited factors of the first iteration",
         labels: ["panel", "unlimited factor"],
@@ -232,17 +206,17 @@ pub fn demands() -> Diagram {
 }
 
 pub fn deviations() -> Diagram {
-    let case = Case::new(2).expect("a case");
-    let test = case.test_modes().expect("modes");
+    let case = case_of(2);
+    let test = case.test_modes().unwrap();
     let model = case
         .model_with(&[TEST_GAGE; 15])
-        .expect("a model")
+        .unwrap()
         .analyze(&[1.0; 15], &test, None)
-        .expect("a model");
+        .unwrap();
     let weights = equal_weights(Noise::USUAL, 9);
     let seen = jacobian(&Comparison::from(&model), &weights)
         .and_then(|jacobian| identifiability(&jacobian, &[1.0; 15]))
-        .expect("what is seen");
+        .unwrap();
     let percents = seen
         .deviations
         .iter()

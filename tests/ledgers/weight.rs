@@ -5,9 +5,7 @@
 
 use crate::ledgers::files_below;
 use crate::ledgers::package::root;
-use serde::Deserialize;
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
+use crate::prelude::*;
 
 /// The ledger, `tests/ceilings.toml`.
 #[derive(Deserialize)]
@@ -28,7 +26,7 @@ struct Ceiling {
 }
 
 pub fn ceilings() -> Ceilings {
-    toml::from_str(include_str!("../ceilings.toml")).expect("it reads")
+    toml::from_str(include_str!("../ceilings.toml")).unwrap()
 }
 
 /// The Rust files of `src/` with their texts, by room; files beside the rooms are of the room `.`.
@@ -36,11 +34,11 @@ pub fn rooms() -> BTreeMap<String, Vec<(String, String)>> {
     let source = root().join("src");
     let mut rooms: BTreeMap<String, Vec<(String, String)>> = BTreeMap::new();
     for file in files_below(&source) {
-        let name = file.strip_prefix(&source).expect("below");
+        let name = file.strip_prefix(&source).unwrap();
         let name = name.to_string_lossy().replace('\\', "/");
         if name.ends_with(".rs") {
             let room = name.split_once('/').map_or(".", |(room, _)| room);
-            let text = fs::read_to_string(&file).expect("it reads");
+            let text = fs::read_to_string(&file).unwrap();
             let files = rooms.entry(room.to_owned()).or_default();
             files.push((name, text));
         }
@@ -123,7 +121,7 @@ fn blank(code: &str) -> Option<usize> {
 
 /// Length of the token at the head of the code.
 fn token(code: &str) -> usize {
-    let first = code.chars().next().expect("there is code");
+    let first = code.chars().next().unwrap();
     let unprefixed = code.strip_prefix('b');
     let quoted = |code: &str| string(code).or_else(|| character(code));
     let prefixed = || Some(1 + quoted(unprefixed?)?);
@@ -251,11 +249,11 @@ fn no_function_is_long_but_those_listed() {
         }
     }
     let listed = ceilings().long_functions;
-    let new: Vec<_> = long.difference(&listed).collect();
+    let new = long.difference(&listed).collect_vec();
     assert!(new.is_empty(), "longer than {LONGEST} lines: {new:#?}");
     let is_short = |name: &&String| SHORT.iter().any(|room| name.starts_with(room));
     assert_eq!(listed.iter().find(is_short), None, "tests/ceilings.toml");
-    let gone: Vec<_> = listed.difference(&long).collect();
+    let gone = listed.difference(&long).collect_vec();
     assert!(
         gone.is_empty(),
         "no longer long, to be taken from tests/ceilings.toml: {gone:#?}"
@@ -268,7 +266,7 @@ fn tokens_are_what_the_compiler_reads() {
         tokens(code)
             .into_iter()
             .map(|(_, token)| token)
-            .collect::<Vec<_>>()
+            .collect_vec()
     };
     let code =
         "#[doc = \"a // b\"] // c\nfn f<'a>(x: &'a str) -> u8 { /* } */ b'\\'' + 'b' != 0.5e1 }";

@@ -7,14 +7,9 @@
 
 use crate::ledgers::equations::{entries, strings, test_of};
 use crate::ledgers::files_below;
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::ops::Range;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use crate::prelude::*;
+use std::sync::atomic::AtomicUsize;
 use std::thread;
-use std::time::{Duration, Instant};
 use toml::{Table, Value};
 
 /// The environment variable that says which form holds, and the function of the copy that asks it. The function reads it once.
@@ -85,7 +80,7 @@ fn forms() -> Vec<Form> {
         if entry.contains_key("number") {
             tests.push(format!("equations::{}", test_of(&owner)));
         }
-        let wrong = entry["wrong"].as_array().expect("a list").iter();
+        let wrong = entry["wrong"].as_array().unwrap().iter();
         let wrong = wrong.filter_map(Value::as_table);
         for wrong in wrong.filter(|wrong| wrong.contains_key("file")) {
             add(&owner, wrong, &tests);
@@ -94,8 +89,8 @@ fn forms() -> Vec<Form> {
     for room in ROOMS {
         for law in laws(room) {
             let tests = strings(&law, "tests");
-            for wrong in law["wrong"].as_array().expect("a list") {
-                add(room, wrong.as_table().expect("a table"), &tests);
+            for wrong in law["wrong"].as_array().unwrap() {
+                add(room, wrong.as_table().unwrap(), &tests);
             }
         }
     }
@@ -109,9 +104,8 @@ fn laws(room: &str) -> Vec<Table> {
     let list: Table = list
         .parse()
         .unwrap_or_else(|error| panic!("{room}: {error}"));
-    let laws = list["law"].as_array().expect("a list").iter();
-    laws.map(|law| law.as_table().expect("a table").clone())
-        .collect()
+    let laws = list["law"].as_array().unwrap().iter();
+    laws.map(|law| law.as_table().unwrap().clone()).collect()
 }
 
 /// Code as it is compared: without white space, lines of comment, and the comma before a closing parenthesis, which are
@@ -136,14 +130,14 @@ fn code(source: &str) -> Vec<(char, usize)> {
 
 /// Where the source has a piece of code, if it has it once.
 fn place(code: &[(char, usize)], piece: &str) -> Result<Range<usize>, String> {
-    let piece: Vec<char> = self::code(piece).into_iter().map(|(c, _)| c).collect();
+    let piece = self::code(piece).into_iter().map(|(c, _)| c).collect_vec();
     let is_here = |at: &usize| {
         let here = code[*at..].iter().map(|(character, _)| character);
         here.take(piece.len()).eq(&piece)
     };
-    let found: Vec<usize> = (0..=code.len() - piece.len().min(code.len()))
+    let found = (0..=code.len() - piece.len().min(code.len()))
         .filter(is_here)
-        .collect();
+        .collect_vec();
     match found[..] {
         [at] if !piece.is_empty() => Ok(at..at + piece.len()),
         _ => Err(format!("stands there {} times", found.len())),
@@ -266,7 +260,7 @@ fn every_wrong_form_stands_once_in_its_file() {
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
-    let sources = sources(&forms).expect("no two forms cross");
+    let sources = sources(&forms).unwrap();
     let switches: usize = sources
         .values()
         .map(|text| text.matches("wrong_form::is(").count())
@@ -291,7 +285,7 @@ fn forms_of_one_place_are_alternatives_there() {
         form(2, "c", "-c"),
         form(3, "d(e);", ""),
     );
-    let found = with_forms(source, &[&part, &call, &sum]).expect("they fit");
+    let found = with_forms(source, &[&part, &call, &sum]).unwrap();
     let expected = "let a = (if crate::wrong_form::is(1) { b } else if crate::wrong_form::is(2) { b\n    // c\n    + -c } else { b\n    // c\n    + c });\nif crate::wrong_form::is(3) {  } else { d(\n    e,\n); }\n";
     assert_eq!(found, expected);
     assert!(with_forms(source, &[&sum, &form(4, "+ c; d(e)", "")]).is_err());
@@ -304,8 +298,8 @@ fn write(path: &Path, text: &[u8]) {
     if fs::read(path).is_ok_and(|old| old == text) {
         return;
     }
-    fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
-    fs::write(path, text).expect("it can be written");
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    fs::write(path, text).unwrap();
 }
 
 /// The modules that the forms need, by their rooms: those of their tests, and what these use.
@@ -313,14 +307,14 @@ fn modules(forms: &[Form]) -> BTreeMap<String, BTreeSet<String>> {
     let is_name = |c: &char| c.is_alphanumeric() || *c == '_';
     let name = |rest: &str| rest.chars().take_while(is_name).collect::<String>();
     let tests = forms.iter().flat_map(|form| &form.tests);
-    let mut wanted: Vec<(String, String)> = tests
+    let mut wanted = tests
         .filter(|test| !test.starts_with("equations::"))
         .map(|test| {
             let mut parts = test.split("::").map(str::to_owned);
             let mut part = || parts.next().expect("a room and a module");
             (part(), part())
         })
-        .collect();
+        .collect_vec();
     let mut modules: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     while let Some((room, module)) = wanted.pop() {
         assert!(
@@ -371,23 +365,19 @@ fn list_of(room: &str, wanted: &BTreeSet<String>) -> String {
 
 /// The copy: the library with its wrong forms, and of the tests the specification.
 fn copy(forms: &[Form], folder: &Path) {
-    let sources = sources(forms).expect("they fit");
+    let sources = sources(forms).unwrap();
     let mut manifest: Table = fs::read_to_string(root().join("Cargo.toml"))
-        .expect("it reads")
+        .unwrap()
         .parse()
-        .expect("it reads");
+        .unwrap();
     for part in ["bin", "bench", "example"] {
         manifest.remove(part);
     }
     // Of another version, so that cargo keeps what it builds of the two apart.
-    let package = manifest["package"].as_table_mut().expect("a table");
+    let package = manifest["package"].as_table_mut().unwrap();
     let version = package.insert("version".to_owned(), VERSION.into());
-    let version = version
-        .expect("a version")
-        .as_str()
-        .expect("a string")
-        .to_owned();
-    let lock = fs::read_to_string(root().join("Cargo.lock")).expect("it reads");
+    let version = version.unwrap().as_str().unwrap().to_owned();
+    let lock = fs::read_to_string(root().join("Cargo.lock")).unwrap();
     let own = |version: &str| {
         format!(
             "name = \"{}\"\nversion = \"{version}\"\n",
@@ -403,7 +393,7 @@ fn copy(forms: &[Form], folder: &Path) {
     let lists = modules(forms);
     let rooms: String = lists.keys().map(|room| format!("mod {room};\n")).collect();
     let main = format!(
-        "#![allow(warnings, reason = \"a copy\")]\n#[macro_use]\nmod common;\nmod equations;\n{rooms}"
+        "#![allow(warnings, reason = \"a copy\")]\n#[macro_use]\nmod common;\nmod equations;\n{rooms}use common::prelude;\n"
     );
     let mut changed = BTreeMap::from([
         (PathBuf::from("tests/main.rs"), main),
@@ -416,7 +406,7 @@ fn copy(forms: &[Form], folder: &Path) {
             list_of(room, modules),
         );
     }
-    let library = fs::read_to_string(root().join("src/lib.rs")).expect("it reads");
+    let library = fs::read_to_string(root().join("src/lib.rs")).unwrap();
     changed.insert("src/lib.rs".into(), format!("{library}\nmod wrong_form;\n"));
     changed.extend(sources);
     for (path, text) in &changed {
@@ -441,21 +431,21 @@ fn copy(forms: &[Form], folder: &Path) {
             .into_iter()
             .flatten()
         {
-            let path = file.strip_prefix(folder).expect("below the folder");
+            let path = file.strip_prefix(folder).unwrap();
             let is_gone = !changed.contains_key(path) && !root().join(path).exists();
             if is_gone
                 || path
                     .extension()
                     .is_some_and(|end| end == "proptest-regressions")
             {
-                fs::remove_file(&file).expect("it can be removed");
+                fs::remove_file(&file).unwrap();
             }
         }
     }
     for file in files {
-        let path = file.strip_prefix(root()).expect("below the root");
+        let path = file.strip_prefix(root()).unwrap();
         if !changed.contains_key(path) {
-            write(&folder.join(path), &fs::read(&file).expect("it reads"));
+            write(&folder.join(path), &fs::read(&file).unwrap());
         }
     }
 }
@@ -475,7 +465,7 @@ fn build(folder: &Path, target: &Path) -> PathBuf {
         .current_dir(folder)
         .env("CARGO_TARGET_DIR", target)
         .output()
-        .expect("cargo runs");
+        .unwrap();
     let said = String::from_utf8_lossy(&built.stdout);
     let messages = said
         .lines()
@@ -494,7 +484,7 @@ fn build(folder: &Path, target: &Path) -> PathBuf {
         "the copy does not build:\n{errors}{}",
         String::from_utf8_lossy(&built.stderr)
     );
-    program.expect("a test program")
+    program.unwrap()
 }
 
 /// Which of the tests fail with a form; an error when they do not end or none runs.
@@ -514,7 +504,7 @@ fn failures(
         .env("PROPTEST_MAX_SHRINK_ITERS", "0")
         .env("INSTA_UPDATE", "no")
         .stdin(Stdio::null())
-        .stdout(fs::File::create(&log).expect("a file"))
+        .stdout(fs::File::create(&log).unwrap())
         .stderr(Stdio::null())
         .spawn()
         .map_err(|why| why.to_string())?;
@@ -530,7 +520,7 @@ fn failures(
         }
         thread::sleep(Duration::from_millis(20));
     };
-    let said = fs::read_to_string(&log).expect("it reads");
+    let said = fs::read_to_string(&log).unwrap();
     let counted = format!("running {} test", tests.len());
     if !said.contains(&counted) {
         return Err(format!("not all of {tests:?} were run:\n{said}"));
@@ -538,7 +528,7 @@ fn failures(
     let failed = said
         .lines()
         .filter_map(|line| line.strip_prefix("test ")?.split_once(" ... FAILED"));
-    let failed: Vec<String> = failed.map(|(test, _)| test.to_owned()).collect();
+    let failed = failed.map(|(test, _)| test.to_owned()).collect_vec();
     match (status.success(), failed.is_empty()) {
         (true, true) | (false, false) => Ok(failed),
         _ => Err(format!("{status} without a failed test:\n{said}")),
@@ -549,33 +539,29 @@ fn failures(
 #[test]
 #[ignore = "builds a copy of the crate and runs its specification once per wrong form, some minutes; .ci/run starts it"]
 fn every_wrong_form_is_noticed_by_a_test_named_for_its_equation() {
-    let program = std::env::current_exe().expect("a program");
-    let target = program
-        .ancestors()
-        .nth(3)
-        .expect("a target folder")
-        .to_owned();
+    let program = std::env::current_exe().unwrap();
+    let target = program.ancestors().nth(3).unwrap().to_owned();
     let folder = target.join("wrong_forms");
     let forms = forms();
     copy(&forms, &folder);
     let program = build(&folder, &target);
     let all: BTreeSet<String> = forms.iter().flat_map(|form| form.tests.clone()).collect();
-    let all: Vec<String> = all.into_iter().collect();
-    let right = failures(&program, &folder, 0, &all).expect("they run");
+    let all = all.into_iter().collect_vec();
+    let right = failures(&program, &folder, 0, &all).unwrap();
     assert!(right.is_empty(), "fail without a wrong form: {right:?}");
     let named: Option<Vec<usize>> = std::env::var(SWITCH).ok().map(|list| {
         list.split(',')
-            .map(|number| number.trim().parse().expect("a number"))
+            .map(|number| number.trim().parse().unwrap())
             .collect()
     });
-    let wanted: Vec<&Form> = forms
+    let wanted = forms
         .iter()
         .filter(|form| {
             named
                 .as_ref()
                 .is_none_or(|named| named.contains(&form.number))
         })
-        .collect();
+        .collect_vec();
     let next = AtomicUsize::new(0);
     let work = || {
         let mut unnoticed = Vec::new();
@@ -591,10 +577,8 @@ fn every_wrong_form_is_noticed_by_a_test_named_for_its_equation() {
     };
     let threads = thread::available_parallelism().map_or(1, usize::from);
     let unnoticed: Vec<String> = thread::scope(|scope| {
-        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
-        let results = workers
-            .into_iter()
-            .map(|worker| worker.join().expect("it ends"));
+        let workers = (0..threads).map(|_| scope.spawn(work)).collect_vec();
+        let results = workers.into_iter().map(|worker| worker.join().unwrap());
         results.flatten().collect()
     });
     println!(

@@ -1,15 +1,8 @@
 //! Test modes closer than their deviations tell: what is compared is the subspace of their shapes.
 
-use super::job_errors::placed;
-use crate::common::jobs::Files;
-use crate::common::jobs::{prepare, run};
-use crate::common::test_files::write_csv;
-use corfem::files::test_data::{Sensor, TestData};
-use corfem::job::verdict::Outcome;
-use corfem::job::{JobResult, Kind, PreparedJob};
-use corfem::present::report::Report;
-use corfem::present::tables::report::paired_table;
-use nalgebra::DMatrix;
+use crate::common::jobs::run;
+use crate::prelude::*;
+use crate::readers::job_errors::placed;
 
 /// Two towers of three floors side by side, one stiffer than the other by `split`, and a test of both in which every pair of modes is
 /// turned by an angle (radians) and its stiffer tower is stiffer by `truth`.
@@ -47,10 +40,10 @@ fn towers([split, truth, angle]: [f64; 3]) -> Files {
             .collect::<String>()
     );
     // Roots and shapes of a fixed and free chain of three.
-    let (mut hertz, mut shapes) = (Vec::new(), DMatrix::zeros(6, 6));
+    let (mut hertz, mut shapes) = (Vec::new(), zero_square(6));
     for mode in 0..3 {
-        let phase = std::f64::consts::PI * (2 * mode + 1) as f64 / 7.0;
-        let frequency = (2e3_f64 * (2.0 - 2.0 * phase.cos())).sqrt() / std::f64::consts::TAU;
+        let phase = PI * (2 * mode + 1) as f64 / 7.0;
+        let frequency = (2e3_f64 * (2.0 - 2.0 * phase.cos())).sqrt() / TAU;
         hertz.extend([frequency, frequency * truth.sqrt()]);
         for floor in 0..3 {
             let moved = (phase * (floor + 1) as f64).sin();
@@ -123,8 +116,8 @@ fn turned_shapes_of_close_modes_are_no_error() {
             "{:?}",
             result.found.factors
         );
-        let report = Report::from_job(&loaded, Some(&result)).expect("a report");
-        let agreement = report.agreement(report.corrected()).expect("agreement");
+        let report = Report::from_job(&loaded, Some(&result)).unwrap();
+        let agreement = report.agreement(report.corrected()).unwrap();
         for (mode, &partner) in report.corrected().pairing.analysis_mode.iter().enumerate() {
             assert!(
                 agreement.assurance[(partner, mode)] > 1.0 - 1e-9,
@@ -144,7 +137,7 @@ fn modes_that_model_and_test_tell_apart_are_compared_alone() {
     assert_eq!(loaded.together().len(), 3);
     assert_eq!(
         result.found.prepared.together(),
-        (0..6).map(|mode| vec![mode]).collect::<Vec<_>>()
+        (0..6).map(|mode| vec![mode]).collect_vec()
     );
     let factors = &result.found.factors;
     assert!((factors[1] / factors[0] - 1.2).abs() < 1e-3, "{factors:?}");

@@ -1,10 +1,7 @@
 //! Real shapes in place of complex ones, and modal phase collinearity.
 
-use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
-use corfem::files::test_data::complex_modes::realize;
-use corfem::method::error::Error;
-use nalgebra::{Complex, DMatrix, dmatrix};
-use proptest::prelude::*;
+use crate::prelude::*;
+use test_data::complex_modes::realize;
 
 fn shape(count: usize) -> impl Strategy<Value = DMatrix<Complex<f64>>> {
     prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64), count)
@@ -27,15 +24,13 @@ fn factor() -> impl Strategy<Value = Complex<f64>> {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn a_real_mode_times_any_complex_number_is_collinear_and_comes_back(
         mode in prop::collection::vec(-1.0..1.0_f64, 5).prop_filter("not zero", |mode| mode.iter().any(|x| x.abs() > 0.1)),
         factor in factor(),
     ) {
         let mode = DMatrix::from_vec(5, 1, mode);
-        let (real, collinearity) = realize(&mode.map(|x| factor * x)).unwrap();
+        let (real, collinearity) = realize(&mode.map(|x| factor * x))?;
         prop_assert!((collinearity[0] - 1.0).abs() < ROUND_OFF);
         let same = (&real / factor.norm() - &mode).amax().min((&real / factor.norm() + &mode).amax());
         prop_assert!(same < ROUND_OFF, "{}", same);
@@ -43,8 +38,8 @@ properties! {
 
     #[test]
     fn a_complex_factor_changes_neither_real_shape_nor_collinearity(shape in shape(4), factor in factor()) {
-        let (real, collinearity) = realize(&shape).unwrap();
-        let (turned, turned_collinearity) = realize(&shape.map(|v| factor * v)).unwrap();
+        let (real, collinearity) = realize(&shape)?;
+        let (turned, turned_collinearity) = realize(&shape.map(|v| factor * v))?;
         prop_assert!((collinearity[0] - turned_collinearity[0]).abs() < MATRIX_ROUND_OFF);
         // Where all phases do nearly as well, round-off turns the shape by its size over the difference.
         let slack = MATRIX_ROUND_OFF / collinearity[0].sqrt().max(MATRIX_ROUND_OFF);
@@ -55,7 +50,7 @@ properties! {
 
     #[test]
     fn collinearity_is_within_zero_and_one_and_no_phase_has_a_larger_real_part(shape in shape(4), angle in -4.0..4.0_f64) {
-        let (real, collinearity) = realize(&shape).unwrap();
+        let (real, collinearity) = realize(&shape)?;
         prop_assert!((0.0..=1.0).contains(&collinearity[0]));
         let other = shape.map(|v| (v * Complex::from_polar(1.0, angle)).re);
         prop_assert!(real.norm() >= other.norm() * (1.0 - ROUND_OFF));
@@ -70,7 +65,7 @@ fn a_wave_that_runs_round_has_no_collinearity_and_a_shape_all_the_same() {
     let wave = DMatrix::from_fn(8, 1, |row, _| {
         Complex::from_polar(1.0, std::f64::consts::FRAC_PI_4 * row as f64)
     });
-    let (real, collinearity) = realize(&wave).expect("a wave");
+    let (real, collinearity) = realize(&wave).unwrap();
     assert!(collinearity[0] < ROUND_OFF);
     assert!((real.norm_squared() - 4.0).abs() < ROUND_OFF);
 }
@@ -79,7 +74,7 @@ fn a_wave_that_runs_round_has_no_collinearity_and_a_shape_all_the_same() {
 fn numbers_whose_squares_leave_the_range_are_as_good_as_others() {
     let shape = dmatrix![Complex::new(3.0, 4.0); Complex::new(-6.0, -8.0)];
     for unit in [1e-290, 1e290] {
-        let (real, collinearity) = realize(&shape.map(|v| v * unit)).expect("a shape");
+        let (real, collinearity) = realize(&shape.map(|v| v * unit)).unwrap();
         assert!((collinearity[0] - 1.0).abs() < ROUND_OFF);
         assert!((real / unit - dmatrix![-5.0; 10.0]).amax() < ROUND_OFF * 10.0);
     }

@@ -1,57 +1,31 @@
 //! Decks: the identity of writing and reading, and the theorem that NASTRAN's reduction of a deck is Appendix A.
 
-use crate::common::decks::{bulk_data, bulk_text as written, restyled, style};
-use crate::common::known::whole;
-use crate::common::tolerances::{DECK_ROUNDING, ROUND_OFF, SINGULAR_MASS_ROOT};
-use corfem::files::deck::number::nearest_in_field;
-use corfem::files::deck::{self, BulkData, Task};
-use corfem::method::modes::{Modes, apply_sign_rule};
-use corfem::torque_box::wing_box::dynamic_points;
-use corfem::torque_box::{CASES, Case};
-use nalgebra::{DMatrix, SymmetricEigen};
-use proptest::prelude::*;
+use crate::common::decks::bulk_text as written;
+use crate::prelude::*;
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn deck_to_model_to_deck_is_the_identity(model in bulk_data()) {
-        let text = written(&model).expect("a deck");
-        let read = deck::read("deck", text.as_bytes(), &[]).expect("it reads");
+        let text = written(&model)?;
+        let read = deck::read("deck", text.as_bytes(), &[])?;
         prop_assert_eq!(&read.model, &model);
         prop_assert!(read.unread.iter().all(|card| card.reason == deck::Reason::Untouched));
-        prop_assert_eq!(written(&read.model).expect("a deck"), text);
-    }
-
-    #[test]
-    fn order_and_format_of_lines_do_not_matter(
-        (model, lines) in bulk_data().prop_flat_map(|model| {
-            let text = written(&model).expect("a deck");
-            let lines: Vec<String> = text.lines().map(str::to_owned).collect();
-            let count = lines.len();
-            let styles = prop::collection::vec(style(), count);
-            (Just(model), (Just(lines), styles).prop_map(|(lines, styles)| {
-                lines.iter().zip(styles).map(|(line, style)| restyled(line, style)).collect::<Vec<_>>()
-            }).prop_shuffle())
-        })
-    ) {
-        let read = deck::read("deck", lines.join("\n").as_bytes(), &[]).expect("it reads");
-        prop_assert_eq!(read.model, model);
+        prop_assert_eq!(written(&read.model)?, text);
     }
 
     /// $(K_S, T M T^t)$ has d finite roots, those of $(K_D, M)$, for any stiffness, full-rank T and masses.
     #[test]
     fn finite_roots_of_the_singular_pencil_are_those_of_the_dynamic_one(
-        (stiffness, _) in crate::common::strategies::positive_definite(6, 3.0),
-        directions in crate::common::strategies::orthogonal(6),
+        (stiffness, _) in positive_definite(6, 3.0),
+        directions in orthogonal(6),
         scales in prop::collection::vec(0.1..10.0_f64, 4),
         masses in prop::collection::vec(0.1..10.0_f64, 4),
     ) {
         let t = directions.columns(0, 4) * DMatrix::from_diagonal(&scales.into());
         let mass = DMatrix::from_diagonal(&masses.into());
-        let flexibility = t.tr_mul(&stiffness.clone().try_inverse().expect("definite")) .clone() * &t;
-        let dynamic_stiffness = flexibility.try_inverse().expect("full rank");
-        let dynamic = corfem::method::modes::solve(&symmetric(&dynamic_stiffness), &mass, 4).expect("modes");
+        let flexibility = t.tr_mul(&stiffness.clone().try_inverse().unwrap()) .clone() * &t;
+        let dynamic_stiffness = flexibility.try_inverse().unwrap();
+        let dynamic = solve(&symmetric(&dynamic_stiffness), &mass, 4)?;
         let roots = singular_pencil_roots(&stiffness, &(&t * &mass * t.transpose()));
         prop_assert_eq!(roots.len(), 6);
         for (omega_squared, root) in dynamic.omega_squared().iter().zip(&roots) {
@@ -70,22 +44,14 @@ fn symmetric(matrix: &DMatrix<f64>) -> DMatrix<f64> {
 
 /// All roots $\lambda = 1/\omega^2$ of $\lambda K v = M v$, largest first, by nalgebra: zero where $\omega$ is infinite.
 fn singular_pencil_roots(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Vec<f64> {
-    let lower = stiffness
-        .clone()
-        .cholesky()
-        .expect("a constrained structure")
-        .l();
-    let half = lower
-        .solve_lower_triangular(mass)
-        .expect("a nonzero diagonal");
-    let reduced = lower
-        .solve_lower_triangular(&half.transpose())
-        .expect("a nonzero diagonal");
-    let mut roots: Vec<f64> = SymmetricEigen::new(symmetric(&reduced))
+    let lower = stiffness.clone().cholesky().unwrap().l();
+    let half = lower.solve_lower_triangular(mass).unwrap();
+    let reduced = lower.solve_lower_triangular(&half.transpose()).unwrap();
+    let mut roots = SymmetricEigen::new(symmetric(&reduced))
         .eigenvalues
         .iter()
         .copied()
-        .collect();
+        .collect_vec();
     roots.sort_by(|a, b| b.total_cmp(a));
     roots
 }
@@ -93,19 +59,17 @@ fn singular_pencil_roots(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Vec<f
 #[test]
 fn nine_finite_roots_of_the_box_are_its_dynamic_modes() {
     for number in CASES {
-        let case = Case::new(number).expect("a case");
-        let model = case.model().expect("a model");
-        let dynamic = model.matrices(&[1.0; 15]).expect("an analysis");
-        let modes =
-            corfem::method::modes::solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
-        let sizes = model.sizes(&[1.0; 15]).expect("sizes");
-        let stiffness = corfem::method::appendix_a::assemble(model.element_matrices(), &sizes, 36)
-            .expect("stiffness");
+        let case = case_of(number);
+        let model = case.model().unwrap();
+        let dynamic = model.matrices(&[1.0; 15]).unwrap();
+        let modes = solve(&dynamic.stiffness, &dynamic.mass, 9).unwrap();
+        let sizes = model.sizes(&[1.0; 15]).unwrap();
+        let stiffness = assemble(model.element_matrices(), &sizes, 36).unwrap();
         let t = &model.load_distribution().clone();
         let roots = singular_pencil_roots(&stiffness, &(t * model.mass() * t.transpose()));
         assert_eq!(roots.len(), 36);
         for (omega_squared, root) in modes.omega_squared().iter().zip(&roots) {
-            approx::assert_relative_eq!(omega_squared * root, 1.0, epsilon = SINGULAR_MASS_ROOT);
+            assert_relative_eq!(omega_squared * root, 1.0, epsilon = SINGULAR_MASS_ROOT);
         }
         assert!(
             roots[9].abs() < SINGULAR_MASS_ROOT * roots[8],
@@ -116,35 +80,34 @@ fn nine_finite_roots_of_the_box_are_its_dynamic_modes() {
 
 /// The deck of a case at its first gages times `factors`.
 fn box_deck(number: usize, factors: &[f64]) -> (BulkData, String) {
-    let case = Case::new(number).expect("a case");
-    let points = dynamic_points(&case.reconstruction).expect("points");
-    let bulk =
-        BulkData::from_model(&case.model().expect("a model"), factors, &points).expect("bulk data");
+    let case = case_of(number);
+    let points = dynamic_points(&case.reconstruction).unwrap();
+    let bulk = BulkData::from_model(&case.model().unwrap(), factors, &points).unwrap();
     let task = Task::Modes {
         count: 9,
         range_hz: [5.0, 3000.0],
     };
-    let text = deck::write(&bulk, "box", &task).expect("a deck");
+    let text = deck::write(&bulk, "box", &task).unwrap();
     (bulk, text)
 }
 
 #[test]
 fn the_box_read_from_its_deck_has_its_modes() {
     for number in CASES {
-        let factors: Vec<f64> = (0..15).map(|row| 1.0 + f64::from(row) / 7.0).collect();
+        let factors = (0..15).map(|row| 1.0 + f64::from(row) / 7.0).collect_vec();
         let (_, text) = box_deck(number, &factors);
-        let read = deck::read("box", text.as_bytes(), &[]).expect("it reads");
+        let read = deck::read("box", text.as_bytes(), &[]).unwrap();
         assert!(read.unread.is_empty(), "{:?}", read.unread);
-        let found = deck::modes(&read.model, usize::MAX).expect("modes");
-        let model = Case::new(number).expect("a case").model().expect("a model");
+        let found = deck::modes(&read.model, usize::MAX).unwrap();
+        let model = case_of(number).model().unwrap();
         // By the same factorization, so that the digits of the deck are all that differs.
-        let (whole, sensors) = whole::of(&model).expect("a whole model");
-        let expected = whole.modes(&factors, 9).expect("modes").vibrations;
-        let mut shapes = sensors.times(expected.shapes()).expect("they fit");
+        let (whole, sensors) = whole::of(&model).unwrap();
+        let expected = whole.modes(&factors, 9).unwrap().vibrations;
+        let mut shapes = sensors.times(expected.shapes()).unwrap();
         apply_sign_rule(&mut shapes);
-        let expected = Modes::new(expected.omega_squared().clone(), shapes).expect("modes");
-        let labels: Vec<usize> = found.dof.iter().map(|dof| dof.grid).collect();
-        assert_eq!(labels, (101..=109).collect::<Vec<_>>());
+        let expected = Modes::new(expected.omega_squared().clone(), shapes).unwrap();
+        let labels = found.dof.iter().map(|dof| dof.grid).collect_vec();
+        assert_eq!(labels, (101..=109).collect_vec());
         assert!(found.dof.iter().all(|dof| dof.direction == 2));
         assert_eq!(found.modes.shapes().shape(), (9, 9));
         // An eigensolution rounds by the largest of its eigenvalues, in the lowest mode 1e5 times its own.
@@ -157,15 +120,11 @@ fn the_box_read_from_its_deck_has_its_modes() {
             .zip(expected.frequencies_hz())
             .zip(lowest)
         {
-            approx::assert_relative_eq!(
-                *a,
-                b,
-                max_relative = DECK_ROUNDING + f64::EPSILON * spread
-            );
+            assert_relative_eq!(*a, b, max_relative = DECK_ROUNDING + f64::EPSILON * spread);
         }
         // A shape component moves with the tenth digit of T by as much as modes are close.
         let largest = expected.shapes().amax();
-        approx::assert_relative_eq!(
+        assert_relative_eq!(
             found.modes.shapes(),
             expected.shapes(),
             epsilon = 1e3 * DECK_ROUNDING * largest
@@ -174,24 +133,18 @@ fn the_box_read_from_its_deck_has_its_modes() {
             .modes
             .shapes()
             .tr_mul(&(model.mass() * found.modes.shapes()));
-        approx::assert_relative_eq!(
-            generalized,
-            DMatrix::identity(9, 9),
-            epsilon = 1e3 * ROUND_OFF
-        );
+        assert_relative_eq!(generalized, eye(9), epsilon = 1e3 * ROUND_OFF);
     }
 }
 
 #[test]
 fn mpc_cards_are_the_load_distribution() {
     let (_, text) = box_deck(2, &[1.0; 15]);
-    let read = deck::read("box", text.as_bytes(), &[])
-        .expect("it reads")
-        .model;
-    let structure = read.structure().expect("a structure");
-    let model = Case::new(2).expect("a case").model().expect("a model");
+    let read = deck::read("box", text.as_bytes(), &[]).unwrap().model;
+    let structure = read.structure().unwrap();
+    let model = case_of(2).model().unwrap();
     assert_eq!(structure.free_dof(), model.structure().free_dof());
-    let dynamic = read.mass_dof(&structure).expect("masses");
+    let dynamic = read.mass_dof(&structure).unwrap();
     let loads = dynamic.load_distribution.dense();
     assert_eq!(loads.shape(), (36, 9));
     for (read, meant) in loads.iter().zip(model.load_distribution().clone().iter()) {
@@ -204,24 +157,24 @@ fn mpc_cards_are_the_load_distribution() {
 
 #[test]
 fn dynamic_points_lie_at_mid_depth() {
-    let case = Case::new(1).expect("a case");
+    let case = case_of(1);
     let (bulk, _) = box_deck(1, &[1.0; 15]);
     let grids = &case.reconstruction.grids;
     for (rib, first) in [(0, 1), (1, 5), (2, 9)] {
-        let at = |grid: usize| nalgebra::Vector3::from(grids[&grid]);
+        let at = |grid: usize| Vector3::from(grids[&grid]);
         let point = |k: usize| bulk.grids[16 + 3 * rib + k].position;
-        approx::assert_relative_eq!(
+        assert_relative_eq!(
             point(0),
             0.5 * (at(first) + at(first + 1)),
             epsilon = ROUND_OFF
         );
-        approx::assert_relative_eq!(
+        assert_relative_eq!(
             point(2),
             0.5 * (at(first + 2) + at(first + 3)),
             epsilon = ROUND_OFF
         );
         let fraction = case.reconstruction.mid_chord_fraction;
-        approx::assert_relative_eq!(
+        assert_relative_eq!(
             point(1) - point(0),
             fraction * (point(2) - point(0)),
             epsilon = 100.0 * ROUND_OFF

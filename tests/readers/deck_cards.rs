@@ -1,8 +1,7 @@
 //! Cards that are not understood: added to a good deck, each of them makes it fail.
 
+use crate::prelude::*;
 use crate::readers::deck_errors::GOOD;
-use corfem::files::deck::{self, Reason, Unread};
-use corfem::files::error::FileError;
 
 /// The cards that a deck is refused for.
 fn refused(deck: &str) -> Vec<Unread> {
@@ -43,18 +42,18 @@ macro_rules! families {
         #[test]
         fn $family() {
             for card in [$($card),+] {
-                let name = card.split([',', ' ']).next().expect("a name");
-                let parameter = || card[..card.rfind(',').expect("a value")].replace(',', " ");
+                let name = card.split([',', ' ']).next().unwrap();
+                let parameter = || card[..card.rfind(',').unwrap()].replace(',', " ");
                 let name = if name == "PARAM" { parameter() } else { name.to_owned() };
                 let expected = [unknown(&name, 8, 1)];
                 assert_eq!(refused(&format!("{GOOD}{card}\n")), expected, "behind the others");
                 assert_eq!(refused(&format!("{GOOD}{}\n", card.to_lowercase())), expected, "in small letters");
                 assert_eq!(refused(&format!("SPC = 1\nBEGIN BULK\n{GOOD}{card}\n"))[0].line, 10, "with case control");
                 let deck = format!("{GOOD}{card}\n");
-                let names = std::slice::from_ref(&name);
+                let names = from_ref(&name);
                 let ignored = deck::read("wing.dat", deck.as_bytes(), names).expect(card);
                 assert_eq!(ignored.unread, [Unread { reason: Reason::Ignored, ..unknown(&name, 8, 1) }]);
-                assert_eq!(ignored.model, deck::read("wing.dat", GOOD.as_bytes(), &[]).expect("good").model);
+                assert_eq!(ignored.model, deck::read("wing.dat", GOOD.as_bytes(), &[]).unwrap().model);
             }
         }
     )+};
@@ -124,7 +123,7 @@ fn a_slip_in_any_name_is_refused() {
         for place in 0..name.len() {
             let without = format!("{}{}", &name[..place], &name[place + 1..]);
             let doubled = format!("{}{}", &name[..=place], &name[place..]);
-            let mut exchanged: Vec<char> = name.chars().collect();
+            let mut exchanged = name.chars().collect_vec();
             exchanged.swap(place, (place + 1) % name.len());
             for slip in [without, doubled, exchanged.into_iter().collect()] {
                 if slip.starts_with(|c: char| c.is_ascii_alphabetic())
@@ -169,7 +168,7 @@ fn what_is_read_cannot_be_ignored() {
             GOOD.as_bytes(),
             &["CBAR".into(), "FORCE".into()]
         )
-        .expect("it reads")
+        .unwrap()
         .unread
         .is_empty()
     );

@@ -1,16 +1,7 @@
 //! Decks of every supported card, each in a form of its own: in small, large or free field, with tabs, in lower case, with continuations
 //! by tag, by star, by plus and by blanks, with replication and remarks. They are read back as the model that they were made of.
 
-use crate::common::decks::bulk_data;
-use crate::common::draws::Draws;
-use corfem::files::deck::number::large_real;
-use corfem::files::deck::{self, BulkData, Reason, Tie};
-use corfem::method::structure::{Element, ElementKind, Grid, Material};
-use nalgebra::Vector3;
-use proptest::prelude::*;
-use proptest::strategy::ValueTree;
-use proptest::test_runner::TestRunner;
-use std::collections::{BTreeMap, BTreeSet};
+use crate::prelude::*;
 
 /// Names of all cards that are read.
 const CARDS: [&str; 31] = [
@@ -94,7 +85,7 @@ impl Deck {
 
     /// A real number of at most 16 characters.
     fn number(&mut self, value: f64) -> String {
-        let short = large_real(value).expect("a number");
+        let short = large_real(value).unwrap();
         let exponent = short.rfind(['+', '-']).filter(|at| *at > 0);
         match exponent {
             Some(at) if short.len() < 16 && self.chance(3) => {
@@ -123,7 +114,7 @@ impl Deck {
         if fields.len() > 9 && self.chance(4) {
             return (vec![self.many(name, fields)], Vec::new());
         }
-        let rows: Vec<&[String]> = fields.chunks(8).collect();
+        let rows = fields.chunks(8).collect_vec();
         // Every row is one small line, or two large ones of which the last may be missing.
         let mut parts: Vec<(&[String], bool)> = Vec::new();
         for (at, row) in rows.iter().enumerate() {
@@ -180,7 +171,7 @@ impl Deck {
             }
             let form = if at == 0 { name } else { "" };
             let line = self.line(form, &begin, cells, *is_large, &end);
-            lines.last_mut().expect("a unit").push(line);
+            lines.last_mut().unwrap().push(line);
             begin = next_begin;
             if moves {
                 self.see("a continuation elsewhere");
@@ -202,7 +193,7 @@ impl Deck {
             self.see("ten free fields and more, without");
             ","
         };
-        let rows: Vec<String> = fields.chunks(8).map(|row| row.join(",")).collect();
+        let rows = fields.chunks(8).map(|row| row.join(",")).collect_vec();
         format!("{name},{}", rows.join(separator))
     }
 
@@ -314,7 +305,7 @@ fn words<const N: usize>(all: [&str; N]) -> Vec<String> {
 
 /// Numbers of three digits, which small fields hold.
 fn shortened(model: &mut BulkData) {
-    let short = |value: f64| format!("{value:.2e}").parse::<f64>().expect("a number");
+    let short = |value: f64| format!("{value:.2e}").parse::<f64>().unwrap();
     for grid in &mut model.grids {
         grid.position.apply(|value| *value = short(*value));
     }
@@ -326,7 +317,7 @@ fn shortened(model: &mut BulkData) {
         own.youngs_modulus = short(own.youngs_modulus);
         own.density = short(own.density);
         own.shear_modulus = match is_derived {
-            true => derived(own).expect("a material").shear_modulus,
+            true => derived(own).unwrap().shear_modulus,
             false => short(own.shear_modulus),
         };
     }
@@ -370,7 +361,7 @@ fn drawn(mut model: BulkData, seed: u64) -> (String, BulkData, BTreeSet<String>)
                 density,
                 ..
             } = element.material;
-            let axial = Material::isotropic(youngs_modulus, 0.0).expect("a material");
+            let axial = Material::isotropic(youngs_modulus, 0.0).unwrap();
             element.material = Material { density, ..axial };
         }
     }
@@ -393,7 +384,7 @@ fn drawn(mut model: BulkData, seed: u64) -> (String, BulkData, BTreeSet<String>)
         order.push((deck.draws.below(1 << 30), unit));
     }
     order.sort();
-    let bulk: Vec<String> = order.into_iter().flat_map(|(_, unit)| unit).collect();
+    let bulk = order.into_iter().flat_map(|(_, unit)| unit).collect_vec();
     let mpc = if model.ties.is_empty() {
         ""
     } else {
@@ -423,10 +414,10 @@ fn write_grids(deck: &mut Deck, model: &mut BulkData, has_common: bool) -> BTree
         [2.5, 0.0, 4.0],
         [0.0, 0.0, 3.0],
     ];
-    let mut extra: Vec<Grid> = (base..)
+    let mut extra = (base..)
         .zip(places)
         .map(|(label, at)| fixed(label, at.into()))
-        .collect();
+        .collect_vec();
     let run = base + 10;
     extra.extend(
         (0..4).map(|place| fixed(run + 2 * place, Vector3::new(1.5 * place as f64, 0.0, 0.0))),
@@ -513,7 +504,7 @@ fn write_grids(deck: &mut Deck, model: &mut BulkData, has_common: bool) -> BTree
                 system.to_string()
             });
         }
-        let of_motion = fields.pop().expect("a system");
+        let of_motion = fields.pop().unwrap();
         for value in local {
             fields.push(deck.number(value));
         }
@@ -532,7 +523,7 @@ fn write_grids(deck: &mut Deck, model: &mut BulkData, has_common: bool) -> BTree
         let earlier = before.take().filter(|_| is_one_line);
         if let Some(earlier) = earlier.filter(|_| deck.chance(2)) {
             let line = replica(deck, &earlier, &fields);
-            deck.units.last_mut().expect("a card").push(line);
+            deck.units.last_mut().unwrap().push(line);
             continue;
         }
         // A line of eight fields may be repeated.
@@ -563,7 +554,7 @@ fn write_grids(deck: &mut Deck, model: &mut BulkData, has_common: bool) -> BTree
 /// The card that repeats the one before with the differences of another.
 fn replica(deck: &mut Deck, earlier: &[String], fields: &[String]) -> String {
     deck.see("a replica");
-    let labels = [earlier, fields].map(|all| all[0].parse::<usize>().expect("a number"));
+    let labels = [earlier, fields].map(|all| all[0].parse::<usize>().unwrap());
     let mut changes = vec![format!("*({})", labels[1] - labels[0])];
     for (place, (old, new)) in earlier.iter().zip(fields).enumerate().skip(1) {
         if earlier[place..] == fields[place..] {
@@ -602,7 +593,7 @@ fn write_supports(
     for (held, grids) in lists {
         let rotations = deck.pick(&["", "456", "4"]);
         let mut fields = vec!["2".to_owned(), format!("{held}{rotations}")];
-        let labels: Vec<usize> = model.grids.iter().map(|grid| grid.label).collect();
+        let labels = model.grids.iter().map(|grid| grid.label).collect_vec();
         let mut rest = &grids[..];
         while let [first, more @ ..] = rest {
             fields.push(first.to_string());
@@ -621,7 +612,7 @@ fn write_supports(
         deck.card("SPC1", &fields);
     }
     // Sets 1 and 2 must exist; what these hold is held anyway, and set 9 is not selected.
-    let last = model.grids.last().expect("a grid").label.to_string();
+    let last = model.grids.last().unwrap().label.to_string();
     deck.card("SPC", &words(["1", &last, "123456"]));
     let first = model.grids[0].label.to_string();
     deck.card("SPC1", &words(["2", "1", &last]));
@@ -653,7 +644,7 @@ fn write_elements(deck: &mut Deck, model: &BulkData) {
         });
         let (label, material) = (label.to_string(), (row + 1).to_string());
         let size = deck.number(*size);
-        let corners: Vec<String> = grids.iter().map(usize::to_string).collect();
+        let corners = grids.iter().map(usize::to_string).collect_vec();
         let (connection, property) = match kind {
             ElementKind::Rod if deck.chance(2) => {
                 let [a, b] = [corners[0].clone(), corners[1].clone()];
@@ -716,7 +707,7 @@ fn write_masses_and_ties(deck: &mut Deck, model: &BulkData, systems: &BTreeMap<u
     let own = |grid: usize, direction: usize| {
         let (along, signs) = turned(systems.get(&grid).copied().unwrap_or(0));
         let axis = along.iter().position(|basic| *basic == direction);
-        let axis = axis.expect("a direction");
+        let axis = axis.unwrap();
         ((axis + 1).to_string(), signs[axis])
     };
     let mut properties: Vec<String> = Vec::new();
@@ -754,8 +745,8 @@ fn write_masses_and_ties(deck: &mut Deck, model: &BulkData, systems: &BTreeMap<u
         terms,
     } in &model.ties
     {
-        let all = std::iter::once((dependent, coefficient))
-            .chain(terms.iter().map(|(dof, value)| (dof, value)));
+        let all =
+            once((dependent, coefficient)).chain(terms.iter().map(|(dof, value)| (dof, value)));
         let set = deck.pick(&["3", "4"]);
         used.insert(set.to_owned());
         let mut fields = words([set]);
@@ -773,17 +764,15 @@ fn write_masses_and_ties(deck: &mut Deck, model: &BulkData, systems: &BTreeMap<u
         deck.card("MPC", &fields);
     }
     // An equation of a set that nothing selects.
-    let last = model.grids.last().expect("a grid").label.to_string();
+    let last = model.grids.last().unwrap().label.to_string();
     deck.card("MPC", &words(["9", &last, "1", "1."]));
     if !model.ties.is_empty() {
-        let fields: Vec<String> = words(["8"]).into_iter().chain(used).collect();
+        let fields = words(["8"]).into_iter().chain(used).collect_vec();
         deck.card("MPCADD", &fields);
     }
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn decks_of_every_card_in_every_form_are_read_back_equal(model in bulk_data(), seed in any::<u64>()) {
         let (text, model, _) = drawn(model, seed);
@@ -801,13 +790,13 @@ fn drawn_decks_have_every_card_in_every_form() {
     let mut runner = TestRunner::deterministic();
     let mut seen = BTreeSet::new();
     for seed in 0..300 {
-        let model = bulk_data().new_tree(&mut runner).expect("a draw").current();
+        let model = bulk_data().new_tree(&mut runner).unwrap().current();
         seen.extend(drawn(model, seed).2);
     }
     let cards = CARDS
         .iter()
         .flat_map(|card| ["small", "large", "free"].map(|form| format!("{card} {form}")));
     let all = cards.chain(FORMS.map(str::to_owned));
-    let missing: Vec<String> = all.filter(|form| !seen.contains(form)).collect();
+    let missing = all.filter(|form| !seen.contains(form)).collect_vec();
     assert!(missing.is_empty(), "{missing:?}");
 }

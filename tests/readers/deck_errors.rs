@@ -1,8 +1,6 @@
 //! What is wrong with a deck is named: file, line, card and field.
 
-use corfem::files::deck;
-use corfem::files::error::FileError;
-use corfem::method::error::Error;
+use crate::prelude::*;
 
 /// A structure that reads: two grids, a rod, a material, its constraints, a mass.
 pub const GOOD: &str = "\
@@ -17,7 +15,7 @@ CMASS2,7,.4,2,1
 
 /// The error of [`GOOD`] with one more card, or with one of its lines replaced.
 pub fn error(line: Option<usize>, card: &str) -> FileError {
-    let mut lines: Vec<&str> = GOOD.lines().collect();
+    let mut lines = GOOD.lines().collect_vec();
     match line {
         Some(line) => lines[line - 1] = card,
         None => lines.push(card),
@@ -108,13 +106,13 @@ const BAD_FIELDS: &str = "\
 #[test]
 fn a_bad_field_is_named_with_file_line_and_card() {
     for row in BAD_FIELDS.lines() {
-        let [line, card, field, expected, found] = row.split(" | ").collect::<Vec<_>>()[..] else {
+        let [line, card, field, expected, found] = row.split(" | ").collect_vec()[..] else {
             panic!("{row}");
         };
         let line = line.parse().ok();
         let field: usize = field.parse().expect(row);
         let error = error(line, card);
-        let name = card.split([',', '*']).next().expect("a name");
+        let name = card.split([',', '*']).next().unwrap();
         let FileError::DeckField {
             file,
             line: at,
@@ -210,9 +208,7 @@ fn messages_say_what_is_wrong_and_where() {
 
 #[test]
 fn what_no_deck_can_hold_is_refused() {
-    let mut model = deck::read("wing.dat", GOOD.as_bytes(), &[])
-        .expect("it reads")
-        .model;
+    let mut model = deck::read("wing.dat", GOOD.as_bytes(), &[]).unwrap().model;
     let write = |model: &deck::BulkData| deck::write(model, "", &deck::Task::Matrices);
     model.grids[0].position.y = f64::NAN;
     let error = write(&model).expect_err("not a number");

@@ -1,8 +1,7 @@
 //! Lines of a deck that are no cards, and case control that cannot be followed.
 
+use crate::prelude::*;
 use crate::readers::deck_errors::{GOOD, error};
-use corfem::files::deck;
-use corfem::files::error::FileError;
 
 #[test]
 fn a_line_that_is_no_card_is_named() {

@@ -1,10 +1,6 @@
 //! One deck in the forms in which programs write it: what is read is the same, or the line is named.
 
-use crate::common::tolerances::ROUND_OFF;
-use corfem::files::deck::{self, BulkData, Reason};
-use corfem::method::structure::{DIRECTIONS, StructuralDof};
-use nalgebra::Vector3;
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Two rods in a row and a mass, as fields of cards.
 const CARDS: [&str; 9] = [
@@ -36,17 +32,15 @@ fn all() -> String {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// A free real number of any length, with any exponent, is the number that it says.
     #[test]
     fn free_reals_of_any_length_are_read(value in -1e6..1e6_f64, digits in 1..25_usize, letter in prop::sample::select(vec!["E", "D", "e", ""])) {
         let written = format!("{value:.digits$e}").replace('e', "E");
-        let (mantissa, exponent) = written.split_once('E').expect("an exponent");
-        let exponent: i32 = exponent.parse().expect("an integer");
+        let (mantissa, exponent) = written.split_once('E').unwrap();
+        let exponent: i32 = exponent.parse()?;
         let word = format!("{mantissa}{letter}{exponent:+}");
         let grid = read(&all().replace("10.5", &word)).grids[1].position.x;
-        prop_assert_eq!(grid, written.parse::<f64>().expect("a number"), "{}", word);
+        prop_assert_eq!(grid, written.parse::<f64>()?, "{}", word);
     }
 }
 
@@ -69,33 +63,13 @@ fn what_stands_around_the_bulk_data_may_be_short() {
     );
 }
 
-/// A line of more than ten free fields goes on as its next would.
-#[test]
-fn free_lines_of_many_fields_go_on() {
-    let grids: String = (1..=12)
-        .map(|label| format!("GRID,{label},,{label}.\n"))
-        .collect();
-    let held = |card: &str| {
-        let grids = read(&format!("{grids}{card}\n")).grids;
-        let held = grids
-            .into_iter()
-            .filter(|grid| grid.constrained == [true, false, false]);
-        held.map(|grid| grid.label).collect::<Vec<_>>()
-    };
-    assert_eq!(held("SPC1,1,1,1,2,3,4,5,6,+,7,8"), [1, 2, 3, 4, 5, 6, 7, 8]);
-    assert_eq!(
-        held("SPC1,1,1,1,2,3,4,5,6,7,8,9"),
-        [1, 2, 3, 4, 5, 6, 7, 8, 9]
-    );
-}
-
 #[test]
 fn a_card_repeats_the_one_before() {
     let grids = read("GRID,1,,0.,2.5,0.,,13\n=,*(2),=,*(1.5),==\n=(2)\nGRID,9,,1.\n").grids;
-    let found: Vec<_> = grids
+    let found = grids
         .iter()
         .map(|grid| (grid.label, grid.position.x, grid.position.y))
-        .collect();
+        .collect_vec();
     assert_eq!(
         found,
         [
@@ -180,10 +154,7 @@ GRID,13,,0.,0.,2.
 ";
     let grid = |fields: &str| {
         let grids = read(&format!("{systems}GRID,20,{fields}\n")).grids;
-        grids
-            .into_iter()
-            .find(|grid| grid.label == 20)
-            .expect("the grid")
+        grids.into_iter().find(|grid| grid.label == 20).unwrap()
     };
     let near = |place: Vector3<f64>, x: f64, y: f64, z: f64| {
         assert!(
@@ -275,11 +246,11 @@ fn a_grid_that_nothing_touches_is_held_and_said() {
         (all() + "GRID,8,,1.\nGRID,9,,2.\n").as_bytes(),
         &[],
     );
-    let unread = found.expect("it reads").unread;
-    let said: Vec<_> = unread
+    let unread = found.unwrap().unread;
+    let said = unread
         .iter()
         .map(|card| (card.place(), card.reason))
-        .collect();
+        .collect_vec();
     assert_eq!(
         said,
         [("GRID (line 10, 2 cards)".to_owned(), Reason::Untouched)]

@@ -1,16 +1,7 @@
 //! One law for gage and mass, for the model and for its deck: stiffness factors leave every mass alone.
 
-use crate::common::decks::bulk_text;
-use crate::common::structures::lumped_mass;
-use crate::common::tolerances::{DECK_ROOTS, DECK_ROUNDING, ROUND_OFF};
+use crate::prelude::*;
 use crate::spec::s2_parameters_mass::DENSITY;
-use corfem::files::deck::{self, BulkData};
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::modes::solve;
-use corfem::method::structure::Structure;
-use corfem::torque_box::Case;
-use nalgebra::{DMatrix, DVector, Vector3};
-use proptest::prelude::*;
 
 /// Structural DOF of the box, all of them dynamic here.
 pub const DOF: usize = 36;
@@ -30,7 +21,7 @@ enum Changed {
 /// With all these DOF dynamic nothing is condensed, so that the modes of the model are those of the structure. Its parameters are the
 /// stiffness of covers and of webs.
 pub fn whole_box([covers, webs, rods]: [f64; 3], points: &[f64]) -> FiniteElementModel {
-    let model = Case::new(2).and_then(|case| case.model()).expect("a model");
+    let model = Case::new(2).and_then(|case| case.model()).unwrap();
     let mut elements = model.structure().elements().to_vec();
     for element in &mut elements {
         element.material.density = match element.label {
@@ -41,39 +32,35 @@ pub fn whole_box([covers, webs, rods]: [f64; 3], points: &[f64]) -> FiniteElemen
     }
     let grids = model.structure().grids().to_vec();
     FiniteElementModel::new(
-        Structure::new(grids, elements).expect("a structure"),
-        DMatrix::identity(DOF, DOF),
+        Structure::new(grids, elements).unwrap(),
+        eye(DOF),
         DMatrix::from_diagonal(&points.to_vec().into()),
         vec![
             Parameter::new("covers", &COVERS),
             Parameter::new("webs", &WEBS),
         ],
     )
-    .expect("a model")
+    .unwrap()
 }
 
 /// Squared frequencies of a box with the masses of its points and those that its elements have at their first sizes.
 pub fn roots(model: &FiniteElementModel, factors: &[f64]) -> DVector<f64> {
     let mass = model.mass() + DMatrix::from_diagonal(&lumped_mass(model.structure()));
-    let stiffness = model.condense(factors).expect("held").stiffness;
-    let modes = solve(&stiffness, &mass, DOF).expect("modes");
+    let stiffness = model.condense(factors).unwrap().stiffness;
+    let modes = solve(&stiffness, &mass, DOF).unwrap();
     modes.omega_squared().clone()
 }
 
 /// Squared frequencies of the model, and of its deck written and read again.
 fn both(model: &FiniteElementModel, factors: &[f64]) -> [Vec<f64>; 2] {
-    let bulk = BulkData::from_model(model, factors, &[Vector3::zeros(); DOF]).expect("bulk data");
-    let text = bulk_text(&bulk).expect("a deck");
-    let read = deck::read("box", text.as_bytes(), &[])
-        .expect("it reads")
-        .model;
-    let modes = deck::modes(&read, usize::MAX).expect("modes").modes;
+    let bulk = BulkData::from_model(model, factors, &[Vector3::zeros(); DOF]).unwrap();
+    let text = bulk_text(&bulk).unwrap();
+    let read = deck::read("box", text.as_bytes(), &[]).unwrap().model;
+    let modes = deck::modes(&read, usize::MAX).unwrap().modes;
     [&roots(model, factors), modes.omega_squared()].map(|squared| squared.as_slice().to_vec())
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn modes_of_the_written_deck_are_those_of_the_model(
         stiffness in prop::array::uniform2(0.3..3.0_f64),
@@ -95,7 +82,7 @@ properties! {
         let tolerance = 2.0 * DECK_ROUNDING + ROUND_OFF * spread;
         prop_assert!(tolerance < DECK_ROOTS, "{}", spread);
         for (own, written) in own.iter().zip(&written) {
-            prop_assert!((own / written - 1.0).abs() < tolerance, "{own} {written} {tolerance}");
+            prop_assert!(relative_error(own, written) < tolerance, "{own} {written} {tolerance}");
         }
     }
 }
@@ -106,7 +93,7 @@ fn the_deck_keeps_the_mass_of_the_first_size() {
     let [first, heavy] =
         [1.0, 4.0].map(|rods| whole_box([DENSITY, DENSITY, rods * DENSITY], &[0.002; DOF]));
     let bulk = BulkData::from_model(&heavy, &[1.5, 1.0], &[Vector3::zeros(); DOF]);
-    let bulk = bulk.expect("bulk data");
+    let bulk = bulk.unwrap();
     let before = BulkData::from_structure(first.structure());
     for (element, before) in bulk.elements.iter().zip(&before.elements) {
         let gage = element.size / before.size;

@@ -1,19 +1,9 @@
 //! Modes of decks whose answers are known in closed form.
 
-use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
-use crate::common::tolerances::{
-    COUNTED_ROOT, DIFFERENCE_ROUND_OFF, EIGEN_ROUND_OFF, UNLIKE_STIFFNESS,
-};
-use corfem::files::deck::number::{large_real, nearest_in_field};
-use corfem::files::deck::{self, Reason};
-use corfem::files::error::FileError;
-use corfem::method::error::Error;
-use corfem::sparse::whole_modes::WholeModes;
-use proptest::prelude::*;
-use std::f64::consts::PI;
+use crate::prelude::*;
 
 fn modes(text: &str) -> Result<WholeModes, FileError> {
-    deck::modes(&deck::read("test", text.as_bytes(), &[])?.model, usize::MAX)
+    deck::modes(&read_deck(text)?.model, usize::MAX)
 }
 
 /// A rod of E A/L = 1000 lbf/in from a fixed grid 1 along x to grid 2, which moves along x alone.
@@ -31,7 +21,7 @@ SPC1,1,23456,2
 fn one_mass_on_one_rod() {
     // From one cycle in a minute to a megahertz.
     for (text, mass) in [(".4", 0.4_f64), ("4.-11", 4e-11), ("4.+4", 4e4)] {
-        let found = modes(&format!("{ROD}CMASS2,7,{text},2,1")).expect("modes");
+        let found = modes(&format!("{ROD}CMASS2,7,{text},2,1")).unwrap();
         assert_eq!(found.modes.shapes().shape(), (1, 1));
         let frequency = (1000.0 / mass).sqrt() / (2.0 * PI);
         approx::assert_relative_eq!(
@@ -54,7 +44,7 @@ fn conm2_moves_where_the_grid_can() {
     let found = modes(&format!(
         "{ROD}CONM2,7,2,,.3\nCONM2,8,1,0,5.\nCMASS2,9,.1,2,1"
     ))
-    .expect("modes");
+    .unwrap();
     assert_eq!(found.dof.len(), 1);
     let frequency = (1000.0 / 0.4_f64).sqrt() / (2.0 * PI);
     approx::assert_relative_eq!(
@@ -66,7 +56,7 @@ fn conm2_moves_where_the_grid_can() {
 
 #[test]
 fn density_lumps_half_a_rod_at_either_end() {
-    let found = modes(&ROD.replace("1.+6,,.3", "1.+6,,.3,2.-4")).expect("modes");
+    let found = modes(&ROD.replace("1.+6,,.3", "1.+6,,.3,2.-4")).unwrap();
     let mass = 2e-4 * 0.01 * 10.0 / 2.0;
     let frequency = (1000.0_f64 / mass).sqrt() / (2.0 * PI);
     approx::assert_relative_eq!(
@@ -82,7 +72,7 @@ fn masses_that_the_structure_cannot_tell_apart_make_one_mode() {
     let tied = format!(
         "{ROD}GRID,3,,20.,0.,0.,,23\nMPC,1,3,1,-.5,2,1,1.\nCMASS2,7,.4,2,1\nCMASS2,8,.1,3,1"
     );
-    let found = modes(&tied).expect("modes");
+    let found = modes(&tied).unwrap();
     assert_eq!(found.dof.len(), 2);
     assert_eq!(found.modes.shapes().shape(), (2, 1));
     let frequency = (1000.0 / 0.8_f64).sqrt() / (2.0 * PI);
@@ -108,7 +98,7 @@ fn two_masses_and_two_rods_in_ascending_order() {
     let chain = format!(
         "{ROD}GRID,3,,20.,0.,0.,,23456\nCONROD,2,2,3,1,.01\nCMASS2,7,1.,2,1\nCMASS2,8,1.,3,1"
     );
-    let found = modes(&chain).expect("modes");
+    let found = modes(&chain).unwrap();
     // Two equal masses and springs: ω² = (3 ∓ √5)/2 k/m.
     for (root, sign) in found.modes.omega_squared().iter().zip([-1.0, 1.0]) {
         let expected = 1000.0 * (3.0 + sign * 5.0_f64.sqrt()) / 2.0;
@@ -125,7 +115,7 @@ fn a_tie_to_a_held_dof_adds_nothing() {
     let tied = format!(
         "{ROD}GRID,3,,20.,0.,0.,,23456\nMPC,1,3,1,-1.,2,1,1.,,+A\n+A,,1,1,7.\nCMASS2,8,.4,3,1"
     );
-    let found = modes(&tied).expect("modes");
+    let found = modes(&tied).unwrap();
     let frequency = (1000.0 / 0.4_f64).sqrt() / (2.0 * PI);
     approx::assert_relative_eq!(
         found.modes.frequencies_hz()[0],
@@ -151,9 +141,9 @@ fn a_deck_without_mass_is_refused_and_a_grid_that_nothing_touches_is_held() {
     );
     let loose = format!("{ROD}GRID,3,,20.,0.,0.,,23456\nCMASS2,8,.4,2,1");
     let held = loose.replace(",23456\nCMASS2", ",123456\nCMASS2");
-    assert_eq!(modes(&loose).expect("modes"), modes(&held).expect("modes"));
+    assert_eq!(modes(&loose).unwrap(), modes(&held).unwrap());
     let unread = deck::read("loose.bdf", loose.as_bytes(), &[])
-        .expect("it reads")
+        .unwrap()
         .unread;
     assert_eq!(
         (unread[0].card.as_str(), unread[0].line, unread[0].reason),
@@ -197,12 +187,10 @@ fn chain(moduli: [f64; 2], masses: [f64; 2]) -> String {
 }
 
 fn real(value: f64) -> String {
-    large_real(value).expect("a finite number")
+    large_real(value).unwrap()
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// However unlike the parts, there are both modes and they are right, or an error says which parts are too unlike.
     #[test]
     fn no_mode_is_lost_in_silence(
@@ -271,7 +259,7 @@ fn parts_too_unlike_are_named() {
 fn an_element_that_no_free_motion_stretches_may_be_stiff() {
     let deck = chain([1e6; 2], [1.0; 2]);
     let held = format!("{deck}GRID,4,,30.,0.,0.,,123\nCONROD,9,1,4,9,1.\nMAT1,9,1.+30,,.3\n");
-    assert_eq!(modes(&held).expect("modes"), modes(&deck).expect("modes"));
+    assert_eq!(modes(&held).unwrap(), modes(&deck).unwrap());
 }
 
 #[test]
@@ -322,8 +310,8 @@ fn a_long_chain_has_the_lowest_modes_of_the_closed_form() {
             label - 1
         );
     }
-    let read = deck::read("chain", deck.as_bytes(), &[]).expect("a deck");
-    let found = deck::modes(&read.model, 5).expect("modes");
+    let read = deck::read("chain", deck.as_bytes(), &[]).unwrap();
+    let found = deck::modes(&read.model, 5).unwrap();
     assert_eq!((found.dof.len(), found.modes.len()), (count, 5));
     let expected = chain_eigenvalues(ChainEnds::FixedFree, count, 1e4, 1.0);
     for (found, expected) in found.modes.omega_squared().iter().zip(&expected) {
@@ -336,7 +324,7 @@ fn a_free_structure_has_its_rigid_body_modes_counted_and_left_out() {
     // Two masses and a rod between them: ω² = k(1/m₁ + 1/m₂).
     let free = "GRID,1,,0.,0.,0.,,23\nGRID,2,,10.,0.,0.,,23\nCONROD,1,1,2,1,1.\nMAT1,1,1.+4,,.3\n\
                 CMASS2,7,.4,1,1\nCMASS2,8,.1,2,1";
-    let found = modes(free).expect("modes");
+    let found = modes(free).unwrap();
     assert_eq!((found.rigid_body, found.modes.len()), (1, 1));
     approx::assert_relative_eq!(
         found.modes.omega_squared()[0],
@@ -354,7 +342,7 @@ fn a_stiff_link_of_a_free_structure_takes_none_of_its_vibrations() {
     let free = "GRID,1,,0.,0.,0.,,23\nGRID,2,,10.,0.,0.,,23\nGRID,3,,20.,0.,0.,,23\nGRID,4,,30.,0.,0.,,23\n\
                 CONROD,1,1,2,1,.01\nCONROD,2,2,3,1,.01\nCONROD,3,3,4,1,1.+8\nMAT1,1,1.+7,,.3\n\
                 CONM2,1,1,,1.\nCONM2,2,2,,1.\nCONM2,3,3,,1.\nCONM2,4,4,,1.";
-    let found = modes(free).expect("modes");
+    let found = modes(free).unwrap();
     assert_eq!((found.rigid_body, found.modes.len()), (1, 3));
     // The last two masses move as one: a free chain of masses 1, 1 and 2, whose roots have this sum and product.
     let (k, m): (f64, [f64; 3]) = (1e4, [1.0, 1.0, 2.0]);

@@ -1,10 +1,6 @@
 //! What a deck may say and how: sets, two to a card, defaults, ranges, formats.
 
-use crate::common::decks::bulk_text;
-use crate::common::tolerances::ROUND_OFF;
-use corfem::files::deck::{self, Reason, Unread};
-use corfem::files::error::FileError;
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// A rod of E A/L = 1000 lbf/in from a fixed grid 1 along x to grid 2, which moves along x alone.
 const ROD: &str = "\
@@ -23,7 +19,7 @@ fn case_control_selects_the_sets() {
         "ID A,B\nCEND\nSPC = 1\n  mpc=4\nBEGIN  BULK\n{ROD}GRID,3,,20.,0.,0.,,23456\nMPC,4,3,1,-1.,2,1,1.\n\
          MPC,5,3,1,-1.,2,1,3.\nSPC1,2,1,2\nCMASS2,8,.4,3,1\nENDDATA\nnonsense"
     );
-    let read = deck::read("test", deck.as_bytes(), &[]).expect("it reads");
+    let read = read_deck(&deck).unwrap();
     let skipped = |card: &str, line, count| Unread {
         card: card.into(),
         line,
@@ -36,7 +32,7 @@ fn case_control_selects_the_sets() {
     assert!(!read.model.grids[1].constrained[0]);
     // Case control that selects nothing holds nothing.
     let loose = format!("CEND\nBEGIN BULK\n{ROD}CMASS2,8,.4,2,1");
-    let read = deck::read("test", loose.as_bytes(), &[]).expect("it reads");
+    let read = read_deck(&loose).unwrap();
     assert_eq!(read.unread, [skipped("SPC1", 8, 2)]);
     assert!(
         read.model
@@ -51,12 +47,12 @@ fn cards_without_part_in_the_model_are_listed_by_name() {
     let deck = format!(
         "PARAM,GRDPNT,0\n{ROD}CMASS2,8,.4,2,1\nFORCE,9,2,0,1.,1.\nEIGR,1,INV\nPARAM,POST,-1\n+X,MAX\n"
     );
-    let error = deck::read("test", deck.as_bytes(), &[]).expect_err("+X continues nothing");
+    let error = read_deck(&deck).expect_err("+X continues nothing");
     assert!(
         matches!(error, FileError::DeckLine { line: 13, .. }),
         "{error}"
     );
-    let read = deck::read("test", deck.replace("+X,MAX\n", "").as_bytes(), &[]).expect("it reads");
+    let read = read_deck(deck.replace("+X,MAX\n", "")).unwrap();
     let listed = |card: &str, line, count| Unread {
         card: card.into(),
         line,
@@ -69,17 +65,14 @@ fn cards_without_part_in_the_model_are_listed_by_name() {
 /// Grids 1 to 4 along x, and what the SPC1 cards of a deck constrain of their x, or its error.
 fn held(control: &str, supports: &str) -> Result<Vec<bool>, FileError> {
     let deck = format!("{control}GRID,1\nGRID,2\nGRID,3\nGRID,4\n{supports}");
-    let grids = deck::read("test", deck.as_bytes(), &[])?.model.grids;
+    let grids = read_deck(&deck)?.model.grids;
     Ok(grids.into_iter().map(|grid| grid.constrained[0]).collect())
 }
 
 #[test]
 fn spcadd_joins_sets() {
     let supports = "SPCADD,10,1,2\nSPC1,1,1,1\nSPC1,2,1,2,3\n";
-    assert_eq!(
-        held("", supports).expect("one union"),
-        [true, true, true, false]
-    );
+    assert_eq!(held("", supports).unwrap(), [true, true, true, false]);
     let more = format!("{supports}SPC1,7,1,4\nSPCADD,11,1,,7\n");
     for (set, expected) in [
         (10, [true, true, true, false]),
@@ -87,34 +80,19 @@ fn spcadd_joins_sets() {
         (2, [false, true, true, false]),
     ] {
         assert_eq!(
-            held(&format!("SPC = {set}\nBEGIN BULK\n"), &more).expect("it reads"),
+            held(&format!("SPC = {set}\nBEGIN BULK\n"), &more).unwrap(),
             expected,
             "{set}"
         );
     }
     let own = format!("{supports}SPC1,10,1,4\n");
     assert_eq!(
-        held("SPC = 10\nBEGIN BULK\n", &own).expect("it reads"),
+        held("SPC = 10\nBEGIN BULK\n", &own).unwrap(),
         [true, true, true, false],
         "its sets alone"
     );
     let long = "SPCADD,10,1,1,1,1,1,1,1,+A\n+A,2\nSPC1,1,1,1\nSPC1,2,1,2\n";
-    assert_eq!(
-        held("", long).expect("it reads"),
-        [true, true, false, false]
-    );
-}
-
-#[test]
-fn mpcadd_joins_sets() {
-    let ties = "MPCADD,10,1,2\nMPC,1,2,1,-1.,1,1,1.\nMPC,2,3,1,-1.,1,1,1.\n";
-    let read = deck::read(
-        "test",
-        format!("GRID,1\nGRID,2\nGRID,3\n{ties}").as_bytes(),
-        &[],
-    )
-    .expect("it reads");
-    assert_eq!(read.model.ties.len(), 2);
+    assert_eq!(held("", long).unwrap(), [true, true, false, false]);
 }
 
 #[test]
@@ -166,15 +144,13 @@ fn sets_that_do_not_exist_or_that_nothing_selects_are_refused() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// The deck of a weighted model is another deck of the same model, without the parameter.
     #[test]
     fn wtmass_multiplies_masses_and_densities(model in crate::common::decks::bulk_data(), factor in 1e-4..1e4_f64) {
         let factor = deck::number::nearest_in_field(factor);
-        let value = deck::number::large_real(factor).expect("a number");
-        let text = bulk_text(&model).expect("a deck");
-        let weighted = deck::read("test", format!("PARAM*,WTMASS,{value}\n{text}").as_bytes(), &[]).expect("it reads");
+        let value = deck::number::large_real(factor).unwrap();
+        let text = bulk_text(&model)?;
+        let weighted = read_deck(format!("PARAM*,WTMASS,{value}\n{text}"))?;
         prop_assert!(weighted.unread.iter().all(|card| card.reason == deck::Reason::Untouched));
         let mut expected = model;
         for element in &mut expected.elements {
@@ -184,7 +160,7 @@ properties! {
             point.mass = deck::number::nearest_in_field(factor * point.mass);
         }
         prop_assert_eq!(&weighted.model, &expected);
-        let again = deck::read("test", bulk_text(&weighted.model).expect("a deck").as_bytes(), &[]).expect("it reads");
+        let again = read_deck(bulk_text(&weighted.model)?)?;
         prop_assert_eq!(&again.model, &expected);
     }
 }
@@ -193,14 +169,7 @@ properties! {
 fn wtmass_may_stand_in_case_control_and_counts_once() {
     let text = format!("PARAM,WTMASS,.5\nSPC = 1\nBEGIN BULK\n{ROD}CMASS2,8,.4,2,1\n");
     for text in [text.clone(), format!("SUBCASE 1\n  {text}")] {
-        assert_eq!(
-            deck::read("test", text.as_bytes(), &[])
-                .expect("it reads")
-                .model
-                .masses[0]
-                .mass,
-            0.2
-        );
+        assert_eq!(read_deck(&text).unwrap().model.masses[0].mass, 0.2);
     }
     for (more, line, what) in [
         ("PARAM,WTMASS,.5", 12, "the second PARAM,WTMASS"),
@@ -217,9 +186,7 @@ fn wtmass_may_stand_in_case_control_and_counts_once() {
         } else {
             format!("{text}{more}\n")
         };
-        let error = deck::read("test", text.as_bytes(), &[])
-            .expect_err(more)
-            .to_string();
+        let error = read_deck(&text).expect_err(more).to_string();
         assert!(
             error.starts_with(&format!("test, line {line}:")) && error.contains(what),
             "{error}"
@@ -229,7 +196,7 @@ fn wtmass_may_stand_in_case_control_and_counts_once() {
 
 #[test]
 fn latin_1_and_a_byte_order_mark_are_read() {
-    let expected = deck::read("test", ROD.as_bytes(), &[]).expect("it reads");
+    let expected = read_deck(ROD).unwrap();
     let marked = [
         b"\xEF\xBB\xBF$ \xC3\x84nderung\n".as_slice(),
         ROD.as_bytes(),
@@ -245,7 +212,7 @@ fn latin_1_and_a_byte_order_mark_are_read() {
         marked,
         latin_1,
     ] {
-        assert_eq!(deck::read("test", &bytes, &[]).expect("it reads"), expected);
+        assert_eq!(deck::read("test", &bytes, &[]).unwrap(), expected);
     }
     let name = [ROD.as_bytes(), b"CR\xD6D,2,1,1,2\n"].concat();
     let error = deck::read("test", &name, &[]).expect_err("no card has such a letter");
@@ -273,10 +240,12 @@ PSHEAR,41,1,.3,,40,1,.4
 PQDMEM,50,1,.5
 MAT1,1,1.04+7,4.+6
 ";
-    let model = deck::read("test", deck.as_bytes(), &[])
-        .expect("it reads")
-        .model;
-    let sizes: Vec<f64> = model.elements.iter().map(|element| element.size).collect();
+    let model = read_deck(deck).unwrap().model;
+    let sizes = model
+        .elements
+        .iter()
+        .map(|element| element.size)
+        .collect_vec();
     assert_eq!(sizes, [0.5, 0.25, 0.1, 0.4, 0.5]);
     assert_eq!(model.elements[1].grids, [2, 3]);
     assert_eq!(model.elements[2].grids, [1, 2, 3]);
@@ -300,18 +269,18 @@ MAT1,1,1.04+7,4.+6
 fn mat1_derives_what_is_blank() {
     let with = |fields: &str| {
         let deck = ROD.replace("MAT1,1,1.+6,,.3", &format!("MAT1,1,{fields}"));
-        deck::read("test", deck.as_bytes(), &[]).map(|deck| deck.model.elements[0].material)
+        read_deck(&deck).map(|deck| deck.model.elements[0].material)
     };
-    let material = with("1.+7,,.25,3.-4").expect("E and nu");
+    let material = with("1.+7,,.25,3.-4").unwrap();
     assert_eq!((material.shear_modulus, material.density), (4e6, 3e-4));
-    let material = with(",4.+6,.25").expect("G and nu");
+    let material = with(",4.+6,.25").unwrap();
     assert_eq!(
         (material.youngs_modulus, material.shear_modulus),
         (1e7, 4e6)
     );
-    let material = with("1.+7").expect("E alone, of rods");
+    let material = with("1.+7").unwrap();
     assert_eq!(material.youngs_modulus, 1e7);
-    let material = with("1.+7,3.+6,.25").expect("all three");
+    let material = with("1.+7,3.+6,.25").unwrap();
     assert_eq!(material.shear_modulus, 3e6);
     for (fields, field) in [
         (",4.+6", 3),
@@ -343,9 +312,7 @@ SPC1,1,23,5,,9,,,,+B
 SPC1,1,3,12,THRU,12
 +B,12
 ";
-    let model = deck::read("test", deck.as_bytes(), &[])
-        .expect("it reads")
-        .model;
+    let model = read_deck(deck).unwrap().model;
     let constrained: Vec<[bool; 3]> = model.grids.iter().map(|grid| grid.constrained).collect();
     let x = [true, false, false];
     let yz = [false, true, true];
@@ -357,15 +324,13 @@ SPC1,1,3,12,THRU,12
 fn a_range_may_go_on_in_the_next_line() {
     let grids = "GRID,1\nGRID,2\nGRID,3\nGRID,4\n";
     let supports = "SPC1,1,1,,,,,,1,+B\n+B,THRU,3\nSPC1,1,2,,,,,2,THRU,+C\n+C,3,4\n";
-    let model = deck::read("test", format!("{grids}{supports}").as_bytes(), &[])
-        .expect("it reads")
-        .model;
+    let model = read_deck(format!("{grids}{supports}")).unwrap().model;
     let constrained = model.grids.iter().map(|grid| grid.constrained);
     let x = [true, false, false];
     let xy = [true, true, false];
     assert!(constrained.eq([x, xy, xy, [false, true, false]]));
     let unknown = format!("{grids}SPC1,1,1,,,,,,1,+B\n+B,7\n");
-    let error = deck::read("test", unknown.as_bytes(), &[]).expect_err("there is no grid 7");
+    let error = read_deck(&unknown).expect_err("there is no grid 7");
     assert!(
         matches!(&error, FileError::DeckField { line: 6, field: 12, reason, .. } if reason.contains("\"7\"")),
         "{error}"
@@ -373,28 +338,15 @@ fn a_range_may_go_on_in_the_next_line() {
 }
 
 #[test]
-fn grdset_holds_where_a_grid_says_nothing() {
-    let deck = "GRDSET,,,,,,,3\nGRID,1\nGRID,2,,1.,,,,1\n";
-    let grids = deck::read("test", deck.as_bytes(), &[])
-        .expect("it reads")
-        .model
-        .grids;
-    assert_eq!(grids[0].constrained, [false, false, true]);
-    assert_eq!(grids[1].constrained, [true, false, false]);
-}
-
-#[test]
 fn neighbors_constrained_alike_are_written_as_a_range_and_one_alone_is_not() {
     let deck = "GRID,1,,,,,,12\nGRID,2,,1.,,,,12\nGRID,3,,2.,,,,3\nGRID,4,,3.\n";
-    let model = deck::read("test", deck.as_bytes(), &[])
-        .expect("it reads")
-        .model;
-    let text = bulk_text(&model).expect("a deck");
-    let constrained: Vec<Vec<&str>> = text
+    let model = read_deck(deck).unwrap().model;
+    let text = bulk_text(&model).unwrap();
+    let constrained = text
         .lines()
         .filter(|line| line.starts_with("SPC1"))
-        .map(|line| line.split_whitespace().skip(2).collect())
-        .collect();
+        .map(|line| line.split_whitespace().skip(2).collect_vec())
+        .collect_vec();
     assert_eq!(
         constrained,
         [
@@ -403,37 +355,4 @@ fn neighbors_constrained_alike_are_written_as_a_range_and_one_alone_is_not() {
             vec!["456", "4"]
         ]
     );
-}
-
-#[test]
-fn formats_and_sections_of_a_deck_by_hand() {
-    // Small fields, tabs, a large card whose second half is missing, and a continuation without a tag.
-    let deck = "\
-GRID*                  1                              1.              2.
-GRID\t2\t\t3.\t4.\t5.\t\t12\t\tremark
-MPC     1       1       1       1.      2       3       .5
-        \t2\t3\t1.5
-";
-    let model = deck::read("test", deck.as_bytes(), &[])
-        .expect("it reads")
-        .model;
-    assert_eq!(model.grids[0].position.as_slice(), [1.0, 2.0, 0.0]);
-    assert_eq!(model.grids[1].position.as_slice(), [3.0, 4.0, 5.0]);
-    assert_eq!(model.grids[1].constrained, [true, true, false]);
-    assert_eq!(model.ties[0].terms.len(), 2);
-    assert_eq!(model.ties[0].terms[1].1, 1.5);
-}
-
-#[test]
-fn what_stands_behind_column_80_does_not_count() {
-    let card = format!("{:80}12345678", "GRID    1               1.");
-    let more = format!(
-        "{:80}12345678",
-        "GRID*                  2                              1.              2."
-    );
-    let model = deck::read("test", format!("{card}\n{more}\n").as_bytes(), &[])
-        .expect("it reads")
-        .model;
-    assert_eq!(model.grids[0].position.as_slice(), [1.0, 0.0, 0.0]);
-    assert_eq!(model.grids[1].position.as_slice(), [1.0, 2.0, 0.0]);
 }

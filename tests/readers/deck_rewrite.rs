@@ -1,20 +1,12 @@
 //! A deck with other sizes: what changes in it, and that nothing else does.
 
+use crate::prelude::*;
 use crate::readers::matrices::{assert_written, table};
-use corfem::files::deck::number::nearest_in_field;
-use corfem::files::deck::{self, rewrite};
-use corfem::files::error::FileError;
-use corfem::method::error::Error;
-use corfem::method::structure::Element;
-use std::collections::BTreeSet;
 
 const ORIGINAL: &str = include_str!("../../golden/formats/original.bdf");
 
 pub fn elements(deck: &[u8]) -> Vec<Element> {
-    deck::read("deck", deck, &[])
-        .expect("it reads")
-        .model
-        .elements
+    deck::read("deck", deck, &[]).unwrap().model.elements
 }
 
 /// The elements of a deck, some with another size and another density.
@@ -24,7 +16,7 @@ fn with(deck: &str, changes: &[(usize, f64, f64)]) -> Vec<Element> {
         let element = elements
             .iter_mut()
             .find(|element| element.label == label)
-            .expect("an element");
+            .unwrap();
         element.size = nearest_in_field(element.size * size);
         element.material.density = nearest_in_field(element.material.density * density);
     }
@@ -32,8 +24,8 @@ fn with(deck: &str, changes: &[(usize, f64, f64)]) -> Vec<Element> {
 }
 
 fn rewritten(deck: &str, changes: &[(usize, f64, f64)]) -> String {
-    let text = rewrite("deck", deck.as_bytes(), &with(deck, changes), &[]).expect("it rewrites");
-    String::from_utf8(text).expect("a text")
+    let text = rewrite("deck", deck.as_bytes(), &with(deck, changes), &[]).unwrap();
+    String::from_utf8(text).unwrap()
 }
 
 /// Lines of one text that the other has not.
@@ -92,11 +84,11 @@ fn elements_that_need_other_sizes_get_properties_of_their_own() {
         3,
         "the first property stays"
     );
-    let lines: Vec<&str> = text.lines().collect();
+    let lines = text.lines().collect_vec();
     let first = lines
         .iter()
         .position(|line| line.starts_with("PROD    7 "))
-        .expect("it stays");
+        .unwrap();
     assert!(
         lines[first + 1].starts_with("PROD    10") && lines[first + 2].starts_with("PROD    11")
     );
@@ -174,7 +166,7 @@ fn a_new_material_has_the_other_numbers_as_they_were_written() {
         only_in(&text, &deck)
             .into_iter()
             .filter(|line| line.starts_with("MAT1"))
-            .collect::<Vec<_>>()
+            .collect_vec()
             .concat()
     };
     assert_eq!(
@@ -195,11 +187,11 @@ fn nothing_to_change_gives_back_the_same_bytes() {
         "\u{feff}CROD,1,1,1,2\r\nPROD,1,1,.5\r\nMAT1,1,1.,,.3\r\nGRID,1\r\nGRID,2\r\nPARAM,WTMASS,.00259",
     ] {
         assert_eq!(
-            rewrite("deck", deck.as_bytes(), &elements(deck.as_bytes()), &[]).expect("it rewrites"),
+            rewrite("deck", deck.as_bytes(), &elements(deck.as_bytes()), &[]).unwrap(),
             deck.as_bytes()
         );
         assert_eq!(
-            rewrite("deck", deck.as_bytes(), &[], &[]).expect("it rewrites"),
+            rewrite("deck", deck.as_bytes(), &[], &[]).unwrap(),
             deck.as_bytes()
         );
     }
@@ -213,7 +205,7 @@ fn line_ends_encoding_and_trailing_text_stay() {
     let mut wanted = elements(deck);
     wanted[0].size = 0.75;
     wanted[0].material.density *= 0.5;
-    let text = rewrite("deck", deck, &wanted, &[]).expect("it rewrites");
+    let text = rewrite("deck", deck, &wanted, &[]).unwrap();
     let expected = b"$ F\xfcr Fl\xfcgel\r\nGRID,1\r\nGRID,2,,1.\r\nCROD    1       2       1       2\r\nCROD    2       1       1       2\r\n\
         MAT1,1,1.,,.3,.5\r\nMAT1    2       1.              .3      .25\r\nPROD    1       1       .5      $ d\xfcnn\r\n\
         PROD    2       2       .75\r\nPARAM,WTMASS,.25\r\nENDDATA\r\nr\xe9sum\xe9";
@@ -228,7 +220,7 @@ fn line_ends_encoding_and_trailing_text_stay() {
             .concat();
     let mut wanted = elements(&marked);
     wanted[0].size = 0.25;
-    let text = rewrite("deck", &marked, &wanted, &[]).expect("it rewrites");
+    let text = rewrite("deck", &marked, &wanted, &[]).unwrap();
     assert_eq!(
         text,
         b"\xef\xbb\xbfPROD,1,1,.25\nGRID,1\nGRID,2\nMAT1,1,1.,,.3\nCROD,1,1,1,2"
@@ -252,10 +244,10 @@ fn two_on_a_card_are_rewritten_one_by_one() {
         with(deck, &[(2, 2.0, 1.0), (4, 2.0, 1.0)])
     );
     let long = rewritten(deck, &[(1, 1.0 + 1e-9, 1.0)]);
-    let sizes: Vec<f64> = elements(long.as_bytes())
+    let sizes = elements(long.as_bytes())
         .iter()
         .map(|element| element.size)
-        .collect();
+        .collect_vec();
     assert_eq!(sizes, [0.100_000_000_1, 0.2, 0.5, 0.5]);
     assert_eq!(only_in(&long, deck).len(), 2);
 }
@@ -349,21 +341,13 @@ fn the_owners_programs_read_a_rewritten_deck() {
         ("rewritten.bdf", elements(text.as_bytes())),
     ] {
         let read = stored.iter().filter(|line| line[0] == file).map(|line| {
-            let number = |text: &str| text.parse::<f64>().expect("a number");
-            (
-                line[1].parse().expect("a number"),
-                number(&line[2]),
-                number(&line[3]),
-            )
+            let number = |text: &str| text.parse::<f64>().unwrap();
+            (line[1].parse().unwrap(), number(&line[2]), number(&line[3]))
         });
         let expected = expected
             .iter()
             .map(|element| (element.label, element.size, element.material.density));
-        assert_eq!(
-            read.collect::<Vec<_>>(),
-            expected.collect::<Vec<_>>(),
-            "{file}"
-        );
+        assert_eq!(read.collect_vec(), expected.collect_vec(), "{file}");
     }
 }
 
@@ -371,16 +355,14 @@ fn the_owners_programs_read_a_rewritten_deck() {
 fn a_rewritten_deck_keeps_carriage_returns_as_ends_of_lines() {
     let [deck, other] = ["original", "rewritten"].map(|name| {
         let path = format!("{}/golden/formats/{name}.bdf", env!("CARGO_MANIFEST_DIR"));
-        std::fs::read(path).expect("it reads")
+        std::fs::read(path).unwrap()
     });
-    let other = deck::read("other", &other, &[]).expect("it reads").model;
+    let other = deck::read("other", &other, &[]).unwrap().model;
     let write = |bytes: &[u8]| {
         let written = deck::rewrite("deck", bytes, &other.elements, &other.masses);
-        String::from_utf8(written.expect("it writes")).expect("UTF-8")
+        String::from_utf8(written.unwrap()).unwrap()
     };
-    let old = String::from_utf8(deck.clone())
-        .expect("UTF-8")
-        .replace('\n', "\r");
+    let old = String::from_utf8(deck.clone()).unwrap().replace('\n', "\r");
     let expected = write(&deck);
     assert_ne!(expected.as_bytes(), deck);
     assert_eq!(write(old.as_bytes()), expected.replace('\n', "\r"));

@@ -1,16 +1,9 @@
 //! Decks drawn at random with other sizes: what they then say, and their modes.
 
 use super::deck_rewrite::elements;
-use crate::common::decks::bulk_text;
-use crate::common::tolerances::{DECK_ROUNDING, ROUND_OFF};
+use crate::prelude::*;
 use crate::readers::deck_mass_law::{DOF, roots, whole_box};
 use crate::spec::s2_parameters_mass::DENSITY;
-use corfem::files::deck::number::nearest_in_field;
-use corfem::files::deck::{self, BulkData, rewrite};
-use corfem::method::structure::Element;
-use nalgebra::Vector3;
-use proptest::prelude::*;
-use std::collections::BTreeMap;
 
 /// How a card is written: with small fields to either side, with large ones with or without a tag, or in free format.
 fn card(name: &str, fields: &[String], style: usize, tag: usize) -> String {
@@ -93,7 +86,7 @@ fn decks() -> impl Strategy<Value = (String, Vec<Element>)> {
                     .into_iter()
                     .chain(1..=corners)
                     .map(|label| label.to_string());
-                text += &card(name, &labels.collect::<Vec<_>>(), *style, 10 + row);
+                text += &card(name, &labels.collect_vec(), *style, 10 + row);
             }
             if let Some(weight) = weight {
                 text += &format!("PARAM,WTMASS,{weight:.4}\n");
@@ -116,11 +109,9 @@ fn decks() -> impl Strategy<Value = (String, Vec<Element>)> {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn a_rewritten_deck_says_the_new_sizes_and_else_the_same((text, wanted) in decks()) {
-        let result = rewrite("deck", text.as_bytes(), &wanted, &[]).expect("it rewrites");
+        let result = rewrite("deck", text.as_bytes(), &wanted, &[])?;
         let read = elements(&result);
         let first = elements(text.as_bytes());
         prop_assert_eq!(read.len(), wanted.len());
@@ -133,7 +124,7 @@ properties! {
             prop_assert_eq!(&read, wanted);
         }
         // One more property for every other size or density of a property, and the fewest connections to it.
-        let result = String::from_utf8(result).expect("a text");
+        let result = String::from_utf8(result)?;
         let property = |text: &str| -> Vec<Vec<String>> {
             text.lines().filter(|line| line.to_uppercase().starts_with(['C', 'P']) && !line.starts_with("PARAM"))
                 .map(|line| line.replace([',', '*'], " ").split_whitespace().map(str::to_uppercase).collect()).collect()
@@ -143,7 +134,7 @@ properties! {
         let mut moved = 0;
         for (element, first) in wanted.iter().zip(&first) {
             let own = before.iter().find(|card| card[0].starts_with('C') && card[1] == element.label.to_string());
-            let own = own.expect("a connection");
+            let own = own.unwrap();
             let key = |element: &Element| (element.size.to_bits(), element.material.density.to_bits());
             *groups.entry(&own[2]).or_default().entry(key(element)).or_default() += 1;
             // Whose size and density stay, stays with its property.
@@ -164,7 +155,7 @@ properties! {
         prop_assert_eq!(others(&text), others(&result));
         // Once more with the same wish changes nothing, unless WTMASS rounds.
         if !text.contains("WTMASS") {
-            prop_assert_eq!(rewrite("deck", result.as_bytes(), &wanted, &[]).expect("it rewrites"), result.as_bytes());
+            prop_assert_eq!(rewrite("deck", result.as_bytes(), &wanted, &[])?, result.as_bytes());
         }
     }
 
@@ -179,39 +170,39 @@ properties! {
         let density = if has_density { DENSITY } else { 0.0 };
         let model = whole_box([density; 3], &points);
         let (places, ones) = ([Vector3::zeros(); DOF], [1.0; 2]);
-        let first = bulk_text(&BulkData::from_model(&model, &ones, &places).expect("bulk data")).expect("a deck");
+        let first = bulk_text(&BulkData::from_model(&model, &ones, &places)?)?;
         let [covers, rods] = mass.unwrap_or(ones);
         let other = whole_box([covers * density, density, rods * density], &points);
-        let wanted = BulkData::from_model(&other, &stiffness, &places).expect("bulk data").elements;
-        let text = rewrite("box", first.as_bytes(), &wanted, &[]).expect("it rewrites");
-        let read = deck::read("box", &text, &[]).expect("it reads").model;
-        let found = deck::modes(&read, usize::MAX).expect("modes").modes.omega_squared().clone();
+        let wanted = BulkData::from_model(&other, &stiffness, &places)?.elements;
+        let text = rewrite("box", first.as_bytes(), &wanted, &[])?;
+        let read = deck::read("box", &text, &[])?.model;
+        let found = deck::modes(&read, usize::MAX)?.modes.omega_squared().clone();
         let own = roots(&other, &stiffness);
         prop_assert_eq!(found.len(), own.len());
         let tolerance = 2.0 * DECK_ROUNDING + ROUND_OFF * own[DOF - 1] / own[0];
         prop_assert!(tolerance < 1e-4);
         for (own, found) in own.iter().zip(&found) {
-            prop_assert!((own / found - 1.0).abs() < tolerance, "{own} {found} {tolerance}");
+            prop_assert!(relative_error(own, found) < tolerance, "{own} {found} {tolerance}");
         }
-        let untouched = BulkData::from_model(&model, &ones, &places).expect("bulk data").elements;
-        prop_assert_eq!(rewrite("box", first.as_bytes(), &untouched, &[]).expect("it rewrites"), first.as_bytes());
+        let untouched = BulkData::from_model(&model, &ones, &places)?.elements;
+        prop_assert_eq!(rewrite("box", first.as_bytes(), &untouched, &[])?, first.as_bytes());
     }
 
     /// Other point masses, and nothing else.
     #[test]
     fn point_masses_are_rewritten_and_every_other_line_stays(
-        model in crate::common::decks::bulk_data(),
+        model in bulk_data(),
         factors in prop::collection::vec(prop::option::of(1e-3..1e3_f64), 4),
     ) {
-        let text = bulk_text(&model).expect("a deck");
+        let text = bulk_text(&model)?;
         let mut wanted = model.clone();
         for (point, factor) in wanted.masses.iter_mut().zip(factors) {
             point.mass = nearest_in_field(point.mass * factor.unwrap_or(1.0));
         }
-        let written = rewrite("deck", text.as_bytes(), &[], &wanted.masses).expect("it rewrites");
-        prop_assert_eq!(&deck::read("deck", &written, &[]).expect("it reads").model, &wanted);
+        let written = rewrite("deck", text.as_bytes(), &[], &wanted.masses)?;
+        prop_assert_eq!(&deck::read("deck", &written, &[])?.model, &wanted);
         let is_mass = |line: &&str| line.starts_with("CMASS2") || line.starts_with("CONM2") || line.starts_with('*');
-        let others = |text: &str| text.lines().filter(|line| !is_mass(line)).map(str::to_owned).collect::<Vec<_>>();
+        let others = |text: &str| text.lines().filter(|line| !is_mass(line)).map(str::to_owned).collect_vec();
         prop_assert_eq!(others(&String::from_utf8_lossy(&written)), others(&text));
     }
 }

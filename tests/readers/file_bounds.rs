@@ -1,38 +1,30 @@
 //! Files that are none or have no end: refused before a byte of them is read.
 #![cfg(unix)]
 
-use super::job_errors::placed;
-use crate::common::jobs::prepare;
-use crate::common::jobs::{building, rods};
+use crate::common::jobs::rods;
+use crate::prelude::*;
+use crate::readers::job_errors::placed;
 use corfem::files::{MOST_BYTES, read_bytes};
 
 use std::fs::{File, remove_file};
 use std::os::unix::fs::symlink;
-use std::path::Path;
-use std::process::Command;
 
 /// Puts something endless in the place of a file; the reason for which it is refused.
 fn endless(path: &Path, kind: usize) -> &'static str {
     let not_regular = "it is not a regular file; copy what it gives into one";
-    remove_file(path).expect("removed");
+    remove_file(path).unwrap();
     match kind {
-        0 => symlink("/dev/zero", path).expect("linked"),
-        1 => assert!(
-            Command::new("mkfifo")
-                .arg(path)
-                .status()
-                .expect("it runs")
-                .success()
-        ),
+        0 => symlink("/dev/zero", path).unwrap(),
+        1 => assert!(Command::new("mkfifo").arg(path).status().unwrap().success()),
         2 => {
-            std::fs::create_dir(path).expect("made");
+            fs::create_dir(path).unwrap();
             return "it is a folder; name a file in it";
         }
         _ => {
             // Of four gigabytes, none of which is on the disk.
             File::create(path)
                 .and_then(|file| file.set_len(4 << 30))
-                .expect("made");
+                .unwrap();
             return "it is longer than 2147483648 bytes, the most that corfem reads";
         }
     }
@@ -72,9 +64,9 @@ fn every_file_of_a_job_is_a_regular_file_of_bounded_length() {
 
 #[test]
 fn a_file_that_ends_is_read_whole() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("file");
-    std::fs::write(&path, "\u{0}a file\n").expect("written");
-    assert_eq!(read_bytes(&path).expect("it reads"), b"\0a file\n");
+    fs::write(&path, "\u{0}a file\n").unwrap();
+    assert_eq!(read_bytes(&path).unwrap(), b"\0a file\n");
     assert_eq!(MOST_BYTES, 2 << 30);
 }

@@ -1,20 +1,7 @@
 //! A real test: the GARTEUR SM-AG19 airplane, of which eight frequencies are published.
 
-use crate::common::golden::{Numbers, assert_golden};
-use crate::common::jobs::worked;
-use crate::common::tolerances::{FORWARD_DIFFERENCE, JOB_RESULTS};
+use crate::prelude::*;
 use crate::readers::job_concerns::rigid_bodies;
-use corfem::job::verdict::Outcome;
-use corfem::job::{History, JobResult, Kind};
-use corfem::method::analysis::DERIVATIVE_STEP;
-use corfem::present::render::csv;
-use corfem::present::report::Report;
-use corfem::present::table::{Cell, Digits, Table, numbers};
-use corfem::present::tables::report::{factor_table, paired_table};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::WeightedStop;
-use corfem::weighted::residuals::residuals;
-use std::sync::LazyLock;
 
 /// Balmes and Wright, *Results from the Test of a Single Structure by 12 Laboratories in Europe* (ASME DETC'97).
 const PUBLISHED_HZ: [f64; 8] = [6.38, 16.10, 33.12, 33.53, 35.65, 48.38, 49.43, 55.08];
@@ -25,7 +12,7 @@ static RESULT: LazyLock<&JobResult> = LazyLock::new(|| worked("garteur"));
 fn chi_squared() -> [f64; 2] {
     let weights = RESULT.found.prepared.weights();
     [&RESULT.found.first, &RESULT.found.last].map(|model| {
-        let residuals = residuals(model, &weights).expect("residuals");
+        let residuals = residuals(model, &weights).unwrap();
         assert_eq!(residuals.len(), PUBLISHED_HZ.len());
         residuals.norm_squared()
     })
@@ -33,13 +20,13 @@ fn chi_squared() -> [f64; 2] {
 
 #[test]
 fn the_airplane_hangs_free_and_its_test_is_eight_published_frequencies() {
-    let hertz: Vec<f64> = RESULT
+    let hertz = RESULT
         .found
         .prepared
         .alone()
         .iter()
         .map(|(_, lone)| lone.frequency_hz)
-        .collect();
+        .collect_vec();
     assert_eq!(hertz, PUBLISHED_HZ);
     assert_eq!(rigid_bodies(&RESULT.trust), 6.0);
     assert!(RESULT.found.prepared.loaded.placed.is_empty());
@@ -70,12 +57,12 @@ fn the_corrected_airplane_is_nearer_and_still_not_explained() {
 
 #[test]
 fn slopes_of_the_error_sum_count_frequencies_without_shapes() {
-    let report = Report::from_job(&RESULT.found.prepared, None).expect("a report");
-    let slopes = report.derivatives.expect("derivatives").error_sum;
+    let report = Report::from_job(&RESULT.found.prepared, None).unwrap();
+    let slopes = report.derivatives.unwrap().error_sum;
     let ones = vec![1.0; slopes.len()];
     let sum = |factors: &[f64]| {
-        let comparison = RESULT.found.prepared.analyze(factors).expect("an analysis");
-        comparison.result().expect("errors").errors.sum()
+        let comparison = RESULT.found.prepared.analyze(factors).unwrap();
+        comparison.result().unwrap().errors.sum()
     };
     let first = sum(&ones);
     let largest = slopes
@@ -104,7 +91,7 @@ fn partners_are_followed_by_shape_where_modes_change_places() {
 
 #[test]
 fn the_real_test_has_its_golden() {
-    let report = Report::from_job(&RESULT.found.prepared, Some(&RESULT)).expect("a report");
+    let report = Report::from_job(&RESULT.found.prepared, Some(&RESULT)).unwrap();
     let chi = Table::new("garteur_chi_squared", "Chi-squared", "Model")
         .labels(["First", "Corrected"])
         .column(
@@ -115,7 +102,7 @@ fn the_real_test_has_its_golden() {
         .column("Numbers", "", [8, 8].map(Cell::count));
     let mut seen = factor_table(&report);
     seen.name = "garteur_seen".to_owned();
-    let mut modes = paired_table(&report).expect("a table");
+    let mut modes = paired_table(&report).unwrap();
     modes.name = "garteur_modes".to_owned();
     let numbers = Numbers {
         relative: JOB_RESULTS,

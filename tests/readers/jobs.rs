@@ -1,32 +1,10 @@
 //! Three worked jobs: their files are what `tests/common/jobs.rs` makes, and their results are known from how they were made.
 
-use crate::common::condensed::analyze_condensed;
-use crate::common::golden::{Numbers, assert_golden};
-use crate::common::jobs::{
-    Files, STORIES, building, delta_wing, folder_of, loaded, rods, torque_box, torque_box_truth,
-    worked,
-};
-use crate::common::jobs::{prepare, run};
-use crate::common::known::delta_wing::correlation::GROUPS;
-use crate::common::test_files::write_universal;
-use crate::common::tolerances::{
-    CONDENSED_GAGES, JOB_BOX, JOB_RESULTS, JOB_WING, OPTIMUM, PLACED_WITHIN, WEIGHTED_FACTOR,
-    WEIGHTED_STORY, WHOLE_SHAPE,
-};
-use corfem::job::{History, JobResult, Method, PreparedJob};
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::model::Model;
-use corfem::method::outer_loop::correlate;
-use corfem::present::render;
-use corfem::present::report::Report;
-use corfem::present::tables::job::{places_table, trust_table};
-use corfem::present::tables::report::{factor_table, history_table, paired_table, swaps};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use corfem::weighted::intervals::Withheld;
-use corfem::weighted::residuals::residuals;
-use nalgebra::{DMatrix, DVector, Vector3};
+use crate::common::jobs::run;
+use crate::common::jobs::{delta_wing, folder_of, loaded, rods, torque_box, torque_box_truth};
+use crate::prelude::*;
+use corfem::job::Method;
+use corfem::present::tables::report::swaps;
 use std::sync::Arc;
 
 const NUMBERS: Numbers = Numbers {
@@ -43,10 +21,10 @@ fn check_files(name: &str, files: &Files) {
     for (file, text) in files {
         let path = folder.join(file);
         if writes {
-            std::fs::create_dir_all(&folder).expect("a folder");
-            std::fs::write(&path, text).expect("it writes");
+            fs::create_dir_all(&folder).unwrap();
+            fs::write(&path, text).unwrap();
         }
-        let stored = std::fs::read_to_string(&path).expect("it reads");
+        let stored = fs::read_to_string(&path).unwrap();
         // Numbers that were computed may differ in their last digit on another machine.
         let numbers = Numbers {
             relative: JOB_RESULTS,
@@ -60,13 +38,13 @@ fn check_files(name: &str, files: &Files) {
 
 fn finished(name: &str) -> (PreparedJob, &'static JobResult) {
     let (prepared, finished) = (loaded(name), worked(name));
-    let subject = Report::from_job(&prepared, Some(finished)).expect("a subject");
+    let subject = Report::from_job(&prepared, Some(finished)).unwrap();
     let mut tables = vec![
         trust_table(&finished.trust),
-        places_table(&prepared.loaded, Some(finished)).expect("sensors"),
+        places_table(&prepared.loaded, Some(finished)).unwrap(),
     ];
     tables.extend([
-        paired_table(&subject).expect("modes"),
+        paired_table(&subject).unwrap(),
         factor_table(&subject),
         history_table(&subject),
     ]);
@@ -121,7 +99,7 @@ fn condensed_to_five_floors_the_building_is_not_found() {
     let (job, analyze) = condensed("building");
     let analyze = |factors: &[f64]| analyze(&job, factors);
     let settings = job.loaded.job.correlation.for_modes(job.modes.len());
-    let found = correlate(analyze, &[None; 10], &settings, |_, _| true).expect("it runs");
+    let found = correlate(analyze, &[None; 10], &settings, |_, _| true).unwrap();
     // The error sum that nine modes of the same errors would have.
     let errors = &found.best_check().errors;
     let of_nine = 3.0 * (errors.frequency_rms() + errors.shape_rms());
@@ -129,14 +107,14 @@ fn condensed_to_five_floors_the_building_is_not_found() {
     let factors = found.best_factors;
     for pair in factors.chunks(2) {
         assert!(
-            (pair[0] / pair[1] - 1.0).abs() < WEIGHTED_FACTOR,
+            relative_error(pair[0], pair[1]) < WEIGHTED_FACTOR,
             "{pair:?}"
         );
     }
     let worst = factors
         .iter()
         .zip(&STORIES)
-        .map(|(found, truth)| (found / truth - 1.0).abs())
+        .map(|(found, truth)| relative_error(found, truth))
         .fold(0.0, f64::max);
     assert!(worst > 0.2, "{worst}");
 }
@@ -145,9 +123,9 @@ fn condensed_to_five_floors_the_building_is_not_found() {
 /// node 4 along x.
 #[test]
 fn sensors_along_axes_of_their_own_find_the_same_rods() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = tempfile::tempdir().unwrap();
     for (name, text) in rods() {
-        std::fs::write(folder.path().join(name), text).expect("written");
+        fs::write(folder.path().join(name), text).unwrap();
     }
     let path = folder.path().join("job.toml");
     let finished = || {
@@ -157,12 +135,8 @@ fn sensors_along_axes_of_their_own_find_the_same_rods() {
     };
     let (prepared, expected) = finished();
     let text = write_universal(&prepared.loaded.data);
-    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
-    let nodes = lines
-        .iter()
-        .position(|line| line.trim() == "2411")
-        .expect("nodes")
-        + 1;
+    let mut lines = text.lines().map(str::to_owned).collect_vec();
+    let nodes = lines.iter().position(|line| line.trim() == "2411").unwrap() + 1;
     for (row, system) in [(0, 3), (1, 4)] {
         lines[nodes + 2 * row].replace_range(20..30, &format!("{system:10}"));
     }
@@ -184,36 +158,36 @@ fn sensors_along_axes_of_their_own_find_the_same_rods() {
     let points = "         3         0         0         8         1\nSYS\n   0. 0. 0. 0. 1. 0.\n   0. 0. 1.\n";
     let rows = "         1\nPart\n         4         0         8\nCS\n  0. 1. 0.\n  0. 0. 1.\n  1. 0. 0.\n  0. 0. 0.\n";
     let systems = format!("    -1\n    18\n{points}    -1\n    -1\n  2420\n{rows}    -1\n");
-    std::fs::write(
+    fs::write(
         folder.path().join("test.csv"),
         systems + &lines.join("\n") + "\n",
     )
-    .expect("written");
+    .unwrap();
     let (prepared, found) = finished();
-    let directions: Vec<usize> = prepared
+    let directions = prepared
         .loaded
         .placed
         .iter()
         .map(|sensor| sensor.direction)
-        .collect();
+        .collect_vec();
     assert_eq!(directions, [1, 2, 0]);
     for (a, b) in found.iter().zip(&expected) {
         assert!(
-            (a / b - 1.0).abs() < WEIGHTED_FACTOR,
+            relative_error(a, b) < WEIGHTED_FACTOR,
             "{found:?} {expected:?}"
         );
     }
     let dense = prepared.loaded.sensors.dense();
     assert_eq!(
-        (0..3).map(|row| dense[(row, row)]).collect::<Vec<_>>(),
+        (0..3).map(|row| dense[(row, row)]).collect_vec(),
         [-1.0, 1.0, 1.0]
     );
-    let table = places_table(&prepared.loaded, None).expect("a table");
-    let own: Vec<String> = table
+    let table = places_table(&prepared.loaded, None).unwrap();
+    let own = table
         .rows
         .iter()
         .map(|row| row.cells[1].computed())
-        .collect();
+        .collect_vec();
     assert_eq!(own, ["y", "z", "x"]);
 }
 
@@ -228,10 +202,10 @@ fn negated(value: &str) -> String {
 #[test]
 fn the_first_model_is_the_one_that_was_prepared() {
     let prepared = loaded("building");
-    let first = prepared.analyze(&[1.0; 10]).expect("a model");
+    let first = prepared.analyze(&[1.0; 10]).unwrap();
     let mut fewer = prepared.clone();
     fewer.analysis_modes = 7;
-    let other = fewer.analyze(&[1.0; 10]).expect("a model");
+    let other = fewer.analyze(&[1.0; 10]).unwrap();
     let modes_of = |comparison: &Comparison| comparison.model().exact().modes.clone();
     assert_eq!((modes_of(&first).len(), modes_of(&other).len()), (10, 7));
     let near = fewer
@@ -239,12 +213,12 @@ fn the_first_model_is_the_one_that_was_prepared() {
         .source
         .whole
         .modes(&[1.0; 10], 10)
-        .expect("modes")
+        .unwrap()
         .vibrations;
     assert_eq!(modes_of(&first).frequencies_hz(), near.frequencies_hz());
     let mut by_paper = prepared.clone();
     Arc::make_mut(&mut by_paper.loaded).job.compare.method = Method::Paper;
-    let finished = run(&by_paper, |_| {}, || true).expect("it runs");
+    let finished = run(&by_paper, |_| {}, || true).unwrap();
     let History::Paper(run) = &finished.found.history else {
         panic!("by the paper's loops")
     };
@@ -263,16 +237,12 @@ fn condensed_the_wing_has_the_same_gages() {
         &job.weights(),
         &WeightedSettings::default(),
     )
-    .expect("it runs");
-    for (a, b) in finished("wing")
-        .1
-        .found
-        .factors
-        .iter()
-        .zip(&condensed.factors)
-    {
-        assert!((a / b - 1.0).abs() < CONDENSED_GAGES, "{a} {b}");
-    }
+    .unwrap();
+    assert_alike(
+        finished("wing").1.found.factors.iter(),
+        &condensed.factors,
+        CONDENSED_GAGES,
+    );
 }
 
 #[test]
@@ -282,7 +252,7 @@ fn the_building_is_found_story_by_story_from_five_floors() {
     assert!(found.found.analyses <= 6, "{}", found.found.analyses);
     for (story, (found, truth)) in found.found.factors.iter().zip(&STORIES).enumerate() {
         assert!(
-            (found / truth - 1.0).abs() < WEIGHTED_STORY,
+            relative_error(found, truth) < WEIGHTED_STORY,
             "story {}: {found} for {truth}",
             story + 1
         );
@@ -301,18 +271,18 @@ fn the_wing_is_found_from_ten_modes_at_its_upper_grids() {
     }));
     shapes_at_all_grids_are_those_of_the_sensors(&prepared, found);
     // Modes 8 and 9 are 1.6 % apart: where another mode of the model answers than before, the report says so.
-    let mut subject = Report::from_job(&prepared, Some(found)).expect("a subject");
+    let mut subject = Report::from_job(&prepared, Some(found)).unwrap();
     subject.stages = vec![subject.stages[0].clone(); 3];
     let mut exchanged = subject.clone();
     let pairing = &mut exchanged.stages[1].check.pairing;
     let mut places = pairing.analysis_mode.to_vec();
     places.swap(0, 1);
     pairing.analysis_mode = places;
-    let new: Vec<_> = swaps(&exchanged)
+    let new = swaps(&exchanged)
         .into_iter()
         .filter(|swap| !swaps(&subject).contains(swap))
         .map(|swap| [swap.stage, swap.test_mode, swap.from, swap.to])
-        .collect();
+        .collect_vec();
     assert_eq!(
         new,
         [[2, 1, 1, 2], [2, 2, 2, 1], [3, 1, 2, 1], [3, 2, 1, 2]]
@@ -326,18 +296,18 @@ fn the_wing_is_found_from_ten_modes_at_its_upper_grids() {
 
 /// How the grids move in a picture: along the sensors as is compared, and in the test nearly as in the corrected model.
 fn shapes_at_all_grids_are_those_of_the_sensors(prepared: &PreparedJob, found: &JobResult) {
-    let subject = Report::from_job(prepared, Some(found)).expect("a subject");
-    let moved = subject.moved.as_ref().expect("the whole model");
+    let subject = Report::from_job(prepared, Some(found)).unwrap();
+    let moved = subject.moved.as_ref().unwrap();
     let states = [&found.found.first, &found.found.last].map(|comparison| {
         let exact = comparison.model().exact();
-        exact.pairing.paired(&exact.modes).expect("modes")
+        exact.pairing.paired(&exact.modes).unwrap()
     });
     let row = |grid: usize| {
         subject
             .grids
             .iter()
             .position(|(label, _)| *label == grid)
-            .expect("a grid")
+            .unwrap()
     };
     for mode in 0..subject.test.len() {
         let (test, last) = (&moved[0][mode], &moved[2][mode]);
@@ -407,25 +377,25 @@ fn worked_jobs_end_within_a_thousandth_of_a_deviation_of_their_optimum() {
         let weights = prepared.weights();
         let (factors, priors) = (&result.found.factors, &prepared.loaded.source.priors);
         let free = |e: &usize| !result.verdict.at_bound.contains(e);
-        let free: Vec<usize> = (0..factors.len()).filter(free).collect();
+        let free = (0..factors.len()).filter(free).collect_vec();
         let at = |parameter: usize, step: f64| {
             let mut changed = factors.clone();
             changed[parameter] *= step.exp();
-            let model = prepared.analyze(&changed).expect("an analysis");
-            residuals(&model, &weights).expect("residuals")
+            let model = prepared.analyze(&changed).unwrap();
+            residuals(&model, &weights).unwrap()
         };
-        let columns: Vec<DVector<f64>> = free
+        let columns = free
             .iter()
             .map(|&e| (at(e, STEP) - at(e, -STEP)) / (2.0 * STEP))
-            .collect();
+            .collect_vec();
         let jacobian = DMatrix::from_columns(&columns);
-        let own = residuals(&result.found.last, &weights).expect("residuals");
+        let own = residuals(&result.found.last, &weights).unwrap();
         let of = |e: usize| priors.get(e).unwrap_or(&priors[0]).powi(-2);
         let prior = DVector::from_iterator(free.len(), free.iter().map(|&e| of(e)));
         let logarithms = DVector::from_iterator(free.len(), free.iter().map(|&e| factors[e].ln()));
         let gradient = jacobian.tr_mul(&own) + prior.component_mul(&logarithms);
         let information = jacobian.tr_mul(&jacobian) + DMatrix::from_diagonal(&prior);
-        let step = information.cholesky().expect("definite").solve(&gradient);
+        let step = information.cholesky().unwrap().solve(&gradient);
         let away = step.dot(&gradient).sqrt();
         assert!(away < OPTIMUM, "{name}: {away:.1e} deviations");
     }

@@ -2,20 +2,16 @@
 //!
 //! `CORFEM_CALLS=100000 cargo test --release jobs_survive -- --nocapture` damages so many; `CORFEM_SEED` goes on behind them.
 
-use crate::common::draws::Draws;
-use crate::common::jobs::{Files, building, rods};
-use crate::common::jobs::{prepare, run};
+use crate::common::jobs::rods;
+use crate::common::jobs::run;
+use crate::prelude::*;
 use crate::readers::job_errors::placed;
 use crate::readers::job_prepared::measured_building;
 use crate::readers::readers_survive::asked;
-use corfem::job::{TEMPLATE, Trust};
+use corfem::job::TEMPLATE;
+use corfem::present::json;
 use corfem::present::page::report_page;
-use corfem::present::report::Report;
-use corfem::present::tables::job::{places_table, suspects_table, trust_table};
-use corfem::present::tables::report::{factor_table, history_table, paired_table};
-use corfem::present::{PresentError, json, render};
 use std::cell::Cell;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Values in the place of numbers, of lists and of any other.
 const NUMBERS: [&str; 12] = [
@@ -68,23 +64,23 @@ fn entry(draws: &mut Draws) -> [String; 2] {
 
 /// The job with an entry more, or with damage in one of its files.
 fn mutated(files: &Files, draws: &mut Draws) -> Vec<(String, Vec<u8>)> {
-    let mut files: Vec<(String, Vec<u8>)> = files
+    let mut files = files
         .iter()
         .map(|(name, text)| (name.clone(), text.clone().into_bytes()))
-        .collect();
+        .collect_vec();
     if draws.unit() < 0.6 {
         let job = files
             .iter_mut()
             .find(|(name, _)| name == "job.toml")
-            .expect("a job");
-        let mut text = String::from_utf8(job.1.clone()).expect("a text");
+            .unwrap();
+        let mut text = String::from_utf8(job.1.clone()).unwrap();
         for _ in 0..1 + draws.below(2) {
             let [heading, line] = entry(draws);
             let own = line.split(" = ").next().unwrap_or("");
-            let kept: Vec<&str> = text
+            let kept = text
                 .lines()
                 .filter(|line| line.split(" = ").next() != Some(own) || draws.unit() < 0.1)
-                .collect();
+                .collect_vec();
             let mut kept = kept.join("\n") + "\n";
             match kept.find(&format!("{heading}\n")) {
                 Some(at) if !heading.is_empty() => {
@@ -99,10 +95,10 @@ fn mutated(files: &Files, draws: &mut Draws) -> Vec<(String, Vec<u8>)> {
     } else {
         let file = draws.below(files.len());
         let text = String::from_utf8_lossy(&files[file].1).into_owned();
-        let numbers: Vec<(usize, char)> = text
+        let numbers = text
             .char_indices()
             .filter(|(_, digit)| digit.is_ascii_digit())
-            .collect();
+            .collect_vec();
         files[file].1 = if draws.unit() < 0.6 && !numbers.is_empty() {
             // Another digit somewhere: most often still a file.
             let (at, _) = numbers[draws.below(numbers.len())];
@@ -116,7 +112,7 @@ fn mutated(files: &Files, draws: &mut Draws) -> Vec<(String, Vec<u8>)> {
 }
 
 /// Everything that `check` and `correlate` print of a job, which a request stops after some analyses.
-fn corrected(path: &std::path::Path) -> Result<bool, PresentError> {
+fn corrected(path: &Path) -> Result<bool, PresentError> {
     let loaded = prepare(path)?;
     let trust = Trust::before(&loaded)?;
     let before = Report::from_job(&loaded, None)?;
@@ -166,7 +162,7 @@ fn no_job_panics_whatever_stands_in_it() {
         let files = mutated(&jobs[job], &mut draws);
         let (folder, path) = placed(&Vec::new());
         for (name, bytes) in &files {
-            std::fs::write(folder.path().join(name), bytes).expect("written");
+            fs::write(folder.path().join(name), bytes).unwrap();
         }
         match catch_unwind(AssertUnwindSafe(|| corrected(&path))) {
             Ok(Ok(is_finite)) => assert!(is_finite, "seed {seed}"),

@@ -4,9 +4,7 @@
 //! `CORFEM_CALLS=100000 cargo test --release damaged_files_say_the_same` makes so many calls of every file.
 
 use super::readers_survive::asked;
-use crate::common::draws::Draws;
-use corfem::files::{deck, matrices, test_data};
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use crate::prelude::*;
 
 /// What a reader says of a file, its error among it.
 type Reader = fn(&[u8]) -> Result<String, String>;
@@ -55,7 +53,7 @@ const FILES: [(&str, &[u8], Reader); 18] = files! {
 
 /// The bytes with other ends of lines.
 fn ended(bytes: &[u8], end: &[u8]) -> Vec<u8> {
-    let lines: Vec<&[u8]> = bytes.split(|byte| *byte == b'\n').collect();
+    let lines = bytes.split(|byte| *byte == b'\n').collect_vec();
     lines.join(end)
 }
 

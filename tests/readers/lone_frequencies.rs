@@ -1,12 +1,9 @@
 //! Tests that know of some modes, or of all, the frequency alone.
 
-use super::job_errors::{placed, said, with};
-use crate::common::jobs::{Files, STORIES, building};
-use crate::common::jobs::{prepare, run};
-use crate::common::tolerances::{ROUND_OFF, WEIGHTED_FACTOR};
-use corfem::files::test_data;
-use corfem::job::verdict::Outcome;
-use corfem::job::{JobResult, Kind, Trust};
+use super::job_errors::said;
+use crate::common::jobs::run;
+use crate::prelude::*;
+use crate::readers::job_errors::{placed, with};
 
 /// The building by weighted steps, whose test lacks the shapes of these modes (from one).
 pub fn without_shapes(modes: &[usize]) -> Files {
@@ -17,10 +14,10 @@ pub fn without_shapes(modes: &[usize]) -> Files {
         "[compare]\nmethod = \"gauss_newton\"",
     );
     let test = files.iter_mut().find(|(name, _)| name == "test.csv");
-    let text = &mut test.expect("a test").1;
+    let text = &mut test.unwrap().1;
     let mut columns: Vec<usize> = Vec::new();
     let lines = text.lines().map(|line| {
-        let mut cells: Vec<&str> = line.split(',').collect();
+        let mut cells = line.split(',').collect_vec();
         let is_sensor = !columns.is_empty() && line.contains("floor");
         if let Some(first) = cells.iter().position(|cell| *cell == "mode 1") {
             columns = modes.iter().map(|mode| first + mode - 1).collect();
@@ -44,7 +41,7 @@ fn result(files: &Files) -> JobResult {
 #[test]
 fn a_mode_with_empty_cells_has_a_frequency_alone() {
     let table = "frequency_hz,,,1.5,2.5,3.5\nname,direction,grid,mode 1,mode 2,mode 3\na,x,1,1.0,,0\nb,x,2,-1.0,,0.5\n";
-    let data = test_data::read("test.csv", table.as_bytes()).expect("a test");
+    let data = test_data::read("test.csv", table.as_bytes()).unwrap();
     assert_eq!((&data.alone[..], data.frequencies_hz[1]), (&[1][..], 2.5));
     assert_eq!(data.shapes.column(2).as_slice(), [0.0, 0.5]);
     // A cell that is empty beside one that is not is a mistake, and a shape of measured zeros is no shape.
@@ -60,7 +57,7 @@ fn a_mode_with_empty_cells_has_a_frequency_alone() {
 #[test]
 fn a_table_may_be_frequencies_alone() {
     let table = "frequency_hz,1.5,2.5\n,mode 1,mode 2\n";
-    let data = test_data::read("test.csv", table.as_bytes()).expect("a test");
+    let data = test_data::read("test.csv", table.as_bytes()).unwrap();
     assert_eq!(data.alone, [0, 1]);
     assert!(data.sensors.is_empty());
     let negative = table.replace("2.5", "-2.5");
@@ -72,16 +69,13 @@ fn a_table_may_be_frequencies_alone() {
 #[test]
 fn frequencies_without_shapes_count_as_frequencies_and_nowhere_else() {
     let found = result(&without_shapes(&[2, 4]));
-    let (exact, loaded) = (
-        found.found.first.result().expect("errors"),
-        &found.found.prepared,
-    );
+    let (exact, loaded) = (found.found.first.result().unwrap(), &found.found.prepared);
     assert_eq!(loaded.modes, [0, 2, 4]);
     let partners = loaded
         .alone()
         .iter()
         .map(|(mode, lone)| (*mode, lone.partner));
-    assert_eq!(partners.collect::<Vec<_>>(), [(1, 1), (3, 3)]);
+    assert_eq!(partners.collect_vec(), [(1, 1), (3, 3)]);
     // By hand: the frequencies of all five modes, the shapes of three.
     let hertz = exact.modes.frequencies_hz();
     let squares =
@@ -89,24 +83,19 @@ fn frequencies_without_shapes_count_as_frequencies_and_nowhere_else() {
     let frequency = squares.sum::<f64>().sqrt();
     assert!((exact.errors.frequency - frequency).abs() <= ROUND_OFF * frequency);
     let with_all = result(&without_shapes(&[]));
-    let with_all = with_all.found.first.result().expect("errors");
+    let with_all = with_all.found.first.result().unwrap();
     assert!(exact.errors.shape < with_all.errors.shape);
     let counts = (exact.errors.shape_count, exact.errors.frequency_count);
     assert_eq!(counts, (3, 5));
     let residuals = corfem::weighted::residuals::residuals(&found.found.first, &loaded.weights());
-    assert_eq!(residuals.expect("residuals").len(), 3 * (1 + 5) + 2);
+    assert_eq!(residuals.unwrap().len(), 3 * (1 + 5) + 2);
     // What is left of the test still finds every story.
-    for (factor, story) in found.found.factors.iter().zip(STORIES) {
-        assert!(
-            (factor / story - 1.0).abs() <= WEIGHTED_FACTOR,
-            "{factor} {story}"
-        );
-    }
-    let trust = Trust::before(loaded).expect("trust");
+    assert_alike(found.found.factors.iter(), STORIES, WEIGHTED_FACTOR);
+    let trust = Trust::before(loaded).unwrap();
     let alone = trust.of(Kind::FrequenciesAlone).next();
     assert!(
         alone
-            .expect("said")
+            .unwrap()
             .words()
             .contains("2 with the model's 2, 4 with the model's 4")
     );
@@ -118,15 +107,10 @@ fn a_whole_test_may_be_frequencies() {
     let test = files
         .iter_mut()
         .find(|(name, _)| name == "test.csv")
-        .expect("a test");
+        .unwrap();
     let (_folder, path) = placed(&without_shapes(&[]));
-    let hertz = prepare(&path)
-        .expect("a job")
-        .loaded
-        .data
-        .frequencies_hz
-        .clone();
-    let cells: Vec<String> = hertz.iter().map(f64::to_string).collect();
+    let hertz = prepare(&path).unwrap().loaded.data.frequencies_hz.clone();
+    let cells = hertz.iter().map(f64::to_string).collect_vec();
     test.1 = format!(
         "frequency_hz,{}\n,mode 1,mode 2,mode 3,mode 4,mode 5\n",
         cells.join(",")
@@ -137,7 +121,7 @@ fn a_whole_test_may_be_frequencies() {
     assert_eq!(found.verdict.outcome, Outcome::Untested);
     assert!(!found.verdict.is_within && found.verdict.worst.shape.is_none());
     let [before, after] = [&found.found.first, &found.found.last]
-        .map(|comparison| comparison.result().expect("errors").errors);
+        .map(|comparison| comparison.result().unwrap().errors);
     assert!(
         after.frequency < 0.01 * before.frequency,
         "{after:?} {before:?}"
@@ -162,7 +146,7 @@ fn the_job_may_name_the_partners_of_frequencies() {
             .alone()
             .iter()
             .map(|(_, lone)| lone.partner)
-            .collect::<Vec<_>>(),
+            .collect_vec(),
         [5, 3]
     );
     for (partners, expected) in [

@@ -1,36 +1,29 @@
 //! Matrices of other programs: what SciPy and pyNastran wrote (golden/formats/), what NASTRAN's manual says, and the way back.
 
-use corfem::files::error::FileError;
-use corfem::files::matrices::{Label, LabeledMatrix, read, write_matrix_market};
-use corfem::sparse::SparseMatrix;
-use proptest::prelude::*;
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
+use crate::prelude::*;
+use matrices::{Label, LabeledMatrix, read};
 
 pub fn golden(file: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("golden/formats")
-        .join(file)
+    in_root("golden/formats").join(file)
 }
 
 /// The lines of a stored table.
 pub fn table(file: &str) -> Vec<Vec<String>> {
-    let mut reader = csv::Reader::from_path(golden(file)).expect("a table");
+    let mut reader = csv::Reader::from_path(golden(file)).unwrap();
     reader
         .records()
-        .map(|line| line.expect("a line").iter().map(str::to_owned).collect())
+        .map(|line| line.unwrap().iter().map(str::to_owned).collect())
         .collect()
 }
 
 /// Compares what the crate wrote with the file that another program was given; writes that file on request.
 pub fn assert_written(file: &str, written: &[u8]) {
     if std::env::var("CORFEM_WRITTEN").is_ok_and(|value| value == "write") {
-        fs::write(golden(file), written).expect("it writes");
+        fs::write(golden(file), written).unwrap();
     }
     assert_eq!(
         String::from_utf8_lossy(written),
-        fs::read_to_string(golden(file)).expect("it reads"),
+        fs::read_to_string(golden(file)).unwrap(),
         "{file}"
     );
 }
@@ -65,7 +58,7 @@ fn matrices_of_the_owners_programs_read_to_the_last_digit() {
         let [file, name, row, column, value] = &line[..] else {
             panic!("{line:?}")
         };
-        let value = value.parse().expect("a number");
+        let value = value.parse().unwrap();
         expected
             .entry((file.clone(), name.clone()))
             .or_default()
@@ -77,9 +70,9 @@ fn matrices_of_the_owners_programs_read_to_the_last_digit() {
         let [file, name, rows, columns] = &line[..] else {
             panic!("{line:?}")
         };
-        let bytes = fs::read(golden(file)).expect("it reads");
+        let bytes = fs::read(golden(file)).unwrap();
         let wanted = (!name.is_empty()).then_some(name.as_str());
-        let found = read(file, &bytes, wanted).expect("a matrix");
+        let found = read(file, &bytes, wanted).unwrap();
         assert_eq!(
             by_name(&found),
             expected[&(file.clone(), name.clone())],
@@ -98,11 +91,9 @@ fn matrices_of_the_owners_programs_read_to_the_last_digit() {
             assert!(found.matrix.is_symmetric());
         }
         // The same with the line ends of Windows.
-        let text = String::from_utf8(bytes)
-            .expect("a text")
-            .replace('\n', "\r\n");
+        let text = String::from_utf8(bytes).unwrap().replace('\n', "\r\n");
         assert_eq!(
-            read(file, text.as_bytes(), wanted).expect("a matrix"),
+            read(file, text.as_bytes(), wanted).unwrap(),
             found,
             "{file} {name}"
         );
@@ -111,11 +102,10 @@ fn matrices_of_the_owners_programs_read_to_the_last_digit() {
 
 #[test]
 fn a_matrix_is_chosen_by_its_name() {
-    let bytes = fs::read(golden("sparse.op4")).expect("it reads");
-    let [one, other] =
-        ["kaa", "KAA"].map(|name| read("m", &bytes, Some(name)).expect("in any case"));
+    let bytes = fs::read(golden("sparse.op4")).unwrap();
+    let [one, other] = ["kaa", "KAA"].map(|name| read("m", &bytes, Some(name)).unwrap());
     assert_eq!(one, other);
-    let dmig = fs::read(golden("small.dmig")).expect("it reads");
+    let dmig = fs::read(golden("small.dmig")).unwrap();
     for (bytes, wanted, found) in [
         (&bytes[..], None, "KAA, T"),
         (&bytes[..], Some("MAA"), "KAA, T"),
@@ -146,12 +136,10 @@ fn strings_with_nastrans_words_read() {
         is(2, 70),
         is(2, 1),
     );
-    let a = read("m", text.as_bytes(), Some("A"))
-        .expect("a matrix")
-        .matrix;
+    let a = read("m", text.as_bytes(), Some("A")).unwrap().matrix;
     assert_eq!((a.rows(), a.columns()), (70, 3));
     assert_eq!(
-        a.entries().collect::<Vec<_>>(),
+        a.entries().collect_vec(),
         [
             (1, 0, -1e-300),
             (2, 0, 2.5),
@@ -160,12 +148,10 @@ fn strings_with_nastrans_words_read() {
             (0, 2, 4e101)
         ]
     );
-    let b = read("m", text.as_bytes(), Some("B"))
-        .expect("a matrix")
-        .matrix;
+    let b = read("m", text.as_bytes(), Some("B")).unwrap().matrix;
     assert_eq!((b.rows(), b.columns()), (70000, 2));
     assert_eq!(
-        b.entries().collect::<Vec<_>>(),
+        b.entries().collect_vec(),
         [(65989, 1, 1.0), (65990, 1, -2.0), (69998, 1, 3.0)]
     );
     let error = read("m", text.as_bytes(), Some("C"))
@@ -181,10 +167,10 @@ fn strings_with_nastrans_words_read() {
     );
     assert!(
         read("m", zero.as_bytes(), Some("C"))
-            .expect("zeros")
+            .unwrap()
             .matrix
             .entries()
-            .collect::<Vec<_>>()
+            .collect_vec()
             .is_empty()
     );
 }
@@ -205,18 +191,18 @@ fn a_matrix_before_the_one_asked_for_is_passed_over() {
     let text = wide + &one("B", "1P,3E23.16", " 2.0000000000000000E+00");
     assert_eq!(
         read("m", text.as_bytes(), Some("B"))
-            .expect("a matrix")
+            .unwrap()
             .matrix
             .entries()
-            .collect::<Vec<_>>(),
+            .collect_vec(),
         [(0, 0, 2.0)]
     );
     assert_eq!(
         read("m", text.as_bytes(), Some("A"))
-            .expect("a matrix")
+            .unwrap()
             .matrix
             .entries()
-            .collect::<Vec<_>>(),
+            .collect_vec(),
         [(0, 0, 1.0)]
     );
     let none = read("m", text.as_bytes(), Some("C"))
@@ -241,10 +227,10 @@ fn one_triangle_of_a_symmetric_matrix_is_mirrored() {
         let second = format!("       2{row:8}{:8}\n{numbers}\n", 3 - row);
         assert_eq!(
             read("m", text(&second).as_bytes(), None)
-                .expect("a matrix")
+                .unwrap()
                 .matrix
                 .entries()
-                .collect::<Vec<_>>(),
+                .collect_vec(),
             whole
         );
     }
@@ -255,10 +241,10 @@ fn one_triangle_of_a_symmetric_matrix_is_mirrored() {
     );
     assert_eq!(
         read("m", upper.as_bytes(), None)
-            .expect("a matrix")
+            .unwrap()
             .matrix
             .entries()
-            .collect::<Vec<_>>(),
+            .collect_vec(),
         whole
     );
 }
@@ -272,10 +258,10 @@ fn fields_without_blanks_and_scalar_points_of_dmig_read() {
                 DMIG,K,7,0,,7,,1.5\n\
                 DMIG    C       0       6       3       0\nDMIG    C       1       1               1       1       1.      2.\n"
         .replace("123456780", " 12345678");
-    let found = read("m", text.as_bytes(), Some("K")).expect("a matrix");
+    let found = read("m", text.as_bytes(), Some("K")).unwrap();
     assert_eq!(found.rows, labels(&[(7, 0), (12_345_678, 2)]));
     assert_eq!(
-        found.matrix.entries().collect::<Vec<_>>(),
+        found.matrix.entries().collect_vec(),
         [(0, 0, 1.5), (1, 0, -2e-3), (0, 1, -2e-3), (1, 1, 100.0)]
     );
     let error = read("m", text.as_bytes(), Some("C"))
@@ -287,20 +273,17 @@ fn fields_without_blanks_and_scalar_points_of_dmig_read() {
     );
     // Three entries on a card, and a place for one that has none.
     let text = "DMIG,K,0,2,2,0\nDMIG,K,1,1,,2,1,2.,,+A\n+A,,,,,3,1,3.,,+B\n+B,4,1,4.\n";
-    let found = read("m", text.as_bytes(), None).expect("a matrix");
+    let found = read("m", text.as_bytes(), None).unwrap();
     assert_eq!(found.rows, labels(&[(2, 1), (3, 1), (4, 1)]));
     assert_eq!(
-        found.matrix.entries().collect::<Vec<_>>(),
+        found.matrix.entries().collect_vec(),
         [(0, 0, 2.0), (1, 0, 3.0), (2, 0, 4.0)]
     );
     // Fields of eight characters that touch.
     let text = "DMIG    K       0       1       1       0\nDMIG    K       12345678       3        12345679       1-1.234-3\n";
-    let found = read("m", text.as_bytes(), None).expect("a matrix");
+    let found = read("m", text.as_bytes(), None).unwrap();
     assert_eq!(found.rows, labels(&[(12_345_678, 3), (12_345_679, 1)]));
-    assert_eq!(
-        found.matrix.entries().collect::<Vec<_>>(),
-        [(1, 0, -1.234e-3)]
-    );
+    assert_eq!(found.matrix.entries().collect_vec(), [(1, 0, -1.234e-3)]);
 }
 
 /// What the crate writes, and what SciPy reads from it.
@@ -311,11 +294,11 @@ fn the_owners_programs_read_what_the_crate_writes() {
         (3, 0, -1.5e10),
         (1, 1, 0.1 + 0.2),
         (4, 2, f64::MAX),
-        (0, 2, std::f64::consts::PI),
+        (0, 2, PI),
     ];
-    let mut symmetric: Vec<_> = (0..12)
+    let mut symmetric = (0..12)
         .map(|row| (row, row, 2.0 + 1.0 / (row + 1) as f64))
-        .collect();
+        .collect_vec();
     symmetric.extend((1..12).flat_map(|row| {
         [
             (row, row - 1, -1.0 / row as f64),
@@ -327,24 +310,17 @@ fn the_owners_programs_read_what_the_crate_writes() {
         ("written_symmetric.mtx", 12, 12, symmetric),
     ]
     .map(|(file, rows, columns, entries)| {
-        let matrix = SparseMatrix::new("test", rows, columns, entries).expect("a matrix");
+        let matrix = SparseMatrix::new("test", rows, columns, entries).unwrap();
         assert_written(file, write_matrix_market(&matrix).as_bytes());
         (file, matrix)
     });
     let stored = table("read_back_matrices.csv");
     for (file, matrix) in written {
         let read = stored.iter().filter(|line| line[0] == file);
-        let number = |text: &str| text.parse::<usize>().expect("a number") - 1;
-        let read = read.map(|line| {
-            (
-                number(&line[1]),
-                number(&line[2]),
-                line[3].parse().expect("a number"),
-            )
-        });
+        let number = |text: &str| text.parse::<usize>().unwrap() - 1;
+        let read = read.map(|line| (number(&line[1]), number(&line[2]), line[3].parse().unwrap()));
         assert_eq!(
-            SparseMatrix::new("test", matrix.rows(), matrix.columns(), read.collect())
-                .expect("a matrix"),
+            SparseMatrix::new("test", matrix.rows(), matrix.columns(), read.collect()).unwrap(),
             matrix,
             "{file}"
         );
@@ -352,8 +328,6 @@ fn the_owners_programs_read_what_the_crate_writes() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn a_written_matrix_reads_back_exactly(
         size in (1..30_usize, 1..30_usize),
@@ -370,11 +344,11 @@ properties! {
             }
         }
         let entries = places.into_iter().map(|((row, column), value)| (row, column, value)).collect();
-        let matrix = SparseMatrix::new("test", rows, columns, entries).expect("a matrix");
+        let matrix = SparseMatrix::new("test", rows, columns, entries)?;
         let text = write_matrix_market(&matrix);
         prop_assert_eq!(text.starts_with("%%MatrixMarket matrix coordinate real symmetric\n"), matrix.is_symmetric());
         prop_assert!(!is_symmetric || matrix.is_symmetric());
-        let back = read("test", text.as_bytes(), None).expect("it reads").matrix;
+        let back = read("test", text.as_bytes(), None)?.matrix;
         prop_assert_eq!((back.rows(), back.columns()), (rows, columns));
         prop_assert!(back.entries().eq(matrix.entries()));
     }
@@ -385,9 +359,9 @@ properties! {
         let files = ["general.mtx", "general_array.mtx", "symmetric.mtx", "symmetric_array.mtx", "skew.mtx", "skew_array.mtx",
             "dense.op4", "sparse.op4", "bigmat.op4"];
         let file = files[which];
-        let text = fs::read_to_string(golden(file)).expect("it reads");
+        let text = fs::read_to_string(golden(file))?;
         let wanted = file.ends_with("op4").then_some("T");
-        let lines: Vec<&str> = text.lines().collect();
+        let lines = text.lines().collect_vec();
         // What follows the last record of OUTPUT4 says nothing.
         let left = ((part * lines.len() as f64) as usize).clamp(1, lines.len() - 2);
         let error = read(file, lines[..left].join("\n").as_bytes(), wanted).expect_err("it is cut off");

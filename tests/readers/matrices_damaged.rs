@@ -1,5 +1,6 @@
 //! Matrix files that are damaged, complex or too much: each is refused by its line.
 
+use crate::prelude::*;
 use corfem::files::matrices::read;
 
 #[track_caller]
@@ -7,7 +8,7 @@ fn refused(text: &str, expected: &str) {
     let error = read("m", text.as_bytes(), None)
         .expect_err(expected)
         .to_string();
-    let (line, reason) = expected.split_once(": ").expect("a line");
+    let (line, reason) = expected.split_once(": ").unwrap();
     assert!(
         error.starts_with(&format!("m, line {line}: ")) && error.contains(reason),
         "{error}"
@@ -127,11 +128,8 @@ fn a_promise_takes_no_memory() {
     let text = format!(
         "%%MatrixMarket matrix coordinate real general\n{most} {most} 1\n{most} {most} 1D0\n"
     );
-    let matrix = read("m", text.as_bytes(), None).expect("one entry").matrix;
-    assert_eq!(
-        matrix.entries().collect::<Vec<_>>(),
-        [(most - 1, most - 1, 1.0)]
-    );
+    let matrix = read("m", text.as_bytes(), None).unwrap().matrix;
+    assert_eq!(matrix.entries().collect_vec(), [(most - 1, most - 1, 1.0)]);
 }
 
 #[test]
@@ -209,10 +207,10 @@ fn output4_is_refused_by_line() {
         format!("{complex}       1       1       4\n{one}{one}{one}\n{one}\n{end}{header}{end}");
     assert!(
         read("m", both.as_bytes(), Some("A"))
-            .expect("the other one")
+            .unwrap()
             .matrix
             .entries()
-            .collect::<Vec<_>>()
+            .collect_vec()
             .is_empty()
     );
 }

@@ -4,33 +4,23 @@
 
 use crate::common::fake_solver::{fake, output5, solver};
 use crate::common::outer_loop::program::Matrices;
-use crate::common::structures::lumped_mass;
-use crate::common::tolerances::MATRIX_ROUND_OFF;
-use corfem::files::deck::BulkData;
-use corfem::files::error::FileError;
-use corfem::method::elements::unit_stiffness;
-use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, FiniteElementModel};
-use corfem::torque_box::Case;
-use nalgebra::DMatrix;
-use tempfile::TempDir;
+use crate::prelude::*;
 
 /// What NASTRAN-95 would answer for a model if its elements were this crate's.
 fn own_answer(model: &FiniteElementModel, factors: &[f64]) -> Matrices {
-    let sizes = model.sizes(factors).expect("sizes");
+    let sizes = model.sizes(factors).unwrap();
     let structure = model.structure();
     let free = structure.free_dof();
-    let mut order: Vec<usize> = (0..free.len()).collect();
+    let mut order = (0..free.len()).collect_vec();
     order.sort_by_key(|&row| (free[row].grid, free[row].direction));
     let sorted = |matrix: &DMatrix<f64>| matrix.select_rows(&order).select_columns(&order);
-    let kaa = corfem::method::appendix_a::assemble(model.element_matrices(), &sizes, free.len())
-        .expect("stiffness");
+    let kaa = assemble(model.element_matrices(), &sizes, free.len()).unwrap();
     let t = &model.load_distribution().clone();
     // Stiffness factors leave every element the mass of its first size.
     let lumped = DMatrix::from_diagonal(&lumped_mass(structure));
     let maa = t * model.mass() * t.transpose() + lumped;
     // In KGG the elements stand by themselves after all grids, in the order of their numbers.
-    let mut rows: Vec<usize> = (0..structure.elements().len()).collect();
+    let mut rows = (0..structure.elements().len()).collect_vec();
     rows.sort_by_key(|&row| structure.elements()[row].label);
     let corners: usize = structure
         .elements()
@@ -56,17 +46,17 @@ fn own_answer(model: &FiniteElementModel, factors: &[f64]) -> Matrices {
 /// A solver that answers every deck with the same matrices.
 fn answering(matrices: &Matrices) -> TempDir {
     let home = fake("cat \"$RFDIR/answer\" > \"$FTN15\"");
-    let list: Vec<(&str, &DMatrix<f64>)> = matrices
+    let list = matrices
         .iter()
         .map(|(name, matrix)| (name.as_str(), matrix))
-        .collect();
-    std::fs::write(home.path().join("rf/answer"), output5(&list)).expect("written");
+        .collect_vec();
+    fs::write(home.path().join("rf/answer"), output5(&list)).unwrap();
     home
 }
 
 fn assert_same(found: &DynamicModel, expected: &DynamicModel) {
     let same = |a: &DMatrix<f64>, b: &DMatrix<f64>| {
-        approx::assert_relative_eq!(a, b, epsilon = MATRIX_ROUND_OFF * b.amax())
+        assert_relative_eq!(a, b, epsilon = MATRIX_ROUND_OFF * b.amax())
     };
     same(&found.stiffness, &expected.stiffness);
     same(&found.mass, &expected.mass);
@@ -79,14 +69,14 @@ fn assert_same(found: &DynamicModel, expected: &DynamicModel) {
 #[test]
 fn a_solver_with_the_crates_elements_gives_the_crates_analysis() {
     for number in [1, 3] {
-        let model = Case::new(number).expect("a case").model().expect("a model");
-        let factors: Vec<f64> = (0..15).map(|row| 0.8 + f64::from(row) / 20.0).collect();
+        let model = case_of(number).model().unwrap();
+        let factors = (0..15).map(|row| 0.8 + f64::from(row) / 20.0).collect_vec();
         let home = answering(&own_answer(&model, &factors));
         let found = solver(&home)
             .elements(&model, &factors)
             .and_then(|model| Ok(model.matrices(&factors)?))
-            .expect("an analysis");
-        assert_same(&found, &model.matrices(&factors).expect("an analysis"));
+            .unwrap();
+        assert_same(&found, &model.matrices(&factors).unwrap());
     }
 }
 
@@ -99,20 +89,18 @@ fn elements_and_grids_in_any_order_find_their_matrices() {
     let found = solver(&home)
         .elements(&model, &factors)
         .and_then(|model| Ok(model.matrices(&factors)?))
-        .expect("an analysis");
-    assert_same(&found, &model.matrices(&factors).expect("an analysis"));
+        .unwrap();
+    assert_same(&found, &model.matrices(&factors).unwrap());
 }
 
 /// A frame of three rods and a triangle on grids 7, 3, 9, 5 with z at two dynamic points.
 pub fn disordered() -> FiniteElementModel {
-    use corfem::method::model::Parameter;
-    use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
     let grid = |label, position: [f64; 3], constrained| Grid {
         label,
         position: position.into(),
         constrained: [constrained; 3],
     };
-    let light = Material::isotropic(1e7, 0.3).expect("a material");
+    let light = Material::isotropic(1e7, 0.3).unwrap();
     let heavy = Material {
         density: 1e-4,
         ..light
@@ -141,12 +129,12 @@ pub fn disordered() -> FiniteElementModel {
             element(6, ElementKind::Rod, &[5, 1], light),
         ],
     )
-    .expect("a structure");
+    .unwrap();
     let mut t = DMatrix::zeros(6, 2);
     t[(2, 0)] = 1.0;
     t[(5, 1)] = 0.5;
     t[(3, 1)] = 0.25;
-    let mass = DMatrix::from_diagonal(&nalgebra::dvector![0.5, 0.25]);
+    let mass = DMatrix::from_diagonal(&dvector![0.5, 0.25]);
     FiniteElementModel::new(
         structure,
         t,
@@ -156,7 +144,7 @@ pub fn disordered() -> FiniteElementModel {
             Parameter::new("others", &[4, 12, 6]),
         ],
     )
-    .expect("a model")
+    .unwrap()
 }
 
 #[test]
@@ -171,7 +159,7 @@ fn an_answer_to_another_question_is_refused() {
     };
     let entry = |name: &'static str, part: f64| {
         move |answer: &mut Matrices| {
-            let matrix = answer.get_mut(name).expect("it is there");
+            let matrix = answer.get_mut(name).unwrap();
             let largest = matrix.amax();
             matrix[(0, 0)] += part * largest;
         }

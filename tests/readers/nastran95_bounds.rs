@@ -4,22 +4,21 @@
 #![cfg(unix)]
 
 use crate::common::fake_solver::{fake, solver};
-use corfem::files::error::FileError;
-use std::time::{Duration, Instant};
+use crate::prelude::*;
 
 #[test]
 fn what_a_run_leaves_running_is_ended_with_it() {
-    let outside = tempfile::tempdir().expect("a folder");
+    let outside = tempfile::tempdir().unwrap();
     let file = outside.path().join("process");
     let home = fake(&format!(
         "sleep 60 > /dev/null 2>&1 &\necho $! > {}",
         file.display()
     ));
-    solver(&home).run("").expect("a run");
-    let process = std::fs::read_to_string(file).expect("its number");
+    solver(&home).run("").unwrap();
+    let process = fs::read_to_string(file).unwrap();
     let is_alive = || {
         let state =
-            std::fs::read_to_string(format!("/proc/{}/stat", process.trim())).unwrap_or_default();
+            fs::read_to_string(format!("/proc/{}/stat", process.trim())).unwrap_or_default();
         state.split(' ').nth(2).is_some_and(|state| state != "Z")
     };
     let limit = Instant::now() + Duration::from_secs(20);
@@ -72,7 +71,7 @@ fn a_folder_that_is_gone_is_no_run_without_output() {
         panic!("{error}")
     };
     assert!(path.ends_with("printed"), "{error}");
-    std::fs::remove_file(path.parent().expect("a folder")).expect("removed");
+    fs::remove_file(path.parent().unwrap()).unwrap();
 }
 
 #[test]
@@ -104,7 +103,7 @@ fn words_of_the_solver_cannot_speak_to_the_terminal() {
 
 #[test]
 fn its_folder_is_its_owners_alone() {
-    let answer = solver(&fake("ls -ld .")).run("").expect("a run");
+    let answer = solver(&fake("ls -ld .")).run("").unwrap();
     assert!(
         answer.printed.starts_with("drwx------"),
         "{}",

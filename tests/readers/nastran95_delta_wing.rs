@@ -3,20 +3,10 @@
 //! `golden/nastran95/delta_wing.toml` is what its correlation with NASTRAN-95 found; `golden/nastran95/README.md` says how
 //! it was made and what to expect of it.
 
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::known::delta_wing::correlation::{
-    GROUPS, WingCorrelation, correlate_wing, correlate_wing_with, first_model, settings, test_modes,
-};
-use crate::common::outer_loop::{assert_near, paired_hz, stored_wing};
-use crate::common::tolerances::{NASTRAN_AGAIN, NASTRAN_FREQUENCY, NASTRAN_GAGE};
-use corfem::files::error::FileError;
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::model::FiniteElementModel;
-use std::sync::LazyLock;
+use crate::prelude::*;
 
 static RUN: LazyLock<WingCorrelation> =
-    LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).expect("it runs"));
+    LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).unwrap());
 
 fn wing() -> DeltaWing {
     DeltaWing::embedded()
@@ -27,9 +17,9 @@ fn wing() -> DeltaWing {
 #[test]
 fn stored_frequencies_are_the_crates_at_the_same_factors() {
     let stored = stored_wing();
-    let model = first_model(&wing()).expect("a model");
+    let model = first_model(&wing()).unwrap();
     assert_eq!(stored.initial.factors, [1.0; GROUPS.len()]);
-    let test = test_modes(&wing()).expect("test modes");
+    let test = test_modes(&wing()).unwrap();
     // They are the crate's own on both sides, perhaps by another processor.
     assert_near(
         &stored.test_frequencies_hz,
@@ -40,7 +30,7 @@ fn stored_frequencies_are_the_crates_at_the_same_factors() {
     for found in stored.checks() {
         let own = model
             .analyze(&found.factors, &test, None)
-            .expect("an analysis")
+            .unwrap()
             .exact()
             .clone();
         assert_near(
@@ -60,7 +50,7 @@ fn stored_frequencies_are_the_crates_at_the_same_factors() {
         // But it is NASTRAN-95's answer: more than round-off is between them.
         let own = paired_hz(&own);
         let pairs = found.frequencies_hz.iter().zip(&own);
-        let apart = pairs.map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max);
+        let apart = pairs.map(|(a, b)| relative_error(a, b)).fold(0.0, f64::max);
         assert!(apart > NASTRAN_AGAIN, "{apart}");
     }
 }
@@ -112,7 +102,7 @@ fn another_analysis_is_asked_for_every_model() {
         },
         |pass, _| told.push(pass),
     )
-    .expect("it runs");
+    .unwrap();
     assert_eq!(run.correlation.passes.len(), RUN.correlation.passes.len());
     assert_eq!(told, [1, 2, 3]);
     // For the shares of the first model, at the start of the loop, and after every pass.

@@ -3,16 +3,10 @@
 #![cfg(unix)]
 
 use crate::common::fake_solver::{fake, solver};
-use crate::common::outer_loop::program::{HEADING, correlate_case};
-use crate::common::outer_loop::{paired_hz, read_cases};
-use crate::common::tolerances::{GOLDEN_RELATIVE, MATRIX_ROUND_OFF};
+use crate::common::outer_loop::program::HEADING;
+use crate::common::outer_loop::read_cases;
+use crate::prelude::*;
 use crate::readers::nastran95_analysis::disordered;
-use corfem::files::deck::BulkData;
-use corfem::files::error::FileError;
-use corfem::method::error::Error;
-use corfem::method::model::FiniteElementModel;
-use corfem::torque_box::{Case, run_case};
-use nalgebra::DMatrix;
 
 #[test]
 fn the_deck_of_an_analysis_has_every_element_twice() {
@@ -22,7 +16,7 @@ fn the_deck_of_an_analysis_has_every_element_twice() {
         .elements(&model, &[2.0, 1.0])
         .expect_err("no answer");
     assert!(error.to_string().contains("nothing was written"), "{error}");
-    let text = std::fs::read_to_string(home.path().join("rf/deck")).expect("a deck");
+    let text = fs::read_to_string(home.path().join("rf/deck")).unwrap();
     for line in [
         "INSERT READ,-1 $",
         "OUTPUT5 KGG,KAA,MAA,,//-1/15/*CORFEM*/1 $",
@@ -33,18 +27,22 @@ fn the_deck_of_an_analysis_has_every_element_twice() {
         assert!(text.lines().any(|found| found == line), "{line}");
     }
     let read = corfem::files::deck::read("deck", text.as_bytes(), &[])
-        .expect("it reads")
+        .unwrap()
         .model;
     // Five grids and two dynamic points, then a grid for every corner, after all of them and held.
-    let labels: Vec<usize> = read.grids.iter().map(|grid| grid.label).collect();
+    let labels = read.grids.iter().map(|grid| grid.label).collect_vec();
     assert_eq!(labels[..7], [1, 3, 5, 7, 9, 101, 102]);
-    assert_eq!(labels[7..], (201..=213).collect::<Vec<_>>());
+    assert_eq!(labels[7..], (201..=213).collect_vec());
     assert!(
         read.grids[7..]
             .iter()
             .all(|grid| grid.constrained == [true; 3])
     );
-    let labels: Vec<usize> = read.elements.iter().map(|element| element.label).collect();
+    let labels = read
+        .elements
+        .iter()
+        .map(|element| element.label)
+        .collect_vec();
     assert_eq!(labels, [2, 4, 6, 8, 12, 40, 201, 202, 203, 204, 205, 206]);
     assert_eq!(read.elements[5].size, 0.2);
     let position = |label: usize| {
@@ -67,7 +65,7 @@ fn the_deck_of_an_analysis_has_every_element_twice() {
 
 #[test]
 fn a_deck_holds_point_masses_alone() {
-    let mut mass = DMatrix::identity(2, 2);
+    let mut mass = eye(2);
     mass[(0, 1)] = 0.1;
     mass[(1, 0)] = 0.1;
     let model = disordered();
@@ -77,8 +75,8 @@ fn a_deck_holds_point_masses_alone() {
         mass,
         model.parameters().to_vec(),
     )
-    .expect("a model");
-    let error = BulkData::from_model(&coupled, &[1.0, 1.0], &[nalgebra::Vector3::zeros(); 2]);
+    .unwrap();
+    let error = BulkData::from_model(&coupled, &[1.0, 1.0], &[Vector3::zeros(); 2]);
     assert!(matches!(
         error,
         Err(FileError::Method(Error::Value {
@@ -92,19 +90,19 @@ fn a_deck_holds_point_masses_alone() {
 #[test]
 fn element_matrices_of_another_origin_must_fit() {
     let model = disordered();
-    let own: Vec<DMatrix<f64>> = model
+    let own = model
         .element_matrices()
         .iter()
         .map(|element| element.unit.clone())
-        .collect();
+        .collect_vec();
     let doubled = own.iter().map(|unit| 2.0 * unit).collect();
-    let stiffer = model.with_unit_stiffness(doubled).expect("they fit");
+    let stiffer = model.with_unit_stiffness(doubled).unwrap();
     let (once, twice) = (
-        model.matrices(&[1.0, 1.0]).expect("an analysis"),
-        stiffer.matrices(&[1.0, 1.0]).expect("an analysis"),
+        model.matrices(&[1.0, 1.0]).unwrap(),
+        stiffer.matrices(&[1.0, 1.0]).unwrap(),
     );
     let expected = 2.0 * once.stiffness;
-    approx::assert_relative_eq!(
+    assert_relative_eq!(
         twice.stiffness,
         expected,
         epsilon = MATRIX_ROUND_OFF * expected.amax()
@@ -129,7 +127,7 @@ fn element_matrices_of_another_origin_must_fit() {
         ),
         "{error}"
     );
-    let error = changed(&|units| units[1] = DMatrix::identity(4, 4));
+    let error = changed(&|units| units[1] = eye(4));
     assert!(
         matches!(
             error,
@@ -173,14 +171,14 @@ fn element_matrices_of_another_origin_must_fit() {
 /// frequency and leaves every factor alone.
 #[test]
 fn a_case_runs_with_the_analysis_it_is_given() {
-    let case = Case::new(2).expect("a case");
+    let case = case_of(2);
     let stiffer = |model: &FiniteElementModel, _: &[f64]| {
         let elements = model.element_matrices().iter();
         let units = elements.map(|element| 4.0 * &element.unit).collect();
         Ok(model.with_unit_stiffness(units)?)
     };
-    let own = run_case(&case, |_, _| ()).expect("a run");
-    let other = correlate_case(&case, stiffer).expect("a run");
+    let own = run_case(&case, |_, _| ()).unwrap();
+    let other = correlate_case(&case, stiffer).unwrap();
     for (a, b) in [
         (&own.test, &other.test),
         (
@@ -189,10 +187,10 @@ fn a_case_runs_with_the_analysis_it_is_given() {
         ),
     ] {
         let doubled = b.omega_squared().map(|root| root / 4.0);
-        approx::assert_relative_eq!(doubled, a.omega_squared(), max_relative = GOLDEN_RELATIVE);
+        assert_relative_eq!(doubled, a.omega_squared(), max_relative = GOLDEN_RELATIVE);
     }
     for (a, b) in own.pass_gages[1].iter().zip(&other.pass_gages[1]) {
-        approx::assert_relative_eq!(a, b, max_relative = GOLDEN_RELATIVE);
+        assert_relative_eq!(a, b, max_relative = GOLDEN_RELATIVE);
     }
 }
 
@@ -202,10 +200,10 @@ fn a_history_reads_as_the_golden_does() {
     let golden = include_str!("../../golden/nastran95/outer_loop.toml");
     assert!(golden.starts_with(&format!("{HEADING}\n[[case]]\nnumber = 1\n")));
     for number in [2, 4] {
-        let case = Case::new(number).expect("a case");
-        let own = run_case(&case, |_, _| ()).expect("a run");
-        let run = correlate_case(&case, |model, _| Ok(model.clone())).expect("a run");
-        let [read] = &read_cases(&run.toml().expect("a text"))[..] else {
+        let case = case_of(number);
+        let own = run_case(&case, |_, _| ()).unwrap();
+        let run = correlate_case(&case, |model, _| Ok(model.clone())).unwrap();
+        let [read] = &read_cases(&run.toml().unwrap())[..] else {
             panic!("case {number}: not one case")
         };
         assert_eq!(read.number, number);

@@ -3,17 +3,7 @@
 //! `golden/nastran95/outer_loop.toml` is what `cargo run --example nastran95` found; `golden/nastran95/README.md` says how it
 //! was made and what to expect of it.
 
-use crate::common::outer_loop::{assert_near, paired_hz, stored};
-use crate::common::tolerances::{
-    NASTRAN_EIGENVALUE, NASTRAN_FREQUENCY, NASTRAN_GAGE, NASTRAN_GAGE_CASE_1,
-    NASTRAN_SINGLE_PRECISION, PRINTED_SNAP_FACTOR,
-};
-use corfem::method::elements::{energy_coefficient, mean_plane};
-use corfem::method::modes::solve;
-use corfem::method::structure::{Element, ElementKind, Material};
-use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
-use corfem::torque_box::{CASES, Case, published_passes, run_case};
-use nalgebra::Vector3;
+use crate::prelude::*;
 
 /// Energy of a unit shear panel where NASTRAN-95 takes sides 1-2 and 3-4, or 1-4 and 2-3, for parallel, over what it is.
 ///
@@ -54,7 +44,7 @@ fn snap_factor(corners: &[Vector3<f64>], material: &Material) -> Option<f64> {
 
 /// Factors by which NASTRAN-95's panels are stiffer than the crate's: those it snaps, one for the others.
 fn snap_factors(case: &Case) -> Vec<f64> {
-    let model = case.model().expect("a model");
+    let model = case.model().unwrap();
     let structure = model.structure();
     let panels = structure.elements()[..PANEL_COUNT].iter();
     let factor = |(element, corners): (&Element, &Vec<Vector3<f64>>)| match element.kind {
@@ -66,21 +56,21 @@ fn snap_factors(case: &Case) -> Vec<f64> {
 
 /// The crate's frequencies at given gages.
 fn frequencies(case: &Case, gages: &[f64]) -> Vec<f64> {
-    let model = case.model_with(gages).expect("a model");
-    let dynamic = model.matrices(&[1.0; PANEL_COUNT]).expect("an analysis");
+    let model = case.model_with(gages).unwrap();
+    let dynamic = model.matrices(&[1.0; PANEL_COUNT]).unwrap();
     solve(&dynamic.stiffness, &dynamic.mass, 9)
-        .expect("modes")
+        .unwrap()
         .frequencies_hz()
 }
 
 #[test]
 fn only_three_panels_of_the_box_are_snapped() {
     for number in CASES {
-        let case = Case::new(number).expect("a case");
-        let snapped: Vec<(usize, f64)> = (1..)
+        let case = case_of(number);
+        let snapped = (1..)
             .zip(snap_factors(&case))
             .filter(|(_, factor)| (factor - 1.0).abs() > NASTRAN_EIGENVALUE)
-            .collect();
+            .collect_vec();
         // golden/nastran95/README.md: panel 14 by 1.0000022, and the covers 2 and 15 by 0.9972 where they are shear panels.
         let expected: &[(usize, f64)] = if number == 1 {
             &[(2, 0.9972), (14, 1.000_002_2), (15, 0.9972)]
@@ -108,14 +98,14 @@ fn only_three_panels_of_the_box_are_snapped() {
 #[test]
 fn stored_frequencies_are_the_crates_at_the_same_gages() {
     for stored in stored() {
-        let case = Case::new(stored.number).expect("a case");
+        let case = Case::new(stored.number).unwrap();
         let factors = snap_factors(&case);
         let at = |gages: &[f64]| {
-            let gages: Vec<f64> = gages
+            let gages = gages
                 .iter()
                 .zip(&factors)
                 .map(|(gage, factor)| gage * factor)
-                .collect();
+                .collect_vec();
             frequencies(&case, &gages)
         };
         assert_near(
@@ -146,8 +136,8 @@ fn stored_frequencies_are_the_crates_at_the_same_gages() {
 #[test]
 fn stored_correlations_are_the_crates() {
     for stored in stored() {
-        let case = Case::new(stored.number).expect("a case");
-        let own = run_case(&case, |_, _| ()).expect("a run");
+        let case = Case::new(stored.number).unwrap();
+        let own = run_case(&case, |_, _| ()).unwrap();
         let gage = match stored.number {
             1 => NASTRAN_GAGE_CASE_1,
             _ => NASTRAN_GAGE,
@@ -171,7 +161,7 @@ fn stored_correlations_are_the_crates() {
         {
             assert_near(&check.gages_in, gages, gage, &name);
             assert_near(&check.frequencies_hz, &paired_hz(&pass.check), gage, &name);
-            let iterations = check.iterations.expect("a pass has iterations");
+            let iterations = check.iterations.unwrap();
             assert_eq!(iterations, pass.inner.iterations.len(), "{name}");
         }
         // What the paper reached is reached with NASTRAN-95 too: Table 3, 5 and 7's last rows, Case 2's 0.42 % within 0.04.
@@ -181,7 +171,7 @@ fn stored_correlations_are_the_crates() {
             (3, 0.0041, 0.0125),
         ];
         if let Some((_, frequency, shape)) = published.iter().find(|row| row.0 == stored.number) {
-            let last = stored.passes.last().expect("a pass");
+            let last = stored.passes.last().unwrap();
             assert!(
                 last.frequency_rms <= *frequency && last.shape_rms <= *shape,
                 "{name}"

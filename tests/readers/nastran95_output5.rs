@@ -3,13 +3,12 @@
 #![cfg(unix)]
 
 use crate::common::fake_solver::output5;
-use crate::common::outer_loop::program::read_output5;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 #[test]
 fn a_file_of_module_output5_reads() {
     let text = include_str!("../../golden/nastran95/output5_rod.txt");
-    let matrices = read_output5(text, 144).expect("it reads");
+    let matrices = read_output5(text, 144).unwrap();
     assert_eq!(matrices.len(), 1);
     let kgg = &matrices["KGG"];
     assert_eq!(kgg.shape(), (12, 12));
@@ -22,14 +21,14 @@ fn a_file_of_module_output5_reads() {
             "A",
             &DMatrix::from_row_slice(2, 3, &[0.0, 2.0, 0.0, 1.0, -3.0, 0.0]),
         ),
-        ("B", &DMatrix::zeros(1, 1)),
+        ("B", &zero_square(1)),
     ]);
-    let read = read_output5(&two, 7).expect("it reads");
+    let read = read_output5(&two, 7).unwrap();
     assert_eq!(
         read["A"],
         DMatrix::from_row_slice(2, 3, &[0.0, 2.0, 0.0, 1.0, -3.0, 0.0])
     );
-    assert_eq!(read["B"], DMatrix::zeros(1, 1));
+    assert_eq!(read["B"], zero_square(1));
     // No header is too large, but both together are.
     let error = read_output5(&two, 6).expect_err("seven entries");
     assert!(error.to_string().contains("line 9: "), "{error}");
@@ -38,13 +37,13 @@ fn a_file_of_module_output5_reads() {
 #[test]
 fn a_damaged_file_of_module_output5_is_refused_by_line() {
     let good = include_str!("../../golden/nastran95/output5_rod.txt");
-    let lines: Vec<&str> = good.lines().collect();
+    let lines = good.lines().collect_vec();
     let refused = |line: usize, text: &str, expected: &str| {
         let mut lines = lines.clone();
         lines[line - 1] = text;
         let error = read_output5(&lines.join("\n"), 144).expect_err(text);
         let reason = error.to_string();
-        let (what, line) = expected.rsplit_once(" in ").expect("a line");
+        let (what, line) = expected.rsplit_once(" in ").unwrap();
         assert!(
             reason.starts_with(&format!("NASTRAN-95: OUTPUT5 file, {line}: "))
                 && reason.contains(what),

@@ -3,29 +3,23 @@
 #![cfg(unix)]
 
 use crate::common::fake_solver::{fake, solver};
-use crate::common::outer_loop::program::{Nastran95, case_numbers, default_folder, status};
+use crate::common::outer_loop::program::{case_numbers, status};
 use crate::common::signals::send;
-use corfem::files::error::FileError;
-use corfem::torque_box::CASES;
-use rustix::process::Signal;
+use crate::prelude::*;
 use std::os::unix::fs::PermissionsExt;
-use std::path::Path;
-use std::process::{Command, Output, Stdio};
-use std::sync::atomic::Ordering;
-use std::time::{Duration, Instant};
-use tempfile::TempDir;
+use std::process::Output;
 
 fn entries(folder: &Path) -> usize {
-    std::fs::read_dir(folder).expect("a folder").count()
+    fs::read_dir(folder).unwrap().count()
 }
 
 #[test]
 fn a_missing_solver_is_named() {
-    let empty = tempfile::tempdir().expect("a folder");
+    let empty = tempfile::tempdir().unwrap();
     let no_formats = fake("exit 0");
-    std::fs::remove_dir(no_formats.path().join("rf")).expect("removed");
+    fs::remove_dir(no_formats.path().join("rf")).unwrap();
     let no_program = fake("exit 0");
-    std::fs::remove_file(no_program.path().join("bin/nastrn")).expect("removed");
+    fs::remove_file(no_program.path().join("bin/nastrn")).unwrap();
     for folder in [
         empty.path(),
         no_formats.path(),
@@ -46,7 +40,7 @@ fn a_missing_solver_is_named() {
 fn a_program_that_cannot_start_is_named() {
     let home = fake("exit 0");
     let program = home.path().join("bin/nastrn");
-    std::fs::set_permissions(&program, PermissionsExt::from_mode(0o644)).expect("not executable");
+    std::fs::set_permissions(&program, PermissionsExt::from_mode(0o644)).unwrap();
     let error = solver(&home).run("").expect_err("it cannot start");
     let file = error.downcast_ref();
     assert!(
@@ -62,10 +56,10 @@ fn a_run_gets_its_deck_and_its_files_and_gives_back_what_it_wrote() {
          for file in \"$LOGNM\" \"$NPTPNM\" \"$DICTNM\" \"$PLTNM\" \"$PUNCHNM\" \"$FTN11\" \"$FTN23\"; do echo x > \"$file\"; done; ls | wc -l\n\
          printf 'matrices' > \"$FTN15\"",
     );
-    let answer = solver(&home).run("BEGIN BULK\n").expect("a run");
+    let answer = solver(&home).run("BEGIN BULK\n").unwrap();
     assert_eq!(answer.unit_15.as_deref(), Some("matrices"));
-    let formats = home.path().canonicalize().expect("a path").join("rf");
-    let lines: Vec<&str> = answer.printed.lines().map(str::trim).collect();
+    let formats = home.path().canonicalize().unwrap().join("rf");
+    let lines = answer.printed.lines().map(str::trim).collect_vec();
     assert_eq!(lines[0], "BEGIN BULK");
     assert_eq!(
         lines[1],
@@ -150,7 +144,7 @@ fn a_fatal_message_is_the_error_also_with_a_good_exit_status() {
 
 #[test]
 fn a_hang_is_stopped_with_everything_it_started() {
-    let outside = tempfile::tempdir().expect("a folder");
+    let outside = tempfile::tempdir().unwrap();
     let marker = outside.path().join("alive");
     let home = fake(&format!(
         "(sleep 2; touch {}) &\nsleep 60",
@@ -188,12 +182,12 @@ fn a_request_to_stop_ends_the_run() {
 #[test]
 #[ignore = "needs NASTRAN-95"]
 fn the_program_prints_a_case() {
-    assert_eq!(status(std::iter::once("4".to_owned())), 0);
+    assert_eq!(status(once("4".to_owned())), 0);
 }
 
 /// The program asked for Case 4 as a process of its own, with a fake solver and its temporary files in a folder.
 fn program(home: &TempDir, temporary: &Path) -> Command {
-    let mut command = Command::new(std::env::current_exe().expect("a path"));
+    let mut command = Command::new(std::env::current_exe().unwrap());
     let itself = "readers::nastran95_process::the_program_prints_a_case";
     command
         .args(["--ignored", "--exact", "--nocapture", itself])
@@ -234,9 +228,9 @@ fn no_run_leaves_anything_behind() {
             "OUTPUT5 file, line 2: \"rubbish\" is not a line of integers",
         ),
     ] {
-        let temporary = tempfile::tempdir().expect("a folder");
+        let temporary = tempfile::tempdir().unwrap();
         let output = program(&fake(script), temporary.path()).output();
-        let output = output.expect("it starts");
+        let output = output.unwrap();
         let error = error_of(output);
         assert!(
             error.starts_with("NASTRAN-95") && error.contains(message),
@@ -249,12 +243,12 @@ fn no_run_leaves_anything_behind() {
 #[test]
 fn a_signal_ends_the_solver_and_then_the_program_and_leaves_nothing() {
     for signal in [Signal::INT, Signal::TERM] {
-        let temporary = tempfile::tempdir().expect("a folder");
+        let temporary = tempfile::tempdir().unwrap();
         let home = fake("touch started; sleep 60");
         let mut child = program(&home, temporary.path());
-        let child = child.spawn().expect("it starts");
+        let child = child.spawn().unwrap();
         let started = || {
-            let folders = std::fs::read_dir(temporary.path()).expect("a folder");
+            let folders = fs::read_dir(temporary.path()).unwrap();
             let mut folders = folders.flatten();
             folders.any(|folder| folder.path().join("started").exists())
         };
@@ -263,7 +257,7 @@ fn a_signal_ends_the_solver_and_then_the_program_and_leaves_nothing() {
             std::thread::sleep(Duration::from_millis(20));
         }
         send(&child, signal);
-        let ended = child.wait_with_output().expect("an end");
+        let ended = child.wait_with_output().unwrap();
         assert_eq!(error_of(ended), "NASTRAN-95 was stopped by request");
         assert_eq!(entries(temporary.path()), 0, "{signal:?}");
     }
@@ -272,7 +266,7 @@ fn a_signal_ends_the_solver_and_then_the_program_and_leaves_nothing() {
 #[test]
 fn a_temporary_folder_that_cannot_be_made_is_named() {
     let output = program(&fake("exit 0"), Path::new("/no/such/folder")).output();
-    let error = error_of(output.expect("it starts"));
+    let error = error_of(output.unwrap());
     assert!(
         error.starts_with("cannot write /no/such/folder: "),
         "{error}"
@@ -283,8 +277,8 @@ fn a_temporary_folder_that_cannot_be_made_is_named() {
 fn cases_are_named_by_their_numbers() {
     let numbers =
         |arguments: &[&str]| case_numbers(arguments.iter().map(|text| (*text).to_owned()));
-    assert_eq!(numbers(&[]).expect("all of them"), CASES);
-    assert_eq!(numbers(&["3", "1"]).expect("two of them"), [3, 1]);
+    assert_eq!(numbers(&[]).unwrap(), CASES);
+    assert_eq!(numbers(&["3", "1"]).unwrap(), [3, 1]);
     for wrong in ["5", "0", "one", "\u{7}"] {
         let error = numbers(&["1", wrong]).expect_err(wrong).to_string();
         assert!(error.ends_with(" is no case of the paper; name cases by their numbers, 1 to 4"));

@@ -1,23 +1,6 @@
 //! NASTRAN-95 itself, for which it must be installed: it answers as stored, and runs the decks as they are written.
 
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::known::delta_wing::correlation::{
-    correlate_wing_with, first_model, settings, test_modes,
-};
-use crate::common::known::weighed::Weighed;
-use crate::common::outer_loop::program::{Nastran95, correlate_case, default_folder};
-use crate::common::outer_loop::{assert_near, paired_hz, stored, stored_wing};
-use crate::common::tolerances::{
-    NASTRAN_AGAIN, NASTRAN_EIGENVALUE, NASTRAN_FREQUENCY, NASTRAN_GAGE, NASTRAN_PRINTED_EIGENVALUE,
-    NASTRAN_SINGLE_PRECISION, SAME_HISTORY,
-};
-use corfem::files::deck::{self, BulkData, Task};
-use corfem::method::analysis::Analysis;
-use corfem::method::model::{DynamicModel, FiniteElementModel};
-use corfem::method::modes::solve;
-use corfem::torque_box::Case;
-use corfem::torque_box::wing_box::{PANEL_COUNT, dynamic_points};
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// The program, which these tests need: `cargo test nastran -- --include-ignored` runs them too.
 fn program() -> Nastran95 {
@@ -32,15 +15,15 @@ fn program() -> Nastran95 {
 fn nastran_answers_as_stored() {
     let nastran = program();
     for stored in stored() {
-        let case = Case::new(stored.number).expect("a case");
-        for check in std::iter::once(&stored.initial).chain(&stored.passes) {
-            let model = case.model_with(&check.gages_in).expect("a model");
+        let case = Case::new(stored.number).unwrap();
+        for check in once(&stored.initial).chain(&stored.passes) {
+            let model = case.model_with(&check.gages_in).unwrap();
             let dynamic = nastran
                 .elements(&model, &[1.0; PANEL_COUNT])
                 .and_then(|model| Ok(model.matrices(&[1.0; PANEL_COUNT])?))
-                .expect("an analysis");
+                .unwrap();
             let found = solve(&dynamic.stiffness, &dynamic.mass, 9)
-                .expect("modes")
+                .unwrap()
                 .frequencies_hz();
             let mut expected = check.frequencies_hz.clone();
             expected.sort_by(f64::total_cmp);
@@ -56,9 +39,9 @@ fn nastran_answers_as_stored() {
             assert!(rods.symmetric_eigenvalues().min() > -NASTRAN_AGAIN * dynamic.stiffness.amax());
         }
     }
-    let case = Case::new(2).expect("a case");
+    let case = case_of(2);
     let by_nastran = |model: &_, factors: &[f64]| nastran.elements(model, factors);
-    let run = correlate_case(&case, by_nastran).expect("a run");
+    let run = correlate_case(&case, by_nastran).unwrap();
     let expected = &stored()[1].passes[1];
     assert_near(
         &run.pass_gages[1],
@@ -73,8 +56,8 @@ fn nastran_answers_as_stored() {
 fn nastran_solves_the_written_deck_for_its_modes() {
     let nastran = program();
     for number in [2, 3] {
-        let case = Case::new(number).expect("a case");
-        let model = case.model().expect("a model");
+        let case = case_of(number);
+        let model = case.model().unwrap();
         let (own, bulk) = modes_and_deck(&case, &model);
         // By NASTRAN-95's own eigensolution with the singular mass.
         let task = Task::Modes {
@@ -82,8 +65,8 @@ fn nastran_solves_the_written_deck_for_its_modes() {
             range_hz: [5.0, 3000.0],
         };
         let printed = nastran
-            .run(&deck::write(&bulk, "box", &task).expect("a deck"))
-            .expect("a run")
+            .run(&deck::write(&bulk, "box", &task).unwrap())
+            .unwrap()
             .printed;
         assert_near(
             &printed_eigenvalues(&printed),
@@ -94,26 +77,18 @@ fn nastran_solves_the_written_deck_for_its_modes() {
         // By its matrices: the nine finite roots of (KAA, MAA).
         let matrices = nastran
             .matrices(
-                &deck::write(&bulk, "box", &Task::Matrices).expect("a deck"),
+                &deck::write(&bulk, "box", &Task::Matrices).unwrap(),
                 1_000_000,
             )
-            .expect("a run");
-        let lower = matrices["KAA"]
-            .clone()
-            .cholesky()
-            .expect("a constrained structure")
-            .l();
-        let half = lower
-            .solve_lower_triangular(&matrices["MAA"])
-            .expect("a nonzero diagonal");
-        let reduced = lower
-            .solve_lower_triangular(&half.transpose())
-            .expect("a nonzero diagonal");
-        let mut roots: Vec<f64> = (0.5 * (&reduced + reduced.transpose()))
+            .unwrap();
+        let lower = matrices["KAA"].clone().cholesky().unwrap().l();
+        let half = lower.solve_lower_triangular(&matrices["MAA"]).unwrap();
+        let reduced = lower.solve_lower_triangular(&half.transpose()).unwrap();
+        let mut roots = (0.5 * (&reduced + reduced.transpose()))
             .symmetric_eigenvalues()
             .iter()
             .map(|root| root.recip())
-            .collect();
+            .collect_vec();
         roots.retain(|root| *root > 0.0 && *root < 1e3 * own[8]);
         roots.sort_by(f64::total_cmp);
         assert_near(&roots, &own, NASTRAN_EIGENVALUE, "KAA and MAA");
@@ -122,10 +97,10 @@ fn nastran_solves_the_written_deck_for_its_modes() {
 
 /// Squared circular frequencies of a case's model, and its deck.
 fn modes_and_deck(case: &Case, model: &FiniteElementModel) -> (Vec<f64>, BulkData) {
-    let dynamic = model.matrices(&[1.0; PANEL_COUNT]).expect("an analysis");
-    let modes = solve(&dynamic.stiffness, &dynamic.mass, 9).expect("modes");
-    let points = dynamic_points(&case.reconstruction).expect("points");
-    let bulk = BulkData::from_model(model, &[1.0; PANEL_COUNT], &points).expect("bulk data");
+    let dynamic = model.matrices(&[1.0; PANEL_COUNT]).unwrap();
+    let modes = solve(&dynamic.stiffness, &dynamic.mass, 9).unwrap();
+    let points = dynamic_points(&case.reconstruction).unwrap();
+    let bulk = BulkData::from_model(model, &[1.0; PANEL_COUNT], &points).unwrap();
     (modes.omega_squared().as_slice().to_vec(), bulk)
 }
 
@@ -134,16 +109,16 @@ fn printed_eigenvalues(printed: &str) -> Vec<f64> {
     let table = printed
         .split("R E A L   E I G E N V A L U E S")
         .nth(1)
-        .expect("a table");
+        .unwrap();
     table
         .lines()
-        .map(|line| line.split_whitespace().collect::<Vec<_>>())
+        .map(|line| line.split_whitespace().collect_vec())
         .filter(|fields| {
             fields.len() == 7
                 && fields[0].parse::<usize>().is_ok()
                 && fields[1].parse::<usize>().is_ok()
         })
-        .map(|fields| fields[2].parse().expect("an eigenvalue"))
+        .map(|fields| fields[2].parse().unwrap())
         .take(9)
         .collect()
 }
@@ -154,15 +129,13 @@ fn nastran_analyzes_the_delta_wing_as_the_crate_does() {
     let nastran = program();
     let stored = stored_wing();
     let wing = DeltaWing::embedded();
-    let model = first_model(&wing).expect("a model");
-    let test = test_modes(&wing).expect("test modes");
+    let model = first_model(&wing).unwrap();
+    let test = test_modes(&wing).unwrap();
     for expected in stored.checks() {
-        let here = model.matrices(&expected.factors).expect("an analysis");
-        let elements = nastran
-            .elements(&model, &expected.factors)
-            .expect("an analysis");
+        let here = model.matrices(&expected.factors).unwrap();
+        let elements = nastran.elements(&model, &expected.factors).unwrap();
         let elements = Weighed(elements);
-        let there = elements.matrices(&expected.factors).expect("condensed");
+        let there = elements.matrices(&expected.factors).unwrap();
         for (here, there) in [
             (&here.stiffness, &there.stiffness),
             (&here.mass, &there.mass),
@@ -171,7 +144,7 @@ fn nastran_analyzes_the_delta_wing_as_the_crate_does() {
             assert!((there - here).amax() <= NASTRAN_SINGLE_PRECISION * here.amax());
         }
         let frequencies = |model: &DynamicModel| {
-            let modes = solve(&model.stiffness, &model.mass, 19).expect("modes");
+            let modes = solve(&model.stiffness, &model.mass, 19).unwrap();
             modes.frequencies_hz()
         };
         assert_near(
@@ -182,7 +155,7 @@ fn nastran_analyzes_the_delta_wing_as_the_crate_does() {
         );
         let again = elements
             .analyze(&expected.factors, &test, None)
-            .expect("modes")
+            .unwrap()
             .exact()
             .clone();
         assert_near(
@@ -204,7 +177,7 @@ fn nastran_corrects_the_delta_wing_as_stored() {
         |model, factors| nastran.elements(model, factors),
         |_, _| (),
     )
-    .expect("a run");
+    .unwrap();
     let stored = stored_wing();
     assert_eq!(run.correlation.passes.len(), stored.passes.len());
     for (pass, expected) in run.correlation.passes.iter().zip(&stored.passes) {

@@ -4,17 +4,11 @@
 //! extreme. `CORFEM_CALLS=100000 CORFEM_READER=OUTPUT4 cargo test --release readers_survive -- --nocapture` makes so many calls of every
 //! reader with that word in its name, all of them without, and says how many and in what time. `CORFEM_SEED=100000` goes on behind them.
 
-use crate::common::draws::Draws;
-use crate::common::jobs::prepare;
-use crate::common::outer_loop::program::read_output5;
-use crate::common::test_files::{write_csv, write_universal};
-use corfem::files::deck::{modes, read as read_deck, rewrite};
+use crate::prelude::*;
+use corfem::files::deck::{modes, read as read_deck};
 use corfem::files::matrices::read as read_matrix;
 use corfem::files::test_data::read as read_test;
 use corfem::job::Job;
-use corfem::torque_box::published::PublishedTable;
-use corfem::torque_box::wing_box::Reconstruction;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// What damage puts in: field separators, signs, ends of numbers, ends of lines, and bytes that are no text.
 const BYTES: &[u8] = b" ,.+-*=0123456789eEdD$#\"'\t\r\n[]\0\xff\xefAG";
@@ -45,8 +39,7 @@ impl Draws {
                     text.splice(at..end.max(at), word.iter().copied());
                 }
                 4 => {
-                    let mut lines: Vec<&[u8]> =
-                        text.split_inclusive(|byte| *byte == b'\n').collect();
+                    let mut lines = text.split_inclusive(|byte| *byte == b'\n').collect_vec();
                     let (a, b) = (self.below(lines.len()), self.below(lines.len()));
                     if a < lines.len() && b < lines.len() {
                         lines.swap(a, b);
@@ -62,15 +55,15 @@ impl Draws {
 
 /// Whether the building's job, with another table of rows, can be prepared; its matrices and its test are where they are.
 fn prepares(job: &[u8], rows: &[u8]) -> bool {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = tempfile::tempdir().unwrap();
     let files = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/jobs/building/");
     let mut text = String::from_utf8_lossy(job).into_owned();
     for name in ["stiffness.mtx", "mass.mtx", "story_", "test.csv"] {
         text = text.replace(&format!("\"{name}"), &format!("\"{files}{name}"));
     }
     let path = folder.path().join("job.toml");
-    std::fs::write(&path, text).expect("written");
-    std::fs::write(folder.path().join("rows.csv"), rows).expect("written");
+    fs::write(&path, text).unwrap();
+    fs::write(folder.path().join("rows.csv"), rows).unwrap();
     prepare(&path).is_ok()
 }
 
@@ -91,7 +84,7 @@ const READERS: &[Reader] = &[
         read_output5(&String::from_utf8_lossy(text), 10_000).is_ok()
     }),
     ("deck to be rewritten", include_bytes!("../../golden/formats/original.bdf"), |text| {
-        let deck = read_deck("deck", include_bytes!("../../golden/formats/rewritten.bdf"), &[]).expect("it reads");
+        let deck = read_deck("deck", include_bytes!("../../golden/formats/rewritten.bdf"), &[]).unwrap();
         rewrite("deck", text, &deck.model.elements, &[]).is_ok()
     }),
     ("Matrix Market", include_bytes!("../../golden/formats/symmetric.mtx"), |text| read_matrix("m", text, None).is_ok()),
@@ -142,7 +135,7 @@ fn no_reader_panics_on_a_damaged_file() {
     let reader = std::env::var("CORFEM_READER").unwrap_or_default();
     let mut faults = Vec::new();
     for (name, valid, read) in READERS.iter().filter(|(name, ..)| name.contains(&reader)) {
-        let start = std::time::Instant::now();
+        let start = Instant::now();
         assert!(read(valid), "{name}: the file without damage reads");
         let mut refused = 0;
         for seed in from..from + calls {

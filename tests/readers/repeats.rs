@@ -1,18 +1,9 @@
 //! Repeated tests: their mean, what their scatter says, and what a job makes of it.
 
-use super::job_errors::{placed, said, with};
-use crate::common::draws::Draws;
-use crate::common::jobs::{Files, building};
-use crate::common::jobs::{prepare, run};
-use crate::common::test_files::write_csv;
-use crate::common::tolerances::{MATRIX_ROUND_OFF, STANDARD_ERRORS};
-use corfem::files::test_data::TestData;
-use corfem::job::{Concern, Kind, PreparedJob, Trust};
-use corfem::method::analysis::{Analysis, State};
-use corfem::method::modes::Modes;
-use corfem::weighted::noise::{Noise, with_noise};
-use corfem::weighted::residuals::residuals;
-use nalgebra::DMatrix;
+use super::job_errors::said;
+use crate::common::jobs::run;
+use crate::prelude::*;
+use crate::readers::job_errors::{placed, with};
 
 /// The building's exact test.
 fn exact() -> TestData {
@@ -37,9 +28,9 @@ fn noisy(exact: &TestData, seed: u64) -> TestData {
 
 /// The building's job with these tests as repeats, and these modes of them (from one).
 fn repeated(tests: &[TestData], modes: &str) -> Files {
-    let names: Vec<String> = (1..=tests.len())
+    let names = (1..=tests.len())
         .map(|number| format!("{number}.csv"))
-        .collect();
+        .collect_vec();
     let entry = format!("repeats = {names:?}\nmodes = {modes}");
     let mut files = with(building(), "job.toml", "file = \"test.csv\"", &entry);
     files.extend(
@@ -61,9 +52,9 @@ const ALL: &str = "[1, 2, 3, 4, 5]";
 #[test]
 fn neither_scale_nor_sign_nor_order_of_repeats_matters() {
     let exact = exact();
-    let tests: Vec<TestData> = (1..=6).map(|seed| noisy(&exact, seed)).collect();
+    let tests = (1..=6).map(|seed| noisy(&exact, seed)).collect_vec();
     let one = loaded(&repeated(&tests, ALL)).loaded.data.clone();
-    let mut others: Vec<TestData> = tests.into_iter().rev().collect();
+    let mut others = tests.into_iter().rev().collect_vec();
     for (place, test) in others.iter_mut().enumerate() {
         test.shapes *= [-0.3, 12.0][place % 2];
         // Sensors in another order too.
@@ -91,12 +82,14 @@ fn neither_scale_nor_sign_nor_order_of_repeats_matters() {
             assert!(off.abs() < MATRIX_ROUND_OFF, "{mode} {}", sensor.name);
             let [own, other] = [(&one, same), (&two, place)]
                 .map(|(data, row)| data.component_deviation[&mode][row]);
-            assert!((own / other - 1.0).abs() < MATRIX_ROUND_OFF);
+            assert!(relative_error(own, other) < MATRIX_ROUND_OFF);
         }
     }
-    for (own, other) in one.frequencies_hz.iter().zip(&two.frequencies_hz) {
-        assert!((own / other - 1.0).abs() < MATRIX_ROUND_OFF);
-    }
+    assert_alike(
+        one.frequencies_hz.iter(),
+        &two.frequencies_hz,
+        MATRIX_ROUND_OFF,
+    );
 }
 
 /// Twenty repeats, each with eight tenths of the noise of the one before, and twenty with noise of their own.
@@ -104,7 +97,7 @@ fn neither_scale_nor_sign_nor_order_of_repeats_matters() {
 fn repeats_that_drift_are_said_and_widen_the_deviations() {
     const KEPT: f64 = 0.8;
     let exact = exact();
-    let independent: Vec<TestData> = (1..=20).map(|seed| noisy(&exact, seed)).collect();
+    let independent = (1..=20).map(|seed| noisy(&exact, seed)).collect_vec();
     let unit = |data: &TestData, mode: usize| {
         let shape = data.shapes.column(mode);
         let along =
@@ -133,20 +126,20 @@ fn repeats_that_drift_are_said_and_widen_the_deviations() {
         let prepared = loaded(&repeated(tests, ALL));
         let said = Trust::before(&prepared).unwrap();
         let data = prepared.loaded.data.clone();
-        let told: Vec<Vec<f64>> = said
+        let told = said
             .of(Kind::Drift)
             .map(|own| own.measure.clone())
-            .collect();
+            .collect_vec();
         let known = data
             .drift
             .map(|lag| vec![lag, ((1.0 + lag) / (1.0 - lag)).sqrt()]);
-        assert_eq!(told, known.into_iter().collect::<Vec<_>>());
+        assert_eq!(told, known.into_iter().collect_vec());
         (data.drift, data.frequency_deviation.unwrap())
     };
     let (none, own) = lag(&independent);
     assert_eq!(none, None);
     let (found, wide) = lag(&drifting);
-    let found = found.expect("they drift");
+    let found = found.unwrap();
     assert!((found - KEPT).abs() < 0.3, "{found}");
     // As much wider as the mean of numbers that are alike from one to the next is less sure.
     let mut shuffled = drifting.clone();
@@ -163,7 +156,7 @@ fn repeats_that_drift_are_said_and_widen_the_deviations() {
 
 /// Mean over many jobs of chi-squared over its degrees of freedom, with its standard error, by so many repeats of `test`.
 fn chi_squared(jobs: u64, repeats: u64, modes: &str, test: impl Fn(u64) -> TestData) -> (f64, f64) {
-    let ratios: Vec<f64> = (0..jobs)
+    let ratios = (0..jobs)
         .map(|job| {
             let tests: Vec<TestData> = (1..=repeats)
                 .map(|seed| test(repeats * job + seed))
@@ -173,7 +166,7 @@ fn chi_squared(jobs: u64, repeats: u64, modes: &str, test: impl Fn(u64) -> TestD
                 .misfit;
             misfit.chi_squared / misfit.degrees_of_freedom
         })
-        .collect();
+        .collect_vec();
     let (count, mean) = (jobs as f64, ratios.iter().sum::<f64>() / jobs as f64);
     let squares: f64 = ratios.iter().map(|ratio| (ratio - mean).powi(2)).sum();
     (mean, (squares / (count - 1.0) / count).sqrt())
@@ -224,7 +217,7 @@ fn is_whitened(loaded: &PreparedJob) -> bool {
 fn with_enough_repeats_their_covariance_counts() {
     let exact = exact();
     // Two modes of five sensors have ten numbers beside their scales.
-    let tests: Vec<TestData> = (1..=13).map(|seed| correlated(&exact, seed)).collect();
+    let tests = (1..=13).map(|seed| correlated(&exact, seed)).collect_vec();
     for (tests, counts) in [(&tests[..12], false), (&tests[..], true)] {
         let files = repeated(tests, "[1, 2]");
         let loaded = loaded(&files);
@@ -260,7 +253,7 @@ fn with_enough_repeats_their_covariance_counts() {
 #[test]
 fn repeats_that_do_not_go_together_are_refused() {
     let exact = exact();
-    let tests: Vec<TestData> = (1..=4).map(|seed| noisy(&exact, seed)).collect();
+    let tests = (1..=4).map(|seed| noisy(&exact, seed)).collect_vec();
     let changed = |change: fn(&mut TestData)| {
         let mut tests = tests.clone();
         change(&mut tests[2]);
@@ -306,7 +299,7 @@ fn repeats_that_do_not_go_together_are_refused() {
 #[test]
 fn a_covariance_is_that_of_what_is_compared() {
     let exact = exact();
-    let tests: Vec<TestData> = (1..=13).map(|seed| correlated(&exact, seed)).collect();
+    let tests = (1..=13).map(|seed| correlated(&exact, seed)).collect_vec();
     let files = with(
         repeated(&tests, "[2, 4]"),
         "job.toml",
@@ -353,7 +346,7 @@ fn a_covariance_is_that_of_what_is_compared() {
 #[test]
 fn modes_held_out_leave_the_covariance_of_the_others() {
     let exact = exact();
-    let tests: Vec<TestData> = (1..=13).map(|seed| correlated(&exact, seed)).collect();
+    let tests = (1..=13).map(|seed| correlated(&exact, seed)).collect_vec();
     let held = with(
         repeated(&tests, "[1, 2, 3]"),
         "job.toml",

@@ -1,12 +1,10 @@
 //! What a study is known by, and which sensors and modes its samples leave out.
 
-use super::job_errors::{placed, with};
-use crate::common::jobs::{building, rods};
-use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
+use crate::common::jobs::rods;
+use crate::prelude::*;
+use crate::readers::job_errors::{placed, with};
 use corfem::job::{Study, Vary};
-use corfem::sparse::random::split_mix_64;
 use sha2::{Digest, Sha256};
-use std::path::PathBuf;
 
 /// Bytes in hexadecimal.
 fn hexadecimal(bytes: &[u8]) -> String {
@@ -26,9 +24,9 @@ fn a_study_is_known_by_the_digest_of_its_files_seed_and_choice() {
     };
     let head = format!("{} 7 [Noise, Start]", env!("CARGO_PKG_VERSION"));
     let names = ["model.bdf", "test.csv", "job.toml"].map(|name| folder.path().join(name));
-    let file = |path: &PathBuf| std::fs::read(path).expect("it reads");
+    let file = |path: &PathBuf| fs::read(path).unwrap();
     let mut all = Vec::new();
-    for part in std::iter::once(head.into_bytes()).chain(names.iter().map(file)) {
+    for part in once(head.into_bytes()).chain(names.iter().map(file)) {
         all.extend((part.len() as u64).to_be_bytes());
         all.extend(part);
     }
@@ -38,9 +36,9 @@ fn a_study_is_known_by_the_digest_of_its_files_seed_and_choice() {
     let with_line = |at: usize, place: usize| {
         let mut text = texts[at].clone();
         text.insert(place, b'\n');
-        std::fs::write(&names[at], text).expect("written");
+        fs::write(&names[at], text).unwrap();
         let identity = identity();
-        std::fs::write(&names[at], &texts[at]).expect("written");
+        fs::write(&names[at], &texts[at]).unwrap();
         identity
     };
     assert_ne!(with_line(1, texts[1].len()), with_line(2, 0));
@@ -54,13 +52,13 @@ fn any_sensor_and_any_mode_may_be_left_out() {
         Study::new(&path, 3, &[Vary::Subset], &[]).unwrap_or_else(|error| panic!("{error}"));
     let (mut left, mut counts) = ([[[0; 2]; 5]; 2], [[0; 5]; 2]);
     for sample in 1..=60 {
-        let (prepared, _) = study.draw(sample).expect("a draw");
-        let sensors: Vec<usize> = prepared
+        let (prepared, _) = study.draw(sample).unwrap();
+        let sensors = prepared
             .loaded
             .placed
             .iter()
             .map(|sensor| sensor.row)
-            .collect();
+            .collect_vec();
         let (what, there) = if sensors.len() < 5 {
             (0, &sensors)
         } else {
@@ -93,11 +91,11 @@ fn a_sample_that_is_neither_within_nor_outside_is_refused() {
     let study = Study::new(&path, 7, &[Vary::Noise], &[]).unwrap_or_else(|error| panic!("{error}"));
     let samples = folder.path().join("samples.csv");
     let read = |within: &str| {
-        std::fs::write(
+        fs::write(
             &samples,
             format!("1,cap,{within},0.5,3,1.0,1.0,{}\n", study.identity),
         )
-        .expect("written");
+        .unwrap();
         corfem::job::Samples::read(&samples, &study)
     };
     assert!(read("true").is_ok() && read("false").is_ok());
@@ -156,7 +154,7 @@ fn a_seed_draws_the_same_numbers_for_ever() {
             ],
         ),
     ] {
-        let (drawn, start) = study.draw(sample).expect("a draw");
+        let (drawn, start) = study.draw(sample).unwrap();
         for (found, expected) in start.iter().zip(starts) {
             assert!((found - expected).abs() <= ROUND_OFF, "{sample}: {start:?}");
         }
@@ -187,13 +185,13 @@ fn a_seed_draws_the_same_numbers_for_ever() {
         (5, true, &[1, 2, 3, 4]),
         (6, false, &[0, 1, 4]),
     ] {
-        let (drawn, _) = study.draw(sample).expect("a draw");
-        let sensors: Vec<usize> = drawn
+        let (drawn, _) = study.draw(sample).unwrap();
+        let sensors = drawn
             .loaded
             .placed
             .iter()
             .map(|sensor| sensor.row)
-            .collect();
+            .collect_vec();
         let found = if is_sensors { &sensors } else { &drawn.modes };
         assert_eq!(
             (&found[..], sensors.len() < 5),

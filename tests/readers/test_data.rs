@@ -1,9 +1,6 @@
 //! What a test must be, whichever file it comes from.
 
-use crate::common::ground_tests::wing_test;
-use corfem::files::test_data::TestData;
-use corfem::method::error::Error;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 fn refused(change: impl Fn(&mut TestData)) -> Error {
     let mut data = wing_test();
@@ -13,7 +10,7 @@ fn refused(change: impl Fn(&mut TestData)) -> Error {
 
 #[test]
 fn a_test_without_modes_is_refused() {
-    wing_test().check().expect("sound");
+    wing_test().check().unwrap();
     assert!(matches!(
         TestData::default().check(),
         Err(Error::Count {
@@ -86,5 +83,5 @@ fn sensors_without_a_grid_may_share_a_direction() {
     let mut data = wing_test();
     data.sensors[1].grid = None;
     data.sensors[1].direction = 0;
-    data.check().expect("sound");
+    data.check().unwrap();
 }

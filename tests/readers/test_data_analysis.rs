@@ -1,11 +1,7 @@
 //! Dataset 2414 of the Universal File, analysis data, in which finite element programs and newer test systems write mode shapes.
 
 use super::test_data_universal::{NONE, TIP, dataset, parsed, real_mode};
-use crate::common::tolerances::{ROUND_OFF, UNIVERSAL_ROUNDING};
-use corfem::files::test_data::{TestData, read};
-use nalgebra::{DMatrix, dmatrix};
-use proptest::prelude::*;
-use std::f64::consts::PI;
+use crate::prelude::*;
 
 /// How a program lays out what the format leaves open.
 #[derive(Debug, Clone, Copy)]
@@ -36,8 +32,8 @@ fn analysis(
     let number = |value: &f64, blanks: bool| {
         let (mantissa, exponent) = format!("{value:.5e}")
             .split_once('e')
-            .map(|(m, e)| (m.to_owned(), e.parse::<i32>().expect("an exponent")))
-            .expect("scientific");
+            .map(|(m, e)| (m.to_owned(), e.parse::<i32>().unwrap()))
+            .unwrap();
         let letter = if layout.fortran { 'D' } else { 'E' };
         let text = format!("{mantissa}{letter}{exponent:+03}");
         if blanks {
@@ -228,7 +224,7 @@ fn written(frequencies: &[f64], values: &[Vec<[f64; 2]>], layout: Layout) -> Str
             1,
             codes,
             [[0.0, frequency, 0.0, 1.0, 0.0, 0.0], [0.0; 6]],
-            &nodes.collect::<Vec<_>>(),
+            &nodes.collect_vec(),
             layout,
         )
     });
@@ -236,8 +232,6 @@ fn written(frequencies: &[f64], values: &[Vec<[f64; 2]>], layout: Layout) -> Str
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// Three or six values a node, real or complex, in columns or not: what was written is read.
     #[test]
     fn every_layout_of_analysis_data_reads_to_six_digits((frequencies, values) in drawn_modes(), layout in layout()) {

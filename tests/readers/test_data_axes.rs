@@ -1,9 +1,7 @@
 //! Coordinate systems of a Universal File: along which axes its nodes are placed and its sensors measure.
 
 use super::test_data_universal::{TIP, dataset, parsed, real_mode};
-use crate::common::tolerances::{BESIDE_AN_AXIS, ROUND_OFF};
-use corfem::files::test_data::read;
-use nalgebra::Vector3;
+use crate::prelude::*;
 
 pub fn row(values: &[f64], width: usize) -> String {
     values
@@ -95,7 +93,7 @@ fn sensors_measure_along_the_axes_of_their_nodes() {
                 sensor.name
             );
             assert!(
-                (sensor.place.expect("a place") - place).amax() < ROUND_OFF,
+                (sensor.place.unwrap() - place).amax() < ROUND_OFF,
                 "{}",
                 sensor.name
             );
@@ -140,7 +138,7 @@ fn axes_a_hair_from_the_global_ones_are_the_global_ones() {
         let shape = format!("{:10}\n", 12) + &row(&[1.0, 0.0, 0.0], 13);
         parsed(&(text + &real_mode(&shape))).sensors[0]
             .axis
-            .expect("an axis")
+            .unwrap()
     };
     assert_eq!(axis(9e-5), Vector3::x());
     assert!((axis(1e-4) - Vector3::new(1.0, 1e-4, 0.0)).amax() < BESIDE_AN_AXIS);

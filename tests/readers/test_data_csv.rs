@@ -1,11 +1,6 @@
 //! The table of a test: the layout that its documentation states, as spreadsheets vary it, and its faults.
 
-use crate::common::ground_tests::{ground_test, wing_test};
-use crate::common::test_files::write_csv;
-use corfem::files::error::FileError;
-use corfem::files::test_data::{TestData, read};
-use nalgebra::{Vector3, dmatrix};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// The example of the documentation.
 const WING: &str = "# Wing test of 3 May, soft suspension
@@ -34,21 +29,21 @@ fn the_documented_example_reads() {
         dmatrix![1.0, -0.31; 0.87, -0.55],
         "a sensor against its axis has its sign turned"
     );
-    let names: Vec<_> = data
+    let names = data
         .sensors
         .iter()
         .map(|sensor| (sensor.name.as_str(), sensor.grid, sensor.direction))
-        .collect();
+        .collect_vec();
     assert_eq!(
         names,
         [("tip", Some(12), 2), ("aileron, outer", Some(14), 2)]
     );
     assert_eq!(data.sensors[0].place, Some(Vector3::new(0.0, 52.5, 3.1)));
     let source = include_str!("../../src/files/test_data/csv.rs");
-    let documented: Vec<&str> = source
+    let documented = source
         .lines()
         .filter_map(|line| line.strip_prefix("//! "))
-        .collect();
+        .collect_vec();
     assert!(
         documented.join("\n").contains(WING.trim_end()),
         "the documentation has this example"
@@ -86,13 +81,13 @@ fn spreadsheets_may_separate_by_semicolons_or_tabs_and_write_decimal_commas() {
         expected
     );
     // Latin-1, as old spreadsheets write.
-    let latin: Vec<u8> = WING
+    let latin = WING
         .replace("tip", "fl\u{fc}gel")
         .chars()
         .map(|c| c as u8)
-        .collect();
+        .collect_vec();
     assert_eq!(
-        read("wing.csv", &latin).expect("it reads").sensors[0].name,
+        read("wing.csv", &latin).unwrap().sensors[0].name,
         "fl\u{fc}gel"
     );
 }
@@ -106,7 +101,10 @@ fn columns_may_stand_in_any_order() {
     let names =
         wing("frequency_hz,8.5\ndirection,mode 1,name\nz,1,\"tip\"\nz,2,\"the \"\"root\"\"\"\nz,3,\"\"\"pod\"\"\"\n")
             .sensors;
-    let names: Vec<&str> = names.iter().map(|sensor| sensor.name.as_str()).collect();
+    let names = names
+        .iter()
+        .map(|sensor| sensor.name.as_str())
+        .collect_vec();
     assert_eq!(
         names,
         ["tip", "the \"root\"", "\"pod\""],
@@ -117,11 +115,11 @@ fn columns_may_stand_in_any_order() {
 #[test]
 fn a_sensor_without_a_name_is_called_by_grid_and_direction() {
     let data = wing("frequency_hz,,8.5\ngrid,direction,mode 1\n\n7,ry,1e-3\n12,X,-2\n");
-    let names: Vec<&str> = data
+    let names = data
         .sensors
         .iter()
         .map(|sensor| sensor.name.as_str())
-        .collect();
+        .collect_vec();
     assert_eq!(names, ["7 ry", "12 x"]);
     assert_eq!(data.sensors[0].place, None);
     assert_eq!(data.shapes, dmatrix![1e-3; -2.0]);
@@ -199,7 +197,7 @@ fn faults_are_named_by_line_with_what_is_expected() {
             "frequency",
         ),
         (
-            WING.lines().skip(2).collect::<Vec<_>>().join("\n"),
+            WING.lines().skip(2).collect_vec().join("\n"),
             4,
             "a row frequency_hz",
             "the file ends",
@@ -272,11 +270,11 @@ fn a_column_of_deviations_belongs_to_the_mode_of_its_number() {
     let text = "deviation 2,direction,mode 1,grid,mode 2,mode 3\nfrequency_hz,,8.5,,9.5,10.5\n0.01,z,2,12,-3,\n0.5,z,1,13,1,\n";
     let data = wing(text);
     assert_eq!(data.shapes.column(1).as_slice(), [-3.0, 1.0]);
-    let own: Vec<(usize, &[f64])> = data
+    let own = data
         .component_deviation
         .iter()
         .map(|(mode, own)| (*mode, own.as_slice()))
-        .collect();
+        .collect_vec();
     assert_eq!(own, [(1, &[0.01, 0.5][..])]);
     // Of a mode without a shape it is not read.
     let alone = wing(&text.replace("deviation 2", "Deviation 3"));
@@ -313,7 +311,7 @@ fn titles_of_modes_are_in_order_and_none_is_there_twice() {
     };
     assert_eq!(said("mode 7", "mode 2"), place(9, "mode 2", 8));
     assert_eq!(said("Mode_2", "Mode_1"), place(9, "Mode_1", 3));
-    let numbers = |first, second| said(first, second).expect("a test").numbers;
+    let numbers = |first, second| said(first, second).unwrap().numbers;
     assert_eq!(numbers("mode 7", "mode 8"), [7, 8]);
     assert_eq!(numbers("mode 1", "mode 2"), [0; 0]);
     assert_eq!(
@@ -345,8 +343,6 @@ fn what_is_written_reads_back_as_it_was() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn every_test_reads_back_from_its_table_to_the_last_digit(data in ground_test()) {
         prop_assert_eq!(wing(&write_csv(&data)), data);

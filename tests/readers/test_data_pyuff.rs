@@ -1,14 +1,6 @@
 //! Universal Files that pyuff wrote, with what pyuff reads in them, and one of the crate's that pyuff has read.
 
-use crate::common::ground_tests::wing_test;
-use crate::common::test_files::write_universal;
-use crate::common::tolerances::{ROUND_OFF, UNIVERSAL_ROUNDING};
-use corfem::files::test_data::{TestData, read};
-use nalgebra::{Complex, DVector, Vector3};
-use serde::Deserialize;
-use std::collections::BTreeMap;
-use std::f64::consts::PI;
-use std::path::{Path, PathBuf};
+use crate::prelude::*;
 
 #[derive(Deserialize)]
 struct Nodes {
@@ -43,19 +35,16 @@ struct Answer {
 }
 
 fn path(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("golden/formats")
-        .join(name)
+    in_root("golden/formats").join(name)
 }
 
 fn answers() -> BTreeMap<String, Answer> {
-    toml::from_str(&std::fs::read_to_string(path("universal_expected.toml")).expect("it reads"))
-        .expect("answers")
+    toml::from_str(&fs::read_to_string(path("universal_expected.toml")).unwrap()).unwrap()
 }
 
 fn file(name: &str) -> TestData {
     let name = format!("universal_{name}.unv");
-    read(&name, &std::fs::read(path(&name)).expect("it is there")).expect("it reads")
+    read(&name, &fs::read(path(&name)).unwrap()).unwrap()
 }
 
 impl Mode {
@@ -90,18 +79,18 @@ impl Mode {
 fn assert_frame(name: &str, data: &TestData, answer: &Answer, modes: &[&Mode]) {
     assert_eq!(data.units, answer.units, "{name}");
     let width = modes[0].real.len();
-    let mut expected: Vec<(usize, usize)> = modes[0]
+    let mut expected = modes[0]
         .nodes
         .iter()
         .flat_map(|node| (0..width).map(move |direction| (*node, direction)))
-        .collect();
+        .collect_vec();
     expected.retain(|(node, direction)| modes.iter().any(|mode| mode.moves(*node, *direction)));
     expected.sort_unstable();
-    let found: Vec<_> = data
+    let found = data
         .sensors
         .iter()
-        .map(|sensor| (sensor.grid.expect("a node"), sensor.direction))
-        .collect();
+        .map(|sensor| (sensor.grid.unwrap(), sensor.direction))
+        .collect_vec();
     assert_eq!(found, expected, "{name}");
     for sensor in &data.sensors {
         let at = |nodes: &Nodes| {
@@ -128,7 +117,7 @@ fn assert_frame(name: &str, data: &TestData, answer: &Answer, modes: &[&Mode]) {
         .filter(|pair| !pair.contains(&0));
     assert_eq!(
         data.lines,
-        pairs.map(|pair| [pair[0], pair[1]]).collect::<Vec<_>>(),
+        pairs.map(|pair| [pair[0], pair[1]]).collect_vec(),
         "{name}"
     );
 }
@@ -138,19 +127,16 @@ fn real_modes_of_three_and_six_components_are_as_pyuff_reads_them() {
     let answers = answers();
     for name in ["real", "six", "written"] {
         let (data, answer) = (file(name), &answers[name]);
-        let modes: Vec<&Mode> = answer.modes.iter().collect();
+        let modes = answer.modes.iter().collect_vec();
         assert_frame(name, &data, answer, &modes);
         assert_eq!(
             data.frequencies_hz,
-            modes
-                .iter()
-                .map(|mode| mode.frequency())
-                .collect::<Vec<_>>(),
+            modes.iter().map(|mode| mode.frequency()).collect_vec(),
             "{name}"
         );
         for (shape, mode) in data.shapes.column_iter().zip(&modes) {
             for (sensor, value) in data.sensors.iter().zip(shape.iter()) {
-                let expected = mode.at(sensor.grid.expect("a node"), sensor.direction);
+                let expected = mode.at(sensor.grid.unwrap(), sensor.direction);
                 assert_eq!(
                     (*value, 0.0),
                     (expected.re, expected.im),
@@ -177,19 +163,17 @@ fn real_modes_of_three_and_six_components_are_as_pyuff_reads_them() {
 #[test]
 fn velocities_and_accelerations_become_displacements_and_a_response_is_no_mode() {
     let (data, answers) = (file("moving"), answers());
-    let modes: Vec<&Mode> = answers["moving"]
+    let modes = answers["moving"]
         .modes
         .iter()
         .filter(|mode| mode.analysis == 2)
-        .collect();
+        .collect_vec();
     assert_eq!(data.skipped, [55]);
     assert_frame("moving", &data, &answers["moving"], &modes);
     for (mode, expected) in modes.into_iter().enumerate() {
         let omega = 2.0 * PI * expected.frequency();
         for (row, sensor) in data.sensors.iter().enumerate() {
-            let measured = expected
-                .at(sensor.grid.expect("a node"), sensor.direction)
-                .re;
+            let measured = expected.at(sensor.grid.unwrap(), sensor.direction).re;
             let factor = if expected.kind == 11 {
                 omega
             } else {
@@ -205,11 +189,11 @@ fn velocities_and_accelerations_become_displacements_and_a_response_is_no_mode()
 #[test]
 fn complex_modes_are_made_real_once_each_and_keep_their_collinearity() {
     let (data, answers) = (file("complex"), answers());
-    let modes: Vec<&Mode> = answers["complex"]
+    let modes = answers["complex"]
         .modes
         .iter()
         .filter(|mode| mode.root[1] > 0.0)
-        .collect();
+        .collect_vec();
     assert_eq!(
         (modes.len(), answers["complex"].modes.len()),
         (2, 3),
@@ -218,18 +202,10 @@ fn complex_modes_are_made_real_once_each_and_keep_their_collinearity() {
     assert_frame("complex", &data, &answers["complex"], &modes);
     assert_eq!(
         data.frequencies_hz,
-        modes
-            .iter()
-            .map(|mode| mode.frequency())
-            .collect::<Vec<_>>()
+        modes.iter().map(|mode| mode.frequency()).collect_vec()
     );
     for (column, mode) in modes.into_iter().enumerate() {
-        let at = |row: usize| {
-            mode.at(
-                data.sensors[row].grid.expect("a node"),
-                data.sensors[row].direction,
-            )
-        };
+        let at = |row: usize| mode.at(data.sensors[row].grid.unwrap(), data.sensors[row].direction);
         let shape = DVector::from_fn(data.sensors.len(), |row, _| at(row));
         // The largest real part of any phase, found by trying a thousand.
         let part = |angle: f64| shape.map(|value| (value * Complex::from_polar(1.0, angle)).re);
@@ -241,7 +217,7 @@ fn complex_modes_are_made_real_once_each_and_keep_their_collinearity() {
         assert!(found.norm() >= best && found.norm() <= shape.norm());
         // It is itself the real part at some phase: what is left of it at all phases is round-off.
         let (real, imaginary) = (part(0.0), part(0.5 * PI));
-        let plane = nalgebra::DMatrix::from_columns(&[real, imaginary]);
+        let plane = DMatrix::from_columns(&[real, imaginary]);
         let (q, _) = plane.qr().unpack();
         assert!((found - &q * q.tr_mul(&found)).norm() < ROUND_OFF * found.norm());
         let ratio = (found.norm() / shape.norm()).powi(2);
@@ -259,9 +235,9 @@ fn complex_modes_are_made_real_once_each_and_keep_their_collinearity() {
 fn the_file_that_pyuff_has_read_is_what_the_crate_writes() {
     let (written, path) = (write_universal(&wing_test()), path("universal_written.unv"));
     if std::env::var("CORFEM_FORMATS").is_ok_and(|wish| wish == "write") {
-        std::fs::write(&path, &written).expect("it writes");
+        fs::write(&path, &written).unwrap();
     }
-    assert_eq!(std::fs::read_to_string(path).expect("it reads"), written);
+    assert_eq!(fs::read_to_string(path).unwrap(), written);
     let (answer, data) = (&answers()["written"], wing_test());
     for (mode, expected) in answer.modes.iter().enumerate() {
         for (row, sensor) in data.sensors.iter().enumerate() {
@@ -282,18 +258,18 @@ fn the_file_that_pyuff_has_read_is_what_the_crate_writes() {
 #[test]
 fn axes_that_pyuff_wrote_are_turned() {
     let data = file("axes");
-    let places: Vec<Vector3<f64>> = data
+    let places = data
         .sensors
         .iter()
         .filter_map(|sensor| sensor.place)
-        .collect();
+        .collect_vec();
     let expected = [
         Vector3::new(1.0, 2.0, 3.0),
         Vector3::new(9.0, 22.0, 33.0),
         Vector3::new(6.0, 23.0, 30.0),
     ];
     for (sensor, place) in data.sensors.iter().zip(&places) {
-        let node = sensor.grid.expect("a node");
+        let node = sensor.grid.unwrap();
         assert!(
             (place - expected[node - 1]).amax() < ROUND_OFF,
             "{node}: {place}"

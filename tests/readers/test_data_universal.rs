@@ -1,13 +1,6 @@
 //! The Universal File: fixed columns, marks and what looks like them, and files that are not what they should be.
 
-use crate::common::ground_tests::{ground_test, wing_test};
-use crate::common::test_files::write_universal;
-use crate::common::tolerances::{ROUND_OFF, UNIVERSAL_ROUNDING};
-use corfem::files::error::FileError;
-use corfem::files::test_data::{TestData, read};
-use nalgebra::{DMatrix, Vector3, dmatrix};
-use proptest::prelude::*;
-use std::collections::BTreeMap;
+use crate::prelude::*;
 
 pub const NONE: &str = "NONE\nNONE\nNONE\nNONE\nNONE\n";
 
@@ -76,7 +69,7 @@ fn a_complex_root_is_read_unless_its_imaginary_part_is_negative() {
     let data = parsed(&(root(4.0) + &root(-4.0) + &root(0.0)));
     for (found, magnitude) in data.frequencies_hz.iter().zip([5.0, 3.0]) {
         assert!(
-            (found - magnitude / (2.0 * std::f64::consts::PI)).abs() < ROUND_OFF,
+            (found - magnitude / (2.0 * PI)).abs() < ROUND_OFF,
             "{found}"
         );
     }
@@ -105,11 +98,11 @@ fn complex_modes_of_six_components_have_two_lines_a_node() {
         &(mode([1, 2, 3, 8, 5, 6], "  1.25000E+01", &values)
             + &mode([1, 2, 3, 8, 2, 6], "  1.25000E+01", &real)),
     );
-    let names: Vec<&str> = data
+    let names = data
         .sensors
         .iter()
         .map(|sensor| sensor.name.as_str())
-        .collect();
+        .collect_vec();
     assert_eq!(names, ["12 x", "12 z", "12 rz"]);
     // One in both parts turns to the root of two; a real mode among complex ones has a collinearity of one.
     let expected = dmatrix![-2.0_f64.sqrt(), 0.0; 0.0, 1.0; 8.0_f64.sqrt(), 0.0];
@@ -150,7 +143,7 @@ fn binary_data_are_passed_over_to_their_mark() {
         b"    -1\n    58b     1     2          11           8\nNONE\n\xff\x00\n\xfe\xff    -1\n"
             .to_vec();
     bytes.extend(real_mode(TIP).bytes());
-    let data = read("wing.unv", &bytes).expect("it reads");
+    let data = read("wing.unv", &bytes).unwrap();
     assert_eq!((data.skipped, data.shapes), (vec![58], dmatrix![1.0]));
 }
 
@@ -160,11 +153,11 @@ fn directions_that_are_zero_in_all_modes_are_no_sensors() {
     let moves = "         7\n  0.00000E+00  2.00000E+00  0.00000E+00\n";
     let root = TIP.replace('1', "0").replace("02\n", "12\n");
     let data = parsed(&(real_mode(&(TIP.to_owned() + still)) + &real_mode(&(root + moves))));
-    let sensors: Vec<_> = data
+    let sensors = data
         .sensors
         .iter()
         .map(|s| (s.name.as_str(), s.grid, s.direction))
-        .collect();
+        .collect_vec();
     assert_eq!(sensors, [("7 y", Some(7), 1), ("12 z", Some(12), 2)]);
     assert_eq!(data.shapes, dmatrix![0.0, 2.0; 1.0, 0.0]);
 }
@@ -423,10 +416,7 @@ fn assert_six_digits(found: &TestData, expected: &TestData) {
         .zip(&expected.frequencies_hz)
         .for_each(|(a, b)| close(*a, *b));
     let (found, expected) = (by_node(found), by_node(expected));
-    assert_eq!(
-        found.keys().collect::<Vec<_>>(),
-        expected.keys().collect::<Vec<_>>()
-    );
+    assert_eq!(found.keys().collect_vec(), expected.keys().collect_vec());
     for ((place, row), (expected_place, expected_row)) in found.values().zip(expected.values()) {
         assert_eq!(place.is_some(), expected_place.is_some());
         let (place, expected_place) = (
@@ -447,7 +437,7 @@ fn assert_six_digits(found: &TestData, expected: &TestData) {
 fn what_is_written_reads_back_to_six_digits() {
     assert_six_digits(&parsed(&write_universal(&wing_test())), &wing_test());
     let data = TestData {
-        shapes: DMatrix::zeros(1, 1),
+        shapes: zero_square(1),
         ..TestData::default()
     };
     assert_eq!(
@@ -458,8 +448,6 @@ fn what_is_written_reads_back_to_six_digits() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn every_test_reads_back_from_its_universal_file_to_six_digits(data in ground_test()) {
         assert_six_digits(&parsed(&write_universal(&data)), &data);

@@ -1,15 +1,11 @@
 //! Lines that can be cut in two ways, and the forms in which other programs write what is one thing: read as what they say, or refused.
 
-use super::job_errors::{placed, said, with};
+use super::job_errors::said;
 use super::test_data_axes::{node, system};
 use super::test_data_universal::{TIP, dataset, parsed, real_mode};
-use crate::common::jobs::{Files, building, prepare, run};
-use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
-use corfem::files::matrices;
-use corfem::files::test_data::{TestData, read};
-use corfem::job::Kind;
-use nalgebra::{DMatrix, Vector3, dmatrix};
-use proptest::prelude::*;
+use crate::common::jobs::run;
+use crate::prelude::*;
+use crate::readers::job_errors::{placed, with};
 
 fn table(text: &str) -> TestData {
     read("test.csv", text.as_bytes()).unwrap_or_else(|error| panic!("{error}\n{text}"))
@@ -22,8 +18,6 @@ fn refused(text: impl AsRef<[u8]>) -> String {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// Numbers in columns of any width, with an exponent of any form, touching or apart, are those that were written, or are refused.
     #[test]
     fn numbers_of_any_width_are_read_back_or_refused(
@@ -31,17 +25,17 @@ properties! {
         (width, digits) in (8..31_usize).prop_flat_map(|width| (Just(width), 0..width - 6)),
         letter in prop::sample::select(vec!["E", "D", "e", "d"]),
     ) {
-        let written: Vec<String> = values
+        let written = values
             .iter()
             .map(|(mantissa, exponent)| format!("{mantissa:.digits$}{letter}{exponent:+03}"))
-            .collect();
+            .collect_vec();
         let line: String = written.iter().map(|word| format!("{word:>width$}")).collect();
         let text = real_mode(&format!("        12\n{line}\n"));
         if let Ok(data) = read("wing.unv", text.as_bytes()) {
-            let found: Vec<f64> = data.shapes.iter().copied().collect();
-            let meant = written.iter().map(|word| word.to_lowercase().replace('d', "e").parse::<f64>().expect("a number"));
+            let found = data.shapes.iter().copied().collect_vec();
+            let meant = written.iter().map(|word| word.to_lowercase().replace('d', "e").parse::<f64>().unwrap());
             // A direction that is zero in every mode is no sensor.
-            let meant: Vec<f64> = meant.filter(|value| *value != 0.0).collect();
+            let meant = meant.filter(|value| *value != 0.0).collect_vec();
             prop_assert_eq!(found, meant, "{}", text);
         }
     }
@@ -130,8 +124,8 @@ fn cylindrical_axes_of_a_test_turn_with_the_angle() {
         Vector3::new(-sine, cosine, 0.0),
         Vector3::z(),
     ]) {
-        assert!((sensor.axis.expect("an axis") - axis).amax() < ROUND_OFF);
-        let place = sensor.place.expect("a place") - Vector3::new(2.0 * cosine, 2.0 * sine, 5.0);
+        assert!((sensor.axis.unwrap() - axis).amax() < ROUND_OFF);
+        let place = sensor.place.unwrap() - Vector3::new(2.0 * cosine, 2.0 * sine, 5.0);
         assert!(place.amax() < ROUND_OFF);
     }
 }
@@ -142,7 +136,7 @@ const ROWS: &str = "name,direction,mode 1,mode 2\nfrequency_hz,,1.5,2.5\n";
 fn a_row_below_the_header_may_be_a_sensor_with_a_number_sign() {
     let names = |text: &str| {
         let sensors = table(&(ROWS.to_owned() + text)).sensors.into_iter();
-        sensors.map(|sensor| sensor.name).collect::<Vec<_>>()
+        sensors.map(|sensor| sensor.name).collect_vec()
     };
     assert_eq!(names("#1,z,1.,2.\n#2,z,3.,4.\n"), ["#1", "#2"]);
     assert_eq!(
@@ -165,9 +159,9 @@ fn a_table_names_its_separator_its_encoding_and_its_modes() {
         (&[1.5, 2.5][..], &[7, 8][..])
     );
     for order in [u16::to_le_bytes, u16::to_be_bytes] {
-        let units = std::iter::once(0xfeff).chain(text.encode_utf16());
-        let bytes: Vec<u8> = units.flat_map(order).collect();
-        assert_eq!(read("test.csv", &bytes).expect("UTF-16"), data);
+        let units = once(0xfeff).chain(text.encode_utf16());
+        let bytes = units.flat_map(order).collect_vec();
+        assert_eq!(read("test.csv", &bytes).unwrap(), data);
     }
     for (bytes, what) in [
         (&[0x1f, 0x8b, 8, 0][..], "is compressed by gzip"),
@@ -218,14 +212,10 @@ fn directions_are_known_by_other_names() {
 #[test]
 fn rigid_modes_of_a_test_are_left_out_and_said() {
     let measured = building();
-    let text = &measured
-        .iter()
-        .find(|file| file.0 == "test.csv")
-        .expect("the test")
-        .1;
+    let text = &measured.iter().find(|file| file.0 == "test.csv").unwrap().1;
     // The rows above the header have a number a mode and nothing else.
     let with_rigid = text.lines().map(|line| {
-        let last = match line.split(',').next().expect("a cell") {
+        let last = match line.split(',').next().unwrap() {
             _ if line.contains("mode 1") => "mode 6",
             "frequency_hz" => "0",
             _ => "1",
@@ -235,9 +225,9 @@ fn rigid_modes_of_a_test_are_left_out_and_said() {
     let with_rigid: String = with_rigid.collect();
     let with_rigid = with(measured.clone(), "test.csv", text, &with_rigid);
     let (_folder, path) = placed(&with_rigid);
-    let found = run(&prepare(&path).expect("a job"), |_| {}, || true).expect("it runs");
+    let found = run(&prepare(&path).unwrap(), |_| {}, || true).unwrap();
     let (_folder, path) = placed(&measured);
-    let without = run(&prepare(&path).expect("a job"), |_| {}, || true).expect("it runs");
+    let without = run(&prepare(&path).unwrap(), |_| {}, || true).unwrap();
     assert_eq!(found.found.factors, without.found.factors);
     assert_eq!(found.trust.about(Kind::RigidModes), ["6"]);
     let named = with(
@@ -296,14 +286,14 @@ fn abaqus_labels_name_the_rows() {
         "** by labels\n*MATRIX, TYPE=STIFFNESS\n7,1, 7,1, 2.0\n7,3, 7,1, -1.0e0\n7,3, 7,3, 3.\n";
     let both = "7,1, 7,1, 2.0\n7,1, 7,3, -1.\n7,3, 7,1, -1.0\n7,3, 7,3, 3.\n";
     for text in [lower, both] {
-        let found = matrices::read("K", text.as_bytes(), None).expect("a matrix");
+        let found = matrices::read("K", text.as_bytes(), None).unwrap();
         assert_eq!(found.matrix.dense(), dmatrix![2.0, -1.0; -1.0, 3.0]);
-        let rows: Vec<_> = found
+        let rows = found
             .rows
-            .expect("labels")
+            .unwrap()
             .iter()
             .map(|label| (label.grid, label.component))
-            .collect();
+            .collect_vec();
         assert_eq!(rows, [(7, 1), (7, 3)]);
     }
     let error = matrix(&lower.replace("7,3, 7,3", "0,3, 7,3"), None).expect_err("no node");
@@ -341,8 +331,8 @@ fn output4_is_read_in_its_wider_forms() {
         };
         let number = |value: f64| {
             let written = format!("{value:.9e}");
-            let (mantissa, exponent) = written.split_once('e').expect("an exponent");
-            let exponent: i32 = exponent.parse().expect("an integer");
+            let (mantissa, exponent) = written.split_once('e').unwrap();
+            let exponent: i32 = exponent.parse().unwrap();
             format!("{:>20}", format!("{mantissa}E{exponent:+04}"))
         };
         let head: String = [2, 2, 2, 2].iter().map(|n| format!("{n:width$}")).collect();
@@ -379,8 +369,8 @@ fn output4_is_read_in_its_wider_forms() {
 fn with_second(at: f64, digits: usize) -> Files {
     let files = building();
     let of = |name: &str| {
-        let text = &files.iter().find(|file| file.0 == name).expect("a file").1;
-        matrix(text, None).expect("a matrix")
+        let text = &files.iter().find(|file| file.0 == name).unwrap().1;
+        matrix(text, None).unwrap()
     };
     let second = of("stiffness.mtx") + (at - 1.0) * of("story_1.mtx");
     let mut text = "%%MatrixMarket matrix array real general\n10 10\n".to_owned();
@@ -398,16 +388,13 @@ fn a_parameter_may_be_a_second_whole_matrix() {
     let factors = |files: &Files| {
         let (_folder, path) = placed(files);
         let prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
-        run(&prepared, |_| {}, || true)
-            .expect("it runs")
-            .found
-            .factors
+        run(&prepared, |_| {}, || true).unwrap().found.factors
     };
     let expected = factors(&building());
     for at in [1.1, 0.5] {
         for (found, expected) in factors(&with_second(at, 16)).iter().zip(&expected) {
             assert!(
-                (found / expected - 1.0).abs() < 100.0 * MATRIX_ROUND_OFF,
+                relative_error(found, expected) < 100.0 * MATRIX_ROUND_OFF,
                 "{found} {expected}"
             );
         }
@@ -442,7 +429,7 @@ fn a_number_sign_may_be_part_of_a_files_name() {
     let found = files
         .iter_mut()
         .find(|file| file.0 == "stiffness.mtx")
-        .expect("a file");
+        .unwrap();
     found.0 = "run#3.mtx".to_owned();
     let (_folder, path) = placed(&files);
     assert!(prepare(&path).is_ok());
@@ -462,7 +449,7 @@ fn frequencies_alone_need_no_names_of_rows() {
     let text = old
         .iter()
         .find(|file| file.0 == "test.csv")
-        .expect("the test")
+        .unwrap()
         .1
         .clone();
     let files = with(

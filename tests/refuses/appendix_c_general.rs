@@ -1,17 +1,9 @@
 //! What the general formulae of Appendix C refuse, and that the offender is named.
 
-use crate::common::appendix_c::{ModalChange, four_modes};
-use crate::common::said;
-use crate::common::tolerances::{CANCELLED_DIFFERENCE, ROUND_OFF};
-use corfem::method::appendix_c::LeftRightModes;
-use corfem::method::appendix_c::Pencil;
-use corfem::method::error::Error;
-use corfem::method::perturbation::Perturbed;
-use corfem::sparse::normalize_with_mass;
-use nalgebra::{DMatrix, DVector, dmatrix, dvector};
+use crate::prelude::*;
 
 fn pencil(change: &ModalChange) -> Pencil<f64> {
-    change.pencil().expect("a pencil")
+    change.pencil().unwrap()
 }
 
 fn first_order(change: &ModalChange) -> Result<Perturbed, Error> {
@@ -24,7 +16,7 @@ fn two_roots_brought_together_are_refused_with_both_modes_named() {
     let together = ModalChange::of_vibrations(
         &dvector![5.0, 1.0, 3.0],
         dmatrix![0.0, 0.0, 0.0; 0.0, 1.0, 0.1; 0.0, 0.1, -1.0],
-        DMatrix::zeros(3, 3),
+        zero_square(3),
     );
     let found = pencil(&together);
     for result in [
@@ -54,11 +46,8 @@ fn rows_of_a_shape_without_a_solution_are_refused() {
     // Mode 2 does not couple with the others, which are so coupled that their rows are singular at its root
     // 1/2: (1 + 0.4 − 1/γ)(3 + 0.6 − 1/γ) = β₀₁² with γ = 1/2 gives β₀₁² = −0.96; with mass, choose α₀₁.
     let gamma = 0.5;
-    let mut change = ModalChange::of_vibrations(
-        &dvector![1.0, 4.0, 2.0],
-        DMatrix::zeros(3, 3),
-        DMatrix::zeros(3, 3),
-    );
+    let mut change =
+        ModalChange::of_vibrations(&dvector![1.0, 4.0, 2.0], zero_square(3), zero_square(3));
     // Row 0 and 1 at γ: (γ·1 − 1)(γ·4 − 1) = −0.5 = r₀₁·r₁₀ with r = −α, unsymmetric.
     change.alpha[(0, 1)] = 1.0;
     change.alpha[(1, 0)] = -0.5;
@@ -146,7 +135,7 @@ fn a_root_that_is_no_number_is_refused_by_every_formula() {
 /// Left and right shapes that are not those of the stiffness.
 #[test]
 fn shapes_that_do_not_fit_a_stiffness_are_refused() {
-    let (stiffness, none) = (dmatrix![2.0, -1.0; -1.0, 2.0], DMatrix::zeros(2, 2));
+    let (stiffness, none) = (dmatrix![2.0, -1.0; -1.0, 2.0], zero_square(2));
     let modes = |right: DMatrix<f64>, left: DMatrix<f64>| LeftRightModes {
         roots: dvector![1.0, 0.5],
         right,
@@ -164,7 +153,7 @@ fn shapes_that_do_not_fit_a_stiffness_are_refused() {
         "left shapes: 3 x 2 instead of 2 x 2"
     );
     assert_eq!(
-        refused(&good, &DMatrix::zeros(3, 3), &none),
+        refused(&good, &zero_square(3), &none),
         "stiffness: 3 x 3 instead of 2 x 2"
     );
     assert_eq!(
@@ -172,21 +161,25 @@ fn shapes_that_do_not_fit_a_stiffness_are_refused() {
         "stiffness change of entry (0, 1) is NaN; it must be a finite number"
     );
     assert_eq!(
-        refused(
-            &modes(DMatrix::identity(2, 2), DMatrix::identity(2, 2)),
-            &stiffness,
-            &none
-        ),
+        refused(&modes(eye(2), eye(2)), &stiffness, &none),
         "coupling of left and right shapes of modes 1 and 0 is 0.5; it must be zero"
     );
 }
 
 #[test]
 fn order_zero_is_refused() {
-    let found = pencil(&four_modes(0.05));
-    let words = "order: 0 given or asked for; there must be at least 1";
-    assert_eq!(said(found.recursive_1(0)), words);
-    assert_eq!(said(found.recursive_2(0)), words);
+    let change = four_modes(0.05);
+    let (k, beta, found) = (&change.generalized_stiffness, &change.beta, pencil(&change));
+    for answer in [
+        found.recursive_1(0),
+        found.recursive_2(0),
+        recursive_1(k, beta, 0),
+    ] {
+        assert_eq!(
+            said(answer),
+            "order: 0 given or asked for; there must be at least 1"
+        );
+    }
 }
 
 #[test]
@@ -195,8 +188,7 @@ fn generalized_mass_that_loses_its_sign_is_refused() {
     change.alpha[(1, 1)] = -1.5;
     let root = first_order(&change).unwrap().roots[1];
     assert!((root + 0.5 / 2.5).abs() < ROUND_OFF);
-    let normalized =
-        |alpha: &DMatrix<f64>| normalize_with_mass(&mut DMatrix::identity(4, 4), alpha);
+    let normalized = |alpha: &DMatrix<f64>| normalize_with_mass(&mut eye(4), alpha);
     assert_eq!(
         said(normalized(&change.alpha)),
         "changed generalized mass of mode 1 (from zero) is -0.5; it must be positive and finite"

@@ -1,29 +1,6 @@
 //! Numbers and sizes that fit nothing, given to what stands around the method: each call ends in an answer or a refusal, none in a panic.
 
-use corfem::job::assignment::pair_optimally;
-use corfem::job::expansion::mass_by_modes;
-use corfem::job::localization::{by_factor, by_single_fit};
-use corfem::job::metrics::coordinate_assurance;
-use corfem::method::error::Error;
-use corfem::method::inner_loop::InnerSettings;
-use corfem::method::modes::Modes;
-use corfem::method::sorting::pair_modes;
-use corfem::sparse::{
-    BasisSize, ModeWeight, Pair, SparseMatrix, WholeModel, WholeParameter, WholeShare,
-    modal_assurance,
-};
-use corfem::weighted::close_modes::{assurance_of_roots, indistinct_groups};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use corfem::weighted::identifiability::identifiability;
-use corfem::weighted::intervals::intervals;
-use corfem::weighted::misfit::Misfit;
-use corfem::weighted::next_step::NextStep;
-use corfem::weighted::noise::{Noise, with_noise, with_noise_by_mode};
-use corfem::weighted::residuals::{jacobian, residuals};
-use corfem::weighted::starts::from_several_starts;
-use nalgebra::{DMatrix, DVector, dmatrix};
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use crate::prelude::*;
 
 /// The calls that end in a panic, by name.
 #[derive(Default)]
@@ -38,31 +15,28 @@ impl Calls {
 }
 
 fn matrix(dense: &DMatrix<f64>) -> SparseMatrix {
-    SparseMatrix::of_dense("matrix", dense).expect("a matrix")
+    SparseMatrix::of_dense("matrix", dense).unwrap()
 }
 
 #[test]
 fn no_call_around_the_method_ends_in_a_panic() {
     let mut calls = Calls::default();
     let stiffness = dmatrix![3.0, -1.0, 0.0; -1.0, 2.0, -1.0; 0.0, -1.0, 1.5];
-    let (one, flat) = (
-        DMatrix::<f64>::identity(3, 3),
-        DMatrix::from_element(2, 3, 1.0),
-    );
-    let (empty, nan) = (DMatrix::<f64>::zeros(0, 0), f64::NAN);
+    let (one, flat) = (eye(3), DMatrix::from_element(2, 3, 1.0));
+    let (empty, nan) = (zero_square(0), f64::NAN);
     let share = |dense: &DMatrix<f64>| WholeParameter {
         name: "a".to_owned(),
         share: WholeShare::Stiffness(matrix(dense)),
         range: None,
     };
     let whole = WholeModel::new(matrix(&stiffness), matrix(&one), vec![share(&stiffness)]);
-    let whole = whole.expect("a model");
+    let whole = whole.unwrap();
     let test = Modes::new(
         DVector::from_vec(vec![1.0, 3.0]),
         one.columns(0, 2).into_owned(),
     );
-    let test = test.expect("modes");
-    let pair = || Pair::by(|of| pair_modes(of.cross));
+    let test = test.unwrap();
+    let pair = || by_sorting();
     let sensors = matrix(&one);
     let analyze = |modes, residual_vectors| {
         let size = BasisSize {
@@ -74,7 +48,7 @@ fn no_call_around_the_method_ends_in_a_panic() {
     calls.of("analyze 0", || analyze(0, 0));
     calls.of("analyze all", || analyze(usize::MAX, 4));
     calls.of("analyze residual vectors", || analyze(2, usize::MAX));
-    let sensors_of_two = matrix(&DMatrix::identity(2, 2));
+    let sensors_of_two = matrix(&eye(2));
     let size = BasisSize {
         modes: 2,
         residual_vectors: 0,
@@ -92,7 +66,7 @@ fn no_call_around_the_method_ends_in_a_panic() {
         });
     }
     calls.of("modes all", || whole.modes(&[1.0], usize::MAX));
-    let model = analyze(3, 0).expect("a model");
+    let model = analyze(3, 0).unwrap();
     let comparison = || Comparison::from(model.clone());
     let weight = |frequency, shape| ModeWeight { frequency, shape };
     let (ones, settings) = ([weight(1.0, 1.0); 2], WeightedSettings::default());
@@ -220,8 +194,8 @@ fn no_call_around_the_method_ends_in_a_panic() {
         calls.of("model of no square", || {
             WholeModel::new(odd.clone(), odd.clone(), Vec::new())
         });
-        calls.of("times", || odd.times(&DMatrix::zeros(2, 2)));
-        calls.of("through", || odd.through(&DMatrix::zeros(2, 2)));
+        calls.of("times", || odd.times(&zero_square(2)));
+        calls.of("through", || odd.through(&zero_square(2)));
         calls.of("is symmetric", || odd.is_symmetric());
         calls.of("symmetric", || odd.check_symmetric("m"));
     }

@@ -1,19 +1,6 @@
 //! What the inner loop refuses before it takes a step.
 
-use crate::common::appendix_c::{ModalChange, eigensolution};
-use crate::common::loops::{chain_problem, inner_for_modes};
-use crate::common::said;
-use crate::common::vibrations::Chain;
-use crate::common::whole_models::of_dense;
-use corfem::method::analysis::{Analysis, State};
-use corfem::method::error::Error;
-use corfem::method::inner_loop::{InnerRun, InnerSettings, first_factors, run};
-use corfem::method::model::{DynamicModel, Model};
-use corfem::method::modes::Modes;
-use corfem::method::sorting::pair_modes;
-use corfem::method::step::{Bounds, StepRule};
-use corfem::sparse::{BasisSize, ParameterMatrix, SensorModel};
-use nalgebra::{DMatrix, DVector, dmatrix, dvector};
+use crate::prelude::*;
 
 /// Two springs, the given lists, and the default settings with one change.
 fn run_with(
@@ -40,8 +27,8 @@ struct Uncoupled<'a> {
 impl Uncoupled<'_> {
     fn matrices(&self) -> (DMatrix<f64>, DMatrix<f64>, Modes) {
         let [springs, squares] = [self.springs, self.test].map(DVector::from_column_slice);
-        let mass = DMatrix::identity(springs.len(), springs.len());
-        let test = Modes::new(squares, mass.clone()).expect("modes");
+        let mass = eye(springs.len());
+        let test = Modes::new(squares, mass.clone()).unwrap();
         (DMatrix::from_diagonal(&springs), mass, test)
     }
 
@@ -53,24 +40,24 @@ impl Uncoupled<'_> {
             mass,
             shares,
         };
-        model.analyze(&test, None).expect("a problem")
+        model.analyze(&test, None).unwrap()
     }
 
     fn with_mass(&self, share: DMatrix<f64>) -> SensorModel {
         let (stiffness, mass, test) = self.matrices();
         let shares = [ParameterMatrix::Mass(share)];
-        let (whole, sensors) = of_dense(&stiffness, &mass, &shares).expect("a model");
+        let (whole, sensors) = of_dense(&stiffness, &mass, &shares).unwrap();
         let found = whole.analyze(
             &[1.0],
             &sensors,
             &test,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+            by_sorting(),
             BasisSize {
                 modes: mass.nrows(),
                 residual_vectors: 0,
             },
         );
-        found.expect("a problem")
+        found.unwrap()
     }
 }
 
@@ -157,7 +144,7 @@ fn a_share_so_negative_that_no_difference_can_be_taken_is_refused() {
 
 fn assert_lost_root(problem: &dyn Analysis) {
     let settings = InnerSettings::default();
-    let start = problem.at(&[1.0]).expect("a state");
+    let start = problem.at(&[1.0]).unwrap();
     let refusals = [
         problem.error_changes(&start).map(drop),
         first_factors(problem, &settings).map(drop),
@@ -181,7 +168,7 @@ fn a_share_that_brings_modes_together_has_no_difference() {
     let stiffness = springs.with_stiffness(dmatrix![500.0, 1.0; 1.0, 0.0]);
     let mass = springs.with_mass(dmatrix![-1000.0 / 3.0, 1.0; 1.0, 0.0]);
     for problem in [&stiffness as &dyn Analysis, &mass] {
-        let start = problem.at(&[1.0]).expect("a state");
+        let start = problem.at(&[1.0]).unwrap();
         let refused = problem.error_changes(&start);
         assert!(
             matches!(refused, Err(Error::CoalescingModes { .. })),
@@ -219,7 +206,7 @@ fn a_change_of_mass_that_the_recursion_does_not_settle_on_is_refused() {
         test: &[1.0, 1.1],
     };
     let problem = springs.with_mass(share.clone());
-    let none = DMatrix::zeros(2, 2);
+    let none = zero_square(2);
     let change = ModalChange::of_vibrations(&dvector![1.0, 1.1], none, 2.0 * share);
     assert!(eigensolution(&change).is_ok());
     let refused = problem.at(&[3.0]);

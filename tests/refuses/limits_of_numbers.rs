@@ -1,18 +1,8 @@
 //! What would leave the range of numbers is refused, and named.
 
-use crate::common::loops::chain_problem;
-use crate::common::said;
-use crate::common::structures::{chain_model, grid, group, rod};
-use crate::common::vibrations::Chain;
-use corfem::files::deck::{BulkData, modes};
-use corfem::method::appendix_b::balance;
-use corfem::method::appendix_c::Pencil;
-use corfem::method::error::Error;
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::modes::Modes;
-use corfem::method::structure::{Element, Material, Structure};
-use corfem::sparse::{ModeWeight, SensorModel};
-use nalgebra::{DMatrix, dmatrix, dvector};
+use crate::common::structures::{chain_model, rod};
+use crate::prelude::*;
+use deck::modes;
 
 /// A rod along x, held at one end.
 fn rod_of(length: f64, area: f64, material: Material) -> Result<Structure, Error> {
@@ -29,9 +19,9 @@ fn rod_of(length: f64, area: f64, material: Material) -> Result<Structure, Error
 
 #[test]
 fn an_element_too_stiff_for_a_number_is_refused() {
-    let stiff = Material::isotropic(1e308, 0.25).expect("a material");
+    let stiff = Material::isotropic(1e308, 0.25).unwrap();
     let model = |length: f64| {
-        let (one, parameters) = (DMatrix::identity(1, 1), vec![Parameter::new(7, &[7])]);
+        let (one, parameters) = (eye(1), vec![Parameter::new(7, &[7])]);
         FiniteElementModel::new(rod_of(length, 1.0, stiff)?, one.clone(), one, parameters)
     };
     assert!(model(1.0).is_ok());
@@ -46,9 +36,9 @@ fn a_mass_too_large_for_a_number_is_refused() {
     let of_density = |density: f64| {
         let material = Material {
             density,
-            ..Material::isotropic(1.0, 0.25).expect("a material")
+            ..Material::isotropic(1.0, 0.25).unwrap()
         };
-        let structure = rod_of(1.0, 10.0, material).expect("a rod");
+        let structure = rod_of(1.0, 10.0, material).unwrap();
         modes(&BulkData::from_structure(&structure), 1)
     };
     assert!(of_density(1.0).is_ok());
@@ -61,7 +51,7 @@ fn a_mass_too_large_for_a_number_is_refused() {
 #[test]
 fn a_factor_that_takes_a_size_beyond_the_largest_number_is_refused() {
     // The size is two.
-    let model = chain_model(vec![group("some", &[1], None)]).expect("a model");
+    let model = chain_model(vec![group("some", &[1], None)]).unwrap();
     assert!(model.sizes(&[f64::MAX / 2.0]).is_ok());
     assert_eq!(
         said(model.sizes(&[f64::MAX])),
@@ -71,11 +61,11 @@ fn a_factor_that_takes_a_size_beyond_the_largest_number_is_refused() {
 
 #[test]
 fn a_suspension_too_stiff_for_a_number_is_refused() {
-    let raw = Modes::new(dvector![2.0], dmatrix![1.0; -0.9]).expect("a mode");
+    let raw = Modes::new(dvector![2.0], dmatrix![1.0; -0.9]).unwrap();
     let balanced = |size: f64| {
         let stiffness = size * dmatrix![1.0, -1.0; -1.0, 1.0];
         let both = dmatrix![1e10; 1e10];
-        balance(&raw, &stiffness, &DMatrix::identity(2, 2), &both)
+        balance(&raw, &stiffness, &eye(2), &both)
     };
     assert!(balanced(1.0).is_ok());
     assert_eq!(
@@ -105,8 +95,8 @@ fn a_weight_whose_square_is_no_number_is_refused() {
 #[test]
 fn shapes_that_leave_the_range_of_numbers_at_a_later_order_are_refused() {
     let beta = dmatrix![0.0, 0.0, 0.0; 1e307, 0.0, -1e307; 2.0, 0.0, 0.0];
-    let pencil = Pencil::of_vibrations(&dvector![0.1, 1.0, 2.0], &beta, &DMatrix::zeros(3, 3));
-    let pencil = pencil.expect("a pencil");
+    let pencil = Pencil::of_vibrations(&dvector![0.1, 1.0, 2.0], &beta, &zero_square(3));
+    let pencil = pencil.unwrap();
     assert!(pencil.recursive_1(1).is_ok());
     assert_eq!(
         said(pencil.recursive_1(2)),

@@ -1,27 +1,18 @@
 //! Mass parameters that cannot be are refused.
 
-use crate::common::said;
-use crate::common::structures::spring_stiffness;
-use crate::common::whole_models::{of_dense, sparse};
-use corfem::method::error::Error;
-use corfem::method::step::Bounds;
-use corfem::sparse::{ParameterMatrix, SparseMatrix, WholeModel, WholeParameter, WholeShare};
-use nalgebra::{DMatrix, dmatrix};
+use crate::prelude::*;
 
 /// Two unit masses on two springs with these shares.
 fn whole(shares: &[ParameterMatrix]) -> Result<(WholeModel, SparseMatrix), Error> {
     let stiffness = spring_stiffness(2, 0, 1.0) + spring_stiffness(2, 1, 1.0);
-    of_dense(&stiffness, &DMatrix::identity(2, 2), shares)
+    of_dense(&stiffness, &eye(2), shares)
 }
 
 #[test]
 fn shares_of_the_mass_that_cannot_be_are_named() {
     for (share, words) in [
-        (DMatrix::identity(2, 2), "an answer"),
-        (
-            DMatrix::identity(3, 3),
-            "mass of a parameter: 3 x 1 instead of 2 x 1",
-        ),
+        (eye(2), "an answer"),
+        (eye(3), "mass of a parameter: 3 x 1 instead of 2 x 1"),
         (
             DMatrix::identity(2, 3),
             "mass of a parameter: 3 x 1 instead of 2 x 1",
@@ -44,9 +35,9 @@ fn shares_of_the_mass_that_cannot_be_are_named() {
 fn factors_on_masses_are_refused_by_their_parameter() {
     let shares = [
         ParameterMatrix::Stiffness(spring_stiffness(2, 1, 1.0)),
-        ParameterMatrix::Mass(DMatrix::identity(2, 2)),
+        ParameterMatrix::Mass(eye(2)),
     ];
-    let (model, _) = whole(&shares).expect("a model");
+    let (model, _) = whole(&shares).unwrap();
     assert_eq!(said(model.at(&[1.0, 0.5])), "an answer");
     for (factors, words) in [
         (&[1.0][..], "parameter factors: 1 x 1 instead of 2 x 1"),
@@ -65,7 +56,7 @@ fn factors_on_masses_are_refused_by_their_parameter() {
 
 #[test]
 fn bounds_on_masses_are_refused_by_their_parameter() {
-    let one = || sparse(&dmatrix![1.0]).expect("a matrix");
+    let one = || sparse(&dmatrix![1.0]).unwrap();
     let bounded = |lower: f64, upper: f64| {
         let parameter = WholeParameter {
             name: "fuel".into(),

@@ -1,12 +1,7 @@
 //! What cannot be a model, a parameter or a factor: each refusal names who is at fault.
 
-use crate::common::structures::{chain_model as chain, group, spring_chain};
-use crate::common::{not_definite, said};
-use corfem::method::error::Error;
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::step::Bounds;
-use corfem::torque_box::Case;
-use nalgebra::{DMatrix, dmatrix};
+use crate::common::structures::chain_model as chain;
+use crate::prelude::*;
 
 fn with_mass(t: DMatrix<f64>, mass: DMatrix<f64>) -> Result<FiniteElementModel, Error> {
     let structure = spring_chain(&[2.0, 4.0, 8.0], [true, false]);
@@ -17,7 +12,7 @@ fn with_mass(t: DMatrix<f64>, mass: DMatrix<f64>) -> Result<FiniteElementModel, 
 fn bounds_that_no_factor_or_not_the_start_satisfies_are_refused_by_their_parameter() {
     let refused = |elements: &[usize], lower: f64, upper: f64| {
         let some = group("some", elements, Some(Bounds { lower, upper }));
-        said(chain(vec![some]).expect("a model").factor_ranges())
+        said(chain(vec![some]).unwrap().factor_ranges())
     };
     let crossed = "is no range; the lower limit must be positive, the upper one larger and finite";
     let start = "exclude the starting factor 1";
@@ -81,15 +76,15 @@ fn factors_that_cannot_be_are_refused_by_their_parameter() {
 fn a_mass_that_is_not_positive_is_refused_by_its_dof() {
     for value in [0.0, -0.5] {
         for dof in 0..3 {
-            let mut mass = DMatrix::identity(3, 3);
+            let mut mass = eye(3);
             mass[(dof, dof)] = value;
             assert_eq!(
-                said(with_mass(DMatrix::identity(3, 3), mass)),
+                said(with_mass(eye(3), mass)),
                 not_definite("dynamic mass", dof)
             );
         }
     }
-    let mut data = Case::new(1).unwrap().reconstruction;
+    let mut data = case_of(1).reconstruction;
     data.masses[4] = f64::NAN;
     assert_eq!(
         said(Case::from_reconstruction(1, data).unwrap().model()),
@@ -99,7 +94,7 @@ fn a_mass_that_is_not_positive_is_refused_by_its_dof() {
 
 #[test]
 fn matrices_that_do_not_fit_are_refused_by_name() {
-    let identity = || DMatrix::identity(3, 3);
+    let identity = || eye(3);
     let nan = dmatrix![1.0, 0.0, 0.0; 0.0, 1.0, 0.0; 0.0, f64::NAN, 1.0];
     let skew = dmatrix![1.0, 0.0, 0.0; 0.0, 1.0, 0.0; 0.0, 0.5, 1.0];
     for (t, mass, words) in [
@@ -110,7 +105,7 @@ fn matrices_that_do_not_fit_are_refused_by_name() {
         ),
         (
             identity(),
-            DMatrix::identity(2, 2),
+            eye(2),
             "load distribution: 3 x 3 instead of 3 x 2",
         ),
         (
@@ -125,7 +120,7 @@ fn matrices_that_do_not_fit_are_refused_by_name() {
         ),
         (
             DMatrix::zeros(3, 0),
-            DMatrix::zeros(0, 0),
+            zero_square(0),
             "dynamic degrees of freedom: 0 given or asked for; there must be at least 1",
         ),
     ] {
@@ -140,7 +135,7 @@ fn a_structure_that_nothing_holds_is_refused_by_a_direction() {
         DMatrix::identity(2, 1),
     );
     let parameters = vec![Parameter::new(1, &[1])];
-    let model = FiniteElementModel::new(free, t, DMatrix::identity(1, 1), parameters).unwrap();
+    let model = FiniteElementModel::new(free, t, eye(1), parameters).unwrap();
     let refused = model.matrices(&[1.0]);
     assert!(
         matches!(
@@ -156,8 +151,8 @@ fn a_structure_that_nothing_holds_is_refused_by_a_direction() {
 fn element_matrices_that_do_not_fit_are_refused() {
     let model = chain(vec![Parameter::new(1, &[1])]).unwrap();
     let with = |units: Vec<DMatrix<f64>>| said(model.with_unit_stiffness(units));
-    let one = || DMatrix::identity(1, 1);
-    let two = || DMatrix::identity(2, 2);
+    let one = || eye(1);
+    let two = || eye(2);
     assert_eq!(with(vec![one(), two(), two()]), "an answer");
     assert_eq!(
         with(vec![one(), two()]),

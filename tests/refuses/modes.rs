@@ -1,11 +1,9 @@
 //! What the eigenproblem and the measured modes refuse, and who is named.
 
-use crate::common::{not_definite, said};
-use corfem::method::modes::{Modes, solve};
-use nalgebra::{DMatrix, DVector, dmatrix, dvector};
+use crate::prelude::*;
 
 fn identity(size: usize) -> DMatrix<f64> {
-    DMatrix::identity(size, size)
+    eye(size)
 }
 
 fn diagonal(entries: &[f64]) -> DMatrix<f64> {

@@ -10,15 +10,8 @@ mod matrices;
 mod perturbation;
 mod structures;
 
-use crate::common::draws::Draws;
 use crate::ledgers::files_below;
-use corfem::method::error::Error;
-use corfem::method::model::Model;
-use corfem::method::modes::Modes;
-use nalgebra::DMatrix;
-use std::fs;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
+use crate::prelude::*;
 
 /// The numbers of an answer, or that there is an error instead.
 type Answer = Result<Vec<f64>, Error>;
@@ -75,7 +68,7 @@ fn is_name(text: &str) -> bool {
 fn public_functions(module: &str, source: &str) -> Vec<String> {
     let (mut owner, mut found) = (module.to_owned(), Vec::new());
     let mut is_analysis = false;
-    let lines: Vec<&str> = source.lines().collect();
+    let lines = source.lines().collect_vec();
     for (at, &line) in lines.iter().enumerate() {
         // One that hands out a field does nothing that could go wrong.
         let body = lines
@@ -130,7 +123,7 @@ fn uncalled<'a>(functions: &'a [String], entries: &str, excused: &[&str]) -> Vec
 #[test]
 fn every_public_function_of_the_method_is_called() {
     let mut functions = Vec::new();
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let source = in_root("src");
     let mut files = files_below(&source.join("method"));
     files.extend(files_below(&source.join("sparse/factorization")));
     let others = [
@@ -144,20 +137,15 @@ fn every_public_function_of_the_method_is_called() {
     ];
     files.extend(others.map(|name| source.join(name)));
     for file in files {
-        let stem = |path: &Path| {
-            path.file_stem()
-                .expect("a name")
-                .to_string_lossy()
-                .into_owned()
-        };
+        let stem = |path: &Path| path.file_stem().unwrap().to_string_lossy().into_owned();
         let module = if stem(&file) == "mod" {
-            stem(file.parent().expect("a folder"))
+            stem(file.parent().unwrap())
         } else {
             stem(&file)
         };
         functions.extend(public_functions(
             &module,
-            &fs::read_to_string(&file).expect("it reads"),
+            &fs::read_to_string(&file).unwrap(),
         ));
     }
     assert!(
@@ -166,9 +154,9 @@ fn every_public_function_of_the_method_is_called() {
         functions.len()
     );
     let tests = ["matrices", "perturbation", "structures", "loops"];
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/refuses/no_panic");
-    let texts = tests
-        .map(|name| fs::read_to_string(folder.join(name).with_extension("rs")).expect("it reads"));
+    let folder = in_root("tests/refuses/no_panic");
+    let texts =
+        tests.map(|name| fs::read_to_string(folder.join(name).with_extension("rs")).unwrap());
     let missing = uncalled(&functions, &texts.concat(), &NOT_CALLED);
     assert!(
         missing.is_empty(),
@@ -177,10 +165,10 @@ fn every_public_function_of_the_method_is_called() {
     );
     let known = |name: &&str| functions.iter().any(|function| function == name);
     let called = LISTS.iter().copied().flatten().map(|(name, _)| *name);
-    let gone: Vec<&str> = called
+    let gone = called
         .chain(NOT_CALLED)
         .filter(|name| !known(name))
-        .collect();
+        .collect_vec();
     assert!(gone.is_empty(), "no longer public functions: {gone:?}");
 }
 

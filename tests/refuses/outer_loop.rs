@@ -1,11 +1,6 @@
 //! What the outer loop refuses, and the errors of others that it hands on.
 
-use crate::common::said;
-use crate::common::vibrations::Chain;
-use corfem::method::error::Error;
-use corfem::method::model::Model;
-use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::method::step::Bounds;
+use crate::prelude::*;
 
 const TRUTH: [f64; 3] = [1.3, 0.8, 1.1];
 

@@ -1,16 +1,11 @@
 //! What mode sorting refuses.
 
-use crate::common::said;
-use corfem::method::error_sum::mode_errors;
-use corfem::method::modes::Modes;
-use corfem::method::sorting::{Pairing, cross_orthogonality, pair_modes};
-use corfem::sparse::modal_assurance;
-use nalgebra::{DMatrix, DVector, dmatrix};
+use crate::prelude::*;
 
 /// Modes of one shape, at some DOF.
 fn modes(dof: usize, count: usize) -> Modes {
     let shapes = DMatrix::from_element(dof, count, 1.0);
-    Modes::new(DVector::from_element(count, 1.0), shapes).expect("modes")
+    Modes::new(DVector::from_element(count, 1.0), shapes).unwrap()
 }
 
 #[test]
@@ -35,7 +30,7 @@ fn no_test_modes_too_many_or_nan_are_refused() {
 
 #[test]
 fn shapes_and_mass_must_fit() {
-    let identity = |size: usize| DMatrix::<f64>::identity(size, size);
+    let identity = |size: usize| eye(size);
     for (analysis, test, mass, words) in [
         (
             modes(2, 1),
@@ -92,7 +87,7 @@ fn pairs_that_are_not_those_of_the_modes_have_no_error() {
         };
         mode_errors(&modes(3, 2), &pairing, &modes(dof, 2))
     };
-    assert_eq!(errors(3, vec![0, 1]).expect("they fit").len(), 2);
+    assert_eq!(errors(3, vec![0, 1]).unwrap().len(), 2);
     for (dof, pairing, words) in [
         (4, vec![0, 1], "test mode shapes: 4 x 2 instead of 3 x 2"),
         (3, vec![0], "test mode shapes: 3 x 2 instead of 3 x 1"),

@@ -1,16 +1,7 @@
 //! Singular structures: whatever nothing holds is named, and nothing that is held is refused.
 
-use crate::common::nastran95::boxes;
-use crate::common::structures::{
-    dense, free_motions, grid, linkage, linkage_data, rod, spring_chain,
-};
-use crate::common::tolerances::TAKES_PART;
-use corfem::method::appendix_a::condense;
-use corfem::method::error::Error;
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::structure::{DIRECTIONS, Structure};
-use nalgebra::DMatrix;
-use proptest::prelude::*;
+use crate::common::structures::{free_motions, rod};
+use crate::prelude::*;
 
 /// Grid and direction that a singular structure is refused with.
 fn refusal(structure: &Structure) -> (usize, char) {
@@ -26,17 +17,17 @@ fn named(error: Error) -> (usize, char) {
 
 /// A model of the structure with its first DOF as the dynamic one.
 fn model_of(structure: &Structure) -> FiniteElementModel {
-    let (one, count) = (DMatrix::identity(1, 1), structure.free_dof().len());
+    let (one, count) = (eye(1), structure.free_dof().len());
     let parameters = vec![Parameter::new(1, &[1])];
     let t = DMatrix::identity(count, 1);
-    FiniteElementModel::new(structure.clone(), t, one, parameters).expect("a model")
+    FiniteElementModel::new(structure.clone(), t, one, parameters).unwrap()
 }
 
 /// Why a model of the structure has no matrices, with another stiffness of its elements if one is given.
 fn refused(structure: &Structure, units: Option<Vec<DMatrix<f64>>>) -> Error {
     let model = model_of(structure);
     let model = match units {
-        Some(units) => model.with_unit_stiffness(units).expect("they fit"),
+        Some(units) => model.with_unit_stiffness(units).unwrap(),
         None => model,
     };
     model
@@ -54,8 +45,6 @@ fn row_of(structure: &Structure, grid: usize, direction: char) -> usize {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// A linkage has one free motion and no DOF without stiffness; the grid named is one of those that move in it.
     #[test]
     fn a_mechanism_is_refused_by_a_grid_that_moves((apex, areas) in linkage_data()) {
@@ -79,7 +68,7 @@ properties! {
             grids.push(grid(k + 2, at, [false; 3]));
         }
         let rods = (1..=steps.len()).map(|k| rod(k, [k, k + 1], 1.0)).collect();
-        let structure = Structure::new(grids, rods).unwrap();
+        let structure = Structure::new(grids, rods)?;
         let (grid, direction) = refusal(&structure);
         let motions = free_motions(&dense(&structure));
         prop_assert_eq!(motions.ncols(), 2 * steps.len());
@@ -127,7 +116,7 @@ fn a_box_without_some_of_its_shear_covers_is_a_mechanism() {
 #[test]
 fn a_stiffness_within_round_off_of_singular_is_refused() {
     let coupled = |count: usize, delta: f64| {
-        let mut stiffness = DMatrix::identity(count, count);
+        let mut stiffness = eye(count);
         stiffness[(0, 1)] = delta - 1.0;
         stiffness[(1, 0)] = delta - 1.0;
         condense(&stiffness, &DMatrix::identity(count, 1)).map(drop)
@@ -151,11 +140,8 @@ fn an_indefinite_stiffness_is_refused_where_it_shows() {
     let structure = spring_chain(&[1.0, 1.0], [true, false]);
     let unit = |sign: f64| DMatrix::from_row_slice(2, 2, &[1.0, -sign, -sign, sign]);
     for units in [
-        vec![DMatrix::identity(1, 1), unit(-1.0)],
-        vec![
-            DMatrix::identity(1, 1),
-            4.0 * unit(1.0) - 3.5 * DMatrix::identity(2, 2),
-        ],
+        vec![eye(1), unit(-1.0)],
+        vec![eye(1), 4.0 * unit(1.0) - 3.5 * eye(2)],
     ] {
         assert_eq!(named(refused(&structure, Some(units))), (3, 'x'));
     }
@@ -183,7 +169,7 @@ fn a_motion_is_named_in_any_unit() {
     for power in [-20, 0, 20] {
         let units = |delta: f64| {
             let coupled = DMatrix::from_row_slice(2, 2, &[1.0, delta - 1.0, delta - 1.0, 1.0]);
-            vec![DMatrix::zeros(1, 1), 2.0_f64.powi(power) * coupled]
+            vec![zero_square(1), 2.0_f64.powi(power) * coupled]
         };
         assert_eq!(named(refused(&structure, Some(units(3e-15)))), (3, 'x'));
         let held = model_of(&structure).with_unit_stiffness(units(3e-14));

@@ -1,18 +1,7 @@
 //! The property that lets the fast forms stand in for the text: the modes of the whole model at the sensors are those of the text's
 //! dense matrices, over random structures, the paper's cases and the delta wing.
 
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::known::delta_wing::correlation::first_model;
-use crate::common::known::whole;
-use crate::common::structures::{dense, lumped_mass};
-use crate::common::tolerances::TWO_PROGRAMS;
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::structure::Structure;
-use corfem::torque_box::wing_box::{Reconstruction, load_distribution, structure};
-use corfem::torque_box::{CASES, Case};
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Condition beyond which round-off leaves less than the digits compared: of the structural stiffness scaled to unit diagonal, of the
 /// dynamic stiffness, and of the squared frequencies.
@@ -74,25 +63,25 @@ fn dense_modes(model: &FiniteElementModel, count: usize) -> (Modes, DMatrix<f64>
     let t = model.load_distribution();
     if !has_element_masses(model) {
         let condensed = model.condense(&vec![1.0; model.parameters().len()]);
-        let stiffness = condensed.expect("held").stiffness;
-        let modes = solve(&stiffness, model.mass(), count).expect("modes");
+        let stiffness = condensed.unwrap().stiffness;
+        let modes = solve(&stiffness, model.mass(), count).unwrap();
         let seen = modes.shapes().clone();
         return (modes, seen);
     }
     let lumped = DMatrix::from_diagonal(&lumped_mass(model.structure()));
     let mass = lumped + t * model.mass() * t.transpose();
-    let modes = solve(&dense(model.structure()), &mass, count).expect("modes");
+    let modes = solve(&dense(model.structure()), &mass, count).unwrap();
     let seen = t.tr_mul(modes.shapes());
     (modes, seen)
 }
 
 fn assert_same_modes(model: &FiniteElementModel, count: usize) {
-    let (whole, sensors) = whole::of(model).expect("a whole model");
+    let (whole, sensors) = whole::of(model).unwrap();
     let found = whole
         .modes(&vec![1.0; whole.parameters().len()], count)
-        .expect("modes")
+        .unwrap()
         .vibrations;
-    let seen = sensors.times(found.shapes()).expect("they fit");
+    let seen = sensors.times(found.shapes()).unwrap();
     let (plain, plain_seen) = dense_modes(model, count);
     let squares = plain.omega_squared();
     for (mode, (a, b)) in squares.iter().zip(found.omega_squared()).enumerate() {
@@ -101,8 +90,8 @@ fn assert_same_modes(model: &FiniteElementModel, count: usize) {
             "frequency {mode}: {a} {b}"
         );
         // A cluster at the end of the list may go on behind it.
-        let is_near = |other: &usize| (squares[*other] / a - 1.0).abs() < CLUSTER;
-        let cluster: Vec<usize> = (0..count).filter(is_near).collect();
+        let is_near = |other: &usize| relative_error(squares[*other], a) < CLUSTER;
+        let cluster = (0..count).filter(is_near).collect_vec();
         if cluster.contains(&(count - 1)) && cluster.len() > 1 {
             continue;
         }
@@ -110,18 +99,14 @@ fn assert_same_modes(model: &FiniteElementModel, count: usize) {
             plain_seen.select_columns(&cluster),
             seen.column(mode).into_owned(),
         );
-        let part = span
-            .clone()
-            .svd(true, true)
-            .solve(&shape, 0.0)
-            .expect("a solution");
+        let part = span.clone().svd(true, true).solve(&shape, 0.0).unwrap();
         let apart = (span * part - &shape).norm() / seen.amax();
         assert!(apart <= TWO_PROGRAMS, "shape {mode}: {apart:e}");
     }
 }
 
 properties! {
-    #![proptest_config(crate::common::costly_config())]
+    #![proptest_config(costly_config())]
 
     #[test]
     fn a_random_structure_has_the_same_modes_at_its_sensors(model in random_model()) {
@@ -132,13 +117,13 @@ properties! {
 #[test]
 fn every_case_has_the_same_modes() {
     for number in CASES {
-        let model = Case::new(number).expect("a case").model().expect("a model");
+        let model = case_of(number).model().unwrap();
         assert_same_modes(&model, 9);
     }
 }
 
 #[test]
 fn the_delta_wing_has_the_same_modes() {
-    let model = first_model(&DeltaWing::embedded()).expect("a model");
+    let model = first_model(&DeltaWing::embedded()).unwrap();
     assert_same_modes(&model, 10);
 }

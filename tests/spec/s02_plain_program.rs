@@ -3,27 +3,22 @@
 #[path = "../../paper/plain.rs"]
 mod program;
 
-use crate::common::tolerances::{SAME_CORRELATION, SAME_ON_THE_WAY};
-use corfem::method::model::FiniteElementModel;
-use corfem::method::outer_loop::correlate;
-use corfem::method::step::StepRule;
-use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, PUBLISHED_RUNS};
-use corfem::torque_box::{CASES, Case};
+use crate::prelude::*;
 
 fn assert_same(what: &str, model: &FiniteElementModel, case: &Case, modes: (usize, usize)) {
     let test = case
         .test_modes()
         .and_then(|all| Ok(all.lowest(modes.0)?))
-        .expect("test modes");
+        .unwrap();
     let analyze = |factors: &[f64]| model.analyze(factors, &test, Some(modes.1));
-    let ranges = model.factor_ranges().expect("ranges");
-    let expected = correlate(analyze, &ranges, &case.settings, |_, _| true).expect("a correlation");
+    let ranges = model.factor_ranges().unwrap();
+    let expected = correlate(analyze, &ranges, &case.settings, |_, _| true).unwrap();
     let mut problem = program::torque_box(case);
     problem.test = program::Modes {
         omega_squared: test.omega_squared().clone(),
         shapes: test.shapes().clone(),
     };
-    let found = problem.correlate(modes.1).expect("a correlation");
+    let found = problem.correlate(modes.1).unwrap();
     assert_eq!(found.len(), expected.passes.len(), "{what}");
     for ((pass, gages, errors), expected) in found.iter().zip(&expected.passes) {
         let inner = &expected.inner;
@@ -37,9 +32,9 @@ fn assert_same(what: &str, model: &FiniteElementModel, case: &Case, modes: (usiz
             let apart = (found - expected).abs() / (expected - 1.0).abs().max(1.0);
             assert!(apart <= SAME_ON_THE_WAY, "{what}: {apart:e}");
         }
-        let sizes = model.sizes(&expected.factors).expect("sizes");
+        let sizes = model.sizes(&expected.factors).unwrap();
         for (found, expected) in gages.iter().zip(sizes) {
-            let apart = (found / expected - 1.0).abs();
+            let apart = relative_error(found, expected);
             assert!(apart <= SAME_CORRELATION, "{what}: {apart:e}");
         }
         let apart = (errors.sum() - expected.check.errors.sum()).abs();
@@ -56,9 +51,9 @@ fn the_plain_program_corrects_every_case_by_every_reading_as_the_crate_does() {
             StepRule::Relative,
             StepRule::Gage,
         ] {
-            let mut case = Case::new(number).expect("a case");
+            let mut case = case_of(number);
             case.settings = case.settings_by(rule);
-            let model = case.model().expect("a model");
+            let model = case.model().unwrap();
             assert_same(
                 &format!("case {number} by {}", rule.name()),
                 &model,
@@ -71,9 +66,9 @@ fn the_plain_program_corrects_every_case_by_every_reading_as_the_crate_does() {
 
 #[test]
 fn the_plain_program_corrects_with_fewer_modes_as_the_crate_does() {
-    let mut case = Case::new(PUBLISHED_CASE).expect("a case");
+    let mut case = case_of(PUBLISHED_CASE);
     case.settings.most_passes = 1;
-    let model = case.model().expect("a model");
+    let model = case.model().unwrap();
     for (test, analysis) in PUBLISHED_RUNS {
         assert_same(
             &format!("{test} of {analysis} modes"),

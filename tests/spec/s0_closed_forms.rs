@@ -1,19 +1,10 @@
 //! Rods in a row against the closed forms of chains and of the uniform rod.
 
-use crate::common::closed_forms::analytical::{
-    ChainEnds, chain_eigenvalues, fixed_free_rod_frequencies_hz,
-};
-use crate::common::log_log_slope;
-use crate::common::structures::{dense, sizes, spring_chain};
-use crate::common::tolerances::{CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF, SLOPE};
-use corfem::method::appendix_a::condense;
+use crate::common::closed_forms::analytical::fixed_free_rod_frequencies_hz;
+use crate::prelude::*;
 use corfem::method::modes;
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// The whole way: rods, assembly, factorization, condensation with T the identity, and modes.
     #[test]
     fn rods_in_a_row_have_the_spectrum_of_a_chain(
@@ -27,13 +18,13 @@ properties! {
             false => (ChainEnds::FixedFree, count),
         };
         let structure = spring_chain(&vec![spring; springs], [true, both]);
-        let condensed = condense(&dense(&structure), &DMatrix::identity(count, count)).unwrap();
-        let found = modes::solve(&condensed.stiffness, &(mass * DMatrix::identity(count, count)), count).unwrap();
+        let condensed = condense(&dense(&structure), &eye(count))?;
+        let found = modes::solve(&condensed.stiffness, &(mass * eye(count)), count)?;
         let expected = chain_eigenvalues(ends, count, spring, mass);
         prop_assert_eq!(found.len(), expected.len());
         let bar = CONDITIONED_ROUND_OFF * expected[count - 1] / expected[0];
         for (found, expected) in found.omega_squared().iter().zip(&expected) {
-            prop_assert!((found / expected - 1.0).abs() <= bar, "{found} {expected}");
+            prop_assert!(relative_error(found, expected) <= bar, "{found} {expected}");
         }
     }
 
@@ -41,7 +32,7 @@ properties! {
     #[test]
     fn a_free_chain_has_a_rigid_body_motion(count in 2..12_usize, spring in 1.0..1e6_f64) {
         let structure = spring_chain(&vec![spring; count - 1], [false, false]);
-        let mut found: Vec<f64> = dense(&structure).symmetric_eigenvalues().iter().copied().collect();
+        let mut found = dense(&structure).symmetric_eigenvalues().iter().copied().collect_vec();
         found.sort_by(f64::total_cmp);
         let expected = chain_eigenvalues(ChainEnds::FreeFree, count, spring, 1.0);
         prop_assert_eq!(expected[0], 0.0);
@@ -66,7 +57,7 @@ fn a_rod_cut_finer_tends_to_the_uniform_rod_with_order_two() {
             assert_eq!(sizes(&structure).len(), count);
             let mut masses = DVector::from_element(count, density * area * piece);
             masses[count - 1] /= 2.0;
-            let condensed = condense(&dense(&structure), &DMatrix::identity(count, count)).unwrap();
+            let condensed = condense(&dense(&structure), &eye(count)).unwrap();
             let found =
                 modes::solve(&condensed.stiffness, &DMatrix::from_diagonal(&masses), 3).unwrap();
             let error = found
@@ -79,10 +70,10 @@ fn a_rod_cut_finer_tends_to_the_uniform_rod_with_order_two() {
         })
         .to_vec();
     for mode in 0..3 {
-        let points: Vec<(f64, f64)> = errors
+        let points = errors
             .iter()
             .map(|(piece, error)| (*piece, error[mode]))
-            .collect();
+            .collect_vec();
         let slope = log_log_slope(&points);
         assert!((slope - 2.0).abs() < SLOPE, "mode {mode}: slope {slope}");
     }

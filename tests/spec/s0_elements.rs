@@ -1,14 +1,7 @@
 //! Elements of every kind: what holds for each wherever it lies.
 
-use crate::common::matrices::{rank_of_semidefinite, relative_distance};
-use crate::common::panels::{Sample, sample};
-use crate::common::said;
-use crate::common::strategies::{point, rotation};
-use crate::common::tolerances::ELEMENT_ROUND_OFF;
-use corfem::method::error::Error;
-use corfem::method::structure::{ElementKind, check_corners};
-use nalgebra::{DMatrix, DVector, Vector3};
-use proptest::prelude::*;
+use crate::common::matrices::rank_of_semidefinite;
+use crate::prelude::*;
 
 /// Every way to number four corners round the perimeter.
 const ROUND_THE_PERIMETER: [[usize; 4]; 8] = [
@@ -33,16 +26,14 @@ const ROUND_THE_TRIANGLE: [[usize; 3]; 6] = [
 
 /// The same matrix with the corners' DOF in another order.
 fn permuted(stiffness: &DMatrix<f64>, order: &[usize]) -> DMatrix<f64> {
-    let dof: Vec<usize> = order
+    let dof = order
         .iter()
         .flat_map(|&corner| 3 * corner..3 * corner + 3)
-        .collect();
+        .collect_vec();
     stiffness.select_rows(&dof).select_columns(&dof)
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn rigid_body_motions_cost_no_force(sample in sample(), shift in point(), spin in point()) {
         let stiffness = sample.stiffness();

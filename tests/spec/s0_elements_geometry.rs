@@ -1,14 +1,8 @@
 //! The corners of panels and triangles: the mean plane, and the shapes that are refused.
 
 use crate::common::closed_forms::analytical::area;
-use crate::common::panels::{flat_panel, panel_sample, placed};
-use crate::common::strategies::{point, rotation};
-use crate::common::tolerances::{ELEMENT_ROUND_OFF, ROUND_OFF};
-use corfem::method::elements::mean_plane;
-use corfem::method::error::Error;
-use corfem::method::structure::{ElementKind, Point, check_corners};
-use nalgebra::{Matrix3, Vector2, Vector3};
-use proptest::prelude::*;
+use crate::common::panels::{panel_sample, placed};
+use crate::prelude::*;
 
 const PANELS: [ElementKind; 2] = [ElementKind::ShearPanel, ElementKind::Membrane];
 
@@ -51,8 +45,6 @@ fn shoelace(flat: &[Vector2<f64>; 4]) -> f64 {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn a_concave_panel_is_refused_by_the_name_of_its_corner(
         corners in flat_panel(),

@@ -1,16 +1,6 @@
 //! Lumped masses of single elements.
 
-use crate::common::panels::{Sample, sample};
-use crate::common::said;
-use crate::common::strategies::{point, rotation};
-use crate::common::structures::grid;
-use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
-use approx::assert_relative_eq;
-use corfem::files::deck::BulkData;
-use corfem::method::structure::{Element, ElementKind, Material, Structure, check_corners};
-use corfem::sparse::elements::{corner_volumes, lumped_masses};
-use nalgebra::Vector3;
-use proptest::prelude::*;
+use crate::prelude::*;
 
 #[test]
 fn rectangle_and_triangle_lump_equally_and_rod_by_halves() {
@@ -69,8 +59,6 @@ fn warped_quadrilateral_lumps_the_area_of_its_diagonals_beside_true_corner_trian
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn lumped_volumes_do_not_depend_on_place_or_orientation(
         offset in point(), turn in rotation(), x3 in 1.0..8.0, y3 in 1.0..8.0, x4 in -1.0..1.0, y4 in 1.0..8.0,
@@ -115,27 +103,27 @@ properties! {
     ) {
         let structure = structure(&sample, density, size, &held);
         let (element, corners) = (&structure.elements()[0], &structure.corners()[0]);
-        let expected: Vec<f64> =
-            corner_volumes(sample.kind, corners).iter().map(|volume| density * size * volume).collect();
+        let expected =
+            corner_volumes(sample.kind, corners).iter().map(|volume| density * size * volume).collect_vec();
         let rows = structure.free_dof().iter().enumerate();
-        let at_free: Vec<(usize, f64)> = rows.map(|(row, dof)| (row, expected[dof.grid - 1])).collect();
+        let at_free = rows.map(|(row, dof)| (row, expected[dof.grid - 1])).collect_vec();
         let found = lumped_masses(&structure, element, corners);
         prop_assert_eq!(found.len(), at_free.len());
         for ((row, mass), (expected_row, expected)) in found.iter().zip(&at_free) {
-            prop_assert!(row == expected_row && (mass / expected - 1.0).abs() <= ROUND_OFF);
+            prop_assert!(row == expected_row && relative_error(mass, expected) <= ROUND_OFF);
         }
         let deck = BulkData::from_structure(&structure);
-        let placed = deck.placed_masses().expect("masses");
+        let placed = deck.placed_masses()?;
         prop_assert_eq!(placed.len(), corners.len());
         for ((place, mass), (corner, expected)) in placed.iter().zip(corners.iter().zip(&expected)) {
             prop_assert_eq!(place, corner);
             prop_assert!((mass / *expected - Vector3::repeat(1.0)).amax() <= ROUND_OFF);
         }
         if !at_free.is_empty() {
-            let moving = deck.mass_dof(&structure).expect("masses");
+            let moving = deck.mass_dof(&structure)?;
             prop_assert_eq!(moving.dof.as_slice(), structure.free_dof());
             for (mass, (_, expected)) in moving.mass.iter().zip(&at_free) {
-                prop_assert!((mass / expected - 1.0).abs() <= ROUND_OFF);
+                prop_assert!(relative_error(mass, expected) <= ROUND_OFF);
             }
         }
     }
@@ -155,7 +143,7 @@ fn structure(sample: &Sample, density: f64, size: f64, held: &[[bool; 3]]) -> St
             ..sample.material
         },
     };
-    Structure::new(grids.collect(), vec![element]).expect("a structure")
+    Structure::new(grids.collect(), vec![element]).unwrap()
 }
 
 /// An element without a density has no mass.
@@ -166,7 +154,7 @@ fn a_material_without_density_has_no_lumped_mass() {
         kind: ElementKind::Rod,
         corners: corners.to_vec(),
         warped: false,
-        material: Material::isotropic(1e7, 0.3).expect("a material"),
+        material: Material::isotropic(1e7, 0.3).unwrap(),
     };
     let structure = structure(&rod, 0.0, 0.5, &[[false; 3]; 2]);
     let element = &structure.elements()[0];

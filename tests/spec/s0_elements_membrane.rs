@@ -1,13 +1,7 @@
 //! Triangle, membrane and rod against hand results and constant strain.
 
-use crate::common::matrices::relative_distance;
-use crate::common::panels::{flat_panel, material, placed, warped_panel};
-use crate::common::tolerances::{ELEMENT_ROUND_OFF, ROUND_OFF};
-use corfem::method::elements::rod;
-use corfem::method::elements::{membrane, triangle};
-use corfem::method::structure::Material;
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
-use proptest::prelude::*;
+use crate::common::panels::placed;
+use crate::prelude::*;
 
 /// Any displacement gradient: nine numbers, of which the strain in a plane sees three.
 fn gradient() -> impl Strategy<Value = Matrix3<f64>> {
@@ -51,8 +45,6 @@ fn triangle_area([a, b, c]: [Vector3<f64>; 3]) -> f64 {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn a_triangle_holds_the_energy_of_constant_strain(
         corners in placed(flat_panel()),

@@ -3,9 +3,8 @@
 //! Two things are NASTRAN's and not the theory's (`golden/nastran95/README.md`): it takes the sides of a shear panel for
 //! parallel when they nearly are, and its general closed form loses digits in slender panels.
 
-use crate::common::matrices::relative_distance;
-use crate::common::nastran95::{elements, snap_factor};
-use crate::common::tolerances::NASTRAN_SINGLE_PRECISION;
+use crate::common::nastran95::elements;
+use crate::prelude::*;
 
 #[test]
 fn every_stored_element_is_one_of_a_known_kind() {
@@ -31,10 +30,10 @@ fn elements_equal_nastran95() {
 #[test]
 fn only_the_slender_taper_needs_a_bar_of_its_own() {
     let elements = elements();
-    let own: Vec<_> = elements
+    let own = elements
         .iter()
         .filter(|element| element.tolerance.is_some())
-        .collect();
+        .collect_vec();
     assert_eq!(own.len(), 1);
     assert_eq!(
         (own[0].name.as_str(), own[0].tolerance),
@@ -52,7 +51,7 @@ fn only_the_slender_taper_needs_a_bar_of_its_own() {
 #[test]
 fn a_snapped_panel_differs_by_the_factor_of_its_closed_form_alone() {
     let elements = elements();
-    let snapped: Vec<_> = elements.iter().filter(|element| element.snap).collect();
+    let snapped = elements.iter().filter(|element| element.snap).collect_vec();
     assert_eq!(snapped.len(), 2);
     for (element, published) in snapped.iter().zip(["1.001", "0.982"]) {
         let (ours, theirs) = (element.computed(), element.stored());
@@ -72,7 +71,7 @@ fn a_snapped_panel_differs_by_the_factor_of_its_closed_form_alone() {
         );
         let explained = snap_factor(&element.corners(), &element.material());
         assert!(
-            (explained / factor - 1.0).abs() <= NASTRAN_SINGLE_PRECISION,
+            relative_error(explained, factor) <= NASTRAN_SINGLE_PRECISION,
             "{}: {explained} {factor}",
             element.name
         );

@@ -1,8 +1,7 @@
 //! Gauss-Legendre quadrature: exactness, and the same rule from the eigenvalues of a tridiagonal matrix.
 
-use crate::common::tolerances::ROUND_OFF;
+use crate::prelude::*;
 use corfem::method::elements::GAUSS_LEGENDRE;
-use nalgebra::DMatrix;
 
 /// Points of the rule.
 const COUNT: usize = 20;
@@ -48,7 +47,7 @@ fn rule_is_exact_to_degree_2n_minus_1_and_no_further() {
 /// twice the squared first components of its eigenvectors.
 #[test]
 fn rule_equals_golub_and_welsch() {
-    let mut jacobi = DMatrix::<f64>::zeros(COUNT, COUNT);
+    let mut jacobi = zero_square(COUNT);
     for k in 1..COUNT {
         let beside = k as f64 / ((4 * k * k - 1) as f64).sqrt();
         jacobi[(k - 1, k)] = beside;
@@ -57,7 +56,7 @@ fn rule_equals_golub_and_welsch() {
     let eigen = jacobi.symmetric_eigen();
     let weight = |k| 2.0 * eigen.eigenvectors[(0, k)].powi(2);
     let expected = (0..COUNT).map(|k| (eigen.eigenvalues[k], weight(k)));
-    let mut expected: Vec<(f64, f64)> = expected.collect();
+    let mut expected = expected.collect_vec();
     expected.sort_by(|a, b| a.0.total_cmp(&b.0));
     for ((point, weight), (s, w)) in rule().into_iter().zip(expected) {
         assert!((point - s).abs() <= ROUND_OFF, "{point} {s}");

@@ -1,23 +1,8 @@
 //! The Garvey shear panel against hand results and against the closed forms of its energy.
 
-use crate::common::closed_forms::analytical::{
-    Flat, no_sides_parallel_energy, parallelogram_energy, sides_12_34_parallel_energy,
-    sides_14_23_parallel_energy,
-};
-use crate::common::log_log_slope;
-use crate::common::matrices::relative_distance;
-use crate::common::panels::{
-    distorted_panel, flat_panel, general_panel, material, parallelogram, placed, trapezoid,
-    warped_panel,
-};
-use crate::common::tolerances::{
-    CLOSED_FORM_GENERAL, ELEMENT_ROUND_OFF, QUADRATURE_DISTORTED, QUADRATURE_TRAPEZOID, ROUND_OFF,
-};
-use approx::assert_relative_eq;
-use corfem::method::elements::{corner_forces, energy_coefficient, mean_plane, shear_panel};
-use corfem::method::structure::Material;
-use nalgebra::{DVector, Vector2, Vector3};
-use proptest::prelude::*;
+use crate::common::closed_forms::analytical::Flat;
+use crate::common::panels::{distorted_panel, general_panel, parallelogram, placed, trapezoid};
+use crate::prelude::*;
 
 type Corners = [Vector3<f64>; 4];
 
@@ -41,8 +26,6 @@ fn aluminum() -> Material {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn quadrature_is_exact_for_parallelograms(corners in placed(parallelogram()), material in material()) {
         let found = discrepancy(parallelogram_energy, &corners, &material);
@@ -136,7 +119,7 @@ fn a_rectangles_stiffness_is_the_hand_result() {
     let sheared = DVector::from_iterator(12, corners.iter().flat_map(|c| [strain * c.y, 0.0, 0.0]));
     let energy = 0.5 * sheared.dot(&(&found * &sheared));
     let expected = 0.5 * material.shear_modulus * strain * strain * length * width;
-    assert!((energy / expected - 1.0).abs() <= ROUND_OFF);
+    assert!(relative_error(energy, expected) <= ROUND_OFF);
     let z = energy_coefficient(&corners, &material);
     assert!((z * 2.0 * material.shear_modulus / (length * width) - 1.0).abs() <= ROUND_OFF);
 }
@@ -152,13 +135,10 @@ fn sides_become_parallel_without_a_jump() {
     };
     let parallel = energy(0.0);
     let points: Vec<(f64, f64)> = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6]
-        .map(|tilt| (tilt, (energy(tilt) / parallel - 1.0).abs()))
+        .map(|tilt| (tilt, relative_error(energy(tilt), parallel)))
         .to_vec();
     let slope = log_log_slope(&points);
-    assert!(
-        (slope - 1.0).abs() < crate::common::tolerances::SLOPE,
-        "slope {slope}"
-    );
+    assert!((slope - 1.0).abs() < SLOPE, "slope {slope}");
     assert!((energy(1e-12) / parallel - 1.0).abs() < ELEMENT_ROUND_OFF);
 }
 

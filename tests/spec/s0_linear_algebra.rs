@@ -1,16 +1,6 @@
 //! Dense decompositions: each against another library or its own definition, and each refusal by name.
 
-use crate::common::matrices::relative_distance;
-use crate::common::strategies::{orthogonal, positive_definite, symmetric};
-use crate::common::tolerances::{CONDITIONED_ROUND_OFF, DIFFERENCE_ROUND_OFF, MATRIX_ROUND_OFF};
-use crate::common::{not_definite, said};
-use corfem::method::error::Error;
-use corfem::method::linear_algebra::{
-    check_finite, check_shape, check_symmetric, cholesky, symmetric_eigen, symmetric_part,
-};
-use corfem::sparse::check_solution;
-use nalgebra::{Complex, DMatrix, DVector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Any size from a single DOF to the box's.
 fn size() -> impl Strategy<Value = usize> {
@@ -18,13 +8,11 @@ fn size() -> impl Strategy<Value = usize> {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn the_cholesky_factor_is_lower_and_multiplies_back(
         (matrix, _) in size().prop_flat_map(|n| positive_definite(n, 8.0)),
     ) {
-        let lower = cholesky("test matrix", &matrix, 0.0).unwrap();
+        let lower = cholesky("test matrix", &matrix, 0.0)?;
         prop_assert_eq!(lower.upper_triangle(), DMatrix::from_diagonal(&lower.diagonal()));
         prop_assert!(lower.diagonal().min() > 0.0);
         prop_assert!(relative_distance(&(&lower * lower.transpose()), &matrix) <= MATRIX_ROUND_OFF);
@@ -32,7 +20,7 @@ properties! {
 
     #[test]
     fn cholesky_agrees_with_nalgebra((matrix, _) in size().prop_flat_map(|n| positive_definite(n, 2.0))) {
-        let lower = cholesky("test matrix", &matrix, 0.0).unwrap();
+        let lower = cholesky("test matrix", &matrix, 0.0)?;
         let theirs = matrix.cholesky().unwrap().l();
         prop_assert!(relative_distance(&lower, &theirs) <= MATRIX_ROUND_OFF);
     }
@@ -42,8 +30,8 @@ properties! {
     fn eigenvalues_ascend_and_are_those_drawn(
         (matrix, exponents) in size().prop_flat_map(|n| positive_definite(n, 10.0)),
     ) {
-        let (values, vectors) = symmetric_eigen("test matrix", &matrix).unwrap();
-        let mut drawn: Vec<f64> = exponents.iter().map(|e| 10f64.powf(*e)).collect();
+        let (values, vectors) = symmetric_eigen("test matrix", &matrix)?;
+        let mut drawn = exponents.iter().map(|e| 10f64.powf(*e)).collect_vec();
         drawn.sort_by(f64::total_cmp);
         let largest = drawn[drawn.len() - 1];
         prop_assert_eq!(values.len(), drawn.len());
@@ -51,7 +39,7 @@ properties! {
             prop_assert!((found - drawn).abs() <= MATRIX_ROUND_OFF * largest);
         }
         prop_assert_eq!(vectors.shape(), matrix.shape());
-        let identity = DMatrix::identity(matrix.nrows(), matrix.nrows());
+        let identity = eye(matrix.nrows());
         prop_assert!(relative_distance(&vectors.tr_mul(&vectors), &identity) <= MATRIX_ROUND_OFF);
         let restored = &vectors * DMatrix::from_diagonal(&values) * vectors.transpose();
         prop_assert!(relative_distance(&restored, &matrix) <= MATRIX_ROUND_OFF);
@@ -59,8 +47,8 @@ properties! {
 
     #[test]
     fn eigenvalues_agree_with_nalgebra(matrix in size().prop_flat_map(symmetric)) {
-        let (values, _) = symmetric_eigen("test matrix", &matrix).unwrap();
-        let mut theirs: Vec<f64> = matrix.symmetric_eigenvalues().iter().copied().collect();
+        let (values, _) = symmetric_eigen("test matrix", &matrix)?;
+        let mut theirs = matrix.symmetric_eigenvalues().iter().copied().collect_vec();
         theirs.sort_by(f64::total_cmp);
         for (ours, theirs) in values.iter().zip(theirs) {
             prop_assert!((ours - theirs).abs() <= MATRIX_ROUND_OFF);
@@ -94,7 +82,7 @@ properties! {
     fn of_two_bad_pivots_the_first_is_named((size, first, later) in (3..12_usize).prop_flat_map(|n| {
         (Just(n), 1..n - 1).prop_flat_map(|(n, first)| (Just(n), Just(first), first + 1..n))
     })) {
-        let mut matrix = DMatrix::identity(size, size);
+        let mut matrix = eye(size);
         matrix[(first, 0)] = 1.0 - 1e-9;
         matrix[(0, first)] = 1.0 - 1e-9;
         matrix[(later, later)] = -1.0;
@@ -110,7 +98,7 @@ properties! {
         scale in -3.0..3.0_f64,
     ) {
         let (ratio, scale) = (10f64.powf(-decades), 10f64.powf(scale));
-        let mut matrix = DMatrix::identity(size, size);
+        let mut matrix = eye(size);
         matrix[(dof, dof)] = scale * scale;
         matrix[(dof, dof - 1)] = scale * (1.0 - ratio).sqrt();
         matrix[(dof - 1, dof)] = matrix[(dof, dof - 1)];
@@ -132,7 +120,7 @@ fn a_number_that_is_not_finite_is_refused_by_its_place() {
         // Of a complex number the part is named.
         let complex = matrix.map(|entry| Complex::new(1.0, entry));
         assert_eq!(said(check_finite("test matrix", &complex)), words(1, 2));
-        let mut square = DMatrix::identity(3, 3);
+        let mut square = eye(3);
         square[(2, 1)] = value;
         for refused in [
             said(check_symmetric("test matrix", &square)),
@@ -163,7 +151,7 @@ fn another_shape_is_refused_with_both() {
         assert_eq!(refused, "test matrix: 3 x 4 instead of 3 x 3");
     }
     assert_eq!(
-        said(symmetric_eigen("test matrix", &DMatrix::zeros(0, 0))),
+        said(symmetric_eigen("test matrix", &zero_square(0))),
         "test matrix: 0 given or asked for; there must be at least 1"
     );
 }
@@ -198,11 +186,11 @@ fn a_solver_that_does_not_solve_is_refused_with_its_residual() {
             0.3 / (1.0 + i.abs_diff(j) as f64)
         }
     });
-    let inverse = matrix.clone().try_inverse().expect("it is regular");
+    let inverse = matrix.clone().try_inverse().unwrap();
     let probe = DVector::from_fn(6, |i, _| 1.0 + i as f64);
     let product = |x: &DVector<f64>| &matrix * x;
     let loads = product(&probe);
-    check_solution("test matrix", product, &loads, &(&inverse * &loads)).expect("it solves");
+    check_solution("test matrix", product, &loads, &(&inverse * &loads)).unwrap();
     // One wrong entry, as a lost update of a parallel kernel leaves it.
     let mut wrong = inverse.clone();
     wrong[(4, 2)] += 1e-9;
@@ -229,10 +217,10 @@ fn residual_and_allowed(refused: Result<(), Error>) -> [f64; 2] {
     let Err(Error::Failed { why, .. }) = refused else {
         panic!("a wrong solution passes: {refused:?}")
     };
-    let numbers: Vec<f64> = why
+    let numbers = why
         .split([' ', ','])
         .filter_map(|word| word.parse().ok())
-        .collect();
+        .collect_vec();
     assert_eq!(
         why,
         format!(
@@ -259,7 +247,7 @@ fn eigenvalues_of_very_large_and_small_matrices_scale() {
             "{size}, {power}"
         );
         assert!(
-            (shapes.tr_mul(&shapes) - DMatrix::identity(size, size)).amax() <= MATRIX_ROUND_OFF,
+            (shapes.tr_mul(&shapes) - eye(size)).amax() <= MATRIX_ROUND_OFF,
             "{size}, {power}"
         );
     }

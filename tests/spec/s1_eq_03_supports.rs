@@ -7,13 +7,7 @@
 //!
 //! The test structure has other areas than the model. All its elastic modes are measured; the method must find the areas.
 
-use crate::common::tolerances::{RECOVERED_AREA, RIGID_ON_SUSPENSION};
-use corfem::method::error::Error;
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use nalgebra::{DMatrix, DVector, Vector3};
+use crate::prelude::*;
 
 const MASSES: [f64; 6] = [0.010, 0.012, 0.009, 0.014, 0.011, 0.013];
 /// Area of a suspension rod: softer than the structure by six decades.
@@ -36,13 +30,13 @@ fn chain(areas: [f64; 5], support: Support) -> Result<FiniteElementModel, Error>
         Support::FixedFixed => label == 1 || label == 6,
         Support::SoftSuspension => false,
     };
-    let mut grids: Vec<Grid> = (1..=6)
+    let mut grids = (1..=6)
         .map(|label| Grid {
             label,
             position: Vector3::new(10.0 * label as f64, 0.0, 0.0),
             constrained: [constrained(label), true, true],
         })
-        .collect();
+        .collect_vec();
     let rod = |label: usize, ends: [usize; 2], size| Element {
         label,
         kind: ElementKind::Rod,
@@ -50,11 +44,11 @@ fn chain(areas: [f64; 5], support: Support) -> Result<FiniteElementModel, Error>
         size,
         material,
     };
-    let mut elements: Vec<Element> = areas
+    let mut elements = areas
         .iter()
         .enumerate()
         .map(|(k, &area)| rod(k + 1, [k + 1, k + 2], area))
-        .collect();
+        .collect_vec();
     if support == Support::SoftSuspension {
         for (label, joint, x) in [(101, 1, 0.0), (102, 6, 70.0)] {
             grids.push(Grid {
@@ -67,10 +61,10 @@ fn chain(areas: [f64; 5], support: Support) -> Result<FiniteElementModel, Error>
     }
     let structure = Structure::new(grids, elements)?;
     let free = structure.free_dof().to_vec();
-    let masses: Vec<f64> = free.iter().map(|dof| MASSES[dof.grid - 1]).collect();
+    let masses = free.iter().map(|dof| MASSES[dof.grid - 1]).collect_vec();
     FiniteElementModel::new(
         structure,
-        DMatrix::identity(free.len(), free.len()),
+        eye(free.len()),
         DMatrix::from_diagonal(&DVector::from_vec(masses)),
         (1..=5)
             .map(|label| Parameter::new(label, &[label]))
@@ -81,17 +75,17 @@ fn chain(areas: [f64; 5], support: Support) -> Result<FiniteElementModel, Error>
 /// Correlates the wrong chain with the modes of the right one, its `rigid` lowest left out.
 fn correlated(support: Support, rigid: usize) -> (Correlation, Modes) {
     let truth = chain(TRUE_AREAS, support)
-        .expect("a chain")
+        .unwrap()
         .matrices(&[1.0; 5])
-        .expect("held");
+        .unwrap();
     let count = truth.mass.nrows();
-    let all = solve(&truth.stiffness, &truth.mass, count).expect("solved");
+    let all = solve(&truth.stiffness, &truth.mass, count).unwrap();
     let test = Modes::new(
         all.omega_squared().rows(rigid, count - rigid).into_owned(),
         all.shapes().columns(rigid, count - rigid).into_owned(),
     )
-    .expect("modes");
-    let model = chain(MODEL_AREAS, support).expect("a chain");
+    .unwrap();
+    let model = chain(MODEL_AREAS, support).unwrap();
     let mut settings = Settings {
         least_passes: 3,
         ..Settings::default()
@@ -100,24 +94,24 @@ fn correlated(support: Support, rigid: usize) -> (Correlation, Modes) {
     settings.inner.tolerance = 0.002;
     settings.later_inner_tolerance = 0.002;
     let settings = settings.for_modes(test.len());
-    let ranges = model.factor_ranges().expect("no bounds");
+    let ranges = model.factor_ranges().unwrap();
     let result = correlate(
         |factors| model.analyze(factors, &test, None),
         &ranges,
         &settings,
         |_, _| true,
     )
-    .expect("it runs");
+    .unwrap();
     (result, all)
 }
 
 fn assert_areas_found(result: &Correlation) {
     assert!(result.converged);
-    let last = result.passes.last().expect("a pass");
+    let last = result.passes.last().unwrap();
     for ((factor, model), truth) in last.factors.iter().zip(MODEL_AREAS).zip(TRUE_AREAS) {
         let area = factor * model;
         assert!(
-            (area / truth - 1.0).abs() < RECOVERED_AREA,
+            relative_error(area, truth) < RECOVERED_AREA,
             "{area} for {truth}"
         );
     }
@@ -148,7 +142,7 @@ fn free_chain_on_a_soft_suspension_is_found_again_without_its_rigid_body_mode() 
     assert_areas_found(&result);
     // The test has five modes and the model six: the lowest, rigid one answers none of them.
     assert_eq!(result.initial.modes.len(), 6);
-    let last = result.passes.last().expect("a pass");
+    let last = result.passes.last().unwrap();
     assert!(
         last.check
             .pairing
@@ -160,17 +154,15 @@ fn free_chain_on_a_soft_suspension_is_found_again_without_its_rigid_body_mode() 
 
 #[test]
 fn chain_that_nothing_holds_is_refused() {
-    let model = chain(MODEL_AREAS, Support::FixedFree).expect("a chain");
+    let model = chain(MODEL_AREAS, Support::FixedFree).unwrap();
     let grids = model.structure().grids().iter().map(|grid| Grid {
         constrained: [false, true, true],
         ..grid.clone()
     });
-    let free = Structure::new(grids.collect(), model.structure().elements().to_vec())
-        .expect("a structure");
+    let free = Structure::new(grids.collect(), model.structure().elements().to_vec()).unwrap();
     let mass = DMatrix::from_diagonal(&DVector::from_row_slice(&MASSES));
     let parameters = vec![Parameter::new(1, &[1])];
-    let model =
-        FiniteElementModel::new(free, DMatrix::identity(6, 6), mass, parameters).expect("a model");
+    let model = FiniteElementModel::new(free, eye(6), mass, parameters).unwrap();
     let error = model.matrices(&[1.0]).expect_err("it moves as a whole");
     assert!(
         matches!(error, Error::SingularStiffness { direction: 'x', .. }),

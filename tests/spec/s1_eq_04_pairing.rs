@@ -1,16 +1,7 @@
 //! Mode sorting (4): every test mode gets its own analysis mode, whatever the order and signs they come in.
 
-use crate::common::pairings::{
-    cross, cross_with_ties, noisy_pairs, pairs_by_sorting, rearrangement,
-};
-use crate::common::strategies::orthogonal;
-use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
-use crate::common::vibrations::{chain, pencil};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::sorting::{Pairing, cross_orthogonality, pair_modes};
-use corfem::sparse::modal_assurance;
-use nalgebra::{DMatrix, DVector, dmatrix, dvector};
-use proptest::prelude::*;
+use crate::common::pairings::cross_with_ties;
+use crate::prelude::*;
 
 fn assert_is_injective(pairing: &Pairing, cross: &DMatrix<f64>) {
     assert_eq!(pairing.analysis_mode.len(), cross.ncols());
@@ -23,29 +14,27 @@ fn assert_is_injective(pairing: &Pairing, cross: &DMatrix<f64>) {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn every_test_mode_gets_its_own_analysis_mode(cross in cross()) {
-        assert_is_injective(&pair_modes(&cross).unwrap(), &cross);
+        assert_is_injective(&pair_modes(&cross)?, &cross);
     }
 
     #[test]
     fn ties_go_to_the_lower_modes(cross in cross_with_ties()) {
-        let pairing = pair_modes(&cross).unwrap();
+        let pairing = pair_modes(&cross)?;
         assert_is_injective(&pairing, &cross);
         prop_assert_eq!(pairing.analysis_mode, pairs_by_sorting(&cross));
     }
 
     #[test]
     fn the_closest_pair_is_made_first(cross in cross()) {
-        let found = pair_modes(&cross).unwrap();
+        let found = pair_modes(&cross)?;
         prop_assert_eq!(found.analysis_mode, pairs_by_sorting(&cross));
     }
 
     #[test]
     fn signs_are_those_of_the_paired_entries(cross in cross()) {
-        let pairing = pair_modes(&cross).unwrap();
+        let pairing = pair_modes(&cross)?;
         for j in 0..cross.ncols() {
             let entry = cross[(pairing.analysis_mode[j], j)];
             prop_assert_eq!(pairing.sign[j].abs(), 1.0);
@@ -55,7 +44,7 @@ properties! {
 
     #[test]
     fn order_and_signs_are_recovered_under_noise((cross, pairs) in noisy_pairs()) {
-        let pairing = pair_modes(&cross).unwrap();
+        let pairing = pair_modes(&cross)?;
         prop_assert_eq!(pairing.analysis_mode, pairs.order);
         prop_assert_eq!(pairing.sign, pairs.sign);
     }
@@ -66,17 +55,17 @@ properties! {
         change in rearrangement(7),
     ) {
         let count = cross.nrows();
-        let keep: Vec<usize> = (0..7).filter(|&place| change.order[place] < count).collect();
-        let order: Vec<usize> = keep.iter().map(|&place| change.order[place]).collect();
+        let keep = (0..7).filter(|&place| change.order[place] < count).collect_vec();
+        let order = keep.iter().map(|&place| change.order[place]).collect_vec();
         let mut rearranged = cross.select_rows(&order);
         for (row, &place) in keep.iter().enumerate() {
             rearranged.row_mut(row).scale_mut(change.sign[place]);
         }
         // Equal entries may change hands when the order does.
-        let mut magnitudes: Vec<f64> = cross.iter().map(|m| (m.abs() - 1.0).abs()).collect();
+        let mut magnitudes = cross.iter().map(|m| (m.abs() - 1.0).abs()).collect_vec();
         magnitudes.sort_by(f64::total_cmp);
         prop_assume!(magnitudes.windows(2).all(|pair| pair[0] < pair[1]));
-        let (before, after) = (pair_modes(&cross).unwrap(), pair_modes(&rearranged).unwrap());
+        let (before, after) = (pair_modes(&cross)?, pair_modes(&rearranged)?);
         for j in 0..cross.ncols() {
             let place = after.analysis_mode[j];
             prop_assert_eq!(order[place], before.analysis_mode[j]);
@@ -97,10 +86,10 @@ properties! {
         };
         let expected = paired(&analysis, &test);
         prop_assert_eq!(expected.shapes().shape(), (5, 5));
-        let rearranged = Modes::new(analysis.omega_squared().select_rows(&change.order), change.columns(analysis.shapes())).expect("modes");
+        let rearranged = Modes::new(analysis.omega_squared().select_rows(&change.order), change.columns(analysis.shapes()))?;
         prop_assert_eq!(paired(&rearranged, &test), expected.clone());
         // Test modes in another order and sign take their partners with them.
-        let test = Modes::new(test.omega_squared().select_rows(&other.order), other.columns(test.shapes())).expect("modes");
+        let test = Modes::new(test.omega_squared().select_rows(&other.order), other.columns(test.shapes()))?;
         let followed = paired(&analysis, &test);
         prop_assert_eq!(followed.omega_squared(), &expected.omega_squared().select_rows(&other.order));
         prop_assert_eq!(followed.shapes(), &other.columns(expected.shapes()));
@@ -108,10 +97,10 @@ properties! {
 
     #[test]
     fn modes_are_orthogonal_to_each_other_and_not_to_themselves((stiffness, mass, condition) in pencil()) {
-        let modes = solve(&stiffness, &mass, stiffness.nrows()).unwrap();
-        let cross = cross_orthogonality(&modes, &modes, &mass).unwrap();
+        let modes = solve(&stiffness, &mass, stiffness.nrows())?;
+        let cross = cross_orthogonality(&modes, &modes, &mass)?;
         prop_assert_eq!(cross.shape(), (modes.len(), modes.len()));
-        let error = (cross - DMatrix::identity(modes.len(), modes.len())).amax();
+        let error = (cross - eye(modes.len())).amax();
         prop_assert!(error <= MATRIX_ROUND_OFF * condition, "{error:e}");
     }
 
@@ -124,7 +113,7 @@ properties! {
             &DMatrix::from_vec(4, 3, shapes),
             &DMatrix::from_vec(4, 2, others),
         )
-        .unwrap();
+        ?;
         prop_assert_eq!(mac.shape(), (3, 2));
         for &value in mac.iter() {
             prop_assert!((0.0..=1.0 + ROUND_OFF).contains(&value));
@@ -140,8 +129,8 @@ properties! {
         for (mut column, (scale, flip)) in scaled.column_iter_mut().zip(scales) {
             column *= if flip { -scale } else { scale };
         }
-        let mac = modal_assurance(&shapes, &scaled).unwrap();
-        let error = (mac - DMatrix::identity(4, 4)).amax();
+        let mac = modal_assurance(&shapes, &scaled)?;
+        let error = (mac - eye(4)).amax();
         prop_assert!(error <= ROUND_OFF, "{error:e}");
     }
 }
@@ -175,7 +164,7 @@ fn a_shape_without_a_sign_keeps_its_own() {
 #[test]
 fn cross_orthogonality_by_hand() {
     let modes = |shapes: DMatrix<f64>| {
-        Modes::new(DVector::from_element(shapes.ncols(), 1.0), shapes).expect("modes")
+        Modes::new(DVector::from_element(shapes.ncols(), 1.0), shapes).unwrap()
     };
     let analysis = modes(dmatrix![1.0, 2.0, 0.0; 0.0, 1.0, -1.0]);
     let test = modes(dmatrix![3.0; 5.0]);
@@ -191,7 +180,7 @@ fn paired_by_hand() {
         dvector![1.0, 4.0, 9.0],
         dmatrix![1.0, 2.0, 3.0; 4.0, 5.0, 6.0],
     )
-    .expect("modes");
+    .unwrap();
     let pairing = Pairing {
         analysis_mode: vec![2, 0],
         sign: vec![-1.0, 1.0],

@@ -1,24 +1,8 @@
 //! The modal model: what the loops are handed, and the state they make of factors.
 
-use crate::common::alter;
-use crate::common::assert_refused;
-use crate::common::boxes::{first_problem, problem_of, uneven_box};
-use crate::common::loops::{chain_problem, exact_state};
-use crate::common::tolerances::{CONVERGED_STATE, MATRIX_ROUND_OFF, PRINTED_RMS, ROUND_OFF};
-use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
-use corfem::method::analysis::{Analysis, State};
-use corfem::method::appendix_a::generalized_stiffness;
-use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, Parameter};
-use corfem::method::modes::Modes;
-use corfem::method::perturbation::{ROOT_TOLERANCE, recursive_1_converged};
-use corfem::torque_box::Case;
-use nalgebra::{DMatrix, dmatrix};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn generalized_shares_sum_to_the_generalized_stiffness((chain, truth) in chain_and_truth()) {
         let problem = chain_problem(&chain, &truth);
@@ -45,9 +29,9 @@ properties! {
         // Σ_e V_G^t K_e V_G is diag(ω_G²) on the structure that was tested, so that the relative shares sum to the identity.
         let count = truth.len();
         let test = chain.modes(&truth);
-        let problem = chain.model(&truth).analyze(&test, Some(count)).unwrap();
+        let problem = chain.model(&truth).analyze(&test, Some(count))?;
         let sum: DMatrix<f64> = problem.test_shares().iter().sum();
-        let error = (&sum - DMatrix::identity(count, count)).amax();
+        let error = (&sum - eye(count)).amax();
         prop_assert!(error <= MATRIX_ROUND_OFF, "{error:e}");
     }
 
@@ -57,9 +41,9 @@ properties! {
         let (state, ones) = (problem.exact(), vec![1.0; truth.len()]);
         prop_assert_eq!(&state.factors, &ones);
         prop_assert_eq!(&state.modes, &chain.modes(&ones));
-        prop_assert_eq!(&state.generalized_shapes, &DMatrix::identity(truth.len(), truth.len()));
+        prop_assert_eq!(&state.generalized_shapes, &eye(truth.len()));
         // One is a factor like any other.
-        let same = problem.at(&ones).unwrap();
+        let same = problem.at(&ones)?;
         prop_assert_eq!(&same.factors, &ones);
         prop_assert!((same.errors.sum() - state.errors.sum()).abs() <= ROUND_OFF);
         prop_assert_eq!(same.pairing, state.pairing.clone());
@@ -78,10 +62,10 @@ properties! {
         let expected = error_sum_by_definition(&model.stiffness, &model.mass, &chain.modes(&truth));
         let changes = problem.shares().iter().zip(factors).map(|(share, factor)| (factor - 1.0) * share);
         let recursion = recursive_1_converged(problem.exact().modes.omega_squared(), &changes.sum());
-        let mut states = vec![("eigensolution", exact_state(&problem, factors).unwrap())];
+        let mut states = vec![("eigensolution", exact_state(&problem, factors)?)];
         // Where roots are close the recursion gains little an order, and sixty may not be enough for every digit.
         if recursion.is_ok_and(|it| it.last_change < ROOT_TOLERANCE) {
-            states.push(("Recursive 1", problem.at(factors).unwrap()));
+            states.push(("Recursive 1", problem.at(factors)?));
         }
         for (rule, State { factors: found, modes, generalized_shapes, errors, .. }) in states {
             prop_assert_eq!(found, factors);
@@ -89,7 +73,7 @@ properties! {
             let v = modes.shapes();
             prop_assert_eq!(v.shape(), (count, count));
             let mass = v.tr_mul(&(&model.mass * v));
-            prop_assert!((mass - DMatrix::identity(count, count)).amax() <= CONVERGED_STATE);
+            prop_assert!((mass - eye(count)).amax() <= CONVERGED_STATE);
             let stiffness = v.tr_mul(&(&model.stiffness * v));
             let diagonal = DMatrix::from_diagonal(modes.omega_squared());
             prop_assert!((stiffness - &diagonal).amax() <= CONVERGED_STATE * diagonal.amax());
@@ -97,25 +81,10 @@ properties! {
             prop_assert!((from_exact - v).amax() <= MATRIX_ROUND_OFF * v.amax());
         }
     }
-
-    #[test]
-    fn a_common_factor_scales_frequencies_and_keeps_shapes(
-        (chain, truth) in chain_and_truth(),
-        factor in 0.5..1.5_f64,
-    ) {
-        let problem = chain_problem(&chain, &truth);
-        let state = problem.at(&vec![factor; truth.len()]).unwrap();
-        let before = &problem.exact().modes;
-        let expected = factor * before.omega_squared();
-        let error = (state.modes.omega_squared() - &expected).amax();
-        prop_assert!(error <= MATRIX_ROUND_OFF * expected.amax(), "{error:e}");
-        let shapes = (state.modes.shapes() - before.shapes()).amax();
-        prop_assert!(shapes <= MATRIX_ROUND_OFF * before.shapes().amax(), "{shapes:e}");
-    }
 }
 
 properties! {
-    #![proptest_config(crate::common::costly_config())]
+    #![proptest_config(costly_config())]
 
     #[test]
     fn shares_of_the_box_leave_the_rods_out(case in uneven_box()) {
@@ -161,7 +130,7 @@ fn problems_that_do_not_fit_are_refused() {
         model.analyze(&test, Some(3))
     };
     assert_refused(
-        new(&|model| model.shares[1] = DMatrix::identity(2, 2)),
+        new(&|model| model.shares[1] = eye(2)),
         Error::WrongShape {
             what: "parameter share",
             expected_rows: 3,
@@ -197,7 +166,7 @@ fn problems_that_do_not_fit_are_refused() {
     );
     let at_four = Modes::new(test.omega_squared().clone(), DMatrix::identity(4, 3));
     assert_refused(
-        model.analyze(&at_four.expect("modes"), Some(3)),
+        model.analyze(&at_four.unwrap(), Some(3)),
         Error::WrongShape {
             what: "test mode shapes",
             expected_rows: 3,
@@ -252,12 +221,12 @@ fn there_is_one_factor_a_parameter() {
 #[test]
 fn shares_by_rows_are_shares_by_matrices() {
     for number in 1..=4 {
-        let case = Case::new(number).unwrap();
+        let case = case_of(number);
         let (model, test) = (
             case.model().unwrap(),
             case.test_modes().unwrap().lowest(7).unwrap(),
         );
-        let factors: Vec<f64> = (0..15).map(|e| 0.8 + 0.03 * e as f64).collect();
+        let factors = (0..15).map(|e| 0.8 + 0.03 * e as f64).collect_vec();
         let by_matrices = model.analyze(&factors, &test, Some(8)).unwrap();
         let exact = &by_matrices.exact().modes;
         assert_eq!(*exact, model.modes(&factors).unwrap().lowest(8).unwrap());
@@ -289,7 +258,7 @@ fn shares_by_rows_are_shares_by_matrices() {
 /// Test modes of any scale and sign give the same model: pairing, errors and everything the loops use.
 #[test]
 fn the_scale_of_the_test_shapes_does_not_matter() {
-    let case = Case::new(2).unwrap();
+    let case = case_of(2);
     let model = case.model().unwrap();
     let test = case.test_modes().unwrap();
     let mut rescaled = test.clone();
@@ -313,8 +282,6 @@ fn the_scale_of_the_test_shapes_does_not_matter() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn no_scale_or_sign_of_a_test_shape_changes_pairing_errors_or_shares(
         (chain, truth) in chain_and_truth(),
@@ -324,14 +291,14 @@ properties! {
         let test = chain.modes(&truth);
         let mut scaled = test.clone();
         alter(&mut scaled, |_, shapes| shapes.column_iter_mut().zip(&scales).for_each(|(mut shape, scale)| shape *= *scale));
-        let (one, other) = (model.analyze(&test, None).unwrap(), model.analyze(&scaled, None).unwrap());
+        let (one, other) = (model.analyze(&test, None)?, model.analyze(&scaled, None)?);
         prop_assert_eq!(&one.exact().pairing.analysis_mode, &other.exact().pairing.analysis_mode);
         prop_assert!((one.exact().errors.sum() - other.exact().errors.sum()).abs() <= MATRIX_ROUND_OFF);
         for ((a, b), scale) in one.exact().pairing.sign.iter().zip(&other.exact().pairing.sign).zip(&scales) {
             prop_assert_eq!(a * scale.signum(), *b);
         }
         for (a, b) in one.test_shares().iter().zip(other.test_shares()) {
-            prop_assert!((a.norm() / b.norm() - 1.0).abs() <= MATRIX_ROUND_OFF);
+            prop_assert!(relative_error(a.norm(), b.norm()) <= MATRIX_ROUND_OFF);
         }
     }
 }

@@ -1,20 +1,6 @@
 //! The step (13): factors from derivatives by every rule, and the bounds that limit them.
 
-use crate::common::assert_refused;
-use crate::common::loops::STEP_RULES;
-use crate::common::structures::spring_chain;
-use crate::common::tolerances::ROUND_OFF;
-use crate::common::vibrations::chain_and_truth;
-use corfem::method::analysis::{Analysis, State};
-use corfem::method::error::Error;
-use corfem::method::inner_loop::InnerSettings;
-use corfem::method::model::{DynamicModel, FiniteElementModel, Model, Parameter};
-use corfem::method::modes::Modes;
-use corfem::method::step::{
-    Accumulation, Bounds, LEAST_SHARE, Limit, StepRule, limited_factor, unlimited_factor,
-};
-use nalgebra::{DMatrix, dmatrix, dvector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// A range around one, wide or narrow.
 fn range() -> impl Strategy<Value = Bounds> {
@@ -22,8 +8,6 @@ fn range() -> impl Strategy<Value = Bounds> {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn steps_are_in_proportion_to_relaxation_and_error_sum(
         // The stiffness of parameters is within a factor of a hundred of each other.
@@ -40,8 +24,8 @@ properties! {
     #[test]
     fn every_rule_goes_downhill((chain, truth) in chain_and_truth()) {
         let count = truth.len();
-        let model = chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), None).unwrap();
-        let errors = model.error_changes(model.exact()).unwrap();
+        let model = chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), None)?;
+        let errors = model.error_changes(model.exact())?;
         for rule in STEP_RULES {
             let factors = unlimited(&errors, &at_start(&model, rule), 0.3, 1.0);
             for (factor, change) in factors.iter().zip(&errors) {
@@ -118,10 +102,10 @@ fn by_hand() -> (Model, Vec<f64>) {
     let share = |relative: DMatrix<f64>| relative.component_mul(&(&omega * omega.transpose()));
     let model = DynamicModel {
         stiffness: dmatrix![3.0, 0.0; 0.0, 14.0],
-        mass: DMatrix::identity(2, 2),
+        mass: eye(2),
         shares: relative.map(share).to_vec(),
     };
-    let test = Modes::new(dvector![4.0, 16.0], DMatrix::identity(2, 2)).expect("modes");
+    let test = Modes::new(dvector![4.0, 16.0], eye(2)).unwrap();
     let model = model.analyze(&test, None).unwrap();
     (model, vec![0.002, -0.001, 0.0])
 }
@@ -170,7 +154,7 @@ fn gage_is_in_hundredths_of_an_inch_by_hand() {
     let parameters = (1..=3)
         .map(|label| Parameter::new(label, &[label]))
         .collect();
-    let identity = DMatrix::identity(3, 3);
+    let identity = eye(3);
     let model = FiniteElementModel::new(rods, identity.clone(), identity, parameters).unwrap();
     let test = model.modes(&[1.0; 3]).unwrap();
     let model = model.analyze(&[1.0; 3], &test, None).unwrap();

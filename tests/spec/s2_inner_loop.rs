@@ -1,21 +1,9 @@
 //! The inner loop: steps by perturbation that only ever lower the error sum, within their limits, until one of
 //! three reasons to stop.
 
-use crate::common::boxes::{problem_of, uneven_box};
-use crate::common::loops::{
-    Given, assert_error_sum_only_falls, assert_limits_hold, chain_problem, given, inner_for_modes,
-};
-use crate::common::vibrations::chain_and_truth;
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
-use corfem::method::model::Model;
-use corfem::method::step::Bounds;
-use corfem::torque_box::Case;
+use crate::common::loops::Given;
+use crate::prelude::*;
 use corfem::torque_box::wing_box::Panel;
-use proptest::prelude::*;
-use proptest::strategy::ValueTree;
-use proptest::test_runner::TestRunner;
 
 /// A run as given; where roots are so close that no first step settles there is nothing to look at.
 fn run_given(given: &Given) -> Result<(Model, InnerRun), TestCaseError> {
@@ -37,7 +25,7 @@ fn limited_run(case: &Case) -> (InnerRun, Vec<Option<Bounds>>) {
             upper: 0.013 / panel.gage,
         })
     };
-    let ranges: Vec<Option<Bounds>> = case.panels.iter().map(of_panel).collect();
+    let ranges = case.panels.iter().map(of_panel).collect_vec();
     let run = run(
         &problem_of(case),
         &[1.0; 15],
@@ -60,8 +48,6 @@ fn small_step(modes: usize) -> InnerSettings {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn a_small_step_lowers_the_error_sum((chain, truth) in chain_and_truth()) {
         let problem = chain_problem(&chain, &truth);
@@ -69,7 +55,7 @@ properties! {
         let start = problem.exact().errors;
         // Near zero either error has a kink, and no slope to go down.
         prop_assume!(start.frequency > 0.02 && start.shape > 0.02);
-        let run = run(&problem, &vec![1.0; count], &vec![None; count], &small_step(count)).unwrap();
+        let run = run(&problem, &vec![1.0; count], &vec![None; count], &small_step(count))?;
         prop_assert_eq!(run.iterations.len(), 1);
         prop_assert!(run.last.errors.sum() < start.sum());
     }
@@ -96,12 +82,12 @@ properties! {
 }
 
 properties! {
-    #![proptest_config(crate::common::costly_config())]
+    #![proptest_config(costly_config())]
 
     #[test]
     fn a_small_step_lowers_the_error_sum_of_a_box(case in uneven_box()) {
         let problem = problem_of(&case);
-        let run = run(&problem, &[1.0; 15], &[None; 15], &small_step(9)).unwrap();
+        let run = run(&problem, &[1.0; 15], &[None; 15], &small_step(9))?;
         prop_assert_eq!(run.iterations.len(), 1);
         prop_assert!(run.last.errors.sum() < run.start.sum());
     }
@@ -121,10 +107,10 @@ properties! {
 fn nearly_all_of_three_hundred_boxes_reach_the_tolerance_within_limits() {
     let mut runner = TestRunner::deterministic();
     let draw = |_| uneven_box().new_tree(&mut runner).unwrap().current();
-    let stops: Vec<Stop> = (0..300)
+    let stops = (0..300)
         .map(draw)
         .map(|case| limited_run(&case).0.stop)
-        .collect();
+        .collect_vec();
     let reached = stops
         .iter()
         .filter(|stop| **stop == Stop::Tolerance)

@@ -1,24 +1,14 @@
 //! The inner loop where roots are close or repeated: an eigensolution can follow them, and the recursion says that it cannot.
 
-use crate::common::loops::{Eigensolved, inner_for_modes};
-use crate::common::tolerances::{ROUND_OFF, STOPPED_FACTOR, STOPPED_FACTOR_BY_DEFAULT};
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::inner_loop::{InnerSettings, Stop, run};
-use corfem::method::model::{DynamicModel, Model};
-use corfem::method::modes::solve;
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::perturbation::{LARGEST_UNSETTLED_CHANGE, MOST_ORDERS};
-use corfem::method::step::Bounds;
-use nalgebra::{DMatrix, dmatrix};
+use crate::prelude::*;
 
 /// Two like oscillators side by side, stiffened together: a repeated root from the first to the last iteration.
 #[test]
 fn repeated_roots_that_nothing_couples_are_corrected_by_recursion_and_eigensolution() {
-    let stiffness = DMatrix::identity(2, 2) * 100.0;
+    let stiffness = eye(2) * 100.0;
     let model = DynamicModel {
         shares: vec![stiffness.clone()],
-        mass: DMatrix::identity(2, 2),
+        mass: eye(2),
         stiffness,
     };
     let test = solve(&(1.3 * &model.stiffness), &model.mass, 2).unwrap();
@@ -33,7 +23,7 @@ fn repeated_roots_that_nothing_couples_are_corrected_by_recursion_and_eigensolut
     for analysis in analyses {
         let corrected = run(analysis, &[1.0], &[None], &settings).unwrap();
         assert_eq!(corrected.stop, Stop::Tolerance);
-        assert!((corrected.last.factors[0] / 1.3 - 1.0).abs() < STOPPED_FACTOR);
+        assert!(relative_error(corrected.last.factors[0], 1.3) < STOPPED_FACTOR);
     }
 }
 
@@ -41,7 +31,7 @@ fn repeated_roots_that_nothing_couples_are_corrected_by_recursion_and_eigensolut
 fn coupled(missing: f64) -> Model {
     let stiffness = dmatrix![100.0, 0.0; 0.0, 101.0];
     let coupling = dmatrix![1.0, 1.0; 1.0, 1.0];
-    let mass = DMatrix::identity(2, 2);
+    let mass = eye(2);
     let test = solve(&(&stiffness + missing * &coupling), &mass, 2).unwrap();
     let model = DynamicModel {
         shares: vec![coupling],
@@ -98,7 +88,7 @@ fn modes_that_meet_end_a_correlation_begun() {
         let stiffness = dmatrix![first, 0.0; 0.0, second];
         DynamicModel {
             shares: vec![&stiffness + dmatrix![0.0, coupling; coupling, 0.0]],
-            mass: DMatrix::identity(2, 2),
+            mass: eye(2),
             stiffness,
         }
     };
@@ -130,7 +120,7 @@ fn modes_that_meet_end_a_correlation_begun() {
     );
     let found = run([&apart, &together]).unwrap();
     assert_eq!(found.passes.len(), 1);
-    assert!((found.passes[0].factors[0] / 1.3 - 1.0).abs() < STOPPED_FACTOR_BY_DEFAULT);
+    assert!(relative_error(found.passes[0].factors[0], 1.3) < STOPPED_FACTOR_BY_DEFAULT);
     assert!(!found.converged);
     assert_eq!(run([&apart, &apart]).unwrap().passes.len(), 10);
 }

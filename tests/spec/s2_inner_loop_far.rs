@@ -1,18 +1,6 @@
 //! The inner loop far from its start: the least share of a stiffness, factors beyond a half and two, and roots that cross.
 
-use crate::common::draws::reached;
-use crate::common::loops::{exact_state, inner_for_modes};
-use crate::common::pairings::pairs_by_sorting;
-use crate::common::tolerances::{CONVERGED_STATE, FAR_RECURSION, LEAST_REACHED, ROUND_OFF};
-use crate::common::vibrations::{Chain, chain, error_sum_by_definition, modes_by_nalgebra};
-use corfem::method::analysis::{Analysis, State};
-use corfem::method::error::Error;
-use corfem::method::inner_loop::{InnerRun, InnerSettings, run};
-use corfem::method::model::{DynamicModel, Model};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::step::LEAST_SHARE;
-use nalgebra::{DMatrix, DVector, dmatrix, dvector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// A mass on a spring that is a hundred to a thousand times too stiff: three steps to nearly a half each take more than all of it.
 fn much_too_stiff() -> impl Strategy<Value = (f64, f64)> {
@@ -21,15 +9,15 @@ fn much_too_stiff() -> impl Strategy<Value = (f64, f64)> {
 
 fn run_down(stiffness: f64, truth: f64) -> InnerRun {
     let stiffness = dmatrix![stiffness];
-    let test = Modes::new(dvector![truth * stiffness[0]], dmatrix![1.0]).expect("a mode");
+    let test = Modes::new(dvector![truth * stiffness[0]], dmatrix![1.0]).unwrap();
     let model = DynamicModel {
         shares: vec![stiffness.clone()],
         stiffness,
         mass: dmatrix![1.0],
     };
-    let model = model.analyze(&test, None).expect("solved");
+    let model = model.analyze(&test, None).unwrap();
     let settings = inner_for_modes(InnerSettings::default(), 1);
-    run(&model, &[1.0], &[None], &settings).expect("a loop")
+    run(&model, &[1.0], &[None], &settings).unwrap()
 }
 
 /// The share factors on the way: each step adds to the one before what it takes of the gage.
@@ -58,8 +46,6 @@ fn draws_reach_the_least_share() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn stiffness_never_falls_below_its_least_share((stiffness, truth) in much_too_stiff()) {
         let inner = run_down(stiffness, truth);
@@ -98,7 +84,7 @@ fn far_chain() -> impl Strategy<Value = (Chain, Vec<f64>)> {
 fn start(chain: &Chain) -> Model {
     let count = chain.masses.len();
     let (test, ones) = (chain.modes(&vec![1.1; count]), vec![1.0; count]);
-    chain.model(&ones).analyze(&test, None).expect("solved")
+    chain.model(&ones).analyze(&test, None).unwrap()
 }
 
 #[test]
@@ -118,14 +104,12 @@ fn draws_reach_beyond_a_half_and_two() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn the_state_is_the_exact_solution_far_from_its_start((chain, factors) in far_chain()) {
         let model = start(&chain);
         let there = chain.model(&factors);
         let expected = error_sum_by_definition(&there.stiffness, &there.mass, model.test());
-        let exact = exact_state(&model, &factors).unwrap();
+        let exact = exact_state(&model, &factors)?;
         prop_assert!((exact.errors.sum() - expected).abs() <= CONVERGED_STATE * expected);
         // So far off the recursion may not settle; where it has settled, on roots to a millionth, it is at the same place.
         if let Ok(state) = model.at(&factors) {
@@ -157,11 +141,11 @@ struct Crossing {
 impl Crossing {
     fn model(&self, factors: &[f64]) -> DynamicModel {
         let ground = |mass: usize| {
-            let mut stiffness = DMatrix::zeros(3, 3);
+            let mut stiffness = zero_square(3);
             stiffness[(mass, mass)] = factors[mass] * self.grounds[mass];
             stiffness
         };
-        let shares: Vec<DMatrix<f64>> = (0..3).map(ground).collect();
+        let shares = (0..3).map(ground).collect_vec();
         let mut stiffness: DMatrix<f64> = shares.iter().sum();
         for (spring, coupling) in self.coupling.iter().enumerate() {
             stiffness[(spring, spring + 1)] = *coupling;
@@ -169,15 +153,15 @@ impl Crossing {
         }
         DynamicModel {
             stiffness,
-            mass: DMatrix::identity(3, 3),
+            mass: eye(3),
             shares,
         }
     }
 
     fn state(&self, way: Way) -> Option<(Model, State)> {
         let model = self.model(&[1.0; 3]);
-        let test = solve(&model.stiffness, &model.mass, 3).expect("held");
-        let model = model.analyze(&test, None).expect("solved");
+        let test = solve(&model.stiffness, &model.mass, 3).unwrap();
+        let model = model.analyze(&test, None).unwrap();
         let state = way(&model, &self.factors).ok()?;
         Some((model, state))
     }
@@ -210,8 +194,6 @@ fn draws_cross_roots() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// A mode that overtakes another keeps its place, its test mode, and the exact root and shape.
     #[test]
     fn modes_whose_roots_cross_keep_their_places(draw in crossing()) {

@@ -1,19 +1,7 @@
 //! Pairing that changes inside an inner loop, without a new analysis: as test shapes that noise has turned half way from one mode to
 //! another change hands while the modes turn.
 
-use crate::common::draws::reached;
-use crate::common::loops::{Eigensolved, exact_state, inner_for_modes};
-use crate::common::structures::spring_stiffness;
-use crate::common::tolerances::{CONVERGED_STATE, LEAST_REACHED, SECOND_ORDER_CHANGE};
-use crate::common::vibrations::error_sum_by_definition;
-use corfem::method::analysis::{Analysis, DERIVATIVE_STEP};
-use corfem::method::error_sum::errors;
-use corfem::method::inner_loop::{InnerRun, InnerSettings, run};
-use corfem::method::model::{DynamicModel, Model};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::sorting::Pairing;
-use nalgebra::DMatrix;
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Three unit masses on springs of their own, the first two nearly alike, with soft springs between them that are no parameters; and the
 /// test: frequencies of a stiffer structure, and shapes of this one, of which the first two are turned into each other, the way that
@@ -29,15 +17,15 @@ struct Turned {
 impl Turned {
     fn model(&self, factors: &[f64]) -> DynamicModel {
         let ground = |mass: usize| {
-            let mut stiffness = DMatrix::zeros(3, 3);
+            let mut stiffness = zero_square(3);
             stiffness[(mass, mass)] = factors[mass] * self.grounds[mass];
             stiffness
         };
-        let shares: Vec<DMatrix<f64>> = (0..3).map(ground).collect();
+        let shares = (0..3).map(ground).collect_vec();
         let between = |spring: usize| spring_stiffness(3, spring, self.between[spring - 1]);
         DynamicModel {
             stiffness: shares.iter().sum::<DMatrix<f64>>() + between(1) + between(2),
-            mass: DMatrix::identity(3, 3),
+            mass: eye(3),
             shares,
         }
     }
@@ -45,26 +33,26 @@ impl Turned {
     fn test(&self) -> Modes {
         let modes = |factors: &[f64]| {
             let model = self.model(factors);
-            solve(&model.stiffness, &model.mass, 3).expect("held")
+            solve(&model.stiffness, &model.mass, 3).unwrap()
         };
         let (sin, cos) = self.degrees.to_radians().sin_cos();
-        let mut turn = DMatrix::identity(3, 3);
+        let mut turn = eye(3);
         turn.view_mut((0, 0), (2, 2))
-            .copy_from(&nalgebra::dmatrix![cos, -sin; sin, cos]);
+            .copy_from(&dmatrix![cos, -sin; sin, cos]);
         let squares = modes(&self.truth).omega_squared().clone();
         let shapes = modes(&[1.0; 3]).shapes() * turn;
-        Modes::new(squares, shapes).expect("modes")
+        Modes::new(squares, shapes).unwrap()
     }
 
     fn run(&self) -> (Model, InnerRun) {
         let model = self.model(&[1.0; 3]).analyze(&self.test(), None);
-        let exactly = Eigensolved(model.expect("solved"));
+        let exactly = Eigensolved(model.unwrap());
         let settings = InnerSettings {
             iterations: 10,
             ..InnerSettings::default()
         };
         let settings = inner_for_modes(settings, 3);
-        let inner = run(&exactly, &[1.0; 3], &[None; 3], &settings).expect("a loop");
+        let inner = run(&exactly, &[1.0; 3], &[None; 3], &settings).unwrap();
         (exactly.0, inner)
     }
 }
@@ -94,13 +82,11 @@ fn draws_change_the_pairing_inside_a_loop() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn pairing_that_changes_inside_a_loop_is_that_of_the_eigensolution(draw in turned()) {
         let (model, inner) = draw.run();
         // Where the loop ends, which a wrong pairing would choose for itself, and where the test's stiffness is.
-        let at_truth = exact_state(&model, &draw.truth).unwrap();
+        let at_truth = exact_state(&model, &draw.truth)?;
         for state in [&at_truth, &inner.last] {
             let there = draw.model(&state.factors);
             let expected = error_sum_by_definition(&there.stiffness, &there.mass, model.test());
@@ -128,7 +114,7 @@ properties! {
             let pairing = Pairing { analysis_mode: partners, sign: signs };
             errors(&there.modes, &pairing, model.test()).unwrap().sum() - found
         };
-        for (parameter, change) in model.error_changes(&inner.last).unwrap().into_iter().enumerate() {
+        for (parameter, change) in model.error_changes(&inner.last)?.into_iter().enumerate() {
             let apart = (change - changed(parameter)).abs() / DERIVATIVE_STEP;
             prop_assert!(apart <= SECOND_ORDER_CHANGE, "{parameter}: {apart}");
         }

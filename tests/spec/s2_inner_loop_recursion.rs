@@ -1,18 +1,7 @@
 //! Appendix C as the inner loop meets it: the state of a chain by recursion and by eigensolution, near a meeting of two roots and at
 //! it, and changes of mass that take too much.
 
-use crate::common::appendix_c::three_mass_chain;
-use crate::common::assert_refused;
-use crate::common::loops::exact_state;
-use crate::common::tolerances::EIGEN_ROUND_OFF;
-use crate::common::whole_models::of_dense;
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, Model};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::sorting::pair_modes;
-use corfem::sparse::{BasisSize, ParameterMatrix};
-use nalgebra::{DMatrix, dmatrix};
+use crate::prelude::*;
 
 /// The chain with λ = 1, 4, 8, its six springs as parameters, and the modes of a stiffer chain as test modes.
 fn chain() -> Model {
@@ -20,15 +9,15 @@ fn chain() -> Model {
     let grounds = springs.map(|ground| three_mass_chain(ground, [0.0; 3]));
     let couplings = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 3.0]];
     let betweens = couplings.map(|between| three_mass_chain([0.0; 3], between));
-    let mass = DMatrix::identity(3, 3);
+    let mass = eye(3);
     let test_stiffness = three_mass_chain([1.2, 1.0, 0.9], [1.1, 1.0, 1.0]);
-    let test = solve(&test_stiffness, &mass, 3).expect("a held chain");
+    let test = solve(&test_stiffness, &mass, 3).unwrap();
     let model = DynamicModel {
         stiffness: three_mass_chain([1.0, 1.0, 1.0], [1.0, 1.0, 3.0]),
         mass,
         shares: grounds.into_iter().chain(betweens).collect(),
     };
-    model.analyze(&test, Some(3)).expect("a held chain")
+    model.analyze(&test, Some(3)).unwrap()
 }
 
 /// Where Recursive 1 settles, its state is the eigensolution's.
@@ -40,19 +29,14 @@ fn recursion_and_eigensolution_reach_the_same_state() {
         [1.2, 1.0, 0.9, 1.1, 1.0, 0.9],
         [0.8, 1.1, 1.0, 1.0, 0.9, 1.3],
     ] {
-        let found = model.at(&factors).expect("separate roots");
-        let exact = exact_state(&model, &factors).expect("separate roots");
+        let found = model.at(&factors).unwrap();
+        let exact = exact_state(&model, &factors).unwrap();
         let (modes, exact_modes) = (&found.modes, &exact.modes);
-        for (found, exact) in modes
-            .omega_squared()
-            .iter()
-            .zip(exact_modes.omega_squared().iter())
-        {
-            assert!(
-                (found / exact - 1.0).abs() < EIGEN_ROUND_OFF,
-                "{found} {exact}"
-            );
-        }
+        assert_alike(
+            modes.omega_squared().iter(),
+            exact_modes.omega_squared().iter(),
+            EIGEN_ROUND_OFF,
+        );
         assert!((modes.shapes() - exact_modes.shapes()).amax() < EIGEN_ROUND_OFF);
         let generalized = &found.generalized_shapes - &exact.generalized_shapes;
         assert!(generalized.amax() < EIGEN_ROUND_OFF);
@@ -81,11 +65,11 @@ fn state_where_two_roots_meet_is_the_eigensolutions_alone() {
     for (mode, side) in [(1, -1.0), (2, 1.0)] {
         let expected = 4.05 + side * 0.3 / 12_f64.sqrt();
         let found = found.modes.omega_squared()[mode];
-        assert!((found / expected - 1.0).abs() < 0.01, "{found} {expected}");
+        assert!(relative_error(found, expected) < 0.01, "{found} {expected}");
     }
     let generalized = &found.generalized_shapes;
     let product = generalized.tr_mul(generalized);
-    assert!((product - DMatrix::identity(3, 3)).amax() < EIGEN_ROUND_OFF);
+    assert!((product - eye(3)).amax() < EIGEN_ROUND_OFF);
     assert!(found.errors.sum().is_finite());
 }
 
@@ -93,16 +77,16 @@ fn state_where_two_roots_meet_is_the_eigensolutions_alone() {
 /// negative, and neither is a vibration.
 #[test]
 fn mass_that_is_taken_whole_loses_the_root() {
-    let (stiffness, mass) = (dmatrix![1.0, 0.0; 0.0, 4.0], DMatrix::identity(2, 2));
+    let (stiffness, mass) = (dmatrix![1.0, 0.0; 0.0, 4.0], eye(2));
     let second = dmatrix![0.0, 0.0; 0.0, 1.0];
     let shares = [ParameterMatrix::Mass(second.clone())];
     let (whole, sensors) = of_dense(&stiffness, &mass, &shares).unwrap();
-    let test = Modes::from_measured(&[0.1, 0.4], &DMatrix::identity(2, 2)).unwrap();
+    let test = Modes::from_measured(&[0.1, 0.4], &eye(2)).unwrap();
     let model = whole.analyze(
         &[1.0],
         &sensors,
         &test,
-        corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+        by_sorting(),
         BasisSize {
             modes: 2,
             residual_vectors: 0,

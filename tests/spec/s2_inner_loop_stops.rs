@@ -1,19 +1,6 @@
 //! The inner loop by hand: one spring, a step that is halved, a step that fails, and the three reasons to stop.
 
-use crate::common::boxes::{first_problem, problem_of};
-use crate::common::loops::{
-    Eigensolved, assert_error_sum_only_falls, assert_limits_hold, chain_problem, inner_for_modes,
-};
-use crate::common::tolerances::{FIRST_FACTOR, ROUND_OFF};
-use crate::common::vibrations::Chain;
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::inner_loop::{InnerRun, InnerSettings, Stop, run};
-use corfem::method::model::{DynamicModel, Model};
-use corfem::method::modes::solve;
-use corfem::method::step::{Bounds, Limit, StepRule};
-use corfem::torque_box::Case;
-use nalgebra::dmatrix;
+use crate::prelude::*;
 
 /// One spring whose test structure has 0.81 of its stiffness: $e_S = 1/9$, and the step goes to $1 - R/20$.
 fn one_spring() -> Model {
@@ -109,7 +96,7 @@ fn a_step_too_far_for_the_perturbation_is_halved() {
     let at = |fraction: f64| {
         let factors = run.first_unlimited_factors.iter();
         let factors = factors.map(|c| 1.0 + fraction * (c.clamp(0.05, 20.0) - 1.0));
-        problem.at(&factors.collect::<Vec<_>>())
+        problem.at(&factors.collect_vec())
     };
     assert!(matches!(at(1.0), Err(Error::NotAVibration { mode: 2, .. })));
     assert!(at(0.5).unwrap().errors.sum() > run.start.sum());
@@ -213,7 +200,7 @@ fn the_box_stops_for_each_of_the_three_reasons() {
 
 #[test]
 fn case_3_is_held_by_its_gages_and_case_4_by_the_factor() {
-    let case = Case::new(3).unwrap();
+    let case = case_of(3);
     let ranges = case.model().unwrap().factor_ranges().unwrap();
     let settings = InnerSettings::default();
     let run_3 = run(&problem_of(&case), &[1.0; 15], &ranges, &settings).unwrap();

@@ -2,31 +2,8 @@
 //! `CORFEM_WRITE=loops cargo test s2_net` records the golden again. It does not take the `1` that rewrites documents, after which
 //! small differences of many changes could add up.
 
-use crate::common::loops::STEP_RULES;
-use crate::common::structures::spring_stiffness;
-use crate::common::tolerances::SAME_LOOPS;
-use crate::common::whole_models::{seen_by, sensors_at, sparse};
-use corfem::chain::rods;
-use corfem::job::assignment::pair_optimally;
-use corfem::method::analysis::{Analysis, DERIVATIVE_STEP, State, without_close_couplings};
-use corfem::method::appendix_c::Pencil;
-use corfem::method::error::Error;
-use corfem::method::error_sum::errors;
-use corfem::method::inner_loop::InnerSettings;
-use corfem::method::linear_algebra::symmetric_part;
-use corfem::method::model::{DynamicModel, FiniteElementModel, Parameter};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::outer_loop::{Correlation, Pass, Settings, correlate};
-use corfem::method::perturbation::{Perturbed, first_order};
-use corfem::method::sorting::{Pairing, cross_orthogonality, pair_modes};
-use corfem::method::step::{Bounds, REFERENCE_GAGE, StepRule};
-use corfem::sparse::{
-    BasisSize, ModeWeight, Pair, ParameterMatrix, WholeModel, WholeParameter, WholeShare,
-    normalize_with_mass,
-};
-use nalgebra::{DMatrix, DVector, dmatrix, dvector};
-use serde::{Deserialize, Serialize};
-use std::path::Path;
+use crate::prelude::*;
+use serde::Serialize;
 
 /// A part of the stiffness or the mass that is scaled by one factor, and the factor that the test's structure has.
 #[derive(Debug, Clone)]
@@ -213,7 +190,7 @@ impl WithMasses {
             test_shares: through_test.map(relative).collect(),
             exact: State {
                 factors: vec![1.0; shares.len()],
-                generalized_shapes: DMatrix::identity(modes.len(), modes.len()),
+                generalized_shapes: eye(modes.len()),
                 errors: errors(&modes, &pairing, &test)?,
                 modes,
                 pairing,
@@ -231,7 +208,7 @@ impl Analysis for WithMasses {
 
     fn at(&self, factors: &[f64]) -> Result<State, Error> {
         let modes = &self.exact.modes;
-        let mut beta = DMatrix::zeros(modes.len(), modes.len());
+        let mut beta = zero_square(modes.len());
         let mut alpha = beta.clone();
         for (share, factor) in self.shares.iter().zip(factors) {
             let change = match share {
@@ -339,13 +316,13 @@ impl Run {
 
     fn at_sensors(&self, system: &System, sensing: &Sensing) -> Result<Correlation, Error> {
         let (model, pair): (_, Pair) = match sensing.is_greedy {
-            true => (system.whole()?, Pair::by(|of| pair_modes(of.cross))),
+            true => (system.whole()?, by_sorting()),
             false => (system.whole()?, Pair::by(|of| pair_all(of.cross))),
         };
         let sensors = sensors_at(&sensing.rows, model.dof_count());
         let found = model.modes(&system.truth(), self.test_modes)?;
         let test = seen_by(&sensors, &found.vibrations);
-        let weights: Vec<ModeWeight> = (0..self.test_modes).map(weight).collect();
+        let weights = (0..self.test_modes).map(weight).collect_vec();
         let analyze = |factors: &[f64]| {
             let size = BasisSize {
                 modes: self.test_modes + 2,
@@ -363,7 +340,7 @@ impl Run {
     fn of_matrices(&self, system: &System, modes: usize) -> Result<Correlation, Error> {
         let there = system.at(&system.truth());
         let test = solve(&there.stiffness, &there.mass, self.test_modes)?;
-        let ranges: Vec<_> = system.parts.iter().map(Part::bounds).collect();
+        let ranges = system.parts.iter().map(Part::bounds).collect_vec();
         let (settings, all) = (self.settings(), |_: usize, _: &Pass| true);
         if system.has_mass() {
             let analyze = |factors: &[f64]| WithMasses::new(system, factors, &test, modes);
@@ -430,7 +407,7 @@ impl RecordedPass {
     }
 
     fn is_same(&self, other: &Self) -> bool {
-        let near = |(one, other): (&f64, &f64)| (one / other - 1.0).abs() <= SAME_LOOPS;
+        let near = |(one, other): (&f64, &f64)| relative_error(one, other) <= SAME_LOOPS;
         self.stop == other.stop
             && self.halvings == other.halvings
             && self.factors.len() == other.factors.len()
@@ -471,7 +448,7 @@ fn weight(mode: usize) -> ModeWeight {
 /// The pairing of all modes at once, as a job's.
 fn pair_all(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
     let partners = pair_optimally(&cross.component_mul(cross), 0.0)?;
-    let modes: Vec<usize> = partners.into_iter().flatten().collect();
+    let modes = partners.into_iter().flatten().collect_vec();
     let signs = modes.iter().enumerate();
     let signs = signs.map(|(test, &mode)| 1.0_f64.copysign(cross[(mode, test)]));
     Ok(Pairing {
@@ -495,7 +472,7 @@ fn chain(is_held: bool, with_mass: bool) -> System {
     let mut parts = parts.to_vec();
     let masses = DVector::from_fn(count, |i, _| 1.0 + 0.1 * ((i * 3 % 4) as f64));
     for (i, truth) in [(3, 1.3), (9, 0.8)].into_iter().filter(|_| with_mass) {
-        let mut matrix = DMatrix::zeros(count, count);
+        let mut matrix = zero_square(count);
         matrix[(i, i)] = masses[i];
         parts.push(Part::new(true, matrix, truth));
     }
@@ -522,9 +499,9 @@ fn chain_at(rows: &[usize], bits: usize) -> Run {
 }
 
 fn chains() -> Vec<Run> {
-    let mut runs: Vec<Run> = (0..32)
+    let mut runs = (0..32)
         .map(|bits| chain_at(&[0, 2, 4, 5, 7, 9, 11], bits))
-        .collect();
+        .collect_vec();
     // So few sensors that the two pairings differ.
     for (rows, bits) in [
         ([0, 5, 11], 0b10100),
@@ -564,7 +541,7 @@ fn oscillators(springs: &[f64], parts: Vec<Part>) -> Run {
     let count = springs.len();
     let system = System {
         stiffness: DMatrix::from_diagonal(&DVector::from_column_slice(springs)),
-        mass: DMatrix::identity(count, count),
+        mass: eye(count),
         parts,
     };
     Run::new(String::new(), Way::Matrices(system, count), count)
@@ -613,20 +590,20 @@ fn guarded() -> Vec<Run> {
 #[test]
 fn the_loops_lead_where_they_led() {
     let runs = [chains(), condensed_rods(), guarded()].concat();
-    let found: Vec<Recorded> = runs.iter().map(Run::record).collect();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/loops.toml");
+    let found = runs.iter().map(Run::record).collect_vec();
+    let path = in_root("golden/loops.toml");
     if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "loops") {
-        let golden = toml::to_string(&Golden { run: found }).expect("it is TOML");
-        return std::fs::write(path, golden).expect("it can be written");
+        let golden = toml::to_string(&Golden { run: found }).unwrap();
+        return fs::write(path, golden).unwrap();
     }
-    let text = std::fs::read_to_string(path).expect("golden/loops.toml");
-    let Golden { run: stored } = toml::from_str(&text).expect("it reads");
-    let names = |runs: &[Recorded]| runs.iter().map(|run| run.name.clone()).collect::<Vec<_>>();
+    let text = fs::read_to_string(path).unwrap();
+    let Golden { run: stored } = toml::from_str(&text).unwrap();
+    let names = |runs: &[Recorded]| runs.iter().map(|run| run.name.clone()).collect_vec();
     assert_eq!(names(&found), names(&stored));
     let pairs = found.iter().zip(&stored);
-    let wrong: Vec<_> = pairs
+    let wrong = pairs
         .filter(|(found, stored)| !found.is_same(stored))
-        .collect();
+        .collect_vec();
     assert!(
         wrong.is_empty(),
         "{} runs, each as found and as stored: {wrong:#?}",

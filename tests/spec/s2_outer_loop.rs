@@ -1,16 +1,6 @@
 //! The outer loop: exact checks between inner loops, until analysis and test agree or there is no more to try.
 
-use crate::common::loops::{Eigensolved, chain_problem, correlate_chain, verdict_of};
-use crate::common::tolerances::{CONVERGED_STATE, MATRIX_ROUND_OFF, ROUND_OFF};
-use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::error_sum::Errors;
-use corfem::method::inner_loop::InnerSettings;
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::step::{Accumulation, Bounds};
-use corfem::weighted::comparison::ExactResult;
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Settings with tolerances from loose to strict and up to four passes, so that loops end for every reason.
 fn settings() -> impl Strategy<Value = Settings> {
@@ -37,7 +27,7 @@ fn settings() -> impl Strategy<Value = Settings> {
 }
 
 properties! {
-    #![proptest_config(crate::common::costly_config())]
+    #![proptest_config(costly_config())]
 
     #[test]
     fn checks_are_exact_solutions((chain, truth) in chain_and_truth()) {
@@ -45,7 +35,7 @@ properties! {
         let found = correlate_chain(&chain, &truth, &settings.for_modes(truth.len()));
         let test = chain.modes(&truth);
         let ones = vec![1.0; truth.len()];
-        let checks = std::iter::once((&ones, &found.initial))
+        let checks = once((&ones, &found.initial))
             .chain(found.passes.iter().map(|pass| (&pass.factors, &pass.check)));
         for (factors, check) in checks {
             let model = chain.model(factors);
@@ -96,7 +86,7 @@ properties! {
                 && errors.frequency <= settings.frequency_tolerance
                 && errors.shape <= settings.shape_tolerance
         };
-        let all = std::iter::once(&found.initial).chain(found.passes.iter().map(|pass| &pass.check));
+        let all = once(&found.initial).chain(found.passes.iter().map(|pass| &pass.check));
         for check in all.filter(|check| !found.converged || within(&check.errors)) {
             prop_assert!(lowest <= check.errors.sum());
         }
@@ -110,10 +100,10 @@ properties! {
         (chain, truth) in chain_and_truth(),
         bounds in prop::collection::vec((0.8..0.95_f64, 1.05..1.2_f64), 5),
     ) {
-        let ranges: Vec<Option<Bounds>> = bounds[..truth.len()]
+        let ranges = bounds[..truth.len()]
             .iter()
             .map(|&(lower, upper)| Some(Bounds { lower, upper }))
-            .collect();
+            .collect_vec();
         let settings = Settings { least_passes: 3, most_passes: 3, ..Settings::default() };
         let settings = settings.for_modes(truth.len());
         let test = chain.modes(&truth);
@@ -125,7 +115,7 @@ properties! {
         );
         // Where roots are so close that no first step settles there is no pass to look at.
         prop_assume!(!matches!(found, Err(Error::UnsettledRoots { .. })));
-        for pass in found.unwrap().passes {
+        for pass in found?.passes {
             for (factor, (lower, upper)) in pass.factors.iter().zip(&bounds) {
                 prop_assert!(*factor >= lower * (1.0 - ROUND_OFF));
                 prop_assert!(*factor <= upper * (1.0 + ROUND_OFF));
@@ -150,13 +140,13 @@ fn passes_are_told_by_their_number_from_one() {
         told.push(number);
         true
     });
-    let found = found.expect("a correlation");
+    let found = found.unwrap();
     let count = found.passes.len();
     assert!(count > 1);
-    assert_eq!(told, (1..=count).collect::<Vec<_>>());
+    assert_eq!(told, (1..=count).collect_vec());
     // The caller may end it after any pass, and what was found until then is kept.
     let ended = correlate(analyze, &[None; 3], &settings, |_, _| false);
-    let ended = ended.expect("a correlation");
+    let ended = ended.unwrap();
     assert_eq!(ended.passes.len(), 1);
     assert_eq!(ended.passes[0].factors, found.passes[0].factors);
 }

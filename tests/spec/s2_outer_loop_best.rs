@@ -1,14 +1,6 @@
 //! Passes that make the exact error worse: the loops take stiffness to be linear in what changes, as in a gage, and here it is a power.
 
-use crate::common::draws::reached;
-use crate::common::loops::Eigensolved;
-use crate::common::tolerances::{CONVERGED_STATE, LEAST_REACHED};
-use crate::common::vibrations::{Chain, chain_and_truth, error_sum_by_definition};
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::Modes;
-use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use nalgebra::{DMatrix, dmatrix, dvector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// A chain and the truth on its springs, which are powers of the factors: from a gage's, 1, to a bent plate's, 3.
 fn bent() -> impl Strategy<Value = (Chain, Vec<f64>, f64)> {
@@ -43,7 +35,7 @@ fn three_passes((chain, truth, power): &(Chain, Vec<f64>, f64)) -> Correlation {
 /// The exact error sums, that of the start first.
 fn sums(found: &Correlation) -> Vec<f64> {
     let checks = found.passes.iter().map(|pass| &pass.check);
-    let all = std::iter::once(&found.initial).chain(checks);
+    let all = once(&found.initial).chain(checks);
     all.map(|check| check.errors.sum()).collect()
 }
 
@@ -58,7 +50,7 @@ fn draws_have_a_last_pass_that_is_not_the_best() {
 }
 
 properties! {
-    #![proptest_config(crate::common::costly_config())]
+    #![proptest_config(costly_config())]
 
     #[test]
     fn a_pass_that_makes_the_exact_error_worse_is_not_chosen(draw in bent()) {
@@ -68,7 +60,7 @@ properties! {
         let chosen = error_sum_by_definition(&there.stiffness, &there.mass, &chain.modes(&truth));
         let sums = sums(&found);
         let least = sums.iter().copied().fold(f64::INFINITY, f64::min);
-        prop_assert!((chosen / least - 1.0).abs() <= CONVERGED_STATE, "{sums:?} {chosen}");
+        prop_assert!(relative_error(chosen, least) <= CONVERGED_STATE, "{sums:?} {chosen}");
         prop_assert_eq!(found.best.map_or(0, |pass| pass + 1), sums.iter().position(|&sum| sum == least).unwrap());
         prop_assert!(!found.converged);
     }
@@ -78,13 +70,13 @@ properties! {
 /// with shapes turned by 0.03. The sum is larger, and within the tolerances.
 #[test]
 fn what_is_within_the_tolerances_comes_before_a_smaller_sum_outside() {
-    let test = Modes::new(dvector![1.0, 4.0], DMatrix::identity(2, 2)).expect("modes");
+    let test = Modes::new(dvector![1.0, 4.0], eye(2)).unwrap();
     let analysis = |ratio: f64, tangent: f64| {
         let turn = dmatrix![1.0, -tangent; tangent, 1.0] / 1.0_f64.hypot(tangent);
         let squares = DMatrix::from_diagonal(&dvector![ratio * ratio, 4.0]);
         let stiffness = &turn * squares * turn.transpose();
         let shares = vec![stiffness.clone()];
-        let mass = DMatrix::identity(2, 2);
+        let mass = eye(2);
         DynamicModel {
             stiffness,
             mass,
@@ -104,7 +96,7 @@ fn what_is_within_the_tolerances_comes_before_a_smaller_sum_outside() {
         true => analysis(1.02, 0.0),
         false => analysis(1.01, 0.03),
     };
-    let found = correlate(analyze, &[None], &settings, |_, _| true).expect("a correlation");
+    let found = correlate(analyze, &[None], &settings, |_, _| true).unwrap();
     assert!(found.passes[0].check.errors.sum() > found.initial.errors.sum());
     assert!(found.converged);
     assert_eq!(found.best, Some(0));

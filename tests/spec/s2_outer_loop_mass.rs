@@ -1,10 +1,7 @@
 //! Correlation by mass, and by stiffness and mass together.
 
-use crate::common::tolerances::ROUND_OFF;
+use crate::prelude::*;
 use crate::spec::s2_parameters_mass::{DENSITY, analyze, both, boxed, modes, point_masses};
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::step::Bounds;
-use corfem::sparse::{WholeModel, WholeParameter};
 
 #[test]
 fn wrong_point_masses_are_found() {
@@ -24,9 +21,9 @@ fn wrong_point_masses_are_found() {
         &settings,
         |_, _| true,
     )
-    .expect("it runs");
+    .unwrap();
     assert!(result.converged);
-    let last = result.passes.last().expect("a pass");
+    let last = result.passes.last().unwrap();
     for (dof, (factor, wrong)) in last.factors.iter().zip(wrong).enumerate() {
         // The tip's front mass of 0.0001 is a hundredth of its neighbors and hardly felt: 10 %.
         let bar = if dof == 2 { 0.1 } else { 0.02 };
@@ -48,14 +45,14 @@ fn stiffness_and_mass_change_together() {
         &settings,
         |_, _| true,
     )
-    .expect("it runs");
+    .unwrap();
     assert!(
         result.converged,
         "{:?}",
-        result.passes.last().expect("a pass").check.errors
+        result.passes.last().unwrap().check.errors
     );
     // Stiffness and mass scaled alike leave every mode alone, so the factors themselves need not be the true ones.
-    let last = result.passes.last().expect("a pass");
+    let last = result.passes.last().unwrap();
     assert!(last.factors[..15].iter().any(|f| (f - 1.0).abs() > 0.01));
     assert!(last.factors[15..].iter().any(|f| (f - 1.0).abs() > 0.01));
 }
@@ -63,14 +60,14 @@ fn stiffness_and_mass_change_together() {
 #[test]
 fn mass_limits_hold() {
     let wrong = [1.3, 0.8, 1.2, 0.75, 1.25, 0.9, 1.1, 0.85, 1.15];
-    let range = Bounds::positive("factor", 0.9, 1.1).expect("a range");
+    let range = Bounds::positive("factor", 0.9, 1.1).unwrap();
     let (model, sensors) = boxed(&point_masses(), DENSITY, wrong);
     let parameters = model.parameters().iter().map(|p| WholeParameter {
         range: Some(range),
         ..p.clone()
     });
-    let (stiffness, mass) = model.at(&[1.0; 9]).expect("matrices");
-    let model = WholeModel::new(stiffness, mass, parameters.collect()).expect("a model");
+    let (stiffness, mass) = model.at(&[1.0; 9]).unwrap();
+    let model = WholeModel::new(stiffness, mass, parameters.collect()).unwrap();
     let truth = modes(&boxed(&point_masses(), DENSITY, [1.0; 9]).0);
     let (ranges, model) = (model.ranges(), (model, sensors));
     let settings = Settings {
@@ -83,7 +80,7 @@ fn mass_limits_hold() {
         &settings,
         |_, _| true,
     )
-    .expect("it runs");
+    .unwrap();
     for pass in &result.passes {
         assert!(
             pass.factors

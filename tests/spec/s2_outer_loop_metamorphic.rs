@@ -6,21 +6,7 @@
 //! The error sum is a root over all modes and all DOF, so that the steps of two structures that nothing couples depend on each
 //! other: that each then comes out as alone is a law of weighted correlations (`s5_weighted_metamorphic.rs`).
 
-use crate::common::structures::{linkage, linkage_data};
-use crate::common::tolerances::{CONDITIONED_ROUND_OFF, MOST_AMPLIFIED, SAME_CORRELATION, SHAKE};
-use crate::common::{alter, costly_config};
-use corfem::method::appendix_a::assemble;
-use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, FiniteElementModel, Parameter};
-use corfem::method::modes::Modes;
-use corfem::method::outer_loop::{Correlation, Pass, Settings, correlate};
-use corfem::method::step::Bounds;
-use corfem::method::structure::{Element, ElementKind, Grid, StructuralDof, Structure};
-use corfem::torque_box::{CASES, Case};
-use nalgebra::{DMatrix, DVector, Rotation3, Vector3};
-use proptest::prelude::*;
-use proptest::test_runner::TestRunner;
-use std::cell::Cell;
+use crate::prelude::*;
 
 /// What a correlation is given.
 #[derive(Debug, Clone)]
@@ -37,9 +23,9 @@ struct Given {
 }
 
 fn given(number: usize) -> Given {
-    let case = Case::new(number).expect("a case");
-    let model = case.model().expect("a model");
-    let test = case.test_modes().expect("test modes");
+    let case = case_of(number);
+    let model = case.model().unwrap();
+    let test = case.test_modes().unwrap();
     Given::of(format!("case {number}"), &model, test, case.settings)
 }
 
@@ -55,9 +41,8 @@ fn frame() -> impl Strategy<Value = Given> {
             let structure = linkage(apex, areas.map(|area| area.powf(0.25)), true);
             let mass = DMatrix::from_diagonal(&DVector::from_vec(masses));
             let rods = (1..=4).map(|rod| Parameter::new(rod, &[rod])).collect();
-            let model = FiniteElementModel::new(structure, DMatrix::identity(4, 4), mass, rods)
-                .expect("a model");
-            let test = model.modes(&truth).expect("modes");
+            let model = FiniteElementModel::new(structure, eye(4), mass, rods).unwrap();
+            let test = model.modes(&truth).unwrap();
             let settings = Settings {
                 error_sum_tolerance: 0.01,
                 later_inner_tolerance: 0.005,
@@ -94,7 +79,7 @@ impl Given {
     }
 
     fn structure(&self) -> Structure {
-        Structure::new(self.grids.clone(), self.elements.clone()).expect("a structure")
+        Structure::new(self.grids.clone(), self.elements.clone()).unwrap()
     }
 
     fn model(&self) -> FiniteElementModel {
@@ -104,7 +89,7 @@ impl Given {
             self.mass.clone(),
             self.parameters.clone(),
         )
-        .expect("a model")
+        .unwrap()
     }
 
     fn correlated(&self) -> Correlation {
@@ -114,7 +99,7 @@ impl Given {
 
     fn try_correlated(&self) -> Result<Correlation, Error> {
         let model = self.model();
-        let ranges = model.factor_ranges().expect("ranges");
+        let ranges = model.factor_ranges().unwrap();
         let analyze = |factors: &[f64]| model.analyze(factors, &self.test, self.analysis_modes);
         correlate(analyze, &ranges, &self.settings, |_, _| true)
     }
@@ -158,11 +143,7 @@ impl Given {
 
     /// Adds a grid that moves along one direction alone, beyond a grid, on a rod of the last one's kind.
     fn add_on_rod(&mut self, beyond: usize, direction: usize) {
-        let at = self
-            .grids
-            .iter()
-            .find(|grid| grid.label == beyond)
-            .expect("a grid");
+        let at = self.grids.iter().find(|grid| grid.label == beyond).unwrap();
         let mut offset = Vector3::zeros();
         offset[direction] = 7.0;
         let mut constrained = [true; 3];
@@ -172,7 +153,7 @@ impl Given {
             position: at.position + offset,
             constrained,
         });
-        let rod = self.elements.last().expect("a rod").clone();
+        let rod = self.elements.last().unwrap().clone();
         assert_eq!(rod.kind, ElementKind::Rod);
         self.elements.push(Element {
             label: ADDED,
@@ -226,7 +207,7 @@ fn difference([first, other]: [&Correlation; 2], place: impl Fn(usize, usize) ->
     let sums = passes.map(|(a, b)| (sum(a) - sum(b)).abs());
     let count = first.best_factors.len();
     let factors = first.best_factors.iter().enumerate();
-    let factors = factors.map(|(e, a)| (a / other.best_factors[place(e, count)] - 1.0).abs());
+    let factors = factors.map(|(e, a)| relative_error(a, other.best_factors[place(e, count)]));
     // NaN counts as the largest.
     let worse = |a: f64, b: f64| if b <= a { a } else { b };
     sums.chain(factors).fold(0.0, worse)
@@ -441,7 +422,7 @@ fn a_parameter_without_effect_changes_nothing() {
     nothing_changes(
         |given| {
             // A rod between two fixed grids.
-            let rod = given.elements.last().expect("a rod").clone();
+            let rod = given.elements.last().unwrap().clone();
             given.elements.push(Element {
                 label: ADDED,
                 grids: vec![13, 14],
@@ -521,10 +502,10 @@ fn an_analysis_mode_that_nothing_couples_changes_nothing() {
             .grids
             .iter()
             .find(|grid| grid.constrained == [true; 3]);
-        given.add_on_rod(fixed.expect("a fixed grid").label, 0);
+        given.add_on_rod(fixed.unwrap().label, 0);
         given.loaded_as(&before, Some);
         let count = given.mass.nrows();
-        let t = std::mem::replace(&mut given.load_distribution, DMatrix::zeros(0, 0));
+        let t = std::mem::replace(&mut given.load_distribution, zero_square(0));
         let mut t = t.insert_column(count, 0.0);
         let added = StructuralDof {
             grid: ADDED,
@@ -535,10 +516,10 @@ fn an_analysis_mode_that_nothing_couples_changes_nothing() {
             .free_dof()
             .iter()
             .position(|dof| *dof == added);
-        t[(row.expect("it is free"), count)] = 1.0;
+        t[(row.unwrap(), count)] = 1.0;
         given.load_distribution = t;
         let highest = given.test.omega_squared().max();
-        let rod = given.elements.last().expect("a rod");
+        let rod = given.elements.last().unwrap();
         let stiffness = rod.material.youngs_modulus * rod.size / 7.0;
         let mut mass = given
             .mass
@@ -555,10 +536,7 @@ fn an_analysis_mode_that_nothing_couples_changes_nothing() {
     let same = |given: &Given| {
         let mut all = with_a_mode_apart(given);
         let count = all.mass.nrows();
-        let highest = all
-            .model()
-            .modes(&vec![1.0; all.parameters.len()])
-            .expect("modes");
+        let highest = all.model().modes(&vec![1.0; all.parameters.len()]).unwrap();
         let highest = highest.shapes().column(count - 1);
         assert_eq!(highest.icamax(), count - 1, "{}", given.name);
         let all_modes = all.correlated();
@@ -574,7 +552,7 @@ fn an_analysis_mode_that_nothing_couples_changes_nothing() {
 fn stopping_after_a_pass_and_starting_anew_gives_the_next_passes() {
     let same = |given: &Given| {
         let (model, count) = (given.model(), given.parameters.len());
-        let ranges = model.factor_ranges().expect("ranges");
+        let ranges = model.factor_ranges().unwrap();
         let run = |base: &[f64], settings: &Settings| {
             let product = |factors: &[f64]| -> Vec<f64> {
                 base.iter()
@@ -589,10 +567,10 @@ fn stopping_after_a_pass_and_starting_anew_gives_the_next_passes() {
                     upper: upper / base,
                 })
             };
-            let ranges: Vec<_> = ranges.iter().zip(base).map(range).collect();
-            let found = correlate(analyze, &ranges, settings, |_, _| true).expect("a correlation");
+            let ranges = ranges.iter().zip(base).map(range).collect_vec();
+            let found = correlate(analyze, &ranges, settings, |_, _| true).unwrap();
             let pass = |pass: &Pass| (pass.inner.iterations.len(), product(&pass.factors));
-            found.passes.iter().map(pass).collect::<Vec<_>>()
+            found.passes.iter().map(pass).collect_vec()
         };
         let passes = |count: usize| Settings {
             least_passes: count,
@@ -604,14 +582,14 @@ fn stopping_after_a_pass_and_starting_anew_gives_the_next_passes() {
         while parts.len() < whole.len() {
             let mut anew = passes(1);
             anew.inner.tolerance = anew.later_inner_tolerance;
-            let base = parts.last().expect("a pass").1.clone();
+            let base = parts.last().unwrap().1.clone();
             parts.extend(run(&base, &anew));
         }
         for ((iterations, factors), (steps, parts)) in whole.iter().zip(&parts) {
             assert_eq!(iterations, steps, "{}", given.name);
             for (a, b) in factors.iter().zip(parts) {
                 assert!(
-                    (a / b - 1.0).abs() <= SAME_CORRELATION,
+                    relative_error(a, b) <= SAME_CORRELATION,
                     "{}: {a} {b}",
                     given.name
                 );
@@ -624,91 +602,4 @@ fn stopping_after_a_pass_and_starting_anew_gives_the_next_passes() {
     of_frames(|frame| {
         same(frame);
     });
-}
-
-/// With T the identity B is one too, and the analysis is that of the structure's own matrices.
-#[test]
-fn condensing_to_all_dof_is_not_condensing() {
-    let same = |given: &Given, mass: DMatrix<f64>, truth: &[f64], is_drawn: bool| {
-        let mut given = given.clone();
-        let free = given.structure().free_dof().len();
-        given.load_distribution = DMatrix::identity(free, free);
-        given.mass = mass;
-        let model = given.model();
-        given.test = model
-            .modes(truth)
-            .expect("modes")
-            .lowest(9.min(free))
-            .expect("modes");
-        // A frame whose loops make more of round-off was drawn for another test.
-        let amplified = if is_drawn {
-            given.amplification(false)
-        } else {
-            Some(1.0)
-        };
-        let Some(amplified) = amplified.filter(|amplified| *amplified <= MOST_AMPLIFIED) else {
-            return false;
-        };
-        let whole = |factors: &[f64]| {
-            let all = model.sizes(factors).expect("sizes");
-            let matrix = |rows: &[usize]| {
-                let mut sizes = vec![0.0; all.len()];
-                rows.iter().for_each(|&row| sizes[row] = all[row]);
-                assemble(model.element_matrices(), &sizes, free).expect("a size each")
-            };
-            let row = |label: &usize| {
-                let elements = model.structure().elements().iter();
-                elements
-                    .clone()
-                    .position(|element| element.label == *label)
-                    .expect("it is there")
-            };
-            let share = |parameter: &Parameter| {
-                let rows: Vec<usize> = parameter.elements.iter().map(row).collect();
-                matrix(&rows)
-            };
-            let dynamic = DynamicModel {
-                stiffness: matrix(&(0..all.len()).collect::<Vec<_>>()),
-                mass: given.mass.clone(),
-                shares: given.parameters.iter().map(share).collect(),
-            };
-            dynamic.analyze(&given.test, given.analysis_modes)
-        };
-        let ranges = model.factor_ranges().expect("ranges");
-        let whole = correlate(whole, &ranges, &given.settings, |_, _| true).expect("a correlation");
-        // Condensing inverts the stiffness, which costs its condition number in round-off.
-        let all = model
-            .sizes(&vec![1.0; given.parameters.len()])
-            .expect("sizes");
-        let stiffness = assemble(model.element_matrices(), &all, free).expect("a size each");
-        let values = stiffness.symmetric_eigenvalues();
-        let condition = values.max() / values.min();
-        let bar = SAME_CORRELATION + CONDITIONED_ROUND_OFF * condition * amplified.max(1.0);
-        assert!(bar < 1e-6, "{bar:e}");
-        assert_same_within(bar, &given.name, [&given.correlated(), &whole], in_place);
-        true
-    };
-    for number in CASES {
-        let mut given = given(number);
-        // The step by gage knows the sizes of elements, which the matrices do not tell.
-        assert_ne!(
-            given.settings.inner.step,
-            corfem::method::step::StepRule::Gage
-        );
-        let free = given.structure().free_dof().len();
-        given.analysis_modes = Some(free);
-        let truth: Vec<f64> = (0..given.parameters.len())
-            .map(|e| if e % 2 == 0 { 0.8 } else { 1.2 })
-            .collect();
-        let mass = DVector::from_fn(free, |row, _| 0.01 + 0.001 * row as f64);
-        assert!(same(&given, DMatrix::from_diagonal(&mass), &truth, false));
-    }
-    let (drawn, asked) = (Cell::new(0), Cell::new(0));
-    of_frames(|frame| {
-        let is_asked = same(frame, frame.mass.clone(), &[0.8, 1.2, 0.8, 1.2], true);
-        drawn.set(drawn.get() + 1);
-        asked.set(asked.get() + usize::from(is_asked));
-    });
-    let (drawn, asked) = (drawn.get(), asked.get());
-    assert!(2 * asked >= drawn, "{asked} of {drawn}");
 }

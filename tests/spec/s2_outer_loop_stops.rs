@@ -1,15 +1,6 @@
 //! The outer loop by hand: when it begins, goes on and ends, and what its settings mean.
 
-use crate::common::alter;
-use crate::common::loops::{chain_problem, correlate_chain, inner_for_modes};
-use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
-use crate::common::vibrations::Chain;
-use approx::assert_relative_eq;
-use corfem::method::analysis::Analysis;
-use corfem::method::inner_loop::{InnerSettings, Stop, run};
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::torque_box::Case;
-use corfem::weighted::comparison::ExactResult;
+use crate::prelude::*;
 
 #[test]
 fn a_model_that_is_right_needs_no_pass() {
@@ -106,11 +97,11 @@ fn passes_after_the_first_have_their_own_tolerance() {
         ..Settings::default()
     };
     let found = correlate_chain(&chain, &[1.4, 0.8, 1.2, 0.7], &settings.for_modes(4));
-    let sums: Vec<f64> = found
+    let sums = found
         .passes
         .iter()
         .map(|pass| pass.inner.last.errors.sum())
-        .collect();
+        .collect_vec();
     // As the sums of nine modes: four are compared.
     assert!(1.5 * sums[0] < 0.1 && 1.5 * sums[0] > 0.02);
     assert!(1.5 * sums[1] < 0.02);
@@ -200,7 +191,7 @@ fn the_default_settings_are_as_documented() {
 
 #[test]
 fn the_box_needs_a_second_pass_because_b_was_frozen() {
-    let case = Case::new(1).unwrap();
+    let case = case_of(1);
     let model = case.model().unwrap();
     let test = case.test_modes().unwrap();
     let ranges = model.factor_ranges().unwrap();

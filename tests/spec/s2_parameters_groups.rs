@@ -1,18 +1,11 @@
 //! Groups: the paper's substructures, all elements of one scaled together.
 
-use crate::common::tolerances::{GROUPED_GAGE, ROUND_OFF};
-use crate::common::torque_boxes::with_parameters;
-use corfem::method::error::Error;
-use corfem::method::model::Parameter;
-use corfem::method::step::REFERENCE_GAGE;
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::wing_box::TEST_GAGE;
-use corfem::torque_box::{CASES, Case, CaseResult, Grouping, run_case};
+use crate::prelude::*;
 
 fn grouped(number: usize) -> CaseResult {
-    let mut case = Case::new(number).expect("a case");
+    let mut case = case_of(number);
     case.grouping = Grouping::Substructures;
-    run_case(&case, |_, _| {}).expect("it runs")
+    run_case(&case, |_, _| {}).unwrap()
 }
 
 /// Panels of each substructure, from the geometry: covers join upper or lower grids alone (odd or even), ribs four
@@ -44,10 +37,14 @@ fn by_geometry(case: &Case) -> [Vec<usize>; 3] {
 fn substructures_are_what_the_geometry_says() {
     let case = Case {
         grouping: Grouping::Substructures,
-        ..Case::new(2).expect("a case")
+        ..case_of(2)
     };
-    let model = case.model().expect("a model");
-    let names: Vec<&str> = model.parameters().iter().map(|p| p.name.as_str()).collect();
+    let model = case.model().unwrap();
+    let names = model
+        .parameters()
+        .iter()
+        .map(|p| p.name.as_str())
+        .collect_vec();
     assert_eq!(names, ["covers", "spars", "ribs"]);
     for (parameter, expected) in model.parameters().iter().zip(by_geometry(&case)) {
         assert_eq!(parameter.elements, expected);
@@ -65,7 +62,7 @@ fn one_factor_moves_every_element_of_a_group() {
             for (group, &factor) in groups.iter().zip(&pass.factors) {
                 for &label in group {
                     let first = result.case.panels[label - 1].gage;
-                    approx::assert_relative_eq!(
+                    assert_relative_eq!(
                         gages[label - 1],
                         first * factor,
                         max_relative = 0.1 * ROUND_OFF
@@ -82,9 +79,9 @@ fn error_common_to_a_group_is_found() {
     for number in [1, 2] {
         let result = grouped(number);
         assert!(result.correlation.converged, "Case {number}");
-        let covers = result.pass_gages.last().expect("a pass")[1];
+        let covers = result.pass_gages.last().unwrap()[1];
         assert!(
-            (covers / TEST_GAGE - 1.0).abs() < GROUPED_GAGE,
+            relative_error(covers, TEST_GAGE) < GROUPED_GAGE,
             "Case {number}: covers at {covers}"
         );
     }
@@ -97,7 +94,7 @@ fn error_within_a_group_is_out_of_reach_and_said_to_be() {
     assert!(!result.correlation.converged && !result.succeeded());
     let (first, last) = (
         &result.correlation.initial,
-        result.correlation.passes.last().expect("a pass"),
+        result.correlation.passes.last().unwrap(),
     );
     assert!(last.check.errors.sum() < first.errors.sum());
     for pass in &result.correlation.passes {
@@ -111,13 +108,13 @@ fn error_within_a_group_is_out_of_reach_and_said_to_be() {
 /// A group may have panels at both gage bounds, and the factor that takes one bound to the other is allowed.
 #[test]
 fn a_groups_factor_may_take_a_gage_from_bound_to_bound() {
-    let mut case = Case::new(3).expect("a case");
+    let mut case = case_of(3);
     case.grouping = Grouping::Substructures;
-    let gages = case.gage_range.expect("bounds of the gages");
-    let model = case.model().expect("a model");
+    let gages = case.gage_range.unwrap();
+    let model = case.model().unwrap();
     assert_eq!(model.parameters().len(), 3);
     for parameter in model.parameters() {
-        let range = parameter.factor_range.expect("bounds of the factor");
+        let range = parameter.factor_range.unwrap();
         assert_eq!(range.lower, gages.lower / gages.upper);
         assert_eq!(range.upper, gages.upper / gages.lower);
         assert!(range.lower < 1.0 && 1.0 < range.upper);
@@ -126,7 +123,7 @@ fn a_groups_factor_may_take_a_gage_from_bound_to_bound() {
 
 #[test]
 fn there_is_a_gage_for_every_panel() {
-    let case = Case::new(1).expect("a case");
+    let case = case_of(1);
     for count in [14, 16] {
         match case.model_with(&vec![TEST_GAGE; count]) {
             Err(CaseError::Method(Error::WrongShape {
@@ -145,7 +142,7 @@ fn there_is_a_gage_for_every_panel() {
 /// What steps are taken in: a group's size is the mean of its elements', and a model by its matrices has none.
 #[test]
 fn the_size_of_a_group_is_the_mean_of_its_elements() {
-    let case = Case::new(1).unwrap();
+    let case = case_of(1);
     let own = case.model().unwrap();
     let structure = own.structure();
     let (panel, other, rod) = (
@@ -165,12 +162,7 @@ fn the_size_of_a_group_is_the_mean_of_its_elements() {
     );
     let analysis = model.analyze(&[2.0, 3.0], &test, None).unwrap();
     assert_eq!(analysis.gages().len(), 2);
-    for (found, expected) in analysis.gages().iter().zip(expected) {
-        assert!(
-            (found / expected - 1.0).abs() <= ROUND_OFF,
-            "{found} {expected}"
-        );
-    }
+    assert_alike(analysis.gages().iter(), expected, ROUND_OFF);
     let matrices = model.matrices(&[2.0, 3.0]).unwrap();
     let analysis = matrices.analyze(&test, None).unwrap();
     assert_eq!(analysis.gages(), [REFERENCE_GAGE; 2]);

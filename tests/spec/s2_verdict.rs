@@ -1,23 +1,10 @@
 //! The verdict on a correlation.
 
-use crate::common::jobs::{Files, building, of_matrices};
-use crate::common::jobs::{prepare, run};
-use crate::common::loops::{chain_problem, correlate_chain, verdict_of};
-use crate::common::structures::spring_stiffness;
-use crate::common::tolerances::ROUND_OFF;
-use crate::common::vibrations::{Chain, chain_and_truth};
+use crate::common::jobs::run;
+use crate::prelude::*;
 use crate::readers::job_errors::{placed, with};
-use corfem::job::verdict::{Outcome, Verdict};
-use corfem::job::{History, JobResult};
-use corfem::method::error_sum::{ModeError, errors, mode_errors};
-use corfem::method::modes::{Modes, solve};
-use corfem::method::outer_loop::{Correlation, Settings, correlate};
-use corfem::method::step::Bounds;
 use corfem::present::verdict::verdict_in_words;
-use corfem::torque_box::{Case, run_case};
 use corfem::weighted::comparison::ModeErrors;
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
 
 const TRUTH: [f64; 3] = [1.3, 0.8, 1.1];
 
@@ -116,7 +103,7 @@ fn what_no_frequency_without_a_shape_sees_is_unseen() {
     // Beside the first of three springs one a hundred-thousandth as stiff.
     let parts = [(0, 1e5), (1, 1e5), (2, 1e5), (0, 1.0)];
     let parts = parts.map(|(spring, stiffness)| spring_stiffness(3, spring, stiffness));
-    let mass = DMatrix::identity(3, 3);
+    let mass = eye(3);
     let modes = solve(&parts.iter().sum(), &mass, 3).unwrap();
     // The first mode, and the third's frequency.
     let squares = modes.omega_squared();
@@ -139,9 +126,9 @@ fn without_last_shape(mut files: Files) -> Files {
     let (_, test) = files
         .iter_mut()
         .find(|(name, _)| name == "test.csv")
-        .expect("a test");
+        .unwrap();
     let cut = |line: &str| match line.starts_with(|first: char| first.is_ascii_digit()) {
-        true => line.rsplit_once(',').expect("a cell").0.to_owned() + ",\n",
+        true => line.rsplit_once(',').unwrap().0.to_owned() + ",\n",
         false => line.to_owned() + "\n",
     };
     *test = test.lines().map(cut).collect();
@@ -164,7 +151,7 @@ fn a_job_tells_the_error_sum_that_nine_modes_would_have() {
         panic!("{:?}", found.found.history)
     };
     let sum = 3.0 / 5_f64.sqrt() * run.best_check().errors.sum();
-    assert!((found.verdict.error_sum / sum - 1.0).abs() <= ROUND_OFF);
+    assert!(relative_error(found.verdict.error_sum, sum) <= ROUND_OFF);
     assert_eq!(found.verdict.is_within, run.converged);
 }
 
@@ -182,18 +169,16 @@ fn the_worst_mode_and_its_errors_are_those_of_the_error_sum() {
     assert!((0..3).all(|mode| size(mode) <= size(verdict.worst_mode)));
     let (worst, expected) = (verdict.worst, each[verdict.worst_mode]);
     assert!((worst.frequency - expected.frequency).abs() <= ROUND_OFF);
-    assert!((worst.shape.expect("a shape") - expected.shape).abs() <= ROUND_OFF);
+    assert!((worst.shape.unwrap() - expected.shape).abs() <= ROUND_OFF);
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// Of frequency and shape together: the one may be large where the other is small.
     #[test]
     fn no_mode_of_the_first_model_is_worse_than_the_worst((chain, truth) in chain_and_truth()) {
         let settings = Settings { most_passes: 0, ..Settings::default() };
         let (found, verdict) = judged(&chain, &truth, &settings);
-        let each = mode_errors(&found.initial.modes, &found.initial.pairing, &chain.modes(&truth)).unwrap();
+        let each = mode_errors(&found.initial.modes, &found.initial.pairing, &chain.modes(&truth))?;
         let size = |error: &ModeError| error.frequency.powi(2) + error.shape.powi(2);
         let worst = size(&each[verdict.worst_mode]);
         prop_assert!(each.iter().all(|error| size(error) <= worst + ROUND_OFF));
@@ -224,7 +209,7 @@ fn an_element_in_no_test_mode_is_named_as_unseen() {
 
 #[test]
 fn case_4_is_never_called_within_tolerance() {
-    let result = run_case(&Case::new(4).unwrap(), |_, _| {}).unwrap();
+    let result = run_case(&case_of(4), |_, _| {}).unwrap();
     let verdict = Verdict::of_case(&result);
     assert_eq!((verdict.outcome, verdict.is_within), (Outcome::Cap, false));
     assert!(!result.correlation.converged);

@@ -1,16 +1,9 @@
 //! The paper's box: the connectivity of Table 2 and the loads of the nine dynamic points.
 
-use crate::common::nastran95::boxes;
-use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
 use crate::common::torque_boxes::reconstruction;
-use corfem::method::structure::ElementKind;
-use corfem::torque_box::Case;
-use corfem::torque_box::wing_box::{
-    PANEL_COUNT, Reconstruction, TEST_GAGE, load_distribution, rod_ends, structure,
-};
-use nalgebra::{DVector, Matrix4, Vector3, Vector4};
-use proptest::prelude::*;
-use std::collections::BTreeSet;
+use crate::prelude::*;
+use corfem::torque_box::wing_box::rod_ends;
+use nalgebra::{Matrix4, Vector4};
 
 /// The grids of a rib from the tip in: rear upper, rear lower, front upper, front lower.
 fn rib(number: usize) -> [usize; 4] {
@@ -63,8 +56,6 @@ fn clamped_beam_by_elements(xi: f64) -> [f64; 4] {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// What the structure does as a rigid body its dynamic points do: q_D = Tᵗq_S is their motion along z.
     #[test]
     fn dynamic_points_follow_rigid_bodies(
@@ -74,7 +65,7 @@ properties! {
     ) {
         let motion = |at: &Vector3<f64>| shift + spin.cross(at);
         let structural = DVector::from_iterator(36, (1..=12).flat_map(|grid| motion(&at(&data, grid)).data.0[0]));
-        let t = load_distribution(&data).unwrap();
+        let t = load_distribution(&data)?;
         prop_assert_eq!(t.shape(), (36, 9));
         let dynamic = t.tr_mul(&structural);
         for number in 0..3 {
@@ -89,7 +80,7 @@ properties! {
     /// A unit force on each dynamic point arrives as a unit force along z and none in the plane.
     #[test]
     fn a_unit_force_arrives_whole(data in reconstruction()) {
-        let t = load_distribution(&data).unwrap();
+        let t = load_distribution(&data)?;
         for column in t.column_iter() {
             for (axis, expected) in [0.0, 0.0, 1.0].into_iter().enumerate() {
                 let sum: f64 = (0..12).map(|grid| column[3 * grid + axis]).sum();
@@ -101,7 +92,7 @@ properties! {
     /// A point on a spar loads the spar's two grids equally, and nothing else.
     #[test]
     fn a_spars_point_loads_its_two_grids_alone(data in reconstruction()) {
-        let t = load_distribution(&data).unwrap();
+        let t = load_distribution(&data)?;
         for number in 0..3 {
             let [rear_upper, rear_lower, front_upper, front_lower] = rib(number);
             for (column, grids) in [(0, [rear_upper, rear_lower]), (2, [front_upper, front_lower])] {
@@ -118,7 +109,7 @@ properties! {
     /// moments, as couples along the rib on upper and lower grid; the beam by elements and by the textbook's formulas.
     #[test]
     fn a_mid_points_load_is_a_clamped_beams(data in reconstruction()) {
-        let t = load_distribution(&data).unwrap();
+        let t = load_distribution(&data)?;
         let xi = data.mid_chord_fraction;
         let by_elements = clamped_beam_by_elements(xi);
         let textbook = Vector4::new(
@@ -157,14 +148,13 @@ properties! {
 #[test]
 fn rods_run_along_every_free_edge_of_the_panels() {
     let edge = |a: usize, b: usize| (a.min(b), a.max(b));
-    let edges: BTreeSet<_> = Case::new(1)
-        .unwrap()
+    let edges: BTreeSet<_> = case_of(1)
         .panels
         .iter()
         .flat_map(|panel| {
             (0..4)
                 .map(|k| edge(panel.grids[k], panel.grids[(k + 1) % 4]))
-                .collect::<Vec<_>>()
+                .collect_vec()
         })
         .collect();
     assert_eq!(edges.len(), 28);
@@ -181,14 +171,14 @@ fn rods_run_along_every_free_edge_of_the_panels() {
 /// Even grids are the lower surface: the outboard bottom cover is element 8, the one Case 4 makes too thin.
 #[test]
 fn the_structure_has_table_2s_elements_and_a_fixed_root() {
-    let case = Case::new(4).unwrap();
+    let case = case_of(4);
     let found = structure(&case.reconstruction, &case.panels, case.rod_area).unwrap();
-    let labels: Vec<usize> = found
+    let labels = found
         .elements()
         .iter()
         .map(|element| element.label)
-        .collect();
-    assert_eq!(labels, (1..=39).collect::<Vec<_>>());
+        .collect_vec();
+    assert_eq!(labels, (1..=39).collect_vec());
     for (element, panel) in found.elements().iter().zip(&case.panels) {
         assert_eq!(
             (element.kind, &element.grids, element.size),

@@ -1,11 +1,6 @@
 //! The box's data: the file it comes from, its masses, and data that cannot be a box.
 
-use crate::common::tolerances::ROUND_OFF;
-use corfem::method::error::Error;
-use corfem::torque_box::Case;
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::wing_box::{Reconstruction, dynamic_points, load_distribution, structure};
-use nalgebra::{DMatrix, DVector};
+use crate::prelude::*;
 
 const TEXT: &str = include_str!("../../paper/reconstruction.toml");
 
@@ -151,7 +146,7 @@ fn a_rib_without_chord_or_depth_is_refused() {
 
 #[test]
 fn numbers_that_cannot_be_are_refused_where_they_are_used() {
-    let panels = Case::new(2).unwrap().panels;
+    let panels = case_of(2).panels;
     let mut data = Reconstruction::embedded().unwrap();
     data.youngs_modulus = -1.0;
     let refused = structure(&data, &panels, 0.01).unwrap_err();

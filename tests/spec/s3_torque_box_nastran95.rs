@@ -1,17 +1,8 @@
 //! Whole torque boxes against the stored stiffness and eigenvalues of NASTRAN-95: the paper's outer loop.
 
-use crate::common::matrices::relative_distance;
-use crate::common::nastran95::{StoredBox, StoredBoxes, boxes, snap_factor};
-use crate::common::tolerances::{
-    NASTRAN_EIGENVALUE, NASTRAN_PRINTED_EIGENVALUE, NASTRAN_SINGLE_PRECISION, ROUND_OFF,
-};
-use corfem::method::appendix_a::condense;
-use corfem::method::appendix_a::{ElementMatrix, assemble, element_matrices};
+use crate::common::nastran95::{StoredBox, StoredBoxes};
+use crate::prelude::*;
 use corfem::method::modes;
-use corfem::method::structure::Structure;
-use corfem::torque_box::Case;
-use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
-use nalgebra::DMatrix;
 
 fn sizes(structure: &Structure) -> Vec<f64> {
     structure
@@ -43,7 +34,7 @@ fn eigenvalues(matrices: &[ElementMatrix], structure: &Structure, mass: f64) -> 
     let stiffness = assemble(matrices, &sizes(structure), 36).unwrap();
     let select = DMatrix::from_fn(36, 12, |row, column| f64::from(row == 3 * column + 2));
     let condensed = condense(&stiffness, &select).unwrap();
-    let mass = mass * DMatrix::identity(12, 12);
+    let mass = mass * eye(12);
     let modes = modes::solve(&condensed.stiffness, &mass, 12).unwrap();
     modes.omega_squared().iter().copied().collect()
 }
@@ -57,18 +48,18 @@ fn worst(found: &[f64], expected: &[f64]) -> f64 {
     found
         .iter()
         .zip(expected)
-        .map(|(f, e)| (f / e - 1.0).abs())
+        .map(|(f, e)| relative_error(f, e))
         .fold(0.0, f64::max)
 }
 
 #[test]
 fn boxes_without_snapped_panels_equal_nastran95() {
     let all = boxes();
-    let plain: Vec<_> = all
+    let plain = all
         .boxes
         .iter()
         .filter(|stored| stored.snapped.is_empty())
-        .collect();
+        .collect_vec();
     assert_eq!((all.boxes.len(), plain.len()), (16, 10));
     for stored in plain {
         let structure = all.structure(stored);
@@ -86,11 +77,11 @@ fn boxes_without_snapped_panels_equal_nastran95() {
 #[test]
 fn snapped_boxes_equal_nastran95_with_its_closed_form_in_their_place() {
     let all = boxes();
-    let snapped: Vec<_> = all
+    let snapped = all
         .boxes
         .iter()
         .filter(|stored| !stored.snapped.is_empty())
-        .collect();
+        .collect_vec();
     assert_eq!(snapped.len(), 6);
     for stored in snapped {
         let structure = all.structure(stored);
@@ -177,7 +168,7 @@ fn the_cases_are_the_stored_boxes() {
     let assemble =
         |structure: &Structure| assemble(&own_matrices(structure), &sizes(structure), 36).unwrap();
     for number in 1..=4 {
-        let case = Case::new(number).unwrap();
+        let case = case_of(number);
         let test = case.model_with(&[TEST_GAGE; PANEL_COUNT]).unwrap();
         let gvt = format!("case {} gvt", number.min(2));
         for (name, model) in [

@@ -1,16 +1,9 @@
 //! The four cases by every reading of the step against the independent program (golden/reference/), whole history and all.
 
-use crate::common::tolerances::{EXPECTED_FREQUENCY, EXPECTED_HISTORY, ROUND_OFF};
 use crate::evidence::fit::fit;
 use crate::evidence::readings::{READINGS, detection, run_by_reading};
-use approx::assert_relative_eq;
-use corfem::method::step::StepRule;
-use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, published_runs};
-use corfem::torque_box::wing_box::Reconstruction;
-use corfem::torque_box::{
-    ANOMALY_RATIO, CASES, Case, CaseResult, published_passes, run_case, stands_out,
-};
-use corfem::weighted::comparison::ExactResult;
+use crate::prelude::*;
+use corfem::torque_box::ANOMALY_RATIO;
 use toml::Table;
 
 fn expected(reading: StepRule) -> Table {
@@ -20,19 +13,19 @@ fn expected(reading: StepRule) -> Table {
         StepRule::Relative => include_str!("../../golden/reference/expected_relative.toml"),
         StepRule::Gage => include_str!("../../golden/reference/expected_gage.toml"),
     };
-    text.parse().expect("the golden reads")
+    text.parse().unwrap()
 }
 
 fn list(table: &Table, section: &str, key: &str) -> Vec<f64> {
-    let values = table[section][key].as_array().expect("a list");
+    let values = table[section][key].as_array().unwrap();
     values
         .iter()
-        .map(|value| value.as_float().expect("a number"))
+        .map(|value| value.as_float().unwrap())
         .collect()
 }
 
 fn number(table: &Table, section: &str, key: &str) -> f64 {
-    table[section][key].as_float().expect("a number")
+    table[section][key].as_float().unwrap()
 }
 
 fn assert_all_close(found: &[f64], expected: &[f64], relative: f64) {
@@ -43,13 +36,13 @@ fn assert_all_close(found: &[f64], expected: &[f64], relative: f64) {
 }
 
 fn result(number: usize) -> CaseResult {
-    run_case(&Case::new(number).expect("a case"), |_, _| {}).expect("it runs")
+    run_case(&case_of(number), |_, _| {}).unwrap()
 }
 
 #[test]
 fn all_twelve_published_columns_have_the_expected_frequencies() {
     let table = expected(StepRule::Matrix);
-    let fit = fit(&Reconstruction::embedded().expect("the box")).expect("solved");
+    let fit = fit(&Reconstruction::embedded().unwrap()).unwrap();
     assert_eq!(fit.columns.len(), 12);
     for column in &fit.columns {
         let name = column.column.replace('_', " ");
@@ -109,14 +102,14 @@ fn assert_history(result: &CaseResult) {
     let table = expected(result.case.settings.inner.step);
     for (row, pass) in result.correlation.passes.iter().enumerate() {
         let section = format!("case {} computed pass {}", result.case.number, row + 1);
-        let iterations = table[&section]["iterations"].as_integer().expect("a count");
+        let iterations = table[&section]["iterations"].as_integer().unwrap();
         assert_eq!(pass.inner.iterations.len() as i64, iterations, "{section}");
-        let sums: Vec<f64> = pass
+        let sums = pass
             .inner
             .iterations
             .iter()
             .map(|i| i.errors.sum())
-            .collect();
+            .collect_vec();
         assert_all_close(
             &sums,
             &list(&table, &section, "inner_error_sums"),
@@ -154,8 +147,7 @@ fn assert_history(result: &CaseResult) {
 fn every_reading_makes_the_expected_history_of_cases_1_to_3() {
     for reading in READINGS {
         for (number, passes) in [(1, 2), (2, 2), (3, 3)] {
-            let result =
-                run_by_reading(&Case::new(number).expect("a case"), reading).expect("it runs");
+            let result = run_by_reading(&case_of(number), reading).unwrap();
             assert_eq!(result.correlation.passes.len(), passes);
             assert_history(&result);
         }
@@ -188,9 +180,9 @@ fn cases_stop_by_their_tolerances_after_the_printed_passes() {
 fn every_reading_makes_the_expected_passes_with_fewer_modes() {
     for reading in READINGS {
         let table = expected(reading);
-        let mut case = Case::new(PUBLISHED_CASE).expect("a case");
+        let mut case = case_of(PUBLISHED_CASE);
         case.settings.inner.step = reading;
-        for run in published_runs(&case).expect("they run") {
+        for run in published_runs(&case).unwrap() {
             let section = format!(
                 "case 2, {} test and {} analysis modes",
                 run.test_modes, run.analysis_modes
@@ -228,14 +220,14 @@ fn every_reading_makes_the_expected_passes_with_fewer_modes() {
 #[test]
 fn case_4_names_its_faulty_element() {
     let section = "case 4 first iteration";
-    let box_of_the_paper = Reconstruction::embedded().expect("the box");
+    let box_of_the_paper = Reconstruction::embedded().unwrap();
     for (reading, stated) in
         READINGS
             .into_iter()
             .zip(["46.1 3.8", "58.4 4.6", "2.5 2.5", "148.7 2.5"])
     {
         let table = expected(reading);
-        let result = run_by_reading(&Case::new(4).expect("a case"), reading).expect("it runs");
+        let result = run_by_reading(&case_of(4), reading).unwrap();
         assert_all_close(
             result.unlimited_factors(),
             &list(&table, section, "unlimited_factors"),
@@ -247,10 +239,10 @@ fn case_4_names_its_faulty_element() {
             number(&table, section, "error_sum"),
             max_relative = EXPECTED_HISTORY
         );
-        let found = detection(&box_of_the_paper, reading).expect("it runs");
+        let found = detection(&box_of_the_paper, reading).unwrap();
         assert_eq!(format!("{:.1} {:.1}", found.factor, found.next), stated);
         // What is named does not depend on the reading that a case is run by.
-        let anomaly = result.anomaly.as_ref().expect("a faulty element");
+        let anomaly = result.anomaly.as_ref().unwrap();
         assert_eq!(
             (&*anomaly.parameter, anomaly.factor),
             ("8", result.unlimited_factors()[7])
@@ -272,8 +264,7 @@ fn case_4_names_its_faulty_element() {
 fn other_cases_report_no_anomaly_by_any_reading() {
     for reading in READINGS {
         for number in [1, 2, 3] {
-            let result =
-                run_by_reading(&Case::new(number).expect("a case"), reading).expect("it runs");
+            let result = run_by_reading(&case_of(number), reading).unwrap();
             // The largest factor stays near the next: what ANOMALY_RATIO lies between.
             let mut factors = result.unlimited_factors().to_vec();
             factors.sort_by(f64::total_cmp);
@@ -286,8 +277,8 @@ fn other_cases_report_no_anomaly_by_any_reading() {
 #[test]
 fn same_input_gives_the_same_bytes() {
     let json = || {
-        let results: Vec<_> = CASES.into_iter().map(result).collect();
-        crate::paper::json::cases(&results).expect("written")
+        let results = CASES.into_iter().map(result).collect_vec();
+        crate::paper::json::cases(&results).unwrap()
     };
     assert_eq!(json(), json());
 }
@@ -315,9 +306,9 @@ fn what_stands_out_is_many_times_the_next_demand() {
 #[test]
 fn one_iteration_is_enough_for_case_4_alone() {
     let with_iterations = |number: usize, iterations: usize| {
-        let mut case = Case::new(number).expect("a case");
+        let mut case = case_of(number);
         case.settings.inner.iterations = iterations;
-        run_case(&case, |_, _| {}).expect("it runs")
+        run_case(&case, |_, _| {}).unwrap()
     };
     assert!(with_iterations(4, 1).succeeded());
     let longer = with_iterations(4, 2);

@@ -1,17 +1,10 @@
 //! Upper and lower covers of a box that is symmetric about its mid-plane: no rule of the step tells them apart, while the print does.
 
 use crate::common::boxes::other_box;
-use crate::common::costly_config;
-use crate::common::tolerances::{MIRRORED_COVERS, SAME_HISTORY};
 use crate::evidence::claims::published_counts::COUNTED;
 use crate::evidence::published_counts::run_by;
 use crate::evidence::readings::correlation;
-use corfem::method::analysis::Analysis;
-use corfem::method::inner_loop::InnerSettings;
-use corfem::torque_box::Case;
-use corfem::torque_box::published::PublishedTable;
-use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE, rms};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// The covers of the root, tip and middle bays, elements from zero.
 const BAYS: [[usize; 2]; 3] = [[1, 14], [3, 7], [8, 10]];
@@ -27,7 +20,7 @@ properties! {
         gages in prop::collection::vec(0.008..0.015_f64, PANEL_COUNT),
         (of_stiffness, of_gage, step) in (0.0..1.5_f64, 0.0..1.5_f64, 0.2..2.0_f64),
     ) {
-        let mut case = Case::from_reconstruction(kind, reconstruction).expect("a case");
+        let mut case = Case::from_reconstruction(kind, reconstruction)?;
         for (panel, gage) in case.panels.iter_mut().zip(&gages) {
             panel.gage = *gage;
         }
@@ -37,8 +30,8 @@ properties! {
         let model = case.model();
         // Panels must be convex.
         prop_assume!(model.is_ok());
-        let (model, test) = (model.expect("a model"), case.test_modes().expect("modes"));
-        let modal = model.analyze(&[1.0; PANEL_COUNT], &test, None).expect("modes");
+        let (model, test) = (model?, case.test_modes()?);
+        let modal = model.analyze(&[1.0; PANEL_COUNT], &test, None)?;
         let shares = modal.shares();
         // Round-off of the condensation is that of the whole structure, however little of it a cover is.
         let largest = shares.iter().map(|share| share.norm()).fold(0.0, f64::max);
@@ -48,7 +41,7 @@ properties! {
         }
         let settings = InnerSettings { iterations: 3, ..case.settings.inner.clone() };
         let changes = modal.error_changes(modal.exact());
-        let largest = changes.expect("derivatives").iter().fold(0.0_f64, |most, e| most.max(e.abs()));
+        let largest = changes?.iter().fold(0.0_f64, |most, e| most.max(e.abs()));
         let rule = |_: &[f64], kappa: &[f64], factors: &[f64]| {
             let divisor = |e: usize| {
                 let gage = case.panels[e].gage * factors[e] / TEST_GAGE;
@@ -56,9 +49,9 @@ properties! {
             };
             (0..PANEL_COUNT).map(divisor).collect()
         };
-        let (factors, _) = run_by(&modal, &[None; PANEL_COUNT], &settings, &rule).expect("it runs");
+        let (factors, _) = run_by(&modal, &[None; PANEL_COUNT], &settings, &rule)?;
         for [one, other] in BAYS {
-            prop_assert!((factors[one] / factors[other] - 1.0).abs() < SAME_HISTORY);
+            prop_assert!(relative_error(factors[one], factors[other]) < SAME_HISTORY);
         }
     }
 }
@@ -66,21 +59,20 @@ properties! {
 /// Case 1 begins with equal covers, and prints unlike ones after its first pass. Equal covers can come no nearer than their means do.
 #[test]
 fn the_print_of_case_1_bounds_what_any_rule_can_reach_on_a_symmetric_box() {
-    let table = PublishedTable::number(4).expect("Table 4");
-    let error = |panel: usize| {
-        table
-            .required(&panel.to_string(), "pass_1_in")
-            .expect("printed")
-            / TEST_GAGE
-            - 1.0
-    };
-    let printed: Vec<f64> = (1..=PANEL_COUNT).map(error).collect();
+    let table = PublishedTable::number(4).unwrap();
+    let error =
+        |panel: usize| table.required(&panel.to_string(), "pass_1_in").unwrap() / TEST_GAGE - 1.0;
+    let printed = (1..=PANEL_COUNT).map(error).collect_vec();
     let mut nearest = printed.clone();
     for [one, other] in BAYS {
         let mean = 0.5 * (printed[one] + printed[other]);
         (nearest[one], nearest[other]) = (mean, mean);
     }
-    let apart: Vec<f64> = nearest.iter().zip(&printed).map(|(a, b)| a - b).collect();
+    let apart = nearest
+        .iter()
+        .zip(&printed)
+        .map(|(a, b)| a - b)
+        .collect_vec();
     let (most, least) = (correlation(nearest, printed.clone()), rms(&apart));
     assert_eq!(format!("{most:.2} {:.1}", 100.0 * least), "0.68 5.0");
     let of_column = COUNTED

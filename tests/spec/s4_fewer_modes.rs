@@ -1,29 +1,15 @@
 //! Correlation with fewer modes: Tables 9 to 12, and what their numbers can and cannot be.
 
-use crate::common::golden::{Numbers, assert_golden, assert_table};
-use crate::common::tolerances::{EIGEN_ROUND_OFF, ROUND_OFF};
 use crate::paper::tables::fewer_modes::{published_tables, truncation_tables};
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::inner_loop::Stop;
-use corfem::method::step::Accumulation;
-use corfem::method::structure::ElementKind;
-use corfem::present::render::{csv, text};
-use corfem::torque_box::error::CaseError;
-use corfem::torque_box::fewer_modes::{
-    Agreement, FewerModesRun, PUBLISHED_RUNS, all_runs, fewer_modes_run, published_runs,
-};
-use corfem::torque_box::published::PublishedTable;
-use corfem::torque_box::wing_box::TEST_GAGE;
-use corfem::torque_box::{Case, run_case};
-use corfem::weighted::comparison::ExactResult;
+use crate::prelude::*;
+use corfem::torque_box::fewer_modes::{Agreement, FewerModesRun, all_runs, fewer_modes_run};
 
 fn case_2() -> Case {
-    Case::new(2).expect("a case")
+    case_of(2)
 }
 
 fn run(test_modes: usize, analysis_modes: usize) -> FewerModesRun {
-    fewer_modes_run(&case_2(), test_modes, analysis_modes).expect("it runs")
+    fewer_modes_run(&case_2(), test_modes, analysis_modes).unwrap()
 }
 
 fn sorted(values: &[f64]) -> Vec<f64> {
@@ -33,7 +19,7 @@ fn sorted(values: &[f64]) -> Vec<f64> {
 }
 
 fn rms(errors: impl Iterator<Item = f64>) -> f64 {
-    let squares: Vec<f64> = errors.map(|error| error * error).collect();
+    let squares = errors.map(|error| error * error).collect_vec();
     (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
 }
 
@@ -43,13 +29,13 @@ fn runs_are_every_pair_and_the_papers_among_them() {
         all_runs(&case_2()).unwrap(),
         published_runs(&case_2()).unwrap(),
     );
-    let pairs: Vec<(usize, usize)> = all
+    let pairs = all
         .iter()
         .map(|run| (run.test_modes, run.analysis_modes))
-        .collect();
-    let expected: Vec<(usize, usize)> = (1..=9)
+        .collect_vec();
+    let expected = (1..=9)
         .flat_map(|test| (test..=9).map(move |analysis| (test, analysis)))
-        .collect();
+        .collect_vec();
     assert_eq!(pairs, expected);
     assert_eq!(published.len(), PUBLISHED_RUNS.len());
     for (run, pair) in published.iter().zip(PUBLISHED_RUNS) {
@@ -192,9 +178,9 @@ fn exact_at_published(test_modes: usize, analysis_modes: usize) -> (Vec<f64>, f6
         .1;
     let table = PublishedTable::number(number).unwrap();
     let heading = format!("fem_{analysis_modes}_in");
-    let gages: Vec<f64> = (1..=15)
+    let gages = (1..=15)
         .map(|e| table.required(&e.to_string(), &heading).unwrap())
-        .collect();
+        .collect_vec();
     let model = case_2().model_with(&gages).unwrap();
     let test = case_2().test_modes().unwrap().lowest(test_modes).unwrap();
     let check = model
@@ -238,7 +224,7 @@ fn tables_9_to_12_as_numbers() {
     let case = case_2();
     let mut tables = published_tables(&case, &published_runs(&case).unwrap()).unwrap();
     tables.extend(truncation_tables(&all_runs(&case).unwrap()));
-    let names: Vec<&str> = tables.iter().map(|table| table.name.as_str()).collect();
+    let names = tables.iter().map(|table| table.name.as_str()).collect_vec();
     assert_eq!(
         names,
         [

@@ -1,8 +1,5 @@
 //! How near each reading of the step comes to the printed gages on this box, and what the print says of the sum.
 
-use crate::common::boxes::other_boxes;
-use crate::common::golden::Numbers;
-use crate::common::tolerances::ROUND_OFF;
 use crate::evidence::accumulation::{
     ADDED_BOXES, accumulation_table, frequencies_by_both, mean_of_ratios,
 };
@@ -13,19 +10,13 @@ use crate::evidence::reading_tables::readings_tables;
 use crate::evidence::readings::{
     READINGS, ReadingColumn, all_columns, columns_of, detection, run_by_reading,
 };
-use corfem::method::step::StepRule;
-use corfem::present::render::csv;
-use corfem::torque_box::wing_box::{Reconstruction, TEST_GAGE};
-use corfem::torque_box::{CASES, Case, run_case};
-use std::path::Path;
-use std::sync::LazyLock;
+use crate::prelude::*;
 
 fn the_box() -> Reconstruction {
-    Reconstruction::embedded().expect("the box")
+    Reconstruction::embedded().unwrap()
 }
 
-static COLUMNS: LazyLock<Vec<ReadingColumn>> =
-    LazyLock::new(|| all_columns(&the_box()).expect("they run"));
+static COLUMNS: LazyLock<Vec<ReadingColumn>> = LazyLock::new(|| all_columns(&the_box()).unwrap());
 
 fn of(reading: StepRule, table: usize) -> Vec<&'static ReadingColumn> {
     COLUMNS
@@ -85,7 +76,7 @@ fn those_of_own_and_matrix_lie_nearest_in_case_1() {
         of(reading, 4)
             .iter()
             .map(|c| (1000.0 * c.gage_rms[0]).round() as i64)
-            .collect::<Vec<_>>()
+            .collect_vec()
     };
     assert_eq!(
         (shear(StepRule::Own), shear(StepRule::Matrix)),
@@ -112,7 +103,7 @@ fn correlation_and_difference_by_hand() {
 #[test]
 fn printed_frequencies_are_those_of_changes_that_add() {
     // No rule of the step enters: gages of Table 11 against the 21 frequencies of Table 9.
-    let this = frequencies_by_both(&the_box()).expect("they solve");
+    let this = frequencies_by_both(&the_box()).unwrap();
     for column in &this {
         assert!((0.025..0.030).contains(&column.multiplied), "{this:?}");
         assert!(column.added.abs() < 0.0075, "{this:?}");
@@ -123,7 +114,7 @@ fn printed_frequencies_are_those_of_changes_that_add() {
 fn changes_add_on_thirty_other_boxes() {
     for (coordinates, masses) in SIZES {
         for other in other_boxes(coordinates, masses).take(ADDED_BOXES) {
-            let columns = frequencies_by_both(&other).expect("they solve");
+            let columns = frequencies_by_both(&other).unwrap();
             let (added, multiplied) = mean_of_ratios(&columns);
             // Nearer to nothing than to what the other way misses, and by how much.
             assert!(added.abs() < 0.25 * multiplied, "{added} {multiplied}");
@@ -134,16 +125,16 @@ fn changes_add_on_thirty_other_boxes() {
 
 #[test]
 fn table_of_readings_is_the_stored_one() {
-    let detections = READINGS.map(|reading| detection(&the_box(), reading).expect("it runs"));
-    let mut tables = readings_tables(&COLUMNS, &detections).expect("tables");
+    let detections = READINGS.map(|reading| detection(&the_box(), reading).unwrap());
+    let mut tables = readings_tables(&COLUMNS, &detections).unwrap();
     tables.extend(counted_tables(&COUNTED));
-    tables.push(accumulation_table(&the_box()).expect("they solve"));
+    tables.push(accumulation_table(&the_box()).unwrap());
     let found = csv(&tables);
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("paper/readings.csv");
+    let path = in_root("paper/readings.csv");
     if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "1") {
-        std::fs::write(&path, &found).expect("written");
+        fs::write(&path, &found).unwrap();
     }
-    let stored = std::fs::read_to_string(&path).expect("paper/readings.csv");
+    let stored = fs::read_to_string(&path).unwrap();
     let numbers = Numbers::BY_UNIT;
     assert!(
         numbers.agree(&found, &stored),
@@ -155,12 +146,12 @@ fn table_of_readings_is_the_stored_one() {
 #[test]
 fn a_case_is_its_column() {
     for number in [1, 2, 3] {
-        let case = Case::new(number).expect("a case");
-        let columns = columns_of(&run_case(&case, |_, _| {}).expect("it runs")).expect("columns");
-        let expected: Vec<ReadingColumn> = of(case.settings.inner.step, 2 * number + 2)
+        let case = case_of(number);
+        let columns = columns_of(&run_case(&case, |_, _| {}).unwrap()).unwrap();
+        let expected = of(case.settings.inner.step, 2 * number + 2)
             .into_iter()
             .cloned()
-            .collect();
+            .collect_vec();
         assert_eq!(columns.len(), expected.len());
         for (found, expected) in columns.iter().zip(&expected) {
             assert_eq!(
@@ -170,8 +161,7 @@ fn a_case_is_its_column() {
         }
     }
     assert_eq!(
-        columns_of(&run_case(&Case::new(4).expect("a case"), |_, _| {}).expect("it runs"))
-            .expect("none"),
+        columns_of(&run_case(&case_of(4), |_, _| {}).unwrap()).unwrap(),
         []
     );
 }
@@ -218,17 +208,14 @@ fn on_other_boxes_relative_is_compared_with_every_reading() {
 /// Case 4 rests on two close modes of the faulty model: 73.2 and 74.8 Hz.
 #[test]
 fn case_4_depends_on_two_close_modes() {
-    let result = run_case(&Case::new(CASES[3]).expect("a case"), |_, _| {}).expect("it runs");
+    let result = run_case(&Case::new(CASES[3]).unwrap(), |_, _| {}).unwrap();
     let hz = result.correlation.initial.modes.frequencies_hz();
     let close = hz
         .windows(2)
         .min_by(|a, b| (a[1] / a[0]).total_cmp(&(b[1] / b[0])))
-        .expect("two modes");
+        .unwrap();
     assert_eq!(
-        close
-            .iter()
-            .map(|hz| format!("{hz:.1}"))
-            .collect::<Vec<_>>(),
+        close.iter().map(|hz| format!("{hz:.1}")).collect_vec(),
         ["73.2", "74.8"]
     );
     assert_eq!(result.case.panels[7].gage / TEST_GAGE, 0.01);
@@ -236,7 +223,7 @@ fn case_4_depends_on_two_close_modes() {
     let factor = |gage: f64| {
         let mut case = result.case.clone();
         case.panels[7].gage = gage;
-        let result = run_case(&case, |_, _| {}).expect("it runs");
+        let result = run_case(&case, |_, _| {}).unwrap();
         let hz = result.correlation.initial.modes.frequencies_hz();
         let apart = hz
             .windows(2)

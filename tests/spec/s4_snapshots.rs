@@ -1,27 +1,23 @@
 //! Goldens of the report: Tables 3 to 8 and 13, and Case 4.
 
-use crate::common::golden::{Numbers, assert_golden, assert_table};
-use crate::common::tolerances::{GOLDEN_ABSOLUTE_ROOT_PERCENT, GOLDEN_RELATIVE};
 use crate::evidence::fit::{fit, fit_table};
 use crate::paper::tables::cases::all_tables;
 use crate::paper::tables::published::root_error_table;
-use corfem::present::render::{csv, markdown, text};
-use corfem::present::table::{Cell, Table};
-use corfem::torque_box::wing_box::Reconstruction;
-use corfem::torque_box::{CASES, Case, Grouping, run_case};
+use crate::prelude::*;
+use corfem::present::render::markdown;
 
 fn tables() -> Vec<Table> {
-    let results: Vec<_> = CASES
+    let results = CASES
         .into_iter()
-        .map(|number| run_case(&Case::new(number).expect("a case"), |_, _| {}).expect("it runs"))
-        .collect();
-    all_tables(&results).expect("published tables read")
+        .map(|number| run_case(&case_of(number), |_, _| {}).unwrap())
+        .collect_vec();
+    all_tables(&results).unwrap()
 }
 
 #[test]
 fn every_table_as_numbers() {
     let tables = tables();
-    let names: Vec<&str> = tables.iter().map(|table| table.name.as_str()).collect();
+    let names = tables.iter().map(|table| table.name.as_str()).collect_vec();
     assert_eq!(
         names,
         [
@@ -52,7 +48,7 @@ fn every_table_as_numbers() {
 
 #[test]
 fn fit_of_the_box_as_numbers() {
-    let fit = fit(&Reconstruction::embedded().expect("the box")).expect("solved");
+    let fit = fit(&Reconstruction::embedded().unwrap()).unwrap();
     let table = fit_table(&fit);
     assert_golden("fit", &csv(&[table]), Numbers::BY_UNIT);
 }
@@ -68,15 +64,15 @@ fn report_as_text_and_markdown() {
 #[test]
 fn cases_by_substructures() {
     let numbers = Numbers::BY_UNIT;
-    let results: Vec<_> = CASES
+    let results = CASES
         .into_iter()
         .map(|number| {
-            let mut case = Case::new(number).expect("a case");
+            let mut case = case_of(number);
             case.grouping = Grouping::Substructures;
-            run_case(&case, |_, _| {}).expect("it runs")
+            run_case(&case, |_, _| {}).unwrap()
         })
-        .collect();
-    let tables = all_tables(&results).expect("published tables read");
+        .collect_vec();
+    let tables = all_tables(&results).unwrap();
     assert!(
         tables.iter().all(|table| !table.title.contains("Table 3")),
         "the paper has no grouped run"
@@ -93,10 +89,10 @@ fn root_errors_of_table_1() {
         last_digit: false,
         ..Numbers::AS_WRITTEN
     };
-    let table = root_error_table().expect("separate roots");
+    let table = root_error_table().unwrap();
     assert_eq!((table.rows.len(), table.columns.len()), (24, 14));
     // Errors over many decades: a reader sees a digit and a power of ten.
-    let written = text(std::slice::from_ref(&table));
+    let written = text(from_ref(&table));
     let cells = written.split_whitespace().filter(|word| {
         let parts = word.split_once("e-");
         parts.is_some_and(|(digits, _)| digits.trim_start_matches('-').len() == 3)
@@ -118,7 +114,7 @@ fn published_numbers_are_written_as_they_are() {
             else {
                 continue;
             };
-            let written = cell.published().expect("it is published");
+            let written = cell.published().unwrap();
             assert_eq!(
                 written.parse().ok(),
                 Some(*number),

@@ -1,11 +1,6 @@
 //! The pairing with the largest total, beside all pairings there are.
 
-use crate::common::tolerances::ROUND_OFF;
-use corfem::job::assignment::pair_optimally;
-use corfem::method::error::Error;
-use corfem::method::sorting::pair_modes;
-use nalgebra::{DMatrix, dmatrix};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// The largest total of test modes from `test` on, by trying every analysis mode that is left, and none.
 fn largest_total(closeness: &DMatrix<f64>, floor: f64, test: usize, taken: &mut Vec<usize>) -> f64 {
@@ -47,20 +42,18 @@ fn closeness() -> impl Strategy<Value = DMatrix<f64>> {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn the_total_is_the_largest_of_all_pairings(closeness in closeness(), floor in 0.0..0.9_f64) {
-        let pairs = pair_optimally(&closeness, floor).unwrap();
+        let pairs = pair_optimally(&closeness, floor)?;
         let best = largest_total(&closeness, floor, 0, &mut Vec::new());
         prop_assert!((total(&closeness, &pairs) - best).abs() < ROUND_OFF * 6.0, "{:?}", pairs);
     }
 
     #[test]
     fn no_mode_has_two_partners_and_no_pair_is_below_the_floor(closeness in closeness(), floor in 0.0..0.9_f64) {
-        let pairs = pair_optimally(&closeness, floor).unwrap();
+        let pairs = pair_optimally(&closeness, floor)?;
         prop_assert_eq!(pairs.len(), closeness.ncols());
-        let mut taken: Vec<usize> = pairs.iter().flatten().copied().collect();
+        let mut taken = pairs.iter().flatten().copied().collect_vec();
         taken.sort_unstable();
         prop_assert!(taken.windows(2).all(|pair| pair[0] != pair[1]), "{:?}", pairs);
         for (test, mode) in pairs.iter().enumerate() {
@@ -73,8 +66,8 @@ properties! {
         // The method's own needs a test mode, and an analysis mode for each.
         let closeness = if closeness.ncols() > closeness.nrows() { closeness.transpose() } else { closeness };
         let closeness = closeness.abs().resize_horizontally(closeness.ncols().max(1), 0.5).resize_vertically(closeness.nrows().max(1), 0.5);
-        let closest_first: Vec<Option<usize>> = pair_modes(&closeness).unwrap().analysis_mode.iter().copied().map(Some).collect();
-        let pairs = pair_optimally(&closeness, 0.0).unwrap();
+        let closest_first = pair_modes(&closeness)?.analysis_mode.iter().copied().map(Some).collect_vec();
+        let pairs = pair_optimally(&closeness, 0.0)?;
         prop_assert!(total(&closeness, &pairs) >= total(&closeness, &closest_first) - ROUND_OFF * 6.0);
     }
 }
@@ -83,29 +76,22 @@ properties! {
 #[test]
 fn two_test_modes_that_look_like_one_analysis_mode_are_both_paired() {
     let closeness = dmatrix![0.91, 0.90; 0.88, 0.05];
-    let closest_first = pair_modes(&closeness)
-        .expect("pairs")
-        .analysis_mode
-        .to_vec();
+    let closest_first = pair_modes(&closeness).unwrap().analysis_mode.to_vec();
     assert_eq!(closest_first, [0, 1]);
-    assert_eq!(
-        pair_optimally(&closeness, 0.5).expect("pairs"),
-        [Some(1), Some(0)]
-    );
+    assert_eq!(pair_optimally(&closeness, 0.5).unwrap(), [Some(1), Some(0)]);
 }
 
 #[test]
 fn modes_that_are_all_alike_are_paired_in_their_order_and_the_last_are_left_over() {
-    let alike = |analysis, test| {
-        pair_optimally(&DMatrix::from_element(analysis, test, 0.5), 0.1).expect("pairs")
-    };
+    let alike =
+        |analysis, test| pair_optimally(&DMatrix::from_element(analysis, test, 0.5), 0.1).unwrap();
     assert_eq!(alike(4, 3), [Some(0), Some(1), Some(2)]);
     assert_eq!(alike(2, 4), [Some(0), Some(1), None, None]);
     assert_eq!(alike(0, 2), [None, None]);
     assert_eq!(alike(2, 0), [None; 0]);
     // A pair that counts nothing is still a pair.
     assert_eq!(
-        pair_optimally(&DMatrix::zeros(2, 2), 0.0).expect("pairs"),
+        pair_optimally(&zero_square(2), 0.0).unwrap(),
         [Some(0), Some(1)]
     );
 }
@@ -114,14 +100,8 @@ fn modes_that_are_all_alike_are_paired_in_their_order_and_the_last_are_left_over
 #[test]
 fn the_floor_forbids_pairs_before_the_best_are_chosen() {
     let closeness = dmatrix![1.0, 0.6; 0.6, 0.0];
-    assert_eq!(
-        pair_optimally(&closeness, 0.5).expect("pairs"),
-        [Some(1), Some(0)]
-    );
-    assert_eq!(
-        pair_optimally(&closeness, 0.7).expect("pairs"),
-        [Some(0), None]
-    );
+    assert_eq!(pair_optimally(&closeness, 0.5).unwrap(), [Some(1), Some(0)]);
+    assert_eq!(pair_optimally(&closeness, 0.7).unwrap(), [Some(0), None]);
 }
 
 #[test]

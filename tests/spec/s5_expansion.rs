@@ -1,12 +1,7 @@
 //! Test shapes from the sensors to all degrees of freedom.
 
-use crate::common::closed_forms::uniform_chain::uniform_held_modes;
-use crate::common::said;
-use crate::common::tolerances::MATRIX_ROUND_OFF;
-use corfem::job::expansion::{expand, mass_by_modes};
-use corfem::method::error::Error;
-use nalgebra::{DMatrix, dmatrix};
-use proptest::prelude::*;
+use crate::prelude::*;
+use corfem::job::expansion::expand;
 
 /// Where the sensors of a chain of eight are.
 const SENSORS: [usize; 4] = [1, 3, 4, 7];
@@ -19,13 +14,11 @@ fn modes() -> DMatrix<f64> {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn shapes_in_the_span_of_the_modes_are_reproduced(shares in prop::collection::vec(-1.0..1.0_f64, 6)) {
         let all = modes();
         let shapes = &all * DMatrix::from_vec(3, 2, shares);
-        let expanded = expand(&all, &all.select_rows(&SENSORS), &shapes.select_rows(&SENSORS)).unwrap();
+        let expanded = expand(&all, &all.select_rows(&SENSORS), &shapes.select_rows(&SENSORS))?;
         prop_assert!((expanded - &shapes).amax() < MATRIX_ROUND_OFF * all.amax());
     }
 
@@ -36,7 +29,7 @@ properties! {
     ) {
         let (all, measured) = (modes() * 10_f64.powi(scale), DMatrix::from_vec(4, 1, measured));
         let at_sensors = all.select_rows(&SENSORS);
-        let expanded = expand(&all, &at_sensors, &measured).unwrap();
+        let expanded = expand(&all, &at_sensors, &measured)?;
         let left = measured - expanded.select_rows(&SENSORS);
         prop_assert!(at_sensors.tr_mul(&left).amax() < MATRIX_ROUND_OFF * at_sensors.amax());
     }
@@ -47,15 +40,12 @@ fn with_the_mass_by_modes_they_are_orthonormal_and_a_test_shape_weighs_what_its_
  {
     let at_sensors = modes().select_rows(&SENSORS);
     let mass = mass_by_modes(&at_sensors).unwrap();
-    assert!(
-        (at_sensors.tr_mul(&(&mass * &at_sensors)) - DMatrix::identity(3, 3)).amax()
-            < MATRIX_ROUND_OFF
-    );
+    assert!((at_sensors.tr_mul(&(&mass * &at_sensors)) - eye(3)).amax() < MATRIX_ROUND_OFF);
     let measured = dmatrix![0.3; -1.0; 0.8; 0.1];
-    let shares = expand(&DMatrix::identity(3, 3), &at_sensors, &measured).unwrap();
+    let shares = expand(&eye(3), &at_sensors, &measured).unwrap();
     let weight = (measured.tr_mul(&(&mass * &measured)))[(0, 0)];
     assert!(
-        (weight / shares.norm_squared() - 1.0).abs() < MATRIX_ROUND_OFF,
+        relative_error(weight, shares.norm_squared()) < MATRIX_ROUND_OFF,
         "{weight}"
     );
     assert!(matches!(
@@ -120,10 +110,7 @@ fn modes_are_dependent_that_differ_by_a_billionth_of_their_length() {
 
 #[test]
 fn what_does_not_fit_is_refused() {
-    let (two, three) = (
-        DMatrix::<f64>::identity(2, 2),
-        DMatrix::<f64>::identity(3, 3),
-    );
+    let (two, three) = (eye(2), eye(3));
     let (none, no_number) = (DMatrix::zeros(2, 0), f64::NAN * &two);
     for (all, at_sensors, test, words) in [
         (&two, &two, &two, "an answer"),

@@ -1,17 +1,7 @@
 //! 95 % intervals: by slopes where these tell, by the objective itself elsewhere, and none where neither is true.
 
-use crate::common::known::Known;
-use crate::common::measured::equal_weights;
-use crate::common::tolerances::{END_OF_INTERVAL, MATRIX_ROUND_OFF};
-use corfem::method::error::Error;
-use corfem::method::modes::Modes;
-use corfem::method::step::Bounds;
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{WeightedCorrelation, WeightedSettings, gauss_newton};
-use corfem::weighted::identifiability::{NORMAL_95, PRIOR_DEVIATION, identifiability};
-use corfem::weighted::intervals::{Withheld, intervals};
-use corfem::weighted::noise::{Noise, with_noise};
-use corfem::weighted::residuals::jacobian;
+use crate::prelude::*;
+use corfem::weighted::identifiability::PRIOR_DEVIATION;
 
 type Ranges = [Option<Bounds>; 15];
 
@@ -77,7 +67,7 @@ fn at_the_ends_of_an_interval_the_objective_is_as_much_higher() {
             let held = noisy.optimum(&best.factors, &ranges);
             let root = (2.0 * (held.objective - best.objective)).sqrt();
             assert!(
-                (root / NORMAL_95 - 1.0).abs() < END_OF_INTERVAL,
+                relative_error(root, NORMAL_95) < END_OF_INTERVAL,
                 "{e}: {root}"
             );
         }
@@ -107,7 +97,7 @@ fn widening_scales_the_measurement_and_never_the_prior() {
         if widening < 2.0 {
             let own = 2.0 * NORMAL_95 * seen.deviations[0];
             let width = width(&all[0].unwrap());
-            assert!((width / own - 1.0).abs() < MATRIX_ROUND_OFF, "{widening}");
+            assert!(relative_error(width, own) < MATRIX_ROUND_OFF, "{widening}");
         }
         for (e, interval) in all.iter().enumerate() {
             match interval {
@@ -127,7 +117,7 @@ fn widening_scales_the_measurement_and_never_the_prior() {
 fn no_interval_stands_where_the_objective_falls_below_that_at_the_factors() {
     let (noisy, free) = (Noisy::new(3), [None; 15]);
     let best = noisy.optimum(&[1.0; 15], &free).factors;
-    let beside: Vec<f64> = (0..15).map(|e| best[e] * [0.93, 1.08][e % 2]).collect();
+    let beside = (0..15).map(|e| best[e] * [0.93, 1.08][e % 2]).collect_vec();
     let withheld = |factors: &[f64]| {
         let all = noisy.intervals(factors, &free, 1.0).into_iter();
         all.filter(|interval| *interval == Err(Withheld::Lower))

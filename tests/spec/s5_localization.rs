@@ -1,28 +1,19 @@
 //! Rankings of suspects: by the first iteration's own factors, and by what one parameter alone explains.
 
-use crate::common::known::Known;
-use crate::common::loops::inner_for_modes;
-use crate::common::measured::equal_weights;
-use crate::common::tolerances::{MATRIX_ROUND_OFF, SINGLE_FIT_FACTOR};
 use crate::evidence::localization::NOISE;
+use crate::prelude::*;
 use crate::spec::s5_weighted::at;
-use corfem::job::localization::{by_factor, by_single_fit};
-use corfem::method::inner_loop::{InnerSettings, run};
-use corfem::method::modes::Modes;
-use corfem::torque_box::Case;
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::residuals::residuals;
 
 #[test]
 fn the_first_ranking_is_by_what_the_first_iteration_asks_for() {
     for (number, modes) in [(1, 9), (2, 9), (3, 5)] {
         let known = Known::of_case(number).unwrap();
-        let lowest: Vec<usize> = (0..modes).collect();
+        let lowest = (0..modes).collect_vec();
         let (omega_squared, shapes) = (
             known.test.omega_squared().select_rows(&lowest),
             known.test.shapes().select_columns(&lowest),
         );
-        let test = Modes::new(omega_squared, shapes).expect("modes");
+        let test = Modes::new(omega_squared, shapes).unwrap();
         let model = known.model.analyze(&[1.0; 15], &test, None).unwrap();
         let settings = InnerSettings {
             iterations: 1,
@@ -42,15 +33,18 @@ fn the_first_ranking_is_by_what_the_first_iteration_asks_for() {
                 .windows(2)
                 .all(|pair| pair[0].evidence >= pair[1].evidence)
         );
-        let mut all: Vec<usize> = suspects.iter().map(|suspect| suspect.parameter).collect();
+        let mut all = suspects
+            .iter()
+            .map(|suspect| suspect.parameter)
+            .collect_vec();
         all.sort_unstable();
-        assert_eq!(all, (0..15).collect::<Vec<_>>());
+        assert_eq!(all, (0..15).collect_vec());
     }
 }
 
 #[test]
 fn evidence_is_what_the_objective_falls_by_at_the_factor_named() {
-    let case = Case::new(2).unwrap();
+    let case = case_of(2);
     let (first, test) = (
         case.model().unwrap().matrices(&[1.0; 15]).unwrap(),
         case.test_modes().unwrap(),

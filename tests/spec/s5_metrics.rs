@@ -1,11 +1,6 @@
 //! Coordinate assurance by what its definition promises.
 
-use crate::common::closed_forms::uniform_chain::uniform_held_modes;
-use crate::common::said;
-use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
-use corfem::job::metrics::coordinate_assurance;
-use nalgebra::{DMatrix, DVector, dmatrix};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Shapes none of which is near zero.
 fn shapes(dof: usize, modes: usize) -> impl Strategy<Value = DMatrix<f64>> {
@@ -34,28 +29,26 @@ fn scales(modes: usize) -> impl Strategy<Value = DMatrix<f64>> {
 const PAIRS: [Option<usize>; 3] = [Some(2), None, Some(0)];
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn scales_and_signs_change_no_coordinate_assurance(
         (analysis, test) in (shapes(5, 4), shapes(5, 3)),
         (a, b) in (scales(4), scales(3)),
     ) {
-        let comac = coordinate_assurance(&analysis, &test, &PAIRS).unwrap();
-        let scaled = coordinate_assurance(&(analysis * a), &(test * b), &PAIRS).unwrap();
+        let comac = coordinate_assurance(&analysis, &test, &PAIRS)?;
+        let scaled = coordinate_assurance(&(analysis * a), &(test * b), &PAIRS)?;
         prop_assert!((scaled - comac).amax() < MATRIX_ROUND_OFF);
     }
 
     #[test]
     fn no_coordinate_assurance_is_beyond_one((analysis, test) in (shapes(5, 4), shapes(5, 3))) {
-        let comac = coordinate_assurance(&analysis, &test, &PAIRS).unwrap();
+        let comac = coordinate_assurance(&analysis, &test, &PAIRS)?;
         prop_assert!(comac.iter().all(|value| (0.0..=1.0).contains(value)), "{}", comac);
     }
 
     #[test]
     fn equal_shapes_have_assurance_one_at_every_coordinate(test in shapes(5, 3), scale in scales(3)) {
         let pairs = [Some(0), Some(1), Some(2)];
-        let comac = coordinate_assurance(&test, &(&test * scale), &pairs).unwrap();
+        let comac = coordinate_assurance(&test, &(&test * scale), &pairs)?;
         prop_assert!(comac.iter().all(|value| (value - 1.0).abs() < ROUND_OFF), "{}", comac);
     }
 
@@ -68,8 +61,8 @@ fn a_sensor_at_fault_has_the_lowest_coordinate_assurance_of_all_that_move() {
     // Two cables exchanged.
     test.swap_rows(0, 3);
     let pairs = [Some(0), Some(1), Some(2), Some(3)];
-    let comac = coordinate_assurance(modes.shapes(), &test, &pairs).expect("pairs");
-    let mut order: Vec<usize> = (0..6).collect();
+    let comac = coordinate_assurance(modes.shapes(), &test, &pairs).unwrap();
+    let mut order = (0..6).collect_vec();
     order.sort_by(|a, b| comac[*a].total_cmp(&comac[*b]));
     order.truncate(2);
     order.sort_unstable();
@@ -80,16 +73,13 @@ fn a_sensor_at_fault_has_the_lowest_coordinate_assurance_of_all_that_move() {
 fn coordinates_that_do_not_move_are_as_good_as_they_agree() {
     let analysis = dmatrix![1.0; 0.0; 0.0; 1.0];
     let test = dmatrix![1.0; 0.0; 0.5; 0.0];
-    let comac = coordinate_assurance(&analysis, &test, &[Some(0)]).expect("a pair");
+    let comac = coordinate_assurance(&analysis, &test, &[Some(0)]).unwrap();
     assert_eq!(comac.as_slice(), [1.0, 1.0, 0.0, 0.0]);
 }
 
 #[test]
 fn what_does_not_fit_is_refused() {
-    let (two, three) = (
-        DMatrix::<f64>::identity(2, 2),
-        DMatrix::<f64>::identity(3, 3),
-    );
+    let (two, three) = (eye(2), eye(3));
     let (zero, no_number) = (DMatrix::zeros(2, 1), f64::NAN * &two);
     for (analysis, test, pairs, words) in [
         (&two, &two, &[Some(0), None][..], "an answer"),

@@ -1,25 +1,15 @@
 //! Chi-squared at the best factors, its degrees of freedom, and what is said of them.
 
-use crate::common::measured::equal_weights;
-use crate::common::structures::spring_stiffness;
-use crate::common::tolerances::{MATRIX_ROUND_OFF, ROUND_OFF};
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::solve;
-use corfem::nalgebra::DMatrix;
-use corfem::sparse::ModeWeight;
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::misfit::Misfit;
-use corfem::weighted::noise::Noise;
-use corfem::weighted::residuals::residuals;
+use crate::prelude::*;
 
 /// Four equal stories with a sensor on every floor, of a test of stories with these factors.
 fn building(truth: &[f64; 4]) -> Comparison {
     let model = |factors: &[f64; 4]| {
         let story = |story: usize| spring_stiffness(4, story, 1e5 * factors[story]);
-        let shares: Vec<DMatrix<f64>> = (0..4).map(story).collect();
+        let shares = (0..4).map(story).collect_vec();
         DynamicModel {
             stiffness: shares.iter().sum(),
-            mass: 60.0 * DMatrix::identity(4, 4),
+            mass: 60.0 * eye(4),
             shares,
         }
     };

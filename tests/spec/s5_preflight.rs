@@ -1,24 +1,10 @@
 //! The pre-flight: mistakes made by hand on the box, the delta wing and a spring chain, and what is said of none.
 
-use crate::common::alter;
-use crate::common::structures::spring_stiffness;
-use crate::common::tolerances::{FIRST_FREQUENCY_RATIO, ROUND_OFF};
 use crate::evidence::specimen::Specimen;
-use corfem::job::preflight::{Change, FACTORS, Names, SeenModes, preflight_at_sensors};
-use corfem::job::{Concern, Kind};
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::sorting::pair_modes;
-use corfem::sparse::random::split_mix_64;
-use corfem::sparse::{ParameterMatrix, modal_assurance};
-use corfem::torque_box::Case;
-use corfem::torque_box::wing_box::{PANEL_COUNT, TEST_GAGE};
-use corfem::weighted::noise::{Noise, with_noise};
-use nalgebra::{DMatrix, DVector};
+use crate::prelude::*;
 
 pub fn case(number: usize) -> Specimen {
-    Specimen::of_case(&Case::new(number).unwrap()).unwrap()
+    Specimen::of_case(&case_of(number)).unwrap()
 }
 
 /// Eight masses and eight springs in a row, held at one end, both less toward the other, with springs up to 30 % wrong.
@@ -102,12 +88,12 @@ fn nothing_is_said_of_right_tests_but_what_is_so() {
 #[test]
 fn models_with_any_gages_within_two_thirds_cause_no_false_alarm() {
     let right = case(2);
-    let (case, mut state) = (Case::new(2).unwrap(), 7);
+    let (case, mut state) = (case_of(2), 7);
     let mut unit = || (split_mix_64(&mut state) >> 11) as f64 / (1_u64 << 53) as f64;
     for seed in 1..=100 {
-        let gages: Vec<f64> = (0..PANEL_COUNT)
+        let gages = (0..PANEL_COUNT)
             .map(|_| TEST_GAGE * 0.6_f64.powf(2.0 * unit() - 1.0))
-            .collect();
+            .collect_vec();
         let model = case.model_with(&gages).unwrap();
         let noisy = Specimen {
             model: model.matrices(&[1.0; PANEL_COUNT]).unwrap(),
@@ -164,10 +150,10 @@ fn factors_are_what_they_are_called() {
         FACTORS
             .iter()
             .step_by(2)
-            .zip([std::f64::consts::TAU.powi(2), 3600.0, 1000.0, 386.09, 9.81])
+            .zip([TAU.powi(2), 3600.0, 1000.0, 386.09, 9.81])
     {
         assert!(
-            (known.factor.powi(2) / squared - 1.0).abs() < ROUND_OFF,
+            relative_error(known.factor.powi(2), squared) < ROUND_OFF,
             "{}",
             known.name
         );
@@ -192,7 +178,7 @@ fn every_reversed_sensor_is_named() {
 
 #[test]
 fn the_loops_take_a_reversed_sensor_for_wrong_gages() {
-    let case = Case::new(2).unwrap();
+    let case = case_of(2);
     let (model, mut test) = (case.model().unwrap(), case.test_modes().unwrap());
     alter(&mut test, |_, shapes| shapes.row_mut(6).neg_mut());
     let analyze = |factors: &[f64]| model.analyze(factors, &test, None);
@@ -273,11 +259,11 @@ fn the_common_factor_is_the_median_of_the_ratios_of_pairs() {
         let assurance = modal_assurance(analysis.shapes(), specimen.test.shapes()).unwrap();
         let (test, all) = (wrong.test.frequencies_hz(), analysis.frequencies_hz());
         let pairs = pair_modes(&assurance).unwrap().analysis_mode.to_vec();
-        let mut ratios: Vec<f64> = test
+        let mut ratios = test
             .iter()
             .zip(pairs)
             .map(|(test, mode)| test / all[mode])
-            .collect();
+            .collect_vec();
         ratios.sort_by(f64::total_cmp);
         let (below, above) = (ratios[(ratios.len() - 1) / 2], ratios[ratios.len() / 2]);
         assert!(

@@ -1,14 +1,9 @@
 //! The pre-flight: what it says of frequencies, of modes, of settings and of two mistakes at once.
 
-use crate::common::alter;
-use crate::common::tolerances::{DEPENDENT_SHAPES, ROUND_OFF};
 use crate::evidence::specimen::Specimen;
+use crate::prelude::*;
 use crate::spec::s5_preflight::{case, chain, findings, is_of, wing, with_shapes};
-use corfem::job::preflight::{Change, FACTORS, LARGEST_TOLERANCE, Names};
-use corfem::job::{Concern, Kind};
-use corfem::method::model::DynamicModel;
-use corfem::method::outer_loop::Settings;
-use corfem::method::step::Bounds;
+use corfem::job::preflight::LARGEST_TOLERANCE;
 
 #[test]
 fn exchanged_frequencies_are_named_where_models_are_closer_than_modes() {
@@ -86,7 +81,7 @@ fn more_modes_than_points_are_told_and_nothing_else() {
     };
     let mut found = findings(&few);
     found.retain(|own| own.kind != Kind::NotChecked);
-    let (last, others) = found.split_last().expect("a finding");
+    let (last, others) = found.split_last().unwrap();
     let [modes, points, distinct, smallest] = last.measure[..] else {
         panic!("{found:?}")
     };
@@ -191,12 +186,12 @@ fn findings_are_said_with_places_from_one() {
         lower: 55.0,
         upper: 150.0,
     });
-    let said: Vec<String> = wrong
+    let said = wrong
         .findings()
         .unwrap()
         .iter()
         .map(Concern::words)
-        .collect();
+        .collect_vec();
     let all = said.join("\n");
     for words in [
         "times the model's, near 2π: the test is in rad/s?",

@@ -1,37 +1,11 @@
 //! Weighted residuals, their Jacobian, and Gauss–Newton steps on them.
 
-use crate::common::alter;
-use crate::common::draws::Draws;
-use crate::common::known::Known;
-use crate::common::measured::equal_weights;
-use crate::common::said;
-use crate::common::tolerances::{
-    CENTRAL_DIFFERENCE_GRADIENT, MATRIX_ROUND_OFF, ROUND_OFF, WEIGHTED_FACTOR,
-};
-use crate::common::whole_models::of_dense;
 use crate::evidence::rules::compare_all;
-use corfem::method::analysis::{Analysis, State};
-use corfem::method::error::Error;
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::sorting::pair_modes;
-use corfem::method::step::Bounds;
-use corfem::nalgebra::{DMatrix, DVector};
-use corfem::sparse::{BasisSize, ModeWeight, ParameterMatrix, SparseMatrix, WholeModel};
-use corfem::torque_box::Case;
-use corfem::weighted::close_modes::{indistinct_groups, turned};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{
-    WeightedCorrelation, WeightedSettings, WeightedStop, gauss_newton,
-};
-use corfem::weighted::identifiability::identifiability;
-use corfem::weighted::noise::{Noise, with_noise};
-use corfem::weighted::residuals::{DEVIATIONS, jacobian, residuals};
-use corfem::weighted::starts::{WeightedHistory, from_several_starts};
+use crate::prelude::*;
 
 /// The box of Case 2 by its matrices, with a stiffness parameter for every panel.
 fn by_matrices() -> DynamicModel {
-    let model = Case::new(2).unwrap().model().unwrap();
+    let model = case_of(2).model().unwrap();
     model.matrices(&[1.0; 15]).unwrap()
 }
 
@@ -39,12 +13,12 @@ fn by_matrices() -> DynamicModel {
 fn with_masses() -> (WholeModel, SparseMatrix) {
     let model = by_matrices();
     let own_mass = |dof: usize| {
-        let mut mass = DMatrix::zeros(9, 9);
+        let mut mass = zero_square(9);
         mass[(dof, dof)] = model.mass[(dof, dof)];
         ParameterMatrix::Mass(mass)
     };
     let panels = model.shares.iter().cloned().map(ParameterMatrix::Stiffness);
-    let shares: Vec<ParameterMatrix> = panels.chain((0..9).map(own_mass)).collect();
+    let shares = panels.chain((0..9).map(own_mass)).collect_vec();
     of_dense(&model.stiffness, &model.mass, &shares).unwrap()
 }
 
@@ -84,13 +58,13 @@ fn the_jacobian_is_the_derivative_of_exact_analyses() {
     let step = 1e-5_f64;
     for seed in 1..=6 {
         let mut draws = Draws(seed);
-        let factors: Vec<f64> = (0..24).map(|_| 0.8 + 0.4 * draws.unit()).collect();
+        let factors = (0..24).map(|_| 0.8 + 0.4 * draws.unit()).collect_vec();
         let test = with_noise(&exact, Noise::USUAL, seed).unwrap();
         let weight = |_| ModeWeight {
             frequency: 100.0 + 200.0 * draws.unit(),
             shape: 30.0 + 70.0 * draws.unit(),
         };
-        let weights: Vec<ModeWeight> = (0..9).map(weight).collect();
+        let weights = (0..9).map(weight).collect_vec();
         // Every mode by itself, or some as subspaces.
         let groups = if seed % 2 == 0 {
             vec![vec![0, 1], vec![2, 5, 3], vec![4]]
@@ -110,7 +84,7 @@ fn the_jacobian_is_the_derivative_of_exact_analyses() {
                 factors,
                 &sensors,
                 &test,
-                corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+                by_sorting(),
                 BasisSize {
                     modes: 9,
                     residual_vectors: 0,
@@ -196,7 +170,7 @@ fn shapes_turned_to_the_test_are_modes_of_the_same_subspace() {
             );
         }
         let generalized = found.shapes().tr_mul(&(&first.mass * found.shapes()));
-        assert!((generalized - DMatrix::identity(9, 9)).amax() < MATRIX_ROUND_OFF);
+        assert!((generalized - eye(9)).amax() < MATRIX_ROUND_OFF);
     }
 }
 
@@ -274,12 +248,12 @@ fn components_of_one_weight_are_as_a_mode_of_that_weight() {
     let model = beside(&first, &test);
     let own = DMatrix::from_fn(9, 9, |_, j| 0.5 + j as f64);
     let all = weights(9);
-    let of_modes: Vec<ModeWeight> = (0..9)
+    let of_modes = (0..9)
         .map(|j| ModeWeight {
             shape: own[(0, j)] * all[j].shape,
             ..all[j]
         })
-        .collect();
+        .collect_vec();
     let of_components = model.clone().with_component_weights(own).unwrap();
     let off = residuals(&of_components, &all).unwrap() - residuals(&model, &of_modes).unwrap();
     assert!(off.amax() < MATRIX_ROUND_OFF * of_modes[8].shape);
@@ -288,7 +262,7 @@ fn components_of_one_weight_are_as_a_mode_of_that_weight() {
     assert!((&one - &two).amax() < MATRIX_ROUND_OFF * two.amax());
     for wrong in [
         DMatrix::from_element(9, 8, 1.0),
-        DMatrix::zeros(9, 9),
+        zero_square(9),
         DMatrix::from_element(9, 9, f64::NAN),
     ] {
         assert!(model.clone().with_component_weights(wrong).is_err());
@@ -331,12 +305,7 @@ fn with_a_vague_prior_it_finds_the_gages_of_case_2() {
             .iter()
             .all(|it| it.check.pairing.analysis_mode == found.initial.pairing.analysis_mode)
     );
-    for (factor, truth) in found.factors.iter().zip(&known.truth) {
-        assert!(
-            (factor / truth - 1.0).abs() < WEIGHTED_FACTOR,
-            "{factor} {truth}"
-        );
-    }
+    assert_alike(found.factors.iter(), &known.truth, WEIGHTED_FACTOR);
     assert!(
         found
             .iterations
@@ -431,7 +400,7 @@ fn modes_that_change_places_are_followed_and_recorded() {
     let iteration = 1
         + (0..found.iterations.len())
             .find(|&iteration| modes(iteration) == [0, 1])
-            .expect("they change");
+            .unwrap();
     assert!((iteration..found.iterations.len()).all(|later| modes(later) == [0, 1]));
     let order = |factors: &[f64]| factors[0] * 400.0 < factors[1] * 200.0;
     assert!(order(&found.iterations[iteration - 1].factors));
@@ -462,10 +431,7 @@ fn the_data_see_what_the_columns_say() {
         (vec![3], vec![1, 0], f64::INFINITY)
     );
     assert_eq!(
-        seen.parallel
-            .iter()
-            .map(|&(a, b, _)| (a, b))
-            .collect::<Vec<_>>(),
+        seen.parallel.iter().map(|&(a, b, _)| (a, b)).collect_vec(),
         [(0, 2)]
     );
     for (found, expected) in seen
@@ -504,11 +470,11 @@ fn a_narrower_prior_adds_its_own_information() {
 fn upper_and_lower_cover_of_a_bay_cannot_be_told_apart_in_case_2() {
     let known = Known::of_case(2).unwrap();
     let seen = corrected(&known, &[None; 15], &WeightedSettings::default()).identifiability;
-    let pairs: Vec<(usize, usize)> = seen
+    let pairs = seen
         .parallel
         .iter()
         .map(|&(a, b, _)| (a + 1, b + 1))
-        .collect();
+        .collect_vec();
     assert_eq!(pairs, [(2, 15), (4, 8), (9, 11)]);
     assert_eq!(seen.subset.len(), 12);
     for (upper, lower) in pairs {
@@ -542,7 +508,7 @@ fn several_starts_lead_to_one_place_on_the_box_and_on_the_wing() {
             panic!("{minima:?}")
         };
         assert_eq!((minimum.starts, &minimum.factors), (5, &best.factors));
-        let ends: Vec<_> = ends.into_iter().flatten().collect();
+        let ends = ends.into_iter().flatten().collect_vec();
         let lowest = ends
             .iter()
             .map(|end| end.objective)
@@ -566,7 +532,7 @@ fn several_starts_lead_to_one_place_on_the_box_and_on_the_wing() {
 fn gauss_newton_needs_fewer_steps_than_the_papers_rule_and_ends_nearer_to_the_truth() {
     let all = compare_all(&WeightedSettings::default()).unwrap();
     assert_eq!(
-        all.iter().map(|of| of[0].name.as_str()).collect::<Vec<_>>(),
+        all.iter().map(|of| of[0].name.as_str()).collect_vec(),
         ["Case 1", "Case 2", "Case 3", "Delta wing"]
     );
     for [none, paper, weighted] in &all {

@@ -1,32 +1,10 @@
 //! Standard deviations of components and covariances of all numbers: what residuals and jobs make of them, and whether intervals hold
 //! the truth.
 
-use crate::common::draws::Draws;
-use crate::common::jobs::{Files, building};
-use crate::common::jobs::{prepare, run};
-use crate::common::measured::equal_weights;
-use crate::common::test_files::write_csv;
-use crate::common::tolerances::{
-    CENTRAL_DIFFERENCE_GRADIENT, CORRECTION_ROUND_OFF, MATRIX_ROUND_OFF, STANDARD_ERRORS,
-    WEIGHTED_FACTOR,
-};
-use crate::common::whole_models::shear_building;
+use crate::common::jobs::run;
+use crate::prelude::*;
 use crate::readers::job_errors::placed;
 use crate::spec::s5_weighted::at;
-use corfem::files::test_data::TestData;
-use corfem::job::{JobResult, Kind};
-use corfem::method::analysis::{Analysis, State};
-use corfem::method::linear_algebra::symmetric_part;
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::{Modes, solve};
-use corfem::nalgebra::{DMatrix, DVector};
-use corfem::sparse::WholeShare;
-use corfem::weighted::comparison::{Comparison, LoneFrequency};
-use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use corfem::weighted::identifiability::NORMAL_95;
-use corfem::weighted::noise::{Noise, with_noise};
-use corfem::weighted::residuals::{jacobian, residuals};
-use std::collections::BTreeMap;
 
 /// A chain of six masses by its matrices, every spring a parameter.
 fn chain() -> DynamicModel {
@@ -67,7 +45,7 @@ fn intervals_hold_the_truth_where_every_component_has_its_own_deviation() {
         let mut held = [0; 6];
         for seed in 1..=tests {
             let mut test = with_noise(&exact, noise, seed).unwrap();
-            crate::common::alter(&mut test, |_, shapes| {
+            alter(&mut test, |_, shapes| {
                 let drawn = &*shapes - exact.shapes();
                 for (row, own) in own.iter().enumerate() {
                     let mut there = shapes.row_mut(row);
@@ -148,16 +126,13 @@ fn equal_deviations_of_components_are_the_deviation_of_the_shape() {
         // A column takes the place of the row's number.
         data.shape_deviation = Some(vec![0.4; 5]);
     });
-    for (one, two) in of_shapes
-        .found
-        .factors
-        .iter()
-        .zip(&of_components.found.factors)
-    {
-        assert!((one / two - 1.0).abs() < WEIGHTED_FACTOR, "{one} {two}");
-    }
+    assert_alike(
+        of_shapes.found.factors.iter(),
+        &of_components.found.factors,
+        WEIGHTED_FACTOR,
+    );
     let [one, two] = [&of_shapes, &of_components].map(|of| of.misfit.chi_squared);
-    assert!((one / two - 1.0).abs() < WEIGHTED_FACTOR, "{one} {two}");
+    assert!(relative_error(one, two) < WEIGHTED_FACTOR, "{one} {two}");
     let others = of_components.trust.about(Kind::AssumedDeviations);
     assert_eq!(others.len(), 1, "frequencies alone are assumed: {others:?}");
 }
@@ -186,9 +161,11 @@ fn a_component_of_boundless_deviation_is_as_one_without_a_sensor() {
         data.shapes = data.shapes.clone().remove_row(row);
         data.sensors.remove(row);
     });
-    for (one, two) in vague.found.factors.iter().zip(&without.found.factors) {
-        assert!((one / two - 1.0).abs() < WEIGHTED_FACTOR, "{one} {two}");
-    }
+    assert_alike(
+        vague.found.factors.iter(),
+        &without.found.factors,
+        WEIGHTED_FACTOR,
+    );
 }
 
 /// Residuals of any covariance by their definition: the least of all scales of the shapes, by normal equations.
@@ -214,7 +191,7 @@ fn residuals_with_a_covariance_are_those_of_generalized_least_squares() {
             let model = model.with_groups(groups.clone()).unwrap();
             model.with_covariance(&covariance).unwrap()
         };
-        let factors: Vec<f64> = (0..6).map(|_| draws.between(0.8, 1.2)).collect();
+        let factors = (0..6).map(|_| draws.between(0.8, 1.2)).collect_vec();
         let (model, inverse) = (
             analyzed(&factors),
             covariance.clone().try_inverse().unwrap(),
@@ -247,7 +224,7 @@ fn residuals_with_a_covariance_are_those_of_generalized_least_squares() {
             .solve(&(free.transpose() * &inverse * &plain));
         let least = &plain - free * scales;
         let expected = (least.transpose() * &inverse * &least)[(0, 0)];
-        let off = (found.norm_squared() / expected - 1.0).abs();
+        let off = relative_error(found.norm_squared(), expected);
         assert!(off < CORRECTION_ROUND_OFF, "seed {seed}: {off:e}");
         // The gradient of half of it.
         let gradient = jacobian(&model, &weights).unwrap().tr_mul(&found);
@@ -269,10 +246,7 @@ fn residuals_with_a_covariance_are_those_of_generalized_least_squares() {
         }
         // Independent ones of unit variance are what they were, and so is the gradient.
         let plain = Comparison::from(&at(&first, &factors).analyze(&test, None).unwrap());
-        let unit = plain
-            .clone()
-            .with_covariance(&DMatrix::identity(28, 28))
-            .unwrap();
+        let unit = plain.clone().with_covariance(&eye(28)).unwrap();
         let [one, two] = [&plain, &unit].map(|model| {
             let residuals = residuals(model, &weights).unwrap();
             let gradient = jacobian(model, &weights).unwrap().tr_mul(&residuals);
@@ -282,12 +256,7 @@ fn residuals_with_a_covariance_are_those_of_generalized_least_squares() {
         assert!((&one.1 - &two.1).amax() < MATRIX_ROUND_OFF * one.1.amax());
         let singular = DMatrix::from_element(28, 28, 1.0);
         assert!(plain.clone().with_covariance(&singular).is_err());
-        assert!(
-            plain
-                .clone()
-                .with_covariance(&DMatrix::identity(27, 27))
-                .is_err()
-        );
+        assert!(plain.clone().with_covariance(&eye(27)).is_err());
         // A frequency without a shape is one more number.
         let lone = LoneFrequency {
             frequency_hz: 10.0,
@@ -295,7 +264,7 @@ fn residuals_with_a_covariance_are_those_of_generalized_least_squares() {
         };
         let more = plain.with_lone_frequencies(vec![lone]).unwrap();
         for (count, is_right) in [(27, false), (28, false), (29, true)] {
-            let unit = DMatrix::identity(count, count);
+            let unit = eye(count);
             assert_eq!(more.clone().with_covariance(&unit).is_ok(), is_right);
         }
     }

@@ -1,21 +1,9 @@
 //! How often 95 % intervals hold the truth, and how often a culprit is found.
 
-use crate::common::golden::{Numbers, assert_golden};
-use crate::common::measured::equal_weights;
-use crate::common::tolerances::{
-    COVERAGE, FEW_COVERAGE, GOLDEN_COUNT, GOLDEN_COVERAGE, GOLDEN_RELATIVE, LEAST_COVER,
-    LEAST_DETECTIONS, LEAST_PARAMETER_COVERAGE, MATRIX_ROUND_OFF, MEAN_MISFIT, SINGLE_FIT_FACTOR,
-};
 use crate::evidence::coverage::{ENOUGH, SEEDS, SEEN, all_coverages, coverage_tables};
 use crate::evidence::localization::{self, NOISE, localization, localization_tables};
+use crate::prelude::*;
 use crate::spec::s5_weighted::at;
-use corfem::job::localization::by_single_fit;
-use corfem::method::modes::solve;
-use corfem::present::render::csv;
-use corfem::torque_box::Case;
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::residuals::residuals;
-use std::ops::RangeInclusive;
 
 /// Seeds of the tests that every run makes.
 const FEW: RangeInclusive<u64> = 1..=4;
@@ -23,11 +11,11 @@ const FEW: RangeInclusive<u64> = 1..=4;
 #[test]
 fn intervals_hold_the_truth_in_most_of_a_few_tests() {
     let all = all_coverages(FEW).unwrap();
-    let counts: Vec<usize> = all.iter().map(|of| of.parameters.len()).collect();
+    let counts = all.iter().map(|of| of.parameters.len()).collect_vec();
     assert_eq!(counts, [15, 15, 21, 12, 10, 8, 8, 8, 8, 10, 5, 8]);
     for of in &all {
         assert_eq!(of.tests, FEW.count());
-        let held = of.overall().expect("some are seen");
+        let held = of.overall().unwrap();
         assert!((FEW_COVERAGE..=1.0).contains(&held), "{}: {held}", of.name);
         assert!(of.explained + 1 >= of.tests, "{}", of.name);
         let degrees = of.degrees_of_freedom / of.tests as f64;
@@ -35,7 +23,7 @@ fn intervals_hold_the_truth_in_most_of_a_few_tests() {
     }
     // The ratio of both covers of a bay is left to the prior.
     let unseen = all[0].parameters.iter().filter(|held| held.learned < SEEN);
-    let unseen: Vec<&str> = unseen.map(|held| held.parameter.as_str()).collect();
+    let unseen = unseen.map(|held| held.parameter.as_str()).collect_vec();
     assert_eq!(unseen, ["2", "4", "8", "9", "11", "15"]);
     assert_eq!(
         (&all[3].name[..], all[3].seen().count()),
@@ -85,7 +73,7 @@ fn intervals_hold_the_truth_in_93_to_97_of_100_tests() {
 
 #[test]
 fn a_single_error_is_undone_by_its_own_factor() {
-    let case = Case::new(4).unwrap();
+    let case = case_of(4);
     let right = case
         .model_with(&[0.01; 15])
         .unwrap()
@@ -101,7 +89,7 @@ fn a_single_error_is_undone_by_its_own_factor() {
         assert_eq!(suspects.len(), 15);
         assert_eq!(suspects[0].parameter, culprit);
         assert!(
-            (suspects[0].factor / 20.0 - 1.0).abs() < SINGLE_FIT_FACTOR,
+            relative_error(suspects[0].factor, 20.0) < SINGLE_FIT_FACTOR,
             "{:?}",
             suspects[0]
         );
@@ -130,7 +118,7 @@ fn a_panel_too_thin_is_the_first_suspect() {
     let gross = located
         .iter()
         .filter(|of| of.ratio == localization::RATIOS[0] && of.by_factor[0] == 0);
-    let mut missed: Vec<usize> = gross.map(|of| of.panel).collect();
+    let mut missed = gross.map(|of| of.panel).collect_vec();
     missed.dedup();
     assert_eq!(missed, [9, 11]);
 }

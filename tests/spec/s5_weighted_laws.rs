@@ -1,26 +1,7 @@
 //! Laws of weighted steps by numbers that are worked out by hand, and both sides of every limit.
 
-use crate::common::structures::spring_stiffness;
-use crate::common::tolerances::{
-    DIFFERENCE_ROUND_OFF, END_OF_INTERVAL, MATRIX_ROUND_OFF, QUANTILE, ROUND_OFF, SET_UP,
-    WEIGHTED_FACTOR,
-};
+use crate::prelude::*;
 use crate::spec::s5_weighted::at;
-use corfem::method::error::Error;
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::perturbation::SMALLEST_SEPARATION;
-use corfem::method::step::Bounds;
-use corfem::sparse::ModeWeight;
-use corfem::weighted::close_modes::assurance_of_roots;
-use corfem::weighted::comparison::{Comparison, LoneFrequency};
-use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop, gauss_newton};
-use corfem::weighted::identifiability::{NORMAL_95, identifiability};
-use corfem::weighted::intervals::{Withheld, intervals};
-use corfem::weighted::misfit::Misfit;
-use corfem::weighted::residuals::residuals;
-use corfem::weighted::starts::from_several_starts;
-use nalgebra::{DMatrix, DVector, dmatrix};
 
 #[track_caller]
 fn assert_close(found: f64, expected: f64, tolerance: f64) {
@@ -62,7 +43,7 @@ fn side_by_side(shares: &[f64], ratio: f64) -> impl Fn(&[f64]) -> Result<Compari
 fn two_masses() -> Comparison {
     let stiffness = DMatrix::from_diagonal(&DVector::from_vec(vec![1.0, 2.0]));
     let own = |e: usize| spring(e, stiffness[(e, e)]);
-    let (shares, mass) = (vec![own(0), own(1)], DMatrix::identity(2, 2));
+    let (shares, mass) = (vec![own(0), own(1)], eye(2));
     let test = Modes::new(stiffness.diagonal(), dmatrix![2.0, 0.0; 1.0, 1.0]).unwrap();
     let model = DynamicModel {
         stiffness,
@@ -73,7 +54,7 @@ fn two_masses() -> Comparison {
 }
 
 fn spring(dof: usize, stiffness: f64) -> DMatrix<f64> {
-    let mut own = DMatrix::zeros(2, 2);
+    let mut own = zero_square(2);
     own[(dof, dof)] = stiffness;
     own
 }
@@ -153,8 +134,8 @@ fn two_frequencies_are_two_numbers() {
 #[test]
 fn shapes_compared_together_have_a_scale_for_each_of_them() {
     let stiffness = (0..4).map(|story| spring_stiffness(4, story, 1.0));
-    let shares: Vec<DMatrix<f64>> = stiffness.collect();
-    let (stiffness, mass) = (shares.iter().sum(), DMatrix::identity(4, 4));
+    let shares = stiffness.collect_vec();
+    let (stiffness, mass) = (shares.iter().sum(), eye(4));
     let model = DynamicModel {
         stiffness,
         mass,
@@ -301,7 +282,7 @@ fn modes_of_one_root_have_the_squared_cosine_of_their_plane() {
     let plane = dmatrix![2.0 / 3.0, 1.0; 2.0 / 3.0, 1.0; 1.0 / 3.0, 0.0];
     for (gap, expected) in [(0.0, &plane), (0.5, &plane), (2.0, &apart)] {
         let roots = [1.0, 1.0 + gap * SMALLEST_SEPARATION, 2.0];
-        let off = found(roots, DMatrix::identity(3, 3), &tests) - expected;
+        let off = found(roots, eye(3), &tests) - expected;
         assert!(off.amax() < ROUND_OFF, "{gap}: {off}");
     }
     for (angle, seen) in [(1e-6_f64, 1.0), (1e-9, 0.0)] {
@@ -318,7 +299,7 @@ fn columns(angles: &[f64]) -> DMatrix<f64> {
     let unit = angles
         .iter()
         .map(|angle| DVector::from_vec(vec![angle.cos(), angle.sin()]));
-    DMatrix::from_columns(&unit.collect::<Vec<_>>())
+    DMatrix::from_columns(&unit.collect_vec())
 }
 
 /// Two columns are parallel above a cosine of 0.98, one way or the other; a~b and b~c are one group though a and c are not parallel, in any order.
@@ -348,11 +329,14 @@ fn parallel_to_one_another_is_one_group() {
         vec![3, 1, 0, 2],
         vec![1, 3, 0, 2],
     ] {
-        let angles: Vec<f64> = order.iter().map(|&place| f64::from(place) * step).collect();
+        let angles = order
+            .iter()
+            .map(|&place| f64::from(place) * step)
+            .collect_vec();
         let found = identifiability(&columns(&angles), &vec![1.0; order.len()]).unwrap();
         assert_eq!(
             found.parallel_groups(),
-            [(0..order.len()).collect::<Vec<_>>()],
+            [(0..order.len()).collect_vec()],
             "{order:?}"
         );
     }
@@ -427,7 +411,7 @@ fn three_columns_depend_where_two_imitate_a_third() {
     assert_eq!(found(&three(0.19)), [[2, 0, 1]]);
     assert_eq!(found(&three(0.21)), [[0; 0]; 0]);
     // Nine apart from one another: as many as eight are looked at.
-    let mut nine = DMatrix::zeros(27, 27);
+    let mut nine = zero_square(27);
     (0..9).for_each(|block| {
         nine.view_mut((3 * block, 3 * block), (3, 3))
             .copy_from(&three(0.1))
@@ -780,7 +764,7 @@ fn in_a_row() -> impl Fn(&[f64]) -> Result<Comparison, Error> + Copy {
     move |factors| {
         let first = DynamicModel {
             stiffness: dmatrix![2.0, -1.0; -1.0, 1.0],
-            mass: DMatrix::identity(2, 2),
+            mass: eye(2),
             shares: vec![dmatrix![1.0, 0.0; 0.0, 0.0], dmatrix![1.0, -1.0; -1.0, 1.0]],
         };
         let real = at(&first, &[1.4, 1.0]);
@@ -838,7 +822,7 @@ fn runs_cut_short_make_no_minima() {
     let own = residuals(&history.best.last, &weights)
         .unwrap()
         .norm_squared();
-    assert!(own > 1.0 && (history.minima[0].chi_squared / own - 1.0).abs() < MATRIX_ROUND_OFF);
+    assert!(own > 1.0 && relative_error(history.minima[0].chi_squared, own) < MATRIX_ROUND_OFF);
 }
 
 /// Noise allows a second minimum whose chi-squared is above the least by no more than 5.99, the 95 % quantile of two parameters; that of (2, 0.7)
@@ -880,13 +864,13 @@ fn noise_allows_a_minimum_up_to_the_quantile_of_as_many_parameters() {
 fn a_frequency_without_a_shape_follows_its_mode_through_a_crossing() {
     let first = DynamicModel {
         stiffness: DMatrix::from_diagonal(&DVector::from_vec(vec![400.0, 200.0])),
-        mass: DMatrix::identity(2, 2),
+        mass: eye(2),
         shares: vec![spring(0, 400.0), spring(1, 200.0)],
     };
     let test = Modes::new(DVector::from_element(1, 200.0), dmatrix![0.0; 1.0]).unwrap();
     let analyze = |factors: &[f64]| {
         let lone = LoneFrequency {
-            frequency_hz: 10.0 / std::f64::consts::TAU,
+            frequency_hz: 10.0 / TAU,
             partner: usize::from(400.0 * factors[0] > 200.0 * factors[1]),
         };
         Comparison::from(&at(&first, factors).analyze(&test, None)?)

@@ -1,22 +1,7 @@
 //! Masses as parameters of structures on supports and of those that hang free: with all modes, rigid-body modes in the basis,
 //! derivatives and the perturbation are exact.
 
-use crate::common::draws::Draws;
-use crate::common::measured::equal_weights;
-use crate::common::tolerances::{CONVERGED_STATE, FAR_RECURSION, FORWARD_DIFFERENCE};
-use crate::common::vibrations::modes_by_nalgebra;
-use crate::common::whole_models::{masses, seen_by, sensors_at, springs};
-use corfem::method::analysis::{Analysis, DERIVATIVE_STEP, State};
-use corfem::method::error::Error;
-use corfem::method::modes::Modes;
-use corfem::method::sorting::pair_modes;
-use corfem::nalgebra::DMatrix;
-use corfem::sparse::{
-    BasisSize, ParameterMatrix, SensorModel, SparseMatrix, WholeModel, WholeParameter, WholeShare,
-};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use corfem::weighted::residuals::{DEVIATIONS, jacobian, residuals};
+use crate::prelude::*;
 
 /// Four springs and three masses of a random net are parameters; all but one point have sensors.
 struct Net {
@@ -43,26 +28,26 @@ impl Net {
                 links.push((a, Some(b)));
             }
         }
-        let all: Vec<_> = links
+        let all = links
             .iter()
             .enumerate()
             .map(|(link, &(a, b))| {
                 let stiffness = if link < tree { uniform(1e4, 1e5) } else { 3e3 };
                 (a, b, stiffness)
             })
-            .collect();
-        let points: Vec<f64> = (0..count).map(|_| uniform(1.0, 4.0)).collect();
+            .collect_vec();
+        let points = (0..count).map(|_| uniform(1.0, 4.0)).collect_vec();
         let parameter = |name: String, share| WholeParameter {
             name,
             share,
             range: None,
         };
-        let mut parameters: Vec<_> = (0..4)
+        let mut parameters = (0..4)
             .map(|link| {
                 let share = WholeShare::Stiffness(springs(count, &all[link..=link]));
                 parameter(format!("spring {link}"), share)
             })
-            .collect();
+            .collect_vec();
         parameters.extend((0..3).map(|point| {
             let entries = vec![(point, point, points[point])];
             let share = SparseMatrix::new("mass", count, count, entries).unwrap();
@@ -70,8 +55,8 @@ impl Net {
         }));
         let model = WholeModel::new(springs(count, &all), masses(&points), parameters).unwrap();
         let vibrations = count - usize::from(is_free);
-        let sensors = sensors_at(&(0..count - 1).collect::<Vec<_>>(), count);
-        let truth: Vec<f64> = (0..7).map(|_| uniform(0.9, 1.1)).collect();
+        let sensors = sensors_at(&(0..count - 1).collect_vec(), count);
+        let truth = (0..7).map(|_| uniform(0.9, 1.1)).collect_vec();
         let found = model.modes(&truth, 4.min(vibrations)).unwrap().vibrations;
         let test = seen_by(&sensors, &found);
         Self {
@@ -83,7 +68,7 @@ impl Net {
     }
 
     fn analyze(&self, factors: &[f64]) -> Result<SensorModel, Error> {
-        let pair = corfem::sparse::Pair::by(|of| pair_modes(of.cross));
+        let pair = by_sorting();
         self.model.analyze(
             factors,
             &self.sensors,
@@ -109,9 +94,9 @@ fn differences(net: &Net, step: f64, of: impl Fn(&SensorModel) -> Vec<f64>) -> D
         up.iter()
             .zip(down)
             .map(|(up, down)| (up - down) / (2.0 * step))
-            .collect::<Vec<_>>()
+            .collect_vec()
     });
-    let columns: Vec<_> = columns.collect();
+    let columns = columns.collect_vec();
     DMatrix::from_fn(columns[0].len(), 7, |row, e| columns[e][row])
 }
 
@@ -193,7 +178,7 @@ const CHANGED: [f64; 7] = [1.05, 0.95, 1.1, 0.9, 1.3, 0.8, 1.2];
 fn in_basis(model: &SensorModel) -> [DMatrix<f64>; 2] {
     let size = model.basis().ncols();
     let k = model.omega_squared().clone().resize_vertically(size, 0.0);
-    let mut both = [DMatrix::from_diagonal(&k), DMatrix::identity(size, size)];
+    let mut both = [DMatrix::from_diagonal(&k), eye(size)];
     for (share, factor) in model.shares().iter().zip(CHANGED) {
         let is_mass = matches!(share, ParameterMatrix::Mass(_));
         both[usize::from(is_mass)] += (factor - 1.0) * share.matrix();
@@ -211,7 +196,7 @@ fn paired(state: &State) -> Vec<f64> {
 fn apart(found: &[f64], expected: &[f64]) -> f64 {
     assert_eq!(found.len(), expected.len());
     let both = found.iter().zip(expected);
-    both.map(|(found, expected)| (found / expected - 1.0).abs())
+    both.map(|(found, expected)| relative_error(found, expected))
         .fold(0.0, f64::max)
 }
 

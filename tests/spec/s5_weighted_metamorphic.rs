@@ -1,18 +1,6 @@
 //! Metamorphic relations of whole weighted correlations: what must not change when the same problem is put in another way.
 
-use crate::common::costly_config;
-use crate::common::tolerances::SAME_ON_THE_WAY;
-use crate::common::vibrations::{Chain, chain_and_truth};
-use corfem::method::error::Error;
-use corfem::method::model::{DynamicModel, Model};
-use corfem::method::modes::Modes;
-use corfem::sparse::ModeWeight;
-use corfem::torque_box::{CASES, Case};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{WeightedCorrelation, WeightedSettings, gauss_newton};
-use corfem::weighted::noise::{Noise, with_noise};
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Steps until nothing moves by more than a ten-billionth of its standard deviation.
 fn settings(unit: f64) -> WeightedSettings {
@@ -38,13 +26,13 @@ fn correlated(
     let weights: Vec<ModeWeight> = vec![noise.weight(); modes];
     let (first, ranges) = (vec![1.0; parameters], vec![None; parameters]);
     let compare = |factors: &[f64]| analyze(factors).map(|model| Comparison::from(&model));
-    gauss_newton(compare, &first, &ranges, &weights, &settings(unit)).expect("a correlation")
+    gauss_newton(compare, &first, &ranges, &weights, &settings(unit)).unwrap()
 }
 
 fn assert_same(one: &[f64], other: &[f64]) {
     assert_eq!(one.len(), other.len());
     for (a, b) in one.iter().zip(other) {
-        assert!((a / b - 1.0).abs() <= SAME_ON_THE_WAY, "{one:?} {other:?}");
+        assert!(relative_error(a, b) <= SAME_ON_THE_WAY, "{one:?} {other:?}");
     }
 }
 
@@ -59,24 +47,21 @@ fn assert_unit_does_not_matter(
     assert_eq!(one.iterations.len(), other.iterations.len());
     let relative = (one.objective / (other.objective / 64.0) - 1.0).abs();
     assert!(relative <= SAME_ON_THE_WAY, "{relative}");
-    let scaled: Vec<f64> = other
+    let scaled = other
         .identifiability
         .deviations
         .iter()
         .map(|of| 8.0 * of)
-        .collect();
+        .collect_vec();
     assert_same(&one.identifiability.deviations, &scaled);
 }
 
 #[test]
 fn the_unit_of_all_deviations_does_not_matter_on_the_cases() {
     for number in CASES {
-        let case = Case::new(number).expect("a case");
-        let (model, exact) = (
-            case.model().expect("a model"),
-            case.test_modes().expect("modes"),
-        );
-        let test = with_noise(&exact, Noise::USUAL, 3).expect("noise");
+        let case = case_of(number);
+        let (model, exact) = (case.model().unwrap(), case.test_modes().unwrap());
+        let test = with_noise(&exact, Noise::USUAL, 3).unwrap();
         let analyze = |factors: &[f64]| model.analyze(factors, &test, None);
         assert_unit_does_not_matter(analyze, test.len(), model.parameters().len());
     }
@@ -96,7 +81,7 @@ properties! {
 
     #[test]
     fn the_unit_of_all_deviations_does_not_matter_on_chains((chain, truth) in chain_and_truth(), seed in any::<u64>()) {
-        let test = with_noise(&chain.modes(&truth), Noise::USUAL, seed).expect("noise");
+        let test = with_noise(&chain.modes(&truth), Noise::USUAL, seed)?;
         let analyze = |factors: &[f64]| chain.model(factors).analyze(&test, None);
         assert_unit_does_not_matter(analyze, test.len(), truth.len());
     }
@@ -110,20 +95,20 @@ properties! {
     ) {
         // The other's frequencies a hundred times as high: no mode of the one is close to one of it.
         let other = Chain { masses: other.masses.iter().map(|mass| 1e-4 * mass).collect(), ..other };
-        let test = |chain: &Chain, truth: &[f64], seed| with_noise(&chain.modes(truth), Noise::USUAL, seed).expect("noise");
+        let test = |chain: &Chain, truth: &[f64], seed| with_noise(&chain.modes(truth), Noise::USUAL, seed).unwrap();
         let (test, tests) = (test(&one, &truth, seed), test(&other, &others, seed ^ 1));
         let alone = |chain: &Chain, test: &Modes| {
             correlated(|factors: &[f64]| chain.model(factors).analyze(test, None), test.len(), chain.masses.len(), 1.0).factors
         };
         let apart = [alone(&one, &test), alone(&other, &tests)].concat();
         let count = truth.len();
-        let squares: Vec<f64> = test.omega_squared().iter().chain(tests.omega_squared()).copied().collect();
-        let all = Modes::new(DVector::from_vec(squares), both(test.shapes(), tests.shapes())).expect("modes");
+        let squares = test.omega_squared().iter().chain(tests.omega_squared()).copied().collect_vec();
+        let all = Modes::new(DVector::from_vec(squares), both(test.shapes(), tests.shapes()))?;
         let together = |factors: &[f64]| {
             let (a, b) = (one.model(&factors[..count]), other.model(&factors[count..]));
             let (n, m) = (a.mass.nrows(), b.mass.nrows());
-            let first = a.shares.iter().map(|share| both(share, &DMatrix::zeros(m, m)));
-            let second = b.shares.iter().map(|share| both(&DMatrix::zeros(n, n), share));
+            let first = a.shares.iter().map(|share| both(share, &zero_square(m)));
+            let second = b.shares.iter().map(|share| both(&zero_square(n), share));
             DynamicModel {
                 stiffness: both(&a.stiffness, &b.stiffness),
                 mass: both(&a.mass, &b.mass),

@@ -1,22 +1,8 @@
 //! Where weighted correlations begin, and what their Jacobian holds of modes that are all but one.
 
-use crate::common::known::Known;
-use crate::common::measured::equal_weights;
-use crate::common::tolerances::{ORDER_SLACK, ROUND_OFF, STANDARD_ERRORS, WEIGHTED_FACTOR};
+use crate::prelude::*;
 use crate::spec::s5_weighted::{at, compare};
-use approx::assert_relative_eq;
-use corfem::method::error::Error;
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::solve;
-use corfem::sparse::ModeWeight;
-use corfem::torque_box::{Case, Grouping};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop};
-use corfem::weighted::next_step::NextStep;
-use corfem::weighted::noise::Noise;
-use corfem::weighted::residuals::{DEVIATIONS, jacobian};
-use corfem::weighted::starts::{Minimum, StartEnd, WeightedHistory, from_several_starts};
-use nalgebra::{DMatrix, DVector, dmatrix};
+use corfem::weighted::starts::{Minimum, StartEnd};
 
 #[test]
 fn random_starts_are_log_uniform_from_half_to_twice_the_first_factors() {
@@ -39,11 +25,11 @@ fn random_starts_are_log_uniform_from_half_to_twice_the_first_factors() {
         (best.stop, firsts.len(), &firsts[0]),
         (WeightedStop::Trials, 41, &vec![1.0; 15])
     );
-    let logs: Vec<f64> = firsts[1..]
+    let logs = firsts[1..]
         .iter()
         .flatten()
         .map(|factor| factor.log2())
-        .collect();
+        .collect_vec();
     assert!(logs.iter().all(|log| (-1.0..=1.0).contains(log)));
     // Moments of the uniform distribution from minus one to one, with the variance of what is averaged.
     let mean =
@@ -64,7 +50,7 @@ fn random_starts_are_log_uniform_from_half_to_twice_the_first_factors() {
 fn all_minima_that_noise_allows_are_named_with_their_starts() {
     let first = DynamicModel {
         stiffness: dmatrix![2.0, -1.0; -1.0, 1.0],
-        mass: DMatrix::identity(2, 2),
+        mass: eye(2),
         shares: vec![dmatrix![1.0, 0.0; 0.0, 0.0], dmatrix![1.0, -1.0; -1.0, 1.0]],
     };
     let truth = [1.4, 1.0];
@@ -101,7 +87,7 @@ fn all_minima_that_noise_allows_are_named_with_their_starts() {
     for springs in [truth, [2.0 * truth[1], 0.5 * truth[0]]] {
         let is_there = |of: &Minimum| {
             let both = of.factors.iter().zip(springs);
-            both.map(|(found, spring)| (found / spring - 1.0).abs())
+            both.map(|(found, spring)| relative_error(found, spring))
                 .all(|off| off < WEIGHTED_FACTOR)
         };
         assert!(minima.iter().any(is_there), "{springs:?} {minima:?}");
@@ -183,7 +169,7 @@ fn a_start_or_a_trial_without_a_model_is_rejected_and_the_others_stand() {
         minima,
         starts: ends,
     } = all.unwrap();
-    let reached = |minima: &[Minimum]| minima.iter().map(|of| of.starts).collect::<Vec<_>>();
+    let reached = |minima: &[Minimum]| minima.iter().map(|of| of.starts).collect_vec();
     assert_eq!((reached(&minima), failures(&ends)), (vec![3], 0));
     // The second start comes after all analyses of the first.
     let of_one = starts(1, &|_, _| false).0.unwrap().best;
@@ -226,7 +212,7 @@ fn shapes_of_modes_closer_than_they_can_be_told_apart_are_held() {
             DMatrix::from_diagonal(&DVector::from_vec(vec![4.0, 4.0 * (1.0 + separation)]));
         let model = DynamicModel {
             stiffness,
-            mass: DMatrix::identity(2, 2),
+            mass: eye(2),
             shares: vec![share.clone()],
         };
         let test = solve(&model.stiffness, &model.mass, 2).unwrap();
@@ -251,7 +237,7 @@ fn shapes_of_modes_closer_than_they_can_be_told_apart_are_held() {
 fn one_step_from_near_the_truth_leaves_an_error_of_second_order() {
     let case = Case {
         grouping: Grouping::Substructures,
-        ..Case::new(2).unwrap()
+        ..case_of(2)
     };
     let (model, test) = (case.model().unwrap(), case.test_modes().unwrap());
     let off = [0.4, -1.0, 0.8];

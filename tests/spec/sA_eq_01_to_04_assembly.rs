@@ -1,18 +1,7 @@
 //! Assembly and factorization: two routes to the same deflections, and every refusal by name.
 
-use crate::common::matrices::relative_distance;
-use crate::common::said;
-use crate::common::strategies::positive_definite;
-use crate::common::structures::{
-    condition, dense, factorized, grid, of_dense, rod, sizes_of, spring_chain, unit_material,
-};
-use crate::common::tolerances::{CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF};
-use corfem::method::appendix_a::{assemble, element_matrices};
-use corfem::method::elements::unit_stiffness;
-use corfem::method::structure::{Element, ElementKind, Structure};
-use corfem::torque_box::Case;
-use nalgebra::DMatrix;
-use proptest::prelude::*;
+use crate::common::structures::{of_dense, rod, unit_material};
+use crate::prelude::*;
 
 /// Loads on `count` DOF, two sets of them.
 fn loads(count: usize) -> impl Strategy<Value = DMatrix<f64>> {
@@ -57,15 +46,13 @@ fn square(constrained: &[bool]) -> Structure {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// All twelve DOF at once, the constrained ones struck out afterwards: the slow obvious way.
     #[test]
     fn assembly_scatters_elements_and_strikes_out_the_held_dof(
         constrained in prop::collection::vec(prop::bool::ANY, 12).prop_filter("all constrained", |constrained| constrained.contains(&false)),
     ) {
         let structure = square(&constrained);
-        let mut whole = DMatrix::zeros(12, 12);
+        let mut whole = zero_square(12);
         for (element, corners) in structure.elements().iter().zip(structure.corners()) {
             let unit = unit_stiffness(element.kind, corners, &element.material);
             for a in 0..unit.nrows() {
@@ -75,7 +62,7 @@ properties! {
                 }
             }
         }
-        let free: Vec<usize> = (0..12).filter(|&k| !constrained[k]).collect();
+        let free = (0..12).filter(|&k| !constrained[k]).collect_vec();
         let expected = whole.select_rows(&free).select_columns(&free);
         let found = dense(&structure);
         prop_assert_eq!(found.shape(), expected.shape());
@@ -88,9 +75,9 @@ properties! {
 
     #[test]
     fn stiffness_is_linear_in_gage_and_area(a in sizes_of(3), b in sizes_of(3), factor in 0.1..10.0_f64) {
-        let matrices: Vec<_> = element_matrices(&square(&[false; 12])).collect();
+        let matrices = element_matrices(&square(&[false; 12])).collect_vec();
         let at = |sizes: &[f64]| assemble(&matrices, sizes, 12).unwrap();
-        let mixed: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a + factor * b).collect();
+        let mixed = a.iter().zip(&b).map(|(a, b)| a + factor * b).collect_vec();
         prop_assert!(relative_distance(&at(&mixed), &(at(&a) + factor * at(&b))) <= ROUND_OFF);
     }
 
@@ -98,10 +85,10 @@ properties! {
     /// decades.
     #[test]
     fn sparse_and_dense_deflections_agree(number in 1..=4_usize, sizes in sizes_of(39), loads in loads(36)) {
-        let model = Case::new(number).unwrap().model().unwrap();
+        let model = case_of(number).model()?;
         let matrices = model.element_matrices();
-        let stiffness = assemble(matrices, &sizes, 36).unwrap();
-        let found = of_dense(&stiffness).unwrap().solve(&loads).unwrap();
+        let stiffness = assemble(matrices, &sizes, 36)?;
+        let found = of_dense(&stiffness)?.solve(&loads)?;
         let expected = stiffness.clone().cholesky().unwrap().solve(&loads);
         let bar = CONDITIONED_ROUND_OFF * condition(&stiffness);
         prop_assert!(relative_distance(&found, &expected) <= bar, "{:e}", relative_distance(&found, &expected));
@@ -111,10 +98,10 @@ properties! {
     /// numbers of 1e10, which is no reason to refuse.
     #[test]
     fn springs_in_series_add_their_flexibilities(decades in prop::collection::vec(0.0..10.0_f64, 1..8)) {
-        let springs: Vec<f64> = decades.iter().map(|d| 10f64.powf(*d)).collect();
+        let springs = decades.iter().map(|d| 10f64.powf(*d)).collect_vec();
         let structure = spring_chain(&springs, [true, false]);
         let tip = DMatrix::from_fn(springs.len(), 1, |row, _| f64::from(row + 1 == springs.len()));
-        let deflections = factorized(&structure).unwrap().solve(&tip).unwrap();
+        let deflections = factorized(&structure)?.solve(&tip)?;
         let bar = CONDITIONED_ROUND_OFF * condition(&dense(&structure));
         let mut expected = 0.0;
         for (deflection, spring) in deflections.iter().zip(&springs) {
@@ -125,7 +112,7 @@ properties! {
 
     #[test]
     fn a_positive_definite_matrix_of_condition_1e10_is_solved((stiffness, _) in positive_definite(9, 10.0), loads in loads(9)) {
-        let found = of_dense(&stiffness).unwrap().solve(&loads).unwrap();
+        let found = of_dense(&stiffness)?.solve(&loads)?;
         // What a backward stable solution leaves, whatever the condition.
         let residual = (&stiffness * &found - &loads).amax();
         prop_assert!(residual <= MATRIX_ROUND_OFF * stiffness.amax() * found.amax());
@@ -140,7 +127,7 @@ properties! {
 #[test]
 fn wrong_sizes_and_loads_are_refused_by_name() {
     let structure = spring_chain(&[1.0, 2.0, 3.0], [true, false]);
-    let matrices: Vec<_> = element_matrices(&structure).collect();
+    let matrices = element_matrices(&structure).collect_vec();
     for sizes in [vec![1.0; 2], vec![1.0; 4]] {
         let words = format!("element sizes: {} x 1 instead of 3 x 1", sizes.len());
         assert_eq!(said(assemble(&matrices, &sizes, 3)), words);
@@ -180,7 +167,7 @@ fn bad_geometry_is_refused_by_its_element() {
         said(Structure::new(points.collect(), vec![element]))
     };
     let with = |kind, positions: &[[f64; 3]]| {
-        structure(kind, positions, &(1..=positions.len()).collect::<Vec<_>>())
+        structure(kind, positions, &(1..=positions.len()).collect_vec())
     };
     let [a, b, c, d] = [
         [0.0, 0.0, 0.0],

@@ -1,14 +1,6 @@
 //! Appendix A: from structural to dynamic DOF, by more than one route.
 
-use crate::common::draws::reached;
-use crate::common::matrices::relative_distance;
-use crate::common::strategies::{orthogonal, positive_definite};
-use crate::common::tolerances::{CONDITIONED_ROUND_OFF, LEAST_REACHED, MATRIX_ROUND_OFF};
-use crate::common::{not_definite, said};
-use corfem::method::appendix_a::{Condensed, condense};
-use corfem::method::error::Error;
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// Condition numbers of the random stiffness matrices, in decades. Round-off grows with their square here: five decades
 /// leave three digits to compare in the worst case.
@@ -20,7 +12,7 @@ pub fn stiffness_and_kept() -> impl Strategy<Value = (DMatrix<f64>, f64, Vec<usi
         .prop_flat_map(|n| {
             (
                 positive_definite(n, DECADES),
-                prop::sample::subsequence((0..n).collect::<Vec<_>>(), 1..=n),
+                prop::sample::subsequence((0..n).collect_vec(), 1..=n),
             )
         })
         .prop_map(|((stiffness, exponents), kept)| {
@@ -81,14 +73,12 @@ fn condensed(stiffness: &DMatrix<f64>, t: &DMatrix<f64>) -> Result<Condensed, Er
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// (A.3) to (A.8): the flexibility is TᵗK_S⁻¹T; B carries it back, K_D = B K_S Bᵗ; by equal work TᵗBᵗ = I.
     #[test]
     fn condensed_stiffness_and_transformation_satisfy_appendix_a(
         (stiffness, condition, t) in stiffness_and_distribution(),
     ) {
-        let found = condensed(&stiffness, &t).unwrap();
+        let found = condensed(&stiffness, &t)?;
         let flexibility = t.tr_mul(&stiffness.clone().cholesky().unwrap().solve(&t));
         // Round-off of the flexibility grows once more in its inverse.
         let spread = flexibility.symmetric_eigenvalues();
@@ -98,7 +88,7 @@ properties! {
         prop_assert_eq!(&found.stiffness, &found.stiffness.transpose());
         let bt = &found.transformation;
         prop_assert_eq!(bt.shape(), t.shape());
-        let identity = DMatrix::identity(t.ncols(), t.ncols());
+        let identity = eye(t.ncols());
         prop_assert!(relative_distance(&t.tr_mul(bt), &identity) <= bar);
         let through_b = bt.tr_mul(&(&stiffness * bt));
         prop_assert!((through_b - &found.stiffness).amax() <= bar * stiffness.amax());
@@ -111,7 +101,7 @@ properties! {
     fn a_square_load_distribution_is_inverted_and_not_transposed(
         (stiffness, condition, t) in stiffness_and_square_distribution(),
     ) {
-        let found = condensed(&stiffness, &t).unwrap();
+        let found = condensed(&stiffness, &t)?;
         let inverse = t.clone().try_inverse().unwrap();
         // As above: the flexibility's spread is the stiffness's, and up to 16 times as much by T.
         let bar = CONDITIONED_ROUND_OFF * condition * 16.0 * condition;
@@ -126,7 +116,7 @@ properties! {
         (stiffness, condition, t) in stiffness_and_distribution(),
         motion in prop::collection::vec(-1.0..1.0_f64, 10),
     ) {
-        let found = condensed(&stiffness, &t).unwrap();
+        let found = condensed(&stiffness, &t)?;
         let structural = DVector::from_column_slice(&motion[..stiffness.nrows()]);
         let dynamic = t.tr_mul(&structural);
         let energy = structural.dot(&(&stiffness * &structural));
@@ -185,6 +175,6 @@ fn a_bad_load_distribution_is_refused_by_name() {
         // A dynamic DOF that no load reaches is a combination of none.
         (DMatrix::zeros(3, 1), not_definite("dynamic flexibility", 0)),
     ] {
-        assert_eq!(said(condensed(&DMatrix::identity(3, 3), &t)), words);
+        assert_eq!(said(condensed(&eye(3), &t)), words);
     }
 }

@@ -1,17 +1,8 @@
 //! Appendix A on the paper's box: shares of elements, and what freezing B does.
 
-use crate::common::matrices::relative_distance;
-use crate::common::structures::{condition, sizes_of};
-use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
-use crate::common::torque_boxes::{case, factors, stiffness, with_every_element};
-use crate::common::{not_definite, said};
-use corfem::method::appendix_a::condense;
-use corfem::method::model::DynamicModel;
+use crate::common::torque_boxes::stiffness;
+use crate::prelude::*;
 use corfem::method::modes;
-use corfem::torque_box::Case;
-use corfem::torque_box::published::PublishedTable;
-use nalgebra::DMatrix;
-use proptest::prelude::*;
 
 /// K_D at factors on the shares, B left as it was.
 fn frozen(start: &DynamicModel, factors: &[f64]) -> DMatrix<f64> {
@@ -38,13 +29,11 @@ fn largest_excess(frozen: &DMatrix<f64>, exact: &DynamicModel) -> f64 {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// With the load between the spars shared by them as if it rode on no rib, the mid points would be averages of the
     /// spars' and the dynamic flexibility singular: the third point of the tip rib follows from the two before it.
     #[test]
     fn averaged_mid_points_would_make_the_boxs_flexibility_singular(case in case(), sizes in sizes_of(39)) {
-        let model = case.model().unwrap();
+        let model = case.model()?;
         let (factor, _) = stiffness(&model, &sizes);
         prop_assert!(condense(&factor, model.load_distribution()).is_ok());
         let mut t = model.load_distribution().clone();
@@ -59,7 +48,7 @@ properties! {
     #[test]
     fn element_shares_sum_to_the_dynamic_stiffness(case in case(), factors in factors(39)) {
         let model = with_every_element(&case);
-        let dynamic = model.matrices(&factors).unwrap();
+        let dynamic = model.matrices(&factors)?;
         prop_assert_eq!(dynamic.shares.len(), 39);
         let sum: DMatrix<f64> = dynamic.shares.iter().sum();
         prop_assert!(relative_distance(&sum, &dynamic.stiffness) <= MATRIX_ROUND_OFF);
@@ -72,11 +61,11 @@ properties! {
     #[test]
     fn a_share_is_the_elements_stiffness_through_b(case in case(), factors in factors(39), row in 0..39_usize) {
         let model = with_every_element(&case);
-        let sizes = model.sizes(&factors).unwrap();
+        let sizes = model.sizes(&factors)?;
         let (factor, _) = stiffness(&model, &sizes);
-        let bt = condense(&factor, model.load_distribution()).unwrap().transformation;
+        let bt = condense(&factor, model.load_distribution())?.transformation;
         let element = &model.element_matrices()[row];
-        let mut spread = DMatrix::zeros(36, 36);
+        let mut spread = zero_square(36);
         for (a, &at) in element.dof.iter().enumerate() {
             for (b, &to) in element.dof.iter().enumerate() {
                 spread[(at, to)] = element.unit[(a, b)];
@@ -84,7 +73,7 @@ properties! {
         }
         let expected = bt.tr_mul(&(spread * &bt));
         let scale = element.unit.amax() * bt.amax().powi(2);
-        let shares = model.matrices(&factors).unwrap().shares;
+        let shares = model.matrices(&factors)?.shares;
         prop_assert!((&shares[row] / sizes[row] - &expected).amax() <= MATRIX_ROUND_OFF * scale);
         prop_assert_eq!(expected.shape(), (9, 9));
     }
@@ -93,9 +82,9 @@ properties! {
     /// K_D with frozen B exceeds the exact one, and every frequency lies above.
     #[test]
     fn frozen_b_frequencies_bound_exact_ones_from_above(case in case(), factors in factors(15)) {
-        let model = case.model().unwrap();
-        let start = model.matrices(&[1.0; 15]).unwrap();
-        let exact = model.matrices(&factors).unwrap();
+        let model = case.model()?;
+        let start = model.matrices(&[1.0; 15])?;
+        let exact = model.matrices(&factors)?;
         let frozen = frozen(&start, &factors);
         let excess = (&frozen - &exact.stiffness).symmetric_eigenvalues();
         prop_assert!(excess.min() >= -MATRIX_ROUND_OFF * frozen.amax(), "{:e}", excess.min());
@@ -109,8 +98,8 @@ properties! {
     #[test]
     fn a_common_factor_leaves_b_exact(case in case(), factor in 0.55..=1.5_f64) {
         let model = with_every_element(&case);
-        let start = model.matrices(&[1.0; 39]).unwrap();
-        let scaled = model.matrices(&[factor; 39]).unwrap();
+        let start = model.matrices(&[1.0; 39])?;
+        let scaled = model.matrices(&[factor; 39])?;
         prop_assert!(relative_distance(&scaled.stiffness, &(factor * start.stiffness)) <= MATRIX_ROUND_OFF);
     }
 }
@@ -120,17 +109,18 @@ properties! {
 #[test]
 fn frozen_b_overstates_the_published_first_steps_by_up_to_3_percent() {
     for (number, table, percent) in [(1, 4, "1.4"), (2, 6, "0.6"), (3, 8, "2.6")] {
-        let (case, table) = (
-            Case::new(number).unwrap(),
-            PublishedTable::number(table).unwrap(),
-        );
+        let (case, table) = (case_of(number), PublishedTable::number(table).unwrap());
         let gages = |column: &str| -> Vec<f64> {
             (1..=15)
                 .map(|label| table.required(&label.to_string(), column).unwrap())
                 .collect()
         };
         let (from, to) = (gages("initial_in"), gages("pass_1_in"));
-        let factors: Vec<f64> = to.iter().zip(&from).map(|(to, from)| to / from).collect();
+        let factors = to
+            .iter()
+            .zip(&from)
+            .map(|(to, from)| to / from)
+            .collect_vec();
         let model = case.model_with(&from).unwrap();
         let start = model.matrices(&[1.0; 15]).unwrap();
         let exact = model.matrices(&factors).unwrap();
@@ -142,12 +132,12 @@ fn frozen_b_overstates_the_published_first_steps_by_up_to_3_percent() {
 /// An element matrix of another origin need not be semidefinite, and its share counts what no way to deform explains.
 #[test]
 fn shares_of_an_indefinite_element_sum_to_the_stiffness() {
-    let model = with_every_element(&Case::new(1).unwrap());
-    let mut units: Vec<DMatrix<f64>> = model
+    let model = with_every_element(&case_of(1));
+    let mut units = model
         .element_matrices()
         .iter()
         .map(|element| element.unit.clone())
-        .collect();
+        .collect_vec();
     let (size, last) = (0.01 * units[4].amax(), units[4].nrows() - 1);
     units[4][(0, last)] += size;
     units[4][(last, 0)] += size;

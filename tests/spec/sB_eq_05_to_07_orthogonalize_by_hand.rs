@@ -1,13 +1,6 @@
 //! Orthogonal test modes (B.6, B.7) on two and three shapes, and what is refused.
 
-use crate::common::appendix_b::modes;
-use crate::common::tolerances::{ORTHOGONAL_INPUT, ROUND_OFF};
-use crate::common::{not_definite, said};
-use approx::assert_relative_eq;
-use corfem::method::appendix_b::orthogonalize;
-use corfem::method::modes::{Modes, generalized_mass};
-use nalgebra::{DMatrix, DVector, dmatrix};
-use std::f64::consts::PI;
+use crate::prelude::*;
 
 #[test]
 fn generalized_mass_by_hand() {
@@ -31,7 +24,7 @@ fn an_overlap_is_charged_to_the_higher_mode() {
     // First order: the lower of two shapes moves by e a/(b − a), the higher by e b/(b − a).
     let (a, b, e) = (100.0, 400.0, 1e-4);
     let shapes = dmatrix![1.0, e; 0.0, (1.0_f64 - e * e).sqrt()];
-    let found = orthogonalize(&modes(&[a, b], shapes), &DMatrix::identity(2, 2)).unwrap();
+    let found = orthogonalize(&modes(&[a, b], shapes), &eye(2)).unwrap();
     assert_relative_eq!(found.movement[0].shape, e / 3.0, max_relative = 10.0 * e);
     assert_relative_eq!(
         found.movement[1].shape,
@@ -60,7 +53,7 @@ fn one_mode_is_only_scaled() {
 fn nearly_dependent_shapes_are_told_from_dependent_ones() {
     for (angle, dependent) in [(1e-5, false), (1e-7, true)] {
         let shapes = dmatrix![1.0, 1.0; 0.0, angle];
-        let outcome = orthogonalize(&modes(&[1.0, 2.0], shapes), &DMatrix::identity(2, 2));
+        let outcome = orthogonalize(&modes(&[1.0, 2.0], shapes), &eye(2));
         assert_eq!(outcome.is_ok(), !dependent);
         if dependent {
             assert_eq!(said(outcome), not_definite("overlap of the test shapes", 1));
@@ -72,10 +65,7 @@ fn nearly_dependent_shapes_are_told_from_dependent_ones() {
 fn equal_shapes_are_dependent_in_faer_s_own_pivot_too() {
     let shapes = dmatrix![1.0, 0.0, 1.0; 0.0, 1.0, 0.0; 0.0, 0.0, 0.0];
     assert_eq!(
-        said(orthogonalize(
-            &modes(&[1.0, 2.0, 3.0], shapes),
-            &DMatrix::identity(3, 3)
-        )),
+        said(orthogonalize(&modes(&[1.0, 2.0, 3.0], shapes), &eye(3))),
         not_definite("overlap of the test shapes", 2)
     );
 }
@@ -85,7 +75,7 @@ fn round_off_of_a_product_is_no_overlap() {
     // Two modes of one frequency turn by 45 degrees for any overlap at all, so round-off must not count as one.
     let movement = |overlap: f64| {
         let shapes = dmatrix![1.0, overlap; 0.0, 1.0];
-        let found = orthogonalize(&modes(&[4.0, 4.0], shapes), &DMatrix::identity(2, 2)).unwrap();
+        let found = orthogonalize(&modes(&[4.0, 4.0], shapes), &eye(2)).unwrap();
         found.movement[0].shape
     };
     assert_eq!(movement(0.999e-12), 0.0);
@@ -133,7 +123,7 @@ fn bad_input_is_refused() {
         ),
         (
             &[1.0, 2.0][..],
-            DMatrix::identity(2, 2),
+            eye(2),
             identity(3),
             "dynamic mass: 3 x 3 instead of 2 x 2".into(),
         ),

@@ -1,8 +1,6 @@
 //! Which of overlapping test modes is deleted, by hand: unit masses, so overlaps are plain products.
 
-use crate::common::appendix_b::{modes, slight_overlap, unit_shapes};
-use corfem::method::appendix_b::{ModeVerdict, MovementLimits, Supports, examine, orthogonalize};
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 #[test]
 fn of_two_overlapping_modes_the_higher_is_deleted() {
@@ -16,14 +14,8 @@ fn of_two_overlapping_modes_the_higher_is_deleted() {
                 [0.0, 0.0, 1.0, 0.0],
             ]),
         );
-        let found = examine(
-            &raw,
-            &DMatrix::identity(4, 4),
-            Supports::Held,
-            &MovementLimits::default(),
-        )
-        .unwrap();
-        let expected: Vec<usize> = (0..3).filter(|&mode| mode != higher).collect();
+        let found = examine(&raw, &eye(4), Supports::Held, &MovementLimits::default()).unwrap();
+        let expected = (0..3).filter(|&mode| mode != higher).collect_vec();
         assert_eq!(found.kept, expected);
     }
 }
@@ -39,13 +31,7 @@ fn a_third_mode_decides_between_two() {
             [0.02, 0.0, 1.0, 0.0],
         ]),
     );
-    let found = examine(
-        &raw,
-        &DMatrix::identity(4, 4),
-        Supports::Held,
-        &MovementLimits::default(),
-    )
-    .unwrap();
+    let found = examine(&raw, &eye(4), Supports::Held, &MovementLimits::default()).unwrap();
     assert_eq!(found.kept, [1, 2]);
 }
 
@@ -62,7 +48,7 @@ fn a_low_wrong_mode_is_told_by_its_many_overlaps() {
             [0.0, 0.0, 0.0, 1.0],
         ]),
     );
-    let mass = DMatrix::identity(4, 4);
+    let mass = eye(4);
     let moved = orthogonalize(&raw, &mass).unwrap().movement;
     assert!(
         moved[0].shape < MovementLimits::default().shape
@@ -85,15 +71,13 @@ fn two_wrong_modes_are_both_deleted() {
             [0.0, 0.0, 0.0, 1.0],
         ]),
     );
-    let found = examine(
-        &raw,
-        &DMatrix::identity(4, 4),
-        Supports::Held,
-        &MovementLimits::default(),
-    )
-    .unwrap();
+    let found = examine(&raw, &eye(4), Supports::Held, &MovementLimits::default()).unwrap();
     assert_eq!(found.kept, [2, 3]);
-    let verdicts: Vec<ModeVerdict> = found.reports.iter().map(|report| report.verdict).collect();
+    let verdicts = found
+        .reports
+        .iter()
+        .map(|report| report.verdict)
+        .collect_vec();
     assert_eq!(
         verdicts,
         [
@@ -162,7 +146,7 @@ fn a_frequency_that_falls_counts_like_one_that_rises() {
             [0.0, 0.0, 1.0, 0.0],
         ]),
     );
-    let mass = DMatrix::identity(4, 4);
+    let mass = eye(4);
     let movement = orthogonalize(&raw, &mass).unwrap().movement;
     let fall = -movement[0].frequency;
     assert!(fall > movement[1].frequency.abs() && fall > movement[2].frequency.abs());

@@ -1,16 +1,6 @@
 //! The report on test modes, and the deletion of deviant ones.
 
-use crate::common::appendix_b::relative_difference;
-use crate::common::measured::{free_beam, held_chain, mixture, noise};
-use crate::common::tolerances::{BALANCE_RESIDUAL, EXACT_MODE_RESIDUAL, ORTHOGONAL_INPUT};
-use crate::common::{alter, not_definite, said};
-use approx::assert_relative_eq;
-use corfem::method::appendix_b::{
-    ModeVerdict, MovementLimits, SYMMETRIC, Supports, examine, orthogonalize, rigid_body_vectors,
-};
-use corfem::method::modes::{Modes, generalized_mass, solve};
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// The modes without one of them.
 fn without(all: &Modes, mode: usize) -> Modes {
@@ -18,17 +8,15 @@ fn without(all: &Modes, mode: usize) -> Modes {
         all.omega_squared().clone().remove_row(mode),
         all.shapes().clone().remove_column(mode),
     )
-    .expect("modes")
+    .unwrap()
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// Exact modes of a held structure pass unchanged.
     #[test]
     fn exact_modes_of_a_held_structure_are_kept((stiffness, mass) in held_chain(7)) {
-        let exact = solve(&stiffness, &mass, 5).unwrap();
-        let found = examine(&exact, &mass, Supports::Held, &MovementLimits::default()).unwrap();
+        let exact = solve(&stiffness, &mass, 5)?;
+        let found = examine(&exact, &mass, Supports::Held, &MovementLimits::default())?;
         prop_assert_eq!(&found.kept, &vec![0, 1, 2, 3, 4]);
         prop_assert_eq!(found.reports.len(), 5);
         prop_assert!(relative_difference(exact.shapes(), found.modes.shapes()) <= ORTHOGONAL_INPUT);
@@ -45,11 +33,11 @@ properties! {
     #[test]
     fn exact_modes_of_a_free_structure_are_kept(beam in free_beam()) {
         let exact = beam.elastic_modes(2);
-        let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs).unwrap();
+        let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs)?;
         let supports = Supports::Free { stiffness: &beam.stiffness, rigid_body: &rigid_body };
-        let found = examine(&exact, &beam.mass, supports, &MovementLimits::default()).unwrap();
+        let found = examine(&exact, &beam.mass, supports, &MovementLimits::default())?;
         let spread = exact.omega_squared().max() / exact.omega_squared().min();
-        prop_assert_eq!(found.kept, (0..exact.len()).collect::<Vec<_>>());
+        prop_assert_eq!(found.kept, (0..exact.len()).collect_vec());
         prop_assert!(relative_difference(exact.shapes(), found.modes.shapes()) <= EXACT_MODE_RESIDUAL * spread);
         for report in &found.reports {
             prop_assert_eq!(report.verdict, ModeVerdict::Kept);
@@ -63,10 +51,10 @@ properties! {
     /// been measured.
     #[test]
     fn the_wrong_mode_is_the_one_deleted((stiffness, mass) in held_chain(7), wrong in mixture(5)) {
-        let exact = solve(&stiffness, &mass, 5).unwrap();
+        let exact = solve(&stiffness, &mass, 5)?;
         let mode = wrong.modes[0];
-        let found = examine(&wrong.spoil(&exact), &mass, Supports::Held, &MovementLimits::default()).unwrap();
-        prop_assert_eq!(&found.kept, &(0..5).filter(|&other| other != mode).collect::<Vec<_>>());
+        let found = examine(&wrong.spoil(&exact), &mass, Supports::Held, &MovementLimits::default())?;
+        prop_assert_eq!(&found.kept, &(0..5).filter(|&other| other != mode).collect_vec());
         for (other, report) in found.reports.iter().enumerate() {
             prop_assert_eq!(report.verdict, if other == mode { ModeVerdict::NotOrthogonal } else { ModeVerdict::Kept });
         }
@@ -75,7 +63,7 @@ properties! {
         for (found, expected) in found.modes.omega_squared().iter().zip(expected.omega_squared().iter()) {
             assert_relative_eq!(*found, *expected, max_relative = ORTHOGONAL_INPUT);
         }
-        let moved = orthogonalize(&wrong.spoil(&exact), &mass).unwrap().movement;
+        let moved = orthogonalize(&wrong.spoil(&exact), &mass)?.movement;
         prop_assert_eq!(found.reports[mode].movement, Some(moved[mode]));
     }
 
@@ -88,10 +76,10 @@ properties! {
         let energy = beam.mass.diagonal().component_mul(&exact.shapes().column(mode).map(|v| v * v));
         let mut raw = exact.clone();
         alter(&mut raw, |_, shapes| shapes[(energy.imax(), mode)] *= -1.0);
-        let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs).unwrap();
+        let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs)?;
         let supports = Supports::Free { stiffness: &beam.stiffness, rigid_body: &rigid_body };
-        let found = examine(&raw, &beam.mass, supports, &MovementLimits::default()).unwrap();
-        prop_assert_eq!(&found.kept, &(0..exact.len()).filter(|&other| other != mode).collect::<Vec<_>>());
+        let found = examine(&raw, &beam.mass, supports, &MovementLimits::default())?;
+        prop_assert_eq!(&found.kept, &(0..exact.len()).filter(|&other| other != mode).collect_vec());
         prop_assert_eq!(found.reports.len(), exact.len());
         let report = found.reports[mode];
         prop_assert_eq!((report.verdict, report.movement), (ModeVerdict::Unbalanced, None));
@@ -114,14 +102,14 @@ properties! {
         let mut raw = beam.elastic_modes(2);
         // Small enough that balancing, at most the noise's mass norm of 0.02 √8, deletes none.
         alter(&mut raw, |_, shapes| *shapes += 0.02 * noise);
-        let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs).unwrap();
+        let rigid_body = rigid_body_vectors(&SYMMETRIC, &beam.dofs)?;
         let supports = Supports::Free { stiffness: &beam.stiffness, rigid_body: &rigid_body };
         let limits = MovementLimits::default();
-        let found = examine(&raw, &beam.mass, supports, &limits).unwrap();
+        let found = examine(&raw, &beam.mass, supports, &limits)?;
         let count = found.kept.len();
         prop_assert_eq!(found.modes.shapes().shape(), (beam.dofs.len(), count));
         prop_assert_eq!(found.modes.len(), count);
-        let overlap = generalized_mass(found.modes.shapes(), &beam.mass).unwrap() - DMatrix::identity(count, count);
+        let overlap = generalized_mass(found.modes.shapes(), &beam.mass)? - eye(count);
         prop_assert!(overlap.amax() <= ORTHOGONAL_INPUT);
         for (place, omega_squared) in found.modes.omega_squared().iter().enumerate() {
             let shape = found.modes.shapes().column(place);
@@ -146,13 +134,13 @@ properties! {
     /// A deleted mode leaves no trace: the kept ones examined alone come out the same, all of them kept.
     #[test]
     fn deletion_leaves_no_trace((stiffness, mass) in held_chain(7), noise in noise(7, 5)) {
-        let mut raw = solve(&stiffness, &mass, 5).unwrap();
+        let mut raw = solve(&stiffness, &mass, 5)?;
         alter(&mut raw, |_, shapes| *shapes += 0.1 * noise);
-        let found = examine(&raw, &mass, Supports::Held, &MovementLimits::default()).unwrap();
-        let chosen = Modes::new(DVector::from_iterator(found.kept.len(), found.kept.iter().map(|&mode| raw.omega_squared()[mode])), raw.shapes().select_columns(&found.kept)).expect("modes");
-        let again = examine(&chosen, &mass, Supports::Held, &MovementLimits::default()).unwrap();
+        let found = examine(&raw, &mass, Supports::Held, &MovementLimits::default())?;
+        let chosen = Modes::new(DVector::from_iterator(found.kept.len(), found.kept.iter().map(|&mode| raw.omega_squared()[mode])), raw.shapes().select_columns(&found.kept))?;
+        let again = examine(&chosen, &mass, Supports::Held, &MovementLimits::default())?;
         prop_assert_eq!(again.modes, found.modes);
-        prop_assert_eq!(again.kept, (0..found.kept.len()).collect::<Vec<_>>());
+        prop_assert_eq!(again.kept, (0..found.kept.len()).collect_vec());
     }
 }
 
@@ -160,7 +148,7 @@ properties! {
 #[test]
 fn an_indefinite_mass_is_refused() {
     let mass = DMatrix::from_row_slice(2, 2, &[1.0, 2.0, 2.0, 1.0]);
-    let raw = Modes::new(vec![1.0, 4.0].into(), DMatrix::identity(2, 2)).expect("modes");
+    let raw = Modes::new(vec![1.0, 4.0].into(), eye(2)).unwrap();
     let refused = examine(&raw, &mass, Supports::Held, &MovementLimits::default());
     assert_eq!(said(refused), not_definite("dynamic mass", 1));
 }

@@ -1,16 +1,10 @@
 //! The report on test modes by hand: balance and its limit, settings, and what is refused.
 
-use crate::common::appendix_b::{modes, relative_difference, slight_overlap, unit_shapes};
-use crate::common::tolerances::{ORTHOGONAL_INPUT, ROUND_OFF};
-use crate::common::{not_definite, said};
-use approx::assert_relative_eq;
-use corfem::method::appendix_b::{MovementLimits, Supports, balance, examine};
-use corfem::method::error::Error;
-use nalgebra::{DMatrix, dmatrix};
+use crate::prelude::*;
 
 #[test]
 fn a_balance_at_its_limit_is_allowed_and_past_it_not() {
-    let (mass, stiffness) = (DMatrix::identity(3, 3), DMatrix::zeros(3, 3));
+    let (mass, stiffness) = (eye(3), zero_square(3));
     let rigid_body = dmatrix![1.0, -1.0; 1.0, 0.0; 1.0, 1.0];
     let supports = Supports::Free {
         stiffness: &stiffness,
@@ -45,9 +39,9 @@ fn a_balance_at_its_limit_is_allowed_and_past_it_not() {
 
 #[test]
 fn balancing_uses_the_suspension_that_is_given() {
-    let mass = DMatrix::identity(3, 3);
+    let mass = eye(3);
     let rigid_body = dmatrix![1.0, -1.0; 1.0, 0.0; 1.0, 1.0];
-    let stiffness = DMatrix::from_diagonal(&nalgebra::dvector![3.0, 0.0, 3.0]);
+    let stiffness = DMatrix::from_diagonal(&dvector![3.0, 0.0, 3.0]);
     let raw = modes(&[100.0], dmatrix![1.1; -2.0; 1.0]);
     let supports = Supports::Free {
         stiffness: &stiffness,
@@ -66,7 +60,7 @@ fn balancing_uses_the_suspension_that_is_given() {
 
 #[test]
 fn a_held_structure_called_free_is_refused() {
-    let mass = DMatrix::<f64>::identity(3, 3);
+    let mass = eye(3);
     let rigid_body = DMatrix::repeat(3, 1, 1.0);
     let supports = Supports::Free {
         stiffness: &mass,
@@ -82,8 +76,8 @@ fn a_held_structure_called_free_is_refused() {
 
 #[test]
 fn dependent_modes_are_numbered_among_those_that_are_left() {
-    let mass = DMatrix::<f64>::identity(4, 4);
-    let stiffness = DMatrix::zeros(4, 4);
+    let mass = eye(4);
+    let stiffness = zero_square(4);
     let rigid_body = DMatrix::repeat(4, 1, 1.0);
     let supports = Supports::Free {
         stiffness: &stiffness,
@@ -137,19 +131,4 @@ fn limits_out_of_range_are_refused() {
             );
         }
     }
-}
-
-#[test]
-fn the_wing_box_s_own_test_modes_are_kept() {
-    let case = corfem::torque_box::Case::new(2).unwrap();
-    let raw = case.test_modes().unwrap();
-    let found = examine(
-        &raw,
-        &case.reconstruction.mass(),
-        Supports::Held,
-        &MovementLimits::default(),
-    )
-    .unwrap();
-    assert_eq!(found.kept, (0..9).collect::<Vec<_>>());
-    assert!(relative_difference(raw.shapes(), found.modes.shapes()) <= ORTHOGONAL_INPUT);
 }

@@ -1,23 +1,13 @@
 //! Modes of complex unsymmetric pencils, left and right: biorthogonality, order, scale and phase, against dense
 //! complex eigensolutions by another route (QZ on the pencil itself).
 
-use crate::common::appendix_c::{largest_root_error, on_either_side, three_mass_chain};
-use crate::common::assert_refused;
-use crate::common::complex_pencils::{
-    ComplexPencil, Complexes, amax, complex, complex_pencil, complex_square, roots_by_qz, through,
-};
+use crate::common::complex_pencils::{ComplexPencil, complex_pencil, complex_square};
 use crate::common::strategies;
-use crate::common::tolerances::{
-    COMPLEX_EIGEN_ROUND_OFF, DEFECTIVE_COSINE, EIGEN_ROUND_OFF, EQUALLY_LARGE, ROUND_OFF,
-};
-use corfem::method::appendix_c::Pencil;
-use corfem::method::appendix_c::solve;
-use corfem::method::error::Error;
-use nalgebra::{Complex, DMatrix, DVector, dmatrix, dvector};
-use proptest::prelude::*;
+use crate::prelude::*;
+use appendix_c::solve;
 
 fn identity(size: usize) -> Complexes {
-    DMatrix::identity(size, size)
+    eye(size)
 }
 
 /// Cosine of a mode's left and right shapes, if that is what was refused.
@@ -34,8 +24,6 @@ fn defective_cosine(error: &Error, mode: usize) -> Option<f64> {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// (C.8) to (C.10): UᵗKV = I and UᵗGV = Λ, and both sets solve their own pencil (C.1), (C.2).
     #[test]
     fn left_and_right_modes_are_biorthogonal(pencil in complex_pencil()) {
@@ -166,7 +154,7 @@ fn conjugate_pairs_stand_in_the_order_of_their_argument() {
             angle.sin(), angle.cos(), 0.3, -0.1;
             0.0, 0.0, 2.0, 0.5;
             0.0, 0.0, 0.0, 0.25]);
-        let modes = solve(&DMatrix::identity(4, 4), &g).unwrap();
+        let modes = solve(&eye(4), &g).unwrap();
         let turn = Complex::from_polar(1.0, angle);
         let expected = [Complex::from(2.0), turn.conj(), turn, Complex::from(0.25)];
         for (found, expected) in modes.roots.iter().zip(expected) {
@@ -194,7 +182,7 @@ fn conjugate_pairs_stand_in_the_order_of_their_argument() {
             Complex::from(0.5),
         ];
         let g = DMatrix::from_diagonal(&DVector::from_row_slice(&roots));
-        let modes = solve(&DMatrix::identity(5, 5), &g).unwrap();
+        let modes = solve(&eye(5), &g).unwrap();
         let expected = [roots[0], middle[0], middle[1], middle[2], roots[4]];
         for (found, expected) in modes.roots.iter().zip(expected) {
             assert!(
@@ -208,14 +196,14 @@ fn conjugate_pairs_stand_in_the_order_of_their_argument() {
         Complex::from_polar(1.0, -1.0),
         Complex::from_polar(1.0 + 1e-6, 1.0)
     ]);
-    let modes = solve(&DMatrix::identity(2, 2), &g).unwrap();
+    let modes = solve(&eye(2), &g).unwrap();
     assert!(modes.roots[0].im > 0.0);
 }
 
 #[test]
 fn defective_pencil_is_refused_and_its_mode_named() {
     // One shape for the double root 1, behind the root 2.
-    let solved = |g: DMatrix<f64>| solve(&DMatrix::identity(3, 3), &complex(&g));
+    let solved = |g: DMatrix<f64>| solve(&eye(3), &complex(&g));
     let refused = |g| defective_cosine(&solved(g).expect_err("one shape too few"), 1);
     let double = refused(dmatrix![1.0, 1.0, 0.0; 0.0, 1.0, 0.0; 0.0, 0.0, 2.0]);
     assert!(double.is_some_and(|cosine| cosine < DEFECTIVE_COSINE));
@@ -227,9 +215,9 @@ fn defective_pencil_is_refused_and_its_mode_named() {
 
 #[test]
 fn pencils_that_do_not_fit_are_refused() {
-    let (what, identity) = ("mass and aerodynamic terms", DMatrix::identity(2, 2));
+    let (what, identity) = ("mass and aerodynamic terms", eye(2));
     assert_refused(
-        solve(&DMatrix::zeros(0, 0), &DMatrix::zeros(0, 0)),
+        solve(&zero_square(0), &zero_square(0)),
         Error::Count {
             what: "degrees of freedom",
             found: 0,

@@ -1,16 +1,8 @@
 //! Appendix C on a wing section with aileron in a flow: complex and unsymmetric, against the dense complex eigensolution.
 
-use crate::common::appendix_c::largest_root_error;
-use crate::common::assert_refused;
-use crate::common::complex_pencils::{
-    Complexes, aeroelastic_section, amax, complex, roots_by_qz, through,
-};
-use crate::common::log_log_slope;
-use crate::common::tolerances::{COMPLEX_EIGEN_ROUND_OFF, EIGEN_ROUND_OFF, ORDER_SLACK, ROUND_OFF};
-use corfem::method::appendix_c::Pencil;
-use corfem::method::appendix_c::{LeftRightModes, solve};
-use corfem::method::error::Error;
-use nalgebra::{Complex, DMatrix, DVector};
+use crate::common::complex_pencils::aeroelastic_section;
+use crate::prelude::*;
+use appendix_c::solve;
 
 /// The wing section before and after a change of flow and structure.
 struct Section {
@@ -25,7 +17,7 @@ struct Section {
 /// More dynamic pressure, softer torsion, stiffer and damped hinge, heavier aileron.
 fn section(size: f64) -> Section {
     let (real_stiffness, g) = aeroelastic_section(0.15);
-    let mut stiffness_change = DMatrix::zeros(3, 3);
+    let mut stiffness_change = zero_square(3);
     stiffness_change[(1, 1)] = Complex::from(-0.4 * size);
     stiffness_change[(2, 2)] = Complex::new(0.04 * size, 0.02 * size);
     let (_, more_pressure) = aeroelastic_section(0.15 * (1.0 + size));
@@ -33,7 +25,7 @@ fn section(size: f64) -> Section {
     g_change[(2, 2)] += Complex::from(0.01 * size);
     let modes = solve(&real_stiffness, &g).expect("the section has three modes");
     let stiffness = complex(&real_stiffness);
-    let changed = Pencil::new(&stiffness, &modes, &stiffness_change, &g_change).expect("it fits");
+    let changed = Pencil::new(&stiffness, &modes, &stiffness_change, &g_change).unwrap();
     let exact = roots_by_qz(&(&stiffness + &stiffness_change), &(&g + &g_change));
     Section {
         stiffness,
@@ -64,7 +56,7 @@ fn wing_section_is_complex_and_unsymmetric() {
     assert!(amax(&(&modes.left - &modes.right)) > 0.05);
     let alpha = through(&modes.left, &g_change, &modes.right);
     assert!(amax(&(&alpha - alpha.transpose())) > 1e-3);
-    let identity = complex(&DMatrix::identity(3, 3));
+    let identity = complex(&eye(3));
     assert!(amax(&(through(&modes.left, &k, &modes.right) - &identity)) < EIGEN_ROUND_OFF);
     // A = k + β and G = kΛ + α, with k = I.
     let beta = through(&modes.left, &stiffness_change, &modes.right);
@@ -90,26 +82,6 @@ fn wing_section_in_a_faster_flow_has_the_roots_of_the_dense_eigensolution() {
     assert!(converged < COMPLEX_EIGEN_ROUND_OFF, "{converged:e}");
 }
 
-/// Order r of Recursive 1 leaves an error of order r + 1 in complex roots too.
-#[test]
-fn orders_of_recursive_1_hold_for_complex_roots() {
-    for order in 1..=3 {
-        let points: Vec<(f64, f64)> = [0.08, 0.04, 0.02]
-            .into_iter()
-            .map(|size| {
-                let Section { changed, exact, .. } = section(size);
-                let found = changed.recursive_1(order).expect("separate roots");
-                (size, largest_root_error(found.roots.as_slice(), &exact))
-            })
-            .collect();
-        let slope = log_log_slope(&points);
-        assert!(
-            slope > order as f64 + 1.0 - ORDER_SLACK,
-            "order {order}: {slope}"
-        );
-    }
-}
-
 /// The transposed change exchanges rows and columns and nothing else.
 #[test]
 fn transposed_change_belongs_to_the_left_shapes() {
@@ -125,7 +97,7 @@ fn changes_that_do_not_fit_their_modes_are_refused() {
     let (stiffness, g) = aeroelastic_section(0.15);
     let k = complex(&stiffness);
     let modes = solve(&stiffness, &g).unwrap();
-    let none = DMatrix::zeros(3, 3);
+    let none = zero_square(3);
     assert!(Pencil::new(&k, &modes, &none, &none).is_ok());
     // The right shapes are not the left ones here.
     let same = LeftRightModes {
@@ -207,7 +179,7 @@ fn fewer_modes_than_degrees_of_freedom_see_their_part_of_a_change() {
         right: modes.right.columns(0, 2).into_owned(),
         left: modes.left.columns(0, 2).into_owned(),
     };
-    let part = Pencil::new(&k, &two, &stiffness_change, &DMatrix::zeros(3, 3)).unwrap();
+    let part = Pencil::new(&k, &two, &stiffness_change, &zero_square(3)).unwrap();
     assert_eq!(part.a().shape(), (2, 2));
     assert!(amax(&(part.a() - changed.a().view((0, 0), (2, 2)))) < ROUND_OFF);
     // Without a change of G it is kΛ.

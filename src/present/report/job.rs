@@ -345,7 +345,7 @@ fn moved(found: &CorrelatedJob) -> Option<[Vec<Vec<Vector3<f64>>>; 3]> {
 }
 
 /// Lines that join all places, each to the nearest one that is joined already.
-fn joined(mut places: Vec<Vector3<f64>>) -> Vec<Vec<Vector3<f64>>> {
+pub(in crate::present) fn joined(mut places: Vec<Vector3<f64>>) -> Vec<Vec<Vector3<f64>>> {
     let mut done: Vec<Vector3<f64>> = places.pop().into_iter().collect();
     let mut lines = Vec::new();
     while !places.is_empty() {

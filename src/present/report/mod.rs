@@ -1,7 +1,7 @@
 //! The content of a report on any correlation.
 
 mod answer;
-mod job;
+pub(super) mod job;
 
 use crate::job::concern::Grade;
 use crate::job::verdict::Verdict;

@@ -1,9 +1,7 @@
 //! Closed forms that the numerical routes are compared with: the energy of the shear panel, chains of equal
 //! masses and springs, the uniform rod.
 
-use corfem::method::structure::Material;
-use nalgebra::Vector2;
-use std::f64::consts::PI;
+use crate::prelude::*;
 
 /// Corners of a panel in its mean plane, the first at the origin, the second on the first axis, in.
 pub type Flat = [Vector2<f64>; 4];

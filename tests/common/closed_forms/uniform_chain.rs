@@ -1,9 +1,6 @@
 //! The uniform chain with both ends held, whose modes are written down.
 
-use super::analytical::{ChainEnds, chain_eigenvalues};
-use corfem::method::modes::{Modes, apply_sign_rule};
-use nalgebra::{DMatrix, DVector};
-use std::f64::consts::PI;
+use crate::prelude::*;
 
 /// Modes of the uniform chain of `mass_count` masses $m$ (lbf·s²/in) and $d+1$ springs $k$ (lbf/in), both ends held:
 ///
@@ -21,5 +18,5 @@ pub fn uniform_held_modes(mass_count: usize, stiffness: f64, mass: f64) -> Modes
     });
     apply_sign_rule(&mut shapes);
     let omega_squared = chain_eigenvalues(ChainEnds::FixedFixed, mass_count, stiffness, mass);
-    Modes::new(DVector::from_vec(omega_squared), shapes).expect("modes")
+    Modes::new(DVector::from_vec(omega_squared), shapes).unwrap()
 }

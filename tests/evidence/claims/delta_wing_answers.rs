@@ -1,18 +1,7 @@
 //! What the delta wing does under load and in vibration, beside what NASTRAN printed, what was measured, and what an analog
 //! computer gave: an experiment nobody here can tune.
 
-use crate::common::decks::bulk_text;
-use crate::common::known::delta_wing::{
-    DeltaWing, MEASURED_GRIDS, TipLoad, known_deflections, known_frequencies,
-};
-use crate::common::structures::lumped_mass;
-use crate::common::tolerances::{
-    ANALOG_FREQUENCY, CONDITIONED_ROUND_OFF, MATRIX_ROUND_OFF, PRINTED_SEVEN_DIGITS, ROUND_OFF,
-};
-use approx::assert_relative_eq;
-use corfem::files::deck::{self, BulkData};
-use corfem::method::appendix_a::{assemble, element_matrices};
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 fn wing() -> DeltaWing {
     DeltaWing::embedded()
@@ -20,18 +9,18 @@ fn wing() -> DeltaWing {
 
 #[test]
 fn deflections_are_those_nastran_printed_in_1995() {
-    let known = known_deflections().expect("the table");
-    let labels: Vec<String> = MEASURED_GRIDS.iter().map(usize::to_string).collect();
+    let known = known_deflections().unwrap();
+    let labels = MEASURED_GRIDS.iter().map(usize::to_string).collect_vec();
     assert_eq!(known.labels, labels);
     assert_eq!(known.number, 0, "it is not of the paper");
     for (load, heading) in [
         (TipLoad::TrailingEdge, "te_1995_in"),
         (TipLoad::LeadingEdge, "le_1995_in"),
     ] {
-        let found = wing().deflections(load).expect("deflections");
+        let found = wing().deflections(load).unwrap();
         assert_eq!(found.len(), 9);
         for (label, z) in labels.iter().zip(found) {
-            let printed = known.required(label, heading).expect("printed");
+            let printed = known.required(label, heading).unwrap();
             assert_relative_eq!(z, printed, max_relative = PRINTED_SEVEN_DIGITS);
         }
     }
@@ -39,16 +28,12 @@ fn deflections_are_those_nastran_printed_in_1995() {
 
 #[test]
 fn deflections_are_near_the_measured_ones() {
-    let known = known_deflections().expect("the table");
+    let known = known_deflections().unwrap();
     let differences = |load, heading: &str| -> Vec<f64> {
-        let found = wing().deflections(load).expect("deflections");
+        let found = wing().deflections(load).unwrap();
         let pairs = MEASURED_GRIDS.iter().zip(found);
         pairs
-            .map(|(grid, z)| {
-                z - known
-                    .required(&grid.to_string(), heading)
-                    .expect("measured")
-            })
+            .map(|(grid, z)| z - known.required(&grid.to_string(), heading).unwrap())
             .collect()
     };
     let largest = |differences: &[f64]| differences.iter().fold(0.0_f64, |w, d| w.max(d.abs()));
@@ -73,7 +58,7 @@ fn loads_at_either_end_of_the_tip_are_reciprocal() {
     // Maxwell: the trailing edge moves under the leading edge's load as that does under its own.
     let at = |load: TipLoad, grid: usize| {
         let row = MEASURED_GRIDS.iter().position(|&own| own == grid);
-        wing().deflections(load).expect("deflections")[row.expect("measured")]
+        wing().deflections(load).unwrap()[row.unwrap()]
     };
     let (te, le) = (TipLoad::TrailingEdge, TipLoad::LeadingEdge);
     assert_eq!((te.grid(), le.grid()), (16, 36));
@@ -83,18 +68,18 @@ fn loads_at_either_end_of_the_tip_are_reciprocal() {
         tip_load: 1000.0,
         ..wing()
     };
-    let double = twice.deflections(te).expect("deflections");
+    let double = twice.deflections(te).unwrap();
     assert_relative_eq!(double[2], 2.0 * at(te, 16), max_relative = ROUND_OFF);
 }
 
 #[test]
 fn lowest_eigenvalues_are_those_nastran_printed_in_1995() {
-    let known = known_frequencies().expect("the table");
+    let known = known_frequencies().unwrap();
     assert_eq!(known.labels, ["1", "2", "3"]);
-    let found = wing().modes().expect("modes");
+    let found = wing().modes().unwrap();
     assert_eq!((found.dof.len(), found.modes.len()), (86, 86));
     for (mode, label) in known.labels.iter().enumerate() {
-        let printed = |heading: &str| known.required(label, heading).expect("printed");
+        let printed = |heading: &str| known.required(label, heading).unwrap();
         assert_relative_eq!(
             found.modes.omega_squared()[mode],
             printed("eigenvalue_1995"),
@@ -116,27 +101,27 @@ fn lowest_eigenvalues_are_those_nastran_printed_in_1995() {
 
 #[test]
 fn modes_are_those_of_the_dense_pencil() {
-    let structure = wing().structure().expect("a structure");
-    let elements: Vec<_> = element_matrices(&structure).collect();
-    let sizes: Vec<f64> = structure.elements().iter().map(|e| e.size).collect();
+    let structure = wing().structure().unwrap();
+    let elements = element_matrices(&structure).collect_vec();
+    let sizes = structure.elements().iter().map(|e| e.size).collect_vec();
     let count = structure.free_dof().len();
-    let stiffness = assemble(&elements, &sizes, count).expect("a matrix");
+    let stiffness = assemble(&elements, &sizes, count).unwrap();
     let mass = lumped_mass(&structure);
-    let dense = corfem::method::modes::solve(&stiffness, &DMatrix::from_diagonal(&mass), count);
-    let dense = dense.expect("modes").omega_squared().clone();
-    let found = wing().modes().expect("modes").modes.omega_squared().clone();
+    let dense = solve(&stiffness, &DMatrix::from_diagonal(&mass), count);
+    let dense = dense.unwrap().omega_squared().clone();
+    let found = wing().modes().unwrap().modes.omega_squared().clone();
     // The dense solution rounds at its highest root; the lowest dozen keep what that leaves.
     let highest = dense.max();
     for (a, b) in dense.iter().zip(found.iter()).take(12) {
         let allowed = CONDITIONED_ROUND_OFF * highest / a;
-        assert!((b / a - 1.0).abs() < allowed, "{a} {b} {allowed:.1e}");
+        assert!(relative_error(b, a) < allowed, "{a} {b} {allowed:.1e}");
     }
 }
 
 #[test]
 fn wing_to_deck_to_wing_is_the_identity() {
-    let model = BulkData::from_structure(&wing().structure().expect("a structure"));
-    let text = bulk_text(&model).expect("a deck");
+    let model = BulkData::from_structure(&wing().structure().unwrap());
+    let text = bulk_text(&model).unwrap();
     for (card, count) in [
         ("GRID*", 48),
         ("CROD", 60),
@@ -151,11 +136,11 @@ fn wing_to_deck_to_wing_is_the_identity() {
             .filter(|line| line.split_whitespace().next() == Some(card));
         assert_eq!(cards.count(), count, "{card}");
     }
-    let read = deck::read("wing", text.as_bytes(), &[]).expect("it reads");
+    let read = deck::read("wing", text.as_bytes(), &[]).unwrap();
     assert_eq!(read.model, model);
     assert!(read.unread.is_empty());
     assert_eq!(
-        deck::modes(&read.model, usize::MAX).expect("modes"),
-        wing().modes().expect("modes")
+        deck::modes(&read.model, usize::MAX).unwrap(),
+        wing().modes().unwrap()
     );
 }

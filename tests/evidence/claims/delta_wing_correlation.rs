@@ -1,20 +1,10 @@
 //! Wrong gages of the delta wing recovered from ten modes at 19 points.
 
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::known::delta_wing::correlation::{
-    GROUPS, Group, TEST_MODES, WingCorrelation, correlate_wing, first_model, settings,
-};
-use crate::common::tolerances::{
-    HIDDEN_GAGE, MATRIX_ROUND_OFF, RECOVERED_GAGE, ROUND_OFF, SAME_HISTORY, SEEN_SHARE,
-};
-use approx::assert_relative_eq;
-use corfem::method::inner_loop::Stop;
-use corfem::method::outer_loop::correlate;
-use std::sync::LazyLock;
+use crate::prelude::*;
 
 /// The whole scenario, run once for all tests.
 static RUN: LazyLock<WingCorrelation> =
-    LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).expect("it runs"));
+    LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).unwrap());
 
 fn wing() -> DeltaWing {
     DeltaWing::embedded()
@@ -44,10 +34,7 @@ fn wrong_gages_are_recovered_where_test_modes_see_them() {
         .partition(|(_, share, _)| *share < SEEN_SHARE);
     assert_eq!(hidden.len() + seen.len(), 21);
     assert_eq!(
-        hidden
-            .iter()
-            .map(|(group, ..)| group.name)
-            .collect::<Vec<_>>(),
+        hidden.iter().map(|(group, ..)| group.name).collect_vec(),
         ["webs x 30", "web x 90"]
     );
     for (groups, allowed) in [(&hidden, HIDDEN_GAGE), (&seen, RECOVERED_GAGE)] {
@@ -82,13 +69,13 @@ fn the_true_factor_of_a_group_undoes_its_error() {
 #[test]
 fn history_is_three_passes_to_the_tolerances() {
     let mut told = Vec::new();
-    let run = correlate_wing(&wing(), |pass, _| told.push(pass)).expect("it runs");
+    let run = correlate_wing(&wing(), |pass, _| told.push(pass)).unwrap();
     assert_eq!(told, [1, 2, 3]);
     let passes = &run.correlation.passes;
-    let counts: Vec<(usize, Stop)> = passes
+    let counts = passes
         .iter()
         .map(|pass| (pass.inner.iterations.len(), pass.inner.stop))
-        .collect();
+        .collect_vec();
     assert_eq!(
         counts,
         [
@@ -112,10 +99,10 @@ fn history_is_three_passes_to_the_tolerances() {
 
 #[test]
 fn largest_share_is_that_of_the_stiffness_of_a_test_mode() {
-    let model = first_model(&wing()).expect("a model");
-    let dynamic = model.matrices(&[1.0; 21]).expect("an analysis");
+    let model = first_model(&wing()).unwrap();
+    let dynamic = model.matrices(&[1.0; 21]).unwrap();
     let run = &*RUN;
-    let test = run.test.scaled_with(&dynamic.mass).expect("they fit");
+    let test = run.test.scaled_with(&dynamic.mass).unwrap();
     let mut all = vec![0.0; 10];
     for (share, found) in dynamic.shares.iter().zip(&run.shares) {
         let of_mode = |mode: usize| {
@@ -140,7 +127,7 @@ fn history_does_not_hang_on_round_off() {
         youngs_modulus: wing().youngs_modulus * (1.0 + 1e-12),
         ..wing()
     };
-    let other = correlate_wing(&other, |_, _| {}).expect("it runs");
+    let other = correlate_wing(&other, |_, _| {}).unwrap();
     for (&a, b) in run
         .correlation
         .best_factors
@@ -156,15 +143,15 @@ fn history_does_not_hang_on_round_off() {
 #[test]
 fn plain_recursion_takes_more_passes_to_gages_nearly_as_good() {
     let (wing, solved) = (wing(), &*RUN);
-    let model = first_model(&wing).expect("the model");
-    let ranges = model.factor_ranges().expect("ranges");
+    let model = first_model(&wing).unwrap();
+    let ranges = model.factor_ranges().unwrap();
     let plain = correlate(
         |factors| model.analyze(factors, &solved.test, None),
         &ranges,
         &settings(),
         |_, _| true,
     )
-    .expect("it runs");
+    .unwrap();
     assert!(plain.converged);
     assert!(plain.passes.len() > solved.correlation.passes.len());
     assert_eq!(plain.passes[0].inner.stop, Stop::LocalMinimum);

@@ -1,18 +1,14 @@
 //! What is named off the reconstructed box, and how often.
 
-use crate::common::golden::{Numbers, assert_golden};
-use crate::common::tolerances::{
-    LEAST_DETECTED_BOXES, LEAST_FIRST_SUSPECTS, LEAST_FIRST_SUSPECTS_OF_TEN,
-};
 use crate::evidence::detection::{
     BOXES, BoxRates, SIZES, TESTS, all_job_rates, box_rates, detection_tables, right_model_alarms,
 };
 use crate::evidence::readings::correlation;
-use corfem::present::render::csv;
+use crate::prelude::*;
 
 /// Alarms by each reading in noisy tests of right models of Cases 1 and 2, so many of each.
 fn alarms(tests: u64) -> [usize; 4] {
-    let [one, two] = [1, 2].map(|case| right_model_alarms(case, tests).expect("they run"));
+    let [one, two] = [1, 2].map(|case| right_model_alarms(case, tests).unwrap());
     std::array::from_fn(|reading| one[reading] + two[reading])
 }
 
@@ -30,7 +26,7 @@ fn assert_no_alarms(rates: &BoxRates) {
 #[test]
 #[ignore = "a minute: 900 other boxes, 200 right models and 120 jobs"]
 fn detection_holds_off_this_box() {
-    let boxes = SIZES.map(|size| box_rates(size, BOXES).expect("they run"));
+    let boxes = SIZES.map(|size| box_rates(size, BOXES).unwrap());
     let (alarms, jobs) = (alarms(100), all_job_rates(TESTS));
     let text = csv(&detection_tables(&boxes, alarms, &jobs));
     println!("{text}");
@@ -52,7 +48,7 @@ fn detection_holds_off_this_box() {
 #[test]
 fn a_few_other_boxes_and_jobs_are_detected_too() {
     for size in SIZES {
-        let rates = box_rates(size, 20).expect("they run");
+        let rates = box_rates(size, 20).unwrap();
         assert!(2 * rates.named[3] > rates.boxes, "{rates:?}");
         assert!(
             rates.named[3] > rates.named[1].max(rates.named[0]),

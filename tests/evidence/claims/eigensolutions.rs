@@ -1,25 +1,22 @@
 //! Full eigensolutions by perturbation and by re-analysis, counted.
 
-use crate::common::known::wing::Wing;
-use crate::common::known::{Known, planted};
 use crate::evidence::eigensolutions::{Counted, counted};
-use corfem::method::analysis::Analysis;
-use corfem::torque_box::{Case, run_case};
+use crate::prelude::*;
 
 fn case(number: usize, error: f64) -> Counted {
-    let settings = Case::new(number).expect("a case").settings;
+    let settings = case_of(number).settings;
     counted(
-        &Known::of_case(number).expect("a case"),
+        &Known::of_case(number).unwrap(),
         None,
         (&settings, |model| model),
         error,
     )
-    .expect("it runs")
+    .unwrap()
 }
 
 #[test]
 fn analyses_are_the_passes_and_the_start() {
-    let run = run_case(&Case::new(1).expect("a case"), |_, _| {}).expect("it runs");
+    let run = run_case(&case_of(1), |_, _| {}).unwrap();
     assert!(run.correlation.converged);
     let found = case(1, 0.025);
     assert_eq!(
@@ -64,16 +61,16 @@ fn a_small_wing_is_planted_and_found() {
         zones: 3,
         ..Wing::default()
     };
-    let known = planted(&wing).expect("a wing");
+    let known = planted(&wing).unwrap();
     assert_eq!((known.truth.len(), known.test.len()), (15, 10));
     let at_truth = known
         .model
         .analyze(&known.truth, &known.test, Some(10))
-        .expect("it runs");
-    assert!(at_truth.exact().errors.sum() < crate::common::tolerances::ROUND_OFF_FLOOR);
+        .unwrap();
+    assert!(at_truth.exact().errors.sum() < ROUND_OFF_FLOOR);
     let start = known
         .model
         .analyze(&[1.0; 15], &known.test, Some(10))
-        .expect("it runs");
+        .unwrap();
     assert!(start.exact().errors.sum() > 0.1);
 }

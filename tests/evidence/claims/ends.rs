@@ -1,13 +1,9 @@
 //! Laws of the ends of weighted steps.
 
-use crate::common::tolerances::{SLOPES_TOLD, STATIONARY};
 use crate::evidence::ends::{corrected, network, oscillators, steepness, steps};
 use crate::evidence::five_structures::{TOWER, corrections};
-use corfem::job::JobResult;
-use corfem::job::verdict::{Outcome, Stationary};
-use corfem::weighted::gauss_newton::WeightedStop;
-use corfem::weighted::noise::Noise;
-use std::ops::Range;
+use crate::prelude::*;
+use corfem::job::verdict::Stationary;
 
 /// A stop by gradient is stationary: on a hundred drawn structures the exact objective has no slope there but what the stop leaves and what
 /// the error of slopes does to residuals of this size.
@@ -95,7 +91,7 @@ fn few_jobs_of_light_oscillators_end_elsewhere_without_a_word() {
 /// GARTEUR's frequencies, whose partners are followed by their likeness, lead to a wall: no minimum, and said to be none.
 #[test]
 fn frequencies_of_garteur_end_at_a_wall() {
-    let result = crate::common::jobs::worked("garteur");
+    let result = worked("garteur");
     assert_eq!(steps(result).stop, WeightedStop::Wall);
     assert_eq!(result.verdict.outcome, Outcome::Wall);
     assert_eq!(result.verdict.stationary, None::<Stationary>);

@@ -1,10 +1,9 @@
 //! The bars of the pre-flight on five structures that are not shipped.
 
-use crate::common::golden::{Numbers, assert_golden};
 use crate::evidence::five_structures::{
     Counts, FIVE, MISTAKES, Mistake, STRUCTURES, Structure, counts, interval_rates, repeat_rates,
 };
-use corfem::weighted::noise::Noise;
+use crate::prelude::*;
 use std::fmt::Write;
 
 /// Most doubted right tests in so many, and least mistakes named or said to be open, of so many.
@@ -28,7 +27,7 @@ fn bars(table: &mut String, right: usize, wrong: usize, missing: usize) -> Vec<S
                 table,
                 "{name},{mistake:?},{tests},{named},{not_checked},{other},{silent}"
             )
-            .expect("a line");
+            .unwrap();
             let is_met = match mistake {
                 Mistake::None => named + other <= (2 * tests).div_ceil(300),
                 Mistake::Exchanged => named + not_checked + missing + 1 >= tests,
@@ -50,14 +49,12 @@ fn intervals_hold_the_truth_on_structures_built_later() {
     let noises = noises.map(|(frequency, shape)| Noise { shape, frequency });
     let places = 0..STRUCTURES.len();
     let lines: Vec<String> = std::thread::scope(|scope| {
-        let runs: Vec<_> = places
+        let runs = places
             .flat_map(|structure| {
                 noises.map(|noise| scope.spawn(move || interval_rates(structure, noise)))
             })
-            .collect();
-        runs.into_iter()
-            .map(|run| run.join().expect("lines"))
-            .collect()
+            .collect_vec();
+        runs.into_iter().map(|run| run.join().unwrap()).collect()
     });
     let table = "table,row,column,unit,computed,published\n".to_owned() + &lines.concat();
     println!("{table}");

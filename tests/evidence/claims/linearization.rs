@@ -1,14 +1,9 @@
 //! Predicted modes beside exact ones: the order of every formula, and which is the more accurate.
 
-use crate::common::known::Known;
-use crate::common::tolerances::{
-    MEASURABLE_ERROR, ORDER_HALFWAY, ORDER_SLACK, ROUND_OFF, ROUND_OFF_FLOOR,
-};
 use crate::evidence::predictions::{
     Exact, MEASURES, Prediction, STEPS, both_structures, predictions,
 };
-use approx::assert_relative_eq;
-use corfem::method::error_sum::Errors;
+use crate::prelude::*;
 
 const FIRST: usize = 0;
 const RECURSIVE: usize = 1;
@@ -16,7 +11,7 @@ const TAYLOR: usize = 2;
 const TAYLOR_OF_ROOTS: usize = 3;
 
 fn error(of: &Prediction, method: usize) -> Errors {
-    of.errors[method].expect("a prediction")
+    of.errors[method].unwrap()
 }
 
 /// Mean log-log slope between two of the steps.
@@ -32,7 +27,7 @@ fn slope(
 
 #[test]
 fn first_order_and_taylor_are_of_second_order_and_recursive_1_of_its_own_and_one() {
-    let [(_, case), (_, wing)] = both_structures(Exact::SameCondensation).expect("they run");
+    let [(_, case), (_, wing)] = both_structures(Exact::SameCondensation).unwrap();
     for all in [&case, &wing] {
         for (method, measure) in [FIRST, TAYLOR, TAYLOR_OF_ROOTS]
             .into_iter()
@@ -54,7 +49,7 @@ fn first_order_and_taylor_are_of_second_order_and_recursive_1_of_its_own_and_one
 
 #[test]
 fn perturbation_is_more_accurate_than_a_taylor_step_of_the_same_derivatives() {
-    for (name, all) in both_structures(Exact::SameCondensation).expect("they run") {
+    for (name, all) in both_structures(Exact::SameCondensation).unwrap() {
         for of in &all {
             let [first, recursive, taylor, of_roots] = [0, 1, 2, 3].map(|method| error(of, method));
             // C.20 is linear in ω²: Rayleigh's quotient on the old shape.
@@ -93,7 +88,7 @@ fn perturbation_is_more_accurate_than_a_taylor_step_of_the_same_derivatives() {
 
 #[test]
 fn a_new_condensation_leaves_second_order_to_every_formula() {
-    let [(_, case), _] = both_structures(Exact::NewCondensation).expect("they run");
+    let [(_, case), _] = both_structures(Exact::NewCondensation).unwrap();
     for (method, measure) in [FIRST, RECURSIVE, TAYLOR]
         .into_iter()
         .flat_map(|m| MEASURES.map(|of| (m, of.1)))
@@ -106,17 +101,12 @@ fn a_new_condensation_leaves_second_order_to_every_formula() {
 
 #[test]
 fn whole_step_ends_at_the_test_and_lost_roots_are_no_prediction() {
-    let known = Known::of_case(2).expect("a case");
-    let zero =
-        predictions(&known.model, &known.truth, &[0.0], Exact::NewCondensation).expect("it runs");
-    let each = zero[0]
-        .errors
-        .iter()
-        .map(|errors| errors.expect("a prediction").sum());
+    let known = Known::of_case(2).unwrap();
+    let zero = predictions(&known.model, &known.truth, &[0.0], Exact::NewCondensation).unwrap();
+    let each = zero[0].errors.iter().map(|errors| errors.unwrap().sum());
     assert!(each.into_iter().all(|sum| sum < ROUND_OFF_FLOOR));
     let thrice = vec![3.0; known.truth.len()];
-    let found =
-        predictions(&known.model, &thrice, &[1.0], Exact::SameCondensation).expect("it runs");
-    let lost: Vec<bool> = found[0].errors.iter().map(Option::is_none).collect();
+    let found = predictions(&known.model, &thrice, &[1.0], Exact::SameCondensation).unwrap();
+    let lost = found[0].errors.iter().map(Option::is_none).collect_vec();
     assert_eq!(lost, [false, false, false, true]);
 }

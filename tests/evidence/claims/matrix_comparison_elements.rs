@@ -1,18 +1,15 @@
 //! What of a change of the matrix elements could have made.
 
-use crate::common::tolerances::CORRECTION_ROUND_OFF;
 use crate::evidence::claims::matrix_comparison::{TEST_MODES, by_name, compared, gages, model};
 use crate::evidence::matrix_correction::{baruch_stiffness, weighted_norm};
-use corfem::torque_box::Case;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 #[test]
 fn nearest_factors_leave_the_least() {
     for case in 1..=3 {
         let comparison = compared(case);
         let first = model(case, &gages(case, &[1.0; 15], false));
-        let test = Case::new(case)
-            .unwrap()
+        let test = case_of(case)
             .test_modes()
             .unwrap()
             .lowest(TEST_MODES)
@@ -24,11 +21,11 @@ fn nearest_factors_leave_the_least() {
             let made: DMatrix<f64> = made.map(|(share, c)| (c - 1.0) * share).sum();
             weighted_norm(&(&change - made), &first.mass) / weighted_norm(&change, &first.mass)
         };
-        let nearest: Vec<f64> = comparison
+        let nearest = comparison
             .factors
             .iter()
             .map(|f| f.nearest_to_baruch)
-            .collect();
+            .collect_vec();
         let least = left(&nearest);
         let beyond = by_name(&comparison, "Baruch").beyond_elements;
         assert!(

@@ -1,6 +1,5 @@
 //! What the studies must show for the documents to say so.
 
-pub mod delta_wing;
 pub mod delta_wing_answers;
 pub mod delta_wing_correlation;
 pub mod delta_wing_scenario;

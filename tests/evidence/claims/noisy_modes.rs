@@ -1,36 +1,19 @@
 //! Noisy test modes: the noise, what Appendix B makes of it, and the numbers of the study by other routes.
 
-use crate::common::tolerances::{
-    BALANCE_EQUATIONS, DIFFERENCE_ROUND_OFF, MATRIX_ROUND_OFF, ROUND_OFF, SAME_HISTORY,
-    STANDARD_ERRORS,
-};
 use crate::evidence::noisy_modes::{Found, NOISY_CASE, NoisyModes, NoisyRun, SEEDS, noisy_modes};
-use corfem::method::analysis::Analysis;
-use corfem::method::appendix_b::{
-    LARGEST_SUSPENSION_RATIO, MovementLimits, Supports, examine, orthogonalize,
-};
-use corfem::method::error::Error;
-use corfem::method::modes::{Modes, generalized_mass};
-use corfem::method::step::StepRule;
-use corfem::sparse::random::split_mix_64;
-use corfem::torque_box::wing_box::dynamic_points;
-use corfem::torque_box::{Case, run_case};
-use corfem::weighted::noise::{Noise, with_noise};
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
-use std::sync::OnceLock;
+use crate::prelude::*;
 
 fn case() -> Case {
-    Case::new(NOISY_CASE).expect("a case")
+    case_of(NOISY_CASE)
 }
 
 fn exact() -> Modes {
-    case().test_modes().expect("test modes")
+    case().test_modes().unwrap()
 }
 
 pub fn study() -> &'static NoisyModes {
     static STUDY: OnceLock<NoisyModes> = OnceLock::new();
-    STUDY.get_or_init(|| noisy_modes(&case(), Noise::USUAL, SEEDS).expect("it runs"))
+    STUDY.get_or_init(|| noisy_modes(&case(), Noise::USUAL, SEEDS).unwrap())
 }
 
 fn unit(shape: DVector<f64>) -> DVector<f64> {
@@ -82,20 +65,20 @@ fn noise_is_normal_and_of_the_stated_size() {
             frequency: 0.004,
         },
     );
-    let noisy: Vec<Modes> = (1..=100)
+    let noisy = (1..=100)
         .map(|seed| with_noise(&exact, noise, seed).unwrap())
-        .collect();
-    let shapes: Vec<f64> = noisy
+        .collect_vec();
+    let shapes = noisy
         .iter()
         .flat_map(|noisy| shape_changes(&exact, noisy))
-        .collect();
-    let frequencies: Vec<f64> = noisy
+        .collect_vec();
+    let frequencies = noisy
         .iter()
         .flat_map(|noisy| frequency_changes(&exact, noisy))
-        .collect();
+        .collect_vec();
     assert_eq!((shapes.len(), frequencies.len()), (8100, 900));
     for (changes, size) in [(shapes, noise.shape), (frequencies, noise.frequency)] {
-        let z: Vec<f64> = changes.iter().map(|change| change / size).collect();
+        let z = changes.iter().map(|change| change / size).collect_vec();
         let n = z.len() as f64;
         let mean = |of: &dyn Fn(f64) -> f64| z.iter().map(|&z| of(z)).sum::<f64>() / n;
         let off = |found: f64, expected: f64, variance: f64| {
@@ -135,16 +118,14 @@ fn noise_that_turns_a_frequency_negative_is_an_error() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn noise_comes_again_from_its_seed_and_grows_with_its_size(seed in any::<u64>(), times in 0.0..3.0_f64) {
         let exact = exact();
-        let once = with_noise(&exact, Noise::USUAL, seed).unwrap();
-        prop_assert_eq!(&once, &with_noise(&exact, Noise::USUAL, seed).unwrap());
-        prop_assert_ne!(&once, &with_noise(&exact, Noise::USUAL, seed.wrapping_add(1)).unwrap());
+        let once = with_noise(&exact, Noise::USUAL, seed)?;
+        prop_assert_eq!(&once, &with_noise(&exact, Noise::USUAL, seed)?);
+        prop_assert_ne!(&once, &with_noise(&exact, Noise::USUAL, seed.wrapping_add(1))?);
         let noise = Noise { shape: times * Noise::USUAL.shape, frequency: times * Noise::USUAL.frequency };
-        let more = with_noise(&exact, noise, seed).unwrap();
+        let more = with_noise(&exact, noise, seed)?;
         for changes in [shape_changes, frequency_changes] {
             for (once, more) in changes(&exact, &once).iter().zip(changes(&exact, &more)) {
                 prop_assert!((times * once - more).abs() < ROUND_OFF);
@@ -155,11 +136,11 @@ properties! {
     #[test]
     fn noisy_modes_come_out_orthonormal_and_screened_within_the_limits(seed in any::<u64>()) {
         let (mass, limits) = (case().reconstruction.mass(), MovementLimits::default());
-        let raw = with_noise(&exact(), Noise::USUAL, seed).unwrap();
-        let all = orthogonalize(&raw, &mass).unwrap();
-        let screened = examine(&raw, &mass, Supports::Held, &limits).unwrap();
+        let raw = with_noise(&exact(), Noise::USUAL, seed)?;
+        let all = orthogonalize(&raw, &mass)?;
+        let screened = examine(&raw, &mass, Supports::Held, &limits)?;
         for modes in [&all.modes, &screened.modes] {
-            let off = generalized_mass(modes.shapes(), &mass).unwrap() - DMatrix::identity(modes.len(), modes.len());
+            let off = generalized_mass(modes.shapes(), &mass)? - eye(modes.len());
             prop_assert!(off.amax() < MATRIX_ROUND_OFF, "{}", off.amax());
         }
         let flexibility = |modes: &Modes| modes.omega_squared().map(f64::recip).sum();
@@ -188,9 +169,9 @@ fn orthogonalization_cleans_the_highest_mode_and_spoils_mode_6() {
             after[mode] += error(&orthogonal);
         }
     }
-    let growth: Vec<f64> = (0..9)
+    let growth = (0..9)
         .map(|mode| (after[mode] / before[mode]).sqrt())
-        .collect();
+        .collect_vec();
     // The growth is largest where the mode moves the heaviest points, and the highest mode moves the lightest alone.
     let generalized_mass = |mode: usize| {
         let shape = unit(exact.shapes().column(mode).into_owned());
@@ -222,9 +203,9 @@ fn the_box_is_held_so_that_its_modes_are_not_balanced() {
         .complex_eigenvalues()
         .map(|root| root.re);
     let expected = roots.max() / exact().omega_squared()[0];
-    let ratio = study().support_ratio.expect("held");
+    let ratio = study().support_ratio.unwrap();
     assert!(
-        (ratio / expected - 1.0).abs() < BALANCE_EQUATIONS,
+        relative_error(ratio, expected) < BALANCE_EQUATIONS,
         "{ratio} {expected}"
     );
     assert!(ratio > LARGEST_SUSPENSION_RATIO);
@@ -259,7 +240,7 @@ fn without_noise_it_is_the_case_itself_by_the_librarys_own_rule() {
         let sum = |pass: &usize| passes[*pass].check.errors.sum();
         sum(a).total_cmp(&sum(b))
     });
-    let best = best.expect("a pass");
+    let best = best.unwrap();
     for found in [&first.raw, &first.orthogonal, &first.screened] {
         assert_eq!(found.converged, result.correlation.converged);
         assert_eq!(
@@ -269,10 +250,12 @@ fn without_noise_it_is_the_case_itself_by_the_librarys_own_rule() {
                 .map(|pass| pass.inner.iterations.len())
                 .sum::<usize>()
         );
-        for (gage, expected) in found.gages_in.iter().zip(&result.pass_gages[best]) {
-            assert!((gage / expected - 1.0).abs() < SAME_HISTORY);
-        }
-        assert!((found.error_sum / passes[best].check.errors.sum() - 1.0).abs() < SAME_HISTORY);
+        assert_alike(
+            found.gages_in.iter(),
+            &result.pass_gages[best],
+            SAME_HISTORY,
+        );
+        assert!(relative_error(found.error_sum, passes[best].check.errors.sum()) < SAME_HISTORY);
     }
 }
 
@@ -280,12 +263,8 @@ fn without_noise_it_is_the_case_itself_by_the_librarys_own_rule() {
 fn errors_are_those_of_a_model_with_the_gages_found() {
     let case = case();
     assert_eq!(
-        study()
-            .runs
-            .iter()
-            .filter_map(|run| run.seed)
-            .collect::<Vec<_>>(),
-        SEEDS.collect::<Vec<_>>()
+        study().runs.iter().filter_map(|run| run.seed).collect_vec(),
+        SEEDS.collect_vec()
     );
     for run in &study().runs {
         for (found, test) in sides(run) {
@@ -308,7 +287,7 @@ fn errors_are_those_of_a_model_with_the_gages_found() {
                 (found.gage_rms, (squares / 15.0).sqrt()),
             ] {
                 assert!(
-                    (found / expected - 1.0).abs() < DIFFERENCE_ROUND_OFF,
+                    relative_error(found, expected) < DIFFERENCE_ROUND_OFF,
                     "{found} {expected}"
                 );
             }

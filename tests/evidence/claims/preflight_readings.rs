@@ -1,8 +1,7 @@
 //! How often mistakes in readings are named on structures with repeated modes, light points and two directions.
 
-use crate::common::golden::{Numbers, assert_golden};
-use crate::common::tolerances::{LEAST_OF_THIRTY, LEAST_REVERSED_OF_THIRTY, MOST_FALSE_OF_THIRTY};
 use crate::evidence::readings_rates::{KINDS, SLIPS, Slip, findings, named};
+use crate::prelude::*;
 use std::fmt::Write;
 
 const NOISE: f64 = 0.01;
@@ -66,7 +65,7 @@ fn the_units_of_mass_and_force_change_no_finding() {
     for kind in KINDS {
         for (slip, seed) in [(Slip::Dead, 0), (Slip::Dead, 1), (Slip::Twice, 2)] {
             let in_units = |units| findings(kind, slip, (NOISE, units), seed, &mut 11);
-            let (found, expected) = in_units(1.0).expect("findings");
+            let (found, expected) = in_units(1.0).unwrap();
             assert_eq!(in_units(0.5_f64.powi(10)), Some((found.clone(), expected)));
             found_dead += usize::from(slip == Slip::Dead && !found.is_empty());
         }

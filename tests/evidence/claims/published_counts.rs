@@ -1,27 +1,23 @@
 //! The printed columns of gages one by one, with exactly the published iterations, against the independent program
 //! (golden/reference/published_counts.py).
 
-use crate::common::tolerances::EXPECTED_COUNTED;
 use crate::evidence::published_counts::{Counted, RULES, Rule, counted, pooled};
-use approx::assert_relative_eq;
-use corfem::method::step::StepRule;
-use corfem::torque_box::wing_box::Reconstruction;
-use std::sync::LazyLock;
+use crate::prelude::*;
 use toml::Table;
 
 pub static COUNTED: LazyLock<Vec<Counted>> =
-    LazyLock::new(|| counted(&Reconstruction::embedded().expect("the box")).expect("they run"));
+    LazyLock::new(|| counted(&Reconstruction::embedded().unwrap()).unwrap());
 
 fn expected() -> Table {
     let text = include_str!("../../../golden/reference/expected_published_counts.toml");
-    text.parse().expect("the golden reads")
+    text.parse().unwrap()
 }
 
 fn column(rule: Rule, name: &str) -> &'static Counted {
     let found = COUNTED
         .iter()
         .find(|column| (column.rule, &*column.name) == (rule, name));
-    found.expect("a column")
+    found.unwrap()
 }
 
 #[test]
@@ -30,11 +26,11 @@ fn every_rule_makes_what_the_independent_program_makes_of_the_printed_counts() {
     assert_eq!(COUNTED.len() + RULES.len(), table.len());
     for found in COUNTED.iter() {
         let section = &table[&format!("{}, {}", found.rule.name(), found.name)];
-        let number = |key: &str| section[key].as_float().expect("a number");
-        let gages = section["gages"].as_array().expect("a list");
+        let number = |key: &str| section[key].as_float().unwrap();
+        let gages = section["gages"].as_array().unwrap();
         assert_eq!(gages.len(), found.gages_in.len());
         for (found, expected) in found.gages_in.iter().zip(gages) {
-            let expected = expected.as_float().expect("a number");
+            let expected = expected.as_float().unwrap();
             assert_relative_eq!(*found, expected, max_relative = EXPECTED_COUNTED);
         }
         let percent = [found.difference, found.error_sum].map(|part| 100.0 * part);
@@ -51,7 +47,7 @@ fn every_rule_makes_what_the_independent_program_makes_of_the_printed_counts() {
     }
     for rule in RULES {
         let section = &table[&format!("{}, pooled", rule.name())];
-        let expected = section["difference"].as_float().expect("a number");
+        let expected = section["difference"].as_float().unwrap();
         assert_relative_eq!(
             100.0 * pooled(&COUNTED, rule),
             expected,
@@ -73,7 +69,7 @@ fn no_reading_reaches_the_printed_gages_and_the_printed_error_sums() {
         "Table 11 FEM 7",
         "Table 11 FEM 9",
     ] {
-        let printed = column(relative, name).printed_sum.expect("printed");
+        let printed = column(relative, name).printed_sum.unwrap();
         assert!(column(relative, name).error_sum > 2.5 * printed, "{name}");
         for reading in [StepRule::Matrix, StepRule::Own] {
             let other = column(Rule::Reading(reading), name);
@@ -102,14 +98,13 @@ fn no_reading_reaches_the_printed_gages_and_the_printed_error_sums() {
 #[test]
 fn error_sums_after_the_printed_iterations_are_not_the_printed_ones() {
     let over_printed = |rule, names: &[&str]| {
-        let of = |name: &&str| {
-            column(rule, name).error_sum / column(rule, name).printed_sum.expect("printed")
-        };
+        let of =
+            |name: &&str| column(rule, name).error_sum / column(rule, name).printed_sum.unwrap();
         names
             .iter()
             .map(of)
             .map(|ratio| format!("{ratio:.1}"))
-            .collect::<Vec<_>>()
+            .collect_vec()
     };
     let table_10 = ["Table 10 FEM 7", "Table 10 FEM 9"];
     let ended = [
@@ -131,7 +126,7 @@ fn error_sums_after_the_printed_iterations_are_not_the_printed_ones() {
     let printed = |name| {
         format!(
             "{:.2}",
-            100.0 * column(Rule::Half, name).printed_sum.expect("printed")
+            100.0 * column(Rule::Half, name).printed_sum.unwrap()
         )
     };
     let thirty = [

@@ -1,21 +1,7 @@
 //! Errors, analyses, steps and the loops.
 
 use super::{Entry, chain};
-use crate::common::draws::Draws;
-use crate::common::structures::spring_stiffness;
-use crate::common::whole_models::of_dense;
-use corfem::method::analysis::{Analysis, without_close_couplings};
-use corfem::method::error::Error;
-use corfem::method::error_sum::{Errors, ModeError, errors, mode_errors};
-use corfem::method::inner_loop::{InnerSettings, first_factors, run};
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::sorting::pair_modes;
-use corfem::method::step::{Accumulation, Bounds, StepRule, limited_factor, unlimited_factor};
-use corfem::sparse::{BasisSize, ModeWeight, ParameterMatrix, SensorModel};
-use corfem::weighted::close_modes::turned;
-use corfem::weighted::comparison::{Comparison, LoneFrequency};
-use corfem::weighted::residuals::residuals;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// A chain as sensors see it, with a share of its stiffness or of its mass.
 fn sensed(d: &mut Draws) -> Result<SensorModel, Error> {
@@ -25,10 +11,7 @@ fn sensed(d: &mut Draws) -> Result<SensorModel, Error> {
     }
     let count = model.test().len();
     let springs = (0..count).map(|spring| spring_stiffness(count, spring, 100.0));
-    let (stiffness, mass) = (
-        springs.sum::<DMatrix<f64>>(),
-        DMatrix::identity(count, count),
-    );
+    let (stiffness, mass) = (springs.sum::<DMatrix<f64>>(), eye(count));
     let shares = [
         ParameterMatrix::Stiffness(stiffness.clone()),
         ParameterMatrix::Mass(spring_stiffness(count, 0, 0.5)),
@@ -38,7 +21,7 @@ fn sensed(d: &mut Draws) -> Result<SensorModel, Error> {
         &[1.0; 2],
         &sensors,
         model.test(),
-        corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+        by_sorting(),
         BasisSize {
             modes: count,
             residual_vectors: 0,
@@ -90,9 +73,9 @@ pub const LOOPS: &[Entry] = &[
     }),
     ("Model::stiffness_changes", |d| {
         let model = chain(d)?;
-        let gages: Vec<f64> = (0..d.about(model.shares().len()))
+        let gages = (0..d.about(model.shares().len()))
             .map(|_| d.unit())
-            .collect();
+            .collect_vec();
         let (state, rule) = (d.state(&model), rule(d));
         Ok(model.stiffness_changes(&state, &gages, rule))
     }),
@@ -110,9 +93,9 @@ pub const LOOPS: &[Entry] = &[
     }),
     ("SensorModel::stiffness_changes", |d| {
         let model = sensed(d)?;
-        let gages: Vec<f64> = (0..d.about(model.shares().len()))
+        let gages = (0..d.about(model.shares().len()))
             .map(|_| d.unit())
-            .collect();
+            .collect_vec();
         Ok(model.stiffness_changes(model.exact(), &gages, rule(d)))
     }),
     ("SensorModel::weighted", |d| {
@@ -149,7 +132,7 @@ pub const LOOPS: &[Entry] = &[
                 upper: d.number(),
             })
         };
-        let ranges: Vec<Option<Bounds>> = (0..count).map(|_| range(d)).collect();
+        let ranges = (0..count).map(|_| range(d)).collect_vec();
         let mut settings = InnerSettings {
             iterations: d.below(4),
             halvings: d.below(4),
@@ -243,12 +226,12 @@ pub const LOOPS: &[Entry] = &[
         Ok(Vec::new())
     }),
     ("Errors::of", |d| {
-        let each: Vec<ModeError> = (0..d.size())
+        let each = (0..d.size())
             .map(|_| ModeError {
                 frequency: d.number(),
                 shape: d.number(),
             })
-            .collect();
+            .collect_vec();
         Errors::of(&each).map(|found| vec![found.frequency, found.shape])
     }),
     ("Errors::sum", |d| Ok(vec![d.errors().sum()])),
@@ -290,7 +273,7 @@ pub const LOOPS: &[Entry] = &[
                 .map(|_| d.size().saturating_sub(1) % most)
                 .collect()
         };
-        let groups: Vec<Vec<usize>> = (0..3).map(group).collect();
+        let groups = (0..3).map(group).collect_vec();
         let found = comparison.with_groups(groups.clone())?;
         let (exact, test) = (found.model().exact(), found.model().test());
         let turned = turned(&exact.modes, &exact.pairing, &groups, test)?;
@@ -308,7 +291,7 @@ pub const LOOPS: &[Entry] = &[
         let comparison = comparison(d)?;
         let (dof, modes) = comparison.model().test().shapes().shape();
         let count = d.about((1 + dof) * modes);
-        let (size, root) = (d.number(), DMatrix::identity(count, count));
+        let (size, root) = (d.number(), eye(count));
         let covariance = root * size;
         let comparison = comparison.with_covariance(&covariance)?;
         residuals(&comparison, &vec![ModeWeight::ONE; modes]).map(|found| found.data.into())

@@ -1,19 +1,8 @@
 //! Matrices, modes and measured modes.
 
 use super::{Entry, chain, entries, modes};
-use corfem::method::analysis::Analysis;
-use corfem::method::appendix_b::{
-    MeasuringPoint, Motion, MovementLimits, Supports, balance, examine, orthogonalize,
-    rigid_body_vectors,
-};
-use corfem::method::linear_algebra::{
-    check_finite, check_length, check_shape, check_symmetric, cholesky, symmetric_eigen,
-    symmetric_part,
-};
-use corfem::method::modes::{Modes, apply_sign_rule, generalized_mass, solve};
-use corfem::method::sorting::{cross_orthogonality, pair_modes};
-use corfem::sparse::{check_solution, modal_assurance};
-use nalgebra::{DMatrix, Vector3};
+use crate::prelude::*;
+use corfem::method::linear_algebra::check_length;
 
 pub const MATRICES: &[Entry] = &[
     ("linear_algebra::check_finite", |d| {
@@ -83,10 +72,7 @@ pub const MATRICES: &[Entry] = &[
         let mut motions = d.matrix(size, rigid);
         if d.below(2) == 0 {
             // A free structure and its motion, so that some calls are answered.
-            (stiffness, motions) = (
-                DMatrix::zeros(size, size),
-                DMatrix::from_element(size, 1, 1.0),
-            );
+            (stiffness, motions) = (zero_square(size), DMatrix::from_element(size, 1, 1.0));
         }
         balance(&set, &stiffness, &mass, &motions).map(|found| entries(&found.shapes))
     }),

@@ -1,14 +1,7 @@
 //! Appendix C.
 
 use super::{Answer, Entry, entries};
-use crate::common::appendix_c::on_either_side;
-
-use corfem::method::appendix_c::{self, LeftRightModes, Pencil};
-use corfem::method::error::Error;
-use corfem::method::modes::solve;
-use corfem::method::perturbation::{Perturbed, first_order, recursive_1, recursive_1_converged};
-use corfem::sparse::normalize_with_mass;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 fn perturbed(found: Result<Perturbed, Error>) -> Answer {
     found.map(|Perturbed { roots, shapes }| roots.iter().chain(shapes.iter()).copied().collect())
@@ -38,7 +31,7 @@ pub const PERTURBATION: &[Entry] = &[
         let size = d.size();
         let (stiffness, change, g_change) =
             (d.symmetric(size), d.symmetric(size), d.symmetric(size));
-        let modes = match solve(&stiffness, &DMatrix::identity(size, size), size) {
+        let modes = match solve(&stiffness, &eye(size), size) {
             Ok(modes) if d.below(4) > 0 => on_either_side(&modes),
             _ => LeftRightModes {
                 roots: d.vector(size),
@@ -74,7 +67,7 @@ pub const PERTURBATION: &[Entry] = &[
         let size = d.size();
         let g = d
             .symmetric(size)
-            .map(|entry| nalgebra::Complex::new(entry, 0.1 * entry));
+            .map(|entry| Complex::new(entry, 0.1 * entry));
         appendix_c::solve(&d.symmetric(size), &g).map(|_| Vec::new())
     }),
     ("mass_changes::normalize_with_mass", |d| {

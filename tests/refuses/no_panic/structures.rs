@@ -1,20 +1,9 @@
 //! Elements, structures and models.
 
 use super::{Entry, entries, modes};
-use crate::common::draws::Draws;
 use crate::common::structures::of_dense;
-use crate::common::whole_models::sparse;
-use corfem::method::analysis::Analysis;
-use corfem::method::appendix_a::{self, assemble, element_matrices, generalized_stiffness};
-use corfem::method::elements::{
-    corner_forces, energy_coefficient, mean_plane, membrane, rod, shear_panel, triangle,
-    unit_stiffness,
-};
-use corfem::method::model::FiniteElementModel;
-use corfem::method::step::Bounds;
-use corfem::method::structure::{ElementKind, Material, Point, Structure, check_corners};
-use corfem::sparse::Factor;
-use corfem::sparse::elements::{corner_volumes, lumped_masses, support};
+use crate::prelude::*;
+use corfem::method::appendix_a;
 
 /// A kind of element and as many corners as it has.
 fn element(d: &mut Draws) -> (ElementKind, Vec<Point>) {
@@ -167,7 +156,7 @@ pub const STRUCTURES: &[Entry] = &[
     }),
     ("elements::support", |d| {
         let structure = d.structure()?;
-        let elements: Vec<_> = element_matrices(&structure).collect();
+        let elements = element_matrices(&structure).collect_vec();
         let found = support(&structure, &elements)?;
         let entries = found.resisting.iter().flat_map(|matrix| matrix.entries());
         Ok(entries.map(|entry| entry.2).collect())
@@ -176,7 +165,7 @@ pub const STRUCTURES: &[Entry] = &[
         let (model, factors) = d.finite_element()?;
         let ranges = model
             .factor_ranges()
-            .map(|ranges| ranges.into_iter().flatten().collect::<Vec<_>>())?;
+            .map(|ranges| ranges.into_iter().flatten().collect_vec())?;
         Ok(ranges
             .iter()
             .flat_map(|range| [range.lower, range.upper])

@@ -1,12 +1,8 @@
 //! Free motions are counted by signs of pivots within what the digits of a file leave open: a structure written with fewer digits
 //! gives the same answer or a doubt.
 
-use crate::common::draws::Draws;
 use crate::common::free_structures::{Drawn, KINDS, drawn, rewritten};
-use crate::common::whole_models::free_motions;
-use corfem::sparse::{RigidBodies, Support};
-use nalgebra::{DMatrix, Vector3};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 fn bodies(of: &Drawn, digits: usize, support: &Support) -> RigidBodies {
     let stiffness = rewritten(&of.stiffness, digits);
@@ -15,8 +11,6 @@ fn bodies(of: &Drawn, digits: usize, support: &Support) -> RigidBodies {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     #[test]
     fn fewer_digits_give_the_same_count_or_a_doubt(
         (seed, kind, is_held) in (any::<u64>(), 0..KINDS, any::<bool>()),
@@ -56,7 +50,7 @@ properties! {
         let way: DMatrix<f64> = DMatrix::from_fn(6, 1, |row, _| if row < 3 { -beside[row % 3] } else { beside[row % 3] });
         let mut stiffness = of.stiffness.clone().resize(count + 3, count + 3, 0.0);
         let bar = 1e6 * &way * way.transpose();
-        let places: Vec<usize> = (3..6).chain(count..count + 3).collect();
+        let places = (3..6).chain(count..count + 3).collect_vec();
         for (i, &row) in places.iter().enumerate() {
             places.iter().enumerate().for_each(|(j, &column)| stiffness[(row, column)] += bar[(i, j)]);
         }

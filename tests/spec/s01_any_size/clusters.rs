@@ -1,10 +1,6 @@
 //! Roots repeated more often than a block has directions, and other nasty pencils: 144 of them beside dense decompositions.
 
-use crate::common::draws::Draws;
-use crate::common::tolerances::{CLUSTERED_ROOT, ROUND_OFF_FLOOR};
-use crate::common::whole_models::{lowest_modes, masses, springs};
-use corfem::sparse::SparseMatrix;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// Springs between two rows, or one and the ground.
 type Springs = Vec<(usize, Option<usize>, f64)>;
@@ -183,7 +179,7 @@ fn reference(stiffness: &DMatrix<f64>, mass: &[f64]) -> Vec<f64> {
         |rows: &[usize], columns: &[usize]| stiffness.select_rows(rows).select_columns(columns);
     let mut condensed = block(&heavy, &heavy);
     if !light.is_empty() {
-        let factor = block(&light, &light).cholesky().expect("held");
+        let factor = block(&light, &light).cholesky().unwrap();
         condensed -= block(&heavy, &light) * factor.solve(&block(&light, &heavy));
     }
     let scaled = |row: usize, column: usize| {
@@ -239,6 +235,6 @@ fn more_modes_than_are_finite_are_refused_with_their_number() {
         .map(|row| (row, row.checked_sub(1), 1e4))
         .collect();
     let stiffness = springs(250, &fifty(5, &one));
-    let found = lowest_modes(&stiffness, &masses(&[3.0; 250]), 250).expect("modes");
+    let found = lowest_modes(&stiffness, &masses(&[3.0; 250]), 250).unwrap();
     assert_eq!(found.vibrations.len(), 250);
 }

@@ -1,15 +1,6 @@
 //! Slopes of weighted residuals at whole models: exact, though most modes are not known.
 
-use crate::common::costly_config;
-use crate::common::measured::equal_weights;
-use crate::common::tolerances::EXACT_SLOPES;
-use crate::common::whole_models::{masses, seen_by, sensors_at, springs};
-use corfem::method::modes::Modes;
-use corfem::method::sorting::pair_modes;
-use corfem::nalgebra::{DMatrix, DVector};
-use corfem::sparse::{BasisSize, SparseMatrix, WholeModel, WholeParameter, WholeShare};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::residuals::{DEVIATIONS, jacobian, residuals};
+use crate::prelude::*;
 use proptest::collection::vec;
 use proptest::prelude::{Strategy, any};
 
@@ -29,13 +20,13 @@ impl Row {
     /// points are seen.
     fn new(sizes: &[f64], is_held: bool, spacing: usize, seen: usize) -> Self {
         let count = sizes.len();
-        let mut all: Vec<_> = (1..count)
+        let mut all = (1..count)
             .map(|at| (at, Some(at - 1), 1e5 * sizes[at]))
-            .collect();
+            .collect_vec();
         if is_held {
             all.push((0, None, 1e5));
         }
-        let mass: Vec<f64> = sizes.iter().rev().map(|size| 60.0 * size).collect();
+        let mass = sizes.iter().rev().map(|size| 60.0 * size).collect_vec();
         let parameter = |name: String, share| WholeParameter {
             name,
             share,
@@ -46,20 +37,20 @@ impl Row {
             parameter(format!("spring {}", spring.0), share)
         };
         let of_mass = |at: usize| {
-            let own: Vec<f64> = (0..count)
+            let own = (0..count)
                 .map(|row| if row == at { mass[at] } else { 0.0 })
-                .collect();
+                .collect_vec();
             parameter(format!("mass {at}"), WholeShare::Mass(masses(&own)))
         };
         let parameters = all.iter().step_by(spacing).map(of_spring);
         let parameters = parameters.chain((1..count).step_by(2 * spacing).map(of_mass));
         let model = WholeModel::new(springs(count, &all), masses(&mass), parameters.collect());
-        let model = model.expect("a model");
-        let sensors = sensors_at(&(0..count).step_by(seen).collect::<Vec<_>>(), count);
-        let other: Vec<f64> = (0..model.parameters().len())
+        let model = model.unwrap();
+        let sensors = sensors_at(&(0..count).step_by(seen).collect_vec(), count);
+        let other = (0..model.parameters().len())
             .map(|e| 1.0 + 0.1 * (e % 3) as f64)
-            .collect();
-        let found = model.modes(&other, MODES[0]).expect("modes").vibrations;
+            .collect_vec();
+        let found = model.modes(&other, MODES[0]).unwrap().vibrations;
         let test = seen_by(&sensors, &found);
         Self {
             model,
@@ -73,10 +64,10 @@ impl Row {
             modes: MODES[1],
             residual_vectors: 0,
         };
-        let pair = corfem::sparse::Pair::by(|of| pair_modes(of.cross));
+        let pair = by_sorting();
         self.model
             .analyze(factors, &self.sensors, &self.test, pair, size)
-            .expect("an analysis")
+            .unwrap()
             .into()
     }
 }
@@ -97,16 +88,16 @@ properties! {
     #[test]
     fn slopes_are_those_of_differences_of_exact_analyses((row, _) in rows()) {
         let (count, weights) = (row.model.parameters().len(), equal_weights(DEVIATIONS, MODES[0]));
-        let exact = jacobian(&row.at(&vec![1.0; count]), &weights).expect("slopes");
+        let exact = jacobian(&row.at(&vec![1.0; count]), &weights)?;
         let step = 1e-4_f64;
-        let differences: Vec<DVector<f64>> = (0..count).map(|e| {
+        let differences = (0..count).map(|e| {
             let side = |log: f64| {
                 let mut factors = vec![1.0; count];
                 factors[e] = log.exp();
-                residuals(&row.at(&factors), &weights).expect("residuals")
+                residuals(&row.at(&factors), &weights).unwrap()
             };
             (side(step) - side(-step)) / (2.0 * step)
-        }).collect();
+        }).collect_vec();
         let off = (&exact - DMatrix::from_columns(&differences)).amax() / exact.amax();
         assert!(off < EXACT_SLOPES, "{off:e}");
     }

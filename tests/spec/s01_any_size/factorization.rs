@@ -1,25 +1,12 @@
 //! The plan of a factorization, and shares of elements that no theory of elasticity made.
 
-use crate::common::assert_refused;
-use crate::common::draws::Draws;
 use crate::common::fill::{self, Fill};
-use crate::common::known::wing::Wing;
-use crate::common::log_log_slope;
-use crate::common::strategies::symmetric;
-use crate::common::tolerances::{FILL_ORDER, MATRIX_ROUND_OFF};
-use corfem::chain::rods;
-use corfem::method::appendix_a::{ElementMatrix, element_matrices};
-use corfem::method::error::Error;
-use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use corfem::sparse::{Factor, SparseMatrix};
-use corfem::torque_box::Case;
-use nalgebra::{DMatrix, Vector3};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// A square net of membranes and rods in the plane, swept, with one edge held and every grid free in x and y.
 fn net(cells: usize) -> Structure {
     let label = |i: usize, j: usize| 1 + i + (cells + 1) * j;
-    let material = Material::isotropic(1.0e7, 0.3).expect("a material");
+    let material = Material::isotropic(1.0e7, 0.3).unwrap();
     let place = |i: usize, j: usize| Vector3::new(i as f64 + 0.5 * j as f64, j as f64, 0.0);
     let all = || (0..=cells).flat_map(|j| (0..=cells).map(move |i| (i, j)));
     let grid = |(i, j)| Grid {
@@ -47,7 +34,7 @@ fn net(cells: usize) -> Structure {
         all().map(grid).collect(),
         cells.enumerate().map(element).collect(),
     )
-    .expect("a structure")
+    .unwrap()
 }
 
 /// A structure with its own elements.
@@ -64,16 +51,16 @@ fn order_of(count: usize, elements: &[ElementMatrix]) -> Vec<usize> {
         pairs
             .filter(|(a, b)| a != b)
             .flat_map(|(a, b)| [(a, b, -1.0), (a, a, 1.0)])
-            .collect::<Vec<_>>()
+            .collect_vec()
     };
     let ground = (0..count).map(|row| (row, row, 1.0));
     let entries = elements.iter().flat_map(coupled).chain(ground).collect();
-    let matrix = SparseMatrix::new("net", count, count, entries).expect("a matrix");
-    Factor::new("net", &matrix).expect("held").order().to_vec()
+    let matrix = SparseMatrix::new("net", count, count, entries).unwrap();
+    Factor::new("net", &matrix).unwrap().order().to_vec()
 }
 
 fn fill_of(structure: &Structure) -> Fill {
-    let elements: Vec<_> = element_matrices(structure).collect();
+    let elements = element_matrices(structure).collect_vec();
     let order = order_of(structure.free_dof().len(), &elements);
     let fill = fill::of_order(&order, &elements);
     // Dense blocks store zeros too.
@@ -115,7 +102,7 @@ fn eliminated(order: &[usize], elements: &[ElementMatrix]) -> usize {
     let mut entries = 0;
     for (at, &row) in order.iter().enumerate() {
         let later = order[at..].iter().copied();
-        let below: Vec<usize> = later.filter(|&other| coupled[row][other]).collect();
+        let below = later.filter(|&other| coupled[row][other]).collect_vec();
         entries += below.len();
         for &a in &below {
             below.iter().for_each(|&b| coupled[a][b] = true);
@@ -126,8 +113,8 @@ fn eliminated(order: &[usize], elements: &[ElementMatrix]) -> usize {
 
 /// Springs between so many grids in a row, whose places say nothing of what is coupled.
 fn network(count: usize, springs: &[(usize, usize)]) -> (Structure, Vec<ElementMatrix>) {
-    let row = rods(&vec![1.0; count], [true, false]).expect("a chain");
-    let one = element_matrices(&row).last().expect("a rod");
+    let row = rods(&vec![1.0; count], [true, false]).unwrap();
+    let one = element_matrices(&row).last().unwrap();
     let spring = |&(a, b): &(usize, usize)| ElementMatrix {
         dof: vec![a, b],
         ..one.clone()
@@ -137,21 +124,21 @@ fn network(count: usize, springs: &[(usize, usize)]) -> (Structure, Vec<ElementM
 
 /// A square net of such springs whose points are numbered at random.
 fn shuffled_net(side: usize, draws: &mut Draws) -> Vec<(usize, usize)> {
-    let mut label: Vec<usize> = (0..side * side).collect();
+    let mut label = (0..side * side).collect_vec();
     (1..label.len())
         .rev()
         .for_each(|at| label.swap(at, draws.below(at + 1)));
     let across = (0..side * side).filter(|at| at % side > 0);
-    let across: Vec<_> = across.map(|at| (label[at], label[at - 1])).collect();
+    let across = across.map(|at| (label[at], label[at - 1])).collect_vec();
     let along = (side..side * side).map(|at| (label[at], label[at - side]));
     along.chain(across).collect()
 }
 
 /// A tree in which every point hangs on one of the three before it, and as many springs again between points not far from each other.
 fn branches(count: usize, draws: &mut Draws) -> Vec<(usize, usize)> {
-    let tree: Vec<_> = (1..count)
+    let tree = (1..count)
         .map(|at| (at, at - 1 - draws.below(at.min(3))))
-        .collect();
+        .collect_vec();
     let more = (12..count).map(|at| (at, at - 1 - draws.below(12)));
     more.chain(tree).collect()
 }
@@ -177,16 +164,16 @@ fn fill_is_what_the_cuts_of_nested_dissection_promise_and_elimination_by_hand_co
             bays,
             ..Wing::default()
         };
-        of_structure(wing.structure().expect("a wing"))
+        of_structure(wing.structure().unwrap())
     };
     let mut draws = Draws(1973);
     let second =
         |springs: Vec<(usize, usize)>| springs.into_iter().map(|(a, b)| (100 + a, 100 + b));
     let loops = |count: usize| (0..count).map(move |at| (at, (at + 1) % count));
-    let two: Vec<_> = shuffled_net(10, &mut draws)
+    let two = shuffled_net(10, &mut draws)
         .into_iter()
         .chain(second(shuffled_net(7, &mut draws)))
-        .collect();
+        .collect_vec();
     let rings = loops(40).chain(loops(25).map(|(a, b)| (40 + a, 40 + b)));
     let meshes = [
         of_wing(Wing::default().bays),
@@ -197,7 +184,7 @@ fn fill_is_what_the_cuts_of_nested_dissection_promise_and_elimination_by_hand_co
         network(400, &shuffled_net(20, &mut draws)),
         network(149, &two),
         network(300, &branches(300, &mut draws)),
-        network(65, &rings.collect::<Vec<_>>()),
+        network(65, &rings.collect_vec()),
     ];
     let counted = FILL
         .iter()
@@ -208,13 +195,13 @@ fn fill_is_what_the_cuts_of_nested_dissection_promise_and_elimination_by_hand_co
             assert_eq!(needed, eliminated(&order, elements), "{name}");
             (*name, needed)
         });
-    assert_eq!(counted.collect::<Vec<_>>(), FILL);
+    assert_eq!(counted.collect_vec(), FILL);
 }
 
 #[test]
 fn a_factor_that_overflows_is_refused_by_its_row() {
     let coupled = vec![(0, 0, 1.0), (1, 1, 1.0), (0, 1, 1e200), (1, 0, 1e200)];
-    let matrix = SparseMatrix::new("pair", 2, 2, coupled).expect("finite");
+    let matrix = SparseMatrix::new("pair", 2, 2, coupled).unwrap();
     let error = Error::NotPositiveDefinite {
         what: "pair",
         row: 1,
@@ -235,7 +222,7 @@ fn a_factor_that_does_not_solve_its_own_matrix_is_refused() {
         rows[row][column] + 1e-15 * f64::from(u8::from(row == 1 && column == 1))
     });
     assert!(matrix.clone().lu().is_invertible());
-    let matrix = SparseMatrix::of_dense("weak", &matrix).expect("finite");
+    let matrix = SparseMatrix::of_dense("weak", &matrix).unwrap();
     let Err(Error::Failed { what: "weak", why }) = Factor::new("weak", &matrix) else {
         panic!("it solves")
     };
@@ -272,32 +259,30 @@ fn a_load_distribution_says_what_is_wrong_with_it() {
         "{refused:?}"
     );
     let t = DMatrix::from_row_slice(3, 2, &[1.0, 0.0, 0.0, 0.0, 0.5, 2.0]);
-    let sparse = SparseMatrix::of_dense("load distribution", &t).expect("finite");
+    let sparse = SparseMatrix::of_dense("load distribution", &t).unwrap();
     assert_eq!(
-        sparse.entries().collect::<Vec<_>>(),
+        sparse.entries().collect_vec(),
         [(0, 0, 1.0), (2, 0, 0.5), (2, 1, 2.0)]
     );
     assert_eq!((sparse.dense(), sparse.rows()), (t, 3));
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// An element's share needs no theory of elasticity: matrices of another origin, indefinite ones among them, give B Kₑ Bᵗ,
     /// and all shares sum to K_D.
     #[test]
     fn shares_of_any_element_matrix_are_its_congruence(change in symmetric(12), strength in 0.0..0.02_f64) {
-        let model = Case::new(1).unwrap().model().unwrap();
+        let model = case_of(1).model()?;
         let units = model.element_matrices().iter().map(|element| {
             let count = element.dof.len();
             &element.unit + strength * element.unit.amax() * change.view((0, 0), (count, count))
         });
-        let units: Vec<DMatrix<f64>> = units.collect();
-        let model = model.with_unit_stiffness(units.clone()).unwrap();
+        let units = units.collect_vec();
+        let model = model.with_unit_stiffness(units.clone())?;
         let ones = vec![1.0; model.parameters().len()];
         // Changes beyond what the structure bears are refused, and are not this property's matter.
         let Ok(matrices) = model.matrices(&ones) else { return Ok(()) };
-        let b = model.condense(&ones).unwrap().transformation;
+        let b = model.condense(&ones)?.transformation;
         for (row, share) in matrices.shares.iter().enumerate() {
             let label = model.parameters()[row].elements[0];
             let at = model.structure().elements().iter().position(|element| element.label == label).unwrap();

@@ -1,17 +1,6 @@
 //! Free structures and massless degrees of freedom: every mode found once, and counted another way.
 
-use crate::common::assert_refused;
-use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
-use crate::common::draws::Draws;
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::structures::{dense, lumped_mass, spring_stiffness};
-use crate::common::tolerances::{COUNTED_ROOT, EIGEN_ROUND_OFF};
-use crate::common::whole_models::{counted_modes, lowest_modes, sparse};
-use corfem::method::error::Error;
-use corfem::method::structure::{Grid, Structure};
-use corfem::sparse::{Factor, SparseMatrix};
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// How many squared frequencies lie below a bound.
 fn count_below(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, bound: f64) -> Result<usize, Error> {
@@ -37,9 +26,9 @@ fn random_pencils_are_counted_and_solved_every_time() {
     for number in 0..10_000 {
         let (rigid, massless, vibrations) = (draws.below(3), draws.below(3), 1 + draws.below(4));
         let size = rigid + massless + vibrations;
-        let mut roots: Vec<f64> = (0..vibrations)
+        let mut roots = (0..vibrations)
             .map(|_| [1.0, 1.0, 4.0, 30.0, 30.5, 900.0][draws.below(6)])
-            .collect();
+            .collect_vec();
         roots.sort_by(f64::total_cmp);
         repeated += usize::from(roots.windows(2).any(|pair| pair[0] == pair[1]));
         (free, massless_ones) = (
@@ -69,7 +58,7 @@ fn random_pencils_are_counted_and_solved_every_time() {
         assert_eq!(found.vibrations.len(), vibrations, "pencil {number}");
         for (omega_squared, root) in found.vibrations.omega_squared().iter().zip(&roots) {
             assert!(
-                (omega_squared / root - 1.0).abs() < COUNTED_ROOT,
+                relative_error(omega_squared, root) < COUNTED_ROOT,
                 "pencil {number}: {omega_squared} for {root}"
             );
         }
@@ -106,45 +95,45 @@ fn random_pencils_are_counted_and_solved_every_time() {
 #[test]
 fn a_free_spring_chain_has_the_closed_form() {
     for count in 2..=9 {
-        let mut stiffness = DMatrix::zeros(count, count);
+        let mut stiffness = zero_square(count);
         for spring in 0..count - 1 {
             let mut ends = DVector::zeros(count);
             (ends[spring], ends[spring + 1]) = (1.0, -1.0);
             stiffness += 100.0 * &ends * ends.transpose();
         }
         let mass = DMatrix::from_diagonal_element(count, count, 0.01);
-        let found = counted_modes(&stiffness, &mass).expect("modes");
+        let found = counted_modes(&stiffness, &mass).unwrap();
         assert_eq!(found.rigid_body.ncols(), 1);
         let expected = chain_eigenvalues(ChainEnds::FreeFree, count, 100.0, 0.01);
-        let expected: Vec<f64> = expected.into_iter().filter(|value| *value > 1e-6).collect();
+        let expected = expected
+            .into_iter()
+            .filter(|value| *value > 1e-6)
+            .collect_vec();
         assert_eq!(found.vibrations.len(), expected.len());
-        for (found, expected) in found.vibrations.omega_squared().iter().zip(&expected) {
-            assert!((found / expected - 1.0).abs() < COUNTED_ROOT);
-        }
+        assert_alike(
+            found.vibrations.omega_squared().iter(),
+            &expected,
+            COUNTED_ROOT,
+        );
         // The chain moves as one.
         let first = found.rigid_body[(0, 0)];
         assert!(
             found
                 .rigid_body
                 .iter()
-                .all(|component| (component / first - 1.0).abs() < COUNTED_ROOT)
+                .all(|component| relative_error(component, first) < COUNTED_ROOT)
         );
         for (below, bound) in [
             (0, -1.0),
             (1, 0.45 * expected[0]),
             (count, 2.0 * expected[count - 2]),
         ] {
-            assert_eq!(
-                count_below(&stiffness, &mass, bound).expect("a count"),
-                below
-            );
+            assert_eq!(count_below(&stiffness, &mass, bound).unwrap(), below);
         }
     }
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// Other units of every degree of freedom are a congruence.
     #[test]
     fn a_count_does_not_depend_on_units(decades in prop::collection::vec(-9..=9_i32, 6), below in 0..=6_usize) {
@@ -156,21 +145,21 @@ properties! {
         };
         let stiffness: DMatrix<f64> = (0..6).map(|spring| spring_stiffness(6, spring, 1.0)).sum();
         let units = DMatrix::from_diagonal(&DVector::from_iterator(6, decades.iter().map(|&ten| 10_f64.powi(ten))));
-        prop_assert_eq!(count_below(&(&units * stiffness * &units), &(&units * &units), bound).expect("a count"), below);
+        prop_assert_eq!(count_below(&(&units * stiffness * &units), &(&units * &units), bound)?, below);
     }
 }
 
 #[test]
 fn a_free_delta_wing_has_its_rigid_body_modes_and_no_mode_is_lost() {
     let wing = DeltaWing::embedded();
-    let held = wing.structure().expect("a structure");
+    let held = wing.structure().unwrap();
     let free = held.grids().iter().map(|grid| Grid {
         constrained: [false; 3],
         ..grid.clone()
     });
-    let free = Structure::new(free.collect(), held.elements().to_vec()).expect("it hangs free");
+    let free = Structure::new(free.collect(), held.elements().to_vec()).unwrap();
     let (stiffness, lumped, count) = (dense(&free), lumped_mass(&free), free.free_dof().len());
-    let found = counted_modes(&stiffness, &DMatrix::from_diagonal(&lumped)).expect("modes");
+    let found = counted_modes(&stiffness, &DMatrix::from_diagonal(&lumped)).unwrap();
     let heavy = lumped.iter().filter(|mass| **mass > 0.0).count();
     assert_eq!(found.rigid_body.ncols() + found.vibrations.len(), heavy);
     // Every motion of a rigid body is among the modes without strain.
@@ -192,7 +181,7 @@ fn a_free_delta_wing_has_its_rigid_body_modes_and_no_mode_is_lost() {
 fn a_soft_suspension_is_a_vibration_and_no_rigid_body_mode() {
     // A hundred-millionth of the other's stiffness, and still no zero.
     let stiffness = DMatrix::from_diagonal(&DVector::from_vec(vec![1e-8, 1.0]));
-    let found = counted_modes(&stiffness, &DMatrix::identity(2, 2)).expect("modes");
+    let found = counted_modes(&stiffness, &eye(2)).unwrap();
     assert_eq!((found.rigid_body.ncols(), found.vibrations.len()), (0, 2));
     assert!((found.vibrations.omega_squared()[0] / 1e-8 - 1.0).abs() < COUNTED_ROOT);
 }
@@ -201,10 +190,7 @@ fn a_soft_suspension_is_a_vibration_and_no_rigid_body_mode() {
 #[test]
 fn a_mode_that_is_lost_beside_a_far_lower_one_is_missed_by_the_count() {
     let stiffness = DMatrix::from_diagonal(&DVector::from_vec(vec![0.0, 1.0, 0.9e13, 1.1e13]));
-    let (stiffness, mass) = (
-        sparse(&stiffness).expect("a matrix"),
-        sparse(&DMatrix::identity(4, 4)).expect("a matrix"),
-    );
+    let (stiffness, mass) = (sparse(&stiffness).unwrap(), sparse(&eye(4)).unwrap());
     // Above the last that is found, as far as that is from three times itself, half way.
     let refused = lowest_modes(&stiffness, &mass, 2);
     let why = "3 were found below 1.800000e13 rad^2/s^2, but the shifted pencil's inertia counts 4";
@@ -214,15 +200,15 @@ fn a_mode_that_is_lost_beside_a_far_lower_one_is_missed_by_the_count() {
     };
     assert_refused(refused, error);
     // One mode is told apart from the others well below them.
-    let one = lowest_modes(&stiffness, &mass, 1).expect("modes");
+    let one = lowest_modes(&stiffness, &mass, 1).unwrap();
     assert_eq!((one.rigid_body.ncols(), one.vibrations.len()), (1, 1));
 }
 
 #[test]
 fn what_is_no_mass_is_named_by_its_row() {
-    let stiffness = sparse(&DMatrix::identity(3, 3)).expect("a matrix");
+    let stiffness = sparse(&eye(3)).unwrap();
     let coupled = vec![(0, 0, 1.0), (1, 2, 1.0), (2, 1, 1.0)];
-    let mass = SparseMatrix::new("mass", 3, 3, coupled).expect("a matrix");
+    let mass = SparseMatrix::new("mass", 3, 3, coupled).unwrap();
     // Both rows move alike in the motion of negative mass; the first is named.
     let error = Error::NotPositiveDefinite {
         what: "mass",
@@ -233,9 +219,9 @@ fn what_is_no_mass_is_named_by_its_row() {
 
 #[test]
 fn what_cannot_be_counted_is_refused() {
-    let two = DMatrix::identity(2, 2);
+    let two = eye(2);
     assert!(matches!(
-        counted_modes(&two, &DMatrix::zeros(2, 2)),
+        counted_modes(&two, &zero_square(2)),
         Err(Error::Count { found: 0, .. })
     ));
     let negative = DMatrix::from_diagonal(&DVector::from_vec(vec![1.0, -1.0]));
@@ -250,7 +236,7 @@ fn what_cannot_be_counted_is_refused() {
         Err(Error::NotPositiveDefinite { .. })
     ));
     assert!(matches!(
-        counted_modes(&two, &DMatrix::identity(3, 3)),
+        counted_modes(&two, &eye(3)),
         Err(Error::WrongShape { .. })
     ));
     assert!(matches!(

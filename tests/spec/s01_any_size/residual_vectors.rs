@@ -1,19 +1,6 @@
 //! Residual vectors: further shapes of the basis in which changes of a whole model are followed.
 
-use crate::common::measured::equal_weights;
-use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
-use crate::common::whole_models::{masses, seen_by, sensors_at, springs};
-use corfem::method::error::Error;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::sorting::pair_modes;
-use corfem::nalgebra::DMatrix;
-use corfem::sparse::{
-    BasisSize, SensorModel, SparseMatrix, WholeModel, WholeParameter, WholeShare,
-};
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{WeightedSettings, WeightedStop, gauss_newton};
-use corfem::weighted::residuals::DEVIATIONS;
+use crate::prelude::*;
 
 /// A net of springs between masses that move out of its plane, held at one edge; every column of it is a parameter. Springs and masses
 /// vary from place to place by a rule, so that `golden/residual_vectors.py` has the same.
@@ -54,17 +41,17 @@ impl Net {
                 share: WholeShare::Stiffness(springs(count, part)),
                 range: None,
             });
-        let mass: Vec<f64> = (0..count).map(|place| 60.0 * vary(3 * place)).collect();
+        let mass = (0..count).map(|place| 60.0 * vary(3 * place)).collect_vec();
         let model = WholeModel::new(
             springs(count, &parts.concat()),
             masses(&mass),
             parameters.collect(),
         )
         .unwrap();
-        let truth: Vec<f64> = (0..columns)
+        let truth = (0..columns)
             .map(|e| (0.4 * (3.0 * e as f64).cos()).exp())
-            .collect();
-        let places: Vec<usize> = (0..count).filter(|place| place % 3 == 1).collect();
+            .collect_vec();
+        let places = (0..count).filter(|place| place % 3 == 1).collect_vec();
         let sensors = sensors_at(&places, count);
         let found = model.modes(&truth, MODES[0]).unwrap().vibrations;
         let test = seen_by(&sensors, &found);
@@ -77,7 +64,7 @@ impl Net {
     }
 
     fn analyze(&self, factors: &[f64], further: usize) -> SensorModel {
-        let pair = corfem::sparse::Pair::by(|of| pair_modes(of.cross));
+        let pair = by_sorting();
         self.model
             .analyze(
                 factors,
@@ -123,11 +110,11 @@ fn every_spring_has_one_residual_vector() {
     for (stiff, mass) in [(1.0, 1.0), (1e9, 1e-2), (1e-6, 1e3)] {
         let count = 30;
         let spring = |row: usize, size: f64| (row, row.checked_sub(1), size * stiff);
-        let chain: Vec<_> = (0..count).map(|row| spring(row, 1.0)).collect();
+        let chain = (0..count).map(|row| spring(row, 1.0)).collect_vec();
         // Three of them are parameters with another in parallel: as stiff, and ever softer.
         let sizes = [1.0, 1e-3, 1e-7];
         let parts = sizes.iter().zip([7, 15, 24]);
-        let parts: Vec<_> = parts.map(|(&size, row)| spring(row, size)).collect();
+        let parts = parts.map(|(&size, row)| spring(row, size)).collect_vec();
         let parameters = parts.iter().map(|&part| WholeParameter {
             name: format!("spring at {}", part.0),
             share: WholeShare::Stiffness(springs(count, &[part])),
@@ -146,7 +133,7 @@ fn every_spring_has_one_residual_vector() {
                 &[1.0; 3],
                 &sensors,
                 &test,
-                corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+                by_sorting(),
                 BasisSize {
                     modes: 4,
                     residual_vectors: 4,
@@ -160,7 +147,7 @@ fn every_spring_has_one_residual_vector() {
 /// Largest relative error of the eight lowest frequencies that a basis predicts, the median over changes within e^±0.3.
 fn predicted(net: &Net, further: usize) -> f64 {
     let first = net.analyze(&[1.0; 9], further);
-    let mut errors: Vec<f64> = (1..=25)
+    let mut errors = (1..=25)
         .map(|draw| {
             let factor = |e: usize| (0.3 * (f64::from(draw) * (1.7 + e as f64)).sin()).exp();
             let factors: Vec<f64> = (0..9).map(factor).collect();
@@ -170,14 +157,14 @@ fn predicted(net: &Net, further: usize) -> f64 {
                 stiffness += (factor - 1.0) * share.matrix();
             }
             let size = stiffness.nrows();
-            let found = solve(&stiffness, &DMatrix::identity(size, size), MODES[0]).unwrap();
+            let found = solve(&stiffness, &eye(size), MODES[0]).unwrap();
             let found = found.frequencies_hz();
             let exact = net.model.modes(&factors, MODES[0]).unwrap().vibrations;
             let off = found.iter().zip(exact.frequencies_hz());
-            off.map(|(found, exact)| (found / exact - 1.0).abs())
+            off.map(|(found, exact)| relative_error(found, exact))
                 .fold(0.0, f64::max)
         })
-        .collect();
+        .collect_vec();
     errors.sort_by(f64::total_cmp);
     errors[errors.len() / 2]
 }
@@ -229,7 +216,7 @@ fn a_net_of_300_degrees_of_freedom_comes_back_at_the_usual_number_of_modes() {
         let off = factors
             .iter()
             .zip(&net.truth)
-            .map(|(found, truth)| (found / truth - 1.0).abs());
+            .map(|(found, truth)| relative_error(found, truth));
         off.fold(0.0, f64::max)
     };
     assert_eq!(found.stop, WeightedStop::Gradient);

@@ -1,29 +1,20 @@
 //! Rigid-body modes are the null space of the stiffness, whatever its stiffest part.
 
-use crate::common::draws::Draws;
-use crate::common::known::whole::of_elements;
-use crate::common::tolerances::DIFFERENCE_ROUND_OFF;
-use crate::common::whole_models::{free_motions, lowest_modes, masses, springs};
-use corfem::chain::rods;
-use corfem::files::deck::{self, BulkData};
-use corfem::files::matrices::read;
-use corfem::method::model::{FiniteElementModel, Parameter};
-use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
-use corfem::sparse::{RigidBodies, SparseMatrix, Support, WholeModel};
-use nalgebra::{DMatrix, Vector3};
+use crate::prelude::*;
+use matrices::read;
 
 fn of(stiffness: &SparseMatrix) -> RigidBodies {
-    free_motions(stiffness, &Support::default()).expect("a null space")
+    free_motions(stiffness, &Support::default()).unwrap()
 }
 
 /// Whole model of a structure with a mass at its first degree of freedom.
 fn whole(structure: Structure, point: f64) -> WholeModel {
     let count = structure.free_dof().len();
-    let t = SparseMatrix::new("T", count, 1, vec![(0, 0, 1.0)]).expect("T");
+    let t = SparseMatrix::new("T", count, 1, vec![(0, 0, 1.0)]).unwrap();
     let first = structure.elements()[0].label;
     let mass = DMatrix::from_element(1, 1, point);
     let parameters = [Parameter::new(first, &[first])];
-    of_elements(&structure, &t, &mass, &parameters, &[None]).expect("a whole model")
+    of_elements(&structure, &t, &mass, &parameters, &[None]).unwrap()
 }
 
 #[test]
@@ -32,8 +23,8 @@ fn one_stiff_spring_never_changes_the_count_of_a_model_of_elements() {
         for (stiff, held) in (0..5).flat_map(|stiff| [(stiff, true), (stiff, false)]) {
             let mut sizes = [1e4; 5];
             sizes[stiff] *= 10_f64.powi(decades);
-            let chain = whole(rods(&sizes, [held, false]).expect("a chain"), 1.0);
-            let found = chain.rigid_bodies().expect("a null space");
+            let chain = whole(rods(&sizes, [held, false]).unwrap(), 1.0);
+            let found = chain.rigid_bodies().unwrap();
             assert_eq!(
                 found.rows.len(),
                 usize::from(!held),
@@ -52,7 +43,7 @@ fn one_stiff_or_soft_spring_of_a_matrix_never_changes_the_count_to_ratios_that_d
                 let ground = is_held.then_some((0, None, draws.between(1e4, 9e4)));
                 let tree =
                     (1..size).map(|row| (draws.below(row), Some(row), draws.between(1e4, 9e4)));
-                let mut all: Vec<_> = tree.collect();
+                let mut all = tree.collect_vec();
                 all.extend(ground);
                 // Of the network, or of the supports.
                 let odd = if draws.unit() < 0.5 {
@@ -112,11 +103,11 @@ fn truss(
     let grids = places.iter().enumerate().map(grid).collect();
     let material = Material {
         density,
-        ..Material::isotropic(modulus, 0.3).expect("a material")
+        ..Material::isotropic(modulus, 0.3).unwrap()
     };
     let mut rods = Vec::new();
     for point in 1..points {
-        let mut others: Vec<usize> = (0..point).collect();
+        let mut others = (0..point).collect_vec();
         while others.len() > 6 {
             others.remove(draws.below(others.len()));
         }
@@ -130,7 +121,7 @@ fn truss(
             });
         }
     }
-    Structure::new(grids, rods).expect("a truss")
+    Structure::new(grids, rods).unwrap()
 }
 
 #[test]
@@ -147,8 +138,8 @@ fn a_thousand_structures_have_neither_one_too_many_nor_one_too_few() {
             let t = DMatrix::from_fn(structure.free_dof().len(), 1, |row, _| f64::from(row == 0));
             let mass = DMatrix::from_element(1, 1, point);
             let model = FiniteElementModel::new(structure, t, mass, vec![Parameter::new(1, &[1])]);
-            let model = model.expect("a model");
-            let deck = BulkData::from_model(&model, &[1.0], &[Vector3::zeros()]).expect("a deck");
+            let model = model.unwrap();
+            let deck = BulkData::from_model(&model, &[1.0], &[Vector3::zeros()]).unwrap();
             let found = deck::modes(&deck, 3).unwrap_or_else(|error| panic!("{number}: {error}"));
             // Three points hold six motions of a body and more; two let it turn about their line.
             let expected = [6, 3, 1, 0][held];
@@ -157,7 +148,7 @@ fn a_thousand_structures_have_neither_one_too_many_nor_one_too_few() {
         }
         for (one, other) in frequencies[0].iter().zip(&frequencies[1]) {
             assert!(
-                (one / other - 1.0).abs() < DIFFERENCE_ROUND_OFF,
+                relative_error(one, other) < DIFFERENCE_ROUND_OFF,
                 "truss {number}: {one} and {other}"
             );
         }
@@ -168,11 +159,11 @@ fn a_thousand_structures_have_neither_one_too_many_nor_one_too_few() {
 fn where_there_is_no_stiffness_every_motion_is_free() {
     // As many as are sought at first, fewer, and more than twice as many.
     for size in [3, 8, 9, 20] {
-        let nothing = SparseMatrix::new("nothing", size, size, Vec::new()).expect("a matrix");
+        let nothing = SparseMatrix::new("nothing", size, size, Vec::new()).unwrap();
         let found = of(&nothing);
         let mut rows = found.rows.clone();
         rows.sort_unstable();
-        assert_eq!(rows, (0..size).collect::<Vec<_>>());
+        assert_eq!(rows, (0..size).collect_vec());
     }
 }
 
@@ -186,9 +177,7 @@ fn one_in_the_seventh_digit_may_be_rounding_and_four_may_not() {
             let lines = lines.map(|(value, place)| format!("{place} {value:.6}\n"));
             let text = lines.collect::<String>();
             let text = format!("%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n{text}");
-            let matrix = read("k.mtx", text.as_bytes(), None)
-                .expect("a matrix")
-                .matrix;
+            let matrix = read("k.mtx", text.as_bytes(), None).unwrap().matrix;
             let found = of(&matrix);
             assert_eq!(found.rows.len(), free, "{spring} {part:e}: {found:?}");
             assert!(found.is_sure);

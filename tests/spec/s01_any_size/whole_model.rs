@@ -1,33 +1,6 @@
 //! Models without condensation, correlated at the sensors alone.
 
-use crate::common::condensed::analyze_condensed;
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::known::delta_wing::correlation::GROUPS;
-use crate::common::known::whole;
-use crate::common::measured::equal_weights;
-use crate::common::strategies::symmetric;
-use crate::common::tolerances::{MATRIX_ROUND_OFF, RECOVERED_STORY, ROUND_OFF, SAME_ANALYSIS};
-use crate::common::whole_models::{
-    counted_modes, lowest_modes, masses, of_structure, seen_by, sensors_at, shear_building, sparse,
-    springs,
-};
-use corfem::method::analysis::{Analysis, DERIVATIVE_STEP, State};
-use corfem::method::error::Error;
-use corfem::method::inner_loop::InnerSettings;
-use corfem::method::modes::Modes;
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::sorting::pair_modes;
-use corfem::method::step::StepRule;
-use corfem::method::structure::{Element, Grid, Material, Structure};
-use corfem::sparse::{
-    BasisSize, CountedModes, SparseMatrix, WholeModel, WholeParameter, WholeShare, modal_assurance,
-};
-use corfem::torque_box::Case;
-use corfem::weighted::comparison::Comparison;
-use corfem::weighted::gauss_newton::{WeightedSettings, gauss_newton};
-use corfem::weighted::noise::Noise;
-use nalgebra::{DMatrix, DVector};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// A mode that moves no sensor resembles no test mode; that is no reason to refuse the analysis.
 #[test]
@@ -39,7 +12,7 @@ fn a_mode_that_no_sensor_sees_is_like_no_test_mode() {
         range: None,
     };
     let model = WholeModel::new(springs(2, &apart), masses(&[1.0, 1.0]), vec![parameter]);
-    let test = Modes::new(DVector::from_element(1, 1.2), DMatrix::identity(1, 1));
+    let test = Modes::new(DVector::from_element(1, 1.2), eye(1));
     let found = model
         .and_then(|model| {
             let sensors = sensors_at(&[0], 2);
@@ -47,18 +20,18 @@ fn a_mode_that_no_sensor_sees_is_like_no_test_mode() {
                 &[1.0],
                 &sensors,
                 &test?,
-                corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+                by_sorting(),
                 BasisSize {
                     modes: 1,
                     residual_vectors: 0,
                 },
             )
         })
-        .expect("an analysis");
+        .unwrap();
     assert_eq!(found.exact().modes.len(), 1, "the other takes no part");
     // Whichever of the two springs is the stiffer.
     for factor in [1.0, 1.3, 9.0] {
-        let state = found.at(&[factor]).expect("a state");
+        let state = found.at(&[factor]).unwrap();
         assert_eq!(state.pairing.analysis_mode, [0], "{factor}");
     }
 }
@@ -72,8 +45,7 @@ fn a_mode_that_no_sensor_sees_cannot_be_compared() {
         share: WholeShare::Stiffness(springs(2, &apart[..1])),
         range: None,
     };
-    let model =
-        WholeModel::new(springs(2, &apart), masses(&[1.0, 1.0]), vec![parameter]).expect("a model");
+    let model = WholeModel::new(springs(2, &apart), masses(&[1.0, 1.0]), vec![parameter]).unwrap();
     let analyze = |modes: usize, shapes: DMatrix<f64>| {
         let squares = DVector::from_vec(vec![1.2, 4.4]);
         let test = Modes::new(squares, shapes)?;
@@ -83,7 +55,7 @@ fn a_mode_that_no_sensor_sees_cannot_be_compared() {
                 &[1.0],
                 &sensors,
                 &test,
-                corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+                by_sorting(),
                 BasisSize {
                     modes,
                     residual_vectors: 0,
@@ -104,7 +76,7 @@ fn a_mode_that_no_sensor_sees_cannot_be_compared() {
         ),
         "{refused:?}"
     );
-    let refused = analyze(1, DMatrix::identity(2, 2));
+    let refused = analyze(1, eye(2));
     assert!(
         matches!(
             refused,
@@ -128,21 +100,21 @@ fn a_state_in_which_rigid_body_modes_have_no_mass_is_refused() {
         range: None,
     };
     let spring = springs(2, &[(1, Some(0), 1.0)]);
-    let model = WholeModel::new(spring, masses(&[1.0, 1.0]), vec![parameter]).expect("a model");
+    let model = WholeModel::new(spring, masses(&[1.0, 1.0]), vec![parameter]).unwrap();
     let shape = DMatrix::from_column_slice(2, 1, &[1.0, -1.0]);
-    let test = Modes::new(DVector::from_element(1, 2.0), shape).expect("a mode");
+    let test = Modes::new(DVector::from_element(1, 2.0), shape).unwrap();
     let free = model
         .analyze(
             &[1.0],
             &sensors_at(&[0, 1], 2),
             &test,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+            by_sorting(),
             BasisSize {
                 modes: 1,
                 residual_vectors: 0,
             },
         )
-        .expect("an analysis");
+        .unwrap();
     assert!(free.at(&[2.0]).is_ok());
     let refused = free.at(&[-1.0]);
     assert!(
@@ -161,34 +133,31 @@ fn a_state_in_which_rigid_body_modes_have_no_mass_is_refused() {
 fn share_and_congruence(matrix: DMatrix<f64>) -> [DMatrix<f64>; 2] {
     let parameter = WholeParameter {
         name: "a share".to_owned(),
-        share: WholeShare::Stiffness(sparse(&matrix).expect("a matrix")),
+        share: WholeShare::Stiffness(sparse(&matrix).unwrap()),
         range: None,
     };
     let stories = [(0, None, 3.0), (1, Some(0), 2.0), (2, Some(1), 1.0)];
-    let model =
-        WholeModel::new(springs(3, &stories), masses(&[1.0; 3]), vec![parameter]).expect("a model");
-    let test = model.modes(&[1.0], 3).expect("modes").vibrations;
+    let model = WholeModel::new(springs(3, &stories), masses(&[1.0; 3]), vec![parameter]).unwrap();
+    let test = model.modes(&[1.0], 3).unwrap().vibrations;
     let sensors = sensors_at(&[0, 1, 2], 3);
     let found = model
         .analyze(
             &[1.0],
             &sensors,
             &test,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+            by_sorting(),
             BasisSize {
                 modes: 3,
                 residual_vectors: 0,
             },
         )
-        .expect("an analysis");
+        .unwrap();
     let shapes = found.exact().modes.shapes();
     let congruence = shapes.tr_mul(&(matrix * shapes));
     [found.shares()[0].matrix().clone(), congruence]
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
-
     /// An element's share needs no theory of elasticity: any symmetric matrix gives its congruence, in any unit.
     #[test]
     fn the_share_of_any_matrix_is_its_congruence(unit in symmetric(3), decades in -12..=12_i32) {
@@ -200,7 +169,7 @@ properties! {
 
 #[test]
 fn the_share_of_a_matrix_without_a_diagonal_is_its_congruence() {
-    let mut unit = DMatrix::zeros(3, 3);
+    let mut unit = zero_square(3);
     (unit[(0, 2)], unit[(2, 0)]) = (1.0, 1.0);
     let [share, congruence] = share_and_congruence(unit);
     assert!(congruence.amax() > 0.1);
@@ -212,21 +181,21 @@ fn the_share_of_a_matrix_without_a_diagonal_is_its_congruence() {
 fn a_share_on_the_test_shapes_is_that_on_their_modes() {
     let model = shear_building(&[3.0, 2.0, 1.0], 1.0, None);
     let (sensors, turns) = (sensors_at(&[0, 1, 2], 3), [1.0, -1.0, -1.0]);
-    let whole = model.modes(&[1.0; 3], 3).expect("modes").vibrations;
+    let whole = model.modes(&[1.0; 3], 3).unwrap().vibrations;
     let turned = whole.shapes() * DMatrix::from_diagonal(&turns.to_vec().into());
-    let test = Modes::new(whole.omega_squared().clone(), turned).expect("modes");
+    let test = Modes::new(whole.omega_squared().clone(), turned).unwrap();
     let found = model
         .analyze(
             &[1.0; 3],
             &sensors,
             &test,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+            by_sorting(),
             BasisSize {
                 modes: 3,
                 residual_vectors: 0,
             },
         )
-        .expect("an analysis");
+        .unwrap();
     let modes = found.exact().modes.shapes();
     let sign = |j: usize| modes.column(j).dot(&test.shapes().column(j)).signum();
     let signs = [0, 1, 2].map(sign);
@@ -255,30 +224,24 @@ fn the_error_change_by_a_mass_of_a_free_structure_is_near_its_limit() {
     let between = springs(3, &[(1, Some(0), 1.0), (2, Some(1), 2.0)]);
     let model = WholeModel::new(between, masses(&[1.0, 2.0, 1.5]), vec![parameter]).unwrap();
     let sensors = sensors_at(&[0, 1, 2], 3);
-    let test = model.modes(&[1.5], 2).expect("modes").vibrations;
+    let test = model.modes(&[1.5], 2).unwrap().vibrations;
     let test = seen_by(&sensors, &test);
     let free = |factor: f64| {
         let size = BasisSize {
             modes: 2,
             residual_vectors: 0,
         };
-        let found = model.analyze(
-            &[factor],
-            &sensors,
-            &test,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
-            size,
-        );
-        found.expect("an analysis")
+        let found = model.analyze(&[factor], &sensors, &test, by_sorting(), size);
+        found.unwrap()
     };
     let first = free(1.0);
-    let state = first.at(&[1.0]).expect("a state");
-    let difference = first.error_changes(&state).expect("a difference")[0];
+    let state = first.at(&[1.0]).unwrap();
+    let difference = first.error_changes(&state).unwrap()[0];
     const STEP: f64 = 1e-4;
     let [more, less] = [STEP, -STEP].map(|step| free(1.0 + step).exact().errors.sum());
     let size = DERIVATIVE_STEP * (more - less) / (2.0 * STEP);
     assert!(
-        (difference / size - 1.0).abs() <= 10.0 * DERIVATIVE_STEP,
+        relative_error(difference, size) <= 10.0 * DERIVATIVE_STEP,
         "{difference:e} {size:e}"
     );
 }
@@ -291,14 +254,14 @@ fn five_of_ten_floors_recover_every_story_without_condensation() {
     let real = shear_building(&truth.map(|factor| factor * 1.0e5), 1.0, range);
     let model = shear_building(&[1.0e5; 10], 1.0, range);
     let sensors = sensors_at(&[1, 3, 5, 7, 9], 10);
-    let whole = real.modes(&[1.0; 10], 5).expect("modes").vibrations;
+    let whole = real.modes(&[1.0; 10], 5).unwrap().vibrations;
     let test = seen_by(&sensors, &whole);
     let analyze = |factors: &[f64]| {
         model.analyze(
             factors,
             &sensors,
             &test,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+            by_sorting(),
             BasisSize {
                 modes: 10,
                 residual_vectors: 0,
@@ -306,10 +269,10 @@ fn five_of_ten_floors_recover_every_story_without_condensation() {
         )
     };
     let settings = fine_settings().for_modes(test.len());
-    let found = correlate(analyze, &model.ranges(), &settings, |_, _| true).expect("a correlation");
+    let found = correlate(analyze, &model.ranges(), &settings, |_, _| true).unwrap();
     for (story, (found, truth)) in found.best_factors.iter().zip(&truth).enumerate() {
         assert!(
-            (found / truth - 1.0).abs() < RECOVERED_STORY,
+            relative_error(found, truth) < RECOVERED_STORY,
             "story {}: {found} for {truth}",
             story + 1
         );
@@ -350,24 +313,24 @@ fn test_shapes_at_sensors_are_scaled_to_their_modes() {
     let real = shear_building(&truth.map(|factor| factor * 1.0e5), 1.0, None);
     let model = shear_building(&[1.0e5; 10], 1.0, None);
     let sensors = sensors_at(&[1, 3, 5, 7, 9], 10);
-    let whole = real.modes(&[1.0; 10], 5).expect("modes").vibrations;
+    let whole = real.modes(&[1.0; 10], 5).unwrap().vibrations;
     let test = seen_by(&sensors, &whole);
     let scales = [3.0, -0.2, 1.0e3, -1.0, 0.01];
     let shapes = test.shapes() * DMatrix::from_diagonal(&scales.to_vec().into());
-    let other = Modes::new(test.omega_squared().clone(), shapes).expect("modes");
+    let other = Modes::new(test.omega_squared().clone(), shapes).unwrap();
     let [first, other] = [&test, &other].map(|test| {
         model
             .analyze(
                 &[1.0; 10],
                 &sensors,
                 test,
-                corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+                by_sorting(),
                 BasisSize {
                     modes: 10,
                     residual_vectors: 0,
                 },
             )
-            .expect("an analysis")
+            .unwrap()
     });
     for (j, scale) in scales.iter().enumerate() {
         let shape = first.test().shapes().column(j);
@@ -389,23 +352,21 @@ fn test_shapes_at_sensors_are_scaled_to_their_modes() {
 /// The torque box of Case 2 as whole matrices: its condensed analysis is the finite element model's own.
 #[test]
 fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
-    let case = Case::new(2).expect("Case 2");
-    let model = case.model().expect("a model");
-    let test = case.test_modes().expect("test modes");
-    let (whole, sensors) = whole::of(&model).expect("a whole model");
-    let factors: Vec<f64> = (0..model.parameters().len())
+    let case = Case::new(2).unwrap();
+    let model = case.model().unwrap();
+    let test = case.test_modes().unwrap();
+    let (whole, sensors) = whole::of(&model).unwrap();
+    let factors = (0..model.parameters().len())
         .map(|e| 0.8 + 0.03 * e as f64)
-        .collect();
-    let expected = model.analyze(&factors, &test, None).expect("an analysis");
-    let found = analyze_condensed(&whole, &factors, &sensors, &test, None).expect("an analysis");
+        .collect_vec();
+    let expected = model.analyze(&factors, &test, None).unwrap();
+    let found = analyze_condensed(&whole, &factors, &sensors, &test, None).unwrap();
     let paired_hz = |state: &State| {
         let paired = state.pairing.paired(&state.modes);
-        paired.expect("its own modes").frequencies_hz()
+        paired.unwrap().frequencies_hz()
     };
     let expected_hz = paired_hz(expected.exact());
-    for (a, b) in paired_hz(found.exact()).iter().zip(&expected_hz) {
-        assert!((a / b - 1.0).abs() < SAME_ANALYSIS, "{a} {b}");
-    }
+    assert_alike(paired_hz(found.exact()).iter(), &expected_hz, SAME_ANALYSIS);
     for (a, b) in found.shares().iter().zip(expected.shares()) {
         assert!((a - b).amax() < SAME_ANALYSIS * b.amax());
     }
@@ -415,21 +376,21 @@ fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
             &factors,
             &sensors,
             &test,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+            by_sorting(),
             BasisSize {
                 modes: 9,
                 residual_vectors: 0,
             },
         )
-        .expect("an analysis");
+        .unwrap();
     let assurance = modal_assurance(
         at_sensors.exact().modes.shapes(),
         expected.exact().modes.shapes(),
     )
-    .expect("shapes");
+    .unwrap();
     let at_sensors_hz = paired_hz(at_sensors.exact());
     for (mode, hz) in expected_hz.iter().enumerate() {
-        assert!((at_sensors_hz[mode] / hz - 1.0).abs() < SAME_ANALYSIS);
+        assert!(relative_error(at_sensors_hz[mode], hz) < SAME_ANALYSIS);
         assert!(assurance[(mode, mode)] > 1.0 - SAME_ANALYSIS);
     }
     assert!(
@@ -447,11 +408,11 @@ fn a_free_chain_is_corrected_without_its_rigid_body_mode() {
     let count = 12;
     let springs_of = |factors: &[f64]| {
         let spring = |e: usize| (e + 1, Some(e), 1.0e5 * factors[e]);
-        springs(count, &(0..count - 1).map(spring).collect::<Vec<_>>())
+        springs(count, &(0..count - 1).map(spring).collect_vec())
     };
-    let truth: Vec<f64> = (0..count - 1)
+    let truth = (0..count - 1)
         .map(|e| [1.0, 0.8, 1.15, 1.0, 0.9][e % 5])
-        .collect();
+        .collect_vec();
     let model_of = |first: &[f64]| {
         let parameters = (0..count - 1).map(|e| {
             let mut alone = vec![0.0; count - 1];
@@ -462,19 +423,21 @@ fn a_free_chain_is_corrected_without_its_rigid_body_mode() {
                 range: None,
             }
         });
-        let mass: Vec<f64> = (0..count).map(|row| 1.0 + 0.1 * (row % 3) as f64).collect();
-        WholeModel::new(springs_of(first), masses(&mass), parameters.collect()).expect("a chain")
+        let mass = (0..count)
+            .map(|row| 1.0 + 0.1 * (row % 3) as f64)
+            .collect_vec();
+        WholeModel::new(springs_of(first), masses(&mass), parameters.collect()).unwrap()
     };
-    let sensors = sensors_at(&(0..count).collect::<Vec<_>>(), count);
+    let sensors = sensors_at(&(0..count).collect_vec(), count);
     let (real, model) = (model_of(&truth), model_of(&vec![1.0; count - 1]));
-    let modes = real.modes(&vec![1.0; count - 1], 8).expect("modes");
+    let modes = real.modes(&vec![1.0; count - 1], 8).unwrap();
     assert_eq!(modes.rigid_body.ncols(), 1);
     let analyze = |factors: &[f64]| {
         model.analyze(
             factors,
             &sensors,
             &modes.vibrations,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
+            by_sorting(),
             BasisSize {
                 modes: count - 1,
                 residual_vectors: 0,
@@ -482,93 +445,11 @@ fn a_free_chain_is_corrected_without_its_rigid_body_mode() {
         )
     };
     let settings = fine_settings().for_modes(modes.vibrations.len());
-    let found = correlate(analyze, &model.ranges(), &settings, |_, _| true).expect("a correlation");
+    let found = correlate(analyze, &model.ranges(), &settings, |_, _| true).unwrap();
     for (e, (found, truth)) in found.best_factors.iter().zip(&truth).enumerate() {
         assert!(
-            (found / truth - 1.0).abs() < RECOVERED_STORY,
+            relative_error(found, truth) < RECOVERED_STORY,
             "spring {e}: {found} for {truth}"
-        );
-    }
-}
-
-/// The delta wing without its supports: its motions without strain are kept out, and the wrong covers found from the others.
-#[test]
-fn a_free_delta_wing_is_corrected_without_its_rigid_body_modes() {
-    let wing = DeltaWing::embedded().structure().expect("a structure");
-    let grids = wing.grids().iter().map(|grid| Grid {
-        constrained: [false; 3],
-        ..grid.clone()
-    });
-    let free = Structure::new(grids.collect(), wing.elements().to_vec()).expect("a free wing");
-    let groups: Vec<&[usize]> = [1, 2, 4]
-        .map(|group: usize| GROUPS[group].elements)
-        .to_vec();
-    let truth = [1.2, 0.85, 1.1];
-    let dof = free.free_dof();
-    let seen: Vec<usize> = (0..dof.len())
-        .filter(|&row| dof[row].direction == 2)
-        .collect();
-    let sensors = sensors_at(&seen, dof.len());
-    let model_of = |factors: [f64; 3]| {
-        let elements = free.elements().iter().map(|element| {
-            let group = groups
-                .iter()
-                .position(|group| group.contains(&element.label));
-            let factor = group.map_or(1.0, |group| factors[group]);
-            let material = Material {
-                density: element.material.density / factor,
-                ..element.material
-            };
-            Element {
-                size: factor * element.size,
-                material,
-                ..element.clone()
-            }
-        });
-        let structure = Structure::new(free.grids().to_vec(), elements.collect()).expect("a wing");
-        let groups: Vec<Vec<usize>> = groups.iter().map(|group| group.to_vec()).collect();
-        of_structure(&structure, &groups).expect("a whole model")
-    };
-    let (real, model) = (model_of(truth), model_of([1.0; 3]));
-    let CountedModes {
-        rigid_body,
-        vibrations,
-        ..
-    } = real.modes(&[1.0; 3], 6).expect("modes");
-    // Beside the six, grids that only supports had held move freely: as many motions without strain as dense matrices find.
-    let (stiffness, mass) = real.at(&[1.0; 3]).expect("matrices");
-    let dense = counted_modes(&stiffness.dense(), &mass.dense()).expect("modes");
-    assert!(rigid_body.ncols() >= 6);
-    assert_eq!(rigid_body.ncols(), dense.rigid_body.ncols());
-    let test = seen_by(&sensors, &vibrations);
-    let analyze = |factors: &[f64]| {
-        let size = BasisSize {
-            modes: 20,
-            residual_vectors: 0,
-        };
-        let found = model.analyze(
-            factors,
-            &sensors,
-            &test,
-            corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
-            size,
-        )?;
-        Ok::<_, Error>(Comparison::from(found))
-    };
-    let weights = equal_weights(
-        Noise {
-            frequency: 1e-3,
-            shape: 5e-3,
-        },
-        test.len(),
-    );
-    let settings = WeightedSettings::default();
-    let found = gauss_newton(analyze, &[1.0; 3], &model.ranges(), &weights, &settings)
-        .expect("a correlation");
-    for (found, truth) in found.factors.iter().zip(&truth) {
-        assert!(
-            (found / truth - 1.0).abs() < RECOVERED_STORY,
-            "{found} for {truth}"
         );
     }
 }
@@ -607,13 +488,13 @@ fn what_is_wrong_with_a_whole_model_is_named() {
         Err(Error::WrongShape { what: "mass", .. })
     ));
     assert!(new(&held, &mass, Vec::new()).is_ok());
-    let lopsided = SparseMatrix::new("stiffness", 3, 3, vec![(0, 1, 1.0)]).expect("a matrix");
+    let lopsided = SparseMatrix::new("stiffness", 3, 3, vec![(0, 1, 1.0)]).unwrap();
     assert!(matches!(
         new(&held, &mass, parameter(lopsided)),
         Err(Error::Value { what: "relative difference", owner, .. })
             if owner == "stiffness of a parameter, entry (1, 0) beside its mirror"
     ));
-    let model = new(&held, &mass, parameter(held.clone())).expect("a model");
+    let model = new(&held, &mass, parameter(held.clone())).unwrap();
     assert!(matches!(
         model.modes(&[0.0], 1),
         Err(Error::Value { what: "factor", .. })
@@ -640,9 +521,7 @@ fn what_is_wrong_with_a_whole_model_is_named() {
     ));
     let floating = springs(
         200,
-        &(1..199)
-            .map(|row| (row, Some(row - 1), 1.0))
-            .collect::<Vec<_>>(),
+        &(1..199).map(|row| (row, Some(row - 1), 1.0)).collect_vec(),
     );
     let mut values = vec![1.0; 200];
     values[199] = 0.0;

@@ -1,14 +1,8 @@
 //! Modes of sparse pencils by a subspace that counts: closed forms, dense matrices, and a mode that is missing.
 
-use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
-use crate::common::draws::Draws;
-use crate::common::tolerances::{COUNTED_ROOT, JOB_RESULTS, TWO_PROGRAMS, WHOLE_SHAPE};
-use crate::common::whole_models::{
-    chain_of_springs as chain, counted_modes, lowest_modes, masses, springs,
-};
-use corfem::sparse::whole_modes::{MassDof, whole_modes};
-use corfem::sparse::{BodyFinding, Factor, MOST_DENSE_ROWS, SparseMatrix, Support};
-use nalgebra::{DMatrix, DVector};
+use crate::prelude::*;
+use chain_of_springs as chain;
+use corfem::sparse::BodyFinding;
 
 #[test]
 fn a_long_chain_has_the_closed_form_whatever_holds_it() {
@@ -19,14 +13,14 @@ fn a_long_chain_has_the_closed_form_whatever_holds_it() {
     ] {
         let (count, spring, mass) = (2000, 3.0e5, 0.02);
         let expected = chain_eigenvalues(ends, count, spring, mass);
-        let found = lowest_modes(&chain(ends, count, spring), &masses(&vec![mass; count]), 20)
-            .expect("modes");
+        let found =
+            lowest_modes(&chain(ends, count, spring), &masses(&vec![mass; count]), 20).unwrap();
         let rigid = usize::from(matches!(ends, ChainEnds::FreeFree));
         assert_eq!(found.rigid_body.ncols(), rigid);
         for (mode, omega_squared) in found.vibrations.omega_squared().iter().enumerate() {
             let expected = expected[mode + rigid];
             assert!(
-                (omega_squared / expected - 1.0).abs() < COUNTED_ROOT,
+                relative_error(omega_squared, expected) < COUNTED_ROOT,
                 "{ends:?} {mode}: {omega_squared} {expected}"
             );
         }
@@ -40,13 +34,11 @@ fn shapes_are_found_as_well_as_frequencies() {
         let stiffness = chain(ChainEnds::FixedFree, count, spring);
         let mass = masses(&vec![mass; count]);
         for modes in [1, 2, 3, 5, 8, 12, 20, 30] {
-            let found = lowest_modes(&stiffness, &mass, modes)
-                .expect("modes")
-                .vibrations;
+            let found = lowest_modes(&stiffness, &mass, modes).unwrap().vibrations;
             for (mode, omega_squared) in found.omega_squared().iter().enumerate() {
                 let shape = found.shapes().columns(mode, 1).into_owned();
-                let forces = stiffness.times(&shape).expect("it fits");
-                let residual = &forces - *omega_squared * mass.times(&shape).expect("it fits");
+                let forces = stiffness.times(&shape).unwrap();
+                let residual = &forces - *omega_squared * mass.times(&shape).unwrap();
                 let part = residual.norm() / forces.norm();
                 assert!(part < TWO_PROGRAMS, "{mode} of {modes}: {part:e}");
             }
@@ -78,10 +70,10 @@ fn repeated_roots_of_a_square_net_are_all_found() {
         }
     }
     let one = chain_eigenvalues(ChainEnds::FixedFixed, side, 1.0e4, 0.5);
-    let mut expected: Vec<f64> = one
+    let mut expected = one
         .iter()
         .flat_map(|a| one.iter().map(move |b| a + b))
-        .collect();
+        .collect_vec();
     expected.sort_by(f64::total_cmp);
     for count in [1, 2, 7, 24] {
         let found = lowest_modes(
@@ -89,16 +81,15 @@ fn repeated_roots_of_a_square_net_are_all_found() {
             &masses(&vec![0.5; side * side]),
             count,
         )
-        .expect("modes");
-        for (found, expected) in found.vibrations.omega_squared().iter().zip(&expected) {
-            assert!(
-                (found / expected - 1.0).abs() < COUNTED_ROOT,
-                "{found} {expected}"
-            );
-        }
+        .unwrap();
+        assert_alike(
+            found.vibrations.omega_squared().iter(),
+            &expected,
+            COUNTED_ROOT,
+        );
         let (m, shapes) = (masses(&vec![0.5; side * side]), found.vibrations.shapes());
-        let unit = shapes.tr_mul(&m.times(shapes).expect("it fits"));
-        assert!((unit - DMatrix::identity(count, count)).amax() < WHOLE_SHAPE);
+        let unit = shapes.tr_mul(&m.times(shapes).unwrap());
+        assert!((unit - eye(count)).amax() < WHOLE_SHAPE);
     }
 }
 
@@ -109,7 +100,7 @@ fn random_sparse_pencils_have_the_modes_of_their_dense_ones() {
     for number in 0..30 {
         let count = MOST_DENSE_ROWS + 1 + draws.below(100);
         let is_held = draws.below(2) == 0;
-        let mut all: Vec<_> = (1..count)
+        let mut all = (1..count)
             .map(|row| {
                 (
                     row,
@@ -117,13 +108,13 @@ fn random_sparse_pencils_have_the_modes_of_their_dense_ones() {
                     10.0_f64.powf(4.0 + draws.unit()),
                 )
             })
-            .collect();
+            .collect_vec();
         all.extend(
             (0..count).map(|row| (row, Some((row + 7) % count), 1.0e4 * (0.1 + draws.unit()))),
         );
         all.extend(is_held.then_some((0, None, 1.0e4)));
         let massless = draws.below(3);
-        let values: Vec<f64> = (0..count)
+        let values = (0..count)
             .map(|row| {
                 if massless > 0 && row % (massless + 1) == 0 {
                     0.0
@@ -131,24 +122,24 @@ fn random_sparse_pencils_have_the_modes_of_their_dense_ones() {
                     0.1 + draws.unit()
                 }
             })
-            .collect();
+            .collect_vec();
         let (stiffness, mass) = (springs(count, &all), masses(&values));
         let wanted = 1 + draws.below(12);
         let found = lowest_modes(&stiffness, &mass, wanted)
             .unwrap_or_else(|error| panic!("{number}: {error}"));
-        let dense = counted_modes(&stiffness.dense(), &mass.dense()).expect("modes");
+        let dense = counted_modes(&stiffness.dense(), &mass.dense()).unwrap();
         assert_eq!(found.rigid_body.ncols(), usize::from(!is_held), "{number}");
         for (mode, omega_squared) in found.vibrations.omega_squared().iter().enumerate() {
             let expected = dense.vibrations.omega_squared()[mode];
             assert!(
-                (omega_squared / expected - 1.0).abs() < COUNTED_ROOT,
+                relative_error(omega_squared, expected) < COUNTED_ROOT,
                 "{number} {mode}: {omega_squared} {expected}"
             );
             let shape = found.vibrations.shapes().columns(mode, 1).into_owned();
-            let residual = stiffness.times(&shape).expect("fits")
-                - *omega_squared * mass.times(&shape).expect("fits");
+            let residual =
+                stiffness.times(&shape).unwrap() - *omega_squared * mass.times(&shape).unwrap();
             assert!(
-                residual.norm() < WHOLE_SHAPE * stiffness.times(&shape).expect("fits").norm(),
+                residual.norm() < WHOLE_SHAPE * stiffness.times(&shape).unwrap().norm(),
                 "{number} {mode}"
             );
         }
@@ -165,7 +156,7 @@ fn what_counts_as_free_by_its_digits_says_what_they_would_hide() {
         mass: DVector::from_vec(vec![2.0, 3.0]),
     };
     let name = |row: usize| format!("row {row}");
-    let found = whole_modes(&stiffness, at, 2, &Support::default(), name).expect("modes");
+    let found = whole_modes(&stiffness, at, 2, &Support::default(), name).unwrap();
     let [
         BodyFinding::ByDigits {
             count: 1,
@@ -179,9 +170,9 @@ fn what_counts_as_free_by_its_digits_says_what_they_would_hide() {
     assert_eq!(found.rigid_body, 1);
     // The slack, 30 roundings of twice the spring at both rows, on the whole mass.
     let slack = 4.0 * 30.0 * f64::EPSILON * 1.5e4 / 0.7;
-    let hertz = (slack / 5.0).sqrt() / std::f64::consts::TAU;
+    let hertz = (slack / 5.0).sqrt() / TAU;
     assert!(
-        (hidden_hz / hertz - 1.0).abs() < JOB_RESULTS,
+        relative_error(hidden_hz, hertz) < JOB_RESULTS,
         "{hidden_hz} {hertz}"
     );
 }
@@ -200,17 +191,16 @@ fn a_factor_counts_negative_eigenvalues_and_solves() {
             };
             [vec![(row, row, own)], pair].concat()
         });
-        let matrix =
-            SparseMatrix::new("random", count, count, entries.collect()).expect("a matrix");
+        let matrix = SparseMatrix::new("random", count, count, entries.collect()).unwrap();
         let eigenvalues = matrix.dense().symmetric_eigenvalues();
-        let factor = Factor::new("random", &matrix).expect("a factor");
+        let factor = Factor::new("random", &matrix).unwrap();
         assert_eq!(
             factor.negative_count(),
             eigenvalues.iter().filter(|value| **value < 0.0).count()
         );
         let right = DMatrix::from_fn(count, 2, |_, _| draws.unit());
-        let solved = factor.solve(&right).expect("a solution");
-        let residual = matrix.times(&solved).expect("fits") - &right;
+        let solved = factor.solve(&right).unwrap();
+        let residual = matrix.times(&solved).unwrap() - &right;
         assert!(
             residual.amax() < COUNTED_ROOT * (1.0 + solved.amax()),
             "{count}: {}",
@@ -233,10 +223,10 @@ fn a_search_takes_as_many_solutions_as_it_took() {
         )
     };
     let nine = (0..9 * 40).map(|row| (row, (row % 40 > 0).then(|| row - 1), 1.0));
-    let nine = springs(9 * 40, &nine.collect::<Vec<_>>());
+    let nine = springs(9 * 40, &nine.collect_vec());
     let solutions = |stiffness: &SparseMatrix, count| {
         let mass = masses(&vec![1.0; stiffness.rows()]);
-        let found = lowest_modes(stiffness, &mass, count).expect("modes");
+        let found = lowest_modes(stiffness, &mass, count).unwrap();
         found.solutions
     };
     let took = [

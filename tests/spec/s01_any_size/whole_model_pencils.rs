@@ -1,11 +1,6 @@
 //! Sparse pencils that are hard to find modes of: in unlike units, with loose parts, with few masses, and with roots that repeat.
 
-use crate::common::closed_forms::analytical::{ChainEnds, chain_eigenvalues};
-use crate::common::tolerances::{COUNTED_ROOT, WHOLE_SHAPE};
-use crate::common::whole_models::{chain_of_springs, lowest_modes, masses, springs};
-use corfem::method::error::Error;
-use corfem::sparse::{CountedModes, MOST_DENSE_ROWS, SparseMatrix};
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 /// More than are solved as dense matrices.
 const ROWS: usize = MOST_DENSE_ROWS + 50;
@@ -14,7 +9,7 @@ fn assert_roots(found: &CountedModes, expected: &[f64], what: &str) {
     assert_eq!(found.vibrations.len(), expected.len(), "{what}");
     for (found, expected) in found.vibrations.omega_squared().iter().zip(expected) {
         assert!(
-            (found / expected - 1.0).abs() < COUNTED_ROOT,
+            relative_error(found, expected) < COUNTED_ROOT,
             "{what}: {found} {expected}"
         );
     }
@@ -28,7 +23,7 @@ fn oscillators(omega_squared: &[f64]) -> SparseMatrix {
             .iter()
             .enumerate()
             .map(|(row, &k)| (row, None, k))
-            .collect::<Vec<_>>(),
+            .collect_vec(),
     )
 }
 
@@ -55,7 +50,7 @@ fn units_of_stiffness_and_mass_only_scale_the_roots_and_shapes() {
             );
             let shapes = found.vibrations.shapes();
             assert!(
-                (mass * shapes.tr_mul(shapes) - DMatrix::identity(10, 10)).amax() < WHOLE_SHAPE,
+                (mass * shapes.tr_mul(shapes) - eye(10)).amax() < WHOLE_SHAPE,
                 "{what}"
             );
         }
@@ -76,15 +71,15 @@ fn every_loose_part_has_a_rigid_body_motion() {
             )
         })
     });
-    let stiffness = springs(parts * length, &all.collect::<Vec<_>>());
+    let stiffness = springs(parts * length, &all.collect_vec());
     let mass = masses(&vec![0.5; parts * length]);
     let vibrations = |part: usize| {
         chain_eigenvalues(ChainEnds::FreeFree, length, stiffness_of(part), 0.5).split_off(1)
     };
-    let mut expected: Vec<f64> = (0..parts).flat_map(vibrations).collect();
+    let mut expected = (0..parts).flat_map(vibrations).collect_vec();
     expected.sort_by(f64::total_cmp);
     for count in [1, 2, 12] {
-        let found = lowest_modes(&stiffness, &mass, count).expect("modes");
+        let found = lowest_modes(&stiffness, &mass, count).unwrap();
         assert_eq!(found.rigid_body.ncols(), parts);
         assert_roots(&found, &expected[..count], &count.to_string());
     }
@@ -97,9 +92,9 @@ fn a_free_chain_of_a_few_masses_has_as_many_modes_and_no_more() {
     for between in [10, 37, 40] {
         let count = ROWS / between + 1;
         let rows = between * (count - 1) + 1;
-        let values: Vec<f64> = (0..rows)
+        let values = (0..rows)
             .map(|row| if row % between == 0 { 3.0 } else { 0.0 })
-            .collect();
+            .collect_vec();
         let spring = 100.0 * between as f64;
         let (stiffness, mass) = (
             chain_of_springs(ChainEnds::FreeFree, rows, spring),
@@ -107,7 +102,7 @@ fn a_free_chain_of_a_few_masses_has_as_many_modes_and_no_more() {
         );
         let expected = chain_eigenvalues(ChainEnds::FreeFree, count, 100.0, 3.0).split_off(1);
         for asked in 1..count {
-            let found = lowest_modes(&stiffness, &mass, asked).expect("modes");
+            let found = lowest_modes(&stiffness, &mass, asked).unwrap();
             assert_eq!(found.rigid_body.ncols(), 1);
             assert_roots(&found, &expected[..asked], &asked.to_string());
         }
@@ -129,12 +124,12 @@ fn a_root_more_often_repeated_than_modes_are_asked_for_is_found_whole() {
                     .repeat(times)
                     .into_iter()
                     .chain(others)
-                    .collect::<Vec<_>>(),
+                    .collect_vec(),
             )
         };
         let mass = masses(&[1.0; ROWS]);
         for times in [5, 6, 40] {
-            let found = lowest_modes(&repeated(times), &mass, 1).expect("modes");
+            let found = lowest_modes(&repeated(times), &mass, 1).unwrap();
             assert_roots(&found, &[4.0 * unit], &times.to_string());
         }
     }
@@ -146,7 +141,7 @@ fn roots_are_found_that_lie_ten_thousandfold_apart() {
     assert!(expected[79] > 1e4 * expected[0]);
     let stiffness = chain_of_springs(ChainEnds::FixedFree, 2 * ROWS, 7.0);
     assert_roots(
-        &lowest_modes(&stiffness, &masses(&[2.0; 2 * ROWS]), 80).expect("modes"),
+        &lowest_modes(&stiffness, &masses(&[2.0; 2 * ROWS]), 80).unwrap(),
         &expected[..80],
         "80 modes",
     );
@@ -163,7 +158,7 @@ fn a_difference_between_triangles_is_told_relative_to_the_rows_it_is_in() {
             (1, 2, above),
             (2, 1, 1.0),
         ];
-        SparseMatrix::new("m", 3, 3, entries).expect("a matrix")
+        SparseMatrix::new("m", 3, 3, entries).unwrap()
     };
     let found = |above: f64| match soft(above).check_symmetric("m") {
         Err(Error::Value { owner, value, .. }) => {
@@ -182,7 +177,7 @@ fn a_difference_between_triangles_is_told_relative_to_the_rows_it_is_in() {
     // Without a diagonal an entry is its own scale.
     let saddle = |above: f64| {
         SparseMatrix::new("m", 2, 2, vec![(0, 1, above), (1, 0, 2.0)])
-            .expect("a matrix")
+            .unwrap()
             .check_symmetric("m")
     };
     assert!(saddle(2.0 + 1e-12).is_ok() && saddle(2.0 + 1e-9).is_err());

@@ -1,16 +1,8 @@
 //! A wing of any size: a box of ribs and spars, every member in one group.
 
-use crate::common::known::wing::{MESHES, SORTS, Wing};
-use crate::common::structures::{factorized, wings};
-use crate::common::tolerances::{
-    COARSE_WING, ELEMENT_ROUND_OFF, ROUND_OFF, SLENDER_BEAM, TWO_PROGRAMS,
-};
-use approx::assert_relative_eq;
-use corfem::method::structure::{ElementKind, Material, Structure};
-use corfem::sparse::elements::corner_volumes;
-use nalgebra::DMatrix;
-use proptest::prelude::*;
-use std::f64::consts::PI;
+use crate::common::known::wing::{MESHES, SORTS};
+use crate::common::structures::wings;
+use crate::prelude::*;
 
 /// Numbers of covers, spar webs, rib webs, spanwise caps, and posts with rib caps.
 fn counts([ribs, chord, depth]: [usize; 3]) -> [usize; 5] {
@@ -42,8 +34,8 @@ fn measured_sizes_are_those_of_their_names() {
     let dof = MESHES.map(|(_, bays)| free_dof(bays));
     assert_eq!(dof, [1_458, 10_098, 100_116, 1_002_000]);
     for (name, bays) in &MESHES[..2] {
-        let wing = Wing::named(name).expect("it is known");
-        let model = wing.model().expect("a wing");
+        let wing = Wing::named(name).unwrap();
+        let model = wing.model().unwrap();
         assert_eq!(model.structure().free_dof().len(), free_dof(*bays));
         assert_eq!(model.load_distribution().ncols(), 108);
         assert_eq!(model.parameters().len(), 25);
@@ -59,7 +51,7 @@ fn sizes_of_a_sort_sum_to_what_was_given() {
         measured: [6, 3],
         ..Wing::default()
     };
-    let model = wing.model().expect("a wing");
+    let model = wing.model().unwrap();
     let [covers, spars, ribs] = wing.gages;
     let [caps, rib_caps, posts] = wing.areas;
     // Webs of two cells stand on each other; every bay along the span has its own caps and spar webs.
@@ -91,7 +83,7 @@ fn covers_and_ribs_fill_planform_and_sections() {
             angles: [35.0, twist],
             ..Wing::default()
         };
-        let structure = wing.structure().expect("a wing");
+        let structure = wing.structure().unwrap();
         let [root, tip] = wing.chords;
         let [covers, spars, ribs, ..] = counts(wing.bays);
         if twist == 0.0 {
@@ -120,7 +112,7 @@ fn tip_is_swept_and_twisted_about_half_the_chord() {
         angles: [30.0, 10.0],
         ..Wing::default()
     };
-    let structure = wing.structure().expect("a wing");
+    let structure = wing.structure().unwrap();
     let at = |place| structure.grids()[wing.grid(place) - 1].position;
     let middle = at([4, 1, 1]);
     assert_relative_eq!(middle.x, 300.0 * (PI / 6.0).tan(), max_relative = ROUND_OFF);
@@ -160,9 +152,9 @@ fn slender_wing_bends_as_a_beam() {
     };
     let first = wing
         .model()
-        .expect("a wing")
+        .unwrap()
         .modes(&[1.0; 25])
-        .expect("modes")
+        .unwrap()
         .frequencies_hz()[0];
     // Covers and caps at half the depth; a cantilever's flexibility between masses at twenty stations.
     let [depth, sheet] = [6.0, 2.0 * wing.gages[0] * 12.0];
@@ -183,12 +175,8 @@ fn lowest_modes_hardly_depend_on_the_mesh() {
             measured: [9, 3],
             ..Wing::default()
         };
-        let modes = wing
-            .model()
-            .expect("a wing")
-            .modes(&[1.0; 25])
-            .expect("modes");
-        modes.lowest(4).expect("four").frequencies_hz()
+        let modes = wing.model().unwrap().modes(&[1.0; 25]).unwrap();
+        modes.lowest(4).unwrap().frequencies_hz()
     };
     // Of the same depth: caps in mid-depth would bend less.
     let (coarse, fine) = (frequencies([9, 4, 1]), frequencies([18, 8, 1]));
@@ -205,14 +193,14 @@ fn whole_wing_has_the_modes_of_its_points() {
         measured: [9, 3],
         ..Wing::default()
     };
-    let expected = wing.model().expect("a wing").modes(&[1.0; 25]);
-    let expected = expected.expect("modes").lowest(8).expect("eight");
-    let (whole, points) = wing.whole().expect("a wing");
-    let found = whole.modes(&[1.0; 25], 8).expect("modes").vibrations;
+    let expected = wing.model().unwrap().modes(&[1.0; 25]);
+    let expected = expected.unwrap().lowest(8).unwrap();
+    let (whole, points) = wing.whole().unwrap();
+    let found = whole.modes(&[1.0; 25], 8).unwrap().vibrations;
     for (a, b) in found.frequencies_hz().iter().zip(expected.frequencies_hz()) {
         assert_relative_eq!(*a, b, max_relative = TWO_PROGRAMS);
     }
-    let seen = points.times(found.shapes()).expect("they fit");
+    let seen = points.times(found.shapes()).unwrap();
     for (a, b) in seen.column_iter().zip(expected.shapes().column_iter()) {
         let apart = (a * a.dot(&b).signum() - b).amax();
         assert!(apart <= TWO_PROGRAMS * b.amax(), "{apart:e}");
@@ -220,10 +208,9 @@ fn whole_wing_has_the_modes_of_its_points() {
 }
 
 properties! {
-    #![proptest_config(crate::common::config())]
     #[test]
     fn every_wing_is_held_and_counted(wing in wings()) {
-        let model = wing.model().expect("a wing");
+        let model = wing.model()?;
         let structure = model.structure();
         let [ribs, chord, depth] = wing.bays;
         prop_assert_eq!(structure.grids().len(), (ribs + 1) * (chord + 1) * (depth + 1));
@@ -233,34 +220,34 @@ properties! {
         let of = |kind| structure.elements().iter().filter(|element| element.kind == kind).count();
         prop_assert_eq!(of(ElementKind::Membrane), expected[0]);
         prop_assert_eq!(of(ElementKind::ShearPanel), expected[1] + expected[2]);
-        factorized(structure).expect("no free motion");
+        factorized(structure)?;
         let factors = vec![1.0; model.parameters().len()];
-        let modes = model.modes(&factors).expect("positive definite");
+        let modes = model.modes(&factors)?;
         prop_assert_eq!(modes.len(), wing.measured[0] * wing.measured[1]);
     }
 
     #[test]
     fn every_element_is_in_one_group(wing in wings()) {
-        let model = wing.model().expect("a wing");
+        let model = wing.model()?;
         prop_assert_eq!(model.parameters().len(), SORTS.len() * wing.zones);
         let members = |sort: usize| {
             let zones = &model.parameters()[sort * wing.zones..(sort + 1) * wing.zones];
-            zones.iter().flat_map(|p| p.elements.clone()).collect::<Vec<_>>()
+            zones.iter().flat_map(|p| p.elements.clone()).collect_vec()
         };
-        let mut all: Vec<usize> = (0..SORTS.len()).flat_map(members).collect();
+        let mut all = (0..SORTS.len()).flat_map(members).collect_vec();
         for (sort, expected) in counts(wing.bays).into_iter().enumerate() {
             prop_assert_eq!(members(sort).len(), expected, "{}", SORTS[sort]);
         }
         all.sort_unstable();
-        prop_assert_eq!(all, (1..=model.structure().elements().len()).collect::<Vec<_>>());
+        prop_assert_eq!(all, (1..=model.structure().elements().len()).collect_vec());
     }
 
     #[test]
     fn measured_is_the_mean_of_both_surfaces_up_to_the_tip(wing in wings()) {
-        let model = wing.model().expect("a wing");
+        let model = wing.model()?;
         let (t, free) = (model.load_distribution(), model.structure().free_dof());
         for column in t.column_iter() {
-            let rows: Vec<usize> = (0..t.nrows()).filter(|&row| column[row] != 0.0).collect();
+            let rows = (0..t.nrows()).filter(|&row| column[row] != 0.0).collect_vec();
             prop_assert_eq!(rows.len(), 2);
             prop_assert!(rows.iter().all(|&row| column[row] == 0.5 && free[row].direction == 2));
             prop_assert_eq!(free[rows[1]].grid - free[rows[0]].grid, wing.bays[2]);
