@@ -137,14 +137,15 @@ pub fn table<L: Display, K>(
     format!("| {head} |\n|{rule}\n{}", rows.collect::<String>())
 }
 
-/// Structures built after the program, but for the tower, whose tests do not decide between valleys.
-const BUILT_LATER: [&str; 6] = [
+/// Structures built after the program.
+const BUILT_LATER: [&str; 7] = [
     "portal",
     "girder",
     "free truss",
     "plate",
     "cyclic disk",
     "fine plate",
+    "tower",
 ];
 
 /// A row whose label is its name in the golden.
@@ -771,7 +772,6 @@ fn noise() -> [(&'static str, String); 8] {
                 "structure | tests | parameters | given, % | held, mean, % | held, least, % | held of status 0, % | status 0, % | three times the noise found, %",
                 BUILT_LATER
                     .iter()
-                    .chain(&["tower"])
                     .flat_map(|name| [".2/1 %", ".5/3 %"].map(|noise| format!("{name}, {noise}")))
                     .map(|row| (row.clone(), row.replace(", .", " 0."))),
                 |row| {
@@ -1077,14 +1077,19 @@ pub fn sentences() -> Vec<(&'static str, String)> {
         (
             readme,
             format!(
-                "{:.1} to {:.1} % on six built after the program",
+                "{:.1} to {:.1} % on seven built after the program",
                 later.iter().copied().fold(f64::INFINITY, f64::min),
                 largest(&later),
             ),
         ),
         (
             readme,
-            format!("the worst parameter's in {worst_held:.1} %"),
+            format!(
+                "the worst parameter's in {:.1} %",
+                of_later("/Least held")
+                    .into_iter()
+                    .fold(worst_held, f64::min)
+            ),
         ),
         (
             "paper/weighted.md",
