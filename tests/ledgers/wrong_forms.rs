@@ -393,7 +393,7 @@ fn copy(forms: &[Form], folder: &Path) {
     let lists = modules(forms);
     let rooms: String = lists.keys().map(|room| format!("mod {room};\n")).collect();
     let main = format!(
-        "#![allow(warnings, reason = \"a copy\")]\n#[macro_use]\nmod common;\nmod equations;\n{rooms}use common::prelude;\n"
+        "#![allow(warnings, reason = \"a copy\")]\n#[macro_use]\nmod common;\nmod equations;\n{rooms}use common::prelude;\nuse common::presentation::paper;\n"
     );
     let mut changed = BTreeMap::from([
         (PathBuf::from("tests/main.rs"), main),
