@@ -67,9 +67,7 @@ impl PreparedJob {
         };
         let hertz = first.model.exact.modes.frequencies_hz();
         let reach = self.reach(first);
-        let by_shape = first.model.exact.pairing.analysis_mode.iter().copied();
-        let alone = first.lone().iter().map(|lone| lone.partner);
-        let pairs = self.compared().zip(by_shape.chain(alone));
+        let pairs = self.compared().zip(first.partners());
         let concern = |(test, partner): (usize, usize)| {
             let (own, near) = (self.loaded.data.frequencies_hz[test], reach[partner]);
             let about = [test + 1, partner + 1];

@@ -32,14 +32,7 @@ impl PreparedJob {
             (first.min(hertz), last.max(hertz))
         });
         let seen = visibilities(&exact.modes.shapes);
-        let lone = model.lone().iter().map(|lone| lone.partner);
-        let partners: Vec<usize> = exact
-            .pairing
-            .analysis_mode
-            .iter()
-            .copied()
-            .chain(lone)
-            .collect();
+        let partners = model.partners();
         let is_lacking =
             |mode: &usize| (first..=last).contains(&hertz[*mode]) && !partners.contains(mode);
         let lacking: Vec<usize> = (0..hertz.len()).filter(is_lacking).collect();

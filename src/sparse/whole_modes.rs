@@ -3,6 +3,7 @@
 use super::WholeModel;
 use super::elements::moving_mass_entries;
 use super::lowest_modes::CountedModes;
+use super::place::turn_alike;
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::modes::Modes;
@@ -67,9 +68,7 @@ pub fn whole_modes(
     let mut at_rows = vibrations.shapes;
     let shapes = t.transposed().times(&at_rows)?;
     let modes = Modes::signed(vibrations.omega_squared, shapes.clone());
-    for (mode, mut shape) in at_rows.column_iter_mut().enumerate() {
-        shape *= shapes.column(mode).dot(&modes.shapes.column(mode)).signum();
-    }
+    turn_alike(&mut at_rows, &shapes, &modes.shapes);
     Ok(WholeModes {
         dof: at.dof,
         modes,

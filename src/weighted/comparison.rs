@@ -139,6 +139,13 @@ impl Comparison {
         &self.test.lone
     }
 
+    /// Modes of the model, from zero, that the test modes are paired with, those without shapes last.
+    pub(crate) fn partners(&self) -> Vec<usize> {
+        let lone = self.lone().iter().map(|lone| &lone.partner);
+        let paired = self.model.exact.pairing.analysis_mode.iter();
+        paired.chain(lone).copied().collect()
+    }
+
     /// This comparison with groups of test modes (from zero) whose shapes are compared as subspaces.
     ///
     /// # Errors

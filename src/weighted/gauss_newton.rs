@@ -170,13 +170,13 @@ struct Iterate {
 /// What `analyze` refuses at the first factors; [`Error::Value`], [`Error::Range`] and [`Error::WrongShape`] for settings and lists out of
 /// range, and for residuals that are not finite.
 pub fn gauss_newton<E: From<Error>>(
-    mut analyze: impl FnMut(&[f64]) -> Result<Comparison, E>,
+    analyze: impl FnMut(&[f64]) -> Result<Comparison, E>,
     first: &[f64],
     ranges: &[Option<Bounds>],
     weights: &[ModeWeight],
     settings: &WeightedSettings,
 ) -> Result<WeightedCorrelation, E> {
-    Problem::new(first.len(), ranges, weights, settings)?.correlation(&mut analyze, first)
+    gauss_newton_below(f64::INFINITY, analyze, first, ranges, weights, settings)
 }
 
 /// Steps of [`gauss_newton`] that have to end below an `objective`: above it they end where they promise no more than a hundredth of

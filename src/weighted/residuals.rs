@@ -191,13 +191,7 @@ pub fn jacobian(comparison: &Comparison, weights: &[ModeWeight]) -> Result<DMatr
     let excess = whitening
         .as_ref()
         .map(|of| of.excess(&correlated(modes, pairing, comparison, weights)));
-    let partners = lone.iter().map(|lone| &lone.partner);
-    let partners: Vec<usize> = pairing
-        .analysis_mode
-        .iter()
-        .chain(partners)
-        .copied()
-        .collect();
+    let partners = comparison.partners();
     let couplings: HashMap<_, _> = partners
         .iter()
         .copied()

@@ -4,6 +4,7 @@ use crate::common::jobs::{loaded, worked};
 use crate::common::tolerances::DRAWN_THOUSANDTHS;
 use crate::paper::report::moving_case;
 use crate::presentation::figures::results;
+use crate::presentation::play::by_node;
 use crate::presentation::subject::{chain, is_well_formed, without_scripts};
 use corfem::present::frame::{DrawnModes, extents};
 use corfem::present::page::charts::{factor_bars, pairing_plot, residual_map};
@@ -16,7 +17,6 @@ use corfem::present::tables::report::{answer_table, factor_table};
 use corfem::present::{json, rows};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
-use std::process::Command;
 
 const JOBS: [&str; 4] = ["box", "building", "garteur", "wing"];
 
@@ -336,13 +336,7 @@ fn node_moves_every_structure_as_the_program_does() {
             json!(path),
             json!(stored)
         );
-        let output = Command::new("node")
-            .args(["-e", &program])
-            .output()
-            .expect("it runs");
-        let words = String::from_utf8_lossy(&output.stderr);
-        let found: Value = serde_json::from_slice(&output.stdout)
-            .unwrap_or_else(|error| panic!("{error}: {words}"));
+        let found = by_node(&program);
         let nodes = &drawn.frame.nodes;
         let extent = extents(nodes);
         let low = nodes

@@ -20,6 +20,16 @@ fn script(html: &str) -> &str {
     rest.split_once("</script>").expect("its end").0
 }
 
+/// The JSON that a program writes in node.
+pub fn by_node(program: &str) -> Value {
+    let output = Command::new("node")
+        .args(["-e", program])
+        .output()
+        .expect("it runs");
+    let words = String::from_utf8_lossy(&output.stderr);
+    serde_json::from_slice(&output.stdout).unwrap_or_else(|error| panic!("{error}: {words}"))
+}
+
 #[test]
 fn figure_to_play_with_is_short_and_needs_nothing_beside_it() {
     let html = html();
@@ -78,13 +88,7 @@ fn node_solves_the_pages_modes_as_the_program_does() {
         json!(path),
         json!(dragged)
     );
-    let output = Command::new("node")
-        .args(["-e", &program])
-        .output()
-        .expect("it runs");
-    let words = String::from_utf8_lossy(&output.stderr);
-    let found: Value =
-        serde_json::from_slice(&output.stdout).unwrap_or_else(|error| panic!("{error}: {words}"));
+    let found = by_node(&program);
     let mut compared = 0;
     let mut compare = |found: &Value, state: &State, what: &str| {
         let paired = state.pairing.paired(&state.modes).expect("its own modes");

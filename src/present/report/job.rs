@@ -284,15 +284,7 @@ fn moved(found: &CorrelatedJob) -> Option<[Vec<Vec<Vector3<f64>>>; 3]> {
     let ones = vec![1.0; found.factors.len()];
     let whole = |factors: &[f64], comparison: &Comparison| {
         let model = &comparison.model;
-        let lone = comparison.lone().iter().map(|lone| lone.partner);
-        let pairs: Vec<usize> = model
-            .exact
-            .pairing
-            .analysis_mode
-            .iter()
-            .copied()
-            .chain(lone)
-            .collect();
+        let pairs = comparison.partners();
         let count = pairs.iter().max().map_or(0, |mode| mode + 1);
         let all = match model.whole() {
             Some(whole) => whole.shapes(count).shapes,

@@ -228,15 +228,7 @@ impl Derivatives {
     pub fn at(comparison: &Comparison) -> Result<Self, Error> {
         let first = comparison.model();
         let changes = comparison.error_changes()?;
-        let lone = comparison.lone().iter().map(|lone| &lone.partner);
-        let partners: Vec<usize> = first
-            .exact
-            .pairing
-            .analysis_mode
-            .iter()
-            .chain(lone)
-            .copied()
-            .collect();
+        let partners = comparison.partners();
         let frequency = DMatrix::from_fn(first.shares.len(), partners.len(), |e, j| {
             let i = partners[j];
             match &first.shares[e] {
