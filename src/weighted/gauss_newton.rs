@@ -5,6 +5,7 @@ use super::identifiability::{
     Identifiability, PRIOR_DEVIATION, identifiability, information, tikhonov,
 };
 use super::residuals::{jacobian, residuals};
+use super::second_order::SecondOrder;
 use crate::method::error::{Error, positive};
 use crate::method::linear_algebra::check_length;
 use crate::method::step::Bounds;
@@ -18,8 +19,8 @@ const FIRST_DAMPING: f64 = 1e-3;
 const LONGEST_STEP: f64 = 1.0;
 /// Part of the fall that a basis promised by which the exact one may differ before the next basis gets further deflections.
 const WRONG_PROMISE: f64 = 0.1;
-/// Part of the fall of the first step that the last one in a basis may leave: the exact objective decides what it is worth.
-const LEFT: f64 = 1e-3;
+/// Part of the fall of the first step that the last one in a basis may leave: a tenth of what the basis was wrong by.
+const LEFT: f64 = 0.1 * WRONG_PROMISE;
 /// Rounding of an objective, relative to it, as a sum of a thousand squares has it.
 const OBJECTIVE_DIGITS: f64 = 16.0 * f64::EPSILON;
 /// Error that an analysis leaves in residuals, over the largest weight: of shapes found to 1e-10, amplified a hundred times by modes a
@@ -150,7 +151,8 @@ struct Iterate {
 ///
 /// $$ (A + \mu \mathrm{diag} A) h = -g $$
 ///
-/// for the parameters that the gradient does not press against a bound. Those it takes beyond one stop there and the
+/// for the parameters that the gradient does not press against a bound, with the [`SecondOrder`] of
+/// the residuals beside $A$ where that foretold the last step better. Those it takes beyond one stop there and the
 /// others are solved for anew. It is taken if the exact objective falls. With $\rho$, the fall over the one that the
 /// quadratic model promised, $\mu$ is multiplied by $\max(\frac{1}{3}, 1 - (2\rho - 1)^3)$ then, and by 2, 4, 8, ... in
 /// rejections on end. A step to where `analyze` fails is rejected as well. Test modes are paired anew at every place.
@@ -327,6 +329,7 @@ impl<'a> Problem<'a> {
         let mut place = self.first_at(analyze, first)?;
         let (initial, mut iterations) = (place.comparison.result()?, Vec::new());
         let (mut trials, mut further, mut damping) = (0, 0, Damping::FIRST);
+        let (mut second_order, mut before) = (SecondOrder::new(first.len()), f64::INFINITY);
         let most = 6 * place.comparison.model.test.len() + 30;
         let largest = self.weights.iter().map(|own| own.frequency.max(own.shape));
         let largest = largest.fold(0.0, f64::max);
@@ -341,26 +344,28 @@ impl<'a> Problem<'a> {
             if whole <= least && !place.comparison.meets() {
                 break WeightedStop::Gradient;
             }
-            let step = self.step(&place, damping.now)?;
-            let promise = |step: DVector<f64>| (place.promised_fall(&step), step);
-            let Some((promised, step)) = step.map(promise).filter(|(fall, _)| *fall > least) else {
+            let foretold = self.foretold(&place, &second_order, damping.now)?;
+            let Some((promised, step)) = foretold.filter(|(fall, _)| *fall > least) else {
                 break WeightedStop::Wall;
             };
             if trials == self.settings.trials {
                 break WeightedStop::Trials;
             }
             trials += 1;
-            // As long as the basis has told the truth, it is followed to its end.
-            let (held, left) = match further {
-                0 => (0.0, 0.0),
-                _ => (damping.now, LEFT * promised),
+            // Near the end the gradients of exact places tell the curvature better than a basis that was wrong.
+            let unsure = UNSURE * largest * (2.0 * place.objective).sqrt();
+            let is_wrong = whole > WRONG_PROMISE * before && second_order.told().is_some();
+            let ahead = match is_wrong && whole <= unsure {
+                true => None,
+                false => {
+                    let step = (promised, &step);
+                    self.ahead(&place, step, damping.now, further, &mut second_order)
+                }
             };
-            let ahead = self.ahead(&place, &step, (held, left), further);
             let (promised, trial) = ahead.unwrap_or_else(|| (promised, place.after(&step)));
             place.comparison.model.release();
             // A place without a model is no better than this one, nor is one where the objective has not fallen, or, where its fall is
             // lost in what an analysis leaves unsure, the gradient.
-            let unsure = UNSURE * largest * (2.0 * place.objective).sqrt();
             let is_told = promised > unsure;
             let below = place.objective + if is_told { 0.0 } else { unsure };
             let next = self.place_at(analyze, trial, below).ok().flatten();
@@ -377,7 +382,8 @@ impl<'a> Problem<'a> {
             }
             match next {
                 Some(next) => {
-                    place = next;
+                    next.teach(&mut second_order, &place);
+                    (place, before) = (next, whole);
                     damping.after(fall / promised);
                     iterations.push(place.iteration()?);
                 }
@@ -404,13 +410,28 @@ impl<'a> Problem<'a> {
         first: &[f64],
         (left, enough): (f64, f64),
     ) -> Result<(f64, Vec<f64>), Error> {
+        self.descent(
+            &mut SecondOrder::new(first.len()),
+            analyze,
+            first,
+            (left, enough),
+        )
+    }
+
+    /// Place of [`Self::lowest`] from steps that know an estimate of the second order.
+    fn descent(
+        &self,
+        second_order: &mut SecondOrder,
+        analyze: &mut dyn FnMut(&[f64]) -> Result<Comparison, Error>,
+        first: &[f64],
+        (left, enough): (f64, f64),
+    ) -> Result<(f64, Vec<f64>), Error> {
         let mut place = self.first_at(analyze, first)?;
         let mut damping = Damping::FIRST;
         for _ in 0..self.settings.trials {
-            let Some(step) = self.step(&place, damping.now)? else {
+            let Some((promised, step)) = self.foretold(&place, second_order, damping.now)? else {
                 break;
             };
-            let promised = place.promised_fall(&step);
             if promised <= left || place.objective < enough {
                 break;
             }
@@ -418,6 +439,7 @@ impl<'a> Problem<'a> {
             match next.ok().flatten().filter(|_| promised > 0.0) {
                 Some(next) => {
                     damping.after((place.objective - next.objective) / promised);
+                    next.teach(second_order, &place);
                     place = next;
                 }
                 None => damping.more(),
@@ -428,6 +450,34 @@ impl<'a> Problem<'a> {
 
     /// The damped step from a place within the room of every logarithm, if there is one.
     fn step(&self, place: &Iterate, damping: f64) -> Result<Option<DVector<f64>>, Error> {
+        self.step_of(place, &place.curvature, damping)
+    }
+
+    /// The damped step and the fall that it promises, with the second order in the curvature where its estimate is used.
+    fn foretold(
+        &self,
+        place: &Iterate,
+        second_order: &SecondOrder,
+        damping: f64,
+    ) -> Result<Option<(f64, DVector<f64>)>, Error> {
+        if let Some(sum) = second_order.told() {
+            let curvature = &place.curvature + sum;
+            if let Ok(Some(step)) = self.step_of(place, &curvature, damping) {
+                let fall = -place.gradient.dot(&step) - 0.5 * step.dot(&(curvature * &step));
+                return Ok(Some((fall, step)));
+            }
+        }
+        let step = self.step(place, damping)?;
+        Ok(step.map(|step| (place.promised_fall(&step), step)))
+    }
+
+    /// The damped step of a curvature.
+    fn step_of(
+        &self,
+        place: &Iterate,
+        curvature: &DMatrix<f64>,
+        damping: f64,
+    ) -> Result<Option<DVector<f64>>, Error> {
         let room = place.room(self.ranges);
         let free = place.free(&room);
         let is_flat = |&e: &usize| {
@@ -437,7 +487,7 @@ impl<'a> Problem<'a> {
         if free.iter().all(is_flat) {
             return Ok(None);
         }
-        let mut step = bounded_step(&place.curvature, &place.gradient, free, &room, damping)?;
+        let mut step = bounded_step(curvature, &place.gradient, free, &room, damping)?;
         step *= (LONGEST_STEP / step.amax()).min(1.0);
         Ok((step.amax() > SHORTEST_STEP).then_some(step))
     }
@@ -448,15 +498,22 @@ impl<'a> Problem<'a> {
         Ok(step.map_or(0.0, |step| place.promised_fall(&step)))
     }
 
-    /// The objective and the factors where the steps from a place end in a basis of the modes and their deflections along a step, and so
-    /// many `further` ones; none if nowhere else. `damping` times the curvature holds every parameter at the place.
+    /// The fall to where the steps from a place end in a basis of the modes and their deflections along a step, and so many `further` ones,
+    /// and the factors there; none if nowhere lower. Once further ones are needed, `damping` times the curvature holds every parameter at
+    /// the place.
     fn ahead(
         &self,
         place: &Iterate,
-        step: &DVector<f64>,
-        (damping, left): (f64, f64),
+        (promised, step): (f64, &DVector<f64>),
+        damping: f64,
         further: usize,
+        second_order: &mut SecondOrder,
     ) -> Option<(f64, Vec<f64>)> {
+        // As long as the basis has told the truth, it is followed to its end.
+        let (damping, left) = match further {
+            0 => (0.0, 0.0),
+            _ => (damping, LEFT * promised),
+        };
         let model = &place.comparison.model;
         let along = Deflections::Along {
             direction: step.as_slice(),
@@ -480,7 +537,9 @@ impl<'a> Problem<'a> {
             tikhonov: self.tikhonov.clone(),
             ..*self
         };
-        let (objective, factors) = held.lowest(&mut follow, &place.factors, (left, 0.0)).ok()?;
+        let (objective, factors) = held
+            .descent(second_order, &mut follow, &place.factors, (left, 0.0))
+            .ok()?;
         let moved = logs_of(&factors) - &logs;
         let held = 0.5 * moved.component_mul(&moved).dot(&holding);
         let promised = place.objective - (objective - held);
@@ -519,6 +578,13 @@ impl Damping {
 }
 
 impl Iterate {
+    /// Tells an estimate of the second order what the step to here from another place has shown.
+    fn teach(&self, second_order: &mut SecondOrder, from: &Self) {
+        let step = logs_of(&self.factors) - logs_of(&from.factors);
+        let own = (&self.jacobian - &from.jacobian).tr_mul(&self.residuals);
+        second_order.learn(&step, &(&self.gradient - &from.gradient), own);
+    }
+
     fn iteration(&self) -> Result<WeightedIteration, Error> {
         Ok(WeightedIteration {
             factors: self.factors.clone(),

@@ -18,4 +18,6 @@ pub mod noise;
 #[doc(hidden)]
 pub mod residuals;
 #[doc(hidden)]
+pub mod second_order;
+#[doc(hidden)]
 pub mod starts;

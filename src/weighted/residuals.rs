@@ -216,22 +216,18 @@ pub fn jacobian(comparison: &Comparison, weights: &[ModeWeight]) -> Result<DMatr
             }
             let (weight, column) = (of.shape, column.next().unwrap_or_default());
             let excess = excess.as_ref().map_or(0.0, |excess| excess[column]);
-            // What becomes of dv, over the components' deviations, in the residuals.
-            let residuals_of = |moved: &DMatrix<f64>| {
-                let mut moved = moved.clone();
-                for mut moved in moved.column_iter_mut() {
-                    moved.component_mul_assign(&scale);
-                }
-                let turned = inverse.row(place).transpose() * apart.tr_mul(&moved);
-                let along = &v * (&inverse * &moved);
-                (weight * shares[place] - excess) * (moved - along) - weight * turned
-            };
-            let mut shape = jacobian.rows_mut(rows * j + 1, rows - 1);
-            let added = slopes.added(i, &members, couplings);
-            shape.gemm(1.0, &residuals_of(&model.basis), &added, 1.0);
+            // dv, over the components' deviations, and what becomes of it in the residuals.
+            let mut moved = &model.basis * slopes.added(i, &members, couplings);
             if let Some(beyond) = &model.beyond[i] {
-                shape += residuals_of(beyond);
+                moved += beyond;
             }
+            for mut moved in moved.column_iter_mut() {
+                moved.component_mul_assign(&scale);
+            }
+            let turned = inverse.row(place).transpose() * apart.tr_mul(&moved);
+            let along = &v * (&inverse * &moved);
+            let mut shape = jacobian.rows_mut(rows * j + 1, rows - 1);
+            shape += (weight * shares[place] - excess) * (moved - along) - weight * turned;
         }
     }
     for (place, (lone, weight)) in lone.iter().zip(&weights[test.len()..]).enumerate() {

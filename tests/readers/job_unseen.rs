@@ -8,6 +8,7 @@ use crate::common::test_files::write_csv;
 use crate::common::whole_models::{lowest_modes, masses, springs};
 use corfem::files::matrices::write_matrix_market;
 use corfem::files::test_data::{Sensor, TestData};
+use corfem::job::verdict::Outcome;
 use corfem::job::{Concern, JobResult, Kind};
 use corfem::method::sorting::pair_modes;
 use corfem::sparse::{BasisSize, SparseMatrix, WholeModel};
@@ -227,13 +228,18 @@ properties! {
         let more = block(&mut draws, &chain, kind);
         let alone = result(&files(&chain, &Default::default(), 0.0, &mut draws));
         let beside = result(&files(&chain, &more, 1e-8, &mut draws));
+        prop_assert_eq!(alone.verdict.is_within, beside.verdict.is_within);
+        // Where steps end at a wall is a matter of the last digit.
+        if [&alone, &beside].iter().any(|job| job.verdict.outcome == Outcome::Wall) {
+            return Ok(());
+        }
+        prop_assert_eq!(alone.verdict.outcome, beside.verdict.outcome);
         let both = alone.found.factors.iter().zip(&beside.found.factors);
         for ((one, other), deviation) in both.zip(&alone.seen.deviations) {
             // A factor that the test hardly sees is as free as its deviation says.
             let moved = (one / other).ln().abs();
             prop_assert!(moved < f64::max(1e-6, 1e-4 * deviation), "{one} {other} {deviation}");
         }
-        prop_assert_eq!(alone.verdict.outcome, beside.verdict.outcome);
     }
 }
 

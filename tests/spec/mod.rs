@@ -70,6 +70,7 @@ pub mod s5_metrics;
 pub mod s5_misfit;
 pub mod s5_preflight;
 pub mod s5_preflight_modes;
+pub mod s5_second_order;
 pub mod s5_weighted;
 pub mod s5_weighted_components;
 pub mod s5_weighted_coverage;

@@ -210,11 +210,13 @@ fn pieces(loaded: &LoadedJob) -> Result<Vec<Piece>, Error> {
         .deck
         .iter()
         .flat_map(|(_, deck)| &deck.model.elements);
-    let owners = |label: usize| {
-        let members = source.members.iter().enumerate();
-        let of = members.filter(|(_, members)| members.elements.contains(&label));
-        of.map(|(e, _)| e).collect()
-    };
+    let mut owners: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (e, members) in source.members.iter().enumerate() {
+        for &label in &members.elements {
+            owners.entry(label).or_default().push(e);
+        }
+    }
+    let owners = |label| owners.get(&label).cloned().unwrap_or_default();
     let elements = geometry.elements.iter().zip(labels);
     let mut pieces: Vec<Piece> = elements
         .map(|(grids, element)| (corners(grids), owners(element.label)))
