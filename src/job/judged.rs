@@ -69,7 +69,10 @@ impl CorrelatedJob {
         let seen_first = self.sees(&self.first, 1.0)?;
         let seen = self.sees(&self.last, misfit.widening())?;
         // Weighted steps are judged by the noise that weighs them, where a wrong model would have failed; not those that ended short.
-        let is_short = matches!(verdict.outcome, Outcome::Wall | Outcome::Cap);
+        let is_short = matches!(
+            verdict.outcome,
+            Outcome::Wall | Outcome::Short | Outcome::Cap
+        );
         let is_weighted = matches!(self.history, History::GaussNewton(_));
         if is_weighted && misfit.is_by_noise() && !is_short {
             (verdict.outcome, verdict.is_within) = match misfit.can_fail() {
@@ -125,6 +128,7 @@ impl CorrelatedJob {
             None => Outcome::Request,
             Some((WeightedStop::Trials, _)) => Outcome::Cap,
             Some((WeightedStop::Wall, _)) => Outcome::Wall,
+            Some((WeightedStop::Short, _)) => Outcome::Short,
             _ => Outcome::LocalMinimum,
         };
         let errors = self.last.mode_errors()?;

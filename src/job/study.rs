@@ -220,6 +220,7 @@ impl Study {
                     Outcome::Tolerance => "tolerance",
                     Outcome::LocalMinimum => "local minimum",
                     Outcome::Wall => "wall",
+                    Outcome::Short => "short",
                     Outcome::Untested => "untested",
                     Outcome::Cap => "cap",
                     Outcome::Request => "request",

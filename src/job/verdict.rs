@@ -22,8 +22,10 @@ pub enum Outcome {
     Tolerance,
     /// No step lowered the error sum any more.
     LocalMinimum,
-    /// Weighted steps ended where the objective rises ahead of them though its slopes promise a fall, as where pairs of modes change.
+    /// Weighted steps ended where pairs of modes change ahead of them, so that the objective rises though its slopes promise a fall.
     Wall,
+    /// Weighted steps ended short of a gradient, where the digits of an analysis tell no lower place.
+    Short,
     /// The passes allowed were used up, or the iterations of the only one.
     Cap,
     /// The caller asked to stop.

@@ -3,6 +3,10 @@
 use crate::job::verdict::{Outcome, Stationary, Verdict};
 use crate::weighted::lower_place::PLACES;
 
+const WALL: &str = " Steps ended short of a minimum, where pairs of modes change ahead of them.";
+const SHORT: &str =
+    " Steps ended short of a minimum: the digits of an analysis tell no lower place.";
+
 /// The verdict in sentences, with the parameters' names and the numbers of the test modes; places from one stand for those that
 /// have none. The criterion it is `judged` by stands first; without one that is the tolerance.
 pub fn verdict_in_words(
@@ -24,9 +28,8 @@ pub fn verdict_in_words(
         }
         Outcome::Tolerance | Outcome::Untested => "",
         Outcome::LocalMinimum => " No further step lowered it.",
-        Outcome::Wall => {
-            " Steps ended short of a minimum, where pairs of modes change ahead of them."
-        }
+        Outcome::Wall => WALL,
+        Outcome::Short => SHORT,
         Outcome::Cap => " The iterations or passes allowed ran out.",
         Outcome::Request => " It was stopped by request.",
         Outcome::Nothing => " No step from the first model lowered it, or none was allowed.",

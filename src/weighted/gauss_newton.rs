@@ -12,6 +12,7 @@ use crate::method::step::Bounds;
 use crate::sparse::{Deflections, ModeWeight, solve_positive};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
+use std::cell::RefCell;
 
 /// Damping of the first step, relative to the curvature of each parameter.
 const FIRST_DAMPING: f64 = 1e-3;
@@ -83,8 +84,10 @@ impl WeightedSettings {
 pub enum WeightedStop {
     /// A step that nothing damps promises a fall within tolerance, but for what the gradient presses against bounds.
     Gradient,
-    /// Only short steps promise as little: ahead the objective rises where it should fall, as where pairs of modes change.
+    /// Only short steps promise as little, and ahead of them pairs of modes change or meet, or there is no model.
     Wall,
+    /// Only short steps promise as little, with the same pairs ahead: the digits of an analysis tell no lower place.
+    Short,
     /// The trials allowed were used up.
     Trials,
 }
@@ -310,6 +313,22 @@ impl<'a> Problem<'a> {
         (pull, part)
     }
 
+    /// Fall at an objective below which a step is none.
+    fn least(&self, objective: f64) -> f64 {
+        let digits = OBJECTIVE_DIGITS * objective;
+        let least = digits.max(0.5 * self.settings.tolerance.powi(2));
+        match objective > self.objective {
+            true => least.max(TOLD * LOWER),
+            false => least,
+        }
+    }
+
+    /// Fall at an objective that is lost in what an analysis leaves unsure.
+    fn unsure(&self, objective: f64) -> f64 {
+        let weights = self.weights.iter().map(|own| own.frequency.max(own.shape));
+        UNSURE * weights.fold(0.0, f64::max) * (2.0 * objective).sqrt()
+    }
+
     /// The exact analysis at the first factors.
     fn first_at<E: From<Error>>(
         &self,
@@ -326,19 +345,21 @@ impl<'a> Problem<'a> {
         analyze: &mut dyn FnMut(&[f64]) -> Result<Comparison, E>,
         first: &[f64],
     ) -> Result<WeightedCorrelation, E> {
-        let mut place = self.first_at(analyze, first)?;
+        let tried = RefCell::new(None);
+        let mut watched = |factors: &[f64]| -> Result<Comparison, E> {
+            tried.take();
+            let found = analyze(factors)?;
+            tried.replace(Some(found.partner_shapes()));
+            Ok(found)
+        };
+        let mut place = self.first_at(&mut watched, first)?;
         let (initial, mut iterations) = (place.comparison.result()?, Vec::new());
         let (mut trials, mut further, mut damping) = (0, 0, Damping::FIRST);
+        let mut is_wall = false;
         let (mut second_order, mut before) = (SecondOrder::new(first.len()), f64::INFINITY);
         let most = 6 * place.comparison.model.test.len() + 30;
-        let largest = self.weights.iter().map(|own| own.frequency.max(own.shape));
-        let largest = largest.fold(0.0, f64::max);
         let stop = loop {
-            let digits = OBJECTIVE_DIGITS * place.objective;
-            let mut least = digits.max(0.5 * self.settings.tolerance.powi(2));
-            if place.objective > self.objective {
-                least = least.max(TOLD * LOWER);
-            }
+            let least = self.least(place.objective);
             let whole = self.whole_fall(&place)?;
             // A place where a mode meets another is no end: its slopes are not those of the objective.
             if whole <= least && !place.comparison.meets() {
@@ -346,14 +367,14 @@ impl<'a> Problem<'a> {
             }
             let foretold = self.foretold(&place, &second_order, damping.now)?;
             let Some((promised, step)) = foretold.filter(|(fall, _)| *fall > least) else {
-                break WeightedStop::Wall;
+                break place.end(is_wall);
             };
             if trials == self.settings.trials {
                 break WeightedStop::Trials;
             }
             trials += 1;
             // Near the end the gradients of exact places tell the curvature better than a basis that was wrong.
-            let unsure = UNSURE * largest * (2.0 * place.objective).sqrt();
+            let unsure = self.unsure(place.objective);
             let is_wrong = whole > WRONG_PROMISE * before && second_order.told().is_some();
             let ahead = match is_wrong && whole <= unsure {
                 true => None,
@@ -364,24 +385,22 @@ impl<'a> Problem<'a> {
             };
             let (promised, trial) = ahead.unwrap_or_else(|| (promised, place.after(&step)));
             place.comparison.model.release();
-            // A place without a model is no better than this one, nor is one where the objective has not fallen, or, where its fall is
-            // lost in what an analysis leaves unsure, the gradient.
-            let is_told = promised > unsure;
-            let below = place.objective + if is_told { 0.0 } else { unsure };
-            let next = self.place_at(analyze, trial, below).ok().flatten();
-            let is_flatter =
-                |next: &Iterate| self.whole_fall(next).is_ok_and(|there| there < whole);
-            let next = next.filter(|next| is_told || is_flatter(next));
-            let fall = match &next {
-                Some(next) if is_told => place.objective - next.objective,
-                Some(_) => promised,
-                None => 0.0,
-            };
+            let next = self.lower(&mut watched, &place, (promised, trial), (unsure, whole));
+            let fall = next.as_ref().map_or(0.0, |(_, fall)| *fall);
             if (fall - promised).abs() > WRONG_PROMISE * promised {
                 further = most;
             }
+            let has_same = |shapes| place.comparison.has_partners(&shapes);
+            let is_beyond = !tried.take().is_some_and(has_same);
+            // A fall that is lost in what is unsure tells no wall.
+            is_wall = next.is_none()
+                && if promised > unsure {
+                    is_beyond
+                } else {
+                    is_wall
+                };
             match next {
-                Some(next) => {
+                Some((next, _)) => {
                     next.teach(&mut second_order, &place);
                     (place, before) = (next, whole);
                     damping.after(fall / promised);
@@ -400,6 +419,27 @@ impl<'a> Problem<'a> {
             analyses: trials + 1,
             stop,
         })
+    }
+
+    /// The place at a trial's factors and how far the objective has fallen to it; none where it has not, or, where the `promised` fall is
+    /// lost in what an analysis leaves `unsure`, where an undamped step from there would promise no less than the `whole` one from here. A
+    /// place without a model is no better than this one.
+    fn lower<E: From<Error>>(
+        &self,
+        analyze: &mut dyn FnMut(&[f64]) -> Result<Comparison, E>,
+        place: &Iterate,
+        (promised, trial): (f64, Vec<f64>),
+        (unsure, whole): (f64, f64),
+    ) -> Option<(Iterate, f64)> {
+        let is_told = promised > unsure;
+        let below = place.objective + if is_told { 0.0 } else { unsure };
+        let next = self.place_at(analyze, trial, below).ok().flatten()?;
+        if is_told {
+            let fall = place.objective - next.objective;
+            return Some((next, fall));
+        }
+        let there = self.whole_fall(&next).ok()?;
+        (there < whole).then_some((next, promised))
     }
 
     /// The lowest objective that steps in one basis find from `first`, and the factors there, but for a fall that may be `left`, and as
@@ -578,6 +618,14 @@ impl Damping {
 }
 
 impl Iterate {
+    /// Reason why steps ended here though their slopes promise a fall.
+    fn end(&self, is_wall: bool) -> WeightedStop {
+        match is_wall || self.comparison.meets() {
+            true => WeightedStop::Wall,
+            false => WeightedStop::Short,
+        }
+    }
+
     /// Tells an estimate of the second order what the step to here from another place has shown.
     fn teach(&self, second_order: &mut SecondOrder, from: &Self) {
         let step = logs_of(&self.factors) - logs_of(&from.factors);

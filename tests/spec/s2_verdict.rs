@@ -248,7 +248,8 @@ fn advice_goes_by_the_outcome() {
             "Look for a mistake in the test's units",
         ),
         (Outcome::LocalMinimum, vec![0], "Try wider bounds"),
-        (Outcome::Wall, vec![0], "short of a minimum"),
+        (Outcome::Wall, vec![0], "where pairs of modes change"),
+        (Outcome::Short, vec![0], "tell no lower place"),
         (
             Outcome::LocalMinimum,
             vec![],

@@ -779,6 +779,25 @@ fn every_rejection_on_end_doubles_what_damping_is_multiplied_by() {
     }
 }
 
+/// An analysis whose last digits come and go, here a ten thousandth of the stiffness, leaves a gradient, and no pairs change ahead.
+#[test]
+fn steps_among_digits_end_short_of_a_gradient() {
+    let (inner, mut calls) = (side_by_side(&[1.0], 1.5), 0);
+    let analyze = |factors: &[f64]| {
+        calls += 1;
+        inner(&[factors[0] * [1.0, 1.0001][calls % 2]])
+    };
+    let found = gauss_newton(
+        analyze,
+        &[1.0],
+        &[None],
+        &by_frequency(10.0),
+        &with_priors(&[3.0]),
+    )
+    .unwrap();
+    assert_eq!(found.stop, WeightedStop::Short);
+}
+
 /// Two masses of one on two springs in a row, beside the frequencies and shapes of factors (1.4, 1): (2, 0.7) has the same frequencies.
 fn in_a_row() -> impl Fn(&[f64]) -> Result<Comparison, Error> + Copy {
     move |factors| {

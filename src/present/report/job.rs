@@ -143,6 +143,7 @@ impl Report {
         let stop = match run.stop {
             WeightedStop::Gradient => "gradient",
             WeightedStop::Wall => "wall",
+            WeightedStop::Short => "short",
             WeightedStop::Trials => "trials",
         };
         let last = run.iterations.len().saturating_sub(1);

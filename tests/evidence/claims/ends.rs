@@ -25,8 +25,12 @@ fn a_stop_by_gradient_is_stationary() {
             let found = steepness(&result);
             assert!(found <= most, "network {seed}: {found:e} beyond {most:e}");
         } else {
-            // A wall is no minimum, and says so.
-            assert_eq!(result.verdict.outcome, Outcome::Wall, "network {seed}");
+            // What is no minimum says so.
+            let outcome = result.verdict.outcome;
+            assert!(
+                matches!(outcome, Outcome::Wall | Outcome::Short),
+                "network {seed}"
+            );
             assert!(!result.verdict.is_within, "network {seed}");
         }
     }
