@@ -3,15 +3,11 @@
 use super::five_structures::{Right, measure};
 use super::readings_rates::{below, normal};
 use crate::common::jobs::of_whole;
-use crate::common::whole_models::{masses, springs};
+use crate::prelude::*;
 use crate::readers::job_errors::{placed, supposing};
 
-use corfem::job::{History, JobResult, LoadedJob, Trust, run};
+use corfem::job::{LoadedJob, run};
 use corfem::sparse::random::uniform;
-use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare};
-use corfem::weighted::gauss_newton::WeightedCorrelation;
-use corfem::weighted::noise::Noise;
-use corfem::weighted::residuals::{jacobian, residuals};
 
 /// Drawn structure of springs and masses with a test of it.
 pub struct Drawn {

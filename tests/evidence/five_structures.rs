@@ -2,17 +2,11 @@
 //! cyclic disk, with right tests and with single mistakes in their readings.
 
 use super::readings_rates::normal;
-use crate::common::jobs::{Files, of_whole};
-use crate::common::test_files::write_csv;
-use crate::common::whole_models::{masses, sparse};
+use crate::common::jobs::of_whole;
+use crate::prelude::*;
 use crate::readers::job_errors::{placed, supposing, with};
-use corfem::files::test_data::TestData;
 use corfem::job::concern::{Check, Grade};
-use corfem::job::{Concern, Kind, LoadedJob, Trust, run};
-use corfem::sparse::{WholeModel, WholeParameter, WholeShare};
-use corfem::weighted::intervals::Withheld;
-use corfem::weighted::noise::Noise;
-use nalgebra::{DMatrix, DVector};
+use corfem::job::{LoadedJob, run};
 
 /// Standard deviation of the logarithm of the true factors.
 const MODEL: f64 = 0.15;

@@ -6,7 +6,6 @@ use crate::paper::figures::canvas::{
 };
 use crate::paper::figures::chart::Chart;
 use crate::prelude::*;
-use corfem::present::PresentError;
 use plotters::coord::ranged1d::ValueFormatter;
 use plotters::prelude::*;
 

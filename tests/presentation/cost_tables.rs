@@ -1,12 +1,10 @@
 //! The tables of what the method saves, and of how far its steps can be trusted.
 
-use crate::common::golden::{Numbers, assert_golden};
-use crate::common::tolerances::{GOLDEN_COUNT, GOLDEN_STEPS, JOB_RESULTS, ROUND_OFF_FLOOR};
 use crate::evidence::eigensolutions::{Counted, ERRORS, Effort, count_all, eigensolution_table};
 use crate::evidence::linearization::linearization_table;
 use crate::evidence::predictions::{Exact, METHODS, both_structures};
-use corfem::present::render::{WIDTH, csv, text};
-use corfem::present::table::{Cell, Table};
+use crate::prelude::*;
+use corfem::present::render::WIDTH;
 
 fn fits(table: &Table) {
     let text = text(std::slice::from_ref(table));

@@ -1,13 +1,7 @@
 //! The delta wing's tables, number by number.
 
-use crate::common::golden::{Numbers, assert_golden};
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::known::delta_wing::correlation::{WingCorrelation, correlate_wing};
 use crate::evidence::delta_wing_tables::delta_wing_tables;
-use corfem::method::inner_loop::Stop;
-use corfem::present::render::csv;
-use corfem::present::table::{Cell, Table};
-use std::sync::LazyLock;
+use crate::prelude::*;
 
 static RUN: LazyLock<WingCorrelation> =
     LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).expect("it runs"));

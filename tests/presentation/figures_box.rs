@@ -1,14 +1,11 @@
 //! The data of the figures of the box are the model's and Table 2's.
 
 use crate::common::drawings::{words, written};
-use crate::common::tolerances::MATRIX_ROUND_OFF;
 use crate::paper::figures::box_elements::Layer;
 use crate::paper::figures::cover_gages::draw;
 use crate::paper::report::case_report;
+use crate::prelude::*;
 use crate::presentation::figures::results;
-use corfem::torque_box::Case;
-use corfem::torque_box::published::PublishedTable;
-use nalgebra::DVector;
 
 #[test]
 fn box_points_are_the_grids_and_where_the_load_distribution_acts() {

@@ -2,8 +2,8 @@
 
 use crate::paper::figures::comparisons::truncation;
 use crate::paper::tables::fewer_modes::truncation_tables;
+use crate::prelude::*;
 use crate::presentation::figures::fewer_modes_runs;
-use corfem::present::table::{Cell, Table};
 use corfem::torque_box::fewer_modes::FewerModesRun;
 
 fn named<'a>(tables: &'a [Table], name: &str) -> &'a Table {

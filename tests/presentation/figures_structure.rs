@@ -2,15 +2,12 @@
 
 use super::subject::chain;
 use crate::common::drawings::{Written, words, written};
-use crate::common::golden::{Numbers, assert_golden};
 use crate::paper::figures::mode_shapes;
 use crate::paper::figures::structure::draw_structure;
+use crate::prelude::*;
 use corfem::present::frame::Frame;
 use corfem::present::frame::{DrawnMode, DrawnModes};
-use corfem::present::report::{Report, SensorPoint};
-use nalgebra::Vector3;
-use proptest::prelude::*;
-use std::collections::BTreeMap;
+use corfem::present::report::SensorPoint;
 
 fn at(x: f64, y: f64, z: f64) -> Vector3<f64> {
     Vector3::new(x, y, z)

@@ -1,11 +1,9 @@
 //! A wire frame: how it moves between its sensors, and the parts of its panels.
 
 use super::subject::chain;
-use crate::common::tolerances::INTERPOLATED;
 use crate::paper::figures::mode_shapes::panel_parts;
+use crate::prelude::*;
 use corfem::present::frame::Frame;
-use nalgebra::Vector3;
-use proptest::prelude::*;
 
 properties! {
     #![proptest_config(crate::common::costly_config())]

@@ -2,29 +2,14 @@
 
 use crate::common::jobs::rods;
 use crate::common::jobs::run;
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::known::delta_wing::correlation::{first_model, measured_grids};
-use crate::common::known::planted;
-use crate::common::known::wing::Wing;
-use crate::common::tolerances::{CENTRAL_DIFFERENCE_GRADIENT, ROUND_OFF};
-use crate::common::whole_models::of_dense;
 use crate::paper::report::case_report;
+use crate::prelude::*;
 use crate::presentation::figures::{results, wings};
 use crate::readers::job_errors::{placed, with};
 use crate::readers::job_prepared::prepared;
-use approx::assert_relative_eq;
-use corfem::job::{Spread, Study, Summary, Trust, Vary};
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::modes::solve;
-use corfem::method::sorting::pair_modes;
-use corfem::method::step::Bounds;
-use corfem::present::render::text;
-use corfem::present::report::{Derivatives, Report};
-use corfem::present::tables::job::{places_table, study_table, suspects_table, trust_table};
-use corfem::sparse::{BasisSize, ParameterMatrix};
-use corfem::weighted::comparison::Comparison;
-use nalgebra::{DMatrix, Vector3};
+use corfem::job::{Spread, Study, Summary, Vary};
+use corfem::present::report::Derivatives;
+use corfem::present::tables::job::study_table;
 use std::sync::Arc;
 
 fn at(x: f64) -> Vector3<f64> {

@@ -1,11 +1,9 @@
 //! The comparison of matrices and elements as tables, number by number.
 
-use crate::common::golden::{Numbers, assert_golden};
 use crate::evidence::claims::matrix_comparison::compared;
 use crate::evidence::matrix_comparison::compare_matrices;
 use crate::evidence::matrix_tables::matrix_tables;
-use corfem::present::render::csv;
-use corfem::torque_box::Case;
+use crate::prelude::*;
 
 #[test]
 fn comparison_as_numbers() {

@@ -1,8 +1,8 @@
 //! The page of a job: its first screen, its moving structure, and that every view says the same.
 
-use crate::common::jobs::{loaded, worked};
-use crate::common::tolerances::DRAWN_THOUSANDTHS;
+use crate::common::jobs::loaded;
 use crate::paper::report::moving_case;
+use crate::prelude::*;
 use crate::presentation::figures::results;
 use crate::presentation::play::by_node;
 use crate::presentation::subject::{chain, is_well_formed, without_scripts};
@@ -10,13 +10,9 @@ use corfem::present::frame::{DrawnModes, extents};
 use corfem::present::page::charts::{factor_bars, pairing_plot, residual_map};
 use corfem::present::page::moving::{SCRIPT, moving};
 use corfem::present::page::report_page;
-use corfem::present::render::{csv, text};
-use corfem::present::report::{ModeResiduals, Report};
-use corfem::present::table::Digits;
-use corfem::present::tables::report::{answer_table, factor_table};
+use corfem::present::report::ModeResiduals;
+use corfem::present::tables::report::answer_table;
 use corfem::present::{json, rows};
-use nalgebra::Vector3;
-use serde_json::{Value, json};
 
 const JOBS: [&str; 4] = ["box", "building", "garteur", "wing"];
 

@@ -1,13 +1,9 @@
 //! Noisy test modes as tables, number by number.
 
-use crate::common::golden::{Numbers, assert_golden};
-use crate::common::tolerances::ROUND_OFF;
 use crate::evidence::claims::noisy_modes::study;
 use crate::evidence::noisy_modes::{NOISY_CASE, noisy_modes, noisy_tables};
-use corfem::present::render::{WIDTH, csv, markdown, text};
-use corfem::present::table::{Cell, Table};
-use corfem::torque_box::Case;
-use corfem::weighted::noise::Noise;
+use crate::prelude::*;
+use corfem::present::render::{WIDTH, markdown};
 
 #[test]
 fn noisy_modes_as_numbers() {

@@ -4,11 +4,9 @@ use crate::paper::figures::Figure;
 use crate::paper::page::{Contents, page};
 use crate::paper::tables::cases::{all_tables, frequency_table, summary};
 use crate::paper::tables::fewer_modes::{published_tables, truncation_tables};
+use crate::prelude::*;
 use crate::presentation::figures::{fewer_modes_runs, figures, results};
 use crate::presentation::subject::is_well_formed;
-use corfem::present::table::{Cell, Table};
-use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, published_runs};
-use corfem::torque_box::{Case, CaseResult};
 
 const COMMAND: &str = "corfem report --out <somewhere>";
 

@@ -1,15 +1,8 @@
 //! The figure to play with: its script is short and needs nothing, and what it solves in the page is what the program solves.
 
-use crate::common::draws::Draws;
-use crate::common::golden::Numbers;
-use crate::common::loops::exact_state;
-use crate::common::tolerances::PLAYED;
 use crate::paper::page::play::play;
+use crate::prelude::*;
 use crate::presentation::figures::results;
-use corfem::method::analysis::State;
-use corfem::method::step::Accumulation;
-use serde_json::{Value, json};
-use std::process::Command;
 
 fn html() -> String {
     play(&results()[1]).expect("a figure")

@@ -2,11 +2,7 @@
 
 use crate::paper::tables::paper_tables;
 use crate::paper::tables::published::published_table;
-use corfem::present::render::{csv, text};
-use corfem::present::table::Cell;
-use std::collections::BTreeSet;
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
 
 #[test]
 fn every_printed_cell_is_one_line_as_printed() {

@@ -1,8 +1,8 @@
 //! Tables as text, Markdown and CSV: what a terminal has room for, and what another program reads.
 
-use corfem::present::render::{WIDTH, csv, markdown, text};
-use corfem::present::table::{Cell, Digits, Table, counted};
-use proptest::prelude::*;
+use crate::prelude::*;
+use corfem::present::render::{WIDTH, markdown};
+use corfem::present::table::counted;
 
 /// A table of a user's correlation: any number of columns and rows, words in headings, some numbers published.
 fn table() -> impl Strategy<Value = Table> {

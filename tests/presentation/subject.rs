@@ -1,31 +1,14 @@
 //! Any correlation as tables, figures, JSON and a page: a chain, a spatial frame, and the delta wing.
 
-use crate::common::alter;
 use crate::common::drawings::{size, written};
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::known::delta_wing::correlation::correlate_wing;
-use crate::common::structures::spring_stiffness;
 use crate::common::wing_subjects::wing_subject;
 use crate::paper::figures::{Figure, report_figures};
-use corfem::job::verdict::Judged;
-use corfem::method::error_sum::{Errors, mode_errors};
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::sorting::Pairing;
-use corfem::method::step::Bounds;
+use crate::prelude::*;
 use corfem::present::json;
 use corfem::present::page::report_page;
-use corfem::present::render::{WIDTH, csv, text};
-use corfem::present::report::{Derivatives, Report, SensorPoint};
-use corfem::present::table::{Cell, Digits, Table};
-use corfem::present::tables::report::{
-    derivative_table, factor_table, history_table, paired_table,
-};
-use corfem::weighted::comparison::Comparison;
-use nalgebra::{DMatrix, Vector3};
-use proptest::prelude::*;
-use std::sync::LazyLock;
+use corfem::present::render::WIDTH;
+use corfem::present::report::{Derivatives, SensorPoint};
+use corfem::present::tables::report::derivative_table;
 
 /// A chain of masses whose springs are wrong by these factors, correlated: sensors along it, or anywhere else.
 pub fn chain(

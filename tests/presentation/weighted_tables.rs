@@ -1,21 +1,13 @@
 //! The tables of culprits, of two rules side by side, of intervals, and of suspects.
 
-use crate::common::alter;
-use crate::common::golden::{Numbers, assert_golden};
 use crate::common::jobs::loaded;
-use crate::common::tolerances::MEAN_MISFIT;
-use crate::common::tolerances::{
-    JOB_RESULTS, LEAST_COVER, LEAST_PARAMETER_COVERAGE, SINGLE_FIT_FACTOR,
-};
 use crate::evidence::coverage::{Coverage, ENOUGH, Held, coverage_tables};
 use crate::evidence::localization::{localization, localization_tables};
 use crate::evidence::rules::{compare_all, rules_table};
 use crate::ledgers::tables::{COVERED, computed};
-use corfem::method::analysis::Analysis;
-use corfem::present::render::{WIDTH, csv, markdown, text};
-use corfem::present::table::{Cell, Table};
-use corfem::present::tables::job::{MOST_SUSPECTS, suspects_table};
-use corfem::weighted::gauss_newton::WeightedSettings;
+use crate::prelude::*;
+use corfem::present::render::{WIDTH, markdown};
+use corfem::present::tables::job::MOST_SUSPECTS;
 
 fn fits(tables: &[Table]) {
     let text = text(tables);

@@ -4,13 +4,9 @@ use super::job_concerns::tested;
 use super::job_errors::{placed, retested, with};
 use super::job_prepared::measured_building;
 use super::twice::{numbered, universal, with_places};
-use crate::common::jobs::{Files, of_matrices, prepare, rods, run, torque_box, worked};
-use crate::common::whole_models::{masses, springs};
+use crate::common::jobs::{rods, run, torque_box};
+use crate::prelude::*;
 use corfem::job::concern::{Answer, Check, Grade};
-use corfem::job::{Concern, Trust};
-use corfem::method::modes::{Modes, solve};
-use nalgebra::DMatrix;
-use std::f64::consts::TAU;
 
 /// The account before the first step.
 fn before(files: &Files) -> Trust {

@@ -2,12 +2,11 @@
 
 use super::job_errors::{placed, retested, with};
 use super::job_prepared::{measured_building, prepared};
-use crate::common::draws::Draws;
-use crate::common::jobs::{Files, torque_box};
-use crate::common::jobs::{prepare, run};
-use corfem::files::test_data::TestData;
+use crate::common::jobs::run;
+use crate::common::jobs::torque_box;
+use crate::prelude::*;
+use corfem::job::LoadedJob;
 use corfem::job::concern::Grade;
-use corfem::job::{Concern, Kind, LoadedJob, Trust};
 use std::sync::Arc;
 
 /// The identifiers of a job's doubts.

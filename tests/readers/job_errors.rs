@@ -1,16 +1,10 @@
 //! Mistakes in jobs: every one is named with its entry, its value and what would be right.
 
-use crate::common::jobs::{Files, building, rods};
-use crate::common::jobs::{prepare, run};
-use crate::common::test_files::write_csv;
-use crate::common::tolerances::{ROUND_OFF, WEIGHTED_FACTOR};
-use corfem::files::test_data::{self, TestData};
-use corfem::job::{Kind, LeftOut, PreparedJob, Study, Trust, Vary};
-use corfem::method::analysis::Analysis;
-use corfem::method::outer_loop::Settings;
-use std::path::PathBuf;
+use crate::common::jobs::rods;
+use crate::common::jobs::run;
+use crate::prelude::*;
+use corfem::job::{LeftOut, Study, Vary};
 use std::sync::Arc;
-use tempfile::TempDir;
 
 /// A job in a folder of its own.
 pub fn placed(files: &Files) -> (TempDir, PathBuf) {

@@ -5,16 +5,9 @@ use super::job_errors::{placed, retested, with};
 use super::job_prepared::{measured_building, prepared};
 use super::lone_frequencies::without_shapes;
 use super::twice::universal;
-use crate::common::jobs::{Files, building, of_matrices, rods, run};
-use crate::common::tolerances::{HELD_OUT, SET_UP};
-use corfem::files::test_data::TestData;
-use corfem::job::preflight::{Names, SeenModes, preflight_at_sensors};
-use corfem::job::{Concern, Kind, Study, Trust, Vary};
-use corfem::method::modes::Modes;
-use corfem::method::outer_loop::Settings;
-use corfem::weighted::noise::Noise;
-use nalgebra::{DMatrix, DVector, dmatrix};
-use std::f64::consts::TAU;
+use crate::common::jobs::{rods, run};
+use crate::prelude::*;
+use corfem::job::{Study, Vary};
 
 /// A concern in a line: its kind, what it is about, and its numbers with four decimals.
 fn line(concern: &Concern) -> String {

@@ -1,8 +1,8 @@
 //! Models of a job that are matrices: which row is which grid and direction, and mistakes in saying so.
 
 use super::job_errors::{placed, said, with};
-use crate::common::jobs::prepare;
-use crate::common::jobs::{Files, building, rods};
+use crate::common::jobs::rods;
+use crate::prelude::*;
 
 #[test]
 fn rows_of_matrices_are_a_table_of_grids_and_directions() {

@@ -2,17 +2,10 @@
 
 use super::job_concerns::tested;
 use super::job_errors::{placed, retested, with};
-use crate::common::draws::Draws;
-use crate::common::jobs::{Files, of_whole, prepare};
-use crate::common::whole_models::{masses, sparse, springs};
-use corfem::job::assignment::pair_optimally;
+use crate::common::jobs::of_whole;
+use crate::prelude::*;
 use corfem::job::concern::Grade;
-use corfem::job::{Concern, PreparedJob, Trust};
-use corfem::method::modes::solve;
 use corfem::sparse::random::uniform;
-use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare, modal_assurance};
-use corfem::weighted::noise::Noise;
-use nalgebra::DMatrix;
 
 fn ready(files: &Files) -> PreparedJob {
     let (_folder, path) = placed(files);

@@ -2,11 +2,7 @@
 
 use super::job_errors::placed;
 use super::job_unseen::{chain, files};
-use crate::common::draws::Draws;
-use crate::common::jobs::Files;
-use crate::common::jobs::prepare;
-use corfem::job::{Concern, Kind, Trust};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// The files with the numbers of all matrices written with so many digits, those of one after a factor.
 fn written(files: &Files, digits: usize, (name, factor): (&str, f64)) -> Files {

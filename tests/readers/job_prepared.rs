@@ -3,17 +3,8 @@
 use super::job_errors::{placed, said, with};
 use super::test_data_axes::{PART, matrix, row};
 use super::test_data_universal::{dataset, real_mode};
-use crate::common::jobs::prepare;
-use crate::common::jobs::{Files, building, rods};
-use crate::common::test_files::write_csv;
-use crate::common::tolerances::ROUND_OFF;
-use crate::common::whole_models::shear_building;
-use corfem::files::matrices::write_matrix_market;
-use corfem::files::test_data::{Sensor, TestData};
-use corfem::job::PreparedJob;
-use corfem::method::analysis::Analysis;
-use corfem::present::report::Report;
-use nalgebra::{DMatrix, dmatrix};
+use crate::common::jobs::rods;
+use crate::prelude::*;
 
 /// A job that has no mistake, ready to run.
 pub fn prepared(files: &Files) -> PreparedJob {

@@ -2,25 +2,14 @@
 
 use super::job_errors::{placed, said as said_of, with};
 use super::job_prepared::prepared;
+use crate::common::jobs::rods;
 use crate::common::jobs::run;
-use crate::common::jobs::{Files, building, rods};
-use crate::common::test_files::write_csv;
-use crate::common::tolerances::{
-    MATRIX_ROUND_OFF, MEAN_MISFIT, PRINTED_RMS, ROUND_OFF, WEIGHTED_FACTOR,
-};
-use corfem::files::deck;
-use corfem::job::verdict::Outcome;
-use corfem::job::{Concern, History, JobResult, Kind, Study, Trust, Vary};
-use corfem::method::modes::Modes;
-use corfem::method::step::Bounds;
+use crate::prelude::*;
+use corfem::job::{Study, Vary};
+use corfem::present::json;
 use corfem::present::page::report_page;
-use corfem::present::report::Report;
 use corfem::present::tables::report::minima_table;
-use corfem::present::{json, render};
-use corfem::weighted::identifiability::{NORMAL_95, PRIOR_DEVIATION};
-use corfem::weighted::intervals::Withheld;
-use corfem::weighted::noise::with_noise_by_mode;
-use corfem::weighted::residuals::{jacobian, residuals};
+use corfem::weighted::identifiability::PRIOR_DEVIATION;
 use std::cell::Cell;
 
 const A: &str = "elements = [1]";

@@ -1,17 +1,8 @@
 //! What sensors do not see does not exist: parts of the model that no sensor is on change nothing but what is said of them.
 
 use super::job_errors::placed;
-use crate::common::draws::Draws;
-use crate::common::jobs::Files;
-use crate::common::jobs::{prepare, run};
-use crate::common::test_files::write_csv;
-use crate::common::whole_models::{lowest_modes, masses, springs};
-use corfem::files::matrices::write_matrix_market;
-use corfem::files::test_data::{Sensor, TestData};
-use corfem::job::{Concern, JobResult, Kind};
-use corfem::method::sorting::pair_modes;
-use corfem::sparse::{BasisSize, SparseMatrix, WholeModel};
-use proptest::prelude::*;
+use crate::common::jobs::run;
+use crate::prelude::*;
 
 /// A chain whose springs are three parameters, held at one end, with an exact test of its lowest modes at four masses.
 pub struct Chain {

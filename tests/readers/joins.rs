@@ -1,11 +1,9 @@
 //! A later result takes the place of an earlier one only if it explains the numbers of both no worse.
 
 use super::job_errors::{placed, retested};
-use crate::common::draws::Draws;
-use crate::common::jobs::{building, prepare, run};
-use corfem::files::test_data::TestData;
+use crate::common::jobs::run;
+use crate::prelude::*;
 use corfem::job::concern::Grade;
-use corfem::job::{Concern, JobResult, PreparedJob};
 
 /// The building's job with another test.
 fn job(edit: impl FnOnce(&mut TestData)) -> PreparedJob {

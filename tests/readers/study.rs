@@ -1,16 +1,10 @@
 //! Many runs of a job: what is drawn, what a file of samples must be, and what its numbers come to.
 
-use crate::common::costly_config;
-use crate::common::jobs::{Files, STORIES, building, folder_of, rods};
-use crate::common::tolerances::STANDARD_ERRORS;
+use crate::common::jobs::{folder_of, rods};
+use crate::prelude::*;
 use crate::readers::job_errors::with;
-use corfem::files::error::FileError;
 use corfem::job::{Samples, Study, Summary, Vary};
-use proptest::prelude::*;
-use std::fs;
 use std::io::Write;
-use std::path::PathBuf;
-use std::sync::OnceLock;
 
 /// A job in a folder of its own.
 struct Place {

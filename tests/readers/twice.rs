@@ -2,11 +2,8 @@
 
 use super::job_errors::{placed, retested, said};
 use super::job_prepared::measured_building;
-use crate::common::jobs::{Files, prepare, torque_box};
-use crate::common::test_files::write_universal;
-use corfem::files::test_data;
-use corfem::job::{Concern, Kind, Trust};
-use nalgebra::Vector3;
+use crate::common::jobs::torque_box;
+use crate::prelude::*;
 
 fn about(files: &Files, kind: Kind) -> Vec<Vec<String>> {
     let (_folder, path) = placed(files);

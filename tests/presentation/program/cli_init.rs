@@ -1,11 +1,10 @@
 //! `corfem init` from outside: a job and a test that explain themselves, and that the readers take.
 
 use crate::common::jobs::folder_of;
-use crate::common::jobs::prepare;
+use crate::prelude::*;
 use crate::presentation::program::cli::{corfem, text};
 use crate::presentation::program::cli_jobs::{Reported, reported, words};
 use corfem::job::{Job, read};
-use std::fs;
 
 #[test]
 fn init_writes_a_job_that_reads_and_nothing_over_another() {

@@ -1,15 +1,10 @@
 //! `corfem correlate` and `corfem check JOB` from outside: what they print, write and leave alone.
 
 use crate::common::jobs::folder_of;
-use crate::common::tolerances::{FIELD_ROUNDING, ROUND_OFF, UNIVERSAL_ROUNDING, WEIGHTED_FACTOR};
+use crate::prelude::*;
 use crate::presentation::program::cli::{corfem, numbers, text};
 use corfem::present::render::WIDTH;
-use serde_json::Value;
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::{Path, PathBuf};
 use std::process::Output;
-use std::sync::OnceLock;
 
 /// The worked jobs, and whether their models are decks.
 const JOBS: [(&str, bool); 3] = [("box", true), ("building", false), ("wing", true)];
@@ -573,10 +568,8 @@ fn await_work(child: &std::process::Child) {
 #[test]
 fn a_second_signal_ends_the_program_at_once() {
     use crate::common::signals::{corfem_run_by, send, undisturbed};
-    use rustix::process::Signal;
     use std::os::unix::process::ExitStatusExt;
-    use std::process::{Child, Command, Stdio};
-    use std::time::Duration;
+    use std::process::Child;
     let (folder, job) = changed("building", "", "");
     let pipe = folder.path().join("pipe");
     let made = Command::new("mkfifo").arg(&pipe).status();
@@ -610,9 +603,7 @@ fn a_second_signal_ends_the_program_at_once() {
 #[test]
 fn a_signal_keeps_the_best_so_far() {
     use crate::common::signals::{corfem_run_by, send, undisturbed};
-    use rustix::process::Signal;
     use std::os::unix::process::ExitStatusExt;
-    use std::process::Stdio;
     let endless = "method = \"gauss_newton\"\nstarts = 1000000";
     let (folder, job) = changed("wing", "method = \"gauss_newton\"", endless);
     let out = folder.path().join("out");

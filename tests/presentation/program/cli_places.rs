@@ -5,19 +5,17 @@
 #![cfg(unix)]
 
 use crate::common::jobs::rods;
+use crate::prelude::*;
 use crate::presentation::figures::figures;
 use crate::presentation::program::cli::{corfem, text};
 use crate::readers::job_errors::placed;
 use rustix::process::geteuid;
-use std::fs::{self, Permissions};
+use std::fs::Permissions;
 use std::io::ErrorKind;
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::os::unix::process::CommandExt;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 use std::thread::sleep;
-use std::time::Duration;
-use tempfile::TempDir;
 
 /// A user who owns nothing.
 const NOBODY: u32 = 65534;

@@ -1,7 +1,7 @@
 //! Settings of the loops from the command line: what is typed is what is run, and is said in the report.
 
+use crate::prelude::*;
 use crate::presentation::program::cli::{corfem, parsed, text};
-use serde_json::{Value, json};
 
 fn settings(arguments: &[&str]) -> Value {
     let arguments = [

@@ -2,11 +2,7 @@
 
 use super::cli::text;
 use super::cli_jobs::reported;
-use crate::common::tolerances::UNIVERSAL_ROUNDING;
-use corfem::files::test_data::read;
-use serde_json::Value;
-use std::path::Path;
-use std::process::Command;
+use crate::prelude::*;
 
 /// Asserts that another program reads in the file of the building what this crate's reader does.
 fn check(answer: &Value) {

@@ -1,13 +1,11 @@
 //! What outputs show of odd names, what a corrected deck says at its head, what killed runs leave, and files without a last line end.
 
 use super::cli::{corfem, text};
-use crate::common::jobs::{Files, building, folder_of, prepare, rods, run};
+use crate::common::jobs::{folder_of, rods, run};
+use crate::prelude::*;
 use crate::readers::job_errors::{placed, with};
 use crate::readers::twice::universal;
-use corfem::job::History;
 use std::cell::Cell;
-use std::fs;
-use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
 

@@ -2,11 +2,11 @@
 
 #![cfg(unix)]
 
+use crate::prelude::*;
 use crate::presentation::program::cli::{corfem, text};
-use std::fs::{self, File};
+use std::fs::File;
 use std::os::unix::fs::{FileTypeExt, MetadataExt, PermissionsExt, symlink};
-use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::Output;
 
 /// Case 4 is the shortest report.
 const SHORT: [&str; 3] = ["cases", "4", "-q"];

@@ -1,9 +1,8 @@
 //! `corfem study` from outside: the same samples whatever the threads, gone on with after any end, and alone.
 
 use crate::common::jobs::folder_of;
+use crate::prelude::*;
 use crate::presentation::program::cli::{corfem, text};
-use std::fs;
-use std::path::{Path, PathBuf};
 use std::process::Output;
 
 const COUNT: usize = 6;
@@ -193,10 +192,7 @@ fn a_study_needs_samples_and_a_folder_or_one_sample() {
 #[test]
 fn a_signal_keeps_the_samples_done() {
     use crate::common::signals::{corfem_run_by, send, undisturbed};
-    use rustix::process::Signal;
     use std::os::unix::process::ExitStatusExt;
-    use std::process::Stdio;
-    use std::time::Duration;
     let folder = tempfile::tempdir().expect("a folder");
     let (job, path) = (job("building"), folder.path().join("samples.csv"));
     let mut child = corfem_run_by(undisturbed())
@@ -246,7 +242,6 @@ fn a_signal_keeps_the_samples_done() {
 #[test]
 #[ignore = "needs script, of util-linux"]
 fn progress_stands_on_a_terminal_alone() {
-    use std::process::{Command, Stdio};
     let program = assert_cmd::cargo::cargo_bin("corfem");
     let on_terminal = |more: &str| {
         let command = format!("{} check {} {more}", words(&program), words(&job("wing")));

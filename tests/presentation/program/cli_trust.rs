@@ -1,21 +1,14 @@
 //! What may lower the trust in a job's result, in every output and in the exit status.
 
-use crate::common::jobs::{Files, rods};
-use crate::common::jobs::{prepare, run};
+use crate::common::jobs::rods;
+use crate::common::jobs::run;
+use crate::prelude::*;
 use crate::presentation::program::cli::{corfem, text};
 use crate::readers::job_concerns::rigid_bodies;
 use crate::readers::job_errors::{placed, with};
 use corfem::job::concern::Grade;
-use corfem::job::{Concern, Kind, Trust};
-use corfem::method::analysis::Analysis;
+use corfem::present::json;
 use corfem::present::page::report_page;
-use corfem::present::report::Report;
-use corfem::present::tables::job::trust_table;
-use corfem::present::{json, render};
-use nalgebra::{DMatrix, DVector};
-use serde_json::Value;
-use std::collections::BTreeSet;
-use std::path::Path;
 
 /// Every kind of concern, in order.
 pub const KINDS: [Kind; Kind::UnitsOfTest as usize + 1] = {

@@ -1,11 +1,8 @@
 //! `corfem deck` and `corfem modes` from outside.
 
-use crate::common::known::whole;
-use crate::common::tolerances::{DECK_ROUNDING, ROUND_OFF};
+use crate::prelude::*;
 use crate::presentation::program::cli::{corfem, numbers, text};
 use crate::readers::job_concerns::HARDLY_HELD;
-use corfem::torque_box::{Case, run_case};
-use serde_json::Value;
 
 fn frequencies(document: &Value) -> Vec<f64> {
     numbers(&document["frequencies_hz"])

@@ -1,15 +1,8 @@
 //! What `corfem dump` writes, read back: the matrices have the case's modes, and the iterations are those of (13).
 
-use crate::common::golden::{Numbers, assert_golden};
-use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
-use crate::common::vibrations::modes_by_nalgebra;
+use crate::prelude::*;
 use crate::presentation::program::cli::{corfem, numbers};
 use corfem::files::matrices::read;
-use nalgebra::DMatrix;
-use serde_json::Value;
-use std::f64::consts::PI;
-use std::fs;
-use std::path::Path;
 
 /// A case's document.
 fn dumped(case: &str) -> Value {

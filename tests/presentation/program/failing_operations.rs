@@ -2,12 +2,10 @@
 //! with status 2 and names the file, every file is old or new and whole, and what the next run finds is enough for it.
 
 use crate::common::jobs::rods;
+use crate::prelude::*;
 use crate::presentation::program::cli::text;
 use crate::readers::job_errors::placed;
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 /// What makes an operation fail, in a build with debug assertions.
 const VARIABLE: &str = "CORFEM_FAILING_OPERATION";

@@ -6,13 +6,10 @@
 #![cfg(unix)]
 
 use crate::common::signals::{SIGNALS, corfem_run_by, send, undisturbed};
+use crate::prelude::*;
 use crate::presentation::figures::figures;
-use rustix::process::Signal;
-use std::fs;
 use std::os::unix::process::ExitStatusExt;
-use std::path::Path;
-use std::process::{Child, ExitStatus, Stdio};
-use std::time::{Duration, Instant};
+use std::process::{Child, ExitStatus};
 
 /// A figure's file from before.
 const OLD: &str = "old";
