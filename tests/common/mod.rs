@@ -36,6 +36,8 @@ pub mod panels;
 pub mod signals;
 pub mod strategies;
 pub mod structures;
+#[path = "../../paper/studies/mod.rs"]
+pub mod studies;
 pub mod test_files;
 pub mod tolerances;
 pub mod torque_boxes;

@@ -29,7 +29,10 @@ pub use crate::common::{
     gradient::gradient,
     ground_tests::{ground_test, wing_test},
     in_root,
-    jobs::{Files, STORIES, building, of_matrices, prepare, worked},
+    jobs::{
+        Files, STORIES, building, measured_building, of_matrices, placed, prepare, prepared,
+        retested, rods, supposing, with, worked,
+    },
     known::{
         Known,
         delta_wing::{
@@ -84,7 +87,6 @@ pub use crate::common::{
 };
 pub use approx::assert_relative_eq;
 pub use corfem::{
-    chain::rods,
     files::{
         deck::{
             self, BulkData, Reason, Task, Tie, Unread,

@@ -1,6 +1,6 @@
 //! The figures of `paper/interpretation.md`: every printed column by every rule after the published number of iterations.
 
-use crate::evidence::claims::published_counts::COUNTED;
+use crate::evidence::published_counts::COUNTED;
 use crate::evidence::published_counts::{Counted, RULES, Rule};
 use crate::ledgers::diagram::{Diagram, Series, SeriesMark};
 

@@ -10,32 +10,6 @@ fn wing() -> DeltaWing {
     DeltaWing::embedded()
 }
 
-fn tables() -> Vec<Table> {
-    delta_wing_tables(&wing(), &RUN).expect("tables")
-}
-
-#[test]
-fn wing_as_tables() {
-    let tables = tables();
-    let names: Vec<(&str, usize, usize)> = tables
-        .iter()
-        .map(|table| (table.name.as_str(), table.rows.len(), table.columns.len()))
-        .collect();
-    assert_eq!(
-        names,
-        [
-            ("delta_wing_deflections_te", 9, 7),
-            ("delta_wing_deflections_le", 9, 7),
-            ("delta_wing_frequencies", 3, 5),
-            ("delta_wing_groups", 21, 5),
-            ("delta_wing_modes", 12, 12),
-            ("delta_wing_passes", 3, 4),
-        ]
-    );
-    let numbers = Numbers::BY_UNIT;
-    assert_golden("delta_wing", &csv(&tables), numbers);
-}
-
 #[test]
 fn why_a_pass_stopped_is_said_in_words() {
     let mut run = RUN.clone();

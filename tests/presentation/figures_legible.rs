@@ -9,7 +9,6 @@ use crate::paper::report::case_report;
 use crate::prelude::*;
 use crate::presentation::figures::{all_figures, job_figures, results};
 use crate::presentation::subject::chain;
-use crate::readers::job_prepared::prepared;
 use corfem::present::frame::DrawnModes;
 
 fn of_kind(what: &str) -> impl Iterator<Item = &'static Figure> {

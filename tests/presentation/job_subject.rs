@@ -1,12 +1,9 @@
 //! What a report knows of a job, of a case and of a wing, and what its tables say of sensors, doubts and suspects.
 
-use crate::common::jobs::rods;
 use crate::common::jobs::run;
 use crate::paper::report::case_report;
 use crate::prelude::*;
 use crate::presentation::figures::{results, wings};
-use crate::readers::job_errors::{placed, with};
-use crate::readers::job_prepared::prepared;
 use corfem::job::{Spread, Study, Summary, Vary};
 use corfem::present::report::Derivatives;
 use corfem::present::tables::job::study_table;

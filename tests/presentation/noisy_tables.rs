@@ -1,47 +1,7 @@
 //! Noisy test modes as tables, number by number.
 
-use crate::evidence::claims::noisy_modes::study;
-use crate::evidence::noisy_modes::{NOISY_CASE, noisy_modes, noisy_tables};
+use crate::evidence::noisy_modes::{NOISY_CASE, noisy_modes, noisy_tables, study};
 use crate::prelude::*;
-use corfem::present::render::{WIDTH, markdown};
-
-#[test]
-fn noisy_modes_as_numbers() {
-    let numbers = Numbers::BY_UNIT;
-    let tables = noisy_tables(study());
-    let names: Vec<&str> = tables.iter().map(|table| table.name.as_str()).collect();
-    assert_eq!(names, ["noisy_gages", "noisy_course", "noisy_truth"]);
-    for table in &tables {
-        assert!(
-            table
-                .rows
-                .iter()
-                .all(|row| row.cells.len() == table.columns.len()),
-            "{}",
-            table.name
-        );
-    }
-    let written = csv(&tables);
-    assert!(written.contains("\nnoisy_gages,median,Raw all,%,"));
-    assert!(written.lines().all(|line| line.split(',').count() == 6));
-    assert_golden("noisy_modes", &written, numbers);
-    assert!(text(&tables).starts_with("Case 2 with noisy test modes"));
-    assert!(
-        text(&tables)
-            .lines()
-            .all(|line| line.chars().count() <= WIDTH)
-    );
-    assert!(
-        markdown(&tables).contains("| Raw shear, % | Orthogonal shear, % | Screened shear, % |")
-    );
-    assert_eq!(study().runs.len(), 21);
-    for (seed, run) in study().runs.iter().enumerate() {
-        assert_eq!(
-            (run.seed, run.orthogonal.gages_in.len()),
-            ((seed > 0).then_some(seed as u64), 15)
-        );
-    }
-}
 
 fn number(table: &Table, row: &str, column: &str) -> f64 {
     let at = table

@@ -3,7 +3,6 @@
 use crate::common::jobs::loaded;
 use crate::evidence::coverage::{Coverage, ENOUGH, Held, coverage_tables};
 use crate::evidence::localization::{localization, localization_tables};
-use crate::evidence::rules::{compare_all, rules_table};
 use crate::ledgers::tables::{COVERED, computed};
 use crate::prelude::*;
 use corfem::present::render::{WIDTH, markdown};
@@ -31,24 +30,6 @@ fn written(table: &Table, row: &str) -> Vec<String> {
         .find(|found| found.label == row)
         .expect("the row");
     row.cells.iter().map(Cell::computed).collect()
-}
-
-#[test]
-fn two_rules_as_numbers() {
-    let table = rules_table(&compare_all(&WeightedSettings::default()).expect("they run"));
-    let numbers = Numbers {
-        relative: JOB_RESULTS,
-        absolute: JOB_RESULTS,
-        last_digit: false,
-        ..Numbers::AS_WRITTEN
-    };
-    fits(std::slice::from_ref(&table));
-    assert!(table.title.starts_with("The paper's rule"));
-    assert!(
-        markdown(std::slice::from_ref(&table))
-            .contains("| Structure | Steps | Analyses | Factor RMS, % |")
-    );
-    assert_golden("rules", &csv(&[table]), numbers);
 }
 
 #[test]

@@ -1,8 +1,6 @@
 //! Every check says yes, no, or not checked, before the first step and after a run.
 
 use super::job_concerns::tested;
-use super::job_errors::{placed, retested, with};
-use super::job_prepared::measured_building;
 use super::twice::{numbered, universal, with_places};
 use crate::common::jobs::{rods, run, torque_box};
 use crate::prelude::*;

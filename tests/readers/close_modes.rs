@@ -2,7 +2,6 @@
 
 use crate::common::jobs::run;
 use crate::prelude::*;
-use crate::readers::job_errors::placed;
 
 /// Two towers of three floors side by side, one stiffer than the other by `split`, and a test of both in which every pair of modes is
 /// turned by an angle (radians) and its stiffer tower is stiffer by `truth`.

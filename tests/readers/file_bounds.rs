@@ -1,9 +1,7 @@
 //! Files that are none or have no end: refused before a byte of them is read.
 #![cfg(unix)]
 
-use crate::common::jobs::rods;
 use crate::prelude::*;
-use crate::readers::job_errors::placed;
 use corfem::files::{MOST_BYTES, read_bytes};
 
 use std::fs::{File, remove_file};

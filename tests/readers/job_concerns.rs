@@ -1,7 +1,5 @@
 //! What a job's pre-flight says: doubts that name a mistake by sensor, mode or parameter.
 
-use super::job_errors::{placed, retested, with};
-use super::job_prepared::{measured_building, prepared};
 use crate::common::jobs::run;
 use crate::common::jobs::torque_box;
 use crate::prelude::*;
@@ -194,7 +192,7 @@ fn more_rigid_bodies_than_the_digits_allow_are_refused_by_key_and_value() {
         "[test]",
         "rigid_bodies = 2\n[test]",
     );
-    let said = super::job_errors::said(&two);
+    let said = crate::common::jobs::said(&two);
     assert!(
         said.contains(
             "model.rigid_bodies is 2, but the digits of a double of model.stiffness leave at most 0"
@@ -203,7 +201,7 @@ fn more_rigid_bodies_than_the_digits_allow_are_refused_by_key_and_value() {
     );
     let mut negative = files;
     negative[1].1 = HARDLY_HELD.replace("100000.0000001", "99999.123456");
-    let said = super::job_errors::said(&negative);
+    let said = crate::common::jobs::said(&negative);
     let expected = "model.stiffness has negative energy in a motion of ";
     assert!(
         said.contains(expected) && said.contains("more than 11 digits explain"),

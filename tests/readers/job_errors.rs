@@ -1,65 +1,10 @@
 //! Mistakes in jobs: every one is named with its entry, its value and what would be right.
 
-use crate::common::jobs::rods;
 use crate::common::jobs::run;
+use crate::common::jobs::said;
 use crate::prelude::*;
 use corfem::job::{LeftOut, Study, Vary};
 use std::sync::Arc;
-
-/// A job in a folder of its own.
-pub fn placed(files: &Files) -> (TempDir, PathBuf) {
-    let folder = tempfile::tempdir().expect("a folder");
-    files
-        .iter()
-        .for_each(|(name, text)| std::fs::write(folder.path().join(name), text).expect("written"));
-    let path = folder.path().join("job.toml");
-    (folder, path)
-}
-
-/// The files with one text replaced by another in one of them.
-pub fn with(mut files: Files, file: &str, old: &str, new: &str) -> Files {
-    let text = &mut files
-        .iter_mut()
-        .find(|(name, _)| name == file)
-        .expect("a file")
-        .1;
-    assert!(text.contains(old), "{old} is not in {text}");
-    *text = text.replacen(old, new, 1);
-    files
-}
-
-/// A job with another test.
-pub fn retested(mut files: Files, edit: impl FnOnce(&mut TestData)) -> Files {
-    let test = files.iter_mut().find(|(name, _)| name == "test.csv");
-    let text = &mut test.expect("a test").1;
-    let mut data = test_data::read("test.csv", text.as_bytes()).expect("a test");
-    edit(&mut data);
-    *text = write_csv(&data);
-    files
-}
-
-/// A job that names its prior's deviation, and its rigid bodies where there are any.
-pub fn supposing(files: Files, prior: f64, rigid: usize) -> Files {
-    let compare = format!("[compare]\nprior_deviation = {prior:?}\n[[parameter]]");
-    let files = with(files, "job.toml", "[[parameter]]", &compare);
-    match rigid {
-        0 => files,
-        count => {
-            let test = format!("rigid_bodies = {count}\n[test]");
-            with(files, "job.toml", "[test]", &test)
-        }
-    }
-}
-
-/// What is said of a job, without its folder.
-pub fn said(files: &Files) -> String {
-    let (folder, path) = placed(files);
-    let error = prepare(&path)
-        .and_then(|prepared| run(&prepared, |_| {}, || true))
-        .map(drop);
-    let error = error.expect_err("a mistake").to_string();
-    error.replace(&format!("{}/", folder.path().display()), "")
-}
 
 /// Mistakes in the small job: what is replaced by what, and what is then said.
 fn check(mistakes: &[(&str, &str, &str)]) {

@@ -1,8 +1,6 @@
 //! Laws of a job by numbers that are worked out by hand: how each concern is filled, and both sides of every limit before the first step.
 
 use super::job_concerns::tested;
-use super::job_errors::{placed, retested, with};
-use super::job_prepared::{measured_building, prepared};
 use super::lone_frequencies::without_shapes;
 use super::twice::universal;
 use crate::common::jobs::{rods, run};

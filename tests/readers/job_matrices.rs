@@ -1,7 +1,6 @@
 //! Models of a job that are matrices: which row is which grid and direction, and mistakes in saying so.
 
-use super::job_errors::{placed, said, with};
-use crate::common::jobs::rods;
+use crate::common::jobs::said;
 use crate::prelude::*;
 
 #[test]

@@ -1,7 +1,6 @@
 //! Pairs by likelihood: frequencies count where shapes hardly differ, hardly seen modes pay, and no finding hangs on the number of modes.
 
 use super::job_concerns::tested;
-use super::job_errors::{placed, retested, with};
 use crate::common::jobs::of_whole;
 use crate::prelude::*;
 use corfem::job::concern::Grade;

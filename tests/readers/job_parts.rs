@@ -1,6 +1,5 @@
 //! Parameters' matrices are parts of the first model's as far as digits tell, one by one and together.
 
-use super::job_errors::placed;
 use super::job_unseen::{chain, files};
 use crate::prelude::*;
 

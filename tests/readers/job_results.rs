@@ -1,9 +1,7 @@
 //! What a run of a job comes to: its verdict, what is told on the way, the best so far, bounds from any start, and the deck.
 
-use super::job_errors::{placed, said as said_of, with};
-use super::job_prepared::prepared;
-use crate::common::jobs::rods;
 use crate::common::jobs::run;
+use crate::common::jobs::said as said_of;
 use crate::prelude::*;
 use corfem::job::{Study, Vary};
 use corfem::present::json;

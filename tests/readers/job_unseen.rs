@@ -1,6 +1,5 @@
 //! What sensors do not see does not exist: parts of the model that no sensor is on change nothing but what is said of them.
 
-use super::job_errors::placed;
 use crate::common::jobs::run;
 use crate::prelude::*;
 

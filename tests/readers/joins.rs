@@ -1,6 +1,5 @@
 //! A later result takes the place of an earlier one only if it explains the numbers of both no worse.
 
-use super::job_errors::{placed, retested};
 use crate::common::jobs::run;
 use crate::prelude::*;
 use corfem::job::concern::Grade;

@@ -1,9 +1,8 @@
 //! Tests that know of some modes, or of all, the frequency alone.
 
-use super::job_errors::said;
 use crate::common::jobs::run;
+use crate::common::jobs::said;
 use crate::prelude::*;
-use crate::readers::job_errors::{placed, with};
 
 /// The building by weighted steps, whose test lacks the shapes of these modes (from one).
 pub fn without_shapes(modes: &[usize]) -> Files {

@@ -1,9 +1,8 @@
 //! Repeated tests: their mean, what their scatter says, and what a job makes of it.
 
-use super::job_errors::said;
 use crate::common::jobs::run;
+use crate::common::jobs::said;
 use crate::prelude::*;
-use crate::readers::job_errors::{placed, with};
 
 /// The building's exact test.
 fn exact() -> TestData {

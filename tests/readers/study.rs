@@ -2,7 +2,6 @@
 
 use crate::common::jobs::{folder_of, rods};
 use crate::prelude::*;
-use crate::readers::job_errors::with;
 use corfem::job::{Samples, Study, Summary, Vary};
 use std::io::Write;
 

@@ -1,8 +1,6 @@
 //! What a study is known by, and which sensors and modes its samples leave out.
 
-use crate::common::jobs::rods;
 use crate::prelude::*;
-use crate::readers::job_errors::{placed, with};
 use corfem::job::{Study, Vary};
 use sha2::{Digest, Sha256};
 

@@ -1,7 +1,6 @@
 //! A datum that is given twice agrees, or is doubted: place and grid, numbers and order of modes, unit and factor.
 
-use super::job_errors::{placed, retested, said};
-use super::job_prepared::measured_building;
+use crate::common::jobs::said;
 use crate::common::jobs::torque_box;
 use crate::prelude::*;
 

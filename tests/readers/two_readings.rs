@@ -1,11 +1,10 @@
 //! Lines that can be cut in two ways, and the forms in which other programs write what is one thing: read as what they say, or refused.
 
-use super::job_errors::said;
 use super::test_data_axes::{node, system};
 use super::test_data_universal::{TIP, dataset, parsed, real_mode};
 use crate::common::jobs::run;
+use crate::common::jobs::said;
 use crate::prelude::*;
-use crate::readers::job_errors::{placed, with};
 
 fn table(text: &str) -> TestData {
     read("test.csv", text.as_bytes()).unwrap_or_else(|error| panic!("{error}\n{text}"))

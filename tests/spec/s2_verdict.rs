@@ -2,7 +2,6 @@
 
 use crate::common::jobs::run;
 use crate::prelude::*;
-use crate::readers::job_errors::{placed, with};
 use corfem::present::verdict::verdict_in_words;
 use corfem::weighted::comparison::ModeErrors;
 

@@ -1,7 +1,7 @@
 //! Upper and lower covers of a box that is symmetric about its mid-plane: no rule of the step tells them apart, while the print does.
 
 use crate::common::boxes::other_box;
-use crate::evidence::claims::published_counts::COUNTED;
+use crate::evidence::published_counts::COUNTED;
 use crate::evidence::published_counts::run_by;
 use crate::evidence::readings::correlation;
 use crate::prelude::*;

@@ -1,6 +1,5 @@
 //! Goldens of the report: Tables 3 to 8 and 13, and Case 4.
 
-use crate::evidence::fit::{fit, fit_table};
 use crate::paper::tables::cases::all_tables;
 use crate::paper::tables::published::root_error_table;
 use crate::prelude::*;
@@ -44,13 +43,6 @@ fn every_table_as_numbers() {
     {
         assert_table(table);
     }
-}
-
-#[test]
-fn fit_of_the_box_as_numbers() {
-    let fit = fit(&Reconstruction::embedded().unwrap()).unwrap();
-    let table = fit_table(&fit);
-    assert_golden("fit", &csv(&[table]), Numbers::BY_UNIT);
 }
 
 #[test]

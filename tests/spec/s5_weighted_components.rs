@@ -3,7 +3,6 @@
 
 use crate::common::jobs::run;
 use crate::prelude::*;
-use crate::readers::job_errors::placed;
 use crate::spec::s5_weighted::at;
 
 /// A chain of six masses by its matrices, every spring a parameter.

@@ -1,6 +1,6 @@
 //! Noisy test modes: the noise, what Appendix B makes of it, and the numbers of the study by other routes.
 
-use crate::evidence::noisy_modes::{Found, NOISY_CASE, NoisyModes, NoisyRun, SEEDS, noisy_modes};
+use crate::evidence::noisy_modes::{Found, NOISY_CASE, NoisyRun, SEEDS, study};
 use crate::prelude::*;
 
 fn case() -> Case {
@@ -9,11 +9,6 @@ fn case() -> Case {
 
 fn exact() -> Modes {
     case().test_modes().unwrap()
-}
-
-pub fn study() -> &'static NoisyModes {
-    static STUDY: OnceLock<NoisyModes> = OnceLock::new();
-    STUDY.get_or_init(|| noisy_modes(&case(), Noise::USUAL, SEEDS).unwrap())
 }
 
 fn unit(shape: DVector<f64>) -> DVector<f64> {

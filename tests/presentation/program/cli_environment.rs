@@ -1,7 +1,6 @@
 //! Whatever the terminal, home, time zone and language of who runs it, the program writes the same bytes.
 
-use crate::common::jobs::rods;
-use crate::readers::job_errors::placed;
+use crate::prelude::*;
 use std::process::Command;
 
 /// Variables with another value, or without one.

@@ -4,11 +4,9 @@
 
 #![cfg(unix)]
 
-use crate::common::jobs::rods;
 use crate::prelude::*;
 use crate::presentation::figures::figures;
 use crate::presentation::program::cli::{corfem, text};
-use crate::readers::job_errors::placed;
 use rustix::process::geteuid;
 use std::fs::Permissions;
 use std::io::ErrorKind;

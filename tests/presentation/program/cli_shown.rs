@@ -3,7 +3,6 @@
 use super::cli::{corfem, text};
 use crate::common::jobs::{folder_of, rods, run};
 use crate::prelude::*;
-use crate::readers::job_errors::{placed, with};
 use crate::readers::twice::universal;
 use std::cell::Cell;
 use std::sync::Arc;

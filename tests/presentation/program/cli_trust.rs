@@ -1,11 +1,9 @@
 //! What may lower the trust in a job's result, in every output and in the exit status.
 
-use crate::common::jobs::rods;
 use crate::common::jobs::run;
 use crate::prelude::*;
 use crate::presentation::program::cli::{corfem, text};
 use crate::readers::job_concerns::rigid_bodies;
-use crate::readers::job_errors::{placed, with};
 use corfem::job::concern::Grade;
 use corfem::present::json;
 use corfem::present::page::report_page;

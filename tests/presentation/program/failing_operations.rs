@@ -1,10 +1,8 @@
 //! Every operation on a file fails once, the first, the second and so on, until the program does not come to it any more: it ends
 //! with status 2 and names the file, every file is old or new and whole, and what the next run finds is enough for it.
 
-use crate::common::jobs::rods;
 use crate::prelude::*;
 use crate::presentation::program::cli::text;
-use crate::readers::job_errors::placed;
 use std::process::Output;
 
 /// What makes an operation fail, in a build with debug assertions.

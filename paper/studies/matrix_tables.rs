@@ -1,9 +1,7 @@
 //! Why elements and not matrices, as tables.
 
+use super::matrix_comparison::{COVER_DOUBLER, ElementFactor, MatrixComparison, Prediction, TRUTH};
 use super::{HERTZ, PERCENT, RMS_PERCENT};
-use crate::evidence::matrix_comparison::{
-    COVER_DOUBLER, ElementFactor, MatrixComparison, Prediction, TRUTH,
-};
 use crate::prelude::*;
 
 /// All tables of a comparison: what the models know, the factors they stand for, and the changes entry by entry.

@@ -4,7 +4,6 @@
 use super::readings_rates::normal;
 use crate::common::jobs::of_whole;
 use crate::prelude::*;
-use crate::readers::job_errors::{placed, supposing, with};
 use corfem::job::concern::{Check, Grade};
 use corfem::job::{LoadedJob, run};
 
@@ -544,6 +543,36 @@ pub fn repeat_rates(structure: usize, noise: Noise, repeats: usize, tests: usize
         format!("intervals_repeats,{name} of {repeats} files,{column},,{value},\n")
     };
     cells.map(line).concat()
+}
+
+/// Columns of the tables of rates.
+const COLUMNS: &str = "table,row,column,unit,computed,published\n";
+
+/// All structures, with .2 and 1 % of noise and with .5 and 3 %: half an hour.
+pub fn all_interval_rates() -> String {
+    let noises = [(0.002, 0.01), (0.005, 0.03)];
+    let noises = noises.map(|(frequency, shape)| Noise { shape, frequency });
+    let lines: Vec<String> = std::thread::scope(|scope| {
+        let of =
+            |structure| noises.map(|noise| scope.spawn(move || interval_rates(structure, noise)));
+        let runs = (0..STRUCTURES.len()).flat_map(of).collect_vec();
+        let runs = runs.into_iter();
+        runs.map(|run| run.join().expect("rates")).collect()
+    });
+    COLUMNS.to_owned() + &lines.concat()
+}
+
+/// Repeats of two to forty files that declare no deviations, of a portal and of a girder: minutes.
+pub fn all_repeat_rates() -> String {
+    let noise = Noise {
+        shape: 0.03,
+        frequency: 0.005,
+    };
+    let of = |structure| {
+        let of = |files| repeat_rates(structure, noise, files, 150);
+        [2, 3, 5, 10, 40].map(of).concat()
+    };
+    COLUMNS.to_owned() + &of(0) + &of(1)
 }
 
 /// Counts of tests of a structure with a mistake.

@@ -1,6 +1,6 @@
 //! How far the steps can be trusted: errors of predicted modes, as a table.
 
-use crate::evidence::predictions::{Exact, MEASURES, METHODS, Prediction};
+use super::predictions::{Exact, MEASURES, METHODS, Prediction};
 use crate::prelude::*;
 
 /// RMS errors of predicted frequencies and shapes, a whole step, a quarter and a sixteenth, beside exact ones.

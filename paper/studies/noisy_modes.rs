@@ -70,6 +70,15 @@ pub struct NoisyModes {
     pub runs: Vec<NoisyRun>,
 }
 
+/// The study of all seeds.
+pub fn study() -> &'static NoisyModes {
+    static STUDY: LazyLock<NoisyModes> = LazyLock::new(|| {
+        let case = Case::new(NOISY_CASE).expect("a case");
+        noisy_modes(&case, Noise::USUAL, SEEDS).expect("it runs")
+    });
+    &STUDY
+}
+
 /// Correlates a case with noisy test modes, raw, orthogonal, and screened by the usual limits of Appendix B, for every
 /// seed and once without noise.
 ///

@@ -1,7 +1,7 @@
 //! What each reading of the step makes of the paper's gages, beside the print.
 
+use super::readings::{Detection, READINGS, ReadingColumn};
 use super::{PERCENT, RMS_PERCENT};
-use crate::evidence::readings::{Detection, READINGS, ReadingColumn};
 use crate::prelude::*;
 use corfem::torque_box::published_reading;
 

@@ -2,7 +2,7 @@
 //! iterations, Table 9 the inner loop's own frequencies there.
 
 use super::RMS_PERCENT;
-use crate::evidence::detection::SIZES;
+use super::detection::SIZES;
 use crate::prelude::*;
 
 /// Other boxes of each size.

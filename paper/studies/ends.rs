@@ -4,7 +4,6 @@ use super::five_structures::{Right, measure};
 use super::readings_rates::{below, normal};
 use crate::common::jobs::of_whole;
 use crate::prelude::*;
-use crate::readers::job_errors::{placed, supposing};
 
 use corfem::job::{LoadedJob, run};
 use corfem::sparse::random::uniform;

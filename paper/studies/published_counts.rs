@@ -2,7 +2,7 @@
 //! iterations. Neither a tolerance nor a cap takes part, so that the length of the step shows as well as its direction.
 
 use super::PERCENT;
-use crate::evidence::readings::READINGS;
+use super::readings::READINGS;
 use crate::prelude::*;
 
 /// A rule of the step.
@@ -111,6 +111,10 @@ fn printed(reconstruction: &Reconstruction) -> Result<Vec<(Case, Printed)>, Case
     }
     Ok(columns)
 }
+
+/// Those of the reconstructed box.
+pub static COUNTED: LazyLock<Vec<Counted>> =
+    LazyLock::new(|| counted(&Reconstruction::embedded().expect("a box")).expect("they run"));
 
 /// Every printed column by every rule, rule by rule.
 ///

@@ -5,7 +5,6 @@ use super::PERCENT;
 use crate::common::jobs::of_whole;
 use crate::common::jobs::run;
 use crate::prelude::*;
-use crate::readers::job_errors::{placed, with};
 use std::error::Error;
 
 /// Seeds of the noise, one test each.

@@ -1,11 +1,10 @@
 //! How often a parameter a hundred times too thin is named off the reconstructed box: on other boxes by what the first iteration asks
 //! for, on other structures by the fit of a single parameter that `corfem check` prints.
 
-use crate::evidence::localization::NOISE;
-use crate::evidence::readings::{FAULTY_ELEMENT, READINGS};
-use crate::evidence::readings_rates::{KINDS, Kind, below, unit};
+use super::localization::NOISE;
+use super::readings::{FAULTY_ELEMENT, READINGS};
+use super::readings_rates::{KINDS, Kind, below, unit};
 use crate::prelude::*;
-use crate::readers::job_prepared::prepared;
 
 /// By how much the coordinates and the masses of other boxes are off, parts of them.
 pub const SIZES: [(f64, f64); 3] = [(0.02, 0.05), (0.05, 0.10), (0.12, 0.30)];
@@ -167,6 +166,25 @@ pub fn all_job_rates(tests: u64) -> Vec<JobRates> {
         .iter()
         .map(|kind| job_rates(*kind, tests))
         .collect()
+}
+
+/// Alarms by each reading in noisy tests of right models of Cases 1 and 2, so many of each.
+///
+/// # Errors
+/// Those of [`right_model_alarms`].
+pub fn alarms(tests: u64) -> Result<[usize; 4], CaseError> {
+    let (one, two) = (right_model_alarms(1, tests)?, right_model_alarms(2, tests)?);
+    Ok(std::array::from_fn(|reading| one[reading] + two[reading]))
+}
+
+/// Boxes by how far they differ, alarms, and jobs, all of them.
+///
+/// # Errors
+/// Those of [`box_rates`] and [`alarms`].
+pub fn all_rates() -> Result<(Vec<BoxRates>, [usize; 4], Vec<JobRates>), CaseError> {
+    let boxes = SIZES.map(|size| box_rates(size, BOXES));
+    let boxes = boxes.into_iter().collect::<Result<_, _>>()?;
+    Ok((boxes, alarms(100)?, all_job_rates(TESTS)))
 }
 
 /// How often what is a hundred times too thin is named, on other boxes and in jobs.

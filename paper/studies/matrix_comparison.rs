@@ -3,9 +3,7 @@
 //! Both corrections are given the lowest test modes alone, and then predict all modes of the box, as tested and after a design change
 //! that is no part of the test: thicker covers. The truth is the box with the right gages.
 
-use crate::evidence::matrix_correction::{
-    baruch_stiffness, berman_nagy_mass, mass_weighted, weighted_norm,
-};
+use super::matrix_correction::{baruch_stiffness, berman_nagy_mass, mass_weighted, weighted_norm};
 use crate::prelude::*;
 
 /// Test modes given to the corrections unless told otherwise: about half, so that there are others to predict.

@@ -179,6 +179,10 @@ pub fn detection(
     })
 }
 
+/// Those of the reconstructed box.
+pub static COLUMNS: LazyLock<Vec<ReadingColumn>> =
+    LazyLock::new(|| all_columns(&Reconstruction::embedded().expect("a box")).expect("they run"));
+
 /// Every published column of gages by every reading: Cases 1 to 3 pass by pass, then Tables 10 to 12.
 ///
 /// # Errors
