@@ -12,7 +12,7 @@
 mod common;
 
 use common::prelude;
-use common::studies::{LONG, QUICK};
+use common::presentation::studies::{LONG, QUICK};
 use std::error::Error;
 
 fn main() -> Result<(), Box<dyn Error>> {

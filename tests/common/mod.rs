@@ -9,6 +9,7 @@ pub mod prelude;
 pub mod appendix_b;
 pub mod appendix_c;
 pub mod boxes;
+pub mod cases;
 pub mod closed_forms;
 pub mod complex_pencils;
 pub mod condensed;
@@ -36,8 +37,6 @@ pub mod panels;
 pub mod signals;
 pub mod strategies;
 pub mod structures;
-#[path = "../../paper/studies/mod.rs"]
-pub mod studies;
 pub mod test_files;
 pub mod tolerances;
 pub mod torque_boxes;

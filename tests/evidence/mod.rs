@@ -6,7 +6,7 @@ pub mod claims;
 pub mod enclosed;
 pub mod next_step;
 
-pub use crate::common::studies::*;
+pub use crate::common::presentation::studies::*;
 use crate::prelude::*;
 
 /// How far numbers of a study may be from its golden.

@@ -3,75 +3,6 @@
 use crate::common::jobs::said;
 use crate::prelude::*;
 
-#[test]
-fn rows_of_matrices_are_a_table_of_grids_and_directions() {
-    let wrong = "is not a line of grid, direction and perhaps x, y, z";
-    for line in [
-        "2",
-        "2,q",
-        "x,x",
-        "2,x,1.",
-        "2,x,0.,a,0.,0.",
-        "2,x,,0.,0.,240",
-        "2,x,0.,0.,inf",
-        "-2,x",
-    ] {
-        let error = said(&with(building(), "rows.csv", "2,x,0.,0.,240", line));
-        assert_eq!(error, format!("rows.csv, line 3: \"{line}\" {wrong}"));
-    }
-    // As a spreadsheet may write it, with a remark.
-    let mark = with(
-        building(),
-        "rows.csv",
-        "grid,direction",
-        "\u{feff}\"grid\",direction",
-    );
-    let (_folder, path) = placed(&with(
-        mark,
-        "rows.csv",
-        "2,x,",
-        "\n# the second floor\n2,x,",
-    ));
-    assert_eq!(
-        prepare(&path)
-            .unwrap_or_else(|error| panic!("{error}"))
-            .loaded
-            .source
-            .motions
-            .len(),
-        10
-    );
-    let short = said(&with(building(), "rows.csv", "2,x,0.,0.,240\n", ""));
-    assert_eq!(
-        short,
-        "job.toml: model.rows has 9 rows, but the stiffness 10"
-    );
-    let twice = said(&with(
-        building(),
-        "rows.csv",
-        "2,x,0.,0.,240",
-        "1,x,0.,0.,120",
-    ));
-    assert!(
-        twice.contains("rows 1 and 2 of the matrices have the same grid and direction"),
-        "{twice}"
-    );
-    let none = said(&with(building(), "job.toml", "rows = \"rows.csv\"", ""));
-    assert_eq!(
-        none,
-        "job.toml: model.rows is missing: these matrices do not name their rows"
-    );
-    let story = "matrix = \"story_1.mtx\"";
-    for rule in ["", "matrix = \"story_1.mtx\"\nelements = [1]"] {
-        let error = said(&with(building(), "job.toml", story, rule));
-        assert_eq!(
-            error,
-            "job.toml: parameter \"story 1\" needs a matrix, or a whole stiffness or mass with the factor at that it has there, and no \
-             entry of a deck"
-        );
-    }
-}
-
 /// DMIG of the chain of the rods: the stiffness names its rows in ascending order, the mass misses one.
 fn named_matrices(mass: &[(usize, f64)]) -> Files {
     let card = |name: &str, a: usize, b: usize, value: f64| {
@@ -210,23 +141,4 @@ fn labels_that_fall_on_one_row_are_an_error_in_every_matrix() {
             )
         );
     }
-}
-
-#[test]
-fn the_table_of_rows_has_its_titles_in_order_and_one_place_for_a_grid() {
-    let wrong = "is not a line of grid, direction and perhaps x, y, z";
-    for titles in ["grid,direction,z,y,x", "grid,component", "grid,direction,x"] {
-        let error = said(&with(
-            building(),
-            "rows.csv",
-            "grid,direction,x,y,z",
-            titles,
-        ));
-        assert_eq!(error, format!("rows.csv, line 1: \"{titles}\" {wrong}"));
-    }
-    let moved = with(building(), "rows.csv", "2,x,0.,0.,240", "1,y,0.,0.,240");
-    assert_eq!(
-        said(&moved),
-        "rows.csv, line 3: grid 1 was given at another place before"
-    );
 }

@@ -329,21 +329,6 @@ fn cards_that_are_not_understood_are_refused_unless_ignored_by_name() {
 }
 
 #[test]
-fn a_deck_in_latin_1_is_read() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("latin.dat");
-    let bytes = [
-        b"$ Fl\xFCgel\n".as_slice(),
-        BARS.split("CBAR").next().expect("a part").as_bytes(),
-    ]
-    .concat();
-    std::fs::write(&path, bytes).expect("written");
-    let report = corfem(&["modes", path.to_str().expect("UTF-8")]);
-    assert_eq!(report.status.code(), Some(0), "{}", text(&report.stderr));
-    assert!(report.stderr.is_empty());
-}
-
-#[test]
 fn a_card_of_a_set_that_is_not_selected_is_reported_as_such() {
     let reason = corfem::files::deck::Reason::NotSelected;
     let unread = corfem::files::deck::Unread {
