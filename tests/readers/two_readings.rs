@@ -59,8 +59,6 @@ fn cylindrical_axes_of_a_test_turn_with_the_angle() {
     }
 }
 
-const ROWS: &str = "name,direction,mode 1,mode 2\nfrequency_hz,,1.5,2.5\n";
-
 #[test]
 fn a_table_names_its_separator_its_encoding_and_its_modes() {
     let text = "sep=;\nname;direction;mode 7;mode 8\nfrequency_hz;;1,5;2,5\na;z;1;2\n";

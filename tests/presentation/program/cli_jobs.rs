@@ -387,49 +387,6 @@ fn every_format_has_the_factors() {
     );
 }
 
-#[test]
-fn check_says_what_is_doubtful_without_a_step() {
-    for (name, _) in JOBS {
-        let job = folder_of(name).join("job.toml");
-        let output = corfem(&["check", words(&job)]);
-        assert_eq!(
-            (output.status.code(), text(&output.stderr)),
-            (Some(0), String::new()),
-            "{name}"
-        );
-        let report = text(&output.stdout);
-        assert!(
-            report.contains("What to know before trusting this")
-                && report.contains("Sensors on the model"),
-            "{report}"
-        );
-        assert!(
-            report.lines().all(|line| line.chars().count() <= WIDTH),
-            "{report}"
-        );
-        assert_eq!(
-            names(&folder_of(name))
-                .iter()
-                .filter(|name| name.starts_with("report"))
-                .count(),
-            0
-        );
-    }
-    let job = folder_of("building").join("job.toml");
-    let json = corfem(&["check", words(&job), "-f", "json"]).stdout;
-    let document: Value = serde_json::from_slice(&json).expect("JSON");
-    assert!(document.is_object() || document.is_array());
-    // Weights that do not fit are doubtful too.
-    let (_folder, job) = changed("box", "[compare]", "[compare]\nshape_weights = [1]");
-    let refused = corfem(&["check", words(&job)]);
-    assert_eq!(refused.status.code(), Some(2));
-    assert!(
-        text(&refused.stderr).contains("compare.shape_weights: 1 given for"),
-        "{}",
-        text(&refused.stderr)
-    );
-}
-
 /// A worked job with one text replaced by another, in a folder of its own.
 fn changed(name: &str, old: &str, new: &str) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a folder");
@@ -441,52 +398,6 @@ fn changed(name: &str, old: &str, new: &str) -> (tempfile::TempDir, PathBuf) {
     assert!(job.contains(old), "{old}");
     fs::write(&path, job.replacen(old, new, 1)).expect("written");
     (folder, path)
-}
-
-/// The paper's rule by the tolerance, weighted steps by the noise: a building whose first story may not change explains nothing.
-#[test]
-fn a_job_outside_what_judges_it_is_exit_status_3_with_its_verdict() {
-    let first =
-        "analysis_modes = 10\n\n[[parameter]]\nname = \"story 1\"\nmatrix = \"story_1.mtx\"\n";
-    let precise = "frequency_deviation = 1e-4\nshape_deviation = 1e-3\n";
-    let paper =
-        "analysis_modes = 10\nmethod = \"paper\"\n[correlation]\nerror_sum_tolerance = 1e-9\n";
-    for (old, new, says) in [
-        (
-            "analysis_modes = 10\n",
-            paper,
-            "Outside tolerance: error sum",
-        ),
-        (
-            first,
-            precise,
-            "The model cannot explain this test: residuals are ",
-        ),
-    ] {
-        let (_folder, job) = changed("building", old, new);
-        let output = correlate(&job, &[]);
-        assert_eq!(output.status.code(), Some(3));
-        let words = unbroken(&text(&output.stdout));
-        assert!(words.contains(says), "{words}");
-    }
-}
-
-#[test]
-fn a_mistake_is_exit_status_2_on_one_line_and_nothing_is_written() {
-    let (folder, job) = changed("building", "story_3.mtx", "no.mtx");
-    let out = folder.path().join("out");
-    let output = correlate(&job, &["--folder", words(&out)]);
-    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
-    let expected = format!(
-        "corfem: cannot read {}/no.mtx (parameter \"story 3\" in job.toml): no such file",
-        words(folder.path())
-    );
-    assert!(
-        text(&output.stderr).starts_with(&expected),
-        "{}",
-        text(&output.stderr)
-    );
-    assert!(!out.exists());
 }
 
 /// A new property would need a number above the largest that a deck may have; the report of the correlation is there all the same.
@@ -672,11 +583,6 @@ fn starts_and_seed_are_taken_from_the_command_line() {
     {
         assert!((a / b - 1.0).abs() < WEIGHTED_FACTOR, "{a} {b}");
     }
-    assert_eq!(
-        correlate(&job, &["--seed", "5"]).status.code(),
-        Some(2),
-        "a seed without starts"
-    );
 }
 
 #[test]
@@ -705,34 +611,6 @@ fn a_factor_of_point_masses_is_in_the_corrected_deck() {
                 .all(|point| (point.mass - factor).abs() <= FIELD_ROUNDING * factor),
         "{masses:?}"
     );
-}
-
-/// A job's numbers are in whatever units its model and its test have.
-#[test]
-fn documents_of_a_job_have_no_units_but_its_own() {
-    let job = folder_of("building").join("job.toml");
-    for command in ["check", "correlate"] {
-        let output = corfem(&[command, words(&job), "-q", "-f", "json"]);
-        let document: Value = serde_json::from_slice(&output.stdout).expect("JSON");
-        assert_eq!(
-            document["units"],
-            "the model's own units, hertz; errors are fractions"
-        );
-    }
-}
-
-#[test]
-fn a_job_without_parameters_can_be_checked() {
-    let folder = tempfile::tempdir().expect("a folder");
-    for (name, file) in crate::common::jobs::rods() {
-        let end = file.find("[[parameter]]").unwrap_or(file.len());
-        fs::write(folder.path().join(name), &file[..end]).expect("written");
-    }
-    let job = folder.path().join("job.toml");
-    let checked = corfem(&["check", words(&job), "-q"]);
-    assert_ne!(checked.status.code(), Some(2), "{}", text(&checked.stderr));
-    assert!(text(&checked.stdout).contains("Sensors on the model"));
-    assert_eq!(correlate(&job, &[]).status.code(), Some(2));
 }
 
 #[cfg(unix)]

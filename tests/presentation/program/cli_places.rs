@@ -5,8 +5,7 @@
 #![cfg(unix)]
 
 use crate::prelude::*;
-use crate::presentation::figures::figures;
-use crate::presentation::program::cli::{corfem, text};
+use crate::presentation::program::cli::text;
 use rustix::process::geteuid;
 use std::fs::Permissions;
 use std::io::ErrorKind;
@@ -153,48 +152,4 @@ fn new_files_are_on_the_disk_before_they_take_a_name() {
         .map(|call| if call.contains("fsync(") { 's' } else { 'r' })
         .collect();
     assert_eq!(kinds, "srs".repeat(names(&out.path().join("figures"))));
-}
-
-#[test]
-fn a_directory_in_the_place_of_a_file_of_the_run_is_refused_before_the_run() {
-    let (_job, job) = placed(&rods());
-    let job = job.to_str().expect("UTF-8");
-    let drawn = figures().iter().map(|figure| figure.name.clone() + ".svg");
-    let drawn: Vec<String> = drawn.collect();
-    let fixed = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
-    let runs: [(&[&str], Vec<String>); 5] = [
-        (
-            &["correlate", "-q", job, "--folder"],
-            fixed(&[
-                "report.html",
-                "factors.csv",
-                "shapes.csv",
-                "shapes.unv",
-                "residuals.csv",
-                "correlation.json",
-                "corrected.bdf",
-            ]),
-        ),
-        (
-            &["study", "-q", job, "--samples", "2", "--folder"],
-            fixed(&["samples.csv", "summary.csv"]),
-        ),
-        (&["report", "-q", "--folder"], fixed(&["report.html"])),
-        (&["figures", "-q", "--folder"], drawn),
-        (&["dump", "-q", "1", "--folder"], fixed(&["dump.json"])),
-    ];
-    for (run, names) in runs {
-        for name in names {
-            let folder = tempfile::tempdir().expect("a folder");
-            let held = folder.path().join(&name);
-            fs::create_dir(&held).expect("made");
-            let output = corfem(&[run, &[folder.path().to_str().expect("UTF-8")]].concat());
-            let said = text(&output.stderr);
-            assert_eq!(output.status.code(), Some(2), "{run:?} {name}: {said}");
-            let start = format!("corfem: cannot write {}: ", held.display());
-            assert!(said.starts_with(&start), "{run:?}: {said}");
-            assert!(output.stdout.is_empty(), "{run:?} {name}");
-            assert_eq!(self::names(folder.path()), 1, "{run:?} {name}");
-        }
-    }
 }

@@ -122,71 +122,6 @@ fn samples_run_alone_and_put_together_are_the_study() {
     );
 }
 
-#[test]
-fn a_folder_of_another_study_is_refused_and_left_alone() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let output = study(folder.path(), &[]);
-    assert_eq!(output.status.code(), Some(0));
-    let before = fs::read(folder.path().join("samples.csv")).expect("it reads");
-    let (building, wing) = (job("building"), job("wing"));
-    for (other, seed, vary) in [
-        (&building, "6", "noise"),
-        (&building, "5", "noise,start"),
-        (&wing, "5", "noise"),
-    ] {
-        let base = [
-            "study",
-            words(other),
-            "--samples",
-            "6",
-            "--seed",
-            seed,
-            "--vary",
-            vary,
-        ];
-        let output = corfem(&[&base[..], &["--folder", words(folder.path())]].concat());
-        assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
-        assert!(
-            text(&output.stderr).contains("samples.csv, line "),
-            "{}",
-            text(&output.stderr)
-        );
-        assert_eq!(
-            fs::read(folder.path().join("samples.csv")).expect("it reads"),
-            before
-        );
-    }
-}
-
-#[test]
-fn a_study_needs_samples_and_a_folder_or_one_sample() {
-    let job = job("building");
-    for more in [
-        &["--samples", "3"][..],
-        &["--folder", "x"],
-        &["--sample", "1", "--samples", "3"],
-        &["--sample", "0"],
-        // More than can be kept, more threads than any machine has cores, and neither with an end.
-        &["--samples", "18446744073709551615", "--folder", "x"],
-        &["--samples", "1000001", "--folder", "x"],
-        &["--samples", "1", "--folder", "x", "--threads", "20000"],
-        &["--samples", "1", "--folder", "x", "--threads", "1025"],
-    ] {
-        let output = corfem(&[&["study", words(&job)], more].concat());
-        assert_eq!(
-            (output.status.code(), output.stdout.len()),
-            (Some(2), 0),
-            "{more:?}"
-        );
-    }
-    assert_eq!(
-        corfem(&["study", words(&job), "--sample", "1", "--vary", "weather"])
-            .status
-            .code(),
-        Some(2)
-    );
-}
-
 /// A study that would last is stopped: whole lines of what is done are there, and the same command goes on with them.
 #[cfg(unix)]
 #[test]
@@ -263,55 +198,6 @@ fn progress_stands_on_a_terminal_alone() {
     let (loud, quiet) = (on_terminal(""), on_terminal("-q"));
     assert!(loud.contains("looking at the job"), "{loud}");
     assert!(!quiet.contains("looking at the job"), "{quiet}");
-}
-
-#[test]
-fn the_usage_of_a_study_names_what_it_needs() {
-    for output in [corfem(&["study"]), corfem(&["study", "--help"])] {
-        let said = text(&output.stdout) + &text(&output.stderr);
-        for usage in [
-            "Usage: corfem study [OPTIONS] --samples <N> --folder <DIR> <JOB>\n",
-            "       corfem study [OPTIONS] --sample <K> <JOB>\n",
-        ] {
-            assert!(said.contains(usage), "{said}");
-        }
-    }
-}
-
-/// Commands of jobs are given a job's file; for its folder they say which file that is, or how to write one.
-#[test]
-fn a_folder_in_place_of_a_job_is_told_what_to_write() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = words(folder.path());
-    let commands: [&[&str]; 3] = [
-        &["check", path],
-        &["correlate", path],
-        &["study", path, "--sample", "1"],
-    ];
-    let said = || {
-        commands.map(|command| {
-            let output = corfem(command);
-            assert_eq!(output.status.code(), Some(2), "{command:?}");
-            text(&output.stderr)
-        })
-    };
-    let job = folder.path().join("job.toml");
-    let job = words(&job);
-    let remedy = format!("corfem init {job} writes a job that explains its entries");
-    assert_eq!(
-        said(),
-        [(); 3].map(|()| format!("corfem: {path}: is a folder; {remedy}\n"))
-    );
-    assert_eq!(corfem(&["init", job]).status.code(), Some(0));
-    assert_eq!(
-        said(),
-        [(); 3].map(|()| format!("corfem: {path}: is a folder; name a job in it: {job}\n"))
-    );
-    let modes = text(&corfem(&["modes", path]).stderr);
-    assert!(
-        modes.ends_with("it is a folder; name a file in it\n"),
-        "{modes}"
-    );
 }
 
 #[test]

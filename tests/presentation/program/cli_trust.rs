@@ -218,72 +218,9 @@ fn in_radians() -> Files {
     files
 }
 
-/// The factors take up what the unit is wrong by, so that the errors alone say nothing.
-#[test]
-fn a_test_in_radians_a_second_never_passes_unless_the_doubt_is_accepted() {
-    let (_folder, path) = placed(&in_radians());
-    let (status, words, _) = status_of(&path, &[]);
-    assert_eq!(status, Some(3), "{words}");
-    assert!(
-        words.starts_with("Not to be trusted as it stands: ")
-            && words.contains("What stands against it doubt common-factor: "),
-        "{words}"
-    );
-    let job = path.to_str().expect("UTF-8");
-    assert_eq!(corfem(&["check", "-q", job]).status.code(), Some(3));
-    let accepted = ["--accept", "common-factor"];
-    let check = corfem(&[&["check", "-q", job][..], &accepted].concat());
-    assert_eq!(check.status.code(), Some(0));
-    let (_, words, _) = status_of(&path, &accepted);
-    assert!(words.contains("doubt, accepted common-factor: "), "{words}");
-    assert!(!words.contains("Not to be trusted as it stands"), "{words}");
-}
-
 /// A study of a job into a folder, or one sample of it, with more arguments.
 fn study_of(path: &Path, more: &[&str]) -> (Option<i32>, String, String) {
     ran("study", path, more)
-}
-
-#[test]
-fn a_study_ends_with_status_3_while_a_doubt_stands_that_nobody_accepts() {
-    let (folder, path) = placed(&in_radians());
-    let out = folder.path().join("out");
-    let whole = ["--samples", "2", "--folder", out.to_str().expect("UTF-8")];
-    let accepted = ["--accept", "common-factor"];
-    let (status, _, error) = study_of(&path, &[&whole[..], &["--accept", "rad-s"]].concat());
-    assert_eq!(status, Some(2));
-    assert!(
-        error.contains("--accept rad-s: the doubts are common-factor"),
-        "{error}"
-    );
-    assert!(!out.exists(), "refused before the first sample");
-    let (status, words, error) = study_of(&path, &whole);
-    assert_eq!((status, &error[..]), (Some(3), ""), "{words}");
-    assert!(words.contains("doubt common-factor: "), "{words}");
-    let (status, words, _) = study_of(&path, &[&whole[..], &accepted].concat());
-    assert_eq!(status, Some(0), "{words}");
-    assert!(words.contains("doubt, accepted common-factor: "), "{words}");
-    let one = ["--sample", "1"];
-    assert_eq!(study_of(&path, &one).0, Some(3));
-    assert_eq!(study_of(&path, &[one, accepted].concat()).0, Some(0));
-}
-
-#[test]
-fn an_accepted_identifier_must_name_a_doubt() {
-    let (_folder, path) = placed(&in_radians());
-    let (status, _, error) = status_of(&path, &["--accept", "rad-s"]);
-    assert_eq!(status, Some(2));
-    assert!(
-        error.contains("--accept rad-s: the doubts are common-factor"),
-        "{error}"
-    );
-    let (_folder, path) = placed(&rods());
-    let (status, _, error) = status_of(&path, &["--accept", "common-factor"]);
-    assert_eq!(status, Some(2));
-    assert!(
-        error.contains("--accept common-factor: nothing is doubtful"),
-        "{error}"
-    );
 }
 
 /// Masses, each on a spring to the ground, joined weakly in a row: where their springs are alike they move together.
@@ -609,30 +546,5 @@ fn every_concern_of_the_test_jobs_begins_with_a_capital_letter_and_ends_as_a_sen
         "negative-p2",
     ] {
         assert!(identifiers.contains(expected), "{identifiers:?}");
-    }
-}
-
-/// The line of one sample is for a file of samples; the doubt that makes the status is said beside it.
-#[test]
-fn one_sample_of_a_doubtful_job_says_why_its_status_is_3() {
-    let (_folder, path) = placed(&in_radians());
-    let (status, line, error) = study_of(&path, &["--sample", "1"]);
-    assert_eq!((status, line.split(',').count()), (Some(3), 8));
-    assert!(
-        error.starts_with("corfem: doubt common-factor: "),
-        "{error}"
-    );
-    let (status, _, error) = study_of(&path, &["--sample", "1", "--accept", "common-factor"]);
-    assert_eq!((status, &error[..]), (Some(0), ""));
-}
-
-/// Cross-orthogonality has the mass of some modes' model, and the note under the table says which.
-#[test]
-fn the_mass_of_cross_orthogonality_is_named_before_and_after() {
-    let (_folder, path) = placed(&rods());
-    for (command, model) in [("check", "first"), ("correlate", "corrected")] {
-        let (_, words, _) = ran(command, &path, &[]);
-        let source = format!("The mass is that of the paired modes of the {model} model.");
-        assert!(words.contains(&source), "{words}");
     }
 }

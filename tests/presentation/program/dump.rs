@@ -194,14 +194,3 @@ fn a_folder_gets_every_matrix_as_the_document_has_it() {
         }
     }
 }
-
-#[test]
-fn a_dump_of_nothing_is_refused() {
-    assert_eq!(corfem(&["dump", "5"]).status.code(), Some(2));
-    assert_eq!(
-        corfem(&["dump", "2", "--folder", "/no/such/folder/here"])
-            .status
-            .code(),
-        Some(2)
-    );
-}
