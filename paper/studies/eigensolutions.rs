@@ -1,7 +1,7 @@
 //! How many full eigensolutions a correlation takes: perturbation between exact checks against a new analysis after every step.
 
-use crate::common::known::WING_MODES;
-use crate::common::known::eigensolved::Eigensolved;
+use super::known::WING_MODES;
+use super::known::eigensolved::Eigensolved;
 use crate::prelude::*;
 
 /// Error sums to be reached, fractions.

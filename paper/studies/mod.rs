@@ -9,6 +9,7 @@ pub mod eigensolutions;
 pub mod ends;
 pub mod fit;
 pub mod five_structures;
+pub mod known;
 pub mod linearization;
 pub mod localization;
 pub mod matrix_comparison;

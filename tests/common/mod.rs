@@ -25,7 +25,6 @@ pub mod gradient;
 pub mod ground_tests;
 pub mod hostile;
 pub mod jobs;
-pub mod known;
 pub mod loops;
 pub mod matrices;
 pub mod measured;
@@ -43,6 +42,8 @@ pub mod torque_boxes;
 pub mod vibrations;
 pub mod whole_models;
 pub mod wing_subjects;
+
+pub use presentation::studies::known;
 
 use crate::prelude::*;
 use nalgebra::ComplexField;

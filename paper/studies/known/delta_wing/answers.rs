@@ -99,7 +99,7 @@ impl DeltaWing {
 /// # Errors
 /// [`CaseError::Table`] if the table were damaged.
 pub fn known_deflections() -> Result<PublishedTable, CaseError> {
-    let text = include_str!("../../../../paper/tables/delta_wing_deflections.csv");
+    let text = include_str!("../../../tables/delta_wing_deflections.csv");
     PublishedTable::parse(0, "paper/tables/delta_wing_deflections.csv", text)
 }
 
@@ -108,6 +108,6 @@ pub fn known_deflections() -> Result<PublishedTable, CaseError> {
 /// # Errors
 /// [`CaseError::Table`] if the table were damaged.
 pub fn known_frequencies() -> Result<PublishedTable, CaseError> {
-    let text = include_str!("../../../../paper/tables/delta_wing_frequencies.csv");
+    let text = include_str!("../../../tables/delta_wing_frequencies.csv");
     PublishedTable::parse(0, "paper/tables/delta_wing_frequencies.csv", text)
 }

@@ -72,7 +72,7 @@ pub struct DeltaWing {
 impl DeltaWing {
     /// The wing of `paper/delta_wing.toml`.
     pub fn embedded() -> Self {
-        toml::from_str(include_str!("../../../../paper/delta_wing.toml")).expect("a delta wing")
+        toml::from_str(include_str!("../../../delta_wing.toml")).expect("a delta wing")
     }
 
     /// The wing as a structure: 48 grids; 14 membranes and 3 triangles (covers, 1 to 17), 36 shear panels (webs, 18 to
