@@ -70,7 +70,7 @@ pub fn hold(
     made: &[(&str, String)],
     read: impl Fn(&str, &[String]) -> Result<Value, String>,
 ) {
-    let mut list: List = toml::from_str(list).unwrap_or_else(|error| panic!("{error}"));
+    let mut list: List = toml::from_str(list).unwrap();
     let made = made
         .iter()
         .map(|(name, text)| (name.to_string(), text.clone()));

@@ -67,7 +67,7 @@ pub fn run(
 /// A job of `tests/jobs`.
 pub fn loaded(name: &str) -> PreparedJob {
     let loaded = prepare(&folder_of(name).join("job.toml"));
-    loaded.unwrap_or_else(|error| panic!("{error}"))
+    loaded.unwrap()
 }
 
 /// What comes of a job of `tests/jobs`, each run once for all tests.
@@ -79,9 +79,7 @@ pub fn worked(name: &str) -> &'static JobResult {
         ("wing", OnceLock::new()),
     ];
     let (_, result) = RUNS.iter().find(|(of, _)| *of == name).unwrap();
-    result.get_or_init(|| {
-        run(&loaded(name), |_| {}, || true).unwrap_or_else(|error| panic!("{error}"))
-    })
+    result.get_or_init(|| run(&loaded(name), |_| {}, || true).unwrap())
 }
 
 /// The paper's box of Case 2 from its deck, and its nine modes with noise.
@@ -345,7 +343,7 @@ pub fn placed(files: &Files) -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a folder");
     files
         .iter()
-        .for_each(|(name, text)| std::fs::write(folder.path().join(name), text).expect("written"));
+        .for_each(|(name, text)| fs::write(folder.path().join(name), text).expect("written"));
     let path = folder.path().join("job.toml");
     (folder, path)
 }
@@ -398,7 +396,7 @@ pub fn said(files: &Files) -> String {
 /// A job that has no mistake, ready to run.
 pub fn prepared(files: &Files) -> PreparedJob {
     let (_folder, path) = placed(files);
-    prepare(&path).unwrap_or_else(|error| panic!("{error}"))
+    prepare(&path).unwrap()
 }
 
 /// A building whose stories are scaled as one, with its lowest modes measured at every floor.
@@ -434,4 +432,19 @@ pub fn measured_building(stories: usize, modes: usize) -> Files {
         ("test.csv", write_csv(&data)),
     ];
     files.map(|(name, text)| (name.to_owned(), text)).to_vec()
+}
+
+/// A folder of its own, which goes with it.
+pub fn new_folder() -> TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+/// What is known of a job before the first step.
+pub fn trust_in(job: &PreparedJob) -> Trust {
+    Trust::before(job).unwrap()
+}
+
+/// What comes of a job that nobody stops.
+pub fn finished(job: &PreparedJob) -> JobResult {
+    run(job, |_| {}, || true).unwrap()
 }

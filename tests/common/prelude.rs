@@ -30,8 +30,8 @@ pub use crate::common::{
     ground_tests::{ground_test, wing_test},
     in_root,
     jobs::{
-        Files, STORIES, building, measured_building, of_matrices, placed, prepare, prepared,
-        retested, rods, supposing, with, worked,
+        Files, STORIES, building, finished, measured_building, new_folder, of_matrices, placed,
+        prepare, prepared, retested, rods, supposing, trust_in, with, worked,
     },
     known::{
         Known,

@@ -162,7 +162,7 @@ fn drawn_modes_are_those_of_the_tables() {
                 mode.moved[state]
                     .iter()
                     .map(|motion| motion.z)
-                    .collect::<Vec<_>>()
+                    .collect_vec()
             };
             for state in 0..3 {
                 let largest = up(state)

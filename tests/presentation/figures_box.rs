@@ -15,7 +15,7 @@ fn box_points_are_the_grids_and_where_the_load_distribution_acts() {
         .expect("a subject")
         .with_structure(model.structure());
     let numbers: Vec<usize> = subject.grids.iter().map(|(label, _)| *label).collect();
-    assert_eq!(numbers, (1..=16).collect::<Vec<_>>());
+    assert_eq!(numbers, (1..=16).collect_vec());
     for (label, at) in &subject.grids {
         assert_eq!(<[f64; 3]>::from(*at), case.reconstruction.grids[label]);
         assert_eq!(subject.supports.contains(at), *label >= 13);
@@ -50,7 +50,7 @@ fn box_elements_are_the_models_in_three_layers() {
     let on = |layer| {
         let elements = structure.elements().iter().zip(structure.corners());
         let here = elements.filter(|(_, corners)| Layer::from_corners(corners) == layer);
-        here.map(|(element, _)| element.label).collect::<Vec<_>>()
+        here.map(|(element, _)| element.label).collect_vec()
     };
     assert_eq!(on(Layer::Upper)[..3], [4, 9, 15]);
     assert_eq!(on(Layer::Lower)[..3], [2, 8, 11]);

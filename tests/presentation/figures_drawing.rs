@@ -138,7 +138,7 @@ fn stored_figures_are_what_the_command_writes() {
     let numbers = Numbers::DRAWN;
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/figures");
     let mut compared = 0;
-    for entry in std::fs::read_dir(folder).expect("the folder") {
+    for entry in fs::read_dir(folder).expect("the folder") {
         let path = entry.expect("a file").path();
         let name = path
             .file_stem()
@@ -148,7 +148,7 @@ fn stored_figures_are_what_the_command_writes() {
             .iter()
             .find(|figure| figure.name == name)
             .expect("a figure of that name");
-        let stored = std::fs::read_to_string(&path).expect("it reads");
+        let stored = fs::read_to_string(&path).expect("it reads");
         assert!(
             numbers.agree(&stored, &figure.svg),
             "{name} differs: write it again"

@@ -183,7 +183,7 @@ fn criteria_without_mass_say_so_beside_those_with_it() {
             words
                 .iter()
                 .filter(|word| word.starts_with(start))
-                .collect::<Vec<_>>()
+                .collect_vec()
         };
         let (assurance, cross) = (titled("MAC "), titled("Cross-orthogonality"));
         assert_eq!(

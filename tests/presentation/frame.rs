@@ -123,7 +123,7 @@ fn a_line_that_measures_along_itself_is_drawn_across_and_zero_has_one_sign() {
                 .values()
                 .flatten()
                 .map(|sensor| sensor.1)
-                .collect::<Vec<_>>()
+                .collect_vec()
         };
         assert_eq!(directions(&Frame::from_report(&along)), [across; 3]);
         let mut subject = along.clone();

@@ -102,7 +102,7 @@ fn a_job_has_converged_when_its_verdict_says_so_and_has_one_stage_when_it_was_st
     let two = with(rods(), "job.toml", "[compare]", precise);
     for (files, is_within) in [(&each, true), (&two, false)] {
         let prepared = prepared(files);
-        let finished = run(&prepared, |_| {}, || true).expect("it runs");
+        let finished = finished(&prepared);
         let subject = Report::from_job(&prepared, Some(&finished)).expect("a subject");
         assert_eq!(
             (finished.verdict.is_within, subject.converged()),
@@ -143,7 +143,7 @@ fn sensors_that_point_the_other_way_askew_or_nowhere_are_told() {
 fn a_mode_is_doubtful_when_it_is_complex_beyond_the_limit() {
     let mut prepared = prepared(&rods());
     Arc::make_mut(&mut prepared.loaded).data.phase_collinearity = vec![0.95, 0.94, 0.99];
-    let doubts = text(&[trust_table(&Trust::before(&prepared).expect("an account"))]);
+    let doubts = text(&[trust_table(&trust_in(&prepared))]);
     assert!(
         doubts.contains("Test mode 2 is complex: its phase collinearity is 0.94."),
         "{doubts}"
@@ -275,7 +275,7 @@ fn a_case_and_both_wings_have_the_bounds_and_the_places_of_their_models() {
         .iter()
         .filter(|grid| grid.constrained[2])
         .map(|grid| grid.position);
-    assert_eq!(delta.supports, held.collect::<Vec<_>>());
+    assert_eq!(delta.supports, held.collect_vec());
     let position = |label: usize| {
         grids
             .iter()
@@ -291,7 +291,7 @@ fn a_case_and_both_wings_have_the_bounds_and_the_places_of_their_models() {
             .sensors
             .iter()
             .map(|sensor| sensor.place)
-            .collect::<Vec<_>>(),
+            .collect_vec(),
         places
     );
     let known = planted(&Wing::default()).expect("a model");

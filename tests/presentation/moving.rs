@@ -60,7 +60,7 @@ fn every_view_tells_the_same_factors_and_errors() {
             rows::factor_rows(&report),
         );
         assert_eq!(document["answer"], report.answer());
-        let answer = plain.split_whitespace().collect::<Vec<_>>().join(" ");
+        let answer = plain.split_whitespace().collect_vec().join(" ");
         assert!(answer.starts_with(&report.answer()), "{plain}");
         for (e, parameter) in report.parameters.iter().enumerate() {
             let factor = document["factors"][e].as_f64().expect("a number");
@@ -279,7 +279,7 @@ fn a_job_of_matrices_has_its_lines_from_its_stiffness() {
     assert_eq!(report.frame.len(), 9);
     // The first story stands on the ground alone.
     let owners: Vec<usize> = report.owners.iter().flatten().copied().collect();
-    assert_eq!(owners, (1..10).collect::<Vec<_>>());
+    assert_eq!(owners, (1..10).collect_vec());
 }
 
 /// A real test of frequencies alone: the models move, the test's shapes are not made up, and pairs of one root keep their sign.
@@ -312,9 +312,9 @@ fn a_test_without_shapes_moves_its_models_alone() {
 #[test]
 #[ignore = "needs node"]
 fn node_moves_every_structure_as_the_program_does() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let path = folder.path().join("moving.js");
-    std::fs::write(&path, SCRIPT).expect("written");
+    fs::write(&path, SCRIPT).expect("written");
     for name in JOBS {
         let report = report(name);
         let drawn = DrawnModes::from_report(&report)
@@ -322,7 +322,7 @@ fn node_moves_every_structure_as_the_program_does() {
             .expect("places");
         let data = data(&moving(&report).expect("a figure"));
         let stored = folder.path().join("data.json");
-        std::fs::write(&stored, data.to_string()).expect("written");
+        fs::write(&stored, data.to_string()).expect("written");
         let program = format!(
             "const page = require({}), data = require({});\
              console.log(JSON.stringify(data.modes.map(mode => [0, 1, 2].map(state => {{\

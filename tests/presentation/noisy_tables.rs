@@ -49,7 +49,7 @@ fn median_and_worst_are_of_the_seeds_alone() {
         assert_eq!(
             labels
                 .filter(|label| label.parse::<u64>().is_err())
-                .collect::<Vec<_>>(),
+                .collect_vec(),
             ["no noise", "median", "worst"]
         );
     }

@@ -155,7 +155,7 @@ fn summary_says_so_when_a_case_does_not_converge() {
     let mut case = corfem::torque_box::Case::new(1).expect("a case");
     case.settings.inner.iterations = 1;
     let result = corfem::torque_box::run_case(&case, |_, _| {}).expect("it runs");
-    let table = summary(std::slice::from_ref(&result)).expect("it reads");
+    let table = summary(from_ref(&result)).expect("it reads");
     assert_eq!(
         table.rows[0].cells[5],
         Cell::Text("not converged".to_owned())

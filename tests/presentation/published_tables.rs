@@ -16,7 +16,7 @@ fn every_printed_cell_is_one_line_as_printed() {
             .filter(|cell| !cell.is_empty())
             .collect();
         let table = published_table(number).expect("it reads");
-        let written = csv(std::slice::from_ref(&table));
+        let written = csv(from_ref(&table));
         let written: Vec<&str> = written
             .lines()
             .skip(1)
@@ -52,7 +52,7 @@ fn table_13_has_the_cpu_seconds() {
     assert_eq!(table.columns[at].unit, "s");
     let cells: Vec<&Cell> = table.rows.iter().map(|row| &row.cells[at]).collect();
     let printed = ["1.9", "2.6", "4.8", "1.3"].map(|text| Cell::Printed(text.to_owned()));
-    assert_eq!(cells, printed.iter().collect::<Vec<_>>());
+    assert_eq!(cells, printed.iter().collect_vec());
     assert_eq!(
         table.rows[3].cells.last(),
         Some(&Cell::Blank),

@@ -82,7 +82,7 @@ properties! {
 
     #[test]
     fn no_line_of_text_is_longer_than_a_page(table in table()) {
-        let text = text(std::slice::from_ref(&table));
+        let text = text(from_ref(&table));
         for line in text.lines() {
             prop_assert!(line.chars().count() <= WIDTH, "{line}");
             prop_assert_eq!(line, line.trim_end());

@@ -160,7 +160,7 @@ fn a_job_names_its_suspects() {
             alter(&mut prepared.test, |_, shapes| shapes.set_column(j, &shape));
         }
         let table = suspects_table(&prepared).expect("a table");
-        fits(std::slice::from_ref(&table));
+        fits(from_ref(&table));
         (prepared, table)
     };
     // The building's ten modes are all there are; the wing's 25 of many give the culprit, and its factor roughly.

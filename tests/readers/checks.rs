@@ -8,17 +8,15 @@ use corfem::job::concern::{Answer, Check, Grade};
 
 /// The account before the first step.
 fn before(files: &Files) -> Trust {
-    let (_folder, path) = placed(files);
-    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
-    Trust::before(&loaded).unwrap_or_else(|error| panic!("{error}"))
+    let loaded = prepared(files);
+    trust_in(&loaded)
 }
 
 /// The account after a run.
 fn after(files: &Files) -> Trust {
-    let (_folder, path) = placed(files);
-    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepared(files);
     let result = run(&loaded, |_| {}, || true);
-    result.unwrap_or_else(|error| panic!("{error}")).trust
+    result.unwrap().trust
 }
 
 /// The first sensors of a test alone.
@@ -363,7 +361,7 @@ fn a_look_and_a_run_end_in_the_same_doubts() {
             stands.map(Concern::identifier).collect()
         };
         let looked = Trust::before(&crate::common::jobs::loaded(name));
-        let looked = looked.unwrap_or_else(|error| panic!("{error}"));
+        let looked = looked.unwrap();
         assert_eq!(doubts(&looked), doubts(&result.trust), "{name}");
     }
     let jobs = [

@@ -24,12 +24,12 @@ fn one_mass_on_one_rod() {
         let found = modes(&format!("{ROD}CMASS2,7,{text},2,1")).unwrap();
         assert_eq!(found.modes.shapes().shape(), (1, 1));
         let frequency = (1000.0 / mass).sqrt() / (2.0 * PI);
-        approx::assert_relative_eq!(
+        assert_relative_eq!(
             found.modes.frequencies_hz()[0],
             frequency,
             max_relative = EIGEN_ROUND_OFF
         );
-        approx::assert_relative_eq!(
+        assert_relative_eq!(
             found.modes.shapes()[0],
             mass.powf(-0.5),
             max_relative = EIGEN_ROUND_OFF
@@ -47,7 +47,7 @@ fn conm2_moves_where_the_grid_can() {
     .unwrap();
     assert_eq!(found.dof.len(), 1);
     let frequency = (1000.0 / 0.4_f64).sqrt() / (2.0 * PI);
-    approx::assert_relative_eq!(
+    assert_relative_eq!(
         found.modes.frequencies_hz()[0],
         frequency,
         max_relative = EIGEN_ROUND_OFF
@@ -59,7 +59,7 @@ fn density_lumps_half_a_rod_at_either_end() {
     let found = modes(&ROD.replace("1.+6,,.3", "1.+6,,.3,2.-4")).unwrap();
     let mass = 2e-4 * 0.01 * 10.0 / 2.0;
     let frequency = (1000.0_f64 / mass).sqrt() / (2.0 * PI);
-    approx::assert_relative_eq!(
+    assert_relative_eq!(
         found.modes.frequencies_hz()[0],
         frequency,
         max_relative = EIGEN_ROUND_OFF
@@ -76,17 +76,17 @@ fn masses_that_the_structure_cannot_tell_apart_make_one_mode() {
     assert_eq!(found.dof.len(), 2);
     assert_eq!(found.modes.shapes().shape(), (2, 1));
     let frequency = (1000.0 / 0.8_f64).sqrt() / (2.0 * PI);
-    approx::assert_relative_eq!(
+    assert_relative_eq!(
         found.modes.frequencies_hz()[0],
         frequency,
         max_relative = EIGEN_ROUND_OFF
     );
-    approx::assert_relative_eq!(
+    assert_relative_eq!(
         found.modes.shapes()[1],
         2.0 * found.modes.shapes()[0],
         max_relative = EIGEN_ROUND_OFF
     );
-    approx::assert_relative_eq!(
+    assert_relative_eq!(
         found.modes.shapes()[0],
         0.8_f64.powf(-0.5),
         max_relative = EIGEN_ROUND_OFF
@@ -102,7 +102,7 @@ fn two_masses_and_two_rods_in_ascending_order() {
     // Two equal masses and springs: ω² = (3 ∓ √5)/2 k/m.
     for (root, sign) in found.modes.omega_squared().iter().zip([-1.0, 1.0]) {
         let expected = 1000.0 * (3.0 + sign * 5.0_f64.sqrt()) / 2.0;
-        approx::assert_relative_eq!(*root, expected, max_relative = EIGEN_ROUND_OFF);
+        assert_relative_eq!(*root, expected, max_relative = EIGEN_ROUND_OFF);
     }
     assert!(
         found.modes.shapes().column(0).min() > 0.0,
@@ -117,7 +117,7 @@ fn a_tie_to_a_held_dof_adds_nothing() {
     );
     let found = modes(&tied).unwrap();
     let frequency = (1000.0 / 0.4_f64).sqrt() / (2.0 * PI);
-    approx::assert_relative_eq!(
+    assert_relative_eq!(
         found.modes.frequencies_hz()[0],
         frequency,
         max_relative = EIGEN_ROUND_OFF
@@ -315,7 +315,7 @@ fn a_long_chain_has_the_lowest_modes_of_the_closed_form() {
     assert_eq!((found.dof.len(), found.modes.len()), (count, 5));
     let expected = chain_eigenvalues(ChainEnds::FixedFree, count, 1e4, 1.0);
     for (found, expected) in found.modes.omega_squared().iter().zip(&expected) {
-        approx::assert_relative_eq!(*found, *expected, max_relative = DIFFERENCE_ROUND_OFF);
+        assert_relative_eq!(*found, *expected, max_relative = DIFFERENCE_ROUND_OFF);
     }
 }
 
@@ -326,14 +326,14 @@ fn a_free_structure_has_its_rigid_body_modes_counted_and_left_out() {
                 CMASS2,7,.4,1,1\nCMASS2,8,.1,2,1";
     let found = modes(free).unwrap();
     assert_eq!((found.rigid_body, found.modes.len()), (1, 1));
-    approx::assert_relative_eq!(
+    assert_relative_eq!(
         found.modes.omega_squared()[0],
         1000.0 * (2.5 + 10.0),
         max_relative = COUNTED_ROOT
     );
     // They move against each other, the lighter one four times as far.
     let ratio = found.modes.shapes()[1] / found.modes.shapes()[0];
-    approx::assert_relative_eq!(ratio, -4.0, max_relative = COUNTED_ROOT);
+    assert_relative_eq!(ratio, -4.0, max_relative = COUNTED_ROOT);
 }
 
 #[test]
@@ -355,7 +355,7 @@ fn a_stiff_link_of_a_free_structure_takes_none_of_its_vibrations() {
         .iter()
         .zip([sum / 2.0 - root, sum / 2.0 + root])
     {
-        approx::assert_relative_eq!(*found, expected, max_relative = UNLIKE_STIFFNESS);
+        assert_relative_eq!(*found, expected, max_relative = UNLIKE_STIFFNESS);
     }
     let frequencies = found.modes.frequencies_hz();
     assert_eq!(

@@ -9,9 +9,8 @@ use std::sync::Arc;
 
 /// The identifiers of a job's doubts.
 fn doubts(files: &Files) -> Vec<String> {
-    let (_folder, path) = placed(files);
-    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
-    let trust = Trust::before(&loaded).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepared(files);
+    let trust = trust_in(&loaded);
     let doubts = trust.all().iter().filter(|concern| concern.stands());
     doubts.map(Concern::identifier).collect()
 }
@@ -60,7 +59,7 @@ fn gross_mistakes_are_named_before_anything_fails() {
             .enumerate()
             .for_each(|(row, mut readings)| readings *= if row == 4 { 1e5 } else { 1.0 });
     }));
-    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepare(&path).unwrap();
     let error = run(&loaded, |_| {}, || true)
         .expect_err("refused")
         .to_string();
@@ -80,8 +79,7 @@ fn a_test_of_which_no_mode_resembles_one_of_the_model_is_doubtful() {
             data.shapes
                 .apply(|reading| *reading = draws.between(-1.0, 1.0))
         });
-        let (_folder, path) = placed(&unlike);
-        let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+        let loaded = prepared(&unlike);
         if loaded.modes.len() < loaded.loaded.data.frequencies_hz.len() {
             continue;
         }
@@ -102,10 +100,9 @@ fn a_test_half_of_whose_modes_have_partners_is_correlated_with_these() {
             data.shapes[(floor, mode)] = 1.0;
         }
     });
-    let (_folder, path) = placed(&half);
-    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepared(&half);
     assert_eq!((loaded.modes.len(), loaded.unpaired.len()), (2, 2));
-    let result = run(&loaded, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
+    let result = finished(&loaded);
     let left = result
         .trust
         .all()
@@ -161,9 +158,8 @@ fn free(stiffness: &str, lines: &str) -> (Vec<(String, bool)>, usize) {
     files[0].1 = files[0]
         .1
         .replacen("[test]", &format!("{lines}\n[test]"), 1);
-    let (_folder, path) = placed(&files);
-    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
-    let trust = Trust::before(&loaded).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepared(&files);
+    let trust = trust_in(&loaded);
     let all = trust.all().iter();
     let all = all.filter(|concern| concern.identifier() == "free-by-digits");
     let all = all.map(|concern| (concern.identifier(), concern.stands()));
@@ -265,7 +261,7 @@ fn places_in_another_unit_are_named() {
             sensor.distance = Some(0.0);
             loaded.data.sensors[sensor.row].place = sensor.place.map(|place| factor * place);
         }
-        let trust = Trust::before(&prepared).unwrap_or_else(|error| panic!("{error}"));
+        let trust = trust_in(&prepared);
         trust.of(Kind::UnitOfPlaces).any(Concern::stands)
     };
     assert!(with_unit(25.4));

@@ -84,7 +84,7 @@ fn a_job_that_is_not_there_or_has_no_parameters_is_refused() {
 fn the_small_jobs_are_right_before_their_mistakes() {
     for files in [rods(), building()] {
         let (_folder, path) = placed(&files);
-        prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+        prepare(&path).unwrap();
     }
 }
 
@@ -100,13 +100,7 @@ fn bounds_on_sizes_are_bounds_on_the_factor() {
         "elements = [3]",
     );
     let (_folder, path) = placed(&files);
-    let range = prepare(&path)
-        .unwrap_or_else(|error| panic!("{error}"))
-        .loaded
-        .source
-        .whole
-        .ranges()[0]
-        .expect("a range");
+    let range = prepare(&path).unwrap().loaded.source.whole.ranges()[0].expect("a range");
     // Of areas 0.1 and 0.2: at least 0.06/0.1, at most 0.3/0.2.
     assert!(
         (range.lower - 0.6).abs() < ROUND_OFF && (range.upper - 1.5).abs() < ROUND_OFF,
@@ -135,14 +129,9 @@ fn properties_materials_masses_and_each_say_what_they_scale() {
             .collect();
         let scaled = source.members.iter();
         let scaled = scaled.map(|own| [own.elements.clone(), own.masses.clone()]);
-        (names, scaled.collect::<Vec<_>>())
+        (names, scaled.collect_vec())
     };
-    let names = |names: &[&str]| {
-        names
-            .iter()
-            .map(|name| (*name).to_owned())
-            .collect::<Vec<_>>()
-    };
+    let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect_vec();
     let b = "elements = [\"2-3\"]";
     for by in [
         "properties = [2]",
@@ -188,7 +177,7 @@ fn point_masses_count_once_and_are_in_the_corrected_deck() {
             deck,
         );
         let (_folder, path) = placed(&files);
-        prepare(&path).unwrap_or_else(|error| panic!("{error}"))
+        prepare(&path).unwrap()
     };
     let given = "CMASS2,12,1.,2,1";
     let (once, twice) = (masses("[12]", given), masses("[12, \"12-12\", 12]", given));
@@ -231,7 +220,7 @@ fn a_job_without_parameters_is_looked_at_and_not_run() {
     let job = &mut files[0].1;
     job.truncate(job.find("[[parameter]]").expect("parameters"));
     let (_folder, path) = placed(&files);
-    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepare(&path).unwrap();
     assert_eq!(
         (loaded.test.len(), loaded.loaded.parameter_names().count()),
         (3, 0)
@@ -284,8 +273,7 @@ fn a_test_mode_that_is_none_of_the_models_is_left_out_and_named() {
         .zip(more)
         .map(|(line, more)| format!("{line}{more}\n"))
         .collect();
-    let (_folder, path) = placed(&files);
-    let prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let prepared = prepared(&files);
     assert_eq!(prepared.modes, [0, 1, 2]);
     assert!(
         matches!(prepared.unpaired[..], [LeftOut { mode: 3, assurance, .. }] if assurance > 0.0 && assurance <= 1.0)
@@ -300,9 +288,8 @@ fn shapes_of_weight_zero_count_for_nothing() {
         COMPARE,
         "[compare]\nshape_weights = [0, 0, 0]",
     );
-    let (_folder, path) = placed(&frequencies);
-    let prepared = prepare(&path).expect("a job");
-    let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
+    let prepared = prepared(&frequencies);
+    let finished = finished(&prepared);
     // Without shapes the frequencies come as close as two factors allow.
     let [first, last] = [&finished.found.first, &finished.found.last]
         .map(|model| model.model().exact().errors.frequency);
@@ -318,9 +305,8 @@ fn the_papers_error_sum_takes_the_weights_of_a_job() {
         with(rods(), "job.toml", "method = \"gauss_newton\"", &own)
     };
     let ran = |files: &Files| {
-        let (_folder, path) = placed(files);
-        let prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
-        let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
+        let prepared = prepared(files);
+        let finished = finished(&prepared);
         (
             finished.found.first.model().exact().errors,
             finished.found.factors,
@@ -363,11 +349,10 @@ fn the_papers_error_sum_takes_the_weights_of_a_job() {
 /// A node that one mode leaves out is no sensor of the test, which is said before the first step.
 #[test]
 fn a_sensor_left_out_for_a_mode_without_it_is_a_remark() {
-    let (_folder, path) = placed(&rods());
-    let mut prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let mut prepared = prepared(&rods());
     let data = &mut Arc::make_mut(&mut prepared.loaded).data;
     data.incomplete = vec!["7 y".to_owned(), "9 z".to_owned()];
-    let trust = Trust::before(&prepared).expect("concerns");
+    let trust = trust_in(&prepared);
     let found = trust.of(Kind::NotInEveryMode).next().expect("said");
     let words = "Sensors left out because some mode of the file has no value at them: 7 y, 9 z.";
     assert_eq!((found.stands(), &found.words()[..]), (false, words));

@@ -24,13 +24,11 @@ fn line(concern: &Concern) -> String {
 }
 
 fn before(files: &Files) -> Trust {
-    Trust::before(&prepared(files)).unwrap_or_else(|error| panic!("{error}"))
+    Trust::before(&prepared(files)).unwrap()
 }
 
 fn after(files: &Files) -> Trust {
-    run(&prepared(files), |_| {}, || true)
-        .unwrap_or_else(|error| panic!("{error}"))
-        .trust
+    run(&prepared(files), |_| {}, || true).unwrap().trust
 }
 
 /// Lines of these kinds.
@@ -57,7 +55,7 @@ fn bounded(files: Files, bounds: &str) -> Files {
 /// have 200 for weight and 100 for slope, and of 40 numbers the factor takes 4e4/(4e4 + 1); 72.055 and 17.262 are the quantiles of 39.
 #[test]
 fn a_right_job_says_all_that_is_known_of_it() {
-    let said = |trust: Trust| trust.all().iter().map(line).collect::<Vec<_>>();
+    let said = |trust: Trust| trust.all().iter().map(line).collect_vec();
     let looked = [
         "NotChecked [the places of sensors or of their grids are not given, places of sensors] []",
         "NotChecked [the model moves in no other direction there, directions of sensors] []",
@@ -143,7 +141,7 @@ fn every_limit_of_frequencies_has_two_sides() {
         let found = found
             .iter()
             .filter(|own| matches!(own.kind, Kind::NamedFactor | Kind::UnnamedFactor));
-        found.map(line).collect::<Vec<_>>()
+        found.map(line).collect_vec()
     };
     let none = [""; 0];
     // Unnamed beyond one and a half, either way.
@@ -209,7 +207,7 @@ fn an_exchange_of_frequencies_must_mend_enough() {
             .iter()
             .filter(|own| own.kind == Kind::FrequenciesExchanged)
             .map(line)
-            .collect::<Vec<_>>()
+            .collect_vec()
     };
     for (gap, is_said) in [(0.0245, false), (0.0255, true)] {
         let found = exchanged([0.0, gap, 1.0, 2.0], [gap, 0.0, 1.0, 2.0], &same);
@@ -551,7 +549,7 @@ fn a_mode_held_out_says_what_it_was_and_is() {
     let files = with(files, "job.toml", "[test]\n", "[test]\nhold_out = [4]\n");
     let files = bounded(files, "prior_deviation = 100\n");
     let trust = after(&files);
-    let [held] = trust.of(Kind::HeldOut).collect::<Vec<_>>()[..] else {
+    let [held] = trust.of(Kind::HeldOut).collect_vec()[..] else {
         panic!("{trust:?}")
     };
     assert_eq!(held.about, ["4"]);
@@ -642,7 +640,7 @@ fn the_evidence_of_a_mistake_is_what_it_is() {
         lines(&trust, &[Kind::Reversed])
             .into_iter()
             .chain(open)
-            .collect::<Vec<_>>()
+            .collect_vec()
             .join("; ")
     };
     // Less evidence than the number of tries over a thousandth of false alarms, here 10^4.6, is none, and other sensors would not show.
@@ -682,7 +680,7 @@ fn three_sensors_are_the_fewest_that_tell() {
         let open = found
             .of(Kind::NotChecked)
             .filter(|own| own.about[1..].contains(&"readings".to_owned()));
-        open.map(|own| own.about[0].clone()).collect::<Vec<_>>()
+        open.map(|own| own.about[0].clone()).collect_vec()
     };
     let none = "two sensors tell no mistake of one";
     assert_eq!([1, 2].map(of), [[none], [none]]);

@@ -44,11 +44,10 @@ fn named_matrices(mass: &[(usize, f64)]) -> Files {
 
 #[test]
 fn matrices_that_name_their_rows_are_put_into_the_order_of_the_stiffness() {
-    let (_folder, path) = placed(&named_matrices(&[(4, 3.0), (3, 2.0)]));
-    let prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let prepared = prepared(&named_matrices(&[(4, 3.0), (3, 2.0)]));
     let (_, mass) = prepared.loaded.source.whole.at(&[1.0]).expect("matrices");
     assert_eq!(
-        mass.entries().collect::<Vec<_>>(),
+        mass.entries().collect_vec(),
         [(1, 1, 2.0), (2, 2, 3.0)],
         "grid 2 has none"
     );
@@ -104,18 +103,14 @@ fn a_table_of_rows_orders_matrices_that_name_theirs() {
         .for_each(|(_, text)| text.clone_from(&rows));
     files.push(("mass.pch".to_owned(), format!("DMIG,M,0,6,2,0\n{dmig}")));
     let (_folder, path) = placed(&files);
-    let source = prepare(&path)
-        .unwrap_or_else(|error| panic!("{error}"))
-        .loaded
-        .source
-        .clone();
+    let source = prepare(&path).unwrap().loaded.source.clone();
     let (_, mass) = source.whole.at(&[1.0; 10]).expect("matrices");
     assert_eq!(
         mass.entries()
-            .collect::<Vec<_>>()
+            .collect_vec()
             .iter()
             .map(|entry| entry.2)
-            .collect::<Vec<_>>(),
+            .collect_vec(),
         [70., 69., 68., 67., 66., 65., 64., 63., 62., 61.]
     );
 }

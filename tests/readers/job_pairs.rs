@@ -8,7 +8,7 @@ use corfem::sparse::random::uniform;
 
 fn ready(files: &Files) -> PreparedJob {
     let (_folder, path) = placed(files);
-    prepare(&path).unwrap_or_else(|error| panic!("{error}"))
+    prepare(&path).unwrap()
 }
 
 fn normal(draws: &mut Draws) -> f64 {
@@ -141,7 +141,7 @@ fn a_hardly_seen_mode_takes_no_partner_from_one_that_is_seen() {
             let own = all.iter().filter(|(row, other, _)| {
                 rows.contains(row) && other.is_none_or(|other| rows.contains(&other))
             });
-            springs(20, &own.copied().collect::<Vec<_>>())
+            springs(20, &own.copied().collect_vec())
         };
         let share = |name: &str, rows| WholeParameter {
             name: name.to_owned(),
@@ -200,7 +200,7 @@ fn a_hardly_seen_mode_takes_no_partner_from_one_that_is_seen() {
 
 /// The doubts about a job, by identifier.
 fn against(job: &PreparedJob) -> Vec<String> {
-    let trust = Trust::before(job).unwrap_or_else(|error| panic!("{error}"));
+    let trust = trust_in(job);
     let all = trust.all().iter().filter(|own| own.grade() == Grade::Doubt);
     all.map(Concern::identifier).collect()
 }
@@ -216,7 +216,7 @@ fn no_finding_hangs_on_the_number_of_modes_taken() {
         let own = all.iter().filter(|(row, ..)| row * 2 / count == of);
         WholeParameter {
             name: format!("half {of}"),
-            share: WholeShare::Stiffness(springs(count, &own.copied().collect::<Vec<_>>())),
+            share: WholeShare::Stiffness(springs(count, &own.copied().collect_vec())),
             range: None,
         }
     };

@@ -25,7 +25,7 @@ fn third_higher(mut files: Files) -> Files {
 }
 
 fn ran(files: &Files) -> JobResult {
-    run(&prepared(files), |_| {}, || true).unwrap_or_else(|error| panic!("{error}"))
+    run(&prepared(files), |_| {}, || true).unwrap()
 }
 
 /// The job with the first parameter alone, and this rule for it.
@@ -67,7 +67,7 @@ fn several_starts_name_their_minima_in_every_output() {
     let table = minima_table(&report).expect("minima");
     let labels: Vec<&str> = table.rows.iter().map(|row| &row.label[..]).collect();
     assert_eq!(labels, ["chi-squared", "starts", "a", "b"]);
-    let text = render::text(std::slice::from_ref(&table));
+    let text = render::text(from_ref(&table));
     assert!(text.contains("Minima that noise allows"), "{text}");
     let document = json::report(&report).expect("a document");
     let minima = document["minima"].as_array().expect("minima");
@@ -91,7 +91,7 @@ fn several_starts_name_their_minima_in_every_output() {
     }
     let report = Report::from_job(&failing.found.prepared, Some(&failing)).expect("a report");
     let table = minima_table(&report).expect("minima");
-    assert!(render::text(std::slice::from_ref(&table)).contains("2 starts failed."));
+    assert!(render::text(from_ref(&table)).contains("2 starts failed."));
     assert_eq!(
         json::report(&report).expect("a document")["failed_starts"],
         2
@@ -189,7 +189,7 @@ fn a_mode_held_out_is_compared_and_not_fitted() {
 fn modes_of_the_model_that_no_test_mode_answers_are_said() {
     let unanswered = |entry: &str| {
         let found = ran(&with(rods(), "job.toml", "[test]", entry));
-        let before = Trust::before(&found.found.prepared).expect("an account");
+        let before = trust_in(&found.found.prepared);
         let [before, after] = [&before, &found.trust].map(|trust| trust.about(Kind::Unanswered));
         assert_eq!(before.len(), after.len());
         after
@@ -247,7 +247,7 @@ fn the_document_has_the_ends_of_intervals_the_residuals_and_how_starts_ended() {
             let shape = mode["shape"].as_array().expect("a list").iter().map(number);
             std::iter::once(number(&mode["frequency"]))
                 .chain(shape)
-                .collect::<Vec<_>>()
+                .collect_vec()
         })
         .collect();
     assert_eq!(told, all.as_slice());
@@ -419,8 +419,7 @@ fn a_stopped_correlation_gives_the_best_that_it_has_told() {
             asked.set(asked.get() + 1);
             asked.get() < most
         };
-        let found = run(&prepared, |words| told.push(words.to_owned()), go_on)
-            .unwrap_or_else(|error| panic!("{error}"));
+        let found = run(&prepared, |words| told.push(words.to_owned()), go_on).unwrap();
         assert!(
             found.found.is_interrupted && matches!(found.found.history, History::GaussNewton(None))
         );
@@ -466,8 +465,7 @@ fn a_pass_of_the_papers_loop_is_told_by_its_errors_in_percent() {
         "method = \"gauss_newton\"",
         "method = \"paper\"",
     ));
-    let found = run(&prepared, |words| told.push(words.to_owned()), || true)
-        .unwrap_or_else(|error| panic!("{error}"));
+    let found = run(&prepared, |words| told.push(words.to_owned()), || true).unwrap();
     let History::Paper(run) = found.found.history else {
         panic!("by the paper's loops")
     };
@@ -520,7 +518,7 @@ fn bounds_hold_from_wherever_the_papers_loop_starts() {
         "elements = [2]\nlower = 0.8\nupper = 1.02\n[[parameter]]\nname = \"c\"\nelements = [3]";
     let files = with(with(rods(), "job.toml", A, bounds), "job.toml", B, each);
     let (_folder, path) = placed(&with(files, "job.toml", "method = \"gauss_newton\"", ""));
-    let study = Study::new(&path, 5, &[Vary::Start], &[]).unwrap_or_else(|error| panic!("{error}"));
+    let study = Study::new(&path, 5, &[Vary::Start], &[]).unwrap();
     for sample in 1..=6 {
         let (line, failure) = study.run(sample, || true).expect("a sample");
         assert!(failure.is_none(), "{line}");
@@ -560,7 +558,7 @@ fn a_corrected_deck_has_factors_in_sizes_and_densities() {
         elements
             .iter()
             .map(|element| (element.size, element.material.density))
-            .collect::<Vec<_>>()
+            .collect_vec()
     };
     assert_eq!(
         corrected(&dense, &[2.5, 0.5]),

@@ -1,6 +1,5 @@
 //! What sensors do not see does not exist: parts of the model that no sensor is on change nothing but what is said of them.
 
-use crate::common::jobs::run;
 use crate::prelude::*;
 
 /// A chain whose springs are three parameters, held at one end, with an exact test of its lowest modes at four masses.
@@ -21,7 +20,7 @@ pub fn chain(draws: &mut Draws) -> Chain {
     let real = springs_of
         .iter()
         .map(|&(row, other, size)| (row, other, truth[row % 3] * size));
-    let real = springs(count, &real.collect::<Vec<_>>());
+    let real = springs(count, &real.collect_vec());
     let modes = lowest_modes(&real, &masses(&all), 4)
         .expect("modes")
         .vibrations;
@@ -130,7 +129,7 @@ pub fn files(chain: &Chain, (more, heavy): &Block, link: f64, draws: &mut Draws)
         let own = own
             .filter(|(row, _)| row % 3 == kind)
             .map(|(_, spring)| *spring);
-        write_matrix_market(&springs(count, &own.collect::<Vec<_>>()))
+        write_matrix_market(&springs(count, &own.collect_vec()))
     };
     let mut job = "[model]\nstiffness = \"k.mtx\"\nmass = \"m.mtx\"\nrows = \"rows.csv\"\n[test]\nfile = \"test.csv\"\n\
                    [compare]\nfrequency_deviation = 0.001\nshape_deviation = 0.01\nprior_deviation = 10.0\n"
@@ -152,9 +151,8 @@ pub fn files(chain: &Chain, (more, heavy): &Block, link: f64, draws: &mut Draws)
 }
 
 fn result(files: &Files) -> JobResult {
-    let (_folder, path) = placed(files);
-    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
-    run(&loaded, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"))
+    let loaded = prepared(files);
+    finished(&loaded)
 }
 
 /// Everything said but of the mass and of what is not seen.
@@ -231,17 +229,13 @@ fn of_equal_roots_as_few_as_possible_are_seen() {
         (0..6_usize).map(move |row| (first + row, row.checked_sub(1).map(|row| first + row), 1e4))
     };
     let links = [(0, Some(6), 1e-9)];
-    let stiffness = springs(12, &row(0).chain(row(6)).chain(links).collect::<Vec<_>>());
+    let stiffness = springs(12, &row(0).chain(row(6)).chain(links).collect_vec());
     let model = WholeModel::new(stiffness, masses(&[1.0; 12]), Vec::new()).expect("a model");
     let sensors =
         SparseMatrix::new("sensors", 2, 12, vec![(0, 2, 1.0), (1, 5, 1.0)]).expect("sensors");
-    let test = lowest_modes(
-        &springs(6, &row(0).collect::<Vec<_>>()),
-        &masses(&[1.0; 6]),
-        4,
-    )
-    .expect("modes")
-    .vibrations;
+    let test = lowest_modes(&springs(6, &row(0).collect_vec()), &masses(&[1.0; 6]), 4)
+        .expect("modes")
+        .vibrations;
     let seen = crate::common::whole_models::seen_by(
         &SparseMatrix::new("sensors", 2, 6, vec![(0, 2, 1.0), (1, 5, 1.0)]).expect("sensors"),
         &test,

@@ -1,17 +1,16 @@
 //! A later result takes the place of an earlier one only if it explains the numbers of both no worse.
 
-use crate::common::jobs::run;
 use crate::prelude::*;
 use corfem::job::concern::Grade;
 
 /// The building's job with another test.
 fn job(edit: impl FnOnce(&mut TestData)) -> PreparedJob {
     let (_folder, path) = placed(&retested(building(), edit));
-    prepare(&path).unwrap_or_else(|error| panic!("{error}"))
+    prepare(&path).unwrap()
 }
 
 fn corrected(job: &PreparedJob) -> JobResult {
-    run(job, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"))
+    finished(job)
 }
 
 /// Largest distance of the factors from those of another result, in deviations.

@@ -34,7 +34,7 @@ fn result(files: &Files) -> JobResult {
     let (_folder, path) = placed(files);
     prepare(&path)
         .and_then(|loaded| run(&loaded, |_| {}, || true))
-        .unwrap_or_else(|error| panic!("{error}"))
+        .unwrap()
 }
 
 #[test]
@@ -90,7 +90,7 @@ fn frequencies_without_shapes_count_as_frequencies_and_nowhere_else() {
     assert_eq!(residuals.unwrap().len(), 3 * (1 + 5) + 2);
     // What is left of the test still finds every story.
     assert_alike(found.found.factors.iter(), STORIES, WEIGHTED_FACTOR);
-    let trust = Trust::before(loaded).unwrap();
+    let trust = trust_in(loaded);
     let alone = trust.of(Kind::FrequenciesAlone).next();
     assert!(
         alone
@@ -138,8 +138,7 @@ fn the_job_may_name_the_partners_of_frequencies() {
         let entry = format!("file = \"test.csv\"\npartners = {partners}");
         with(files.clone(), "job.toml", "file = \"test.csv\"", &entry)
     };
-    let (_folder, path) = placed(&named("[0, 6, 0, 4, 0]"));
-    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepared(&named("[0, 6, 0, 4, 0]"));
     assert_eq!(
         loaded
             .alone()

@@ -43,7 +43,7 @@ fn repeated(tests: &[TestData], modes: &str) -> Files {
 
 fn loaded(files: &Files) -> PreparedJob {
     let (_folder, path) = placed(files);
-    prepare(&path).unwrap_or_else(|error| panic!("{error}"))
+    prepare(&path).unwrap()
 }
 
 const ALL: &str = "[1, 2, 3, 4, 5]";
@@ -123,7 +123,7 @@ fn repeats_that_drift_are_said_and_widen_the_deviations() {
     }
     let lag = |tests: &[TestData]| {
         let prepared = loaded(&repeated(tests, ALL));
-        let said = Trust::before(&prepared).unwrap();
+        let said = trust_in(&prepared);
         let data = prepared.loaded.data.clone();
         let told = said
             .of(Kind::Drift)
@@ -220,7 +220,7 @@ fn with_enough_repeats_their_covariance_counts() {
     for (tests, counts) in [(&tests[..12], false), (&tests[..], true)] {
         let files = repeated(tests, "[1, 2]");
         let loaded = loaded(&files);
-        let trust = Trust::before(&loaded).unwrap();
+        let trust = trust_in(&loaded);
         let of = |concern: &&Concern| concern.identifier() == "repeats";
         let words = trust.all().iter().find(of).unwrap().words();
         let expected = if counts {

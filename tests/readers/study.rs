@@ -13,7 +13,7 @@ struct Place {
 
 impl Place {
     fn of(files: Files) -> Self {
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = new_folder();
         for (name, text) in files {
             fs::write(folder.path().join(name), text).expect("written");
         }
@@ -22,7 +22,7 @@ impl Place {
     }
 
     fn study(&self, seed: u64, vary: &[Vary]) -> Study {
-        Study::new(&self.job, seed, vary, &[]).unwrap_or_else(|error| panic!("{error}"))
+        Study::new(&self.job, seed, vary, &[]).unwrap()
     }
 }
 
@@ -141,11 +141,7 @@ fn a_subset_of_the_modes_takes_their_weights_along() {
         let weights = prepared.weights();
         assert_eq!(
             weights,
-            prepared
-                .modes
-                .iter()
-                .map(|&mode| whole[mode])
-                .collect::<Vec<_>>()
+            prepared.modes.iter().map(|&mode| whole[mode]).collect_vec()
         );
         fewer += usize::from(prepared.modes.len() < 3);
     }
@@ -275,7 +271,7 @@ fn a_summary_counts_the_samples_at_an_end_of_a_factors_range() {
         let spread = spread.as_ref().expect("samples");
         (spread.count, spread.at_bound)
     });
-    assert_eq!(counts.collect::<Vec<_>>(), [(3, 2), (3, 0)]);
+    assert_eq!(counts.collect_vec(), [(3, 2), (3, 0)]);
 }
 
 #[test]
@@ -407,7 +403,7 @@ properties! {
     #[test]
     fn a_file_cut_at_any_byte_is_gone_on_with(share in 0.0..1.0_f64, order in Just((0..6).collect::<Vec<usize>>()).prop_shuffle()) {
         let (study, lines) = rod_study();
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = new_folder();
         let path = folder.path().join("samples.csv");
         let whole = study.header() + &order.iter().map(|&row| lines[row].as_str()).collect::<String>();
         fs::write(&path, &whole).expect("written");

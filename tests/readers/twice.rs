@@ -5,9 +5,8 @@ use crate::common::jobs::torque_box;
 use crate::prelude::*;
 
 fn about(files: &Files, kind: Kind) -> Vec<Vec<String>> {
-    let (_folder, path) = placed(files);
-    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
-    let trust = Trust::before(&loaded).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepared(files);
+    let trust = trust_in(&loaded);
     trust
         .of(kind)
         .map(|own: &Concern| own.about.clone())
@@ -41,7 +40,7 @@ fn in_universal(edit: impl FnOnce(String) -> String) -> Files {
 pub fn numbered(numbers: [usize; 4]) -> Files {
     in_universal(|text| {
         let own = |number: usize| format!("{:10}{:10}{:10}{number:10}\n", 2, 4, 0);
-        let mut parts = text.split(&own(1)).map(str::to_owned).collect::<Vec<_>>();
+        let mut parts = text.split(&own(1)).map(str::to_owned).collect_vec();
         for number in 2..=4 {
             let last = parts.pop().expect("a part");
             let cut = last.split_once(&own(number)).expect("a mode");

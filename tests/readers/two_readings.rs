@@ -144,9 +144,8 @@ fn with_second(at: f64, digits: usize) -> Files {
 #[test]
 fn a_parameter_may_be_a_second_whole_matrix() {
     let factors = |files: &Files| {
-        let (_folder, path) = placed(files);
-        let prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
-        run(&prepared, |_| {}, || true).unwrap().found.factors
+        let prepared = prepared(files);
+        finished(&prepared).found.factors
     };
     let expected = factors(&building());
     for at in [1.1, 0.5] {
@@ -216,8 +215,7 @@ fn frequencies_alone_need_no_names_of_rows() {
         "rows = \"rows.csv\"\n",
         "",
     );
-    let (_folder, path) = placed(&files);
-    let prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let prepared = prepared(&files);
     assert_eq!(prepared.alone().len(), 2);
     let named = with(building(), "job.toml", "rows = \"rows.csv\"\n", "");
     assert!(

@@ -138,7 +138,7 @@ fn of_job(files: &Files) -> JobResult {
     let (_folder, path) = placed(files);
     prepare(&path)
         .and_then(|loaded| run(&loaded, |_| {}, || true))
-        .unwrap_or_else(|error| panic!("{error}"))
+        .unwrap()
 }
 
 /// A job's tolerances are for sums over nine modes, whatever the number compared, and so is the sum that its verdict tells.

@@ -1,7 +1,6 @@
 //! Standard deviations of components and covariances of all numbers: what residuals and jobs make of them, and whether intervals hold
 //! the truth.
 
-use crate::common::jobs::run;
 use crate::prelude::*;
 use crate::spec::s5_weighted::at;
 
@@ -100,9 +99,8 @@ fn corrected(data: TestData) -> JobResult {
     let mut files: Files = building();
     let test = files.iter_mut().find(|(name, _)| name == "test.csv");
     test.unwrap().1 = write_csv(&data);
-    let (_folder, path) = placed(&files);
-    let loaded = prepare(&path).unwrap();
-    run(&loaded, |_| {}, || true).unwrap()
+    let loaded = prepared(&files);
+    finished(&loaded)
 }
 
 /// The noise of a job's test, so that weights matter.

@@ -50,7 +50,7 @@ fn terminal_home_time_zone_and_language_make_no_difference() {
             "correlation.json",
             "corrected.bdf",
         ];
-        let written = written.map(|name| std::fs::read(path.join(name)).ok());
+        let written = written.map(|name| fs::read(path.join(name)).ok());
         (output.status.code(), output.stdout, output.stderr, written)
     };
     for words in [

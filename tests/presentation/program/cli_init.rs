@@ -8,7 +8,7 @@ use corfem::job::{Job, read};
 
 #[test]
 fn init_writes_a_job_that_reads_and_nothing_over_another() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let path = folder.path().join("job.toml");
     assert_eq!(corfem(&["init", words(&path)]).status.code(), Some(0));
     let written = fs::read(&path).expect("it reads");
@@ -21,7 +21,7 @@ fn init_writes_a_job_that_reads_and_nothing_over_another() {
         text(&refused.stderr)
     );
     assert_eq!(fs::read(&path).expect("it reads"), written);
-    let job = read(&path).unwrap_or_else(|error| panic!("{error}"));
+    let job = read(&path).unwrap();
     assert_eq!(job.title.as_deref(), Some("my structure"));
     // Every example and default is one that the reader takes, but for those of a model of matrices.
     let examples = String::from_utf8(written.clone()).expect("UTF-8");
@@ -34,7 +34,7 @@ fn init_writes_a_job_that_reads_and_nothing_over_another() {
                 .filter(|entry| entry.split(' ').nth(1) == Some("="));
             all + entry.unwrap_or(line) + "\n"
         });
-    toml::from_str::<Job>(&examples).unwrap_or_else(|error| panic!("{error}"));
+    toml::from_str::<Job>(&examples).unwrap();
     // Pointed to files that exist, it is a job that can be looked at.
     let wing = |file: &str| words(&folder_of("wing").join(file)).to_owned();
     let text = String::from_utf8(written).expect("UTF-8");
@@ -42,7 +42,7 @@ fn init_writes_a_job_that_reads_and_nothing_over_another() {
     let text = text.replace("\"test.unv\"", &format!("{:?}", wing("test.unv")));
     let text = text.replace("# by = \"grid\"", "by = \"nearest\"");
     fs::write(&path, text).expect("written");
-    prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    prepare(&path).unwrap();
 }
 
 /// The names of a struct's fields, as the reader itself lists them when it finds another.
@@ -107,8 +107,7 @@ fn init_explains_every_entry_that_a_job_may_have() {
 #[test]
 fn the_example_of_a_test_reads() {
     let output = corfem(&["init", "--test"]);
-    let data = corfem::files::test_data::read("test.csv", &output.stdout)
-        .unwrap_or_else(|error| panic!("{error}"));
+    let data = corfem::files::test_data::read("test.csv", &output.stdout).unwrap();
     assert_eq!((data.sensors.len(), data.frequencies_hz.len()), (2, 2));
 }
 
@@ -116,7 +115,7 @@ fn the_example_of_a_test_reads() {
 #[test]
 fn every_example_runs_as_it_is_written() {
     for name in ["building", "wing", "garteur"] {
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = new_folder();
         let at = |name: &str| folder.path().join(name);
         let job = at("mine").join("job.toml");
         let written = corfem(&["init", "--example", name, words(&at("mine"))]);

@@ -25,7 +25,7 @@ pub struct Reported {
 
 impl Reported {
     pub fn of(job: &Path) -> Self {
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = new_folder();
         let output = correlate(job, &["--folder", words(folder.path())]);
         // The page says how the job was run.
         let read = |file: String| {
@@ -86,7 +86,7 @@ fn json(path: &Path) -> Value {
 
 /// Without the breaks of lines.
 fn unbroken(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+    text.split_whitespace().collect_vec().join(" ")
 }
 
 #[test]
@@ -329,7 +329,7 @@ fn a_corrected_deck_differs_in_properties_and_materials_and_has_the_corrected_fr
         }
         let found = reported.json();
         let best = found["best_pass"].as_u64().expect("a pass") as usize - 1;
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = new_folder();
         let path = folder.path().join("corrected.bdf");
         fs::write(&path, corrected).expect("written");
         let modes = corfem(&["modes", words(&path), "-f", "json"]);
@@ -340,7 +340,7 @@ fn a_corrected_deck_differs_in_properties_and_materials_and_has_the_corrected_fr
                 .iter()
                 .copied()
                 .min_by(|a, b| (a - hertz).abs().total_cmp(&(b - hertz).abs()));
-            approx::assert_relative_eq!(
+            assert_relative_eq!(
                 nearest.expect("a mode"),
                 hertz,
                 max_relative = FIELD_ROUNDING
@@ -380,7 +380,7 @@ fn every_format_has_the_factors() {
         .lines()
         .find_map(|line| line.strip_prefix("job_factors,panel 1,Factor,,"))
         .expect("a factor");
-    approx::assert_relative_eq!(
+    assert_relative_eq!(
         cell.trim_end_matches(',').parse::<f64>().expect("a number"),
         first,
         max_relative = FIELD_ROUNDING
@@ -389,7 +389,7 @@ fn every_format_has_the_factors() {
 
 /// A worked job with one text replaced by another, in a folder of its own.
 fn changed(name: &str, old: &str, new: &str) -> (tempfile::TempDir, PathBuf) {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     for file in names(&folder_of(name)) {
         fs::copy(folder_of(name).join(&file), folder.path().join(&file)).expect("copied");
     }
@@ -403,7 +403,7 @@ fn changed(name: &str, old: &str, new: &str) -> (tempfile::TempDir, PathBuf) {
 /// A new property would need a number above the largest that a deck may have; the report of the correlation is there all the same.
 #[test]
 fn a_report_is_written_although_its_deck_cannot_be() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     for (name, file) in crate::common::jobs::rods() {
         let text = file
             .replace("\"2-3\"", "2")
@@ -438,8 +438,7 @@ fn a_report_is_written_although_its_deck_cannot_be() {
 #[cfg(unix)]
 fn await_taken(child: &std::process::Child) {
     let takes_it = || {
-        let status =
-            std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
+        let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
         let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
         caught
             .and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())
@@ -459,7 +458,7 @@ fn await_taken(child: &std::process::Child) {
 fn await_work(child: &std::process::Child) {
     let has_worked = || {
         std::thread::sleep(std::time::Duration::from_millis(100));
-        let stat = std::fs::read_to_string(format!("/proc/{}/stat", child.id())).ok()?;
+        let stat = fs::read_to_string(format!("/proc/{}/stat", child.id())).ok()?;
         // The fourteenth number of the line, in hundredths of a second.
         let after = stat.rsplit_once(')')?.1;
         let ticks: u32 = after.split_whitespace().nth(11)?.parse().ok()?;
@@ -587,7 +586,7 @@ fn starts_and_seed_are_taken_from_the_command_line() {
 
 #[test]
 fn a_factor_of_point_masses_is_in_the_corrected_deck() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     for (name, file) in crate::common::jobs::rods() {
         let masses = "masses = [\"12-14\"]\nscales = \"mass\"";
         let text = file.replacen("elements = [\"2-3\"]", masses, 1);
@@ -616,7 +615,7 @@ fn a_factor_of_point_masses_is_in_the_corrected_deck() {
 #[cfg(unix)]
 #[test]
 fn a_folder_that_is_a_link_to_nothing_is_refused_before_the_run() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let link = folder.path().join("link");
     std::os::unix::fs::symlink("nowhere", &link).expect("linked");
     for place in [words(&link), "nowhere/.."] {

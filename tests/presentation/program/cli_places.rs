@@ -6,8 +6,8 @@
 
 use crate::prelude::*;
 use crate::presentation::program::cli::text;
+use fs::Permissions;
 use rustix::process::geteuid;
-use std::fs::Permissions;
 use std::io::ErrorKind;
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::os::unix::process::CommandExt;
@@ -26,7 +26,7 @@ struct Place {
 
 impl Place {
     fn new(mode: u32) -> Self {
-        let root = tempfile::tempdir().expect("a folder");
+        let root = new_folder();
         let held = root.path().join("held");
         let file = held.join("report.txt");
         fs::copy(
@@ -131,7 +131,7 @@ fn calls(arguments: &[&str], folder: &Path) -> Vec<String> {
 #[test]
 #[ignore = "needs strace"]
 fn new_files_are_on_the_disk_before_they_take_a_name() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let calls = calls(&["cases", "4", "-q", "-o", "report.txt"], folder.path());
     let kinds: Vec<&str> = calls
         .iter()
@@ -144,7 +144,7 @@ fn new_files_are_on_the_disk_before_they_take_a_name() {
         })
         .collect();
     assert_eq!(kinds, ["sync", "rename", "sync"], "{calls:?}");
-    let out = tempfile::tempdir().expect("a folder");
+    let out = new_folder();
     let calls = self::calls(&["figures", "-q", "--folder", "figures"], out.path());
     // Every file before its name, and its name before the next file.
     let kinds: String = calls

@@ -59,9 +59,9 @@ fn other_programs_read_the_shapes_that_a_correlation_writes() {
 
 fn check_with(program: &str) {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/formats/shapes_read.py");
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let path = folder.path().join("shapes.unv");
-    std::fs::write(&path, &reported("building").files["shapes.unv"]).expect("written");
+    fs::write(&path, &reported("building").files["shapes.unv"]).expect("written");
     let mut python = Command::new("python3");
     let output = python.arg(script).arg(&path).arg(program).output();
     let output = output.expect("it runs");

@@ -62,7 +62,7 @@ fn characters_that_turn_text_around_are_escaped_in_every_output() {
 #[test]
 fn a_corrected_deck_names_its_run_at_its_head_and_is_else_as_it_was() {
     let path = folder_of("box").join("job.toml");
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     corfem(&[
         "correlate",
         "-q",
@@ -79,11 +79,7 @@ fn a_corrected_deck_names_its_run_at_its_head_and_is_else_as_it_was() {
         head.iter().all(|line| line.chars().count() <= 72),
         "{head:?}"
     );
-    let said = head
-        .iter()
-        .map(|line| &line[2..])
-        .collect::<Vec<_>>()
-        .join("");
+    let said = head.iter().map(|line| &line[2..]).collect_vec().join("");
     let run = format!(
         "corfem {} correlate job.toml, inputs ",
         env!("CARGO_PKG_VERSION")
@@ -99,7 +95,7 @@ fn a_corrected_deck_names_its_run_at_its_head_and_is_else_as_it_was() {
         .expect("an identity");
     assert!(json.contains(identity.trim()), "{identity}");
     // The mirror: behind the head the deck is that of the library, byte by byte.
-    let prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let prepared = prepare(&path).unwrap();
     let result = run_of(&prepared);
     let own = prepared
         .loaded
@@ -111,7 +107,7 @@ fn a_corrected_deck_names_its_run_at_its_head_and_is_else_as_it_was() {
 }
 
 fn run_of(prepared: &corfem::job::PreparedJob) -> Vec<f64> {
-    let result = run(prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
+    let result = finished(prepared);
     result.found.factors
 }
 
@@ -141,9 +137,7 @@ fn half_written_files_of_killed_runs_go_with_the_next_run() {
 fn a_file_without_a_last_line_end_is_read_whole() {
     let read = |files: &Files| {
         let (_folder, path) = placed(files);
-        let job = prepare(&path)
-            .unwrap_or_else(|error| panic!("{error}"))
-            .loaded;
+        let job = prepare(&path).unwrap().loaded;
         let (stiffness, mass) = job
             .source
             .whole
@@ -168,11 +162,10 @@ fn an_analysis_under_way_is_stopped() {
     // The airplane takes more than twenty.
     for asked in [2, 3, 5, 9] {
         let path = folder_of("garteur").join("job.toml");
-        let mut loaded =
-            corfem::job::LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+        let mut loaded = corfem::job::LoadedJob::new(&path).unwrap();
         let stop = Arc::new(AtomicBool::new(false));
         loaded.stop = Some(Arc::clone(&stop));
-        let prepared = loaded.prepare().unwrap_or_else(|error| panic!("{error}"));
+        let prepared = loaded.prepare().unwrap();
         let calls = Cell::new(0);
         // Said to go on, and stopped in the analysis that follows.
         let go_on = || {
@@ -181,7 +174,7 @@ fn an_analysis_under_way_is_stopped() {
             stop.store(calls.get() >= asked, SeqCst);
             !is_over
         };
-        let result = run(&prepared, |_| {}, go_on).unwrap_or_else(|error| panic!("{error}"));
+        let result = run(&prepared, |_| {}, go_on).unwrap();
         assert!(result.found.is_interrupted, "{asked}");
         assert!(matches!(result.found.history, History::GaussNewton(None)));
         assert!(

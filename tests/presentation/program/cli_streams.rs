@@ -4,7 +4,7 @@
 
 use crate::prelude::*;
 use crate::presentation::program::cli::{corfem, text};
-use std::fs::File;
+use fs::File;
 use std::os::unix::fs::{FileTypeExt, MetadataExt, PermissionsExt, symlink};
 use std::process::Output;
 
@@ -80,7 +80,7 @@ fn nobody_listening_on_standard_error_changes_nothing() {
 
 #[test]
 fn a_dash_and_names_of_standard_output_are_standard_output() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     // Another descriptor, and a file it is appended to.
     let shell = "echo before > log; \"$0\" cases 4 -q -o /dev/stderr 2>> log; cat log; rm log";
     let program_path = assert_cmd::cargo::cargo_bin("corfem");
@@ -154,7 +154,7 @@ fn devices_and_pipes_are_written_through_and_stay_what_they_are() {
     let refused = to_file(Path::new("/dev/full"));
     assert_eq!(refused.status.code(), Some(2));
     assert!(text(&refused.stderr).starts_with("corfem: cannot write /dev/full: "));
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let pipe = folder.path().join("pipe");
     assert!(
         Command::new("mkfifo")
@@ -179,7 +179,7 @@ fn devices_and_pipes_are_written_through_and_stay_what_they_are() {
 
 #[test]
 fn links_are_followed_and_modes_are_those_of_new_files() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let path = |name: &str| folder.path().join(name);
     symlink("there.txt", path("link")).expect("made");
     symlink("link", path("link to link")).expect("made");
@@ -204,7 +204,7 @@ fn links_are_followed_and_modes_are_those_of_new_files() {
 
 #[test]
 fn new_files_and_folders_have_the_rights_of_the_umask() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let program = assert_cmd::cargo::cargo_bin("corfem");
     let shell = "umask 027; \"$0\" cases 4 -q -o file && \"$0\" report -q --folder out && stat -c %a file out out/report.html";
     let output = Command::new("sh")

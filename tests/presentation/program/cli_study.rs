@@ -50,7 +50,7 @@ fn found(folder: &Path) -> (Vec<String>, Vec<u8>) {
 /// Whatever the number of threads, and after any end, the folder is the same.
 #[test]
 fn threads_and_stops_change_nothing() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let one = folder.path().join("one");
     let output = study(&one, &["--threads", "1"]);
     assert_eq!(
@@ -85,7 +85,7 @@ fn threads_and_stops_change_nothing() {
 /// The samples of a scheduler, each of a process of its own, are one file behind one another.
 #[test]
 fn samples_run_alone_and_put_together_are_the_study() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let [one, merged] = ["one", "merged"].map(|name| folder.path().join(name));
     let output = study(&one, &[]);
     let alone = |sample: usize, more: &[&str]| {
@@ -104,7 +104,7 @@ fn samples_run_alone_and_put_together_are_the_study() {
         text(&output.stdout)
     };
     let mut lines: Vec<String> = (1..=COUNT).map(|sample| alone(sample, &[])).collect();
-    assert_eq!(lines.concat().lines().collect::<Vec<_>>(), found(&one).0);
+    assert_eq!(lines.concat().lines().collect_vec(), found(&one).0);
     let file = folder.path().join("3.csv");
     assert_eq!(alone(3, &["--output", words(&file)]), "");
     assert_eq!(fs::read_to_string(&file).expect("it reads"), lines[2]);
@@ -128,7 +128,7 @@ fn samples_run_alone_and_put_together_are_the_study() {
 fn a_signal_keeps_the_samples_done() {
     use crate::common::signals::{corfem_run_by, send, undisturbed};
     use std::os::unix::process::ExitStatusExt;
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let (job, path) = (job("building"), folder.path().join("samples.csv"));
     let mut child = corfem_run_by(undisturbed())
         .args([
@@ -166,7 +166,7 @@ fn a_signal_keeps_the_samples_done() {
         fs::read_to_string(&path).expect("it reads").ends_with('\n')
             && !folder.path().join("summary.csv").exists()
     );
-    let whole = tempfile::tempdir().expect("a folder");
+    let whole = new_folder();
     let [resumed, uninterrupted] =
         [folder.path(), whole.path()].map(|folder| study(folder, &[]).stdout);
     assert_eq!(resumed, uninterrupted);

@@ -96,7 +96,7 @@ fn full() -> Trust {
 
 /// Without line breaks and what HTML puts between words.
 fn unbroken(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+    text.split_whitespace().collect_vec().join(" ")
 }
 
 /// The words of a concern stand alone, in a table or a sentence of their own, and its identifier on a command line.
@@ -148,9 +148,8 @@ fn a_long_list_names_eight_and_counts_the_rest() {
 
 #[test]
 fn all_that_is_said_of_trust_stands_first_in_text_csv_json_and_html() {
-    let (_folder, path) = placed(&rods());
-    let loaded = prepare(&path).expect("it loads");
-    let mut result = run(&loaded, |_| {}, || true).expect("it runs");
+    let loaded = prepared(&rods());
+    let mut result = finished(&loaded);
     result.trust = full();
     let report = Report::from_job(&loaded, Some(&result)).expect("a report");
     let table = [trust_table(&result.trust)];
@@ -317,11 +316,10 @@ fn mixed(method: &str) -> Files {
 #[test]
 fn a_mode_left_out_is_compared_once_it_resembles_a_mode_of_the_model() {
     for method in ["paper", "gauss_newton"] {
-        let (_folder, path) = placed(&mixed(method));
-        let loaded = prepare(&path).expect("it loads");
+        let loaded = prepared(&mixed(method));
         assert_eq!(loaded.unpaired.len(), 1, "{method}");
         let left = loaded.unpaired[0].mode + 1;
-        let result = run(&loaded, |_| {}, || true).expect("it runs");
+        let result = finished(&loaded);
         assert_eq!(
             result.trust.about(Kind::Joined),
             [left.to_string()],
@@ -352,9 +350,8 @@ fn weighted_steps_look_at_a_mode_left_out_before_their_optimum() {
         "[compare]",
         "[compare]\nanalysis_modes = 3\nresidual_vectors = 0",
     );
-    let (_folder, path) = placed(&files);
-    let loaded = prepare(&path).expect("it loads");
-    let result = run(&loaded, |_| {}, || true).expect("it runs");
+    let loaded = prepared(&files);
+    let result = finished(&loaded);
     assert_eq!(result.trust.about(Kind::Joined), ["2"]);
     assert!(result.verdict.is_within);
 }
@@ -376,7 +373,7 @@ fn a_selected_mode_that_is_not_compared_is_no_success() {
             _ => line.to_owned(),
         }
     });
-    *csv = lines.collect::<Vec<_>>().join("\n") + "\n";
+    *csv = lines.collect_vec().join("\n") + "\n";
     let files = with(
         files,
         "job.toml",
@@ -407,8 +404,7 @@ fn a_selected_mode_that_is_not_compared_is_no_success() {
 
 #[test]
 fn a_stopped_run_says_so_in_words_and_in_its_verdict() {
-    let (_folder, path) = placed(&mixed("paper"));
-    let loaded = prepare(&path).expect("it loads");
+    let loaded = prepared(&mixed("paper"));
     let result = run(&loaded, |_| {}, || false).expect("it stops");
     let report = Report::from_job(&loaded, Some(&result)).expect("a report");
     let all = render::text(&[trust_table(&result.trust)]);
@@ -426,14 +422,13 @@ fn what_shapes_do_not_decide_is_paired_by_frequency_and_said() {
         .filter(|line| !line.starts_with("2,") && !line.starts_with("3,"))
         .map(|line| format!("{line}\n"))
         .collect();
-    let (_folder, path) = placed(&files);
-    let loaded = prepare(&path).expect("it loads");
+    let loaded = prepared(&files);
     assert_eq!(loaded.loaded.placed.len(), 1);
     assert_eq!(loaded.undecided, [0, 1, 2]);
     let model = loaded.analyze(&[1.0; 2]).expect("a model");
     let exact = model.model().exact();
     assert_eq!(exact.pairing.analysis_mode, [0, 1, 2]);
-    let trust = Trust::before(&loaded).expect("an account");
+    let trust = trust_in(&loaded);
     assert_eq!(trust.about(Kind::Undecided), ["1", "2", "3"]);
     let all = unbroken(&render::text(&[trust_table(&trust)]));
     assert!(
@@ -451,8 +446,7 @@ fn repeated_roots_in_the_papers_loops_name_the_other_method() {
         let part = oscillators([300.0, 310.0, 320.0], 60.0);
         let parts = [0.5 * &part, 0.5 * &part, &whole - &part];
         let files = job_of_matrices(method, &whole, &parts, (&hertz, &shapes));
-        let (_folder, path) = placed(&files);
-        let loaded = prepare(&path).expect("it loads");
+        let loaded = prepared(&files);
         run(&loaded, |_| {}, || true)
     };
     let refused = repeated("paper").expect_err("coalescing").to_string();
@@ -496,9 +490,8 @@ fn free_chain(turned: Option<usize>) -> Files {
 #[test]
 fn the_pre_flight_sees_a_turned_sensor_of_a_structure_that_hangs_free() {
     let said = |turned| {
-        let (_folder, path) = placed(&free_chain(turned));
-        let loaded = prepare(&path).expect("it loads");
-        Trust::before(&loaded).expect("an account")
+        let loaded = prepared(&free_chain(turned));
+        trust_in(&loaded)
     };
     let right = said(None);
     assert_eq!((rigid_bodies(&right), right.has_doubt()), (1.0, false));
@@ -530,7 +523,7 @@ fn every_concern_of_the_test_jobs_begins_with_a_capital_letter_and_ends_as_a_sen
     let mut identifiers = BTreeSet::new();
     for path in paths {
         let loaded = prepare(path).expect("it loads");
-        let trust = Trust::before(&loaded).expect("an account");
+        let trust = trust_in(&loaded);
         for concern in trust.all() {
             let (identifier, words) = (concern.identifier(), concern.words());
             assert!(words.starts_with(char::is_uppercase), "{words}");

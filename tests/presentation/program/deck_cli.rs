@@ -9,7 +9,7 @@ fn frequencies(document: &Value) -> Vec<f64> {
 
 #[test]
 fn a_deck_of_a_pass_has_the_frequencies_of_that_pass() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let path = folder.path().join("box.dat");
     let path = path.to_str().expect("UTF-8");
     let case = Case::new(2).expect("a case");
@@ -32,7 +32,7 @@ fn a_deck_of_a_pass_has_the_frequencies_of_that_pass() {
         let found = frequencies(&document);
         assert_eq!(found.len(), 9);
         for (a, b) in found.iter().zip(expected.frequencies_hz()) {
-            approx::assert_relative_eq!(*a, b, max_relative = DECK_ROUNDING);
+            assert_relative_eq!(*a, b, max_relative = DECK_ROUNDING);
         }
         assert_eq!(document["dof"][0]["grid"], 101);
         assert_eq!(document["dof"][8]["direction"], "z");
@@ -50,7 +50,7 @@ fn a_deck_of_a_pass_has_the_frequencies_of_that_pass() {
                 .zip(&case.reconstruction.masses)
                 .map(|(x, m)| m * x * x)
                 .sum();
-            approx::assert_relative_eq!(
+            assert_relative_eq!(
                 mass.as_f64().expect("a number"),
                 generalized,
                 max_relative = 1e2 * DECK_ROUNDING
@@ -62,12 +62,12 @@ fn a_deck_of_a_pass_has_the_frequencies_of_that_pass() {
 /// Shapes at all that moves have those at the masses among them, in the same scale, and follow the equations.
 #[test]
 fn modes_as_json_have_every_grid_that_moves() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let path = folder.path().join("rods.bdf");
     let deck = "GRID,1,,0.,0.,0.,,123\nGRID,2,,10.,0.,0.,,23\nGRID,3,,20.,0.,0.,,23\nGRID,4,,30.,0.,0.,,23\n\
                 GRID,9,,15.,1.,0.\nCROD,1,1,1,2\nCROD,2,1,2,3\nCROD,3,1,3,4\nPROD,1,1,.1\nMAT1,1,1.+6\n\
                 CMASS2,8,1.,2,1\nCMASS2,7,2.,4,1\nMPC,1,9,3,-1.,2,1,.5\n,,3,1,-2.\nSPC1,1,12,9\n";
-    std::fs::write(&path, deck).expect("written");
+    fs::write(&path, deck).expect("written");
     let path = path.to_str().expect("UTF-8");
     let found: Value =
         serde_json::from_slice(&corfem(&["modes", path, "-f", "json"]).stdout).expect("JSON");
@@ -80,7 +80,7 @@ fn modes_as_json_have_every_grid_that_moves() {
                 dof["direction"].as_str().expect("a word")
             )
         })
-        .collect::<Vec<_>>()
+        .collect_vec()
     };
     assert_eq!(names(&found["dof"]), ["2 x", "4 x"]);
     assert_eq!(names(&found["moving_dof"]), ["2 x", "3 x", "4 x", "9 z"]);
@@ -90,7 +90,7 @@ fn modes_as_json_have_every_grid_that_moves() {
     for (shape, at_mass) in all.iter().zip(at_masses) {
         let (shape, at_mass) = (numbers(shape), numbers(at_mass));
         let near = |found: f64, expected: f64| {
-            approx::assert_relative_eq!(found, expected, epsilon = ROUND_OFF);
+            assert_relative_eq!(found, expected, epsilon = ROUND_OFF);
         };
         near(shape[0], at_mass[0]);
         near(shape[2], at_mass[1]);

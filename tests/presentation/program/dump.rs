@@ -141,7 +141,7 @@ fn dumped_factors_follow_from_the_dumped_changes() {
 
 #[test]
 fn a_folder_gets_every_matrix_as_the_document_has_it() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let path = folder.path().join("dump");
     let output = corfem(&["dump", "2", "--folder", &path.display().to_string()]);
     assert_eq!(output.status.code(), Some(0));

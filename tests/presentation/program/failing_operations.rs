@@ -37,7 +37,7 @@ impl Run {
             status: None,
             new: Files::new(),
         };
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = new_folder();
         let out = folder.path().join("out");
         let output = run.output(folder.path(), None);
         run.status = output.status.code();
@@ -70,7 +70,7 @@ impl Run {
 
     /// Makes an operation fail in a folder that holds these files, or in a new one; its kind, or none if there are not so many.
     fn fail(&self, number: usize, before: Option<&Files>) -> Option<String> {
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = new_folder();
         let [out, temporary] = ["out", "temporary"].map(|name| folder.path().join(name));
         fs::create_dir(&temporary).expect("made");
         if let Some(files) = before {

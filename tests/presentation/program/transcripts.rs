@@ -92,7 +92,7 @@ fn job_into(folder: &Path, name: &str) {
 
 /// Holds the laws of a transcript.
 fn play(transcript: &str) {
-    let (mut folder, mut law) = (tempfile::tempdir().unwrap(), "");
+    let (mut folder, mut law) = (new_folder(), "");
     let (mut said, mut failed) = (None::<Output>, Vec::new());
     let mut lines = transcript.lines();
     while let Some(line) = lines.next() {
@@ -106,7 +106,7 @@ fn play(transcript: &str) {
         let is_right = match mark.split_at(mark.len().min(1)) {
             ("", _) => true,
             ("#", _) => {
-                (folder, law) = (tempfile::tempdir().unwrap(), rest);
+                (folder, law) = (new_folder(), rest);
                 true
             }
             ("@", _) => {
