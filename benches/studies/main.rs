@@ -1,5 +1,5 @@
-//! Prints the tables of the studies behind `paper/*.md` as the goldens and `paper/readings.csv` have them: of those that are named, or
-//! their names. The tests hold them against the goldens.
+//! Prints tables of the studies behind `paper/*.md` as the goldens and `paper/readings.csv` have them, and the figures of documents as SVG:
+//! those that are named, or the names. The tests hold them against goldens and documents.
 #![allow(
     dead_code,
     unused_imports,
@@ -12,6 +12,9 @@
 mod common;
 
 use common::prelude;
+use common::presentation::paper;
+use common::presentation::studies::counted_figures::counted_figures;
+use common::presentation::studies::tour_figures::figures;
 use common::presentation::studies::{LONG, QUICK};
 use std::error::Error;
 
@@ -20,13 +23,19 @@ fn main() -> Result<(), Box<dyn Error>> {
     let asked: Vec<String> = std::env::args().skip(1).collect();
     let asked: Vec<&String> = asked.iter().filter(|name| *name != "--bench").collect();
     let all = || QUICK.iter().chain(&LONG);
+    let drawn = || figures().into_iter().chain(counted_figures());
     if asked.is_empty() {
         all().for_each(|(name, _)| println!("{name}"));
+        drawn().for_each(|(name, _)| println!("{name}"));
     }
     for name in asked {
-        let found = all().find(|(own, _)| own == name);
-        let (_, text) = found.ok_or_else(|| format!("there is no study {name}"))?;
-        print!("{}", text()?);
+        if let Some((_, text)) = all().find(|(own, _)| own == name) {
+            print!("{}", text()?);
+            continue;
+        }
+        let found = drawn().find(|(own, _)| own == name);
+        let (_, diagram) = found.ok_or_else(|| format!("there is no study {name}"))?;
+        print!("{}", diagram.svg()?);
     }
     Ok(())
 }

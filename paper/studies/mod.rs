@@ -1,10 +1,12 @@
-//! The studies behind what `paper/*.md` claims of the method: made-up structures, made-up noise, and the tables that the documents
-//! quote. `cargo bench --bench studies -- NAME` prints the tables of one; the tests hold them against the goldens.
+//! The studies behind what `paper/*.md` claims of the method: made-up structures, made-up noise, and the tables and figures of
+//! the documents. `cargo bench --bench studies -- NAME` prints one; the tests hold them against the goldens and the documents.
 
 pub mod accumulation;
+pub mod counted_figures;
 pub mod coverage;
 pub mod delta_wing_tables;
 pub mod detection;
+pub mod diagram;
 pub mod eigensolutions;
 pub mod ends;
 pub mod fit;
@@ -23,6 +25,8 @@ pub mod readings;
 pub mod readings_rates;
 pub mod rules;
 pub mod specimen;
+pub mod tour_figures;
+pub mod tour_figures_box;
 
 use crate::prelude::*;
 use std::error::Error;

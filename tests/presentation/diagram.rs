@@ -1,7 +1,7 @@
 //! Diagrams: every point where the axes say, and a legend of what has a name.
 
 use crate::common::drawings::{attribute, words};
-use crate::ledgers::diagram::{Diagram, Series, SeriesMark};
+use crate::evidence::diagram::{Diagram, Series, SeriesMark};
 use crate::prelude::*;
 
 fn drawn(y: (f64, f64), is_logarithmic: bool, series: Vec<Series>) -> String {

@@ -1,9 +1,9 @@
 //! The figures as drawn: complete, the same every time, their letters apart, and as stored.
 
 use crate::common::drawings::{size, written};
-use crate::ledgers::counted_figures::counted_figures;
-use crate::ledgers::diagram::Diagram;
-use crate::ledgers::tour_figures;
+use crate::evidence::counted_figures::counted_figures;
+use crate::evidence::diagram::Diagram;
+use crate::evidence::tour_figures;
 use crate::paper::figures::Figure;
 use crate::prelude::*;
 use crate::presentation::figures::{all_figures, draw_all, figures, job_figures};

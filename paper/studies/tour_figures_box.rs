@@ -1,6 +1,6 @@
 //! The figures of the tour that show the paper's box.
 
-use crate::ledgers::diagram::{Diagram, Series, SeriesMark};
+use super::diagram::{Diagram, Series, SeriesMark};
 use crate::prelude::*;
 
 /// A case's first model, and the change of its first pass in modal coordinates.

@@ -1,7 +1,7 @@
 //! The figures of the tour, by the number of their chapter: what is drawn is computed here. Those of the box stand beside.
 
-use crate::ledgers::diagram::{Diagram, Series, SeriesMark};
-use crate::ledgers::tour_figures_box::{bounds, demands, deviations, gages, history, orders};
+use super::diagram::{Diagram, Series, SeriesMark};
+use super::tour_figures_box::{bounds, demands, deviations, gages, history, orders};
 use crate::paper::figures::case_figures;
 use crate::prelude::*;
 

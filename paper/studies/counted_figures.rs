@@ -1,8 +1,8 @@
 //! The figures of `paper/interpretation.md`: every printed column by every rule after the published number of iterations.
 
-use crate::evidence::published_counts::COUNTED;
-use crate::evidence::published_counts::{Counted, RULES, Rule};
-use crate::ledgers::diagram::{Diagram, Series, SeriesMark};
+use super::diagram::{Diagram, Series, SeriesMark};
+use super::published_counts::COUNTED;
+use super::published_counts::{Counted, RULES, Rule};
 
 /// Differences of gages, and error sums.
 pub fn counted_figures() -> [(&'static str, Diagram); 2] {
