@@ -1,7 +1,7 @@
 //! The delta wing as tables: its answers beside others', and what a correlation finds of its gages.
 
+use super::wing_subjects::wing_subject;
 use super::{PERCENT, RMS_PERCENT};
-use crate::common::wing_subjects::wing_subject;
 use crate::prelude::*;
 
 /// NASTRAN printed seven digits.

@@ -27,6 +27,7 @@ pub mod rules;
 pub mod specimen;
 pub mod tour_figures;
 pub mod tour_figures_box;
+pub mod wing_subjects;
 
 use crate::prelude::*;
 use std::error::Error;

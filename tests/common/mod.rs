@@ -41,7 +41,6 @@ pub mod tolerances;
 pub mod torque_boxes;
 pub mod vibrations;
 pub mod whole_models;
-pub mod wing_subjects;
 
 pub use presentation::studies::known;
 

@@ -1,7 +1,7 @@
 //! The data of the figures are what the tables say.
 
 use crate::common::jobs::loaded;
-use crate::common::wing_subjects::wing_subjects;
+use crate::evidence::wing_subjects::wing_subjects;
 use crate::paper::figures::error_history::error_history;
 use crate::paper::figures::mode_shapes::panel_parts;
 use crate::paper::figures::report::{derivatives, mode_agreement};

@@ -1,7 +1,7 @@
 //! Any correlation as tables, figures, JSON and a page: a chain, a spatial frame, and the delta wing.
 
 use crate::common::drawings::{size, written};
-use crate::common::wing_subjects::wing_subject;
+use crate::evidence::wing_subjects::wing_subject;
 use crate::paper::figures::{Figure, report_figures};
 use crate::prelude::*;
 use corfem::present::json;
