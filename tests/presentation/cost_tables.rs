@@ -20,6 +20,6 @@ fn what_is_not_reached_says_so() {
     };
     let table = eigensolution_table(&[counted]);
     assert_eq!(table.rows[0].label, "A box, 2.5 %");
-    let written: Vec<String> = table.rows[0].cells.iter().map(Cell::computed).collect();
+    let written = table.rows[0].cells.iter().map(Cell::computed).collect_vec();
     assert_eq!(written, ["4", "3", "4", "5+", "45+"]);
 }

@@ -17,12 +17,12 @@ fn why_a_pass_stopped_is_said_in_words() {
     run.correlation.passes[1].inner.stop = Stop::Iterations;
     let tables = delta_wing_tables(&wing(), &run).expect("tables");
     let passes = tables.iter().find(|table| table.name.contains("passes"));
-    let said: Vec<&Cell> = passes
+    let said = passes
         .expect("a table of passes")
         .rows
         .iter()
         .map(|row| &row.cells[1])
-        .collect();
+        .collect_vec();
     let word = |word: &str| Cell::Text(word.to_owned());
     assert_eq!(
         said,

@@ -192,10 +192,10 @@ fn mode_agreement_is_complete_before_and_nearly_the_identity_after() {
         let initial = ExactResult::from(&result.correlation.initial);
         let checks = [&initial, subject.corrected()];
         let maps = mode_agreement(&subject).expect("shapes fit");
-        let values: Vec<_> = maps
+        let values = maps
             .iter()
             .map(|map| map.values.map(|value| value.expect("a cell")))
-            .collect();
+            .collect_vec();
         for (at, check) in checks.into_iter().enumerate() {
             let (cross, assurance) = (&values[at], &values[at + 2]);
             assert_eq!((cross.shape(), assurance.shape()), ((9, 9), (9, 9)));

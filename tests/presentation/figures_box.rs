@@ -14,7 +14,7 @@ fn box_points_are_the_grids_and_where_the_load_distribution_acts() {
     let subject = case_report(&results()[0])
         .expect("a subject")
         .with_structure(model.structure());
-    let numbers: Vec<usize> = subject.grids.iter().map(|(label, _)| *label).collect();
+    let numbers = subject.grids.iter().map(|(label, _)| *label).collect_vec();
     assert_eq!(numbers, (1..=16).collect_vec());
     for (label, at) in &subject.grids {
         assert_eq!(<[f64; 3]>::from(*at), case.reconstruction.grids[label]);
@@ -62,7 +62,10 @@ fn box_elements_are_the_models_in_three_layers() {
 
 #[test]
 fn cover_gages_are_those_of_table_2() {
-    let cases: Vec<Case> = results().iter().map(|result| result.case.clone()).collect();
+    let cases = results()
+        .iter()
+        .map(|result| result.case.clone())
+        .collect_vec();
     let said = written(&draw(&cases).expect("drawn"));
     let table = PublishedTable::number(2).expect("it reads");
     let names = ["GVT", "Case 1", "Case 2", "Case 3", "Case 4"];

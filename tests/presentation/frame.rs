@@ -43,7 +43,7 @@ properties! {
         subject.frame = (0..3).map(f64::from).map(|x| vec![at(x, 0.0), at(x, 1.0), at(x + 1.0, 1.0), at(x + 1.0, 0.0)]).collect();
         let frame = Frame::from_report(&subject);
         let plane = |at: Vector3<f64>| at.x - zero + tilt * (at.y - 0.5);
-        let shape: Vec<f64> = (0..8).map(|row| plane(at((row / 2) as f64, (row % 2) as f64))).collect();
+        let shape = (0..8).map(|row| plane(at((row / 2) as f64, (row % 2) as f64))).collect_vec();
         let largest = shape.iter().fold(0.0, |most: f64, w| most.max(w.abs()));
         let parts = panel_parts(&frame, &Vector3::z(), &frame.moved(&shape, None));
         let mut area = 0.0;

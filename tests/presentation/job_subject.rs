@@ -43,11 +43,11 @@ fn a_job_has_the_rods_the_grids_and_the_wall_of_its_deck() {
             None
         ]
     );
-    let sensors: Vec<_> = subject
+    let sensors = subject
         .sensors
         .iter()
         .map(|sensor| (sensor.name.as_str(), sensor.place))
-        .collect();
+        .collect_vec();
     assert_eq!(
         sensors,
         [
@@ -127,11 +127,11 @@ fn sensors_that_point_the_other_way_askew_or_nowhere_are_told() {
     loaded.placed[1].sign = -1.0;
     loaded.placed[2].axis = Vector3::new(0.6, 0.0, -0.8);
     let table = places_table(loaded, None).expect("a table");
-    let directions: Vec<String> = table
+    let directions = table
         .rows
         .iter()
         .map(|row| row.cells[1].computed())
-        .collect();
+        .collect_vec();
     assert_eq!(directions, ["x", "-x", "x (0.60 0.00 -0.80)"]);
     assert!(table.notes.is_empty());
     loaded.placed.pop();
@@ -282,10 +282,10 @@ fn a_case_and_both_wings_have_the_bounds_and_the_places_of_their_models() {
             .find(|grid| grid.label == label)
             .map(|grid| grid.position)
     };
-    let places: Vec<_> = measured_grids(model.structure())
+    let places = measured_grids(model.structure())
         .into_iter()
         .map(position)
-        .collect();
+        .collect_vec();
     assert_eq!(
         delta
             .sensors

@@ -224,7 +224,7 @@ fn luminance(parts: [f64; 3]) -> f64 {
 #[test]
 fn numbers_have_a_contrast_of_four_and_a_half_on_every_cell_of_both_palettes() {
     let css = include_str!("../../src/present/page/report.css");
-    let palettes: Vec<&str> = css.split("--ink: ").skip(1).collect();
+    let palettes = css.split("--ink: ").skip(1).collect_vec();
     assert_eq!(palettes.len(), 2);
     for palette in palettes {
         let palette = format!("--ink: {palette}");
@@ -260,11 +260,11 @@ fn every_case_of_the_box_moves_whole_with_its_panels_named() {
         let data = data(&moving(&report).expect("a figure"));
         let pieces = data["pieces"].as_array().expect("pieces");
         assert_eq!(pieces.len(), report.frame.len());
-        let owned: Vec<u64> = pieces
+        let owned = pieces
             .iter()
             .flat_map(|piece| piece["owners"].as_array().expect("owners"))
             .map(|owner| owner.as_u64().expect("a number"))
-            .collect();
+            .collect_vec();
         for e in 0..report.parameters.len() as u64 {
             assert!(owned.contains(&e), "panel {e}");
         }
@@ -278,7 +278,7 @@ fn a_job_of_matrices_has_its_lines_from_its_stiffness() {
     let report = report("building");
     assert_eq!(report.frame.len(), 9);
     // The first story stands on the ground alone.
-    let owners: Vec<usize> = report.owners.iter().flatten().copied().collect();
+    let owners = report.owners.iter().flatten().copied().collect_vec();
     assert_eq!(owners, (1..10).collect_vec());
 }
 
@@ -299,7 +299,7 @@ fn a_test_without_shapes_moves_its_models_alone() {
         assert!(along > 0.0, "mode {}", mode.number);
     }
     // Beams that are joined, and nothing else: every grid has a line.
-    let on_lines: Vec<&Vector3<f64>> = report.frame.iter().flatten().collect();
+    let on_lines = report.frame.iter().flatten().collect_vec();
     assert!(report.grids.iter().all(|(_, at)| on_lines.contains(&at)));
     assert!(
         moving(&report)

@@ -27,10 +27,10 @@ fn median_and_worst_are_of_the_seeds_alone() {
     let odd = noisy_modes(&case, Noise::USUAL, 1..=3).unwrap();
     for study in [study(), &odd] {
         let gages = &noisy_tables(study)[0];
-        let raw: Vec<f64> = study.runs[1..]
+        let raw = study.runs[1..]
             .iter()
             .map(|run| 100.0 * run.raw.gage_rms)
-            .collect();
+            .collect_vec();
         let (median, worst) = (
             number(gages, "median", "Raw all"),
             number(gages, "worst", "Raw all"),

@@ -35,7 +35,7 @@ fn comparison_tables() -> Vec<Table> {
     let mut tables = published_tables(&case, &runs).expect("it reads");
     tables.extend(truncation_tables(fewer_modes_runs()));
     tables.retain(|table| !table.name.starts_with("truncation"));
-    let names: Vec<&str> = tables.iter().map(|table| table.name.as_str()).collect();
+    let names = tables.iter().map(|table| table.name.as_str()).collect_vec();
     assert_eq!(
         names,
         [

@@ -11,17 +11,17 @@ fn every_printed_cell_is_one_line_as_printed() {
             Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("paper/tables/table_{number}.csv"));
         let file = fs::read_to_string(file).expect("it reads");
         let rows = file.lines().filter(|line| !line.starts_with('#')).skip(1);
-        let printed: Vec<&str> = rows
+        let printed = rows
             .flat_map(|row| row.split(',').skip(1))
             .filter(|cell| !cell.is_empty())
-            .collect();
+            .collect_vec();
         let table = published_table(number).expect("it reads");
         let written = csv(from_ref(&table));
-        let written: Vec<&str> = written
+        let written = written
             .lines()
             .skip(1)
             .map(|line| line.rsplit_once(',').expect("a field").1)
-            .collect();
+            .collect_vec();
         assert_eq!(written, printed, "Table {number}");
         assert!(
             table.title.starts_with(&format!("Table {number}. ")),
@@ -50,7 +50,7 @@ fn table_13_has_the_cpu_seconds() {
         .position(|column| column.name == "Pass 1 time")
         .expect("the column");
     assert_eq!(table.columns[at].unit, "s");
-    let cells: Vec<&Cell> = table.rows.iter().map(|row| &row.cells[at]).collect();
+    let cells = table.rows.iter().map(|row| &row.cells[at]).collect_vec();
     let printed = ["1.9", "2.6", "4.8", "1.3"].map(|text| Cell::Printed(text.to_owned()));
     assert_eq!(cells, printed.iter().collect_vec());
     assert_eq!(

@@ -88,8 +88,8 @@ properties! {
             prop_assert_eq!(line, line.trim_end());
         }
         // However it is split, everything is in it, in its order.
-        let words: Vec<&str> = text.split_whitespace().collect();
-        let note: Vec<&str> = table.notes[0].split_whitespace().collect();
+        let words = text.split_whitespace().collect_vec();
+        let note = table.notes[0].split_whitespace().collect_vec();
         prop_assert!(words.ends_with(&note));
         for row in &table.rows {
             for cell in &row.cells {

@@ -52,9 +52,9 @@ fn plane(is_turned: bool) -> Files {
     let lines = (0..6).flat_map(|grid| ["x", "y"].map(|along| format!("{},{along}\n", grid + 1)));
     name(&mut files, "rows.csv", lines.collect());
     retested(files, |data| {
-        let read: Vec<usize> = (0..6)
+        let read = (0..6)
             .map(|grid| row(grid, usize::from(is_turned && grid == 3)))
-            .collect();
+            .collect_vec();
         data.shapes = data.shapes.select_rows(&read);
         data.sensors.truncate(6);
         for (grid, sensor) in data.sensors.iter_mut().enumerate() {
@@ -65,7 +65,7 @@ fn plane(is_turned: bool) -> Files {
 
 /// Masses in a row on springs between them, held nowhere.
 fn free() -> Files {
-    let links: Vec<_> = (1..6).map(|row| (row, Some(row - 1), 1e5)).collect();
+    let links = (1..6).map(|row| (row, Some(row - 1), 1e5)).collect_vec();
     let (stiffness, mass) = (springs(6, &links).dense(), masses(&[3.0; 6]).dense());
     let all = solve(&(&stiffness + 1e-3 * &mass), &mass, 6).expect("modes");
     let three = all.omega_squared().rows(1, 3).into_owned();
@@ -320,7 +320,7 @@ fn every_check_says_yes_no_or_not_checked() {
         let (cases, reason) = cases(check);
         let mut missing = vec![Answer::Yes, Answer::No, Answer::NotChecked];
         for (expected, trust) in cases {
-            let said: Vec<String> = trust.all().iter().map(Concern::words).collect();
+            let said = trust.all().iter().map(Concern::words).collect_vec();
             assert_eq!(trust.answer(check), expected, "{name}: {said:#?}");
             missing.retain(|own| *own != expected);
         }

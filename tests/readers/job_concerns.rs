@@ -48,7 +48,7 @@ fn gross_mistakes_are_named_before_anything_fails() {
     let thousandfold = tested(|data| data.shapes.row_mut(4).scale_mut(1000.0));
     assert_eq!(doubts(&thousandfold), ["gain-5"]);
     let backward = tested(|data| {
-        let order: Vec<usize> = (0..10).rev().collect();
+        let order = (0..10).rev().collect_vec();
         data.shapes = data.shapes.select_rows(&order);
     });
     assert_eq!(doubts(&backward), ["reordered"]);
@@ -108,7 +108,7 @@ fn a_test_half_of_whose_modes_have_partners_is_correlated_with_these() {
         .all()
         .iter()
         .filter(|left| left.grade() == Grade::LeftOut);
-    let left: Vec<String> = left.map(Concern::identifier).collect();
+    let left = left.map(Concern::identifier).collect_vec();
     assert_eq!(left, ["not-compared-3", "not-compared-4"]);
 }
 
@@ -124,7 +124,7 @@ fn a_matrix_that_is_no_part_of_the_first_model_is_named() {
     let stiffness = files[1].1.clone();
     let more = |factor: f64| {
         let mut lines = stiffness.lines();
-        let mut text: Vec<String> = lines.by_ref().take(2).map(str::to_owned).collect();
+        let mut text = lines.by_ref().take(2).map(str::to_owned).collect_vec();
         for line in lines {
             let (place, value) = line.rsplit_once(' ').expect("a value");
             let value: f64 = value.parse().expect("a number");

@@ -121,12 +121,12 @@ fn properties_materials_masses_and_each_say_what_they_scale() {
             .loaded
             .source
             .clone();
-        let names: Vec<String> = source
+        let names = source
             .whole
             .parameters()
             .iter()
             .map(|parameter| parameter.name.clone())
-            .collect();
+            .collect_vec();
         let scaled = source.members.iter();
         let scaled = scaled.map(|own| [own.elements.clone(), own.masses.clone()]);
         (names, scaled.collect_vec())

@@ -9,11 +9,11 @@ use corfem::job::{Study, Vary};
 
 /// A concern in a line: its kind, what it is about, and its numbers with four decimals.
 fn line(concern: &Concern) -> String {
-    let numbers: Vec<String> = concern
+    let numbers = concern
         .measure
         .iter()
         .map(|own| format!("{own:.4}"))
-        .collect();
+        .collect_vec();
     format!(
         "{:?} [{}] [{}]",
         concern.kind,
@@ -132,11 +132,11 @@ fn looked_at(
 fn every_limit_of_frequencies_has_two_sides() {
     let (spread, same) = ([1.0, 3.0, 9.0, 27.0], DMatrix::identity(4, 4));
     let common = |ratios: [f64; 4]| {
-        let tests: Vec<f64> = spread
+        let tests = spread
             .iter()
             .zip(ratios)
             .map(|(hertz, ratio)| hertz * ratio)
-            .collect();
+            .collect_vec();
         let found = looked_at(&spread, &tests, &same, &[]);
         let found = found
             .iter()
@@ -227,11 +227,11 @@ fn an_exchange_of_frequencies_must_mend_enough() {
     }; 4];
     let tests = [0.8, 0.0, 2.5, 3.5].map(|log: f64| TAU * log.exp());
     let found = looked_at(&[0.0, 0.8, 2.5, 3.5].map(f64::exp), &tests, &same, &noise);
-    let found: Vec<Kind> = found
+    let found = found
         .iter()
         .filter(|own| own.stands())
         .map(|own| own.kind)
-        .collect();
+        .collect_vec();
     assert_eq!(found, [Kind::FrequenciesExchanged, Kind::NamedFactor]);
     // Of modes that ascend in frequency it is the shapes that are in another order.
     let swapped =

@@ -12,10 +12,10 @@ pub struct Chain {
 pub fn chain(draws: &mut Draws) -> Chain {
     let count = 6 + draws.below(8);
     let size = |draws: &mut Draws| 10_f64.powf(draws.between(4.0, 5.0));
-    let springs_of: Vec<_> = (0..count)
+    let springs_of = (0..count)
         .map(|row: usize| (row, row.checked_sub(1), size(draws)))
-        .collect();
-    let all: Vec<f64> = (0..count).map(|_| draws.between(1.0, 3.0)).collect();
+        .collect_vec();
+    let all = (0..count).map(|_| draws.between(1.0, 3.0)).collect_vec();
     let truth = [0.8, 1.1, 0.9];
     let real = springs_of
         .iter()
@@ -24,7 +24,7 @@ pub fn chain(draws: &mut Draws) -> Chain {
     let modes = lowest_modes(&real, &masses(&all), 4)
         .expect("modes")
         .vibrations;
-    let mut rows: Vec<usize> = (0..count).collect();
+    let mut rows = (0..count).collect_vec();
     while rows.len() > 4 {
         rows.remove(draws.below(rows.len()));
     }
@@ -92,13 +92,13 @@ fn block(draws: &mut Draws, chain: &Chain, kind: usize) -> Block {
 pub fn files(chain: &Chain, (more, heavy): &Block, link: f64, draws: &mut Draws) -> Files {
     let (own, added) = (chain.masses.len(), heavy.len());
     let count = own + added;
-    let mut order: Vec<usize> = (0..count).collect();
+    let mut order = (0..count).collect_vec();
     // Rows of both are mixed, each in its own order.
     if added > 0 {
-        let mut rows: Vec<usize> = (0..count).collect();
-        let mut first: Vec<usize> = (0..own)
+        let mut rows = (0..count).collect_vec();
+        let mut first = (0..own)
             .map(|_| rows.remove(draws.below(rows.len())))
-            .collect();
+            .collect_vec();
         first.sort_unstable();
         order = [first, rows].concat();
     }
@@ -106,12 +106,12 @@ pub fn files(chain: &Chain, (more, heavy): &Block, link: f64, draws: &mut Draws)
     let place = |&(row, other, size): &(usize, Option<usize>, f64), first: usize| {
         (at(first + row), other.map(|other| at(first + other)), size)
     };
-    let own_springs: Vec<_> = chain
+    let own_springs = chain
         .springs
         .iter()
         .map(|spring| place(spring, 0))
-        .collect();
-    let mut all: Vec<_> = more.iter().map(|spring| place(spring, own)).collect();
+        .collect_vec();
+    let mut all = more.iter().map(|spring| place(spring, own)).collect_vec();
     all.extend(&own_springs);
     if link > 0.0 && added > 0 {
         all.push((at(0), Some(at(own)), link));

@@ -157,9 +157,9 @@ fn repeats_that_drift_are_said_and_widen_the_deviations() {
 fn chi_squared(jobs: u64, repeats: u64, modes: &str, test: impl Fn(u64) -> TestData) -> (f64, f64) {
     let ratios = (0..jobs)
         .map(|job| {
-            let tests: Vec<TestData> = (1..=repeats)
+            let tests = (1..=repeats)
                 .map(|seed| test(repeats * job + seed))
-                .collect();
+                .collect_vec();
             let misfit = run(&loaded(&repeated(&tests, modes)), |_| {}, || true)
                 .unwrap()
                 .misfit;

@@ -41,7 +41,7 @@ fn lines(study: &Study, count: u64) -> Vec<String> {
 }
 
 fn factors(line: &str) -> Vec<f64> {
-    let cells: Vec<&str> = line.split(',').collect();
+    let cells = line.split(',').collect_vec();
     cells[5..cells.len() - 1]
         .iter()
         .map(|cell| cell.parse().expect("a number"))
@@ -68,7 +68,7 @@ fn a_sample_is_the_same_whatever_ran_before_and_another_than_its_neighbor() {
             lines[sample as usize - 1]
         );
     }
-    let all: Vec<Vec<f64>> = lines.iter().map(|line| factors(line)).collect();
+    let all = lines.iter().map(|line| factors(line)).collect_vec();
     assert!(
         (1..all.len()).all(|row| !all[..row].contains(&all[row])),
         "{all:?}"
@@ -159,10 +159,13 @@ fn a_start_is_brought_within_bounds_and_leads_to_the_same_rods() {
     };
     let place = Place::of(rods().into_iter().map(edit).collect());
     let study = place.study(2, &[Vary::Start]);
-    let found: Vec<Vec<f64>> = lines(&study, 8).iter().map(|line| factors(line)).collect();
-    let starts: Vec<Vec<f64>> = (1..=8)
+    let found = lines(&study, 8)
+        .iter()
+        .map(|line| factors(line))
+        .collect_vec();
+    let starts = (1..=8)
         .map(|sample| study.draw(sample).expect("a draw").1)
-        .collect();
+        .collect_vec();
     assert!(
         starts.iter().all(|start| (0.6..=1.1).contains(&start[0])),
         "{starts:?}"
@@ -312,7 +315,7 @@ fn what_does_not_belong_to_a_study_is_refused_by_its_line() {
         lines[1].replacen("2,", "-2,", 1),
         "is not a line of a sample of this study",
     );
-    let cells: Vec<&str> = lines[1].split(',').collect();
+    let cells = lines[1].split(',').collect_vec();
     refused(
         lines[1].replace(cells[5], "inf"),
         "error sum, analyses and factors as numbers",
@@ -347,10 +350,10 @@ fn a_sample_that_fails_says_why_and_counts_as_done() {
     };
     let place = Place::of(rods().into_iter().map(edit).collect());
     let study = place.study(1, &[Vary::Noise]);
-    let failed: Vec<_> = (1..=10)
+    let failed = (1..=10)
         .map(|sample| study.run(sample, || true).expect("a sample"))
         .filter(|(_, why)| why.is_some())
-        .collect();
+        .collect_vec();
     assert!(!failed.is_empty());
     for (line, why) in &failed {
         assert!(
@@ -383,7 +386,7 @@ fn no_noisy_test_of_the_building_is_stuck_at_the_start() {
     for sample in 0..200 {
         let (line, error) = study.run(sample, || true).expect("it goes on");
         assert!(error.is_none(), "{line} {error:?}");
-        let cells: Vec<&str> = line.split(',').collect();
+        let cells = line.split(',').collect_vec();
         assert_ne!(cells[1], "nothing", "{line}");
         let analyses: usize = cells[4].parse().expect("a count");
         let factors = cells[5..15]

@@ -17,7 +17,7 @@ fn about(files: &Files, kind: Kind) -> Vec<Vec<String>> {
 pub fn with_places(files: Files, edit: impl FnOnce(&mut Vec<Vector3<f64>>)) -> Files {
     retested(files, |data| {
         let places = data.sensors.iter();
-        let mut places: Vec<_> = places.map(|own| own.place.expect("a place")).collect();
+        let mut places = places.map(|own| own.place.expect("a place")).collect_vec();
         edit(&mut places);
         for (sensor, place) in data.sensors.iter_mut().zip(places) {
             sensor.place = Some(place);

@@ -80,9 +80,9 @@ fn init_explains_every_entry_that_a_job_may_have() {
         "[compare]",
         "[[sensors.place]]",
     ];
-    let all: Vec<String> = tables.iter().flat_map(|table| entries(table)).collect();
+    let all = tables.iter().flat_map(|table| entries(table)).collect_vec();
     let correlation = ["[correlation]", "[correlation.inner]"].map(entries);
-    let correlation: Vec<String> = correlation.into_iter().flatten().collect();
+    let correlation = correlation.into_iter().flatten().collect_vec();
     // Less six names of tables at the top, one of the inner loop's, and the three entries of a sensor's place.
     let count = all.len() + correlation.len() - 10;
     assert_eq!(count, 50, "{all:?} {correlation:?}");
@@ -139,7 +139,7 @@ fn every_example_runs_as_it_is_written() {
         let files = fs::read_dir(&own)
             .expect("it reads")
             .map(|file| file.expect("a file").file_name());
-        let files: Vec<_> = files.collect();
+        let files = files.collect_vec();
         assert_eq!(
             files.len(),
             fs::read_dir(at("mine")).expect("it reads").count()

@@ -133,7 +133,7 @@ fn calls(arguments: &[&str], folder: &Path) -> Vec<String> {
 fn new_files_are_on_the_disk_before_they_take_a_name() {
     let folder = new_folder();
     let calls = calls(&["cases", "4", "-q", "-o", "report.txt"], folder.path());
-    let kinds: Vec<&str> = calls
+    let kinds = calls
         .iter()
         .map(|call| {
             if call.contains("fsync(") {
@@ -142,7 +142,7 @@ fn new_files_are_on_the_disk_before_they_take_a_name() {
                 "rename"
             }
         })
-        .collect();
+        .collect_vec();
     assert_eq!(kinds, ["sync", "rename", "sync"], "{calls:?}");
     let out = new_folder();
     let calls = self::calls(&["figures", "-q", "--folder", "figures"], out.path());

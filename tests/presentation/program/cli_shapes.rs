@@ -36,7 +36,7 @@ fn check(answer: &Value) {
         moving
     );
     let line = answer["line"].as_array().expect("a list");
-    let line: Vec<u64> = line.iter().filter_map(Value::as_u64).collect();
+    let line = line.iter().filter_map(Value::as_u64).collect_vec();
     let pairs: Vec<[usize; 2]> = line
         .windows(2)
         .filter(|two| !two.contains(&0))

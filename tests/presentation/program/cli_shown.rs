@@ -71,10 +71,10 @@ fn a_corrected_deck_names_its_run_at_its_head_and_is_else_as_it_was() {
         words(folder.path()),
     ]);
     let deck = fs::read_to_string(folder.path().join("corrected.bdf")).expect("a deck");
-    let head: Vec<&str> = deck
+    let head = deck
         .lines()
         .take_while(|line| line.starts_with("$ "))
-        .collect();
+        .collect_vec();
     assert!(
         head.iter().all(|line| line.chars().count() <= 72),
         "{head:?}"

@@ -39,7 +39,7 @@ fn found(folder: &Path) -> (Vec<String>, Vec<u8>) {
         samples.ends_with('\n')
             && samples.starts_with("sample,outcome,within,error_sum,analyses,\"story 1\",")
     );
-    let mut lines: Vec<String> = samples.lines().skip(1).map(str::to_owned).collect();
+    let mut lines = samples.lines().skip(1).map(str::to_owned).collect_vec();
     lines.sort();
     (
         lines,
@@ -103,7 +103,7 @@ fn samples_run_alone_and_put_together_are_the_study() {
         );
         text(&output.stdout)
     };
-    let mut lines: Vec<String> = (1..=COUNT).map(|sample| alone(sample, &[])).collect();
+    let mut lines = (1..=COUNT).map(|sample| alone(sample, &[])).collect_vec();
     assert_eq!(lines.concat().lines().collect_vec(), found(&one).0);
     let file = folder.path().join("3.csv");
     assert_eq!(alone(3, &["--output", words(&file)]), "");
@@ -206,9 +206,9 @@ fn the_help_of_every_command_has_its_exit_statuses() {
     let commands = help.split("Commands:\n").nth(1).expect("commands");
     let commands = commands.lines().take_while(|line| !line.is_empty());
     let commands = commands.filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
-    let commands: Vec<&str> = commands
+    let commands = commands
         .filter(|name| !name.is_empty() && *name != "help")
-        .collect();
+        .collect_vec();
     assert_eq!(commands.len(), 12, "{commands:?}");
     for command in commands {
         let help = text(&corfem(&[command, "--help"]).stdout);

@@ -139,7 +139,7 @@ fn identifiers_are_short_and_differ() {
 #[test]
 fn a_long_list_names_eight_and_counts_the_rest() {
     let unbounded = |count: usize| {
-        let names: Vec<usize> = (1..=count).collect();
+        let names = (1..=count).collect_vec();
         Concern::new(Kind::Unbounded, &names, &[]).words()
     };
     assert!(unbounded(9).ends_with(": 1, 2, 3, 4, 5, 6, 7, 8, 9."));
@@ -206,13 +206,13 @@ fn in_radians() -> Files {
     let mut files = rods();
     let csv = table_of(&mut files);
     let (first, rest) = csv.split_once('\n').expect("lines");
-    let scaled: Vec<String> = first
+    let scaled = first
         .split(',')
         .map(|cell| match cell.parse::<f64>() {
             Ok(hertz) => (std::f64::consts::TAU * hertz).to_string(),
             Err(_) => cell.to_owned(),
         })
-        .collect();
+        .collect_vec();
     *csv = format!("{}\n{rest}", scaled.join(","));
     files
 }
@@ -233,7 +233,7 @@ fn oscillators<const COUNT: usize>(springs: [f64; COUNT], joint: f64) -> DMatrix
 }
 
 fn market(matrix: &DMatrix<f64>) -> String {
-    let values: Vec<String> = matrix.iter().map(f64::to_string).collect();
+    let values = matrix.iter().map(f64::to_string).collect_vec();
     let count = matrix.nrows();
     format!(
         "%%MatrixMarket matrix array real general\n{count} {count}\n{}\n",
@@ -285,7 +285,7 @@ fn job_of_matrices(
 fn modes_of(stiffness: DMatrix<f64>) -> (Vec<f64>, DMatrix<f64>) {
     let eigen = stiffness.symmetric_eigen();
     let roots = &eigen.eigenvalues;
-    let mut order: Vec<usize> = (0..roots.len()).collect();
+    let mut order = (0..roots.len()).collect_vec();
     order.sort_by(|&a, &b| roots[a].total_cmp(&roots[b]));
     let hertz = order
         .iter()
@@ -363,7 +363,7 @@ fn a_selected_mode_that_is_not_compared_is_no_success() {
     let csv = table_of(&mut files);
     // The third shape again is the first: its mode of the model belongs to the first.
     let lines = csv.lines().map(|line| {
-        let cells: Vec<&str> = line.split(',').collect();
+        let cells = line.split(',').collect_vec();
         match cells[..] {
             [.., first, _, _]
                 if line.starts_with(|letter: char| letter.is_ascii_digit() || letter == 'S') =>

@@ -12,12 +12,12 @@ fn dumped(case: &str) -> Value {
 }
 
 fn matrix(value: &Value) -> DMatrix<f64> {
-    let rows: Vec<Vec<f64>> = value
+    let rows = value
         .as_array()
         .expect("rows")
         .iter()
         .map(numbers)
-        .collect();
+        .collect_vec();
     DMatrix::from_fn(rows.len(), rows[0].len(), |row, column| rows[row][column])
 }
 

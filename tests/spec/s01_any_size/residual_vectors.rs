@@ -150,7 +150,7 @@ fn predicted(net: &Net, further: usize) -> f64 {
     let mut errors = (1..=25)
         .map(|draw| {
             let factor = |e: usize| (0.3 * (f64::from(draw) * (1.7 + e as f64)).sin()).exp();
-            let factors: Vec<f64> = (0..9).map(factor).collect();
+            let factors = (0..9).map(factor).collect_vec();
             // Solved in the basis, whose shapes are orthonormal in the mass.
             let mut stiffness = DMatrix::from_diagonal(first.omega_squared());
             for (share, factor) in first.shares().iter().zip(&factors) {
