@@ -47,27 +47,31 @@ struct Case {
     same: Option<String>,
 }
 
-/// Whether a value has all that another one asks for: numbers within round-off, and of an object the keys asked for.
-fn has(found: &Value, asked: &Value) -> bool {
+/// Whether a value has all that another one asks for: numbers within a part of them, and of an object the keys asked for.
+fn has(found: &Value, asked: &Value, within: f64) -> bool {
     match (found, asked) {
         (_, Value::Null) => true,
-        (Value::Object(found), Value::Object(asked)) => asked
-            .iter()
-            .all(|(key, asked)| found.get(key).is_some_and(|found| has(found, asked))),
+        (Value::Object(found), Value::Object(asked)) => asked.iter().all(|(key, asked)| {
+            found
+                .get(key)
+                .is_some_and(|found| has(found, asked, within))
+        }),
         (Value::Array(found), Value::Array(asked)) => {
-            found.len() == asked.len() && found.iter().zip(asked).all(|(a, b)| has(a, b))
+            found.len() == asked.len() && found.iter().zip(asked).all(|(a, b)| has(a, b, within))
         }
         _ => match (found.as_f64(), asked.as_f64()) {
-            (Some(a), Some(b)) => (a - b).abs() <= ROUND_OFF * if b == 0.0 { 1.0 } else { b.abs() },
+            (Some(a), Some(b)) => (a - b).abs() <= within * if b == 0.0 { 1.0 } else { b.abs() },
             _ => found == asked,
         },
     }
 }
 
-/// Asserts all laws of a list by what reads a text, with the names that a case gives; some texts may be made.
+/// Asserts all laws of a list by what reads a text, with the names that a case gives; some texts may be made, and numbers
+/// may be apart by a part of them.
 pub fn hold(
     list: &str,
     made: &[(&str, String)],
+    within: f64,
     read: impl Fn(&str, &[String]) -> Result<Value, String>,
 ) {
     let mut list: List = toml::from_str(list).unwrap();
@@ -94,7 +98,7 @@ pub fn hold(
                     said.contains(says) && case.line.is_none_or(line)
                 }
                 (Ok(_), None, Some(same)) => found == read(&list.texts[same], &case.with),
-                (Ok(found), None, None) => has(found, &case.reads),
+                (Ok(found), None, None) => has(found, &case.reads, within),
                 _ => false,
             };
             if !is_held {

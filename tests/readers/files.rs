@@ -77,6 +77,7 @@ fn of_test(text: &str, _: &[String]) -> Result<Value, String> {
         "shape_deviation": found.shape_deviation,
         "component_deviation": found.component_deviation.values().map(|own| own.as_slice()).collect_vec(),
         "collinearity": found.phase_collinearity,
+        "alone": found.alone,
         "lines": found.lines,
         "numbers": found.numbers,
         "units": found.units,
@@ -87,20 +88,53 @@ fn of_test(text: &str, _: &[String]) -> Result<Value, String> {
 
 #[test]
 fn decks_are_read_or_refused_as_listed() {
-    hold(include_str!("files/decks.toml"), &[], of_deck);
+    hold(include_str!("files/decks.toml"), &[], ROUND_OFF, of_deck);
 }
 
 #[test]
 fn matrices_are_read_or_refused_as_listed() {
-    hold(include_str!("files/matrices.toml"), &[], of_matrix);
+    hold(
+        include_str!("files/matrices.toml"),
+        &[],
+        ROUND_OFF,
+        of_matrix,
+    );
 }
 
 #[test]
 fn tables_of_tests_are_read_or_refused_as_listed() {
-    hold(include_str!("files/tables.toml"), &[], of_test);
+    hold(include_str!("files/tables.toml"), &[], ROUND_OFF, of_test);
 }
 
 #[test]
 fn universal_files_are_read_or_refused_as_listed() {
-    hold(include_str!("files/universal.toml"), &[], of_test);
+    hold(
+        include_str!("files/universal.toml"),
+        &[],
+        ROUND_OFF,
+        of_test,
+    );
+}
+
+/// The modes of a deck as JSON.
+fn of_modes(text: &str, _: &[String]) -> Result<Value, String> {
+    let model = read_deck(text).map_err(|error| error.to_string())?.model;
+    let found = deck::modes(&model, usize::MAX).map_err(|error| error.to_string())?;
+    let shapes = found.modes.shapes();
+    Ok(json!({
+        "hertz": found.modes.frequencies_hz(),
+        "shapes": shapes.column_iter().map(|shape| shape.iter().copied().collect_vec()).collect_vec(),
+        "dof": found.dof.iter().map(|dof| (dof.grid, DIRECTIONS[dof.direction])).collect_vec(),
+        "rigid_bodies": found.rigid_body,
+    }))
+}
+
+#[test]
+fn decks_have_the_modes_that_are_listed() {
+    hold(
+        include_str!("files/modes.toml"),
+        &[],
+        EIGEN_ROUND_OFF,
+        of_modes,
+    );
 }

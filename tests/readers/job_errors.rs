@@ -48,6 +48,7 @@ fn hold_jobs(list: &str) {
     hold(
         list,
         &[("rods", joined(&rods())), ("building", joined(&building()))],
+        ROUND_OFF,
         of_job,
     );
 }

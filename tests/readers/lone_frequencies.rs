@@ -38,34 +38,6 @@ fn result(files: &Files) -> JobResult {
 }
 
 #[test]
-fn a_mode_with_empty_cells_has_a_frequency_alone() {
-    let table = "frequency_hz,,,1.5,2.5,3.5\nname,direction,grid,mode 1,mode 2,mode 3\na,x,1,1.0,,0\nb,x,2,-1.0,,0.5\n";
-    let data = test_data::read("test.csv", table.as_bytes()).unwrap();
-    assert_eq!((&data.alone[..], data.frequencies_hz[1]), (&[1][..], 2.5));
-    assert_eq!(data.shapes.column(2).as_slice(), [0.0, 0.5]);
-    // A cell that is empty beside one that is not is a mistake, and a shape of measured zeros is no shape.
-    let half = table.replace("b,x,2,-1.0,,", "b,x,2,-1.0,0.3,");
-    let error = test_data::read("test.csv", half.as_bytes()).expect_err("half a shape");
-    assert!(error.to_string().contains("line 3"), "{error}");
-    let zeros = table
-        .replace("1.0,,0", "1.0,0,0")
-        .replace("-1.0,,", "-1.0,0,");
-    assert!(test_data::read("test.csv", zeros.as_bytes()).is_err());
-}
-
-#[test]
-fn a_table_may_be_frequencies_alone() {
-    let table = "frequency_hz,1.5,2.5\n,mode 1,mode 2\n";
-    let data = test_data::read("test.csv", table.as_bytes()).unwrap();
-    assert_eq!(data.alone, [0, 1]);
-    assert!(data.sensors.is_empty());
-    let negative = table.replace("2.5", "-2.5");
-    assert!(test_data::read("test.csv", negative.as_bytes()).is_err());
-    let sensor = format!("{table}tip,1.0,2.0\n");
-    assert!(test_data::read("test.csv", sensor.as_bytes()).is_err());
-}
-
-#[test]
 fn frequencies_without_shapes_count_as_frequencies_and_nowhere_else() {
     let found = result(&without_shapes(&[2, 4]));
     let (exact, loaded) = (found.found.first.result().unwrap(), &found.found.prepared);

@@ -1,6 +1,5 @@
 //! A datum that is given twice agrees, or is doubted: place and grid, numbers and order of modes, unit and factor.
 
-use crate::common::jobs::said;
 use crate::common::jobs::torque_box;
 use crate::prelude::*;
 
@@ -113,18 +112,6 @@ fn numbers_of_modes_in_another_order_are_doubted() {
     for same in [[1; 4], [0; 4]] {
         assert_eq!(about(&numbered(same), Kind::NumberedOtherwise), none);
     }
-}
-
-#[test]
-fn titles_in_another_order_are_refused_with_both() {
-    let mut files = measured_building(10, 4);
-    let text = &mut files.last_mut().expect("the test").1;
-    *text = text.replace("mode 1,mode 2", "mode 2,mode 1");
-    let said = said(&files);
-    assert!(
-        said.contains("this is mode 3, but its title is \"mode 1\""),
-        "{said}"
-    );
 }
 
 #[test]
