@@ -1,5 +1,5 @@
-//! The studies behind what `paper/*.md` claims of the method: made-up structures, made-up noise, and the tables that the documents
-//! quote. Nothing here runs a user's structure; the tests beside each room hold the numbers against the goldens.
+//! What the studies of `paper/studies` must show for `paper/*.md` to say so: their tables against the goldens, and the claims one by one.
+//! Nothing here runs a user's structure.
 
 pub mod appendices_expected;
 pub mod claims;
