@@ -117,6 +117,20 @@ pub trait CollectVec: Iterator + Sized {
 
 impl<I: Iterator> CollectVec for I {}
 
+/// The largest of numbers, zero if none is positive.
+pub trait Largest: Iterator<Item = f64> + Sized {
+    fn largest(self) -> f64 {
+        self.fold(0.0, f64::max)
+    }
+}
+
+impl<I: Iterator<Item = f64>> Largest for I {}
+
+/// What comes of a case.
+pub fn case_run(case: &Case) -> CaseResult {
+    run_case(case, |_, _| {}).unwrap()
+}
+
 /// The identity of a size.
 pub fn eye<T: ComplexField>(size: usize) -> DMatrix<T> {
     DMatrix::identity(size, size)

@@ -2,7 +2,7 @@
 
 pub use crate::common::tolerances::*;
 pub use crate::common::{
-    CollectVec, alter,
+    CollectVec, Largest, alter,
     appendix_b::{mass_norm, modes, relative_difference, slight_overlap, unit_shapes},
     appendix_c::{
         FORMULAE, ModalChange, ascending, change_of, eigensolution, exact, four_modes,
@@ -11,7 +11,7 @@ pub use crate::common::{
     },
     assert_alike, assert_refused,
     boxes::{first_problem, other_boxes, problem_of, uneven_box},
-    by_sorting, case_of,
+    by_sorting, case_of, case_run,
     closed_forms::{
         analytical::{
             ChainEnds, chain_eigenvalues, no_sides_parallel_energy, parallelogram_energy,

@@ -81,7 +81,7 @@ fn every_view_tells_the_same_factors_and_errors() {
                 .expect("a field")
                 .parse()
                 .expect("a number");
-            assert!((read / factor - 1.0).abs() < 1e-9, "{read} {factor}");
+            assert!(relative_error(read, factor) < 1e-9, "{read} {factor}");
             assert!(
                 rows.contains(&format!(",1,{factor},")),
                 "{parameter}: {rows}"
@@ -293,7 +293,7 @@ fn a_test_without_shapes_moves_its_models_alone() {
     for mode in &drawn.modes {
         let [test, first, last] = &mode.moved;
         assert!(test.is_empty());
-        let largest = |moved: &[Vector3<f64>]| moved.iter().map(Vector3::amax).fold(0.0, f64::max);
+        let largest = |moved: &[Vector3<f64>]| moved.iter().map(Vector3::amax).largest();
         assert!((largest(first) - 1.0).abs() < 1e-12 && (largest(last) - 1.0).abs() < 1e-12);
         let along: f64 = first.iter().zip(last).map(|(a, b)| a.dot(b)).sum();
         assert!(along > 0.0, "mode {}", mode.number);

@@ -44,7 +44,7 @@ fn median_and_worst_are_of_the_seeds_alone() {
             .filter(|value| **value > median + ROUND_OFF)
             .count();
         assert_eq!((below, above), (raw.len() / 2, raw.len() / 2));
-        assert_eq!(worst, raw.iter().copied().fold(0.0, f64::max));
+        assert_eq!(worst, raw.iter().copied().largest());
         let labels = gages.rows.iter().map(|row| row.label.as_str());
         assert_eq!(
             labels

@@ -180,7 +180,7 @@ fn a_job_names_its_suspects() {
         let Cell::Number { computed, .. } = table.rows[0].cells[0] else {
             panic!("a number")
         };
-        let off = (computed / 0.3 - 1.0).abs();
+        let off = relative_error(computed, 0.3);
         assert!(
             if has_all_modes {
                 off < SINGLE_FIT_FACTOR

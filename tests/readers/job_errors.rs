@@ -342,7 +342,7 @@ fn the_papers_error_sum_takes_the_weights_of_a_job() {
         factors
             .iter()
             .zip(&without.1)
-            .all(|(a, b)| (a / b - 1.0).abs() < WEIGHTED_FACTOR),
+            .all(|(a, b)| relative_error(a, b) < WEIGHTED_FACTOR),
         "{factors:?}"
     );
 }

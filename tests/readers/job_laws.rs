@@ -449,7 +449,7 @@ fn every_limit_of_a_test_has_two_sides() {
             "{factor}"
         );
         if let Some(gain) = trust.of(Kind::Gain).next() {
-            assert!((gain.measure[1] / factor - 1.0).abs() < SET_UP, "{gain:?}");
+            assert!(relative_error(gain.measure[1], factor) < SET_UP, "{gain:?}");
         }
     }
     for (size, is_dead) in [(0.08, true), (0.12, false)] {
@@ -750,7 +750,7 @@ fn a_test_sees_the_first_model_and_the_last() {
     .unwrap();
     let [first, last] = [&result.seen_first, &result.seen].map(|seen| seen.singular_values[0]);
     assert!(
-        (first * 1.05 / 200.0 - 1.0).abs() < HELD_OUT && (last / 200.0 - 1.0).abs() < HELD_OUT,
+        (first * 1.05 / 200.0 - 1.0).abs() < HELD_OUT && relative_error(last, 200.0) < HELD_OUT,
         "{first} {last}"
     );
     let one = |row: usize, size: f64| {

@@ -48,7 +48,7 @@ fn every_rod_is_found_within_tolerance() {
     let found = ran(&with(rods(), "job.toml", B, EACH));
     for (factor, truth) in found.found.factors.iter().zip([0.8, 1.1, 1.0]) {
         assert!(
-            (factor / truth - 1.0).abs() < WEIGHTED_FACTOR,
+            relative_error(factor, truth) < WEIGHTED_FACTOR,
             "{:?}",
             found.found.factors
         );
@@ -81,7 +81,7 @@ fn several_starts_name_their_minima_in_every_output() {
     );
     let misfit = found.misfit.chi_squared;
     let chi_squared = minima[0]["chi_squared"].as_f64().expect("a number");
-    assert!((chi_squared / misfit - 1.0).abs() < MATRIX_ROUND_OFF);
+    assert!(relative_error(chi_squared, misfit) < MATRIX_ROUND_OFF);
     let page = report_page(&report, &[table], "corfem correlate job.toml", "").expect("a page");
     assert!(page.contains("Minima that noise allows"));
     assert!(text.contains("0 starts failed.") && document["failed_starts"] == 0);
@@ -150,7 +150,7 @@ fn a_mode_held_out_is_compared_and_not_fitted() {
     let one = ran(&held(rods()));
     let off = ran(&held(third_higher(rods())));
     for (own, other) in one.found.factors.iter().zip(&off.found.factors) {
-        assert!((own / other - 1.0).abs() < ROUND_OFF);
+        assert!(relative_error(own, other) < ROUND_OFF);
     }
     let said = |found: &JobResult| {
         found

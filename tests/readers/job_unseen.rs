@@ -189,7 +189,7 @@ properties! {
         let alone = result(&files(&chain, &Default::default(), 0.0, &mut draws));
         let beside = result(&files(&chain, &more, 0.0, &mut draws));
         for (one, other) in alone.found.factors.iter().zip(&beside.found.factors) {
-            prop_assert!((one / other - 1.0).abs() < SAME, "{one} {other}");
+            prop_assert!(relative_error(one, other) < SAME, "{one} {other}");
         }
         prop_assert_eq!(said(&alone), said(&beside));
         prop_assert_eq!(alone.verdict.outcome, beside.verdict.outcome);
@@ -199,7 +199,7 @@ properties! {
             let both = [one, other].map(|range| range.as_ref().map(ends));
             prop_assert_eq!(both[0].is_ok(), both[1].is_ok());
             for (one, other) in both[0].into_iter().flatten().zip(both[1].into_iter().flatten()) {
-                prop_assert!((one / other - 1.0).abs() < SAME, "{one} {other}");
+                prop_assert!(relative_error(one, other) < SAME, "{one} {other}");
             }
         }
         let left = beside.trust.of(Kind::PartsWithoutSensor).next();
@@ -216,7 +216,7 @@ properties! {
         let alone = result(&files(&chain, &Default::default(), 0.0, &mut draws));
         let beside = result(&files(&chain, &more, 1e-8, &mut draws));
         for (one, other) in alone.found.factors.iter().zip(&beside.found.factors) {
-            prop_assert!((one / other - 1.0).abs() < 1e-6, "{one} {other}");
+            prop_assert!(relative_error(one, other) < 1e-6, "{one} {other}");
         }
         prop_assert_eq!(alone.verdict.outcome, beside.verdict.outcome);
     }
@@ -255,6 +255,6 @@ fn of_equal_roots_as_few_as_possible_are_seen() {
         .expect("an analysis");
     for mode in 0..4 {
         let (one, other) = (found.omega_squared()[mode], test.omega_squared()[mode]);
-        assert!((one / other - 1.0).abs() < 1e-6, "{mode}: {one} {other}");
+        assert!(relative_error(one, other) < 1e-6, "{mode}: {one} {other}");
     }
 }

@@ -114,7 +114,7 @@ fn condensed_to_five_floors_the_building_is_not_found() {
         .iter()
         .zip(&STORIES)
         .map(|(found, truth)| relative_error(found, truth))
-        .fold(0.0, f64::max);
+        .largest();
     assert!(worst > 0.2, "{worst}");
 }
 
@@ -320,14 +320,14 @@ fn shapes_at_all_grids_are_those_of_the_sensors(prepared: &PreparedJob, found: &
                 );
             }
         }
-        let largest = |state: &[Vector3<f64>]| state.iter().map(Vector3::amax).fold(0.0, f64::max);
+        let largest = |state: &[Vector3<f64>]| state.iter().map(Vector3::amax).largest();
         // The two are scaled by their own masses; the shape is the same.
         let scale = largest(last) / largest(test);
         let apart = test
             .iter()
             .zip(last)
             .map(|(test, last)| (test * scale - last).amax())
-            .fold(0.0, f64::max);
+            .largest();
         assert!(
             apart < CONDENSED_GAGES * largest(last),
             "mode {}: {apart}",

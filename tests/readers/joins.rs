@@ -21,7 +21,7 @@ fn apart(result: &JobResult, from: &JobResult) -> f64 {
     distance
         .zip(deviations)
         .map(|(apart, deviation)| apart / deviation)
-        .fold(0.0, f64::max)
+        .largest()
 }
 
 /// The law: a random test mode that the first model has no like of, at any frequency, harms nothing and is named.

@@ -208,7 +208,7 @@ fn an_element_in_no_test_mode_is_named_as_unseen() {
 
 #[test]
 fn case_4_is_never_called_within_tolerance() {
-    let result = run_case(&case_of(4), |_, _| {}).unwrap();
+    let result = case_run(&case_of(4));
     let verdict = Verdict::of_case(&result);
     assert_eq!((verdict.outcome, verdict.is_within), (Outcome::Cap, false));
     assert!(!result.correlation.converged);

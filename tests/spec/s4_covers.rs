@@ -34,7 +34,7 @@ properties! {
         let modal = model.analyze(&[1.0; PANEL_COUNT], &test, None)?;
         let shares = modal.shares();
         // Round-off of the condensation is that of the whole structure, however little of it a cover is.
-        let largest = shares.iter().map(|share| share.norm()).fold(0.0, f64::max);
+        let largest = shares.iter().map(|share| share.norm()).largest();
         for [one, other] in BAYS {
             let apart = (&shares[one] - &shares[other]).norm();
             prop_assert!(apart < MIRRORED_COVERS * largest);

@@ -134,7 +134,7 @@ fn table_of_readings_is_the_stored_one() {
 fn a_case_is_its_column() {
     for number in [1, 2, 3] {
         let case = case_of(number);
-        let columns = columns_of(&run_case(&case, |_, _| {}).unwrap()).unwrap();
+        let columns = columns_of(&case_run(&case)).unwrap();
         let expected = of(case.settings.inner.step, 2 * number + 2)
             .into_iter()
             .cloned()
@@ -147,10 +147,7 @@ fn a_case_is_its_column() {
             );
         }
     }
-    assert_eq!(
-        columns_of(&run_case(&case_of(4), |_, _| {}).unwrap()).unwrap(),
-        []
-    );
+    assert_eq!(columns_of(&case_run(&case_of(4))).unwrap(), []);
 }
 
 /// On how many of twenty other boxes relative lies nearer to the print than each other reading.
@@ -210,7 +207,7 @@ fn case_4_depends_on_two_close_modes() {
     let factor = |gage: f64| {
         let mut case = result.case.clone();
         case.panels[7].gage = gage;
-        let result = run_case(&case, |_, _| {}).unwrap();
+        let result = case_run(&case);
         let hz = result.correlation.initial.modes.frequencies_hz();
         let apart = hz
             .windows(2)

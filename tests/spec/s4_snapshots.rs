@@ -8,7 +8,7 @@ use corfem::present::render::markdown;
 fn tables() -> Vec<Table> {
     let results = CASES
         .into_iter()
-        .map(|number| run_case(&case_of(number), |_, _| {}).unwrap())
+        .map(|number| case_run(&case_of(number)))
         .collect_vec();
     all_tables(&results).unwrap()
 }
@@ -61,7 +61,7 @@ fn cases_by_substructures() {
         .map(|number| {
             let mut case = case_of(number);
             case.grouping = Grouping::Substructures;
-            run_case(&case, |_, _| {}).unwrap()
+            case_run(&case)
         })
         .collect_vec();
     let tables = all_tables(&results).unwrap();
