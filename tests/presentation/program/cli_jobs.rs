@@ -403,40 +403,6 @@ fn changed(name: &str, old: &str, new: &str) -> (tempfile::TempDir, PathBuf) {
     (folder, path)
 }
 
-/// A new property would need a number above the largest that a deck may have; the report of the correlation is there all the same.
-#[test]
-fn a_report_is_written_although_its_deck_cannot_be() {
-    let folder = new_folder();
-    for (name, file) in crate::common::jobs::rods() {
-        let text = file
-            .replace("\"2-3\"", "2")
-            .replace(",2,2,3\n", ",99999999,2,3\n");
-        let text = text
-            .replace(",2,3,4\n", ",99999999,3,4\n")
-            .replace("PROD,2,", "PROD,99999999,");
-        fs::write(folder.path().join(name), text).expect("written");
-    }
-    let out = folder.path().join("out");
-    let output = correlate(&folder.path().join("job.toml"), &["--folder", words(&out)]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(
-        text(&output.stderr).contains("99999999"),
-        "{}",
-        text(&output.stderr)
-    );
-    assert_eq!(
-        names(&out),
-        [
-            "correlation.json",
-            "factors.csv",
-            "report.html",
-            "residuals.csv",
-            "shapes.csv",
-            "shapes.unv",
-        ]
-    );
-}
-
 /// Waits until a program has taken the signal of Ctrl-C over.
 #[cfg(unix)]
 fn await_taken(child: &std::process::Child) {

@@ -2,7 +2,6 @@
 
 use crate::common::jobs::run;
 use crate::prelude::*;
-use crate::presentation::program::cli::{corfem, text};
 use crate::readers::job_concerns::rigid_bodies;
 use corfem::job::concern::Grade;
 use corfem::present::json;
@@ -177,21 +176,6 @@ fn all_that_is_said_of_trust_stands_first_in_text_csv_json_and_html() {
     );
 }
 
-/// Status and streams of a command on a job.
-fn ran(command: &str, path: &Path, more: &[&str]) -> (Option<i32>, String, String) {
-    let job = path.to_str().expect("UTF-8");
-    let output = corfem(&[&[command, "-q", job], more].concat());
-    (
-        output.status.code(),
-        unbroken(&text(&output.stdout)),
-        text(&output.stderr),
-    )
-}
-
-fn status_of(path: &Path, more: &[&str]) -> (Option<i32>, String, String) {
-    ran("correlate", path, more)
-}
-
 /// The table of a job's test.
 fn table_of(files: &mut Files) -> &mut String {
     let mut files = files.iter_mut();
@@ -215,11 +199,6 @@ fn in_radians() -> Files {
         .collect_vec();
     *csv = format!("{}\n{rest}", scaled.join(","));
     files
-}
-
-/// A study of a job into a folder, or one sample of it, with more arguments.
-fn study_of(path: &Path, more: &[&str]) -> (Option<i32>, String, String) {
-    ran("study", path, more)
 }
 
 /// Masses, each on a spring to the ground, joined weakly in a row: where their springs are alike they move together.
@@ -354,52 +333,6 @@ fn weighted_steps_look_at_a_mode_left_out_before_their_optimum() {
     let result = finished(&loaded);
     assert_eq!(result.trust.about(Kind::Joined), ["2"]);
     assert!(result.verdict.is_within);
-}
-
-/// A selected mode that is not compared makes the status 3; one that the job does not select does not.
-#[test]
-fn a_selected_mode_that_is_not_compared_is_no_success() {
-    let mut files = rods();
-    let csv = table_of(&mut files);
-    // The third shape again is the first: its mode of the model belongs to the first.
-    let lines = csv.lines().map(|line| {
-        let cells = line.split(',').collect_vec();
-        match cells[..] {
-            [.., first, _, _]
-                if line.starts_with(|letter: char| letter.is_ascii_digit() || letter == 'S') =>
-            {
-                format!("{},{first}", cells[..cells.len() - 1].join(","))
-            }
-            _ => line.to_owned(),
-        }
-    });
-    *csv = lines.collect_vec().join("\n") + "\n";
-    let files = with(
-        files,
-        "job.toml",
-        "elements = [\"2-3\"]",
-        "elements = [\"2-3\"]\neach = true",
-    );
-    let (_folder, path) = placed(&files);
-    let (status, words, _) = status_of(&path, &[]);
-    assert_eq!(status, Some(3), "{words}");
-    assert!(words.contains("Test mode 3 is not compared: "), "{words}");
-    // Nor is a sample of a study: its third cell says whether it is within tolerance.
-    let (_, sample, _) = study_of(&path, &["--sample", "1", "--vary", "start"]);
-    assert_eq!(sample.split(',').nth(2), Some("false"), "{sample}");
-    let selected = with(
-        files,
-        "job.toml",
-        "file = \"test.csv\"",
-        "file = \"test.csv\"\nmodes = [1, 2]",
-    );
-    let (_folder, path) = placed(&selected);
-    let (status, words, _) = status_of(&path, &[]);
-    assert_eq!(status, Some(0), "{words}");
-    assert!(
-        words.contains("Test modes that the job does not select: 3."),
-        "{words}"
-    );
 }
 
 #[test]
