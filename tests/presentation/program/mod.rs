@@ -17,4 +17,5 @@ pub mod deck_cli;
 pub mod dump;
 pub mod failing_operations;
 pub mod stops;
+#[cfg(unix)]
 mod transcripts;
