@@ -177,11 +177,14 @@ pub fn alarms(tests: u64) -> Result<[usize; 4], CaseError> {
     Ok(std::array::from_fn(|reading| one[reading] + two[reading]))
 }
 
-/// Boxes by how far they differ, alarms, and jobs, all of them.
+/// Boxes by how far they differ, alarms by each reading, and jobs.
+type Rates = (Vec<BoxRates>, [usize; 4], Vec<JobRates>);
+
+/// All of them.
 ///
 /// # Errors
 /// Those of [`box_rates`] and [`alarms`].
-pub fn all_rates() -> Result<(Vec<BoxRates>, [usize; 4], Vec<JobRates>), CaseError> {
+pub fn all_rates() -> Result<Rates, CaseError> {
     let boxes = SIZES.map(|size| box_rates(size, BOXES));
     let boxes = boxes.into_iter().collect::<Result<_, _>>()?;
     Ok((boxes, alarms(100)?, all_job_rates(TESTS)))
