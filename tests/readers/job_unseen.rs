@@ -215,8 +215,11 @@ properties! {
         let more = block(&mut draws, &chain, kind);
         let alone = result(&files(&chain, &Default::default(), 0.0, &mut draws));
         let beside = result(&files(&chain, &more, 1e-8, &mut draws));
-        for (one, other) in alone.found.factors.iter().zip(&beside.found.factors) {
-            prop_assert!(relative_error(one, other) < 1e-6, "{one} {other}");
+        let both = alone.found.factors.iter().zip(&beside.found.factors);
+        for ((one, other), deviation) in both.zip(&alone.seen.deviations) {
+            // A factor that the test hardly sees is as free as its deviation says.
+            let moved = (one / other).ln().abs();
+            prop_assert!(moved < f64::max(1e-6, 1e-4 * deviation), "{one} {other} {deviation}");
         }
         prop_assert_eq!(alone.verdict.outcome, beside.verdict.outcome);
     }

@@ -16,6 +16,14 @@ fn discrepancy(
         .abs()
 }
 
+/// Relative change of a panel's energy by the rounding of its corners: each of its eight coordinates in its plane is off
+/// by the spacing of numbers at the farthest corner, and its two sides are parallel to so much of the shortest side.
+fn rounding_of_place(corners: &Corners) -> f64 {
+    let farthest = corners.iter().map(Vector3::norm).fold(0.0, f64::max);
+    let sides = (0..4).map(|corner| (corners[(corner + 1) % 4] - corners[corner]).norm());
+    8.0 * f64::EPSILON * farthest / sides.fold(f64::INFINITY, f64::min)
+}
+
 /// The same corners, named from the second on.
 fn next_first([a, b, c, d]: Corners) -> Corners {
     [b, c, d, a]
@@ -34,10 +42,11 @@ properties! {
 
     #[test]
     fn quadrature_equals_the_closed_forms_of_trapezoids(corners in placed(trapezoid()), material in material()) {
+        let limit = QUADRATURE_TRAPEZOID + rounding_of_place(&corners);
         let found = discrepancy(sides_12_34_parallel_energy, &corners, &material);
-        prop_assert!(found <= QUADRATURE_TRAPEZOID, "12 and 34: {found:e}");
+        prop_assert!(found <= limit, "12 and 34: {found:e}");
         let found = discrepancy(sides_14_23_parallel_energy, &next_first(corners), &material);
-        prop_assert!(found <= QUADRATURE_TRAPEZOID, "14 and 23: {found:e}");
+        prop_assert!(found <= limit, "14 and 23: {found:e}");
     }
 
     #[test]
