@@ -3,7 +3,7 @@
     cargo build --release
     python3 benches/commands.py FOLDER [--corfem target/release/corfem] [SIZE ...]
 
-Every wing (1k, 10k, 100k: 1,458, 10,098, 100,116 degrees of freedom) is that of tests/common/known/wing.rs as a deck, with the job of
+Every wing (1k, 10k, 100k: 1,458, 10,098, 100,116 degrees of freedom) is that of paper/studies/known/wing.rs as a deck, with the job of
 correcting 25 groups of elements from ten modes at 108 sensors; its test is computed from a deck of other gages by the program. A size
 each50, each100 or each1000 is the smallest wing with as many single elements as parameters. It prints a line for every command.
 """

@@ -1,6 +1,6 @@
 //! The method's specification as one test program. `spec` follows the paper, and its names sort in the paper's order; `refuses` holds
-//! what is refused, `evidence` the studies whose tables `paper/*.md` quotes and the comparisons with other programs, `readers` a
-//! user's files, `presentation` tables, figures and the program, `ledgers` the lists of documents held against the code.
+//! what is refused, `evidence` what the studies of `paper/studies` must show and the comparisons with other programs, `readers` a
+//! user's files (its lists `files/*.toml` first), `presentation` tables, figures and the program (by `program/transcripts`), `ledgers` the lists of documents held against the code.
 
 #[macro_use]
 mod common;

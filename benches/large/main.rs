@@ -6,7 +6,7 @@
 //! `benches/cholmod_wing.c`. With `--store paper/costs.csv` what was measured replaces the wing's whole column there, and the tables of
 //! `paper/cost.md` follow by `CORFEM_WRITE=1 cargo test`.
 
-#[path = "../../tests/common/known/mod.rs"]
+#[path = "../../paper/studies/known/mod.rs"]
 #[allow(dead_code, unused_imports, reason = "the tests use the rest")]
 mod known;
 #[path = "../../tests/common/fill.rs"]

@@ -173,7 +173,7 @@ pub fn largest_change(new: &DVector<f64>, old: &DVector<f64>) -> f64 {
         .iter()
         .zip(old.iter())
         .map(|(new, old)| relative_error(new, old));
-    changes.fold(0.0, f64::max)
+    changes.largest()
 }
 
 /// Largest entry of a generalized change relative to its modes' own stiffness or mass. With roots a factor 1.5 apart
@@ -256,7 +256,7 @@ pub fn largest_root_error(roots: &[Complex<f64>], exact: &[Complex<f64>]) -> f64
             used[nearest] = true;
             distance
         })
-        .fold(0.0, f64::max)
+        .largest()
 }
 
 /// Four modes, stiffness and mass changed together, every entry of both changes at work.

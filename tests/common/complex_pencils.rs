@@ -75,7 +75,7 @@ pub fn complex(matrix: &DMatrix<f64>) -> Complexes {
 }
 
 pub fn amax(matrix: &Complexes) -> f64 {
-    matrix.iter().map(|value| value.norm()).fold(0.0, f64::max)
+    matrix.iter().map(|value| value.norm()).largest()
 }
 
 /// Roots of (Kλ − G)v = 0 by faer's QZ, which shares nothing with the Cholesky route of the library.

@@ -6,7 +6,7 @@ use std::os::unix::fs::PermissionsExt;
 
 /// A folder that looks like NASTRAN-95, its program the given shell script.
 pub fn fake(script: &str) -> TempDir {
-    let home = tempfile::tempdir().unwrap();
+    let home = new_folder();
     fs::create_dir_all(home.path().join("bin")).unwrap();
     fs::create_dir_all(home.path().join("rf")).unwrap();
     let program = home.path().join("bin/nastrn");

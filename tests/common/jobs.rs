@@ -67,7 +67,7 @@ pub fn run(
 /// A job of `tests/jobs`.
 pub fn loaded(name: &str) -> PreparedJob {
     let loaded = prepare(&folder_of(name).join("job.toml"));
-    loaded.unwrap_or_else(|error| panic!("{error}"))
+    loaded.unwrap()
 }
 
 /// What comes of a job of `tests/jobs`, each run once for all tests.
@@ -79,9 +79,7 @@ pub fn worked(name: &str) -> &'static JobResult {
         ("wing", OnceLock::new()),
     ];
     let (_, result) = RUNS.iter().find(|(of, _)| *of == name).unwrap();
-    result.get_or_init(|| {
-        run(&loaded(name), |_| {}, || true).unwrap_or_else(|error| panic!("{error}"))
-    })
+    result.get_or_init(|| run(&loaded(name), |_| {}, || true).unwrap())
 }
 
 /// The paper's box of Case 2 from its deck, and its nine modes with noise.
@@ -338,4 +336,115 @@ pub fn rods() -> Files {
         ("test.csv", write_csv(&data)),
     ];
     files.map(|(name, text)| (name.to_owned(), text)).to_vec()
+}
+
+/// A job in a folder of its own.
+pub fn placed(files: &Files) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a folder");
+    files
+        .iter()
+        .for_each(|(name, text)| fs::write(folder.path().join(name), text).expect("written"));
+    let path = folder.path().join("job.toml");
+    (folder, path)
+}
+
+/// The files with one text replaced by another in one of them.
+pub fn with(mut files: Files, file: &str, old: &str, new: &str) -> Files {
+    let text = &mut files
+        .iter_mut()
+        .find(|(name, _)| name == file)
+        .expect("a file")
+        .1;
+    assert!(text.contains(old), "{old} is not in {text}");
+    *text = text.replacen(old, new, 1);
+    files
+}
+
+/// A job with another test.
+pub fn retested(mut files: Files, edit: impl FnOnce(&mut TestData)) -> Files {
+    let test = files.iter_mut().find(|(name, _)| name == "test.csv");
+    let text = &mut test.expect("a test").1;
+    let mut data = test_data::read("test.csv", text.as_bytes()).expect("a test");
+    edit(&mut data);
+    *text = write_csv(&data);
+    files
+}
+
+/// A job that names its prior's deviation, and its rigid bodies where there are any.
+pub fn supposing(files: Files, prior: f64, rigid: usize) -> Files {
+    let compare = format!("[compare]\nprior_deviation = {prior:?}\n[[parameter]]");
+    let files = with(files, "job.toml", "[[parameter]]", &compare);
+    match rigid {
+        0 => files,
+        count => {
+            let test = format!("rigid_bodies = {count}\n[test]");
+            with(files, "job.toml", "[test]", &test)
+        }
+    }
+}
+
+/// What is said of a job, without its folder.
+pub fn said(files: &Files) -> String {
+    let (folder, path) = placed(files);
+    let error = prepare(&path)
+        .and_then(|prepared| run(&prepared, |_| {}, || true))
+        .map(drop);
+    let error = error.expect_err("a mistake").to_string();
+    error.replace(&format!("{}/", folder.path().display()), "")
+}
+
+/// A job that has no mistake, ready to run.
+pub fn prepared(files: &Files) -> PreparedJob {
+    let (_folder, path) = placed(files);
+    prepare(&path).unwrap()
+}
+
+/// A building whose stories are scaled as one, with its lowest modes measured at every floor.
+pub fn measured_building(stories: usize, modes: usize) -> Files {
+    let model = shear_building(&vec![1e5; stories], 60.0, None);
+    let ones = vec![1.0; stories];
+    let found = model.modes(&ones, modes).expect("modes").vibrations;
+    let sensors = (1..=stories).map(|floor| Sensor {
+        name: floor.to_string(),
+        grid: Some(floor),
+        direction: 0,
+        axis: None,
+        place: None,
+    });
+    let frequencies_hz = found.frequencies_hz();
+    let data = TestData {
+        frequencies_hz,
+        sensors: sensors.collect(),
+        shapes: found.shapes().clone(),
+        ..TestData::default()
+    };
+    let (stiffness, mass) = model.at(&ones).expect("matrices");
+    let job = "[model]\nstiffness = \"stiffness.mtx\"\nmass = \"mass.mtx\"\nrows = \"rows.csv\"\n[test]\nfile = \"test.csv\"\n\
+               [[parameter]]\nname = \"all\"\nmatrix = \"stiffness.mtx\"\n";
+    let files = [
+        ("job.toml", job.to_owned()),
+        ("stiffness.mtx", write_matrix_market(&stiffness)),
+        ("mass.mtx", write_matrix_market(&mass)),
+        (
+            "rows.csv",
+            (1..=stories).map(|floor| format!("{floor},x\n")).collect(),
+        ),
+        ("test.csv", write_csv(&data)),
+    ];
+    files.map(|(name, text)| (name.to_owned(), text)).to_vec()
+}
+
+/// A folder of its own, which goes with it.
+pub fn new_folder() -> TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+/// What is known of a job before the first step.
+pub fn trust_in(job: &PreparedJob) -> Trust {
+    Trust::before(job).unwrap()
+}
+
+/// What comes of a job that nobody stops.
+pub fn finished(job: &PreparedJob) -> JobResult {
+    run(job, |_| {}, || true).unwrap()
 }

@@ -9,6 +9,7 @@ pub mod prelude;
 pub mod appendix_b;
 pub mod appendix_c;
 pub mod boxes;
+pub mod cases;
 pub mod closed_forms;
 pub mod complex_pencils;
 pub mod condensed;
@@ -24,7 +25,6 @@ pub mod gradient;
 pub mod ground_tests;
 pub mod hostile;
 pub mod jobs;
-pub mod known;
 pub mod loops;
 pub mod matrices;
 pub mod measured;
@@ -41,7 +41,8 @@ pub mod tolerances;
 pub mod torque_boxes;
 pub mod vibrations;
 pub mod whole_models;
-pub mod wing_subjects;
+
+pub use presentation::studies::known;
 
 use crate::prelude::*;
 use nalgebra::ComplexField;
@@ -115,6 +116,20 @@ pub trait CollectVec: Iterator + Sized {
 }
 
 impl<I: Iterator> CollectVec for I {}
+
+/// The largest of numbers, zero if none is positive.
+pub trait Largest: Iterator<Item = f64> + Sized {
+    fn largest(self) -> f64 {
+        self.fold(0.0, f64::max)
+    }
+}
+
+impl<I: Iterator<Item = f64>> Largest for I {}
+
+/// What comes of a case.
+pub fn case_run(case: &Case) -> CaseResult {
+    run_case(case, |_, _| {}).unwrap()
+}
 
 /// The identity of a size.
 pub fn eye<T: ComplexField>(size: usize) -> DMatrix<T> {

@@ -2,7 +2,7 @@
 
 pub use crate::common::tolerances::*;
 pub use crate::common::{
-    CollectVec, alter,
+    CollectVec, Largest, alter,
     appendix_b::{mass_norm, modes, relative_difference, slight_overlap, unit_shapes},
     appendix_c::{
         FORMULAE, ModalChange, ascending, change_of, eigensolution, exact, four_modes,
@@ -11,7 +11,7 @@ pub use crate::common::{
     },
     assert_alike, assert_refused,
     boxes::{first_problem, other_boxes, problem_of, uneven_box},
-    by_sorting, case_of,
+    by_sorting, case_of, case_run,
     closed_forms::{
         analytical::{
             ChainEnds, chain_eigenvalues, no_sides_parallel_energy, parallelogram_energy,
@@ -29,7 +29,10 @@ pub use crate::common::{
     gradient::gradient,
     ground_tests::{ground_test, wing_test},
     in_root,
-    jobs::{Files, STORIES, building, of_matrices, prepare, worked},
+    jobs::{
+        Files, STORIES, building, finished, measured_building, new_folder, of_matrices, placed,
+        prepare, prepared, retested, rods, supposing, trust_in, with, worked,
+    },
     known::{
         Known,
         delta_wing::{
@@ -84,7 +87,6 @@ pub use crate::common::{
 };
 pub use approx::assert_relative_eq;
 pub use corfem::{
-    chain::rods,
     files::{
         deck::{
             self, BulkData, Reason, Task, Tie, Unread,

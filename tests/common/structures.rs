@@ -2,6 +2,7 @@
 
 pub use crate::common::known::weighed::lumped_mass;
 use crate::prelude::*;
+use corfem::chain::rods;
 
 /// A material of which a rod of length one and area k is a spring of stiffness k.
 pub fn unit_material() -> Material {

@@ -455,7 +455,7 @@ fn every_vector_is_answered_as_numpy_answers_it() {
                 .iter()
                 .zip(&expected)
                 .map(|(a, b)| (a - b).abs())
-                .fold(0.0, f64::max);
+                .largest();
             if found.len() != expected.len() || apart.is_nan() || apart > bar {
                 wrong.push(format!(
                     "{name}: {key}: {:e} of the largest\n{found:?}\n{expected:?}",

@@ -89,7 +89,7 @@ pub fn sentence() -> String {
         }
         (
             found.iter().copied().fold(f64::INFINITY, f64::min),
-            found.iter().copied().fold(0.0, f64::max),
+            found.iter().copied().largest(),
         )
     };
     let (theirs, ours) = ([ANALYTIC, LSMR], ["paper's rule"]);

@@ -5,9 +5,9 @@
 //! stand in their document word for word and are changed by hand. Numbers of other origin stand in tables marked `measured:`
 //! (with machine and date) or `stored:` (with the file).
 
-use crate::ledgers::counted_figures::counted_figures;
-use crate::ledgers::diagram::Diagram;
-use crate::ledgers::tour_figures::{figures, pictures};
+use crate::evidence::counted_figures::counted_figures;
+use crate::evidence::diagram::Diagram;
+use crate::evidence::tour_figures::{figures, pictures};
 use crate::ledgers::{files_below, specification, tables};
 use crate::prelude::*;
 

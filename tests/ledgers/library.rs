@@ -20,7 +20,7 @@ fn built() -> (PathBuf, PathBuf) {
 /// What the compiler says of a program that has no dependency but this crate; nothing if it compiles.
 fn refused(program: &str) -> Option<String> {
     let (folder, library) = built();
-    let scratch = tempfile::tempdir().unwrap();
+    let scratch = new_folder();
     let source = scratch.path().join("user.rs");
     fs::write(&source, program).unwrap();
     let compiler = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());

@@ -4,8 +4,6 @@
 pub mod alternative;
 pub mod claims;
 pub mod costs;
-pub mod counted_figures;
-pub mod diagram;
 pub mod documents;
 pub mod equations;
 pub mod errata;
@@ -21,8 +19,6 @@ pub mod specification;
 pub mod suite;
 pub mod tables;
 pub mod tour;
-pub mod tour_figures;
-pub mod tour_figures_box;
 pub mod tour_program;
 pub mod weight;
 pub mod wrong_forms;

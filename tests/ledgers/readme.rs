@@ -62,7 +62,7 @@ fn every_path_of_the_front_page_is_a_link_that_leads_somewhere() {
 #[test]
 fn what_the_front_page_shows_is_what_the_program_prints() {
     let cells = |line: &str| line.split_whitespace().collect_vec().join(" ");
-    let scratch = tempfile::tempdir().unwrap();
+    let scratch = new_folder();
     let mine = scratch.path().join("mine");
     let path = |name: &str| mine.join(name).to_str().unwrap().to_owned();
     assert!(

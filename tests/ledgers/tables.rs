@@ -1050,7 +1050,7 @@ pub fn sentences() -> Vec<(&'static str, String)> {
             let least = numbers.iter().copied().fold(f64::INFINITY, f64::min);
             largest(&numbers) - least
         };
-        (1..=9).map(range).fold(0.0, f64::max)
+        (1..=9).map(range).largest()
     };
     let nearer = |run: &str, other: &str, used: &str| {
         let points = |reading: &str| -> f64 {
@@ -1071,7 +1071,7 @@ pub fn sentences() -> Vec<(&'static str, String)> {
             format!(
                 "hold the true factor in {:.1} to {:.1} % of {tests} noisy tests",
                 COVERED.map(held).into_iter().fold(f64::INFINITY, f64::min),
-                COVERED.map(held).into_iter().fold(0.0, f64::max),
+                COVERED.map(held).into_iter().largest(),
             ),
         ),
         (

@@ -38,7 +38,7 @@ const LONGEST: Duration = Duration::from_secs(300);
 const LEAST: usize = 75;
 const LEAST_OF_ROOM: usize = 30;
 /// Rooms with lists of their own.
-const ROOMS: [&str; 2] = ["weighted", "job"];
+const ROOMS: [&str; 3] = ["weighted", "job", "files"];
 /// Rooms of tests that the copy may have.
 const TESTS: [&str; 3] = ["spec", "readers", "evidence"];
 

@@ -1,6 +1,6 @@
 //! The modes of a deck as tables.
 
-use crate::common::jobs::rods;
+use crate::prelude::*;
 use corfem::files::deck;
 use corfem::present::tables::deck::deck_tables;
 

@@ -1,45 +1,13 @@
 //! The delta wing's tables, number by number.
 
-use crate::common::golden::{Numbers, assert_golden};
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::known::delta_wing::correlation::{WingCorrelation, correlate_wing};
 use crate::evidence::delta_wing_tables::delta_wing_tables;
-use corfem::method::inner_loop::Stop;
-use corfem::present::render::csv;
-use corfem::present::table::{Cell, Table};
-use std::sync::LazyLock;
+use crate::prelude::*;
 
 static RUN: LazyLock<WingCorrelation> =
     LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).expect("it runs"));
 
 fn wing() -> DeltaWing {
     DeltaWing::embedded()
-}
-
-fn tables() -> Vec<Table> {
-    delta_wing_tables(&wing(), &RUN).expect("tables")
-}
-
-#[test]
-fn wing_as_tables() {
-    let tables = tables();
-    let names: Vec<(&str, usize, usize)> = tables
-        .iter()
-        .map(|table| (table.name.as_str(), table.rows.len(), table.columns.len()))
-        .collect();
-    assert_eq!(
-        names,
-        [
-            ("delta_wing_deflections_te", 9, 7),
-            ("delta_wing_deflections_le", 9, 7),
-            ("delta_wing_frequencies", 3, 5),
-            ("delta_wing_groups", 21, 5),
-            ("delta_wing_modes", 12, 12),
-            ("delta_wing_passes", 3, 4),
-        ]
-    );
-    let numbers = Numbers::BY_UNIT;
-    assert_golden("delta_wing", &csv(&tables), numbers);
 }
 
 #[test]
@@ -49,12 +17,12 @@ fn why_a_pass_stopped_is_said_in_words() {
     run.correlation.passes[1].inner.stop = Stop::Iterations;
     let tables = delta_wing_tables(&wing(), &run).expect("tables");
     let passes = tables.iter().find(|table| table.name.contains("passes"));
-    let said: Vec<&Cell> = passes
+    let said = passes
         .expect("a table of passes")
         .rows
         .iter()
         .map(|row| &row.cells[1])
-        .collect();
+        .collect_vec();
     let word = |word: &str| Cell::Text(word.to_owned());
     assert_eq!(
         said,

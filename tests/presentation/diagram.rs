@@ -1,8 +1,8 @@
 //! Diagrams: every point where the axes say, and a legend of what has a name.
 
 use crate::common::drawings::{attribute, words};
-use crate::common::tolerances::DRAWN_UNIT;
-use crate::ledgers::diagram::{Diagram, Series, SeriesMark};
+use crate::evidence::diagram::{Diagram, Series, SeriesMark};
+use crate::prelude::*;
 
 fn drawn(y: (f64, f64), is_logarithmic: bool, series: Vec<Series>) -> String {
     let diagram = Diagram {
@@ -61,11 +61,11 @@ fn a_series_without_a_name_goes_on_in_the_color_of_the_one_before() {
     }
     assert!(written.iter().all(|word| !word.is_empty()));
     // A line each, and one in the legend for what has a name.
-    let lines: Vec<&str> = ["<polyline", "<line"]
+    let lines = ["<polyline", "<line"]
         .iter()
         .flat_map(|kind| svg.split(kind).skip(1))
         .filter_map(|tag| tag.split('>').next())
-        .collect();
+        .collect_vec();
     let of = |color: &str| lines.iter().filter(|tag| tag.contains(color)).count();
     assert_eq!((of("#0072B2"), of("#D55E00")), (3, 2), "{svg}");
 }

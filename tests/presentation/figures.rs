@@ -1,8 +1,7 @@
 //! The data of the figures are what the tables say.
 
-use crate::common::jobs::{loaded, worked};
-use crate::common::tolerances::{CENTRAL_DIFFERENCE_FREQUENCY, MATRIX_ROUND_OFF, ROUND_OFF};
-use crate::common::wing_subjects::wing_subjects;
+use crate::common::jobs::loaded;
+use crate::evidence::wing_subjects::wing_subjects;
 use crate::paper::figures::error_history::error_history;
 use crate::paper::figures::mode_shapes::panel_parts;
 use crate::paper::figures::report::{derivatives, mode_agreement};
@@ -11,16 +10,10 @@ use crate::paper::figures::{case_figures, comparison_figures};
 use crate::paper::report::case_report;
 use crate::paper::tables::cases::{frequency_table, iteration_table};
 use crate::paper::tables::unlimited::{ANOMALY, unlimited_factors, unlimited_table};
-use approx::assert_relative_eq;
-use corfem::method::step::StepRule;
+use crate::prelude::*;
 use corfem::present::frame::DrawnModes;
-use corfem::present::report::Report;
-use corfem::present::table::{Cell, Column, Table};
-use corfem::torque_box::fewer_modes::{FewerModesRun, PUBLISHED_CASE, all_runs};
-use corfem::torque_box::{CASES, Case, CaseResult, run_case};
-use corfem::weighted::comparison::ExactResult;
-use nalgebra::Vector3;
-use std::sync::OnceLock;
+use corfem::present::table::Column;
+use corfem::torque_box::fewer_modes::{FewerModesRun, all_runs};
 
 /// The four cases, run once for all tests of figures.
 pub fn results() -> &'static [CaseResult] {
@@ -169,7 +162,7 @@ fn drawn_modes_are_those_of_the_tables() {
                 mode.moved[state]
                     .iter()
                     .map(|motion| motion.z)
-                    .collect::<Vec<_>>()
+                    .collect_vec()
             };
             for state in 0..3 {
                 let largest = up(state)
@@ -199,10 +192,10 @@ fn mode_agreement_is_complete_before_and_nearly_the_identity_after() {
         let initial = ExactResult::from(&result.correlation.initial);
         let checks = [&initial, subject.corrected()];
         let maps = mode_agreement(&subject).expect("shapes fit");
-        let values: Vec<_> = maps
+        let values = maps
             .iter()
             .map(|map| map.values.map(|value| value.expect("a cell")))
-            .collect();
+            .collect_vec();
         for (at, check) in checks.into_iter().enumerate() {
             let (cross, assurance) = (&values[at], &values[at + 2]);
             assert_eq!((cross.shape(), assurance.shape()), ((9, 9), (9, 9)));

@@ -1,14 +1,11 @@
 //! The data of the figures of the box are the model's and Table 2's.
 
 use crate::common::drawings::{words, written};
-use crate::common::tolerances::MATRIX_ROUND_OFF;
 use crate::paper::figures::box_elements::Layer;
 use crate::paper::figures::cover_gages::draw;
 use crate::paper::report::case_report;
+use crate::prelude::*;
 use crate::presentation::figures::results;
-use corfem::torque_box::Case;
-use corfem::torque_box::published::PublishedTable;
-use nalgebra::DVector;
 
 #[test]
 fn box_points_are_the_grids_and_where_the_load_distribution_acts() {
@@ -17,8 +14,8 @@ fn box_points_are_the_grids_and_where_the_load_distribution_acts() {
     let subject = case_report(&results()[0])
         .expect("a subject")
         .with_structure(model.structure());
-    let numbers: Vec<usize> = subject.grids.iter().map(|(label, _)| *label).collect();
-    assert_eq!(numbers, (1..=16).collect::<Vec<_>>());
+    let numbers = subject.grids.iter().map(|(label, _)| *label).collect_vec();
+    assert_eq!(numbers, (1..=16).collect_vec());
     for (label, at) in &subject.grids {
         assert_eq!(<[f64; 3]>::from(*at), case.reconstruction.grids[label]);
         assert_eq!(subject.supports.contains(at), *label >= 13);
@@ -53,7 +50,7 @@ fn box_elements_are_the_models_in_three_layers() {
     let on = |layer| {
         let elements = structure.elements().iter().zip(structure.corners());
         let here = elements.filter(|(_, corners)| Layer::from_corners(corners) == layer);
-        here.map(|(element, _)| element.label).collect::<Vec<_>>()
+        here.map(|(element, _)| element.label).collect_vec()
     };
     assert_eq!(on(Layer::Upper)[..3], [4, 9, 15]);
     assert_eq!(on(Layer::Lower)[..3], [2, 8, 11]);
@@ -65,7 +62,10 @@ fn box_elements_are_the_models_in_three_layers() {
 
 #[test]
 fn cover_gages_are_those_of_table_2() {
-    let cases: Vec<Case> = results().iter().map(|result| result.case.clone()).collect();
+    let cases = results()
+        .iter()
+        .map(|result| result.case.clone())
+        .collect_vec();
     let said = written(&draw(&cases).expect("drawn"));
     let table = PublishedTable::number(2).expect("it reads");
     let names = ["GVT", "Case 1", "Case 2", "Case 3", "Case 4"];

@@ -2,9 +2,8 @@
 
 use crate::paper::figures::comparisons::truncation;
 use crate::paper::tables::fewer_modes::truncation_tables;
+use crate::prelude::*;
 use crate::presentation::figures::fewer_modes_runs;
-use corfem::present::table::{Cell, Table};
-use corfem::torque_box::fewer_modes::FewerModesRun;
 
 fn named<'a>(tables: &'a [Table], name: &str) -> &'a Table {
     tables
@@ -42,11 +41,11 @@ fn truncation_costs_are_those_of_the_tables() {
         }
     }
     // A pair that was not run has no cell.
-    let runs: Vec<FewerModesRun> = fewer_modes_runs()
+    let runs = fewer_modes_runs()
         .iter()
         .filter(|run| (run.test_modes, run.analysis_modes) != (2, 3))
         .cloned()
-        .collect();
+        .collect_vec();
     assert_eq!(truncation(&runs)[0].values[(1, 2)], None);
     assert!(truncation(&[])[0].values.is_empty());
 }

@@ -1,19 +1,19 @@
 //! The figures as drawn: complete, the same every time, their letters apart, and as stored.
 
 use crate::common::drawings::{size, written};
-use crate::common::golden::Numbers;
-use crate::ledgers::counted_figures::counted_figures;
-use crate::ledgers::diagram::Diagram;
-use crate::ledgers::tour_figures;
+use crate::evidence::counted_figures::counted_figures;
+use crate::evidence::diagram::Diagram;
+use crate::evidence::tour_figures;
 use crate::paper::figures::Figure;
+use crate::prelude::*;
 use crate::presentation::figures::{all_figures, draw_all, figures, job_figures};
 
 #[test]
 fn figures_of_a_run_in_the_order_of_the_report() {
-    let names: Vec<&str> = all_figures()
+    let names = all_figures()
         .iter()
         .map(|figure| figure.name.as_str())
-        .collect();
+        .collect_vec();
     let mut expected = vec![
         "box_points".to_owned(),
         "box_elements".into(),
@@ -95,14 +95,14 @@ fn letters_stay_on_the_page_off_each_other_and_legible() {
         svg: diagram.svg().expect("drawn"),
     };
     let of_texts = tour_figures::figures().into_iter().chain(counted_figures());
-    let of_texts: Vec<Figure> = of_texts.map(diagram).collect();
+    let of_texts = of_texts.map(diagram).collect_vec();
     for figure in all_figures().iter().chain(job_figures()).chain(&of_texts) {
         let (width, height) = size(&figure.svg);
         assert_eq!(width, 760.0);
-        let words: Vec<_> = written(&figure.svg)
+        let words = written(&figure.svg)
             .into_iter()
             .filter(|word| !word.text.is_empty())
-            .collect();
+            .collect_vec();
         // The large wing has a title, one kind of support and its axes, and no numbers; one mode may be all that differs.
         let least = match &figure.name {
             name if name == "wing_structure" => 2,
@@ -138,7 +138,7 @@ fn stored_figures_are_what_the_command_writes() {
     let numbers = Numbers::DRAWN;
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/figures");
     let mut compared = 0;
-    for entry in std::fs::read_dir(folder).expect("the folder") {
+    for entry in fs::read_dir(folder).expect("the folder") {
         let path = entry.expect("a file").path();
         let name = path
             .file_stem()
@@ -148,7 +148,7 @@ fn stored_figures_are_what_the_command_writes() {
             .iter()
             .find(|figure| figure.name == name)
             .expect("a figure of that name");
-        let stored = std::fs::read_to_string(&path).expect("it reads");
+        let stored = fs::read_to_string(&path).expect("it reads");
         assert!(
             numbers.agree(&stored, &figure.svg),
             "{name} differs: write it again"

@@ -2,18 +2,14 @@
 //! only where something is measured, and captions that promise nothing else.
 
 use crate::common::drawings::{words, written};
-use crate::common::jobs::building;
 use crate::paper::figures::matrices::{HeatMap, draw_by_twos};
 use crate::paper::figures::mode_shapes;
 use crate::paper::figures::{Figure, report_figures};
 use crate::paper::report::case_report;
+use crate::prelude::*;
 use crate::presentation::figures::{all_figures, job_figures, results};
 use crate::presentation::subject::chain;
-use crate::readers::job_prepared::prepared;
 use corfem::present::frame::DrawnModes;
-use corfem::present::report::Report;
-use nalgebra::{DMatrix, Vector3};
-use std::collections::BTreeSet;
 
 fn of_kind(what: &str) -> impl Iterator<Item = &'static Figure> {
     all_figures()
@@ -187,7 +183,7 @@ fn criteria_without_mass_say_so_beside_those_with_it() {
             words
                 .iter()
                 .filter(|word| word.starts_with(start))
-                .collect::<Vec<_>>()
+                .collect_vec()
         };
         let (assurance, cross) = (titled("MAC "), titled("Cross-orthogonality"));
         assert_eq!(

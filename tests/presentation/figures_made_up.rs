@@ -2,13 +2,10 @@
 //! digit only, so that words that have to be exact are looked for by themselves.
 
 use crate::common::drawings::words;
-use crate::common::golden::{Numbers, assert_golden};
 use crate::paper::figures::error_history::{self, PassHistory};
 use crate::paper::figures::factors::{DrawnFactor, Factors};
 use crate::paper::figures::matrices::{HeatMap, draw_by_twos};
-use corfem::method::error_sum::Errors;
-use corfem::method::step::Bounds;
-use nalgebra::DMatrix;
+use crate::prelude::*;
 
 fn factor(name: &str, value: f64) -> DrawnFactor {
     DrawnFactor {

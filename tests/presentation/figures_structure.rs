@@ -2,15 +2,12 @@
 
 use super::subject::chain;
 use crate::common::drawings::{Written, words, written};
-use crate::common::golden::{Numbers, assert_golden};
 use crate::paper::figures::mode_shapes;
 use crate::paper::figures::structure::draw_structure;
+use crate::prelude::*;
 use corfem::present::frame::Frame;
 use corfem::present::frame::{DrawnMode, DrawnModes};
-use corfem::present::report::{Report, SensorPoint};
-use nalgebra::Vector3;
-use proptest::prelude::*;
-use std::collections::BTreeMap;
+use corfem::present::report::SensorPoint;
 
 fn at(x: f64, y: f64, z: f64) -> Vector3<f64> {
     Vector3::new(x, y, z)
@@ -57,7 +54,7 @@ fn names_of_a_crowd_find_room_and_long_ones_stand_in_a_list() {
             Some(at(0.01 * row as f64, 0.02 * (row % 3) as f64, 0.0)),
         )
     };
-    let mut sensors: Vec<_> = (0..18).map(crowd).collect();
+    let mut sensors = (0..18).map(crowd).collect_vec();
     sensors.extend((0..4).map(|row| {
         (
             format!("edge {row}"),
@@ -157,7 +154,7 @@ fn a_plane_is_drawn_as_it_is_and_says_where_its_axes_go() {
         .into_iter()
         .enumerate()
         .map(|(row, place)| place + at(0.0, 0.0, 4.5e-5 * (row / 2) as f64));
-    let small: Vec<_> = small.collect();
+    let small = small.collect_vec();
     let said = words(&drawn(&with_sensors(
         vec![("s".to_owned(), Some(small[0]))],
         vec![small],
@@ -189,10 +186,10 @@ fn names_at_the_corners_stay_on_the_page_and_off_the_legend() {
         .map(|row| (format!("edge {row:03}"), Some(near(row))))
         .collect();
     let svg = drawn(&with_sensors(sensors, vec![corners.clone()]));
-    let names: Vec<Written> = written(&svg)
+    let names = written(&svg)
         .into_iter()
         .filter(|word| word.text.starts_with("edge"))
-        .collect();
+        .collect_vec();
     assert_eq!(names.len(), 40);
     for Written {
         bounds: [left, top, right, bottom],
@@ -304,7 +301,7 @@ properties! {
     ) {
         let sensors = places.iter().map(|&(x, y)| (name.clone(), Some(at(x, y, 0.0)))).collect();
         let svg = drawn(&with_sensors(sensors, vec![panel(2.0, 1.0)]));
-        let names: Vec<Written> = written(&svg).into_iter().filter(|word| word.text == name).collect();
+        let names = written(&svg).into_iter().filter(|word| word.text == name).collect_vec();
         prop_assert_eq!(names.len(), places.len());
         for (row, Written { bounds: [left, top, right, bottom], .. }) in names.iter().enumerate() {
             prop_assert!(*left > 0.0 && *right < 760.0 && *top > 60.0 && *bottom < 450.0);

@@ -1,11 +1,9 @@
 //! A wire frame: how it moves between its sensors, and the parts of its panels.
 
 use super::subject::chain;
-use crate::common::tolerances::INTERPOLATED;
 use crate::paper::figures::mode_shapes::panel_parts;
+use crate::prelude::*;
 use corfem::present::frame::Frame;
-use nalgebra::Vector3;
-use proptest::prelude::*;
 
 properties! {
     #![proptest_config(crate::common::costly_config())]
@@ -45,7 +43,7 @@ properties! {
         subject.frame = (0..3).map(f64::from).map(|x| vec![at(x, 0.0), at(x, 1.0), at(x + 1.0, 1.0), at(x + 1.0, 0.0)]).collect();
         let frame = Frame::from_report(&subject);
         let plane = |at: Vector3<f64>| at.x - zero + tilt * (at.y - 0.5);
-        let shape: Vec<f64> = (0..8).map(|row| plane(at((row / 2) as f64, (row % 2) as f64))).collect();
+        let shape = (0..8).map(|row| plane(at((row / 2) as f64, (row % 2) as f64))).collect_vec();
         let largest = shape.iter().fold(0.0, |most: f64, w| most.max(w.abs()));
         let parts = panel_parts(&frame, &Vector3::z(), &frame.moved(&shape, None));
         let mut area = 0.0;
@@ -125,7 +123,7 @@ fn a_line_that_measures_along_itself_is_drawn_across_and_zero_has_one_sign() {
                 .values()
                 .flatten()
                 .map(|sensor| sensor.1)
-                .collect::<Vec<_>>()
+                .collect_vec()
         };
         assert_eq!(directions(&Frame::from_report(&along)), [across; 3]);
         let mut subject = along.clone();

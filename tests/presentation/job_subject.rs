@@ -1,30 +1,12 @@
 //! What a report knows of a job, of a case and of a wing, and what its tables say of sensors, doubts and suspects.
 
-use crate::common::jobs::rods;
 use crate::common::jobs::run;
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::known::delta_wing::correlation::{first_model, measured_grids};
-use crate::common::known::planted;
-use crate::common::known::wing::Wing;
-use crate::common::tolerances::{CENTRAL_DIFFERENCE_GRADIENT, ROUND_OFF};
-use crate::common::whole_models::of_dense;
 use crate::paper::report::case_report;
+use crate::prelude::*;
 use crate::presentation::figures::{results, wings};
-use crate::readers::job_errors::{placed, with};
-use crate::readers::job_prepared::prepared;
-use approx::assert_relative_eq;
-use corfem::job::{Spread, Study, Summary, Trust, Vary};
-use corfem::method::analysis::Analysis;
-use corfem::method::error::Error;
-use corfem::method::modes::solve;
-use corfem::method::sorting::pair_modes;
-use corfem::method::step::Bounds;
-use corfem::present::render::text;
-use corfem::present::report::{Derivatives, Report};
-use corfem::present::tables::job::{places_table, study_table, suspects_table, trust_table};
-use corfem::sparse::{BasisSize, ParameterMatrix};
-use corfem::weighted::comparison::Comparison;
-use nalgebra::{DMatrix, Vector3};
+use corfem::job::{Spread, Study, Summary, Vary};
+use corfem::present::report::Derivatives;
+use corfem::present::tables::job::study_table;
 use std::sync::Arc;
 
 fn at(x: f64) -> Vector3<f64> {
@@ -61,11 +43,11 @@ fn a_job_has_the_rods_the_grids_and_the_wall_of_its_deck() {
             None
         ]
     );
-    let sensors: Vec<_> = subject
+    let sensors = subject
         .sensors
         .iter()
         .map(|sensor| (sensor.name.as_str(), sensor.place))
-        .collect();
+        .collect_vec();
     assert_eq!(
         sensors,
         [
@@ -120,7 +102,7 @@ fn a_job_has_converged_when_its_verdict_says_so_and_has_one_stage_when_it_was_st
     let two = with(rods(), "job.toml", "[compare]", precise);
     for (files, is_within) in [(&each, true), (&two, false)] {
         let prepared = prepared(files);
-        let finished = run(&prepared, |_| {}, || true).expect("it runs");
+        let finished = finished(&prepared);
         let subject = Report::from_job(&prepared, Some(&finished)).expect("a subject");
         assert_eq!(
             (finished.verdict.is_within, subject.converged()),
@@ -145,11 +127,11 @@ fn sensors_that_point_the_other_way_askew_or_nowhere_are_told() {
     loaded.placed[1].sign = -1.0;
     loaded.placed[2].axis = Vector3::new(0.6, 0.0, -0.8);
     let table = places_table(loaded, None).expect("a table");
-    let directions: Vec<String> = table
+    let directions = table
         .rows
         .iter()
         .map(|row| row.cells[1].computed())
-        .collect();
+        .collect_vec();
     assert_eq!(directions, ["x", "-x", "x (0.60 0.00 -0.80)"]);
     assert!(table.notes.is_empty());
     loaded.placed.pop();
@@ -161,7 +143,7 @@ fn sensors_that_point_the_other_way_askew_or_nowhere_are_told() {
 fn a_mode_is_doubtful_when_it_is_complex_beyond_the_limit() {
     let mut prepared = prepared(&rods());
     Arc::make_mut(&mut prepared.loaded).data.phase_collinearity = vec![0.95, 0.94, 0.99];
-    let doubts = text(&[trust_table(&Trust::before(&prepared).expect("an account"))]);
+    let doubts = text(&[trust_table(&trust_in(&prepared))]);
     assert!(
         doubts.contains("Test mode 2 is complex: its phase collinearity is 0.94."),
         "{doubts}"
@@ -293,23 +275,23 @@ fn a_case_and_both_wings_have_the_bounds_and_the_places_of_their_models() {
         .iter()
         .filter(|grid| grid.constrained[2])
         .map(|grid| grid.position);
-    assert_eq!(delta.supports, held.collect::<Vec<_>>());
+    assert_eq!(delta.supports, held.collect_vec());
     let position = |label: usize| {
         grids
             .iter()
             .find(|grid| grid.label == label)
             .map(|grid| grid.position)
     };
-    let places: Vec<_> = measured_grids(model.structure())
+    let places = measured_grids(model.structure())
         .into_iter()
         .map(position)
-        .collect();
+        .collect_vec();
     assert_eq!(
         delta
             .sensors
             .iter()
             .map(|sensor| sensor.place)
-            .collect::<Vec<_>>(),
+            .collect_vec(),
         places
     );
     let known = planted(&Wing::default()).expect("a model");

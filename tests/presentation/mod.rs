@@ -14,7 +14,6 @@ pub mod figures_made_up;
 pub mod figures_structure;
 pub mod frame;
 pub mod job_subject;
-pub mod matrix_tables;
 pub mod moving;
 pub mod noisy_tables;
 pub mod page;

@@ -1,8 +1,8 @@
 //! The page of a job: its first screen, its moving structure, and that every view says the same.
 
-use crate::common::jobs::{loaded, worked};
-use crate::common::tolerances::DRAWN_THOUSANDTHS;
+use crate::common::jobs::loaded;
 use crate::paper::report::moving_case;
+use crate::prelude::*;
 use crate::presentation::figures::results;
 use crate::presentation::play::by_node;
 use crate::presentation::subject::{chain, is_well_formed, without_scripts};
@@ -10,13 +10,9 @@ use corfem::present::frame::{DrawnModes, extents};
 use corfem::present::page::charts::{factor_bars, pairing_plot, residual_map};
 use corfem::present::page::moving::{SCRIPT, moving};
 use corfem::present::page::report_page;
-use corfem::present::render::{csv, text};
-use corfem::present::report::{ModeResiduals, Report};
-use corfem::present::table::Digits;
-use corfem::present::tables::report::{answer_table, factor_table};
+use corfem::present::report::ModeResiduals;
+use corfem::present::tables::report::answer_table;
 use corfem::present::{json, rows};
-use nalgebra::Vector3;
-use serde_json::{Value, json};
 
 const JOBS: [&str; 4] = ["box", "building", "garteur", "wing"];
 
@@ -64,7 +60,7 @@ fn every_view_tells_the_same_factors_and_errors() {
             rows::factor_rows(&report),
         );
         assert_eq!(document["answer"], report.answer());
-        let answer = plain.split_whitespace().collect::<Vec<_>>().join(" ");
+        let answer = plain.split_whitespace().collect_vec().join(" ");
         assert!(answer.starts_with(&report.answer()), "{plain}");
         for (e, parameter) in report.parameters.iter().enumerate() {
             let factor = document["factors"][e].as_f64().expect("a number");
@@ -85,7 +81,7 @@ fn every_view_tells_the_same_factors_and_errors() {
                 .expect("a field")
                 .parse()
                 .expect("a number");
-            assert!((read / factor - 1.0).abs() < 1e-9, "{read} {factor}");
+            assert!(relative_error(read, factor) < 1e-9, "{read} {factor}");
             assert!(
                 rows.contains(&format!(",1,{factor},")),
                 "{parameter}: {rows}"
@@ -228,7 +224,7 @@ fn luminance(parts: [f64; 3]) -> f64 {
 #[test]
 fn numbers_have_a_contrast_of_four_and_a_half_on_every_cell_of_both_palettes() {
     let css = include_str!("../../src/present/page/report.css");
-    let palettes: Vec<&str> = css.split("--ink: ").skip(1).collect();
+    let palettes = css.split("--ink: ").skip(1).collect_vec();
     assert_eq!(palettes.len(), 2);
     for palette in palettes {
         let palette = format!("--ink: {palette}");
@@ -264,11 +260,11 @@ fn every_case_of_the_box_moves_whole_with_its_panels_named() {
         let data = data(&moving(&report).expect("a figure"));
         let pieces = data["pieces"].as_array().expect("pieces");
         assert_eq!(pieces.len(), report.frame.len());
-        let owned: Vec<u64> = pieces
+        let owned = pieces
             .iter()
             .flat_map(|piece| piece["owners"].as_array().expect("owners"))
             .map(|owner| owner.as_u64().expect("a number"))
-            .collect();
+            .collect_vec();
         for e in 0..report.parameters.len() as u64 {
             assert!(owned.contains(&e), "panel {e}");
         }
@@ -282,8 +278,8 @@ fn a_job_of_matrices_has_its_lines_from_its_stiffness() {
     let report = report("building");
     assert_eq!(report.frame.len(), 9);
     // The first story stands on the ground alone.
-    let owners: Vec<usize> = report.owners.iter().flatten().copied().collect();
-    assert_eq!(owners, (1..10).collect::<Vec<_>>());
+    let owners = report.owners.iter().flatten().copied().collect_vec();
+    assert_eq!(owners, (1..10).collect_vec());
 }
 
 /// A real test of frequencies alone: the models move, the test's shapes are not made up, and pairs of one root keep their sign.
@@ -297,13 +293,13 @@ fn a_test_without_shapes_moves_its_models_alone() {
     for mode in &drawn.modes {
         let [test, first, last] = &mode.moved;
         assert!(test.is_empty());
-        let largest = |moved: &[Vector3<f64>]| moved.iter().map(Vector3::amax).fold(0.0, f64::max);
+        let largest = |moved: &[Vector3<f64>]| moved.iter().map(Vector3::amax).largest();
         assert!((largest(first) - 1.0).abs() < 1e-12 && (largest(last) - 1.0).abs() < 1e-12);
         let along: f64 = first.iter().zip(last).map(|(a, b)| a.dot(b)).sum();
         assert!(along > 0.0, "mode {}", mode.number);
     }
     // Beams that are joined, and nothing else: every grid has a line.
-    let on_lines: Vec<&Vector3<f64>> = report.frame.iter().flatten().collect();
+    let on_lines = report.frame.iter().flatten().collect_vec();
     assert!(report.grids.iter().all(|(_, at)| on_lines.contains(&at)));
     assert!(
         moving(&report)
@@ -316,9 +312,9 @@ fn a_test_without_shapes_moves_its_models_alone() {
 #[test]
 #[ignore = "needs node"]
 fn node_moves_every_structure_as_the_program_does() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let path = folder.path().join("moving.js");
-    std::fs::write(&path, SCRIPT).expect("written");
+    fs::write(&path, SCRIPT).expect("written");
     for name in JOBS {
         let report = report(name);
         let drawn = DrawnModes::from_report(&report)
@@ -326,7 +322,7 @@ fn node_moves_every_structure_as_the_program_does() {
             .expect("places");
         let data = data(&moving(&report).expect("a figure"));
         let stored = folder.path().join("data.json");
-        std::fs::write(&stored, data.to_string()).expect("written");
+        fs::write(&stored, data.to_string()).expect("written");
         let program = format!(
             "const page = require({}), data = require({});\
              console.log(JSON.stringify(data.modes.map(mode => [0, 1, 2].map(state => {{\

@@ -1,51 +1,7 @@
 //! Noisy test modes as tables, number by number.
 
-use crate::common::golden::{Numbers, assert_golden};
-use crate::common::tolerances::ROUND_OFF;
-use crate::evidence::claims::noisy_modes::study;
-use crate::evidence::noisy_modes::{NOISY_CASE, noisy_modes, noisy_tables};
-use corfem::present::render::{WIDTH, csv, markdown, text};
-use corfem::present::table::{Cell, Table};
-use corfem::torque_box::Case;
-use corfem::weighted::noise::Noise;
-
-#[test]
-fn noisy_modes_as_numbers() {
-    let numbers = Numbers::BY_UNIT;
-    let tables = noisy_tables(study());
-    let names: Vec<&str> = tables.iter().map(|table| table.name.as_str()).collect();
-    assert_eq!(names, ["noisy_gages", "noisy_course", "noisy_truth"]);
-    for table in &tables {
-        assert!(
-            table
-                .rows
-                .iter()
-                .all(|row| row.cells.len() == table.columns.len()),
-            "{}",
-            table.name
-        );
-    }
-    let written = csv(&tables);
-    assert!(written.contains("\nnoisy_gages,median,Raw all,%,"));
-    assert!(written.lines().all(|line| line.split(',').count() == 6));
-    assert_golden("noisy_modes", &written, numbers);
-    assert!(text(&tables).starts_with("Case 2 with noisy test modes"));
-    assert!(
-        text(&tables)
-            .lines()
-            .all(|line| line.chars().count() <= WIDTH)
-    );
-    assert!(
-        markdown(&tables).contains("| Raw shear, % | Orthogonal shear, % | Screened shear, % |")
-    );
-    assert_eq!(study().runs.len(), 21);
-    for (seed, run) in study().runs.iter().enumerate() {
-        assert_eq!(
-            (run.seed, run.orthogonal.gages_in.len()),
-            ((seed > 0).then_some(seed as u64), 15)
-        );
-    }
-}
+use crate::evidence::noisy_modes::{NOISY_CASE, noisy_modes, noisy_tables, study};
+use crate::prelude::*;
 
 fn number(table: &Table, row: &str, column: &str) -> f64 {
     let at = table
@@ -71,10 +27,10 @@ fn median_and_worst_are_of_the_seeds_alone() {
     let odd = noisy_modes(&case, Noise::USUAL, 1..=3).unwrap();
     for study in [study(), &odd] {
         let gages = &noisy_tables(study)[0];
-        let raw: Vec<f64> = study.runs[1..]
+        let raw = study.runs[1..]
             .iter()
             .map(|run| 100.0 * run.raw.gage_rms)
-            .collect();
+            .collect_vec();
         let (median, worst) = (
             number(gages, "median", "Raw all"),
             number(gages, "worst", "Raw all"),
@@ -88,12 +44,12 @@ fn median_and_worst_are_of_the_seeds_alone() {
             .filter(|value| **value > median + ROUND_OFF)
             .count();
         assert_eq!((below, above), (raw.len() / 2, raw.len() / 2));
-        assert_eq!(worst, raw.iter().copied().fold(0.0, f64::max));
+        assert_eq!(worst, raw.iter().copied().largest());
         let labels = gages.rows.iter().map(|row| row.label.as_str());
         assert_eq!(
             labels
                 .filter(|label| label.parse::<u64>().is_err())
-                .collect::<Vec<_>>(),
+                .collect_vec(),
             ["no noise", "median", "worst"]
         );
     }

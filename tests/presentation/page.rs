@@ -4,11 +4,9 @@ use crate::paper::figures::Figure;
 use crate::paper::page::{Contents, page};
 use crate::paper::tables::cases::{all_tables, frequency_table, summary};
 use crate::paper::tables::fewer_modes::{published_tables, truncation_tables};
+use crate::prelude::*;
 use crate::presentation::figures::{fewer_modes_runs, figures, results};
 use crate::presentation::subject::is_well_formed;
-use corfem::present::table::{Cell, Table};
-use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, published_runs};
-use corfem::torque_box::{Case, CaseResult};
 
 const COMMAND: &str = "corfem report --out <somewhere>";
 
@@ -37,7 +35,7 @@ fn comparison_tables() -> Vec<Table> {
     let mut tables = published_tables(&case, &runs).expect("it reads");
     tables.extend(truncation_tables(fewer_modes_runs()));
     tables.retain(|table| !table.name.starts_with("truncation"));
-    let names: Vec<&str> = tables.iter().map(|table| table.name.as_str()).collect();
+    let names = tables.iter().map(|table| table.name.as_str()).collect_vec();
     assert_eq!(
         names,
         [
@@ -157,7 +155,7 @@ fn summary_says_so_when_a_case_does_not_converge() {
     let mut case = corfem::torque_box::Case::new(1).expect("a case");
     case.settings.inner.iterations = 1;
     let result = corfem::torque_box::run_case(&case, |_, _| {}).expect("it runs");
-    let table = summary(std::slice::from_ref(&result)).expect("it reads");
+    let table = summary(from_ref(&result)).expect("it reads");
     assert_eq!(
         table.rows[0].cells[5],
         Cell::Text("not converged".to_owned())

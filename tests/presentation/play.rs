@@ -1,15 +1,8 @@
 //! The figure to play with: its script is short and needs nothing, and what it solves in the page is what the program solves.
 
-use crate::common::draws::Draws;
-use crate::common::golden::Numbers;
-use crate::common::loops::exact_state;
-use crate::common::tolerances::PLAYED;
 use crate::paper::page::play::play;
+use crate::prelude::*;
 use crate::presentation::figures::results;
-use corfem::method::analysis::State;
-use corfem::method::step::Accumulation;
-use serde_json::{Value, json};
-use std::process::Command;
 
 fn html() -> String {
     play(&results()[1]).expect("a figure")
@@ -53,9 +46,9 @@ fn figure_of_the_tour_is_that_of_the_report() {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("paper/tour/05_play.html");
     let html = html();
     if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "1") {
-        std::fs::write(&path, &html).expect("it can be written");
+        fs::write(&path, &html).expect("it can be written");
     }
-    let stored = std::fs::read_to_string(&path).expect("it reads");
+    let stored = fs::read_to_string(&path).expect("it reads");
     assert!(
         Numbers::DRAWN.agree(&stored, &html),
         "CORFEM_WRITE=1 writes it anew"
@@ -79,9 +72,9 @@ fn node_solves_the_pages_modes_as_the_program_does() {
     let dragged: Vec<Vec<f64>> = (0..40)
         .map(|_| (0..15).map(|_| draws.between(0.27, 1.2)).collect())
         .collect();
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let path = folder.path().join("play.js");
-    std::fs::write(&path, script(&html())).expect("written");
+    fs::write(&path, script(&html())).expect("written");
     let program = format!(
         "const page = require({}), dragged = {};\
          console.log(JSON.stringify({{ ...page.histories, dragged: dragged.map((gages, at) => page.at(at % 31, gages, at % 2 === 0)) }}))",

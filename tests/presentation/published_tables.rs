@@ -2,11 +2,7 @@
 
 use crate::paper::tables::paper_tables;
 use crate::paper::tables::published::published_table;
-use corfem::present::render::{csv, text};
-use corfem::present::table::Cell;
-use std::collections::BTreeSet;
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
 
 #[test]
 fn every_printed_cell_is_one_line_as_printed() {
@@ -15,17 +11,17 @@ fn every_printed_cell_is_one_line_as_printed() {
             Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("paper/tables/table_{number}.csv"));
         let file = fs::read_to_string(file).expect("it reads");
         let rows = file.lines().filter(|line| !line.starts_with('#')).skip(1);
-        let printed: Vec<&str> = rows
+        let printed = rows
             .flat_map(|row| row.split(',').skip(1))
             .filter(|cell| !cell.is_empty())
-            .collect();
+            .collect_vec();
         let table = published_table(number).expect("it reads");
-        let written = csv(std::slice::from_ref(&table));
-        let written: Vec<&str> = written
+        let written = csv(from_ref(&table));
+        let written = written
             .lines()
             .skip(1)
             .map(|line| line.rsplit_once(',').expect("a field").1)
-            .collect();
+            .collect_vec();
         assert_eq!(written, printed, "Table {number}");
         assert!(
             table.title.starts_with(&format!("Table {number}. ")),
@@ -54,9 +50,9 @@ fn table_13_has_the_cpu_seconds() {
         .position(|column| column.name == "Pass 1 time")
         .expect("the column");
     assert_eq!(table.columns[at].unit, "s");
-    let cells: Vec<&Cell> = table.rows.iter().map(|row| &row.cells[at]).collect();
+    let cells = table.rows.iter().map(|row| &row.cells[at]).collect_vec();
     let printed = ["1.9", "2.6", "4.8", "1.3"].map(|text| Cell::Printed(text.to_owned()));
-    assert_eq!(cells, printed.iter().collect::<Vec<_>>());
+    assert_eq!(cells, printed.iter().collect_vec());
     assert_eq!(
         table.rows[3].cells.last(),
         Some(&Cell::Blank),

@@ -1,8 +1,8 @@
 //! Tables as text, Markdown and CSV: what a terminal has room for, and what another program reads.
 
-use corfem::present::render::{WIDTH, csv, markdown, text};
-use corfem::present::table::{Cell, Digits, Table, counted};
-use proptest::prelude::*;
+use crate::prelude::*;
+use corfem::present::render::{WIDTH, markdown};
+use corfem::present::table::counted;
 
 /// A table of a user's correlation: any number of columns and rows, words in headings, some numbers published.
 fn table() -> impl Strategy<Value = Table> {
@@ -82,14 +82,14 @@ properties! {
 
     #[test]
     fn no_line_of_text_is_longer_than_a_page(table in table()) {
-        let text = text(std::slice::from_ref(&table));
+        let text = text(from_ref(&table));
         for line in text.lines() {
             prop_assert!(line.chars().count() <= WIDTH, "{line}");
             prop_assert_eq!(line, line.trim_end());
         }
         // However it is split, everything is in it, in its order.
-        let words: Vec<&str> = text.split_whitespace().collect();
-        let note: Vec<&str> = table.notes[0].split_whitespace().collect();
+        let words = text.split_whitespace().collect_vec();
+        let note = table.notes[0].split_whitespace().collect_vec();
         prop_assert!(words.ends_with(&note));
         for row in &table.rows {
             for cell in &row.cells {

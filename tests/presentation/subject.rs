@@ -1,31 +1,14 @@
 //! Any correlation as tables, figures, JSON and a page: a chain, a spatial frame, and the delta wing.
 
-use crate::common::alter;
 use crate::common::drawings::{size, written};
-use crate::common::known::delta_wing::DeltaWing;
-use crate::common::known::delta_wing::correlation::correlate_wing;
-use crate::common::structures::spring_stiffness;
-use crate::common::wing_subjects::wing_subject;
+use crate::evidence::wing_subjects::wing_subject;
 use crate::paper::figures::{Figure, report_figures};
-use corfem::job::verdict::Judged;
-use corfem::method::error_sum::{Errors, mode_errors};
-use corfem::method::model::DynamicModel;
-use corfem::method::modes::{Modes, solve};
-use corfem::method::outer_loop::{Settings, correlate};
-use corfem::method::sorting::Pairing;
-use corfem::method::step::Bounds;
+use crate::prelude::*;
 use corfem::present::json;
 use corfem::present::page::report_page;
-use corfem::present::render::{WIDTH, csv, text};
-use corfem::present::report::{Derivatives, Report, SensorPoint};
-use corfem::present::table::{Cell, Digits, Table};
-use corfem::present::tables::report::{
-    derivative_table, factor_table, history_table, paired_table,
-};
-use corfem::weighted::comparison::Comparison;
-use nalgebra::{DMatrix, Vector3};
-use proptest::prelude::*;
-use std::sync::LazyLock;
+use corfem::present::render::WIDTH;
+use corfem::present::report::{Derivatives, SensorPoint};
+use corfem::present::tables::report::derivative_table;
 
 /// A chain of masses whose springs are wrong by these factors, correlated: sensors along it, or anywhere else.
 pub fn chain(
@@ -34,9 +17,9 @@ pub fn chain(
     places: impl Fn(usize) -> (Vector3<f64>, Vector3<f64>),
 ) -> Report {
     let count = wrong.len();
-    let shares: Vec<DMatrix<f64>> = (0..count)
+    let shares = (0..count)
         .map(|spring| spring_stiffness(count, spring, 4e4 * wrong[spring]))
-        .collect();
+        .collect_vec();
     let right = (0..count).fold(DMatrix::zeros(count, count), |sum, spring| {
         sum + spring_stiffness(count, spring, 4e4)
     });
@@ -44,7 +27,7 @@ pub fn chain(
     let test = solve(&right, &mass, count.min(3)).expect("solved");
     let model = |factors: &[f64]| {
         let shares = shares.iter().zip(factors).map(|(share, f)| share * *f);
-        let shares: Vec<DMatrix<f64>> = shares.collect();
+        let shares = shares.collect_vec();
         DynamicModel {
             stiffness: shares.iter().sum(),
             mass: mass.clone(),
@@ -69,7 +52,7 @@ pub fn chain(
         run.best_check(),
     );
     let shares = first.test_shares().iter();
-    let seen: Vec<f64> = shares.map(|share| share.diagonal().amax()).collect();
+    let seen = shares.map(|share| share.diagonal().amax()).collect_vec();
     let judged = Judged {
         seen: &seen,
         ranges: &ranges,
@@ -86,7 +69,7 @@ pub fn chain(
             direction,
         }
     };
-    let sensors: Vec<SensorPoint> = (0..count).map(sensor).collect();
+    let sensors = (0..count).map(sensor).collect_vec();
     let frame = sensors
         .windows(2)
         .map(|pair| pair.iter().filter_map(|sensor| sensor.place).collect())
@@ -239,10 +222,10 @@ fn a_chain_has_all_its_figures_with_names_from_a_users_file() {
 fn the_wing_is_a_spatial_frame_with_its_grids_sensors_and_modes() {
     let figures = report_figures(&WING).expect("drawn");
     check_figures(&WING, &figures);
-    let words: Vec<String> = written(&figures[0].svg)
+    let words = written(&figures[0].svg)
         .into_iter()
         .map(|word| word.text)
-        .collect();
+        .collect_vec();
     for (label, _) in &WING.grids {
         assert!(words.contains(&label.to_string()), "{label}");
     }
@@ -377,8 +360,8 @@ fn factors_stand_in_the_order_of_how_sure_their_changes_are() {
         let key = |e: usize| (subject.is_unseen(e), -sure(e));
         assert!(order.is_sorted_by(|&a, &b| key(a) <= key(b)));
         let table = factor_table(&subject);
-        let labels: Vec<&String> = table.rows.iter().map(|row| &row.label).collect();
-        let expected: Vec<&String> = order.iter().map(|&e| &subject.parameters[e]).collect();
+        let labels = table.rows.iter().map(|row| &row.label).collect_vec();
+        let expected = order.iter().map(|&e| &subject.parameters[e]).collect_vec();
         assert_eq!(labels, expected);
     }
 }
@@ -443,7 +426,7 @@ fn stages_without_an_inner_loop_are_one_iteration_each() {
         .iter_mut()
         .for_each(|stage| stage.inner = None);
     let table = history_table(&subject);
-    let columns: Vec<&str> = table.columns.iter().map(|of| &of.name[..]).collect();
+    let columns = table.columns.iter().map(|of| &of.name[..]).collect_vec();
     assert_eq!(columns, ["Iterations", "Stopped by", "Error sum exact"]);
     assert!(table.rows.iter().all(|row| row.cells[0] == Cell::count(1)));
     let figures = report_figures(&subject).expect("drawn");
@@ -461,7 +444,7 @@ fn more_than_twelve_modes_are_drawn_in_several_figures() {
         (Vector3::new(row as f64, 0.0, 0.0), Vector3::z())
     });
     // Of three shapes at least one is farther off than their mean.
-    let places: Vec<usize> = (0..45).map(|mode| mode % 3).collect();
+    let places = (0..45).map(|mode| mode % 3).collect_vec();
     subject.test = Modes::new(
         subject.test.omega_squared().select_rows(&places),
         subject.test.shapes().select_columns(&places),

@@ -1,30 +1,22 @@
 //! Every check says yes, no, or not checked, before the first step and after a run.
 
 use super::job_concerns::tested;
-use super::job_errors::{placed, retested, with};
-use super::job_prepared::measured_building;
 use super::twice::{numbered, universal, with_places};
-use crate::common::jobs::{Files, of_matrices, prepare, rods, run, torque_box, worked};
-use crate::common::whole_models::{masses, springs};
+use crate::common::jobs::{rods, run, torque_box};
+use crate::prelude::*;
 use corfem::job::concern::{Answer, Check, Grade};
-use corfem::job::{Concern, Trust};
-use corfem::method::modes::{Modes, solve};
-use nalgebra::DMatrix;
-use std::f64::consts::TAU;
 
 /// The account before the first step.
 fn before(files: &Files) -> Trust {
-    let (_folder, path) = placed(files);
-    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
-    Trust::before(&loaded).unwrap_or_else(|error| panic!("{error}"))
+    let loaded = prepared(files);
+    trust_in(&loaded)
 }
 
 /// The account after a run.
 fn after(files: &Files) -> Trust {
-    let (_folder, path) = placed(files);
-    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepared(files);
     let result = run(&loaded, |_| {}, || true);
-    result.unwrap_or_else(|error| panic!("{error}")).trust
+    result.unwrap().trust
 }
 
 /// The first sensors of a test alone.
@@ -60,9 +52,9 @@ fn plane(is_turned: bool) -> Files {
     let lines = (0..6).flat_map(|grid| ["x", "y"].map(|along| format!("{},{along}\n", grid + 1)));
     name(&mut files, "rows.csv", lines.collect());
     retested(files, |data| {
-        let read: Vec<usize> = (0..6)
+        let read = (0..6)
             .map(|grid| row(grid, usize::from(is_turned && grid == 3)))
-            .collect();
+            .collect_vec();
         data.shapes = data.shapes.select_rows(&read);
         data.sensors.truncate(6);
         for (grid, sensor) in data.sensors.iter_mut().enumerate() {
@@ -73,7 +65,7 @@ fn plane(is_turned: bool) -> Files {
 
 /// Masses in a row on springs between them, held nowhere.
 fn free() -> Files {
-    let links: Vec<_> = (1..6).map(|row| (row, Some(row - 1), 1e5)).collect();
+    let links = (1..6).map(|row| (row, Some(row - 1), 1e5)).collect_vec();
     let (stiffness, mass) = (springs(6, &links).dense(), masses(&[3.0; 6]).dense());
     let all = solve(&(&stiffness + 1e-3 * &mass), &mass, 6).expect("modes");
     let three = all.omega_squared().rows(1, 3).into_owned();
@@ -328,7 +320,7 @@ fn every_check_says_yes_no_or_not_checked() {
         let (cases, reason) = cases(check);
         let mut missing = vec![Answer::Yes, Answer::No, Answer::NotChecked];
         for (expected, trust) in cases {
-            let said: Vec<String> = trust.all().iter().map(Concern::words).collect();
+            let said = trust.all().iter().map(Concern::words).collect_vec();
             assert_eq!(trust.answer(check), expected, "{name}: {said:#?}");
             missing.retain(|own| *own != expected);
         }
@@ -369,7 +361,7 @@ fn a_look_and_a_run_end_in_the_same_doubts() {
             stands.map(Concern::identifier).collect()
         };
         let looked = Trust::before(&crate::common::jobs::loaded(name));
-        let looked = looked.unwrap_or_else(|error| panic!("{error}"));
+        let looked = looked.unwrap();
         assert_eq!(doubts(&looked), doubts(&result.trust), "{name}");
     }
     let jobs = [

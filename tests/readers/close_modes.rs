@@ -1,8 +1,6 @@
 //! Test modes closer than their deviations tell: what is compared is the subspace of their shapes.
 
-use crate::common::jobs::run;
 use crate::prelude::*;
-use crate::readers::job_errors::placed;
 
 /// Two towers of three floors side by side, one stiffer than the other by `split`, and a test of both in which every pair of modes is
 /// turned by an angle (radians) and its stiffer tower is stiffer by `truth`.
@@ -89,9 +87,8 @@ fn towers([split, truth, angle]: [f64; 3]) -> Files {
 }
 
 fn corrected(files: &Files) -> (PreparedJob, JobResult) {
-    let (_folder, path) = placed(files);
-    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
-    let result = run(&loaded, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepared(files);
+    let result = finished(&loaded);
     (loaded, result)
 }
 

@@ -355,7 +355,7 @@ fn the_owners_programs_read_a_rewritten_deck() {
 fn a_rewritten_deck_keeps_carriage_returns_as_ends_of_lines() {
     let [deck, other] = ["original", "rewritten"].map(|name| {
         let path = format!("{}/golden/formats/{name}.bdf", env!("CARGO_MANIFEST_DIR"));
-        std::fs::read(path).unwrap()
+        fs::read(path).unwrap()
     });
     let other = deck::read("other", &other, &[]).unwrap().model;
     let write = |bytes: &[u8]| {

@@ -1,12 +1,10 @@
 //! Files that are none or have no end: refused before a byte of them is read.
 #![cfg(unix)]
 
-use crate::common::jobs::rods;
 use crate::prelude::*;
-use crate::readers::job_errors::placed;
 use corfem::files::{MOST_BYTES, read_bytes};
 
-use std::fs::{File, remove_file};
+use fs::{File, remove_file};
 use std::os::unix::fs::symlink;
 
 /// Puts something endless in the place of a file; the reason for which it is refused.
@@ -64,7 +62,7 @@ fn every_file_of_a_job_is_a_regular_file_of_bounded_length() {
 
 #[test]
 fn a_file_that_ends_is_read_whole() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = new_folder();
     let path = folder.path().join("file");
     fs::write(&path, "\u{0}a file\n").unwrap();
     assert_eq!(read_bytes(&path).unwrap(), b"\0a file\n");

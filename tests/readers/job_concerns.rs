@@ -1,20 +1,16 @@
 //! What a job's pre-flight says: doubts that name a mistake by sensor, mode or parameter.
 
-use super::job_errors::{placed, retested, with};
-use super::job_prepared::{measured_building, prepared};
-use crate::common::draws::Draws;
-use crate::common::jobs::{Files, torque_box};
-use crate::common::jobs::{prepare, run};
-use corfem::files::test_data::TestData;
+use crate::common::jobs::run;
+use crate::common::jobs::torque_box;
+use crate::prelude::*;
+use corfem::job::LoadedJob;
 use corfem::job::concern::Grade;
-use corfem::job::{Concern, Kind, LoadedJob, Trust};
 use std::sync::Arc;
 
 /// The identifiers of a job's doubts.
 fn doubts(files: &Files) -> Vec<String> {
-    let (_folder, path) = placed(files);
-    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
-    let trust = Trust::before(&loaded).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepared(files);
+    let trust = trust_in(&loaded);
     let doubts = trust.all().iter().filter(|concern| concern.stands());
     doubts.map(Concern::identifier).collect()
 }
@@ -52,7 +48,7 @@ fn gross_mistakes_are_named_before_anything_fails() {
     let thousandfold = tested(|data| data.shapes.row_mut(4).scale_mut(1000.0));
     assert_eq!(doubts(&thousandfold), ["gain-5"]);
     let backward = tested(|data| {
-        let order: Vec<usize> = (0..10).rev().collect();
+        let order = (0..10).rev().collect_vec();
         data.shapes = data.shapes.select_rows(&order);
     });
     assert_eq!(doubts(&backward), ["reordered"]);
@@ -63,7 +59,7 @@ fn gross_mistakes_are_named_before_anything_fails() {
             .enumerate()
             .for_each(|(row, mut readings)| readings *= if row == 4 { 1e5 } else { 1.0 });
     }));
-    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepare(&path).unwrap();
     let error = run(&loaded, |_| {}, || true)
         .expect_err("refused")
         .to_string();
@@ -83,8 +79,7 @@ fn a_test_of_which_no_mode_resembles_one_of_the_model_is_doubtful() {
             data.shapes
                 .apply(|reading| *reading = draws.between(-1.0, 1.0))
         });
-        let (_folder, path) = placed(&unlike);
-        let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+        let loaded = prepared(&unlike);
         if loaded.modes.len() < loaded.loaded.data.frequencies_hz.len() {
             continue;
         }
@@ -105,16 +100,15 @@ fn a_test_half_of_whose_modes_have_partners_is_correlated_with_these() {
             data.shapes[(floor, mode)] = 1.0;
         }
     });
-    let (_folder, path) = placed(&half);
-    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepared(&half);
     assert_eq!((loaded.modes.len(), loaded.unpaired.len()), (2, 2));
-    let result = run(&loaded, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
+    let result = finished(&loaded);
     let left = result
         .trust
         .all()
         .iter()
         .filter(|left| left.grade() == Grade::LeftOut);
-    let left: Vec<String> = left.map(Concern::identifier).collect();
+    let left = left.map(Concern::identifier).collect_vec();
     assert_eq!(left, ["not-compared-3", "not-compared-4"]);
 }
 
@@ -130,7 +124,7 @@ fn a_matrix_that_is_no_part_of_the_first_model_is_named() {
     let stiffness = files[1].1.clone();
     let more = |factor: f64| {
         let mut lines = stiffness.lines();
-        let mut text: Vec<String> = lines.by_ref().take(2).map(str::to_owned).collect();
+        let mut text = lines.by_ref().take(2).map(str::to_owned).collect_vec();
         for line in lines {
             let (place, value) = line.rsplit_once(' ').expect("a value");
             let value: f64 = value.parse().expect("a number");
@@ -164,9 +158,8 @@ fn free(stiffness: &str, lines: &str) -> (Vec<(String, bool)>, usize) {
     files[0].1 = files[0]
         .1
         .replacen("[test]", &format!("{lines}\n[test]"), 1);
-    let (_folder, path) = placed(&files);
-    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
-    let trust = Trust::before(&loaded).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepared(&files);
+    let trust = trust_in(&loaded);
     let all = trust.all().iter();
     let all = all.filter(|concern| concern.identifier() == "free-by-digits");
     let all = all.map(|concern| (concern.identifier(), concern.stands()));
@@ -195,7 +188,7 @@ fn more_rigid_bodies_than_the_digits_allow_are_refused_by_key_and_value() {
         "[test]",
         "rigid_bodies = 2\n[test]",
     );
-    let said = super::job_errors::said(&two);
+    let said = crate::common::jobs::said(&two);
     assert!(
         said.contains(
             "model.rigid_bodies is 2, but the digits of a double of model.stiffness leave at most 0"
@@ -204,7 +197,7 @@ fn more_rigid_bodies_than_the_digits_allow_are_refused_by_key_and_value() {
     );
     let mut negative = files;
     negative[1].1 = HARDLY_HELD.replace("100000.0000001", "99999.123456");
-    let said = super::job_errors::said(&negative);
+    let said = crate::common::jobs::said(&negative);
     let expected = "model.stiffness has negative energy in a motion of ";
     assert!(
         said.contains(expected) && said.contains("more than 11 digits explain"),
@@ -268,7 +261,7 @@ fn places_in_another_unit_are_named() {
             sensor.distance = Some(0.0);
             loaded.data.sensors[sensor.row].place = sensor.place.map(|place| factor * place);
         }
-        let trust = Trust::before(&prepared).unwrap_or_else(|error| panic!("{error}"));
+        let trust = trust_in(&prepared);
         trust.of(Kind::UnitOfPlaces).any(Concern::stands)
     };
     assert!(with_unit(25.4));

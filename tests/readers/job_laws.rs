@@ -1,28 +1,19 @@
 //! Laws of a job by numbers that are worked out by hand: how each concern is filled, and both sides of every limit before the first step.
 
 use super::job_concerns::tested;
-use super::job_errors::{placed, retested, with};
-use super::job_prepared::{measured_building, prepared};
 use super::lone_frequencies::without_shapes;
 use super::twice::universal;
-use crate::common::jobs::{Files, building, of_matrices, rods, run};
-use crate::common::tolerances::{HELD_OUT, SET_UP};
-use corfem::files::test_data::TestData;
-use corfem::job::preflight::{Names, SeenModes, preflight_at_sensors};
-use corfem::job::{Concern, Kind, Study, Trust, Vary};
-use corfem::method::modes::Modes;
-use corfem::method::outer_loop::Settings;
-use corfem::weighted::noise::Noise;
-use nalgebra::{DMatrix, DVector, dmatrix};
-use std::f64::consts::TAU;
+use crate::common::jobs::{rods, run};
+use crate::prelude::*;
+use corfem::job::{Study, Vary};
 
 /// A concern in a line: its kind, what it is about, and its numbers with four decimals.
 fn line(concern: &Concern) -> String {
-    let numbers: Vec<String> = concern
+    let numbers = concern
         .measure
         .iter()
         .map(|own| format!("{own:.4}"))
-        .collect();
+        .collect_vec();
     format!(
         "{:?} [{}] [{}]",
         concern.kind,
@@ -33,13 +24,11 @@ fn line(concern: &Concern) -> String {
 }
 
 fn before(files: &Files) -> Trust {
-    Trust::before(&prepared(files)).unwrap_or_else(|error| panic!("{error}"))
+    Trust::before(&prepared(files)).unwrap()
 }
 
 fn after(files: &Files) -> Trust {
-    run(&prepared(files), |_| {}, || true)
-        .unwrap_or_else(|error| panic!("{error}"))
-        .trust
+    run(&prepared(files), |_| {}, || true).unwrap().trust
 }
 
 /// Lines of these kinds.
@@ -66,7 +55,7 @@ fn bounded(files: Files, bounds: &str) -> Files {
 /// have 200 for weight and 100 for slope, and of 40 numbers the factor takes 4e4/(4e4 + 1); 72.055 and 17.262 are the quantiles of 39.
 #[test]
 fn a_right_job_says_all_that_is_known_of_it() {
-    let said = |trust: Trust| trust.all().iter().map(line).collect::<Vec<_>>();
+    let said = |trust: Trust| trust.all().iter().map(line).collect_vec();
     let looked = [
         "NotChecked [the places of sensors or of their grids are not given, places of sensors] []",
         "NotChecked [the model moves in no other direction there, directions of sensors] []",
@@ -143,16 +132,16 @@ fn looked_at(
 fn every_limit_of_frequencies_has_two_sides() {
     let (spread, same) = ([1.0, 3.0, 9.0, 27.0], DMatrix::identity(4, 4));
     let common = |ratios: [f64; 4]| {
-        let tests: Vec<f64> = spread
+        let tests = spread
             .iter()
             .zip(ratios)
             .map(|(hertz, ratio)| hertz * ratio)
-            .collect();
+            .collect_vec();
         let found = looked_at(&spread, &tests, &same, &[]);
         let found = found
             .iter()
             .filter(|own| matches!(own.kind, Kind::NamedFactor | Kind::UnnamedFactor));
-        found.map(line).collect::<Vec<_>>()
+        found.map(line).collect_vec()
     };
     let none = [""; 0];
     // Unnamed beyond one and a half, either way.
@@ -218,7 +207,7 @@ fn an_exchange_of_frequencies_must_mend_enough() {
             .iter()
             .filter(|own| own.kind == Kind::FrequenciesExchanged)
             .map(line)
-            .collect::<Vec<_>>()
+            .collect_vec()
     };
     for (gap, is_said) in [(0.0245, false), (0.0255, true)] {
         let found = exchanged([0.0, gap, 1.0, 2.0], [gap, 0.0, 1.0, 2.0], &same);
@@ -238,11 +227,11 @@ fn an_exchange_of_frequencies_must_mend_enough() {
     }; 4];
     let tests = [0.8, 0.0, 2.5, 3.5].map(|log: f64| TAU * log.exp());
     let found = looked_at(&[0.0, 0.8, 2.5, 3.5].map(f64::exp), &tests, &same, &noise);
-    let found: Vec<Kind> = found
+    let found = found
         .iter()
         .filter(|own| own.stands())
         .map(|own| own.kind)
-        .collect();
+        .collect_vec();
     assert_eq!(found, [Kind::FrequenciesExchanged, Kind::NamedFactor]);
     // Of modes that ascend in frequency it is the shapes that are in another order.
     let swapped =
@@ -460,7 +449,7 @@ fn every_limit_of_a_test_has_two_sides() {
             "{factor}"
         );
         if let Some(gain) = trust.of(Kind::Gain).next() {
-            assert!((gain.measure[1] / factor - 1.0).abs() < SET_UP, "{gain:?}");
+            assert!(relative_error(gain.measure[1], factor) < SET_UP, "{gain:?}");
         }
     }
     for (size, is_dead) in [(0.08, true), (0.12, false)] {
@@ -560,7 +549,7 @@ fn a_mode_held_out_says_what_it_was_and_is() {
     let files = with(files, "job.toml", "[test]\n", "[test]\nhold_out = [4]\n");
     let files = bounded(files, "prior_deviation = 100\n");
     let trust = after(&files);
-    let [held] = trust.of(Kind::HeldOut).collect::<Vec<_>>()[..] else {
+    let [held] = trust.of(Kind::HeldOut).collect_vec()[..] else {
         panic!("{trust:?}")
     };
     assert_eq!(held.about, ["4"]);
@@ -651,7 +640,7 @@ fn the_evidence_of_a_mistake_is_what_it_is() {
         lines(&trust, &[Kind::Reversed])
             .into_iter()
             .chain(open)
-            .collect::<Vec<_>>()
+            .collect_vec()
             .join("; ")
     };
     // Less evidence than the number of tries over a thousandth of false alarms, here 10^4.6, is none, and other sensors would not show.
@@ -691,7 +680,7 @@ fn three_sensors_are_the_fewest_that_tell() {
         let open = found
             .of(Kind::NotChecked)
             .filter(|own| own.about[1..].contains(&"readings".to_owned()));
-        open.map(|own| own.about[0].clone()).collect::<Vec<_>>()
+        open.map(|own| own.about[0].clone()).collect_vec()
     };
     let none = "two sensors tell no mistake of one";
     assert_eq!([1, 2].map(of), [[none], [none]]);
@@ -761,7 +750,7 @@ fn a_test_sees_the_first_model_and_the_last() {
     .unwrap();
     let [first, last] = [&result.seen_first, &result.seen].map(|seen| seen.singular_values[0]);
     assert!(
-        (first * 1.05 / 200.0 - 1.0).abs() < HELD_OUT && (last / 200.0 - 1.0).abs() < HELD_OUT,
+        (first * 1.05 / 200.0 - 1.0).abs() < HELD_OUT && relative_error(last, 200.0) < HELD_OUT,
         "{first} {last}"
     );
     let one = |row: usize, size: f64| {

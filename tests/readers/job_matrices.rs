@@ -1,77 +1,7 @@
 //! Models of a job that are matrices: which row is which grid and direction, and mistakes in saying so.
 
-use super::job_errors::{placed, said, with};
-use crate::common::jobs::prepare;
-use crate::common::jobs::{Files, building, rods};
-
-#[test]
-fn rows_of_matrices_are_a_table_of_grids_and_directions() {
-    let wrong = "is not a line of grid, direction and perhaps x, y, z";
-    for line in [
-        "2",
-        "2,q",
-        "x,x",
-        "2,x,1.",
-        "2,x,0.,a,0.,0.",
-        "2,x,,0.,0.,240",
-        "2,x,0.,0.,inf",
-        "-2,x",
-    ] {
-        let error = said(&with(building(), "rows.csv", "2,x,0.,0.,240", line));
-        assert_eq!(error, format!("rows.csv, line 3: \"{line}\" {wrong}"));
-    }
-    // As a spreadsheet may write it, with a remark.
-    let mark = with(
-        building(),
-        "rows.csv",
-        "grid,direction",
-        "\u{feff}\"grid\",direction",
-    );
-    let (_folder, path) = placed(&with(
-        mark,
-        "rows.csv",
-        "2,x,",
-        "\n# the second floor\n2,x,",
-    ));
-    assert_eq!(
-        prepare(&path)
-            .unwrap_or_else(|error| panic!("{error}"))
-            .loaded
-            .source
-            .motions
-            .len(),
-        10
-    );
-    let short = said(&with(building(), "rows.csv", "2,x,0.,0.,240\n", ""));
-    assert_eq!(
-        short,
-        "job.toml: model.rows has 9 rows, but the stiffness 10"
-    );
-    let twice = said(&with(
-        building(),
-        "rows.csv",
-        "2,x,0.,0.,240",
-        "1,x,0.,0.,120",
-    ));
-    assert!(
-        twice.contains("rows 1 and 2 of the matrices have the same grid and direction"),
-        "{twice}"
-    );
-    let none = said(&with(building(), "job.toml", "rows = \"rows.csv\"", ""));
-    assert_eq!(
-        none,
-        "job.toml: model.rows is missing: these matrices do not name their rows"
-    );
-    let story = "matrix = \"story_1.mtx\"";
-    for rule in ["", "matrix = \"story_1.mtx\"\nelements = [1]"] {
-        let error = said(&with(building(), "job.toml", story, rule));
-        assert_eq!(
-            error,
-            "job.toml: parameter \"story 1\" needs a matrix, or a whole stiffness or mass with the factor at that it has there, and no \
-             entry of a deck"
-        );
-    }
-}
+use crate::common::jobs::said;
+use crate::prelude::*;
 
 /// DMIG of the chain of the rods: the stiffness names its rows in ascending order, the mass misses one.
 fn named_matrices(mass: &[(usize, f64)]) -> Files {
@@ -114,11 +44,10 @@ fn named_matrices(mass: &[(usize, f64)]) -> Files {
 
 #[test]
 fn matrices_that_name_their_rows_are_put_into_the_order_of_the_stiffness() {
-    let (_folder, path) = placed(&named_matrices(&[(4, 3.0), (3, 2.0)]));
-    let prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let prepared = prepared(&named_matrices(&[(4, 3.0), (3, 2.0)]));
     let (_, mass) = prepared.loaded.source.whole.at(&[1.0]).expect("matrices");
     assert_eq!(
-        mass.entries().collect::<Vec<_>>(),
+        mass.entries().collect_vec(),
         [(1, 1, 2.0), (2, 2, 3.0)],
         "grid 2 has none"
     );
@@ -174,18 +103,14 @@ fn a_table_of_rows_orders_matrices_that_name_theirs() {
         .for_each(|(_, text)| text.clone_from(&rows));
     files.push(("mass.pch".to_owned(), format!("DMIG,M,0,6,2,0\n{dmig}")));
     let (_folder, path) = placed(&files);
-    let source = prepare(&path)
-        .unwrap_or_else(|error| panic!("{error}"))
-        .loaded
-        .source
-        .clone();
+    let source = prepare(&path).unwrap().loaded.source.clone();
     let (_, mass) = source.whole.at(&[1.0; 10]).expect("matrices");
     assert_eq!(
         mass.entries()
-            .collect::<Vec<_>>()
+            .collect_vec()
             .iter()
             .map(|entry| entry.2)
-            .collect::<Vec<_>>(),
+            .collect_vec(),
         [70., 69., 68., 67., 66., 65., 64., 63., 62., 61.]
     );
 }
@@ -211,23 +136,4 @@ fn labels_that_fall_on_one_row_are_an_error_in_every_matrix() {
             )
         );
     }
-}
-
-#[test]
-fn the_table_of_rows_has_its_titles_in_order_and_one_place_for_a_grid() {
-    let wrong = "is not a line of grid, direction and perhaps x, y, z";
-    for titles in ["grid,direction,z,y,x", "grid,component", "grid,direction,x"] {
-        let error = said(&with(
-            building(),
-            "rows.csv",
-            "grid,direction,x,y,z",
-            titles,
-        ));
-        assert_eq!(error, format!("rows.csv, line 1: \"{titles}\" {wrong}"));
-    }
-    let moved = with(building(), "rows.csv", "2,x,0.,0.,240", "1,y,0.,0.,240");
-    assert_eq!(
-        said(&moved),
-        "rows.csv, line 3: grid 1 was given at another place before"
-    );
 }

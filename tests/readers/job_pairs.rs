@@ -1,22 +1,14 @@
 //! Pairs by likelihood: frequencies count where shapes hardly differ, hardly seen modes pay, and no finding hangs on the number of modes.
 
 use super::job_concerns::tested;
-use super::job_errors::{placed, retested, with};
-use crate::common::draws::Draws;
-use crate::common::jobs::{Files, of_whole, prepare};
-use crate::common::whole_models::{masses, sparse, springs};
-use corfem::job::assignment::pair_optimally;
+use crate::common::jobs::of_whole;
+use crate::prelude::*;
 use corfem::job::concern::Grade;
-use corfem::job::{Concern, PreparedJob, Trust};
-use corfem::method::modes::solve;
 use corfem::sparse::random::uniform;
-use corfem::sparse::{SparseMatrix, WholeModel, WholeParameter, WholeShare, modal_assurance};
-use corfem::weighted::noise::Noise;
-use nalgebra::DMatrix;
 
 fn ready(files: &Files) -> PreparedJob {
     let (_folder, path) = placed(files);
-    prepare(&path).unwrap_or_else(|error| panic!("{error}"))
+    prepare(&path).unwrap()
 }
 
 fn normal(draws: &mut Draws) -> f64 {
@@ -38,7 +30,7 @@ fn net(draws: &mut Draws, parameters: usize) -> (WholeModel, Vec<DMatrix<f64>>, 
             parts[row % parameters] += springs(count, &[(row, other, size)]).dense();
         }
     }
-    let mass: Vec<f64> = (0..count).map(|_| draws.between(1.0, 3.0)).collect();
+    let mass = (0..count).map(|_| draws.between(1.0, 3.0)).collect_vec();
     let stiffness: DMatrix<f64> = parts.iter().sum();
     let of_part = |(number, part): (usize, &DMatrix<f64>)| WholeParameter {
         name: format!("p{number}"),
@@ -58,11 +50,11 @@ fn wrong(draws: &mut Draws, sensors: usize, jobs: usize) -> [usize; 3] {
     for _ in 0..jobs {
         let parameters = 2 + draws.below(4);
         let (model, parts, mass) = net(draws, parameters);
-        let truth: Vec<f64> = (0..parameters)
+        let truth = (0..parameters)
             .map(|_| (0.3 * normal(draws)).exp())
-            .collect();
+            .collect_vec();
         let (count, tests) = (mass.nrows(), 4);
-        let mut rows: Vec<usize> = (0..count).collect();
+        let mut rows = (0..count).collect_vec();
         while rows.len() > sensors {
             rows.remove(draws.below(rows.len()));
         }
@@ -141,15 +133,15 @@ fn a_hardly_seen_mode_takes_no_partner_from_one_that_is_seen() {
             all.push((row, Some(10 + row), link));
         }
         let stiffness = springs(20, &all);
-        let real: Vec<_> = all
+        let real = all
             .iter()
             .map(|&(row, other, size)| (row, other, size * draws.between(0.8, 1.25)))
-            .collect();
+            .collect_vec();
         let part = |rows: std::ops::Range<usize>| -> SparseMatrix {
             let own = all.iter().filter(|(row, other, _)| {
                 rows.contains(row) && other.is_none_or(|other| rows.contains(&other))
             });
-            springs(20, &own.copied().collect::<Vec<_>>())
+            springs(20, &own.copied().collect_vec())
         };
         let share = |name: &str, rows| WholeParameter {
             name: name.to_owned(),
@@ -169,10 +161,10 @@ fn a_hardly_seen_mode_takes_no_partner_from_one_that_is_seen() {
         let on = |shapes: &DMatrix<f64>, mode: usize| {
             shapes.view((0, mode), (10, 1)).norm_squared() * 60.0
         };
-        let measured: Vec<usize> = (0..20)
+        let measured = (0..20)
             .filter(|&mode| on(found.shapes(), mode) > 0.5)
             .take(4)
-            .collect();
+            .collect_vec();
         let files = retested(files, |data| {
             let hertz = found.frequencies_hz();
             data.frequencies_hz = measured.iter().map(|&mode| hertz[mode]).collect();
@@ -208,7 +200,7 @@ fn a_hardly_seen_mode_takes_no_partner_from_one_that_is_seen() {
 
 /// The doubts about a job, by identifier.
 fn against(job: &PreparedJob) -> Vec<String> {
-    let trust = Trust::before(job).unwrap_or_else(|error| panic!("{error}"));
+    let trust = trust_in(job);
     let all = trust.all().iter().filter(|own| own.grade() == Grade::Doubt);
     all.map(Concern::identifier).collect()
 }
@@ -217,14 +209,14 @@ fn against(job: &PreparedJob) -> Vec<String> {
 #[test]
 fn no_finding_hangs_on_the_number_of_modes_taken() {
     let count = 420;
-    let all: Vec<_> = (0..count)
+    let all = (0..count)
         .map(|row: usize| (row, row.checked_sub(1), 1e7))
-        .collect();
+        .collect_vec();
     let half = |of: usize| {
         let own = all.iter().filter(|(row, ..)| row * 2 / count == of);
         WholeParameter {
             name: format!("half {of}"),
-            share: WholeShare::Stiffness(springs(count, &own.copied().collect::<Vec<_>>())),
+            share: WholeShare::Stiffness(springs(count, &own.copied().collect_vec())),
             range: None,
         }
     };
@@ -276,7 +268,7 @@ fn readings_are_judged_by_the_deviations_that_the_test_declares() {
     let mut draws = Draws(8);
     let (mut alarms, mut named) = (0, 0);
     for _ in 0..40 {
-        let noisy: Vec<f64> = (0..40).map(|_| normal(&mut draws)).collect();
+        let noisy = (0..40).map(|_| normal(&mut draws)).collect_vec();
         let with_noise = |is_reversed: bool| {
             tested(|data| {
                 for (place, mut shape) in data.shapes.column_iter_mut().enumerate() {

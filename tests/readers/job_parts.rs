@@ -1,12 +1,7 @@
 //! Parameters' matrices are parts of the first model's as far as digits tell, one by one and together.
 
-use super::job_errors::placed;
 use super::job_unseen::{chain, files};
-use crate::common::draws::Draws;
-use crate::common::jobs::Files;
-use crate::common::jobs::prepare;
-use corfem::job::{Concern, Kind, Trust};
-use proptest::prelude::*;
+use crate::prelude::*;
 
 /// The files with the numbers of all matrices written with so many digits, those of one after a factor.
 fn written(files: &Files, digits: usize, (name, factor): (&str, f64)) -> Files {
@@ -36,9 +31,8 @@ fn written(files: &Files, digits: usize, (name, factor): (&str, f64)) -> Files {
 
 /// Doubts about parts.
 fn doubts(files: &Files) -> Vec<String> {
-    let (_folder, path) = placed(files);
-    let prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
-    let trust = Trust::before(&prepared).unwrap_or_else(|error| panic!("{error}"));
+    let prepared = prepared(files);
+    let trust = trust_in(&prepared);
     let of_parts = ["negative-", "not-part-", "sum-of-", "twin-"];
     let all = trust.all().iter().map(Concern::identifier);
     all.filter(|identifier| of_parts.iter().any(|part| identifier.starts_with(part)))
@@ -79,8 +73,8 @@ properties! {
         let again = written(&again, digits, ("half.mtx", 0.5));
         prop_assert_eq!(doubts(&again), ["sum-of-stiffness"]);
         let (_folder, path) = placed(&again);
-        let prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
-        let trust = Trust::before(&prepared).unwrap_or_else(|error| panic!("{error}"));
+        let prepared = prepare(&path).unwrap();
+        let trust = trust_in(&prepared);
         let words = trust.of(Kind::SumOfStiffness).next().expect("a doubt").words();
         prop_assert!(words.contains("p1") || words.contains("again"), "{words}");
     }

@@ -1,60 +1,9 @@
 //! What a job is prepared to: how many modes of the model, which mass at the sensors, and what the sensors measure.
 
-use super::job_errors::{placed, said, with};
 use super::test_data_axes::{PART, matrix, row};
 use super::test_data_universal::{dataset, real_mode};
-use crate::common::jobs::prepare;
-use crate::common::jobs::{Files, building, rods};
-use crate::common::test_files::write_csv;
-use crate::common::tolerances::ROUND_OFF;
-use crate::common::whole_models::shear_building;
-use corfem::files::matrices::write_matrix_market;
-use corfem::files::test_data::{Sensor, TestData};
-use corfem::job::PreparedJob;
-use corfem::method::analysis::Analysis;
-use corfem::present::report::Report;
-use nalgebra::{DMatrix, dmatrix};
-
-/// A job that has no mistake, ready to run.
-pub fn prepared(files: &Files) -> PreparedJob {
-    let (_folder, path) = placed(files);
-    prepare(&path).unwrap_or_else(|error| panic!("{error}"))
-}
-
-/// A building whose stories are scaled as one, with its lowest modes measured at every floor.
-pub fn measured_building(stories: usize, modes: usize) -> Files {
-    let model = shear_building(&vec![1e5; stories], 60.0, None);
-    let ones = vec![1.0; stories];
-    let found = model.modes(&ones, modes).expect("modes").vibrations;
-    let sensors = (1..=stories).map(|floor| Sensor {
-        name: floor.to_string(),
-        grid: Some(floor),
-        direction: 0,
-        axis: None,
-        place: None,
-    });
-    let frequencies_hz = found.frequencies_hz();
-    let data = TestData {
-        frequencies_hz,
-        sensors: sensors.collect(),
-        shapes: found.shapes().clone(),
-        ..TestData::default()
-    };
-    let (stiffness, mass) = model.at(&ones).expect("matrices");
-    let job = "[model]\nstiffness = \"stiffness.mtx\"\nmass = \"mass.mtx\"\nrows = \"rows.csv\"\n[test]\nfile = \"test.csv\"\n\
-               [[parameter]]\nname = \"all\"\nmatrix = \"stiffness.mtx\"\n";
-    let files = [
-        ("job.toml", job.to_owned()),
-        ("stiffness.mtx", write_matrix_market(&stiffness)),
-        ("mass.mtx", write_matrix_market(&mass)),
-        (
-            "rows.csv",
-            (1..=stories).map(|floor| format!("{floor},x\n")).collect(),
-        ),
-        ("test.csv", write_csv(&data)),
-    ];
-    files.map(|(name, text)| (name.to_owned(), text)).to_vec()
-}
+use crate::common::jobs::said;
+use crate::prelude::*;
 
 #[test]
 fn a_job_without_a_title_is_called_by_its_file() {

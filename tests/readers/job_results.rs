@@ -1,26 +1,13 @@
 //! What a run of a job comes to: its verdict, what is told on the way, the best so far, bounds from any start, and the deck.
 
-use super::job_errors::{placed, said as said_of, with};
-use super::job_prepared::prepared;
 use crate::common::jobs::run;
-use crate::common::jobs::{Files, building, rods};
-use crate::common::test_files::write_csv;
-use crate::common::tolerances::{
-    MATRIX_ROUND_OFF, MEAN_MISFIT, PRINTED_RMS, ROUND_OFF, WEIGHTED_FACTOR,
-};
-use corfem::files::deck;
-use corfem::job::verdict::Outcome;
-use corfem::job::{Concern, History, JobResult, Kind, Study, Trust, Vary};
-use corfem::method::modes::Modes;
-use corfem::method::step::Bounds;
+use crate::common::jobs::said as said_of;
+use crate::prelude::*;
+use corfem::job::{Study, Vary};
+use corfem::present::json;
 use corfem::present::page::report_page;
-use corfem::present::report::Report;
 use corfem::present::tables::report::minima_table;
-use corfem::present::{json, render};
-use corfem::weighted::identifiability::{NORMAL_95, PRIOR_DEVIATION};
-use corfem::weighted::intervals::Withheld;
-use corfem::weighted::noise::with_noise_by_mode;
-use corfem::weighted::residuals::{jacobian, residuals};
+use corfem::weighted::identifiability::PRIOR_DEVIATION;
 use std::cell::Cell;
 
 const A: &str = "elements = [1]";
@@ -38,7 +25,7 @@ fn third_higher(mut files: Files) -> Files {
 }
 
 fn ran(files: &Files) -> JobResult {
-    run(&prepared(files), |_| {}, || true).unwrap_or_else(|error| panic!("{error}"))
+    run(&prepared(files), |_| {}, || true).unwrap()
 }
 
 /// The job with the first parameter alone, and this rule for it.
@@ -61,7 +48,7 @@ fn every_rod_is_found_within_tolerance() {
     let found = ran(&with(rods(), "job.toml", B, EACH));
     for (factor, truth) in found.found.factors.iter().zip([0.8, 1.1, 1.0]) {
         assert!(
-            (factor / truth - 1.0).abs() < WEIGHTED_FACTOR,
+            relative_error(factor, truth) < WEIGHTED_FACTOR,
             "{:?}",
             found.found.factors
         );
@@ -80,7 +67,7 @@ fn several_starts_name_their_minima_in_every_output() {
     let table = minima_table(&report).expect("minima");
     let labels: Vec<&str> = table.rows.iter().map(|row| &row.label[..]).collect();
     assert_eq!(labels, ["chi-squared", "starts", "a", "b"]);
-    let text = render::text(std::slice::from_ref(&table));
+    let text = render::text(from_ref(&table));
     assert!(text.contains("Minima that noise allows"), "{text}");
     let document = json::report(&report).expect("a document");
     let minima = document["minima"].as_array().expect("minima");
@@ -94,7 +81,7 @@ fn several_starts_name_their_minima_in_every_output() {
     );
     let misfit = found.misfit.chi_squared;
     let chi_squared = minima[0]["chi_squared"].as_f64().expect("a number");
-    assert!((chi_squared / misfit - 1.0).abs() < MATRIX_ROUND_OFF);
+    assert!(relative_error(chi_squared, misfit) < MATRIX_ROUND_OFF);
     let page = report_page(&report, &[table], "corfem correlate job.toml", "").expect("a page");
     assert!(page.contains("Minima that noise allows"));
     assert!(text.contains("0 starts failed.") && document["failed_starts"] == 0);
@@ -104,7 +91,7 @@ fn several_starts_name_their_minima_in_every_output() {
     }
     let report = Report::from_job(&failing.found.prepared, Some(&failing)).expect("a report");
     let table = minima_table(&report).expect("minima");
-    assert!(render::text(std::slice::from_ref(&table)).contains("2 starts failed."));
+    assert!(render::text(from_ref(&table)).contains("2 starts failed."));
     assert_eq!(
         json::report(&report).expect("a document")["failed_starts"],
         2
@@ -163,7 +150,7 @@ fn a_mode_held_out_is_compared_and_not_fitted() {
     let one = ran(&held(rods()));
     let off = ran(&held(third_higher(rods())));
     for (own, other) in one.found.factors.iter().zip(&off.found.factors) {
-        assert!((own / other - 1.0).abs() < ROUND_OFF);
+        assert!(relative_error(own, other) < ROUND_OFF);
     }
     let said = |found: &JobResult| {
         found
@@ -202,7 +189,7 @@ fn a_mode_held_out_is_compared_and_not_fitted() {
 fn modes_of_the_model_that_no_test_mode_answers_are_said() {
     let unanswered = |entry: &str| {
         let found = ran(&with(rods(), "job.toml", "[test]", entry));
-        let before = Trust::before(&found.found.prepared).expect("an account");
+        let before = trust_in(&found.found.prepared);
         let [before, after] = [&before, &found.trust].map(|trust| trust.about(Kind::Unanswered));
         assert_eq!(before.len(), after.len());
         after
@@ -260,7 +247,7 @@ fn the_document_has_the_ends_of_intervals_the_residuals_and_how_starts_ended() {
             let shape = mode["shape"].as_array().expect("a list").iter().map(number);
             std::iter::once(number(&mode["frequency"]))
                 .chain(shape)
-                .collect::<Vec<_>>()
+                .collect_vec()
         })
         .collect();
     assert_eq!(told, all.as_slice());
@@ -432,8 +419,7 @@ fn a_stopped_correlation_gives_the_best_that_it_has_told() {
             asked.set(asked.get() + 1);
             asked.get() < most
         };
-        let found = run(&prepared, |words| told.push(words.to_owned()), go_on)
-            .unwrap_or_else(|error| panic!("{error}"));
+        let found = run(&prepared, |words| told.push(words.to_owned()), go_on).unwrap();
         assert!(
             found.found.is_interrupted && matches!(found.found.history, History::GaussNewton(None))
         );
@@ -479,8 +465,7 @@ fn a_pass_of_the_papers_loop_is_told_by_its_errors_in_percent() {
         "method = \"gauss_newton\"",
         "method = \"paper\"",
     ));
-    let found = run(&prepared, |words| told.push(words.to_owned()), || true)
-        .unwrap_or_else(|error| panic!("{error}"));
+    let found = run(&prepared, |words| told.push(words.to_owned()), || true).unwrap();
     let History::Paper(run) = found.found.history else {
         panic!("by the paper's loops")
     };
@@ -533,7 +518,7 @@ fn bounds_hold_from_wherever_the_papers_loop_starts() {
         "elements = [2]\nlower = 0.8\nupper = 1.02\n[[parameter]]\nname = \"c\"\nelements = [3]";
     let files = with(with(rods(), "job.toml", A, bounds), "job.toml", B, each);
     let (_folder, path) = placed(&with(files, "job.toml", "method = \"gauss_newton\"", ""));
-    let study = Study::new(&path, 5, &[Vary::Start], &[]).unwrap_or_else(|error| panic!("{error}"));
+    let study = Study::new(&path, 5, &[Vary::Start], &[]).unwrap();
     for sample in 1..=6 {
         let (line, failure) = study.run(sample, || true).expect("a sample");
         assert!(failure.is_none(), "{line}");
@@ -573,7 +558,7 @@ fn a_corrected_deck_has_factors_in_sizes_and_densities() {
         elements
             .iter()
             .map(|element| (element.size, element.material.density))
-            .collect::<Vec<_>>()
+            .collect_vec()
     };
     assert_eq!(
         corrected(&dense, &[2.5, 0.5]),

@@ -1,18 +1,7 @@
 //! What sensors do not see does not exist: parts of the model that no sensor is on change nothing but what is said of them.
 
-use super::job_errors::placed;
-use crate::common::draws::Draws;
-use crate::common::jobs::Files;
-use crate::common::jobs::{prepare, run};
-use crate::common::test_files::write_csv;
-use crate::common::whole_models::{lowest_modes, masses, springs};
-use corfem::files::matrices::write_matrix_market;
-use corfem::files::test_data::{Sensor, TestData};
+use crate::prelude::*;
 use corfem::job::verdict::Outcome;
-use corfem::job::{Concern, JobResult, Kind};
-use corfem::method::sorting::pair_modes;
-use corfem::sparse::{BasisSize, SparseMatrix, WholeModel};
-use proptest::prelude::*;
 
 /// A chain whose springs are three parameters, held at one end, with an exact test of its lowest modes at four masses.
 pub struct Chain {
@@ -24,19 +13,19 @@ pub struct Chain {
 pub fn chain(draws: &mut Draws) -> Chain {
     let count = 6 + draws.below(8);
     let size = |draws: &mut Draws| 10_f64.powf(draws.between(4.0, 5.0));
-    let springs_of: Vec<_> = (0..count)
+    let springs_of = (0..count)
         .map(|row: usize| (row, row.checked_sub(1), size(draws)))
-        .collect();
-    let all: Vec<f64> = (0..count).map(|_| draws.between(1.0, 3.0)).collect();
+        .collect_vec();
+    let all = (0..count).map(|_| draws.between(1.0, 3.0)).collect_vec();
     let truth = [0.8, 1.1, 0.9];
     let real = springs_of
         .iter()
         .map(|&(row, other, size)| (row, other, truth[row % 3] * size));
-    let real = springs(count, &real.collect::<Vec<_>>());
+    let real = springs(count, &real.collect_vec());
     let modes = lowest_modes(&real, &masses(&all), 4)
         .expect("modes")
         .vibrations;
-    let mut rows: Vec<usize> = (0..count).collect();
+    let mut rows = (0..count).collect_vec();
     while rows.len() > 4 {
         rows.remove(draws.below(rows.len()));
     }
@@ -104,13 +93,13 @@ fn block(draws: &mut Draws, chain: &Chain, kind: usize) -> Block {
 pub fn files(chain: &Chain, (more, heavy): &Block, link: f64, draws: &mut Draws) -> Files {
     let (own, added) = (chain.masses.len(), heavy.len());
     let count = own + added;
-    let mut order: Vec<usize> = (0..count).collect();
+    let mut order = (0..count).collect_vec();
     // Rows of both are mixed, each in its own order.
     if added > 0 {
-        let mut rows: Vec<usize> = (0..count).collect();
-        let mut first: Vec<usize> = (0..own)
+        let mut rows = (0..count).collect_vec();
+        let mut first = (0..own)
             .map(|_| rows.remove(draws.below(rows.len())))
-            .collect();
+            .collect_vec();
         first.sort_unstable();
         order = [first, rows].concat();
     }
@@ -118,12 +107,12 @@ pub fn files(chain: &Chain, (more, heavy): &Block, link: f64, draws: &mut Draws)
     let place = |&(row, other, size): &(usize, Option<usize>, f64), first: usize| {
         (at(first + row), other.map(|other| at(first + other)), size)
     };
-    let own_springs: Vec<_> = chain
+    let own_springs = chain
         .springs
         .iter()
         .map(|spring| place(spring, 0))
-        .collect();
-    let mut all: Vec<_> = more.iter().map(|spring| place(spring, own)).collect();
+        .collect_vec();
+    let mut all = more.iter().map(|spring| place(spring, own)).collect_vec();
     all.extend(&own_springs);
     if link > 0.0 && added > 0 {
         all.push((at(0), Some(at(own)), link));
@@ -141,7 +130,7 @@ pub fn files(chain: &Chain, (more, heavy): &Block, link: f64, draws: &mut Draws)
         let own = own
             .filter(|(row, _)| row % 3 == kind)
             .map(|(_, spring)| *spring);
-        write_matrix_market(&springs(count, &own.collect::<Vec<_>>()))
+        write_matrix_market(&springs(count, &own.collect_vec()))
     };
     let mut job = "[model]\nstiffness = \"k.mtx\"\nmass = \"m.mtx\"\nrows = \"rows.csv\"\n[test]\nfile = \"test.csv\"\n\
                    [compare]\nfrequency_deviation = 0.001\nshape_deviation = 0.01\nprior_deviation = 10.0\n"
@@ -163,9 +152,8 @@ pub fn files(chain: &Chain, (more, heavy): &Block, link: f64, draws: &mut Draws)
 }
 
 fn result(files: &Files) -> JobResult {
-    let (_folder, path) = placed(files);
-    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
-    run(&loaded, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"))
+    let loaded = prepared(files);
+    finished(&loaded)
 }
 
 /// Everything said but of the mass and of what is not seen.
@@ -202,7 +190,7 @@ properties! {
         let alone = result(&files(&chain, &Default::default(), 0.0, &mut draws));
         let beside = result(&files(&chain, &more, 0.0, &mut draws));
         for (one, other) in alone.found.factors.iter().zip(&beside.found.factors) {
-            prop_assert!((one / other - 1.0).abs() < SAME, "{one} {other}");
+            prop_assert!(relative_error(one, other) < SAME, "{one} {other}");
         }
         prop_assert_eq!(said(&alone), said(&beside));
         prop_assert_eq!(alone.verdict.outcome, beside.verdict.outcome);
@@ -212,7 +200,7 @@ properties! {
             let both = [one, other].map(|range| range.as_ref().map(ends));
             prop_assert_eq!(both[0].is_ok(), both[1].is_ok());
             for (one, other) in both[0].into_iter().flatten().zip(both[1].into_iter().flatten()) {
-                prop_assert!((one / other - 1.0).abs() < SAME, "{one} {other}");
+                prop_assert!(relative_error(one, other) < SAME, "{one} {other}");
             }
         }
         let left = beside.trust.of(Kind::PartsWithoutSensor).next();
@@ -251,17 +239,13 @@ fn of_equal_roots_as_few_as_possible_are_seen() {
         (0..6_usize).map(move |row| (first + row, row.checked_sub(1).map(|row| first + row), 1e4))
     };
     let links = [(0, Some(6), 1e-9)];
-    let stiffness = springs(12, &row(0).chain(row(6)).chain(links).collect::<Vec<_>>());
+    let stiffness = springs(12, &row(0).chain(row(6)).chain(links).collect_vec());
     let model = WholeModel::new(stiffness, masses(&[1.0; 12]), Vec::new()).expect("a model");
     let sensors =
         SparseMatrix::new("sensors", 2, 12, vec![(0, 2, 1.0), (1, 5, 1.0)]).expect("sensors");
-    let test = lowest_modes(
-        &springs(6, &row(0).collect::<Vec<_>>()),
-        &masses(&[1.0; 6]),
-        4,
-    )
-    .expect("modes")
-    .vibrations;
+    let test = lowest_modes(&springs(6, &row(0).collect_vec()), &masses(&[1.0; 6]), 4)
+        .expect("modes")
+        .vibrations;
     let seen = crate::common::whole_models::seen_by(
         &SparseMatrix::new("sensors", 2, 6, vec![(0, 2, 1.0), (1, 5, 1.0)]).expect("sensors"),
         &test,
@@ -281,6 +265,6 @@ fn of_equal_roots_as_few_as_possible_are_seen() {
         .expect("an analysis");
     for mode in 0..4 {
         let (one, other) = (found.omega_squared()[mode], test.omega_squared()[mode]);
-        assert!((one / other - 1.0).abs() < 1e-6, "{mode}: {one} {other}");
+        assert!(relative_error(one, other) < 1e-6, "{mode}: {one} {other}");
     }
 }

@@ -1,6 +1,5 @@
 //! Three worked jobs: their files are what `tests/common/jobs.rs` makes, and their results are known from how they were made.
 
-use crate::common::jobs::run;
 use crate::common::jobs::{delta_wing, folder_of, loaded, rods, torque_box, torque_box_truth};
 use crate::prelude::*;
 use corfem::job::Method;
@@ -115,7 +114,7 @@ fn condensed_to_five_floors_the_building_is_not_found() {
         .iter()
         .zip(&STORIES)
         .map(|(found, truth)| relative_error(found, truth))
-        .fold(0.0, f64::max);
+        .largest();
     assert!(worst > 0.2, "{worst}");
 }
 
@@ -123,14 +122,14 @@ fn condensed_to_five_floors_the_building_is_not_found() {
 /// node 4 along x.
 #[test]
 fn sensors_along_axes_of_their_own_find_the_same_rods() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = new_folder();
     for (name, text) in rods() {
         fs::write(folder.path().join(name), text).unwrap();
     }
     let path = folder.path().join("job.toml");
     let finished = || {
-        let prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
-        let finished = run(&prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
+        let prepared = prepare(&path).unwrap();
+        let finished = crate::common::jobs::finished(&prepared);
         (prepared, finished.found.factors)
     };
     let (prepared, expected) = finished();
@@ -218,7 +217,7 @@ fn the_first_model_is_the_one_that_was_prepared() {
     assert_eq!(modes_of(&first).frequencies_hz(), near.frequencies_hz());
     let mut by_paper = prepared.clone();
     Arc::make_mut(&mut by_paper.loaded).job.compare.method = Method::Paper;
-    let finished = run(&by_paper, |_| {}, || true).unwrap();
+    let finished = crate::common::jobs::finished(&by_paper);
     let History::Paper(run) = &finished.found.history else {
         panic!("by the paper's loops")
     };
@@ -321,14 +320,14 @@ fn shapes_at_all_grids_are_those_of_the_sensors(prepared: &PreparedJob, found: &
                 );
             }
         }
-        let largest = |state: &[Vector3<f64>]| state.iter().map(Vector3::amax).fold(0.0, f64::max);
+        let largest = |state: &[Vector3<f64>]| state.iter().map(Vector3::amax).largest();
         // The two are scaled by their own masses; the shape is the same.
         let scale = largest(last) / largest(test);
         let apart = test
             .iter()
             .zip(last)
             .map(|(test, last)| (test * scale - last).amax())
-            .fold(0.0, f64::max);
+            .largest();
         assert!(
             apart < CONDENSED_GAGES * largest(last),
             "mode {}: {apart}",

@@ -2,11 +2,8 @@
 //!
 //! `CORFEM_CALLS=100000 cargo test --release jobs_survive -- --nocapture` damages so many; `CORFEM_SEED` goes on behind them.
 
-use crate::common::jobs::rods;
 use crate::common::jobs::run;
 use crate::prelude::*;
-use crate::readers::job_errors::placed;
-use crate::readers::job_prepared::measured_building;
 use crate::readers::readers_survive::asked;
 use corfem::job::TEMPLATE;
 use corfem::present::json;

@@ -1,20 +1,16 @@
 //! A later result takes the place of an earlier one only if it explains the numbers of both no worse.
 
-use super::job_errors::{placed, retested};
-use crate::common::draws::Draws;
-use crate::common::jobs::{building, prepare, run};
-use corfem::files::test_data::TestData;
+use crate::prelude::*;
 use corfem::job::concern::Grade;
-use corfem::job::{Concern, JobResult, PreparedJob};
 
 /// The building's job with another test.
 fn job(edit: impl FnOnce(&mut TestData)) -> PreparedJob {
     let (_folder, path) = placed(&retested(building(), edit));
-    prepare(&path).unwrap_or_else(|error| panic!("{error}"))
+    prepare(&path).unwrap()
 }
 
 fn corrected(job: &PreparedJob) -> JobResult {
-    run(job, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"))
+    finished(job)
 }
 
 /// Largest distance of the factors from those of another result, in deviations.
@@ -25,7 +21,7 @@ fn apart(result: &JobResult, from: &JobResult) -> f64 {
     distance
         .zip(deviations)
         .map(|(apart, deviation)| apart / deviation)
-        .fold(0.0, f64::max)
+        .largest()
 }
 
 /// The law: a random test mode that the first model has no like of, at any frequency, harms nothing and is named.

@@ -1,9 +1,8 @@
 //! Tests that know of some modes, or of all, the frequency alone.
 
-use super::job_errors::said;
 use crate::common::jobs::run;
+use crate::common::jobs::said;
 use crate::prelude::*;
-use crate::readers::job_errors::{placed, with};
 
 /// The building by weighted steps, whose test lacks the shapes of these modes (from one).
 pub fn without_shapes(modes: &[usize]) -> Files {
@@ -35,35 +34,7 @@ fn result(files: &Files) -> JobResult {
     let (_folder, path) = placed(files);
     prepare(&path)
         .and_then(|loaded| run(&loaded, |_| {}, || true))
-        .unwrap_or_else(|error| panic!("{error}"))
-}
-
-#[test]
-fn a_mode_with_empty_cells_has_a_frequency_alone() {
-    let table = "frequency_hz,,,1.5,2.5,3.5\nname,direction,grid,mode 1,mode 2,mode 3\na,x,1,1.0,,0\nb,x,2,-1.0,,0.5\n";
-    let data = test_data::read("test.csv", table.as_bytes()).unwrap();
-    assert_eq!((&data.alone[..], data.frequencies_hz[1]), (&[1][..], 2.5));
-    assert_eq!(data.shapes.column(2).as_slice(), [0.0, 0.5]);
-    // A cell that is empty beside one that is not is a mistake, and a shape of measured zeros is no shape.
-    let half = table.replace("b,x,2,-1.0,,", "b,x,2,-1.0,0.3,");
-    let error = test_data::read("test.csv", half.as_bytes()).expect_err("half a shape");
-    assert!(error.to_string().contains("line 3"), "{error}");
-    let zeros = table
-        .replace("1.0,,0", "1.0,0,0")
-        .replace("-1.0,,", "-1.0,0,");
-    assert!(test_data::read("test.csv", zeros.as_bytes()).is_err());
-}
-
-#[test]
-fn a_table_may_be_frequencies_alone() {
-    let table = "frequency_hz,1.5,2.5\n,mode 1,mode 2\n";
-    let data = test_data::read("test.csv", table.as_bytes()).unwrap();
-    assert_eq!(data.alone, [0, 1]);
-    assert!(data.sensors.is_empty());
-    let negative = table.replace("2.5", "-2.5");
-    assert!(test_data::read("test.csv", negative.as_bytes()).is_err());
-    let sensor = format!("{table}tip,1.0,2.0\n");
-    assert!(test_data::read("test.csv", sensor.as_bytes()).is_err());
+        .unwrap()
 }
 
 #[test]
@@ -91,7 +62,7 @@ fn frequencies_without_shapes_count_as_frequencies_and_nowhere_else() {
     assert_eq!(residuals.unwrap().len(), 3 * (1 + 5) + 2);
     // What is left of the test still finds every story.
     assert_alike(found.found.factors.iter(), STORIES, WEIGHTED_FACTOR);
-    let trust = Trust::before(loaded).unwrap();
+    let trust = trust_in(loaded);
     let alone = trust.of(Kind::FrequenciesAlone).next();
     assert!(
         alone
@@ -139,8 +110,7 @@ fn the_job_may_name_the_partners_of_frequencies() {
         let entry = format!("file = \"test.csv\"\npartners = {partners}");
         with(files.clone(), "job.toml", "file = \"test.csv\"", &entry)
     };
-    let (_folder, path) = placed(&named("[0, 6, 0, 4, 0]"));
-    let loaded = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let loaded = prepared(&named("[0, 6, 0, 4, 0]"));
     assert_eq!(
         loaded
             .alone()

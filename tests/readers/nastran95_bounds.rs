@@ -8,7 +8,7 @@ use crate::prelude::*;
 
 #[test]
 fn what_a_run_leaves_running_is_ended_with_it() {
-    let outside = tempfile::tempdir().unwrap();
+    let outside = new_folder();
     let file = outside.path().join("process");
     let home = fake(&format!(
         "sleep 60 > /dev/null 2>&1 &\necho $! > {}",

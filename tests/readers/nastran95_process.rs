@@ -15,7 +15,7 @@ fn entries(folder: &Path) -> usize {
 
 #[test]
 fn a_missing_solver_is_named() {
-    let empty = tempfile::tempdir().unwrap();
+    let empty = new_folder();
     let no_formats = fake("exit 0");
     fs::remove_dir(no_formats.path().join("rf")).unwrap();
     let no_program = fake("exit 0");
@@ -40,7 +40,7 @@ fn a_missing_solver_is_named() {
 fn a_program_that_cannot_start_is_named() {
     let home = fake("exit 0");
     let program = home.path().join("bin/nastrn");
-    std::fs::set_permissions(&program, PermissionsExt::from_mode(0o644)).unwrap();
+    fs::set_permissions(&program, PermissionsExt::from_mode(0o644)).unwrap();
     let error = solver(&home).run("").expect_err("it cannot start");
     let file = error.downcast_ref();
     assert!(
@@ -144,7 +144,7 @@ fn a_fatal_message_is_the_error_also_with_a_good_exit_status() {
 
 #[test]
 fn a_hang_is_stopped_with_everything_it_started() {
-    let outside = tempfile::tempdir().unwrap();
+    let outside = new_folder();
     let marker = outside.path().join("alive");
     let home = fake(&format!(
         "(sleep 2; touch {}) &\nsleep 60",
@@ -228,7 +228,7 @@ fn no_run_leaves_anything_behind() {
             "OUTPUT5 file, line 2: \"rubbish\" is not a line of integers",
         ),
     ] {
-        let temporary = tempfile::tempdir().unwrap();
+        let temporary = new_folder();
         let output = program(&fake(script), temporary.path()).output();
         let output = output.unwrap();
         let error = error_of(output);
@@ -243,7 +243,7 @@ fn no_run_leaves_anything_behind() {
 #[test]
 fn a_signal_ends_the_solver_and_then_the_program_and_leaves_nothing() {
     for signal in [Signal::INT, Signal::TERM] {
-        let temporary = tempfile::tempdir().unwrap();
+        let temporary = new_folder();
         let home = fake("touch started; sleep 60");
         let mut child = program(&home, temporary.path());
         let child = child.spawn().unwrap();

@@ -55,7 +55,7 @@ impl Draws {
 
 /// Whether the building's job, with another table of rows, can be prepared; its matrices and its test are where they are.
 fn prepares(job: &[u8], rows: &[u8]) -> bool {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = new_folder();
     let files = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/jobs/building/");
     let mut text = String::from_utf8_lossy(job).into_owned();
     for name in ["stiffness.mtx", "mass.mtx", "story_", "test.csv"] {

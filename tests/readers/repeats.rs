@@ -1,9 +1,8 @@
 //! Repeated tests: their mean, what their scatter says, and what a job makes of it.
 
-use super::job_errors::said;
 use crate::common::jobs::run;
+use crate::common::jobs::said;
 use crate::prelude::*;
-use crate::readers::job_errors::{placed, with};
 
 /// The building's exact test.
 fn exact() -> TestData {
@@ -44,7 +43,7 @@ fn repeated(tests: &[TestData], modes: &str) -> Files {
 
 fn loaded(files: &Files) -> PreparedJob {
     let (_folder, path) = placed(files);
-    prepare(&path).unwrap_or_else(|error| panic!("{error}"))
+    prepare(&path).unwrap()
 }
 
 const ALL: &str = "[1, 2, 3, 4, 5]";
@@ -124,7 +123,7 @@ fn repeats_that_drift_are_said_and_widen_the_deviations() {
     }
     let lag = |tests: &[TestData]| {
         let prepared = loaded(&repeated(tests, ALL));
-        let said = Trust::before(&prepared).unwrap();
+        let said = trust_in(&prepared);
         let data = prepared.loaded.data.clone();
         let told = said
             .of(Kind::Drift)
@@ -158,9 +157,9 @@ fn repeats_that_drift_are_said_and_widen_the_deviations() {
 fn chi_squared(jobs: u64, repeats: u64, modes: &str, test: impl Fn(u64) -> TestData) -> (f64, f64) {
     let ratios = (0..jobs)
         .map(|job| {
-            let tests: Vec<TestData> = (1..=repeats)
+            let tests = (1..=repeats)
                 .map(|seed| test(repeats * job + seed))
-                .collect();
+                .collect_vec();
             let misfit = run(&loaded(&repeated(&tests, modes)), |_| {}, || true)
                 .unwrap()
                 .misfit;
@@ -221,7 +220,7 @@ fn with_enough_repeats_their_covariance_counts() {
     for (tests, counts) in [(&tests[..12], false), (&tests[..], true)] {
         let files = repeated(tests, "[1, 2]");
         let loaded = loaded(&files);
-        let trust = Trust::before(&loaded).unwrap();
+        let trust = trust_in(&loaded);
         let of = |concern: &&Concern| concern.identifier() == "repeats";
         let words = trust.all().iter().find(of).unwrap().words();
         let expected = if counts {

@@ -1,16 +1,9 @@
 //! Many runs of a job: what is drawn, what a file of samples must be, and what its numbers come to.
 
-use crate::common::costly_config;
-use crate::common::jobs::{Files, STORIES, building, folder_of, rods};
-use crate::common::tolerances::STANDARD_ERRORS;
-use crate::readers::job_errors::with;
-use corfem::files::error::FileError;
+use crate::common::jobs::{folder_of, rods};
+use crate::prelude::*;
 use corfem::job::{Samples, Study, Summary, Vary};
-use proptest::prelude::*;
-use std::fs;
 use std::io::Write;
-use std::path::PathBuf;
-use std::sync::OnceLock;
 
 /// A job in a folder of its own.
 struct Place {
@@ -20,7 +13,7 @@ struct Place {
 
 impl Place {
     fn of(files: Files) -> Self {
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = new_folder();
         for (name, text) in files {
             fs::write(folder.path().join(name), text).expect("written");
         }
@@ -29,7 +22,7 @@ impl Place {
     }
 
     fn study(&self, seed: u64, vary: &[Vary]) -> Study {
-        Study::new(&self.job, seed, vary, &[]).unwrap_or_else(|error| panic!("{error}"))
+        Study::new(&self.job, seed, vary, &[]).unwrap()
     }
 }
 
@@ -48,7 +41,7 @@ fn lines(study: &Study, count: u64) -> Vec<String> {
 }
 
 fn factors(line: &str) -> Vec<f64> {
-    let cells: Vec<&str> = line.split(',').collect();
+    let cells = line.split(',').collect_vec();
     cells[5..cells.len() - 1]
         .iter()
         .map(|cell| cell.parse().expect("a number"))
@@ -75,7 +68,7 @@ fn a_sample_is_the_same_whatever_ran_before_and_another_than_its_neighbor() {
             lines[sample as usize - 1]
         );
     }
-    let all: Vec<Vec<f64>> = lines.iter().map(|line| factors(line)).collect();
+    let all = lines.iter().map(|line| factors(line)).collect_vec();
     assert!(
         (1..all.len()).all(|row| !all[..row].contains(&all[row])),
         "{all:?}"
@@ -148,11 +141,7 @@ fn a_subset_of_the_modes_takes_their_weights_along() {
         let weights = prepared.weights();
         assert_eq!(
             weights,
-            prepared
-                .modes
-                .iter()
-                .map(|&mode| whole[mode])
-                .collect::<Vec<_>>()
+            prepared.modes.iter().map(|&mode| whole[mode]).collect_vec()
         );
         fewer += usize::from(prepared.modes.len() < 3);
     }
@@ -170,10 +159,13 @@ fn a_start_is_brought_within_bounds_and_leads_to_the_same_rods() {
     };
     let place = Place::of(rods().into_iter().map(edit).collect());
     let study = place.study(2, &[Vary::Start]);
-    let found: Vec<Vec<f64>> = lines(&study, 8).iter().map(|line| factors(line)).collect();
-    let starts: Vec<Vec<f64>> = (1..=8)
+    let found = lines(&study, 8)
+        .iter()
+        .map(|line| factors(line))
+        .collect_vec();
+    let starts = (1..=8)
         .map(|sample| study.draw(sample).expect("a draw").1)
-        .collect();
+        .collect_vec();
     assert!(
         starts.iter().all(|start| (0.6..=1.1).contains(&start[0])),
         "{starts:?}"
@@ -282,7 +274,7 @@ fn a_summary_counts_the_samples_at_an_end_of_a_factors_range() {
         let spread = spread.as_ref().expect("samples");
         (spread.count, spread.at_bound)
     });
-    assert_eq!(counts.collect::<Vec<_>>(), [(3, 2), (3, 0)]);
+    assert_eq!(counts.collect_vec(), [(3, 2), (3, 0)]);
 }
 
 #[test]
@@ -323,7 +315,7 @@ fn what_does_not_belong_to_a_study_is_refused_by_its_line() {
         lines[1].replacen("2,", "-2,", 1),
         "is not a line of a sample of this study",
     );
-    let cells: Vec<&str> = lines[1].split(',').collect();
+    let cells = lines[1].split(',').collect_vec();
     refused(
         lines[1].replace(cells[5], "inf"),
         "error sum, analyses and factors as numbers",
@@ -358,10 +350,10 @@ fn a_sample_that_fails_says_why_and_counts_as_done() {
     };
     let place = Place::of(rods().into_iter().map(edit).collect());
     let study = place.study(1, &[Vary::Noise]);
-    let failed: Vec<_> = (1..=10)
+    let failed = (1..=10)
         .map(|sample| study.run(sample, || true).expect("a sample"))
         .filter(|(_, why)| why.is_some())
-        .collect();
+        .collect_vec();
     assert!(!failed.is_empty());
     for (line, why) in &failed {
         assert!(
@@ -394,7 +386,7 @@ fn no_noisy_test_of_the_building_is_stuck_at_the_start() {
     for sample in 0..200 {
         let (line, error) = study.run(sample, || true).expect("it goes on");
         assert!(error.is_none(), "{line} {error:?}");
-        let cells: Vec<&str> = line.split(',').collect();
+        let cells = line.split(',').collect_vec();
         assert_ne!(cells[1], "nothing", "{line}");
         let analyses: usize = cells[4].parse().expect("a count");
         let factors = cells[5..15]
@@ -414,7 +406,7 @@ properties! {
     #[test]
     fn a_file_cut_at_any_byte_is_gone_on_with(share in 0.0..1.0_f64, order in Just((0..6).collect::<Vec<usize>>()).prop_shuffle()) {
         let (study, lines) = rod_study();
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = new_folder();
         let path = folder.path().join("samples.csv");
         let whole = study.header() + &order.iter().map(|&row| lines[row].as_str()).collect::<String>();
         fs::write(&path, &whole).expect("written");

@@ -1,8 +1,6 @@
 //! What a study is known by, and which sensors and modes its samples leave out.
 
-use crate::common::jobs::rods;
 use crate::prelude::*;
-use crate::readers::job_errors::{placed, with};
 use corfem::job::{Study, Vary};
 use sha2::{Digest, Sha256};
 
@@ -19,7 +17,7 @@ fn a_study_is_known_by_the_digest_of_its_files_seed_and_choice() {
     let (folder, path) = placed(&rods());
     let identity = || {
         Study::new(&path, 7, &[Vary::Start, Vary::Noise], &[])
-            .unwrap_or_else(|error| panic!("{error}"))
+            .unwrap()
             .identity
     };
     let head = format!("{} 7 [Noise, Start]", env!("CARGO_PKG_VERSION"));
@@ -48,8 +46,7 @@ fn a_study_is_known_by_the_digest_of_its_files_seed_and_choice() {
 #[test]
 fn any_sensor_and_any_mode_may_be_left_out() {
     let (_folder, path) = placed(&building());
-    let study =
-        Study::new(&path, 3, &[Vary::Subset], &[]).unwrap_or_else(|error| panic!("{error}"));
+    let study = Study::new(&path, 3, &[Vary::Subset], &[]).unwrap();
     let (mut left, mut counts) = ([[[0; 2]; 5]; 2], [[0; 5]; 2]);
     for sample in 1..=60 {
         let (prepared, _) = study.draw(sample).unwrap();
@@ -88,7 +85,7 @@ fn a_sample_that_is_neither_within_nor_outside_is_refused() {
         "[compare]",
         "[compare]\nanalysis_modes = 3",
     ));
-    let study = Study::new(&path, 7, &[Vary::Noise], &[]).unwrap_or_else(|error| panic!("{error}"));
+    let study = Study::new(&path, 7, &[Vary::Noise], &[]).unwrap();
     let samples = folder.path().join("samples.csv");
     let read = |within: &str| {
         fs::write(
@@ -132,8 +129,7 @@ fn a_seed_draws_the_same_numbers_for_ever() {
     let deviations = "[compare]\nfrequency_deviation = 0.004\nshape_deviation = 0.02";
     let files = with(rods(), "job.toml", "[compare]", deviations);
     let (_folder, path) = placed(&files);
-    let study = Study::new(&path, 7, &[Vary::Noise, Vary::Start], &[])
-        .unwrap_or_else(|error| panic!("{error}"));
+    let study = Study::new(&path, 7, &[Vary::Noise, Vary::Start], &[]).unwrap();
     for (sample, starts, noise) in [
         (
             1,
@@ -175,8 +171,7 @@ fn a_seed_draws_the_same_numbers_for_ever() {
         }
     }
     let (_folder, path) = placed(&building());
-    let study =
-        Study::new(&path, 3, &[Vary::Subset], &[]).unwrap_or_else(|error| panic!("{error}"));
+    let study = Study::new(&path, 3, &[Vary::Subset], &[]).unwrap();
     for (sample, is_sensors, kept) in [
         (1, true, &[0, 1, 3, 4][..]),
         (2, true, &[0, 1, 2, 3]),

@@ -1,6 +1,6 @@
 //! Dataset 2414 of the Universal File, analysis data, in which finite element programs and newer test systems write mode shapes.
 
-use super::test_data_universal::{NONE, TIP, dataset, parsed, real_mode};
+use super::test_data_universal::{NONE, dataset, parsed};
 use crate::prelude::*;
 
 /// How a program lays out what the format leaves open.
@@ -66,114 +66,6 @@ fn analysis(
         + &reals(&roots, layout.by_blanks)
         + &data;
     dataset("2414", &body)
-}
-
-const PLAIN: Layout = Layout {
-    by_blanks: false,
-    fortran: false,
-    is_complex: false,
-    has_rotations: false,
-};
-
-fn one(codes: [usize; 6], times: [f64; 6], roots: [f64; 6]) -> String {
-    analysis(
-        1,
-        codes,
-        [times, roots],
-        &[(12, vec![0.0, 0.0, 1.0])],
-        PLAIN,
-    )
-}
-
-#[test]
-fn the_frequency_of_a_normal_mode_is_the_second_real_number() {
-    let data = parsed(&one(
-        [1, 2, 2, 8, 2, 3],
-        [0.0, 12.5, 6168.5, 2.0, 0.01, 0.0],
-        [0.0; 6],
-    ));
-    assert_eq!(
-        (data.frequencies_hz, data.shapes),
-        (vec![12.5], dmatrix![1.0])
-    );
-    assert_eq!(data.sensors[0].name, "12 z");
-    assert!(data.skipped.is_empty());
-}
-
-#[test]
-fn a_complex_mode_has_its_root_in_the_second_line_of_reals() {
-    for kind in [3, 7] {
-        let root = |imaginary| {
-            one(
-                [1, kind, 2, 8, 2, 3],
-                [0.0, 99.0, 0.0, 0.0, 0.0, 0.0],
-                [-3.0, imaginary, 0.0, 0.0, 0.0, 0.0],
-            )
-        };
-        let data = parsed(&(root(4.0) + &root(-4.0)));
-        assert_eq!(data.frequencies_hz.len(), 1);
-        assert!((data.frequencies_hz[0] - 5.0 / (2.0 * PI)).abs() < ROUND_OFF);
-    }
-}
-
-#[test]
-fn accelerations_of_a_mode_are_divided_by_minus_the_square_of_its_circular_frequency() {
-    let data = parsed(&one(
-        [1, 2, 2, 12, 2, 3],
-        [0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
-        [0.0; 6],
-    ));
-    assert!((data.shapes[0] + (2.0 * PI).powi(-2)).abs() < ROUND_OFF);
-}
-
-#[test]
-fn analysis_data_that_are_no_modes_at_nodes_are_passed_over_and_named() {
-    let times = [0.0, 12.5, 0.0, 0.0, 0.0, 0.0];
-    let nodes = [(12, vec![0.0, 0.0, 1.0])];
-    let others = [
-        analysis(2, [1, 2, 2, 8, 2, 3], [times, [0.0; 6]], &nodes, PLAIN), // on elements
-        one([1, 5, 2, 8, 2, 3], times, [0.0; 6]),                          // frequency response
-        one([1, 2, 4, 2, 2, 6], times, [0.0; 6]),                          // stress
-        one([1, 2, 2, 9, 2, 3], times, [0.0; 6]),                          // reactions
-    ];
-    let data = parsed(&(others.concat() + &one([1, 2, 2, 8, 2, 3], times, [0.0; 6])));
-    assert_eq!(
-        (data.frequencies_hz, data.skipped),
-        (vec![12.5], vec![2414])
-    );
-}
-
-#[test]
-fn the_same_modes_in_two_datasets_do_not_count_twice() {
-    let text = real_mode(TIP)
-        + &one(
-            [1, 2, 2, 8, 2, 3],
-            [0.0, 12.5, 0.0, 0.0, 0.0, 0.0],
-            [0.0; 6],
-        );
-    let error = read("wing.unv", text.as_bytes())
-        .expect_err("two datasets")
-        .to_string();
-    assert!(
-        error.contains("line 24: the file has modes in datasets 55 and 2414"),
-        "{error}"
-    );
-}
-
-#[test]
-fn a_mode_without_a_frequency_is_an_error() {
-    let text = one(
-        [1, 2, 2, 8, 2, 3],
-        [0.0, 0.0, 6168.5, 0.0, 0.0, 0.0],
-        [0.0; 6],
-    );
-    let error = read("wing.unv", text.as_bytes())
-        .expect_err("no frequency")
-        .to_string();
-    assert!(
-        error.contains("test modes: 0 given or asked for"),
-        "{error}"
-    );
 }
 
 /// Frequencies, and by node and component a real and an imaginary part for every mode.

@@ -210,9 +210,7 @@ fn complex_modes_are_made_real_once_each_and_keep_their_collinearity() {
         // The largest real part of any phase, found by trying a thousand.
         let part = |angle: f64| shape.map(|value| (value * Complex::from_polar(1.0, angle)).re);
         let angle = |step: usize| PI * step as f64 / 1000.0;
-        let best = (0..1000)
-            .map(|step| part(angle(step)).norm())
-            .fold(0.0, f64::max);
+        let best = (0..1000).map(|step| part(angle(step)).norm()).largest();
         let found = data.shapes.column(column);
         assert!(found.norm() >= best && found.norm() <= shape.norm());
         // It is itself the real part at some phase: what is left of it at all phases is round-off.

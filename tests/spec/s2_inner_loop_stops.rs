@@ -146,7 +146,7 @@ fn equal_modes_are_a_local_minimum() {
         .first_unlimited_factors
         .iter()
         .map(|factor| (factor - 1.0).abs());
-    assert!(farthest.fold(0.0, f64::max) <= ROUND_OFF);
+    assert!(farthest.largest() <= ROUND_OFF);
 }
 
 #[test]

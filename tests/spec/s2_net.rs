@@ -3,6 +3,7 @@
 //! small differences of many changes could add up.
 
 use crate::prelude::*;
+use corfem::chain::rods;
 use serde::Serialize;
 
 /// A part of the stiffness or the mass that is scaled by one factor, and the factor that the test's structure has.

@@ -1,6 +1,7 @@
 //! A new analysis has a new B: the shares that the loops are handed are those of the structure as it is now.
 
 use crate::prelude::*;
+use corfem::chain::rods;
 
 /// Five springs in a row from a wall, of which the second and the last joint are measured.
 fn condensed_chain(springs: &[f64]) -> (FiniteElementModel, Modes) {

@@ -235,7 +235,7 @@ fn of_frames(ask: impl Fn(&Given)) {
         ask(&frame);
         Ok(())
     });
-    asked.unwrap_or_else(|error| panic!("{error}"));
+    asked.unwrap();
 }
 
 /// Asks of every case and of random frames that putting it in another way changes nothing.

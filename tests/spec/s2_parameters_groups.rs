@@ -5,7 +5,7 @@ use crate::prelude::*;
 fn grouped(number: usize) -> CaseResult {
     let mut case = case_of(number);
     case.grouping = Grouping::Substructures;
-    run_case(&case, |_, _| {}).unwrap()
+    case_run(&case)
 }
 
 /// Panels of each substructure, from the geometry: covers join upper or lower grids alone (odd or even), ribs four

@@ -2,7 +2,6 @@
 
 use crate::common::jobs::run;
 use crate::prelude::*;
-use crate::readers::job_errors::{placed, with};
 use corfem::present::verdict::verdict_in_words;
 use corfem::weighted::comparison::ModeErrors;
 
@@ -139,7 +138,7 @@ fn of_job(files: &Files) -> JobResult {
     let (_folder, path) = placed(files);
     prepare(&path)
         .and_then(|loaded| run(&loaded, |_| {}, || true))
-        .unwrap_or_else(|error| panic!("{error}"))
+        .unwrap()
 }
 
 /// A job's tolerances are for sums over nine modes, whatever the number compared, and so is the sum that its verdict tells.
@@ -209,7 +208,7 @@ fn an_element_in_no_test_mode_is_named_as_unseen() {
 
 #[test]
 fn case_4_is_never_called_within_tolerance() {
-    let result = run_case(&case_of(4), |_, _| {}).unwrap();
+    let result = case_run(&case_of(4));
     let verdict = Verdict::of_case(&result);
     assert_eq!((verdict.outcome, verdict.is_within), (Outcome::Cap, false));
     assert!(!result.correlation.converged);

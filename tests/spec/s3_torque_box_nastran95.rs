@@ -49,7 +49,7 @@ fn worst(found: &[f64], expected: &[f64]) -> f64 {
         .iter()
         .zip(expected)
         .map(|(f, e)| relative_error(f, e))
-        .fold(0.0, f64::max)
+        .largest()
 }
 
 #[test]
@@ -134,7 +134,7 @@ fn snapping_moves_an_eigenvalue_by_six_parts_in_ten_thousand_at_most() {
         let found = eigenvalues(&own_matrices(&structure), &structure, all.mass);
         worst(&found, stored.eigenvalues.as_ref().unwrap())
     };
-    let most = |names: &[&str]| names.iter().map(|name| moved(name)).fold(0.0, f64::max);
+    let most = |names: &[&str]| names.iter().map(|name| moved(name)).largest();
     let shear_covers = most(&["case 1 gvt", "case 1 initial"]);
     assert_eq!(format!("{shear_covers:.1e}"), "5.9e-4");
     let membrane_covers = most(&[

@@ -36,7 +36,7 @@ fn assert_all_close(found: &[f64], expected: &[f64], relative: f64) {
 }
 
 fn result(number: usize) -> CaseResult {
-    run_case(&case_of(number), |_, _| {}).unwrap()
+    case_run(&case_of(number))
 }
 
 #[test]
@@ -308,7 +308,7 @@ fn one_iteration_is_enough_for_case_4_alone() {
     let with_iterations = |number: usize, iterations: usize| {
         let mut case = case_of(number);
         case.settings.inner.iterations = iterations;
-        run_case(&case, |_, _| {}).unwrap()
+        case_run(&case)
     };
     assert!(with_iterations(4, 1).succeeded());
     let longer = with_iterations(4, 2);

@@ -1,7 +1,7 @@
 //! Upper and lower covers of a box that is symmetric about its mid-plane: no rule of the step tells them apart, while the print does.
 
 use crate::common::boxes::other_box;
-use crate::evidence::claims::published_counts::COUNTED;
+use crate::evidence::published_counts::COUNTED;
 use crate::evidence::published_counts::run_by;
 use crate::evidence::readings::correlation;
 use crate::prelude::*;
@@ -34,7 +34,7 @@ properties! {
         let modal = model.analyze(&[1.0; PANEL_COUNT], &test, None)?;
         let shares = modal.shares();
         // Round-off of the condensation is that of the whole structure, however little of it a cover is.
-        let largest = shares.iter().map(|share| share.norm()).fold(0.0, f64::max);
+        let largest = shares.iter().map(|share| share.norm()).largest();
         for [one, other] in BAYS {
             let apart = (&shares[one] - &shares[other]).norm();
             prop_assert!(apart < MIRRORED_COVERS * largest);

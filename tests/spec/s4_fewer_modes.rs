@@ -47,7 +47,7 @@ fn runs_are_every_pair_and_the_papers_among_them() {
 #[test]
 fn all_modes_are_the_first_pass_of_the_case() {
     let run = run(9, 9);
-    let whole = run_case(&case_2(), |_, _| {}).unwrap();
+    let whole = case_run(&case_2());
     let pass = &whole.correlation.passes[0];
     assert_eq!(
         (run.case, run.iterations, run.stop),

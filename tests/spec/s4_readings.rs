@@ -1,22 +1,14 @@
 //! How near each reading of the step comes to the printed gages on this box, and what the print says of the sum.
 
-use crate::evidence::accumulation::{
-    ADDED_BOXES, accumulation_table, frequencies_by_both, mean_of_ratios,
-};
-use crate::evidence::claims::published_counts::COUNTED;
+use crate::evidence::QUICK;
+use crate::evidence::accumulation::{ADDED_BOXES, frequencies_by_both, mean_of_ratios};
 use crate::evidence::detection::SIZES;
-use crate::evidence::published_counts::counted_tables;
-use crate::evidence::reading_tables::readings_tables;
-use crate::evidence::readings::{
-    READINGS, ReadingColumn, all_columns, columns_of, detection, run_by_reading,
-};
+use crate::evidence::readings::{COLUMNS, READINGS, ReadingColumn, columns_of, run_by_reading};
 use crate::prelude::*;
 
 fn the_box() -> Reconstruction {
     Reconstruction::embedded().unwrap()
 }
-
-static COLUMNS: LazyLock<Vec<ReadingColumn>> = LazyLock::new(|| all_columns(&the_box()).unwrap());
 
 fn of(reading: StepRule, table: usize) -> Vec<&'static ReadingColumn> {
     COLUMNS
@@ -125,19 +117,14 @@ fn changes_add_on_thirty_other_boxes() {
 
 #[test]
 fn table_of_readings_is_the_stored_one() {
-    let detections = READINGS.map(|reading| detection(&the_box(), reading).unwrap());
-    let mut tables = readings_tables(&COLUMNS, &detections).unwrap();
-    tables.extend(counted_tables(&COUNTED));
-    tables.push(accumulation_table(&the_box()).unwrap());
-    let found = csv(&tables);
-    let path = in_root("paper/readings.csv");
+    let (_, readings) = QUICK[QUICK.len() - 1];
+    let (found, path) = (readings().unwrap(), in_root("paper/readings.csv"));
     if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "1") {
         fs::write(&path, &found).unwrap();
     }
     let stored = fs::read_to_string(&path).unwrap();
-    let numbers = Numbers::BY_UNIT;
     assert!(
-        numbers.agree(&found, &stored),
+        Numbers::BY_UNIT.agree(&found, &stored),
         "paper/readings.csv has other numbers: write it again"
     );
 }
@@ -147,7 +134,7 @@ fn table_of_readings_is_the_stored_one() {
 fn a_case_is_its_column() {
     for number in [1, 2, 3] {
         let case = case_of(number);
-        let columns = columns_of(&run_case(&case, |_, _| {}).unwrap()).unwrap();
+        let columns = columns_of(&case_run(&case)).unwrap();
         let expected = of(case.settings.inner.step, 2 * number + 2)
             .into_iter()
             .cloned()
@@ -160,10 +147,7 @@ fn a_case_is_its_column() {
             );
         }
     }
-    assert_eq!(
-        columns_of(&run_case(&case_of(4), |_, _| {}).unwrap()).unwrap(),
-        []
-    );
+    assert_eq!(columns_of(&case_run(&case_of(4))).unwrap(), []);
 }
 
 /// On how many of twenty other boxes relative lies nearer to the print than each other reading.
@@ -223,7 +207,7 @@ fn case_4_depends_on_two_close_modes() {
     let factor = |gage: f64| {
         let mut case = result.case.clone();
         case.panels[7].gage = gage;
-        let result = run_case(&case, |_, _| {}).unwrap();
+        let result = case_run(&case);
         let hz = result.correlation.initial.modes.frequencies_hz();
         let apart = hz
             .windows(2)

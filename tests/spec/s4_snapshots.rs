@@ -1,6 +1,5 @@
 //! Goldens of the report: Tables 3 to 8 and 13, and Case 4.
 
-use crate::evidence::fit::{fit, fit_table};
 use crate::paper::tables::cases::all_tables;
 use crate::paper::tables::published::root_error_table;
 use crate::prelude::*;
@@ -9,7 +8,7 @@ use corfem::present::render::markdown;
 fn tables() -> Vec<Table> {
     let results = CASES
         .into_iter()
-        .map(|number| run_case(&case_of(number), |_, _| {}).unwrap())
+        .map(|number| case_run(&case_of(number)))
         .collect_vec();
     all_tables(&results).unwrap()
 }
@@ -47,13 +46,6 @@ fn every_table_as_numbers() {
 }
 
 #[test]
-fn fit_of_the_box_as_numbers() {
-    let fit = fit(&Reconstruction::embedded().unwrap()).unwrap();
-    let table = fit_table(&fit);
-    assert_golden("fit", &csv(&[table]), Numbers::BY_UNIT);
-}
-
-#[test]
 fn report_as_text_and_markdown() {
     let rounded = Numbers::AS_WRITTEN;
     let tables = tables();
@@ -69,7 +61,7 @@ fn cases_by_substructures() {
         .map(|number| {
             let mut case = case_of(number);
             case.grouping = Grouping::Substructures;
-            run_case(&case, |_, _| {}).unwrap()
+            case_run(&case)
         })
         .collect_vec();
     let tables = all_tables(&results).unwrap();

@@ -1,9 +1,7 @@
 //! Standard deviations of components and covariances of all numbers: what residuals and jobs make of them, and whether intervals hold
 //! the truth.
 
-use crate::common::jobs::run;
 use crate::prelude::*;
-use crate::readers::job_errors::placed;
 use crate::spec::s5_weighted::at;
 
 /// A chain of six masses by its matrices, every spring a parameter.
@@ -84,7 +82,7 @@ fn intervals_hold_the_truth_where_every_component_has_its_own_deviation() {
         .into_iter()
         .map(|held| (held as f64 / tests as f64 - 0.95).abs());
     assert!(
-        worst.fold(0.0, f64::max) > STANDARD_ERRORS * deviation,
+        worst.largest() > STANDARD_ERRORS * deviation,
         "{alike_held:?}"
     );
 }
@@ -101,9 +99,8 @@ fn corrected(data: TestData) -> JobResult {
     let mut files: Files = building();
     let test = files.iter_mut().find(|(name, _)| name == "test.csv");
     test.unwrap().1 = write_csv(&data);
-    let (_folder, path) = placed(&files);
-    let loaded = prepare(&path).unwrap();
-    run(&loaded, |_| {}, || true).unwrap()
+    let loaded = prepared(&files);
+    finished(&loaded)
 }
 
 /// The noise of a job's test, so that weights matter.

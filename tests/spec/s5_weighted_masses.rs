@@ -197,7 +197,7 @@ fn apart(found: &[f64], expected: &[f64]) -> f64 {
     assert_eq!(found.len(), expected.len());
     let both = found.iter().zip(expected);
     both.map(|(found, expected)| relative_error(found, expected))
-        .fold(0.0, f64::max)
+        .largest()
 }
 
 #[test]

@@ -17,7 +17,7 @@ pub fn stiffness_and_kept() -> impl Strategy<Value = (DMatrix<f64>, f64, Vec<usi
         })
         .prop_map(|((stiffness, exponents), kept)| {
             let least = exponents.iter().copied().fold(f64::INFINITY, f64::min);
-            let most = exponents.iter().copied().fold(0.0, f64::max);
+            let most = exponents.iter().copied().largest();
             (stiffness, 10f64.powf(most - least), kept)
         })
 }
@@ -49,7 +49,7 @@ fn stiffness_and_square_distribution() -> impl Strategy<Value = (DMatrix<f64>, f
         })
         .prop_map(|((stiffness, exponents), left, stretch, right)| {
             let least = exponents.iter().copied().fold(f64::INFINITY, f64::min);
-            let most = exponents.iter().copied().fold(0.0, f64::max);
+            let most = exponents.iter().copied().largest();
             let t = left * DMatrix::from_diagonal(&DVector::from_vec(stretch)) * right;
             (stiffness, 10f64.powf(most - least), t)
         })

@@ -25,7 +25,7 @@ fn largest_excess(frozen: &DMatrix<f64>, exact: &DynamicModel) -> f64 {
         .iter()
         .zip(below)
         .map(|(f, e)| f / e - 1.0)
-        .fold(0.0, f64::max)
+        .largest()
 }
 
 properties! {

@@ -62,7 +62,7 @@ properties! {
         for shape in modes.right.column_iter() {
             let norm = shape.dotc(&(&k * shape));
             prop_assert!((norm - 1.0).norm() < COMPLEX_EIGEN_ROUND_OFF);
-            let largest = shape.iter().map(|value| value.norm()).fold(0.0, f64::max);
+            let largest = shape.iter().map(|value| value.norm()).largest();
             let first = shape.iter().find(|value| value.norm() > (1.0 - EQUALLY_LARGE) * largest).unwrap();
             prop_assert!(first.re > 0.0 && first.im.abs() < ROUND_OFF * first.re, "{first}");
         }

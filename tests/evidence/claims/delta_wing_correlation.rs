@@ -109,7 +109,7 @@ fn largest_share_is_that_of_the_stiffness_of_a_test_mode() {
             let shape = test.shapes().column(mode);
             shape.dot(&(share * shape)) / test.omega_squared()[mode]
         };
-        let largest = (0..10).map(of_mode).fold(0.0, f64::max);
+        let largest = (0..10).map(of_mode).largest();
         assert_relative_eq!(*found, largest, max_relative = MATRIX_ROUND_OFF);
         for (mode, sum) in all.iter_mut().enumerate() {
             *sum += of_mode(mode);

@@ -122,3 +122,30 @@ fn modes_left_out_are_close_and_exchanged_by_the_wrong_gages() {
     expected.swap(7, 8);
     assert_eq!(answers, expected);
 }
+
+#[test]
+fn groups_are_all_covers_and_webs_once_where_their_names_say() {
+    let model = first_model(&wing()).unwrap();
+    let structure = model.structure();
+    let grouped = GROUPS.iter().flat_map(|group| group.elements).copied();
+    let mut grouped = grouped.collect_vec();
+    grouped.sort_unstable();
+    assert_eq!(grouped, (1..=53).collect_vec());
+    for (element, corners) in structure.elements().iter().zip(structure.corners()) {
+        let own = |group: &&Group| group.elements.contains(&element.label);
+        let Some(Group { name, .. }) = GROUPS.iter().find(own) else {
+            continue;
+        };
+        let words = name.split([' ', '-']).collect_vec();
+        let axis = ["x", "y"].iter().position(|axis| *axis == words[1]);
+        let end = |word: Option<&&str>| word.and_then(|word| word.parse::<f64>().ok());
+        let ends = end(words.get(2)).map(|first| first..=end(words.get(3)).unwrap_or(first));
+        if let Some((axis, ends)) = axis.zip(ends) {
+            assert!(
+                corners.iter().all(|at| ends.contains(&at[axis])),
+                "{name}: {}",
+                element.label
+            );
+        }
+    }
+}

@@ -1,16 +1,10 @@
 //! What is named off the reconstructed box, and how often.
 
 use crate::evidence::detection::{
-    BOXES, BoxRates, SIZES, TESTS, all_job_rates, box_rates, detection_tables, right_model_alarms,
+    BoxRates, SIZES, alarms, all_job_rates, all_rates, box_rates, detection_tables,
 };
 use crate::evidence::readings::correlation;
 use crate::prelude::*;
-
-/// Alarms by each reading in noisy tests of right models of Cases 1 and 2, so many of each.
-fn alarms(tests: u64) -> [usize; 4] {
-    let [one, two] = [1, 2].map(|case| right_model_alarms(case, tests).unwrap());
-    std::array::from_fn(|reading| one[reading] + two[reading])
-}
 
 /// Gage, by which the verdict of a case is made, names no sound element; own hardly ever asks for about 60.
 fn assert_no_alarms(rates: &BoxRates) {
@@ -26,8 +20,7 @@ fn assert_no_alarms(rates: &BoxRates) {
 #[test]
 #[ignore = "a minute: 900 other boxes, 200 right models and 120 jobs"]
 fn detection_holds_off_this_box() {
-    let boxes = SIZES.map(|size| box_rates(size, BOXES).unwrap());
-    let (alarms, jobs) = (alarms(100), all_job_rates(TESTS));
+    let (boxes, alarms, jobs) = all_rates().unwrap();
     let text = csv(&detection_tables(&boxes, alarms, &jobs));
     println!("{text}");
     assert_golden("detection", &text, Numbers::COUNTED);
@@ -56,7 +49,7 @@ fn a_few_other_boxes_and_jobs_are_detected_too() {
         );
         assert_no_alarms(&rates);
     }
-    assert_eq!(alarms(10)[3], 0);
+    assert_eq!(alarms(10).unwrap()[3], 0);
     for rates in all_job_rates(10) {
         assert!(rates.fit[0] >= LEAST_FIRST_SUSPECTS_OF_TEN, "{rates:?}");
     }

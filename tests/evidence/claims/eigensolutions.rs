@@ -16,7 +16,7 @@ fn case(number: usize, error: f64) -> Counted {
 
 #[test]
 fn analyses_are_the_passes_and_the_start() {
-    let run = run_case(&case_of(1), |_, _| {}).unwrap();
+    let run = case_run(&case_of(1));
     assert!(run.correlation.converged);
     let found = case(1, 0.025);
     assert_eq!(

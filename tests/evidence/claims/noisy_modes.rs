@@ -1,6 +1,6 @@
 //! Noisy test modes: the noise, what Appendix B makes of it, and the numbers of the study by other routes.
 
-use crate::evidence::noisy_modes::{Found, NOISY_CASE, NoisyModes, NoisyRun, SEEDS, noisy_modes};
+use crate::evidence::noisy_modes::{Found, NOISY_CASE, NoisyRun, SEEDS, study};
 use crate::prelude::*;
 
 fn case() -> Case {
@@ -9,11 +9,6 @@ fn case() -> Case {
 
 fn exact() -> Modes {
     case().test_modes().unwrap()
-}
-
-pub fn study() -> &'static NoisyModes {
-    static STUDY: OnceLock<NoisyModes> = OnceLock::new();
-    STUDY.get_or_init(|| noisy_modes(&case(), Noise::USUAL, SEEDS).unwrap())
 }
 
 fn unit(shape: DVector<f64>) -> DVector<f64> {
@@ -144,7 +139,7 @@ properties! {
             prop_assert!(off.amax() < MATRIX_ROUND_OFF, "{}", off.amax());
         }
         let flexibility = |modes: &Modes| modes.omega_squared().map(f64::recip).sum();
-        prop_assert!((flexibility(&all.modes) / flexibility(&raw) - 1.0).abs() < MATRIX_ROUND_OFF);
+        prop_assert!(relative_error(flexibility(&all.modes), flexibility(&raw)) < MATRIX_ROUND_OFF);
         for &mode in &screened.kept {
             let movement = screened.reports[mode].movement.unwrap();
             prop_assert!(movement.shape <= limits.shape && movement.frequency.abs() <= limits.frequency);
@@ -234,7 +229,7 @@ fn without_noise_it_is_the_case_itself_by_the_librarys_own_rule() {
     assert_eq!((first.seed, &first.kept), (None, &(0..9).collect()));
     let mut case = case();
     case.settings.inner.step = StepRule::Matrix;
-    let result = run_case(&case, |_, _| {}).unwrap();
+    let result = case_run(&case);
     let passes = &result.correlation.passes;
     let best = (0..passes.len()).min_by(|a, b| {
         let sum = |pass: &usize| passes[*pass].check.errors.sum();

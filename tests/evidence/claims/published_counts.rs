@@ -1,12 +1,9 @@
 //! The printed columns of gages one by one, with exactly the published iterations, against the independent program
 //! (golden/reference/published_counts.py).
 
-use crate::evidence::published_counts::{Counted, RULES, Rule, counted, pooled};
+use crate::evidence::published_counts::{COUNTED, Counted, RULES, Rule, pooled};
 use crate::prelude::*;
 use toml::Table;
-
-pub static COUNTED: LazyLock<Vec<Counted>> =
-    LazyLock::new(|| counted(&Reconstruction::embedded().unwrap()).unwrap());
 
 fn expected() -> Table {
     let text = include_str!("../../../golden/reference/expected_published_counts.toml");

@@ -41,21 +41,6 @@ pub fn parsed(arguments: &[&str]) -> Value {
     serde_json::from_slice(&corfem(arguments).stdout).expect("JSON")
 }
 
-#[test]
-fn every_case_in_full_has_the_papers_tables_and_a_line_a_pass() {
-    let all = corfem(&["cases", "--all"]);
-    assert_eq!(all.status.code(), Some(0));
-    let report = text(&all.stdout);
-    for table in [3, 4, 5, 6, 7, 8, 13] {
-        assert!(report.contains(&format!("Table {table})")), "Table {table}");
-    }
-    assert!(report.contains("Anomaly: element 8") && !report.contains("(Table 1, "));
-    let progress = text(&all.stderr);
-    assert_eq!(progress.lines().count(), 8, "one line a pass: {progress}");
-    assert!(progress.starts_with("case 1, pass 1: 12 iterations"));
-    assert_eq!(corfem(&["cases", "1", "2", "3", "4"]).stdout, all.stdout);
-}
-
 /// The head of README's table has the same numbers from the goldens.
 #[test]
 fn without_a_command_it_prints_less_than_a_page_of_a_terminal() {
@@ -124,53 +109,6 @@ fn without_a_command_it_prints_less_than_a_page_of_a_terminal() {
 }
 
 #[test]
-fn quiet_is_taken_before_and_after_the_command() {
-    for arguments in [
-        ["-q", "cases", "4"],
-        ["cases", "-q", "4"],
-        ["cases", "4", "--quiet"],
-    ] {
-        assert!(printed(&arguments).contains("Case 4"));
-    }
-}
-
-#[test]
-fn help_puts_every_option_below_its_own_heading() {
-    let help = text(&corfem(&["cases", "--help"]).stdout);
-    let (before, settings) = help
-        .split_once("Settings of the loops:")
-        .expect("the heading");
-    for option in [
-        "--all", "--quiet", "--format", "--output", "--box", "--groups",
-    ] {
-        assert!(
-            before.contains(option) && !settings.contains(option),
-            "{option}"
-        );
-    }
-    for option in [
-        "--rule",
-        "--accumulation",
-        "--relaxation",
-        "--tolerance",
-        "--limits",
-        "--iterations",
-        "--passes",
-    ] {
-        assert!(settings.contains(option), "{option}");
-    }
-    for reading in ["matrix", "own", "relative", "gage", "sum", "product"] {
-        let line = |line: &&str| line.trim_start().starts_with(&format!("{reading} "));
-        let line = settings
-            .lines()
-            .find(line)
-            .unwrap_or_else(|| panic!("{reading}"));
-        assert!(line.split_whitespace().count() > 4, "{line}");
-    }
-    assert!(!text(&corfem(&["--help"]).stdout).contains("Settings"));
-}
-
-#[test]
 fn json_has_the_promised_keys() {
     let document = parsed(&["cases", "--format", "json", "--quiet"]);
     let cases = document["cases"].as_array().expect("a list");
@@ -229,120 +167,6 @@ fn json_has_the_promised_keys() {
 }
 
 #[test]
-fn csv_has_one_number_a_line_under_a_heading() {
-    let output = text(&corfem(&["cases", "3", "--format", "csv"]).stdout);
-    let mut lines = output.lines();
-    assert_eq!(
-        lines.next(),
-        Some("table,row,column,unit,computed,published")
-    );
-    assert!(lines.all(|line| line.split(',').count() == 6));
-    assert!(output.contains("table_8,membrane RMS,Pass 3 error,%,"));
-}
-
-#[test]
-fn markdown_has_headings_and_pipes() {
-    let output = text(&corfem(&["cases", "2", "--format", "markdown"]).stdout);
-    assert!(output.contains("## Case 2: frequencies and errors (Table 5)"));
-    assert!(output.lines().filter(|line| line.starts_with('|')).count() > 20);
-}
-
-#[test]
-fn quiet_says_nothing_on_standard_error() {
-    let output = corfem(&["cases", "1", "--quiet"]);
-    assert!(output.stderr.is_empty() && !output.stdout.is_empty());
-}
-
-#[test]
-fn help_says_what_it_does_and_what_the_exit_status_means() {
-    let help = text(&corfem(&["--help"]).stdout);
-    // Lines are broken to the width of the terminal, wherever that falls.
-    let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
-    for words in [
-        "ground vibration test",
-        "Exit status",
-        "inch, pound-force, second",
-        "cases",
-    ] {
-        assert!(help.contains(words), "{words}");
-    }
-    let cases = text(&corfem(&["cases", "--help"]).stdout);
-    for words in [
-        "--format",
-        "--output",
-        "--box",
-        "--iterations",
-        "--quiet",
-        "detects a modeling",
-    ] {
-        assert!(cases.contains(words), "{words}");
-    }
-    assert!(help.contains("Case 4 detected a modeling error"), "{help}");
-    for command in ["correlate", "study"] {
-        let help = text(&corfem(&[command, "--help"]).stdout);
-        let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(
-            help.contains("a second one ends the program at once"),
-            "{help}"
-        );
-    }
-}
-
-#[test]
-fn output_file_is_written_whole_and_matches_standard_output() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("report.json");
-    let output = corfem(&[
-        "cases",
-        "4",
-        "-f",
-        "json",
-        "-o",
-        path.to_str().expect("UTF-8"),
-    ]);
-    assert_eq!(output.status.code(), Some(0));
-    assert!(output.stdout.is_empty());
-    let written = std::fs::read(&path).expect("written");
-    assert_eq!(written, corfem(&["cases", "4", "-f", "json"]).stdout);
-    let entries = std::fs::read_dir(folder.path()).expect("a folder").count();
-    assert_eq!(entries, 1, "no scratch file is left");
-}
-
-#[test]
-fn bad_input_is_exit_status_2_and_leaves_nothing_behind() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
-    let unknown = corfem(&["cases", "7"]);
-    assert_eq!(unknown.status.code(), Some(2));
-    assert!(text(&unknown.stderr).contains("there is no case 7; choose 1 to 4"));
-    assert!(unknown.stdout.is_empty());
-    assert_eq!(corfem(&["cases", "--format", "pdf"]).status.code(), Some(2));
-    assert_eq!(
-        corfem(&["cases", "--iterations", "0"]).status.code(),
-        Some(2)
-    );
-    let missing = corfem(&["cases", "--box", &path("absent.toml")]);
-    assert_eq!(missing.status.code(), Some(2));
-    assert!(text(&missing.stderr).contains("absent.toml"));
-    let report = path("no/such/folder/report.txt");
-    let nowhere = corfem(&["cases", "4", "--output", &report]);
-    assert_eq!(nowhere.status.code(), Some(2));
-    assert!(text(&nowhere.stderr).contains("report.txt"));
-    std::fs::write(path("bad.toml"), "youngs_modulus = \"soft\"").expect("written");
-    let bad = corfem(&[
-        "cases",
-        "4",
-        "--box",
-        &path("bad.toml"),
-        "-o",
-        &path("report.txt"),
-    ]);
-    assert_eq!(bad.status.code(), Some(2));
-    assert!(text(&bad.stderr).contains("bad.toml") && text(&bad.stderr).contains("youngs_modulus"));
-    assert!(!folder.path().join("report.txt").exists());
-}
-
-#[test]
 fn another_box_is_a_change_of_data_alone() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("box.toml");
@@ -371,60 +195,5 @@ fn another_box_is_a_change_of_data_alone() {
             b,
             max_relative = crate::common::tolerances::MATRIX_ROUND_OFF
         );
-    }
-}
-
-#[test]
-fn too_few_iterations_is_exit_status_3_with_the_best_still_printed() {
-    let output = corfem(&["cases", "1", "--iterations", "2", "--passes", "1"]);
-    assert_eq!(output.status.code(), Some(3));
-    assert!(text(&output.stdout).contains("Pass 1"));
-}
-
-#[test]
-fn substructures_are_groups_in_the_report() {
-    let report = text(&corfem(&["cases", "4", "--groups", "--quiet"]).stdout);
-    for group in ["covers", "spars", "ribs"] {
-        assert!(report.contains(group), "{group}");
-    }
-    let output = corfem(&["cases", "2", "--groups", "--quiet"]);
-    assert_eq!(output.status.code(), Some(0));
-    let run = parsed(&["cases", "2", "--groups", "--format", "json", "--quiet"]);
-    let passes = run["cases"][0]["correlation"]["passes"]
-        .as_array()
-        .expect("passes");
-    let plain = parsed(&["cases", "2", "--format", "json", "--quiet"]);
-    assert_ne!(
-        &plain["cases"][0]["correlation"],
-        &run["cases"][0]["correlation"]
-    );
-    assert!(!passes.is_empty());
-}
-
-#[test]
-fn no_command_prints_a_line_that_is_too_long_by_default() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let deck = folder.path().join("box.dat");
-    let deck = deck.to_str().expect("UTF-8");
-    assert!(corfem(&["deck", "3", "-o", deck]).status.success());
-    for arguments in [
-        &["cases"][..],
-        &["cases", "--all"],
-        &["cases", "--all", "--groups"],
-        &["tables"],
-        &["fewer-modes"],
-        &["deck", "4"],
-        &["modes", deck],
-        &["--help"],
-        &["cases", "--help"],
-    ] {
-        let output = corfem(arguments);
-        let printed = text(&output.stdout);
-        assert!(printed.lines().count() > 10, "{arguments:?}");
-        for line in printed.lines().chain(text(&output.stderr).lines()) {
-            assert!(line.chars().count() <= 100, "{arguments:?}: {line}");
-            assert!(!line.contains("_percent"), "{arguments:?}: {line}");
-            assert!(!line.contains(": 1 iterations"), "{arguments:?}: {line}");
-        }
     }
 }

@@ -1,7 +1,6 @@
 //! Whatever the terminal, home, time zone and language of who runs it, the program writes the same bytes.
 
-use crate::common::jobs::rods;
-use crate::readers::job_errors::placed;
+use crate::prelude::*;
 use std::process::Command;
 
 /// Variables with another value, or without one.
@@ -51,7 +50,7 @@ fn terminal_home_time_zone_and_language_make_no_difference() {
             "correlation.json",
             "corrected.bdf",
         ];
-        let written = written.map(|name| std::fs::read(path.join(name)).ok());
+        let written = written.map(|name| fs::read(path.join(name)).ok());
         (output.status.code(), output.stdout, output.stderr, written)
     };
     for words in [

@@ -1,15 +1,14 @@
 //! `corfem init` from outside: a job and a test that explain themselves, and that the readers take.
 
 use crate::common::jobs::folder_of;
-use crate::common::jobs::prepare;
+use crate::prelude::*;
 use crate::presentation::program::cli::{corfem, text};
 use crate::presentation::program::cli_jobs::{Reported, reported, words};
 use corfem::job::{Job, read};
-use std::fs;
 
 #[test]
 fn init_writes_a_job_that_reads_and_nothing_over_another() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let path = folder.path().join("job.toml");
     assert_eq!(corfem(&["init", words(&path)]).status.code(), Some(0));
     let written = fs::read(&path).expect("it reads");
@@ -22,7 +21,7 @@ fn init_writes_a_job_that_reads_and_nothing_over_another() {
         text(&refused.stderr)
     );
     assert_eq!(fs::read(&path).expect("it reads"), written);
-    let job = read(&path).unwrap_or_else(|error| panic!("{error}"));
+    let job = read(&path).unwrap();
     assert_eq!(job.title.as_deref(), Some("my structure"));
     // Every example and default is one that the reader takes, but for those of a model of matrices.
     let examples = String::from_utf8(written.clone()).expect("UTF-8");
@@ -35,7 +34,7 @@ fn init_writes_a_job_that_reads_and_nothing_over_another() {
                 .filter(|entry| entry.split(' ').nth(1) == Some("="));
             all + entry.unwrap_or(line) + "\n"
         });
-    toml::from_str::<Job>(&examples).unwrap_or_else(|error| panic!("{error}"));
+    toml::from_str::<Job>(&examples).unwrap();
     // Pointed to files that exist, it is a job that can be looked at.
     let wing = |file: &str| words(&folder_of("wing").join(file)).to_owned();
     let text = String::from_utf8(written).expect("UTF-8");
@@ -43,7 +42,7 @@ fn init_writes_a_job_that_reads_and_nothing_over_another() {
     let text = text.replace("\"test.unv\"", &format!("{:?}", wing("test.unv")));
     let text = text.replace("# by = \"grid\"", "by = \"nearest\"");
     fs::write(&path, text).expect("written");
-    prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    prepare(&path).unwrap();
 }
 
 /// The names of a struct's fields, as the reader itself lists them when it finds another.
@@ -81,9 +80,9 @@ fn init_explains_every_entry_that_a_job_may_have() {
         "[compare]",
         "[[sensors.place]]",
     ];
-    let all: Vec<String> = tables.iter().flat_map(|table| entries(table)).collect();
+    let all = tables.iter().flat_map(|table| entries(table)).collect_vec();
     let correlation = ["[correlation]", "[correlation.inner]"].map(entries);
-    let correlation: Vec<String> = correlation.into_iter().flatten().collect();
+    let correlation = correlation.into_iter().flatten().collect_vec();
     // Less six names of tables at the top, one of the inner loop's, and the three entries of a sensor's place.
     let count = all.len() + correlation.len() - 10;
     assert_eq!(count, 50, "{all:?} {correlation:?}");
@@ -108,8 +107,7 @@ fn init_explains_every_entry_that_a_job_may_have() {
 #[test]
 fn the_example_of_a_test_reads() {
     let output = corfem(&["init", "--test"]);
-    let data = corfem::files::test_data::read("test.csv", &output.stdout)
-        .unwrap_or_else(|error| panic!("{error}"));
+    let data = corfem::files::test_data::read("test.csv", &output.stdout).unwrap();
     assert_eq!((data.sensors.len(), data.frequencies_hz.len()), (2, 2));
 }
 
@@ -117,7 +115,7 @@ fn the_example_of_a_test_reads() {
 #[test]
 fn every_example_runs_as_it_is_written() {
     for name in ["building", "wing", "garteur"] {
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = new_folder();
         let at = |name: &str| folder.path().join(name);
         let job = at("mine").join("job.toml");
         let written = corfem(&["init", "--example", name, words(&at("mine"))]);
@@ -141,7 +139,7 @@ fn every_example_runs_as_it_is_written() {
         let files = fs::read_dir(&own)
             .expect("it reads")
             .map(|file| file.expect("a file").file_name());
-        let files: Vec<_> = files.collect();
+        let files = files.collect_vec();
         assert_eq!(
             files.len(),
             fs::read_dir(at("mine")).expect("it reads").count()

@@ -4,20 +4,15 @@
 
 #![cfg(unix)]
 
-use crate::common::jobs::rods;
-use crate::presentation::figures::figures;
-use crate::presentation::program::cli::{corfem, text};
-use crate::readers::job_errors::placed;
+use crate::prelude::*;
+use crate::presentation::program::cli::text;
+use fs::Permissions;
 use rustix::process::geteuid;
-use std::fs::{self, Permissions};
 use std::io::ErrorKind;
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::os::unix::process::CommandExt;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 use std::thread::sleep;
-use std::time::Duration;
-use tempfile::TempDir;
 
 /// A user who owns nothing.
 const NOBODY: u32 = 65534;
@@ -31,7 +26,7 @@ struct Place {
 
 impl Place {
     fn new(mode: u32) -> Self {
-        let root = tempfile::tempdir().expect("a folder");
+        let root = new_folder();
         let held = root.path().join("held");
         let file = held.join("report.txt");
         fs::copy(
@@ -136,9 +131,9 @@ fn calls(arguments: &[&str], folder: &Path) -> Vec<String> {
 #[test]
 #[ignore = "needs strace"]
 fn new_files_are_on_the_disk_before_they_take_a_name() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let calls = calls(&["cases", "4", "-q", "-o", "report.txt"], folder.path());
-    let kinds: Vec<&str> = calls
+    let kinds = calls
         .iter()
         .map(|call| {
             if call.contains("fsync(") {
@@ -147,9 +142,9 @@ fn new_files_are_on_the_disk_before_they_take_a_name() {
                 "rename"
             }
         })
-        .collect();
+        .collect_vec();
     assert_eq!(kinds, ["sync", "rename", "sync"], "{calls:?}");
-    let out = tempfile::tempdir().expect("a folder");
+    let out = new_folder();
     let calls = self::calls(&["figures", "-q", "--folder", "figures"], out.path());
     // Every file before its name, and its name before the next file.
     let kinds: String = calls
@@ -157,48 +152,4 @@ fn new_files_are_on_the_disk_before_they_take_a_name() {
         .map(|call| if call.contains("fsync(") { 's' } else { 'r' })
         .collect();
     assert_eq!(kinds, "srs".repeat(names(&out.path().join("figures"))));
-}
-
-#[test]
-fn a_directory_in_the_place_of_a_file_of_the_run_is_refused_before_the_run() {
-    let (_job, job) = placed(&rods());
-    let job = job.to_str().expect("UTF-8");
-    let drawn = figures().iter().map(|figure| figure.name.clone() + ".svg");
-    let drawn: Vec<String> = drawn.collect();
-    let fixed = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
-    let runs: [(&[&str], Vec<String>); 5] = [
-        (
-            &["correlate", "-q", job, "--folder"],
-            fixed(&[
-                "report.html",
-                "factors.csv",
-                "shapes.csv",
-                "shapes.unv",
-                "residuals.csv",
-                "correlation.json",
-                "corrected.bdf",
-            ]),
-        ),
-        (
-            &["study", "-q", job, "--samples", "2", "--folder"],
-            fixed(&["samples.csv", "summary.csv"]),
-        ),
-        (&["report", "-q", "--folder"], fixed(&["report.html"])),
-        (&["figures", "-q", "--folder"], drawn),
-        (&["dump", "-q", "1", "--folder"], fixed(&["dump.json"])),
-    ];
-    for (run, names) in runs {
-        for name in names {
-            let folder = tempfile::tempdir().expect("a folder");
-            let held = folder.path().join(&name);
-            fs::create_dir(&held).expect("made");
-            let output = corfem(&[run, &[folder.path().to_str().expect("UTF-8")]].concat());
-            let said = text(&output.stderr);
-            assert_eq!(output.status.code(), Some(2), "{run:?} {name}: {said}");
-            let start = format!("corfem: cannot write {}: ", held.display());
-            assert!(said.starts_with(&start), "{run:?}: {said}");
-            assert!(output.stdout.is_empty(), "{run:?} {name}");
-            assert_eq!(self::names(folder.path()), 1, "{run:?} {name}");
-        }
-    }
 }

@@ -1,7 +1,7 @@
 //! Settings of the loops from the command line: what is typed is what is run, and is said in the report.
 
-use crate::presentation::program::cli::{corfem, parsed, text};
-use serde_json::{Value, json};
+use crate::prelude::*;
+use crate::presentation::program::cli::parsed;
 
 fn settings(arguments: &[&str]) -> Value {
     let arguments = [
@@ -52,21 +52,6 @@ fn every_setting_reaches_the_loops() {
 }
 
 #[test]
-fn another_reading_gives_other_gages_and_the_report_says_which() {
-    let report = |rule: &str| {
-        text(&corfem(&["cases", "2", "--quiet", "--passes", "1", "--rule", rule]).stdout)
-    };
-    let (relative, matrix) = (report("relative"), report("matrix"));
-    assert_ne!(relative, matrix);
-    let line = |report: &str, word: &str| {
-        report
-            .lines()
-            .any(|line| line.starts_with("2 ") && line.contains(word))
-    };
-    assert!(line(&relative, "relative") && line(&matrix, "matrix"));
-}
-
-#[test]
 fn fewer_modes_takes_them_too() {
     let runs = parsed(&["fewer-modes", "--format", "json", "--rule", "own"]);
     let counts = runs["runs"]
@@ -75,34 +60,4 @@ fn fewer_modes_takes_them_too() {
         .iter()
         .map(|run| run["iterations"].as_u64());
     assert!(counts.max() < Some(Some(30)));
-}
-
-#[test]
-fn settings_out_of_range_are_refused_by_their_names() {
-    for (arguments, said) in [
-        (["--rule", "best"], "unknown variant `best`"),
-        (
-            ["--rule", "sum"],
-            "the step rule sum is gone; choose matrix, own, relative or gage",
-        ),
-        (["--limits", "1.5,0.5"], "--limits"),
-        (["--limits", "0.5"], "--limits: 1 x 1 instead of 2 x 1"),
-        (
-            ["--relaxation", "0,1"],
-            "first_relaxation of the inner loop is 0; it must be positive and finite",
-        ),
-        (
-            ["--tolerance", "nan,1"],
-            "tolerance of the inner loop is NaN; it must be positive and finite",
-        ),
-        (["--iterations", "0"], "--iterations"),
-    ] {
-        let output = corfem(&[&["cases", "1", "--quiet"], &arguments[..]].concat());
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(
-            text(&output.stderr).contains(said),
-            "{}",
-            text(&output.stderr)
-        );
-    }
 }

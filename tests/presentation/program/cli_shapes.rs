@@ -2,11 +2,7 @@
 
 use super::cli::text;
 use super::cli_jobs::reported;
-use crate::common::tolerances::UNIVERSAL_ROUNDING;
-use corfem::files::test_data::read;
-use serde_json::Value;
-use std::path::Path;
-use std::process::Command;
+use crate::prelude::*;
 
 /// Asserts that another program reads in the file of the building what this crate's reader does.
 fn check(answer: &Value) {
@@ -40,7 +36,7 @@ fn check(answer: &Value) {
         moving
     );
     let line = answer["line"].as_array().expect("a list");
-    let line: Vec<u64> = line.iter().filter_map(Value::as_u64).collect();
+    let line = line.iter().filter_map(Value::as_u64).collect_vec();
     let pairs: Vec<[usize; 2]> = line
         .windows(2)
         .filter(|two| !two.contains(&0))
@@ -63,9 +59,9 @@ fn other_programs_read_the_shapes_that_a_correlation_writes() {
 
 fn check_with(program: &str) {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/formats/shapes_read.py");
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let path = folder.path().join("shapes.unv");
-    std::fs::write(&path, &reported("building").files["shapes.unv"]).expect("written");
+    fs::write(&path, &reported("building").files["shapes.unv"]).expect("written");
     let mut python = Command::new("python3");
     let output = python.arg(script).arg(&path).arg(program).output();
     let output = output.expect("it runs");

@@ -1,13 +1,10 @@
 //! What outputs show of odd names, what a corrected deck says at its head, what killed runs leave, and files without a last line end.
 
 use super::cli::{corfem, text};
-use crate::common::jobs::{Files, building, folder_of, prepare, rods, run};
-use crate::readers::job_errors::{placed, with};
+use crate::common::jobs::{folder_of, rods, run};
+use crate::prelude::*;
 use crate::readers::twice::universal;
-use corfem::job::History;
 use std::cell::Cell;
-use std::fs;
-use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
 
@@ -65,7 +62,7 @@ fn characters_that_turn_text_around_are_escaped_in_every_output() {
 #[test]
 fn a_corrected_deck_names_its_run_at_its_head_and_is_else_as_it_was() {
     let path = folder_of("box").join("job.toml");
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     corfem(&[
         "correlate",
         "-q",
@@ -74,19 +71,15 @@ fn a_corrected_deck_names_its_run_at_its_head_and_is_else_as_it_was() {
         words(folder.path()),
     ]);
     let deck = fs::read_to_string(folder.path().join("corrected.bdf")).expect("a deck");
-    let head: Vec<&str> = deck
+    let head = deck
         .lines()
         .take_while(|line| line.starts_with("$ "))
-        .collect();
+        .collect_vec();
     assert!(
         head.iter().all(|line| line.chars().count() <= 72),
         "{head:?}"
     );
-    let said = head
-        .iter()
-        .map(|line| &line[2..])
-        .collect::<Vec<_>>()
-        .join("");
+    let said = head.iter().map(|line| &line[2..]).collect_vec().join("");
     let run = format!(
         "corfem {} correlate job.toml, inputs ",
         env!("CARGO_PKG_VERSION")
@@ -102,7 +95,7 @@ fn a_corrected_deck_names_its_run_at_its_head_and_is_else_as_it_was() {
         .expect("an identity");
     assert!(json.contains(identity.trim()), "{identity}");
     // The mirror: behind the head the deck is that of the library, byte by byte.
-    let prepared = prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let prepared = prepare(&path).unwrap();
     let result = run_of(&prepared);
     let own = prepared
         .loaded
@@ -114,7 +107,7 @@ fn a_corrected_deck_names_its_run_at_its_head_and_is_else_as_it_was() {
 }
 
 fn run_of(prepared: &corfem::job::PreparedJob) -> Vec<f64> {
-    let result = run(prepared, |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
+    let result = finished(prepared);
     result.found.factors
 }
 
@@ -144,9 +137,7 @@ fn half_written_files_of_killed_runs_go_with_the_next_run() {
 fn a_file_without_a_last_line_end_is_read_whole() {
     let read = |files: &Files| {
         let (_folder, path) = placed(files);
-        let job = prepare(&path)
-            .unwrap_or_else(|error| panic!("{error}"))
-            .loaded;
+        let job = prepare(&path).unwrap().loaded;
         let (stiffness, mass) = job
             .source
             .whole
@@ -171,11 +162,10 @@ fn an_analysis_under_way_is_stopped() {
     // The airplane takes more than twenty.
     for asked in [2, 3, 5, 9] {
         let path = folder_of("garteur").join("job.toml");
-        let mut loaded =
-            corfem::job::LoadedJob::new(&path).unwrap_or_else(|error| panic!("{error}"));
+        let mut loaded = corfem::job::LoadedJob::new(&path).unwrap();
         let stop = Arc::new(AtomicBool::new(false));
         loaded.stop = Some(Arc::clone(&stop));
-        let prepared = loaded.prepare().unwrap_or_else(|error| panic!("{error}"));
+        let prepared = loaded.prepare().unwrap();
         let calls = Cell::new(0);
         // Said to go on, and stopped in the analysis that follows.
         let go_on = || {
@@ -184,7 +174,7 @@ fn an_analysis_under_way_is_stopped() {
             stop.store(calls.get() >= asked, SeqCst);
             !is_over
         };
-        let result = run(&prepared, |_| {}, go_on).unwrap_or_else(|error| panic!("{error}"));
+        let result = run(&prepared, |_| {}, go_on).unwrap();
         assert!(result.found.is_interrupted, "{asked}");
         assert!(matches!(result.found.history, History::GaussNewton(None)));
         assert!(

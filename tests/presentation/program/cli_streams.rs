@@ -2,11 +2,11 @@
 
 #![cfg(unix)]
 
+use crate::prelude::*;
 use crate::presentation::program::cli::{corfem, text};
-use std::fs::{self, File};
+use fs::File;
 use std::os::unix::fs::{FileTypeExt, MetadataExt, PermissionsExt, symlink};
-use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::Output;
 
 /// Case 4 is the shortest report.
 const SHORT: [&str; 3] = ["cases", "4", "-q"];
@@ -80,7 +80,7 @@ fn nobody_listening_on_standard_error_changes_nothing() {
 
 #[test]
 fn a_dash_and_names_of_standard_output_are_standard_output() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     // Another descriptor, and a file it is appended to.
     let shell = "echo before > log; \"$0\" cases 4 -q -o /dev/stderr 2>> log; cat log; rm log";
     let program_path = assert_cmd::cargo::cargo_bin("corfem");
@@ -154,7 +154,7 @@ fn devices_and_pipes_are_written_through_and_stay_what_they_are() {
     let refused = to_file(Path::new("/dev/full"));
     assert_eq!(refused.status.code(), Some(2));
     assert!(text(&refused.stderr).starts_with("corfem: cannot write /dev/full: "));
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let pipe = folder.path().join("pipe");
     assert!(
         Command::new("mkfifo")
@@ -179,7 +179,7 @@ fn devices_and_pipes_are_written_through_and_stay_what_they_are() {
 
 #[test]
 fn links_are_followed_and_modes_are_those_of_new_files() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let path = |name: &str| folder.path().join(name);
     symlink("there.txt", path("link")).expect("made");
     symlink("link", path("link to link")).expect("made");
@@ -194,13 +194,17 @@ fn links_are_followed_and_modes_are_those_of_new_files() {
     fs::write(path("new"), "").expect("written");
     assert_eq!(mode("there.txt"), mode("new"));
     fs::remove_file(path("new")).expect("removed");
+    // A link that leads to itself leads nowhere.
+    symlink("circle", path("circle")).expect("made");
+    assert_eq!(to_file(&path("circle")).status.code(), Some(2));
+    fs::remove_file(path("circle")).expect("removed");
     assert!(path("link").is_symlink() && path("link to link").is_symlink());
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 3);
 }
 
 #[test]
 fn new_files_and_folders_have_the_rights_of_the_umask() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let program = assert_cmd::cargo::cargo_bin("corfem");
     let shell = "umask 027; \"$0\" cases 4 -q -o file && \"$0\" report -q --folder out && stat -c %a file out out/report.html";
     let output = Command::new("sh")
@@ -209,148 +213,6 @@ fn new_files_and_folders_have_the_rights_of_the_umask() {
         .current_dir(folder.path())
         .output();
     assert_eq!(text(&output.expect("a shell").stdout), "640\n750\n640\n");
-}
-
-#[test]
-fn a_path_that_cannot_be_written_is_refused_before_the_work() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
-    for name in ["", "no/such", "new/"] {
-        let refused = corfem(&["cases", "4", "-o", &path(name)]);
-        assert_eq!(refused.status.code(), Some(2), "{name}");
-        let said = text(&refused.stderr);
-        assert!(
-            said.starts_with(&format!("corfem: cannot write {}: ", path(name))),
-            "no progress: {said}"
-        );
-    }
-    // A link that leads to itself leads nowhere.
-    std::os::unix::fs::symlink("circle", folder.path().join("circle")).expect("linked");
-    assert_eq!(
-        corfem(&["cases", "4", "-o", &path("circle")]).status.code(),
-        Some(2)
-    );
-    fs::remove_file(path("circle")).expect("removed");
-    fs::write(path("file"), "mine").expect("written");
-    for name in ["file", "file/new"] {
-        let refused = corfem(&["figures", "--folder", &path(name)]);
-        let said = text(&refused.stderr);
-        assert!(
-            refused.status.code() == Some(2) && said.contains("Not a directory"),
-            "{said}"
-        );
-    }
-    assert_eq!(fs::read_to_string(path("file")).expect("it reads"), "mine");
-    fs::remove_file(path("file")).expect("removed");
-    for command in ["figures", "report"] {
-        for name in ["-".to_owned(), path("no/such"), "/dev/null".to_owned()] {
-            let refused = corfem(&[command, "--folder", &name]);
-            assert_eq!(refused.status.code(), Some(2), "{command} {name}");
-            assert_eq!(text(&refused.stderr).lines().count(), 1, "no progress");
-        }
-    }
-    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
-}
-
-#[test]
-fn what_was_meant_is_suggested() {
-    for (arguments, said) in [
-        (&["case", "1"][..], "a similar subcommand exists: 'cases'"),
-        (&["qqqqqq"], "unrecognized subcommand 'qqqqqq'"),
-        (&["cases", "one"], "invalid value 'one' for '[CASE]...'"),
-        (
-            &["cases", "2", "1", "2"],
-            "corfem: the cases asked for: case 2 is given twice",
-        ),
-        (
-            &["modes", "deck", "-c", "0"],
-            "invalid value '0' for '--count <N>'",
-        ),
-    ] {
-        let refused = corfem(arguments);
-        assert_eq!(
-            (refused.status.code(), refused.stdout.len()),
-            (Some(2), 0),
-            "{arguments:?}"
-        );
-        assert!(
-            text(&refused.stderr).contains(said),
-            "{}",
-            text(&refused.stderr)
-        );
-    }
-}
-
-#[test]
-fn quiet_and_version_mean_the_same_everywhere() {
-    for command in ["cases", "tables", "fewer-modes", "deck", "modes"] {
-        assert_eq!(
-            text(&corfem(&[command, "--version"]).stdout),
-            concat!("corfem ", env!("CARGO_PKG_VERSION"), "\n")
-        );
-        assert!(
-            text(&corfem(&[command, "--help"]).stdout).contains("--quiet"),
-            "{command}"
-        );
-    }
-    let before = corfem(&["-q", "cases", "4"]);
-    assert_eq!(before.stdout, report());
-    assert!(before.stderr.is_empty());
-}
-
-#[test]
-fn every_format_says_what_became_of_every_case() {
-    let arguments = [
-        "cases",
-        "1",
-        "4",
-        "-q",
-        "--groups",
-        "--iterations",
-        "1",
-        "--passes",
-        "1",
-        "-f",
-    ];
-    let outcome = |format: &str| {
-        let output = corfem(&[&arguments[..], &[format]].concat());
-        assert_eq!(output.status.code(), Some(3), "{format}");
-        text(&output.stdout)
-    };
-    let ends_with = |report: &str, case: &str, words: &str| {
-        report
-            .lines()
-            .filter(|line| line.starts_with(case) && line.ends_with(words))
-            .count()
-    };
-    let (first, last) = ("not converged", "modeling error detected in covers");
-    let (plain, markdown) = (outcome("text"), outcome("markdown"));
-    assert_eq!(
-        (
-            ends_with(&plain, "1 ", first),
-            ends_with(&plain, "4 ", last)
-        ),
-        (1, 1),
-        "{plain}"
-    );
-    let bar = |words: &str| format!("{words} |");
-    assert_eq!(
-        (
-            ends_with(&markdown, "| 1 ", &bar(first)),
-            ends_with(&markdown, "| 4 ", &bar(last))
-        ),
-        (1, 1)
-    );
-    let csv = outcome("csv");
-    assert!(
-        csv.contains(&format!("\noutcome,1,Outcome,,{first},\n"))
-            && csv.contains(&format!("outcome,4,Outcome,,{last},\n"))
-    );
-    let json: serde_json::Value = serde_json::from_str(&outcome("json")).expect("JSON");
-    assert_eq!(
-        (&json["cases"][0]["outcome"], &json["cases"][1]["outcome"]),
-        (&first.into(), &last.into())
-    );
 }
 
 #[test]

@@ -1,9 +1,8 @@
 //! `corfem study` from outside: the same samples whatever the threads, gone on with after any end, and alone.
 
 use crate::common::jobs::folder_of;
+use crate::prelude::*;
 use crate::presentation::program::cli::{corfem, text};
-use std::fs;
-use std::path::{Path, PathBuf};
 use std::process::Output;
 
 const COUNT: usize = 6;
@@ -40,7 +39,7 @@ fn found(folder: &Path) -> (Vec<String>, Vec<u8>) {
         samples.ends_with('\n')
             && samples.starts_with("sample,outcome,within,error_sum,analyses,\"story 1\",")
     );
-    let mut lines: Vec<String> = samples.lines().skip(1).map(str::to_owned).collect();
+    let mut lines = samples.lines().skip(1).map(str::to_owned).collect_vec();
     lines.sort();
     (
         lines,
@@ -51,7 +50,7 @@ fn found(folder: &Path) -> (Vec<String>, Vec<u8>) {
 /// Whatever the number of threads, and after any end, the folder is the same.
 #[test]
 fn threads_and_stops_change_nothing() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let one = folder.path().join("one");
     let output = study(&one, &["--threads", "1"]);
     assert_eq!(
@@ -86,7 +85,7 @@ fn threads_and_stops_change_nothing() {
 /// The samples of a scheduler, each of a process of its own, are one file behind one another.
 #[test]
 fn samples_run_alone_and_put_together_are_the_study() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let [one, merged] = ["one", "merged"].map(|name| folder.path().join(name));
     let output = study(&one, &[]);
     let alone = |sample: usize, more: &[&str]| {
@@ -104,8 +103,8 @@ fn samples_run_alone_and_put_together_are_the_study() {
         );
         text(&output.stdout)
     };
-    let mut lines: Vec<String> = (1..=COUNT).map(|sample| alone(sample, &[])).collect();
-    assert_eq!(lines.concat().lines().collect::<Vec<_>>(), found(&one).0);
+    let mut lines = (1..=COUNT).map(|sample| alone(sample, &[])).collect_vec();
+    assert_eq!(lines.concat().lines().collect_vec(), found(&one).0);
     let file = folder.path().join("3.csv");
     assert_eq!(alone(3, &["--output", words(&file)]), "");
     assert_eq!(fs::read_to_string(&file).expect("it reads"), lines[2]);
@@ -123,81 +122,13 @@ fn samples_run_alone_and_put_together_are_the_study() {
     );
 }
 
-#[test]
-fn a_folder_of_another_study_is_refused_and_left_alone() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let output = study(folder.path(), &[]);
-    assert_eq!(output.status.code(), Some(0));
-    let before = fs::read(folder.path().join("samples.csv")).expect("it reads");
-    let (building, wing) = (job("building"), job("wing"));
-    for (other, seed, vary) in [
-        (&building, "6", "noise"),
-        (&building, "5", "noise,start"),
-        (&wing, "5", "noise"),
-    ] {
-        let base = [
-            "study",
-            words(other),
-            "--samples",
-            "6",
-            "--seed",
-            seed,
-            "--vary",
-            vary,
-        ];
-        let output = corfem(&[&base[..], &["--folder", words(folder.path())]].concat());
-        assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
-        assert!(
-            text(&output.stderr).contains("samples.csv, line "),
-            "{}",
-            text(&output.stderr)
-        );
-        assert_eq!(
-            fs::read(folder.path().join("samples.csv")).expect("it reads"),
-            before
-        );
-    }
-}
-
-#[test]
-fn a_study_needs_samples_and_a_folder_or_one_sample() {
-    let job = job("building");
-    for more in [
-        &["--samples", "3"][..],
-        &["--folder", "x"],
-        &["--sample", "1", "--samples", "3"],
-        &["--sample", "0"],
-        // More than can be kept, more threads than any machine has cores, and neither with an end.
-        &["--samples", "18446744073709551615", "--folder", "x"],
-        &["--samples", "1000001", "--folder", "x"],
-        &["--samples", "1", "--folder", "x", "--threads", "20000"],
-        &["--samples", "1", "--folder", "x", "--threads", "1025"],
-    ] {
-        let output = corfem(&[&["study", words(&job)], more].concat());
-        assert_eq!(
-            (output.status.code(), output.stdout.len()),
-            (Some(2), 0),
-            "{more:?}"
-        );
-    }
-    assert_eq!(
-        corfem(&["study", words(&job), "--sample", "1", "--vary", "weather"])
-            .status
-            .code(),
-        Some(2)
-    );
-}
-
 /// A study that would last is stopped: whole lines of what is done are there, and the same command goes on with them.
 #[cfg(unix)]
 #[test]
 fn a_signal_keeps_the_samples_done() {
     use crate::common::signals::{corfem_run_by, send, undisturbed};
-    use rustix::process::Signal;
     use std::os::unix::process::ExitStatusExt;
-    use std::process::Stdio;
-    use std::time::Duration;
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let (job, path) = (job("building"), folder.path().join("samples.csv"));
     let mut child = corfem_run_by(undisturbed())
         .args([
@@ -235,7 +166,7 @@ fn a_signal_keeps_the_samples_done() {
         fs::read_to_string(&path).expect("it reads").ends_with('\n')
             && !folder.path().join("summary.csv").exists()
     );
-    let whole = tempfile::tempdir().expect("a folder");
+    let whole = new_folder();
     let [resumed, uninterrupted] =
         [folder.path(), whole.path()].map(|folder| study(folder, &[]).stdout);
     assert_eq!(resumed, uninterrupted);
@@ -246,7 +177,6 @@ fn a_signal_keeps_the_samples_done() {
 #[test]
 #[ignore = "needs script, of util-linux"]
 fn progress_stands_on_a_terminal_alone() {
-    use std::process::{Command, Stdio};
     let program = assert_cmd::cargo::cargo_bin("corfem");
     let on_terminal = |more: &str| {
         let command = format!("{} check {} {more}", words(&program), words(&job("wing")));
@@ -271,63 +201,14 @@ fn progress_stands_on_a_terminal_alone() {
 }
 
 #[test]
-fn the_usage_of_a_study_names_what_it_needs() {
-    for output in [corfem(&["study"]), corfem(&["study", "--help"])] {
-        let said = text(&output.stdout) + &text(&output.stderr);
-        for usage in [
-            "Usage: corfem study [OPTIONS] --samples <N> --folder <DIR> <JOB>\n",
-            "       corfem study [OPTIONS] --sample <K> <JOB>\n",
-        ] {
-            assert!(said.contains(usage), "{said}");
-        }
-    }
-}
-
-/// Commands of jobs are given a job's file; for its folder they say which file that is, or how to write one.
-#[test]
-fn a_folder_in_place_of_a_job_is_told_what_to_write() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = words(folder.path());
-    let commands: [&[&str]; 3] = [
-        &["check", path],
-        &["correlate", path],
-        &["study", path, "--sample", "1"],
-    ];
-    let said = || {
-        commands.map(|command| {
-            let output = corfem(command);
-            assert_eq!(output.status.code(), Some(2), "{command:?}");
-            text(&output.stderr)
-        })
-    };
-    let job = folder.path().join("job.toml");
-    let job = words(&job);
-    let remedy = format!("corfem init {job} writes a job that explains its entries");
-    assert_eq!(
-        said(),
-        [(); 3].map(|()| format!("corfem: {path}: is a folder; {remedy}\n"))
-    );
-    assert_eq!(corfem(&["init", job]).status.code(), Some(0));
-    assert_eq!(
-        said(),
-        [(); 3].map(|()| format!("corfem: {path}: is a folder; name a job in it: {job}\n"))
-    );
-    let modes = text(&corfem(&["modes", path]).stderr);
-    assert!(
-        modes.ends_with("it is a folder; name a file in it\n"),
-        "{modes}"
-    );
-}
-
-#[test]
 fn the_help_of_every_command_has_its_exit_statuses() {
     let help = text(&corfem(&["help"]).stdout);
     let commands = help.split("Commands:\n").nth(1).expect("commands");
     let commands = commands.lines().take_while(|line| !line.is_empty());
     let commands = commands.filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
-    let commands: Vec<&str> = commands
+    let commands = commands
         .filter(|name| !name.is_empty() && *name != "help")
-        .collect();
+        .collect_vec();
     assert_eq!(commands.len(), 12, "{commands:?}");
     for command in commands {
         let help = text(&corfem(&[command, "--help"]).stdout);

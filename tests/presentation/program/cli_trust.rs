@@ -1,21 +1,11 @@
 //! What may lower the trust in a job's result, in every output and in the exit status.
 
-use crate::common::jobs::{Files, rods};
-use crate::common::jobs::{prepare, run};
-use crate::presentation::program::cli::{corfem, text};
+use crate::common::jobs::run;
+use crate::prelude::*;
 use crate::readers::job_concerns::rigid_bodies;
-use crate::readers::job_errors::{placed, with};
 use corfem::job::concern::Grade;
-use corfem::job::{Concern, Kind, Trust};
-use corfem::method::analysis::Analysis;
+use corfem::present::json;
 use corfem::present::page::report_page;
-use corfem::present::report::Report;
-use corfem::present::tables::job::trust_table;
-use corfem::present::{json, render};
-use nalgebra::{DMatrix, DVector};
-use serde_json::Value;
-use std::collections::BTreeSet;
-use std::path::Path;
 
 /// Every kind of concern, in order.
 pub const KINDS: [Kind; Kind::UnitsOfTest as usize + 1] = {
@@ -105,7 +95,7 @@ fn full() -> Trust {
 
 /// Without line breaks and what HTML puts between words.
 fn unbroken(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+    text.split_whitespace().collect_vec().join(" ")
 }
 
 /// The words of a concern stand alone, in a table or a sentence of their own, and its identifier on a command line.
@@ -148,7 +138,7 @@ fn identifiers_are_short_and_differ() {
 #[test]
 fn a_long_list_names_eight_and_counts_the_rest() {
     let unbounded = |count: usize| {
-        let names: Vec<usize> = (1..=count).collect();
+        let names = (1..=count).collect_vec();
         Concern::new(Kind::Unbounded, &names, &[]).words()
     };
     assert!(unbounded(9).ends_with(": 1, 2, 3, 4, 5, 6, 7, 8, 9."));
@@ -157,9 +147,8 @@ fn a_long_list_names_eight_and_counts_the_rest() {
 
 #[test]
 fn all_that_is_said_of_trust_stands_first_in_text_csv_json_and_html() {
-    let (_folder, path) = placed(&rods());
-    let loaded = prepare(&path).expect("it loads");
-    let mut result = run(&loaded, |_| {}, || true).expect("it runs");
+    let loaded = prepared(&rods());
+    let mut result = finished(&loaded);
     result.trust = full();
     let report = Report::from_job(&loaded, Some(&result)).expect("a report");
     let table = [trust_table(&result.trust)];
@@ -187,21 +176,6 @@ fn all_that_is_said_of_trust_stands_first_in_text_csv_json_and_html() {
     );
 }
 
-/// Status and streams of a command on a job.
-fn ran(command: &str, path: &Path, more: &[&str]) -> (Option<i32>, String, String) {
-    let job = path.to_str().expect("UTF-8");
-    let output = corfem(&[&[command, "-q", job], more].concat());
-    (
-        output.status.code(),
-        unbroken(&text(&output.stdout)),
-        text(&output.stderr),
-    )
-}
-
-fn status_of(path: &Path, more: &[&str]) -> (Option<i32>, String, String) {
-    ran("correlate", path, more)
-}
-
 /// The table of a job's test.
 fn table_of(files: &mut Files) -> &mut String {
     let mut files = files.iter_mut();
@@ -216,83 +190,15 @@ fn in_radians() -> Files {
     let mut files = rods();
     let csv = table_of(&mut files);
     let (first, rest) = csv.split_once('\n').expect("lines");
-    let scaled: Vec<String> = first
+    let scaled = first
         .split(',')
         .map(|cell| match cell.parse::<f64>() {
             Ok(hertz) => (std::f64::consts::TAU * hertz).to_string(),
             Err(_) => cell.to_owned(),
         })
-        .collect();
+        .collect_vec();
     *csv = format!("{}\n{rest}", scaled.join(","));
     files
-}
-
-/// The factors take up what the unit is wrong by, so that the errors alone say nothing.
-#[test]
-fn a_test_in_radians_a_second_never_passes_unless_the_doubt_is_accepted() {
-    let (_folder, path) = placed(&in_radians());
-    let (status, words, _) = status_of(&path, &[]);
-    assert_eq!(status, Some(3), "{words}");
-    assert!(
-        words.starts_with("Not to be trusted as it stands: ")
-            && words.contains("What stands against it doubt common-factor: "),
-        "{words}"
-    );
-    let job = path.to_str().expect("UTF-8");
-    assert_eq!(corfem(&["check", "-q", job]).status.code(), Some(3));
-    let accepted = ["--accept", "common-factor"];
-    let check = corfem(&[&["check", "-q", job][..], &accepted].concat());
-    assert_eq!(check.status.code(), Some(0));
-    let (_, words, _) = status_of(&path, &accepted);
-    assert!(words.contains("doubt, accepted common-factor: "), "{words}");
-    assert!(!words.contains("Not to be trusted as it stands"), "{words}");
-}
-
-/// A study of a job into a folder, or one sample of it, with more arguments.
-fn study_of(path: &Path, more: &[&str]) -> (Option<i32>, String, String) {
-    ran("study", path, more)
-}
-
-#[test]
-fn a_study_ends_with_status_3_while_a_doubt_stands_that_nobody_accepts() {
-    let (folder, path) = placed(&in_radians());
-    let out = folder.path().join("out");
-    let whole = ["--samples", "2", "--folder", out.to_str().expect("UTF-8")];
-    let accepted = ["--accept", "common-factor"];
-    let (status, _, error) = study_of(&path, &[&whole[..], &["--accept", "rad-s"]].concat());
-    assert_eq!(status, Some(2));
-    assert!(
-        error.contains("--accept rad-s: the doubts are common-factor"),
-        "{error}"
-    );
-    assert!(!out.exists(), "refused before the first sample");
-    let (status, words, error) = study_of(&path, &whole);
-    assert_eq!((status, &error[..]), (Some(3), ""), "{words}");
-    assert!(words.contains("doubt common-factor: "), "{words}");
-    let (status, words, _) = study_of(&path, &[&whole[..], &accepted].concat());
-    assert_eq!(status, Some(0), "{words}");
-    assert!(words.contains("doubt, accepted common-factor: "), "{words}");
-    let one = ["--sample", "1"];
-    assert_eq!(study_of(&path, &one).0, Some(3));
-    assert_eq!(study_of(&path, &[one, accepted].concat()).0, Some(0));
-}
-
-#[test]
-fn an_accepted_identifier_must_name_a_doubt() {
-    let (_folder, path) = placed(&in_radians());
-    let (status, _, error) = status_of(&path, &["--accept", "rad-s"]);
-    assert_eq!(status, Some(2));
-    assert!(
-        error.contains("--accept rad-s: the doubts are common-factor"),
-        "{error}"
-    );
-    let (_folder, path) = placed(&rods());
-    let (status, _, error) = status_of(&path, &["--accept", "common-factor"]);
-    assert_eq!(status, Some(2));
-    assert!(
-        error.contains("--accept common-factor: nothing is doubtful"),
-        "{error}"
-    );
 }
 
 /// Masses, each on a spring to the ground, joined weakly in a row: where their springs are alike they move together.
@@ -306,7 +212,7 @@ fn oscillators<const COUNT: usize>(springs: [f64; COUNT], joint: f64) -> DMatrix
 }
 
 fn market(matrix: &DMatrix<f64>) -> String {
-    let values: Vec<String> = matrix.iter().map(f64::to_string).collect();
+    let values = matrix.iter().map(f64::to_string).collect_vec();
     let count = matrix.nrows();
     format!(
         "%%MatrixMarket matrix array real general\n{count} {count}\n{}\n",
@@ -358,7 +264,7 @@ fn job_of_matrices(
 fn modes_of(stiffness: DMatrix<f64>) -> (Vec<f64>, DMatrix<f64>) {
     let eigen = stiffness.symmetric_eigen();
     let roots = &eigen.eigenvalues;
-    let mut order: Vec<usize> = (0..roots.len()).collect();
+    let mut order = (0..roots.len()).collect_vec();
     order.sort_by(|&a, &b| roots[a].total_cmp(&roots[b]));
     let hertz = order
         .iter()
@@ -389,11 +295,10 @@ fn mixed(method: &str) -> Files {
 #[test]
 fn a_mode_left_out_is_compared_once_it_resembles_a_mode_of_the_model() {
     for method in ["paper", "gauss_newton"] {
-        let (_folder, path) = placed(&mixed(method));
-        let loaded = prepare(&path).expect("it loads");
+        let loaded = prepared(&mixed(method));
         assert_eq!(loaded.unpaired.len(), 1, "{method}");
         let left = loaded.unpaired[0].mode + 1;
-        let result = run(&loaded, |_| {}, || true).expect("it runs");
+        let result = finished(&loaded);
         assert_eq!(
             result.trust.about(Kind::Joined),
             [left.to_string()],
@@ -424,63 +329,15 @@ fn weighted_steps_look_at_a_mode_left_out_before_their_optimum() {
         "[compare]",
         "[compare]\nanalysis_modes = 3\nresidual_vectors = 0",
     );
-    let (_folder, path) = placed(&files);
-    let loaded = prepare(&path).expect("it loads");
-    let result = run(&loaded, |_| {}, || true).expect("it runs");
+    let loaded = prepared(&files);
+    let result = finished(&loaded);
     assert_eq!(result.trust.about(Kind::Joined), ["2"]);
     assert!(result.verdict.is_within);
 }
 
-/// A selected mode that is not compared makes the status 3; one that the job does not select does not.
-#[test]
-fn a_selected_mode_that_is_not_compared_is_no_success() {
-    let mut files = rods();
-    let csv = table_of(&mut files);
-    // The third shape again is the first: its mode of the model belongs to the first.
-    let lines = csv.lines().map(|line| {
-        let cells: Vec<&str> = line.split(',').collect();
-        match cells[..] {
-            [.., first, _, _]
-                if line.starts_with(|letter: char| letter.is_ascii_digit() || letter == 'S') =>
-            {
-                format!("{},{first}", cells[..cells.len() - 1].join(","))
-            }
-            _ => line.to_owned(),
-        }
-    });
-    *csv = lines.collect::<Vec<_>>().join("\n") + "\n";
-    let files = with(
-        files,
-        "job.toml",
-        "elements = [\"2-3\"]",
-        "elements = [\"2-3\"]\neach = true",
-    );
-    let (_folder, path) = placed(&files);
-    let (status, words, _) = status_of(&path, &[]);
-    assert_eq!(status, Some(3), "{words}");
-    assert!(words.contains("Test mode 3 is not compared: "), "{words}");
-    // Nor is a sample of a study: its third cell says whether it is within tolerance.
-    let (_, sample, _) = study_of(&path, &["--sample", "1", "--vary", "start"]);
-    assert_eq!(sample.split(',').nth(2), Some("false"), "{sample}");
-    let selected = with(
-        files,
-        "job.toml",
-        "file = \"test.csv\"",
-        "file = \"test.csv\"\nmodes = [1, 2]",
-    );
-    let (_folder, path) = placed(&selected);
-    let (status, words, _) = status_of(&path, &[]);
-    assert_eq!(status, Some(0), "{words}");
-    assert!(
-        words.contains("Test modes that the job does not select: 3."),
-        "{words}"
-    );
-}
-
 #[test]
 fn a_stopped_run_says_so_in_words_and_in_its_verdict() {
-    let (_folder, path) = placed(&mixed("paper"));
-    let loaded = prepare(&path).expect("it loads");
+    let loaded = prepared(&mixed("paper"));
     let result = run(&loaded, |_| {}, || false).expect("it stops");
     let report = Report::from_job(&loaded, Some(&result)).expect("a report");
     let all = render::text(&[trust_table(&result.trust)]);
@@ -498,14 +355,13 @@ fn what_shapes_do_not_decide_is_paired_by_frequency_and_said() {
         .filter(|line| !line.starts_with("2,") && !line.starts_with("3,"))
         .map(|line| format!("{line}\n"))
         .collect();
-    let (_folder, path) = placed(&files);
-    let loaded = prepare(&path).expect("it loads");
+    let loaded = prepared(&files);
     assert_eq!(loaded.loaded.placed.len(), 1);
     assert_eq!(loaded.undecided, [0, 1, 2]);
     let model = loaded.analyze(&[1.0; 2]).expect("a model");
     let exact = model.model().exact();
     assert_eq!(exact.pairing.analysis_mode, [0, 1, 2]);
-    let trust = Trust::before(&loaded).expect("an account");
+    let trust = trust_in(&loaded);
     assert_eq!(trust.about(Kind::Undecided), ["1", "2", "3"]);
     let all = unbroken(&render::text(&[trust_table(&trust)]));
     assert!(
@@ -523,8 +379,7 @@ fn repeated_roots_in_the_papers_loops_name_the_other_method() {
         let part = oscillators([300.0, 310.0, 320.0], 60.0);
         let parts = [0.5 * &part, 0.5 * &part, &whole - &part];
         let files = job_of_matrices(method, &whole, &parts, (&hertz, &shapes));
-        let (_folder, path) = placed(&files);
-        let loaded = prepare(&path).expect("it loads");
+        let loaded = prepared(&files);
         run(&loaded, |_| {}, || true)
     };
     let refused = repeated("paper").expect_err("coalescing").to_string();
@@ -568,9 +423,8 @@ fn free_chain(turned: Option<usize>) -> Files {
 #[test]
 fn the_pre_flight_sees_a_turned_sensor_of_a_structure_that_hangs_free() {
     let said = |turned| {
-        let (_folder, path) = placed(&free_chain(turned));
-        let loaded = prepare(&path).expect("it loads");
-        Trust::before(&loaded).expect("an account")
+        let loaded = prepared(&free_chain(turned));
+        trust_in(&loaded)
     };
     let right = said(None);
     assert_eq!((rigid_bodies(&right), right.has_doubt()), (1.0, false));
@@ -602,7 +456,7 @@ fn every_concern_of_the_test_jobs_begins_with_a_capital_letter_and_ends_as_a_sen
     let mut identifiers = BTreeSet::new();
     for path in paths {
         let loaded = prepare(path).expect("it loads");
-        let trust = Trust::before(&loaded).expect("an account");
+        let trust = trust_in(&loaded);
         for concern in trust.all() {
             let (identifier, words) = (concern.identifier(), concern.words());
             assert!(words.starts_with(char::is_uppercase), "{words}");
@@ -619,154 +473,4 @@ fn every_concern_of_the_test_jobs_begins_with_a_capital_letter_and_ends_as_a_sen
     ] {
         assert!(identifiers.contains(expected), "{identifiers:?}");
     }
-}
-
-/// An entry that is read, checked and then used by nothing would be taken for one that counts.
-#[test]
-fn entries_of_a_job_that_nothing_uses_are_said() {
-    let said = |files: &Files| {
-        let (_folder, path) = placed(files);
-        let loaded = prepare(&path).expect("it loads");
-        Trust::before(&loaded)
-            .expect("an account")
-            .about(Kind::NotUsed)
-    };
-    let of_loops = "\n[correlation]\nlater_inner_tolerance = 0.01\nerror_sum_tolerance = 0.05\nmost_passes = 9\n\
-                    [correlation.inner]\nstep = \"own\"\ntolerance = 0.02\nfactor_range = { lower = 0.5, upper = 2 }\n";
-    let mut weighted = with(rods(), "job.toml", "[compare]", "[compare]\nseed = 7");
-    weighted = with(
-        weighted,
-        "job.toml",
-        "[model]",
-        "[model]\nrows = \"rows.csv\"",
-    );
-    weighted = with(weighted, "job.toml", "[sensors]", "[sensors]\ndistance = 1");
-    let job = |files: &mut Files, of_loops: &str| {
-        files
-            .iter_mut()
-            .find(|(name, _)| name == "job.toml")
-            .expect("a job")
-            .1 += of_loops;
-    };
-    job(&mut weighted, of_loops);
-    assert_eq!(
-        said(&weighted),
-        [
-            "model.rows (of matrices)",
-            "compare.seed (of several starts)",
-            "correlation.error_sum_tolerance (of the paper's loops)",
-            "correlation.later_inner_tolerance (of the paper's loops)",
-            "correlation.most_passes (of the paper's loops)",
-            "correlation.inner.step (of the paper's loops)",
-            "correlation.inner.factor_range (of the paper's loops)",
-            "correlation.inner.tolerance (of the paper's loops)",
-        ]
-    );
-    let mut paper = with(rods(), "job.toml", "gauss_newton", "paper");
-    job(&mut paper, of_loops);
-    assert_eq!(said(&paper), [""; 0]);
-    let springs = [[1000.0, 1050.0, 1100.0], [1000.0, 1100.0, 1150.0]];
-    let matrices = joined("gauss_newton", springs, 60.0);
-    let matrices = with(
-        matrices,
-        "job.toml",
-        "[model]",
-        "[sensors]\ndistance = 1\n[model]\nignore = [\"CBAR\"]",
-    );
-    let given = "[compare]\nshape_deviation = 0.01\nfrequency_deviation = 0.01";
-    let mut matrices = with(matrices, "job.toml", "[compare]", given);
-    assert_eq!(
-        said(&matrices),
-        [
-            "model.ignore (of decks)",
-            "sensors.distance (of sensors whose place is known)",
-        ]
-    );
-    let csv = table_of(&mut matrices);
-    *csv = csv.replacen("grid,", "shape_deviation,,,0.02,0.02,0.02\ngrid,", 1);
-    assert_eq!(
-        said(&matrices)[2..],
-        ["compare.shape_deviation (of a test without its own)"]
-    );
-}
-
-/// The line of one sample is for a file of samples; the doubt that makes the status is said beside it.
-#[test]
-fn one_sample_of_a_doubtful_job_says_why_its_status_is_3() {
-    let (_folder, path) = placed(&in_radians());
-    let (status, line, error) = study_of(&path, &["--sample", "1"]);
-    assert_eq!((status, line.split(',').count()), (Some(3), 8));
-    assert!(
-        error.starts_with("corfem: doubt common-factor: "),
-        "{error}"
-    );
-    let (status, _, error) = study_of(&path, &["--sample", "1", "--accept", "common-factor"]);
-    assert_eq!((status, &error[..]), (Some(0), ""));
-}
-
-/// Cross-orthogonality has the mass of some modes' model, and the note under the table says which.
-#[test]
-fn the_mass_of_cross_orthogonality_is_named_before_and_after() {
-    let (_folder, path) = placed(&rods());
-    for (command, model) in [("check", "first"), ("correlate", "corrected")] {
-        let (_, words, _) = ran(command, &path, &[]);
-        let source = format!("The mass is that of the paired modes of the {model} model.");
-        assert!(words.contains(&source), "{words}");
-    }
-}
-
-/// Rods, masses along one direction and in all, at free and held grids; and matrices whose rows couple.
-#[test]
-fn the_mass_of_a_job_is_that_of_all_that_moves_along_each_axis() {
-    let said = |files: &Files| {
-        let (_folder, path) = placed(files);
-        let loaded = prepare(&path).expect("it loads");
-        let trust = Trust::before(&loaded).expect("an account");
-        let is_mass = |concern: &&Concern| concern.identifier().contains("mass");
-        let mass = trust.all().iter().filter(is_mass).map(Concern::words);
-        mass.collect::<Vec<_>>().join(" ")
-    };
-    // Three unit masses along x at 10, 20 and 30.
-    assert_eq!(
-        said(&rods()),
-        "Mass that moves along x 3, along y 0, along z 0. Center of gravity (20, 0, 0)."
-    );
-    // Rods of 1 · 0.1 · 10 each from 0 to 30 and a mass of 2 at the wall.
-    let heavy = with(rods(), "model.bdf", "MAT1,1,1.+6,,.3", "MAT1,1,1.+6,,.3,1.");
-    let heavy = with(heavy, "model.bdf", "MAT1,2,1.+6,,.3", "MAT1,2,1.+6,,.3,1.");
-    let heavy = with(heavy, "model.bdf", "CMASS2,12", "CONM2,11,1,,2.\nCMASS2,12");
-    // Of x 3 + 3 + 2, of y and z 3 + 2: the center is that of the sum, (60 + 3 · 45) / 18.
-    assert_eq!(
-        said(&heavy),
-        "Mass that moves along x 8, along y 5, along z 5. Center of gravity (10.8333, 0, 0)."
-    );
-    let all = with(
-        heavy,
-        "model.bdf",
-        "CMASS2,12,1.,2,1\nCMASS2,13,1.,3,1\nCMASS2,14,1.,4,1\n",
-        "",
-    );
-    assert_eq!(said(&all), "Total mass 5. Center of gravity (9, 0, 0).");
-    let springs = [[1000.0, 1050.0, 1100.0], [1000.0, 1100.0, 1150.0]];
-    let mut matrices = joined("gauss_newton", springs, 60.0);
-    for (name, text) in &mut matrices {
-        if name == "M.mtx" {
-            let mass =
-                DMatrix::from_row_slice(3, 3, &[2.0, 1.0, 0.0, 1.0, 2.0, 0.0, 0.0, 0.0, 3.0]);
-            *text = market(&mass);
-        }
-    }
-    assert_eq!(
-        said(&matrices),
-        "Mass that moves along x 9, along y 0, along z 0."
-    );
-    for (name, text) in &mut matrices {
-        if name == "rows.csv" {
-            *text = "grid,direction,x,y,z\n1,x,0,0,4\n2,x,0,6,4\n3,x,3,0,4\n".to_owned();
-        }
-    }
-    assert_eq!(
-        said(&matrices),
-        "Mass that moves along x 9, along y 0, along z 0. Center of gravity (1, 2, 4)."
-    );
 }

@@ -1,15 +1,8 @@
 //! What `corfem dump` writes, read back: the matrices have the case's modes, and the iterations are those of (13).
 
-use crate::common::golden::{Numbers, assert_golden};
-use crate::common::tolerances::{EIGEN_ROUND_OFF, MATRIX_ROUND_OFF};
-use crate::common::vibrations::modes_by_nalgebra;
+use crate::prelude::*;
 use crate::presentation::program::cli::{corfem, numbers};
 use corfem::files::matrices::read;
-use nalgebra::DMatrix;
-use serde_json::Value;
-use std::f64::consts::PI;
-use std::fs;
-use std::path::Path;
 
 /// A case's document.
 fn dumped(case: &str) -> Value {
@@ -19,12 +12,12 @@ fn dumped(case: &str) -> Value {
 }
 
 fn matrix(value: &Value) -> DMatrix<f64> {
-    let rows: Vec<Vec<f64>> = value
+    let rows = value
         .as_array()
         .expect("rows")
         .iter()
         .map(numbers)
-        .collect();
+        .collect_vec();
     DMatrix::from_fn(rows.len(), rows[0].len(), |row, column| rows[row][column])
 }
 
@@ -148,7 +141,7 @@ fn dumped_factors_follow_from_the_dumped_changes() {
 
 #[test]
 fn a_folder_gets_every_matrix_as_the_document_has_it() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = new_folder();
     let path = folder.path().join("dump");
     let output = corfem(&["dump", "2", "--folder", &path.display().to_string()]);
     assert_eq!(output.status.code(), Some(0));
@@ -200,15 +193,4 @@ fn a_folder_gets_every_matrix_as_the_document_has_it() {
             assert!(is_same(&format!("analysis_{number}_share_{panel}"), share));
         }
     }
-}
-
-#[test]
-fn a_dump_of_nothing_is_refused() {
-    assert_eq!(corfem(&["dump", "5"]).status.code(), Some(2));
-    assert_eq!(
-        corfem(&["dump", "2", "--folder", "/no/such/folder/here"])
-            .status
-            .code(),
-        Some(2)
-    );
 }

@@ -1,13 +1,9 @@
 //! Every operation on a file fails once, the first, the second and so on, until the program does not come to it any more: it ends
 //! with status 2 and names the file, every file is old or new and whole, and what the next run finds is enough for it.
 
-use crate::common::jobs::rods;
+use crate::prelude::*;
 use crate::presentation::program::cli::text;
-use crate::readers::job_errors::placed;
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 /// What makes an operation fail, in a build with debug assertions.
 const VARIABLE: &str = "CORFEM_FAILING_OPERATION";
@@ -41,7 +37,7 @@ impl Run {
             status: None,
             new: Files::new(),
         };
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = new_folder();
         let out = folder.path().join("out");
         let output = run.output(folder.path(), None);
         run.status = output.status.code();
@@ -74,7 +70,7 @@ impl Run {
 
     /// Makes an operation fail in a folder that holds these files, or in a new one; its kind, or none if there are not so many.
     fn fail(&self, number: usize, before: Option<&Files>) -> Option<String> {
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = new_folder();
         let [out, temporary] = ["out", "temporary"].map(|name| folder.path().join(name));
         fs::create_dir(&temporary).expect("made");
         if let Some(files) = before {

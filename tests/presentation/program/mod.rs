@@ -1,7 +1,6 @@
 //! The program from outside.
 
 pub mod cli;
-pub mod cli_check;
 pub mod cli_comparisons;
 pub mod cli_environment;
 pub mod cli_init;
@@ -13,9 +12,10 @@ mod cli_shapes;
 mod cli_shown;
 pub mod cli_streams;
 pub mod cli_study;
-pub mod cli_tables;
 pub mod cli_trust;
 pub mod deck_cli;
 pub mod dump;
 pub mod failing_operations;
 pub mod stops;
+#[cfg(unix)]
+mod transcripts;

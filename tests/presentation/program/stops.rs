@@ -6,13 +6,10 @@
 #![cfg(unix)]
 
 use crate::common::signals::{SIGNALS, corfem_run_by, send, undisturbed};
+use crate::prelude::*;
 use crate::presentation::figures::figures;
-use rustix::process::Signal;
-use std::fs;
 use std::os::unix::process::ExitStatusExt;
-use std::path::Path;
-use std::process::{Child, ExitStatus, Stdio};
-use std::time::{Duration, Instant};
+use std::process::{Child, ExitStatus};
 
 /// A figure's file from before.
 const OLD: &str = "old";
@@ -105,7 +102,7 @@ fn a_kill_at_any_moment_leaves_each_file_old_or_new_and_whole() {
     ]
     .concat();
     for (at, after) in delays(asked_for().unwrap_or(FEW)).enumerate() {
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = new_folder();
         let out = folder.path().join("out");
         // A folder with old files, and one that is new.
         let had_old = at % 2 == 0;
@@ -133,7 +130,7 @@ fn a_kill_at_any_moment_leaves_each_file_old_or_new_and_whole() {
 #[test]
 fn a_signal_that_it_was_started_to_ignore_does_not_end_it() {
     for (signal, name) in SIGNALS {
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = new_folder();
         let ignoring = format!("trap '' {name}; exec \"$@\"");
         let mut child = start(&["sh", "-c", &ignoring, "sh"], folder.path());
         begun(&mut child, folder.path());
@@ -149,7 +146,7 @@ fn a_kill_at_every_call_that_writes_leaves_each_file_old_or_new_and_whole() {
     let mut kills = 0;
     for call in ["write", "fsync", "rename", "renameat", "renameat2"] {
         for at in 1.. {
-            let folder = tempfile::tempdir().expect("a folder");
+            let folder = new_folder();
             old_set(folder.path());
             let inject = format!("inject=?{call}:signal=KILL:when={at}");
             let trace = format!("trace=?{call}");

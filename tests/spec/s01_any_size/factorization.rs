@@ -2,6 +2,7 @@
 
 use crate::common::fill::{self, Fill};
 use crate::prelude::*;
+use corfem::chain::rods;
 
 /// A square net of membranes and rods in the plane, swept, with one edge held and every grid free in x and y.
 fn net(cells: usize) -> Structure {

@@ -150,7 +150,7 @@ fn predicted(net: &Net, further: usize) -> f64 {
     let mut errors = (1..=25)
         .map(|draw| {
             let factor = |e: usize| (0.3 * (f64::from(draw) * (1.7 + e as f64)).sin()).exp();
-            let factors: Vec<f64> = (0..9).map(factor).collect();
+            let factors = (0..9).map(factor).collect_vec();
             // Solved in the basis, whose shapes are orthonormal in the mass.
             let mut stiffness = DMatrix::from_diagonal(first.omega_squared());
             for (share, factor) in first.shares().iter().zip(&factors) {
@@ -162,7 +162,7 @@ fn predicted(net: &Net, further: usize) -> f64 {
             let exact = net.model.modes(&factors, MODES[0]).unwrap().vibrations;
             let off = found.iter().zip(exact.frequencies_hz());
             off.map(|(found, exact)| relative_error(found, exact))
-                .fold(0.0, f64::max)
+                .largest()
         })
         .collect_vec();
     errors.sort_by(f64::total_cmp);
@@ -191,7 +191,7 @@ fn the_papers_inner_loop_predicts_the_error_twenty_times_better() {
         apart.collect::<Vec<f64>>()
     };
     let [none, four] = [0, 4].map(apart);
-    let most = |apart: &[f64]| apart.iter().copied().fold(0.0, f64::max);
+    let most = |apart: &[f64]| apart.iter().copied().largest();
     assert!(
         !four.is_empty() && most(&four) < most(&none) / 20.0,
         "{none:?} to {four:?}"
@@ -217,7 +217,7 @@ fn a_net_of_300_degrees_of_freedom_comes_back_at_the_usual_number_of_modes() {
             .iter()
             .zip(&net.truth)
             .map(|(found, truth)| relative_error(found, truth));
-        off.fold(0.0, f64::max)
+        off.largest()
     };
     assert_eq!(found.stop, WeightedStop::Gradient);
     assert!(worst(&found.factors) < 1e-5);

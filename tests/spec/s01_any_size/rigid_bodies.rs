@@ -1,6 +1,7 @@
 //! Rigid-body modes are the null space of the stiffness, whatever its stiffest part.
 
 use crate::prelude::*;
+use corfem::chain::rods;
 use matrices::read;
 
 fn of(stiffness: &SparseMatrix) -> RigidBodies {

@@ -394,8 +394,10 @@ fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
         assert!(assurance[(mode, mode)] > 1.0 - SAME_ANALYSIS);
     }
     assert!(
-        (at_sensors.exact().errors.sum() / expected.exact().errors.sum() - 1.0).abs()
-            < SAME_ANALYSIS
+        relative_error(
+            at_sensors.exact().errors.sum(),
+            expected.exact().errors.sum()
+        ) < SAME_ANALYSIS
     );
     for (a, b) in at_sensors.shares().iter().zip(expected.shares()) {
         assert!((a.matrix().abs() - b.abs()).amax() < SAME_ANALYSIS * b.amax());
