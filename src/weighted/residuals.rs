@@ -139,7 +139,7 @@ impl<'a> Whitening<'a> {
 
 /// The `members` among shapes as test mode `j` is compared with them, every component over its deviation, and their combination nearest
 /// to the test shape of unit largest component.
-fn compared(
+pub(super) fn compared(
     shapes: &DMatrix<f64>,
     Comparison { model, test, .. }: &Comparison,
     members: &[usize],
