@@ -138,6 +138,9 @@ impl PreparedJob {
         let (source, exact) = (&self.loaded.source, &comparison.model.exact);
         let count = exact.modes.len();
         let look = |places: &[StructuralDof], is_exact: bool| {
+            if places.is_empty() {
+                return Ok(Vec::new());
+            }
             let of = |(row, dof)| {
                 source.motions[dof]
                     .iter()
