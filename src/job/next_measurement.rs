@@ -1,4 +1,4 @@
-//! Where to measure next: what one sensor less, one more, or one more mode does to the deviations of the factors.
+//! The next measurement: the deviations of the factors with one sensor more, one mode more or one sensor less.
 
 use super::{Method, PlacedSensor, PreparedJob};
 use crate::files::error::FileError;
@@ -20,12 +20,8 @@ const NOTHING: f64 = 1e-8;
 /// Deviations of a frequency within which modes might be compared together: twice that of a difference of two, with room.
 const CLOSE: f64 = 3.0;
 
-/// The reason why there is no ranking.
-const NOTHING_RANKED: &str =
-    "Nothing is ranked without parameters, compared shapes, and numbers that are independent.";
-
 /// Single changes of a test and the deviations of the factors' logarithms after each.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct NextMeasurement {
     /// Kinds of change, each with its best changes first: none, one sensor more, one more mode of the model, one sensor less.
     pub changes: [Changes; 4],
@@ -51,22 +47,23 @@ fn ranked<T>(
 }
 
 impl PreparedJob {
-    /// What one sensor more at a grid of the model, one more mode of it, and one sensor less do to the deviations of the factors at the
-    /// first model. A new sensor reads what the model says of it; a new mode is as the model has it, with the deviations of the test's
+    /// Deviations of the factors at the first model with one sensor more at a grid of it, with one more of its modes, and with one sensor
+    /// less. A new sensor reads what the model says of it; a new mode is as the model has it, with the deviations of the test's
     /// last one.
     ///
     /// Every place is ranked by the modes at hand; the best have exact slopes, and with these the deviations of a job with that sensor.
     ///
     /// # Errors
-    /// Those of the analysis and of the covariance.
+    /// The errors of the analysis and of the covariance.
     pub fn next_measurement(&self) -> Result<NextMeasurement, FileError> {
         let (loaded, placed) = (&self.loaded, &self.loaded.placed);
         let (priors, mut unranked) = (&loaded.source.priors, Vec::new());
         let is_unpaired = self.modes.is_empty() || self.is_without_pairs();
         if priors.is_empty() || is_unpaired || self.covariance().is_some() {
+            let why = "Nothing is ranked without parameters, compared shapes, and numbers that are independent.";
             return Ok(NextMeasurement {
-                unranked: vec![NOTHING_RANKED.to_owned()],
-                ..NextMeasurement::default()
+                unranked: vec![why.to_owned()],
+                changes: Default::default(),
             });
         }
         let mut weighted = self.clone();
@@ -136,47 +133,46 @@ impl PreparedJob {
         unranked: &mut Vec<String>,
     ) -> Result<Changes, Error> {
         let (source, exact) = (&self.loaded.source, &comparison.model.exact);
-        let count = exact.modes.len();
-        let look = |places: &[StructuralDof], is_exact: bool| {
+        let (count, mut modes) = (exact.modes.len(), exact.pairing.analysis_mode.clone());
+        modes.sort_unstable();
+        let look = |places: &[StructuralDof], modes: &[usize]| {
             if places.is_empty() {
                 return Ok(Vec::new());
             }
             let of = |(row, dof)| {
                 source.motions[dof]
                     .iter()
-                    .map(move |&(column, own)| (row, column, own))
+                    .map(move |own| (row, own.0, own.1))
             };
             let entries = places.iter().enumerate().flat_map(of).collect();
-            let sensors =
-                SparseMatrix::new("sensors", places.len(), source.whole.dof_count(), entries)?;
+            let size = source.whole.dof_count();
+            let sensors = SparseMatrix::new("sensors", places.len(), size, entries)?;
             let [basis, unseen] = self.first.read_by(&sensors, count)?;
-            let beyond = match is_exact {
-                true => self
-                    .first
-                    .slopes_beyond(&sensors, count, &exact.pairing.analysis_mode)?,
-                false => Vec::new(),
-            };
+            let beyond = self.first.slopes_beyond(&sensors, count, modes)?;
             let is_seen = |row: &usize| unseen.row(*row).amax() <= NOTHING * basis.amax();
             ranked((0..places.len()).filter(is_seen).map(|row| {
                 let of_row = |all: &DMatrix<f64>| all.rows(row, 1).into_owned();
-                let beyond: Vec<_> = beyond.iter().map(of_row).collect();
-                Ok((
-                    places[row],
-                    by(&comparison.with_sensor(&of_row(&basis), &beyond))?,
-                ))
+                let with =
+                    comparison.with_sensor(of_row(&basis), beyond.iter().map(of_row).collect());
+                Ok((places[row], by(&with)?))
             }))
         };
-        let places = self.some(self.places(), "places", unranked);
-        let best = look(&places, false)?;
+        let mut places = self.some(self.places(), "places", unranked);
+        let best = look(&places, &[])?;
         let apart = places.len() - best.len();
         let of_apart = || format!("Not ranked: {apart} places with modes that no sensor sees now.");
         unranked.extend((apart > 0).then(of_apart));
-        let best: Vec<StructuralDof> = best.iter().map(|own| own.0).take(MOST_PLACES).collect();
-        let words =
-            |dof: StructuralDof| format!("with grid {} {}", dof.grid, DIRECTIONS[dof.direction]);
-        Ok(look(&best, true)?
+        places = best
             .into_iter()
-            .map(|(dof, own)| (words(dof), own))
-            .collect())
+            .map(|own| own.0)
+            .take(MOST_PLACES)
+            .collect();
+        let best = look(&places, &modes)?;
+        let named = best
+            .into_iter()
+            .map(|(StructuralDof { grid, direction }, own)| {
+                (format!("with grid {grid} {}", DIRECTIONS[direction]), own)
+            });
+        Ok(named.collect())
     }
 }

@@ -8,11 +8,12 @@ use crate::method::error::Error;
 use crate::method::sorting::Pairing;
 use crate::sparse::{ModeWeight, gram};
 use nalgebra::DMatrix;
+use std::iter::repeat;
 
 /// Deviations of the logarithms of the factors by independent tests with their weights, and prior deviations.
 ///
 /// # Errors
-/// Those of [`jacobian`] and of the covariance.
+/// The errors of [`jacobian`] and of the covariance.
 pub(crate) fn deviations(
     tests: &[(&Comparison, &[ModeWeight])],
     priors: &[f64],
@@ -26,24 +27,30 @@ pub(crate) fn deviations(
 }
 
 impl Comparison {
-    /// This comparison at some of its sensors. Weights of components that are not alike stay what they are over a component.
-    pub(crate) fn at_sensors(&self, rows: &[usize]) -> Self {
-        let mut own = self.clone();
-        let model = &mut own.model;
-        let weights = &mut own.test.component_weights;
+    /// Matrices with a row for every sensor: the basis, the modes, the test's shapes, the weights of components, and slopes beyond the basis,
+    /// of modes in ascending order.
+    fn by_sensors(&mut self) -> impl Iterator<Item = &mut DMatrix<f64>> {
+        let (model, weights) = (&mut self.model, &mut self.test.component_weights);
         let shapes = [
             &mut model.basis,
             &mut model.exact.modes.shapes,
             &mut model.test.shapes,
             weights,
         ];
-        let beyond = model.beyond.iter_mut().flatten();
-        for matrix in shapes.into_iter().chain(beyond) {
-            *matrix = matrix.select_rows(rows);
-        }
-        let largest = |of: &Self, j: usize| of.model.test.shapes.column(j).amax();
+        shapes.into_iter().chain(model.beyond.iter_mut().flatten())
+    }
+
+    fn largest(&self, j: usize) -> f64 {
+        self.model.test.shapes.column(j).amax()
+    }
+
+    /// This comparison at some of its sensors. Weights of components that are not alike stay what they are over a component.
+    pub(crate) fn at_sensors(&self, rows: &[usize]) -> Self {
+        let mut own = self.clone();
+        own.by_sensors()
+            .for_each(|matrix| *matrix = matrix.select_rows(rows));
         for j in 0..own.model.test.len() {
-            let scale = largest(&own, j) / largest(self, j);
+            let scale = own.largest(j) / self.largest(j);
             let mut weights = own.test.component_weights.column_mut(j);
             if weights.iter().any(|own| *own != 1.0) {
                 weights *= scale;
@@ -53,32 +60,28 @@ impl Comparison {
     }
 
     /// This comparison with one more sensor, which reads this of the basis (1 × N) and what the model says of the test; `beyond` is what
-    /// modes beyond the basis add there to the slopes of the compared modes, nothing if it is empty.
-    pub(crate) fn with_sensor(&self, basis: &DMatrix<f64>, beyond: &[DMatrix<f64>]) -> Self {
-        let (mut own, model) = (self.clone(), &self.model);
-        let (last, partners) = (model.basis.nrows(), &model.exact.pairing.analysis_mode);
-        let mut reading = DMatrix::zeros(1, model.test.len());
-        for j in 0..model.test.len() {
-            let members = members(&model.exact.pairing, &self.test.together, j);
-            let shares = compared(&model.basis, self, &members, j).1.shares;
-            let of_unit = basis.select_columns(&members) * shares;
-            reading[j] = of_unit[0] * model.test.shapes.column(j).amax();
-        }
-        let modes = basis.columns(0, model.exact.modes.len()).into_owned();
-        let extend = |all: &mut DMatrix<f64>, row: &DMatrix<f64>| {
-            *all = std::mem::take(all).insert_row(last, 1.0);
-            all.set_row(last, &row.row(0));
+    /// modes beyond the basis add there to the slopes of the compared modes, in ascending order, nothing if it is empty.
+    pub(crate) fn with_sensor(&self, basis: DMatrix<f64>, beyond: Vec<DMatrix<f64>>) -> Self {
+        let exact = &self.model.exact;
+        let reading = |_, j| {
+            let members = members(&exact.pairing, &self.test.together, j);
+            let shares = compared(&self.model.basis, self, &members, j).1.shares;
+            (basis.select_columns(&members) * shares)[0] * self.largest(j)
         };
-        extend(&mut own.model.basis, basis);
-        extend(&mut own.model.exact.modes.shapes, &modes);
-        extend(&mut own.model.test.shapes, &reading);
-        extend(&mut own.test.component_weights, &reading.map(|_| 1.0));
-        let nothing = DMatrix::zeros(1, model.shares.len());
-        for (place, &mode) in partners.iter().enumerate() {
-            let more = beyond.get(place).unwrap_or(&nothing);
-            own.model.beyond[mode]
-                .iter_mut()
-                .for_each(|own| extend(own, more));
+        let reading = DMatrix::from_fn(1, self.model.test.len(), reading);
+        let (modes, ones) = (
+            basis.columns(0, exact.modes.len()).into_owned(),
+            reading.map(|_| 1.0),
+        );
+        let nothing = repeat(DMatrix::zeros(1, self.model.shares.len()));
+        let rows = [basis, modes, reading, ones]
+            .into_iter()
+            .chain(beyond)
+            .chain(nothing);
+        let (mut own, last) = (self.clone(), self.model.basis.nrows());
+        for (matrix, row) in own.by_sensors().zip(rows) {
+            *matrix = std::mem::take(matrix).insert_row(last, 0.0);
+            matrix.set_row(last, &row.row(0));
         }
         own
     }
