@@ -11,8 +11,8 @@ use crate::weighted::measurements::deviations;
 use nalgebra::DMatrix;
 use std::sync::Arc;
 
-/// Multiplications that all sensors or all places together may take: seconds.
-const MOST_WORK: usize = 4_000_000_000;
+/// Multiplications that the changes of one kind may take together: about a second.
+const MOST_WORK: usize = 1_000_000_000;
 /// Best places by the modes at hand whose slopes are made exact.
 const MOST_PLACES: usize = 8;
 /// Part of the largest reading below which a place does not move.
@@ -80,7 +80,8 @@ impl PreparedJob {
             let apart = |&other: &usize| (hertz[*mode] / hertz[other]).ln().abs() > width;
             partners.iter().all(apart)
         };
-        let free: Vec<usize> = (0..hertz.len()).filter(is_free).collect();
+        let free = (0..hertz.len()).filter(is_free).collect();
+        let free: Vec<usize> = self.some(free, "modes", &mut unranked);
         let beyond = self
             .first
             .slopes_beyond(&loaded.sensors, hertz.len(), &free)?;

@@ -71,8 +71,8 @@ const WORDS: [&str; 23] = [
     "gages of relative",
 ];
 
-/// Paragraphs and points of lists on one line each, without code, computed blocks, tables, formulas, headings and links on to the next
-/// chapter.
+/// Paragraphs and points of lists on one line each, without code, computed blocks, tables, images, formulas, headings and links on to the
+/// next chapter.
 pub fn paragraphs(text: &str) -> Vec<String> {
     let (mut all, mut open) = (Vec::new(), String::new());
     let (mut is_code, mut is_block) = (false, false);
@@ -84,8 +84,12 @@ pub fn paragraphs(text: &str) -> Vec<String> {
             is_block = line.starts_with("<!-- computed: ");
         }
         let is_step_on = line.contains("Previous: [") || line.contains("Next: [");
-        let is_other =
-            is_code || is_block || is_fence || is_step_on || line.starts_with(['#', '|', '<', '$']);
+        let is_other = is_code
+            || is_block
+            || is_fence
+            || is_step_on
+            || line.starts_with(['#', '|', '<', '$'])
+            || line.starts_with("![");
         let is_point = line.starts_with("- ") || line.starts_with("* ");
         if (line.is_empty() || is_other || is_point) && !open.is_empty() {
             all.push(std::mem::take(&mut open));

@@ -1096,6 +1096,14 @@ pub fn sentences() -> Vec<(&'static str, String)> {
             ),
         ),
         (
+            readme,
+            format!(
+                "two frequencies that were held out stay {} and {} % off",
+                computed("garteur_acts", "springs, corrected", "Ninth", 1).trim_start_matches('-'),
+                computed("garteur_acts", "springs, corrected", "Tenth", 1),
+            ),
+        ),
+        (
             "paper/real_test.md",
             format!(
                 "chi-squared is {}, of which noise alone leaves at most {} in 999 of 1000 tests",

@@ -222,3 +222,21 @@ fn a_job_without_shapes_says_that_nothing_is_ranked() {
     assert!(next.changes.iter().all(Vec::is_empty));
     assert_eq!(next.unranked.len(), 1);
 }
+
+/// What a look costs grows with the cube of the parameters, so that of many places a part is looked at, which is said.
+#[test]
+fn of_too_many_places_and_sensors_a_part_is_looked_at() {
+    let tall = shear_building(&[1e6; 250], 60.0, None);
+    let measured = (0..60).map(|place| 4 * place + 2).collect_vec();
+    let files = of_whole(&tall, &[0.9; 250], &measured, 5, Noise::USUAL);
+    let next = prepared(&files).next_measurement().unwrap();
+    let told = next.unranked.iter().map(|own| &own[..30]).collect_vec();
+    assert_eq!(
+        told,
+        [
+            "Of 190 places one in 7 was loo",
+            "Of 60 sensors one in 3 was loo"
+        ]
+    );
+    assert_eq!(next.changes[3].len(), 20);
+}

@@ -34,4 +34,13 @@ fn a_check_of_a_job_ranks_its_parameters() {
         ),
         (&"suspects".into(), &"story 6".into())
     );
+    // Last comes where to measure next: as it is, then one more sensor.
+    let (_, next) = text.split_once("Where to measure next").expect("the table");
+    assert!(
+        next.contains("as it is ") && next.contains("with grid 1 x "),
+        "{next}"
+    );
+    let next = &json["tables"][4];
+    assert_eq!(next["name"], "next_measurement");
+    assert_eq!(next["rows"][1]["label"], "with grid 1 x");
 }
