@@ -82,7 +82,7 @@ fn figures_of_documents_are_what_the_program_draws() {
     let (documents, mut names) = (documents(), BTreeSet::new());
     for (name, svg) in drawn {
         let (path, new) = (
-            in_root(&format!("paper/figures/{name}.svg")),
+            in_root(format!("paper/figures/{name}.svg")),
             format!("{}\n", svg.trim()),
         );
         if is_to_be_written() {

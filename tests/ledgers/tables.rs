@@ -850,7 +850,7 @@ fn real_test() -> [(&'static str, String); 5] {
     let seen = |golden: &'static str, parameters: &[&'static str]| {
         table(
             "parameter | factor | deviation before, % | deviation after, %",
-            parameters.iter().map(|name| alike(*name)),
+            parameters.iter().map(|name| alike(name)),
             |name| {
                 let of = |column, digits| computed(golden, name, column, digits);
                 vec![

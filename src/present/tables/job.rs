@@ -243,7 +243,7 @@ pub fn suspects_table(prepared: &PreparedJob) -> Result<Table, FileError> {
         .notes((left > 0).then_some(less)))
 }
 
-/// Changes of a test that lower the deviations of the factors most, or raise them least, at most [`MOST_CHANGES`] of a kind.
+/// Changes of a test that lower the deviations of the factors most, or raise them least, at most three of a kind.
 ///
 /// # Errors
 /// The errors of [`PreparedJob::next_measurement`].
