@@ -264,7 +264,8 @@ pub fn measurement_table(prepared: &PreparedJob) -> Result<Table, FileError> {
         table.row(words, cells.chain([Cell::text(names[worst])]));
     }
     let note = "Deviation: root mean square of the factors' standard deviations (of logarithms, with priors), by the slopes at the \
-        first model. A new sensor is taken to read what the model says.";
+        first model. A new sensor is taken to read what the model says. Deviations of shapes are fractions of their largest component: without the \
+        sensor that has it the same fraction is less, and with one that reads more it is more.";
     let is_ranked = !table.rows.is_empty();
     Ok(table.notes(is_ranked.then_some(note)).notes(next.unranked))
 }
