@@ -68,10 +68,9 @@ impl PreparedJob {
         }
         let mut weighted = self.clone();
         Arc::make_mut(&mut weighted.loaded).job.compare.method = Method::GaussNewton;
-        let comparison = weighted.analyze(&loaded.ones())?.with_slopes()?;
+        let mut comparison = weighted.analyze(&loaded.ones())?;
         let (weights, partners) = (weighted.weights(), comparison.partners());
         let by = |own: &Comparison| deviations(&[(own, &weights)], priors);
-        let more = self.more_sensors(&comparison, by, &mut unranked)?;
         let hertz = comparison.model.exact.modes.frequencies_hz();
         let noise = loaded.deviations(self.modes[self.modes.len() - 1]);
         // The test would compare modes together that it does not tell apart.
@@ -82,11 +81,18 @@ impl PreparedJob {
         };
         let free = (0..hertz.len()).filter(is_free).collect();
         let free: Vec<usize> = self.some(free, "modes", &mut unranked);
+        let compared = &comparison.model.exact.pairing.analysis_mode;
+        let mut all = [&compared[..], &free].concat();
+        all.sort_unstable();
         let beyond = self
             .first
-            .slopes_beyond(&loaded.sensors, hertz.len(), &free)?;
-        let modes = ranked(free.into_iter().zip(beyond).map(|(mode, beyond)| {
-            let own = comparison.of_mode(mode, beyond);
+            .slopes_beyond(&loaded.sensors, hertz.len(), &all)?;
+        for (&mode, own) in all.iter().zip(beyond) {
+            comparison.model.beyond[mode] = Some(own);
+        }
+        let more = self.more_sensors(&comparison, &all, by, &mut unranked)?;
+        let modes = ranked(free.into_iter().map(|mode| {
+            let own = comparison.of_mode(mode);
             let both = [(&comparison, &weights[..]), (&own, &[noise.weight()])];
             let words = format!("with mode {} of the model, {:.2} Hz", mode + 1, hertz[mode]);
             Ok((words, deviations(&both, priors)?))
@@ -130,12 +136,12 @@ impl PreparedJob {
     fn more_sensors(
         &self,
         comparison: &Comparison,
+        modes: &[usize],
         by: impl Fn(&Comparison) -> Result<Vec<f64>, Error>,
         unranked: &mut Vec<String>,
     ) -> Result<Changes, Error> {
         let (source, exact) = (&self.loaded.source, &comparison.model.exact);
-        let (count, mut modes) = (exact.modes.len(), exact.pairing.analysis_mode.clone());
-        modes.sort_unstable();
+        let count = exact.modes.len();
         let look = |places: &[StructuralDof], modes: &[usize]| {
             if places.is_empty() {
                 return Ok(Vec::new());
@@ -168,7 +174,7 @@ impl PreparedJob {
             .map(|own| own.0)
             .take(MOST_PLACES)
             .collect();
-        let best = look(&places, &modes)?;
+        let best = look(&places, modes)?;
         let named = best
             .into_iter()
             .map(|(StructuralDof { grid, direction }, own)| {

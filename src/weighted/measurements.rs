@@ -60,7 +60,7 @@ impl Comparison {
     }
 
     /// This comparison with one more sensor, which reads this of the basis (1 × N) and what the model says of the test; `beyond` is what
-    /// modes beyond the basis add there to the slopes of the compared modes, in ascending order, nothing if it is empty.
+    /// modes beyond the basis add there to the slopes that are known, of modes in ascending order, nothing if it is empty.
     pub(crate) fn with_sensor(&self, basis: DMatrix<f64>, beyond: Vec<DMatrix<f64>>) -> Self {
         let exact = &self.model.exact;
         let reading = |_, j| {
@@ -86,15 +86,14 @@ impl Comparison {
         own
     }
 
-    /// A comparison with one mode of this one's model as the model has it; `beyond` is what modes beyond the basis add to its slopes.
-    pub(crate) fn of_mode(&self, mode: usize, beyond: DMatrix<f64>) -> Self {
+    /// A comparison with one mode of this one's model, whose slopes are known, as the model has it.
+    pub(crate) fn of_mode(&self, mode: usize) -> Self {
         let mut model = self.model.clone();
         model.test = model.exact.modes.select(&[mode]);
         model.exact.pairing = Pairing {
             analysis_mode: vec![mode],
             sign: vec![1.0],
         };
-        model.beyond[mode] = Some(beyond);
         model.into()
     }
 }
