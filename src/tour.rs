@@ -16,42 +16,69 @@
 
 pub mod chapter_01_two_springs {
     #![doc = include_str!("../paper/tour/01_two_springs.md")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/springs.svg")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_01.svg")]
 }
 
 pub mod chapter_02_recursion {
     #![doc = include_str!("../paper/tour/02_recursion.md")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_02.svg")]
 }
 
 pub mod chapter_03_error_sum {
     #![doc = include_str!("../paper/tour/03_error_sum.md")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_03.svg")]
 }
 
 pub mod chapter_04_step {
     #![doc = include_str!("../paper/tour/04_step.md")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_04.svg")]
 }
 
 pub mod chapter_05_inner_loop {
     #![allow(rustdoc::invalid_html_tags, reason = "the figure's script writes tags")]
     #![doc = include_str!("../paper/tour/05_inner_loop.md")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_05.svg")]
+    #![doc = ""]
     #![doc = include_str!("../paper/tour/05_play.html")]
 }
 
 pub mod chapter_06_condensation {
     #![doc = include_str!("../paper/tour/06_condensation.md")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_06.svg")]
 }
 
 pub mod chapter_07_box {
     #![doc = include_str!("../paper/tour/07_box.md")]
+    #![doc = ""]
+    #![doc = include_str!("../golden/figures/box_points.svg")]
+    #![doc = ""]
+    #![doc = include_str!("../golden/figures/case_1_mode_shapes.svg")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_07.svg")]
 }
 
 pub mod chapter_08_mistake {
     #![doc = include_str!("../paper/tour/08_mistake.md")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_08.svg")]
 }
 
 pub mod chapter_09_noise {
     #![doc = include_str!("../paper/tour/09_noise.md")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_09.svg")]
 }
 
 pub mod chapter_10_own_structure {
     #![doc = include_str!("../paper/tour/10_own_structure.md")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_10.svg")]
 }

@@ -2,7 +2,6 @@
 
 use super::diagram::{Diagram, Series, SeriesMark};
 use super::tour_figures_box::{bounds, demands, deviations, gages, history, orders};
-use crate::paper::figures::case_figures;
 use crate::prelude::*;
 
 /// Every chapter's figure.
@@ -21,24 +20,10 @@ pub fn figures() -> [(&'static str, Diagram); 10] {
     ]
 }
 
-/// What is drawn beside the diagrams: the two springs of chapter 1, and the box and two of its modes, from the report.
-pub fn pictures() -> Vec<(String, String)> {
-    let result = run_case(&case_of(1), |_, _| {}).unwrap();
-    let drawn = case_figures(from_ref(&result)).unwrap();
-    let of = |name: &str| {
-        let figure = drawn.iter().find(|figure| figure.name == name);
-        figure.unwrap_or_else(|| panic!("no {name}")).svg.clone()
-    };
-    vec![
-        ("picture_springs".to_owned(), SPRINGS.to_owned()),
-        ("picture_box".to_owned(), of("box_points")),
-        ("picture_modes".to_owned(), of("case_1_mode_shapes")),
-    ]
-}
-
 /// Two masses between a wall on either side, with the springs between: plain lines.
-const SPRINGS: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 520 110" width="520" height="110" role="img" font-size="14" fill="none" stroke="black" stroke-width="2">
+pub const SPRINGS: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 520 110" width="520" height="110" role="img" font-size="14" fill="none" stroke="black" stroke-width="2">
 <title>Two masses, each on a spring to the ground, and a third spring between them</title>
+<rect width="520" height="110" fill="white" stroke="none"/>
 <path d="M20 20v60M500 20v60" stroke-width="4"/>
 <path d="M20 50h20l8 -12l14 24l14 -24l14 24l14 -24l14 24l8 -12h14M200 50h24l8 -12l14 24l14 -24l14 24l14 -24l14 24l8 -12h10M380 50h14l8 -12l14 24l14 -24l14 24l14 -24l14 24l8 -12h20"/>
 <rect x="140" y="28" width="60" height="44"/>

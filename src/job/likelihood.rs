@@ -103,8 +103,8 @@ fn rounded(numbers: &DMatrix<f64>, digits: f64) -> DMatrix<f64> {
     numbers.map(|number| (digits * number).round() / digits)
 }
 
-/// Squared closeness to the digits that shapes decide. Equal ones then tie, and a tie goes by the order of the modes, which ascend in
-/// frequency.
+/// Squared assurance, rounded to the digits that shapes decide, so that ties are exact. A tie goes by the order of the modes, which ascend
+/// in frequency.
 pub(super) fn decided(closeness: &DMatrix<f64>) -> DMatrix<f64> {
     rounded(closeness, ASSURANCES)
 }

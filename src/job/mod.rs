@@ -18,6 +18,7 @@ mod matrices;
 #[doc(hidden)]
 pub mod metrics;
 mod model;
+mod next_measurement;
 mod parts;
 #[doc(hidden)]
 pub mod preflight;
@@ -48,6 +49,8 @@ pub use loaded::LoadedJob;
 pub use matrices::matrix_modes;
 #[doc(hidden)]
 pub use model::{GridLayout, ModelSource};
+#[doc(hidden)]
+pub use next_measurement::{NextMeasurement, mean_deviation};
 pub use prepared::{LeftOut, PreparedJob};
 #[doc(hidden)]
 pub use samples::{Samples, Spread, Summary};

@@ -17,7 +17,7 @@ use corfem::present::report::Report;
 use corfem::present::table::Table;
 use corfem::present::tables::deck::not_read;
 use corfem::present::tables::job::{
-    doubts_and_remarks, inputs_table, places_table, suspects_table, trust_table,
+    doubts_and_remarks, inputs_table, measurement_table, places_table, suspects_table, trust_table,
 };
 use corfem::present::tables::report::{
     BRIEF_FACTORS, BRIEF_MODES, answer_table, factor_table, history_table, minima_table,
@@ -158,6 +158,7 @@ pub fn check_job(
             places_table(&prepared.loaded, None)?,
             paired_table(&report)?,
             suspects_table(&prepared)?,
+            measurement_table(&prepared)?,
         ];
         Ok::<_, PresentError>((trust, tables))
     })?;

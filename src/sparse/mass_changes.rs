@@ -23,7 +23,7 @@ pub(super) struct Change {
 /// Shapes in terms of the basis (N × N) that a change of mass, `alpha` $= V^t \Delta M V$ (N × N), leaves apart: the `count` vibrations and
 /// the rigid-body modes $R$ behind them.
 ///
-/// Rigid-body modes strain nothing, and stay what they are; vibrations stay orthogonal to them by carrying some of them along,
+/// Rigid-body modes carry no strain energy and do not change. Vibrations are made orthogonal to them by subtracting $R q$,
 ///
 /// $$ V - R q, \qquad (I + \alpha_{RR}) q = \alpha_{RV} . $$
 ///

@@ -311,6 +311,11 @@ impl Place {
         self.shares.iter().map(part).collect()
     }
 
+    /// The matrix that reads its sensors.
+    pub(super) fn sensors(&self) -> &SparseMatrix {
+        &self.sensors
+    }
+
     /// Gives back memory that can be filled again.
     pub(super) fn release(&self) {
         if let Ok(mut own) = self.flexibility.lock() {
@@ -387,7 +392,24 @@ impl Place {
         Ok((further, shares))
     }
 
-    /// Parts that all but a number of modes have in the slopes of these modes at the sensors (d × p each).
+    /// The lowest modes, at most so many, and rigid-body modes where a basis has them, as other sensors read them, and the modes that this
+    /// analysis' sensors do not see.
+    pub(crate) fn read_by(
+        &self,
+        sensors: &SparseMatrix,
+        count: usize,
+    ) -> Result<[DMatrix<f64>; 2], Error> {
+        let mut basis = self.shapes(count).shapes;
+        if self.whole.parts().any(|(share, _)| share.is_mass()) {
+            basis.extend(self.rigid_body.column_iter());
+        }
+        let unseen = self.modes.len()..self.vibrations.len();
+        let unseen = self.vibrations.shapes.columns_range(unseen).into_owned();
+        Ok([sensors.times(&basis)?, sensors.times(&unseen)?])
+    }
+
+    /// Parts that all but a number of modes have in the slopes of these modes at sensors, which see none but those of this analysis (d × p
+    /// each).
     ///
     /// Of a mode i, the column of parameter e is the sum over the modes found beyond `count`, as in [`jacobian`](crate::weighted::residuals::jacobian),
     /// and over all others
@@ -398,8 +420,9 @@ impl Place {
     /// the exact slope where the series is the fraction at $x = 1/\lambda_r$ of every mode r left out ([`coefficients`]). It is taken from
     /// the sensors' side, $K^{-1} R^t$ and so on, or from the loads', whichever are fewer: no factor but that of $K$ is needed, and no
     /// solution a parameter where these are many.
-    pub(super) fn slopes_beyond(
+    pub(crate) fn slopes_beyond(
         &self,
+        sensors: &SparseMatrix,
         count: usize,
         modes: &[usize],
     ) -> Result<Vec<DMatrix<f64>>, Error> {
@@ -408,15 +431,18 @@ impl Place {
             .iter()
             .map(|&mode| self.vibrations.omega_squared[mode])
             .collect();
-        let mut slopes = vec![DMatrix::zeros(self.sensors.rows(), all.len()); modes.len()];
-        let beyond = self.some_modes(count, self.modes.len());
+        let mut slopes = vec![DMatrix::zeros(sensors.rows(), all.len()); modes.len()];
+        let beyond = self
+            .vibrations
+            .select(&(count..self.modes.len()).collect::<Vec<_>>());
+        let seen = sensors.times(&beyond.shapes)?;
         for (e, share) in self.shares.iter().enumerate() {
             for ((slopes, &mode), root) in slopes.iter_mut().zip(modes).zip(&roots) {
                 let scale = if share.is_mass() { -root } else { 1.0 };
                 let own = share.matrix().view((count, mode), (beyond.len(), 1));
                 let apart = beyond.omega_squared.map(|other| root - other);
                 let shares = scale * own.component_div(&apart);
-                slopes.set_column(e, &(&beyond.shapes * shares));
+                slopes.set_column(e, &(&seen * shares));
             }
         }
         let highest = roots.iter().copied().fold(0.0, f64::max);
@@ -425,10 +451,10 @@ impl Place {
         let series: Vec<_> = series
             .map(|&root| coefficients(root, self.next, terms))
             .collect();
-        if all.len() * modes.len() < self.sensors.rows() {
-            self.add_from_loads(&mut slopes, &all, &series)?;
+        if all.len() * modes.len() < sensors.rows() {
+            self.add_from_loads(sensors, &mut slopes, &all, &series)?;
         } else {
-            self.add_from_sensors(&mut slopes, &all, &series)?;
+            self.add_from_sensors(sensors, &mut slopes, &all, &series)?;
         }
         Ok(slopes)
     }
@@ -436,6 +462,7 @@ impl Place {
     /// Adds the series for every mode to its slopes by the deflections under the loads of every parameter.
     fn add_from_loads(
         &self,
+        sensors: &SparseMatrix,
         slopes: &mut [DMatrix<f64>],
         all: &[DMatrix<f64>],
         series: &[Vec<f64>],
@@ -448,7 +475,7 @@ impl Place {
                 }
             }
             self.deflections(loads, series.len(), |t, deflections| {
-                *slopes -= series[t] * self.sensors.times(deflections)?;
+                *slopes -= series[t] * sensors.times(deflections)?;
                 Ok(())
             })?;
         }
@@ -458,14 +485,15 @@ impl Place {
     /// Adds the same series by the deflections under loads at the sensors.
     fn add_from_sensors(
         &self,
+        sensors: &SparseMatrix,
         slopes: &mut [DMatrix<f64>],
         all: &[DMatrix<f64>],
         series: &[Vec<f64>],
     ) -> Result<(), Error> {
-        let (sensors, reading) = (self.sensors.rows(), self.sensors.transposed());
+        let (count, reading) = (sensors.rows(), sensors.transposed());
         let terms = series.first().map_or(0, Vec::len);
-        for first in (0..sensors).step_by(SENSORS_AT_ONCE) {
-            let some = first..sensors.min(first + SENSORS_AT_ONCE);
+        for first in (0..count).step_by(SENSORS_AT_ONCE) {
+            let some = first..count.min(first + SENSORS_AT_ONCE);
             let mut loads = DMatrix::zeros(self.whole.dof_count(), some.len());
             for (place, sensor) in some.clone().enumerate() {
                 reading

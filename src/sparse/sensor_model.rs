@@ -267,7 +267,7 @@ impl SensorModel {
             && self.beyond.iter().all(Option::is_none)
         {
             let compared = &self.exact.pairing.analysis_mode;
-            let slopes = place.slopes_beyond(self.exact.modes.len(), compared)?;
+            let slopes = place.slopes_beyond(place.sensors(), self.exact.modes.len(), compared)?;
             for (&mode, slopes) in compared.iter().zip(slopes) {
                 self.beyond[mode] = Some(slopes);
             }

@@ -250,7 +250,7 @@ impl Comparison {
         let (model, generalized) = self.model.followed(factors)?;
         let mut test = self.test.clone();
         if !test.lone.is_empty() && test.partner_shapes.is_none() {
-            // What a partner has become is most of it in the coordinates of the modes, in which the mass is one.
+            // A partner continues as the changed mode with the largest component of it in the coordinates of the modes, in which the mass is one.
             let partners: Vec<usize> = test.lone.iter().map(|lone| lone.partner).collect();
             let exact = generalized.columns(0, model.exact.modes.len());
             let became = pair_modes(&exact.select_rows(&partners).transpose())?;

@@ -32,7 +32,7 @@ const UNSURE: f64 = 1e-8;
 pub(crate) const LOWER: f64 = 1e-3;
 /// Part of it that steps may leave which do not lead lower.
 const TOLD: f64 = 0.01;
-/// A step that moves no logarithm by more is none.
+/// Steps that move no logarithm by more end the iteration.
 const SHORTEST_STEP: f64 = 1e-9;
 
 /// Assumptions of a weighted correlation, and when it stops.

@@ -131,7 +131,7 @@ pub fn intervals(
         // Logarithms of all factors for a change of this one, which is held there.
         let path = covariance.column(e) / covariance[(e, e)];
         let by_slope = NORMAL_95 * deviations[e];
-        // The deviation at the optimum over that elsewhere; nothing is told where there is no model.
+        // The deviation at the optimum over that elsewhere; none where the model cannot be analyzed.
         let ratio = |log: f64| {
             let there = deviation(analyze, &along(factors, &path, log), e, &weights, &tikhonov);
             there.map_or(0.0, |there| deviations[e] / there)

@@ -11,6 +11,7 @@ pub mod identifiability;
 pub mod intervals;
 pub mod misfit;
 pub(crate) mod lower_place;
+pub(crate) mod measurements;
 #[doc(hidden)]
 pub mod next_step;
 #[doc(hidden)]

@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector, Dyn, QR, RowDVector};
 use std::collections::HashMap;
 
 /// Standard deviations unless others are known: 0.5 % of a frequency, 2 % of a shape's largest component. They are about twice
-/// [`Noise::USUAL`], for what repeats in a test and is wrong all the same: supports, the place of a sensor.
+/// [`Noise::USUAL`], to cover errors that repeat in a test, such as those of supports and of the places of sensors.
 pub const DEVIATIONS: Noise = Noise {
     shape: 0.02,
     frequency: 0.005,
@@ -139,7 +139,7 @@ impl<'a> Whitening<'a> {
 
 /// The `members` among shapes as test mode `j` is compared with them, every component over its deviation, and their combination nearest
 /// to the test shape of unit largest component.
-fn compared(
+pub(super) fn compared(
     shapes: &DMatrix<f64>,
     Comparison { model, test, .. }: &Comparison,
     members: &[usize],

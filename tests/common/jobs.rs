@@ -64,6 +64,17 @@ pub fn run(
     corfem::job::run(prepared, &Trust::before(prepared)?, progress, go_on)
 }
 
+/// The files of a job of `tests/jobs`.
+pub fn files_of(name: &str) -> Files {
+    let entries = fs::read_dir(folder_of(name)).unwrap();
+    let paths = entries.map(|entry| entry.unwrap().path());
+    let text = |path: PathBuf| {
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        (name, fs::read_to_string(path).unwrap())
+    };
+    paths.map(text).collect()
+}
+
 /// A job of `tests/jobs`.
 pub fn loaded(name: &str) -> PreparedJob {
     let loaded = prepare(&folder_of(name).join("job.toml"));
@@ -72,10 +83,11 @@ pub fn loaded(name: &str) -> PreparedJob {
 
 /// What comes of a job of `tests/jobs`, each run once for all tests.
 pub fn worked(name: &str) -> &'static JobResult {
-    static RUNS: [(&str, OnceLock<JobResult>); 4] = [
+    static RUNS: [(&str, OnceLock<JobResult>); 5] = [
         ("box", OnceLock::new()),
         ("building", OnceLock::new()),
         ("garteur", OnceLock::new()),
+        ("garteur_joints", OnceLock::new()),
         ("wing", OnceLock::new()),
     ];
     let (_, result) = RUNS.iter().find(|(of, _)| *of == name).unwrap();

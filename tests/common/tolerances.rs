@@ -321,3 +321,8 @@ pub const SLOPES_TOLD: f64 = 1e-6;
 /// Places on a page, of the largest extent: motions are written in thousandths and drawn an eighth of it long, places to four digits and
 /// heights up to seven times as long.
 pub const DRAWN_THOUSANDTHS: f64 = 0.125 * 0.5e-3 + 7.0 * 0.5e-4 + 1e-9;
+/// Deviations of factors that are told of another test, relative to those of that test: slopes err by a millionth, and where parameters
+/// are hard to tell apart a deviation magnifies it some ten times.
+pub const MEASURED_NEXT: f64 = 1e-5;
+/// A number of three digits in percent, such as 4.18.
+pub const THREE_DIGITS: f64 = 0.005;

@@ -71,9 +71,9 @@ const WORDS: [&str; 23] = [
     "gages of relative",
 ];
 
-/// Paragraphs and points of lists on one line each, without code, computed blocks, tables, formulas, headings and links on to the next
-/// chapter.
-fn paragraphs(text: &str) -> Vec<String> {
+/// Paragraphs and points of lists on one line each, without code, computed blocks, tables, images, formulas, headings and links on to the
+/// next chapter.
+pub fn paragraphs(text: &str) -> Vec<String> {
     let (mut all, mut open) = (Vec::new(), String::new());
     let (mut is_code, mut is_block) = (false, false);
     for line in text.lines().map(str::trim).chain([""]) {
@@ -83,9 +83,13 @@ fn paragraphs(text: &str) -> Vec<String> {
             // Another comment stands alone.
             is_block = line.starts_with("<!-- computed: ");
         }
-        let is_step_on = line.contains("](crate::tour::");
-        let is_other =
-            is_code || is_block || is_fence || is_step_on || line.starts_with(['#', '|', '<', '$']);
+        let is_step_on = line.contains("Previous: [") || line.contains("Next: [");
+        let is_other = is_code
+            || is_block
+            || is_fence
+            || is_step_on
+            || line.starts_with(['#', '|', '<', '$'])
+            || line.starts_with("![");
         let is_point = line.starts_with("- ") || line.starts_with("* ");
         if (line.is_empty() || is_other || is_point) && !open.is_empty() {
             all.push(std::mem::take(&mut open));
@@ -101,7 +105,7 @@ fn paragraphs(text: &str) -> Vec<String> {
 }
 
 /// The sentences of a paragraph.
-fn sentences(paragraph: &str) -> Vec<&str> {
+pub fn sentences(paragraph: &str) -> Vec<&str> {
     let mut ends = [". ", ".** ", "? "]
         .iter()
         .flat_map(|end| paragraph.match_indices(end).map(|(at, _)| at + end.len()))

@@ -7,7 +7,7 @@
 
 use crate::evidence::counted_figures::counted_figures;
 use crate::evidence::diagram::Diagram;
-use crate::evidence::tour_figures::{figures, pictures};
+use crate::evidence::tour_figures::{SPRINGS, figures};
 use crate::ledgers::{files_below, specification, tables};
 use crate::prelude::*;
 
@@ -27,27 +27,15 @@ pub fn documents() -> BTreeMap<String, String> {
         .collect()
 }
 
-/// How the names of diagrams and of other drawings begin.
-const FIGURE: &str = "figure_";
-const PICTURE: &str = "picture_";
+fn is_to_be_written() -> bool {
+    std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "1")
+}
 
 #[test]
 fn computed_blocks_are_what_the_program_computes() {
     let (start, end) = ("<!-- computed: ", "<!-- end -->");
     let mut blocks = tables::tables();
     blocks.insert("specification".to_owned(), specification::page());
-    let svg = |(name, diagram): (&str, Diagram)| {
-        let svg = diagram.svg().unwrap();
-        (format!("{FIGURE}{name}"), svg)
-    };
-    // The documentation's header lets them scroll, and turns them over on a dark page.
-    let drawing = |(name, svg): (String, String)| {
-        let svg = format!("<div class=\"drawing\">\n{}\n</div>", svg.trim());
-        (name, svg)
-    };
-    let of_tour = figures().into_iter().map(svg).chain(pictures());
-    blocks.extend(of_tour.map(drawing));
-    blocks.extend(counted_figures().into_iter().map(svg));
     let (mut seen, mut wrong) = (BTreeSet::new(), Vec::new());
     for (document, text) in documents() {
         let mut pieces = text.split(start);
@@ -59,16 +47,13 @@ fn computed_blocks_are_what_the_program_computes() {
                 .get(name)
                 .unwrap_or_else(|| panic!("{document}: {name}"));
             let new = format!("{}\n", block.trim());
-            // Places in a figure to a tenth of a pixel: another machine's last digit may round them the other way.
-            let is_drawn = [FIGURE, PICTURE].iter().any(|kind| name.starts_with(kind))
-                && Numbers::DRAWN.agree(old, &new);
-            if old != new && !is_drawn {
+            if old != new {
                 wrong.push(format!("{document}: {name}"));
             }
             written += &format!("{start}{name} -->\n{new}{end}{after}");
             seen.insert(name.to_owned());
         }
-        if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "1") {
+        if is_to_be_written() {
             let path = in_root(&document);
             fs::write(path, written).unwrap();
             wrong.clear();
@@ -82,6 +67,110 @@ fn computed_blocks_are_what_the_program_computes() {
         blocks.keys().eq(&seen),
         "not every block stands in a document"
     );
+}
+
+/// The figures of documents are files, so that a host of code shows them as images, and each stands in a document.
+#[test]
+fn figures_of_documents_are_what_the_program_draws() {
+    let svg = |(name, diagram): (&str, Diagram)| (name.to_owned(), diagram.svg().unwrap());
+    let of_tour = figures().into_iter().map(svg);
+    let of_tour = of_tour.map(|(name, svg)| (format!("tour_{name}"), svg));
+    let springs = ("springs".to_owned(), SPRINGS.to_owned());
+    let drawn = of_tour
+        .chain(counted_figures().into_iter().map(svg))
+        .chain([springs]);
+    let (documents, mut names) = (documents(), BTreeSet::new());
+    for (name, svg) in drawn {
+        let (path, new) = (
+            in_root(format!("paper/figures/{name}.svg")),
+            format!("{}\n", svg.trim()),
+        );
+        if is_to_be_written() {
+            fs::write(&path, &new).unwrap();
+        }
+        // Places to a tenth of a pixel: another machine's last digit may round them the other way.
+        let old = fs::read_to_string(&path).unwrap();
+        assert!(
+            Numbers::DRAWN.agree(&old, &new),
+            "{name}: CORFEM_WRITE=1 writes it anew"
+        );
+        let shown = format!("figures/{name}.svg)");
+        assert!(
+            documents.values().any(|text| text.contains(&shown)),
+            "{name}"
+        );
+        names.insert(path);
+    }
+    let files = files_below(&in_root("paper/figures"));
+    assert!(files.into_iter().collect::<BTreeSet<_>>() == names);
+    let inline = documents.iter().filter(|(_, text)| text.contains("<svg"));
+    assert_eq!(inline.map(|(name, _)| name).collect_vec(), [""; 0]);
+}
+
+/// Where the links and images of a text lead.
+pub fn links(markdown: &str) -> Vec<String> {
+    let links = Parser::new_ext(markdown, Options::ENABLE_TABLES).filter_map(|event| match event {
+        Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }) => {
+            Some(dest_url.into_string())
+        }
+        _ => None,
+    });
+    links.collect()
+}
+
+/// As a host of code resolves it: relative to the file that has it.
+#[test]
+fn every_link_of_a_document_leads_to_a_file() {
+    let mut texts = documents();
+    for file in files_below(&in_root("golden"))
+        .into_iter()
+        .chain(["CONTRIBUTING.md", "CHANGELOG.md"].map(in_root))
+    {
+        if file.extension().is_some_and(|end| end == "md") {
+            let name = file
+                .strip_prefix(in_root(""))
+                .unwrap()
+                .display()
+                .to_string();
+            texts.insert(name, fs::read_to_string(file).unwrap());
+        }
+    }
+    let (mut count, mut nowhere) = (0, Vec::new());
+    for (name, text) in texts {
+        for link in links(&text) {
+            let path = link.split('#').next().unwrap();
+            let folder = in_root(&name).parent().unwrap().to_owned();
+            count += 1;
+            if !link.starts_with("https://") && (link.contains("::") || !folder.join(path).exists())
+            {
+                nowhere.push(format!("{name}: {link}"));
+            }
+        }
+    }
+    assert!(nowhere.is_empty() && count > 80, "{count}: {nowhere:#?}");
+}
+
+/// Bytes of what a reader has before her: what is folded does not count.
+fn open_bytes(text: &str) -> usize {
+    let mut parts = text.split("<details>");
+    let first = parts.next().map_or(0, str::len);
+    first
+        + parts
+            .map(|part| {
+                part.split_once("</details>")
+                    .map_or(0, |(_, rest)| rest.len())
+            })
+            .sum::<usize>()
+}
+
+#[test]
+fn the_long_documents_are_short() {
+    let documents = documents();
+    for (name, most) in [("interpretation", 12), ("cost", 8), ("specification", 16)] {
+        let bytes = open_bytes(&documents[&format!("paper/{name}.md")]);
+        assert!(bytes <= 1024 * most, "{name}: {bytes}");
+    }
+    assert_eq!(open_bytes("ab<details>cde</details>f"), 3);
 }
 
 #[test]

@@ -10,6 +10,7 @@ pub mod errata;
 pub mod formulas;
 pub mod library;
 pub mod numbers;
+pub mod numbers_said;
 pub mod package;
 pub mod prose;
 pub mod readme;

@@ -5,7 +5,8 @@ use crate::prelude::*;
 use std::fmt::Write;
 use toml::{Table, Value};
 
-/// Every equation and sentence in the paper's order: what it is, what is it in the crate, what checks it, and how it could be wrong.
+/// Every equation and sentence in the paper's order: what it is, and folded what is it in the crate, what checks it, and how it could be
+/// wrong.
 pub fn page() -> String {
     let entries = entries();
     let wrong = |entry: &Table| entry["wrong"].as_array().unwrap().clone();
@@ -39,11 +40,18 @@ pub fn page() -> String {
         for (key, title) in [("correction", "Correction"), ("remark", "Remark")] {
             page += &text(key).map_or(String::new(), |words| format!("\n{title}: {words}.\n"));
         }
+        let forms = wrong(entry);
+        let summary = match forms.len() {
+            0 => "Code and tests".to_owned(),
+            1 => "Code, tests, one wrong form".to_owned(),
+            many => format!("Code, tests, {many} wrong forms"),
+        };
+        page += &format!("\n<details><summary>{summary}</summary>\n\n");
         if !code("functions").is_empty() {
-            page += &format!("\nIn the crate: {}.\n", code("functions"));
+            page += &format!("In the crate: {}.\n\n", code("functions"));
         }
-        page += &format!("\nTests: {}.\n\n", code("tests"));
-        for form in wrong(entry) {
+        page += &format!("Tests: {}.\n\n", code("tests"));
+        for form in forms {
             let text = |key: &str| form.get(key).and_then(Value::as_str).unwrap();
             let place = match form.get("file").and_then(Value::as_str) {
                 Some(file) => format!("`{file}`"),
@@ -56,6 +64,7 @@ pub fn page() -> String {
             let (what, old) = (text("what"), text("old"));
             writeln!(page, "- Wrong: {what}. In {place} `{old}`, {to}.").unwrap();
         }
+        page += "\n</details>\n";
     }
     page
 }

@@ -179,7 +179,7 @@ fn every_chapter_leads_to_its_neighbors_and_the_last_to_the_plain_program() {
             let name = path.file_stem().unwrap().to_string_lossy();
             let title = text.lines().next().unwrap().trim_start_matches("# ");
             (
-                format!("[{title}](crate::tour::chapter_{name})"),
+                format!("[{title}]({name}.md)"),
                 format!("pub mod chapter_{name} {{"),
             )
         })

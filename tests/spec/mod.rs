@@ -68,6 +68,7 @@ pub mod s5_intervals;
 pub mod s5_localization;
 pub mod s5_metrics;
 pub mod s5_misfit;
+mod s5_next_measurement;
 pub mod s5_preflight;
 pub mod s5_preflight_modes;
 pub mod s5_second_order;

@@ -42,7 +42,7 @@ pub(super) const FALSE_ALARMS: f64 = 1e-3;
 const LEAST_GAIN: f64 = 1.5;
 /// A sensor is dead when its readings are below this part of those expected.
 const DEAD: f64 = 0.1;
-/// Sensors that others predict worst, among which exchanges are tried.
+/// Number of suspect sensors, those that others predict worst, tried for exchanged labels.
 const MOST_EXCHANGED: usize = 24;
 
 /// Modes of the model at the sensors.

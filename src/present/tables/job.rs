@@ -8,12 +8,16 @@ use crate::job::localization::{by_factor, by_single_fit};
 use crate::job::metrics::coordinate_assurance;
 use crate::job::{
     Concern, JobResult, LoadedJob, Method, PlacedSensor, PreparedJob, Study, Summary, Trust, Vary,
+    mean_deviation,
 };
 use crate::present::table::{Cell, Digits, Table, counted, numbers};
 use crate::weighted::residuals::residuals;
+use nalgebra::DVector;
 
 /// Most parameters in the table of suspects.
 pub const MOST_SUSPECTS: usize = 20;
+/// Most changes of one kind in the table of where to measure next.
+const MOST_CHANGES: usize = 3;
 
 /// Every sensor with its grid, direction and distance, and the coordinate modal assurance criterion (COMAC) of the first model and of
 /// the corrected one there.
@@ -237,6 +241,33 @@ pub fn suspects_table(prepared: &PreparedJob) -> Result<Table, FileError> {
         .notes([note])
         .notes((!at_edge.is_empty()).then_some(edge))
         .notes((left > 0).then_some(less)))
+}
+
+/// Changes of a test that lower the deviations of the factors most, or raise them least, at most three of a kind.
+///
+/// # Errors
+/// The errors of [`PreparedJob::next_measurement`].
+pub fn measurement_table(prepared: &PreparedJob) -> Result<Table, FileError> {
+    let next = prepared.next_measurement()?;
+    let names: Vec<&str> = prepared.loaded.parameter_names().collect();
+    let mut table = Table::new("next_measurement", "Where to measure next", "Test")
+        .headings(["deviation", "largest"], "%")
+        .headings(["parameter"], "");
+    let shown = next
+        .changes
+        .into_iter()
+        .map(|own| own.into_iter().take(MOST_CHANGES));
+    for (words, deviations) in shown.flatten() {
+        let worst = DVector::from_column_slice(&deviations).imax();
+        let both = [mean_deviation(&deviations), deviations[worst]].map(|own| 100.0 * own);
+        let cells = numbers(both, Digits::Significant(3));
+        table.row(words, cells.chain([Cell::text(names[worst])]));
+    }
+    let note = "Deviation: root mean square of the factors' standard deviations (of logarithms, with priors), by the slopes at the \
+        first model. A new sensor is taken to read what the model says. Deviations of shapes are fractions of their largest component: without the \
+        sensor that has it the same fraction is less, and with one that reads more it is more.";
+    let is_ranked = !table.rows.is_empty();
+    Ok(table.notes(is_ranked.then_some(note)).notes(next.unranked))
 }
 
 /// Mean, standard deviation and quantiles of every factor over the samples that did not fail.

@@ -1,0 +1,185 @@
+//! The next measurement: the deviations of the factors with one sensor more, one mode more or one sensor less.
+
+use super::{Method, PlacedSensor, PreparedJob};
+use crate::files::error::FileError;
+use crate::files::test_data::DIRECTIONS;
+use crate::method::error::Error;
+use crate::method::structure::StructuralDof;
+use crate::sparse::SparseMatrix;
+use crate::weighted::comparison::Comparison;
+use crate::weighted::measurements::deviations;
+use nalgebra::DMatrix;
+use std::sync::Arc;
+
+/// Multiplications that the changes of one kind may take together: about a second.
+const MOST_WORK: usize = 1_000_000_000;
+/// Best places by the modes at hand whose slopes are made exact.
+const MOST_PLACES: usize = 8;
+/// Part of the largest reading below which a place does not move.
+const NOTHING: f64 = 1e-8;
+/// Deviations of a frequency within which modes might be compared together: twice that of a difference of two, with room.
+const CLOSE: f64 = 3.0;
+
+/// Single changes of a test and the deviations of the factors' logarithms after each.
+#[derive(Debug, Clone)]
+pub struct NextMeasurement {
+    /// Kinds of change, each with its best changes first: none, one sensor more, one more mode of the model, one sensor less.
+    pub changes: [Changes; 4],
+    /// Changes that are not ranked, and why.
+    pub unranked: Vec<String>,
+}
+
+/// Root of the mean square of deviations.
+pub fn mean_deviation(deviations: &[f64]) -> f64 {
+    let squares = deviations.iter().map(|own| own * own).sum::<f64>();
+    (squares / deviations.len() as f64).sqrt()
+}
+
+/// Changes of one kind with the deviations after each, the best first.
+pub type Changes = Vec<(String, Vec<f64>)>;
+
+fn ranked<T>(
+    changes: impl Iterator<Item = Result<(T, Vec<f64>), Error>>,
+) -> Result<Vec<(T, Vec<f64>)>, Error> {
+    let mut changes = changes.collect::<Result<Vec<_>, _>>()?;
+    changes.sort_by(|a, b| mean_deviation(&a.1).total_cmp(&mean_deviation(&b.1)));
+    Ok(changes)
+}
+
+impl PreparedJob {
+    /// Deviations of the factors at the first model with one sensor more at a grid of it, with one more of its modes, and with one sensor
+    /// less. A new sensor reads what the model says of it; a new mode is as the model has it, with the deviations of the test's
+    /// last one.
+    ///
+    /// Every place is ranked by the modes at hand; the best have exact slopes, and with these the deviations of a job with that sensor.
+    ///
+    /// # Errors
+    /// The errors of the analysis and of the covariance.
+    pub fn next_measurement(&self) -> Result<NextMeasurement, FileError> {
+        let (loaded, placed) = (&self.loaded, &self.loaded.placed);
+        let (priors, mut unranked) = (&loaded.source.priors, Vec::new());
+        let is_unpaired = self.modes.is_empty() || self.is_without_pairs();
+        if priors.is_empty() || is_unpaired || self.covariance().is_some() {
+            let why = "Nothing is ranked without parameters, compared shapes, and numbers that are independent.";
+            return Ok(NextMeasurement {
+                unranked: vec![why.to_owned()],
+                changes: Default::default(),
+            });
+        }
+        let mut weighted = self.clone();
+        Arc::make_mut(&mut weighted.loaded).job.compare.method = Method::GaussNewton;
+        let mut comparison = weighted.analyze(&loaded.ones())?;
+        let (weights, partners) = (weighted.weights(), comparison.partners());
+        let by = |own: &Comparison| deviations(&[(own, &weights)], priors);
+        let hertz = comparison.model.exact.modes.frequencies_hz();
+        let noise = loaded.deviations(self.modes[self.modes.len() - 1]);
+        // The test would compare modes together that it does not tell apart.
+        let width = CLOSE * noise.frequency;
+        let is_free = |mode: &usize| {
+            let apart = |&other: &usize| (hertz[*mode] / hertz[other]).ln().abs() > width;
+            partners.iter().all(apart)
+        };
+        let free = (0..hertz.len()).filter(is_free).collect();
+        let free: Vec<usize> = self.some(free, "modes", &mut unranked);
+        let compared = &comparison.model.exact.pairing.analysis_mode;
+        let mut all = [&compared[..], &free].concat();
+        all.sort_unstable();
+        let beyond = self
+            .first
+            .slopes_beyond(&loaded.sensors, hertz.len(), &all)?;
+        for (&mode, own) in all.iter().zip(beyond) {
+            comparison.model.beyond[mode] = Some(own);
+        }
+        let more = self.more_sensors(&comparison, &all, by, &mut unranked)?;
+        let modes = ranked(free.into_iter().map(|mode| {
+            let own = comparison.of_mode(mode);
+            let both = [(&comparison, &weights[..]), (&own, &[noise.weight()])];
+            let words = format!("with mode {} of the model, {:.2} Hz", mode + 1, hertz[mode]);
+            Ok((words, deviations(&both, priors)?))
+        }))?;
+        let all = (0..placed.len()).filter(|_| placed.len() > 1).collect();
+        let each = self.some(all, "sensors", &mut unranked).into_iter();
+        let less = ranked(each.map(|row| {
+            let rest: Vec<usize> = (0..placed.len()).filter(|other| *other != row).collect();
+            let words = format!("without {}", placed[row].name);
+            Ok((words, by(&comparison.at_sensors(&rest))?))
+        }))?;
+        let now = vec![("as it is".to_owned(), by(&comparison)?)];
+        let changes = [now, more, modes, less];
+        Ok(NextMeasurement { changes, unranked })
+    }
+
+    /// As many as may be looked at, with slopes at all sensors by the modes at hand for each: neighbors tell alike, so of too many every so
+    /// many-th.
+    fn some<T>(&self, all: Vec<T>, what: &str, unranked: &mut Vec<String>) -> Vec<T> {
+        let (count, rows) = (self.loaded.source.priors.len(), self.test.shapes.len());
+        let most = MOST_WORK / (count * (rows * (self.analysis_modes + count) + count * count));
+        let step = all.len().div_ceil(most.max(1)).max(1);
+        let of_all = || format!("Of {} {what} one in {step} was looked at.", all.len());
+        unranked.extend((step > 1).then(of_all));
+        all.into_iter().step_by(step).collect()
+    }
+
+    /// Places where the model moves and no sensor is, along or about axes as the test's sensors measure.
+    fn places(&self) -> Vec<StructuralDof> {
+        let placed = &self.loaded.placed;
+        let is_new = |dof: &StructuralDof| {
+            let mut kinds = placed.iter().map(|own| own.direction / 3);
+            let at = |own: &PlacedSensor| (own.grid, own.direction) == (dof.grid, dof.direction);
+            kinds.any(|kind| kind == dof.direction / 3) && !placed.iter().any(at)
+        };
+        let motions = self.loaded.source.motions.iter();
+        let moving = motions.filter(|(_, motion)| !motion.is_empty());
+        moving.map(|(dof, _)| *dof).filter(is_new).collect()
+    }
+
+    fn more_sensors(
+        &self,
+        comparison: &Comparison,
+        modes: &[usize],
+        by: impl Fn(&Comparison) -> Result<Vec<f64>, Error>,
+        unranked: &mut Vec<String>,
+    ) -> Result<Changes, Error> {
+        let (source, exact) = (&self.loaded.source, &comparison.model.exact);
+        let count = exact.modes.len();
+        let look = |places: &[StructuralDof], modes: &[usize]| {
+            if places.is_empty() {
+                return Ok(Vec::new());
+            }
+            let of = |(row, dof)| {
+                source.motions[dof]
+                    .iter()
+                    .map(move |own| (row, own.0, own.1))
+            };
+            let entries = places.iter().enumerate().flat_map(of).collect();
+            let size = source.whole.dof_count();
+            let sensors = SparseMatrix::new("sensors", places.len(), size, entries)?;
+            let [basis, unseen] = self.first.read_by(&sensors, count)?;
+            let beyond = self.first.slopes_beyond(&sensors, count, modes)?;
+            let is_seen = |row: &usize| unseen.row(*row).amax() <= NOTHING * basis.amax();
+            ranked((0..places.len()).filter(is_seen).map(|row| {
+                let of_row = |all: &DMatrix<f64>| all.rows(row, 1).into_owned();
+                let with =
+                    comparison.with_sensor(of_row(&basis), beyond.iter().map(of_row).collect());
+                Ok((places[row], by(&with)?))
+            }))
+        };
+        let mut places = self.some(self.places(), "places", unranked);
+        let best = look(&places, &[])?;
+        let apart = places.len() - best.len();
+        let of_apart = || format!("Not ranked: {apart} places with modes that no sensor sees now.");
+        unranked.extend((apart > 0).then(of_apart));
+        places = best
+            .into_iter()
+            .map(|own| own.0)
+            .take(MOST_PLACES)
+            .collect();
+        let best = look(&places, modes)?;
+        let named = best
+            .into_iter()
+            .map(|(StructuralDof { grid, direction }, own)| {
+                (format!("with grid {grid} {}", DIRECTIONS[direction]), own)
+            });
+        Ok(named.collect())
+    }
+}

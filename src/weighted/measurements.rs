@@ -1,0 +1,99 @@
+//! A test with one sensor less or more, or with more modes, as a model has them.
+
+use super::close_modes::members;
+use super::comparison::Comparison;
+use super::identifiability::covariance;
+use super::residuals::{compared, jacobian};
+use crate::method::error::Error;
+use crate::method::sorting::Pairing;
+use crate::sparse::{ModeWeight, gram};
+use nalgebra::DMatrix;
+use std::iter::repeat;
+
+/// Deviations of the logarithms of the factors by independent tests with their weights, and prior deviations.
+///
+/// # Errors
+/// The errors of [`jacobian`] and of the covariance.
+pub(crate) fn deviations(
+    tests: &[(&Comparison, &[ModeWeight])],
+    priors: &[f64],
+) -> Result<Vec<f64>, Error> {
+    let mut information = DMatrix::zeros(priors.len(), priors.len());
+    for (comparison, weights) in tests {
+        information += gram(&jacobian(comparison, weights)?);
+    }
+    let covariance = covariance(information, priors)?;
+    Ok(covariance.diagonal().iter().map(|own| own.sqrt()).collect())
+}
+
+impl Comparison {
+    /// Matrices with a row for every sensor: the basis, the modes, the test's shapes, the weights of components, and slopes beyond the basis,
+    /// of modes in ascending order.
+    fn by_sensors(&mut self) -> impl Iterator<Item = &mut DMatrix<f64>> {
+        let (model, weights) = (&mut self.model, &mut self.test.component_weights);
+        let shapes = [
+            &mut model.basis,
+            &mut model.exact.modes.shapes,
+            &mut model.test.shapes,
+            weights,
+        ];
+        shapes.into_iter().chain(model.beyond.iter_mut().flatten())
+    }
+
+    fn largest(&self, j: usize) -> f64 {
+        self.model.test.shapes.column(j).amax()
+    }
+
+    /// This comparison at some of its sensors. Weights of components that are not alike stay what they are over a component.
+    pub(crate) fn at_sensors(&self, rows: &[usize]) -> Self {
+        let mut own = self.clone();
+        own.by_sensors()
+            .for_each(|matrix| *matrix = matrix.select_rows(rows));
+        for j in 0..own.model.test.len() {
+            let scale = own.largest(j) / self.largest(j);
+            let mut weights = own.test.component_weights.column_mut(j);
+            if weights.iter().any(|own| *own != 1.0) {
+                weights *= scale;
+            }
+        }
+        own
+    }
+
+    /// This comparison with one more sensor, which reads this of the basis (1 × N) and what the model says of the test; `beyond` is what
+    /// modes beyond the basis add there to the slopes that are known, of modes in ascending order, nothing if it is empty.
+    pub(crate) fn with_sensor(&self, basis: DMatrix<f64>, beyond: Vec<DMatrix<f64>>) -> Self {
+        let exact = &self.model.exact;
+        let reading = |_, j| {
+            let members = members(&exact.pairing, &self.test.together, j);
+            let shares = compared(&self.model.basis, self, &members, j).1.shares;
+            (basis.select_columns(&members) * shares)[0] * self.largest(j)
+        };
+        let reading = DMatrix::from_fn(1, self.model.test.len(), reading);
+        let (modes, ones) = (
+            basis.columns(0, exact.modes.len()).into_owned(),
+            reading.map(|_| 1.0),
+        );
+        let nothing = repeat(DMatrix::zeros(1, self.model.shares.len()));
+        let rows = [basis, modes, reading, ones]
+            .into_iter()
+            .chain(beyond)
+            .chain(nothing);
+        let (mut own, last) = (self.clone(), self.model.basis.nrows());
+        for (matrix, row) in own.by_sensors().zip(rows) {
+            *matrix = std::mem::take(matrix).insert_row(last, 0.0);
+            matrix.set_row(last, &row.row(0));
+        }
+        own
+    }
+
+    /// A comparison with one mode of this one's model, whose slopes are known, as the model has it.
+    pub(crate) fn of_mode(&self, mode: usize) -> Self {
+        let mut model = self.model.clone();
+        model.test = model.exact.modes.select(&[mode]);
+        model.exact.pairing = Pairing {
+            analysis_mode: vec![mode],
+            sign: vec![1.0],
+        };
+        model.into()
+    }
+}

@@ -1,0 +1,240 @@
+//! Where to measure next: the deviations that are told of a test with one sensor more or less, or one more mode, are those of that test.
+
+use crate::common::jobs::{Files, building, loaded, of_matrices, of_whole, run};
+use crate::common::tolerances::{MEASURED_NEXT, THREE_DIGITS};
+use crate::prelude::*;
+use corfem::job::mean_deviation;
+
+/// A job that compares modes by itself, one whose frequencies are so uncertain that they are compared together, one whose components have
+/// deviations of their own, and a building so high that the modes at hand are few of it.
+fn subjects() -> Vec<(&'static str, Files)> {
+    let together = |data: &mut TestData| data.frequency_deviation = Some(vec![0.3; 5]);
+    let own = |data: &mut TestData| {
+        let deviations = DVector::from_fn(5, |row, _| 0.01 + 0.005 * row as f64);
+        data.component_deviation = (0..5).map(|mode| (mode, deviations.clone())).collect();
+    };
+    let tall = shear_building(&[1e5; 30], 60.0, None);
+    let tall = of_whole(&tall, &[0.9; 30], &[2, 9, 14, 20, 28], 5, Noise::USUAL);
+    vec![
+        ("by itself", building()),
+        ("together", retested(building(), together)),
+        ("own deviations", retested(building(), own)),
+        ("tall", tall),
+    ]
+}
+
+/// Deviations of the factors' logarithms at the first model of a job.
+fn deviations(files: &Files) -> Vec<f64> {
+    let result = run(&prepared(files), |_| {}, || true).unwrap_or_else(|error| panic!("{error}"));
+    result.seen_first.deviations
+}
+
+/// The first model's modes as the sensors of a job read them.
+fn seen(files: &Files) -> (Vec<f64>, DMatrix<f64>) {
+    let job = prepared(files);
+    let count = job.loaded.parameter_names().count();
+    let comparison = job.analyze(&vec![1.0; count]).unwrap();
+    let model = comparison.model();
+    let hertz = model.omega_squared().iter().map(|root| root.sqrt() / TAU);
+    (hertz.collect(), model.basis().clone())
+}
+
+/// A job whose test has one more sensor, which reads what the model says of the test.
+fn with_sensor(files: &Files, grid: usize) -> Files {
+    let add = |data: &mut TestData, readings: &DVector<f64>| {
+        let row = data.shapes.nrows();
+        let mut sensor = data.sensors[0].clone();
+        (sensor.name, sensor.grid, sensor.place) = (format!("new {grid}"), Some(grid), None);
+        data.sensors.push(sensor);
+        data.shapes = data.shapes.clone().insert_row(row, 0.0);
+        data.shapes.set_row(row, &readings.transpose());
+        for (mode, own) in &mut data.component_deviation {
+            let mean = (own.norm_squared() / own.len() as f64).sqrt();
+            assert!(*mode < 5);
+            *own = own.clone().insert_row(row, mean);
+        }
+    };
+    let blank = retested(files.clone(), |data| add(data, &DVector::zeros(5)));
+    let (groups, (_, read)) = (prepared(files).together().to_vec(), seen(&blank));
+    retested(files.clone(), |data| {
+        let old = data.shapes.clone();
+        let readings = (0..5).map(|j| {
+            // Modes compared together have one combination for each shape.
+            let group = groups.iter().find(|group| group.contains(&j));
+            let own = group.cloned().unwrap_or(vec![j]);
+            let all = read.select_columns(&own);
+            let weights = data
+                .component_deviation
+                .get(&j)
+                .map(|own| own.map(f64::recip));
+            let weights = weights.unwrap_or(DVector::from_element(5, 1.0));
+            let left = DMatrix::from_diagonal(&weights) * all.rows(0, 5);
+            let right = weights.component_mul(&old.column(j));
+            let shares = left.svd(true, true).solve(&right, 1e-12).unwrap();
+            (all.row(5) * shares)[0]
+        });
+        let readings = DVector::from_iterator(5, readings);
+        add(data, &readings);
+    })
+}
+
+fn with_mode(files: &Files, mode: usize) -> Files {
+    let (hertz, read) = seen(files);
+    retested(files.clone(), |data| {
+        data.frequencies_hz.push(hertz[mode]);
+        data.shapes.extend([read.column(mode).into_owned()]);
+        for own in [&mut data.frequency_deviation, &mut data.shape_deviation] {
+            own.iter_mut().for_each(|own| own.push(own[4]));
+        }
+    })
+}
+
+fn without(files: &Files, name: &str) -> Files {
+    let leave_out = format!("[sensors]\nleave_out = [\"{name}\"]\n\n[[parameter]]");
+    with(files.clone(), "job.toml", "[[parameter]]", &leave_out)
+}
+
+/// Words of a change without those before its name.
+fn number(words: &str, before: &str) -> usize {
+    let rest = words
+        .strip_prefix(before)
+        .unwrap_or_else(|| panic!("{words}"));
+    rest.split(' ').next().unwrap().parse().unwrap()
+}
+
+#[test]
+fn deviations_told_are_those_of_a_job_with_that_sensor_or_mode() {
+    for (name, files) in subjects() {
+        let next = prepared(&files).next_measurement().unwrap();
+        let [now, more, modes, less] = &next.changes;
+        assert_close(&now[0].1, &deviations(&files), name);
+        assert_eq!(less.len(), 5, "{name}");
+        assert!(more.len() >= 5, "{name}");
+        for (words, told) in more.iter().take(3) {
+            let grid = number(words, "with grid ");
+            assert_close(
+                told,
+                &deviations(&with_sensor(&files, grid)),
+                &format!("{name} {words}"),
+            );
+        }
+        for (words, told) in less {
+            let left = without(&files, words.strip_prefix("without ").unwrap());
+            assert_close(told, &deviations(&left), words);
+        }
+        // A mode compared together with others is not ranked, and a component's own deviation cannot be given to some modes alone.
+        match name {
+            "together" => assert_eq!(modes.len(), 0),
+            "own deviations" => assert!(!modes.is_empty()),
+            _ => {
+                assert!(modes.len() >= 3, "{name}");
+                for (words, told) in modes.iter().take(2) {
+                    let mode = number(words, "with mode ") - 1;
+                    assert_close(told, &deviations(&with_mode(&files, mode)), words);
+                }
+            }
+        }
+    }
+}
+
+fn assert_close(told: &[f64], right: &[f64], what: &str) {
+    assert_eq!(told.len(), right.len(), "{what}");
+    for (told, right) in told.iter().zip(right) {
+        assert!(
+            (told / right - 1.0).abs() < MEASURED_NEXT,
+            "{what}: {told} {right}"
+        );
+    }
+}
+
+#[test]
+fn changes_of_a_kind_come_with_the_least_deviation_first() {
+    for (name, files) in subjects() {
+        let next = prepared(&files).next_measurement().unwrap();
+        for changes in &next.changes {
+            let all = changes
+                .iter()
+                .map(|(_, own)| mean_deviation(own))
+                .collect_vec();
+            assert!(all.is_sorted(), "{name}: {all:?}");
+        }
+        let now = mean_deviation(&next.changes[0][0].1);
+        // One more number of a test never tells less where the shape keeps its largest component.
+        let least = mean_deviation(&next.changes[3][0].1);
+        assert!(least > now, "{name}");
+    }
+}
+
+#[test]
+fn the_example_building_is_told_its_first_floor() {
+    let next = prepared(&building()).next_measurement().unwrap();
+    let [now, more, ..] = &next.changes;
+    assert_eq!(more[0].0, "with grid 1 x");
+    let both = [&now[0], &more[0]].map(|(_, own)| 100.0 * mean_deviation(own));
+    assert!((both[0] - 4.18).abs() < THREE_DIGITS && (both[1] - 2.49).abs() < THREE_DIGITS);
+    assert!(next.unranked.is_empty());
+}
+
+/// A star of three arms on a spring, two of them alike and without a sensor: where one moves against the other nothing else does.
+fn star() -> Files {
+    let spring = |a, b, k| springs(7, &[(a, b, k)]).dense();
+    let alike = spring(3, Some(0), 3e4)
+        + spring(4, Some(3), 2e4)
+        + spring(5, Some(0), 3e4)
+        + spring(6, Some(5), 2e4);
+    let other = spring(1, Some(0), 5e4) + spring(2, Some(1), 4e4);
+    let (parts, mass) = (
+        [spring(0, None, 1e5), other, alike],
+        DMatrix::identity(7, 7),
+    );
+    let all = solve(&parts.iter().sum(), &mass, 7).unwrap();
+    let is_seen =
+        |mode: &usize| (all.shapes()[(4, *mode)] - all.shapes()[(6, *mode)]).abs() < ROUND_OFF;
+    let seen: Vec<usize> = (0..7).filter(is_seen).take(3).collect();
+    let squares = DVector::from_iterator(3, seen.iter().map(|&mode| all.omega_squared()[mode]));
+    let modes = Modes::new(squares, all.shapes().select_columns(&seen)).unwrap();
+    let leave_out = "[sensors]\nleave_out = [\"S4\", \"S5\", \"S6\", \"S7\"]\n[[parameter]]";
+    with(
+        of_matrices(&parts, &mass, &modes),
+        "job.toml",
+        "[[parameter]]",
+        leave_out,
+    )
+}
+
+#[test]
+fn places_that_would_see_other_modes_are_counted_and_not_ranked() {
+    let next = prepared(&star()).next_measurement().unwrap();
+    assert_eq!(next.changes[1].len(), 0);
+    assert_eq!(next.unranked.len(), 1);
+    assert!(
+        next.unranked[0].starts_with("Not ranked: 4 places"),
+        "{:?}",
+        next.unranked
+    );
+}
+
+#[test]
+fn a_job_without_shapes_says_that_nothing_is_ranked() {
+    let next = loaded("garteur").next_measurement().unwrap();
+    assert!(next.changes.iter().all(Vec::is_empty));
+    assert_eq!(next.unranked.len(), 1);
+}
+
+/// What a look costs grows with the cube of the parameters, so that of many places a part is looked at, which is said.
+#[test]
+fn of_too_many_places_and_sensors_a_part_is_looked_at() {
+    let tall = shear_building(&[1e6; 250], 60.0, None);
+    let measured = (0..60).map(|place| 4 * place + 2).collect_vec();
+    let files = of_whole(&tall, &[0.9; 250], &measured, 5, Noise::USUAL);
+    let next = prepared(&files).next_measurement().unwrap();
+    let told = next.unranked.iter().map(|own| &own[..30]).collect_vec();
+    assert_eq!(
+        told,
+        [
+            "Of 190 places one in 7 was loo",
+            "Of 60 sensors one in 3 was loo"
+        ]
+    );
+    assert_eq!(next.changes[3].len(), 20);
+}
