@@ -11,8 +11,8 @@ use crate::weighted::measurements::deviations;
 use nalgebra::DMatrix;
 use std::sync::Arc;
 
-/// Multiplications that the changes of one kind may take together: about a second.
-const MOST_WORK: usize = 1_000_000_000;
+/// Multiplications that the changes of one kind may take together: about a quarter of a second.
+const MOST_WORK: usize = 250_000_000;
 /// Best places by the modes at hand whose slopes are made exact.
 const MOST_PLACES: usize = 8;
 /// Part of the largest reading below which a place does not move.

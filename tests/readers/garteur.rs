@@ -77,7 +77,7 @@ fn the_corrected_airplane_is_nearer_and_still_not_explained() {
 
 #[test]
 fn slopes_of_the_error_sum_count_frequencies_without_shapes() {
-    let report = Report::from_job(&RESULT.found.prepared, None).unwrap();
+    let report = Report::from_job(&RESULT.found.prepared, Some(*RESULT)).unwrap();
     let slopes = report.derivatives.unwrap().error_sum;
     let ones = vec![1.0; slopes.len()];
     let sum = |factors: &[f64]| {

@@ -232,9 +232,9 @@ fn of_too_many_places_and_sensors_a_part_is_looked_at() {
     assert_eq!(
         told,
         [
-            "Of 190 places one in 7 was loo",
-            "Of 60 sensors one in 3 was loo"
+            "Of 190 places one in 28 was lo",
+            "Of 60 sensors one in 9 was loo"
         ]
     );
-    assert_eq!(next.changes[3].len(), 20);
+    assert_eq!(next.changes[3].len(), 7);
 }

@@ -20,7 +20,7 @@ use nalgebra::{DMatrix, DVectorView, Vector3};
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Report {
-    /// A job, before its first step or with its result.
+    /// A job with its result, or before its first step and without derivatives.
     ///
     /// # Errors
     /// Errors of the first analysis.
@@ -35,10 +35,8 @@ impl Report {
         let whole = &loaded.source.whole;
         let names: Vec<String> = loaded.parameter_names().map(str::to_owned).collect();
         let ones = vec![1.0; names.len()];
-        let first = found.map_or_else(
-            || prepared.analyze(&ones)?.with_slopes(),
-            |found| Ok(found.first.clone()),
-        )?;
+        let first =
+            found.map_or_else(|| prepared.analyze(&ones), |found| Ok(found.first.clone()))?;
         let stem = loaded.job.stem();
         let geometry = &loaded.source.geometry;
         let (frame, owners) = pieces(loaded)?.into_iter().unzip();
@@ -84,7 +82,9 @@ impl Report {
                 .map(|grid| geometry.places[grid])
                 .collect(),
             mass: prepared.mass_at_sensors(found.map_or(&first, |found| &found.last)),
-            derivatives: Some(Derivatives::at(&first)?),
+            derivatives: found
+                .map(|found| Derivatives::at(&found.first))
+                .transpose()?,
             ..base
         };
         let Some(JobResult {
