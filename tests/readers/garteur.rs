@@ -100,6 +100,23 @@ fn slopes_of_the_error_sum_count_frequencies_without_shapes() {
     }
 }
 
+/// Slopes of residuals of frequencies alone are those of central differences, where the first model is far from the test.
+#[test]
+fn slopes_of_frequencies_alone_are_those_of_their_residuals() {
+    let (prepared, step) = (&RESULT.found.prepared, 1e-4_f64);
+    let weights = prepared.weights();
+    let slopes = jacobian(&RESULT.found.first, &weights).unwrap();
+    for (e, slope) in slopes.column_iter().enumerate() {
+        let at = |log: f64| {
+            let mut factors = vec![1.0; slopes.ncols()];
+            factors[e] = log.exp();
+            residuals(&prepared.analyze(&factors).unwrap(), &weights).unwrap()
+        };
+        let difference = (at(step) - at(-step)) / (2.0 * step);
+        assert!((slope - difference).amax() <= 1e-3 * slopes.amax(), "{e}");
+    }
+}
+
 #[test]
 fn partners_are_followed_by_shape_where_modes_change_places() {
     let partners = |comparison: &Comparison| -> Vec<usize> {

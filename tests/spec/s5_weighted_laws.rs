@@ -779,6 +779,26 @@ fn every_rejection_on_end_doubles_what_damping_is_multiplied_by() {
     }
 }
 
+/// An end by gradient has one of at most the tolerance in deviations, $|g| \le 10^{-5} \sqrt{A}$.
+#[test]
+fn an_end_by_gradient_has_one_within_tolerance() {
+    let weight = 1e3;
+    for tenths in 5..25 {
+        let ratio = f64::from(tenths) / 10.0;
+        let analyze = side_by_side(&[1.0], ratio);
+        let settings = with_priors(&[3.0]);
+        let found =
+            gauss_newton(analyze, &[1.0], &[None], &by_frequency(weight), &settings).unwrap();
+        let log = found.factors[0].ln();
+        let quotient = (0.5 * log).exp() / ratio;
+        let slope = 0.5 * weight * quotient;
+        let gradient = slope * weight * (quotient - 1.0) + log / 9.0;
+        let most = 1.01e-5 * (slope * slope + 1.0 / 9.0).sqrt();
+        assert_eq!(found.stop, WeightedStop::Gradient, "{ratio}");
+        assert!(gradient.abs() <= most, "{ratio}: {gradient:e} {most:e}");
+    }
+}
+
 /// An analysis whose last digits come and go, here up to a thousandth of the stiffness, leaves a gradient, and no pairs change ahead.
 #[test]
 fn steps_among_digits_end_short_of_a_gradient() {
