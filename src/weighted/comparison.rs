@@ -147,7 +147,7 @@ impl Comparison {
     }
 
     /// Shapes of these partners, one column each.
-    pub(super) fn partner_shapes(&self) -> DMatrix<f64> {
+    pub(super) fn shapes_of_partners(&self) -> DMatrix<f64> {
         self.model
             .exact
             .modes
@@ -157,7 +157,7 @@ impl Comparison {
 
     /// True if each of these shapes has more of its partner here than of anything else: cosines above the root of a half.
     pub(super) fn has_partners(&self, shapes: &DMatrix<f64>) -> bool {
-        let own = cosines(&self.partner_shapes(), shapes);
+        let own = cosines(&self.shapes_of_partners(), shapes);
         own.is_ok_and(|own| own.diagonal().iter().all(|cosine| cosine * cosine > 0.5))
     }
 

@@ -349,7 +349,7 @@ impl<'a> Problem<'a> {
         let mut watched = |factors: &[f64]| -> Result<Comparison, E> {
             tried.take();
             let found = analyze(factors)?;
-            tried.replace(Some(found.partner_shapes()));
+            tried.replace(Some(found.shapes_of_partners()));
             Ok(found)
         };
         let mut place = self.first_at(&mut watched, first)?;
@@ -390,23 +390,21 @@ impl<'a> Problem<'a> {
             if (fall - promised).abs() > WRONG_PROMISE * promised {
                 further = most;
             }
-            let has_same = |shapes| place.comparison.has_partners(&shapes);
-            let is_beyond = !tried.take().is_some_and(has_same);
-            // A fall that is lost in what is unsure tells no wall.
-            is_wall = next.is_none()
-                && if promised > unsure {
-                    is_beyond
-                } else {
-                    is_wall
-                };
             match next {
                 Some((next, _)) => {
                     next.teach(&mut second_order, &place);
-                    (place, before) = (next, whole);
+                    (place, before, is_wall) = (next, whole, false);
                     damping.after(fall / promised);
                     iterations.push(place.iteration()?);
                 }
-                None => damping.more(),
+                None => {
+                    // A fall that is lost in what is unsure tells no wall.
+                    if promised > unsure {
+                        let has_same = |shapes| place.comparison.has_partners(&shapes);
+                        is_wall = !tried.take().is_some_and(has_same);
+                    }
+                    damping.more();
+                }
             }
         };
         Ok(WeightedCorrelation {
@@ -488,11 +486,6 @@ impl<'a> Problem<'a> {
         Ok((place.objective, place.factors))
     }
 
-    /// The damped step from a place within the room of every logarithm, if there is one.
-    fn step(&self, place: &Iterate, damping: f64) -> Result<Option<DVector<f64>>, Error> {
-        self.step_of(place, &place.curvature, damping)
-    }
-
     /// The damped step and the fall that it promises, with the second order in the curvature where its estimate is used.
     fn foretold(
         &self,
@@ -500,24 +493,21 @@ impl<'a> Problem<'a> {
         second_order: &SecondOrder,
         damping: f64,
     ) -> Result<Option<(f64, DVector<f64>)>, Error> {
-        if let Some(sum) = second_order.told() {
-            let curvature = &place.curvature + sum;
-            if let Ok(Some(step)) = self.step_of(place, &curvature, damping) {
-                let fall = -place.gradient.dot(&step) - 0.5 * step.dot(&(curvature * &step));
-                return Ok(Some((fall, step)));
-            }
+        if let Some(sum) = second_order.told()
+            && let Ok(Some(step)) = self.step(place, &(&place.curvature + sum), damping)
+        {
+            return Ok(Some(step));
         }
-        let step = self.step(place, damping)?;
-        Ok(step.map(|step| (place.promised_fall(&step), step)))
+        self.step(place, &place.curvature, damping)
     }
 
-    /// The damped step of a curvature.
-    fn step_of(
+    /// The damped step of a curvature from a place within the room of every logarithm, if there is one, and the fall that it promises.
+    fn step(
         &self,
         place: &Iterate,
         curvature: &DMatrix<f64>,
         damping: f64,
-    ) -> Result<Option<DVector<f64>>, Error> {
+    ) -> Result<Option<(f64, DVector<f64>)>, Error> {
         let room = place.room(self.ranges);
         let free = place.free(&room);
         let is_flat = |&e: &usize| {
@@ -529,13 +519,14 @@ impl<'a> Problem<'a> {
         }
         let mut step = bounded_step(curvature, &place.gradient, free, &room, damping)?;
         step *= (LONGEST_STEP / step.amax()).min(1.0);
-        Ok((step.amax() > SHORTEST_STEP).then_some(step))
+        let fall = place.promised_fall(curvature, &step);
+        Ok((step.amax() > SHORTEST_STEP).then_some((fall, step)))
     }
 
     /// Fall that a step promises which nothing damps; zero without one.
     fn whole_fall(&self, place: &Iterate) -> Result<f64, Error> {
-        let step = self.step(place, 0.0)?;
-        Ok(step.map_or(0.0, |step| place.promised_fall(&step)))
+        let step = self.step(place, &place.curvature, 0.0)?;
+        Ok(step.map_or(0.0, |(fall, _)| fall))
     }
 
     /// The fall to where the steps from a place end in a basis of the modes and their deflections along a step, and so many `further` ones,
@@ -679,9 +670,9 @@ impl Iterate {
         (0..room.len()).filter(is_free).collect()
     }
 
-    /// Fall of the objective that the quadratic model promises for a step.
-    fn promised_fall(&self, step: &DVector<f64>) -> f64 {
-        -self.gradient.dot(step) - 0.5 * step.dot(&(&self.curvature * step))
+    /// Fall of the objective that the quadratic model of a curvature promises for a step.
+    fn promised_fall(&self, curvature: &DMatrix<f64>, step: &DVector<f64>) -> f64 {
+        -self.gradient.dot(step) - 0.5 * step.dot(&(curvature * step))
     }
 }
 

@@ -22,8 +22,8 @@ pub(crate) fn deviations(
     for (comparison, weights) in tests {
         information += gram(&jacobian(comparison, weights)?);
     }
-    let covariance = covariance(information, priors)?;
-    Ok(covariance.diagonal().iter().map(|own| own.sqrt()).collect())
+    let deviations = covariance(information, priors)?.map_diagonal(f64::sqrt);
+    Ok(deviations.as_slice().to_vec())
 }
 
 impl Comparison {

@@ -17,14 +17,17 @@ pub fn documents() -> BTreeMap<String, String> {
     let mut files = vec![root.join("README.md")];
     files.extend(files_below(&root.join("paper")));
     files.retain(|file| file.extension().is_some_and(|end| end == "md"));
-    files
-        .into_iter()
-        .map(|file| {
-            let name = file.strip_prefix(root).unwrap();
-            let text = fs::read_to_string(&file).unwrap();
-            (name.display().to_string(), text)
-        })
-        .collect()
+    texts(files)
+}
+
+/// Texts of files by their path in the project.
+pub fn texts(files: Vec<PathBuf>) -> BTreeMap<String, String> {
+    let text = |file: PathBuf| {
+        let name = file.strip_prefix(in_root("")).unwrap();
+        let text = fs::read_to_string(&file).unwrap();
+        (name.display().to_string(), text)
+    };
+    files.into_iter().map(text).collect()
 }
 
 fn is_to_be_written() -> bool {
@@ -121,22 +124,12 @@ pub fn links(markdown: &str) -> Vec<String> {
 /// As a host of code resolves it: relative to the file that has it.
 #[test]
 fn every_link_of_a_document_leads_to_a_file() {
-    let mut texts = documents();
-    for file in files_below(&in_root("golden"))
-        .into_iter()
-        .chain(["CONTRIBUTING.md", "CHANGELOG.md"].map(in_root))
-    {
-        if file.extension().is_some_and(|end| end == "md") {
-            let name = file
-                .strip_prefix(in_root(""))
-                .unwrap()
-                .display()
-                .to_string();
-            texts.insert(name, fs::read_to_string(file).unwrap());
-        }
-    }
+    let mut files = files_below(&in_root("golden"));
+    files.retain(|file| file.extension().is_some_and(|end| end == "md"));
+    files.extend(["CONTRIBUTING.md", "CHANGELOG.md"].map(in_root));
+    let all = documents().into_iter().chain(texts(files));
     let (mut count, mut nowhere) = (0, Vec::new());
-    for (name, text) in texts {
+    for (name, text) in all {
         for link in links(&text) {
             let path = link.split('#').next().unwrap();
             let folder = in_root(&name).parent().unwrap().to_owned();

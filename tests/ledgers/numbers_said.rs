@@ -2,7 +2,7 @@
 //! from.
 
 use crate::ledgers::claims::{paragraphs, sentences};
-use crate::ledgers::documents::documents;
+use crate::ledgers::documents::{documents, texts};
 use crate::ledgers::equations::defines;
 use crate::ledgers::{files_below, tables};
 use crate::prelude::*;
@@ -112,20 +112,13 @@ fn is_numeric(sentence: &str) -> bool {
 }
 
 /// README.md, the documents and the READMEs of `golden`, without the tour.
-fn texts() -> BTreeMap<String, String> {
-    let mut texts = documents();
-    texts.retain(|name, _| !name.starts_with("paper/tour/"));
-    for file in files_below(&in_root("golden")) {
-        if file.file_name().is_some_and(|name| name == "README.md") {
-            let name = file
-                .strip_prefix(in_root(""))
-                .unwrap()
-                .display()
-                .to_string();
-            texts.insert(name, fs::read_to_string(file).unwrap());
-        }
-    }
-    texts
+fn documents_and_readmes() -> BTreeMap<String, String> {
+    let mut all = documents();
+    all.retain(|name, _| !name.starts_with("paper/tour/"));
+    let mut readmes = files_below(&in_root("golden"));
+    readmes.retain(|file| file.file_name().is_some_and(|name| name == "README.md"));
+    all.extend(texts(readmes));
+    all
 }
 
 fn words(text: &str) -> String {
@@ -138,7 +131,7 @@ fn every_sentence_with_a_number_says_where_it_comes_from() {
         toml::from_str(include_str!("../numbers.toml")).unwrap();
     let computed = tables::sentences();
     let (mut missing, mut wrong, mut left) = (Vec::new(), Vec::new(), ledger.clone());
-    for (name, text) in texts() {
+    for (name, text) in documents_and_readmes() {
         for paragraph in paragraphs(&text) {
             for sentence in sentences(&paragraph)
                 .into_iter()
