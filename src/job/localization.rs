@@ -9,9 +9,9 @@ use crate::weighted::residuals::{residuals, residuals_of};
 use serde::Serialize;
 
 /// Factors tried first on either side of one, three decades of them.
-const PLACES: i32 = 12;
+const PLACES: i32 = 6;
 /// Decades from one of them to the next.
-const SPACING: f64 = 0.25;
+const SPACING: f64 = 0.5;
 /// Decades between neighbors at last: 1 %.
 const FINEST: f64 = 0.004;
 

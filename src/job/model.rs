@@ -8,7 +8,7 @@ use crate::method::appendix_a::element_matrices;
 use crate::method::error::Error;
 use crate::method::step::Bounds;
 use crate::method::structure::StructuralDof;
-use crate::sparse::elements::{lumped_masses, moving_mass_entries, stiffness_entries, support};
+use crate::sparse::elements::{lumped_masses, moving_mass_entries, stiffness_of, support};
 use crate::sparse::{SparseMatrix, Support, WholeModel, WholeParameter, WholeShare};
 use crate::weighted::identifiability::PRIOR_DEVIATION;
 use nalgebra::Vector3;
@@ -153,9 +153,8 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
         .enumerate()
         .map(|(row, e)| (e.label, row))
         .collect();
-    let stiffness = (0..elements.len())
-        .flat_map(|row| stiffness_entries(&elements[row], bulk.elements[row].size));
-    let stiffness = sum_of(count, stiffness)?;
+    let sized = |row: usize| (&elements[row], bulk.elements[row].size);
+    let stiffness = stiffness_of(count, (0..elements.len()).map(sized))?;
     let moving = bulk.moving_masses(&structure)?;
     let mass = sum_of(
         count,
@@ -197,10 +196,8 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
                     job.refuse_if(masses.first(), |label| {
                         format!("parameter \"{name}\": point mass {label} needs scales = \"mass\"")
                     })?;
-                    let entries = rows.iter().flat_map(|&row| {
-                        stiffness_entries(&elements[row], bulk.elements[row].size)
-                    });
-                    WholeShare::Stiffness(sum_of(count, entries)?)
+                    let own = rows.iter().map(|&row| sized(row));
+                    WholeShare::Stiffness(stiffness_of(count, own)?)
                 }
                 Scales::Mass => {
                     let lumped = rows.iter().flat_map(|&row| {

@@ -51,7 +51,8 @@ impl PreparedJob {
     /// less. A new sensor reads what the model says of it; a new mode is as the model has it, with the deviations of the test's
     /// last one.
     ///
-    /// Every place is ranked by the modes at hand; the best have exact slopes, and with these the deviations of a job with that sensor.
+    /// Every place is ranked by the modes at hand; the best have exact slopes, and with these the deviations of a job with that sensor. Of
+    /// a further mode the part that the modes left out have in the slopes is rough, to a thousandth.
     ///
     /// # Errors
     /// The errors of the analysis and of the covariance.
@@ -68,10 +69,10 @@ impl PreparedJob {
         }
         let mut weighted = self.clone();
         Arc::make_mut(&mut weighted.loaded).job.compare.method = Method::GaussNewton;
-        let mut comparison = weighted.analyze(&loaded.ones())?;
-        let (weights, partners) = (weighted.weights(), comparison.partners());
+        let at_hand = weighted.analyze(&loaded.ones())?;
+        let (weights, partners) = (weighted.weights(), at_hand.partners());
         let by = |own: &Comparison| deviations(&[(own, &weights)], priors);
-        let hertz = comparison.model.exact.modes.frequencies_hz();
+        let hertz = at_hand.model.exact.modes.frequencies_hz();
         let noise = loaded.deviations(self.modes[self.modes.len() - 1]);
         // The test would compare modes together that it does not tell apart.
         let width = CLOSE * noise.frequency;
@@ -81,18 +82,21 @@ impl PreparedJob {
         };
         let free = (0..hertz.len()).filter(is_free).collect();
         let free: Vec<usize> = self.some(free, "modes", &mut unranked);
-        let compared = &comparison.model.exact.pairing.analysis_mode;
-        let mut all = [&compared[..], &free].concat();
-        all.sort_unstable();
+        let compared = at_hand.model.compared();
         let beyond = self
             .first
-            .slopes_beyond(&loaded.sensors, hertz.len(), &all)?;
-        for (&mode, own) in all.iter().zip(beyond) {
-            comparison.model.beyond[mode] = Some(own);
+            .slopes_beyond(&loaded.sensors, hertz.len(), [&compared, &free])?;
+        let (mut comparison, mut further) = (at_hand.clone(), at_hand.clone());
+        for (place, (&mode, own)) in compared.iter().chain(&free).zip(beyond).enumerate() {
+            let into = match place < compared.len() {
+                true => &mut comparison,
+                false => &mut further,
+            };
+            into.model.beyond[mode] = Some(own);
         }
-        let more = self.more_sensors(&comparison, &all, by, &mut unranked)?;
+        let more = self.more_sensors([&at_hand, &comparison], &compared, by, &mut unranked)?;
         let modes = ranked(free.into_iter().map(|mode| {
-            let own = comparison.of_mode(mode);
+            let own = further.of_mode(mode);
             let both = [(&comparison, &weights[..]), (&own, &[noise.weight()])];
             let words = format!("with mode {} of the model, {:.2} Hz", mode + 1, hertz[mode]);
             Ok((words, deviations(&both, priors)?))
@@ -135,14 +139,13 @@ impl PreparedJob {
 
     fn more_sensors(
         &self,
-        comparison: &Comparison,
-        modes: &[usize],
+        [at_hand, exact]: [&Comparison; 2],
+        compared: &[usize],
         by: impl Fn(&Comparison) -> Result<Vec<f64>, Error>,
         unranked: &mut Vec<String>,
     ) -> Result<Changes, Error> {
-        let (source, exact) = (&self.loaded.source, &comparison.model.exact);
-        let count = exact.modes.len();
-        let look = |places: &[StructuralDof], modes: &[usize]| {
+        let (source, count) = (&self.loaded.source, at_hand.model.exact.modes.len());
+        let look = |places: &[StructuralDof], comparison: &Comparison, modes: &[usize]| {
             if places.is_empty() {
                 return Ok(Vec::new());
             }
@@ -155,7 +158,7 @@ impl PreparedJob {
             let size = source.whole.dof_count();
             let sensors = SparseMatrix::new("sensors", places.len(), size, entries)?;
             let [basis, unseen] = self.first.read_by(&sensors, count)?;
-            let beyond = self.first.slopes_beyond(&sensors, count, modes)?;
+            let beyond = self.first.slopes_beyond(&sensors, count, [modes, &[]])?;
             let is_seen = |row: &usize| unseen.row(*row).amax() <= NOTHING * basis.amax();
             ranked((0..places.len()).filter(is_seen).map(|row| {
                 let of_row = |all: &DMatrix<f64>| all.rows(row, 1).into_owned();
@@ -165,7 +168,7 @@ impl PreparedJob {
             }))
         };
         let mut places = self.some(self.places(), "places", unranked);
-        let best = look(&places, &[])?;
+        let best = look(&places, at_hand, &[])?;
         let apart = places.len() - best.len();
         let of_apart = || format!("Not ranked: {apart} places with modes that no sensor sees now.");
         unranked.extend((apart > 0).then(of_apart));
@@ -174,7 +177,7 @@ impl PreparedJob {
             .map(|own| own.0)
             .take(MOST_PLACES)
             .collect();
-        let best = look(&places, modes)?;
+        let best = look(&places, exact, compared)?;
         let named = best
             .into_iter()
             .map(|(StructuralDof { grid, direction }, own)| {

@@ -148,7 +148,12 @@ impl TextColumn {
             .min(most);
         let mut heading = lines(name.split(' '), width);
         heading.extend((!unit.is_empty()).then(|| unit.to_owned()));
-        let cells = cells.iter().map(|cell| lines(cell.split(' '), width));
+        // Most cells are one word that fits.
+        let is_whole = |cell: &str| !cell.contains(' ') && cell.chars().count() <= width;
+        let cells = cells.into_iter().map(|cell| match is_whole(&cell) {
+            true => vec![cell],
+            false => lines(cell.split(' '), width),
+        });
         Self {
             heading,
             cells: cells.collect(),
@@ -215,13 +220,13 @@ fn list(table: &Table) -> String {
 
 /// One part: headings, rows, and a rule below each.
 fn grid(label: &TextColumn, columns: &[TextColumn]) -> String {
-    let line = |text: &dyn Fn(&TextColumn) -> String| {
-        let cells = columns
-            .iter()
-            .map(|column| format!("{:>width$}", text(column), width = GAP + column.width));
-        let line =
-            format!("{:<width$}", text(label), width = label.width) + &cells.collect::<String>();
-        line.trim_end().to_owned()
+    let line = |text: &dyn Fn(&TextColumn) -> &str| {
+        let mut line = format!("{:<width$}", text(label), width = label.width);
+        for column in columns {
+            line += &format!("{:>width$}", text(column), width = GAP + column.width);
+        }
+        line.truncate(line.trim_end().len());
+        line
     };
     let high = columns
         .iter()
@@ -229,12 +234,9 @@ fn grid(label: &TextColumn, columns: &[TextColumn]) -> String {
         .map(|column| column.heading.len())
         .max()
         .unwrap_or(0);
-    // Headings are aligned to the rule below: shorter ones begin lower.
-    let heading =
-        |column: &TextColumn, at: usize| match (at + column.heading.len()).checked_sub(high) {
-            Some(row) => column.heading[row].clone(),
-            None => String::new(),
-        };
+    fn heading(column: &TextColumn, row: Option<usize>) -> &str {
+        row.map_or("", |row| &column.heading[row])
+    }
     let rule = "─".repeat(
         label.width
             + columns
@@ -242,7 +244,9 @@ fn grid(label: &TextColumn, columns: &[TextColumn]) -> String {
                 .map(|column| GAP + column.width)
                 .sum::<usize>(),
     );
-    let headings = (0..high).map(|at| line(&|column| heading(column, at)));
+    // Headings are aligned to the rule below: shorter ones begin lower.
+    let row = |column: &TextColumn, at: usize| (at + column.heading.len()).checked_sub(high);
+    let headings = (0..high).map(|at| line(&|column| heading(column, row(column, at))));
     let rows = (0..label.cells.len()).flat_map(|row| {
         let cells = columns
             .iter()
@@ -250,7 +254,7 @@ fn grid(label: &TextColumn, columns: &[TextColumn]) -> String {
             .map(|column| column.cells[row].len());
         let line = &line;
         (0..cells.max().unwrap_or(0))
-            .map(move |at| line(&|column| column.cells[row].get(at).cloned().unwrap_or_default()))
+            .map(move |at| line(&|column| column.cells[row].get(at).map_or("", String::as_str)))
     });
     headings
         .chain([rule.clone()])

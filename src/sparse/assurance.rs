@@ -1,6 +1,6 @@
 //! Modal assurance: how alike shapes are at sensors, without a mass.
 
-use super::{finite, transposed_product};
+use super::finite;
 use crate::method::error::{Error, positive};
 use crate::method::linear_algebra::check_shape;
 use crate::method::modes::mode;
@@ -61,7 +61,7 @@ fn signed_assurance(shapes: &DMatrix<f64>, others: &DMatrix<f64>) -> Result<DMat
         let columns = shapes.column_iter();
         columns.map(|shape| shape.norm_squared()).collect()
     });
-    let cross = transposed_product(&shapes, &others);
+    let cross = shapes.transpose() * &others;
     let assurance = cross.map_with_location(|i, j, product| match product {
         0.0 => 0.0,
         _ => product * product.abs() / (squares[0][i] * squares[1][j]),

@@ -8,14 +8,17 @@ use crate::method::structure::{Element, ElementKind, Point, StructuralDof, Struc
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
-/// Row, column and value of every entry of $s_e K_e$.
-pub(crate) fn stiffness_entries(
-    element: &ElementMatrix,
-    size: f64,
-) -> impl Iterator<Item = (usize, usize, f64)> {
-    let ElementMatrix { dof, unit, .. } = element;
-    let column = move |b| (0..dof.len()).map(move |a| (dof[a], dof[b], size * unit[(a, b)]));
-    (0..dof.len()).flat_map(column)
+/// The stiffness $\sum_e s_e K_e$ (`count` × `count`) of some elements with their sizes.
+///
+/// # Errors
+/// [`Error::Value`] for an entry beyond the range of numbers.
+pub(crate) fn stiffness_of<'a>(
+    count: usize,
+    elements: impl Iterator<Item = (&'a ElementMatrix, f64)>,
+) -> Result<SparseMatrix, Error> {
+    let part = |(element, size): (&'a ElementMatrix, f64)| (size, &element.dof[..], &element.unit);
+    let parts: Vec<_> = elements.map(part).collect();
+    SparseMatrix::of_parts("stiffness", count, &parts, 0.0)
 }
 
 /// Volume an element of unit size lumps at each of its corners, in³ per in of gage or in² of area.
@@ -111,16 +114,16 @@ pub fn support(structure: &Structure, elements: &[ElementMatrix]) -> Result<Supp
     })
 }
 
-fn resisting(structure: &Structure, elements: &[ElementMatrix]) -> Result<SparseMatrix, Error> {
-    let count = structure.free_dof().len();
+fn resisting<'a>(
+    structure: &Structure,
+    elements: &'a [ElementMatrix],
+) -> Result<SparseMatrix, Error> {
     let whole = structure.elements().iter().zip(structure.corners());
-    let of_element = |(matrix, (element, corners)): (&ElementMatrix, (&Element, &Vec<Point>))| {
-        let largest = largest_entry(matrix, element, corners);
-        let parts = stiffness_entries(matrix, 1.0 / largest).collect::<Vec<_>>();
-        parts
-            .into_iter()
-            .filter(|entry| entry.2.abs() > 4.0 * f64::EPSILON)
+    let part = |(matrix, (element, corners)): (&'a ElementMatrix, (&Element, &Vec<Point>))| {
+        let scale = 1.0 / largest_entry(matrix, element, corners);
+        (scale, &matrix.dof[..], &matrix.unit)
     };
-    let parts = elements.iter().zip(whole).flat_map(of_element);
-    SparseMatrix::new("stiffness of the elements", count, count, parts.collect())
+    let parts: Vec<_> = elements.iter().zip(whole).map(part).collect();
+    let (what, count) = ("stiffness of the elements", structure.free_dof().len());
+    SparseMatrix::of_parts(what, count, &parts, 4.0 * f64::EPSILON)
 }

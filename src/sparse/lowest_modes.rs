@@ -195,15 +195,22 @@ impl Flexibility {
         Ok(Self { factor, rigid })
     }
 
+    /// Loads (rows × m) with the inertia of the rigid-body modes that balances them, what the stiffness makes of the deflections under them.
+    pub(super) fn balanced(&self, mut loads: DMatrix<f64>) -> DMatrix<f64> {
+        let Directions { shapes, weighted } = &self.rigid;
+        if self.rigid.len() > 0 {
+            let shares = transposed_product(shapes, &loads);
+            take_product(&mut loads, weighted, &shares);
+        }
+        loads
+    }
+
     /// Deflections under loads (rows × m).
     pub(super) fn solve(&self, loads: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-        let Directions { shapes, weighted } = &self.rigid;
         if self.rigid.len() == 0 {
             return self.factor.solve(loads);
         }
-        let mut balanced = loads.clone();
-        take_product(&mut balanced, weighted, &transposed_product(shapes, loads));
-        let mut deflections = self.factor.solve(&balanced)?;
+        let mut deflections = self.factor.solve(&self.balanced(loads.clone()))?;
         // One pass leaves the round-off of what it takes away; a second one is enough.
         for _ in 0..2 {
             self.rigid.take_from(&mut deflections);

@@ -51,11 +51,72 @@ impl SparseMatrix {
         }
         let mut entries = summed(entries, rows, columns);
         entries.retain(|entry| entry.2 != 0.0);
-        if let Some((row, column, value)) = entries.iter().find(|entry| !entry.2.is_finite()) {
+        Self::of_sorted(rows, columns, &entries).finite(what)
+    }
+
+    /// This matrix, unless an entry is beyond the range of numbers.
+    fn finite(self, what: &'static str) -> Result<Self, Error> {
+        let wrong = self.entries().find(|entry| !entry.2.is_finite());
+        if let Some((row, column, value)) = wrong {
             let owner = || format!("entry ({row}, {column})");
-            require(false, what, owner, *value, "a finite number")?;
+            require(false, what, owner, value, "a finite number")?;
         }
-        Ok(Self::of_sorted(rows, columns, &entries))
+        Ok(self)
+    }
+
+    /// The sum (`size` × `size`) of small matrices with their rows, each times its number; entries of these no larger than `least` count as
+    /// nothing, and zeros are left out.
+    ///
+    /// Column by column, so that no more than one of them waits to be sorted.
+    pub(super) fn of_parts(
+        what: &'static str,
+        size: usize,
+        parts: &[(f64, &[usize], &DMatrix<f64>)],
+        least: f64,
+    ) -> Result<Self, Error> {
+        let mut starts = vec![0; size + 1];
+        let all = || parts.iter().flat_map(|(_, rows, _)| rows.iter());
+        all().for_each(|row| starts[row + 1] += 1);
+        (0..size).for_each(|row| starts[row + 1] += starts[row]);
+        let (mut next, mut owners) = (starts.clone(), vec![(0, 0); starts[size]]);
+        for (part, (_, rows, _)) in parts.iter().enumerate() {
+            for (column, &row) in rows.iter().enumerate() {
+                owners[next[row]] = (part, column);
+                next[row] += 1;
+            }
+        }
+        let (mut places, mut values) = (Vec::new(), Vec::new());
+        let (mut sums, mut is_met, mut met) = (vec![0.0; size], vec![false; size], Vec::new());
+        for column in 0..size {
+            for &(part, own) in &owners[starts[column]..starts[column + 1]] {
+                let (scale, rows, matrix) = parts[part];
+                let entries = rows.iter().enumerate();
+                let entries = entries.map(|(at, &row)| (row, scale * matrix[(at, own)]));
+                for (row, value) in entries.filter(|entry| entry.1.abs() > least) {
+                    if !is_met[row] {
+                        is_met[row] = true;
+                        met.push(row);
+                    }
+                    sums[row] += value;
+                }
+            }
+            met.sort_unstable();
+            for row in met.drain(..) {
+                if sums[row] != 0.0 {
+                    places.push([row as u32, column as u32]);
+                    values.push(sums[row]);
+                }
+                (sums[row], is_met[row]) = (0.0, false);
+            }
+        }
+        let matrix = Self {
+            rows: size,
+            columns: size,
+            places: Arc::new(places),
+            values,
+            rounding: ASSEMBLED,
+        };
+        matrix.finite(what)
     }
 
     fn of_sorted(rows: usize, columns: usize, entries: &[(usize, usize, f64)]) -> Self {

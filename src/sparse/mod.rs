@@ -49,7 +49,7 @@ pub use rigid_bodies::{BodyFinding, Places, RigidBodies, Support};
 pub use sensor_model::SensorModel;
 #[doc(hidden)]
 pub use sensor_model::{Candidates, ModeWeight, Pair};
-pub(crate) use sensor_model::{check_weights, parts_of};
+pub(crate) use sensor_model::{check_weights, is_one_root, parts_of};
 #[doc(hidden)]
 pub use share::{ParameterMatrix, Share, WholeShare};
 #[doc(hidden)]

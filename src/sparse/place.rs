@@ -8,6 +8,7 @@ use super::share::{ParameterMatrix, WholeShare};
 use super::visibility::visible;
 use super::{SparseMatrix, WholeModel, no_modes, take_product, transposed_product};
 use crate::method::error::{Error, check_count};
+use crate::method::linear_algebra::symmetric_part;
 use crate::method::modes::Modes;
 use nalgebra::DMatrix;
 use std::f64::consts::{PI, TAU};
@@ -17,6 +18,8 @@ use std::sync::{Arc, Mutex};
 /// Largest error of what the modes left out add to a slope, relative to it. It moves the end of weighted steps by at most as much times
 /// the root of chi-squared, in deviations: by the tolerance of a job's steps at a chi-squared of a hundred.
 const SLOPE_ERROR: f64 = 1e-6;
+/// Largest error of the same for modes that are not compared but might be: a part of a planned measurement's deviation that nobody reads.
+const ROUGH_ERROR: f64 = 1e-3;
 /// Most terms of the series for it: a mode left out within 4 % of one that is compared needs as many.
 const MOST_TERMS: usize = 26;
 /// Most deflections of one parameter's own: more add less than the lowest mode left out.
@@ -190,10 +193,9 @@ impl Place {
         if most == 0 {
             return Ok(loads);
         }
-        let shapes = vibrations.shapes.transpose();
         let parts = self.whole.parts().skip(parameters.start);
         for part in parts.take(parameters.len()) {
-            let own = leading_loads(part, vibrations, &shapes, most)?;
+            let own = leading_loads(part, vibrations, most)?;
             loads.extend(own.column_iter());
         }
         Ok(loads)
@@ -363,23 +365,20 @@ impl Place {
             let mut shares = self.shares(own);
             return Ok((further, shares.drain(parameters).collect()));
         }
-        let deflections = self.flexibility()?.solve(&loads)?;
+        let flexibility = self.flexibility()?;
+        let (deflections, loads) = (flexibility.solve(&loads)?, flexibility.balanced(loads));
         // What is left has no part of modes that the sensors do not see.
         let without = match own == self.modes.len() {
             true => &self.vibrations,
             false => &vibrations,
         };
-        let residual = residual_vectors(&self.stiffness, &self.mass, without, deflections)?;
-        let mut basis = vibrations.shapes;
-        basis.extend(residual.shapes.column_iter());
-        basis.extend(rigid_body.column_iter());
-        let transposed = basis.transpose();
-        drop(basis);
-        let share = |e: usize| {
-            let share = &self.whole.parameters()[e].share;
-            share.seen_by(self.factors[e], &transposed)
-        };
-        let shares = parameters.map(share).collect::<Result<_, Error>>()?;
+        let residual = residual_vectors(&self.mass, without, (deflections, loads))?;
+        let mut transposed = residual.shapes.transpose();
+        let first = transposed.nrows();
+        transposed = transposed.resize_vertically(first + rigid_body.ncols(), 0.0);
+        let mut last = transposed.rows_mut(first, rigid_body.ncols());
+        last.tr_copy_from(&rigid_body);
+        let shares = self.shares_beside(&vibrations.shapes, &transposed, parameters);
         let mut behind = self.some_modes(count, own);
         let squares = residual.omega_squared.iter().copied();
         behind.omega_squared.extend(squares);
@@ -390,6 +389,36 @@ impl Place {
             rigid_body: self.sensors.times(&rigid_body)?,
         };
         Ok((further, shares))
+    }
+
+    /// Shares of some parameters in the lowest shapes (DOF × n), where they are known, and in further ones, given transposed (m × DOF).
+    fn shares_beside(
+        &self,
+        shapes: &DMatrix<f64>,
+        further: &DMatrix<f64>,
+        parameters: Range<usize>,
+    ) -> Vec<ParameterMatrix> {
+        let (count, size) = (shapes.ncols(), shapes.ncols() + further.nrows());
+        let parts = self.whole.parts().zip(&self.factors);
+        let all = self.shares(count).into_iter().zip(parts);
+        let share = |(known, ((share, rows), factor)): (
+            ParameterMatrix,
+            ((&WholeShare, &[usize]), &f64),
+        )| {
+            let loads = *factor * share.matrix().loads(further);
+            let coupled = &loads * shapes.select_rows(rows);
+            let own = symmetric_part(&(loads * further.select_columns(rows).transpose()));
+            let mut matrix = known.matrix().clone().resize(size, size, 0.0);
+            matrix
+                .view_mut((count, 0), coupled.shape())
+                .copy_from(&coupled);
+            let mut mirror = matrix.view_mut((0, count), (count, own.nrows()));
+            mirror.tr_copy_from(&coupled);
+            matrix.view_mut((count, count), own.shape()).copy_from(&own);
+            known.of(matrix)
+        };
+        let some = all.skip(parameters.start).take(parameters.len());
+        some.map(share).collect()
     }
 
     /// The lowest modes, at most so many, and rigid-body modes where a basis has them, as other sensors read them, and the modes that this
@@ -408,8 +437,8 @@ impl Place {
         Ok([sensors.times(&basis)?, sensors.times(&unseen)?])
     }
 
-    /// Parts that all but a number of modes have in the slopes of these modes at sensors, which see none but those of this analysis (d × p
-    /// each).
+    /// Parts that all but a number of modes have in the slopes of these modes, and of further ones roughly, at sensors, which see none but
+    /// those of this analysis (d × p each).
     ///
     /// Of a mode i, the column of parameter e is the sum over the modes found beyond `count`, as in [`jacobian`](crate::weighted::residuals::jacobian),
     /// and over all others
@@ -424,8 +453,20 @@ impl Place {
         &self,
         sensors: &SparseMatrix,
         count: usize,
-        modes: &[usize],
+        [modes, further]: [&[usize]; 2],
     ) -> Result<Vec<DMatrix<f64>>, Error> {
+        let highest = |modes: &[usize]| {
+            let all = modes
+                .iter()
+                .map(|&mode| self.vibrations.omega_squared[mode]);
+            all.fold(0.0, f64::max)
+        };
+        let terms = terms(highest(modes), self.next, SLOPE_ERROR).max(terms(
+            highest(further),
+            self.next,
+            ROUGH_ERROR,
+        ));
+        let modes = &[modes, further].concat()[..];
         let all = self.loads_of(modes);
         let roots: Vec<f64> = modes
             .iter()
@@ -445,8 +486,6 @@ impl Place {
                 slopes.set_column(e, &(&seen * shares));
             }
         }
-        let highest = roots.iter().copied().fold(0.0, f64::max);
-        let terms = terms(highest, self.next);
         let series = roots.iter();
         let series: Vec<_> = series
             .map(|&root| coefficients(root, self.next, terms))
@@ -527,12 +566,12 @@ pub(crate) fn turn_alike(whole: &mut DMatrix<f64>, seen: &DMatrix<f64>, signed: 
     }
 }
 
-/// Terms that [`coefficients`] need for a root, for an error of [`SLOPE_ERROR`].
-fn terms(root: f64, next: Option<f64>) -> usize {
+/// Terms that [`coefficients`] need for a root, for an error relative to their sum.
+fn terms(root: f64, next: Option<f64>, error: f64) -> usize {
     let Some(next) = next.filter(|next| *next > root) else {
         return if next.is_some() { MOST_TERMS } else { 1 };
     };
-    let needed = (1.0 / SLOPE_ERROR).acosh() / (2.0 * next / root - 1.0).acosh();
+    let needed = (1.0 / error).acosh() / (2.0 * next / root - 1.0).acosh();
     (needed.ceil() as usize).clamp(1, MOST_TERMS)
 }
 

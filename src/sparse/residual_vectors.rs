@@ -17,12 +17,18 @@ use nalgebra::{DMatrix, DVector};
 pub(super) fn leading_loads(
     (share, rows): (&WholeShare, &[usize]),
     modes: &Modes,
-    transposed_shapes: &DMatrix<f64>,
     most: usize,
 ) -> Result<DMatrix<f64>, Error> {
+    // Of a part of the structure few rows are read.
+    let (dof, count) = modes.shapes.shape();
+    let mut transposed_shapes = DMatrix::from_vec(count, dof, vec![0.0; count * dof]);
+    for &row in rows {
+        let mut shapes = transposed_shapes.column_mut(row);
+        shapes.tr_copy_from(&modes.shapes.row(row));
+    }
     let power = if share.is_mass() { 0.5 } else { -0.5 };
     let scale = DMatrix::from_diagonal(&modes.omega_squared.map(|square| square.powf(power)));
-    let loads = &scale * share.matrix().loads(transposed_shapes);
+    let loads = &scale * share.matrix().loads(&transposed_shapes);
     let own = scale * transposed_shapes.select_columns(rows);
     let (energies, vectors) = symmetric_eigen(
         "energy of a parameter in the modes",
@@ -40,9 +46,9 @@ pub(super) fn leading_loads(
 }
 
 /// Shapes of unit generalized mass, orthogonal to `vibrations` $V$ and each other in mass and in stiffness, that span static
-/// `deflections` $D$ (DOF × m) with them, and their squared frequencies, ascending.
+/// `deflections` $D$ (DOF × m) under `loads` $K D$ with them, and their squared frequencies, ascending.
 ///
-/// $$ W = (I - V V^t M) D, \qquad W^t K W z = \omega^2 W^t M W z $$
+/// $$ W = (I - V V^t M) D, \qquad K W = K D - M V \Omega^2 V^t M D, \qquad W^t K W z = \omega^2 W^t M W z $$
 ///
 /// Of a structure that hangs free the deflections are those under balanced loads, orthogonal to its rigid-body modes. No $\omega^2$ is
 /// below those of all modes left out. A deflection that has less of anything new than given digits tell is left out, as is a motion
@@ -53,28 +59,31 @@ pub(super) fn leading_loads(
 /// # Errors
 /// Those of [`symmetric_eigen`].
 pub(super) fn residual_vectors(
-    stiffness: &SparseMatrix,
     mass: &SparseMatrix,
     vibrations: &Modes,
-    mut deflections: DMatrix<f64>,
+    (mut deflections, mut loads): (DMatrix<f64>, DMatrix<f64>),
 ) -> Result<Modes, Error> {
-    let none = super::no_modes(stiffness.rows());
+    let none = super::no_modes(mass.rows());
     if deflections.ncols() == 0 {
         return Ok(none);
     }
-    let energies = |shapes: &DMatrix<f64>| -> Result<DMatrix<f64>, Error> {
-        Ok(symmetric_part(&transposed_product(
-            shapes,
-            &stiffness.times(shapes)?,
-        )))
+    let energy = |deflections: &DMatrix<f64>, loads: &DMatrix<f64>| {
+        let both = deflections.column_iter().zip(loads.column_iter());
+        DVector::from_vec(
+            both.map(|(deflection, load)| deflection.dot(&load))
+                .collect(),
+        )
     };
-    let first = energies(&deflections)?.diagonal();
+    let first = energy(&deflections, &loads);
+    let weighted = mass.times(&vibrations.shapes)?;
     // Once leaves the round-off of what was taken away, twice is enough.
     for _ in 0..2 {
-        let shares = transposed_product(&vibrations.shapes, &mass.times(&deflections)?);
+        let shares = transposed_product(&weighted, &deflections);
         take_product(&mut deflections, &vibrations.shapes, &shares);
+        let forces = DMatrix::from_diagonal(&vibrations.omega_squared) * shares;
+        take_product(&mut loads, &weighted, &forces);
     }
-    let rest = energies(&deflections)?.diagonal();
+    let rest = energy(&deflections, &loads);
     let new = places_above(&rest.component_div(&first), GIVEN);
     if new.is_empty() {
         return Ok(none);
@@ -82,8 +91,9 @@ pub(super) fn residual_vectors(
     // Of unit energy each, then free of what others have already.
     let unit = new.iter().map(|&column| 1.0 / rest[column].sqrt());
     let unit = DMatrix::from_diagonal(&DVector::from_iterator(new.len(), unit));
-    let deflections = deflections.select_columns(&new) * unit;
-    let (_, own) = independent("energy of deflections", &energies(&deflections)?, |_| GIVEN)?;
+    let [deflections, loads] = [deflections, loads].map(|all| all.select_columns(&new) * &unit);
+    let energies = symmetric_part(&transposed_product(&deflections, &loads));
+    let (_, own) = independent("energy of deflections", &energies, |_| GIVEN)?;
     let deflections = deflections * own;
     let inertia = transposed_product(&deflections, &mass.times(&deflections)?);
     let least = GIVEN / vibrations.omega_squared[0];

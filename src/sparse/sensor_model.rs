@@ -17,12 +17,19 @@ use crate::method::error_sum::{Errors, ModeError, errors, mode_errors};
 use crate::method::linear_algebra::{check_length, check_shape, symmetric_eigen, symmetric_part};
 use crate::method::model::Model;
 use crate::method::modes::{Modes, check_vibrations, solve};
-use crate::method::perturbation::{Perturbed, first_order, recursive_1_converged};
+use crate::method::perturbation::{
+    Perturbed, SMALLEST_SEPARATION, first_order, recursive_1_converged,
+};
 use crate::method::sorting::{Pairing, pair_modes};
 use crate::method::step::{REFERENCE_GAGE, StepRule};
 use nalgebra::{DMatrix, DVector};
 use std::fmt::{self, Debug, Formatter};
 use std::sync::Arc;
+
+/// True of squared frequencies that count as one: their modes are any basis of a subspace.
+pub(crate) fn is_one_root(a: f64, b: f64) -> bool {
+    (a - b).abs() <= SMALLEST_SEPARATION * a.max(b)
+}
 
 /// Parts (n × p) that shares have in the stiffness or mass of the modes at the head of their basis. Modes that follow from these have about
 /// the same.
@@ -260,15 +267,23 @@ impl SensorModel {
         }
     }
 
+    /// Modes, ascending, that are compared with test modes or have the root of one that is: shapes of one root are any basis of it.
+    pub(crate) fn compared(&self) -> Vec<usize> {
+        let k = &self.exact.modes.omega_squared;
+        let partners = &self.exact.pairing.analysis_mode;
+        let is_at_root = |i: &usize| partners.iter().any(|&own| is_one_root(k[*i], k[own]));
+        (0..k.len()).filter(is_at_root).collect()
+    }
+
     /// The model with exact slopes of the shapes that are compared, where no residual vectors stand for them in its basis.
     pub(crate) fn with_slopes(mut self) -> Result<Self, Error> {
         if let Some(place) = &self.place
             && self.omega_squared.len() == self.exact.modes.len()
             && self.beyond.iter().all(Option::is_none)
         {
-            let compared = &self.exact.pairing.analysis_mode;
-            let slopes = place.slopes_beyond(place.sensors(), self.exact.modes.len(), compared)?;
-            for (&mode, slopes) in compared.iter().zip(slopes) {
+            let (compared, count) = (self.compared(), self.exact.modes.len());
+            let slopes = place.slopes_beyond(place.sensors(), count, [&compared, &[]])?;
+            for (mode, slopes) in compared.into_iter().zip(slopes) {
                 self.beyond[mode] = Some(slopes);
             }
         }

@@ -4,7 +4,7 @@ use super::SparseMatrix;
 use super::matrix::ASSEMBLED;
 use crate::method::error::Error;
 use crate::method::modes::Modes;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, DVectorView};
 
 /// Part of what a sensor reads of other modes that counts as nothing: shapes are found to the root of the rounding of doubles, of which
 /// the square is in their frequencies.
@@ -19,9 +19,11 @@ const RARE: f64 = 4.0;
 /// 1e-8 of the largest.
 pub(crate) fn visibilities(readings: &DMatrix<f64>) -> Vec<f64> {
     let sizes = sizes(readings);
-    let parts = readings.column_iter();
-    let parts = parts.map(|mode| mode.abs().component_div(&sizes).amax());
-    parts.collect()
+    let part = |mode: DVectorView<f64>| {
+        let each = mode.iter().zip(&sizes);
+        each.fold(0.0, |most: f64, (own, size)| most.max(own.abs() / size))
+    };
+    readings.column_iter().map(part).collect()
 }
 
 /// The $r_s$ of [`visibilities`].

@@ -3,9 +3,8 @@
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::modes::Modes;
-use crate::method::perturbation::SMALLEST_SEPARATION;
 use crate::method::sorting::Pairing;
-use crate::sparse::modal_assurance;
+use crate::sparse::{is_one_root, modal_assurance};
 use nalgebra::{DMatrix, DVector};
 
 /// Standard deviations of a difference of two frequencies within which the test does not tell which is the higher.
@@ -41,12 +40,24 @@ pub fn indistinct_groups(frequencies_hz: &[f64], deviations: &[f64]) -> Vec<Vec<
 /// change by less than a millionth, and with weights of a hundred their squares leave no digit of a prior deviation of one.
 pub(crate) const SEPARATION: f64 = 1e-6;
 
-/// The analysis modes with which the shape of test mode `j` is compared: its partner, then those of the others of its group.
-pub(crate) fn members(pairing: &Pairing, together: &[Vec<usize>], j: usize) -> Vec<usize> {
+/// The analysis modes, of squared frequencies `k`, with which the shape of test mode `j` is compared: its partner, then those of the others
+/// of its group, then modes of the same roots that are nobody's partner.
+pub(crate) fn members(
+    k: &DVector<f64>,
+    pairing: &Pairing,
+    together: &[Vec<usize>],
+    j: usize,
+) -> Vec<usize> {
     let group = together.iter().find(|group| group.contains(&j));
     let others = group.into_iter().flatten().filter(|&&other| other != j);
     let tests = [j].into_iter().chain(others.copied());
-    tests.map(|test| pairing.analysis_mode[test]).collect()
+    let partners = &pairing.analysis_mode;
+    let mut members: Vec<usize> = tests.map(|test| partners[test]).collect();
+    let own = members.clone();
+    let is_at_root = |i: &usize| own.iter().any(|&member| is_one_root(k[*i], k[member]));
+    let unpaired = (0..k.len()).filter(|i| !partners.contains(i) && is_at_root(i));
+    members.extend(unpaired);
+    members
 }
 
 /// The combination of some shapes nearest to another $u$, in the least squares of its components.
@@ -99,8 +110,8 @@ pub fn assurance_of_roots(modes: &Modes, shapes: &DMatrix<f64>) -> Result<DMatri
     let mut assurance = modal_assurance(&modes.shapes, shapes)?;
     let k = &modes.omega_squared;
     for i in 0..k.len() {
-        let is_one = |r: &usize| (k[*r] - k[i]).abs() <= SMALLEST_SEPARATION * k[i].max(k[*r]);
-        let members: Vec<usize> = (0..k.len()).filter(is_one).collect();
+        let members = (0..k.len()).filter(|r| is_one_root(k[*r], k[i]));
+        let members: Vec<usize> = members.collect();
         if members.len() > 1 {
             let members = modes.shapes.select_columns(&members);
             for (j, shape) in shapes.column_iter().enumerate() {
@@ -127,8 +138,13 @@ pub fn turned(
 ) -> Result<Modes, Error> {
     check_length("paired modes", pairing.analysis_mode.len(), test.len())?;
     let mut turned = modes.clone();
-    for group in together.iter().filter(|group| group.len() > 1) {
-        let members: Vec<usize> = group.iter().map(|&j| pairing.analysis_mode[j]).collect();
+    for group in together {
+        let roots = &modes.omega_squared;
+        let members = group.first().map(|&j| members(roots, pairing, together, j));
+        let members = members.unwrap_or_default();
+        if members.len() < 2 {
+            continue;
+        }
         let own = modes.shapes.select_columns(&members);
         let mut wanted = DMatrix::zeros(members.len(), members.len());
         for (place, &j) in group.iter().enumerate() {

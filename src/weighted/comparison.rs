@@ -294,7 +294,7 @@ impl Comparison {
             !members.contains(&r) && apart > SMALLEST_SEPARATION && apart <= SEPARATION
         };
         (0..self.model.test.len()).any(|j| {
-            let members = members(pairing, &self.test.together, j);
+            let members = members(roots, pairing, &self.test.together, j);
             members
                 .iter()
                 .any(|&i| (0..modes.len()).any(|r| meets(i, r, &members)))

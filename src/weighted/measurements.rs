@@ -8,7 +8,6 @@ use crate::method::error::Error;
 use crate::method::sorting::Pairing;
 use crate::sparse::{ModeWeight, gram};
 use nalgebra::DMatrix;
-use std::iter::repeat;
 
 /// Deviations of the logarithms of the factors by independent tests with their weights, and prior deviations.
 ///
@@ -60,11 +59,16 @@ impl Comparison {
     }
 
     /// This comparison with one more sensor, which reads this of the basis (1 × N) and what the model says of the test; `beyond` is what
-    /// modes beyond the basis add there to the slopes that are known, of modes in ascending order, nothing if it is empty.
+    /// modes beyond the basis add there to the slopes that are known, of modes in ascending order.
     pub(crate) fn with_sensor(&self, basis: DMatrix<f64>, beyond: Vec<DMatrix<f64>>) -> Self {
         let exact = &self.model.exact;
         let reading = |_, j| {
-            let members = members(&exact.pairing, &self.test.together, j);
+            let members = members(
+                &exact.modes.omega_squared,
+                &exact.pairing,
+                &self.test.together,
+                j,
+            );
             let shares = compared(&self.model.basis, self, &members, j).1.shares;
             (basis.select_columns(&members) * shares)[0] * self.largest(j)
         };
@@ -73,11 +77,7 @@ impl Comparison {
             basis.columns(0, exact.modes.len()).into_owned(),
             reading.map(|_| 1.0),
         );
-        let nothing = repeat(DMatrix::zeros(1, self.model.shares.len()));
-        let rows = [basis, modes, reading, ones]
-            .into_iter()
-            .chain(beyond)
-            .chain(nothing);
+        let rows = [basis, modes, reading, ones].into_iter().chain(beyond);
         let (mut own, last) = (self.clone(), self.model.basis.nrows());
         for (matrix, row) in own.by_sensors().zip(rows) {
             *matrix = std::mem::take(matrix).insert_row(last, 0.0);

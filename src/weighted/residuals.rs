@@ -60,7 +60,8 @@ pub(crate) fn residuals_of(
     weights: &[ModeWeight],
 ) -> DVector<f64> {
     let residuals = correlated(modes, pairing, comparison, weights);
-    match Whitening::of((&modes.shapes, pairing), comparison) {
+    let roots = &modes.omega_squared;
+    match Whitening::of((&modes.shapes, roots, pairing), comparison) {
         Some(of) => of.independent(&residuals).column(0).into_owned(),
         None => residuals.column(0).into_owned(),
     }
@@ -79,7 +80,7 @@ fn correlated(
     for (j, &i) in pairing.analysis_mode.iter().enumerate() {
         residuals[rows * j] =
             weights[j].frequency * ((modes.omega_squared[i] / test.omega_squared[j]).sqrt() - 1.0);
-        let members = members(pairing, together, j);
+        let members = members(&modes.omega_squared, pairing, together, j);
         let apart = compared(&modes.shapes, comparison, &members, j).1.apart;
         residuals
             .rows_mut(rows * j + 1, rows - 1)
@@ -105,13 +106,13 @@ struct Whitening<'a> {
 impl<'a> Whitening<'a> {
     /// None where residuals are independent as they are.
     fn of(
-        (shapes, pairing): (&DMatrix<f64>, &Pairing),
+        (shapes, roots, pairing): (&DMatrix<f64>, &DVector<f64>, &Pairing),
         comparison: &'a Comparison,
     ) -> Option<Self> {
         let factor = comparison.test.covariance.as_ref()?;
         let (rows, mut all) = (1 + shapes.nrows(), DMatrix::zeros(factor.nrows(), 0));
         for j in 0..comparison.model.test.len() {
-            let members = members(pairing, &comparison.test.together, j);
+            let members = members(roots, pairing, &comparison.test.together, j);
             let (shapes, _) = compared(shapes, comparison, &members, j);
             let first = all.ncols();
             all = all.resize_horizontally(first + members.len(), 0.0);
@@ -187,19 +188,17 @@ pub fn jacobian(comparison: &Comparison, weights: &[ModeWeight]) -> Result<DMatr
     check_weights(weights, test.len() + lone.len())?;
     let slopes = Slopes::new(model);
     let (rows, count) = (1 + test.shapes.nrows(), model.shares.len());
-    let whitening = Whitening::of((&model.basis, pairing), comparison);
+    let roots = &modes.omega_squared;
+    let whitening = Whitening::of((&model.basis, roots, pairing), comparison);
     let excess = whitening
         .as_ref()
         .map(|of| of.excess(&correlated(modes, pairing, comparison, weights)));
-    let partners = comparison.partners();
-    let couplings: HashMap<_, _> = partners
-        .iter()
-        .copied()
-        .zip(model.couplings(&partners))
-        .collect();
+    let mut all = model.compared();
+    all.extend(lone.iter().map(|lone| lone.partner));
+    let couplings: HashMap<_, _> = all.iter().copied().zip(model.couplings(&all)).collect();
     let (mut jacobian, mut column) = (DMatrix::zeros(rows * test.len() + lone.len(), count), 0..);
     for (j, of) in weights.iter().enumerate().take(test.len()) {
-        let members = members(pairing, together, j);
+        let members = members(roots, pairing, together, j);
         let (v, nearest) = compared(&model.basis, comparison, &members, j);
         let Nearest {
             inverse,

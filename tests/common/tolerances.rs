@@ -324,5 +324,7 @@ pub const DRAWN_THOUSANDTHS: f64 = 0.125 * 0.5e-3 + 7.0 * 0.5e-4 + 1e-9;
 /// Deviations of factors that are told of another test, relative to those of that test: slopes err by a millionth, and where parameters
 /// are hard to tell apart a deviation magnifies it some ten times.
 pub const MEASURED_NEXT: f64 = 1e-5;
+/// The same of a further mode, whose slopes err by a thousandth of what the modes left out add.
+pub const FURTHER_MODE: f64 = 1e-4;
 /// A number of three digits in percent, such as 4.18.
 pub const THREE_DIGITS: f64 = 0.005;

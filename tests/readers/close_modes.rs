@@ -139,3 +139,48 @@ fn modes_that_model_and_test_tell_apart_are_compared_alone() {
     let factors = &result.found.factors;
     assert!((factors[1] / factors[0] - 1.2).abs() < 1e-3, "{factors:?}");
 }
+
+/// A ring of six masses has two shapes at each of two roots, and its parameters leave it a ring: a test that has one of the two may have
+/// any of their combinations.
+#[test]
+fn one_mode_of_a_double_root_is_compared_with_the_whole_of_it() {
+    let ring = DMatrix::from_fn(6, 6, |a, b| match (a + 6 - b) % 6 {
+        0 => 6e4,
+        1 | 5 => -3e4,
+        _ => 0.0,
+    });
+    let (parts, mass) = (
+        [ring, 1e4 * DMatrix::identity(6, 6)],
+        DMatrix::identity(6, 6),
+    );
+    let truth = [1.12, 0.9];
+    let all = solve(&(truth[0] * &parts[0] + truth[1] * &parts[1]), &mass, 6).unwrap();
+    for angle in [0.3_f64, 1.0, 2.2] {
+        let mix = |first: usize| {
+            let both = all.shapes().columns(first, 2);
+            both * dvector![angle.cos(), angle.sin()]
+        };
+        let shapes = DMatrix::from_columns(&[all.shapes().column(0).into_owned(), mix(1), mix(3)]);
+        let squares = all.omega_squared();
+        let test = Modes::new(dvector![squares[0], squares[1], squares[3]], shapes).unwrap();
+        let (loaded, result) = corrected(&of_matrices(&parts, &mass, &test));
+        assert!(!result.trust.has_doubt(), "{:?}", result.trust);
+        // What is left is the pull of the prior.
+        assert!(
+            result.misfit.chi_squared < 1e-3,
+            "{}",
+            result.misfit.chi_squared
+        );
+        let report = Report::from_job(&loaded, Some(&result)).unwrap();
+        let (shown, agreement) = (
+            report.corrected(),
+            report.agreement(report.corrected()).unwrap(),
+        );
+        for (mode, &partner) in shown.pairing.analysis_mode.iter().enumerate() {
+            assert!(agreement.assurance[(partner, mode)] > 1.0 - 1e-9);
+        }
+        for (factor, truth) in result.found.factors.iter().zip(truth) {
+            assert!((factor / truth - 1.0).abs() < 1e-3, "{factor} {truth}");
+        }
+    }
+}

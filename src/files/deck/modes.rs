@@ -7,8 +7,7 @@ use crate::method::appendix_a::{ElementMatrix, element_matrices};
 use crate::method::error::Error;
 use crate::method::linear_algebra::symmetric_eigen;
 use crate::method::structure::{DIRECTIONS, StructuralDof, Structure};
-use crate::sparse::SparseMatrix;
-use crate::sparse::elements::{largest_entry, stiffness_entries, support};
+use crate::sparse::elements::{largest_entry, stiffness_of, support};
 use crate::sparse::whole_modes::{MassDof, WholeModes, whole_modes};
 use nalgebra::RowDVector;
 
@@ -31,9 +30,7 @@ pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
     check_stiffness(&structure, &elements)?;
     let at = model.mass_dof(&structure)?;
     let (sizes, free) = (model.sizes(), structure.free_dof());
-    let entries = elements.iter().zip(&sizes);
-    let entries = entries.flat_map(|(element, &size)| stiffness_entries(element, size));
-    let stiffness = SparseMatrix::new("stiffness", free.len(), free.len(), entries.collect())?;
+    let stiffness = stiffness_of(free.len(), elements.iter().zip(sizes))?;
     let support = support(&structure, &elements)?;
     let mut found = whole_modes(&stiffness, at, most, &support, |row| row_name(row, free))
         .map_err(|error| match error {

@@ -22,7 +22,7 @@ use crate::method::error::Error;
 use crate::method::modes::Modes;
 use crate::sparse::{ParameterMatrix, parts_of, solve_lower};
 use crate::weighted::noise::Noise;
-use nalgebra::{Cholesky, DMatrix, DVector, DVectorView, Dyn, RowDVector};
+use nalgebra::{Cholesky, DMatrix, DVector, DVectorView, RowDVector};
 use std::rc::Rc;
 
 /// Least standard deviations of a reading, over the largest of its mode, and of a frequency: what first order and parameters leave out is
@@ -64,8 +64,8 @@ struct Likelihood {
     shapes: DMatrix<f64>,
     /// $W^{-1}$ of every mode.
     priors: Rc<Vec<DMatrix<f64>>>,
-    /// $G_i^{-1} = L L^t$ of every mode i, and the column i of $L^{-1}$.
-    ridges: Vec<(Cholesky<f64, Dyn>, DVector<f64>)>,
+    /// $L^{-1}$ (n × n) of every mode i, one below the other, with $G_i^{-1} = L L^t$.
+    halves: DMatrix<f64>,
     /// The root of the mean square of the test modes' deviations, and with it the noise of a reading by mode of the model.
     common: f64,
     noise: Vec<f64>,
@@ -134,7 +134,7 @@ impl Likelihood {
         Self {
             shapes: DMatrix::zeros(0, 0),
             priors: Rc::new(priors),
-            ridges: Vec::new(),
+            halves: DMatrix::zeros(0, 0),
             common,
             noise: Vec::new(),
             times: deviations.iter().map(|own| own / common).collect(),
@@ -145,19 +145,20 @@ impl Likelihood {
 
     /// The same with other readings of the model's modes, or fewer.
     fn with(&self, shapes: DMatrix<f64>) -> Option<Self> {
-        let gram = shapes.tr_mul(&shapes);
+        let (gram, count) = (shapes.transpose() * &shapes, shapes.ncols());
         let noise = shapes.column_iter().map(|own| self.common * own.amax());
         let noise: Vec<f64> = noise.collect();
-        let ridge = |(mode, prior): (usize, &DMatrix<f64>)| {
+        let (unit, mut halves) = (
+            DMatrix::identity(count, count),
+            DMatrix::zeros(count * count, count),
+        );
+        for (mode, prior) in self.priors.iter().enumerate() {
             let ridge = Cholesky::new(&gram + noise[mode].powi(2) * prior)?;
-            let mut own = DMatrix::zeros(gram.nrows(), 1);
-            own[mode] = 1.0;
-            let own = solve_lower(ridge.l_dirty(), own).column(0).into_owned();
-            Some((ridge, own))
-        };
-        let priors = self.priors.iter().enumerate();
+            let half = solve_lower(ridge.l_dirty(), unit.clone());
+            halves.rows_mut(mode * count, count).copy_from(&half);
+        }
         Some(Self {
-            ridges: priors.map(ridge).collect::<Option<_>>()?,
+            halves,
             shapes,
             priors: Rc::clone(&self.priors),
             common: self.common,
@@ -170,18 +171,19 @@ impl Likelihood {
     /// The negative logarithm of the likelihood of every test mode (columns), if it came from each mode (rows), and the part $q_i$ of
     /// that mode. That of its shape is Student's, whose tails leave room for more noise and for modes that the model does not have.
     fn of_shapes(&self, test: &DMatrix<f64>) -> [DMatrix<f64>; 2] {
-        let (products, freedom) = (self.shapes.tr_mul(test), test.nrows().max(2) as f64 - 1.0);
+        let (count, freedom) = (self.noise.len(), test.nrows().max(2) as f64 - 1.0);
+        // xᵗ V G Vᵗ x is the square of L⁻¹ Vᵗ x, and q_i its product with the column i of L⁻¹.
+        let halves = &self.halves * (self.shapes.transpose() * test);
         let squares: Vec<f64> = test
             .column_iter()
             .map(|shape| shape.norm_squared())
             .collect();
-        let [mut costs, mut parts] =
-            [(); 2].map(|()| DMatrix::zeros(self.noise.len(), test.ncols()));
-        for (mode, (ridge, own)) in self.ridges.iter().enumerate() {
-            // xᵗ V G Vᵗ x is the square of L⁻¹ Vᵗ x, and q_i its product with the column i of L⁻¹.
-            let halves = solve_lower(ridge.l_dirty(), products.clone());
+        let [mut costs, mut parts] = [(); 2].map(|()| DMatrix::zeros(count, test.ncols()));
+        for mode in 0..count {
+            let (first, own) = (mode * count, self.halves.column(mode));
             for (shape, half) in halves.column_iter().enumerate() {
-                let part = own.dot(&half);
+                let half = half.rows(first, count);
+                let part = own.rows(first, count).dot(&half);
                 let left = (squares[shape] - half.norm_squared()).max(0.0);
                 // ρ σ² q² at the noise σ q: the logarithms of 1 + ρ/(d - 1) and of σ q are one.
                 let noise = self.times[shape] * self.noise[mode] * part;
@@ -196,10 +198,10 @@ impl Likelihood {
 
     /// The readings expected of another sensor, which sees the modes by a row of their shapes: those of the most likely mode.
     fn expected(&self, test: &DMatrix<f64>, row: &RowDVector<f64>) -> Vec<f64> {
-        let [costs, _] = self.of_shapes(test);
+        let ([costs, _], count) = (self.of_shapes(test), self.noise.len());
         let of_shape = |(shape, costs): (DVectorView<f64>, DVectorView<f64>)| {
-            let (ridge, _) = &self.ridges[costs.imin()];
-            (row * ridge.solve(&self.shapes.tr_mul(&shape)))[0]
+            let half = self.halves.rows(costs.imin() * count, count);
+            (half * row.transpose()).dot(&(half * self.shapes.tr_mul(&shape)))
         };
         test.column_iter()
             .zip(costs.column_iter())
