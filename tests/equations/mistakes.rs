@@ -2,7 +2,7 @@
 //! mistake. `CORFEM_WRITE=1 cargo test` writes it anew.
 
 use super::formula::{Letter, Refused};
-use super::vectors::{flat, vectors};
+use super::vectors::{flat, is_near, vectors};
 use super::world::{World, clauses};
 use super::{EQUATIONS, LETTERS, text, wrong_forms};
 use crate::prelude::*;
@@ -72,14 +72,7 @@ fn wrong_answers() -> Vec<Value> {
                 ] {
                     let key = format!("{}{end}", answer[2]);
                     let right = vector["answer"].get(&key).map(flat).unwrap_or_default();
-                    let largest = right
-                        .iter()
-                        .fold(0.0, |largest: f64, x| largest.max(x.abs()));
-                    let is_near = right
-                        .iter()
-                        .zip(&part)
-                        .all(|(x, y)| (x - y).abs() <= WRONG_ANSWER * largest);
-                    if right.len() == part.len() && !is_near {
+                    if right.len() == part.len() && !is_near(&part, &right, WRONG_ANSWER) {
                         found.push(json!({ "vector": world.vector, "key": key, "equation": number, "what": what, "answer": digits(&part) }));
                     }
                 }
@@ -101,12 +94,8 @@ fn wrong_answers_name_the_mistake() {
     let old: Vec<Value> = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
     assert_eq!(old.len(), found.len());
     for (old, new) in old.iter().zip(&found) {
-        let (before, now) = (flat(&old["answer"]), flat(&new["answer"]));
-        let largest = now.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
-        let is_same = before
-            .iter()
-            .zip(&now)
-            .all(|(x, y)| (x - y).abs() <= WRONG_ANSWER * largest);
+        let [before, now] = [old, new].map(|entry| flat(&entry["answer"]));
+        let is_same = is_near(&before, &now, WRONG_ANSWER);
         assert!(
             is_same && old["what"] == new["what"] && old["key"] == new["key"],
             "{old}\n{new}"

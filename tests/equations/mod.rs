@@ -9,6 +9,7 @@
 )]
 
 mod formula;
+mod keys;
 mod mistakes;
 mod vectors;
 mod world;

@@ -15,6 +15,7 @@ pub mod package;
 pub mod prose;
 pub mod readme;
 pub mod rooms;
+pub mod scripts;
 pub mod routes;
 pub mod specification;
 pub mod suite;

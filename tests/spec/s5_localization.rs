@@ -31,7 +31,7 @@ fn the_first_ranking_is_by_what_the_first_iteration_asks_for() {
         assert!(
             suspects
                 .windows(2)
-                .all(|pair| pair[0].evidence >= pair[1].evidence)
+                .all(|pair| pair[0].evidence as f32 >= pair[1].evidence as f32)
         );
         let mut all = suspects
             .iter()

@@ -100,7 +100,7 @@ fn a_single_error_is_undone_by_its_own_factor() {
         assert!(
             suspects
                 .windows(2)
-                .all(|pair| pair[0].evidence >= pair[1].evidence)
+                .all(|pair| pair[0].evidence as f32 >= pair[1].evidence as f32)
         );
     }
 }
