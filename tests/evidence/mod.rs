@@ -2,6 +2,7 @@
 //! Nothing here runs a user's structure.
 
 pub mod appendices_expected;
+pub mod certified;
 pub mod claims;
 pub mod enclosed;
 pub mod next_step;
