@@ -2,66 +2,8 @@
 
 #![cfg(unix)]
 
-use crate::common::fake_solver::{fake, solver};
-use crate::common::outer_loop::program::HEADING;
-use crate::common::outer_loop::read_cases;
 use crate::prelude::*;
 use crate::readers::nastran95_analysis::disordered;
-
-#[test]
-fn the_deck_of_an_analysis_has_every_element_twice() {
-    let model = disordered();
-    let home = fake("cat > \"$RFDIR/deck\"");
-    let error = solver(&home)
-        .elements(&model, &[2.0, 1.0])
-        .expect_err("no answer");
-    assert!(error.to_string().contains("nothing was written"), "{error}");
-    let text = fs::read_to_string(home.path().join("rf/deck")).unwrap();
-    for line in [
-        "INSERT READ,-1 $",
-        "OUTPUT5 KGG,KAA,MAA,,//-1/15/*CORFEM*/1 $",
-        "EXIT $",
-        "ENDALTER",
-        "DIAG    44",
-    ] {
-        assert!(text.lines().any(|found| found == line), "{line}");
-    }
-    let read = corfem::files::deck::read("deck", text.as_bytes(), &[])
-        .unwrap()
-        .model;
-    // Five grids and two dynamic points, then a grid for every corner, after all of them and held.
-    let labels = read.grids.iter().map(|grid| grid.label).collect_vec();
-    assert_eq!(labels[..7], [1, 3, 5, 7, 9, 101, 102]);
-    assert_eq!(labels[7..], (201..=213).collect_vec());
-    assert!(
-        read.grids[7..]
-            .iter()
-            .all(|grid| grid.constrained == [true; 3])
-    );
-    let labels = read
-        .elements
-        .iter()
-        .map(|element| element.label)
-        .collect_vec();
-    assert_eq!(labels, [2, 4, 6, 8, 12, 40, 201, 202, 203, 204, 205, 206]);
-    assert_eq!(read.elements[5].size, 0.2);
-    let position = |label: usize| {
-        read.grids
-            .iter()
-            .find(|grid| grid.label == label)
-            .map(|grid| grid.position)
-    };
-    let mut next = 201..;
-    for (one, other) in read.elements[..6].iter().zip(&read.elements[6..]) {
-        assert_eq!((one.kind, one.size), (other.kind, other.size));
-        assert_eq!(one.material, other.material);
-        for (&a, &b) in one.grids.iter().zip(&other.grids) {
-            assert_eq!(Some(b), next.next());
-            assert!(position(a).is_some() && position(a) == position(b));
-        }
-    }
-    assert_eq!(read.masses.len(), 2);
-}
 
 #[test]
 fn a_deck_holds_point_masses_alone() {
@@ -191,33 +133,5 @@ fn a_case_runs_with_the_analysis_it_is_given() {
     }
     for (a, b) in own.pass_gages[1].iter().zip(&other.pass_gages[1]) {
         assert_relative_eq!(a, b, max_relative = GOLDEN_RELATIVE);
-    }
-}
-
-/// With the crate's own elements it prints, as the golden has it, what the crate finds.
-#[test]
-fn a_history_reads_as_the_golden_does() {
-    let golden = include_str!("../../golden/nastran95/outer_loop.toml");
-    assert!(golden.starts_with(&format!("{HEADING}\n[[case]]\nnumber = 1\n")));
-    for number in [2, 4] {
-        let case = case_of(number);
-        let own = run_case(&case, |_, _| ()).unwrap();
-        let run = correlate_case(&case, |model, _| Ok(model.clone())).unwrap();
-        let [read] = &read_cases(&run.toml().unwrap())[..] else {
-            panic!("case {number}: not one case")
-        };
-        assert_eq!(read.number, number);
-        assert_eq!(read.test_frequencies_hz, own.test.frequencies_hz());
-        assert_eq!(read.initial.gages_in, case.first_gages());
-        assert_eq!(read.passes.len(), own.correlation.passes.len());
-        let gages = read.passes.iter().map(|pass| &pass.gages_in);
-        assert!(gages.eq(&own.pass_gages), "case {number}");
-        for (pass, expected) in read.passes.iter().zip(&own.correlation.passes) {
-            let errors = &expected.check.errors;
-            assert_eq!(pass.iterations, Some(expected.inner.iterations.len()));
-            assert_eq!(pass.frequencies_hz, paired_hz(&expected.check));
-            assert_eq!(pass.frequency_rms, errors.frequency_rms());
-            assert_eq!(pass.shape_rms, errors.shape_rms());
-        }
     }
 }

@@ -85,10 +85,7 @@ fn only_three_panels_of_the_box_are_snapped() {
             } else {
                 PRINTED_SNAP_FACTOR
             };
-            assert!(
-                (factor - printed).abs() <= digits,
-                "panel {panel}: {factor}"
-            );
+            assert_within(factor, printed, digits);
         }
     }
 }
@@ -98,7 +95,7 @@ fn only_three_panels_of_the_box_are_snapped() {
 #[test]
 fn stored_frequencies_are_the_crates_at_the_same_gages() {
     for stored in stored() {
-        let case = Case::new(stored.number).unwrap();
+        let case = case_of(stored.number);
         let factors = snap_factors(&case);
         let at = |gages: &[f64]| {
             let gages = gages
@@ -136,14 +133,14 @@ fn stored_frequencies_are_the_crates_at_the_same_gages() {
 #[test]
 fn stored_correlations_are_the_crates() {
     for stored in stored() {
-        let case = Case::new(stored.number).unwrap();
+        let case = case_of(stored.number);
         let own = run_case(&case, |_, _| ()).unwrap();
         let gage = match stored.number {
             1 => NASTRAN_GAGE_CASE_1,
             _ => NASTRAN_GAGE,
         };
         let name = format!("case {}", stored.number);
-        let near = |a: f64, b: f64| assert!((a - b).abs() <= gage * b, "{name}: {a}, expected {b}");
+        let near = |a: f64, b: f64| assert_within(a, b, gage * b);
         near(
             stored.initial.frequency_rms,
             own.correlation.initial.errors.frequency_rms(),

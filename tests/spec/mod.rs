@@ -24,7 +24,6 @@ pub mod s00_two_programs;
 pub mod s01_any_size;
 pub mod s1_eq_01_flexibility;
 pub mod s1_eq_03_modes;
-pub mod s1_eq_03_supports;
 pub mod s1_eq_04_pairing;
 pub mod s1_eq_05_printed_error;
 pub mod s1_eq_05_to_06_error_sum;

@@ -140,10 +140,7 @@ fn deviations_told_are_those_of_a_job_with_that_sensor_or_mode() {
 fn assert_close(told: &[f64], right: &[f64], what: &str) {
     assert_eq!(told.len(), right.len(), "{what}");
     for (told, right) in told.iter().zip(right) {
-        assert!(
-            (told / right - 1.0).abs() < MEASURED_NEXT,
-            "{what}: {told} {right}"
-        );
+        assert_alike([told], [right], MEASURED_NEXT);
     }
 }
 
@@ -183,10 +180,7 @@ fn star() -> Files {
         + spring(5, Some(0), 3e4)
         + spring(6, Some(5), 2e4);
     let other = spring(1, Some(0), 5e4) + spring(2, Some(1), 4e4);
-    let (parts, mass) = (
-        [spring(0, None, 1e5), other, alike],
-        DMatrix::identity(7, 7),
-    );
+    let (parts, mass) = ([spring(0, None, 1e5), other, alike], eye(7));
     let all = solve(&parts.iter().sum(), &mass, 7).unwrap();
     let is_seen =
         |mode: &usize| (all.shapes()[(4, *mode)] - all.shapes()[(6, *mode)]).abs() < ROUND_OFF;

@@ -1,9 +1,8 @@
 //! How often 95 % intervals hold the truth, and how often a culprit is found.
 
 use crate::evidence::coverage::{ENOUGH, SEEDS, SEEN, all_coverages, coverage_tables};
-use crate::evidence::localization::{self, NOISE, localization, localization_tables};
+use crate::evidence::localization::{self, localization, localization_tables};
 use crate::prelude::*;
-use crate::spec::s5_weighted::at;
 
 /// Seeds of the tests that every run makes.
 const FEW: RangeInclusive<u64> = 1..=4;
@@ -45,18 +44,14 @@ fn intervals_hold_the_truth_in_93_to_97_of_100_tests() {
     for of in &all {
         let (name, tests) = (&of.name, of.tests as f64);
         let (held, least) = (of.overall().unwrap(), of.least().unwrap());
-        assert!((held - 0.95).abs() < COVERAGE, "{name}: {held}");
+        assert_within(held, 0.95, COVERAGE);
         let asked = if name == "Case 3" {
             LEAST_COVER
         } else {
             LEAST_PARAMETER_COVERAGE
         };
         assert!(least >= asked, "{name}: {least}");
-        assert!(
-            (of.misfit() - 1.0).abs() < MEAN_MISFIT,
-            "{name}: {}",
-            of.misfit()
-        );
+        assert_within(of.misfit(), 1.0, MEAN_MISFIT);
         assert!(
             of.explained as f64 >= 0.95 * tests,
             "{name}: {}",
@@ -69,58 +64,6 @@ fn intervals_hold_the_truth_in_93_to_97_of_100_tests() {
             of.flagged
         );
     }
-}
-
-#[test]
-fn a_single_error_is_undone_by_its_own_factor() {
-    let case = case_of(4);
-    let right = case
-        .model_with(&[0.01; 15])
-        .unwrap()
-        .matrices(&[1.0; 15])
-        .unwrap();
-    let test = solve(&right.stiffness, &right.mass, 9).unwrap();
-    let weights = equal_weights(NOISE, 9);
-    for culprit in 0..15 {
-        let mut factors = [1.0; 15];
-        factors[culprit] = 0.05;
-        let model = Comparison::from(&at(&right, &factors).analyze(&test, None).unwrap());
-        let suspects = by_single_fit(&model, &weights).unwrap();
-        assert_eq!(suspects.len(), 15);
-        assert_eq!(suspects[0].parameter, culprit);
-        assert!(
-            relative_error(suspects[0].factor, 20.0) < SINGLE_FIT_FACTOR,
-            "{:?}",
-            suspects[0]
-        );
-        // All but nothing is left of the objective.
-        let start = 0.5 * residuals(&model, &weights).unwrap().norm_squared();
-        assert!(suspects[0].evidence <= start * (1.0 + MATRIX_ROUND_OFF));
-        assert!(suspects[0].evidence > (1.0 - SINGLE_FIT_FACTOR) * start);
-        assert!(
-            suspects
-                .windows(2)
-                .all(|pair| pair[0].evidence >= pair[1].evidence)
-        );
-    }
-}
-
-#[test]
-fn a_panel_too_thin_is_the_first_suspect() {
-    let located = localization(1..=1).unwrap();
-    assert_eq!(located.len(), 60);
-    assert!(
-        located
-            .iter()
-            .all(|of| of.tests == 1 && of.by_single_fit == [1, 1] && of.by_factor[1] == 1)
-    );
-    // By the paper's factor too, but for the covers of the middle bay: the rib at their outboard end stands before them.
-    let gross = located
-        .iter()
-        .filter(|of| of.ratio == localization::RATIOS[0] && of.by_factor[0] == 0);
-    let mut missed = gross.map(|of| of.panel).collect_vec();
-    missed.dedup();
-    assert_eq!(missed, [9, 11]);
 }
 
 #[test]
