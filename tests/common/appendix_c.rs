@@ -24,7 +24,7 @@ pub fn diagonal_pencil(
         left: own,
     };
     let stiffness = DMatrix::from_diagonal(&k.map(Complex::from));
-    Pencil::new(&stiffness, &modes, beta, alpha).expect("a pencil")
+    Pencil::new(&stiffness, &modes, beta, alpha).unwrap()
 }
 
 /// A function of Appendix C on generalized stiffnesses and β.
@@ -216,7 +216,7 @@ pub fn separate_change() -> impl Strategy<Value = ModalChange> {
 
 /// A chain of three masses: springs to the ground, and between masses 1-2, 2-3 and 1-3.
 pub fn three_mass_chain(ground: [f64; 3], between: [f64; 3]) -> DMatrix<f64> {
-    let mut stiffness = DMatrix::from_diagonal(&DVector::from_row_slice(&ground));
+    let mut stiffness = diagonal(ground);
     for ((i, j), spring) in [(0, 1), (1, 2), (0, 2)].into_iter().zip(between) {
         stiffness[(i, i)] += spring;
         stiffness[(j, j)] += spring;

@@ -5,7 +5,7 @@ use proptest::test_runner::{RngAlgorithm, RngSeed};
 
 /// The problem of a case's first pass: its first gages, its test modes, all nine analysis modes.
 pub fn first_problem(number: usize) -> Model {
-    let case = Case::new(number).expect("a case of the paper");
+    let case = case_of(number);
     problem_of(&case)
 }
 
@@ -20,7 +20,7 @@ pub fn problem_of(case: &Case) -> Model {
 /// 0.010 in, as Case 3's are.
 pub fn uneven_box() -> impl Strategy<Value = Case> {
     prop::collection::vec(0.008..0.013_f64, PANEL_COUNT).prop_map(|gages| {
-        let mut case = Case::new(2).expect("a case of the paper");
+        let mut case = case_of(2);
         for (panel, gage) in case.panels.iter_mut().zip(gages) {
             panel.gage = gage;
         }

@@ -45,14 +45,14 @@ fn one(element: &str) -> Written {
     let em = attribute(tag, "font-size") / UNITS;
     let (x, y) = (attribute(tag, "x") / UNITS, attribute(tag, "y") / UNITS);
     let width = 0.6 * em * text.chars().count() as f64;
-    let before = match word(tag, "text-anchor") {
+    let before = match value(tag, "text-anchor") {
         "start" => 0.0,
         "middle" => 0.5 * width,
         _ => width,
     };
     // From its base line a digit or capital rises 0.72 em.
     let base = em
-        * match word(tag, "dy") {
+        * match value(tag, "dy") {
             "0.76em" => 0.76,
             "0.5ex" => 0.26,
             _ => -0.26,
@@ -66,7 +66,8 @@ fn one(element: &str) -> Written {
     Written { text, bounds, em }
 }
 
-fn word<'a>(tag: &'a str, name: &str) -> &'a str {
+/// The value of an attribute of a tag.
+pub fn value<'a>(tag: &'a str, name: &str) -> &'a str {
     let start = format!(" {name}=\"");
     let at = match tag.find(&start) {
         Some(at) => at + start.len(),
@@ -79,5 +80,27 @@ fn word<'a>(tag: &'a str, name: &str) -> &'a str {
 
 /// A number that a tag has by name.
 pub fn attribute(tag: &str, name: &str) -> f64 {
-    word(tag, name).parse().unwrap()
+    value(tag, name).parse().unwrap()
+}
+
+/// Red, green and blue of a color such as `#0072B2` or `#fff`.
+pub fn color(digits: &str) -> [f64; 3] {
+    let digits = digits.trim_start_matches('#');
+    let long = match digits.len() {
+        3 => digits.chars().flat_map(|digit| [digit; 2]).collect(),
+        _ => digits.to_owned(),
+    };
+    [0, 2, 4].map(|at| u8::from_str_radix(&long[at..at + 2], 16).unwrap().into())
+}
+
+/// Contrast of two colors, by their relative luminance (WCAG 2.2).
+pub fn contrast(one: [f64; 3], other: [f64; 3]) -> f64 {
+    let [one, other] = [one, other].map(|color| {
+        let linear = color.map(|part| match part / 255.0 {
+            part if part <= 0.04045 => part / 12.92,
+            part => ((part + 0.055) / 1.055).powf(2.4),
+        });
+        0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2] + 0.05
+    });
+    one.max(other) / one.min(other)
 }

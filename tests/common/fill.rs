@@ -40,15 +40,14 @@ pub fn of_order(order: &[usize], elements: &[ElementMatrix]) -> Fill {
         .map(|(row, column)| Triplet::new(row, column, 1.0))
         .collect();
     let upper = SparseColMat::<usize, f64>::try_new_from_triplets(count, count, &entries);
-    let upper = upper.expect("a matrix");
+    let upper = upper.unwrap();
     let symbolic = |threshold| {
         let parameters = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: threshold,
             ..CholeskySymbolicParams::default()
         };
         let identity = SymmetricOrdering::Identity;
-        factorize_symbolic_cholesky(upper.symbolic(), Side::Upper, identity, parameters)
-            .expect("a factor")
+        factorize_symbolic_cholesky(upper.symbolic(), Side::Upper, identity, parameters).unwrap()
     };
     let needed = symbolic(SupernodalThreshold::FORCE_SIMPLICIAL).len_val();
     let symbolic = symbolic(SupernodalThreshold::FORCE_SUPERNODAL);

@@ -59,7 +59,7 @@ fn chain(draws: &mut Draws, is_held: bool) -> Drawn {
     let count = 5 + draws.below(40);
     let place = |at: usize| (Vector3::new(at as f64, 0.0, 0.0), 0);
     let mut all = nothing((0..count).map(place).collect(), 1);
-    let spring = DMatrix::from_row_slice(2, 2, &[1.0, -1.0, -1.0, 1.0]);
+    let spring = dmatrix![1.0, -1.0; -1.0, 1.0];
     for at in 0..count {
         all.mass[(at, at)] = draws.between(1.0, 5.0);
         if at > 0 {
@@ -144,11 +144,11 @@ fn frame(draws: &mut Draws, is_held: bool) -> Drawn {
         let length = along.norm();
         let (c, s) = (along.x / length, along.y / length);
         let mut own = zero_square(6);
-        let bar = DMatrix::from_row_slice(2, 2, &[1.0, -1.0, -1.0, 1.0]);
+        let bar = dmatrix![1.0, -1.0; -1.0, 1.0];
         add(&mut own, &[0, 3], &(stretched * unit / length * bar));
         let size = bent * unit * unit * draws.between(0.5, 2.0);
         add(&mut own, &[1, 2, 4, 5], &(size * bending(length)));
-        let turn = DMatrix::from_row_slice(3, 3, &[c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0]);
+        let turn = dmatrix![c, s, 0.0; -s, c, 0.0; 0.0, 0.0, 1.0];
         let mut turns = zero_square(6);
         add(&mut turns, &[0, 1, 2], &turn);
         add(&mut turns, &[3, 4, 5], &turn);

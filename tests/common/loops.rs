@@ -17,7 +17,7 @@ pub fn chain_problem(chain: &Chain, truth: &[f64]) -> Model {
     chain
         .model(&vec![1.0; count])
         .analyze(&chain.modes(truth), Some(count))
-        .expect("a chain is a problem")
+        .unwrap()
 }
 
 /// Everything an inner loop is given.
@@ -139,7 +139,7 @@ pub fn correlate_chain(chain: &Chain, truth: &[f64], settings: &Settings) -> Cor
         settings,
         |_, _| true,
     )
-    .expect("a chain can be correlated")
+    .unwrap()
 }
 
 /// Settings of the inner loop for so many test modes, where `inner` is for the paper's nine.

@@ -19,7 +19,7 @@ impl FreeStructure {
     /// The same structure on springs to ground at every DOF, `rates` times its mass there (rad²/s²). No suspension mode
     /// lies above the largest rate, by Rayleigh's quotient.
     pub fn suspended(&self, rates: &[f64]) -> DMatrix<f64> {
-        let rates = DMatrix::from_diagonal(&DVector::from_column_slice(rates));
+        let rates = diagonal(rates);
         &self.stiffness + rates * &self.mass
     }
 
@@ -78,7 +78,7 @@ pub fn free_beam() -> impl Strategy<Value = FreeStructure> {
                     .collect();
                 FreeStructure {
                     stiffness,
-                    mass: DMatrix::from_diagonal(&DVector::from_vec(masses)),
+                    mass: diagonal(masses),
                     dofs,
                 }
             })
@@ -212,10 +212,7 @@ pub fn held_chain(size: usize) -> impl Strategy<Value = (DMatrix<f64>, DMatrix<f
                     stiffness[(end - 1, end)] -= spring;
                 }
             }
-            (
-                stiffness,
-                DMatrix::from_diagonal(&DVector::from_vec(masses)),
-            )
+            (stiffness, diagonal(masses))
         })
 }
 

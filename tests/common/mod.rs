@@ -176,3 +176,35 @@ pub fn assert_alike(
         );
     }
 }
+
+/// Asserts that a number is the expected one but for so much.
+#[track_caller]
+pub fn assert_within(found: impl Borrow<f64>, expected: impl Borrow<f64>, allowed: f64) {
+    let (found, expected) = (found.borrow(), expected.borrow());
+    assert!(
+        (found - expected).abs() <= allowed,
+        "{found} for {expected}"
+    );
+}
+
+/// A diagonal matrix.
+pub fn diagonal<T: ComplexField>(values: impl AsRef<[T]>) -> DMatrix<T> {
+    DMatrix::from_diagonal(&DVector::from_column_slice(values.as_ref()))
+}
+
+/// The lowest modes of a whole model alone.
+pub fn modes_alone(modes: usize) -> BasisSize {
+    BasisSize {
+        modes,
+        residual_vectors: 0,
+    }
+}
+
+/// A parameter of a whole model without bounds.
+pub fn whole_parameter(name: impl Display, share: WholeShare) -> WholeParameter {
+    WholeParameter {
+        name: name.to_string(),
+        share,
+        range: None,
+    }
+}

@@ -82,9 +82,6 @@ pub fn paired_hz(state: &State) -> Vec<f64> {
 pub fn assert_near(found: &[f64], expected: &[f64], relative: f64, what: &str) {
     assert_eq!(found.len(), expected.len(), "{what}");
     for (a, b) in found.iter().zip(expected) {
-        assert!(
-            (a - b).abs() <= relative * b.abs(),
-            "{what}: {found:?}, expected {expected:?}"
-        );
+        assert_within(a, b, relative * b.abs());
     }
 }

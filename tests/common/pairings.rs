@@ -11,16 +11,7 @@ pub struct Rearrangement {
     pub sign: Vec<f64>,
 }
 
-impl Rearrangement {
-    /// The columns of a matrix, rearranged.
-    pub fn columns(&self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut rearranged = matrix.select_columns(&self.order);
-        for (mut column, &sign) in rearranged.column_iter_mut().zip(&self.sign) {
-            column *= sign;
-        }
-        rearranged
-    }
-}
+impl Rearrangement {}
 
 /// Any order of `count` modes with any signs; shrinks towards no change.
 pub fn rearrangement(count: usize) -> impl Strategy<Value = Rearrangement> {

@@ -9,7 +9,7 @@ pub use crate::common::{
         largest_change, largest_root_error, of_stiffness, on_either_side, original, recursive_2,
         separate_change, separate_spectrum, stiffness_rules, three_mass_chain,
     },
-    assert_alike, assert_refused,
+    assert_alike, assert_refused, assert_within,
     boxes::{first_problem, other_boxes, problem_of, uneven_box},
     by_sorting, case_of, case_run,
     closed_forms::{
@@ -23,6 +23,7 @@ pub use crate::common::{
     condensed::{analyze_condensed, condensed},
     costly_config,
     decks::{bulk_data, bulk_text, read_deck},
+    diagonal,
     draws::{Draws, reached},
     eye,
     golden::{Numbers, assert_golden, assert_table},
@@ -30,8 +31,9 @@ pub use crate::common::{
     ground_tests::{ground_test, wing_test},
     in_root,
     jobs::{
-        Files, STORIES, building, finished, measured_building, new_folder, of_matrices, placed,
-        prepare, prepared, retested, rods, supposing, trust_in, with, worked,
+        Files, STORIES, building, comparing, file, finished, measured_building, new_folder,
+        of_matrices, placed, prepare, prepared, report_of, retested, rods, rods_with, supposing,
+        trust_in, with, worked,
     },
     known::{
         Known,
@@ -58,6 +60,7 @@ pub use crate::common::{
         equal_weights, free_beam, free_truss, held_chain, mixture, noise, orthonormal_modes,
         with_raw_shapes,
     },
+    modes_alone,
     nastran95::{boxes, snap_factor},
     not_definite,
     outer_loop::{
@@ -80,10 +83,10 @@ pub use crate::common::{
         pencil,
     },
     whole_models::{
-        chain_of_springs, counted_modes, free_motions, lowest_modes, masses, of_dense,
-        of_structure, seen_by, sensors_at, shear_building, sparse, springs,
+        chain_of_springs, counted_modes, free_motions, lowest_modes, masses, of_dense, seen_by,
+        sensors_at, shear_building, sparse, springs,
     },
-    zero_square,
+    whole_parameter, zero_square,
 };
 pub use approx::assert_relative_eq;
 pub use corfem::{
@@ -161,7 +164,7 @@ pub use corfem::{
         elements::{corner_volumes, lumped_masses, support},
         modal_assurance, normalize_with_mass,
         random::split_mix_64,
-        whole_modes::{MassDof, WholeModes, whole_modes},
+        whole_modes::WholeModes,
     },
     torque_box::{
         CASES, Case, CaseResult, Grouping,

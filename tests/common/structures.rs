@@ -153,32 +153,3 @@ pub fn free_motions(stiffness: &DMatrix<f64>) -> DMatrix<f64> {
         .collect_vec();
     DMatrix::from_diagonal(&scale) * eigen.eigenvectors.select_columns(&free)
 }
-
-/// Wings of any shape with up to five, four and three bays or cells; an interior angle of a panel is 30° at least.
-pub fn wings() -> impl Strategy<Value = Wing> {
-    let shape = (
-        20.0..100.0,
-        0.2..1.5_f64,
-        100.0..500.0,
-        -50.0..50.0,
-        -10.0..10.0,
-        0.05..0.3,
-    );
-    let bays = (1..=5_usize, 1..=4_usize, 1..=3_usize);
-    (shape, bays, (1..=5_usize, 1..=5_usize, 1..=5_usize)).prop_map(
-        |(
-            (chord, taper, span, sweep, twist, thickness),
-            (ribs, spars, cells),
-            (zones, on_span, on_rib),
-        )| Wing {
-            bays: [ribs, spars, cells],
-            chords: [chord, taper * chord],
-            span,
-            angles: [sweep, twist],
-            thickness,
-            zones: zones.min(ribs),
-            measured: [on_span.min(ribs), on_rib.min(spars + 1)],
-            ..Wing::default()
-        },
-    )
-}

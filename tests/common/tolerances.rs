@@ -100,16 +100,11 @@ pub const BESIDE_AN_AXIS: f64 = 1e-8;
 pub const DECK_ROOTS: f64 = 1e-4;
 /// How far the wing's sensors are from grids of its deck, in: what `distance` in its job allows.
 pub const PLACED_WITHIN: f64 = 1e-2;
-/// RMS errors of final gages, in percent: half a unit of the one decimal that the paper prints.
-pub const FINAL_GAGE_ERROR: f64 = 0.05;
 /// Complex eigensolutions of pencils of six DOF, conditions of stiffness and shapes a few hundred together.
 pub const COMPLEX_EIGEN_ROUND_OFF: f64 = 1e-10;
 /// A derivative of the error sum by a 0.1 % change and first order, beside exact differences with the same step: what is
 /// left is of second order in the change, a thousandth of a derivative of order one.
 pub const FORWARD_DIFFERENCE: f64 = 2e-3;
-/// Percent errors recomputed from frequencies printed to four digits: half a unit of the last digit of a frequency
-/// is 0.02 % of the lowest mode's, and nine of them are squared and summed.
-pub const PRINTED_PERCENT: f64 = 0.02;
 /// Slopes this near an order are that order: half way to the next one.
 pub const ORDER_HALFWAY: f64 = 0.45;
 /// Errors below this are round-off of roots near one, a few hundred units in the last place.
@@ -153,9 +148,6 @@ pub const SETTLED_ROOTS: f64 = 1e-4;
 /// Exponent of the entries of a factor by nested dissection, where cells are not powers of two and small parts are not cut: a
 /// tenth of one; row by row it would be seven tenths more.
 pub const FILL_ORDER: f64 = 0.1;
-/// Logarithmic derivatives of frequencies by fourth-order central differences of 0.2 %: eigenvalues over a range of 1e5
-/// round at 1e-11, which 1.5 over the step makes 1e-8; truncation is the step's fourth power.
-pub const CENTRAL_DIFFERENCE_FREQUENCY: f64 = 1e-7;
 /// A field of 16 characters holds ten significant digits of any number: half a unit of the tenth.
 pub const FIELD_ROUNDING: f64 = 5e-10;
 /// It holds twelve of numbers between 1e-9 and 1e9, with a sign and an exponent.
@@ -183,8 +175,6 @@ pub const RECOVERED_GAGE: f64 = 0.02;
 pub const HIDDEN_GAGE: f64 = 0.105;
 /// Share of a test mode's stiffness that counts as seen; the two groups below have 1.5 and 2.3 %, the next 3.2 %.
 pub const SEEN_SHARE: f64 = 0.03;
-/// Static condensation of the delta wing to 19 points of 86, lowest twelve modes: 5.8e-5 in the highest.
-pub const CONDENSED_WING: f64 = 6e-5;
 /// Initial shape errors, to which the box was fitted: 7.56, 0.84 and 8.92 % where 7.67, 0.83 and 8.94 % are printed; relative.
 pub const FITTED_SHAPE_ERROR: f64 = 0.02;
 /// Initial RMS frequency errors of the fitted box, in percent: 12.11, 20.63 and 5.67 where 12.76, 21.11 and 5.01 are printed.
@@ -202,8 +192,6 @@ pub const ANALOG_FREQUENCY: f64 = 0.13;
 pub const UNMEASURED_MODE: f64 = 1.25e-3;
 /// A factor where the loop stops at an error sum of 0.1 % in one frequency: stiffness is twice as far off.
 pub const STOPPED_FACTOR: f64 = 2e-3;
-/// The same at the default tolerance of 2.5 %.
-pub const STOPPED_FACTOR_BY_DEFAULT: f64 = 0.05;
 /// The first factor of one spring against its closed form: the derivative is a difference over 0.1 %.
 pub const FIRST_FACTOR: f64 = 1e-3;
 /// Areas of a chain of rods where the loop stops at an error sum of 0.2 %.
@@ -237,8 +225,6 @@ pub const LEAST_DETECTED_BOXES: usize = 65;
 pub const LEAST_FIRST_SUSPECTS: usize = 24;
 /// The same of ten jobs.
 pub const LEAST_FIRST_SUSPECTS_OF_TEN: usize = 8;
-/// Smallest singular value of dependent shapes: the root of an eigenvalue that is zero to `MATRIX_ROUND_OFF`.
-pub const DEPENDENT_SHAPES: f64 = 1e-5;
 /// How far the median ratio of frequencies of the first models is from one: 17 % in Case 2.
 pub const FIRST_FREQUENCY_RATIO: f64 = 0.2;
 /// Shapes of a subspace whose residual is 1e-10 of its root, divided by the distance of neighboring roots.
@@ -286,8 +272,6 @@ pub const OPTIMUM: f64 = 1e-3;
 pub const CONDENSED_GAGES: f64 = 2e-3;
 /// First bending of a slender wing box with posts and webs against a beam that only bends: shear makes it 0.09 % softer.
 pub const SLENDER_BEAM: f64 = 2e-3;
-/// Lowest frequencies of a wing of nine bays against one of eighteen: 0.7 % in the first, 3.8 % in the fourth.
-pub const COARSE_WING: f64 = 0.04;
 /// Steps of a correlation of dozens of them, which may be one more or less on another machine.
 pub const GOLDEN_STEPS: f64 = 0.05;
 /// The history of a case against its enclosure, times the measured condition: some roundings.

@@ -6,7 +6,7 @@ use corfem::sparse::factorization::Factor;
 
 /// One of the paper's four cases: shear or membrane covers, thick or thin rods, like gages or one far too thin.
 pub fn case() -> impl Strategy<Value = Case> {
-    (1..=4_usize).prop_map(|number| Case::new(number).expect("a case of the paper"))
+    (1..=4_usize).prop_map(case_of)
 }
 
 /// Factors within the bounds of one iteration, 0.55 to 1.50; they shrink to the lower one.

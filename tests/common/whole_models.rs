@@ -139,33 +139,3 @@ pub fn of_dense(
     let sensors = sparse(&eye(mass.nrows()))?;
     Ok((whole, sensors))
 }
-
-/// A structure at all its degrees of freedom with the masses of its elements, and a parameter for each group of these, by label.
-///
-/// # Errors
-/// What [`WholeModel::new`] refuses.
-pub fn of_structure(structure: &Structure, groups: &[Vec<usize>]) -> Result<WholeModel, Error> {
-    let elements = element_matrices(structure).collect_vec();
-    let sizes = sizes(structure);
-    let stiffness = assemble(&elements, &sizes, structure.free_dof().len())?;
-    let parameter = |labels: &Vec<usize>| {
-        let all = elements.iter().zip(&sizes);
-        let members = all.filter(|(element, _)| labels.contains(&element.label));
-        let (members, sizes): (Vec<_>, Vec<_>) = members
-            .map(|(element, size)| (element.clone(), *size))
-            .unzip();
-        let share = assemble(&members, &sizes, structure.free_dof().len())?;
-        Ok(WholeParameter {
-            name: format!("{labels:?}"),
-            share: WholeShare::Stiffness(sparse(&share)?),
-            range: None,
-        })
-    };
-    let parameters = groups.iter().map(parameter);
-    let mass = masses(lumped_mass(structure).as_slice());
-    WholeModel::new(
-        sparse(&stiffness)?,
-        mass,
-        parameters.collect::<Result<_, Error>>()?,
-    )
-}

@@ -198,29 +198,3 @@ fn gradients_are_numpys() {
         assert_near("stiffness", &column(&found), expected, EXPECTED_GRADIENT);
     }
 }
-
-#[test]
-fn exact_checks_of_truncated_sets_are_numpys() {
-    for run in published_runs(&case_of(PUBLISHED_CASE)).unwrap() {
-        let table = &expected()[&format!(
-            "case 2, {} test and {} analysis modes",
-            run.test_modes, run.analysis_modes
-        )];
-        let frequencies = column(&run.exact.frequencies_hz[..run.test_modes]);
-        assert_near(
-            "frequencies",
-            &frequencies,
-            &table["frequencies"],
-            EXPECTED_FREQUENCY,
-        );
-        let [frequency, shape] = list(&table["rms"])[..] else {
-            panic!("two errors")
-        };
-        assert_relative_eq!(
-            run.exact.frequency_rms,
-            frequency,
-            max_relative = EXPECTED_HISTORY
-        );
-        assert_relative_eq!(run.exact.shape_rms, shape, max_relative = EXPECTED_HISTORY);
-    }
-}

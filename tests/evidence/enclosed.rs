@@ -241,10 +241,7 @@ fn assert_prints(table: &Table, row: &str, column: usize, exact: f64) {
         "{what}"
     );
     let printed: f64 = printed.parse().unwrap();
-    assert!(
-        (printed * 10.0_f64.powi(digits as i32) - units).abs() <= 0.5,
-        "{what}"
-    );
+    assert_within(printed * 10.0_f64.powi(digits as i32), units, 0.5);
 }
 
 /// Every computed cell of Tables 3 to 8: frequencies, gages, their errors, and the root mean squares of both.

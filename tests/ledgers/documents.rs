@@ -1,7 +1,7 @@
 //! The numbers and figures of README.md, `paper/*.md` and the tour that the program computes.
 //!
 //! A computed block stands in its document between `<!-- computed: NAME -->` and `<!-- end -->`;
-//! `CORFEM_WRITE=1 cargo test` writes all of them anew. `tables.rs` makes the tables from the goldens, and sentences, which must
+//! `CORFEM_WRITE=1 cargo test` writes all of them anew. `tables.rs` fills tables from the goldens, and sentences, which must
 //! stand in their document word for word and are changed by hand. Numbers of other origin stand in tables marked `measured:`
 //! (with machine and date) or `stored:` (with the file).
 
@@ -44,8 +44,8 @@ fn computed_blocks_are_what_the_program_computes() {
         let mut pieces = text.split(start);
         let mut written = pieces.next().unwrap_or_default().to_owned();
         for piece in pieces {
-            let (name, rest) = piece.split_once(" -->\n").expect("the end of a marker");
-            let (old, after) = rest.split_once(end).expect("the end of a block");
+            let (name, rest) = piece.split_once(" -->\n").unwrap();
+            let (old, after) = rest.split_once(end).unwrap();
             let block = blocks
                 .get(name)
                 .unwrap_or_else(|| panic!("{document}: {name}"));

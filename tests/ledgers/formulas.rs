@@ -36,7 +36,7 @@ impl TextNode {
             .iter()
             .rev()
             .find(|(text_start, _)| *text_start <= at)
-            .expect("the first piece starts at zero");
+            .unwrap();
         source_start + at - text_start
     }
 

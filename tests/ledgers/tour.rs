@@ -132,9 +132,7 @@ fn what_the_tour_quotes_are_the_lines_of_the_method() {
     let mut quotes = 0;
     for (number, (_, text)) in chapters() {
         for quote in text.split("<!-- from ").skip(1) {
-            let (file, rest) = quote
-                .split_once(" -->\n```text\n")
-                .expect("a fence below its source");
+            let (file, rest) = quote.split_once(" -->\n```text\n").unwrap();
             let lines = dedented(rest.split("```").next().unwrap());
             let path = in_root(file);
             let source = fs::read_to_string(&path).unwrap();

@@ -311,7 +311,7 @@ fn modules(forms: &[Form]) -> BTreeMap<String, BTreeSet<String>> {
         .filter(|test| !test.starts_with("equations::"))
         .map(|test| {
             let mut parts = test.split("::").map(str::to_owned);
-            let mut part = || parts.next().expect("a room and a module");
+            let mut part = || parts.next().unwrap();
             (part(), part())
         })
         .collect_vec();

@@ -34,7 +34,7 @@ fn with_sensors(
 }
 
 fn drawn(subject: &Report) -> String {
-    draw_structure("structure", "Structure", subject).expect("drawn")
+    draw_structure("structure", "Structure", subject).unwrap()
 }
 
 fn panel(wide: f64, long: f64) -> Vec<Vector3<f64>> {
@@ -78,16 +78,6 @@ fn names_of_a_crowd_find_room_and_long_ones_stand_in_a_list() {
         (13, at(1.5, 0.5, 0.0)),
     ];
     assert_golden("drawing_structure", &drawn(&subject), Numbers::DRAWN);
-    // A line has less than 94 letters: beside a name of 80 there is no room for the words before it.
-    let unknown = |long: usize| {
-        let sensors = vec![
-            ("s".to_owned(), Some(at(0.0, 0.0, 0.0))),
-            ("n".repeat(long), None),
-        ];
-        words(&drawn(&with_sensors(sensors, vec![panel(2.0, 1.0)])))
-            .contains(&"place unknown:".to_owned())
-    };
-    assert!(unknown(80) && !unknown(79));
     // Where there are more than any ring about them has room for, a name stands where the first would.
     let many = (0..110)
         .map(|row| {
@@ -106,101 +96,58 @@ fn names_of_a_crowd_find_room_and_long_ones_stand_in_a_list() {
 
 #[test]
 fn a_plane_is_drawn_as_it_is_and_says_where_its_axes_go() {
-    let turned = |turn: fn(f64, f64) -> Vector3<f64>, long: f64| {
-        let corners = vec![
-            turn(0.0, 0.0),
-            turn(1e3, 0.0),
-            turn(1e3, long),
-            turn(0.0, long),
-        ];
-        words(&drawn(&with_sensors(
-            vec![("s".to_owned(), Some(corners[0]))],
-            vec![corners],
-        )))
-        .remove(2)
-    };
-    assert_eq!(turned(|a, b| at(a, b, 0.0), 500.0), "x right, y up");
-    assert_eq!(
-        turned(|a, b| at(a, b, 0.0), 1e3),
-        "x right, y up",
-        "a square too"
-    );
-    assert_eq!(turned(|a, b| at(b, a, 0.0), 500.0), "x down, y right");
-    assert_eq!(turned(|a, b| at(a, 0.0, b), 500.0), "x right, z up");
-    assert_eq!(turned(|a, b| at(0.0, a, b), 500.0), "y right, z up");
-    // A hundred-millionth of its length is round-off, and no depth.
-    assert_eq!(
-        turned(|a, b| at(a, b, 1e-8 * (a + b)), 500.0),
-        "x right, y up"
-    );
-    let solid = |depth: f64| {
-        let corners = vec![
-            at(0.0, 0.0, 0.0),
-            at(1e3, 0.0, 0.0),
-            at(1e3, 1e3, depth),
-            at(0.0, 1e3, depth),
-        ];
-        words(&drawn(&with_sensors(
-            vec![("s".to_owned(), Some(corners[0]))],
-            vec![corners],
-        )))
-        .remove(2)
-    };
-    let axes = "x right and down, y right and up, z up";
-    assert_eq!(solid(500.0), axes);
-    assert_eq!(solid(100.0), format!("{axes}; depth drawn 3 times"));
-    assert_eq!(solid(0.01), format!("{axes}; depth drawn 7 times"));
-    let small = panel(0.01, 0.01)
-        .into_iter()
-        .enumerate()
-        .map(|(row, place)| place + at(0.0, 0.0, 4.5e-5 * (row / 2) as f64));
-    let small = small.collect_vec();
-    let said = words(&drawn(&with_sensors(
-        vec![("s".to_owned(), Some(small[0]))],
-        vec![small],
-    )));
-    assert_eq!(
-        said[2],
-        format!("{axes}; depth drawn 7 times"),
-        "a structure of any unit"
-    );
-}
-
-#[test]
-fn a_structure_without_grids_has_none_in_its_legend() {
-    let mut subject = with_sensors(
-        vec![("s".to_owned(), Some(at(0.0, 0.0, 0.0)))],
-        vec![panel(2.0, 1.0)],
-    );
-    assert_eq!(words(&drawn(&subject))[1..3], ["sensor", "x right, y up"]);
-    subject.grids = vec![(1, at(0.0, 0.0, 0.0))];
-    subject.supports = vec![at(2.0, 0.0, 0.0)];
-    assert_eq!(words(&drawn(&subject))[1..4], ["sensor", "held", "grid"]);
-}
-
-#[test]
-fn names_at_the_corners_stay_on_the_page_and_off_the_legend() {
-    let corners = panel(2.0, 1.0);
-    let near = |row: usize| corners[row % 4] + at(1e-3 * (row / 4) as f64, 0.0, 0.0);
-    let sensors = (0..40)
-        .map(|row| (format!("edge {row:03}"), Some(near(row))))
-        .collect();
-    let svg = drawn(&with_sensors(sensors, vec![corners.clone()]));
-    let names = written(&svg)
-        .into_iter()
-        .filter(|word| word.text.starts_with("edge"))
-        .collect_vec();
-    assert_eq!(names.len(), 40);
-    for Written {
-        bounds: [left, top, right, bottom],
-        text,
-        ..
-    } in names
-    {
-        assert!(
-            left > 4.0 && right < 756.0 && top > 60.0 && bottom < 450.0,
-            "{text}: {left} {top} {right} {bottom}"
-        );
+    const SOLID: &str = "x right and down, y right and up, z up";
+    type Turn = fn(f64, f64) -> Vector3<f64>;
+    for (unit, [wide, long], turn, expected) in [
+        (
+            1.0,
+            [2.0, 1.0],
+            (|a, b| at(a, b, 0.0)) as Turn,
+            "x right, y up",
+        ),
+        // A square too.
+        (1.0, [1.0, 1.0], |a, b| at(a, b, 0.0), "x right, y up"),
+        (1.0, [2.0, 1.0], |a, b| at(b, a, 0.0), "x down, y right"),
+        (1.0, [2.0, 1.0], |a, b| at(a, 0.0, b), "x right, z up"),
+        (1.0, [2.0, 1.0], |a, b| at(0.0, a, b), "y right, z up"),
+        // A hundred-millionth of its length is round-off, and no depth.
+        (
+            1e3,
+            [1.0, 0.5],
+            |a, b| at(a, b, 1e-8 * (a + b)),
+            "x right, y up",
+        ),
+        (1e3, [1.0, 1.0], |a, b| at(a, b, 0.5 * b), SOLID),
+        (
+            1e3,
+            [1.0, 1.0],
+            |a, b| at(a, b, 0.1 * b),
+            "depth drawn 3 times",
+        ),
+        (
+            1e3,
+            [1.0, 1.0],
+            |a, b| at(a, b, 1e-5 * b),
+            "depth drawn 7 times",
+        ),
+        // A structure of any unit.
+        (
+            0.01,
+            [1.0, 1.0],
+            |a, b| at(a, b, 4.5e-3 * b),
+            "depth drawn 7 times",
+        ),
+    ] {
+        let corners = panel(wide, long).into_iter();
+        let corners = corners
+            .map(|of| turn(unit * of.x, unit * of.y))
+            .collect_vec();
+        let sensors = vec![("s".to_owned(), Some(corners[0]))];
+        let said = words(&drawn(&with_sensors(sensors, vec![corners]))).remove(2);
+        match said.strip_prefix(&format!("{SOLID}; ")) {
+            Some(depth) => assert_eq!(depth, expected),
+            None => assert_eq!(said, expected),
+        }
     }
 }
 
@@ -237,57 +184,26 @@ fn frame(nodes: [Vector3<f64>; 4], lines: Vec<Vec<usize>>) -> Frame {
 #[test]
 fn modes_are_drawn_in_their_plane_in_depth_and_as_marks() {
     let lines = || vec![vec![0, 1, 2, 3, 0]];
-    let flat = [
-        at(0.0, 0.0, 0.0),
-        at(4.0, 0.0, 0.0),
-        at(4.0, 2.0, 0.0),
-        at(0.0, 2.0, 0.0),
-    ];
-    let deep = [
-        at(0.0, 0.0, 0.0),
-        at(4.0, 0.0, 0.2),
-        at(4.0, 2.0, 0.4),
-        at(0.0, 2.0, 0.0),
-    ];
-    let in_plane = modes(frame(flat, lines()), |row| {
-        at((row as f64).sin(), (row as f64).cos(), 0.0)
-    });
-    assert_golden(
-        "drawing_modes_in_plane",
-        &mode_shapes::draw(&in_plane, "modes", "Modes").expect("drawn"),
-        Numbers::DRAWN,
-    );
-    let in_depth = modes(frame(deep, lines()), |row| {
-        at(0.0, 0.1 * (row as f64).cos(), (row as f64).sin())
-    });
-    assert_golden(
-        "drawing_modes_in_depth",
-        &mode_shapes::draw(&in_depth, "modes", "Modes").expect("drawn"),
-        Numbers::DRAWN,
-    );
+    let raised = |heights: [f64; 4], size: f64| {
+        let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]];
+        [0, 1, 2, 3].map(|row| at(size * corners[row][0], size * corners[row][1], heights[row]))
+    };
+    let (flat, deep) = (raised([0.0; 4], 2.0), raised([0.0, 0.2, 0.4, 0.0], 2.0));
+    let drawn = |frame, motion| mode_shapes::draw(&modes(frame, motion), "modes", "Modes").unwrap();
+    let round = |row: usize| at((row as f64).sin(), (row as f64).cos(), 0.0);
+    let askew = |row: usize| at(0.0, 0.1 * (row as f64).cos(), (row as f64).sin());
+    let up = |row: usize| at(0.0, 0.0, (row as f64).sin());
+    for (name, svg) in [
+        ("in_plane", drawn(frame(flat, lines()), round)),
+        ("in_depth", drawn(frame(deep, lines()), askew)),
+        ("as_marks", drawn(frame(deep, Vec::new()), up)),
+    ] {
+        assert_golden(&format!("drawing_modes_{name}"), &svg, Numbers::DRAWN);
+    }
     // Out of a plane that is flat but for round-off no depth is exaggerated.
-    let bent = [
-        at(0.0, 0.0, 0.0),
-        at(1e3, 0.0, 1e-5),
-        at(1e3, 5e2, 0.0),
-        at(0.0, 5e2, 0.0),
-    ];
-    let even = bent.map(|place| at(place.x, place.y, 0.0));
-    let [bent, even] = [bent, even].map(|nodes| {
-        let modes = modes(frame(nodes, lines()), |row| {
-            at(0.0, 0.1 * (row as f64).cos(), (row as f64).sin())
-        });
-        mode_shapes::draw(&modes, "modes", "Modes").expect("drawn")
-    });
+    let [bent, even] = [1e-5, 0.0]
+        .map(|height| drawn(frame(raised([0.0, height, 0.0, 0.0], 5e2), lines()), askew));
     assert!(Numbers::DRAWN.agree(&bent, &even));
-    let marks = modes(frame(deep, Vec::new()), |row| {
-        at(0.0, 0.0, (row as f64).sin())
-    });
-    assert_golden(
-        "drawing_modes_as_marks",
-        &mode_shapes::draw(&marks, "modes", "Modes").expect("drawn"),
-        Numbers::DRAWN,
-    );
 }
 
 properties! {

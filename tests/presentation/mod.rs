@@ -1,13 +1,7 @@
 //! Tables, figures, the page, and the program from outside.
 
-pub mod cost_tables;
-pub mod deck_tables;
-pub mod delta_wing_report;
 pub mod diagram;
 pub mod figures;
-pub mod figures_axes;
-pub mod figures_box;
-pub mod figures_comparisons;
 pub mod figures_drawing;
 pub mod figures_legible;
 pub mod figures_made_up;
@@ -15,7 +9,6 @@ pub mod figures_structure;
 pub mod frame;
 pub mod job_subject;
 pub mod moving;
-pub mod noisy_tables;
 pub mod page;
 pub mod play;
 pub mod program;

@@ -1,5 +1,6 @@
 //! The page of a job: its first screen, its moving structure, and that every view says the same.
 
+use crate::common::drawings::{attribute, color, contrast};
 use crate::common::jobs::loaded;
 use crate::paper::report::moving_case;
 use crate::prelude::*;
@@ -17,21 +18,21 @@ use corfem::present::{json, rows};
 const JOBS: [&str; 4] = ["box", "building", "garteur", "wing"];
 
 fn report(name: &str) -> Report {
-    Report::from_job(&loaded(name), Some(worked(name))).expect("a report")
+    Report::from_job(&loaded(name), Some(worked(name))).unwrap()
 }
 
 /// The data of the first moving structure of a page.
 fn data(page: &str) -> Value {
-    let (_, rest) = page.split_once("<script>moving(").expect("a structure");
-    let (data, _) = rest.split_once(")</script>").expect("its end");
-    serde_json::from_str(data).expect("JSON")
+    let (_, rest) = page.split_once("<script>moving(").unwrap();
+    let (data, _) = rest.split_once(")</script>").unwrap();
+    serde_json::from_str(data).unwrap()
 }
 
 #[test]
 fn the_answer_the_structure_and_the_factors_stand_before_all_else() {
     for name in JOBS {
         let report = report(name);
-        let page = report_page(&report, &[], "corfem", "").expect("a page");
+        let page = report_page(&report, &[], "corfem", "").unwrap();
         assert!(is_well_formed(&page), "{name}");
         let at = |what: &str| page.find(what).unwrap_or_else(|| panic!("{name}: {what}"));
         let parts = [
@@ -52,7 +53,7 @@ fn every_view_tells_the_same_factors_and_errors() {
     for name in JOBS {
         let report = report(name);
         let table = factor_table(&report);
-        let document = json::report(&report).expect("a value");
+        let document = json::report(&report).unwrap();
         let bars = factor_bars(&report);
         let (plain, separated, rows) = (
             text(&[answer_table(&report), table.clone()]),
@@ -63,7 +64,7 @@ fn every_view_tells_the_same_factors_and_errors() {
         let answer = plain.split_whitespace().collect_vec().join(" ");
         assert!(answer.starts_with(&report.answer()), "{plain}");
         for (e, parameter) in report.parameters.iter().enumerate() {
-            let factor = document["factors"][e].as_f64().expect("a number");
+            let factor = document["factors"][e].as_f64().unwrap();
             assert_eq!(factor, report.factors()[e]);
             let row = plain
                 .lines()
@@ -74,13 +75,8 @@ fn every_view_tells_the_same_factors_and_errors() {
                 "{parameter}: {plain}"
             );
             let is_of = |line: &&str| line.contains(&format!(",{parameter},Factor,,"));
-            let read = separated.lines().find(is_of).expect("a line");
-            let read: f64 = read
-                .split(',')
-                .nth(4)
-                .expect("a field")
-                .parse()
-                .expect("a number");
+            let read = separated.lines().find(is_of).unwrap();
+            let read: f64 = read.split(',').nth(4).unwrap().parse().unwrap();
             assert!(relative_error(read, factor) < 1e-9, "{read} {factor}");
             assert!(
                 rows.contains(&format!(",1,{factor},")),
@@ -96,41 +92,11 @@ fn every_view_tells_the_same_factors_and_errors() {
 }
 
 #[test]
-fn the_structure_is_moved_by_keys_and_still_on_paper_and_for_readers_who_ask() {
-    for words in [
-        "ArrowLeft",
-        "ArrowUp",
-        "\"Home\"",
-        "event.key === \" \"",
-        "onpointerdown",
-        "(prefers-reduced-motion: reduce)",
-        "isPlaying = !isCalm.matches",
-        "\"beforeprint\"",
-    ] {
-        assert!(SCRIPT.contains(words), "{words}");
-    }
-    let page = moving(&report("wing")).expect("a figure");
-    for words in [
-        "tabindex=\"0\"",
-        "type=\"radio\"",
-        "class=\"phase\" type=\"range\"",
-        "class=\"difference\"",
-    ] {
-        assert!(page.contains(words), "{words}");
-    }
-    // The phase at which it stands where it does not move has the largest motion.
-    assert!(page.contains("max=\"360\" value=\"90\""));
-    for outside in ["http", "src=", "url(", "import ", "fetch", "eval"] {
-        assert!(!SCRIPT.contains(outside), "{outside}");
-    }
-}
-
-#[test]
 fn no_name_ends_the_script_or_a_tag() {
     let name = "</script><b a=\"x\">&amp;'@DATA@";
     let along = |row: usize| (Vector3::new(row as f64, 0.0, 0.0), Vector3::z());
     let subject = chain(name, &[0.9, 1.1, 0.95, 1.0], along);
-    let page = report_page(&subject, &[], name, name).expect("a page");
+    let page = report_page(&subject, &[], name, name).unwrap();
     assert!(is_well_formed(&page), "{page}");
     assert!(!page.contains("<b a"));
     assert_eq!(
@@ -170,54 +136,25 @@ fn the_plot_of_pairs_can_be_read_at_any_width() {
     /// Width that a phone leaves, and the height of letters below which nobody reads, px.
     const PHONE: [f64; 2] = [358.0, 11.0];
     let css = include_str!("../../src/present/page/report.css");
-    let (_, rule) = css.split_once(".pairing svg {").expect("a rule");
-    let (_, size) = rule.split_once("font-size: ").expect("a size");
-    let size: f64 = size
-        .split("px")
-        .next()
-        .expect("px")
-        .parse()
-        .expect("a number");
+    let (_, rule) = css.split_once(".pairing svg {").unwrap();
+    let (_, size) = rule.split_once("font-size: ").unwrap();
+    let size: f64 = size.split("px").next().unwrap().parse().unwrap();
     assert!(size * PHONE[0] / 400.0 >= PHONE[1], "{size}");
     for name in JOBS {
         let plot = pairing_plot(&report(name));
         assert!(!plot.contains("NaN") && !plot.contains("inf"), "{name}");
-        let mut along = Vec::new();
-        for tag in plot.split("<text ").skip(1) {
-            let (tag, words) = tag.split_once('>').expect("a tag");
-            let words = words.split('<').next().unwrap_or_default();
-            if let Some((_, x)) = tag
-                .split_once("x=\"")
-                .filter(|_| tag.contains("\"middle\"") && !tag.contains("transform"))
-            {
-                let x: f64 = x
-                    .split('"')
-                    .next()
-                    .expect("a place")
-                    .parse()
-                    .expect("a number");
-                if words.parse::<f64>().is_ok() {
-                    along.push((x, 0.6 * size * words.len() as f64));
-                }
-            }
-        }
+        let numbers = plot.split("<text ").skip(1).filter_map(|element| {
+            let (tag, words) = element.split_once('>')?;
+            let words = words.split('<').next()?;
+            let is_along = tag.contains("\"middle\"") && !tag.contains("transform");
+            let is_number = is_along && words.parse::<f64>().is_ok();
+            is_number.then(|| (attribute(tag, "x"), 0.6 * size * words.len() as f64))
+        });
+        let along = numbers.collect_vec();
         assert!(along.len() > 1, "{name}");
-        for pair in along.windows(2) {
-            assert!(
-                pair[1].0 - pair[0].0 > 0.5 * (pair[0].1 + pair[1].1),
-                "{name}: {along:?}"
-            );
-        }
+        let is_apart = |a: &(f64, f64), b: &(f64, f64)| b.0 - a.0 > 0.5 * (a.1 + b.1);
+        assert!(along.is_sorted_by(is_apart), "{name}: {along:?}");
     }
-}
-
-/// Relative luminance of a color such as `#0072b2` (WCAG 2.2).
-fn luminance(parts: [f64; 3]) -> f64 {
-    let linear = parts.map(|part| match part / 255.0 {
-        part if part <= 0.04045 => part / 12.92,
-        part => ((part + 0.055) / 1.055).powf(2.4),
-    });
-    0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 }
 
 /// Numbers can be read on every color of a cell, on light and on dark pages.
@@ -229,23 +166,15 @@ fn numbers_have_a_contrast_of_four_and_a_half_on_every_cell_of_both_palettes() {
     for palette in palettes {
         let palette = format!("--ink: {palette}");
         let color = |name: &str| {
-            let (_, rest) = palette
-                .split_once(&format!("--{name}: #"))
-                .expect("a color");
-            let digits = rest.split(';').next().expect("digits");
-            let long: String = match digits.len() {
-                3 => digits.chars().flat_map(|digit| [digit, digit]).collect(),
-                _ => digits.to_owned(),
-            };
-            [0, 2, 4].map(|at| f64::from(u8::from_str_radix(&long[at..at + 2], 16).expect("hex")))
+            let (_, rest) = palette.split_once(&format!("--{name}: #")).unwrap();
+            color(rest.split(';').next().unwrap())
         };
-        let (ink, page) = (luminance(color("ink")), color("page"));
         for tone in ["plus", "minus"].map(color) {
             for step in 0..=60 {
                 let part = f64::from(step) / 100.0;
+                let page = color("page");
                 let mixed = [0, 1, 2].map(|at| part * tone[at] + (1.0 - part) * page[at]);
-                let (one, other) = (ink + 0.05, luminance(mixed) + 0.05);
-                let contrast = one.max(other) / one.min(other);
+                let contrast = contrast(color("ink"), mixed);
                 assert!(contrast >= 4.5, "{tone:?} {step}: {contrast}");
             }
         }
@@ -256,14 +185,14 @@ fn numbers_have_a_contrast_of_four_and_a_half_on_every_cell_of_both_palettes() {
 #[test]
 fn every_case_of_the_box_moves_whole_with_its_panels_named() {
     for result in results() {
-        let report = moving_case(result).expect("a report");
-        let data = data(&moving(&report).expect("a figure"));
-        let pieces = data["pieces"].as_array().expect("pieces");
+        let report = moving_case(result).unwrap();
+        let data = data(&moving(&report).unwrap());
+        let pieces = data["pieces"].as_array().unwrap();
         assert_eq!(pieces.len(), report.frame.len());
         let owned = pieces
             .iter()
-            .flat_map(|piece| piece["owners"].as_array().expect("owners"))
-            .map(|owner| owner.as_u64().expect("a number"))
+            .flat_map(|piece| piece["owners"].as_array().unwrap())
+            .map(|owner| owner.as_u64().unwrap())
             .collect_vec();
         for e in 0..report.parameters.len() as u64 {
             assert!(owned.contains(&e), "panel {e}");
@@ -286,9 +215,7 @@ fn a_job_of_matrices_has_its_lines_from_its_stiffness() {
 #[test]
 fn a_test_without_shapes_moves_its_models_alone() {
     let report = report("garteur");
-    let drawn = DrawnModes::from_report(&report)
-        .expect("modes")
-        .expect("places");
+    let drawn = DrawnModes::from_report(&report).unwrap().unwrap();
     assert_eq!(drawn.modes.len(), 8);
     for mode in &drawn.modes {
         let [test, first, last] = &mode.moved;
@@ -303,7 +230,7 @@ fn a_test_without_shapes_moves_its_models_alone() {
     assert!(report.grids.iter().all(|(_, at)| on_lines.contains(&at)));
     assert!(
         moving(&report)
-            .expect("a figure")
+            .unwrap()
             .contains("The test has frequencies alone.")
     );
 }
@@ -314,15 +241,13 @@ fn a_test_without_shapes_moves_its_models_alone() {
 fn node_moves_every_structure_as_the_program_does() {
     let folder = new_folder();
     let path = folder.path().join("moving.js");
-    fs::write(&path, SCRIPT).expect("written");
+    fs::write(&path, SCRIPT).unwrap();
     for name in JOBS {
         let report = report(name);
-        let drawn = DrawnModes::from_report(&report)
-            .expect("modes")
-            .expect("places");
-        let data = data(&moving(&report).expect("a figure"));
+        let drawn = DrawnModes::from_report(&report).unwrap().unwrap();
+        let data = data(&moving(&report).unwrap());
         let stored = folder.path().join("data.json");
-        fs::write(&stored, data.to_string()).expect("written");
+        fs::write(&stored, data.to_string()).unwrap();
         let program = format!(
             "const page = require({}), data = require({});\
              console.log(JSON.stringify(data.modes.map(mode => [0, 1, 2].map(state => {{\
@@ -339,17 +264,17 @@ fn node_moves_every_structure_as_the_program_does() {
             .iter()
             .copied()
             .reduce(|low, node| low.inf(&node))
-            .expect("nodes");
-        let heights = data["heights"].as_f64().expect("a number");
+            .unwrap();
+        let heights = data["heights"].as_f64().unwrap();
         let mut compared = 0;
-        for (mode, found) in drawn.modes.iter().zip(found.as_array().expect("modes")) {
+        for (mode, found) in drawn.modes.iter().zip(found.as_array().unwrap()) {
             for state in 0..3 {
                 for (node, motion) in mode.moved[state].iter().enumerate() {
                     let mut expected = (nodes[node] - low - 0.5 * extent) / extent.max();
                     expected.z *= heights;
                     expected += 0.125 * motion;
                     for axis in 0..3 {
-                        let read = found[state][node][axis].as_f64().expect("a number");
+                        let read = found[state][node][axis].as_f64().unwrap();
                         let off = (read - expected[axis]).abs();
                         assert!(off < DRAWN_THOUSANDTHS, "{name}: {read} {}", expected[axis]);
                         compared += 1;
@@ -365,7 +290,7 @@ fn node_moves_every_structure_as_the_program_does() {
 #[test]
 fn everything_but_the_motion_is_there_without_scripts() {
     let report = report("wing");
-    let page = without_scripts(&report_page(&report, &[], "corfem", "").expect("a page"));
+    let page = without_scripts(&report_page(&report, &[], "corfem", "").unwrap());
     for name in report
         .parameters
         .iter()

@@ -5,20 +5,17 @@ use crate::prelude::*;
 use crate::presentation::figures::results;
 
 fn html() -> String {
-    play(&results()[1]).expect("a figure")
+    play(&results()[1]).unwrap()
 }
 
 fn script(html: &str) -> &str {
-    let (_, rest) = html.split_once("<script>").expect("a script");
-    rest.split_once("</script>").expect("its end").0
+    let (_, rest) = html.split_once("<script>").unwrap();
+    rest.split_once("</script>").unwrap().0
 }
 
 /// The JSON that a program writes in node.
 pub fn by_node(program: &str) -> Value {
-    let output = Command::new("node")
-        .args(["-e", program])
-        .output()
-        .expect("it runs");
+    let output = Command::new("node").args(["-e", program]).output().unwrap();
     let words = String::from_utf8_lossy(&output.stderr);
     serde_json::from_slice(&output.stdout).unwrap_or_else(|error| panic!("{error}: {words}"))
 }
@@ -43,12 +40,12 @@ fn figure_to_play_with_is_short_and_needs_nothing_beside_it() {
 /// Chapter 5 of the tour has the same figure.
 #[test]
 fn figure_of_the_tour_is_that_of_the_report() {
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("paper/tour/05_play.html");
+    let path = in_root("paper/tour/05_play.html");
     let html = html();
     if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "1") {
-        fs::write(&path, &html).expect("it can be written");
+        fs::write(&path, &html).unwrap();
     }
-    let stored = fs::read_to_string(&path).expect("it reads");
+    let stored = fs::read_to_string(&path).unwrap();
     assert!(
         Numbers::DRAWN.agree(&stored, &html),
         "CORFEM_WRITE=1 writes it anew"
@@ -64,9 +61,9 @@ fn node_solves_the_pages_modes_as_the_program_does() {
     let modal = result
         .case
         .model()
-        .expect("a model")
+        .unwrap()
         .analyze(&[1.0; 15], &result.test, None)
-        .expect("analyzed");
+        .unwrap();
     let steps = &result.correlation.passes[0].inner.iterations;
     let mut draws = Draws(30);
     let dragged: Vec<Vec<f64>> = (0..40)
@@ -74,7 +71,7 @@ fn node_solves_the_pages_modes_as_the_program_does() {
         .collect();
     let folder = new_folder();
     let path = folder.path().join("play.js");
-    fs::write(&path, script(&html())).expect("written");
+    fs::write(&path, script(&html())).unwrap();
     let program = format!(
         "const page = require({}), dragged = {};\
          console.log(JSON.stringify({{ ...page.histories, dragged: dragged.map((gages, at) => page.at(at % 31, gages, at % 2 === 0)) }}))",
@@ -84,13 +81,13 @@ fn node_solves_the_pages_modes_as_the_program_does() {
     let found = by_node(&program);
     let mut compared = 0;
     let mut compare = |found: &Value, state: &State, what: &str| {
-        let paired = state.pairing.paired(&state.modes).expect("its own modes");
+        let paired = state.pairing.paired(&state.modes).unwrap();
         let errors = [state.errors.frequency, state.errors.shape];
         let expected = paired.frequencies_hz().into_iter().chain(errors);
-        let read = found["hertz"].as_array().expect("frequencies").iter();
+        let read = found["hertz"].as_array().unwrap().iter();
         let read: Vec<f64> = read
             .chain([&found["frequency"], &found["shape"]])
-            .map(|number| number.as_f64().expect("a number"))
+            .map(|number| number.as_f64().unwrap())
             .collect();
         assert_eq!(read.len(), 11);
         for (number, (read, expected)) in read.into_iter().zip(expected).enumerate() {
@@ -102,7 +99,7 @@ fn node_solves_the_pages_modes_as_the_program_does() {
             compared += 1;
         }
     };
-    let by_gages = |gages: &[f64]| exact_state(&modal, gages).expect("modes");
+    let by_gages = |gages: &[f64]| exact_state(&modal, gages).unwrap();
     // The stiffness on which the loop stands after every step, and that of its gages.
     let ones = vec![1.0; 15];
     let (mut stiffness, mut before) = (vec![ones.clone()], &ones);
@@ -115,10 +112,7 @@ fn node_solves_the_pages_modes_as_the_program_does() {
     for (at, step) in steps.iter().enumerate() {
         let last = add(&stiffness[at], before, &step.factors);
         let state = by_gages(&last);
-        assert!(
-            (state.errors.sum() - step.errors.sum()).abs() < PLAYED,
-            "the loop's own"
-        );
+        assert_within(state.errors.sum(), step.errors.sum(), PLAYED);
         compare(&found["adds"][at + 1], &state, &format!("step {}", at + 1));
         let follows = by_gages(&step.factors);
         compare(

@@ -7,20 +7,19 @@ use crate::prelude::*;
 #[test]
 fn every_printed_cell_is_one_line_as_printed() {
     for number in 2..=13 {
-        let file =
-            Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("paper/tables/table_{number}.csv"));
-        let file = fs::read_to_string(file).expect("it reads");
+        let file = in_root(format!("paper/tables/table_{number}.csv"));
+        let file = fs::read_to_string(file).unwrap();
         let rows = file.lines().filter(|line| !line.starts_with('#')).skip(1);
         let printed = rows
             .flat_map(|row| row.split(',').skip(1))
             .filter(|cell| !cell.is_empty())
             .collect_vec();
-        let table = published_table(number).expect("it reads");
+        let table = published_table(number).unwrap();
         let written = csv(from_ref(&table));
         let written = written
             .lines()
             .skip(1)
-            .map(|line| line.rsplit_once(',').expect("a field").1)
+            .map(|line| line.rsplit_once(',').unwrap().1)
             .collect_vec();
         assert_eq!(written, printed, "Table {number}");
         assert!(
@@ -43,12 +42,12 @@ fn every_printed_cell_is_one_line_as_printed() {
 
 #[test]
 fn table_13_has_the_cpu_seconds() {
-    let table = published_table(13).expect("it reads");
+    let table = published_table(13).unwrap();
     let at = table
         .columns
         .iter()
         .position(|column| column.name == "Pass 1 time")
-        .expect("the column");
+        .unwrap();
     assert_eq!(table.columns[at].unit, "s");
     let cells = table.rows.iter().map(|row| &row.cells[at]).collect_vec();
     let printed = ["1.9", "2.6", "4.8", "1.3"].map(|text| Cell::Printed(text.to_owned()));

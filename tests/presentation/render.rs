@@ -56,7 +56,7 @@ fn a_bar_in_a_name_does_not_begin_a_cell_of_markdown() {
     let row = shown
         .lines()
         .rfind(|line| line.starts_with("| story"))
-        .expect("a row");
+        .unwrap();
     assert_eq!(row, "| story\\|3 | story\\|3 |");
 }
 
@@ -65,7 +65,7 @@ fn a_bar_in_a_name_does_not_begin_a_cell_of_markdown() {
 fn a_name_that_is_a_formula_is_words_in_csv() {
     for formula in ["=cmd|' /C calc'!A0", "+A1", "-A1", "@SUM(A1,2)"] {
         let shown = csv(&[named(formula)]);
-        let row = shown.lines().nth(1).expect("a row");
+        let row = shown.lines().nth(1).unwrap();
         assert!(row.contains(&format!("'{formula}")), "{row}");
         assert!(
             !row.contains(&format!(",{formula}")) && !row.contains(&format!(",\"{formula}")),

@@ -8,8 +8,7 @@ use corfem::job::concern::{Answer, Check, Grade};
 
 /// The account before the first step.
 fn before(files: &Files) -> Trust {
-    let loaded = prepared(files);
-    trust_in(&loaded)
+    trust_in(&prepared(files))
 }
 
 /// The account after a run.
@@ -42,12 +41,12 @@ fn plane(is_turned: bool) -> Files {
         }
     }
     let stiffness = springs(rows, &all).dense();
-    let mass = DMatrix::identity(rows, rows) * 3.0;
-    let modes = solve(&stiffness, &mass, 5).expect("modes");
+    let mass = eye(rows) * 3.0;
+    let modes = solve(&stiffness, &mass, 5).unwrap();
     let mut files = of_matrices(&[stiffness], &mass, &modes);
     let name = |files: &mut Files, file: &str, text: String| {
         let own = files.iter_mut().find(|(name, _)| name == file);
-        own.expect("a file").1 = text;
+        own.unwrap().1 = text;
     };
     let lines = (0..6).flat_map(|grid| ["x", "y"].map(|along| format!("{},{along}\n", grid + 1)));
     name(&mut files, "rows.csv", lines.collect());
@@ -67,9 +66,9 @@ fn plane(is_turned: bool) -> Files {
 fn free() -> Files {
     let links = (1..6).map(|row| (row, Some(row - 1), 1e5)).collect_vec();
     let (stiffness, mass) = (springs(6, &links).dense(), masses(&[3.0; 6]).dense());
-    let all = solve(&(&stiffness + 1e-3 * &mass), &mass, 6).expect("modes");
+    let all = solve(&(&stiffness + 1e-3 * &mass), &mass, 6).unwrap();
     let three = all.omega_squared().rows(1, 3).into_owned();
-    let modes = Modes::new(three, all.shapes().columns(1, 3).into_owned()).expect("modes");
+    let modes = Modes::new(three, all.shapes().columns(1, 3).into_owned()).unwrap();
     of_matrices(&[stiffness], &mass, &modes)
 }
 
@@ -88,7 +87,7 @@ fn lone() -> Files {
     let mut files = files;
     let text = "frequency_hz,1.5\n,mode 1\n";
     let test = files.iter_mut().find(|(name, _)| name == "test.csv");
-    test.expect("a test").1 = text.to_owned();
+    test.unwrap().1 = text.to_owned();
     files
 }
 
@@ -102,8 +101,7 @@ fn cases(check: Check) -> (Vec<Case>, &'static str) {
     let one = || before(&few(tested(|_| {}), 1));
     // Four shapes of three sensors, no two alike.
     let many = retested(few(tested(|_| {}), 3), |data| {
-        data.shapes =
-            nalgebra::dmatrix![1.0, 0.0, 0.0, 0.6; 0.0, 1.0, 0.0, 0.6; 0.0, 0.0, 1.0, 0.6];
+        data.shapes = dmatrix![1.0, 0.0, 0.0, 0.6; 0.0, 1.0, 0.0, 0.6; 0.0, 0.0, 1.0, 0.6];
     });
     let shapes = "a test with shapes and sensors always tells";
     match check {

@@ -5,85 +5,29 @@ use crate::prelude::*;
 /// Two towers of three floors side by side, one stiffer than the other by `split`, and a test of both in which every pair of modes is
 /// turned by an angle (radians) and its stiffer tower is stiffer by `truth`.
 fn towers([split, truth, angle]: [f64; 3]) -> Files {
-    let tower = |stiffness: f64, first: usize, text: &mut String| {
-        for floor in 0..3 {
-            let (row, below) = (first + floor + 1, first + floor);
-            let diagonal = if floor == 2 {
-                stiffness
-            } else {
-                2.0 * stiffness
-            };
-            *text += &format!("{row} {row} {diagonal:e}\n");
-            if floor > 0 {
-                *text += &format!("{row} {below} {:e}\n", -stiffness);
-            }
-        }
+    let tower = |first: usize, size: f64| {
+        let spring =
+            move |row: usize| (first + row, row.checked_sub(1).map(|row| first + row), size);
+        springs(6, &[0, 1, 2].map(spring)).dense()
     };
-    let market = "%%MatrixMarket matrix coordinate real symmetric\n6 6 ";
-    let (mut all, mut left, mut right) = (
-        format!("{market}10\n"),
-        format!("{market}5\n"),
-        format!("{market}5\n"),
-    );
-    for text in [&mut all, &mut left] {
-        tower(1e5, 0, text);
-    }
-    for text in [&mut all, &mut right] {
-        tower(1e5 * split, 3, text);
-    }
-    let mass = format!(
-        "{market}6\n{}",
-        (1..=6)
-            .map(|row| format!("{row} {row} 50\n"))
-            .collect::<String>()
-    );
+    let parts = [tower(0, 1e5), tower(3, 1e5 * split)];
     // Roots and shapes of a fixed and free chain of three.
     let (mut hertz, mut shapes) = (Vec::new(), zero_square(6));
+    let (sine, cosine) = angle.sin_cos();
     for mode in 0..3 {
         let phase = PI * (2 * mode + 1) as f64 / 7.0;
         let frequency = (2e3_f64 * (2.0 - 2.0 * phase.cos())).sqrt() / TAU;
         hertz.extend([frequency, frequency * truth.sqrt()]);
         for floor in 0..3 {
             let moved = (phase * (floor + 1) as f64).sin();
-            let (sine, cosine) = angle.sin_cos();
-            shapes[(floor, 2 * mode)] = cosine * moved;
-            shapes[(floor + 3, 2 * mode)] = sine * moved;
-            shapes[(floor, 2 * mode + 1)] = -sine * moved;
-            shapes[(floor + 3, 2 * mode + 1)] = cosine * moved;
+            let turned = moved * dmatrix![cosine, -sine; sine, cosine];
+            for (part, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                shapes[(floor + 3 * part, 2 * mode + column)] = turned[(part, column)];
+            }
         }
     }
-    let sensors = (1..=6).map(|grid| Sensor {
-        name: grid.to_string(),
-        grid: Some(grid),
-        direction: 0,
-        axis: None,
-        place: None,
-    });
-    let data = TestData {
-        frequencies_hz: hertz,
-        sensors: sensors.collect(),
-        shapes,
-        ..TestData::default()
-    };
-    let parameter =
-        |name: &str| format!("[[parameter]]\nname = \"{name}\"\nmatrix = \"{name}.mtx\"\n");
-    let job = "[model]\nstiffness = \"all.mtx\"\nmass = \"mass.mtx\"\nrows = \"rows.csv\"\n[test]\nfile = \"test.csv\"\n";
-    let files = [
-        (
-            "job.toml",
-            [job, &parameter("left"), &parameter("right")].concat(),
-        ),
-        ("all.mtx", all),
-        ("mass.mtx", mass),
-        ("left.mtx", left),
-        ("right.mtx", right),
-        (
-            "rows.csv",
-            (1..=6).map(|row| format!("{row},x\n")).collect(),
-        ),
-        ("test.csv", write_csv(&data)),
-    ];
-    files.map(|(name, text)| (name.to_owned(), text)).to_vec()
+    let modes = Modes::from_measured(&hertz, &shapes).unwrap();
+    of_matrices(&parts, &(50.0 * eye(6)), &modes)
 }
 
 fn corrected(files: &Files) -> (PreparedJob, JobResult) {
@@ -137,7 +81,7 @@ fn modes_that_model_and_test_tell_apart_are_compared_alone() {
         (0..6).map(|mode| vec![mode]).collect_vec()
     );
     let factors = &result.found.factors;
-    assert!((factors[1] / factors[0] - 1.2).abs() < 1e-3, "{factors:?}");
+    assert_within(factors[1] / factors[0], 1.2, 1e-3);
 }
 
 /// A ring of six masses has two shapes at each of two roots, and its parameters leave it a ring: a test that has one of the two may have

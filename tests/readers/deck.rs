@@ -56,28 +56,6 @@ fn singular_pencil_roots(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Vec<f
     roots
 }
 
-#[test]
-fn nine_finite_roots_of_the_box_are_its_dynamic_modes() {
-    for number in CASES {
-        let case = case_of(number);
-        let model = case.model().unwrap();
-        let dynamic = model.matrices(&[1.0; 15]).unwrap();
-        let modes = solve(&dynamic.stiffness, &dynamic.mass, 9).unwrap();
-        let sizes = model.sizes(&[1.0; 15]).unwrap();
-        let stiffness = assemble(model.element_matrices(), &sizes, 36).unwrap();
-        let t = &model.load_distribution().clone();
-        let roots = singular_pencil_roots(&stiffness, &(t * model.mass() * t.transpose()));
-        assert_eq!(roots.len(), 36);
-        for (omega_squared, root) in modes.omega_squared().iter().zip(&roots) {
-            assert_relative_eq!(omega_squared * root, 1.0, epsilon = SINGULAR_MASS_ROOT);
-        }
-        assert!(
-            roots[9].abs() < SINGULAR_MASS_ROOT * roots[8],
-            "case {number}: {roots:?}"
-        );
-    }
-}
-
 /// The deck of a case at its first gages times `factors`.
 fn box_deck(number: usize, factors: &[f64]) -> (BulkData, String) {
     let case = case_of(number);
@@ -89,52 +67,6 @@ fn box_deck(number: usize, factors: &[f64]) -> (BulkData, String) {
     };
     let text = deck::write(&bulk, "box", &task).unwrap();
     (bulk, text)
-}
-
-#[test]
-fn the_box_read_from_its_deck_has_its_modes() {
-    for number in CASES {
-        let factors = (0..15).map(|row| 1.0 + f64::from(row) / 7.0).collect_vec();
-        let (_, text) = box_deck(number, &factors);
-        let read = deck::read("box", text.as_bytes(), &[]).unwrap();
-        assert!(read.unread.is_empty(), "{:?}", read.unread);
-        let found = deck::modes(&read.model, usize::MAX).unwrap();
-        let model = case_of(number).model().unwrap();
-        // By the same factorization, so that the digits of the deck are all that differs.
-        let (whole, sensors) = whole::of(&model).unwrap();
-        let expected = whole.modes(&factors, 9).unwrap().vibrations;
-        let mut shapes = sensors.times(expected.shapes()).unwrap();
-        apply_sign_rule(&mut shapes);
-        let expected = Modes::new(expected.omega_squared().clone(), shapes).unwrap();
-        let labels = found.dof.iter().map(|dof| dof.grid).collect_vec();
-        assert_eq!(labels, (101..=109).collect_vec());
-        assert!(found.dof.iter().all(|dof| dof.direction == 2));
-        assert_eq!(found.modes.shapes().shape(), (9, 9));
-        // An eigensolution rounds by the largest of its eigenvalues, in the lowest mode 1e5 times its own.
-        let highest = expected.omega_squared().max();
-        let lowest = expected.omega_squared().iter().map(|value| highest / value);
-        for ((a, b), spread) in found
-            .modes
-            .frequencies_hz()
-            .iter()
-            .zip(expected.frequencies_hz())
-            .zip(lowest)
-        {
-            assert_relative_eq!(*a, b, max_relative = DECK_ROUNDING + f64::EPSILON * spread);
-        }
-        // A shape component moves with the tenth digit of T by as much as modes are close.
-        let largest = expected.shapes().amax();
-        assert_relative_eq!(
-            found.modes.shapes(),
-            expected.shapes(),
-            epsilon = 1e3 * DECK_ROUNDING * largest
-        );
-        let generalized = found
-            .modes
-            .shapes()
-            .tr_mul(&(model.mass() * found.modes.shapes()));
-        assert_relative_eq!(generalized, eye(9), epsilon = 1e3 * ROUND_OFF);
-    }
 }
 
 #[test]
@@ -153,31 +85,4 @@ fn mpc_cards_are_the_load_distribution() {
     assert_eq!(DMatrix::from_diagonal(&dynamic.mass), *model.mass());
     assert_eq!(read.ties.len(), 9);
     assert!(read.ties.iter().all(|tie| tie.coefficient == -1.0));
-}
-
-#[test]
-fn dynamic_points_lie_at_mid_depth() {
-    let case = case_of(1);
-    let (bulk, _) = box_deck(1, &[1.0; 15]);
-    let grids = &case.reconstruction.grids;
-    for (rib, first) in [(0, 1), (1, 5), (2, 9)] {
-        let at = |grid: usize| Vector3::from(grids[&grid]);
-        let point = |k: usize| bulk.grids[16 + 3 * rib + k].position;
-        assert_relative_eq!(
-            point(0),
-            0.5 * (at(first) + at(first + 1)),
-            epsilon = ROUND_OFF
-        );
-        assert_relative_eq!(
-            point(2),
-            0.5 * (at(first + 2) + at(first + 3)),
-            epsilon = ROUND_OFF
-        );
-        let fraction = case.reconstruction.mid_chord_fraction;
-        assert_relative_eq!(
-            point(1) - point(0),
-            fraction * (point(2) - point(0)),
-            epsilon = 100.0 * ROUND_OFF
-        );
-    }
 }

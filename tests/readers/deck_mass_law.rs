@@ -103,8 +103,8 @@ fn the_deck_keeps_the_mass_of_the_first_size() {
             16.. => (1.0, 4.0),
             _ => (1.0, 1.0),
         };
-        assert!((gage - expected.0).abs() < ROUND_OFF, "{}", element.label);
-        assert!((mass - expected.1).abs() < ROUND_OFF, "{}", element.label);
+        assert_within(gage, expected.0, ROUND_OFF);
+        assert_within(mass, expected.1, ROUND_OFF);
     }
     assert!(before.masses.is_empty(), "elements need no point masses");
     // Heavier rods lower the lowest frequency, stiffer covers raise it.

@@ -5,7 +5,6 @@ use crate::common::jobs::torque_box;
 use crate::prelude::*;
 use corfem::job::LoadedJob;
 use corfem::job::concern::Grade;
-use std::sync::Arc;
 
 /// The identifiers of a job's doubts.
 fn doubts(files: &Files) -> Vec<String> {
@@ -17,7 +16,7 @@ fn doubts(files: &Files) -> Vec<String> {
 
 /// The number of rigid-body modes that an account tells.
 pub fn rigid_bodies(trust: &Trust) -> f64 {
-    trust.of(Kind::AnalysisModes).next().expect("said").measure[1]
+    trust.of(Kind::AnalysisModes).next().unwrap().measure[1]
 }
 
 /// A building of ten stories, and its test after an edit.
@@ -126,8 +125,8 @@ fn a_matrix_that_is_no_part_of_the_first_model_is_named() {
         let mut lines = stiffness.lines();
         let mut text = lines.by_ref().take(2).map(str::to_owned).collect_vec();
         for line in lines {
-            let (place, value) = line.rsplit_once(' ').expect("a value");
-            let value: f64 = value.parse().expect("a number");
+            let (place, value) = line.rsplit_once(' ').unwrap();
+            let value: f64 = value.parse().unwrap();
             text.push(format!("{place} {:.6e}", factor * value));
         }
         ("more.mtx".to_owned(), text.join("\n") + "\n")
@@ -250,20 +249,4 @@ fn places_in_another_unit_are_named_wherever_the_sensors_are() {
         }
         assert_eq!(named, [true, false], "test {test}");
     }
-}
-
-#[test]
-fn places_in_another_unit_are_named() {
-    let with_unit = |factor: f64| {
-        let mut prepared = prepared(&torque_box());
-        let loaded = Arc::make_mut(&mut prepared.loaded);
-        for sensor in &mut loaded.placed {
-            sensor.distance = Some(0.0);
-            loaded.data.sensors[sensor.row].place = sensor.place.map(|place| factor * place);
-        }
-        let trust = trust_in(&prepared);
-        trust.of(Kind::UnitOfPlaces).any(Concern::stands)
-    };
-    assert!(with_unit(25.4));
-    assert!(!with_unit(1.0));
 }

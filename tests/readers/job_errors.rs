@@ -81,14 +81,6 @@ fn a_job_that_is_not_there_or_has_no_parameters_is_refused() {
     );
 }
 
-#[test]
-fn the_small_jobs_are_right_before_their_mistakes() {
-    for files in [rods(), building()] {
-        let (_folder, path) = placed(&files);
-        prepare(&path).unwrap();
-    }
-}
-
 /// The narrower of the bounds on the factor and of those on the size of every element holds.
 #[test]
 fn bounds_on_sizes_are_bounds_on_the_factor() {
@@ -100,23 +92,21 @@ fn bounds_on_sizes_are_bounds_on_the_factor() {
         "elements = [\"2-3\"]",
         "elements = [3]",
     );
-    let (_folder, path) = placed(&files);
-    let range = prepare(&path).unwrap().loaded.source.whole.ranges()[0].expect("a range");
+    let range = prepared(&files).loaded.source.whole.ranges()[0].unwrap();
     // Of areas 0.1 and 0.2: at least 0.06/0.1, at most 0.3/0.2.
     assert!(
         (range.lower - 0.6).abs() < ROUND_OFF && (range.upper - 1.5).abs() < ROUND_OFF,
         "{range:?}"
     );
     let narrow = with(files, "job.toml", "lower_size = 0.06", "lower_size = 0.01");
-    let (_folder, path) = placed(&narrow);
-    let range = prepare(&path).expect("a job").loaded.source.whole.ranges()[0].expect("a range");
+    let range = prepared(&narrow).loaded.source.whole.ranges()[0].unwrap();
     assert_eq!(range.lower, 0.5);
 }
 
 #[test]
 fn properties_materials_masses_and_each_say_what_they_scale() {
     let members = |old: &str, new: &str| {
-        let (_folder, path) = placed(&with(rods(), "job.toml", old, new));
+        let (_folder, path) = placed(&rods_with(old, new));
         let source = prepare(&path)
             .unwrap_or_else(|error| panic!("{new}: {error}"))
             .loaded
@@ -166,60 +156,12 @@ fn properties_materials_masses_and_each_say_what_they_scale() {
     );
 }
 
-/// A mass that is named twice counts once.
-#[test]
-fn point_masses_count_once_and_are_in_the_corrected_deck() {
-    let masses = |list: &str, deck: &str| {
-        let rule = format!("elements = [1]\nmasses = {list}\nscales = \"mass\"");
-        let files = with(
-            with(rods(), "job.toml", A, &rule),
-            "model.bdf",
-            "CMASS2,12,1.,2,1",
-            deck,
-        );
-        let (_folder, path) = placed(&files);
-        prepare(&path).unwrap()
-    };
-    let given = "CMASS2,12,1.,2,1";
-    let (once, twice) = (masses("[12]", given), masses("[12, \"12-12\", 12]", given));
-    let heavier = |job: &PreparedJob| {
-        job.loaded
-            .source
-            .whole
-            .at(&[1.0, 1.25])
-            .expect("its matrices")
-    };
-    assert_eq!(heavier(&once), heavier(&twice));
-    for (deck, corrected) in [
-        (given, "CMASS2,12,1.25,2,1"),
-        (
-            "CMASS2  12      1.      2       1",
-            "CMASS2  12      1.25    2       1",
-        ),
-        ("CONM2,12,2,,1.", "CONM2,12,2,,1.25"),
-        (
-            "PARAM,WTMASS,.5\nCMASS2,12,2.,2,1",
-            "PARAM,WTMASS,.5\nCMASS2,12,2.5,2,1",
-        ),
-    ] {
-        let job = masses("[12]", deck);
-        let first = &job.loaded.source.deck.as_ref().expect("a deck").0;
-        let text = job
-            .loaded
-            .corrected_deck(&[1.25, 1.0])
-            .expect("it rewrites")
-            .expect("a deck");
-        let expected = String::from_utf8_lossy(first).replace(deck, corrected);
-        assert_eq!(String::from_utf8_lossy(&text), expected);
-    }
-}
-
 /// There is nothing to correct in such a job, but its test and its model can be looked at.
 #[test]
 fn a_job_without_parameters_is_looked_at_and_not_run() {
     let mut files = rods();
     let job = &mut files[0].1;
-    job.truncate(job.find("[[parameter]]").expect("parameters"));
+    job.truncate(job.find("[[parameter]]").unwrap());
     let (_folder, path) = placed(&files);
     let loaded = prepare(&path).unwrap();
     assert_eq!(
@@ -243,13 +185,8 @@ fn a_job_without_parameters_is_looked_at_and_not_run() {
 #[test]
 fn a_job_sets_some_of_the_settings_and_the_others_are_the_librarys() {
     let settings = |job: &str| {
-        let (_folder, path) = placed(&with(
-            rods(),
-            "job.toml",
-            COMPARE,
-            &format!("{job}\n[compare]"),
-        ));
-        corfem::job::read(&path).expect("a job").correlation
+        let (_folder, path) = placed(&rods_with(COMPARE, &format!("{job}\n[compare]")));
+        corfem::job::read(&path).unwrap().correlation
     };
     assert_eq!(settings(""), Settings::default());
     let mut expected = Settings {
@@ -283,12 +220,7 @@ fn a_test_mode_that_is_none_of_the_models_is_left_out_and_named() {
 
 #[test]
 fn shapes_of_weight_zero_count_for_nothing() {
-    let frequencies = with(
-        rods(),
-        "job.toml",
-        COMPARE,
-        "[compare]\nshape_weights = [0, 0, 0]",
-    );
+    let frequencies = rods_with(COMPARE, "[compare]\nshape_weights = [0, 0, 0]");
     let prepared = prepared(&frequencies);
     let finished = finished(&prepared);
     // Without shapes the frequencies come as close as two factors allow.
@@ -303,7 +235,7 @@ fn shapes_of_weight_zero_count_for_nothing() {
 fn the_papers_error_sum_takes_the_weights_of_a_job() {
     let paper = |weights: &str| {
         let own = format!("method = \"paper\"\n{weights}");
-        with(rods(), "job.toml", "method = \"gauss_newton\"", &own)
+        rods_with("method = \"gauss_newton\"", &own)
     };
     let ran = |files: &Files| {
         let prepared = prepared(files);
@@ -323,9 +255,7 @@ fn the_papers_error_sum_takes_the_weights_of_a_job() {
         .lines()
         .find(|line| line.starts_with("frequency_hz"))
         .and_then(|line| line.rsplit(',').next());
-    let frequency: f64 = third
-        .and_then(|cell| cell.parse().ok())
-        .expect("a frequency");
+    let frequency: f64 = third.and_then(|cell| cell.parse().ok()).unwrap();
     let wrong = |weights: &str| {
         ran(&with(
             paper(weights),
@@ -354,7 +284,7 @@ fn a_sensor_left_out_for_a_mode_without_it_is_a_remark() {
     let data = &mut Arc::make_mut(&mut prepared.loaded).data;
     data.incomplete = vec!["7 y".to_owned(), "9 z".to_owned()];
     let trust = trust_in(&prepared);
-    let found = trust.of(Kind::NotInEveryMode).next().expect("said");
+    let found = trust.of(Kind::NotInEveryMode).next().unwrap();
     let words = "Sensors left out because some mode of the file has no value at them: 7 y, 9 z.";
     assert_eq!((found.stands(), &found.words()[..]), (false, words));
 }

@@ -3,7 +3,7 @@
 use super::job_concerns::tested;
 use super::lone_frequencies::without_shapes;
 use super::twice::universal;
-use crate::common::jobs::{rods, run};
+
 use crate::prelude::*;
 use corfem::job::{Study, Vary};
 
@@ -24,11 +24,11 @@ fn line(concern: &Concern) -> String {
 }
 
 fn before(files: &Files) -> Trust {
-    Trust::before(&prepared(files)).unwrap()
+    trust_in(&prepared(files))
 }
 
 fn after(files: &Files) -> Trust {
-    run(&prepared(files), |_| {}, || true).unwrap().trust
+    finished(&prepared(files)).trust
 }
 
 /// Lines of these kinds.
@@ -130,7 +130,7 @@ fn looked_at(
 /// Every limit of the look at frequencies, from both sides. The ratios $r$ have the median $m$ and the mean deviation $\sum |\ln r - \ln m|/n$.
 #[test]
 fn every_limit_of_frequencies_has_two_sides() {
-    let (spread, same) = ([1.0, 3.0, 9.0, 27.0], DMatrix::identity(4, 4));
+    let (spread, same) = ([1.0, 3.0, 9.0, 27.0], eye(4));
     let common = |ratios: [f64; 4]| {
         let tests = spread
             .iter()
@@ -190,7 +190,7 @@ fn every_limit_of_frequencies_has_two_sides() {
 /// each .2 from its own and 2 d from the other's have .4 + 2 d, and 4 d less when exchanged.
 #[test]
 fn an_exchange_of_frequencies_must_mend_enough() {
-    let same = DMatrix::identity(4, 4);
+    let same = eye(4);
     let exchanged = |analysis: [f64; 4], tests: [f64; 4], shapes: &DMatrix<f64>| {
         // So noisy that frequencies do not choose the partners.
         let noise = [Noise {
@@ -554,19 +554,14 @@ fn a_mode_held_out_says_what_it_was_and_is() {
     };
     assert_eq!(held.about, ["4"]);
     for (found, expected) in held.measure.iter().zip([0.0, 5.0, 0.0, 0.0]) {
-        assert!((found - expected).abs() < HELD_OUT, "{held:?}");
+        assert_within(found, expected, HELD_OUT);
     }
 }
 
 /// The nearest grid that moves: the wall, two inches away, is held.
 #[test]
 fn a_sensor_is_never_placed_at_a_grid_that_is_held() {
-    let files = with(
-        rods(),
-        "job.toml",
-        "[sensors]",
-        "[sensors]\nby = \"nearest\"",
-    );
+    let files = rods_with("[sensors]", "[sensors]\nby = \"nearest\"");
     let files = with(files, "test.csv", "10.", "2.");
     let loaded = prepared(&files);
     let first = &loaded.loaded.placed[0];
@@ -742,12 +737,7 @@ fn a_test_sees_the_first_model_and_the_last() {
             .iter_mut()
             .for_each(|hertz| *hertz *= 1.05)
     });
-    let result = run(
-        &prepared(&bounded(files, "prior_deviation = 100\n")),
-        |_| {},
-        || true,
-    )
-    .unwrap();
+    let result = finished(&prepared(&bounded(files, "prior_deviation = 100\n")));
     let [first, last] = [&result.seen_first, &result.seen].map(|seen| seen.singular_values[0]);
     assert!(
         (first * 1.05 / 200.0 - 1.0).abs() < HELD_OUT && relative_error(last, 200.0) < HELD_OUT,
@@ -756,12 +746,8 @@ fn a_test_sees_the_first_model_and_the_last() {
     let one = |row: usize, size: f64| {
         DMatrix::from_fn(2, 2, |r, c| if r == row && c == row { size } else { 0.0 })
     };
-    let modes = Modes::new(DVector::from_vec(vec![1e4, 4e4]), DMatrix::identity(2, 2)).unwrap();
-    let files = of_matrices(
-        &[one(0, 1e4), one(1, 4e4)],
-        &DMatrix::identity(2, 2),
-        &modes,
-    );
+    let modes = Modes::new(dvector![1e4, 4e4], eye(2)).unwrap();
+    let files = of_matrices(&[one(0, 1e4), one(1, 4e4)], &eye(2), &modes);
     let weights = "[compare]\nfrequency_weights = [1, 0.005]\nshape_weights = [1, 0]\n[[parameter]]\nname = \"p1\"";
     let files = with(files, "job.toml", "[[parameter]]\nname = \"p1\"", weights);
     assert_eq!(lines(&after(&files), &[Kind::Blind]), ["Blind [p2] []"]);

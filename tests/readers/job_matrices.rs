@@ -27,13 +27,8 @@ fn named_matrices(mass: &[(usize, f64)]) -> Files {
         .map(|&(grid, value)| card("MAAX", grid, grid, value))
         .collect::<String>();
     let model = "stiffness = \"model.pch#KAAX\"\nmass = \"model.pch#MAAX\"";
-    let mut files = with(rods(), "job.toml", "deck = \"model.bdf\"", model);
-    files[0].1 = files[0]
-        .1
-        .split("[[parameter]]")
-        .next()
-        .expect("a beginning")
-        .to_owned()
+    let mut files = rods_with("deck = \"model.bdf\"", model);
+    files[0].1 = files[0].1.split("[[parameter]]").next().unwrap().to_owned()
         + "[[parameter]]\nname = \"a\"\nmatrix = \"model.pch#KONE\"\n";
     files.push((
         "model.pch".to_owned(),
@@ -45,7 +40,7 @@ fn named_matrices(mass: &[(usize, f64)]) -> Files {
 #[test]
 fn matrices_that_name_their_rows_are_put_into_the_order_of_the_stiffness() {
     let prepared = prepared(&named_matrices(&[(4, 3.0), (3, 2.0)]));
-    let (_, mass) = prepared.loaded.source.whole.at(&[1.0]).expect("matrices");
+    let (_, mass) = prepared.loaded.source.whole.at(&[1.0]).unwrap();
     assert_eq!(
         mass.entries().collect_vec(),
         [(1, 1, 2.0), (2, 2, 3.0)],
@@ -102,9 +97,8 @@ fn a_table_of_rows_orders_matrices_that_name_theirs() {
         .filter(|(name, _)| name == "rows.csv")
         .for_each(|(_, text)| text.clone_from(&rows));
     files.push(("mass.pch".to_owned(), format!("DMIG,M,0,6,2,0\n{dmig}")));
-    let (_folder, path) = placed(&files);
-    let source = prepare(&path).unwrap().loaded.source.clone();
-    let (_, mass) = source.whole.at(&[1.0; 10]).expect("matrices");
+    let source = prepared(&files).loaded.source.clone();
+    let (_, mass) = source.whole.at(&[1.0; 10]).unwrap();
     assert_eq!(
         mass.entries()
             .collect_vec()
@@ -124,7 +118,7 @@ fn labels_that_fall_on_one_row_are_an_error_in_every_matrix() {
         let deck = files
             .iter_mut()
             .find(|(name, _)| name == "model.pch")
-            .expect("a deck");
+            .unwrap();
         deck.1 += &more;
         said(&files)
     };

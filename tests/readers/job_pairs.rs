@@ -7,13 +7,12 @@ use corfem::job::concern::Grade;
 use corfem::sparse::random::uniform;
 
 fn ready(files: &Files) -> PreparedJob {
-    let (_folder, path) = placed(files);
-    prepare(&path).unwrap()
+    prepared(files)
 }
 
 fn normal(draws: &mut Draws) -> f64 {
     let radius = (-2.0 * (1.0 - uniform(&mut draws.0)).ln()).sqrt();
-    radius * (std::f64::consts::TAU * uniform(&mut draws.0)).cos()
+    radius * (TAU * uniform(&mut draws.0)).cos()
 }
 
 /// A net of springs and masses in a row with some cross links, in parameters of one matrix each.
@@ -32,15 +31,16 @@ fn net(draws: &mut Draws, parameters: usize) -> (WholeModel, Vec<DMatrix<f64>>, 
     }
     let mass = (0..count).map(|_| draws.between(1.0, 3.0)).collect_vec();
     let stiffness: DMatrix<f64> = parts.iter().sum();
-    let of_part = |(number, part): (usize, &DMatrix<f64>)| WholeParameter {
-        name: format!("p{number}"),
-        share: WholeShare::Stiffness(sparse(part).expect("a part")),
-        range: None,
+    let of_part = |(number, part): (usize, &DMatrix<f64>)| {
+        whole_parameter(
+            format!("p{number}"),
+            WholeShare::Stiffness(sparse(part).unwrap()),
+        )
     };
     let parameters = parts.iter().enumerate().map(of_part).collect();
-    let (stiffness, mass) = (sparse(&stiffness).expect("a stiffness"), masses(&mass));
+    let (stiffness, mass) = (sparse(&stiffness).unwrap(), masses(&mass));
     let dense = mass.dense();
-    let model = WholeModel::new(stiffness, mass, parameters).expect("a model");
+    let model = WholeModel::new(stiffness, mass, parameters).unwrap();
     (model, parts, dense)
 }
 
@@ -77,18 +77,18 @@ fn wrong(draws: &mut Draws, sensors: usize, jobs: usize) -> [usize; 3] {
                 .map(|(part, factor)| *factor * part)
                 .sum()
         };
-        let first = solve(&sum(&vec![1.0; parameters]), &mass, 8).expect("modes");
-        let real = solve(&sum(&truth), &mass, tests).expect("modes");
+        let first = solve(&sum(&vec![1.0; parameters]), &mass, 8).unwrap();
+        let real = solve(&sum(&truth), &mass, tests).unwrap();
         let whole = first
             .shapes()
             .tr_mul(&(&mass * real.shapes()))
             .map(|part| part * part);
-        let right = pair_optimally(&whole, 0.0).expect("pairs");
+        let right = pair_optimally(&whole, 0.0).unwrap();
         let seen = |shapes: &DMatrix<f64>| shapes.select_rows(&rows);
-        let close = modal_assurance(&seen(first.shapes()), &seen(real.shapes())).expect("shapes");
-        let by_shape = pair_optimally(&close, 0.0).expect("pairs");
-        let analyzed = job.analyze(&vec![1.0; parameters]).expect("an analysis");
-        let partners = &analyzed.result().expect("a result").pairing.analysis_mode;
+        let close = modal_assurance(&seen(first.shapes()), &seen(real.shapes())).unwrap();
+        let by_shape = pair_optimally(&close, 0.0).unwrap();
+        let analyzed = job.analyze(&vec![1.0; parameters]).unwrap();
+        let partners = &analyzed.result().unwrap().pairing.analysis_mode;
         for (place, &test) in job.modes.iter().enumerate() {
             let Some(mode) = right[test].filter(|mode| whole[(*mode, test)] > 0.5) else {
                 continue;
@@ -143,21 +143,17 @@ fn a_hardly_seen_mode_takes_no_partner_from_one_that_is_seen() {
             });
             springs(20, &own.copied().collect_vec())
         };
-        let share = |name: &str, rows| WholeParameter {
-            name: name.to_owned(),
-            share: WholeShare::Stiffness(part(rows)),
-            range: None,
-        };
+        let share = |name: &str, rows| whole_parameter(name, WholeShare::Stiffness(part(rows)));
         let parameters = vec![share("measured", 0..10), share("other", 10..20)];
         let mass = masses(&[60.0; 20]);
-        let model = WholeModel::new(stiffness, mass.clone(), parameters).expect("a model");
+        let model = WholeModel::new(stiffness, mass.clone(), parameters).unwrap();
         let rows = [2, 4, 6, 9];
         let noise = Noise {
             shape: 0.02,
             frequency: 0.005,
         };
         let files = of_whole(&model, &[1.0, 1.0], &rows, 4, noise);
-        let found = solve(&springs(20, &real).dense(), &mass.dense(), 20).expect("modes");
+        let found = solve(&springs(20, &real).dense(), &mass.dense(), 20).unwrap();
         let on = |shapes: &DMatrix<f64>, mode: usize| {
             shapes.view((0, mode), (10, 1)).norm_squared() * 60.0
         };
@@ -177,16 +173,16 @@ fn a_hardly_seen_mode_takes_no_partner_from_one_that_is_seen() {
             "[compare]\nanalysis_modes = 16\n[[parameter]]",
         );
         let job = ready(&files);
-        let analyzed = job.analyze(&[1.0, 1.0]).expect("an analysis");
-        let result = analyzed.result().expect("a result");
-        let dense = model.at(&[1.0, 1.0]).expect("matrices").0.dense();
-        let first = solve(&dense, &mass.dense(), 20).expect("modes");
+        let analyzed = job.analyze(&[1.0, 1.0]).unwrap();
+        let result = analyzed.result().unwrap();
+        let dense = model.at(&[1.0, 1.0]).unwrap().0.dense();
+        let first = solve(&dense, &mass.dense(), 20).unwrap();
         let own = first.frequencies_hz();
         for (place, mode) in result.pairing.analysis_mode.iter().enumerate() {
             let hertz = result.modes.frequencies_hz()[*mode];
             let near =
                 (0..20).min_by(|a, b| (own[*a] - hertz).abs().total_cmp(&(own[*b] - hertz).abs()));
-            let near = near.expect("a mode");
+            let near = near.unwrap();
             seen_by_little += usize::from((0.0001..0.1).contains(&on(first.shapes(), near)));
             assert!(
                 on(first.shapes(), near) > 0.3,
@@ -214,18 +210,17 @@ fn no_finding_hangs_on_the_number_of_modes_taken() {
         .collect_vec();
     let half = |of: usize| {
         let own = all.iter().filter(|(row, ..)| row * 2 / count == of);
-        WholeParameter {
-            name: format!("half {of}"),
-            share: WholeShare::Stiffness(springs(count, &own.copied().collect_vec())),
-            range: None,
-        }
+        whole_parameter(
+            format!("half {of}"),
+            WholeShare::Stiffness(springs(count, &own.copied().collect_vec())),
+        )
     };
     let model = WholeModel::new(
         springs(count, &all),
         masses(&vec![2.0; count]),
         vec![half(0), half(1)],
     );
-    let model = model.expect("a model");
+    let model = model.unwrap();
     let sensors = [40, 90, 170, 230, 290, 360, 419];
     let noise = Noise {
         shape: 0.01,

@@ -7,32 +7,28 @@ use crate::prelude::*;
 fn written(files: &Files, digits: usize, (name, factor): (&str, f64)) -> Files {
     let number = |of: &str, line: &str| {
         let (place, value) = line.rsplit_once(' ')?;
-        let value: f64 = value.parse().ok()?;
         let factor = if of == name { factor } else { 1.0 };
-        Some(format!("{place} {:.*e}\n", digits - 1, factor * value))
+        let value = factor * value.parse::<f64>().ok()?;
+        Some(format!("{place} {value:.*e}\n", digits - 1))
     };
-    let shortened = |(of, text): &(String, String)| {
-        let mut lines = text.lines();
-        let head: String = lines
-            .by_ref()
-            .take(2)
-            .map(|line| format!("{line}\n"))
-            .collect();
-        let rest: String = lines.filter_map(|line| number(of, line)).collect();
-        let text = if of.ends_with(".mtx") {
-            head + &rest
-        } else {
-            text.clone()
-        };
-        (of.clone(), text)
+    let shortened = |(of, text): (String, String)| {
+        if !of.ends_with(".mtx") {
+            return (of, text);
+        }
+        let lines = text.lines().enumerate();
+        let lines = lines.filter_map(|(row, line)| match row {
+            0 | 1 => Some(format!("{line}\n")),
+            _ => number(&of, line),
+        });
+        let text = lines.collect();
+        (of, text)
     };
-    files.iter().map(shortened).collect()
+    files.iter().cloned().map(shortened).collect()
 }
 
 /// Doubts about parts.
 fn doubts(files: &Files) -> Vec<String> {
-    let prepared = prepared(files);
-    let trust = trust_in(&prepared);
+    let trust = trust_in(&prepared(files));
     let of_parts = ["negative-", "not-part-", "sum-of-", "twin-"];
     let all = trust.all().iter().map(Concern::identifier);
     all.filter(|identifier| of_parts.iter().any(|part| identifier.starts_with(part)))
@@ -67,15 +63,13 @@ properties! {
         let mut draws = Draws(seed);
         let of = chain(&mut draws);
         let mut again = files(&of, &Default::default(), 0.0, &mut draws);
-        let half = again.iter().find(|(name, _)| name == "p1.mtx").expect("a part").1.clone();
+        let half = file(&mut again, "p1.mtx").clone();
         again.push(("half.mtx".to_owned(), half));
         again[0].1 += "[[parameter]]\nname = \"again\"\nmatrix = \"half.mtx\"\n";
         let again = written(&again, digits, ("half.mtx", 0.5));
         prop_assert_eq!(doubts(&again), ["sum-of-stiffness"]);
-        let (_folder, path) = placed(&again);
-        let prepared = prepare(&path).unwrap();
-        let trust = trust_in(&prepared);
-        let words = trust.of(Kind::SumOfStiffness).next().expect("a doubt").words();
+        let trust = trust_in(&prepared(&again));
+        let words = trust.of(Kind::SumOfStiffness).next().unwrap().words();
         prop_assert!(words.contains("p1") || words.contains("again"), "{words}");
     }
 }

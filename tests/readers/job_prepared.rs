@@ -43,18 +43,18 @@ fn cross_orthogonality_does_not_depend_on_how_many_modes_are_taken() {
     let first = |count: usize| {
         let modes = format!("analysis_modes = {count}");
         let prepared = prepared(&with(building(), "job.toml", "analysis_modes = 10", &modes));
-        let report = Report::from_job(&prepared, None).expect("a report");
-        let model = prepared.analyze(&[1.0; 10]).expect("a model");
-        let mass = prepared.mass_at_sensors(&model).expect("a mass");
+        let report = Report::from_job(&prepared, None).unwrap();
+        let model = prepared.analyze(&[1.0; 10]).unwrap();
+        let mass = prepared.mass_at_sensors(&model).unwrap();
         let shapes = model.model().exact().modes.shapes();
         let lowest = shapes.columns(0, 5).into_owned();
         let own = lowest.tr_mul(&(&mass * &lowest));
         assert!(
-            (own - DMatrix::identity(5, 5)).amax() < ROUND_OFF,
+            (own - eye(5)).amax() < ROUND_OFF,
             "the paired modes are orthonormal with it"
         );
-        let found = report.agreement(&report.initial).expect("an agreement");
-        found.orthogonality.expect("a mass").rows(0, 5).into_owned()
+        let found = report.agreement(&report.initial).unwrap();
+        found.orthogonality.unwrap().rows(0, 5).into_owned()
     };
     let (few, all) = (first(5), first(10));
     assert!((&few - &all).amax() < ROUND_OFF, "{few} {all}");
@@ -65,7 +65,7 @@ fn cross_orthogonality_does_not_depend_on_how_many_modes_are_taken() {
 #[test]
 fn test_modes_keep_the_sense_in_which_they_were_measured() {
     let prepared = prepared(&rods());
-    let model = prepared.analyze(&[1.0, 1.0]).expect("a model");
+    let model = prepared.analyze(&[1.0, 1.0]).unwrap();
     for (compared, measured) in model
         .model()
         .test()
@@ -81,10 +81,7 @@ fn test_modes_keep_the_sense_in_which_they_were_measured() {
 fn a_minus_before_the_direction_turns_the_sensor() {
     let turned = "[sensors]\nplace = [{ sensor = \"S2\", grid = 2, direction = \"-x\" }]";
     let shapes = |files: &Files| prepared(files).test.shapes().clone();
-    let (plain, turned) = (
-        shapes(&rods()),
-        shapes(&with(rods(), "job.toml", "[sensors]", turned)),
-    );
+    let (plain, turned) = (shapes(&rods()), shapes(&rods_with("[sensors]", turned)));
     assert_eq!(plain.row(0), -turned.row(0));
     assert_eq!(plain.rows(1, 2), turned.rows(1, 2));
 }
@@ -134,23 +131,13 @@ fn a_sensor_reads_the_part_of_a_motion_along_its_axis() {
 
 #[test]
 fn a_sensor_may_be_as_far_as_its_job_allows_and_is_placed_once() {
-    let nearest = with(
-        rods(),
-        "job.toml",
-        "[sensors]",
-        "[sensors]\nby = \"nearest\"\ndistance = 1.0",
-    );
+    let nearest = rods_with("[sensors]", "[sensors]\nby = \"nearest\"\ndistance = 1.0");
     let far = prepared(&with(nearest, "test.csv", "+,10.0,", "+,11.0,"));
     assert_eq!(
         (far.loaded.placed[0].grid, far.loaded.placed[0].distance),
         (2, Some(1.0))
     );
-    let no_number = with(
-        rods(),
-        "job.toml",
-        "[sensors]",
-        "[sensors]\nby = \"nearest\"\ndistance = nan",
-    );
+    let no_number = rods_with("[sensors]", "[sensors]\nby = \"nearest\"\ndistance = nan");
     let no_number = said(&no_number);
     assert_eq!(
         no_number,
@@ -158,6 +145,6 @@ fn a_sensor_may_be_as_far_as_its_job_allows_and_is_placed_once() {
     );
     let place = |grid: usize| format!("{{ sensor = \"S2\", grid = {grid}, direction = \"x\" }}");
     let twice = format!("[sensors]\nplace = [{}, {}]", place(2), place(3));
-    let twice = said(&with(rods(), "job.toml", "[sensors]", &twice));
+    let twice = said(&rods_with("[sensors]", &twice));
     assert_eq!(twice, "job.toml: sensors.place: sensor S2 is named twice");
 }

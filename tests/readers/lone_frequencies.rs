@@ -6,12 +6,7 @@ use crate::prelude::*;
 
 /// The building by weighted steps, whose test lacks the shapes of these modes (from one).
 pub fn without_shapes(modes: &[usize]) -> Files {
-    let mut files = with(
-        building(),
-        "job.toml",
-        "[compare]",
-        "[compare]\nmethod = \"gauss_newton\"",
-    );
+    let mut files = comparing(building(), "method = \"gauss_newton\"");
     let test = files.iter_mut().find(|(name, _)| name == "test.csv");
     let text = &mut test.unwrap().1;
     let mut columns: Vec<usize> = Vec::new();
@@ -52,7 +47,7 @@ fn frequencies_without_shapes_count_as_frequencies_and_nowhere_else() {
     let squares =
         (0..5).map(|mode| (hertz[mode] / loaded.loaded.data.frequencies_hz[mode] - 1.0).powi(2));
     let frequency = squares.sum::<f64>().sqrt();
-    assert!((exact.errors.frequency - frequency).abs() <= ROUND_OFF * frequency);
+    assert_within(exact.errors.frequency, frequency, ROUND_OFF * frequency);
     let with_all = result(&without_shapes(&[]));
     let with_all = with_all.found.first.result().unwrap();
     assert!(exact.errors.shape < with_all.errors.shape);
@@ -79,8 +74,11 @@ fn a_whole_test_may_be_frequencies() {
         .iter_mut()
         .find(|(name, _)| name == "test.csv")
         .unwrap();
-    let (_folder, path) = placed(&without_shapes(&[]));
-    let hertz = prepare(&path).unwrap().loaded.data.frequencies_hz.clone();
+    let hertz = prepared(&without_shapes(&[]))
+        .loaded
+        .data
+        .frequencies_hz
+        .clone();
     let cells = hertz.iter().map(f64::to_string).collect_vec();
     test.1 = format!(
         "frequency_hz,{}\n,mode 1,mode 2,mode 3,mode 4,mode 5\n",

@@ -134,7 +134,7 @@ pub fn disordered() -> FiniteElementModel {
     t[(2, 0)] = 1.0;
     t[(5, 1)] = 0.5;
     t[(3, 1)] = 0.25;
-    let mass = DMatrix::from_diagonal(&dvector![0.5, 0.25]);
+    let mass = diagonal([0.5, 0.25]);
     FiniteElementModel::new(
         structure,
         t,

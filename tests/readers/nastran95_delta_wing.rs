@@ -45,7 +45,7 @@ fn stored_frequencies_are_the_crates_at_the_same_factors() {
             (found.shape_rms, own.errors.shape_rms()),
         ];
         for (a, b) in errors {
-            assert!((a - b).abs() <= NASTRAN_FREQUENCY, "{a}, expected {b}");
+            assert_within(a, b, NASTRAN_FREQUENCY);
         }
         // But it is NASTRAN-95's answer: more than round-off is between them.
         let own = paired_hz(&own);

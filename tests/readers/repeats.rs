@@ -6,8 +6,7 @@ use crate::prelude::*;
 
 /// The building's exact test.
 fn exact() -> TestData {
-    let (_folder, path) = placed(&building());
-    prepare(&path).unwrap().loaded.data.clone()
+    prepared(&building()).loaded.data.clone()
 }
 
 /// The same with noise, scaled and signed anyhow as an identification leaves it.
@@ -42,8 +41,7 @@ fn repeated(tests: &[TestData], modes: &str) -> Files {
 }
 
 fn loaded(files: &Files) -> PreparedJob {
-    let (_folder, path) = placed(files);
-    prepare(&path).unwrap()
+    prepared(files)
 }
 
 const ALL: &str = "[1, 2, 3, 4, 5]";
@@ -139,7 +137,7 @@ fn repeats_that_drift_are_said_and_widen_the_deviations() {
     assert_eq!(none, None);
     let (found, wide) = lag(&drifting);
     let found = found.unwrap();
-    assert!((found - KEPT).abs() < 0.3, "{found}");
+    assert_within(found, KEPT, 0.3);
     // As much wider as the mean of numbers that are alike from one to the next is less sure.
     let mut shuffled = drifting.clone();
     for place in 0..10 {
@@ -148,7 +146,7 @@ fn repeats_that_drift_are_said_and_widen_the_deviations() {
     let (_, alone) = lag(&shuffled);
     let wider = ((1.0 + found) / (1.0 - found)).sqrt();
     for (wide, alone) in wide.iter().zip(&alone) {
-        assert!((wide / alone / wider - 1.0).abs() < MATRIX_ROUND_OFF);
+        assert_within(wide / alone / wider, 1.0, MATRIX_ROUND_OFF);
     }
     assert_eq!(own.len(), wide.len());
 }
@@ -177,10 +175,7 @@ fn chi_squared_by_estimated_deviations_is_right_in_the_mean() {
     let exact = exact();
     for (jobs, repeats) in [(60, 20), (60, 8), (60, 3), (60, 2)] {
         let (mean, error) = chi_squared(jobs, repeats, ALL, |seed| noisy(&exact, seed));
-        assert!(
-            (mean - 1.0).abs() < STANDARD_ERRORS * error,
-            "{repeats}: {mean} by {error}"
-        );
+        assert_within(mean, 1.0, STANDARD_ERRORS * error);
         assert!(error < 0.1, "{repeats}: {error}");
     }
 }
@@ -232,20 +227,12 @@ fn with_enough_repeats_their_covariance_counts() {
         assert_eq!(is_whitened(&loaded), counts);
         assert_eq!(trust.about(Kind::AssumedDeviations), [""; 0]);
         // Weights of the job's own leave variances.
-        let own = with(
-            files,
-            "job.toml",
-            "[compare]",
-            "[compare]\nshape_weights = [2, 1]",
-        );
+        let own = comparing(files, "shape_weights = [2, 1]");
         assert!(!is_whitened(&self::loaded(&own)));
     }
     let (mean, error) = chi_squared(40, 40, ALL, |seed| correlated(&exact, seed));
 
-    assert!(
-        (mean - 1.0).abs() < STANDARD_ERRORS * error,
-        "{mean} by {error}"
-    );
+    assert_within(mean, 1.0, STANDARD_ERRORS * error);
     assert!(error < 0.15, "{error}");
 }
 

@@ -15,7 +15,7 @@ impl Place {
     fn of(files: Files) -> Self {
         let folder = new_folder();
         for (name, text) in files {
-            fs::write(folder.path().join(name), text).expect("written");
+            fs::write(folder.path().join(name), text).unwrap();
         }
         let job = folder.path().join("job.toml");
         Self { folder, job }
@@ -28,15 +28,15 @@ impl Place {
 
 /// The statistics of the samples of a text up to number `last`.
 fn summary(study: &Study, text: &str, last: u64) -> Result<Summary, FileError> {
-    let mut file = tempfile::NamedTempFile::new().expect("a file");
-    file.write_all(text.as_bytes()).expect("written");
+    let mut file = tempfile::NamedTempFile::new().unwrap();
+    file.write_all(text.as_bytes()).unwrap();
     Ok(Samples::read(file.path(), study)?.summary(study, last))
 }
 
 /// The lines of the first samples.
 fn lines(study: &Study, count: u64) -> Vec<String> {
     (1..=count)
-        .map(|sample| study.run(sample, || true).expect("a sample").0)
+        .map(|sample| study.run(sample, || true).unwrap().0)
         .collect()
 }
 
@@ -44,7 +44,7 @@ fn factors(line: &str) -> Vec<f64> {
     let cells = line.split(',').collect_vec();
     cells[5..cells.len() - 1]
         .iter()
-        .map(|cell| cell.parse().expect("a number"))
+        .map(|cell| cell.parse().unwrap())
         .collect()
 }
 
@@ -64,7 +64,7 @@ fn a_sample_is_the_same_whatever_ran_before_and_another_than_its_neighbor() {
     let again = place.study(7, &[Vary::Noise, Vary::Noise]);
     for sample in [5, 2, 6] {
         assert_eq!(
-            again.run(sample, || true).expect("a sample").0,
+            again.run(sample, || true).unwrap().0,
             lines[sample as usize - 1]
         );
     }
@@ -74,14 +74,10 @@ fn a_sample_is_the_same_whatever_ran_before_and_another_than_its_neighbor() {
         "{all:?}"
     );
     let (test, other) = (
-        &study.draw(1).expect("a draw").0.test,
+        &study.draw(1).unwrap().0.test,
         &place.study(8, &[Vary::Noise]),
     );
-    assert_ne!(
-        *test,
-        other.draw(1).expect("a draw").0.test,
-        "of another seed"
-    );
+    assert_ne!(*test, other.draw(1).unwrap().0.test, "of another seed");
 }
 
 /// What else varies changes nothing of the noise, and a start nothing of the test.
@@ -97,8 +93,8 @@ fn noise_start_and_subset_are_drawn_independently() {
     let together = place.study(1, &all);
     let (mut fewer_sensors, mut fewer_modes) = (0, 0);
     for sample in 1..=40 {
-        let [noise, start, subset, together] = [&noise, &start_alone, &subset, &together]
-            .map(|study| study.draw(sample).expect("a draw"));
+        let [noise, start, subset, together] =
+            [&noise, &start_alone, &subset, &together].map(|study| study.draw(sample).unwrap());
         assert_eq!(
             (&noise.0.loaded.data, &start.1),
             (&together.0.loaded.data, &together.1)
@@ -137,7 +133,7 @@ fn a_subset_of_the_modes_takes_their_weights_along() {
     let whole = study.prepared.weights();
     let mut fewer = 0;
     for sample in 1..=20 {
-        let (prepared, _) = study.draw(sample).expect("a draw");
+        let (prepared, _) = study.draw(sample).unwrap();
         let weights = prepared.weights();
         assert_eq!(
             weights,
@@ -164,7 +160,7 @@ fn a_start_is_brought_within_bounds_and_leads_to_the_same_rods() {
         .map(|line| factors(line))
         .collect_vec();
     let starts = (1..=8)
-        .map(|sample| study.draw(sample).expect("a draw").1)
+        .map(|sample| study.draw(sample).unwrap().1)
         .collect_vec();
     assert!(
         starts.iter().all(|start| (0.6..=1.1).contains(&start[0])),
@@ -201,15 +197,15 @@ fn factors_scatter_as_one_correlation_says_they_do() {
         |(name, text): (String, String)| (name, text.replace("analysis_modes = 10", precise));
     let place = Place::of(building().into_iter().map(edit).collect());
     let study = place.study(3, &[Vary::Noise]);
-    let found = crate::common::jobs::run(&study.prepared, |_| {}, || true).expect("it runs");
+    let found = finished(&study.prepared);
     let text = lines(&study, COUNT).concat();
-    let summary = summary(&study, &text, COUNT).expect("a summary");
+    let summary = summary(&study, &text, COUNT).unwrap();
     assert_eq!(
         (summary.within + summary.outside, summary.failed.len()),
         (COUNT as usize, 0)
     );
     for (story, (name, spread)) in summary.spreads.iter().enumerate() {
-        let spread = spread.as_ref().expect("samples");
+        let spread = spread.as_ref().unwrap();
         assert!(
             spread.quantiles[0] < STORIES[story] && STORIES[story] < spread.quantiles[2],
             "{name}: {spread:?}"
@@ -217,7 +213,7 @@ fn factors_scatter_as_one_correlation_says_they_do() {
         // Of the logarithm of a factor, and a sample's own deviation has an error of one in the root of 2 (n - 1).
         let ratio = spread.deviation / (found.found.factors[story] * found.seen.deviations[story]);
         let most = STANDARD_ERRORS / (2.0 * (COUNT - 1) as f64).sqrt();
-        assert!((ratio - 1.0).abs() < most, "{name}: {ratio}");
+        assert_within(ratio, 1.0, most);
     }
 }
 
@@ -240,7 +236,7 @@ fn a_summary_counts_what_its_file_has_up_to_the_last_sample() {
         line(2, true, 4.0),
         line(9, true, 99.0),
     ];
-    let found = summary(study, &text.concat(), 8).expect("a summary");
+    let found = summary(study, &text.concat(), 8).unwrap();
     assert_eq!(
         (found.within, found.outside, &found.failed[..]),
         (3, 1, &[4][..])
@@ -256,22 +252,22 @@ fn a_summary_counts_what_its_file_has_up_to_the_last_sample() {
             && (first.quantiles[2] - 3.925).abs() < 4.0 * f64::EPSILON
     );
     assert_eq!((second.deviation, second.quantiles), (0.0, [1.0; 3]));
-    let none = summary(study, "", 8).expect("a summary");
+    let none = summary(study, "", 8).unwrap();
     assert_eq!(none.spreads[0].1, None);
 }
 
 #[test]
 fn a_summary_counts_the_samples_at_an_end_of_a_factors_range() {
     let bounded = "elements = [1]\nlower = 0.5\nupper = 2.0";
-    let place = Place::of(with(rods(), "job.toml", "elements = [1]", bounded));
+    let place = Place::of(rods_with("elements = [1]", bounded));
     let study = &place.study(7, &[Vary::Noise]);
     let line = |(sample, factor): (usize, f64)| {
         format!("{sample},cap,true,0.5,3,{factor},2,{}\n", study.identity)
     };
     let text: String = [(1, 0.5), (2, 1.9), (3, 2.0)].map(line).concat();
-    let found = summary(study, &text, 3).expect("a summary");
+    let found = summary(study, &text, 3).unwrap();
     let counts = found.spreads.iter().map(|(_, spread)| {
-        let spread = spread.as_ref().expect("samples");
+        let spread = spread.as_ref().unwrap();
         (spread.count, spread.at_bound)
     });
     assert_eq!(counts.collect_vec(), [(3, 2), (3, 0)]);
@@ -283,60 +279,47 @@ fn what_does_not_belong_to_a_study_is_refused_by_its_line() {
     let study = &place.study(7, &[Vary::Noise]);
     let lines = lines(study, 2);
     let good = study.header() + &lines[0];
-    let refused = |text: String, expected: &str| {
-        let error = summary(study, &(good.clone() + &text), 2)
-            .expect_err(&text)
-            .to_string();
-        assert!(
-            error.contains(", line 3: ") && error.contains(expected),
-            "{error}"
-        );
-    };
-    let others = [
-        place.study(8, &[Vary::Noise]),
-        place.study(7, &[Vary::Start]),
-        place.study(7, &[Vary::Noise, Vary::Start]),
-    ];
-    for other in &others {
-        refused(
-            other.run(1, || true).expect("a sample").0,
+    let other = |seed, vary: &[Vary]| {
+        let other = place.study(seed, vary);
+        (
+            other.run(1, || true).unwrap().0,
             "a sample of this job, seed and choice of what varies",
+        )
+    };
+    let no_line = "is not a line of a sample of this study";
+    let sum = lines[1].split(',').nth(5).unwrap();
+    for (text, expected) in [
+        other(8, &[Vary::Noise]),
+        other(7, &[Vary::Start]),
+        other(7, &[Vary::Noise, Vary::Start]),
+        ("hello\n".to_owned(), no_line),
+        (lines[1].replacen(',', "", 1), no_line),
+        (lines[1].replacen("2,", "-2,", 1), no_line),
+        (
+            lines[1].replace(sum, "inf"),
+            "error sum, analyses and factors as numbers",
+        ),
+        (
+            lines[0].replacen(",local", ",  local", 1),
+            "is not what another line says of this sample",
+        ),
+    ] {
+        let said = said(summary(study, &(good.clone() + &text), 2).map(|_| ""));
+        assert!(
+            said.contains(", line 3: ") && said.contains(expected),
+            "{said}"
         );
     }
-    refused(
-        "hello\n".to_owned(),
-        "is not a line of a sample of this study",
-    );
-    refused(
-        lines[1].replacen(',', "", 1),
-        "is not a line of a sample of this study",
-    );
-    refused(
-        lines[1].replacen("2,", "-2,", 1),
-        "is not a line of a sample of this study",
-    );
-    let cells = lines[1].split(',').collect_vec();
-    refused(
-        lines[1].replace(cells[5], "inf"),
-        "error sum, analyses and factors as numbers",
-    );
-    refused(
-        lines[0].replacen(",local", ",  local", 1),
-        "is not what another line says of this sample",
-    );
     // Another first byte of any file is another job.
+    let identity = || place.study(7, &[Vary::Noise]).identity;
     for name in ["job.toml", "test.csv", "model.bdf"] {
         let path = place.folder.path().join(name);
-        let before = fs::read(&path).expect("it reads");
-        fs::write(&path, [&before[..], b"\n"].concat()).expect("written");
-        assert_ne!(
-            place.study(7, &[Vary::Noise]).identity,
-            study.identity,
-            "{name}"
-        );
-        fs::write(&path, before).expect("written");
+        let before = fs::read(&path).unwrap();
+        fs::write(&path, [&before[..], b"\n"].concat()).unwrap();
+        assert_ne!(identity(), study.identity, "{name}");
+        fs::write(&path, before).unwrap();
     }
-    assert_eq!(place.study(7, &[Vary::Noise]).identity, study.identity);
+    assert_eq!(identity(), study.identity);
 }
 
 /// A sample that cannot be run is a result, and its line reads.
@@ -351,7 +334,7 @@ fn a_sample_that_fails_says_why_and_counts_as_done() {
     let place = Place::of(rods().into_iter().map(edit).collect());
     let study = place.study(1, &[Vary::Noise]);
     let failed = (1..=10)
-        .map(|sample| study.run(sample, || true).expect("a sample"))
+        .map(|sample| study.run(sample, || true).unwrap())
         .filter(|(_, why)| why.is_some())
         .collect_vec();
     assert!(!failed.is_empty());
@@ -365,7 +348,7 @@ fn a_sample_that_fails_says_why_and_counts_as_done() {
         );
     }
     let text: String = failed.iter().map(|(line, _)| line.as_str()).collect();
-    let summary = summary(&study, &text, 10).expect("a summary");
+    let summary = summary(&study, &text, 10).unwrap();
     assert_eq!(summary.failed.len(), failed.len());
 }
 
@@ -382,16 +365,14 @@ fn a_request_to_stop_leaves_no_line() {
 #[test]
 fn no_noisy_test_of_the_building_is_stuck_at_the_start() {
     let path = folder_of("building").join("job.toml");
-    let study = Study::new(&path, 27, &[Vary::Noise], &[]).expect("a study");
+    let study = Study::new(&path, 27, &[Vary::Noise], &[]).unwrap();
     for sample in 0..200 {
-        let (line, error) = study.run(sample, || true).expect("it goes on");
+        let (line, error) = study.run(sample, || true).unwrap();
         assert!(error.is_none(), "{line} {error:?}");
         let cells = line.split(',').collect_vec();
         assert_ne!(cells[1], "nothing", "{line}");
-        let analyses: usize = cells[4].parse().expect("a count");
-        let factors = cells[5..15]
-            .iter()
-            .map(|cell| cell.parse::<f64>().expect("a factor"));
+        let analyses: usize = cells[4].parse().unwrap();
+        let factors = cells[5..15].iter().map(|cell| cell.parse::<f64>().unwrap());
         assert!(
             analyses > 1 && factors.clone().all(|factor| factor != 1.0),
             "{line}"
@@ -409,18 +390,18 @@ properties! {
         let folder = new_folder();
         let path = folder.path().join("samples.csv");
         let whole = study.header() + &order.iter().map(|&row| lines[row].as_str()).collect::<String>();
-        fs::write(&path, &whole).expect("written");
-        let expected = Samples::read(&path, study).expect("it reads").summary(study, 6);
+        fs::write(&path, &whole).unwrap();
+        let expected = Samples::read(&path, study).unwrap().summary(study, 6);
         let cut = (share * whole.len() as f64) as usize;
-        fs::write(&path, &whole[..cut]).expect("written");
-        let found = Samples::read(&path, study).expect("it reads");
+        fs::write(&path, &whole[..cut]).unwrap();
+        let found = Samples::read(&path, study).unwrap();
         prop_assert_eq!(found.whole as usize, whole[..cut].rfind('\n').map_or(0, |end| end + 1));
         let missing = (1..=6).filter(|&sample| !found.contains(sample));
         let more: String = missing.map(|sample| lines[sample as usize - 1].as_str()).collect();
         // Other machines' files behind it, with headers of their own and samples that are there already.
         let text = whole[..found.whole as usize].to_owned() + &more + &study.header() + &lines[order[0]] + "\r\n";
-        fs::write(&path, text).expect("written");
-        let samples = Samples::read(&path, study).expect("it reads");
+        fs::write(&path, text).unwrap();
+        let samples = Samples::read(&path, study).unwrap();
         prop_assert_eq!(samples.summary(study, 6), expected);
     }
 }

@@ -79,12 +79,7 @@ fn any_sensor_and_any_mode_may_be_left_out() {
 /// Whether a sample is within tolerance is one of two words.
 #[test]
 fn a_sample_that_is_neither_within_nor_outside_is_refused() {
-    let (folder, path) = placed(&with(
-        rods(),
-        "job.toml",
-        "[compare]",
-        "[compare]\nanalysis_modes = 3",
-    ));
+    let (folder, path) = placed(&comparing(rods(), "analysis_modes = 3"));
     let study = Study::new(&path, 7, &[Vary::Noise], &[]).unwrap();
     let samples = folder.path().join("samples.csv");
     let read = |within: &str| {
@@ -127,7 +122,7 @@ fn the_generator_is_the_published_one() {
 #[test]
 fn a_seed_draws_the_same_numbers_for_ever() {
     let deviations = "[compare]\nfrequency_deviation = 0.004\nshape_deviation = 0.02";
-    let files = with(rods(), "job.toml", "[compare]", deviations);
+    let files = rods_with("[compare]", deviations);
     let (_folder, path) = placed(&files);
     let study = Study::new(&path, 7, &[Vary::Noise, Vary::Start], &[]).unwrap();
     for (sample, starts, noise) in [
@@ -152,7 +147,7 @@ fn a_seed_draws_the_same_numbers_for_ever() {
     ] {
         let (drawn, start) = study.draw(sample).unwrap();
         for (found, expected) in start.iter().zip(starts) {
-            assert!((found - expected).abs() <= ROUND_OFF, "{sample}: {start:?}");
+            assert_within(found, expected, ROUND_OFF);
         }
         let exact = &study.prepared.loaded.data.frequencies_hz;
         for ((drawn, exact), variate) in drawn
@@ -164,10 +159,7 @@ fn a_seed_draws_the_same_numbers_for_ever() {
             .zip(noise)
         {
             let found = (drawn / exact - 1.0) / 0.004;
-            assert!(
-                (found - variate).abs() <= MATRIX_ROUND_OFF,
-                "{sample}: {found}"
-            );
+            assert_within(found, variate, MATRIX_ROUND_OFF);
         }
     }
     let (_folder, path) = placed(&building());

@@ -1,87 +1,25 @@
-//! The table of a test: the layout that its documentation states, as spreadsheets vary it, and its faults.
+//! The table of a test: the layout that its documentation states, and what is written.
 
 use crate::prelude::*;
-
-/// The example of the documentation.
-const WING: &str = "# Wing test of 3 May, soft suspension
-frequency_hz,,,,,,,12.1,17.9
-frequency_deviation,,,,,,,0.003,0.005
-name,grid,direction,sign,x,y,z,mode 1,mode 2
-tip,12,z,-,0.,52.5,3.1,-1.0,0.31
-\"aileron, outer\",14,z,+,8.,48.,3.1,0.87,-0.55
-";
 
 fn wing(text: &str) -> TestData {
     read("wing.csv", text.as_bytes()).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
+/// The first text of the list is the documentation's.
 #[test]
-fn the_documented_example_reads() {
-    let data = wing(WING);
-    assert_eq!(data.frequencies_hz, [12.1, 17.9]);
-    assert_eq!(data.frequency_deviation, Some(vec![0.003, 0.005]));
-    assert_eq!(
-        (data.shape_deviation, data.phase_collinearity, data.units),
-        (None, vec![], None)
-    );
-    assert_eq!(
-        data.shapes,
-        dmatrix![1.0, -0.31; 0.87, -0.55],
-        "a sensor against its axis has its sign turned"
-    );
-    let names = data
-        .sensors
-        .iter()
-        .map(|sensor| (sensor.name.as_str(), sensor.grid, sensor.direction))
-        .collect_vec();
-    assert_eq!(
-        names,
-        [("tip", Some(12), 2), ("aileron, outer", Some(14), 2)]
-    );
-    assert_eq!(data.sensors[0].place, Some(Vector3::new(0.0, 52.5, 3.1)));
-    let source = include_str!("../../src/files/test_data/csv.rs");
+fn the_documentation_has_the_example_that_the_list_reads() {
+    let list = include_str!("files/tables.toml")
+        .split("'''\n")
+        .nth(1)
+        .unwrap();
+    let source = include_str!("../../src/files/test_data/csv.rs").lines();
     let documented = source
-        .lines()
         .filter_map(|line| line.strip_prefix("//! "))
         .collect_vec();
-    assert!(
-        documented.join("\n").contains(WING.trim_end()),
-        "the documentation has this example"
-    );
-}
-
-#[test]
-fn spreadsheets_may_separate_by_semicolons_or_tabs_and_write_decimal_commas() {
-    let expected = wing(WING);
-    // The comment's comma stays, and so does that within quotation marks.
-    let converted = |separator: &str| {
-        let text = WING.replace(',', separator);
-        text.replace(&format!("aileron{separator}"), "aileron,")
-            .replace(&format!("May{separator}"), "May,")
-    };
-    assert_eq!(wing(&converted(";")), expected);
-    assert_eq!(wing(&converted("\t")), expected);
-    assert_eq!(wing(&converted(";").replace('.', ",")), expected);
-    assert_eq!(wing(&WING.replace('\n', "\r\n")), expected);
-    assert_eq!(wing(&format!("\u{feff}{WING}")), expected);
-    assert_eq!(
-        wing(
-            &WING
-                .replace("# Wing", "\"# Wing")
-                .replace("suspension", "suspension\",,")
-        ),
-        expected
-    );
-    assert_eq!(
-        wing(
-            &WING
-                .replace("name,grid", "Name, GRID ")
-                .replace("tip", "\n,,,,,,,,\ntip")
-        ),
-        expected
-    );
+    assert!(documented.join("\n").contains(list.trim_end()));
     // Latin-1, as old spreadsheets write.
-    let latin = WING
+    let latin = list
         .replace("tip", "fl\u{fc}gel")
         .chars()
         .map(|c| c as u8)

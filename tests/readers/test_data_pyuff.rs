@@ -59,11 +59,7 @@ impl Mode {
 
     /// The component of a node and direction.
     fn at(&self, grid: usize, direction: usize) -> Complex<f64> {
-        let place = self
-            .nodes
-            .iter()
-            .position(|node| *node == grid)
-            .expect("a node of the mode");
+        let place = self.nodes.iter().position(|node| *node == grid).unwrap();
         Complex::new(
             self.real[direction][place],
             self.imaginary[direction][place],
@@ -179,8 +175,10 @@ fn velocities_and_accelerations_become_displacements_and_a_response_is_no_mode()
             } else {
                 -omega * omega
             };
-            assert!(
-                (factor * data.shapes[(row, mode)] - measured).abs() <= ROUND_OFF * measured.abs()
+            assert_within(
+                factor * data.shapes[(row, mode)],
+                measured,
+                ROUND_OFF * measured.abs(),
             );
         }
     }
@@ -220,10 +218,7 @@ fn complex_modes_are_made_real_once_each_and_keep_their_collinearity() {
         assert!((found - &q * q.tr_mul(&found)).norm() < ROUND_OFF * found.norm());
         let ratio = (found.norm() / shape.norm()).powi(2);
         let expected = (2.0 * ratio - 1.0).powi(2);
-        assert!(
-            (data.phase_collinearity[column] - expected).abs() < ROUND_OFF,
-            "eigenvalues' sum is the square of the shape"
-        );
+        assert_within(data.phase_collinearity[column], expected, ROUND_OFF);
         assert!(data.phase_collinearity[column] > 0.5);
     }
 }
@@ -243,11 +238,7 @@ fn the_file_that_pyuff_has_read_is_what_the_crate_writes() {
                 expected.at(sensor.grid.unwrap_or(13), sensor.direction).re,
                 data.shapes[(row, mode)],
             );
-            assert!(
-                (found - value).abs() <= UNIVERSAL_ROUNDING * value.abs(),
-                "{}: {found} for {value}",
-                sensor.name
-            );
+            assert_within(found, value, UNIVERSAL_ROUNDING * value.abs());
         }
     }
 }

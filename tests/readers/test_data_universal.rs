@@ -75,8 +75,7 @@ fn by_node(data: &TestData) -> BTreeMap<(usize, usize), PlacedRow> {
 }
 
 fn assert_six_digits(found: &TestData, expected: &TestData) {
-    let close =
-        |a: f64, b: f64| assert!((a - b).abs() <= UNIVERSAL_ROUNDING * b.abs(), "{a} for {b}");
+    let close = |a: f64, b: f64| assert_within(a, b, UNIVERSAL_ROUNDING * b.abs());
     assert_eq!(found.lines, expected.lines);
     found
         .frequencies_hz

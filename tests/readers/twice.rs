@@ -16,7 +16,7 @@ fn about(files: &Files, kind: Kind) -> Vec<Vec<String>> {
 pub fn with_places(files: Files, edit: impl FnOnce(&mut Vec<Vector3<f64>>)) -> Files {
     retested(files, |data| {
         let places = data.sensors.iter();
-        let mut places = places.map(|own| own.place.expect("a place")).collect_vec();
+        let mut places = places.map(|own| own.place.unwrap()).collect_vec();
         edit(&mut places);
         for (sensor, place) in data.sensors.iter_mut().zip(places) {
             sensor.place = Some(place);
@@ -27,8 +27,8 @@ pub fn with_places(files: Files, edit: impl FnOnce(&mut Vec<Vector3<f64>>)) -> F
 /// A building whose test is a Universal File, after an edit of its text.
 fn in_universal(edit: impl FnOnce(String) -> String) -> Files {
     let mut files = measured_building(10, 4);
-    let (name, text) = files.last_mut().expect("the test");
-    let data = test_data::read("test.csv", text.as_bytes()).expect("a test");
+    let (name, text) = files.last_mut().unwrap();
+    let data = test_data::read("test.csv", text.as_bytes()).unwrap();
     *text = edit(write_universal(&data));
     *name = "test.unv".to_owned();
     files[0].1 = files[0].1.replace("test.csv", "test.unv");
@@ -41,8 +41,8 @@ pub fn numbered(numbers: [usize; 4]) -> Files {
         let own = |number: usize| format!("{:10}{:10}{:10}{number:10}\n", 2, 4, 0);
         let mut parts = text.split(&own(1)).map(str::to_owned).collect_vec();
         for number in 2..=4 {
-            let last = parts.pop().expect("a part");
-            let cut = last.split_once(&own(number)).expect("a mode");
+            let last = parts.pop().unwrap();
+            let cut = last.split_once(&own(number)).unwrap();
             parts.extend([cut.0.to_owned(), cut.1.to_owned()]);
         }
         let mut whole = parts[0].clone();

@@ -90,13 +90,17 @@ fn a_strong_coupling_loses_the_root_in_a_higher_order() {
     match recursive_1(&k, &beta, 2) {
         Err(Error::NotAVibration { mode, value }) => {
             assert_eq!(mode, 1);
-            assert!((value - (0.5 - 0.5 * 2.0 * 2.0 / 2.0)).abs() < f64::EPSILON);
+            assert_within(value, 0.5 - 0.5 * 2.0 * 2.0 / 2.0, f64::EPSILON);
         }
         other => panic!("{other:?}"),
     }
     // The explicit root of mode 0 is 1/(1 + S) with S = 2 (-2) = -4; the general formulae know roots of either sign.
     for found in [original(&k, &beta), recursive_2(&k, &beta, 2)] {
-        assert!((found.unwrap().roots[0] - 1.0 / (1.0 - 4.0)).abs() < 4.0 * f64::EPSILON);
+        assert_within(
+            found.unwrap().roots[0],
+            1.0 / (1.0 - 4.0),
+            4.0 * f64::EPSILON,
+        );
     }
 }
 
@@ -112,7 +116,7 @@ fn modes_that_come_together_are_named() {
     // What the recursion cannot do, the eigensolution can: 2 -+ 0.1.
     let exact = exact(&dvector![1.0, 2.0], &beta).unwrap();
     let sum: f64 = exact.roots.iter().map(|root| 1.0 / root).sum();
-    assert!((sum - 4.0).abs() < 10.0 * ROUND_OFF);
+    assert_within(sum, 4.0, 10.0 * ROUND_OFF);
 }
 
 /// Two modes that a change couples slightly count as coalescing when their roots are closer than the smallest separation, a
@@ -164,7 +168,7 @@ fn modes_that_an_order_after_the_first_brings_together_are_refused() {
     let k = dvector![1.0, k1, 3.0];
     let beta = dmatrix![0.0, 0.1, 1.0; 0.1, 0.0, 0.0; 1.0, 0.0, 0.0];
     let second = recursive_1(&k, &beta, 2).unwrap();
-    assert!((second.roots[0] * k1 - 1.0).abs() < ROUND_OFF);
+    assert_within(second.roots[0] * k1, 1.0, ROUND_OFF);
     let refused = recursive_1(&k, &beta, 3);
     assert!(
         matches!(

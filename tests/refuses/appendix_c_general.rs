@@ -52,7 +52,7 @@ fn rows_of_a_shape_without_a_solution_are_refused() {
     change.alpha[(0, 1)] = 1.0;
     change.alpha[(1, 0)] = -0.5;
     let change = pencil(&change);
-    assert!((change.first_order().unwrap().roots[2] - gamma).abs() < ROUND_OFF);
+    assert_within(change.first_order().unwrap().roots[2], gamma, ROUND_OFF);
     assert!(matches!(
         change.recursive_2(2),
         Err(Error::CoalescingModes {

@@ -52,10 +52,7 @@ impl Uncoupled<'_> {
             &sensors,
             &test,
             by_sorting(),
-            BasisSize {
-                modes: mass.nrows(),
-                residual_vectors: 0,
-            },
+            modes_alone(mass.nrows()),
         );
         found.unwrap()
     }

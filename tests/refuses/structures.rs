@@ -138,7 +138,7 @@ fn is_not_definite<T>(answer: &Result<T, Error>, row: usize) -> bool {
 #[test]
 fn an_indefinite_stiffness_is_refused_where_it_shows() {
     let structure = spring_chain(&[1.0, 1.0], [true, false]);
-    let unit = |sign: f64| DMatrix::from_row_slice(2, 2, &[1.0, -sign, -sign, sign]);
+    let unit = |sign: f64| dmatrix![1.0, -sign; -sign, sign];
     for units in [
         vec![eye(1), unit(-1.0)],
         vec![eye(1), 4.0 * unit(1.0) - 3.5 * eye(2)],
@@ -168,7 +168,7 @@ fn a_motion_is_named_in_any_unit() {
     let structure = spring_chain(&[1.0, 1.0], [true, false]);
     for power in [-20, 0, 20] {
         let units = |delta: f64| {
-            let coupled = DMatrix::from_row_slice(2, 2, &[1.0, delta - 1.0, delta - 1.0, 1.0]);
+            let coupled = dmatrix![1.0, delta - 1.0; delta - 1.0, 1.0];
             vec![zero_square(1), 2.0_f64.powi(power) * coupled]
         };
         assert_eq!(named(refused(&structure, Some(units(3e-15)))), (3, 'x'));

@@ -85,10 +85,7 @@ fn assert_same_modes(model: &FiniteElementModel, count: usize) {
     let (plain, plain_seen) = dense_modes(model, count);
     let squares = plain.omega_squared();
     for (mode, (a, b)) in squares.iter().zip(found.omega_squared()).enumerate() {
-        assert!(
-            ((b / a).sqrt() - 1.0).abs() <= TWO_PROGRAMS,
-            "frequency {mode}: {a} {b}"
-        );
+        assert_within((b / a).sqrt(), 1.0, TWO_PROGRAMS);
         // A cluster at the end of the list may go on behind it.
         let is_near = |other: &usize| relative_error(squares[*other], a) < CLUSTER;
         let cluster = (0..count).filter(is_near).collect_vec();

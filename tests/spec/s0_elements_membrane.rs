@@ -113,21 +113,8 @@ fn a_right_triangles_stiffness_is_the_hand_result() {
         ],
     );
     // E/(1 − ν²) = 16/15, ν times it 4/15, and G as given.
-    let elasticity = DMatrix::from_row_slice(
-        3,
-        3,
-        &[
-            16.0 / 15.0,
-            4.0 / 15.0,
-            0.0,
-            4.0 / 15.0,
-            16.0 / 15.0,
-            0.0,
-            0.0,
-            0.0,
-            0.4,
-        ],
-    );
+    let elasticity =
+        dmatrix![16.0 / 15.0, 4.0 / 15.0, 0.0; 4.0 / 15.0, 16.0 / 15.0, 0.0; 0.0, 0.0, 0.4];
     let by_hand = 0.5 * strain.transpose() * elasticity * strain;
     assert!(relative_distance(&found, &by_hand) <= ROUND_OFF);
 }

@@ -37,10 +37,7 @@ fn rule_is_exact_to_degree_2n_minus_1_and_no_further() {
         product * (2.0 * k * k / (2.0 * k * (2.0 * k - 1.0))).powi(2)
     });
     let error = monomial(2 * COUNT) - integrate(|s| s.powi(2 * COUNT as i32));
-    assert!(
-        (error - known).abs() <= ROUND_OFF,
-        "{error:e}, not {known:e}"
-    );
+    assert_within(error, known, ROUND_OFF);
 }
 
 /// Golub and Welsch: points are the eigenvalues of the Jacobi matrix with k/√(4k²−1) beside its diagonal, weights
@@ -59,7 +56,7 @@ fn rule_equals_golub_and_welsch() {
     let mut expected = expected.collect_vec();
     expected.sort_by(|a, b| a.0.total_cmp(&b.0));
     for ((point, weight), (s, w)) in rule().into_iter().zip(expected) {
-        assert!((point - s).abs() <= ROUND_OFF, "{point} {s}");
-        assert!((weight - w).abs() <= ROUND_OFF, "{weight} {w}");
+        assert_within(point, s, ROUND_OFF);
+        assert_within(weight, w, ROUND_OFF);
     }
 }

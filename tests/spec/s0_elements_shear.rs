@@ -119,7 +119,7 @@ fn a_rectangles_stiffness_is_the_hand_result() {
     let material = aluminum();
     // A flow of one along each side, half of it to each of the side's corners.
     let (fx, fy) = (length / 2.0, width / 2.0);
-    let a = DVector::from_vec(vec![fx, fy, 0.0, fx, -fy, 0.0, -fx, -fy, 0.0, -fx, fy, 0.0]);
+    let a = dvector![fx, fy, 0.0, fx, -fy, 0.0, -fx, -fy, 0.0, -fx, fy, 0.0];
     let by_hand = material.shear_modulus / (length * width) * &a * a.transpose();
     let found = shear_panel(&corners, &material);
     assert!(relative_distance(&found, &by_hand) <= ROUND_OFF);
@@ -130,7 +130,11 @@ fn a_rectangles_stiffness_is_the_hand_result() {
     let expected = 0.5 * material.shear_modulus * strain * strain * length * width;
     assert!(relative_error(energy, expected) <= ROUND_OFF);
     let z = energy_coefficient(&corners, &material);
-    assert!((z * 2.0 * material.shear_modulus / (length * width) - 1.0).abs() <= ROUND_OFF);
+    assert_alike(
+        [z * 2.0 * material.shear_modulus],
+        [(length * width)],
+        ROUND_OFF,
+    );
 }
 
 /// Tilting side 3-4 by ε moves the energy by as much: no band of angles within which sides count as parallel.
@@ -147,7 +151,7 @@ fn sides_become_parallel_without_a_jump() {
         .map(|tilt| (tilt, relative_error(energy(tilt), parallel)))
         .to_vec();
     let slope = log_log_slope(&points);
-    assert!((slope - 1.0).abs() < SLOPE, "slope {slope}");
+    assert_within(slope, 1.0, SLOPE);
     assert!(relative_error(energy(1e-12), parallel) < ELEMENT_ROUND_OFF);
 }
 

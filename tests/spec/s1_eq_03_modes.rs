@@ -157,8 +157,8 @@ fn measured_modes_by_hand() {
         .and_then(|measured| measured.scaled_with(&dmatrix![4.0, 0.0; 0.0, 25.0]))
         .unwrap();
     assert_eq!(*modes.shapes(), dmatrix![-0.5, 0.0; 0.0, 0.2]);
-    assert!((modes.omega_squared()[0] / (4.0 * PI * PI) - 1.0).abs() <= ROUND_OFF);
-    assert!((modes.omega_squared()[1] / (PI * PI) - 1.0).abs() <= ROUND_OFF);
+    assert_alike([modes.omega_squared()[0]], [(4.0 * PI * PI)], ROUND_OFF);
+    assert_alike([modes.omega_squared()[1]], [(PI * PI)], ROUND_OFF);
 }
 
 #[test]

@@ -15,11 +15,7 @@ fn frequency_error_is_relative() {
         relative += (percent / 100.0_f64).powi(2);
         absolute += difference * difference;
     }
-    assert!(
-        (relative.sqrt() - 0.3828).abs() < PRINTED_SRSS,
-        "{}",
-        relative.sqrt()
-    );
+    assert_within(relative.sqrt(), 0.3828, PRINTED_SRSS);
     assert!(
         (97.0..98.0).contains(&absolute.sqrt()),
         "{}",

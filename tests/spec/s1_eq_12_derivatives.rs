@@ -180,14 +180,11 @@ fn derivatives_away_from_the_start_are_those_of_a_new_start() {
     let found = problem.error_changes(&state).unwrap();
     let expected = moved.error_changes(moved.exact()).unwrap();
     for (a, b) in found.iter().zip(&expected) {
-        assert!((a - b).abs() <= CONVERGED_STATE, "{a:e} {b:e}");
+        assert_within(a, b, CONVERGED_STATE);
     }
     let at_start = gradient(&moved, moved.exact()).unwrap();
     for (a, b) in gradient(&problem, &state).unwrap().iter().zip(at_start) {
-        assert!(
-            (a - b).abs() <= CONVERGED_STATE / DERIVATIVE_STEP,
-            "{a:e} {b:e}"
-        );
+        assert_within(a, b, CONVERGED_STATE / DERIVATIVE_STEP);
     }
 }
 

@@ -82,7 +82,7 @@ fn the_papers_difference_tends_to_the_gradient_with_slope_one() {
             })
             .collect_vec();
         let slope = log_log_slope(&points);
-        assert!((slope - 1.0).abs() <= ORDER_SLACK, "{slope}: {points:?}");
+        assert_within(slope, 1.0, ORDER_SLACK);
     }
 }
 
@@ -122,5 +122,5 @@ fn an_error_of_zero_has_no_slope() {
     assert_eq!(gradient(&problem, state).unwrap(), [0.0]);
     // The paper's difference goes uphill on one side of it.
     let found = problem.error_changes(state).unwrap();
-    assert!((found[0] - ((1.0 + DERIVATIVE_STEP).sqrt() - 1.0)).abs() <= ROUND_OFF);
+    assert_within(found[0], (1.0 + DERIVATIVE_STEP).sqrt() - 1.0, ROUND_OFF);
 }

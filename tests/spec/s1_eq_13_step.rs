@@ -118,7 +118,7 @@ fn factors_by_hand(error_sum: f64, relaxation: f64, rule: StepRule) -> Vec<f64> 
 fn assert_close(found: &[f64], expected: [f64; 3]) {
     assert_eq!(found.len(), 3);
     for (found, expected) in found.iter().zip(expected) {
-        assert!((found - expected).abs() <= ROUND_OFF, "{found} {expected}");
+        assert_within(found, expected, ROUND_OFF);
     }
 }
 

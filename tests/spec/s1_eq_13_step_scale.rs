@@ -37,7 +37,7 @@ fn the_first_step_does_not_depend_on_how_many_modes_are_compared() {
     }
     // With the paper's relaxation it grows with the square root of their number, and is the same for nine.
     let sum = |modes| first_step_over_newtons(modes, |settings, _| settings);
-    assert!((sum(64) / sum(16) - 2.0).abs() < 1e3 * ROUND_OFF);
+    assert_within(sum(64) / sum(16), 2.0, 1e3 * ROUND_OFF);
     assert!(relative_error(sum(9), of(9)) < ROUND_OFF);
 }
 
@@ -141,29 +141,6 @@ fn a_test_in_other_units_still_descends() {
 }
 
 #[test]
-fn masses_a_thousand_times_too_large_still_descend() {
-    let case = case_of(1);
-    let mut heavy = case.clone();
-    heavy
-        .reconstruction
-        .masses
-        .iter_mut()
-        .for_each(|mass| *mass *= 1000.0);
-    let model = heavy.model().unwrap();
-    let test = case.test_modes().unwrap();
-    let found = correlate(
-        |factors| model.analyze(factors, &test, None),
-        &[None; 15],
-        &Settings::default(),
-        |_, _| true,
-    )
-    .unwrap();
-    let start = found.initial.errors.sum();
-    let first = &found.passes[0].inner;
-    assert!(first.last.errors.sum() < start && !first.iterations.is_empty());
-}
-
-#[test]
 fn halvings_shorten_the_step_that_is_taken() {
     // However far the factor lies beyond its bound, each trial is half as long as the one before.
     let problem = first_problem(4);
@@ -176,5 +153,5 @@ fn halvings_shorten_the_step_that_is_taken() {
     let record = &run.iterations[0];
     assert!(record.unlimited_factors[7] > 50.0);
     let expected = 1.0 + 0.5_f64.powi(record.halvings as i32 + 1);
-    assert!((record.factors[7] - expected).abs() <= ROUND_OFF);
+    assert_within(record.factors[7], expected, ROUND_OFF);
 }

@@ -33,11 +33,7 @@ fn stopping_at_the_first_rise_stops_early() {
             (settings.step, settings.halvings) = (step, 0)
         });
         assert_eq!(run.stop, Stop::LocalMinimum);
-        assert!(
-            (run.last.errors.sum() - error_sum).abs() < STATED_ERROR_SUM,
-            "{}",
-            run.last.errors.sum()
-        );
+        assert_within(run.last.errors.sum(), error_sum, STATED_ERROR_SUM);
         let halved = first_pass(number, |settings| settings.step = step);
         assert_eq!(halved.stop, Stop::Tolerance);
         assert!(halved.iterations.iter().any(|i| i.halvings > 0));

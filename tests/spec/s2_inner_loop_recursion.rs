@@ -20,32 +20,6 @@ fn chain() -> Model {
     model.analyze(&test, Some(3)).unwrap()
 }
 
-/// Where Recursive 1 settles, its state is the eigensolution's.
-#[test]
-fn recursion_and_eigensolution_reach_the_same_state() {
-    let model = chain();
-    for factors in [
-        [1.0, 1.0, 1.0, 1.0, 1.0, 1.0],
-        [1.2, 1.0, 0.9, 1.1, 1.0, 0.9],
-        [0.8, 1.1, 1.0, 1.0, 0.9, 1.3],
-    ] {
-        let found = model.at(&factors).unwrap();
-        let exact = exact_state(&model, &factors).unwrap();
-        let (modes, exact_modes) = (&found.modes, &exact.modes);
-        assert_alike(
-            modes.omega_squared().iter(),
-            exact_modes.omega_squared().iter(),
-            EIGEN_ROUND_OFF,
-        );
-        assert!((modes.shapes() - exact_modes.shapes()).amax() < EIGEN_ROUND_OFF);
-        let generalized = &found.generalized_shapes - &exact.generalized_shapes;
-        assert!(generalized.amax() < EIGEN_ROUND_OFF);
-        assert_eq!(found.pairing, exact.pairing);
-        assert!((found.errors.frequency - exact.errors.frequency).abs() < EIGEN_ROUND_OFF);
-        assert!((found.errors.shape - exact.errors.shape).abs() < EIGEN_ROUND_OFF);
-    }
-}
-
 /// Ground spring 1 of 1.3 and spring 1-3 of 0.95 bring the first-order roots of modes 1 and 2 to 4.05, coupled: Recursive 1
 /// refuses the state and names them, the eigensolution has it, and shapes of unit generalized mass.
 #[test]
@@ -71,41 +45,4 @@ fn state_where_two_roots_meet_is_the_eigensolutions_alone() {
     let product = generalized.tr_mul(generalized);
     assert!((product - eye(3)).amax() < EIGEN_ROUND_OFF);
     assert!(found.errors.sum().is_finite());
-}
-
-/// Two oscillators side by side whose second mass is a parameter: without it the root is zero, with less than nothing it is
-/// negative, and neither is a vibration.
-#[test]
-fn mass_that_is_taken_whole_loses_the_root() {
-    let (stiffness, mass) = (dmatrix![1.0, 0.0; 0.0, 4.0], eye(2));
-    let second = dmatrix![0.0, 0.0; 0.0, 1.0];
-    let shares = [ParameterMatrix::Mass(second.clone())];
-    let (whole, sensors) = of_dense(&stiffness, &mass, &shares).unwrap();
-    let test = Modes::from_measured(&[0.1, 0.4], &eye(2)).unwrap();
-    let model = whole.analyze(
-        &[1.0],
-        &sensors,
-        &test,
-        by_sorting(),
-        BasisSize {
-            modes: 2,
-            residual_vectors: 0,
-        },
-    );
-    let model = model.unwrap();
-    for (factor, root) in [(0.0, 0.0), (-0.5, -0.125)] {
-        assert_refused(
-            model.at(&[factor]),
-            Error::NotAVibration {
-                mode: 1,
-                value: root,
-            },
-        );
-        let changed = &mass + (factor - 1.0) * &second;
-        assert!(matches!(
-            solve(&stiffness, &changed, 2),
-            Err(Error::NotPositiveDefinite { row: 1, .. })
-        ));
-    }
-    assert!(model.at(&[0.5]).is_ok());
 }

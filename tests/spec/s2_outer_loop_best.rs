@@ -29,7 +29,7 @@ fn three_passes((chain, truth, power): &(Chain, Vec<f64>, f64)) -> Correlation {
         &settings,
         |_, _| true,
     )
-    .expect("a chain can be correlated")
+    .unwrap()
 }
 
 /// The exact error sums, that of the start first.
@@ -73,7 +73,7 @@ fn what_is_within_the_tolerances_comes_before_a_smaller_sum_outside() {
     let test = Modes::new(dvector![1.0, 4.0], eye(2)).unwrap();
     let analysis = |ratio: f64, tangent: f64| {
         let turn = dmatrix![1.0, -tangent; tangent, 1.0] / 1.0_f64.hypot(tangent);
-        let squares = DMatrix::from_diagonal(&dvector![ratio * ratio, 4.0]);
+        let squares = diagonal([ratio * ratio, 4.0]);
         let stiffness = &turn * squares * turn.transpose();
         let shares = vec![stiffness.clone()];
         let mass = eye(2);

@@ -54,46 +54,6 @@ properties! {
 }
 
 #[test]
-fn a_model_keeps_what_it_was_made_of() {
-    let parameters = vec![Parameter::new(2, &[2]), group("ends", &[1, 3], None)];
-    let model = chain(parameters.clone()).unwrap();
-    assert_eq!(model.parameters(), parameters);
-    let Parameter { name, elements, .. } = &model.parameters()[0];
-    assert_eq!((name.as_str(), elements.as_slice()), ("2", &[2][..]));
-    let range = Bounds {
-        lower: 1.0,
-        upper: 5.0,
-    };
-    assert_eq!(
-        Parameter {
-            size_range: Some(range),
-            ..Parameter::new(2, &[2])
-        }
-        .size_range,
-        Some(range)
-    );
-    assert_eq!(model.structure().elements().len(), 3);
-    let labels = model
-        .element_matrices()
-        .iter()
-        .map(|matrix| matrix.label)
-        .collect_vec();
-    assert_eq!(labels, [1, 2, 3]);
-    assert_eq!(model.load_distribution().clone(), eye(3));
-    assert_eq!(model.mass(), &eye(3));
-    assert_eq!(model.sizes(&[3.0, 0.5]).unwrap(), [1.0, 12.0, 4.0]);
-    // T and M the identity: K_D is K_S, and a spring's share its own matrix.
-    let dynamic = model.matrices(&[3.0, 0.5]).unwrap();
-    let expected =
-        DMatrix::from_row_slice(3, 3, &[13.0, -12.0, 0.0, -12.0, 16.0, -4.0, 0.0, -4.0, 4.0]);
-    assert!(relative_distance(&dynamic.stiffness, &expected) <= MATRIX_ROUND_OFF);
-    let middle =
-        DMatrix::from_row_slice(3, 3, &[12.0, -12.0, 0.0, -12.0, 12.0, 0.0, 0.0, 0.0, 0.0]);
-    assert!(relative_distance(&dynamic.shares[0], &middle) <= MATRIX_ROUND_OFF);
-    assert!(relative_distance(&dynamic.shares[1], &(expected - middle)) <= MATRIX_ROUND_OFF);
-}
-
-#[test]
 fn factor_ranges_are_size_bounds_over_first_sizes() {
     let bounds = |lower, upper| Some(Bounds { lower, upper });
     let model = chain(vec![

@@ -71,32 +71,6 @@ fn all_twelve_published_columns_have_the_expected_frequencies() {
     }
 }
 
-#[test]
-fn initial_solutions_are_the_expected_ones() {
-    let table = expected(StepRule::Matrix);
-    for case in CASES {
-        let initial = result(case).correlation.initial;
-        let section = format!("case {case} initial");
-        let frequencies = list(&table, &section, "frequencies");
-        assert_all_close(
-            &initial.modes.frequencies_hz(),
-            &frequencies,
-            EXPECTED_FREQUENCY,
-        );
-        let (f, v) = (initial.errors.frequency_rms(), initial.errors.shape_rms());
-        assert_relative_eq!(
-            f,
-            number(&table, &section, "frequency_rms"),
-            max_relative = EXPECTED_HISTORY
-        );
-        assert_relative_eq!(
-            v,
-            number(&table, &section, "shape_rms"),
-            max_relative = EXPECTED_HISTORY
-        );
-    }
-}
-
 /// Every pass of a run as the independent program has it.
 fn assert_history(result: &CaseResult) {
     let table = expected(result.case.settings.inner.step);
@@ -274,15 +248,6 @@ fn other_cases_report_no_anomaly_by_any_reading() {
     }
 }
 
-#[test]
-fn same_input_gives_the_same_bytes() {
-    let json = || {
-        let results = CASES.into_iter().map(result).collect_vec();
-        crate::paper::json::cases(&results).unwrap()
-    };
-    assert_eq!(json(), json());
-}
-
 /// A demand stands out from all others, which count as one at least; what stands far below does not.
 #[test]
 fn what_stands_out_is_many_times_the_next_demand() {
@@ -299,23 +264,4 @@ fn what_stands_out_is_many_times_the_next_demand() {
     assert_eq!(stands_out(&[-60.0, 0.9, 0.5]), None);
     assert_eq!(stands_out(&[2.0 * ratio]), Some((0, 2.0 * ratio)));
     assert_eq!(stands_out(&[]), None);
-}
-
-/// Case 4 as the paper ran it is done when its one iteration names an element; run on, it has to correlate, as every
-/// other case has in however few iterations.
-#[test]
-fn one_iteration_is_enough_for_case_4_alone() {
-    let with_iterations = |number: usize, iterations: usize| {
-        let mut case = case_of(number);
-        case.settings.inner.iterations = iterations;
-        case_run(&case)
-    };
-    assert!(with_iterations(4, 1).succeeded());
-    let longer = with_iterations(4, 2);
-    assert!(longer.anomaly.is_some());
-    assert_eq!(longer.succeeded(), longer.correlation.converged);
-    assert!(!longer.succeeded());
-    let shorter = with_iterations(2, 1);
-    assert!(shorter.anomaly.is_none());
-    assert_eq!(shorter.succeeded(), shorter.correlation.converged);
 }

@@ -17,11 +17,7 @@ fn last_pass(case: usize) -> &'static str {
 }
 
 fn frequency_table(case: usize) -> PublishedTable {
-    PublishedTable::number(2 * case + 1).expect("Table 3, 5 or 7")
-}
-
-fn gage_table(case: usize) -> PublishedTable {
-    PublishedTable::number(2 * case + 2).expect("Table 4, 6 or 8")
+    PublishedTable::number(2 * case + 1).unwrap()
 }
 
 #[test]
@@ -69,10 +65,7 @@ fn initial_frequency_errors_are_near_the_published_ones() {
         let printed = table.required("frequency_rms", "initial_percent").unwrap();
         let computed = 100.0 * result.correlation.initial.errors.frequency_rms();
         // Within the fit of the box: 12.11 for 12.76, 20.63 for 21.11, 5.67 for 5.01 %.
-        assert!(
-            (computed - printed).abs() < FITTED_FREQUENCY_ERROR,
-            "{computed} for {printed}"
-        );
+        assert_within(computed, printed, FITTED_FREQUENCY_ERROR);
     }
 }
 
@@ -92,43 +85,6 @@ fn final_errors_are_no_worse_than_published_except_case_2s_frequencies() {
         };
         assert!(100.0 * last.check.errors.frequency_rms() <= allowed);
         assert!(100.0 * last.check.errors.shape_rms() <= shape);
-    }
-}
-
-#[test]
-fn final_gage_errors_are_no_worse_than_published_except_case_1() {
-    for result in results() {
-        let number = result.case.number;
-        let table = gage_table(number);
-        let gages = result.pass_gages.last().unwrap();
-        for (row, kind) in [
-            ("shear_rms", ElementKind::ShearPanel),
-            ("membrane_rms", ElementKind::Membrane),
-        ] {
-            let Some(printed) = table.value(row, last_pass(number)) else {
-                assert_eq!(
-                    (number, row),
-                    (1, "membrane_rms"),
-                    "Case 1 alone has no membranes"
-                );
-                continue;
-            };
-            let computed = 100.0 * gage_rms(&result.case.panels, gages, kind);
-            // How far below: each is what this box gives, and another number is another correction.
-            let expected = match (number, row) {
-                (1, _) => 5.0,
-                (2, "shear_rms") => 23.8,
-                (2, _) => 2.5,
-                (_, "shear_rms") => 16.35,
-                _ => 14.3,
-            };
-            assert!(
-                (computed - expected).abs() <= FINAL_GAGE_ERROR,
-                "{computed} for {expected}"
-            );
-            // The one exception: the box gives 5.0 where the paper has 3.9 (paper/results.md says why).
-            assert_eq!(computed <= printed, number != 1, "{computed} for {printed}");
-        }
     }
 }
 

@@ -65,9 +65,10 @@ fn evidence_is_what_the_objective_falls_by_at_the_factor_named() {
             start - objective(&factors)
         };
         // The box has all its modes, whose combinations are exact.
-        assert!(
-            (suspect.evidence - fall(suspect.factor)).abs() < MATRIX_ROUND_OFF * start,
-            "{suspect:?}"
+        assert_within(
+            suspect.evidence,
+            fall(suspect.factor),
+            MATRIX_ROUND_OFF * start,
         );
         // No factor near by, to the search's one percent, does better; one at the search's end would be smaller still.
         for factor in [

@@ -21,8 +21,7 @@ fn shapes(dof: usize, modes: usize) -> impl Strategy<Value = DMatrix<f64>> {
 fn scales(modes: usize) -> impl Strategy<Value = DMatrix<f64>> {
     let one = (-3.0..3.0_f64, any::<bool>())
         .prop_map(|(decade, minus)| 10_f64.powf(decade) * if minus { -1.0 } else { 1.0 });
-    prop::collection::vec(one, modes)
-        .prop_map(|scales| DMatrix::from_diagonal(&DVector::from_vec(scales)))
+    prop::collection::vec(one, modes).prop_map(diagonal)
 }
 
 /// Test mode 0 with analysis mode 2, test mode 1 without, test mode 2 with analysis mode 0.

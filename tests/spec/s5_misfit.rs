@@ -41,15 +41,20 @@ fn one_test_in_a_thousand_of_a_right_model_is_called_wrong() {
     };
     for (weights, numbers) in [(all, 16), (half, 9)] {
         let found = misfit(&weights, 1e-9, &[]);
-        assert!((found.degrees_of_freedom - f64::from(numbers)).abs() < MATRIX_ROUND_OFF);
+        assert_within(
+            found.degrees_of_freedom,
+            f64::from(numbers),
+            MATRIX_ROUND_OFF,
+        );
         assert!(found.chi_squared < ROUND_OFF && found.is_by_noise());
         if numbers % 2 == 0 {
-            assert!(
-                (upper_tail(found.largest_by_noise, numbers) - 1e-3).abs()
-                    < 1e-3 * MATRIX_ROUND_OFF
+            assert_within(
+                upper_tail(found.largest_by_noise, numbers),
+                1e-3,
+                1e-3 * MATRIX_ROUND_OFF,
             );
             let ninth = upper_tail(found.largest_by_noise / 9.0, numbers);
-            assert!((found.power - ninth).abs() < MATRIX_ROUND_OFF);
+            assert_within(found.power, ninth, MATRIX_ROUND_OFF);
         }
     }
 }
@@ -65,7 +70,7 @@ fn parameters_that_a_test_decides_take_one_number_each_and_those_at_a_bound_none
     );
     for (at_bound, left) in [(&[][..], 12.0), (&[1], 13.0), (&[0, 1, 2, 3], 16.0)] {
         let found = misfit(&weights, 1.0, at_bound).degrees_of_freedom;
-        assert!((found - left).abs() < 1e-6, "{found}");
+        assert_within(found, left, 1e-6);
     }
 }
 
@@ -107,7 +112,7 @@ fn a_verdict_says_what_noise_allows_what_no_noise_explains_and_what_so_few_numbe
         let words = misfit.in_words(&assumed);
         assert!(words.contains(says), "{words}");
     }
-    assert!((wrong.widening() - 14.0).abs() < MATRIX_ROUND_OFF);
+    assert_within(wrong.widening(), 14.0, MATRIX_ROUND_OFF);
     assert_eq!((all.widening(), none.times_the_noise()), (1.0, None));
 }
 

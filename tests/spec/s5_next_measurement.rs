@@ -189,10 +189,7 @@ fn star() -> Files {
         + spring(5, Some(0), 3e4)
         + spring(6, Some(5), 2e4);
     let other = spring(1, Some(0), 5e4) + spring(2, Some(1), 4e4);
-    let (parts, mass) = (
-        [spring(0, None, 1e5), other, alike],
-        DMatrix::identity(7, 7),
-    );
+    let (parts, mass) = ([spring(0, None, 1e5), other, alike], eye(7));
     let all = solve(&parts.iter().sum(), &mass, 7).unwrap();
     let is_seen =
         |mode: &usize| (all.shapes()[(4, *mode)] - all.shapes()[(6, *mode)]).abs() < ROUND_OFF;

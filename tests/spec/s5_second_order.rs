@@ -9,7 +9,7 @@ fn drawn() -> impl Strategy<Value = (DMatrix<f64>, DMatrix<f64>, Vec<DVector<f64
     let steps = prop::collection::vec(numbers(3), 1..8);
     (numbers(9), numbers(9), steps).prop_map(|(root, second, steps)| {
         let [root, second] = [root, second].map(|of| DMatrix::from_vec(3, 3, of));
-        let plain = DMatrix::identity(3, 3) + &root * root.transpose();
+        let plain = eye(3) + &root * root.transpose();
         let second = (&second + second.transpose()) / 12.0;
         let long = |step: &Vec<f64>| step.iter().any(|part| part.abs() > 1e-3);
         (
@@ -33,7 +33,7 @@ properties! {
             learned.learn(step, &(&plain * step + &own), own.clone());
             // A step that its like has foretold exactly is learned without being used.
             learned.learn(step, &(&plain * step + &own), own.clone());
-            let of = learned.told().expect("of this step it tells all");
+            let of = learned.told().unwrap();
             prop_assert!((of * step - &own).norm() <= MATRIX_ROUND_OFF * (1.0 + own.norm()));
             prop_assert!((of - of.transpose()).amax() <= MATRIX_ROUND_OFF);
         }

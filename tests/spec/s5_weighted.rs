@@ -80,16 +80,7 @@ fn the_jacobian_is_the_derivative_of_exact_analyses() {
             }
         });
         let analyzed = |factors: &[f64]| {
-            let model = first.analyze(
-                factors,
-                &sensors,
-                &test,
-                by_sorting(),
-                BasisSize {
-                    modes: 9,
-                    residual_vectors: 0,
-                },
-            );
+            let model = first.analyze(factors, &sensors, &test, by_sorting(), modes_alone(9));
             let model = Comparison::from(model.unwrap());
             let model = model.with_groups(groups.clone()).unwrap();
             model.with_component_weights(own.clone()).unwrap()
@@ -211,9 +202,10 @@ fn shapes_are_scaled_by_least_squares_and_the_tests_scale_and_sign_do_not_matter
         }
         assert!((r + other).amax() < MATRIX_ROUND_OFF * weights[j].shape);
         let ratio = (modes.omega_squared()[i] / test.omega_squared()[j]).sqrt();
-        assert!(
-            (one[10 * j] - (ratio - 1.0) * weights[j].frequency).abs()
-                < ROUND_OFF * weights[j].frequency
+        assert_within(
+            one[10 * j],
+            (ratio - 1.0) * weights[j].frequency,
+            ROUND_OFF * weights[j].frequency,
         );
     }
 }
@@ -285,48 +277,6 @@ fn corrected(
 }
 
 #[test]
-fn with_a_vague_prior_it_finds_the_gages_of_case_2() {
-    let known = Known::of_case(2).unwrap();
-    let settings = WeightedSettings {
-        prior_deviations: vec![1e3],
-        ..WeightedSettings::default()
-    };
-    let mut calls = 0;
-    let analyze = |factors: &[f64]| {
-        calls += 1;
-        compare(&known, factors)
-    };
-    let found = gauss_newton(analyze, &[1.0; 15], &[None; 15], &weights(9), &settings).unwrap();
-    assert_eq!(calls, found.analyses);
-    assert!(found.iterations.len() < 10);
-    assert!(
-        found
-            .iterations
-            .iter()
-            .all(|it| it.check.pairing.analysis_mode == found.initial.pairing.analysis_mode)
-    );
-    assert_alike(found.factors.iter(), &known.truth, WEIGHTED_FACTOR);
-    assert!(
-        found
-            .iterations
-            .windows(2)
-            .all(|pair| pair[1].objective < pair[0].objective)
-    );
-    let last = found.iterations.last().unwrap();
-    assert_eq!(
-        (&last.factors, last.objective),
-        (&found.factors, found.objective)
-    );
-    let again = known
-        .model
-        .analyze(&[1.0; 15], &known.test, None)
-        .unwrap()
-        .exact()
-        .errors;
-    assert_eq!(found.initial.errors, again);
-}
-
-#[test]
 fn what_is_at_a_bound_is_pressed_there_and_all_else_is_stationary() {
     let known = Known::of_case(2).unwrap();
     let settings = WeightedSettings::default();
@@ -359,172 +309,6 @@ fn what_is_at_a_bound_is_pressed_there_and_all_else_is_stationary() {
                 "{e} {change}"
             );
         }
-    }
-}
-
-/// Two masses on springs of their own, of which the first is too stiff, so that its mode stands second.
-#[test]
-fn modes_that_change_places_are_followed_and_recorded() {
-    let diagonal = |a, b| DMatrix::from_diagonal(&DVector::from_vec(vec![a, b]));
-    let shares = vec![diagonal(400.0, 0.0), diagonal(0.0, 200.0)];
-    let first = DynamicModel {
-        stiffness: diagonal(400.0, 200.0),
-        mass: diagonal(1.0, 1.0),
-        shares,
-    };
-    let test = modes(&DynamicModel {
-        stiffness: diagonal(100.0, 200.0),
-        ..first.clone()
-    });
-    let analyze = |factors: &[f64]| {
-        let model = at(&first, factors).analyze(&test, None);
-        model.map(|model| Comparison::from(&model))
-    };
-    let settings = WeightedSettings {
-        prior_deviations: vec![1e3],
-        ..WeightedSettings::default()
-    };
-    let found = gauss_newton(analyze, &[1.0; 2], &[None; 2], &weights(2), &settings).unwrap();
-    assert!(
-        (found.factors[0] - 0.25).abs() < WEIGHTED_FACTOR
-            && (found.factors[1] - 1.0).abs() < WEIGHTED_FACTOR
-    );
-    assert_eq!(found.initial.pairing.analysis_mode, [1, 0]);
-    let modes = |iteration: usize| {
-        found.iterations[iteration]
-            .check
-            .pairing
-            .analysis_mode
-            .as_slice()
-    };
-    let iteration = 1
-        + (0..found.iterations.len())
-            .find(|&iteration| modes(iteration) == [0, 1])
-            .unwrap();
-    assert!((iteration..found.iterations.len()).all(|later| modes(later) == [0, 1]));
-    let order = |factors: &[f64]| factors[0] * 400.0 < factors[1] * 200.0;
-    assert!(order(&found.iterations[iteration - 1].factors));
-    assert!(iteration == 1 || !order(&found.iterations[iteration - 2].factors));
-}
-
-/// No effect at all is no condition of a million, and a column exactly as long as one over the prior's deviation says no more than
-/// the prior.
-#[test]
-fn data_that_say_nothing_or_as_much_as_the_prior_are_told_so() {
-    let nothing = identifiability(&DMatrix::zeros(3, 2), &[1.0; 2]).unwrap();
-    assert_eq!((nothing.condition, nothing.subset), (f64::INFINITY, vec![]));
-    let as_much = identifiability(&DMatrix::from_diagonal_element(2, 2, 2.0), &[0.5; 2]).unwrap();
-    assert_eq!((as_much.condition, as_much.subset), (1.0, vec![]));
-}
-
-#[test]
-fn the_data_see_what_the_columns_say() {
-    // Two separate parameters, one parallel to the first, one without effect.
-    let columns = DMatrix::from_row_slice(
-        3,
-        4,
-        &[3.0, 0.0, 1.5, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-    );
-    let seen = identifiability(&columns, &[1.0; 4]).unwrap();
-    assert_eq!(
-        (seen.blind, seen.subset, seen.condition),
-        (vec![3], vec![1, 0], f64::INFINITY)
-    );
-    assert_eq!(
-        seen.parallel.iter().map(|&(a, b, _)| (a, b)).collect_vec(),
-        [(0, 2)]
-    );
-    for (found, expected) in seen
-        .singular_values
-        .iter()
-        .zip([4.0, 11.25_f64.sqrt(), 0.0, 0.0])
-    {
-        assert!((found - expected).abs() < ROUND_OFF);
-    }
-    let two = identifiability(&columns.columns(0, 2).into_owned(), &[1.0; 2]).unwrap();
-    assert!((two.condition - 4.0 / 3.0).abs() < ROUND_OFF);
-    // One over the sum of the data's information and the prior's.
-    for (e, information) in [10.0_f64, 17.0].into_iter().enumerate() {
-        assert!((two.covariance[(e, e)] * information - 1.0).abs() < ROUND_OFF);
-        assert!((two.learned[e] - (1.0 - 1.0 / information)).abs() < ROUND_OFF);
-    }
-    // What has no effect keeps the prior.
-    assert!((seen.deviations[3] - 1.0).abs() < ROUND_OFF && seen.learned[3].abs() < ROUND_OFF);
-}
-
-#[test]
-fn a_narrower_prior_adds_its_own_information() {
-    let columns = DMatrix::from_row_slice(2, 3, &[3.0, 0.0, 1.5, 0.0, 1.0, 0.0]);
-    let seen = identifiability(&columns, &[0.5; 3]).unwrap();
-    // The second column is shorter than one over the prior's deviation: the test adds less than is known before.
-    assert_eq!(seen.subset, [0]);
-    let [(0, 2, cosine)] = seen.parallel[..] else {
-        panic!("{:?}", seen.parallel)
-    };
-    assert!((cosine - 1.0).abs() < ROUND_OFF);
-    assert!((seen.covariance[(1, 1)] - 1.0 / (1.0 + 4.0)).abs() < ROUND_OFF);
-    assert!((seen.learned[1] - (1.0 - 4.0 / 5.0)).abs() < ROUND_OFF);
-}
-
-#[test]
-fn upper_and_lower_cover_of_a_bay_cannot_be_told_apart_in_case_2() {
-    let known = Known::of_case(2).unwrap();
-    let seen = corrected(&known, &[None; 15], &WeightedSettings::default()).identifiability;
-    let pairs = seen
-        .parallel
-        .iter()
-        .map(|&(a, b, _)| (a + 1, b + 1))
-        .collect_vec();
-    assert_eq!(pairs, [(2, 15), (4, 8), (9, 11)]);
-    assert_eq!(seen.subset.len(), 12);
-    for (upper, lower) in pairs {
-        assert!(seen.subset.contains(&(upper - 1)) != seen.subset.contains(&(lower - 1)));
-    }
-}
-
-#[test]
-fn several_starts_lead_to_one_place_on_the_box_and_on_the_wing() {
-    for known in [Known::of_case(2).unwrap(), Known::delta_wing().unwrap()] {
-        let analyze = |factors: &[f64]| compare(&known, factors);
-        let run = |starts| {
-            let ranges = vec![None; known.truth.len()];
-            let settings = WeightedSettings::default();
-            from_several_starts(
-                analyze,
-                &ranges,
-                &weights(known.test.len()),
-                &settings,
-                starts,
-                1,
-            )
-        };
-        let WeightedHistory {
-            best,
-            minima,
-            starts: ends,
-        } = run(5).unwrap();
-        assert!(best.objective <= run(1).unwrap().best.objective);
-        let [minimum] = &minima[..] else {
-            panic!("{minima:?}")
-        };
-        assert_eq!((minimum.starts, &minimum.factors), (5, &best.factors));
-        let ends = ends.into_iter().flatten().collect_vec();
-        let lowest = ends
-            .iter()
-            .map(|end| end.objective)
-            .fold(f64::INFINITY, f64::min);
-        assert_eq!((ends.len(), lowest), (5, best.objective));
-        assert!(ends.iter().all(|end| end.analyses > 1));
-        let again = run(5).unwrap();
-        assert_eq!((again.best.factors, again.minima), (best.factors, minima));
-        assert!(matches!(
-            run(0),
-            Err(Error::Count {
-                what: "starts",
-                found: 0,
-                ..
-            })
-        ));
     }
 }
 

@@ -45,18 +45,14 @@ fn intervals_hold_the_truth_in_93_to_97_of_100_tests() {
     for of in &all {
         let (name, tests) = (&of.name, of.tests as f64);
         let (held, least) = (of.overall().unwrap(), of.least().unwrap());
-        assert!((held - 0.95).abs() < COVERAGE, "{name}: {held}");
+        assert_within(held, 0.95, COVERAGE);
         let asked = if name == "Case 3" {
             LEAST_COVER
         } else {
             LEAST_PARAMETER_COVERAGE
         };
         assert!(least >= asked, "{name}: {least}");
-        assert!(
-            (of.misfit() - 1.0).abs() < MEAN_MISFIT,
-            "{name}: {}",
-            of.misfit()
-        );
+        assert_within(of.misfit(), 1.0, MEAN_MISFIT);
         assert!(
             of.explained as f64 >= 0.95 * tests,
             "{name}: {}",

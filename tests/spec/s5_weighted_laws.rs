@@ -41,7 +41,7 @@ fn side_by_side(shares: &[f64], ratio: f64) -> impl Fn(&[f64]) -> Result<Compari
 
 /// Two masses of one on springs of one and two to ground, and their own modes as a test.
 fn two_masses() -> Comparison {
-    let stiffness = DMatrix::from_diagonal(&DVector::from_vec(vec![1.0, 2.0]));
+    let stiffness = diagonal([1.0, 2.0]);
     let own = |e: usize| spring(e, stiffness[(e, e)]);
     let (shares, mass) = (vec![own(0), own(1)], eye(2));
     let test = Modes::new(stiffness.diagonal(), dmatrix![2.0, 0.0; 1.0, 1.0]).unwrap();
@@ -80,7 +80,11 @@ fn a_fit_takes_away_what_it_has_learned() {
         3.290_526_731_491_9_f64.powi(2),
         QUANTILE,
     );
-    assert!((one.least_by_noise - 0.001_253_314_465_4_f64.powi(2)).abs() < QUANTILE);
+    assert_within(
+        one.least_by_noise,
+        0.001_253_314_465_4_f64.powi(2),
+        QUANTILE,
+    );
     // Half off in frequency, and a shape of one reading at right angles: (2/2)² + 3².
     assert_close(one.of_unlike, 10.0, ROUND_OFF);
     let two = side_by_side(&[0.75, 0.25], 1.0)(&[1.0; 2]).unwrap();
@@ -288,17 +292,14 @@ fn modes_of_one_root_have_the_squared_cosine_of_their_plane() {
     for (angle, seen) in [(1e-6_f64, 1.0), (1e-9, 0.0)] {
         let shapes = dmatrix![3.0, angle.cos(), 0.0; 0.0, angle.sin(), 0.0; 0.0, 0.0, 1.0];
         let second = found([1.0, 1.0, 2.0], shapes, &dmatrix![0.0; 1.0; 0.0]);
-        assert!(
-            (second[(0, 0)] - seen).abs() < DIFFERENCE_ROUND_OFF,
-            "{angle}: {second}"
-        );
+        assert_within(second[(0, 0)], seen, DIFFERENCE_ROUND_OFF);
     }
 }
 
 fn columns(angles: &[f64]) -> DMatrix<f64> {
     let unit = angles
         .iter()
-        .map(|angle| DVector::from_vec(vec![angle.cos(), angle.sin()]));
+        .map(|angle| dvector![angle.cos(), angle.sin()]);
     DMatrix::from_columns(&unit.collect_vec())
 }
 
@@ -348,7 +349,7 @@ fn parallel_to_one_another_is_one_group() {
 #[test]
 fn columns_at_right_angles_tell_by_their_lengths() {
     let of = |lengths: &[f64], priors: &[f64]| {
-        let columns = DMatrix::from_diagonal(&DVector::from_column_slice(lengths));
+        let columns = diagonal(lengths);
         identifiability(&columns, priors).unwrap()
     };
     for unit in [1.0, 30.0] {
@@ -367,7 +368,7 @@ fn columns_at_right_angles_tell_by_their_lengths() {
         assert_close(found.condition, 1.01 / 0.99, MATRIX_ROUND_OFF);
     }
     // Three columns that are multiples of one leave round-off of the others.
-    let one = DVector::from_vec(vec![0.1, 0.3, 0.7]);
+    let one = dvector![0.1, 0.3, 0.7];
     assert_eq!(
         identifiability(&(&one * one.transpose()), &[1.0; 3])
             .unwrap()
@@ -386,10 +387,7 @@ fn three_columns_depend_where_two_imitate_a_third() {
         let (x, y, z) = (0.75, 0.55, 0.1);
         let size = ((1.0 - s * s) / (x * x + y * y + z * z)).sqrt();
         let mut columns = DMatrix::identity(5, 4);
-        columns.set_column(
-            3,
-            &DVector::from_vec(vec![size * x, size * y, size * z, 0.0, s]),
-        );
+        columns.set_column(3, &dvector![size * x, size * y, size * z, 0.0, s]);
         columns.column_mut(1).scale_mut(scale);
         columns
     };
@@ -524,15 +522,9 @@ fn no_end_is_beyond_the_priors_unless_the_factor_is() {
             intervals(&analyze, &best.factors, &[None], &weights, &settings, 1.0).unwrap()[0]
                 .unwrap();
         let most = NORMAL_95 * prior;
-        assert!(
-            (lower.ln() - (log - width).max((-most).min(log))).abs() < ROUND_OFF,
-            "{wanted}"
-        );
-        assert!(
-            (upper.ln() - (log + width).min(most.max(log))).abs() < ROUND_OFF,
-            "{wanted}"
-        );
-        assert!((log / prior - wanted).abs() < SET_UP, "{log}");
+        assert_within(lower.ln(), (log - width).max((-most).min(log)), ROUND_OFF);
+        assert_within(upper.ln(), (log + width).min(most.max(log)), ROUND_OFF);
+        assert_within(log / prior, wanted, SET_UP);
     }
 }
 
@@ -665,10 +657,7 @@ fn a_trial_goes_to_where_damped_steps_of_at_most_one_lead() {
             .unwrap();
             let first = found.iterations[0].factors[0].ln();
             let expected = nielsen(weight, ratio, prior, trials);
-            assert!(
-                (first - expected).abs() < MATRIX_ROUND_OFF,
-                "{weight} {ratio} {trials}: {first} {expected}"
-            );
+            assert_within(first, expected, MATRIX_ROUND_OFF);
         }
     }
 }
@@ -702,10 +691,7 @@ fn what_stops_at_a_bound_is_on_the_right_hand_side_of_the_others() {
         let other = -(slopes[1] * residual + slopes[0] * slopes[1] * held) / curvature;
         let first = &found.iterations[0].factors;
         assert_close(first[0], bound, ROUND_OFF);
-        assert!(
-            (first[1].ln() - other).abs() < MATRIX_ROUND_OFF,
-            "{first:?} {other}"
-        );
+        assert_within(first[1].ln(), other, MATRIX_ROUND_OFF);
     }
 }
 
@@ -865,7 +851,7 @@ fn runs_cut_short_make_no_minima() {
         let own = residuals(&history.best.last, &weights)
             .unwrap()
             .norm_squared();
-        assert!((history.minima[0].chi_squared - own).abs() < ROUND_OFF);
+        assert_within(history.minima[0].chi_squared, own, ROUND_OFF);
         assert_eq!(history.minima.len(), count, "{:?}", history.minima);
     }
     // A prior that pulls: chi-squared is more than a part of what it adds.
@@ -922,7 +908,7 @@ fn noise_allows_a_minimum_up_to_the_quantile_of_as_many_parameters() {
 #[test]
 fn a_frequency_without_a_shape_follows_its_mode_through_a_crossing() {
     let first = DynamicModel {
-        stiffness: DMatrix::from_diagonal(&DVector::from_vec(vec![400.0, 200.0])),
+        stiffness: diagonal([400.0, 200.0]),
         mass: eye(2),
         shares: vec![spring(0, 400.0), spring(1, 200.0)],
     };

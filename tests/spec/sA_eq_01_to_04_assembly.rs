@@ -140,7 +140,7 @@ fn wrong_sizes_and_loads_are_refused_by_name() {
     for (loads, words) in [
         (DMatrix::zeros(4, 2), "loads: 4 x 2 instead of 3 x 2"),
         (
-            DMatrix::from_column_slice(3, 1, &[0.0, f64::NAN, 0.0]),
+            dmatrix![0.0; f64::NAN; 0.0],
             "loads of entry (1, 0) is NaN; it must be a finite number",
         ),
     ] {

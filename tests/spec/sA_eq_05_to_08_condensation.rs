@@ -50,7 +50,7 @@ fn stiffness_and_square_distribution() -> impl Strategy<Value = (DMatrix<f64>, f
         .prop_map(|((stiffness, exponents), left, stretch, right)| {
             let least = exponents.iter().copied().fold(f64::INFINITY, f64::min);
             let most = exponents.iter().copied().largest();
-            let t = left * DMatrix::from_diagonal(&DVector::from_vec(stretch)) * right;
+            let t = left * diagonal(stretch) * right;
             (stiffness, 10f64.powf(most - least), t)
         })
 }
@@ -148,11 +148,11 @@ properties! {
 /// 1/4·(1 + 1 + 1 + 3/2) = 9/8, deflections 8/9·(1, 5/4).
 #[test]
 fn two_springs_and_a_mean_are_the_hand_result() {
-    let stiffness = DMatrix::from_row_slice(2, 2, &[3.0, -2.0, -2.0, 2.0]);
-    let found = condensed(&stiffness, &DMatrix::from_column_slice(2, 1, &[0.5, 0.5])).unwrap();
+    let stiffness = dmatrix![3.0, -2.0; -2.0, 2.0];
+    let found = condensed(&stiffness, &dmatrix![0.5; 0.5]).unwrap();
     let expected = DMatrix::from_element(1, 1, 8.0 / 9.0);
     assert!(relative_distance(&found.stiffness, &expected) <= MATRIX_ROUND_OFF);
-    let motion = DMatrix::from_column_slice(2, 1, &[8.0 / 9.0, 10.0 / 9.0]);
+    let motion = dmatrix![8.0 / 9.0; 10.0 / 9.0];
     assert!(relative_distance(&found.transformation, &motion) <= MATRIX_ROUND_OFF);
 }
 

@@ -19,15 +19,6 @@ fn frequencies(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Vec<f64> {
         .frequencies_hz()
 }
 
-fn largest_excess(frozen: &DMatrix<f64>, exact: &DynamicModel) -> f64 {
-    let below = frequencies(&exact.stiffness, &exact.mass);
-    frequencies(frozen, &exact.mass)
-        .iter()
-        .zip(below)
-        .map(|(f, e)| f / e - 1.0)
-        .largest()
-}
-
 properties! {
     /// With the load between the spars shared by them as if it rode on no rib, the mid points would be averages of the
     /// spars' and the dynamic flexibility singular: the third point of the tip rib follows from the two before it.
@@ -101,31 +92,6 @@ properties! {
         let start = model.matrices(&[1.0; 39])?;
         let scaled = model.matrices(&[factor; 39])?;
         prop_assert!(relative_distance(&scaled.stiffness, &(factor * start.stiffness)) <= MATRIX_ROUND_OFF);
-    }
-}
-
-/// The paper's own first steps, from the gages a case starts with to those after its first pass: frozen B overstates some
-/// frequency by one or two percent, which is what the paper sees between inner loop and eigensolution.
-#[test]
-fn frozen_b_overstates_the_published_first_steps_by_up_to_3_percent() {
-    for (number, table, percent) in [(1, 4, "1.4"), (2, 6, "0.6"), (3, 8, "2.6")] {
-        let (case, table) = (case_of(number), PublishedTable::number(table).unwrap());
-        let gages = |column: &str| -> Vec<f64> {
-            (1..=15)
-                .map(|label| table.required(&label.to_string(), column).unwrap())
-                .collect()
-        };
-        let (from, to) = (gages("initial_in"), gages("pass_1_in"));
-        let factors = to
-            .iter()
-            .zip(&from)
-            .map(|(to, from)| to / from)
-            .collect_vec();
-        let model = case.model_with(&from).unwrap();
-        let start = model.matrices(&[1.0; 15]).unwrap();
-        let exact = model.matrices(&factors).unwrap();
-        let excess = largest_excess(&frozen(&start, &factors), &exact);
-        assert_eq!(format!("{:.1}", 100.0 * excess), percent, "case {number}");
     }
 }
 

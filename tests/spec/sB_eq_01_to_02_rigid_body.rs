@@ -44,7 +44,7 @@ fn vertical_dof_see_one_and_x_in_symmetric_motion() {
     ];
     assert_eq!(
         rigid_body_vectors(&SYMMETRIC, &dofs).unwrap(),
-        DMatrix::from_row_slice(2, 2, &[1.0, -7.0, 1.0, 4.0])
+        dmatrix![1.0, -7.0; 1.0, 4.0]
     );
 }
 
@@ -57,7 +57,7 @@ fn lateral_dof_see_side_roll_and_yaw_in_antisymmetric_motion() {
     ];
     assert_eq!(
         rigid_body_vectors(&ANTISYMMETRIC, &dofs).unwrap(),
-        DMatrix::from_row_slice(3, 3, &[0.0, 0.0, -3.0, 1.0, -5.0, 2.0, 0.0, 3.0, 0.0])
+        dmatrix![0.0, 0.0, -3.0; 1.0, -5.0, 2.0; 0.0, 3.0, 0.0]
     );
 }
 

@@ -34,7 +34,7 @@ fn three_suspended_masses_by_hand() {
     // Springs of rate k at both ends: r1 = −(ω² − k)/(3ω² − 2k), r2 = 1/2.
     let (mass, rigid_body) = three_masses();
     let (omega_squared, k) = (100.0, 3.0);
-    let stiffness = DMatrix::from_diagonal(&dvector![k, 0.0, k]);
+    let stiffness = diagonal([k, 0.0, k]);
     let raw = modes(&[omega_squared], dmatrix![1.0; 0.0; 0.0]);
     let balanced = balance(&raw, &stiffness, &mass, &rigid_body).unwrap();
     let plunge = -(omega_squared - k) / (3.0 * omega_squared - 2.0 * k);
@@ -50,7 +50,7 @@ fn three_suspended_masses_by_hand() {
 #[test]
 fn suspension_is_refused_past_the_limit_and_named() {
     // Masses 1, 2, 3 on springs of c times the mass: every suspension mode has μ = c.
-    let mass = DMatrix::from_diagonal(&dvector![1.0, 2.0, 3.0]);
+    let mass = diagonal([1.0, 2.0, 3.0]);
     let rigid_body = three_masses().1;
     let raw = modes(&[400.0, 100.0, 50.0], eye(3));
     let allowed = LARGEST_SUSPENSION_RATIO * 50.0;
@@ -84,7 +84,7 @@ fn the_stiffest_suspension_mode_decides() {
     // Plunge μ = 2k/3, pitch μ = k.
     let (mass, rigid_body) = three_masses();
     let k = 1.2 * LARGEST_SUSPENSION_RATIO * 100.0;
-    let stiffness = DMatrix::from_diagonal(&dvector![k, 0.0, k]);
+    let stiffness = diagonal([k, 0.0, k]);
     let raw = modes(&[100.0], dmatrix![1.0; 0.0; 0.0]);
     let Err(Error::Supported { ratio, .. }) = balance(&raw, &stiffness, &mass, &rigid_body) else {
         panic!("pitch lies above the limit");
@@ -99,7 +99,7 @@ fn a_suspension_at_the_limit_is_allowed() {
     // One mass of the three on a spring, and its motion the only rigid-body vector: μ is the spring's rate exactly.
     let raw = modes(&[100.0], dmatrix![1.0; 1.0; 0.0]);
     let rate = LARGEST_SUSPENSION_RATIO * 100.0;
-    let stiffness = DMatrix::from_diagonal(&dvector![rate, 0.0, 0.0]);
+    let stiffness = diagonal([rate, 0.0, 0.0]);
     let outcome = balance(&raw, &stiffness, &eye(3), &dmatrix![1.0; 0.0; 0.0]);
     assert_relative_eq!(
         outcome.unwrap().shapes,

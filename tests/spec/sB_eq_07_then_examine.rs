@@ -147,7 +147,7 @@ properties! {
 /// A mass may give every shape a positive generalized mass and be indefinite all the same.
 #[test]
 fn an_indefinite_mass_is_refused() {
-    let mass = DMatrix::from_row_slice(2, 2, &[1.0, 2.0, 2.0, 1.0]);
+    let mass = dmatrix![1.0, 2.0; 2.0, 1.0];
     let raw = Modes::new(vec![1.0, 4.0].into(), eye(2)).unwrap();
     let refused = examine(&raw, &mass, Supports::Held, &MovementLimits::default());
     assert_eq!(said(refused), not_definite("dynamic mass", 1));

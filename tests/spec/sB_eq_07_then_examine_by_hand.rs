@@ -41,7 +41,7 @@ fn a_balance_at_its_limit_is_allowed_and_past_it_not() {
 fn balancing_uses_the_suspension_that_is_given() {
     let mass = eye(3);
     let rigid_body = dmatrix![1.0, -1.0; 1.0, 0.0; 1.0, 1.0];
-    let stiffness = DMatrix::from_diagonal(&dvector![3.0, 0.0, 3.0]);
+    let stiffness = diagonal([3.0, 0.0, 3.0]);
     let raw = modes(&[100.0], dmatrix![1.1; -2.0; 1.0]);
     let supports = Supports::Free {
         stiffness: &stiffness,

@@ -129,7 +129,7 @@ properties! {
 #[test]
 fn symmetric_real_pencil_gives_modes_of_vibration() {
     let stiffness = three_mass_chain([1.0, 2.0, 0.5], [1.0, 1.0, 3.0]);
-    let mass = DMatrix::from_diagonal(&dvector![1.0, 1.5, 0.8]);
+    let mass = diagonal([1.0, 1.5, 0.8]);
     let modes = solve(&stiffness, &complex(&mass)).unwrap();
     let vibrations = on_either_side(&corfem::method::modes::solve(&stiffness, &mass, 3).unwrap());
     for i in 0..3 {
@@ -181,7 +181,7 @@ fn conjugate_pairs_stand_in_the_order_of_their_argument() {
             middle[c],
             Complex::from(0.5),
         ];
-        let g = DMatrix::from_diagonal(&DVector::from_row_slice(&roots));
+        let g = diagonal(roots);
         let modes = solve(&eye(5), &g).unwrap();
         let expected = [roots[0], middle[0], middle[1], middle[2], roots[4]];
         for (found, expected) in modes.roots.iter().zip(expected) {
@@ -192,9 +192,9 @@ fn conjugate_pairs_stand_in_the_order_of_their_argument() {
         }
     }
     // A one-in-a-million difference of magnitude is not a tie.
-    let g = DMatrix::from_diagonal(&dvector![
+    let g = diagonal([
         Complex::from_polar(1.0, -1.0),
-        Complex::from_polar(1.0 + 1e-6, 1.0)
+        Complex::from_polar(1.0 + 1e-6, 1.0),
     ]);
     let modes = solve(&eye(2), &g).unwrap();
     assert!(modes.roots[0].im > 0.0);

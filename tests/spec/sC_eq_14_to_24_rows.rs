@@ -242,7 +242,7 @@ fn one_mode_alone_is_exact() {
     for rule in FORMULAE {
         let plain = (rule.plain)(&dvector![2.0], &change.beta).unwrap();
         for (found, root) in [((rule.general)(&change).unwrap(), 0.48_f64), (plain, 0.4)] {
-            assert!((found.roots[0] - root).abs() < ROUND_OFF, "{}", rule.name);
+            assert_within(found.roots[0], root, ROUND_OFF);
             assert_eq!(found.shapes, dmatrix![1.0], "{}", rule.name);
         }
     }
@@ -291,7 +291,7 @@ fn the_recursion_stops_at_its_last_order_and_says_how_far_it_was() {
                     (found.order, found.perturbed),
                     (MOST_ORDERS, of_order(MOST_ORDERS))
                 );
-                assert!((found.last_change - moved).abs() < ROUND_OFF);
+                assert_within(found.last_change, moved, ROUND_OFF);
             }
             Err(refused) => {
                 assert!(!is_settled && moved > LARGEST_UNSETTLED_CHANGE, "{size}");
@@ -402,7 +402,7 @@ fn uncoupled_modes_may_have_equal_roots() {
         for found in [(rule.plain)(&k, &beta), (rule.general)(&change)] {
             let found = found.unwrap();
             for mode in [1, 2] {
-                assert!((found.roots[mode] - 0.2).abs() < ROUND_OFF, "{}", rule.name);
+                assert_within(found.roots[mode], 0.2, ROUND_OFF);
                 let mut own = found.shapes.column(mode).into_owned();
                 own[mode] -= 1.0;
                 assert_eq!(own.amax(), 0.0, "{}", rule.name);
@@ -412,7 +412,7 @@ fn uncoupled_modes_may_have_equal_roots() {
     }
     // A change of mass that moves the two alike does not part them either.
     for moved in [0.0, 0.1] {
-        let alpha = DMatrix::from_diagonal(&dvector![0.0, moved, moved, 0.0]);
+        let alpha = diagonal([0.0, moved, moved, 0.0]);
         let with_mass = ModalChange::of_vibrations(&k, beta.clone(), alpha)
             .pencil()
             .unwrap();

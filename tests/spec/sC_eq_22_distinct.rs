@@ -52,7 +52,7 @@ fn close_modes_that_a_change_of_mass_makes_oblique_are_two() {
     // The matrices of which these are the shapes, at squared frequencies of 1 and 1.0005.
     let shapes = dmatrix![1.0, 0.5; 0.5, 1.0];
     let back = shapes.clone().try_inverse().unwrap();
-    let stiffness = back.tr_mul(&(DMatrix::from_diagonal(&dvector![1.0, 1.0005]) * &back));
+    let stiffness = back.tr_mul(&(diagonal([1.0, 1.0005]) * &back));
     let mass = back.tr_mul(&back);
     let unit = eye(2);
     let change = ModalChange::of_vibrations(&dvector![1.0, 1.0], stiffness - &unit, mass - &unit);

@@ -2,7 +2,7 @@
 //! wins where. The paper's own numbers are lost in the scan, so the statements and not the digits are tested.
 
 use crate::prelude::*;
-use corfem::torque_box::table_1::{Formula, formulae, problems};
+use corfem::torque_box::table_1::{Formula, formulae};
 
 fn worst(errors: [f64; 2]) -> f64 {
     errors[0].abs().max(errors[1].abs())
@@ -46,33 +46,11 @@ properties! {
         prop_assert!(two < one || two < ROUND_OFF, "{two:e} {one:e}");
     }
 
-    /// Recursive 2 comes from both sides in turn, and closer to each root with every order.
-    #[test]
-    fn recursive_2_alternates_about_the_exact_root(problem in two_masses(), order in 2..6_usize) {
-        let now = errors(problem, Formula::Recursive2 { order });
-        let next = errors(problem, Formula::Recursive2 { order: order + 1 });
-        for i in 0..2 {
-            prop_assert!(next[i].abs() < now[i].abs() || next[i].abs() < ROUND_OFF);
-            prop_assert!(next[i] * now[i] < 0.0 || next[i].abs() < ROUND_OFF);
-        }
-    }
-
     /// First order puts the lower frequency too high and the upper one too low: the two modes repel each other.
     #[test]
     fn first_order_leaves_out_that_modes_repel(problem in two_masses()) {
         let first = errors(problem, Formula::FirstOrder);
         prop_assert!(first[0] < 0.0 && first[1] > 0.0);
-    }
-
-    /// At second order the original formulae are ahead where the coupling is strong (two ground springs or more) and
-    /// Recursive 1 where it is weak (half a ground spring or less), for changes that are no larger than the coupling.
-    #[test]
-    fn coupling_decides_who_wins_at_second_order(coupling in 0.25..0.5_f64, stronger in 2.0..4.0_f64, change in prop_oneof![-0.25..-0.01_f64, 0.01..0.25_f64]) {
-        let weak = TwoMasses { coupling, change };
-        let strong = TwoMasses { coupling: stronger, change };
-        let second = Formula::Recursive1 { order: 2 };
-        prop_assert!(worst(errors(weak, second)) < worst(errors(weak, Formula::Original)));
-        prop_assert!(worst(errors(strong, second)) > worst(errors(strong, Formula::Original)));
     }
 
     /// The paper sees no need to go beyond second order of the explicit root: with changes to 20 % and a coupling no
@@ -84,50 +62,6 @@ properties! {
     }
 }
 
-/// For two modes order r of Recursive 2 has an error of order 2r in the change, and order 2r − 1 of Recursive 1 the same
-/// one: two orders of Recursive 1 are worth one of Recursive 2.
-#[test]
-fn two_orders_of_recursive_1_are_worth_one_of_recursive_2() {
-    for coupling in [0.25, 0.5, 1.0, 2.0] {
-        for order in 1..=3 {
-            let by_formula = |formula: Formula, mode: usize| -> Vec<(f64, f64)> {
-                [0.2, 0.14, 0.1]
-                    .into_iter()
-                    .map(|size| {
-                        let change = size * coupling;
-                        (
-                            size,
-                            errors(TwoMasses { coupling, change }, formula)[mode].abs(),
-                        )
-                    })
-                    .collect()
-            };
-            for mode in 0..2 {
-                let two = by_formula(Formula::Recursive2 { order }, mode);
-                let one = by_formula(
-                    Formula::Recursive1 {
-                        order: 2 * order - 1,
-                    },
-                    mode,
-                );
-                let slope = log_log_slope(&two);
-                assert!(
-                    (slope - 2.0 * order as f64).abs() < ORDER_SLACK,
-                    "order {order}: {slope}"
-                );
-                for (one, two) in one.iter().zip(&two) {
-                    assert!(
-                        relative_error(one.1, two.1) < ORDER_SLACK,
-                        "{} {}",
-                        one.1,
-                        two.1
-                    );
-                }
-            }
-        }
-    }
-}
-
 /// Changes of exactly 3/4 with a unit coupling: ω² = (19 ± √73)/8, and Recursive 2 by hand.
 #[test]
 fn one_problem_by_hand() {
@@ -136,55 +70,14 @@ fn one_problem_by_hand() {
         change: 0.75,
     };
     let [lower, upper] = problem.exact_roots();
-    assert!((lower * (19.0 - 73.0_f64.sqrt()) / 8.0 - 1.0).abs() < ROUND_OFF);
-    assert!((upper * (19.0 + 73.0_f64.sqrt()) / 8.0 - 1.0).abs() < ROUND_OFF);
+    assert_alike([lower * (19.0 - 73.0_f64.sqrt())], [8.0], ROUND_OFF);
+    assert_alike([upper * (19.0 + 73.0_f64.sqrt())], [8.0], ROUND_OFF);
     assert_eq!(problem.generalized_stiffness().as_slice(), [1.0, 3.0]);
     assert_eq!(problem.beta(), DMatrix::repeat(2, 2, 0.375));
     // p = −0.375/(3.375 − 1.375), ω² = 1 + 0.375(1 + p).
     let original = errors(problem, Formula::Original);
     let root = 1.0 / (1.375 - 0.375 * 0.375 / 2.0);
-    assert!((original[0] - (root / lower - 1.0)).abs() < ROUND_OFF);
-}
-
-#[test]
-fn table_has_a_column_for_every_formula_and_a_row_for_every_problem() {
-    let problems = problems();
-    assert_eq!(problems.len(), 24);
-    assert_eq!(
-        problems[0],
-        TwoMasses {
-            coupling: 0.25,
-            change: -0.5
-        }
-    );
-    assert_eq!(
-        problems[23],
-        TwoMasses {
-            coupling: 2.0,
-            change: 1.0
-        }
-    );
-    assert_eq!(
-        problems[7],
-        TwoMasses {
-            coupling: 0.5,
-            change: -0.2
-        }
-    );
-    assert_eq!(
-        formulae(4),
-        [
-            Formula::FirstOrder,
-            Formula::Original,
-            Formula::Recursive1 { order: 2 },
-            Formula::Recursive1 { order: 3 },
-            Formula::Recursive1 { order: 4 },
-            Formula::Recursive2 { order: 2 },
-            Formula::Recursive2 { order: 3 },
-            Formula::Recursive2 { order: 4 },
-        ]
-    );
-    assert_eq!(formulae(1), [Formula::FirstOrder, Formula::Original]);
+    assert_within(original[0], root / lower - 1.0, ROUND_OFF);
 }
 
 #[test]

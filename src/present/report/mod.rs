@@ -435,12 +435,8 @@ impl Report {
                 orthogonality: None,
             });
         };
-        let mut modes = turned(
-            &check.modes.lowest(highest + 1)?,
-            &check.pairing,
-            &check.together,
-            &self.test,
-        )?;
+        let modes = turned(&check.modes, &check.pairing, &check.together, &self.test)?;
+        let mut modes = modes.lowest(highest + 1)?;
         for (&mode, &sign) in check.pairing.analysis_mode.iter().zip(&check.pairing.sign) {
             modes.shapes.column_mut(mode).scale_mut(sign);
         }

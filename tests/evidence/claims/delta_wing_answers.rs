@@ -54,25 +54,6 @@ fn deflections_are_near_the_measured_ones() {
 }
 
 #[test]
-fn loads_at_either_end_of_the_tip_are_reciprocal() {
-    // Maxwell: the trailing edge moves under the leading edge's load as that does under its own.
-    let at = |load: TipLoad, grid: usize| {
-        let row = MEASURED_GRIDS.iter().position(|&own| own == grid);
-        wing().deflections(load).unwrap()[row.unwrap()]
-    };
-    let (te, le) = (TipLoad::TrailingEdge, TipLoad::LeadingEdge);
-    assert_eq!((te.grid(), le.grid()), (16, 36));
-    assert_relative_eq!(at(te, 36), at(le, 16), max_relative = MATRIX_ROUND_OFF);
-    assert!(at(te, 16) < 0.0);
-    let twice = DeltaWing {
-        tip_load: 1000.0,
-        ..wing()
-    };
-    let double = twice.deflections(te).unwrap();
-    assert_relative_eq!(double[2], 2.0 * at(te, 16), max_relative = ROUND_OFF);
-}
-
-#[test]
 fn lowest_eigenvalues_are_those_nastran_printed_in_1995() {
     let known = known_frequencies().unwrap();
     assert_eq!(known.labels, ["1", "2", "3"]);
@@ -96,25 +77,6 @@ fn lowest_eigenvalues_are_those_nastran_printed_in_1995() {
             printed("analog_hz"),
             max_relative = ANALOG_FREQUENCY
         );
-    }
-}
-
-#[test]
-fn modes_are_those_of_the_dense_pencil() {
-    let structure = wing().structure().unwrap();
-    let elements = element_matrices(&structure).collect_vec();
-    let sizes = structure.elements().iter().map(|e| e.size).collect_vec();
-    let count = structure.free_dof().len();
-    let stiffness = assemble(&elements, &sizes, count).unwrap();
-    let mass = lumped_mass(&structure);
-    let dense = solve(&stiffness, &DMatrix::from_diagonal(&mass), count);
-    let dense = dense.unwrap().omega_squared().clone();
-    let found = wing().modes().unwrap().modes.omega_squared().clone();
-    // The dense solution rounds at its highest root; the lowest dozen keep what that leaves.
-    let highest = dense.max();
-    for (a, b) in dense.iter().zip(found.iter()).take(12) {
-        let allowed = CONDITIONED_ROUND_OFF * highest / a;
-        assert!(relative_error(b, a) < allowed, "{a} {b} {allowed:.1e}");
     }
 }
 

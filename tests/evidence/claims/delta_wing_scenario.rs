@@ -42,24 +42,6 @@ fn first_model_has_wrong_gages_and_true_masses() {
 }
 
 #[test]
-fn condensed_frequencies_bound_those_of_the_whole_wing_from_above() {
-    let dynamic = first_model(&wing())
-        .and_then(|model| model.matrices(&true_factors()))
-        .unwrap();
-    assert_eq!(dynamic.mass.shape(), (19, 19));
-    let condensed = solve(&dynamic.stiffness, &dynamic.mass, 12).unwrap();
-    let whole = wing().modes().unwrap().modes.frequencies_hz();
-    for (mode, frequency) in condensed.frequencies_hz().iter().enumerate() {
-        let above = frequency / whole[mode] - 1.0;
-        assert!(
-            (0.0..CONDENSED_WING).contains(&above),
-            "mode {}: {above:.2e}",
-            mode + 1
-        );
-    }
-}
-
-#[test]
 fn test_modes_are_ten_of_the_whole_wing_sampled() {
     let model = first_model(&wing()).unwrap();
     let mass = model.matrices(&[1.0; 21]).unwrap().mass;
@@ -91,7 +73,7 @@ fn test_modes_are_ten_of_the_whole_wing_sampled() {
             .collect_vec();
         let ratio = shape[4] / sampled[4];
         for (a, b) in shape.iter().zip(&sampled) {
-            assert!((a - ratio * b).abs() <= ROUND_OFF * shape.amax());
+            assert_within(a, ratio * b, ROUND_OFF * shape.amax());
         }
     }
 }

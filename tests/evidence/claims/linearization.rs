@@ -1,8 +1,6 @@
 //! Predicted modes beside exact ones: the order of every formula, and which is the more accurate.
 
-use crate::evidence::predictions::{
-    Exact, MEASURES, Prediction, STEPS, both_structures, predictions,
-};
+use crate::evidence::predictions::{Exact, MEASURES, Prediction, both_structures};
 use crate::prelude::*;
 
 const FIRST: usize = 0;
@@ -34,12 +32,12 @@ fn first_order_and_taylor_are_of_second_order_and_recursive_1_of_its_own_and_one
             .flat_map(|m| MEASURES.map(|of| (m, of.1)))
         {
             let found = slope(all, method, measure, [4, 7]);
-            assert!((found - 2.0).abs() < ORDER_SLACK, "{method}: {found}");
+            assert_within(found, 2.0, ORDER_SLACK);
         }
     }
     for (_, measure) in MEASURES {
         let found = slope(&wing, RECURSIVE, measure, [3, 6]);
-        assert!((found - 5.0).abs() < ORDER_HALFWAY, "{found}");
+        assert_within(found, 5.0, ORDER_HALFWAY);
         assert!(
             measure(&error(&case[3], RECURSIVE)) < ROUND_OFF_FLOOR,
             "the box is at round-off from an eighth on"
@@ -84,29 +82,4 @@ fn perturbation_is_more_accurate_than_a_taylor_step_of_the_same_derivatives() {
             );
         }
     }
-}
-
-#[test]
-fn a_new_condensation_leaves_second_order_to_every_formula() {
-    let [(_, case), _] = both_structures(Exact::NewCondensation).unwrap();
-    for (method, measure) in [FIRST, RECURSIVE, TAYLOR]
-        .into_iter()
-        .flat_map(|m| MEASURES.map(|of| (m, of.1)))
-    {
-        let found = slope(&case, method, measure, [4, 7]);
-        assert!((found - 2.0).abs() < ORDER_SLACK, "{method}: {found}");
-    }
-    assert!(STEPS.iter().zip(&case).all(|(step, of)| *step == of.step));
-}
-
-#[test]
-fn whole_step_ends_at_the_test_and_lost_roots_are_no_prediction() {
-    let known = Known::of_case(2).unwrap();
-    let zero = predictions(&known.model, &known.truth, &[0.0], Exact::NewCondensation).unwrap();
-    let each = zero[0].errors.iter().map(|errors| errors.unwrap().sum());
-    assert!(each.into_iter().all(|sum| sum < ROUND_OFF_FLOOR));
-    let thrice = vec![3.0; known.truth.len()];
-    let found = predictions(&known.model, &thrice, &[1.0], Exact::SameCondensation).unwrap();
-    let lost = found[0].errors.iter().map(Option::is_none).collect_vec();
-    assert_eq!(lost, [false, false, false, true]);
 }

@@ -9,7 +9,6 @@ pub mod ends;
 pub mod five_structures;
 pub mod linearization;
 pub mod matrix_comparison;
-pub mod matrix_comparison_elements;
 pub mod matrix_correction;
 pub mod noisy_modes;
 pub mod preflight_readings;

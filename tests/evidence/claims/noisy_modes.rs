@@ -11,11 +11,6 @@ fn exact() -> Modes {
     case().test_modes().unwrap()
 }
 
-fn unit(shape: DVector<f64>) -> DVector<f64> {
-    let largest = shape[shape.icamax()];
-    shape / largest
-}
-
 /// The changes of all shapes by noise, relative to each shape's largest component, mode by mode.
 fn shape_changes(exact: &Modes, noisy: &Modes) -> Vec<f64> {
     let change = |mode: usize| {
@@ -114,21 +109,6 @@ fn noise_that_turns_a_frequency_negative_is_an_error() {
 
 properties! {
     #[test]
-    fn noise_comes_again_from_its_seed_and_grows_with_its_size(seed in any::<u64>(), times in 0.0..3.0_f64) {
-        let exact = exact();
-        let once = with_noise(&exact, Noise::USUAL, seed)?;
-        prop_assert_eq!(&once, &with_noise(&exact, Noise::USUAL, seed)?);
-        prop_assert_ne!(&once, &with_noise(&exact, Noise::USUAL, seed.wrapping_add(1))?);
-        let noise = Noise { shape: times * Noise::USUAL.shape, frequency: times * Noise::USUAL.frequency };
-        let more = with_noise(&exact, noise, seed)?;
-        for changes in [shape_changes, frequency_changes] {
-            for (once, more) in changes(&exact, &once).iter().zip(changes(&exact, &more)) {
-                prop_assert!((times * once - more).abs() < ROUND_OFF);
-            }
-        }
-    }
-
-    #[test]
     fn noisy_modes_come_out_orthonormal_and_screened_within_the_limits(seed in any::<u64>()) {
         let (mass, limits) = (case().reconstruction.mass(), MovementLimits::default());
         let raw = with_noise(&exact(), Noise::USUAL, seed)?;
@@ -145,65 +125,6 @@ properties! {
             prop_assert!(movement.shape <= limits.shape && movement.frequency.abs() <= limits.frequency);
         }
     }
-}
-
-#[test]
-fn orthogonalization_cleans_the_highest_mode_and_spoils_mode_6() {
-    let (exact, mass) = (exact(), case().reconstruction.mass());
-    let (mut before, mut after) = (vec![0.0; 9], vec![0.0; 9]);
-    for seed in SEEDS {
-        let raw = with_noise(&exact, Noise::USUAL, seed).unwrap();
-        let orthogonal = orthogonalize(&raw, &mass).unwrap().modes;
-        for mode in 0..9 {
-            let error = |modes: &Modes| {
-                let [found, right] =
-                    [modes, &exact].map(|modes| unit(modes.shapes().column(mode).into_owned()));
-                (found - right).norm_squared()
-            };
-            before[mode] += error(&raw);
-            after[mode] += error(&orthogonal);
-        }
-    }
-    let growth = (0..9)
-        .map(|mode| (after[mode] / before[mode]).sqrt())
-        .collect_vec();
-    // The growth is largest where the mode moves the heaviest points, and the highest mode moves the lightest alone.
-    let generalized_mass = |mode: usize| {
-        let shape = unit(exact.shapes().column(mode).into_owned());
-        shape.dot(&(&mass * &shape))
-    };
-    let heaviest = (0..9).max_by(|a, b| generalized_mass(*a).total_cmp(&generalized_mass(*b)));
-    let lightest = (0..9).min_by(|a, b| generalized_mass(*a).total_cmp(&generalized_mass(*b)));
-    assert_eq!((heaviest, lightest), (Some(5), Some(8)));
-    assert!(growth[5] > 20.0 && growth[8] < 0.2, "{growth:?}");
-    assert!(
-        growth[..5]
-            .iter()
-            .chain(&growth[6..8])
-            .all(|growth| (1.0..4.0).contains(growth)),
-        "{growth:?}"
-    );
-}
-
-#[test]
-fn the_box_is_held_so_that_its_modes_are_not_balanced() {
-    let case = case();
-    let matrices = case.model().unwrap().matrices(&[1.0; 15]).unwrap();
-    let points = dynamic_points(&case.reconstruction).unwrap();
-    // Plunge, roll and pitch of points that move along z.
-    let motions = DMatrix::from_fn(9, 3, |i, j| [1.0, points[i].y, points[i].x][j]);
-    let [stiffness, mass] =
-        [&matrices.stiffness, &matrices.mass].map(|matrix| motions.transpose() * matrix * &motions);
-    let roots = (mass.try_inverse().unwrap() * stiffness)
-        .complex_eigenvalues()
-        .map(|root| root.re);
-    let expected = roots.max() / exact().omega_squared()[0];
-    let ratio = study().support_ratio.unwrap();
-    assert!(
-        relative_error(ratio, expected) < BALANCE_EQUATIONS,
-        "{ratio} {expected}"
-    );
-    assert!(ratio > LARGEST_SUSPENSION_RATIO);
 }
 
 /// The three correlations of a run with the test modes that each was given.

@@ -28,9 +28,9 @@ const OTHERS: [&[(&str, Option<&str>)]; 4] = [
 #[test]
 fn terminal_home_time_zone_and_language_make_no_difference() {
     let (folder, job) = placed(&rods());
-    let job = job.to_str().expect("UTF-8");
+    let job = job.to_str().unwrap();
     let path = folder.path().join("out");
-    let out = path.to_str().expect("UTF-8");
+    let out = path.to_str().unwrap();
     let run = |words: &[&str], variables: &[(&str, Option<&str>)]| {
         let mut command = Command::new(assert_cmd::cargo::cargo_bin("corfem"));
         command.args(words);
@@ -40,7 +40,7 @@ fn terminal_home_time_zone_and_language_make_no_difference() {
                 None => command.env_remove(name),
             };
         }
-        let output = command.output().expect("it starts");
+        let output = command.output().unwrap();
         let written = [
             "report.html",
             "factors.csv",

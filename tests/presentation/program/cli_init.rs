@@ -1,47 +1,42 @@
 //! `corfem init` from outside: a job and a test that explain themselves, and that the readers take.
 
-use crate::common::jobs::folder_of;
+use crate::common::jobs::{files_of, folder_of};
 use crate::prelude::*;
-use crate::presentation::program::cli::{corfem, text};
-use crate::presentation::program::cli_jobs::{Reported, reported, words};
-use corfem::job::{Job, read};
+use crate::presentation::program::cli::{corfem, text, words};
+use crate::presentation::program::cli_jobs::{Reported, reported};
+use corfem::job::Job;
 
 #[test]
 fn init_writes_a_job_that_reads_and_nothing_over_another() {
     let folder = new_folder();
     let path = folder.path().join("job.toml");
     assert_eq!(corfem(&["init", words(&path)]).status.code(), Some(0));
-    let written = fs::read(&path).expect("it reads");
-    assert_eq!(written, corfem(&["init"]).stdout);
+    let written = fs::read_to_string(&path).unwrap();
+    assert_eq!(written, text(&corfem(&["init"]).stdout));
     let refused = corfem(&["init", words(&path)]);
+    let said = text(&refused.stderr);
+    assert!(said.contains("job.toml: it is there already"), "{said}");
     assert_eq!(refused.status.code(), Some(2));
-    assert!(
-        text(&refused.stderr).contains("job.toml: it is there already"),
-        "{}",
-        text(&refused.stderr)
-    );
-    assert_eq!(fs::read(&path).expect("it reads"), written);
-    let job = read(&path).unwrap();
+    assert_eq!(fs::read_to_string(&path).unwrap(), written);
+    let job = corfem::job::read(&path).unwrap();
     assert_eq!(job.title.as_deref(), Some("my structure"));
     // Every example and default is one that the reader takes, but for those of a model of matrices.
-    let examples = String::from_utf8(written.clone()).expect("UTF-8");
-    let examples: String = examples
+    let lines = written
         .lines()
-        .skip_while(|line| !line.starts_with("title"))
-        .fold(String::new(), |all, line| {
-            let entry = line
-                .strip_prefix("# ")
-                .filter(|entry| entry.split(' ').nth(1) == Some("="));
-            all + entry.unwrap_or(line) + "\n"
-        });
-    toml::from_str::<Job>(&examples).unwrap();
+        .skip_while(|line| !line.starts_with("title"));
+    let examples = lines.map(|line| {
+        let entry = line.strip_prefix("# ");
+        let entry = entry.filter(|entry| entry.split(' ').nth(1) == Some("="));
+        entry.unwrap_or(line).to_owned() + "\n"
+    });
+    toml::from_str::<Job>(&examples.collect::<String>()).unwrap();
     // Pointed to files that exist, it is a job that can be looked at.
-    let wing = |file: &str| words(&folder_of("wing").join(file)).to_owned();
-    let text = String::from_utf8(written).expect("UTF-8");
-    let text = text.replace("\"model.bdf\"", &format!("{:?}", wing("model.bdf")));
-    let text = text.replace("\"test.unv\"", &format!("{:?}", wing("test.unv")));
-    let text = text.replace("# by = \"grid\"", "by = \"nearest\"");
-    fs::write(&path, text).expect("written");
+    let wing = |file: &str| format!("{:?}", words(&folder_of("wing").join(file)));
+    let pointed = written
+        .replace("\"model.bdf\"", &wing("model.bdf"))
+        .replace("\"test.unv\"", &wing("test.unv"))
+        .replace("# by = \"grid\"", "by = \"nearest\"");
+    fs::write(&path, pointed).unwrap();
     prepare(&path).unwrap();
 }
 
@@ -116,54 +111,41 @@ fn the_example_of_a_test_reads() {
 fn every_example_runs_as_it_is_written() {
     for name in ["building", "wing", "garteur"] {
         let folder = new_folder();
-        let at = |name: &str| folder.path().join(name);
-        let job = at("mine").join("job.toml");
-        let written = corfem(&["init", "--example", name, words(&at("mine"))]);
-        assert_eq!(
-            (written.status.code(), written.stdout.len()),
-            (Some(0), 0),
-            "{name}"
-        );
+        let mine = folder.path().join("mine");
+        let init = || {
+            let output = corfem(&["init", "--example", name, words(&mine)]);
+            assert!(output.stdout.is_empty());
+            (output.status.code(), text(&output.stderr))
+        };
+        let job = mine.join("job.toml");
         let next = format!(
             "next: corfem correlate {} --folder results\n",
             job.display()
         );
-        assert_eq!(text(&written.stderr), next);
+        assert_eq!(init(), (Some(0), next));
         let run = Reported::of(&job);
         assert_eq!(run.json()["verdict"]["is_within"], name != "garteur");
         if name != "garteur" {
             run.assert_same(reported(name));
         }
-        // It is the job of the tests, whole.
-        let own = folder_of(name);
-        let files = fs::read_dir(&own)
-            .expect("it reads")
-            .map(|file| file.expect("a file").file_name());
-        let files = files.collect_vec();
-        assert_eq!(
-            files.len(),
-            fs::read_dir(at("mine")).expect("it reads").count()
-        );
-        for file in files {
-            let [mine, own] = [at("mine"), own.clone()]
-                .map(|folder| fs::read(folder.join(&file)).expect("it reads"));
-            assert_eq!(mine, own, "{name}: {}", file.display());
+        // It is the job of the tests, whole, and never over a file that is there.
+        let own = files_of(name);
+        assert_eq!(fs::read_dir(&mine).unwrap().count(), own.len());
+        for (file, text) in own {
+            assert_eq!(
+                fs::read_to_string(mine.join(&file)).unwrap(),
+                text,
+                "{name}: {file}"
+            );
         }
-        // And never over a file that is there.
-        let again = corfem(&["init", "--example", name, words(&at("mine"))]);
-        assert_eq!(again.status.code(), Some(2));
+        let (status, said) = init();
         assert!(
-            text(&again.stderr).contains("it is there already"),
-            "{}",
-            text(&again.stderr)
+            status == Some(2) && said.contains("it is there already"),
+            "{said}"
         );
     }
-    assert_eq!(
-        corfem(&["init", "--example", "wing"]).status.code(),
-        Some(2)
-    );
-    assert_eq!(
-        corfem(&["init", "--example", "bridge", "x"]).status.code(),
-        Some(2)
-    );
+    for arguments in [&["wing"][..], &["bridge", "x"]] {
+        let refused = corfem(&[&["init", "--example"], arguments].concat());
+        assert_eq!(refused.status.code(), Some(2));
+    }
 }

@@ -33,9 +33,9 @@ impl Place {
             assert_cmd::cargo::cargo_bin("corfem"),
             root.path().join("corfem"),
         )
-        .expect("copied");
-        fs::create_dir(&held).expect("made");
-        fs::write(&file, "old ".repeat(10_000)).expect("written");
+        .unwrap();
+        fs::create_dir(&held).unwrap();
+        fs::write(&file, "old ".repeat(10_000)).unwrap();
         set(root.path(), 0o755);
         set(&file, mode);
         set(&held, 0o555);
@@ -58,7 +58,7 @@ impl Place {
                 Err(busy) if busy.kind() == ErrorKind::ExecutableFileBusy => {
                     sleep(Duration::from_millis(50))
                 }
-                done => return done.expect("it starts"),
+                done => return done.unwrap(),
             }
         }
         panic!("the program stays busy")
@@ -72,11 +72,11 @@ impl Drop for Place {
 }
 
 fn set(path: &Path, mode: u32) {
-    fs::set_permissions(path, Permissions::from_mode(mode)).expect("set");
+    fs::set_permissions(path, Permissions::from_mode(mode)).unwrap();
 }
 
 fn names(folder: &Path) -> usize {
-    fs::read_dir(folder).expect("a folder").count()
+    fs::read_dir(folder).unwrap().count()
 }
 
 /// A new file takes the place of the old one, so that the folder must take it.
@@ -85,9 +85,9 @@ fn a_folder_that_takes_no_files_and_a_file_that_may_not_be_written_are_refused()
     for (of_file, of_folder) in [(0o666, 0o555), (0o444, 0o777)] {
         let place = Place::new(of_file);
         set(&place.held, of_folder);
-        let old = fs::read(&place.file).expect("it reads");
+        let old = fs::read(&place.file).unwrap();
         let link = place.root.path().join("link");
-        symlink("held/report.txt", &link).expect("made");
+        symlink("held/report.txt", &link).unwrap();
         for to in [&place.file, &link] {
             let refused = place.run(to);
             assert_eq!(refused.status.code(), Some(2), "{}", to.display());
@@ -97,7 +97,7 @@ fn a_folder_that_takes_no_files_and_a_file_that_may_not_be_written_are_refused()
                 text(&refused.stderr)
             );
         }
-        assert_eq!(fs::read(&place.file).expect("it reads"), old);
+        assert_eq!(fs::read(&place.file).unwrap(), old);
         assert_eq!(names(&place.held), 1);
     }
 }
@@ -120,9 +120,9 @@ fn calls(arguments: &[&str], folder: &Path) -> Vec<String> {
         .arg(assert_cmd::cargo::cargo_bin("corfem"))
         .args(arguments)
         .current_dir(folder);
-    assert!(command.status().expect("strace runs").success());
+    assert!(command.status().unwrap().success());
     fs::read_to_string(log)
-        .expect("it reads")
+        .unwrap()
         .lines()
         .map(str::to_owned)
         .collect()

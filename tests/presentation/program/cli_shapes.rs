@@ -7,7 +7,7 @@ use crate::prelude::*;
 /// Asserts that another program reads in the file of the building what this crate's reader does.
 fn check(answer: &Value) {
     let file = &reported("building").files["shapes.unv"];
-    let data = read("shapes.unv", file.as_bytes()).expect("a Universal File");
+    let data = read("shapes.unv", file.as_bytes()).unwrap();
     assert_eq!(data.skipped, [0_usize; 0]);
     let near = |found: &Value, value: f64, what: &str| {
         let found = found.as_f64().expect(what);
@@ -19,8 +19,8 @@ fn check(answer: &Value) {
     }
     let mut moving = 0;
     for (row, sensor) in data.sensors.iter().enumerate() {
-        let node = sensor.grid.expect("a node").to_string();
-        let place = sensor.place.expect("a place");
+        let node = sensor.grid.unwrap().to_string();
+        let place = sensor.place.unwrap();
         (0..3).for_each(|axis| near(&answer["nodes"][&node][axis], place[axis], "a place"));
         for mode in 0..data.frequencies_hz.len() {
             let value = &answer["shapes"][mode][&node][sensor.direction];
@@ -28,14 +28,14 @@ fn check(answer: &Value) {
             moving += 1;
         }
     }
-    let shapes = answer["shapes"].as_array().expect("a list").iter();
-    let all = shapes.flat_map(|shape| shape.as_object().expect("nodes").values());
-    let all = all.flat_map(|node| node.as_array().expect("components"));
+    let shapes = answer["shapes"].as_array().unwrap().iter();
+    let all = shapes.flat_map(|shape| shape.as_object().unwrap().values());
+    let all = all.flat_map(|node| node.as_array().unwrap());
     assert_eq!(
         all.filter(|value| value.as_f64() != Some(0.0)).count(),
         moving
     );
-    let line = answer["line"].as_array().expect("a list");
+    let line = answer["line"].as_array().unwrap();
     let line = line.iter().filter_map(Value::as_u64).collect_vec();
     let pairs: Vec<[usize; 2]> = line
         .windows(2)
@@ -54,19 +54,19 @@ fn check(answer: &Value) {
 #[test]
 fn other_programs_read_the_shapes_that_a_correlation_writes() {
     let answer = include_str!("../../../golden/formats/shapes_read.json");
-    check(&serde_json::from_str(answer).expect("JSON"));
+    check(&serde_json::from_str(answer).unwrap());
 }
 
 fn check_with(program: &str) {
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/formats/shapes_read.py");
+    let script = in_root("golden/formats/shapes_read.py");
     let folder = new_folder();
     let path = folder.path().join("shapes.unv");
-    fs::write(&path, &reported("building").files["shapes.unv"]).expect("written");
+    fs::write(&path, &reported("building").files["shapes.unv"]).unwrap();
     let mut python = Command::new("python3");
     let output = python.arg(script).arg(&path).arg(program).output();
-    let output = output.expect("it runs");
+    let output = output.unwrap();
     assert!(output.status.success(), "{}", text(&output.stderr));
-    check(&serde_json::from_slice(&output.stdout).expect("JSON"));
+    check(&serde_json::from_slice(&output.stdout).unwrap());
 }
 
 #[test]

@@ -1,16 +1,12 @@
 //! What outputs show of odd names, what a corrected deck says at its head, what killed runs leave, and files without a last line end.
 
-use super::cli::{corfem, text};
+use super::cli::{corfem, text, words};
 use crate::common::jobs::{folder_of, rods, run};
 use crate::prelude::*;
 use crate::readers::twice::universal;
 use std::cell::Cell;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
-
-fn words(path: &Path) -> &str {
-    path.to_str().expect("UTF-8")
-}
 
 /// Characters that turn the direction of what follows.
 const TURNS: [char; 12] = [
@@ -22,12 +18,7 @@ const TURNS: [char; 12] = [
 #[test]
 fn characters_that_turn_text_around_are_escaped_in_every_output() {
     let all: String = TURNS.iter().collect();
-    let files = with(
-        rods(),
-        "job.toml",
-        "name = \"a\"",
-        &format!("name = \"a{all}b\""),
-    );
+    let files = rods_with("name = \"a\"", &format!("name = \"a{all}b\""));
     let files = with(
         files,
         "job.toml",
@@ -46,16 +37,15 @@ fn characters_that_turn_text_around_are_escaped_in_every_output() {
     }
     corfem(&["correlate", "-q", words(&path), "--folder", words(&out)]);
     for file in ["report.html", "factors.csv", "correlation.json"] {
-        outputs.push(fs::read_to_string(out.join(file)).expect("a file"));
+        outputs.push(fs::read_to_string(out.join(file)).unwrap());
     }
     for output in &outputs {
         assert!(!output.contains(TURNS), "{output}");
         assert!(output.to_lowercase().contains("202e"), "{output}");
     }
     // Whoever reads JSON by a program finds the name as it was.
-    let document: serde_json::Value =
-        serde_json::from_str(&outputs[outputs.len() - 1]).expect("JSON");
-    let name = document["parameters"][0].as_str().expect("a name");
+    let document: Value = serde_json::from_str(&outputs[outputs.len() - 1]).unwrap();
+    let name = document["parameters"][0].as_str().unwrap();
     assert_eq!(name, format!("a{all}b"));
 }
 
@@ -70,7 +60,7 @@ fn a_corrected_deck_names_its_run_at_its_head_and_is_else_as_it_was() {
         "--folder",
         words(folder.path()),
     ]);
-    let deck = fs::read_to_string(folder.path().join("corrected.bdf")).expect("a deck");
+    let deck = fs::read_to_string(folder.path().join("corrected.bdf")).unwrap();
     let head = deck
         .lines()
         .take_while(|line| line.starts_with("$ "))
@@ -88,20 +78,13 @@ fn a_corrected_deck_names_its_run_at_its_head_and_is_else_as_it_was() {
         said.starts_with(&run) && said.contains("keeps the mass"),
         "{said}"
     );
-    let json = fs::read_to_string(folder.path().join("correlation.json")).expect("JSON");
-    let identity = said[run.len()..]
-        .split("A density")
-        .next()
-        .expect("an identity");
+    let json = fs::read_to_string(folder.path().join("correlation.json")).unwrap();
+    let identity = said[run.len()..].split("A density").next().unwrap();
     assert!(json.contains(identity.trim()), "{identity}");
     // The mirror: behind the head the deck is that of the library, byte by byte.
     let prepared = prepare(&path).unwrap();
     let result = run_of(&prepared);
-    let own = prepared
-        .loaded
-        .corrected_deck(&result)
-        .expect("a deck")
-        .expect("of a deck");
+    let own = prepared.loaded.corrected_deck(&result).unwrap().unwrap();
     let rest: String = deck.split_inclusive('\n').skip(head.len()).collect();
     assert_eq!(rest.as_bytes(), own);
 }
@@ -116,14 +99,14 @@ fn run_of(prepared: &corfem::job::PreparedJob) -> Vec<f64> {
 fn half_written_files_of_killed_runs_go_with_the_next_run() {
     let (folder, path) = placed(&rods());
     let out = folder.path().join("out");
-    fs::create_dir(&out).expect("a folder");
+    fs::create_dir(&out).unwrap();
     let [stale, busy, own] =
         [".corfem-stale", ".corfem-busy", "corfem-own"].map(|name| out.join(name));
     for file in [&stale, &busy, &own] {
-        fs::write(file, "half").expect("written");
+        fs::write(file, "half").unwrap();
     }
-    let held = fs::File::open(&busy).expect("a file");
-    held.try_lock().expect("a lock");
+    let held = fs::File::open(&busy).unwrap();
+    held.try_lock().unwrap();
     corfem(&["correlate", "-q", words(&path), "--folder", words(&out)]);
     assert!(!stale.exists() && busy.exists() && own.exists());
     drop(held);
@@ -136,13 +119,12 @@ fn half_written_files_of_killed_runs_go_with_the_next_run() {
 #[test]
 fn a_file_without_a_last_line_end_is_read_whole() {
     let read = |files: &Files| {
-        let (_folder, path) = placed(files);
-        let job = prepare(&path).unwrap().loaded;
+        let job = prepared(files).loaded;
         let (stiffness, mass) = job
             .source
             .whole
             .at(&vec![1.0; job.parameter_names().count()])
-            .expect("matrices");
+            .unwrap();
         (job.data.clone(), stiffness, mass, job.title.clone())
     };
     for files in [rods(), building(), universal(7, 39.37)] {

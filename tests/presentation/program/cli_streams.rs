@@ -21,12 +21,12 @@ fn full() -> Stdio {
     File::options()
         .write(true)
         .open("/dev/full")
-        .expect("a device that is always full")
+        .unwrap()
         .into()
 }
 
 fn to_file(path: &Path) -> Output {
-    corfem(&[&SHORT[..], &["-o", path.to_str().expect("UTF-8")]].concat())
+    corfem(&[&SHORT[..], &["-o", path.to_str().unwrap()]].concat())
 }
 
 fn report() -> Vec<u8> {
@@ -42,10 +42,7 @@ fn standard_output_that_takes_nothing_is_an_error() {
         &["--help"],
         &["tables", "--version"],
     ] {
-        let output = program(arguments)
-            .stdout(full())
-            .output()
-            .expect("it starts");
+        let output = program(arguments).stdout(full()).output().unwrap();
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         let said = text(&output.stderr);
         assert!(
@@ -57,9 +54,9 @@ fn standard_output_that_takes_nothing_is_an_error() {
 
 #[test]
 fn a_reader_that_has_seen_enough_is_no_error() {
-    let (reader, writer) = std::io::pipe().expect("a pipe");
+    let (reader, writer) = std::io::pipe().unwrap();
     drop(reader);
-    let output = program(&SHORT).stdout(writer).output().expect("it starts");
+    let output = program(&SHORT).stdout(writer).output().unwrap();
     assert_eq!((output.status.code(), output.stderr.len()), (Some(0), 0));
 }
 
@@ -70,10 +67,7 @@ fn nobody_listening_on_standard_error_changes_nothing() {
         (&["cases", "9"], 2),
         (&["cases", "x"], 2),
     ] {
-        let output = program(arguments)
-            .stderr(full())
-            .output()
-            .expect("it starts");
+        let output = program(arguments).stderr(full()).output().unwrap();
         assert_eq!(output.status.code(), Some(status), "{arguments:?}");
     }
 }
@@ -90,7 +84,7 @@ fn a_dash_and_names_of_standard_output_are_standard_output() {
         .current_dir(folder.path())
         .output();
     assert_eq!(
-        output.expect("a shell").stdout,
+        output.unwrap().stdout,
         [b"before\n", &report()[..]].concat()
     );
     for name in ["-", "/dev/stdout", "/dev/fd/1"] {
@@ -98,27 +92,21 @@ fn a_dash_and_names_of_standard_output_are_standard_output() {
         let output = program(&arguments)
             .current_dir(folder.path())
             .output()
-            .expect("it starts");
+            .unwrap();
         assert_eq!(output.status.code(), Some(0), "{name}");
         assert_eq!(output.stdout, report(), "{name}");
         // A file it is appended to keeps what it has.
         let path = folder.path().join("log");
-        fs::write(&path, "before\n").expect("written");
-        let log = File::options().append(true).open(&path).expect("it opens");
-        assert!(
-            program(&arguments)
-                .stdout(log)
-                .status()
-                .expect("it starts")
-                .success()
-        );
+        fs::write(&path, "before\n").unwrap();
+        let log = File::options().append(true).open(&path).unwrap();
+        assert!(program(&arguments).stdout(log).status().unwrap().success());
         assert_eq!(
-            fs::read(&path).expect("it reads"),
+            fs::read(&path).unwrap(),
             [b"before\n", &report()[..]].concat()
         );
     }
     assert_eq!(
-        fs::read_dir(folder.path()).expect("a folder").count(),
+        fs::read_dir(folder.path()).unwrap().count(),
         1,
         "no file is called -"
     );
@@ -127,19 +115,16 @@ fn a_dash_and_names_of_standard_output_are_standard_output() {
 /// A socket cannot be opened by a name: what is written to that name goes to the open one.
 #[test]
 fn a_socket_as_standard_output_is_written_to_by_its_name() {
-    let (mut ours, theirs) = std::os::unix::net::UnixStream::pair().expect("a pair");
+    let (mut ours, theirs) = std::os::unix::net::UnixStream::pair().unwrap();
     let mut command = program(&[&SHORT[..], &["-o", "/dev/stdout"]].concat());
     let mut child = command
         .stdout(std::os::fd::OwnedFd::from(theirs))
         .spawn()
-        .expect("it starts");
+        .unwrap();
     drop(command);
     let mut read = Vec::new();
-    std::io::Read::read_to_end(&mut ours, &mut read).expect("it reads");
-    assert_eq!(
-        (child.wait().expect("an end").code(), read),
-        (Some(0), report())
-    );
+    std::io::Read::read_to_end(&mut ours, &mut read).unwrap();
+    assert_eq!((child.wait().unwrap().code(), read), (Some(0), report()));
 }
 
 #[test]
@@ -147,7 +132,7 @@ fn devices_and_pipes_are_written_through_and_stay_what_they_are() {
     assert_eq!(to_file(Path::new("/dev/null")).status.code(), Some(0));
     assert!(
         fs::metadata("/dev/null")
-            .expect("it is there")
+            .unwrap()
             .file_type()
             .is_char_device()
     );
@@ -160,46 +145,41 @@ fn devices_and_pipes_are_written_through_and_stay_what_they_are() {
         Command::new("mkfifo")
             .arg(&pipe)
             .status()
-            .expect("mkfifo")
+            .unwrap()
             .success()
     );
     let reader = std::thread::spawn({
         let pipe = pipe.clone();
-        move || fs::read(pipe).expect("it reads")
+        move || fs::read(pipe).unwrap()
     });
     assert_eq!(to_file(&pipe).status.code(), Some(0));
-    assert_eq!(reader.join().expect("a reader"), report());
-    assert!(
-        fs::metadata(&pipe)
-            .expect("it is there")
-            .file_type()
-            .is_fifo()
-    );
+    assert_eq!(reader.join().unwrap(), report());
+    assert!(fs::metadata(&pipe).unwrap().file_type().is_fifo());
 }
 
 #[test]
 fn links_are_followed_and_modes_are_those_of_new_files() {
     let folder = new_folder();
     let path = |name: &str| folder.path().join(name);
-    symlink("there.txt", path("link")).expect("made");
-    symlink("link", path("link to link")).expect("made");
+    symlink("there.txt", path("link")).unwrap();
+    symlink("link", path("link to link")).unwrap();
     // To nothing yet, and then to a file with a mode of its own.
     assert_eq!(to_file(&path("link to link")).status.code(), Some(0));
-    assert_eq!(fs::read(path("there.txt")).expect("it reads"), report());
-    fs::write(path("there.txt"), "before").expect("written");
-    fs::set_permissions(path("there.txt"), PermissionsExt::from_mode(0o604)).expect("set");
+    assert_eq!(fs::read(path("there.txt")).unwrap(), report());
+    fs::write(path("there.txt"), "before").unwrap();
+    fs::set_permissions(path("there.txt"), PermissionsExt::from_mode(0o604)).unwrap();
     assert_eq!(to_file(&path("link")).status.code(), Some(0));
-    assert_eq!(fs::read(path("there.txt")).expect("it reads"), report());
-    let mode = |name: &str| fs::metadata(path(name)).expect("it is there").mode() & 0o777;
-    fs::write(path("new"), "").expect("written");
+    assert_eq!(fs::read(path("there.txt")).unwrap(), report());
+    let mode = |name: &str| fs::metadata(path(name)).unwrap().mode() & 0o777;
+    fs::write(path("new"), "").unwrap();
     assert_eq!(mode("there.txt"), mode("new"));
-    fs::remove_file(path("new")).expect("removed");
+    fs::remove_file(path("new")).unwrap();
     // A link that leads to itself leads nowhere.
-    symlink("circle", path("circle")).expect("made");
+    symlink("circle", path("circle")).unwrap();
     assert_eq!(to_file(&path("circle")).status.code(), Some(2));
-    fs::remove_file(path("circle")).expect("removed");
+    fs::remove_file(path("circle")).unwrap();
     assert!(path("link").is_symlink() && path("link to link").is_symlink());
-    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 3);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3);
 }
 
 #[test]
@@ -212,7 +192,7 @@ fn new_files_and_folders_have_the_rights_of_the_umask() {
         .arg(program)
         .current_dir(folder.path())
         .output();
-    assert_eq!(text(&output.expect("a shell").stdout), "640\n750\n640\n");
+    assert_eq!(text(&output.unwrap().stdout), "640\n750\n640\n");
 }
 
 #[test]

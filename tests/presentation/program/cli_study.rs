@@ -2,17 +2,13 @@
 
 use crate::common::jobs::folder_of;
 use crate::prelude::*;
-use crate::presentation::program::cli::{corfem, text};
+use crate::presentation::program::cli::{corfem, text, words};
 use std::process::Output;
 
 const COUNT: usize = 6;
 
 fn job(name: &str) -> PathBuf {
     folder_of(name).join("job.toml")
-}
-
-fn words(path: &Path) -> &str {
-    path.to_str().expect("UTF-8")
 }
 
 fn study(folder: &Path, more: &[&str]) -> Output {
@@ -34,17 +30,14 @@ fn study(folder: &Path, more: &[&str]) -> Output {
 
 /// The lines of the samples, sorted, and the file that is made of them.
 fn found(folder: &Path) -> (Vec<String>, Vec<u8>) {
-    let samples = fs::read_to_string(folder.join("samples.csv")).expect("it reads");
+    let samples = fs::read_to_string(folder.join("samples.csv")).unwrap();
     assert!(
         samples.ends_with('\n')
             && samples.starts_with("sample,outcome,within,error_sum,analyses,\"story 1\",")
     );
     let mut lines = samples.lines().skip(1).map(str::to_owned).collect_vec();
     lines.sort();
-    (
-        lines,
-        fs::read(folder.join("summary.csv")).expect("it reads"),
-    )
+    (lines, fs::read(folder.join("summary.csv")).unwrap())
 }
 
 /// Whatever the number of threads, and after any end, the folder is the same.
@@ -63,15 +56,15 @@ fn threads_and_stops_change_nothing() {
     assert_eq!(study(&two, &["--threads", "2"]).stdout, output.stdout);
     assert_eq!(found(&two), expected);
     // Three whole lines and a torn one.
-    let whole = fs::read_to_string(one.join("samples.csv")).expect("it reads");
-    let cut = whole.match_indices('\n').nth(3).expect("four lines").0 + 20;
-    fs::write(two.join("samples.csv"), &whole[..cut]).expect("written");
+    let whole = fs::read_to_string(one.join("samples.csv")).unwrap();
+    let cut = whole.match_indices('\n').nth(3).unwrap().0 + 20;
+    fs::write(two.join("samples.csv"), &whole[..cut]).unwrap();
     assert_eq!(study(&two, &[]).stdout, output.stdout);
     assert_eq!(found(&two), expected);
     // Nothing is left to do, and one more is.
-    let before = fs::read(two.join("samples.csv")).expect("it reads");
+    let before = fs::read(two.join("samples.csv")).unwrap();
     assert_eq!(study(&two, &[]).stdout, output.stdout);
-    assert_eq!(fs::read(two.join("samples.csv")).expect("it reads"), before);
+    assert_eq!(fs::read(two.join("samples.csv")).unwrap(), before);
     let summary = text(&output.stdout);
     assert!(summary.contains(
         "6 samples, seed 5, with noise on the test: 6 within tolerance, 0 not, 0 failed."
@@ -107,19 +100,16 @@ fn samples_run_alone_and_put_together_are_the_study() {
     assert_eq!(lines.concat().lines().collect_vec(), found(&one).0);
     let file = folder.path().join("3.csv");
     assert_eq!(alone(3, &["--output", words(&file)]), "");
-    assert_eq!(fs::read_to_string(&file).expect("it reads"), lines[2]);
+    assert_eq!(fs::read_to_string(&file).unwrap(), lines[2]);
     lines.rotate_left(2);
-    fs::create_dir(&merged).expect("made");
-    fs::write(merged.join("samples.csv"), lines.concat()).expect("written");
+    fs::create_dir(&merged).unwrap();
+    fs::write(merged.join("samples.csv"), lines.concat()).unwrap();
     assert_eq!(study(&merged, &[]).stdout, output.stdout);
     assert_eq!(
-        fs::read_to_string(merged.join("samples.csv")).expect("it reads"),
+        fs::read_to_string(merged.join("samples.csv")).unwrap(),
         lines.concat()
     );
-    assert_eq!(
-        fs::read(merged.join("summary.csv")).expect("it reads"),
-        found(&one).1
-    );
+    assert_eq!(fs::read(merged.join("summary.csv")).unwrap(), found(&one).1);
 }
 
 /// A study that would last is stopped: whole lines of what is done are there, and the same command goes on with them.
@@ -145,7 +135,7 @@ fn a_signal_keeps_the_samples_done() {
         .stdout(Stdio::null())
         .stderr(Stdio::piped())
         .spawn()
-        .expect("it starts");
+        .unwrap();
     let lines = || fs::read_to_string(&path).map_or(0, |text| text.matches('\n').count());
     for _ in 0..600 {
         if lines() > COUNT + 1 {
@@ -153,9 +143,9 @@ fn a_signal_keeps_the_samples_done() {
         }
         std::thread::sleep(Duration::from_millis(100));
     }
-    assert!(child.try_wait().expect("a state").is_none(), "it lasts");
+    assert!(child.try_wait().unwrap().is_none(), "it lasts");
     send(&child, Signal::INT);
-    let output = child.wait_with_output().expect("an end");
+    let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.signal(), Some(Signal::INT.as_raw()));
     let done = lines() - 1;
     let said = format!(
@@ -163,7 +153,7 @@ fn a_signal_keeps_the_samples_done() {
     );
     assert_eq!(text(&output.stderr), said);
     assert!(
-        fs::read_to_string(&path).expect("it reads").ends_with('\n')
+        fs::read_to_string(&path).unwrap().ends_with('\n')
             && !folder.path().join("summary.csv").exists()
     );
     let whole = new_folder();
@@ -186,7 +176,7 @@ fn progress_stands_on_a_terminal_alone() {
             .env("TERM", "xterm")
             .stdin(Stdio::null())
             .output()
-            .expect("script runs");
+            .unwrap();
         assert!(output.status.success());
         text(&output.stdout)
     };
@@ -203,7 +193,7 @@ fn progress_stands_on_a_terminal_alone() {
 #[test]
 fn the_help_of_every_command_has_its_exit_statuses() {
     let help = text(&corfem(&["help"]).stdout);
-    let commands = help.split("Commands:\n").nth(1).expect("commands");
+    let commands = help.split("Commands:\n").nth(1).unwrap();
     let commands = commands.lines().take_while(|line| !line.is_empty());
     let commands = commands.filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
     let commands = commands

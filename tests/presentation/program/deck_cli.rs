@@ -1,60 +1,42 @@
 //! `corfem deck` and `corfem modes` from outside.
 
 use crate::prelude::*;
-use crate::presentation::program::cli::{corfem, numbers, text};
-
-fn frequencies(document: &Value) -> Vec<f64> {
-    numbers(&document["frequencies_hz"])
-}
+use crate::presentation::program::cli::{corfem, numbers, parsed};
 
 #[test]
 fn a_deck_of_a_pass_has_the_frequencies_of_that_pass() {
     let folder = new_folder();
     let path = folder.path().join("box.dat");
-    let path = path.to_str().expect("UTF-8");
-    let case = Case::new(2).expect("a case");
-    let passes = run_case(&case, |_, _| ()).expect("a run").correlation;
-    let (model, _) = whole::of(&case.model().expect("a model")).expect("a whole model");
-    let stages = [
-        ("0", vec![1.0; 15]),
-        ("1", passes.passes[0].factors.clone()),
-        ("2", passes.passes[1].factors.clone()),
-    ];
-    for (pass, factors) in stages {
+    let path = path.to_str().unwrap();
+    let case = case_of(2);
+    let passes = case_run(&case).correlation.passes;
+    let (model, _) = whole::of(&case.model().unwrap()).unwrap();
+    for (pass, factors) in [&vec![1.0; 15], &passes[0].factors, &passes[1].factors]
+        .into_iter()
+        .enumerate()
+    {
         // By the same eigensolver, so that the digits of the deck are all that differs.
-        let expected = model.modes(&factors, 9).expect("modes").vibrations;
-        let written = corfem(&["deck", "2", "--pass", pass, "-o", path]);
-        assert_eq!(written.status.code(), Some(0), "{}", text(&written.stderr));
-        assert!(written.stdout.is_empty());
-        let modes = corfem(&["modes", path, "--format", "json"]);
-        assert!(modes.stderr.is_empty(), "{}", text(&modes.stderr));
-        let document: Value = serde_json::from_slice(&modes.stdout).expect("JSON");
-        let found = frequencies(&document);
+        let expected = model.modes(factors, 9).unwrap().vibrations;
+        let written = corfem(&["deck", "2", "--pass", &pass.to_string(), "-o", path]);
+        assert_eq!((written.status.code(), written.stdout.len()), (Some(0), 0));
+        let document = parsed(&["modes", path, "--format", "json"]);
+        let found = numbers(&document["frequencies_hz"]);
         assert_eq!(found.len(), 9);
-        for (a, b) in found.iter().zip(expected.frequencies_hz()) {
-            assert_relative_eq!(*a, b, max_relative = DECK_ROUNDING);
-        }
+        assert_alike(found, expected.frequencies_hz(), DECK_ROUNDING);
         assert_eq!(document["dof"][0]["grid"], 101);
         assert_eq!(document["dof"][8]["direction"], "z");
-        for (shape, mass) in document["shapes"]
-            .as_array()
-            .expect("a list")
-            .iter()
-            .zip(document["generalized_masses"].as_array().expect("a list"))
+        for (mode, mass) in numbers(&document["generalized_masses"])
+            .into_iter()
+            .enumerate()
         {
-            let shape = numbers(shape);
-            let largest = shape.iter().copied().fold(f64::MIN, f64::max);
-            assert_eq!((shape.len(), largest), (9, 1.0));
-            let generalized: f64 = shape
-                .iter()
-                .zip(&case.reconstruction.masses)
-                .map(|(x, m)| m * x * x)
-                .sum();
-            assert_relative_eq!(
-                mass.as_f64().expect("a number"),
-                generalized,
-                max_relative = 1e2 * DECK_ROUNDING
+            let shape = numbers(&document["shapes"][mode]);
+            assert_eq!(
+                (shape.len(), shape.iter().copied().fold(f64::MIN, f64::max)),
+                (9, 1.0)
             );
+            let masses = shape.iter().zip(&case.reconstruction.masses);
+            let generalized: f64 = masses.map(|(x, m)| m * x * x).sum();
+            assert_alike([mass], [generalized], 1e2 * DECK_ROUNDING);
         }
     }
 }
@@ -67,25 +49,19 @@ fn modes_as_json_have_every_grid_that_moves() {
     let deck = "GRID,1,,0.,0.,0.,,123\nGRID,2,,10.,0.,0.,,23\nGRID,3,,20.,0.,0.,,23\nGRID,4,,30.,0.,0.,,23\n\
                 GRID,9,,15.,1.,0.\nCROD,1,1,1,2\nCROD,2,1,2,3\nCROD,3,1,3,4\nPROD,1,1,.1\nMAT1,1,1.+6\n\
                 CMASS2,8,1.,2,1\nCMASS2,7,2.,4,1\nMPC,1,9,3,-1.,2,1,.5\n,,3,1,-2.\nSPC1,1,12,9\n";
-    fs::write(&path, deck).expect("written");
-    let path = path.to_str().expect("UTF-8");
+    fs::write(&path, deck).unwrap();
+    let path = path.to_str().unwrap();
     let found: Value =
-        serde_json::from_slice(&corfem(&["modes", path, "-f", "json"]).stdout).expect("JSON");
+        serde_json::from_slice(&corfem(&["modes", path, "-f", "json"]).stdout).unwrap();
     let names = |list: &Value| {
-        let list = list.as_array().expect("a list").iter();
-        list.map(|dof| {
-            format!(
-                "{} {}",
-                dof["grid"],
-                dof["direction"].as_str().expect("a word")
-            )
-        })
-        .collect_vec()
+        let list = list.as_array().unwrap().iter();
+        list.map(|dof| format!("{} {}", dof["grid"], dof["direction"].as_str().unwrap()))
+            .collect_vec()
     };
     assert_eq!(names(&found["dof"]), ["2 x", "4 x"]);
     assert_eq!(names(&found["moving_dof"]), ["2 x", "3 x", "4 x", "9 z"]);
-    let all = found["moving_shapes"].as_array().expect("a list");
-    let at_masses = found["shapes"].as_array().expect("a list");
+    let all = found["moving_shapes"].as_array().unwrap();
+    let at_masses = found["shapes"].as_array().unwrap();
     assert_eq!((all.len(), at_masses.len()), (2, 2));
     for (shape, at_mass) in all.iter().zip(at_masses) {
         let (shape, at_mass) = (numbers(shape), numbers(at_mass));

@@ -15,8 +15,8 @@ type Files = BTreeMap<String, Vec<u8>>;
 fn files(folder: &Path) -> Files {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let named = |entry: fs::DirEntry| {
-        let name = entry.file_name().into_string().expect("UTF-8");
-        (name, fs::read(entry.path()).expect("it reads"))
+        let name = entry.file_name().into_string().unwrap();
+        (name, fs::read(entry.path()).unwrap())
     };
     entries.map(named).collect()
 }
@@ -59,7 +59,7 @@ impl Run {
             .env("TMPDIR", folder.join("temporary"))
             .envs(failing.map(|number| (VARIABLE, number.to_string())))
             .output()
-            .expect("it starts")
+            .unwrap()
     }
 
     /// The same files with another text.
@@ -72,11 +72,11 @@ impl Run {
     fn fail(&self, number: usize, before: Option<&Files>) -> Option<String> {
         let folder = new_folder();
         let [out, temporary] = ["out", "temporary"].map(|name| folder.path().join(name));
-        fs::create_dir(&temporary).expect("made");
+        fs::create_dir(&temporary).unwrap();
         if let Some(files) = before {
-            fs::create_dir(&out).expect("made");
+            fs::create_dir(&out).unwrap();
             for (name, bytes) in files {
-                fs::write(out.join(name), bytes).expect("written");
+                fs::write(out.join(name), bytes).unwrap();
             }
         }
         let output = self.output(folder.path(), Some(number));
@@ -160,7 +160,7 @@ fn assert_replaced(kinds: &BTreeMap<String, usize>, count: usize, of_folder: usi
 #[test]
 fn a_correlation_in_which_any_operation_fails_loses_nothing() {
     let (_folder, job) = placed(&rods());
-    let run = Run::of(&["correlate", "-q", job.to_str().expect("UTF-8"), "--folder"]);
+    let run = Run::of(&["correlate", "-q", job.to_str().unwrap(), "--folder"]);
     assert_eq!(run.new.len(), 7);
     let kinds = run.fail_each(Some(&run.old()));
     assert_replaced(&kinds, 7, 1);
@@ -172,7 +172,7 @@ fn a_correlation_in_which_any_operation_fails_loses_nothing() {
 #[test]
 fn a_study_in_which_any_operation_fails_loses_nothing_and_is_resumed() {
     let (_folder, job) = placed(&rods());
-    let job = job.to_str().expect("UTF-8");
+    let job = job.to_str().unwrap();
     let run = Run::of(&[
         "study",
         "-q",

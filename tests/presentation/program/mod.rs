@@ -1,13 +1,11 @@
 //! The program from outside.
 
 pub mod cli;
-pub mod cli_comparisons;
 pub mod cli_environment;
 pub mod cli_init;
 pub mod cli_jobs;
 pub mod cli_pictures;
 pub mod cli_places;
-pub mod cli_settings;
 mod cli_shapes;
 mod cli_shown;
 pub mod cli_streams;

@@ -21,7 +21,7 @@ const RUN: &str = concat!("<!-- corfem ", env!("CARGO_PKG_VERSION"), " figures -
 fn asked_for() -> Option<u64> {
     std::env::var("CORFEM_STOPS")
         .ok()
-        .map(|count| count.parse().expect("CORFEM_STOPS is a number"))
+        .map(|count| count.parse().unwrap())
 }
 
 /// How many files are new; the others are old, or not there where there was none before.
@@ -40,7 +40,7 @@ fn new_files(folder: &Path, had_old: bool) -> usize {
 
 /// What stands in the folder beside figures, and what a killed run may leave: a file of its own that it had not named yet.
 fn others(folder: &Path) -> (Vec<String>, usize) {
-    let names = fs::read_dir(folder).expect("a folder").flatten();
+    let names = fs::read_dir(folder).unwrap().flatten();
     let names = names.map(|entry| entry.file_name().to_string_lossy().into_owned());
     let (left, mut others): (Vec<String>, Vec<String>) = names
         .filter(|name| !name.ends_with(".svg"))
@@ -51,9 +51,9 @@ fn others(folder: &Path) -> (Vec<String>, usize) {
 
 fn old_set(folder: &Path) {
     for figure in figures() {
-        fs::write(folder.join(format!("{}.svg", figure.name)), OLD).expect("written");
+        fs::write(folder.join(format!("{}.svg", figure.name)), OLD).unwrap();
     }
-    fs::write(folder.join("notes.txt"), "mine").expect("written");
+    fs::write(folder.join("notes.txt"), "mine").unwrap();
 }
 
 /// The program writing figures into a folder, perhaps run by another one.
@@ -64,14 +64,14 @@ fn start(run_by: &[&str], folder: &Path) -> Child {
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .spawn()
-        .expect("it starts")
+        .unwrap()
 }
 
 /// Waits until the program has written its first file, or has ended.
 fn begun(child: &mut Child, folder: &Path) {
     let first = folder.join(format!("{}.svg", figures()[0].name));
     let is_written = || fs::read(&first).is_ok_and(|bytes| bytes != OLD.as_bytes());
-    while !is_written() && child.try_wait().expect("a state").is_none() {
+    while !is_written() && child.try_wait().unwrap().is_none() {
         std::hint::spin_loop();
     }
 }
@@ -85,7 +85,7 @@ fn stopped(signal: Signal, folder: &Path, after: Duration) -> ExitStatus {
         std::hint::spin_loop();
     }
     send(&child, signal);
-    child.wait().expect("an end")
+    child.wait().unwrap()
 }
 
 /// Random delays, the same ones every time; the machine adds its own.
@@ -107,7 +107,7 @@ fn a_kill_at_any_moment_leaves_each_file_old_or_new_and_whole() {
         // A folder with old files, and one that is new.
         let had_old = at % 2 == 0;
         if had_old {
-            fs::create_dir(&out).expect("made");
+            fs::create_dir(&out).unwrap();
             old_set(&out);
         }
         let signal = signals[at % signals.len()];
@@ -119,7 +119,7 @@ fn a_kill_at_any_moment_leaves_each_file_old_or_new_and_whole() {
         assert!(left <= 1, "{left} files without a name");
         assert_eq!(beside, if had_old { vec!["notes.txt"] } else { vec![] });
         // The next run writes what was not written.
-        assert!(start(&[], &out).wait().expect("an end").success());
+        assert!(start(&[], &out).wait().unwrap().success());
         assert_eq!(new_files(&out, had_old), figures().len());
         // It removes what the killed one left.
         assert_eq!(others(&out), (beside, 0));
@@ -135,7 +135,7 @@ fn a_signal_that_it_was_started_to_ignore_does_not_end_it() {
         let mut child = start(&["sh", "-c", &ignoring, "sh"], folder.path());
         begun(&mut child, folder.path());
         send(&child, signal);
-        assert!(child.wait().expect("an end").success(), "{name}");
+        assert!(child.wait().unwrap().success(), "{name}");
         assert_eq!(new_files(folder.path(), false), figures().len());
     }
 }
@@ -161,7 +161,7 @@ fn a_kill_at_every_call_that_writes_leaves_each_file_old_or_new_and_whole() {
                 "-e",
                 &inject,
             ];
-            let ended = start(&run_by, folder.path()).wait().expect("an end");
+            let ended = start(&run_by, folder.path()).wait().unwrap();
             new_files(folder.path(), true);
             if ended.success() {
                 break;

@@ -9,7 +9,7 @@
 
 use crate::common::jobs::folder_of;
 use crate::prelude::*;
-use crate::presentation::program::cli::text;
+use crate::presentation::program::cli::{text, unbroken};
 use std::process::Output;
 
 fn ran(folder: &Path, words: &str) -> Output {
@@ -26,11 +26,6 @@ fn ran(folder: &Path, words: &str) -> Output {
         .current_dir(folder)
         .output()
         .unwrap()
-}
-
-/// Without the breaks of lines.
-fn unbroken(text: &str) -> String {
-    text.split_whitespace().collect_vec().join(" ")
 }
 
 /// Whether a text is what a mark says of it.

@@ -22,10 +22,7 @@ fn sensed(d: &mut Draws) -> Result<SensorModel, Error> {
         &sensors,
         model.test(),
         by_sorting(),
-        BasisSize {
-            modes: count,
-            residual_vectors: 0,
-        },
+        modes_alone(count),
     )
 }
 

@@ -60,10 +60,7 @@ impl Row {
     }
 
     fn at(&self, factors: &[f64]) -> Comparison {
-        let size = BasisSize {
-            modes: MODES[1],
-            residual_vectors: 0,
-        };
+        let size = modes_alone(MODES[1]);
         let pair = by_sorting();
         self.model
             .analyze(factors, &self.sensors, &self.test, pair, size)

@@ -33,14 +33,12 @@ impl Net {
                 }
             }
         }
-        let parameters = parts
-            .iter()
-            .enumerate()
-            .map(|(column, part)| WholeParameter {
-                name: format!("column {column}"),
-                share: WholeShare::Stiffness(springs(count, part)),
-                range: None,
-            });
+        let parameters = parts.iter().enumerate().map(|(column, part)| {
+            whole_parameter(
+                format!("column {column}"),
+                WholeShare::Stiffness(springs(count, part)),
+            )
+        });
         let mass = (0..count).map(|place| 60.0 * vary(3 * place)).collect_vec();
         let model = WholeModel::new(
             springs(count, &parts.concat()),
@@ -115,10 +113,11 @@ fn every_spring_has_one_residual_vector() {
         let sizes = [1.0, 1e-3, 1e-7];
         let parts = sizes.iter().zip([7, 15, 24]);
         let parts = parts.map(|(&size, row)| spring(row, size)).collect_vec();
-        let parameters = parts.iter().map(|&part| WholeParameter {
-            name: format!("spring at {}", part.0),
-            share: WholeShare::Stiffness(springs(count, &[part])),
-            range: None,
+        let parameters = parts.iter().map(|&part| {
+            whole_parameter(
+                format!("spring at {}", part.0),
+                WholeShare::Stiffness(springs(count, &[part])),
+            )
         });
         let model = WholeModel::new(
             springs(count, &[chain, parts.clone()].concat()),
@@ -174,28 +173,6 @@ fn four_residual_vectors_a_parameter_predict_frequencies_twenty_times_better() {
     let net = Net::new(12, 9);
     let [none, four] = [0, 4].map(|further| predicted(&net, further));
     assert!(four < none / 20.0, "{none:e} to {four:e}");
-}
-
-/// What the paper's inner loops predict of the error sum at their ends, less the exact one there.
-#[test]
-fn the_papers_inner_loop_predicts_the_error_twenty_times_better() {
-    let net = Net::new(12, 9);
-    let apart = |further| {
-        let analyze = |factors: &[f64]| Ok::<_, Error>(net.analyze(factors, further));
-        let settings = Settings::default().for_modes(MODES[0]);
-        let run = correlate(analyze, &[None; 9], &settings, |_, _| true).unwrap();
-        let apart = run.passes.iter().filter_map(|pass| {
-            let predicted = pass.inner.iterations.last()?.errors.sum();
-            Some((predicted - pass.check.errors.sum()).abs())
-        });
-        apart.collect::<Vec<f64>>()
-    };
-    let [none, four] = [0, 4].map(apart);
-    let most = |apart: &[f64]| apart.iter().copied().largest();
-    assert!(
-        !four.is_empty() && most(&four) < most(&none) / 20.0,
-        "{none:?} to {four:?}"
-    );
 }
 
 /// The fewest that SciPy's least squares takes of the same net and test with exact derivatives, by `golden/residual_vectors.py`: the

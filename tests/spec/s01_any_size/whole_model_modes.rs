@@ -2,7 +2,6 @@
 
 use crate::prelude::*;
 use chain_of_springs as chain;
-use corfem::sparse::BodyFinding;
 
 #[test]
 fn a_long_chain_has_the_closed_form_whatever_holds_it() {
@@ -43,53 +42,6 @@ fn shapes_are_found_as_well_as_frequencies() {
                 assert!(part < TWO_PROGRAMS, "{mode} of {modes}: {part:e}");
             }
         }
-    }
-}
-
-/// A square net of springs has sums of the chain's eigenvalues, most of them twice.
-#[test]
-fn repeated_roots_of_a_square_net_are_all_found() {
-    let side = 31;
-    let mut all = Vec::new();
-    for i in 0..side {
-        for j in 0..side {
-            let at = |i: usize, j: usize| i * side + j;
-            let right = if i + 1 < side {
-                Some(at(i + 1, j))
-            } else {
-                None
-            };
-            let up = if j + 1 < side {
-                Some(at(i, j + 1))
-            } else {
-                None
-            };
-            all.extend([(at(i, j), right, 1.0e4), (at(i, j), up, 1.0e4)]);
-            all.extend((i == 0).then_some((at(i, j), None, 1.0e4)));
-            all.extend((j == 0).then_some((at(i, j), None, 1.0e4)));
-        }
-    }
-    let one = chain_eigenvalues(ChainEnds::FixedFixed, side, 1.0e4, 0.5);
-    let mut expected = one
-        .iter()
-        .flat_map(|a| one.iter().map(move |b| a + b))
-        .collect_vec();
-    expected.sort_by(f64::total_cmp);
-    for count in [1, 2, 7, 24] {
-        let found = lowest_modes(
-            &springs(side * side, &all),
-            &masses(&vec![0.5; side * side]),
-            count,
-        )
-        .unwrap();
-        assert_alike(
-            found.vibrations.omega_squared().iter(),
-            &expected,
-            COUNTED_ROOT,
-        );
-        let (m, shapes) = (masses(&vec![0.5; side * side]), found.vibrations.shapes());
-        let unit = shapes.tr_mul(&m.times(shapes).unwrap());
-        assert!((unit - eye(count)).amax() < WHOLE_SHAPE);
     }
 }
 
@@ -146,37 +98,6 @@ fn random_sparse_pencils_have_the_modes_of_their_dense_ones() {
     }
 }
 
-/// A soft spring to the ground, a thousand-billionth of a millionth of the others: no double tells it.
-#[test]
-fn what_counts_as_free_by_its_digits_says_what_they_would_hide() {
-    let stiffness = springs(2, &[(0, Some(1), 1.5e4 / 0.7), (0, None, 1e-11 / 0.7)]);
-    let at = MassDof {
-        dof: Vec::new(),
-        load_distribution: masses(&[1.0, 1.0]),
-        mass: DVector::from_vec(vec![2.0, 3.0]),
-    };
-    let name = |row: usize| format!("row {row}");
-    let found = whole_modes(&stiffness, at, 2, &Support::default(), name).unwrap();
-    let [
-        BodyFinding::ByDigits {
-            count: 1,
-            hidden_hz,
-            ..
-        },
-    ] = found.doubtful[..]
-    else {
-        panic!("{:?}", found.doubtful)
-    };
-    assert_eq!(found.rigid_body, 1);
-    // The slack, 30 roundings of twice the spring at both rows, on the whole mass.
-    let slack = 4.0 * 30.0 * f64::EPSILON * 1.5e4 / 0.7;
-    let hertz = (slack / 5.0).sqrt() / TAU;
-    assert!(
-        relative_error(hidden_hz, hertz) < JOB_RESULTS,
-        "{hidden_hz} {hertz}"
-    );
-}
-
 #[test]
 fn a_factor_counts_negative_eigenvalues_and_solves() {
     let mut draws = Draws(3);
@@ -207,37 +128,4 @@ fn a_factor_counts_negative_eigenvalues_and_solves() {
             residual.amax()
         );
     }
-}
-
-/// What a search costs is how many loads the factor is solved for. The numbers are this program's own, of November 2026. A mass on a
-/// spring far softer than the chain's has a root so large that its round-off hides what is left of the others; nine chains that do not
-/// touch have every root nine times, more often than a block has directions.
-#[test]
-fn a_search_takes_as_many_solutions_as_it_took() {
-    let (held, free) = (ChainEnds::FixedFree, ChainEnds::FreeFree);
-    let link = |row: usize| (row, row.checked_sub(1), 1.0);
-    let beside = |soft| {
-        springs(
-            401,
-            &[(0..400).map(link).collect(), vec![(400, None, soft)]].concat(),
-        )
-    };
-    let nine = (0..9 * 40).map(|row| (row, (row % 40 > 0).then(|| row - 1), 1.0));
-    let nine = springs(9 * 40, &nine.collect_vec());
-    let solutions = |stiffness: &SparseMatrix, count| {
-        let mass = masses(&vec![1.0; stiffness.rows()]);
-        let found = lowest_modes(stiffness, &mass, count).unwrap();
-        found.solutions
-    };
-    let took = [
-        solutions(&chain(held, 120, 1.0), 3),
-        solutions(&chain(held, 400, 1.0), 1),
-        solutions(&chain(held, 400, 1.0), 20),
-        solutions(&chain(free, 400, 1.0), 6),
-        solutions(&chain(held, 2000, 1.0), 40),
-        solutions(&beside(1e-14), 8),
-        solutions(&beside(1e-18), 26),
-        solutions(&nine, 5),
-    ];
-    assert_eq!(took, [120, 93, 128, 106, 204, 104, 151, 121]);
 }
