@@ -140,12 +140,17 @@ fn why(action: &str, source: &std::io::Error) -> String {
     }
 }
 
-/// Message about cards that are not read: of elements that the crate lacks, those that it does not know, and those without part in the
-/// model.
+/// Message about cards that are not read: of elements that the crate lacks, names of other files, those that it does not know, and
+/// those without part in the model.
 fn of_cards(file: &str, cards: &[Unread]) -> String {
     let of = |reason| cards.iter().filter(move |card| card.reason == reason);
-    let [lacking, unknown, without]: [Vec<&Unread>; 3] =
-        [Reason::Lacking, Reason::Unknown, Reason::WithoutPart].map(|own| of(own).collect());
+    let [lacking, elsewhere, unknown, without]: [Vec<&Unread>; 4] = [
+        Reason::Lacking,
+        Reason::Elsewhere,
+        Reason::Unknown,
+        Reason::WithoutPart,
+    ]
+    .map(|own| of(own).collect());
     let places = |cards: &[&Unread]| {
         let places: Vec<String> = cards.iter().map(|card| card.place()).collect();
         places.join(", ")
@@ -156,6 +161,18 @@ fn of_cards(file: &str, cards: &[Unread]) -> String {
             "corfem lacks what {} stand for, and without them the modes are others; let the program that the deck is for write the \
              stiffness and mass, and give these (paper/matrices.md)",
             places(&lacking)
+        ));
+    }
+    if lacking.iter().any(|card| card.card == "PARAM COUPMASS") {
+        said.push(
+            "PARAM COUPMASS couples masses, and its modes differ from those of the lumped masses here; remove it if lumped ones will do"
+                .to_owned(),
+        );
+    }
+    if !elsewhere.is_empty() {
+        said.push(format!(
+            "corfem reads one file, and any of the model may be in those that {} name; paste their text in place of these lines",
+            places(&elsewhere)
         ));
     }
     if !unknown.is_empty() {

@@ -166,7 +166,7 @@ pub const NASTRAN_GAGE_CASE_1: f64 = 2e-3;
 pub const NASTRAN_AGAIN: f64 = 1e-9;
 /// Factors of snapped panels as golden/nastran95/README.md has them: half a unit of the fourth digit.
 pub const PRINTED_SNAP_FACTOR: f64 = 5e-5;
-/// Half a unit of the seventh digit that NASTRAN printed in 1995, relative, at worst; its single precision is in it.
+/// Half a unit of the seventh digit that NASTRAN printed in 1995 or 2019, relative, at worst; the older one's single precision is in it.
 pub const PRINTED_SEVEN_DIGITS: f64 = 5e-7;
 /// Gages of the delta wing after a correlation to 0.5 % of the error sum, where test modes see them; 1.9 % at worst. An error of
 /// 2 % in a group with 3 to 33 % of a mode's stiffness moves its frequency by 0.03 to 0.33 %: the tolerance asks no more.

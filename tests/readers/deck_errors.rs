@@ -57,7 +57,7 @@ const BAD_FIELDS: &str = "\
 4 | PROD,1,8,.01 | 3 | the number of a MAT1 card | 8
 7 | CMASS2,7,.4,3,1 | 4 | the number of a GRID card | 3
 - | CONM2,8,3,,.4 | 3 | the number of a GRID card | 3
-4 | PROD,1,1,0. | 4 | a positive real number | 0.
+4 | PROD,1,1,0. | 4 | a rod without area | torsion alone
 4 | PROD,1,1 | 4 | a positive real number | missing
 4 | PROD,1,1,-.5 | 4 | a positive real number | -.5
 4 | PROD,1,1,.5,X | 5 | a real number | X

@@ -55,6 +55,70 @@ properties! {
     }
 }
 
+/// As many modes as there are degrees of freedom with mass are all, and are known to be.
+#[test]
+fn modes_of_every_degree_of_freedom_with_mass_are_counted() {
+    let model = read_deck(chain([1e6; 2], [0.1, 0.2])).unwrap().model;
+    let counted = [1, 2, 3].map(|most| deck::modes(&model, most).unwrap().counted);
+    assert_eq!(counted, [None, None, Some(2)]);
+}
+
+/// The 72-bar truss, held at its four feet: the deck testing/system_verification/004_72_bar_truss of the public repository
+/// vtpasquale/NASTRAN_CoFE, and the frequencies that MSC Nastran 2019 printed for it, with two pairs that symmetry makes alike.
+///
+/// ```text
+///   1 -- 2      z = 240, four stories of 60; a square of side 120 in each of the five levels,
+///   | \/ |      numbered around; in every story 4 posts, 8 diagonals in its walls, 4 sides and
+///   | /\ |      2 diagonals of the level above, one property each
+///   4 -- 3
+/// ```
+#[test]
+fn the_72_bar_truss_has_the_printed_frequencies() {
+    let printed = [
+        25.45570, 25.45570, 38.94089, 68.55535, 73.70520, 73.70520, 111.0227, 127.6247, 136.6591,
+        136.6591,
+    ];
+    let mut deck = String::from("MDLPRM,HDF5,0\nMAT1,101,1.+7,3759398.,.33,2.59-4\n");
+    for label in 1..=20 {
+        let (x, y) = [(0, 0), (120, 0), (120, 120), (0, 120)][(label - 1) % 4];
+        let z = 240 - 60 * ((label - 1) / 4);
+        let held = if z == 0 { "123456" } else { "456" };
+        deck += &format!("GRID,{label},0,{x}.,{y}.,{z}.,0\nSPC1,1,{held},{label}\n");
+    }
+    let mut rods = 0;
+    for story in 0..4 {
+        let (top, next) = (
+            |of: usize| 4 * story + 1 + of % 4,
+            |of: usize| 4 * story + 5 + of % 4,
+        );
+        let around = |from: &dyn Fn(usize) -> [usize; 2]| (0..4).map(from).collect_vec();
+        let walls = [
+            around(&|of| [top(of + 1), next(of)]),
+            around(&|of| [top(of), next(of + 1)]),
+        ];
+        let parts = [
+            around(&|of| [top(of), next(of)]),
+            walls.concat(),
+            around(&|of| [top(of), top(of + 1)]),
+            vec![[top(0), top(2)], [top(1), top(3)]],
+        ];
+        for (part, ends) in parts.iter().enumerate() {
+            let property = 4 * story + part + 1;
+            deck += &format!("PROD,{property},101,.5,999.\n");
+            for [a, b] in ends {
+                rods += 1;
+                deck += &format!("CROD,{rods},{property},{a},{b}\n");
+            }
+        }
+    }
+    assert_eq!(rods, 72);
+    let found = deck::modes(&read_deck(deck).unwrap().model, printed.len()).unwrap();
+    assert_eq!(found.modes.len(), printed.len());
+    for (found, printed) in found.modes.frequencies_hz().iter().zip(printed) {
+        assert_relative_eq!(*found, printed, max_relative = PRINTED_SEVEN_DIGITS);
+    }
+}
+
 #[test]
 fn a_stiff_link_of_a_free_structure_takes_none_of_its_vibrations() {
     // Four masses in a row on two springs of 1e4 and a link ten billion times as stiff.

@@ -84,11 +84,12 @@ impl ElementCards {
                 if name == connection {
                     card.keep(start, Some(row), &mut self.connections)?;
                 } else if name == property {
-                    let size = card.positive(start + 2)?;
                     let is_rod = kind == ElementKind::Rod;
                     if is_rod {
+                        has_area(card, start + 2)?;
                         self.note_torsion(card, start + 3)?;
                     }
+                    let size = card.positive(start + 2)?;
                     card.absent(start + if is_rod { 5 } else { 3 }, "nonstructural mass")?;
                     card.keep(start, size, &mut self.properties[row])?;
                 }
@@ -96,6 +97,7 @@ impl ElementCards {
         }
         match name {
             "CONROD" => {
+                has_area(card, 6)?;
                 card.positive(6)?;
                 self.note_torsion(card, 7)?;
                 card.absent(9, "nonstructural mass")?;
@@ -187,6 +189,15 @@ impl ElementCards {
         }
         Ok((elements, members))
     }
+}
+
+/// Refuses a rod without area.
+fn has_area(card: &Card, field: usize) -> Result<(), FileError> {
+    if card.optional_real(field)? == Some(0.0) {
+        let reason = "a rod without area resists torsion alone, which corfem does not read; leave the rod out";
+        return Err(card.error(field, reason));
+    }
+    Ok(())
 }
 
 /// MAT1: of E, G and NU two give the third, $G = E/\big(2(1+\nu)\big)$; all three are taken as they are. E alone is that of rods.

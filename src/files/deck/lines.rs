@@ -9,7 +9,7 @@ use std::sync::Arc;
 /// Data fields of a line in the large format.
 pub(super) const LARGE_FIELDS_PER_LINE: usize = 4;
 /// Statements that read another file, in any section.
-const INCLUDES: [&str; 2] = ["INCLUDE", "READFILE"];
+pub(super) const INCLUDES: [&str; 2] = ["INCLUDE", "READFILE"];
 /// Characters that end the first word of such a statement, or of a parameter.
 const WORD_ENDS: [char; 5] = [' ', ',', '=', '\'', '"'];
 /// Name of what is left of a line that is no line of a card; what reads cards finds out whether it matters.
@@ -63,15 +63,21 @@ pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<
         .zip(text.lines().map(code))
         .filter(|(_, line)| !line.trim().is_empty());
     let lines: Vec<(usize, String)> = lines.collect();
-    let begins = |(_, line): &(usize, String)| {
-        let words: Vec<&str> = line
-            .split([' ', ',', '='])
-            .filter(|word| !word.is_empty())
-            .collect();
-        words.first() == Some(&"BEGIN") && words.get(1).is_none_or(|word| *word == "BULK")
+    let begins = |line: &str, of: &[&str]| {
+        let mut words = line
+            .split([' ', '\t', ',', '='])
+            .filter(|word| !word.is_empty());
+        words.next() == Some("BEGIN")
+            && words
+                .next()
+                .is_none_or(|word| of.is_empty() || of.contains(&word))
     };
-    let begin = lines.iter().position(begins);
-    if let Some((number, _)) = lines.iter().filter(|line| begins(line)).nth(1) {
+    // In front of bulk data, other words may follow BEGIN, as in instructions of matrix programs.
+    let begin = lines
+        .iter()
+        .position(|(_, line)| begins(line, &["BULK", "SUPER"]));
+    let mut behind = lines.iter().skip(begin.map_or(lines.len(), |row| row + 1));
+    if let Some((number, _)) = behind.find(|(_, line)| begins(line, &[])) {
         let reason = "this is the second part of bulk data; corfem has no superelements";
         return Err(FileError::line(file, *number, reason));
     }

@@ -5,7 +5,7 @@ use super::card::{Card, Numbered};
 use super::constraints::Constraints;
 use super::coordinates::CoordinateSystems;
 use super::elements::{ELEMENT_CARDS, ElementCards, Members, point_mass, take_masses};
-use super::lines::{Joined, NO_CARD, Selected, join, sections};
+use super::lines::{INCLUDES, Joined, NO_CARD, Selected, join, sections};
 use super::model::{BulkData, PointMass};
 use super::number::nearest_in_field;
 use crate::files::error::FileError;
@@ -28,8 +28,8 @@ pub struct Deck {
 /// CORD1R, CORD1C, CORD1S, CORD2R, CORD2C, CORD2S, CROD, PROD, CONROD, CSHEAR, PSHEAR, CQDMEM, PQDMEM, CTRMEM, PTRMEM, MAT1,
 /// SPC, SPC1, SPCADD, MPC, MPCADD, CMASS1, PMASS, CMASS2, CONM2 and `PARAM,WTMASS`, which multiplies every mass and density,
 /// in any order. Cards that say nothing of stiffness, mass,
-/// supports or coordinates, such as loads, are listed in [`Deck::unread`], and so are those ignored, except EIGR and EIGRL:
-/// they say how to look for eigenvalues. Every other card is an error.
+/// supports or coordinates, such as loads, or properties and points to which no card refers, are listed in [`Deck::unread`], and so are
+/// those ignored, except EIGR and EIGRL: they say how to look for eigenvalues. Every other card is an error.
 ///
 /// # Errors
 /// [`FileError::DeckCards`] lists all cards that are not read, if one of them is not understood; [`FileError::DeckLine`] and
@@ -59,16 +59,23 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
         name if is_among(&name, WITHOUT_PART) => Reason::WithoutPart,
         name if ignored.contains(&name) => Reason::Ignored,
         name if is_of_element(&name) => Reason::Lacking,
+        name if INCLUDES.contains(&name.as_str()) => Reason::Elsewhere,
         _ => Reason::Unknown,
     };
     let unread = others
         .iter()
         .map(|found| one_unread(&found.card, why(&found.card)));
-    let unread: Vec<Unread> = unread.collect();
-    let refused = [Reason::Lacking, Reason::Unknown];
-    if unread.iter().any(|card| refused.contains(&card.reason)) {
+    let mut unread: Vec<Unread> = unread.collect();
+    let refused = [Reason::Lacking, Reason::Elsewhere, Reason::Unknown];
+    let is_refused = |card: &&mut Unread| refused.contains(&card.reason);
+    let mut left = unread.iter_mut().filter(is_refused);
+    if left.any(|card| !is_among(&card.card, BY_REFERENCE)) {
         let (file, cards) = (file.to_owned(), counted(&unread));
         return Err(FileError::DeckCards { file, cards });
+    }
+    // Nothing refers to these cards: what is read refers to cards that are read, or is refused.
+    for card in unread.iter_mut().filter(is_refused) {
+        card.reason = Reason::WithoutPart;
     }
     for found in nameless {
         found.sound()?;
@@ -180,28 +187,33 @@ fn scale<'a>(card: &Card, masses: impl Iterator<Item = &'a mut f64>) -> Result<(
 const READ: &str = "\
     GRID GRDSET CORD1R CORD1C CORD1S CORD2R CORD2C CORD2S CONROD MAT1 CMASS1 PMASS CMASS2 CONM2 SPC SPC1 \
     SPCADD MPC MPCADD EIGR EIGRL";
-/// Cards that carry no stiffness, mass, support or coordinates in a search for normal modes: loads, temperatures,
-/// damping, output, the order of equations, other solutions' methods, optimization, sets and aerodynamics.
+/// Cards that carry no stiffness, mass, support or coordinates in a search for normal modes: loads, temperatures, heat, tables,
+/// damping, output, the order of equations, elements that are alike, other solutions' methods, optimization, sets and aerodynamics.
 const WITHOUT_PART: &str = "\
-    PARAM PLOTEL SEQGP FORCE FORCE1 FORCE2 MOMENT MOMENT1 MOMENT2 PLOAD PLOAD1 PLOAD2 PLOAD3 PLOAD4 LOAD \
-    GRAV RFORCE SLOAD SPCD DEFORM TEMP TEMPD TEMPP1 TEMPP2 TEMPP3 TEMPRB DLOAD RLOAD1 RLOAD2 TLOAD1 \
-    TLOAD2 DAREA DELAY DPHASE RANDPS RANDT1 TIC FREQ FREQ1 FREQ2 TSTEP TABDMP1 TABLED1 TABLED2 TABLED3 \
-    TABLED4 TABRND1 CVISC PVISC CDAMP1 CDAMP2 CDAMP3 CDAMP4 PDAMP EIGB EIGC EIGP DESVAR DVPREL1 DVPREL2 \
-    DVMREL1 DVMREL2 DVCREL1 DVCREL2 DVGRID DRESP1 DRESP2 DRESP3 DCONSTR DCONADD DLINK DEQATN DTABLE \
-    DDVAL DOPTPRM DSCREEN SET1 SET2 SET3 AERO AEROS AEFACT AELINK AELIST AEPARM AESTAT AESURF AESURFS \
-    CAERO1 CAERO2 CAERO3 CAERO4 CAERO5 PAERO1 PAERO2 PAERO3 PAERO4 PAERO5 SPLINE1 SPLINE2 SPLINE3 \
-    SPLINE4 SPLINE5 MKAERO1 MKAERO2 FLUTTER FLFACT TRIM GUST DIVERG CSSCHD MONPNT1 MONPNT2 MONPNT3";
-/// Cards of elements that the crate lacks, beside all whose names begin with C, R or Q as those of elements do, and of their properties
-/// and materials: none can be left out and leave the modes as they are.
-const OF_ELEMENTS: &str = "\
+    PARAM MDLPRM PLOTEL SEQGP CNGRNT FORCE FORCE1 FORCE2 MOMENT MOMENT1 MOMENT2 PLOAD PLOAD1 PLOAD2 \
+    PLOAD3 PLOAD4 LOAD GRAV RFORCE ACCEL ACCEL1 LSEQ SLOAD SPCD DEFORM TEMP TEMPD TEMPP1 TEMPP2 TEMPP3 \
+    TEMPRB TEMPBC QVOL QBDY1 QBDY2 QBDY3 QHBDY QVECT MAT4 MAT5 MATS1 TABLES1 TABLEM1 TABLEM2 TABLEM3 \
+    TABLEM4 NLPARM TSTEPNL PLFACT DLOAD RLOAD1 RLOAD2 TLOAD1 TLOAD2 DAREA DELAY DPHASE RANDPS RANDT1 TIC \
+    FREQ FREQ1 FREQ2 FREQ3 FREQ4 FREQ5 TSTEP TABDMP1 TABLED1 TABLED2 TABLED3 TABLED4 TABRND1 CVISC PVISC \
+    CDAMP1 CDAMP2 CDAMP3 CDAMP4 PDAMP EIGB EIGC EIGP DESVAR DVPREL1 DVPREL2 DVMREL1 DVMREL2 DVCREL1 \
+    DVCREL2 DVGRID DRESP1 DRESP2 DRESP3 DCONSTR DCONADD DLINK DEQATN DTABLE DDVAL DOPTPRM DSCREEN DSCONS \
+    DTI USET USET1 RVDOF RVDOF1 SET1 SET2 SET3 AERO AEROS AEFACT AELINK AELIST AEPARM AESTAT AESURF \
+    AESURFS CAERO1 CAERO2 CAERO3 CAERO4 CAERO5 PAERO1 PAERO2 PAERO3 PAERO4 PAERO5 SPLINE1 SPLINE2 \
+    SPLINE3 SPLINE4 SPLINE5 MKAERO1 MKAERO2 FLUTTER FLFACT TRIM GUST DIVERG CSSCHD MONPNT1 MONPNT2 \
+    MONPNT3 MONDSP1";
+/// Cards that elements and other cards which the crate lacks refer to: they mean nothing where no such card is.
+const BY_REFERENCE: &str = "\
     PBAR PBARL PBEAM PBEAML PBCOMP PBUSH PBUSH1D PBUSHT PELAS PELAST PGAP PSHELL PCOMP PCOMPG PCOMPP PSOLID PLSOLID PLPLANE PSHEARN \
-    PTUBE PTRIA1 PTRIA2 PQUAD1 PQUAD2 PTRMEM PTRPLT PQDPLT PTRBSC PQDMEM1 PQDMEM2 PTORDRG PTOROD PIHEX PVISCO PWELD PFAST PCONEAX PBEND \
-    MAT2 MAT3 MAT8 MAT9 MAT10 MAT11 MATS1 MATT1 GENEL ASET ASET1 OMIT OMIT1 SUPORT SUPORT1 DMIG DMI SPOINT EPOINT BAROR BEAMOR";
-/// Beginnings of the names of elements.
+    PTUBE PTRIA1 PTRIA2 PQUAD1 PQUAD2 PTRPLT PQDPLT PTRBSC PQDMEM1 PQDMEM2 PTORDRG PTOROD PIHEX PVISCO PWELD PFAST PCONEAX PBEND \
+    MAT2 MAT3 MAT8 MAT9 MAT10 BAROR BEAMOR SPOINT";
+/// Cards of the model that the crate lacks, beside these and all whose names begin with C, R, Q or S as those of elements and
+/// superelements do: none can be left out and leave the modes as they are.
+const OF_ELEMENTS: &str = "MATT1 MAT11 GENEL ASET ASET1 OMIT OMIT1 SUPORT SUPORT1 DMIG DMI EPOINT";
+/// Beginnings of the names of elements and of superelements' cards.
 const ELEMENTS: &str = "\
     CBAR CBEAM CBEND CBUSH CCONEAX CELAS CFAST CGAP CHEX CIHEX CMASS3 CMASS4 CONM1 CPENTA CPYRAM CQDMEM1 \
     CQDMEM2 CQDPLT CQUAD CTETRA CTORDRG CTRAPRG CTRBSC CTRIA CTRPLT CTUBE CWEDGE CWELD RBAR RBE RROD RSPLINE \
-    RTRPLT";
+    RTRPLT SEB SEC SEE SEL SEM SENQ SEQSET SESET SESUP SETREE CSUP";
 
 /// True if a list of words has this one.
 fn is_among(name: &str, all: &str) -> bool {
@@ -210,16 +222,23 @@ fn is_among(name: &str, all: &str) -> bool {
 
 /// True of a card that only elements which the crate lacks have.
 fn is_of_element(name: &str) -> bool {
-    is_among(name, OF_ELEMENTS) || ELEMENTS.split(' ').any(|start| name.starts_with(start))
+    is_among(name, OF_ELEMENTS)
+        || is_among(name, BY_REFERENCE)
+        || name.starts_with("PARAM ")
+        || ELEMENTS.split(' ').any(|start| name.starts_with(start))
 }
 
 /// Parameters that change stiffness or mass; the last only with a positive value.
 const OF_THE_MODEL: &str = "WTMASS CK1 CK2 CM1 CM2 COUPMASS";
+/// Parameters of MDLPRM that say what is printed and how equations are solved; others may choose the formulation of elements.
+const OF_OUTPUT: &str = "\
+    HDF5 H5GM34 H5INFO H5MDL H5MTX H5NORDOF H5XHH NONUPIV PIVTHRSH PRDIDPVT PRDITRFN PRDMTYPE PRDOOC PRDWMTCH \
+    PRTELAS PRTFAST PRTMASS PRTSEAM PRTWELD";
 
 /// Cards of one name that were not read, for one reason.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unread {
-    /// Name of the cards; `PARAM COUPMASS` and its like for a parameter that changes stiffness or mass.
+    /// Name of the cards; `PARAM COUPMASS` and its like for a parameter that changes stiffness or mass or may do so.
     pub card: String,
     /// The line of the first, from one.
     pub line: usize,
@@ -234,6 +253,8 @@ pub struct Unread {
 pub enum Reason {
     /// A card of an element, or of what only such elements have, that the crate lacks: the deck is refused.
     Lacking,
+    /// A statement that names another file, which is not read: the deck is refused.
+    Elsewhere,
     /// A card that the crate does not know: it may be part of the model, and the deck is refused.
     Unknown,
     /// An unknown card that whoever asked for the deck takes responsibility for leaving out.
@@ -256,17 +277,22 @@ impl Unread {
     }
 }
 
-/// The name that decides about a card: its own, with the parameter behind it for a PARAM that changes the model.
+/// The name that decides about a card: its own, with the parameter behind it for one that changes the model or may do so.
 pub(super) fn name(card: &Card) -> String {
     let (parameter, value) = (card.text(2), card.text(3));
     let is_off = parameter == "COUPMASS"
         && (value == "NO" || value.parse::<i64>().is_ok_and(|value| value <= 0));
-    let changes = card.name == "PARAM" && is_among(parameter, OF_THE_MODEL) && !is_off;
-    if changes {
-        format!("PARAM {parameter}")
-    } else {
-        card.name.clone()
-    }
+    let changes = match card.name.as_str() {
+        "PARAM" if !is_off => Some(parameter).filter(|own| is_among(own, OF_THE_MODEL)),
+        // Pairs of names and values: the names are in even fields.
+        "MDLPRM" => {
+            let names = card.filled().into_iter().filter(|field| field % 2 == 0);
+            let mut names = names.map(|field| card.text(field));
+            names.find(|own| !is_among(own, OF_OUTPUT))
+        }
+        _ => None,
+    };
+    changes.map_or(card.name.clone(), |own| format!("{} {own}", card.name))
 }
 
 /// True if cards of this [`name`] are read.

@@ -94,7 +94,7 @@ pub fn deck_tables(unread: &[Unread], modes: &WholeModes, count: usize) -> Vec<T
 /// One sentence about cards that were not read.
 pub fn not_read(unread: &Unread) -> String {
     let why = match unread.reason {
-        Reason::Unknown | Reason::Lacking => "not known here",
+        Reason::Unknown | Reason::Elsewhere | Reason::Lacking => "not known here",
         Reason::Ignored => "left out by request; these modes lack what they say",
         Reason::WithoutPart => "nothing of stiffness, mass, supports or coordinates",
         Reason::NotSelected => "of a set that the first subcase does not select",
