@@ -69,12 +69,15 @@ pub fn whole_modes(
     let shapes = t.transposed().times(&at_rows)?;
     let modes = Modes::signed(vibrations.omega_squared, shapes.clone());
     turn_alike(&mut at_rows, &shapes, &modes.shapes);
+    let rigid_body = whole.rigid_bodies()?.rigid();
+    // A held structure has no more vibrations than masses.
+    let are_all = rigid_body == 0 && modes.len() == at.mass.len();
     Ok(WholeModes {
         dof: at.dof,
+        counted: are_all.then_some(modes.len()),
         modes,
         at_rows,
-        counted: None,
-        rigid_body: whole.rigid_bodies()?.rigid(),
+        rigid_body,
         doubtful: whole.body_findings(name)?,
     })
 }

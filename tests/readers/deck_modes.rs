@@ -60,7 +60,7 @@ properties! {
 fn modes_of_every_degree_of_freedom_with_mass_are_counted() {
     let model = read_deck(chain([1e6; 2], [0.1, 0.2])).unwrap().model;
     let counted = [1, 2, 3].map(|most| deck::modes(&model, most).unwrap().counted);
-    assert_eq!(counted, [None, None, Some(2)]);
+    assert_eq!(counted, [None, Some(2), Some(2)]);
 }
 
 /// The 72-bar truss, held at its four feet: the deck testing/system_verification/004_72_bar_truss of the public repository

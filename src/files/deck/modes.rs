@@ -44,11 +44,8 @@ pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
             },
             other => other,
         })?;
-    if found.rigid_body == 0 && found.modes.len() < most {
-        // There cannot be more than degrees of freedom with mass.
-        if found.modes.len() < found.dof.len() {
-            check_count(found.modes.len(), model.mass_dof(&structure)?)?;
-        }
+    if found.rigid_body == 0 && found.modes.len() < most.min(found.dof.len()) {
+        check_count(found.modes.len(), model.mass_dof(&structure)?)?;
         found.counted = Some(found.modes.len());
     }
     Ok(found)
