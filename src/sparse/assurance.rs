@@ -61,6 +61,7 @@ fn signed_assurance(shapes: &DMatrix<f64>, others: &DMatrix<f64>) -> Result<DMat
         let columns = shapes.column_iter();
         columns.map(|shape| shape.norm_squared()).collect()
     });
+    // The kernels of other products may leave wide registers in use, with which each logarithm of a pairing takes ten times as long.
     let cross = shapes.transpose() * &others;
     let assurance = cross.map_with_location(|i, j, product| match product {
         0.0 => 0.0,
