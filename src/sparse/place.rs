@@ -372,7 +372,8 @@ impl Place {
             true => &self.vibrations,
             false => &vibrations,
         };
-        let residual = residual_vectors(&self.mass, without, (deflections, loads))?;
+        let weighted = self.weighted.columns(0, without.len()).into_owned();
+        let residual = residual_vectors(&self.mass, (without, &weighted), (deflections, loads))?;
         let mut transposed = residual.shapes.transpose();
         let first = transposed.nrows();
         transposed = transposed.resize_vertically(first + rigid_body.ncols(), 0.0);
@@ -455,12 +456,8 @@ impl Place {
         count: usize,
         [modes, further]: [&[usize]; 2],
     ) -> Result<Vec<DMatrix<f64>>, Error> {
-        let highest = |modes: &[usize]| {
-            let all = modes
-                .iter()
-                .map(|&mode| self.vibrations.omega_squared[mode]);
-            all.fold(0.0, f64::max)
-        };
+        let root = |&mode: &usize| self.vibrations.omega_squared[mode];
+        let highest = |modes: &[usize]| modes.iter().map(root).fold(0.0, f64::max);
         let terms = terms(highest(modes), self.next, SLOPE_ERROR).max(terms(
             highest(further),
             self.next,
@@ -468,10 +465,7 @@ impl Place {
         ));
         let modes = &[modes, further].concat()[..];
         let all = self.loads_of(modes);
-        let roots: Vec<f64> = modes
-            .iter()
-            .map(|&mode| self.vibrations.omega_squared[mode])
-            .collect();
+        let roots: Vec<f64> = modes.iter().map(root).collect();
         let mut slopes = vec![DMatrix::zeros(sensors.rows(), all.len()); modes.len()];
         let beyond = self
             .vibrations

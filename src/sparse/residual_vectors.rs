@@ -45,7 +45,7 @@ pub(super) fn leading_loads(
     Ok(all)
 }
 
-/// Shapes of unit generalized mass, orthogonal to `vibrations` $V$ and each other in mass and in stiffness, that span static
+/// Shapes of unit generalized mass, orthogonal to vibrations $V$, given with $M V$, and each other in mass and in stiffness, that span static
 /// `deflections` $D$ (DOF × m) under `loads` $K D$ with them, and their squared frequencies, ascending.
 ///
 /// $$ W = (I - V V^t M) D, \qquad K W = K D - M V \Omega^2 V^t M D, \qquad W^t K W z = \omega^2 W^t M W z $$
@@ -60,7 +60,7 @@ pub(super) fn leading_loads(
 /// Those of [`symmetric_eigen`].
 pub(super) fn residual_vectors(
     mass: &SparseMatrix,
-    vibrations: &Modes,
+    (vibrations, weighted): (&Modes, &DMatrix<f64>),
     (mut deflections, mut loads): (DMatrix<f64>, DMatrix<f64>),
 ) -> Result<Modes, Error> {
     let none = super::no_modes(mass.rows());
@@ -75,13 +75,12 @@ pub(super) fn residual_vectors(
         )
     };
     let first = energy(&deflections, &loads);
-    let weighted = mass.times(&vibrations.shapes)?;
     // Once leaves the round-off of what was taken away, twice is enough.
     for _ in 0..2 {
-        let shares = transposed_product(&weighted, &deflections);
+        let shares = transposed_product(weighted, &deflections);
         take_product(&mut deflections, &vibrations.shapes, &shares);
         let forces = DMatrix::from_diagonal(&vibrations.omega_squared) * shares;
-        take_product(&mut loads, &weighted, &forces);
+        take_product(&mut loads, weighted, &forces);
     }
     let rest = energy(&deflections, &loads);
     let new = places_above(&rest.component_div(&first), GIVEN);
