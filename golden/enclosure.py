@@ -160,10 +160,21 @@ def recursive_1(k, beta, ledger, tolerance="1e-13", orders=60):
         change = functools.reduce(lambda a, b: a.max(b), (abs(b / a - 1) for a, b in zip(roots, following)))
         roots = following
         if ledger.less(change, exact(tolerance), "settled"):
-            return roots, shapes
-    if ledger.less(change, exact("1e-6"), "unsettled"):
-        return roots, shapes
-    raise NoVibration("unsettled")
+            break
+    else:
+        if not ledger.less(change, exact("1e-6"), "unsettled"):
+            raise NoVibration("unsettled")
+    # The exact roots are the eigenvalues of Γ + E, within Gershgorin's discs of the γ; two shapes that are one have no inverse.
+    ap = arb_mat([[(k[i] if i == j else 0) + beta[i, j] for j in range(n)] for i in range(n)]) * shapes
+    try:
+        e = ap.solve(arb_mat([[shapes[i, j] - ap[i, j] * roots[j] for j in range(n)] for i in range(n)]))
+    except ZeroDivisionError:
+        raise Undecided("inverse") from None
+    for j in range(n):
+        radius = sum((abs(e[j, s]) / (roots[j] * roots[s]).sqrt() for s in range(n)), arb(0))
+        if not ledger.less(radius, exact("1e-4"), "proven"):
+            raise NoVibration("unsettled")
+    return roots, shapes
 
 
 # The loops: (9) to (13).

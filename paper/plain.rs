@@ -19,7 +19,7 @@ pub enum Error {
     /// Two modes came so close that the denominator of (C.21) vanished.
     CloseModes(usize, usize),
     /// Recursive 1 did not settle in the orders allowed; the last relative change of a root.
-    Unsettled(f64),
+    Unsettled(f64, f64),
 }
 
 /// An element's stiffness for unit gage (or area) at the structural DOF it touches.
@@ -192,17 +192,39 @@ pub fn recursive_1(
             *root = next;
         }
         if change < tolerance {
-            return Ok(Perturbed { roots, shapes });
+            break;
         }
     }
-    if change < LARGEST_UNSETTLED_CHANGE {
+    let error = root_error(&(Matrix::from_diagonal(k) + beta), &roots, &shapes);
+    if change < LARGEST_UNSETTLED_CHANGE && error <= LARGEST_ROOT_ERROR {
         Ok(Perturbed { roots, shapes })
     } else {
-        Err(Error::Unsettled(change))
+        Err(Error::Unsettled(change, error))
     }
 }
 
+/// The largest $\sum_s |E_{js}| / \sqrt{\gamma_j \gamma_s}$ with $E = (AP)^{-1}(P - AP\Gamma)$: the roots of $A\gamma - I$ are the
+/// eigenvalues of $\Gamma + E$, so that Gershgorin's discs bound the relative error of every $\gamma_j$.
+fn root_error(a: &Matrix, roots: &Vector, shapes: &Matrix) -> f64 {
+    let ap = a * shapes;
+    let residual = shapes - &ap * Matrix::from_diagonal(roots);
+    // Two modes led to one have no inverse.
+    let Some(e) = ap.lu().solve(&residual) else {
+        return f64::INFINITY;
+    };
+    let radius = |j: usize| -> f64 {
+        (0..roots.len())
+            .map(|s| e[(j, s)].abs() / (roots[j] * roots[s]).sqrt())
+            .sum()
+    };
+    (0..roots.len())
+        .map(radius)
+        .max_by(f64::total_cmp)
+        .unwrap_or(0.0)
+}
+
 const LARGEST_UNSETTLED_CHANGE: f64 = 1e-6;
+const LARGEST_ROOT_ERROR: f64 = 1e-4;
 const SMALLEST_SEPARATION: f64 = 1e-9;
 
 /// $p_{ij} = -S_{ij} / (k_{ii} + \beta_{ii} - 1/\gamma_j)$ for the sums $S$ of an order.

@@ -225,6 +225,14 @@ def settled(k, beta):
     alike = (1 - np.abs(unit.T @ unit) < 1e-2) & (np.abs(roots / roots[:, None] - 1) < 1e-3)
     if np.any(alike & ~np.eye(len(k), dtype=bool)):
         raise Refused("one mode twice")
+    # The exact roots are the eigenvalues of Γ + E, within Gershgorin's discs of the γ; two shapes that are one have no inverse.
+    ap = (np.diag(k) + beta) @ p
+    try:
+        e = np.linalg.solve(ap, p - ap * roots)
+    except np.linalg.LinAlgError:
+        e = np.full_like(ap, np.inf)
+    if not (np.abs(e) / np.sqrt(np.outer(roots, roots))).sum(axis=1).max() <= 1e-4:
+        raise Refused("unsettled roots")
     return roots
 
 
@@ -698,7 +706,8 @@ def recursions_refused():
         refused(name, "recursive_1", ["7", "8"] if order == 2 else ["C.20", "C.21"], kind, dict(k=k, beta=beta), lambda: recursive_1(k, beta, order))
     for name, kind, k, beta in (
             ("two modes led to one", "one mode twice", [2.9, 3.1, 4.4], [[1.4, 0.0, 0.1], [0.0, -1.3, -1.0], [0.1, -1.0, -0.2]]),
-            ("roots that do not settle", "unsettled roots", [1.9, 2.2, 3.0], [[1.0, 0.1, 0.4], [0.1, 0.6, -0.1], [0.4, -0.1, 1.3]])):
+            ("roots that do not settle", "unsettled roots", [1.9, 2.2, 3.0], [[1.0, 0.1, 0.4], [0.1, 0.6, -0.1], [0.4, -0.1, 1.3]]),
+            ("a recursion that creeps", "unsettled roots", [1.0, 1.5, 2.2], [[-0.5, -0.1, 0.5], [-0.1, 1.0, -0.3], [0.5, -0.3, 0.1]])):
         k, beta = array(k), array(beta)
         refused(name, "settled", ["7", "8"], kind, dict(k=k, beta=beta), lambda: settled(k, beta))
     k = array([1.0, 4.0, 9.0])

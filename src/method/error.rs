@@ -89,11 +89,16 @@ pub enum Error {
         second: usize,
         separation: f64,
     },
-    /// A recursion that has not settled in the most orders allowed.
+    /// A recursion that has not settled in the most orders allowed, or whose residuals do not prove its roots.
     #[error(
-        "the roots still change by {last_change:.1e} after {orders} orders; they must settle to 1e-6"
+        "the roots still change by {last_change:.1e} after {orders} orders and may err by {root_error:.1e}; they must settle to 1e-6 \
+         and be proven to 1e-4"
     )]
-    UnsettledRoots { orders: usize, last_change: f64 },
+    UnsettledRoots {
+        orders: usize,
+        last_change: f64,
+        root_error: f64,
+    },
     /// A structure on supports, where the reactions balance the forces of a mode: the largest squared suspension frequency over
     /// the mode's, and the largest ratio allowed.
     #[error(

@@ -21,8 +21,12 @@ pub const ROOT_TOLERANCE: f64 = 1e-13;
 /// Most orders of Recursive 1.
 pub const MOST_ORDERS: usize = 60;
 /// Relative change of a root in the last order allowed above which a recursion has not settled: a thousandth of an error sum of
-/// some percent. Below it the recursion may be slow, but what it still has to go is little.
+/// some percent. How far a slow recursion still has to go, its residuals tell.
 pub const LARGEST_UNSETTLED_CHANGE: f64 = 1e-6;
+
+/// Relative error of a root up to which residuals prove it: half as much in nine frequencies moves the error sum by less than a
+/// hundredth of the inner loop's tolerance.
+pub const LARGEST_ROOT_ERROR: f64 = 1e-4;
 
 /// One minus the cosine of two generalized shapes below which they are those of one mode, if their roots agree to [`SAME_ROOT`]:
 /// where roots have settled to 1e-6, shapes of one mode agree to better than a hundredth, and those of two modes are orthogonal.
@@ -48,23 +52,43 @@ pub struct Settled<T = f64> {
     pub order: usize,
     /// Largest relative change of a root in it: how far the recursion may still have had to go.
     pub last_change: f64,
+    /// Bound on the relative error of every root.
+    pub root_error: f64,
 }
 
 impl<T: Number> Settled<T> {
-    /// Accepts a recursion whose roots have settled, or nearly so, on as many modes as there are: a strong change can lead two modes to
-    /// one, and then another is missed.
-    pub(crate) fn check(self) -> Result<Self> {
-        // NaN has not settled either.
-        let is_settled = self.last_change <= LARGEST_UNSETTLED_CHANGE;
-        if !is_settled {
-            return Err(Error::UnsettledRoots {
-                orders: self.order,
-                last_change: self.last_change,
-            });
-        }
-        let Perturbed { roots, shapes } = &self.perturbed;
+    /// Accepts a recursion on $(A\gamma - G)p = 0$ whose roots have settled, or nearly so, on as many modes as there are, and are proven
+    /// by their residuals: a strong change can lead two modes to one, and then another is missed.
+    ///
+    /// With $E = (AP)^{-1}(GP - AP\Gamma)$ the exact roots are the eigenvalues of $\Gamma + E$. By Gershgorin's theorem they lie in discs
+    /// about the $\gamma_j$, as many in every group of discs as it has members, of radius
+    ///
+    /// $$ |\gamma_j| \sum_s |E_{js}| / \sqrt{|\gamma_j \gamma_s|} . $$
+    pub(crate) fn prove(
+        perturbed: Perturbed<T>,
+        (order, last_change): (usize, f64),
+        a: &Matrix<T>,
+        g: &Matrix<T>,
+    ) -> Result<Self> {
+        let Perturbed { roots, shapes } = &perturbed;
+        let ap = a * shapes;
+        let residual = g * shapes - &ap * Matrix::from_diagonal(roots);
+        // A root below round-off of the largest counts as that.
+        let sizes = roots.map(T::modulus);
+        let floor = f64::EPSILON * sizes.max();
+        let scale = sizes.map(|size| size.max(floor).sqrt().recip());
+        let of_roots = &scale * scale.transpose();
+        let radius = |e: Matrix<T>| e.map(T::modulus).component_mul(&of_roots).column_sum();
+        // NaN proves nothing, and has not settled either.
+        let radii = ap
+            .lu()
+            .solve(&residual)
+            .map(radius)
+            .filter(|it| !it.sum().is_nan());
+        let root_error = radii.map_or(f64::INFINITY, |radii| radii.max());
+        let is_settled = last_change <= LARGEST_UNSETTLED_CHANGE;
         for second in 0..roots.len() {
-            for first in 0..second {
+            for first in (0..second).filter(|_| is_settled) {
                 let (p, q) = (shapes.column(first), shapes.column(second));
                 let cosine = p.dotc(&q).modulus() / (p.norm() * q.norm());
                 let separation = (roots[second] / roots[first] - T::one()).modulus();
@@ -77,7 +101,19 @@ impl<T: Number> Settled<T> {
                 }
             }
         }
-        Ok(self)
+        match is_settled && root_error <= LARGEST_ROOT_ERROR {
+            true => Ok(Self {
+                perturbed,
+                order,
+                last_change,
+                root_error,
+            }),
+            false => Err(Error::UnsettledRoots {
+                orders: order,
+                last_change,
+                root_error,
+            }),
+        }
     }
 }
 
@@ -149,7 +185,7 @@ pub fn recursive_1(
     beta: &Matrix,
     order: usize,
 ) -> Result<Perturbed> {
-    Ok(settle(generalized_stiffness, beta, 0.0, order)?.perturbed)
+    Ok(settle(generalized_stiffness, beta, 0.0, order)?.0)
 }
 
 /// Recursive 1 until no root changes by more than [`ROOT_TOLERANCE`] (relative), at most to order [`MOST_ORDERS`].
@@ -173,11 +209,20 @@ pub fn recursive_1(
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
 pub fn recursive_1_converged(generalized_stiffness: &Vector, beta: &Matrix) -> Result<Settled> {
-    settle(generalized_stiffness, beta, ROOT_TOLERANCE, MOST_ORDERS)?.check()
+    let k = generalized_stiffness;
+    let (found, ended) = settle(k, beta, ROOT_TOLERANCE, MOST_ORDERS)?;
+    let a = Matrix::from_diagonal(k) + beta;
+    Settled::prove(found, ended, &a, &Matrix::identity(k.len(), k.len()))
 }
 
-/// Recursive 1 to an order, or until no root changes by as much as `tolerance`.
-fn settle(k: &Vector, beta: &Matrix, tolerance: f64, orders: usize) -> Result<Settled> {
+/// Recursive 1 to an order, or until no root changes by as much as `tolerance`; with the last order and the largest relative change of
+/// a root in it.
+fn settle(
+    k: &Vector,
+    beta: &Matrix,
+    tolerance: f64,
+    orders: usize,
+) -> Result<(Perturbed, (usize, f64))> {
     at_least_one("order", orders)?;
     let mut perturbed = first_order(k, beta)?;
     let mut coupling = beta.clone();
@@ -199,11 +244,7 @@ fn settle(k: &Vector, beta: &Matrix, tolerance: f64, orders: usize) -> Result<Se
         check_vibrations(&perturbed.roots)?;
         order += 1;
     }
-    Ok(Settled {
-        perturbed,
-        order,
-        last_change,
-    })
+    Ok((perturbed, (order, last_change)))
 }
 
 /// Shapes from the present roots and the sums over the others, $p_{ij} = -S_{ij}/(k_{ii} + \beta_{ii} - 1/\gamma_j)$: zero

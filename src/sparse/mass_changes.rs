@@ -100,11 +100,6 @@ impl<T: Number> Pencil<T> {
             let is_quiet = last_change < ROOT_TOLERANCE && order > 1;
             quiet_orders = if is_quiet { quiet_orders + 1 } else { 0 };
         }
-        Settled {
-            perturbed,
-            order,
-            last_change,
-        }
-        .check()
+        Settled::prove(perturbed, (order, last_change), self.a(), self.g())
     }
 }

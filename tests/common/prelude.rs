@@ -134,8 +134,8 @@ pub use corfem::{
         modes::{Modes, apply_sign_rule, generalized_mass, solve},
         outer_loop::{Correlation, Pass, Settings, correlate},
         perturbation::{
-            LARGEST_UNSETTLED_CHANGE, MOST_ORDERS, Perturbed, ROOT_TOLERANCE, SMALLEST_SEPARATION,
-            first_order, recursive_1, recursive_1_converged,
+            LARGEST_ROOT_ERROR, LARGEST_UNSETTLED_CHANGE, MOST_ORDERS, Perturbed, ROOT_TOLERANCE,
+            SMALLEST_SEPARATION, first_order, recursive_1, recursive_1_converged,
         },
         sorting::{Pairing, cross_orthogonality, pair_modes},
         step::{

@@ -143,7 +143,7 @@ pub const INTERPOLATED: f64 = 1e-12;
 /// Generalized stiffness of two covers that are mirror images, relative to that of the stiffest element: condensation's condition
 /// number times round-off.
 pub const MIRRORED_COVERS: f64 = 1e-8;
-/// Roots of a recursion that is accepted as settled: the largest change of its last order, 1e-6, a hundred times over.
+/// Roots of a recursion that is accepted: what its residuals must prove.
 pub const SETTLED_ROOTS: f64 = 1e-4;
 /// Exponent of the entries of a factor by nested dissection, where cells are not powers of two and small parts are not cut: a
 /// tenth of one; row by row it would be seven tenths more.

@@ -64,7 +64,7 @@ properties! {
         let recursion = recursive_1_converged(problem.exact().modes.omega_squared(), &changes.sum());
         let mut states = vec![("eigensolution", exact_state(&problem, factors)?)];
         // Where roots are close the recursion gains little an order, and sixty may not be enough for every digit.
-        if recursion.is_ok_and(|it| it.last_change < ROOT_TOLERANCE) {
+        if recursion.is_ok_and(|it| it.order < MOST_ORDERS) {
             states.push(("Recursive 1", problem.at(factors)?));
         }
         for (rule, State { factors: found, modes, generalized_shapes, errors, .. }) in states {

@@ -47,11 +47,10 @@ fn roots_that_do_not_settle_are_an_error_and_not_an_answer() {
     let problem = coupled(20.0);
     match problem.at(&[8.0]) {
         Err(Error::UnsettledRoots {
-            orders,
-            last_change,
+            orders, root_error, ..
         }) => {
             assert_eq!(orders, MOST_ORDERS);
-            assert!(last_change > LARGEST_UNSETTLED_CHANGE);
+            assert!(root_error > LARGEST_ROOT_ERROR);
         }
         other => panic!("{other:?}"),
     }
