@@ -189,7 +189,7 @@ impl FiniteElementModel {
             };
             let what = format!("factor of parameter {}", parameter.name);
             match Bounds::positive(&what, lower, upper)? {
-                range if range.contains(1.0) => Ok(Some(range)),
+                range if range.holds_start() => Ok(Some(range)),
                 _ => Err(Error::Range { what, lower, upper }),
             }
         };

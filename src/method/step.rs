@@ -20,6 +20,9 @@ pub struct Bounds {
     pub upper: f64,
 }
 
+/// Part of one that quotients of sizes lose to round-off, some 1e-16 each, and more.
+const LOST_DIGITS: f64 = 1e-12;
+
 impl Bounds {
     /// An interval of positive numbers.
     ///
@@ -31,6 +34,12 @@ impl Bounds {
         }
         let what = what.to_owned();
         Err(Error::Range { what, lower, upper })
+    }
+
+    /// Verdict that the interval holds where a factor starts, which is one, or ends there but for digits that sizes and their quotients
+    /// lose.
+    pub fn holds_start(&self) -> bool {
+        self.lower <= 1.0 + LOST_DIGITS && self.upper >= 1.0 - LOST_DIGITS
     }
 
     /// Verdict that a number lies in the interval, ends included.

@@ -112,7 +112,7 @@ impl WholeModel {
             check(what, share.matrix())?;
             if let Some(Bounds { lower, upper }) = *range {
                 let what = format!("factor of parameter {name}");
-                if !Bounds::positive(&what, lower, upper)?.contains(1.0) {
+                if !Bounds::positive(&what, lower, upper)?.holds_start() {
                     return Err(Error::Range { what, lower, upper });
                 }
             }

@@ -66,6 +66,7 @@ fn bounds_on_masses_are_refused_by_their_parameter() {
         said(WholeModel::new(one(), one(), vec![parameter]))
     };
     assert_eq!(bounded(0.5, 2.0), "an answer");
+    assert_eq!(bounded(0.5, 0.9999999999999999), "an answer");
     assert_eq!(
         bounded(1.5, 2.0),
         "factor of parameter fuel: 1.5 to 2 exclude the starting factor 1"

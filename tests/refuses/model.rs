@@ -22,9 +22,20 @@ fn bounds_that_no_factor_or_not_the_start_satisfies_are_refused_by_their_paramet
         (&[1][..], 3.0, 4.0, format!("1.5 to 2 {start}")),
         (&[1][..], 0.5, 1.0, format!("0.25 to 0.5 {start}")),
         (&[1][..], 0.0, 4.0, format!("0 to 2 {crossed}")),
+        (
+            &[1][..],
+            1.0,
+            2.0 * (1.0 - 1e-9),
+            format!("0.5 to 0.999999999 {start}"),
+        ),
     ] {
         let expected = format!("factor of parameter some: {words}");
         assert_eq!(refused(elements, lower, upper), expected);
+    }
+    // What equals the start but for round-off does not exclude it.
+    let just_below = 0.9999999999999999;
+    for (lower, upper) in [(1.0, 2.0 * just_below), (2.0 / just_below, 3.0)] {
+        assert_eq!(refused(&[1], lower, upper), "an answer");
     }
 }
 

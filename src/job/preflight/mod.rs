@@ -254,7 +254,7 @@ pub(in crate::job) fn check_settings(
         .filter(|(_, value)| *value > LARGEST_TOLERANCE);
     let percent = large.map(|(setting, value)| Concern::percent(setting, value));
     let excluding = ranges.iter().enumerate().filter_map(|(parameter, range)| {
-        let Bounds { lower, upper } = range.filter(|range| !range.contains(1.0))?;
+        let Bounds { lower, upper } = range.filter(|range| !range.holds_start())?;
         let parameter = names.parameter(parameter);
         Some(Concern::new(
             Kind::ExcludesStart,

@@ -77,6 +77,14 @@ pub const STRUCTURES: &[Entry] = &[
             .analyze(&test, count)
             .map(|found| vec![found.exact().errors.sum()])
     }),
+    ("Bounds::holds_start", |d| {
+        Bounds {
+            lower: d.number(),
+            upper: d.number(),
+        }
+        .holds_start();
+        Ok(Vec::new())
+    }),
     ("Bounds::contains", |d| {
         Bounds {
             lower: d.number(),
