@@ -119,27 +119,35 @@ pub fn sentences(paragraph: &str) -> Vec<&str> {
         .collect()
 }
 
-/// Every sentence of the documents on the step or on Case 4, with its paragraph.
-fn claims_of_documents() -> BTreeMap<(String, String), String> {
+/// The document and the sentence, with its paragraph, of those that are meant.
+pub fn said(
+    documents: BTreeMap<String, String>,
+    is_meant: impl Fn(&str) -> bool,
+) -> BTreeMap<(String, String), String> {
     let mut all = BTreeMap::new();
-    for (document, text) in documents() {
+    for (document, text) in documents {
         for paragraph in paragraphs(&text) {
-            for sentence in sentences(&paragraph) {
-                // Names of readings stand in backticks or without.
-                let plain = sentence.replace('`', "");
-                if WORDS.iter().any(|word| plain.contains(word)) {
-                    all.insert((document.clone(), sentence.to_owned()), paragraph.clone());
-                }
+            for sentence in sentences(&paragraph)
+                .into_iter()
+                .filter(|own| is_meant(own))
+            {
+                all.insert((document.clone(), sentence.to_owned()), paragraph.clone());
             }
         }
     }
     all
 }
 
+/// True of a sentence on the step or on Case 4, whose names of readings stand in backticks or without.
+fn is_claim(sentence: &str) -> bool {
+    let plain = sentence.replace('`', "");
+    WORDS.iter().any(|word| plain.contains(word))
+}
+
 #[test]
 fn every_sentence_on_the_step_or_on_case_4_has_its_test() {
     let ledger: Ledger = toml::from_str(include_str!("../claims.toml")).unwrap();
-    let (documents, mut listed) = (claims_of_documents(), BTreeSet::new());
+    let (documents, mut listed) = (said(documents(), is_claim), BTreeSet::new());
     for Claim {
         document,
         sentence,
