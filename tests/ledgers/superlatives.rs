@@ -1,6 +1,6 @@
 //! The ledger of superlatives, `tests/superlatives.toml`: every sentence of the documents that ranks, with its rivals or what it is.
 
-use crate::ledgers::claims::said;
+use crate::ledgers::claims::assert_listed;
 use crate::ledgers::documents::documents_and_readmes;
 use crate::ledgers::equations::defines;
 use crate::ledgers::tables::computed_at;
@@ -44,8 +44,8 @@ const OTHERS: [&str; 7] = [
 #[serde(untagged)]
 enum Source {
     Ranks(Vec<Rank>),
-    /// The test that ranks; `defined`, where it says what is computed or done and compares no results; or `outside this crate`, as its
-    /// paragraph says.
+    /// The test that ranks; `defined`, where it says what is computed or done and compares no results; or `outside this crate`, as it
+    /// says.
     Said(String),
 }
 
@@ -95,35 +95,15 @@ fn ranks(sentence: &str) -> bool {
 
 #[test]
 fn every_superlative_is_of_all_its_rivals() {
-    let ledger: BTreeMap<String, BTreeMap<String, Source>> =
-        toml::from_str(include_str!("../superlatives.toml")).unwrap();
-    let said = said(documents_and_readmes(), |_| true);
-    let mut missing: BTreeSet<_> = said.keys().filter(|(_, own)| ranks(own)).collect();
-    let mut wrong = Vec::new();
-    for (document, own) in ledger {
-        for (sentence, source) in own {
-            let place = (document.clone(), sentence);
-            let is_right = match source {
-                Source::Ranks(all) => all.iter().all(Rank::holds),
-                Source::Said(own) => {
-                    own == "defined"
-                        || own == "outside this crate" && said[&place].contains(&own)
-                        || own == document && own.starts_with("paper/tour/")
-                        || defines("tests", &own, &["]\nfn ", "]\n    fn "])
-                }
-            };
-            missing.remove(&place);
-            if !is_right || !said.contains_key(&place) {
-                wrong.push(place);
-            }
+    let is_right = |document: &str, sentence: &str, source: &Source| match source {
+        Source::Ranks(all) => all.iter().all(Rank::holds),
+        Source::Said(own) => {
+            own == "defined"
+                || own == "outside this crate" && sentence.contains(own)
+                || own == document && own.starts_with("paper/tour/")
+                || defines("tests", own, &["]\nfn ", "]\n    fn "])
         }
-    }
-    assert!(
-        missing.is_empty(),
-        "not in tests/superlatives.toml: {missing:#?}"
-    );
-    assert!(
-        wrong.is_empty(),
-        "not of all rivals, or not said: {wrong:#?}"
-    );
+    };
+    let documents = documents_and_readmes();
+    assert_listed("tests/superlatives.toml", &documents, ranks, is_right);
 }
