@@ -66,6 +66,7 @@ pub fn dump(case: &Case) -> Result<Dump, PresentError> {
     let json = document(json!({
         "case": case.number,
         "settings": case.settings,
+        "gage_range": case.gage_range,
         "structural_dof": model.structure().free_dof().iter().map(dof).collect::<Value>(),
         "parameters": names,
         "T": matrix_rows(model.load_distribution()),

@@ -109,7 +109,8 @@ fn frame(report: &Report, loaded: &LoadedJob) -> String {
     text
 }
 
-/// Lines between grids of sensors: those of the test's wire frame, or else edges of the structure, or else lines that join the sensors.
+/// Lines between grids of sensors: those of the test's wire frame, or else edges of the structure, or else, where
+/// these are too few, lines that join the sensors.
 fn lines(report: &Report, loaded: &LoadedJob) -> BTreeSet<[usize; 2]> {
     let sensors = loaded.placed.iter();
     let of_node = sensors
@@ -124,9 +125,12 @@ fn lines(report: &Report, loaded: &LoadedJob) -> BTreeSet<[usize; 2]> {
         let (from, to) = (*from?, *to?);
         (from != to).then_some([from.min(to), from.max(to)])
     };
-    let of_test = loaded.data.lines.iter();
-    let of_test = of_test.filter_map(|[from, to]| between(of_node.get(from), of_node.get(to)));
-    let of_test: BTreeSet<[usize; 2]> = of_test.collect();
+    let of_test: BTreeSet<[usize; 2]> = loaded
+        .data
+        .lines
+        .iter()
+        .filter_map(|[from, to]| between(of_node.get(from), of_node.get(to)))
+        .collect();
     if !of_test.is_empty() {
         return of_test;
     }
@@ -141,8 +145,8 @@ fn lines(report: &Report, loaded: &LoadedJob) -> BTreeSet<[usize; 2]> {
             .collect()
     };
     let own = edges(&report.frame);
-    if own.is_empty() {
-        // No piece of the structure goes from sensor to sensor.
+    // Fewer pieces of the structure go from sensor to sensor than join them all.
+    if own.len() + 1 < of_place.len() {
         let places = loaded.placed.iter().filter_map(|own| own.place);
         return edges(&joined(places.collect()));
     }

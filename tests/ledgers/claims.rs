@@ -4,6 +4,7 @@
 use crate::ledgers::documents::documents;
 use crate::ledgers::equations::defines;
 use crate::prelude::*;
+use serde::de::DeserializeOwned;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -119,27 +120,63 @@ pub fn sentences(paragraph: &str) -> Vec<&str> {
         .collect()
 }
 
-/// Every sentence of the documents on the step or on Case 4, with its paragraph.
-fn claims_of_documents() -> BTreeMap<(String, String), String> {
+/// The document and the sentence, with its paragraph, of those that are meant.
+pub fn said(
+    documents: &BTreeMap<String, String>,
+    is_meant: impl Fn(&str) -> bool,
+) -> BTreeMap<(String, String), String> {
     let mut all = BTreeMap::new();
-    for (document, text) in documents() {
-        for paragraph in paragraphs(&text) {
-            for sentence in sentences(&paragraph) {
-                // Names of readings stand in backticks or without.
-                let plain = sentence.replace('`', "");
-                if WORDS.iter().any(|word| plain.contains(word)) {
-                    all.insert((document.clone(), sentence.to_owned()), paragraph.clone());
-                }
+    for (document, text) in documents {
+        for paragraph in paragraphs(text) {
+            for sentence in sentences(&paragraph)
+                .into_iter()
+                .filter(|own| is_meant(own))
+            {
+                all.insert((document.clone(), sentence.to_owned()), paragraph.clone());
             }
         }
     }
     all
 }
 
+/// Asserts that a ledger of sentences, by document, has all that are meant, each with a source that is right, and none that is not said.
+pub fn assert_listed<S: DeserializeOwned>(
+    file: &str,
+    documents: &BTreeMap<String, String>,
+    is_meant: impl Fn(&str) -> bool,
+    is_right: impl Fn(&str, &str, &S) -> bool,
+) {
+    let text = fs::read_to_string(in_root(file)).unwrap();
+    let ledger: BTreeMap<String, BTreeMap<String, S>> = toml::from_str(&text).unwrap();
+    let said = said(documents, |_| true);
+    let mut missing = said.keys().filter(|(_, own)| is_meant(own)).collect_vec();
+    let mut wrong = Vec::new();
+    for (document, own) in ledger {
+        for (sentence, source) in own {
+            let place = (document.clone(), sentence);
+            missing.retain(|other| **other != place);
+            if !said.contains_key(&place) || !is_right(&document, &place.1, &source) {
+                wrong.push(place);
+            }
+        }
+    }
+    assert!(missing.is_empty(), "not in {file}: {missing:#?}");
+    assert!(
+        wrong.is_empty(),
+        "{file}: not right, or not said: {wrong:#?}"
+    );
+}
+
+/// True of a sentence on the step or on Case 4, whose names of readings stand in backticks or without.
+fn is_claim(sentence: &str) -> bool {
+    let plain = sentence.replace('`', "");
+    WORDS.iter().any(|word| plain.contains(word))
+}
+
 #[test]
 fn every_sentence_on_the_step_or_on_case_4_has_its_test() {
     let ledger: Ledger = toml::from_str(include_str!("../claims.toml")).unwrap();
-    let (documents, mut listed) = (claims_of_documents(), BTreeSet::new());
+    let (documents, mut listed) = (said(&documents(), is_claim), BTreeSet::new());
     for Claim {
         document,
         sentence,

@@ -20,6 +20,13 @@ pub fn documents() -> BTreeMap<String, String> {
     texts(files)
 }
 
+/// These and the READMEs of `golden`.
+pub fn documents_and_readmes() -> BTreeMap<String, String> {
+    let mut readmes = files_below(&in_root("golden"));
+    readmes.retain(|file| file.file_name().is_some_and(|name| name == "README.md"));
+    documents().into_iter().chain(texts(readmes)).collect()
+}
+
 /// Texts of files by their path in the project.
 pub fn texts(files: Vec<PathBuf>) -> BTreeMap<String, String> {
     let text = |file: PathBuf| {

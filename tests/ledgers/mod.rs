@@ -19,6 +19,7 @@ pub mod scripts;
 pub mod routes;
 pub mod specification;
 pub mod suite;
+pub mod superlatives;
 pub mod tables;
 pub mod tour;
 pub mod tour_program;

@@ -1,10 +1,10 @@
 //! The ledger of numbers, `tests/numbers.toml`: every sentence with a number outside the tour, with the test or file that its number comes
 //! from.
 
-use crate::ledgers::claims::{paragraphs, sentences};
-use crate::ledgers::documents::{documents, texts};
+use crate::ledgers::claims::assert_listed;
+use crate::ledgers::documents::documents_and_readmes;
 use crate::ledgers::equations::defines;
-use crate::ledgers::{files_below, tables};
+use crate::ledgers::tables;
 use crate::prelude::*;
 
 /// Sentences whose computed words are asserted.
@@ -111,64 +111,31 @@ fn is_numeric(sentence: &str) -> bool {
     false
 }
 
-/// README.md, the documents and the READMEs of `golden`, without the tour.
-fn documents_and_readmes() -> BTreeMap<String, String> {
-    let mut all = documents();
-    all.retain(|name, _| !name.starts_with("paper/tour/"));
-    let mut readmes = files_below(&in_root("golden"));
-    readmes.retain(|file| file.file_name().is_some_and(|name| name == "README.md"));
-    all.extend(texts(readmes));
-    all
-}
-
 fn words(text: &str) -> String {
     text.split_whitespace().collect_vec().join(" ")
 }
 
 #[test]
 fn every_sentence_with_a_number_says_where_it_comes_from() {
-    let ledger: BTreeMap<String, BTreeMap<String, String>> =
-        toml::from_str(include_str!("../numbers.toml")).unwrap();
     let computed = tables::sentences();
-    let (mut missing, mut wrong, mut left) = (Vec::new(), Vec::new(), ledger.clone());
-    for (name, text) in documents_and_readmes() {
-        for paragraph in paragraphs(&text) {
-            for sentence in sentences(&paragraph)
-                .into_iter()
-                .filter(|own| is_numeric(own))
-            {
-                let from = ledger.get(&name).and_then(|own| own.get(sentence));
-                let Some(from) = from else {
-                    missing.push(format!("{name}: {sentence}"));
-                    continue;
-                };
-                left.get_mut(&name).unwrap().remove(sentence);
-                let file = from.strip_prefix("measured: ").unwrap_or(from);
-                let is_there = match from.contains("::") {
-                    true => defines("tests", from, &["]\nfn ", "]\n    fn "]),
-                    // A document may be its own source where its code computes.
-                    false => in_root(file).exists() && (*file != name || text.contains("```rust")),
-                };
-                let is_said = |(document, phrase): &(&str, String)| {
-                    let (phrase, sentence) = (words(phrase), words(sentence));
-                    *document == name && (sentence.contains(&phrase) || phrase.contains(&sentence))
-                };
-                if !is_there || (from == COMPUTED && !computed.iter().any(is_said)) {
-                    wrong.push(format!("{name}: {sentence} = {from}"));
-                }
+    let mut documents = documents_and_readmes();
+    documents.retain(|name, _| !name.starts_with("paper/tour/"));
+    let is_right = |name: &str, sentence: &str, from: &String| {
+        let file = from.strip_prefix("measured: ").unwrap_or(from);
+        let is_there = match from.contains("::") {
+            true => defines("tests", from, &["]\nfn ", "]\n    fn "]),
+            // A document may be its own source where its code computes.
+            false => {
+                in_root(file).exists() && (file != name || documents[name].contains("```rust"))
             }
-        }
-    }
-    let left = left.into_iter().flat_map(|(name, own)| {
-        own.into_keys()
-            .map(move |sentence| format!("{name}: {sentence}"))
-    });
-    assert!(
-        missing.is_empty(),
-        "not in tests/numbers.toml: {missing:#?}"
-    );
-    assert!(wrong.is_empty(), "no such source: {wrong:#?}");
-    assert_eq!(left.collect_vec(), [""; 0], "no longer said");
+        };
+        let is_said = |(document, phrase): &(&str, String)| {
+            let (phrase, sentence) = (words(phrase), words(sentence));
+            *document == name && (sentence.contains(&phrase) || phrase.contains(&sentence))
+        };
+        is_there && (from != COMPUTED || computed.iter().any(is_said))
+    };
+    assert_listed("tests/numbers.toml", &documents, is_numeric, is_right);
 }
 
 #[test]

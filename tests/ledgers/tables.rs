@@ -48,16 +48,26 @@ fn entry(place: &str) -> &'static Entry {
     }
 }
 
-/// The computed numbers of all lines that begin in one way and end in another.
-fn all(start: &str, end: &str) -> Vec<f64> {
+/// The computed numbers of all places that begin in one way and end in another.
+fn numbers(start: &str, end: &str) -> BTreeMap<&'static str, f64> {
     let found = ENTRIES
         .iter()
         .filter(|(name, _)| name.starts_with(start) && name.ends_with(end));
-    let numbers = found
-        .map(|(name, entry)| entry.computed.parse().expect(name))
-        .collect_vec();
+    let numbers: BTreeMap<_, _> = found
+        .map(|(name, entry)| (&name[..], entry.computed.parse().expect(name)))
+        .collect();
     assert!(!numbers.is_empty(), "{start}…{end}");
     numbers
+}
+
+fn all(start: &str, end: &str) -> Vec<f64> {
+    numbers(start, end).into_values().collect()
+}
+
+/// Those of a place, or of all that begin and end as `START|END`.
+pub fn computed_at(places: &str) -> BTreeMap<&'static str, f64> {
+    let (start, end) = places.split_once('|').unwrap_or(("", places));
+    numbers(start, end)
 }
 
 fn rounded(number: f64, decimals: usize) -> String {
@@ -145,13 +155,28 @@ fn named() -> BTreeMap<String, String> {
         let points = |reading: &str| number(&format!("readings_agreement/{run}/d {reading}"));
         put(&format!("nearer_{name}"), points(used) - points(name), 1);
     }
+    // Of weighted steps over the paper's rule.
+    for (name, column, unit, decimals) in [
+        ("steps", "Steps", 100.0, 0),
+        ("analyses", "Analyses", 1.0, 2),
+    ] {
+        let ratio = |case: &str| {
+            let of = |rule: &str| number(&format!("rules/{case}, {rule}/{column}"));
+            unit * of("weighted") / of("paper's rule")
+        };
+        let ratios = ["Case 1", "Case 2", "Case 3", "Delta wing"].map(ratio);
+        put(&format!("{name}_least"), least(&ratios), decimals);
+        put(&format!("{name}_most"), most(&ratios), decimals);
+    }
     // The widest range of a gage RMS over the numbers of analysis modes.
     for of in ["shear", "membrane"] {
         let range = |modes: usize| {
             let numbers = all(&format!("/truncation/truncation_{of}/{modes}/"), "");
             most(&numbers) - least(&numbers)
         };
-        put(&format!("widest_{of}"), (1..=9).map(range).largest(), 1);
+        let widest = (1..=9).max_by(|one, other| range(*one).total_cmp(&range(*other)));
+        put(&format!("widest_{of}"), range(widest.unwrap()), 1);
+        put(&format!("widest_{of}_at"), widest.unwrap() as f64, 0);
     }
     named
 }

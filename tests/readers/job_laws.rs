@@ -463,8 +463,8 @@ fn every_limit_of_a_test_has_two_sides() {
     }
 }
 
-/// A sensor 120 in from the next grid is doubted where that is twice as near as its own. Sensors span 960 of the model's 1,080 in: their places in
-/// another unit where that is more than twice.
+/// A sensor 120 in from the next grid is doubted where that is twice as near as its own. Sensors span the model: their places are in
+/// another unit where they span twice as much.
 #[test]
 fn every_limit_of_places_has_two_sides() {
     let edited = |edit: &dyn Fn(usize, f64) -> f64| {
@@ -476,11 +476,11 @@ fn every_limit_of_places_has_two_sides() {
             }
         }))
     };
-    for (off, expected) in [(79.0, vec![]), (81.0, vec!["OtherGrid [floor 2] []"])] {
+    for (off, expected) in [(79.0, vec![]), (81.0, vec!["OtherGrid [floor 1] []"])] {
         let moved = edited(&|row, z| z + if row == 0 { off } else { 0.0 });
         assert_eq!(lines(&moved, &[Kind::OtherGrid]), expected, "{off}");
     }
-    for (scale, expected) in [(2.24, vec![]), (2.26, vec!["UnitOfPlaces [] [2.0089]"])] {
+    for (scale, expected) in [(1.99, vec![]), (2.01, vec!["UnitOfPlaces [] [2.0100]"])] {
         let scaled = edited(&|_, z| scale * z);
         assert_eq!(lines(&scaled, &[Kind::UnitOfPlaces]), expected, "{scale}");
     }
@@ -642,12 +642,12 @@ fn the_evidence_of_a_mistake_is_what_it_is() {
     assert_eq!(
         [0.001, 0.05, 0.2, 0.35, 0.4, 0.5].map(of_building),
         [
-            "Reversed [floor 8] [18.0724]",
-            "Reversed [floor 8] [14.4588]",
-            "Reversed [floor 8] [8.0329]",
-            "Reversed [floor 8] [4.9025]",
-            "one reversed would not show at floor 2, floor 4, floor 6, floor 8",
-            "one reversed would not show at floor 2, floor 4, floor 6, floor 8, floor 10",
+            "Reversed [floor 7] [11.8540]",
+            "Reversed [floor 7] [10.1062]",
+            "Reversed [floor 7] [6.1480]",
+            "one reversed would not show at floor 1, floor 3, floor 7",
+            "one reversed would not show at floor 1, floor 3, floor 4, floor 7",
+            "one reversed would not show at floor 1, floor 3, floor 4, floor 7, floor 10",
         ]
     );
     let expected = [

@@ -169,13 +169,15 @@ fn chi_squared(jobs: u64, repeats: u64, modes: &str, test: impl Fn(u64) -> TestD
     (mean, (squares / (count - 1.0) / count).sqrt())
 }
 
-/// By variances estimated from twenty tests, from two, three and eight in common, and by covariances: chi-squared is right in the mean.
+/// By variances estimated from twenty tests, from two, three and eight in common.
 #[test]
-fn chi_squared_by_estimated_deviations_is_right_in_the_mean() {
+fn chi_squared_by_estimated_deviations_is_one_in_the_mean_or_a_fifth_less() {
     let exact = exact();
     for (jobs, repeats) in [(60, 20), (60, 8), (60, 3), (60, 2)] {
         let (mean, error) = chi_squared(jobs, repeats, ALL, |seed| noisy(&exact, seed));
-        assert_within(mean, 1.0, STANDARD_ERRORS * error);
+        let chance = STANDARD_ERRORS * error;
+        let expected = 1.0 - LEANING - chance..1.0 + chance;
+        assert!(expected.contains(&mean), "{repeats}: {mean}");
         assert!(error < 0.1, "{repeats}: {error}");
     }
 }
@@ -290,7 +292,7 @@ fn a_covariance_is_that_of_what_is_compared() {
         repeated(&tests, "[2, 4]"),
         "job.toml",
         "[compare]",
-        "[sensors]\nleave_out = [\"floor 6\"]\n[compare]",
+        "[sensors]\nleave_out = [\"floor 4\"]\n[compare]",
     );
     let loaded = loaded(&files);
     // By hand: frequencies over their deviations, of shapes the four floors that are left, and R (R − p − 2) with eight numbers.

@@ -43,7 +43,7 @@ fn check(answer: &Value) {
         .map(|two| [two[0] as usize, two[1] as usize])
         .collect();
     assert_eq!(data.lines, pairs);
-    assert_eq!(pairs, [[2, 4], [4, 6], [6, 8], [8, 10]]);
+    assert_eq!(pairs, [[1, 3], [3, 4], [4, 7], [7, 10]]);
     for dataset in ["  2420", "  2411", "    82", "    55"] {
         let is_there = file.lines().any(|line| line == dataset);
         assert!(is_there, "dataset {dataset}");
