@@ -1,10 +1,10 @@
-"""Appendix B, changes of mass, gradients and truncated sets by numpy: writes expected_appendices.toml beside it.
+"""Appendix B, changes of mass and truncated sets by numpy: writes expected_appendices.toml beside it.
 
     python3 golden/reference/appendices.py           (numpy as in requirements.txt; reference.py and elements.py beside it)
     python3 golden/reference/appendices.py --check   (writes nothing, and refuses a file that is farther off than round-off)
 
 It shares no code with the crate and goes other ways where there are any: balance by its own linear equations, the general formulae
-as matrices, gradients forward, parameter by parameter. What numbers it works on stands in the file with what it makes of them.
+as matrices. What numbers it works on stands in the file with what it makes of them.
 """
 import sys
 import tomllib
@@ -136,45 +136,6 @@ def changes_of_mass():
     return lines
 
 
-# Gradients of the error sum, forward.
-
-def gradient(f, v, fg, vg, mass, shares, of_mass=False):
-    """d e_S/d c of every share: modal derivatives of each parameter, then those of (5) and (6)."""
-    w = (2 * np.pi * f) ** 2
-    order = np.abs(v.T @ (mass[:, None] * vg)).argmax(0)
-    sign = np.sign(np.sum(v[:, order] * mass[:, None] * vg, 0))
-    ef, ev = reference.errors(f, v, fg, vg, mass)
-    slopes = []
-    for share in shares:
-        kappa = v.T @ share @ v
-        df, dv = 0.0, 0.0
-        for j, i in enumerate(order):
-            column = -w[i] * kappa[:, i] if of_mass else kappa[:, i]
-            others = np.arange(len(f)) != i
-            turn = v[:, others] @ (column[others] / (w[i] - w[others]))
-            df += (f[i] / fg[j] - 1) * (f[i] * column[i] / (2 * w[i])) / fg[j]
-            m = np.abs(v[:, i]).argmax()
-            largest = sign[j] * abs(v[m, i])
-            unit = v[:, i] / largest
-            d_unit = (turn - v[:, i] * turn[m] / v[m, i]) / largest
-            dv += (unit - vg[:, j] / np.abs(vg[:, j]).max()) @ d_unit / len(mass)
-        slopes.append(df / ef + dv / ev)
-    return np.array(slopes)
-
-
-def gradients(box):
-    lines = []
-    for case, tests, analysis in ((1, 9, 9), (2, 9, 9), (3, 9, 9), (4, 9, 9), (2, 5, 9), (2, 5, 5), (2, 3, 7)):
-        fg, vg = box.modes(box.dynamic(case, GVT)[0])
-        kd, shares = box.dynamic(case, GAGES[f"case {case} initial"])
-        f, v = box.modes(kd)
-        f, v, fg, vg = f[:analysis], v[:, :analysis], fg[:tests], vg[:, :tests]
-        by_mass = gradient(f, v, fg, vg, box.mass, [np.diag(box.mass * (np.arange(9) == dof)) for dof in range(9)], True)
-        lines += [f'["gradient, case {case}, {tests} test and {analysis} analysis modes"]',
-                  f"stiffness = {listed(gradient(f, v, fg, vg, box.mass, shares))}", f"mass = {listed(by_mass)}"]
-    return lines
-
-
 def truncated(box):
     """The exact check of the runs of Tables 9 to 12, by the reading that they were run with."""
     lines = []
@@ -188,7 +149,7 @@ def truncated(box):
 def main():
     box = reference.Box(tomllib.loads((HERE.parent.parent / "paper" / "reconstruction.toml").read_text()))
     lines = ["# written by appendices.py; rows of matrices, units as in the crate"]
-    lines += balance_and_orthogonalize() + changes_of_mass() + gradients(box) + truncated(box)
+    lines += balance_and_orthogonalize() + changes_of_mass() + truncated(box)
     written = HERE / "expected_appendices.toml"
     if "--check" in sys.argv:
         return check(tomllib.loads(written.read_text()), tomllib.loads("\n".join(lines)))

@@ -8,7 +8,7 @@ use crate::method::structure::StructuralDof;
 use crate::sparse::SparseMatrix;
 use crate::weighted::comparison::Comparison;
 use crate::weighted::measurements::deviations;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVectorView};
 use std::sync::Arc;
 
 /// Multiplications that the changes of one kind may take together: about a quarter of a second.
@@ -103,7 +103,15 @@ impl PreparedJob {
             let words = format!("with mode {} of the model, {:.2} Hz", mode + 1, hertz[mode]);
             Ok((words, deviations(&both, priors)?))
         }))?;
-        let all = (0..placed.len()).filter(|_| placed.len() > 1).collect();
+        // Without the only sensor that sees it a test mode has no shape.
+        let shapes = &at_hand.model.test.shapes;
+        let is_seen = |shape: DVectorView<f64>| shape.amax() > NOTHING * shapes.amax();
+        let without = |row: &usize| shapes.clone().remove_row(*row);
+        let all = (0..placed.len()).filter(|row| without(row).column_iter().all(is_seen));
+        let all: Vec<usize> = all.collect();
+        let alone = placed.len() - all.len();
+        let of_alone = || format!("Not ranked: {alone} sensors that see a test mode alone.");
+        unranked.extend((alone > 0 && placed.len() > 1).then(of_alone));
         let each = self.some(all, "sensors", &mut unranked).into_iter();
         let less = ranked(each.map(|row| {
             let rest: Vec<usize> = (0..placed.len()).filter(|other| *other != row).collect();

@@ -57,7 +57,7 @@ pub(crate) struct Further {
 #[derive(Debug)]
 pub(crate) struct Place {
     whole: WholeModel,
-    factors: Vec<f64>,
+    pub(crate) factors: Vec<f64>,
     stiffness: SparseMatrix,
     mass: SparseMatrix,
     /// The factor, unless its memory was given back.

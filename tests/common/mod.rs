@@ -21,7 +21,6 @@ pub mod fake_solver;
 pub mod fill;
 pub mod golden;
 pub mod free_structures;
-pub mod gradient;
 pub mod ground_tests;
 pub mod hostile;
 pub mod jobs;

@@ -27,7 +27,6 @@ pub use crate::common::{
     draws::{Draws, reached},
     eye,
     golden::{Numbers, assert_golden, assert_table},
-    gradient::gradient,
     ground_tests::{ground_test, wing_test},
     in_root,
     jobs::{

@@ -86,8 +86,6 @@ pub const SAME_ON_THE_WAY: f64 = 1e-7;
 /// Corrections of matrices: chains of products with masses and stiffnesses of condition 100 each, relative to the largest
 /// entry; the product of the conditions times `ROUND_OFF`.
 pub const CORRECTION_ROUND_OFF: f64 = 1e-9;
-/// A derivative against its definition: both are differences of error sums of order one, each a few hundred roundings.
-pub const DERIVATIVE_ROUND_OFF: f64 = 1e-13;
 /// A measured order of convergence falls short of the theoretical one by this much where the next order still shows.
 pub const ORDER_SLACK: f64 = 0.15;
 /// Cosine of a left and a right shape at which a pencil is called defective: a root of round-off, 1.5e-8, with some room.
@@ -281,9 +279,6 @@ pub const GOLDEN_STEPS: f64 = 0.05;
 pub const CHAIN_ROUND_OFF: f64 = 1e-14;
 /// Relative margin by which every decision of a history is far from falling otherwise: 4.4e-4 in the nearest.
 pub const NEAREST_DECISION: f64 = 4e-4;
-/// Gradients where cases begin by two formulas, relative to the largest: modes of condition 1e5 or so, differences of whose squared
-/// frequencies divide.
-pub const EXPECTED_GRADIENT: f64 = 1e-8;
 /// Units of a drawing by which a rounded place may be off: one, of a tenth of a pixel, for two roundings of a half.
 pub const DRAWN_UNIT: f64 = 1.001;
 /// Roots of a pencil against a dense decomposition, relative to the root; the decomposition itself rounds at a part of the largest.

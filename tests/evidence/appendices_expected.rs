@@ -1,4 +1,4 @@
-//! Appendix B, the general formulae of Appendix C, gradients, and exact checks of truncated sets, against numpy's
+//! Appendix B, the general formulae of Appendix C, and exact checks of truncated sets, against numpy's
 //! (golden/reference/appendices.py).
 
 use crate::common::appendix_c::diagonal_pencil;
@@ -170,31 +170,5 @@ fn the_general_formulae_are_numpys() {
             };
             assert_perturbed(table, "exact", &exact);
         }
-    }
-}
-
-/// Gradients by gages where the cases begin, with all modes and with fewer.
-#[test]
-fn gradients_are_numpys() {
-    for (number, tests, analysis) in [
-        (1, 9, 9),
-        (2, 9, 9),
-        (3, 9, 9),
-        (4, 9, 9),
-        (2, 5, 9),
-        (2, 5, 5),
-        (2, 3, 7),
-    ] {
-        let table = &expected()
-            [&format!("gradient, case {number}, {tests} test and {analysis} analysis modes")];
-        let case = case_of(number);
-        let test = case.test_modes().unwrap();
-        let test = test.lowest(tests).unwrap();
-        let model = case.model().unwrap();
-        let modal = model.analyze(&[1.0; 15], &test, Some(analysis));
-        let modal = modal.unwrap();
-        let found = gradient(&modal, modal.exact()).unwrap();
-        let expected = &table["stiffness"];
-        assert_near("stiffness", &column(&found), expected, EXPECTED_GRADIENT);
     }
 }

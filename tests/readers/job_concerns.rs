@@ -150,9 +150,11 @@ fn a_matrix_that_is_no_part_of_the_first_model_is_named() {
 /// Two floors on a ground of two units of the last of thirteen digits, half of one for each floor.
 pub const HARDLY_HELD: &str = "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 100000.0000001\n2 1 -1e5\n2 2 1e5\n";
 
-/// The concerns about free motions of two floors with this stiffness and these lines of the job, and how many are free.
-fn free(stiffness: &str, lines: &str) -> (Vec<(String, bool)>, usize) {
-    let mut files = measured_building(2, 1);
+/// The doubts and remarks of motions that are free by digits, of floors with this stiffness and these lines of the job, each with the
+/// suspension that would not show, and how many are free.
+fn free(stiffness: &str, lines: &str) -> (Vec<(bool, String)>, usize) {
+    let rows = stiffness.split_whitespace().nth(5).unwrap();
+    let mut files = measured_building(rows.parse().unwrap(), 1);
     files[1].1 = stiffness.to_owned();
     files[0].1 = files[0]
         .1
@@ -161,21 +163,34 @@ fn free(stiffness: &str, lines: &str) -> (Vec<(String, bool)>, usize) {
     let trust = trust_in(&loaded);
     let all = trust.all().iter();
     let all = all.filter(|concern| concern.identifier() == "free-by-digits");
-    let all = all.map(|concern| (concern.identifier(), concern.stands()));
+    let all = all.map(|concern| (concern.stands(), format!("{:.2e} Hz", concern.measure[1])));
     (all.collect(), rigid_bodies(&trust) as usize)
 }
 
+/// Half of the last digit of two numbers a row, 1e-7 each, holds two floors of 60 each by $\omega^2$ = 2e-7/120; doubles have 1.3e-9 a row. A
+/// second pair of floors is held by twenty times as much: thirty times the rounding would free it, and the count is doubted.
 #[test]
 fn a_resistance_that_rounding_may_be_counts_as_none_and_is_named() {
-    let remark = vec![("free-by-digits".to_owned(), false)];
+    let said = |stands, hertz: &str| vec![(stands, format!("{hertz} Hz"))];
+    let remark = said(false, "6.50e-6");
     assert_eq!(free(HARDLY_HELD, ""), (remark.clone(), 1));
+    let pair = |held: &str| {
+        let second = format!("3 3 100000.0000{held}\n4 3 -1e5\n4 4 1e5\n");
+        HARDLY_HELD.replacen("2 2 3", "4 4 6", 1) + &second
+    };
+    assert_eq!(free(&pair("020"), ""), (said(true, "6.50e-6"), 1));
+    assert_eq!(free(&pair("200"), ""), (remark, 1));
     // Somebody says it.
     assert_eq!(free(HARDLY_HELD, "rigid_bodies = 1"), (Vec::new(), 1));
     assert_eq!(free(HARDLY_HELD, "rigid_bodies = 0"), (Vec::new(), 0));
+    // Of the part that is measured too.
+    let part = "rigid_bodies = 0\n[sensors]\nleave_out = [\"3\", \"4\"]";
+    assert_eq!(free(&pair("200"), part), (Vec::new(), 0));
     // Five units of the last digit are no rounding, and numbers of one digit are exact.
     let held = HARDLY_HELD.replace("0000001", "0000005");
     assert_eq!(free(&held, ""), (Vec::new(), 0));
-    assert_eq!(free(&HARDLY_HELD.replace(".0000001", ""), ""), (remark, 1));
+    let exact = HARDLY_HELD.replace(".0000001", "");
+    assert_eq!(free(&exact, ""), (said(false, "7.50e-7"), 1));
 }
 
 #[test]

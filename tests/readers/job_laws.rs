@@ -4,6 +4,7 @@ use super::job_concerns::tested;
 use super::lone_frequencies::without_shapes;
 use super::twice::universal;
 
+use crate::common::jobs::of_parts;
 use crate::prelude::*;
 use corfem::job::{Study, Vary};
 
@@ -69,6 +70,14 @@ fn a_right_job_says_all_that_is_known_of_it() {
     ran.insert(5, "ChiSquared [] [0.0000, 39.0000, 72.0547]".to_owned());
     ran.insert(6, "BelowNoise [] [0.0000, 17.2616]".to_owned());
     assert_eq!(said(after(&tested(|_| {}))), ran);
+    // A parameter that ends at a bound takes none of the numbers.
+    let higher = tested(|data| {
+        data.frequencies_hz
+            .iter_mut()
+            .for_each(|hertz| *hertz *= 1.1)
+    });
+    let stopped = finished(&prepared(&bounded(higher, "lower = 0.9\nupper = 1.1\n")));
+    assert_eq!(stopped.misfit.degrees_of_freedom, 40.0);
     // Without the second of the three modes it is unanswered, the one above the last is not; a mode without weight is as none.
     let left = with(
         tested(|_| {}),
@@ -394,6 +403,10 @@ fn every_limit_of_a_test_has_two_sides() {
     let said = |files: &Files| lines(&before(files), &kinds).join("; ");
     let shape = |size: f64| tested(|data| data.shape_deviation = Some(vec![size; 4]));
     let frequency = |size: f64| tested(|data| data.frequency_deviation = Some(vec![size; 4]));
+    let by_components = |data: &mut TestData| {
+        let own = DVector::from_fn(10, |row, _| if row == 0 { 0.6 } else { 0.1 });
+        data.component_deviation = (0..4).map(|mode| (mode, own.clone())).collect();
+    };
     let phase = |size: f64| tested(|data| data.phase_collinearity = vec![1.0, size, 1.0, 1.0]);
     for (files, expected) in [
         (shape(0.2), ""),
@@ -406,6 +419,11 @@ fn every_limit_of_a_test_has_two_sides() {
             "LargeDeviation [shape_deviation] [4.9900, 499.0000]",
         ),
         (shape(5.0), "Percent [shape_deviation] [5.0000, 500.0000]"),
+        // Of components, the root of the mean square.
+        (
+            tested(by_components),
+            "LargeDeviation [shape_deviation] [0.2121, 21.2132]",
+        ),
         (frequency(0.2), ""),
         (
             frequency(0.201),
@@ -707,6 +725,22 @@ fn masses_units_and_exchanges_are_filled() {
         lines(&before(&building()), &kinds)[1],
         "CenterOfMass [] [0.0000, 0.0000, 660.0000]"
     );
+    // Six digits of them are compared.
+    let of_grid = |second: &str| {
+        let mut files = retested(measured_building(3, 1), |data| {
+            for (row, sensor) in data.sensors.iter_mut().enumerate() {
+                (sensor.grid, sensor.direction) = (Some(1), row);
+            }
+        });
+        *file(&mut files, "rows.csv") = "1,x\n1,y\n1,z\n".to_owned();
+        let files = with(files, "mass.mtx", "2 2 6e1", &format!("2 2 {second}"));
+        lines(&before(&files), &kinds).concat()
+    };
+    assert_eq!(of_grid("60.00001"), "Mass [] [60.0000, 60.0000, 60.0000]");
+    assert_eq!(
+        of_grid("60.0002"),
+        "MassByDirection [] [60.0000, 60.0002, 60.0000]"
+    );
     for (factor, expected) in [
         (39.3735, vec![]),
         (39.3745, vec!["UnitsDisagree [Own] [39.3745, 39.3701]"]),
@@ -751,9 +785,26 @@ fn a_test_sees_the_first_model_and_the_last() {
     let weights = "[compare]\nfrequency_weights = [1, 0.005]\nshape_weights = [1, 0]\n[[parameter]]\nname = \"p1\"";
     let files = with(files, "job.toml", "[[parameter]]\nname = \"p1\"", weights);
     assert_eq!(lines(&after(&files), &[Kind::Blind]), ["Blind [p2] []"]);
+    // Together they exceed the first spring, of which two have a part.
+    let parts = [one(0, 1e4), one(1, 4e4), one(0, 5e3)];
+    let files = of_parts(&diagonal([1e4, 4e4]), &parts, &eye(2), &modes);
+    let exceeding = lines(&before(&files), &[Kind::SumOfStiffness]);
+    assert_eq!(exceeding, ["SumOfStiffness [p1, p3] []"]);
     let given = tested(|data| data.frequency_deviation = Some(vec![0.005; 4]));
     assert_eq!(
         lines(&before(&given), &[Kind::AssumedDeviations]),
         ["AssumedDeviations [2 % of shapes] []"]
     );
+}
+
+/// Shapes of ten floors, $\sin \frac{(2j - 1) i \pi}{21}$, are at right angles, and of length $\sqrt{21}/2$ with a largest component of .9972 to
+/// one: the mass at the sensors is told where twice the noise of a shape is less than that.
+#[test]
+fn the_mass_at_sensors_is_told_within_twice_the_noise_of_shapes() {
+    let is_told = |noise: f64| {
+        let prepared = prepared(&tested(|data| data.shape_deviation = Some(vec![noise; 4])));
+        let model = prepared.analyze(&[1.0]).unwrap();
+        prepared.mass_at_sensors(&model).is_some()
+    };
+    assert_eq!([1.14, 1.16].map(is_told), [true, false]);
 }

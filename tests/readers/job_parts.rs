@@ -55,21 +55,4 @@ properties! {
         let found = doubts(&written(&right, digits, (&name, -0.1)));
         prop_assert_eq!(found, [format!("negative-p{wrong}")]);
     }
-
-    #[test]
-    fn a_part_in_two_parameters_is_named_by_both(
-        (seed, digits) in (any::<u64>(), 7..17_usize),
-    ) {
-        let mut draws = Draws(seed);
-        let of = chain(&mut draws);
-        let mut again = files(&of, &Default::default(), 0.0, &mut draws);
-        let half = file(&mut again, "p1.mtx").clone();
-        again.push(("half.mtx".to_owned(), half));
-        again[0].1 += "[[parameter]]\nname = \"again\"\nmatrix = \"half.mtx\"\n";
-        let again = written(&again, digits, ("half.mtx", 0.5));
-        prop_assert_eq!(doubts(&again), ["sum-of-stiffness"]);
-        let trust = trust_in(&prepared(&again));
-        let words = trust.of(Kind::SumOfStiffness).next().unwrap().words();
-        prop_assert!(words.contains("p1") || words.contains("again"), "{words}");
-    }
 }

@@ -131,6 +131,15 @@ fn repeats_that_drift_are_said_and_widen_the_deviations() {
             .drift
             .map(|lag| vec![lag, ((1.0 + lag) / (1.0 - lag)).sqrt()]);
         assert_eq!(told, known.into_iter().collect_vec());
+        // Numbers about their own mean are less alike by one in as many as there are.
+        let mut unit = data.scatter.clone();
+        unit.row_iter_mut()
+            .for_each(|mut row| _ = row.normalize_mut());
+        let next = (1..20).map(|test| unit.column(test - 1).dot(&unit.column(test)));
+        let own = next.sum::<f64>() / unit.norm_squared() + 0.05;
+        data.drift
+            .iter()
+            .for_each(|lag| assert_within(lag, own, ROUND_OFF));
         (data.drift, data.frequency_deviation.unwrap())
     };
     let (none, own) = lag(&independent);
@@ -283,7 +292,7 @@ fn repeats_that_do_not_go_together_are_refused() {
     assert!(said(&missing).contains("2.csv (test.repeats in job.toml): no such file"));
 }
 
-/// Sensors that are left out, and modes: the covariance is that of the numbers compared.
+/// Sensors that are left out or turned, and modes that are left out: the covariance is that of the numbers compared.
 #[test]
 fn a_covariance_is_that_of_what_is_compared() {
     let exact = exact();
@@ -292,7 +301,7 @@ fn a_covariance_is_that_of_what_is_compared() {
         repeated(&tests, "[2, 4]"),
         "job.toml",
         "[compare]",
-        "[sensors]\nleave_out = [\"floor 4\"]\n[compare]",
+        "[sensors]\nleave_out = [\"floor 4\"]\nplace = [{ sensor = \"floor 3\", grid = 3, direction = \"-x\" }]\n[compare]",
     );
     let loaded = loaded(&files);
     // By hand: frequencies over their deviations, of shapes the four floors that are left, and R (R − p − 2) with eight numbers.
@@ -305,11 +314,14 @@ fn a_covariance_is_that_of_what_is_compared() {
     for (place, mode) in [1, 3].into_iter().enumerate() {
         apart.set_row(5 * place, &(off(mode) / deviation).row(0));
         let deviations = &loaded.loaded.data.component_deviation[&mode];
-        for (number, floor) in [0, 1, 3, 4].into_iter().enumerate() {
-            let row = 5 * place + 1 + number;
+        for (number, (floor, sign)) in [(0, 1.0), (1, -1.0), (3, 1.0), (4, 1.0)]
+            .into_iter()
+            .enumerate()
+        {
+            let (row, scale) = (5 * place + 1 + number, sign / deviations[floor]);
             let scatter = loaded.loaded.data.scatter.row(6 * mode + 1 + floor);
-            apart.set_row(row, &(scatter / deviations[floor]));
-            along[(row, place)] = loaded.loaded.data.shapes[(floor, mode)] / deviations[floor];
+            apart.set_row(row, &(scatter * scale));
+            along[(row, place)] = loaded.loaded.data.shapes[(floor, mode)] * scale;
         }
     }
     along

@@ -121,6 +121,28 @@ fn noise_start_and_subset_are_drawn_independently() {
     );
 }
 
+/// A component is off by as many deviations of its own, in its own mode, as it would be of all components' mean.
+#[test]
+fn components_are_drawn_by_their_own_deviations() {
+    let off = |edit: &dyn Fn(&mut TestData)| {
+        let study = Place::of(retested(building(), edit)).study(5, &[Vary::Noise]);
+        let drawn = study.draw(1).unwrap().0;
+        &drawn.loaded.data.shapes - &study.prepared.loaded.data.shapes
+    };
+    let (own, times) = (
+        dvector![0.01, 0.05, 0.03, 0.02, 0.04],
+        [1.0, 3.0, 2.0, 5.0, 4.0],
+    );
+    let mean = own.norm() / 5.0_f64.sqrt();
+    let alike = off(&|data| data.shape_deviation = Some(vec![mean; 5]));
+    let each = |data: &mut TestData| {
+        let of_mode = |mode| (mode, times[mode] * &own);
+        data.component_deviation = (0..5).map(of_mode).collect();
+    };
+    let expected = diagonal((&own / mean).as_slice()) * alike * diagonal(times);
+    assert_relative_eq!(off(&each), expected, epsilon = ROUND_OFF);
+}
+
 /// The weights of a job stand for the modes of a subset as for all of them.
 #[test]
 fn a_subset_of_the_modes_takes_their_weights_along() {
@@ -287,7 +309,7 @@ fn what_does_not_belong_to_a_study_is_refused_by_its_line() {
         )
     };
     let no_line = "is not a line of a sample of this study";
-    let sum = lines[1].split(',').nth(5).unwrap();
+    let [within, sum] = [2, 5].map(|cell| lines[1].split(',').nth(cell).unwrap());
     for (text, expected) in [
         other(8, &[Vary::Noise]),
         other(7, &[Vary::Start]),
@@ -295,6 +317,10 @@ fn what_does_not_belong_to_a_study_is_refused_by_its_line() {
         ("hello\n".to_owned(), no_line),
         (lines[1].replacen(',', "", 1), no_line),
         (lines[1].replacen("2,", "-2,", 1), no_line),
+        (
+            lines[1].replacen(within, "yes", 1),
+            "is not a sample with true or false",
+        ),
         (
             lines[1].replace(sum, "inf"),
             "error sum, analyses and factors as numbers",

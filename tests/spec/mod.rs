@@ -30,7 +30,6 @@ pub mod s1_eq_05_printed_error;
 pub mod s1_eq_05_to_06_error_sum;
 pub mod s1_eq_09_to_11_state;
 pub mod s1_eq_12_derivatives;
-pub mod s1_eq_12_gradient;
 pub mod s1_eq_13_step;
 pub mod s1_eq_13_step_matrix;
 pub mod s1_eq_13_step_scale;

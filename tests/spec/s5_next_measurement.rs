@@ -249,6 +249,18 @@ fn places_that_would_see_other_modes_are_counted_and_not_ranked() {
     );
 }
 
+/// Two masses on springs of their own: without its sensor neither has a shape.
+#[test]
+fn a_sensor_that_sees_a_mode_alone_is_not_left_out() {
+    let parts = [diagonal([1e4, 0.0]), diagonal([0.0, 4e4])];
+    let modes = Modes::new(dvector![1e4, 4e4], eye(2)).unwrap();
+    let next = prepared(&of_matrices(&parts, &eye(2), &modes));
+    let next = next.next_measurement().unwrap();
+    assert_eq!(next.changes[3].len(), 0);
+    let alone = "Not ranked: 2 sensors that see a test mode alone.";
+    assert_eq!(next.unranked, [alone]);
+}
+
 #[test]
 fn a_job_without_shapes_says_that_nothing_is_ranked() {
     let next = loaded("garteur").next_measurement().unwrap();

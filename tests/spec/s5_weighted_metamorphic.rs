@@ -56,17 +56,6 @@ fn assert_unit_does_not_matter(
     assert_same(&one.identifiability.deviations, &scaled);
 }
 
-#[test]
-fn the_unit_of_all_deviations_does_not_matter_on_the_cases() {
-    for number in CASES {
-        let case = case_of(number);
-        let (model, exact) = (case.model().unwrap(), case.test_modes().unwrap());
-        let test = with_noise(&exact, Noise::USUAL, 3).unwrap();
-        let analyze = |factors: &[f64]| model.analyze(factors, &test, None);
-        assert_unit_does_not_matter(analyze, test.len(), model.parameters().len());
-    }
-}
-
 /// Matrices with another's behind them on the diagonal.
 fn both(one: &DMatrix<f64>, other: &DMatrix<f64>) -> DMatrix<f64> {
     let (n, m) = (one.shape(), other.shape());

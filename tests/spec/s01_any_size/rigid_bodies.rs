@@ -170,12 +170,12 @@ fn where_there_is_no_stiffness_every_motion_is_free() {
 
 #[test]
 fn one_in_the_seventh_digit_may_be_rounding_and_four_may_not() {
-    // Rounding leaves half a unit of the last digit in each of four numbers.
-    for spring in [1.234_567, 1.234_56] {
+    // Rounding leaves half a unit of the last digit in each of four numbers, whatever the units of the second row.
+    for (spring, unit) in [(1.234_567, 1.0), (1.234_56, 1.0), (1.234_567, 1e4)] {
         for (part, free) in [(1e-6, 1), (4e-6, 0)] {
-            let rows = [spring + part, -spring, spring];
+            let rows = [spring + part, -spring * unit, spring * unit * unit];
             let lines = rows.iter().zip(["1 1", "2 1", "2 2"]);
-            let lines = lines.map(|(value, place)| format!("{place} {value:.6}\n"));
+            let lines = lines.map(|(value, place)| format!("{place} {value:.6e}\n"));
             let text = lines.collect::<String>();
             let text = format!("%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n{text}");
             let matrix = read("k.mtx", text.as_bytes(), None).unwrap().matrix;
