@@ -138,8 +138,8 @@ fn first_step() -> Diagram {
         let whole = (0..n).map(|spring| spring_stiffness(n, spring, 1.0)).sum();
         let modal = too_stiff(vec![whole], 1.001);
         let start = modal.exact();
-        // Of n frequencies that are each the root of c/1.001 of the test's, and of shapes that do not change.
-        let slope = -0.5 * (n as f64 / 1.001).sqrt();
+        // At c = 1, of n frequencies that are each √(1.001 c) of the test's, and of shapes that do not change.
+        let slope = 0.5 * (1.001 * n as f64).sqrt();
         let stiffness = modal.stiffness_changes(start, &[1.0], rule)[0];
         let (sum, relaxation) = (start.errors.sum(), settings.inner.relaxation);
         let factor = unlimited_factor(DERIVATIVE_STEP * slope, stiffness, sum, relaxation);
