@@ -2,7 +2,7 @@
 
 use crate::evidence::localization::NOISE;
 use crate::prelude::*;
-use crate::spec::s5_weighted::at;
+use crate::spec::sx_weighted::at;
 
 #[test]
 fn the_first_ranking_is_by_what_the_first_iteration_asks_for() {

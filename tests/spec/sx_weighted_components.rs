@@ -2,7 +2,7 @@
 //! the truth.
 
 use crate::prelude::*;
-use crate::spec::s5_weighted::at;
+use crate::spec::sx_weighted::at;
 
 /// A chain of six masses by its matrices, every spring a parameter.
 fn chain() -> DynamicModel {

@@ -3,7 +3,7 @@
 use crate::evidence::coverage::{ENOUGH, SEEDS, SEEN, all_coverages, coverage_tables};
 use crate::evidence::localization::{self, NOISE, localization, localization_tables};
 use crate::prelude::*;
-use crate::spec::s5_weighted::at;
+use crate::spec::sx_weighted::at;
 
 /// Seeds of the tests that every run makes.
 const FEW: RangeInclusive<u64> = 1..=4;

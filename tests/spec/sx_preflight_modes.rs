@@ -1,7 +1,7 @@
 //! The pre-flight: what it says of exchanged frequencies, and of two mistakes at once.
 
 use crate::prelude::*;
-use crate::spec::s5_preflight::{case, findings, is_of, wing};
+use crate::spec::sx_preflight::{case, findings, is_of, wing};
 
 #[test]
 fn exchanged_frequencies_are_named_where_models_are_closer_than_modes() {

@@ -1,7 +1,7 @@
 //! Where weighted correlations begin, and what their Jacobian holds of modes that are all but one.
 
 use crate::prelude::*;
-use crate::spec::s5_weighted::{at, compare};
+use crate::spec::sx_weighted::{at, compare};
 use corfem::weighted::starts::{Minimum, StartEnd};
 
 #[test]
