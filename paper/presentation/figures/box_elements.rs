@@ -46,7 +46,7 @@ const LAYERS: [(Layer, [&str; 2]); 3] = [
 /// Distances of the layers from the top of a box, in parts of its width.
 const DOWN: [f64; 3] = [30.0 / 720.0, 228.0 / 720.0, 464.0 / 720.0];
 /// Distances of the layers in the steep view of the narrow form, in parts of its width.
-const STEEP_DOWN: [f64; 3] = [40.0 / 330.0, 330.0 / 330.0, 740.0 / 330.0];
+const STEEP_DOWN: [f64; 3] = [0.12, 1.0, 2.24];
 
 /// Style of a box: left and top, width, rise of its plan axes, fill and name of its panels, and whether its rods are numbered.
 struct Look<'a> {
