@@ -20,24 +20,32 @@ pub mod chapter_01_two_springs {
     #![doc = include_str!("../paper/figures/springs.svg")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_01.svg")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_01_narrow.svg")]
 }
 
 pub mod chapter_02_recursion {
     #![doc = include_str!("../paper/tour/02_recursion.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_02.svg")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_02_narrow.svg")]
 }
 
 pub mod chapter_03_error_sum {
     #![doc = include_str!("../paper/tour/03_error_sum.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_03.svg")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_03_narrow.svg")]
 }
 
 pub mod chapter_04_step {
     #![doc = include_str!("../paper/tour/04_step.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_04.svg")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_04_narrow.svg")]
 }
 
 pub mod chapter_05_inner_loop {
@@ -46,6 +54,8 @@ pub mod chapter_05_inner_loop {
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_05.svg")]
     #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_05_narrow.svg")]
+    #![doc = ""]
     #![doc = include_str!("../paper/tour/05_play.html")]
 }
 
@@ -53,6 +63,8 @@ pub mod chapter_06_condensation {
     #![doc = include_str!("../paper/tour/06_condensation.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_06.svg")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_06_narrow.svg")]
 }
 
 pub mod chapter_07_box {
@@ -60,25 +72,37 @@ pub mod chapter_07_box {
     #![doc = ""]
     #![doc = include_str!("../golden/figures/box_points.svg")]
     #![doc = ""]
+    #![doc = include_str!("../golden/figures/box_points_narrow.svg")]
+    #![doc = ""]
     #![doc = include_str!("../golden/figures/case_1_mode_shapes.svg")]
     #![doc = ""]
+    #![doc = include_str!("../golden/figures/case_1_mode_shapes_narrow.svg")]
+    #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_07.svg")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_07_narrow.svg")]
 }
 
 pub mod chapter_08_mistake {
     #![doc = include_str!("../paper/tour/08_mistake.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_08.svg")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_08_narrow.svg")]
 }
 
 pub mod chapter_09_noise {
     #![doc = include_str!("../paper/tour/09_noise.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_09.svg")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_09_narrow.svg")]
 }
 
 pub mod chapter_10_own_structure {
     #![doc = include_str!("../paper/tour/10_own_structure.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_10.svg")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_10_narrow.svg")]
 }

@@ -1,8 +1,8 @@
 //! Diagrams of documents: a few series over two axes, drawn as the report's figures are.
 
 use crate::paper::figures::canvas::{
-    Area, BLUE, Dash, Drawn, Form, GRAY, INK, KEY, Mark, Named, ORANGE, Pen, SKY, VERMILION, axes,
-    chart, line, mark, name_ends, name_upright, placed, rectangle, svg,
+    Area, BLUE, Dash, Drawn, Form, GRAY, INK, KEY, LINE, Mark, Named, ORANGE, Pen, SKY, VERMILION,
+    WIDE, axes, chart, corners, line, mark, name_ends, name_upright, placed, polygon, svg, width,
 };
 use crate::paper::figures::chart::Chart;
 use crate::prelude::*;
@@ -68,23 +68,19 @@ const MARGINS: [f64; 4] = [72.0, 20.0, 10.0, 48.0];
 const COLORS: [RGBColor; 6] = [BLUE, VERMILION, ORANGE, GRAY, SKY, INK];
 /// Half the width of a bar, px.
 const HALF_BAR: f64 = 9.0;
+/// Most labels along the axis across, and along that of the narrow form.
+const LABELS: [usize; 2] = [7, 5];
 
 impl Diagram {
-    /// The diagram as SVG.
+    /// The diagram as SVG, as wide as a figure's form; the narrow one has its names above it.
     ///
     /// # Errors
     /// [`PresentError::Drawing`].
-    pub fn svg(&self) -> Result<String, PresentError> {
-        svg(self.title, self.title, HEIGHT, |area| {
+    pub fn svg(&self, wide: f64) -> Result<String, PresentError> {
+        let margins = self.margins(wide);
+        let height = HEIGHT + margins[2] - MARGINS[2];
+        svg(self.title, self.title, (wide, height), |area| {
             let (x, y) = (self.x.0..self.x.1, self.y.0..self.y.1);
-            let mut margins = MARGINS;
-            if self.has_lines() {
-                let names = self
-                    .series
-                    .iter()
-                    .map(|series| Named((0.0, 0.0), series.name, None, None));
-                margins[1] = name_margin(&names.collect_vec());
-            }
             let mut builder = chart(area, margins);
             if !self.is_logarithmic {
                 return self.draw_on(area, builder.build_cartesian_2d(x, y)?);
@@ -95,6 +91,19 @@ impl Diagram {
             let y = y.log_scale().with_key_points(powers);
             self.draw_on(area, builder.build_cartesian_2d(x, y)?)
         })
+    }
+
+    /// Room of the axes, and of the names at the ends of lines or, in the narrow form, above all.
+    fn margins(&self, wide: f64) -> [f64; 4] {
+        let [left, right, top, bottom] = MARGINS;
+        let names = self.series.iter().filter(|series| !series.name.is_empty());
+        let names = names.map(|series| Named((0.0, 0.0), series.name, None, None));
+        let names = names.collect_vec();
+        match (wide < WIDE, self.has_lines()) {
+            (true, _) if names.len() > 1 => [left, right, top + LINE * names.len() as f64, bottom],
+            (false, true) => [left, name_margin(&names), top, bottom],
+            _ => MARGINS,
+        }
     }
 
     /// True if names stand at the ends of lines; bars and dots have a legend instead.
@@ -112,6 +121,8 @@ impl Diagram {
     where
         Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
     {
+        let [left, right, top, bottom] = self.margins(width(area));
+        let is_narrow = width(area) < WIDE;
         // Four digits, without the round-off of sums of decimal steps.
         let tick = |value: &f64| {
             let text = format!("{value:.3e}");
@@ -123,7 +134,7 @@ impl Diagram {
         };
         axes(&mut chart)
             .disable_x_mesh()
-            .x_labels(7)
+            .x_labels(LABELS[usize::from(is_narrow)])
             .y_labels(6)
             .x_label_formatter(&tick)
             .y_label_formatter(&upright)
@@ -132,10 +143,12 @@ impl Diagram {
         name_upright(
             area,
             self.labels[1],
-            0.5 * (HEIGHT + MARGINS[2] - MARGINS[3]),
+            0.5 * HEIGHT + top - 0.5 * (MARGINS[2] + bottom),
         )?;
+        // Bars of neighbors do not meet.
+        let half_bar = HALF_BAR * ((width(area) - left - right) / (WIDE - left - right)).min(1.0);
         let ground = if self.is_logarithmic { self.y.0 } else { 0.0 };
-        let right = placed(&chart, self.x.1, self.y.1);
+        let end_of = placed(area, &chart, self.x.1, self.y.1);
         let mut ends: Vec<Named> = Vec::new();
         for Series {
             name,
@@ -153,7 +166,7 @@ impl Diagram {
             let dot = Mark(Form::Circle, 4.0, Some(color), Pen::solid(color, 1.0));
             let places = points
                 .iter()
-                .map(|&(x, y)| (placed(&chart, x, y), placed(&chart, x, ground)));
+                .map(|&(x, y)| (placed(area, &chart, x, y), placed(area, &chart, x, ground)));
             let places = places.collect_vec();
             match form {
                 SeriesMark::Line | SeriesMark::Dashed => {
@@ -162,31 +175,29 @@ impl Diagram {
                 }
                 SeriesMark::Dots => places.iter().try_for_each(|(at, _)| mark(area, *at, dot))?,
                 SeriesMark::Bars => places.iter().try_for_each(|((x, y), (_, ground))| {
-                    rectangle(
-                        area,
-                        (x - HALF_BAR, y.min(*ground)),
-                        (x + HALF_BAR, y.max(*ground)),
-                        color,
-                    )
+                    let bar = corners((x - half_bar, *y), (x + half_bar, *ground));
+                    polygon(area, &bar, Some(color), Pen::solid(color, 1.0))
                 })?,
             }
-            let pen = match form {
-                SeriesMark::Dots => None,
-                SeriesMark::Bars => Some(Pen(color, 8.0, dash)),
-                _ => Some(Pen(color, 2.4, dash)),
+            let (pen, key) = match form {
+                SeriesMark::Dots => (None, Some(dot)),
+                SeriesMark::Bars => (None, Some(Mark(Form::Square, 5.0, Some(color), dot.3))),
+                _ => (Some(Pen(color, 2.4, dash)), None),
             };
-            let key = (*form == SeriesMark::Dots).then_some(dot);
-            let end = places.last().map_or(right, |(at, _)| *at);
+            let end = places.last().map_or(end_of, |(at, _)| *at);
             match ends.last_mut() {
                 Some(last) if name.is_empty() => last.0 = end,
                 _ => ends.push(Named(end, name, pen, key)),
             }
         }
-        if !self.has_lines() {
-            let left = right.0 - name_margin(&ends) - 6.0;
+        if is_narrow || !self.has_lines() {
+            let (left, first) = match is_narrow {
+                true => (left - 9.0, 8.0),
+                false => (end_of.0 - name_margin(&ends) - 6.0, end_of.1 + 14.0),
+            };
             let rows = ends
                 .iter_mut()
-                .zip((0..).map(|row| right.1 + 14.0 + 18.0 * f64::from(row)));
+                .zip((0..).map(|row| first + LINE * f64::from(row)));
             rows.for_each(|(end, down)| end.0 = (left, down));
         }
         if ends.len() > 1 {
@@ -195,8 +206,8 @@ impl Diagram {
         line(
             area,
             &[
-                placed(&chart, self.x.0, self.y.0),
-                placed(&chart, self.x.1, self.y.0),
+                placed(area, &chart, self.x.0, self.y.0),
+                placed(area, &chart, self.x.1, self.y.0),
             ],
             Pen::solid(INK, 1.0),
         )

@@ -21,19 +21,24 @@ pub fn figures() -> [(&'static str, Diagram); 10] {
 }
 
 /// Two masses between a wall on either side, with the springs between: plain lines.
-pub const SPRINGS: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 520 110" width="520" height="110" role="img" font-size="14" fill="none" stroke="black" stroke-width="2">
+pub const SPRINGS: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" class="drawn" viewBox="0 0 340 110" width="340" height="110" role="img" font-size="14" fill="none" stroke="black" stroke-width="2">
 <title>Two masses, each on a spring to the ground, and a third spring between them</title>
-<rect width="520" height="110" fill="white" stroke="none"/>
-<path d="M20 20v60M500 20v60" stroke-width="4"/>
-<path d="M20 50h20l8 -12l14 24l14 -24l14 24l14 -24l14 24l8 -12h14M200 50h24l8 -12l14 24l14 -24l14 24l14 -24l14 24l8 -12h10M380 50h14l8 -12l14 24l14 -24l14 24l14 -24l14 24l8 -12h20"/>
-<rect x="140" y="28" width="60" height="44"/>
-<rect x="320" y="28" width="60" height="44"/>
+<style>@media screen and (prefers-color-scheme: dark) {
+.drawn rect[fill="white"]{fill:#171717}
+.drawn[stroke="black"]{stroke:#E4E4E4}
+.drawn g[fill="black"]{fill:#E4E4E4}
+}</style>
+<rect width="340" height="110" fill="white" stroke="none"/>
+<path d="M8 20v60M332 20v60" stroke-width="4"/>
+<path d="M8 50h8l7 -12l12 24l12 -24l12 24l12 -24l12 24l7 -12h6M140 50h6l6 -12l12 24l12 -24l12 24l6 -12h6M244 50h6l7 -12l12 24l12 -24l12 24l12 -24l12 24l7 -12h8"/>
+<rect x="96" y="28" width="44" height="44"/>
+<rect x="200" y="28" width="44" height="44"/>
 <g stroke="none" fill="black" text-anchor="middle">
-<text x="170" y="55">1</text>
-<text x="350" y="55">1</text>
-<text x="80" y="95">1 + ε</text>
-<text x="260" y="95">1</text>
-<text x="440" y="95">1</text>
+<text x="118" y="55">1</text>
+<text x="222" y="55">1</text>
+<text x="52" y="95">1 + ε</text>
+<text x="170" y="95">1</text>
+<text x="288" y="95">1</text>
 </g>
 </svg>"#;
 

@@ -75,8 +75,8 @@ pub fn figures(
     quiet: bool,
 ) -> Result<(), PresentError> {
     let (_, _, figures) = drawn(quiet)?;
-    let file = |figure: Figure| (figure.name + ".svg", figure.svg.into_bytes());
-    let files: Vec<_> = figures.into_iter().map(file).collect();
+    let files = figures.into_iter().flat_map(Figure::files);
+    let files: Vec<_> = files.map(|(name, svg)| (name, svg.into_bytes())).collect();
     write_counted(folder, &files, "figures", quiet)
 }
 

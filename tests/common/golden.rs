@@ -89,6 +89,10 @@ impl Numbers {
     }
 
     fn same_token(&self, a: &str, b: &str) -> bool {
+        // Digits of a color may be a number beyond all, which no difference tells from itself.
+        if a == b {
+            return true;
+        }
         let is_whole = |token: &str| !token.contains(['.', 'e', 'E']);
         let (Some(x), Some(y)) = (number(a), number(b)) else {
             return a == b;

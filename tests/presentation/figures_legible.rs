@@ -2,6 +2,8 @@
 //! and captions that promise nothing else.
 
 use crate::common::drawings::{color, contrast, value, words};
+use crate::paper::figures::canvas::{NARROW, WIDE};
+use crate::paper::figures::factors::{DrawnFactor, Factors};
 use crate::paper::figures::matrices::{HeatMap, draw_by_twos};
 use crate::paper::figures::mode_shapes;
 use crate::paper::figures::{Figure, report_figures};
@@ -21,6 +23,30 @@ fn upright_chain() -> Report {
     chain("rod", &[0.9, 1.1, 0.95, 1.0], |row| {
         (Vector3::new(row as f64, 0.0, 0.0), Vector3::z())
     })
+}
+
+/// A drawing with the colors that it has on a dark page.
+fn in_the_dark(svg: &str) -> String {
+    let (_, rules) = svg.split_once("(prefers-color-scheme: dark) {").unwrap();
+    let (rules, drawn) = rules.split_once("}</style>").unwrap();
+    let mut light: Vec<String> = drawn.split('<').map(str::to_owned).collect();
+    // `.drawn text[fill="#222222"]{fill:#E4E4E4}`: those with a tag's name come last, and stand above the others.
+    for rule in rules.lines().rev().filter(|line| !line.is_empty()) {
+        let (selector, value) = rule
+            .strip_prefix(".drawn ")
+            .unwrap()
+            .split_once("]{")
+            .unwrap();
+        let (tag, attribute) = selector.split_once('[').unwrap();
+        let (name, to) = value.trim_end_matches('}').split_once(':').unwrap();
+        for element in &mut light {
+            if element.starts_with(tag) {
+                let (old, new) = (format!(" {attribute}"), format!(" {name}=\"dark {to}\""));
+                *element = element.replacen(&old, &new, 1);
+            }
+        }
+    }
+    light.join("<").replace("=\"dark #", "=\"#")
 }
 
 /// Contrasts of all digits with the cell that is drawn just before them.
@@ -49,23 +75,72 @@ fn digits_have_a_contrast_of_four_and_a_half_on_every_color_of_a_cell() {
         written: (100.0, 0),
     };
     let maps: Vec<HeatMap> = (0..12).map(map).collect();
-    let found = contrasts(&draw_by_twos("colors", "All colors", &maps, &[]).unwrap());
-    assert!(found.len() > 960, "{}", found.len());
-    let drawn = ["agreement", "derivatives", "truncation", "stiffness"]
-        .into_iter()
-        .flat_map(of_kind);
-    let all = found
-        .into_iter()
-        .chain(drawn.flat_map(|figure| contrasts(&figure.svg)));
-    let least = all.fold(f64::INFINITY, f64::min);
-    assert!(least >= 4.5, "{least}");
+    for (form, draw) in [
+        ("light", str::to_owned as fn(&str) -> String),
+        ("dark", in_the_dark),
+    ] {
+        for wide in [WIDE, NARROW] {
+            let colors = draw_by_twos("colors", "All colors", &maps, &[], wide).unwrap();
+            let found = contrasts(&draw(&colors));
+            assert!(found.len() > 960, "{}", found.len());
+            let drawn = ["agreement", "derivatives", "truncation", "box_gages"]
+                .into_iter()
+                .flat_map(of_kind);
+            let all = found
+                .into_iter()
+                .chain(drawn.flat_map(|figure| contrasts(&draw(&figure.svg))));
+            let least = all.fold(f64::INFINITY, f64::min);
+            assert!(least >= 4.5, "{form}, {wide}: {least}");
+        }
+    }
+}
+
+/// In the dark nothing keeps the color that it has on white, letters have a contrast of 4.5 on the page, and lines one that is seen.
+#[test]
+fn figures_have_a_palette_of_their_own_on_dark_pages() {
+    let css = include_str!("../../src/present/page/report.css");
+    let (_, dark) = css
+        .split_once("@media screen and (prefers-color-scheme: dark) {")
+        .unwrap();
+    let (_, page) = dark.split_once("--page: ").unwrap();
+    let page = color(page.split(';').next().unwrap());
+    assert!(!css.contains("invert("));
+    for figure in all_figures().iter().chain(job_figures()) {
+        for (form, svg) in [("wide", &figure.svg), ("narrow", &figure.narrow)] {
+            let night = in_the_dark(svg);
+            assert_eq!(
+                color(value(night.split("<rect").nth(1).unwrap(), "fill")),
+                page
+            );
+            let [day, night] = [svg, &night].map(|svg| svg.split("<").collect_vec());
+            // Behind the style of the one.
+            let day = &day[day.len() - night.len()..];
+            let mut letters = 0;
+            for (day, night) in day.iter().zip(night) {
+                for attribute in ["fill", "stroke"] {
+                    let start = format!(" {attribute}=\"#");
+                    assert!(
+                        !day.contains(&start) || value(day, attribute) != value(night, attribute),
+                        "{}, {form}: {night}",
+                        figure.name
+                    );
+                }
+                if night.starts_with("text ") {
+                    letters += 1;
+                    let contrast = contrast(color(value(night, "fill")), page);
+                    assert!(contrast >= 4.5, "{}, {form}: {contrast}", figure.name);
+                }
+            }
+            assert!(letters > 2, "{}", figure.name);
+        }
+    }
 }
 
 /// Where three shapes coincide, each of the lines is wider than that above it; colors stand side by side.
 #[test]
 fn each_state_is_seen_where_all_three_lie_on_each_other() {
     let modes = DrawnModes::from_report(&upright_chain()).unwrap().unwrap();
-    let svg = mode_shapes::draw(&modes, "modes", "Modes").unwrap();
+    let svg = mode_shapes::draw(&modes, "modes", "Modes", WIDE).unwrap();
     // Lines of the legend, from the one below to the one above.
     let lines = svg
         .split("<polyline")
@@ -83,11 +158,18 @@ fn each_state_is_seen_where_all_three_lie_on_each_other() {
     }
     for figure in of_kind("mode_shapes").filter(|figure| figure.name.starts_with("case")) {
         let said = words(&figure.svg);
-        let count = |start: &str| said.iter().filter(|word| word.starts_with(start)).count();
-        let modes = count("Mode ");
+        let modes = said.iter().filter(|word| word.starts_with("Mode ")).count();
         assert!((1..9).contains(&modes), "{}: {modes} differ", figure.name);
-        for state in ["test: ", "first: ", "corrected: "] {
-            assert_eq!(count(state), modes);
+        // The three, and what the two models differ from the test by.
+        for column in [
+            "test",
+            "first",
+            "corrected",
+            "first − test",
+            "corrected − test",
+        ] {
+            let found = said.iter().filter(|word| *word == column);
+            assert_eq!(found.count(), modes, "{column}");
         }
         assert!(
             said.iter()
@@ -121,7 +203,10 @@ fn captions_promise_nothing_that_is_not_drawn() {
     assert_eq!(report.frame.len() + 1, report.grids.len());
     let others = report_figures(&upright_chain()).unwrap();
     let mut kept = BTreeSet::new();
-    for Figure { name, caption, svg } in all_figures().iter().chain(job_figures()).chain(&others) {
+    for Figure {
+        name, caption, svg, ..
+    } in all_figures().iter().chain(job_figures()).chain(&others)
+    {
         for (words, drawn) in PROMISES {
             if caption.contains(words) {
                 assert!(svg.contains(drawn), "{name} promises {words:?}: {caption}");
@@ -130,4 +215,71 @@ fn captions_promise_nothing_that_is_not_drawn() {
         }
     }
     assert_eq!(kept.len(), PROMISES.len(), "{kept:?}");
+}
+
+/// What is never negative has an axis that is not, and what has no end of its own on an axis of factors none below zero.
+#[test]
+fn an_axis_of_what_is_not_negative_does_not_begin_below_zero() {
+    let row = |value: f64| DrawnFactor {
+        value,
+        published: Some(1.1),
+        ..DrawnFactor::default()
+    };
+    let drawn = |values: &[f64], limits| Factors {
+        rows: values.iter().copied().map(row).collect(),
+        limits,
+        across: "factor".into(),
+        down: "parameter",
+        origin: 1.0,
+        decimals: 2,
+        published: "right",
+    };
+    let limits = Some(Bounds {
+        lower: 0.5,
+        upper: 1.5,
+    });
+    for limits in [None, limits] {
+        for (values, is_negative) in [
+            (&[0.02, 3.0][..], false),
+            (&[0.0, 9.0], false),
+            (&[-2.0, 3.0], true),
+        ] {
+            for wide in [WIDE, NARROW] {
+                let svg = drawn(values, limits)
+                    .draw("factors", "Factors", wide)
+                    .unwrap();
+                // Labels of the axis stand on one line below all rows, before its name.
+                let said = words(&svg);
+                let name = said.iter().position(|word| word == "factor").unwrap();
+                let numbers = said.iter().enumerate().filter(|(row, _)| *row != name);
+                let axis =
+                    numbers.filter_map(|(_, word)| word.replace('−', "-").parse::<f64>().ok());
+                let least = axis.fold(f64::INFINITY, f64::min);
+                assert_eq!(least < 0.0, is_negative, "{values:?}, {wide}: {said:?}");
+            }
+        }
+    }
+}
+
+/// A caption says in numbers what is to be seen, but for drawings of the structure alone.
+#[test]
+fn captions_of_results_have_numbers() {
+    let structures = [
+        "structure",
+        "box_points",
+        "box_elements",
+        "cover_gages",
+        "derivatives",
+    ];
+    for Figure { name, caption, .. } in all_figures().iter().chain(job_figures()) {
+        if structures.iter().any(|end| name.ends_with(end)) {
+            continue;
+        }
+        let (_, said) = caption.split_once(": ").unwrap();
+        let digits = said.split("(the paper's").next().unwrap();
+        assert!(
+            digits.contains(|letter: char| letter.is_ascii_digit()),
+            "{name}: {caption}"
+        );
+    }
 }

@@ -2,6 +2,7 @@
 //! digit only, so that words that have to be exact are looked for by themselves.
 
 use crate::common::drawings::words;
+use crate::paper::figures::canvas::WIDE;
 use crate::paper::figures::error_history::{self, PassHistory};
 use crate::paper::figures::factors::{DrawnFactor, Factors};
 use crate::paper::figures::matrices::{HeatMap, draw_by_twos};
@@ -70,16 +71,16 @@ fn factors_with_bounds_deviations_and_remarks() {
     assert_golden(
         "drawing_factors",
         &figure(rows.clone(), None)
-            .draw("factors", "Factors")
+            .draw("factors", "Factors", WIDE)
             .unwrap(),
         Numbers::DRAWN,
     );
     let drawn = figure(rows[..6].to_vec(), range(0.6, 1.4))
-        .draw("factors", "Factors")
+        .draw("factors", "Factors", WIDE)
         .unwrap();
     assert_golden("drawing_factors_limited", &drawn, Numbers::DRAWN);
-    let alike =
-        figure(vec![factor("one", 1.0), factor("other", 1.004)], None).draw("factors", "Factors");
+    let alike = figure(vec![factor("one", 1.0), factor("other", 1.004)], None)
+        .draw("factors", "Factors", WIDE);
     assert_golden("drawing_factors_alike", &alike.unwrap(), Numbers::DRAWN);
 }
 
@@ -122,7 +123,8 @@ fn histories_with_long_and_short_passes() {
         pass(18, 12, [0.04, 0.01], None, true),
         pass(30, 1, [0.01, 0.008], None, false),
     ];
-    let draw = |passes: &[PassHistory]| error_history::draw("errors", "Errors", passes).unwrap();
+    let draw =
+        |passes: &[PassHistory]| error_history::draw("errors", "Errors", passes, WIDE).unwrap();
     assert_golden("drawing_errors", &draw(&passes), Numbers::DRAWN);
     let said = words(&draw(&passes));
     for name in ["pass 1 (tolerance 12.0 %)", "pass 2", "3", "pass 4"] {
@@ -191,6 +193,6 @@ fn matrices_with_cells_too_small_for_their_numbers() {
         ),
         map("An odd one", (3, 3), (1.0, 1), wave),
     ];
-    let drawn = draw_by_twos("maps", "Maps", &maps, &["One note.", "And another."]).unwrap();
+    let drawn = draw_by_twos("maps", "Maps", &maps, &["One note.", "And another."], WIDE).unwrap();
     assert_golden("drawing_matrices", &drawn, Numbers::DRAWN);
 }

@@ -2,6 +2,7 @@
 
 use super::subject::chain;
 use crate::common::drawings::{Written, words, written};
+use crate::paper::figures::canvas::WIDE;
 use crate::paper::figures::mode_shapes;
 use crate::paper::figures::structure::draw_structure;
 use crate::prelude::*;
@@ -34,7 +35,7 @@ fn with_sensors(
 }
 
 fn drawn(subject: &Report) -> String {
-    draw_structure("structure", "Structure", subject).unwrap()
+    draw_structure("structure", "Structure", subject, WIDE).unwrap()
 }
 
 fn panel(wide: f64, long: f64) -> Vec<Vector3<f64>> {
@@ -189,7 +190,8 @@ fn modes_are_drawn_in_their_plane_in_depth_and_as_marks() {
         [0, 1, 2, 3].map(|row| at(size * corners[row][0], size * corners[row][1], heights[row]))
     };
     let (flat, deep) = (raised([0.0; 4], 2.0), raised([0.0, 0.2, 0.4, 0.0], 2.0));
-    let drawn = |frame, motion| mode_shapes::draw(&modes(frame, motion), "modes", "Modes").unwrap();
+    let drawn =
+        |frame, motion| mode_shapes::draw(&modes(frame, motion), "modes", "Modes", WIDE).unwrap();
     let round = |row: usize| at((row as f64).sin(), (row as f64).cos(), 0.0);
     let askew = |row: usize| at(0.0, 0.1 * (row as f64).cos(), (row as f64).sin());
     let up = |row: usize| at(0.0, 0.0, (row as f64).sin());

@@ -47,6 +47,34 @@ fn the_answer_the_structure_and_the_factors_stand_before_all_else() {
     }
 }
 
+/// Both frame their pairs and say the least of them; a test of frequencies alone has neither.
+#[test]
+fn modal_assurance_of_the_first_model_stands_beside_that_of_the_corrected_one() {
+    for name in JOBS {
+        let report = report(name);
+        let page = report_page(&report, &[], "corfem", "").unwrap();
+        let (head, _) = page.split_once("<nav ").unwrap();
+        for (when, check) in [("before", &report.initial), ("after", report.corrected())] {
+            let start = format!("<figure id=\"{}_agreement_{when}\">", report.name);
+            let found = head.split_once(&start);
+            assert_eq!(found.is_some(), report.test.len() > 0, "{name}");
+            let Some((_, map)) = found else {
+                continue;
+            };
+            let (map, _) = map.split_once("</figure>").unwrap();
+            let assurance = report.agreement(check).unwrap().assurance;
+            let pairs = check.pairing.analysis_mode.iter().enumerate();
+            let least = pairs
+                .map(|(j, &i)| assurance[(i, j)])
+                .fold(f64::INFINITY, f64::min);
+            let words = format!("The least of a pair is {least:.2};");
+            assert!(map.contains(&words), "{name}: {words} {map}");
+            assert!(map.contains(&format!("{when} the correction")));
+            assert_eq!(map.matches(" framed\"").count(), report.test.len());
+        }
+    }
+}
+
 /// Text, CSV, JSON, rows and page are views of one value.
 #[test]
 fn every_view_tells_the_same_factors_and_errors() {

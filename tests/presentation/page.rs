@@ -143,12 +143,13 @@ fn page_needs_nothing_beside_it() {
         html.matches("href=").count(),
         html.matches("href=\"#").count()
     );
-    for Figure { name, caption, svg } in figures() {
+    for figure in figures() {
+        let Figure { name, caption, .. } = figure;
         assert_eq!(html.matches(&format!("<figure id=\"{name}\">")).count(), 1);
-        assert!(
-            html.contains(&svg.replace("http://www.w3.org/2000/svg", "")),
-            "{name}"
-        );
+        for form in [&figure.svg, &figure.narrow] {
+            let form = form.replace("http://www.w3.org/2000/svg", "");
+            assert!(html.contains(&form), "{name}");
+        }
         let caption = format!("{}</figcaption>", escaped(caption));
         assert!(html.contains(&caption), "{caption}");
     }

@@ -2,7 +2,7 @@
 
 use super::super::tables::kind_letter;
 use super::canvas::*;
-use super::view::{DEPTH_DRAWN, View};
+use super::view::{DEPTH_DRAWN, RISE, STEEP, View};
 use corfem::method::structure::{Element, ElementKind, Structure};
 use corfem::present::table::Digits;
 use corfem::torque_box::wing_box::TEST_GAGE;
@@ -37,29 +37,22 @@ impl Layer {
 /// An element with its corners or ends, in.
 type CornersOf<'a> = (&'a Element, Vec<Vector3<f64>>);
 
-/// The layers with their long and short names, and their distance from the top of a box 720 px wide.
-const LAYERS: [(Layer, [&str; 2], f64); 3] = [
-    (
-        Layer::Upper,
-        ["Upper covers and caps", "Upper covers"],
-        30.0,
-    ),
-    (
-        Layer::Webs,
-        ["Spars, ribs and posts", "Spars and ribs"],
-        228.0,
-    ),
-    (
-        Layer::Lower,
-        ["Lower covers and caps", "Lower covers"],
-        464.0,
-    ),
+/// The layers with their long and short names.
+const LAYERS: [(Layer, [&str; 2]); 3] = [
+    (Layer::Upper, ["Upper covers and caps", "Upper covers"]),
+    (Layer::Webs, ["Spars, ribs and posts", "Spars and ribs"]),
+    (Layer::Lower, ["Lower covers and caps", "Lower covers"]),
 ];
+/// Distances of the layers from the top of a box, in parts of its width.
+const DOWN: [f64; 3] = [30.0 / 720.0, 228.0 / 720.0, 464.0 / 720.0];
+/// Distances of the layers in the steep view of the narrow form, in parts of its width.
+const STEEP_DOWN: [f64; 3] = [0.12, 1.0, 2.24];
 
-/// Style of a box: left and top, width, fill and name of its panels, and whether its rods are numbered.
+/// Style of a box: left and top, width, rise of its plan axes, fill and name of its panels, and whether its rods are numbered.
 struct Look<'a> {
     corner: Place,
     width: f64,
+    rise: f64,
     panel: &'a dyn Fn(&Element) -> (RGBColor, String),
     has_numbers: bool,
 }
@@ -68,42 +61,40 @@ struct Look<'a> {
 ///
 /// # Errors
 /// The errors of [`Case::model`]; [`PresentError::Drawing`].
-pub fn draw(case: &Case) -> Result<String, PresentError> {
+pub fn draw(case: &Case, wide: f64) -> Result<String, PresentError> {
     let model = case.model()?;
     let title = format!(
         "Case {}: the wing torque box taken apart, panels 1 to 15 and rods 16 to 39",
         case.number
     );
+    let is_narrow = wide < WIDE;
     let look = Look {
-        corner: (20.0, 0.0),
-        width: 720.0,
+        corner: (if is_narrow { EDGE } else { 20.0 }, 0.0),
+        width: if is_narrow { wide - 2.0 * EDGE } else { 720.0 },
+        rise: if is_narrow { STEEP } else { RISE },
         panel: &|element| {
             let letter = kind_letter(element.kind);
             (fill(element.kind), format!("{} {letter}", element.label))
         },
         has_numbers: true,
     };
-    svg("box_elements", &title, 690.0, |area| {
+    let notes = [
+        "Blue, S: shear panels. Orange, M: membranes.",
+        "Large numbers: panels. Small ones: rods.",
+        &format!("Webs drawn {DEPTH_DRAWN:.0} times as deep."),
+    ];
+    let notes: Vec<String> = notes
+        .iter()
+        .flat_map(|note| paragraph(note, wide))
+        .collect();
+    let (at, height) = match is_narrow {
+        true => ((EDGE, 1060.0), 1070.0 + LINE * notes.len() as f64),
+        false => ((400.0, 626.0), 690.0),
+    };
+    svg("box_elements", &title, (wide, height), |area| {
         let view = draw_box(area, model.structure(), &look)?;
-        write(
-            area,
-            "Blue, S: shear panels. Orange, M: membranes.",
-            (400.0, 626.0),
-            START,
-        )?;
-        write(
-            area,
-            "Large numbers: panels. Small ones: rods.",
-            (400.0, 646.0),
-            START,
-        )?;
-        write(
-            area,
-            &format!("Webs drawn {DEPTH_DRAWN:.0} times as deep."),
-            (400.0, 666.0),
-            START,
-        )?;
-        write(area, &view.axes(), (14.0, 20.0), START)
+        write_lines(area, &notes, at, START)?;
+        write(area, &view.axes(), (EDGE, 20.0), START)
     })
 }
 
@@ -111,7 +102,7 @@ pub fn draw(case: &Case) -> Result<String, PresentError> {
 ///
 /// # Errors
 /// The errors of [`Case::model`]; [`PresentError::Drawing`].
-pub fn draw_gages(result: &CaseResult) -> Result<String, PresentError> {
+pub fn draw_gages(result: &CaseResult, wide: f64) -> Result<String, PresentError> {
     let model = result.case.model()?;
     let before = result.case.first_gages();
     let factors = result.correlation.best_factors.iter();
@@ -120,10 +111,19 @@ pub fn draw_gages(result: &CaseResult) -> Result<String, PresentError> {
         "Case {}: how many percent every panel is too thick",
         result.case.number
     );
-    svg("box_gages", &title, 384.0, |area| {
-        for (left, name, gages) in [
-            (14.0, "First model", &before),
-            (392.0, "Corrected model", &after),
+    let words =
+        "Orange is too thick, blue too thin; the full color is half too much or too little.";
+    let words = paragraph(words, wide);
+    // Beside each other, or below in the narrow form.
+    let (width, second, below) = match wide < WIDE {
+        true => (wide - 2.0 * EDGE, (EDGE, 340.0), 690.0),
+        false => (354.0, (392.0, 0.0), 368.0),
+    };
+    let height = below - 2.0 + LINE * words.len() as f64;
+    svg("box_gages", &title, (wide, height), |area| {
+        for ((left, top), name, gages) in [
+            ((EDGE, 0.0), "First model", &before),
+            (second, "Corrected model", &after),
         ] {
             let panel = |element: &Element| {
                 let gage = gages.get(element.label - 1).copied().unwrap_or(TEST_GAGE);
@@ -131,17 +131,16 @@ pub fn draw_gages(result: &CaseResult) -> Result<String, PresentError> {
                 (shade(gage), signed(error))
             };
             let look = Look {
-                corner: (left, 18.0),
-                width: 354.0,
+                corner: (left, top + 18.0),
+                width,
+                rise: RISE,
                 panel: &panel,
                 has_numbers: false,
             };
-            write(area, name, (left, 14.0), START.bold())?;
+            write(area, name, (left, top + 14.0), START.bold())?;
             draw_box(area, model.structure(), &look)?;
         }
-        let words =
-            "Orange is too thick, blue too thin; the full color is half too much or too little.";
-        write(area, words, (14.0, 368.0), START)
+        write_lines(area, &words, (EDGE, below), START)
     })
 }
 
@@ -155,15 +154,17 @@ fn draw_box(area: &Area, structure: &Structure, look: &Look) -> Drawn<View> {
         .copied()
         .collect();
     let (left, top) = look.corner;
-    let part = look.width / 720.0;
-    let fitted =
-        View::isometric(DEPTH_DRAWN).fitted(&corners, [left, 0.0, look.width, 460.0 * part]);
-    for (layer, names, down) in LAYERS {
+    // As wide as there is room; heights follow.
+    let room = [left, 0.0, look.width, f64::INFINITY];
+    let mut fitted = View::rising(look.rise, DEPTH_DRAWN).fitted(&corners, room);
+    fitted.origin.1 = 0.0;
+    let downs = if look.rise > RISE { STEEP_DOWN } else { DOWN };
+    for ((layer, names), down) in LAYERS.into_iter().zip(downs) {
         let of_layer = elements
             .iter()
             .filter(|(_, corners)| Layer::from_corners(corners) == layer);
         let name = names[usize::from(!look.has_numbers)];
-        let place = (layer, name, top + part * down);
+        let place = (layer, name, top + look.width * down);
         draw_layer(area, fitted, of_layer.collect(), place, look)?;
     }
     Ok(fitted)
@@ -189,10 +190,14 @@ fn draw_layer(
     view.origin.1 += top - highest;
     let side = leftmost.map_or(top, |at| at.1 + top - highest);
     let above = 16.0 + 14.0 * look.width / 720.0;
-    let at = (
-        look.corner.0 - 6.0 * f64::from(look.has_numbers),
-        side - above,
-    );
+    // To the left of what is highest, or above its leftmost corner.
+    let at = match look.rise > RISE {
+        true => (look.corner.0, top + 10.0),
+        false => (
+            look.corner.0 - 6.0 * f64::from(look.has_numbers),
+            side - above,
+        ),
+    };
     write(area, name, at, START.bold())?;
     // Elements farther from the eye are drawn first.
     elements.sort_by(|a, b| nearness(a).total_cmp(&nearness(b)));

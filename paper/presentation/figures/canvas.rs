@@ -1,14 +1,16 @@
 //! The paper figures are drawn on: an SVG through plotters, its lines, marks and letters.
 //!
-//! Lengths are in pixels of a figure 760 wide, which printed 17 cm wide makes its smallest letters 7 points high. The
-//! plotting library knows whole units only, so a unit is a tenth of a pixel.
+//! Lengths are in pixels of a figure 760 wide, which printed 17 cm wide makes its smallest letters 7 points high, or of its narrow
+//! form. The plotting library knows whole units only, so a unit is a tenth of a pixel.
 
 pub use super::chart::{axes, chart, placed};
+use super::colors::dark_palette;
 pub use super::colors::{
-    BLUE, GRAY, INK, ORANGE, PALE, SILVER, SKY, VERMILION, between, legible_on,
+    BLUE, GRAY, INK, ORANGE, PALE, SILVER, SKY, VERMILION, between, hex, legible_on, toned,
 };
 use corfem::files::escaped;
 pub use corfem::present::PresentError;
+use corfem::present::render::lines;
 use plotters::coord::Shift;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
@@ -17,10 +19,14 @@ pub use plotters::style::{RGBColor, WHITE};
 
 /// Units to a pixel.
 pub const UNITS: f64 = 10.0;
-/// Every figure's width, px.
-pub const WIDTH: f64 = 760.0;
-/// Height that the title fills above everything else, px.
-pub const HEAD: f64 = 30.0;
+/// Widths of every figure's two forms, px: where there is room, and what a telephone 390 px wide leaves between its margins.
+pub const WIDE: f64 = 760.0;
+pub const NARROW: f64 = 358.0;
+/// Height that a title of one line fills above everything else, and that every other line adds, px.
+const HEAD: f64 = 30.0;
+pub const LINE: f64 = 18.0;
+/// Room left and right of what is written along a figure, px.
+pub const EDGE: f64 = 14.0;
 /// Faces asked for.
 const FACE: &str = "Noto Sans, Arial, Helvetica, sans-serif";
 /// The plotting library divides letter heights by this.
@@ -31,9 +37,10 @@ pub type Drawn<T = ()> = Result<T, DrawingAreaErrorKind<std::io::Error>>;
 /// A place on a figure: right, down, px.
 pub type Place = (f64, f64);
 
-/// Pixels to the library's units.
+/// Pixels to the library's units. A place midway between two goes to the next, whatever the last bits of its number are.
 pub fn units(pixels: f64) -> i32 {
-    (UNITS * pixels).round() as i32
+    const LAST_BITS: f64 = 1e-6;
+    (UNITS * pixels + LAST_BITS).round() as i32
 }
 
 fn place((x, y): Place) -> (i32, i32) {
@@ -131,31 +138,40 @@ impl Letters {
     }
 }
 
-/// Draws a figure below its title and returns it as an SVG document that names itself to a screen reader too.
+/// Draws a figure of a width and a height below its title and returns it as an SVG document that names itself to a screen reader too,
+/// with its colors on a dark page.
 pub fn svg(
     name: &str,
     title: &str,
-    height: f64,
+    size: Place,
+    draw: impl FnOnce(&Area) -> Drawn,
+) -> Result<String, PresentError> {
+    draft(name, title, size, draw).map(|drawn| finished(&drawn))
+}
+
+/// A figure as [`svg`] without its colors on a dark page, for more to be drawn on it.
+pub fn draft(
+    name: &str,
+    title: &str,
+    (wide, height): Place,
     draw: impl FnOnce(&Area) -> Drawn,
 ) -> Result<String, PresentError> {
     let mut drawn = String::new();
-    let height = HEAD + height;
-    let (across, down) = (units(WIDTH).unsigned_abs(), units(height).unsigned_abs());
+    let bold = Letters {
+        height: 14.0,
+        ..START.bold()
+    };
+    let heading = folded(title, wide, bold.height);
+    let head = HEAD + LINE * (heading.len().max(1) - 1) as f64;
+    let (across, down) = (
+        units(wide).unsigned_abs(),
+        units(head + height).unsigned_abs(),
+    );
     {
         let area = SVGBackend::with_string(&mut drawn, (across, down)).into_drawing_area();
         area.fill(&WHITE)
-            .and_then(|()| {
-                write(
-                    &area,
-                    &cut(title, 88),
-                    (14.0, 16.0),
-                    Letters {
-                        height: 14.0,
-                        ..START.bold()
-                    },
-                )
-            })
-            .and_then(|()| draw(&area.split_vertically(units(HEAD)).1))
+            .and_then(|()| write_lines(&area, &heading, (EDGE, 16.0), bold))
+            .and_then(|()| draw(&area.split_vertically(units(head)).1))
             .and_then(|()| area.present())
             .map_err(|error| PresentError::Drawing {
                 figure: name.to_owned(),
@@ -164,10 +180,49 @@ pub fn svg(
     }
     let body = drawn.split_once('\n').map_or("", |(_, body)| body);
     let title = title.replace('&', "&amp;").replace('<', "&lt;");
+    let form = if wide < WIDE { "narrow" } else { "wide" };
     Ok(escaped(&format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {across} \
-        {down}\" role=\"img\">\n<title>{title}</title>\n{body}"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"drawn {form}\" width=\"{wide}\" height=\"{}\" viewBox=\"0 0 {across} \
+        {down}\" role=\"img\">\n<title>{title}</title>\n{body}",
+        head + height
     )))
+}
+
+/// A figure with its colors on a dark page, once nothing more is drawn on it.
+pub fn finished(svg: &str) -> String {
+    svg.replacen("</title>\n", &format!("</title>\n{}", dark_palette(svg)), 1)
+}
+
+/// Width of what is drawn on, px.
+pub fn width(area: &Area) -> f64 {
+    f64::from(area.dim_in_pixel().0) / UNITS
+}
+
+/// Distance of what is drawn on from the top of its figure, px.
+pub fn top(area: &Area) -> f64 {
+    f64::from(area.get_pixel_range().1.start) / UNITS
+}
+
+/// Letters of a height that a figure of a width has room for on a line, px.
+pub fn letters_across(wide: f64, height: f64) -> usize {
+    ((wide - 2.0 * EDGE) / (0.6 * height)) as usize
+}
+
+/// Words in lines that a figure of a width has room for, in letters of a height, px.
+pub fn folded(words: &str, wide: f64, height: f64) -> Vec<String> {
+    lines(words.split(' '), letters_across(wide, height))
+}
+
+/// Words as [`folded`] at the usual height.
+pub fn paragraph(words: &str, wide: f64) -> Vec<String> {
+    folded(words, wide, START.height)
+}
+
+/// Lines below each other, the first at a place.
+pub fn write_lines(area: &Area, lines: &[String], (x, y): Place, letters: Letters) -> Drawn {
+    let rows = lines.iter().zip(0..);
+    rows.into_iter()
+        .try_for_each(|(words, row)| write(area, words, (x, y + LINE * f64::from(row)), letters))
 }
 
 pub fn line(area: &Area, points: &[Place], pen: Pen) -> Drawn {
@@ -293,7 +348,8 @@ pub fn shortened(name: &str) -> String {
     cut(name, 40)
 }
 
-fn cut(text: &str, most: usize) -> String {
+/// A text of at most so many letters.
+pub fn cut(text: &str, most: usize) -> String {
     let cut = || text.chars().take(most - 1).chain(['…']).collect();
     if text.chars().count() > most {
         cut()

@@ -2,11 +2,13 @@
 
 use super::super::report::case_report;
 use super::super::tables::unlimited::unlimited_factors;
-use super::factors::Factors;
+use super::factors::{DrawnFactor, Factors};
 use super::structure::draw_structure;
 use super::{Figure, report_figures};
 use super::{box_elements, cover_gages};
 use corfem::present::PresentError;
+use corfem::present::table::Digits;
+use corfem::torque_box::wing_box::TEST_GAGE;
 use corfem::torque_box::{CASES, Case, CaseResult};
 
 /// The case that the box is shown with before and after its correlation, and whose first pass can be played with.
@@ -23,36 +25,29 @@ pub fn case_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError>
         let caption = "Cases 1 to 4: the wing torque box with its structural and dynamic points (the paper's Figure 2).";
         let title = "Cases 1 to 4: the wing torque box, its structural and dynamic points";
         let report = case_report(first)?.with_structure(case.model()?.structure());
-        figures.push(Figure::new(
-            "box_points",
-            caption,
-            draw_structure("box_points", title, &report)?,
-        ));
+        figures.push(Figure::drawn("box_points", caption, |wide| {
+            draw_structure("box_points", title, &report, wide)
+        })?);
         // From the second case on covers are membranes.
         let case = &results.get(1).unwrap_or(first).case;
         let caption = "the box taken apart, its elements numbered (the paper's Figure 3).";
         let caption = format!("Case {}: {caption}", case.number);
-        figures.push(Figure::new(
-            "box_elements",
-            caption,
-            box_elements::draw(case)?,
-        ));
+        figures.push(Figure::drawn("box_elements", caption, |wide| {
+            box_elements::draw(case, wide)
+        })?);
     }
     if let Some(shown) = results.iter().find(|result| result.case.number == SHOWN) {
-        let caption = format!(
-            "Case {SHOWN}: how far every gage is off before and after, the box taken apart."
-        );
-        let svg = box_elements::draw_gages(shown)?;
-        figures.push(Figure::new("box_gages", caption, svg));
+        let caption = gages_caption(shown);
+        figures.push(Figure::drawn("box_gages", caption, |wide| {
+            box_elements::draw_gages(shown, wide)
+        })?);
     }
     let cases: Vec<Case> = results.iter().map(|result| result.case.clone()).collect();
     let caption = "Cases 1 to 4: cover gages of the test configuration (GVT) and of each first model (the paper's Figure 4); root at \
         the left.";
-    figures.push(Figure::new(
-        "cover_gages",
-        caption,
-        cover_gages::draw(&cases)?,
-    ));
+    figures.push(Figure::drawn("cover_gages", caption, |wide| {
+        cover_gages::draw(&cases, wide)
+    })?);
     for result in results {
         add_figures_of(result, &mut figures)?;
     }
@@ -93,12 +88,20 @@ fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), 
             decimals: 1,
             published: "published (“about 60”)",
         };
-        let svg = drawn.draw(
-            "case_4_factors",
-            "Case 4: unlimited stiffness change factors",
-        )?;
-        let caption = "Case 4: what the first iteration asks of every panel before any limit, on a linear scale.";
-        figures.push(Figure::new("case_4_factors", caption, svg));
+        let most = |is_it: fn(&DrawnFactor) -> bool| {
+            let values = drawn.rows.iter().filter(|row| is_it(row));
+            Digits::Fixed(1).write(values.map(|row| row.value).fold(0.0, f64::max))
+        };
+        let caption = format!(
+            "Case 4: what the first iteration asks of every panel before any limit, on a linear scale: of the faulty one {} times its \
+             stiffness, of any other {} times at most.",
+            most(|row| row.remark.is_some()),
+            most(|row| row.remark.is_none()),
+        );
+        figures.push(Figure::drawn("case_4_factors", caption, |wide| {
+            let title = "Case 4: unlimited stiffness change factors";
+            drawn.draw("case_4_factors", title, wide)
+        })?);
         figures.extend(kept("derivatives"));
         return Ok(());
     }
@@ -111,4 +114,32 @@ fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), 
     ];
     figures.extend(whats.into_iter().filter_map(kept));
     Ok(())
+}
+
+/// Words on the gages of a case: how far they are off before, and how many still are, and how far, after.
+fn gages_caption(result: &CaseResult) -> String {
+    /// Distance from the test's gage within which one counts as found, a fraction.
+    const NEAR: f64 = 0.06;
+    let off = |gages: &[f64]| -> Vec<f64> {
+        gages
+            .iter()
+            .map(|gage| (gage / TEST_GAGE - 1.0).abs())
+            .collect()
+    };
+    let most =
+        |off: &[f64]| Digits::Fixed(0).write(100.0 * off.iter().copied().fold(0.0, f64::max));
+    let before = result.case.first_gages();
+    let factors = result.correlation.best_factors.iter();
+    let after: Vec<f64> = before.iter().zip(factors).map(|(a, b)| a * b).collect();
+    let (before, after) = (off(&before), off(&after));
+    let near = after.iter().filter(|off| **off <= NEAR).count();
+    format!(
+        "Case {}: how far every gage is off before and after, the box taken apart: up to {} % before; after, {near} of {} are within \
+         {:.0} %, and the farthest is {} % off.",
+        result.case.number,
+        most(&before),
+        after.len(),
+        100.0 * NEAR,
+        most(&after),
+    )
 }

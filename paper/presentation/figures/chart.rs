@@ -1,6 +1,6 @@
 //! Charts: axes in the style of all figures, and where a point of them lies.
 
-use super::canvas::{Area, HEAD, INK, MIDDLE, PALE, Pen, Place, UNITS, units};
+use super::canvas::{Area, INK, MIDDLE, PALE, Pen, Place, UNITS, top, units};
 use plotters::chart::MeshStyle;
 use plotters::coord::ranged1d::ValueFormatter;
 use plotters::prelude::*;
@@ -40,12 +40,13 @@ where
     mesh
 }
 
-/// Place of a chart's point below the title.
+/// Place of a chart's point on what the chart is drawn on.
 pub fn placed(
+    area: &Area,
     chart: &Chart<impl Ranged<ValueType = f64>, impl Ranged<ValueType = f64>>,
     x: f64,
     y: f64,
 ) -> Place {
     let (x, y) = chart.plotting_area().map_coordinate(&(x, y));
-    (f64::from(x) / UNITS, f64::from(y) / UNITS - HEAD)
+    (f64::from(x) / UNITS, f64::from(y) / UNITS - top(area))
 }

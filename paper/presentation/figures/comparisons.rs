@@ -4,6 +4,7 @@ use super::super::tables::fewer_modes::COSTS;
 use super::matrices::{HeatMap, draw_by_twos};
 use super::{Figure, numbers};
 use corfem::present::PresentError;
+use corfem::present::table::{Digits, counted};
 use corfem::torque_box::fewer_modes::FewerModesRun;
 use nalgebra::DMatrix;
 
@@ -18,12 +19,33 @@ pub fn comparison_figures(
     let title = format!("Case {case}: errors with fewer modes");
     let note =
         "RMS error in percent after one pass, solved exactly; every matrix has its own scale.";
-    let truncated = draw_by_twos("truncation", &title, &truncation(runs), &[note])?;
+    let maps = truncation(runs);
+    let costs = COSTS.map(|(.., cost)| cost);
+    let of = |cost: fn(&FewerModesRun) -> f64, run: &FewerModesRun| {
+        Digits::Fixed(1).write(100.0 * cost(run))
+    };
+    let whole = runs
+        .iter()
+        .max_by_key(|run| (run.test_modes, run.analysis_modes));
+    let worst = runs
+        .iter()
+        .max_by(|a, b| costs[1](a).total_cmp(&costs[1](b)));
+    let said = whole.zip(worst).map(|(whole, worst)| {
+        format!(
+            " With all modes the membranes are {} % off, at worst {} %, with {} and {}.",
+            of(costs[1], whole),
+            of(costs[1], worst),
+            counted(worst.test_modes, "test mode", "test modes"),
+            counted(worst.analysis_modes, "analysis mode", "analysis modes"),
+        )
+    });
     let caption = format!(
         "Case {case} with fewer modes: what is left of the errors after the first pass, for every number of test modes and of \
-        analysis modes."
+        analysis modes.{}",
+        said.unwrap_or_default()
     );
-    Ok(vec![Figure::new("truncation", caption, truncated)])
+    let draw = |wide: f64| draw_by_twos("truncation", &title, &maps, &[note], wide);
+    Ok(vec![Figure::drawn("truncation", caption, draw)?])
 }
 
 /// Titles of the [`COSTS`].

@@ -76,13 +76,23 @@ const DECADES: (i32, i32) = (-3, 4);
 const FOOT: f64 = 1e-3;
 /// Decades up to which an axis has ticks at two and five times their powers of ten.
 const FEW_DECADES: f64 = 3.1;
-/// Margins of the plot: left, right, top, bottom, px.
+/// Margins of the plot: left, right, top, bottom, px; the narrow form has the names of its lines above it.
 const MARGINS: [f64; 4] = [72.0, 150.0, 64.0, 48.0];
+const NARROW_MARGINS: [f64; 4] = [72.0, 12.0, 124.0, 48.0];
 const HEIGHT: f64 = 426.0;
 
+fn margins(wide: f64) -> [f64; 4] {
+    if wide < WIDE { NARROW_MARGINS } else { MARGINS }
+}
+
 /// The history as SVG: errors on a logarithmic scale, passes side by side.
-pub fn draw(name: &str, title: &str, passes: &[PassHistory]) -> Result<String, PresentError> {
-    svg(name, title, HEIGHT, |area| draw_on(area, passes))
+pub fn draw(
+    name: &str,
+    title: &str,
+    passes: &[PassHistory],
+    wide: f64,
+) -> Result<String, PresentError> {
+    svg(name, title, (wide, HEIGHT), |area| draw_on(area, passes))
 }
 
 /// An error in percent as it is drawn: a logarithmic scale has no zero.
@@ -139,10 +149,14 @@ fn ticks(passes: &[PassHistory]) -> (f64, f64, Vec<f64>) {
 fn draw_on(area: &Area, passes: &[PassHistory]) -> Drawn {
     let last = passes.last().map_or(0, PassHistory::to);
     let (low, high, ticks) = ticks(passes);
+    let [left, right, top, bottom] = margins(width(area));
+    let is_narrow = width(area) < WIDE;
     // As many as there is room for.
-    let most_labels = (526.0 / (10.0 + 7.8 * last.to_string().len() as f64)) as usize;
+    let room = width(area) - left - right - 12.0;
+    let most_labels = (room / (10.0 + 7.8 * last.to_string().len() as f64)) as usize;
     let range = (low..high).log_scale().with_key_points(ticks);
-    let mut chart = chart(area, MARGINS).build_cartesian_2d(-0.4..last as f64 + 0.4, range)?;
+    let mut chart = chart(area, [left, right, top, bottom])
+        .build_cartesian_2d(-0.4..last as f64 + 0.4, range)?;
     axes(&mut chart)
         .disable_x_mesh()
         .x_labels((last + 1).min(most_labels))
@@ -154,7 +168,7 @@ fn draw_on(area: &Area, passes: &[PassHistory]) -> Drawn {
             "iterations"
         })
         .draw()?;
-    let place = |iteration: usize, percent: f64| placed(&chart, iteration as f64, percent);
+    let place = |iteration: usize, percent: f64| placed(area, &chart, iteration as f64, percent);
     for (row, pass) in passes.iter().enumerate() {
         if !pass.is_inner {
             continue;
@@ -166,7 +180,8 @@ fn draw_on(area: &Area, passes: &[PassHistory]) -> Drawn {
                 format!("pass {number} (tolerance {:.1} %)", 100.0 * most)
             }
             (wide, _) if wide > 50.0 => format!("pass {number}"),
-            _ => number.to_string(),
+            (wide, _) if wide > 7.8 * number.to_string().len() as f64 => number.to_string(),
+            _ => String::new(),
         };
         write(
             area,
@@ -186,7 +201,7 @@ fn draw_on(area: &Area, passes: &[PassHistory]) -> Drawn {
     name_upright(
         area,
         "SRSS error, percent (log scale)",
-        0.5 * (HEIGHT + MARGINS[2] - MARGINS[3]),
+        0.5 * (HEIGHT + top - bottom),
     )?;
     // Lines first, so that no line crosses the open marks of exact solutions.
     let mut ends = Vec::new();
@@ -214,19 +229,23 @@ fn draw_on(area: &Area, passes: &[PassHistory]) -> Drawn {
         let end = exact.last();
         ends.extend(end.map(|&end| Named(end, name, Some(pen), Some(dot))));
     }
+    // The rows above them are for the marks.
+    for (row, end) in ends.iter_mut().enumerate().filter(|_| is_narrow) {
+        end.0 = (0.0, 54.0 + LINE * row as f64);
+    }
     name_ends(area, ends)?;
     let open = Mark(Form::Circle, 5.5, Some(WHITE), Pen::solid(INK, 1.8));
-    marked(
-        area,
-        (MARGINS[0] + 8.0, 18.0),
-        open,
-        "large, open: exact solution",
-    )?;
+    let left = if is_narrow { 18.0 } else { left + 8.0 };
+    marked(area, (left, 18.0), open, "large, open: exact solution")?;
     if passes.iter().any(|pass| pass.tolerance.is_some()) {
-        let (left, right) = (MARGINS[0] + 250.0, MARGINS[0] + 284.0);
-        line(area, &[(left, 18.0), (right, 18.0)], Pen::solid(GRAY, 1.4))?;
+        let (x, y) = if is_narrow {
+            (8.0, 36.0)
+        } else {
+            (left + 242.0, 18.0)
+        };
+        line(area, &[(x, y), (x + 34.0, y)], Pen::solid(GRAY, 1.4))?;
         let words = "tolerance of the pass on the sum";
-        write(area, words, (right + 7.0, 18.0), START)?;
+        write(area, words, (x + 41.0, y), START)?;
     }
     Ok(())
 }

@@ -22,25 +22,48 @@ pub use cases::{SHOWN, case_figures};
 pub use comparisons::comparison_figures;
 pub use report::report_figures;
 
-/// A figure, drawn.
+use canvas::{NARROW, PresentError, WIDE};
+
+/// A figure, drawn in two forms.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Figure {
     /// Name for files, such as `case_1_errors`.
     pub name: String,
     /// Words on what to see in it.
     pub caption: String,
-    /// The drawing.
+    /// The drawing, 760 px wide.
     pub svg: String,
+    /// The drawing for pages narrower than 640 px.
+    pub narrow: String,
 }
 
 impl Figure {
-    /// A figure of these parts.
-    pub fn new(name: &str, caption: impl Into<String>, svg: String) -> Self {
-        Self {
+    /// A figure, drawn in its two widths, px.
+    ///
+    /// # Errors
+    /// Those of the drawing.
+    pub fn drawn(
+        name: &str,
+        caption: impl Into<String>,
+        draw: impl Fn(f64) -> Result<String, PresentError>,
+    ) -> Result<Self, PresentError> {
+        Ok(Self {
             name: name.to_owned(),
             caption: caption.into(),
-            svg,
-        }
+            svg: draw(WIDE)?,
+            narrow: draw(NARROW)?,
+        })
+    }
+
+    /// The names of its files, with what stands in them.
+    pub fn files(self) -> [(String, String); 2] {
+        let Self {
+            name, svg, narrow, ..
+        } = self;
+        [
+            (format!("{name}.svg"), svg),
+            (format!("{name}_narrow.svg"), narrow),
+        ]
     }
 }
 

@@ -1,6 +1,6 @@
 //! Mode shapes of the test, the first and the corrected model (Figure 6): as color on panels, or as lines over each other.
 
-use super::canvas::{HEAD as TITLE, *};
+use super::canvas::*;
 use super::view::{Room, View};
 use corfem::present::frame::{DrawnMode, DrawnModes, Frame, extents};
 use corfem::present::table::Digits;
@@ -18,11 +18,10 @@ fn pens() -> [(&'static str, Pen); 3] {
 /// Modes of one figure, and side by side in it.
 const MOST_MODES: usize = 12;
 const ACROSS: usize = 3;
-const CELL: (f64, f64) = (WIDTH / ACROSS as f64, 178.0);
+/// Height of a mode's cell, and above all of them, px.
+const HIGH: f64 = 178.0;
 const HEAD: f64 = 62.0;
-/// Shades between white and a full color: neighbors of one shade are one path, which the plotting library does not know.
-const SHADES: f64 = 20.0;
-/// The end of such a path.
+/// The end of a path of neighbors of one color, which the plotting library does not know.
 const CLOSED: &str = "\"/>\n";
 
 fn motions(drawn: &DrawnModes) -> impl Iterator<Item = &Vector3<f64>> {
@@ -75,6 +74,18 @@ pub fn differing(drawn: &DrawnModes) -> DrawnModes {
     }
 }
 
+/// Motions of a state of a mode without those of the test.
+fn apart(mode: &DrawnMode, state: usize) -> impl Iterator<Item = Vector3<f64>> {
+    let pairs = mode.moved[state].iter().zip(&mode.moved[0]);
+    pairs.map(|(own, test)| own - test)
+}
+
+/// The farthest that a place is from the test's in a state of any mode, in units of the largest motion of a shape.
+pub fn farthest(drawn: &DrawnModes, state: usize) -> f64 {
+    let all = drawn.modes.iter().flat_map(|mode| apart(mode, state));
+    all.map(|motion| motion.amax()).fold(0.0, f64::max)
+}
+
 /// The axis along which all modes move most.
 fn main_axis(drawn: &DrawnModes) -> Vector3<f64> {
     let squares = motions(drawn).map(|motion| motion.component_mul(motion));
@@ -84,12 +95,17 @@ fn main_axis(drawn: &DrawnModes) -> Vector3<f64> {
 
 /// The shapes as SVG: as color on the panels by the motion along the main axis, as displaced lines where there are no panels or
 /// all moves within a plane.
-pub fn draw(drawn: &DrawnModes, name: &str, title: &str) -> Result<String, PresentError> {
+pub fn draw(
+    drawn: &DrawnModes,
+    name: &str,
+    title: &str,
+    wide: f64,
+) -> Result<String, PresentError> {
     let nodes = &drawn.frame.nodes;
     let in_plane = View::flat(nodes)
         .filter(|(normal, _)| motions(drawn).all(|motion| motion.dot(normal) == 0.0));
     if in_plane.is_none() && !drawn.frame.panels.is_empty() {
-        return draw_colors(drawn, name, title);
+        return draw_colors(drawn, name, title, wide);
     }
     // The largest displacement is drawn as long as a sixth of the structure.
     let far = extents(nodes).max() / 6.0;
@@ -98,7 +114,7 @@ pub fn draw(drawn: &DrawnModes, name: &str, title: &str) -> Result<String, Prese
     let displaced = |at: &Vector3<f64>, motion: &Vector3<f64>| {
         at + far * Vector3::new(motion.x, motion.y, motion.z / heights)
     };
-    each(drawn, name, title, |area, mode, room| {
+    each(drawn, name, title, wide, |area, mode, room| {
         let moved = mode.moved.each_ref().map(|motions| {
             nodes
                 .iter()
@@ -134,8 +150,35 @@ pub fn draw(drawn: &DrawnModes, name: &str, title: &str) -> Result<String, Prese
     })
 }
 
-/// One row a mode: test, first and corrected model.
-fn draw_colors(drawn: &DrawnModes, name: &str, title: &str) -> Result<String, PresentError> {
+/// A column of a mode: its name, words on its size, and its motions.
+type Column = (String, String, Vec<Vector3<f64>>);
+
+/// Test, first and corrected model, and what the two differ from the test by, the larger of these with its most in the full color.
+fn columns(mode: &DrawnMode) -> [Column; 5] {
+    let most = [1, 2].map(|state| apart(mode, state).map(|it| it.amax()).fold(0.0, f64::max));
+    let full = most[0].max(most[1]).max(f64::MIN_POSITIVE);
+    [0, 1, 2, 3, 4].map(|column: usize| {
+        let is_difference = column > 2;
+        let state = if is_difference { column - 2 } else { column };
+        let name = pens()[state].0;
+        if is_difference {
+            let most = Digits::Fixed(2).write(most[state - 1]);
+            let motions = apart(mode, state).map(|it| it / full).collect();
+            (format!("{name} − test"), format!("{most} at most"), motions)
+        } else {
+            let hertz = Digits::Significant(4).write(mode.hertz[state]) + " Hz";
+            (name.to_owned(), hertz, mode.moved[state].clone())
+        }
+    })
+}
+
+/// One row a mode: test, first and corrected model, and the differences of the two from the test, below the two in the narrow form.
+fn draw_colors(
+    drawn: &DrawnModes,
+    name: &str,
+    title: &str,
+    wide: f64,
+) -> Result<String, PresentError> {
     let (frame, axis) = (&drawn.frame, main_axis(drawn));
     let nodes = &frame.nodes;
     let view = View::flat(nodes).map_or_else(|| View::solid(nodes).0, |(_, view)| view);
@@ -148,95 +191,97 @@ fn draw_colors(drawn: &DrawnModes, name: &str, title: &str) -> Result<String, Pr
         .map(|&node| nodes[node])
         .collect();
     let letter = ["x", "y", "z"][axis.imax()];
+    let words = format!(
+        "Blue moves along +{letter}, red along −{letter}, the fainter, the less; 1 is the largest motion of a shape. The larger difference of \
+         a mode has the full color."
+    );
+    let words = paragraph(&words, wide);
+    // Columns, and height of one row of them.
+    let (across, high) = if wide < WIDE { (3, 116.0) } else { (5, 136.0) };
+    let head = HEAD + LINE * (words.len() - 1) as f64;
+    let pitch = 26.0 + high * if wide < WIDE { 2.0 } else { 1.0 };
+    let cell = (wide - EDGE) / across as f64;
     let mut cells = String::new();
-    let words = format!("Blue moves along +{letter}, red along −{letter}, white not at all.");
-    let svg = svg(
-        name,
-        title,
-        HEAD + CELL.1 * drawn.modes.len() as f64,
-        |area| {
-            write(area, &words, (14.0, 20.0), START)?;
-            for (row, mode) in drawn.modes.iter().enumerate() {
-                let top = HEAD + CELL.1 * row as f64;
-                write(
-                    area,
-                    &format!("Mode {}", mode.number),
-                    (14.0, top - 8.0),
-                    START.bold(),
-                )?;
-                for (column, (name, _)) in pens().iter().enumerate() {
-                    let left = CELL.0 * column as f64 + 14.0;
-                    let room = [left, top + 26.0, CELL.0 - 34.0, CELL.1 - 48.0];
-                    let view = view.fitted(&shown, room);
-                    let hertz = Digits::Significant(4).write(mode.hertz[column]);
-                    write(
-                        area,
-                        &format!("{name}: {hertz} Hz"),
-                        (left, top + 12.0),
-                        START,
-                    )?;
-                    let mut last = None;
-                    for (corners, motion) in panel_parts(frame, &axis, &mode.moved[column]) {
-                        let strong = if motion < 0.0 { VERMILION } else { BLUE };
-                        let strength = (SHADES * motion.abs().min(1.0)).round() / SHADES;
-                        let fill = between(WHITE, strong, strength);
-                        if last.replace(fill).is_none_or(|last| last != fill) {
-                            let color = format!("#{:02X}{:02X}{:02X}", fill.0, fill.1, fill.2);
-                            cells += &format!(
-                                "{CLOSED}<path fill=\"{color}\" stroke=\"{color}\" stroke-width=\"4\" d=\""
-                            );
-                        }
-                        let corner = |&at: &Vector3<f64>| {
-                            let (x, y) = view.place(at);
-                            format!("{} {}", units(x), units(y + TITLE))
-                        };
-                        let corners: Vec<String> = corners.iter().map(corner).collect();
-                        cells += &format!("M{}z", corners.join(" "));
+    let size = (wide, head + pitch * drawn.modes.len() as f64);
+    let svg = draft(name, title, size, |area| {
+        write_lines(area, &words, (EDGE, 20.0), START)?;
+        for (row, mode) in drawn.modes.iter().enumerate() {
+            let above = head + pitch * row as f64;
+            let number = format!("Mode {}", mode.number);
+            write(area, &number, (EDGE, above - 8.0), START.bold())?;
+            for (place, (name, value, moved)) in columns(mode).into_iter().enumerate() {
+                // The second row of the narrow form begins below the first model.
+                let (down, column) = (place / across, place % across + place / across);
+                let left = EDGE + cell * column as f64;
+                let top_of = above + high * down as f64;
+                let letters = if wide < WIDE { START.small() } else { START };
+                write(area, &name, (left, top_of + 12.0), letters)?;
+                write(area, &value, (left, top_of + 28.0), START.small())?;
+                let room = [left, top_of + 40.0, cell - EDGE, high - 54.0];
+                let view = view.fitted(&shown, room);
+                let mut last = None;
+                for (corners, motion) in panel_parts(frame, &axis, &moved) {
+                    let color = hex(toned(motion));
+                    if last.as_ref() != Some(&color) {
+                        cells += &format!(
+                            "{CLOSED}<path fill=\"{color}\" stroke=\"{color}\" stroke-width=\"4\" d=\""
+                        );
                     }
-                    view.lines(area, &outlines, nodes, Pen::solid(SILVER, 0.8))?;
+                    last = Some(color);
+                    let corner = |&at: &Vector3<f64>| {
+                        let (x, y) = view.place(at);
+                        format!("{} {}", units(x), units(y + top(area)))
+                    };
+                    let corners: Vec<String> = corners.iter().map(corner).collect();
+                    cells += &format!("M{}z", corners.join(" "));
                 }
+                view.lines(area, &outlines, nodes, Pen::solid(SILVER, 0.8))?;
             }
-            Ok(())
-        },
-    )?;
+        }
+        Ok(())
+    })?;
     // Behind the page and before all else; the first has none before it to close.
     let cells = cells
         .strip_prefix(CLOSED)
         .map(|cells| format!("{cells}{CLOSED}"));
-    Ok(svg.replacen("<text ", &(cells.unwrap_or_default() + "<text "), 1))
+    Ok(finished(&svg.replacen(
+        "<text ",
+        &(cells.unwrap_or_default() + "<text "),
+        1,
+    )))
 }
 
+/// Every mode in a cell of its own, beside each other where there is room.
 fn each(
     drawn: &DrawnModes,
     name: &str,
     title: &str,
+    wide: f64,
     draw: impl Fn(&Area, &DrawnMode, Room) -> Drawn,
 ) -> Result<String, PresentError> {
-    let height = HEAD + CELL.1 * drawn.modes.len().div_ceil(ACROSS) as f64;
-    svg(name, title, height, |area| {
-        let mut x = 14.0;
+    let across = if wide < WIDE { 1 } else { ACROSS };
+    let cell = (wide - EDGE) / across as f64;
+    let height = HEAD + HIGH * drawn.modes.len().div_ceil(across) as f64;
+    svg(name, title, (wide, height), |area| {
+        let mut x = EDGE;
         for (name, pen) in pens() {
             line(area, &[(x, 20.0), (x + 36.0, 20.0)], pen)?;
             write(area, name, (x + 43.0, 20.0), START)?;
             x += 72.0 + 6.8 * name.len() as f64;
         }
-        write(
-            area,
-            "frequencies in Hz: test | first | corrected",
-            (14.0, 44.0),
-            START,
-        )?;
+        let words = "frequencies in Hz: test | first | corrected";
+        write(area, words, (EDGE, 44.0), START)?;
         for (row, mode) in drawn.modes.iter().enumerate() {
             let (x, y) = (
-                CELL.0 * (row % ACROSS) as f64 + 14.0,
-                HEAD + CELL.1 * (row / ACROSS) as f64,
+                EDGE + cell * (row % across) as f64,
+                HEAD + HIGH * (row / across) as f64,
             );
             let name = format!("Mode {}", mode.number);
             write(area, &name, (x, y + 14.0), START.bold())?;
             let hertz = mode.hertz.map(|hertz| Digits::Significant(4).write(hertz));
             let beside = (x + 8.0 + 7.8 * name.len() as f64, y + 14.0);
             write(area, &hertz.join(" | "), beside, START.small())?;
-            draw(area, mode, [x, y + 30.0, CELL.0 - 34.0, CELL.1 - 48.0])?;
+            draw(area, mode, [x, y + 30.0, cell - 20.0, HIGH - 48.0])?;
         }
         Ok(())
     })

@@ -3,10 +3,11 @@
 use super::error_history::{self, error_history};
 use super::factors::{DrawnFactor, Factors};
 use super::matrices::{HeatMap, draw_by_twos, draw_derivatives};
-use super::mode_shapes::{self, differing};
+use super::mode_shapes::{self, differing, farthest};
 use super::structure::{MOST_NUMBERS, draw_structure};
 use super::{Figure, numbers};
 use corfem::method::error::Error;
+use corfem::method::error_sum::Errors;
 use corfem::present::PresentError;
 use corfem::present::frame::DrawnModes;
 use corfem::present::report::Report;
@@ -21,19 +22,19 @@ use nalgebra::DMatrix;
 /// [`PresentError::Drawing`]; the errors of [`DrawnModes::from_report`] and [`Report::agreement`].
 pub fn report_figures(report: &Report) -> Result<Vec<Figure>, PresentError> {
     let mut figures = Vec::new();
-    let mut add = |what: &str,
-                   title: &str,
-                   caption: &str,
-                   draw: &dyn Fn(&str, &str) -> Result<String, PresentError>| {
-        let name = format!("{}_{what}", report.name);
-        let svg = draw(&name, &format!("{}: {title}", report.title))?;
-        figures.push(Figure::new(
-            &name,
-            format!("{}: {caption}.", report.title),
-            svg,
-        ));
-        Ok::<_, PresentError>(())
-    };
+    let mut add =
+        |what: &str,
+         title: &str,
+         caption: &str,
+         draw: &dyn Fn(&str, &str, f64) -> Result<String, PresentError>| {
+            let name = format!("{}_{what}", report.name);
+            let title = format!("{}: {title}", report.title);
+            let caption = format!("{}: {caption}.", report.title);
+            figures.push(Figure::drawn(&name, caption, |wide| {
+                draw(&name, &title, wide)
+            })?);
+            Ok::<_, PresentError>(())
+        };
     if !report.frame.is_empty() || report.sensors.iter().any(|sensor| sensor.place.is_some()) {
         let mut caption = "the structure".to_owned();
         for (is_drawn, words) in [
@@ -49,18 +50,26 @@ pub fn report_figures(report: &Report) -> Result<Vec<Figure>, PresentError> {
         ] {
             caption += if is_drawn { words } else { "" };
         }
-        add("structure", "structure", &caption, &|name, title| {
-            draw_structure(name, title, report)
+        add("structure", "structure", &caption, &|name, title, wide| {
+            draw_structure(name, title, report, wide)
         })?;
     }
     let frequencies = frequencies(report);
     if !frequencies.rows.is_empty() {
-        let caption = "how far every frequency is from the test's before and after";
+        let most = |off: fn(&DrawnFactor) -> f64| {
+            let off = frequencies.rows.iter().map(|row| off(row).abs());
+            Digits::Fixed(2).write(off.fold(0.0, f64::max))
+        };
+        let caption = format!(
+            "how far every frequency is from the test's before and after: up to {} % before, up to {} % after",
+            most(|row| row.from.unwrap_or_default()),
+            most(|row| row.value),
+        );
         add(
             "frequencies",
             "frequencies against the test's",
-            caption,
-            &|name, title| frequencies.draw(name, title),
+            &caption,
+            &|name, title, wide| frequencies.draw(name, title, wide),
         )?;
     }
     if let Some(modes) = DrawnModes::from_report(report)? {
@@ -69,36 +78,49 @@ pub fn report_figures(report: &Report) -> Result<Vec<Figure>, PresentError> {
                 Some(_) => "the test is expanded by modes of the corrected model",
                 None => "what lies between sensors is interpolated from those near it",
             };
+            let [first, last] = [1, 2].map(|state| Digits::Fixed(2).write(farthest(&modes, state)));
             let caption = format!(
                 "mode shapes of the test, of the first and of the corrected model, where the first model's are farther from the test's \
-                 than on average; {between}"
+                 than on average: by up to {first} of the largest motion, and the corrected model's by up to {last}; {between}"
             );
             add(
                 &format!("mode_shapes{part}"),
                 "mode shapes that differ",
                 &caption,
-                &|name, title| mode_shapes::draw(&modes, name, title),
+                &|name, title, wide| mode_shapes::draw(&modes, name, title, wide),
             )?;
         }
     }
     if !report.stages.is_empty() {
         let history = error_history(report);
+        let sum = |errors: &Errors| Digits::Significant(2).write(100.0 * errors.sum());
+        let ends = format!(
+            "The error sum falls from {} to {} %",
+            sum(&report.initial.errors),
+            sum(&report.corrected().errors)
+        );
         let caption = match history.iter().any(|pass| pass.is_inner) {
-            true => {
-                "errors against iteration. Between exact solutions an inner loop steps by perturbation; at the end of a pass \
+            true => format!(
+                "errors against iteration. {ends}. Between exact solutions an inner loop steps by perturbation; at the end of a pass \
                 the exact solution says what that was worth"
-            }
-            false => "errors against iteration, every one solved exactly",
+            ),
+            false => format!("errors against iteration, every one solved exactly. {ends}"),
         };
         add(
             "errors",
             "errors against iteration",
-            caption,
-            &|name, title| error_history::draw(name, title, &history),
+            &caption,
+            &|name, title, wide| error_history::draw(name, title, &history, wide),
         )?;
     }
     let factors = factors(report);
-    let mut caption = "factors on the first model".to_owned();
+    let far = |row: &DrawnFactor| (row.value - 1.0).abs();
+    let most = factors.rows.iter().max_by(|a, b| far(a).total_cmp(&far(b)));
+    let most = most.map_or_else(String::new, |row| {
+        let value = Digits::Fixed(3).write(row.value);
+        format!(", farthest from one that of {}, {value}", row.name)
+    });
+    let mut caption = format!("factors on the first model{most}");
     for (is_drawn, words) in [
         (
             factors.draws_bounds(),
@@ -111,8 +133,8 @@ pub fn report_figures(report: &Report) -> Result<Vec<Figure>, PresentError> {
     ] {
         caption += if is_drawn { words } else { "" };
     }
-    add("factors", "factors", &caption, &|name, title| {
-        factors.draw(name, title)
+    add("factors", "factors", &caption, &|name, title, wide| {
+        factors.draw(name, title, wide)
     })?;
     if report.test.len() > 0 {
         let maps = mode_agreement(report)?;
@@ -121,14 +143,24 @@ pub fn report_figures(report: &Report) -> Result<Vec<Figure>, PresentError> {
         } else {
             ""
         };
+        let [first, last] = [&report.initial, report.corrected()].map(|check| {
+            let found = report.agreement(check)?;
+            let pairs = found.partners.iter().enumerate();
+            let least = pairs
+                .map(|(j, i)| found.assurance[(i - 1, j)])
+                .fold(1.0, f64::min);
+            Ok::<_, PresentError>(Digits::Fixed(2).write(least))
+        });
         let caption = format!(
-            "{cross}modal assurance criterion (MAC, not mass-weighted) of analysis and test modes, before and after"
+            "{cross}modal assurance criterion (MAC, not mass-weighted) of analysis and test modes, before and after. The least MAC of a \
+             pair is {} before and {} after",
+            first?, last?
         );
         add(
             "agreement",
             "analysis against test modes before and after",
             &caption,
-            &|name, title| {
+            &|name, title, wide| {
                 let note =
                     "Hundredths; an empty cell rounds to zero. Blue is positive, red negative.";
                 draw_by_twos(
@@ -136,17 +168,32 @@ pub fn report_figures(report: &Report) -> Result<Vec<Figure>, PresentError> {
                     title,
                     &maps,
                     &[note, "MAC: modal assurance criterion, which knows no mass."],
+                    wide,
                 )
             },
         )?;
     }
     if let Some(maps) = derivatives(report) {
-        let caption = "derivatives of the frequencies and of the error sum at the first model";
+        let sizes: Vec<f64> = maps[0]
+            .values
+            .row_iter()
+            .map(|row| row.iter().flatten().map(|value| value * value).sum())
+            .collect();
+        let named = |row: Option<usize>| {
+            row.and_then(|row| report.parameters.get(row))
+                .map_or("none", String::as_str)
+        };
+        let by_size = |&a: &usize, &b: &usize| sizes[a].total_cmp(&sizes[b]);
+        let caption = format!(
+            "derivatives of the frequencies and of the error sum at the first model. Parameter {} moves the frequencies most, {} least",
+            named((0..sizes.len()).max_by(by_size)),
+            named((0..sizes.len()).min_by(by_size)),
+        );
         add(
             "derivatives",
             "derivatives of the first model",
-            caption,
-            &|name, title| draw_derivatives(name, title, &maps),
+            &caption,
+            &|name, title, wide| draw_derivatives(name, title, &maps, wide),
         )?;
     }
     Ok(figures)

@@ -1,7 +1,7 @@
 //! A structure with its grids, supports and sensors (Figure 2).
 
 use super::canvas::*;
-use super::view::View;
+use super::view::{RISE, STEEP, View};
 use corfem::present::frame::{Frame, is_finite, key};
 use corfem::present::render::lines;
 use corfem::present::report::Report;
@@ -19,9 +19,8 @@ const SENSOR: Mark = Mark(
 pub const MOST_NUMBERS: usize = 60;
 /// Longest name written next to its place; longer ones go into a list.
 const LONGEST_NAME: usize = 9;
-/// Height of the structure, and of a line of the list below it, px.
+/// Height of the structure with its legend, px.
 const DRAWING: f64 = 420.0;
-const LINE: f64 = 18.0;
 
 fn support(fixed: bool) -> Mark {
     Mark(
@@ -32,8 +31,8 @@ fn support(fixed: bool) -> Mark {
     )
 }
 
-/// Names written so far, by their boxes: left, top, right, bottom.
-struct Names(Vec<[f64; 4]>);
+/// Names written so far, by their boxes: left, top, right, bottom; and the box that all of them stand in.
+struct Names(Vec<[f64; 4]>, [f64; 4]);
 
 impl Names {
     /// Writes a name beside a place, as near as others leave room.
@@ -60,10 +59,11 @@ impl Names {
                     || before(one[3], other[1])
                     || before(other[3], one[1]))
             };
-            one[0] > 4.0
-                && one[2] < WIDTH - 4.0
-                && one[1] > 30.0
-                && one[3] < DRAWING
+            let [left, top, right, bottom] = self.1;
+            one[0] > left
+                && one[2] < right
+                && one[1] > top
+                && one[3] < bottom
                 && !self.0.iter().any(meets)
         };
         let first = [x - 0.5 * wide, y - 16.0, x + 0.5 * wide, y - 5.0];
@@ -86,7 +86,12 @@ impl Names {
 }
 
 /// The structure with its numbered grids, its supports and its sensors: in plan when all places lie in one plane.
-pub fn draw_structure(name: &str, title: &str, report: &Report) -> Result<String, PresentError> {
+pub fn draw_structure(
+    name: &str,
+    title: &str,
+    report: &Report,
+    wide: f64,
+) -> Result<String, PresentError> {
     let frame = Frame::from_report(report);
     let all: Vec<_> = frame
         .nodes
@@ -95,16 +100,30 @@ pub fn draw_structure(name: &str, title: &str, report: &Report) -> Result<String
         .copied()
         .collect();
     let numbered = report.grids.len() <= MOST_NUMBERS;
-    // Numbers need room between an upper and a lower surface.
+    // Numbers need room between an upper and a lower surface; the narrow form is higher than wide.
+    let rise = if wide < WIDE { STEEP } else { RISE };
     let solid = || {
-        if numbered {
-            View::solid(&all)
-        } else {
-            (View::isometric(1.0), 1.0)
-        }
+        let heights = if numbered { View::heights(&all) } else { 1.0 };
+        (View::rising(rise, heights), heights)
     };
     let (view, heights) = View::flat(&all).map_or_else(solid, |(_, view)| (view, 1.0));
-    let view = view.fitted(&all, [60.0, 50.0, WIDTH - 120.0, DRAWING - 80.0]);
+    let depth = if heights > 1.0 {
+        format!("; depth drawn {heights:.0} times")
+    } else {
+        String::new()
+    };
+    // Behind the legend, or below it in the narrow form.
+    let axes = paragraph(&(view.axes() + &depth), wide);
+    let below = if wide < WIDE {
+        LINE * axes.len() as f64
+    } else {
+        0.0
+    };
+    let (edge, upper) = (if wide < WIDE { 30.0 } else { 60.0 }, 50.0 + below);
+    let view = view.fitted(
+        &all,
+        [edge, upper, wide - 2.0 * edge, DRAWING - upper - 30.0],
+    );
     let mut places: BTreeMap<[i64; 3], (Vector3<f64>, Vec<&str>)> = BTreeMap::new();
     let mut elsewhere = Vec::new();
     for sensor in &report.sensors {
@@ -124,17 +143,17 @@ pub fn draw_structure(name: &str, title: &str, report: &Report) -> Result<String
             return (*at, name);
         }
         let number = format!("({})", row + 1);
-        list.extend(folded(&number, names));
+        list.extend(listed(&number, names, wide));
         (*at, number)
     });
     let named: Vec<_> = named.collect();
     if !elsewhere.is_empty() {
-        list.extend(folded("place unknown:", &elsewhere));
+        list.extend(listed("place unknown:", &elsewhere, wide));
     }
     let height = DRAWING + 30.0 + LINE * list.len() as f64;
-    svg(name, title, height, |area| {
+    svg(name, title, (wide, height), |area| {
         view.lines(area, &frame.lines, &frame.nodes, Pen::solid(SILVER, 1.1))?;
-        let mut x = 14.0;
+        let mut x = EDGE;
         let drawn = [
             !named.is_empty(),
             !report.supports.is_empty(),
@@ -151,16 +170,16 @@ pub fn draw_structure(name: &str, title: &str, report: &Report) -> Result<String
             marked(area, (x, 18.0), form, words)?;
             x += 40.0 + 7.2 * words.len() as f64;
         }
-        let depth = if heights > 1.0 {
-            format!("; depth drawn {heights:.0} times")
+        let at = if wide < WIDE {
+            (EDGE, 18.0 + LINE)
         } else {
-            String::new()
+            (x, 18.0)
         };
-        write(area, &(view.axes() + &depth), (x, 18.0), START)?;
+        write_lines(area, &axes, at, START)?;
         for at in &report.supports {
             mark(area, view.place(*at), support(true))?;
         }
-        let mut names = Names(Vec::new());
+        let mut names = Names(Vec::new(), [4.0, upper - 20.0, wide - 4.0, DRAWING]);
         for (at, name) in &named {
             mark(area, view.place(*at), SENSOR)?;
             names.write(area, name, view.place(*at), VERMILION)?;
@@ -171,23 +190,15 @@ pub fn draw_structure(name: &str, title: &str, report: &Report) -> Result<String
             }
             names.write(area, &label.to_string(), view.place(*at), BLUE)?;
         }
-        for (row, words) in list.iter().enumerate() {
-            write(
-                area,
-                words,
-                (14.0, DRAWING + 18.0 + LINE * row as f64),
-                START,
-            )?;
-        }
-        Ok(())
+        write_lines(area, &list, (EDGE, DRAWING + 18.0), START)
     })
 }
 
 /// Names in lines that a figure has room for, after what they have in common.
-fn folded(first: &str, names: &[&str]) -> Vec<String> {
-    const MOST: usize = 95;
+fn listed(first: &str, names: &[&str], wide: f64) -> Vec<String> {
     let names: Vec<String> = names.iter().map(|name| format!("{name},")).collect();
-    let lines = lines(once(first).chain(names.iter().map(String::as_str)), MOST);
+    let words = once(first).chain(names.iter().map(String::as_str));
+    let lines = lines(words, letters_across(wide, START.height));
     lines
         .iter()
         .map(|line| line.trim_end_matches(',').to_owned())

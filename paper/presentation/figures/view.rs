@@ -6,8 +6,9 @@ use nalgebra::Vector3;
 
 /// Factor by which the box's depth is drawn larger; the depth is a twentieth of its span.
 pub const DEPTH_DRAWN: f64 = 7.0;
-/// Rise of the two plan axes on the paper, degrees.
-const RISE: f64 = 27.0;
+/// Rise of the two plan axes on the paper, degrees, and where numbers need room in a narrow form.
+pub const RISE: f64 = 27.0;
+pub const STEEP: f64 = 60.0;
 /// Part of the largest extent that a depth is drawn as, if that is at most [`DEPTH_DRAWN`] times itself.
 const LEAST_DEPTH: f64 = 0.3;
 /// Extent along an axis, of the largest, below which all points lie in one plane.
@@ -42,9 +43,9 @@ impl View {
         }
     }
 
-    /// y goes right and up, x right and down, z, drawn so many times as large, up.
-    pub fn isometric(heights: f64) -> Self {
-        let (sin, cos) = RISE.to_radians().sin_cos();
+    /// y goes right and up, x right and down, both at an angle of so many degrees on the paper; z, drawn so many times as large, goes up.
+    pub fn rising(degrees: f64, heights: f64) -> Self {
+        let (sin, cos) = degrees.to_radians().sin_cos();
         Self::unit(
             Vector3::new(cos, cos, 0.0),
             Vector3::new(sin, -sin, -heights),
@@ -60,18 +61,23 @@ impl View {
         }
     }
 
-    /// The isometric view of points, with the factor by which their depth is drawn.
-    pub fn solid(points: &[Vector3<f64>]) -> (Self, f64) {
+    /// The factor by which the depth of points is drawn.
+    pub fn heights(points: &[Vector3<f64>]) -> f64 {
         let extents = extents(points);
         let heights = (LEAST_DEPTH * extents.max() / extents.z)
             .round()
             .clamp(1.0, DEPTH_DRAWN);
-        let heights = if extents.z > FLAT * extents.max() {
+        if extents.z > FLAT * extents.max() {
             heights
         } else {
             1.0
-        };
-        (Self::isometric(heights), heights)
+        }
+    }
+
+    /// The isometric view of points, with the factor by which their depth is drawn.
+    pub fn solid(points: &[Vector3<f64>]) -> (Self, f64) {
+        let heights = Self::heights(points);
+        (Self::rising(RISE, heights), heights)
     }
 
     /// The plane that all points lie in, by its normal axis, and the view of it; none when there is no such plane.

@@ -217,6 +217,12 @@ impl Heat<'_> {
     }
 }
 
+/// The place of the largest of numbers, the first place without any.
+fn largest(numbers: impl Iterator<Item = f64>) -> usize {
+    let largest = numbers.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+    largest.map_or(0, |(place, _)| place)
+}
+
 /// The numbers of the test modes in the test's file.
 fn mode_labels(report: &Report, count: usize) -> Vec<String> {
     (0..count)
@@ -224,51 +230,51 @@ fn mode_labels(report: &Report, count: usize) -> Vec<String> {
         .collect()
 }
 
-/// Modal assurance of the corrected model's modes and the test's, the pairs framed; nothing without shapes.
+/// Modal assurance of the modes of the first and of the corrected model and the test's, the pairs framed; nothing without shapes.
 ///
 /// # Errors
 /// The errors of [`Report::agreement`].
-pub fn assurance_map(report: &Report) -> Result<String, Error> {
-    if report.test.len() == 0 {
-        return Ok(String::new());
-    }
-    let check = report.corrected();
-    let (found, pairs) = (report.agreement(check)?, &check.pairing.analysis_mode);
-    let (mut worst, mut most) = ((0, 0), 0.0);
-    for (j, column) in found.assurance.column_iter().enumerate() {
-        for (i, value) in column.iter().enumerate() {
-            if pairs[j] != i && *value > most {
-                (worst, most) = ((i, j), *value);
+pub fn assurance_maps(report: &Report) -> Result<String, Error> {
+    let [first, last] = [&report.initial, report.corrected()];
+    let maps = [("before", first), ("after", last)].map(|(when, check)| {
+        let found = report.agreement(check)?;
+        let pairs = &check.pairing.analysis_mode;
+        let (mut worst, mut most, mut least) = ((0, 0), 0.0, 1.0_f64);
+        for (j, column) in found.assurance.column_iter().enumerate() {
+            for (i, value) in column.iter().enumerate() {
+                if pairs[j] == i {
+                    least = least.min(*value);
+                } else if *value > most {
+                    (worst, most) = ((i, j), *value);
+                }
             }
         }
-    }
-    let least = (0..pairs.len())
-        .map(|j| found.assurance[(pairs[j], j)])
-        .fold(1.0, f64::min);
-    let caption = format!(
-        "Modal assurance (MAC) of analysis modes (down) and test modes (across), in hundredths, after the correction; pairs are framed. The \
-        least of a pair is {least:.2}; the most of any other is {most:.2}, analysis mode {} with test mode {}.",
-        worst.0 + 1,
-        report.mode_number(worst.1)
-    );
-    let rows = (1..=found.assurance.nrows()).map(|number| number.to_string());
-    Ok(Heat {
-        id: &format!("{}_agreement", report.name),
-        caption,
-        corner: "",
-        rows: rows.collect(),
-        columns: mode_labels(report, pairs.len()),
-        values: found.assurance,
-        full: 1.0,
-        written: (100.0, 0),
-        framed: pairs,
-    }
-    .draw())
+        let caption = format!(
+            "Modal assurance (MAC) of analysis modes (down) and test modes (across), in hundredths, {when} the correction; pairs are \
+            framed. The least of a pair is {least:.2}; the most of any other is {most:.2}, analysis mode {} with test mode {}.",
+            worst.0 + 1,
+            report.mode_number(worst.1)
+        );
+        let rows = (1..=found.assurance.nrows()).map(|number| number.to_string());
+        let heat = Heat {
+            id: &format!("{}_agreement_{when}", report.name),
+            caption,
+            corner: when,
+            rows: rows.collect(),
+            columns: mode_labels(report, pairs.len()),
+            values: found.assurance,
+            full: 1.0,
+            written: (100.0, 0),
+            framed: pairs,
+        };
+        Ok(if pairs.is_empty() { String::new() } else { heat.draw() })
+    });
+    maps.into_iter().collect()
 }
 
 /// Residuals at the best factors in standard deviations, by sensor and test mode; nothing where they are not known.
 pub fn residual_map(report: &Report) -> String {
-    /// Deviations that have the full color.
+    /// Deviations that have the full color: noise alone is beyond them in 3 of 1000 residuals.
     const FULL: f64 = 3.0;
     if report.residuals.is_empty() {
         return String::new();
@@ -293,9 +299,7 @@ pub fn residual_map(report: &Report) -> String {
         }
     });
     let rms = |i: usize| values.row(i).norm() / (values.ncols() as f64).sqrt();
-    let worst = (0..rows.len())
-        .max_by(|&a, &b| rms(a).total_cmp(&rms(b)))
-        .unwrap_or(0);
+    let worst = largest((0..rows.len()).map(rms));
     let caption = format!(
         "Residuals at the best factors in standard deviations, by sensor (down) and test mode (across); {FULL:.0} and more have the full \
         color. Largest over all modes: {}, {:.1} deviations RMS.",
@@ -322,10 +326,7 @@ pub fn derivative_map(report: &Report) -> String {
         return String::new();
     };
     let values = derivatives.frequency.clone();
-    let sums: Vec<f64> = values.row_iter().map(|row| row.norm()).collect();
-    let most = (0..sums.len())
-        .max_by(|&a, &b| sums[a].total_cmp(&sums[b]))
-        .unwrap_or(0);
+    let most = largest(values.row_iter().map(|row| row.norm()));
     let caption = format!(
         "Percent of a test mode's frequency (across) for one percent of a parameter (down), at the first model. {} moves them most.",
         report.parameters.get(most).map_or("None", String::as_str)
@@ -359,7 +360,8 @@ fn paired_hertz(check: &ExactResult) -> (Vec<f64>, Vec<f64>) {
 
 /// Side of the plot of pairs, room of its axes, and radius of its marks.
 const PLOT: [f64; 3] = [400.0, 54.0, 4.5];
-/// Distance from equal frequencies that lines of the plot of pairs mark, a fraction.
+/// Distance from equal frequencies that lines of the plot of pairs mark, a fraction: as near as models are customarily asked to come to
+/// their test.
 const NEAR: f64 = 0.05;
 
 impl Axis {
@@ -462,8 +464,7 @@ pub fn pairing_plot(report: &Report) -> String {
 /// Words under the plot of pairs: how many are near, which is farthest off, and how many modes of the model have no partner.
 fn pairing_caption(report: &Report, off: &[f64], others: usize) -> String {
     let within = off.iter().filter(|off| off.abs() <= NEAR).count();
-    let far = (0..off.len()).max_by(|&a, &b| off[a].abs().total_cmp(&off[b].abs()));
-    let far = far.unwrap_or(0);
+    let far = largest(off.iter().map(|off| off.abs()));
     // Rounding first keeps a minus sign off zero.
     let percent = (1e4 * off[far]).round() / 100.0 + 0.0;
     let mut caption = format!(

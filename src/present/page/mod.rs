@@ -12,7 +12,7 @@ use super::tables::report::{
     derivative_table, factor_table, history_table, minima_table, paired_table,
 };
 use crate::present::PresentError;
-use charts::{assurance_map, derivative_map, factor_bars, pairing_plot, residual_map};
+use charts::{assurance_maps, derivative_map, factor_bars, pairing_plot, residual_map};
 use html::{escaped, section, table};
 use moving::moving;
 
@@ -72,7 +72,7 @@ pub fn report_page(
         moving(report)?,
         factor_bars(report),
         pairing_plot(report),
-        assurance_map(report)?,
+        assurance_maps(report)?,
     );
     let all = |tables: &[Table]| tables.iter().map(table).collect::<String>();
     let optional = |found: Option<Table>| found.iter().map(table).collect::<String>();
