@@ -19,6 +19,7 @@ mod files;
 pub mod garteur;
 pub mod job_concerns;
 pub mod job_errors;
+pub mod job_joins;
 pub mod job_laws;
 pub mod job_matrices;
 pub mod job_pairs;

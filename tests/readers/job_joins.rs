@@ -1,0 +1,189 @@
+//! Modes that join a correction, stay out of it or are told by frequency alone, by both methods.
+
+use crate::common::jobs::{of_parts, run, said};
+use crate::prelude::*;
+use crate::readers::job_concerns::rigid_bodies;
+use corfem::job::concern::Grade;
+
+/// Masses, each on a spring to the ground, joined weakly in a row: where their springs are alike they move together.
+fn oscillators(own: &[f64], joint: f64) -> DMatrix<f64> {
+    let to_ground = own
+        .iter()
+        .enumerate()
+        .map(|(row, spring)| (row, None, *spring));
+    let joints = (1..own.len()).map(|row| (row, Some(row - 1), joint));
+    springs(own.len(), &to_ground.chain(joints).collect_vec()).dense()
+}
+
+/// The job of unit masses with this stiffness, of parameters with these parts of it, and of a test with these modes.
+fn job_of_matrices(
+    method: &str,
+    stiffness: &DMatrix<f64>,
+    parts: &[DMatrix<f64>],
+    modes: &Modes,
+) -> Files {
+    let files = of_parts(stiffness, parts, &eye(stiffness.nrows()), modes);
+    comparing(files, &format!("method = \"{method}\""))
+}
+
+/// All modes of unit masses with this stiffness.
+fn modes_of(stiffness: &DMatrix<f64>) -> Modes {
+    solve(stiffness, &eye(stiffness.nrows()), stiffness.nrows()).unwrap()
+}
+
+/// A job of joined masses, with a factor on every spring and the three lowest modes of other springs.
+fn joined(method: &str, [first, real]: [&[f64]; 2], joint: f64) -> Files {
+    let modes = modes_of(&oscillators(real, joint)).lowest(3).unwrap();
+    let part = |place: usize| {
+        let mut own = vec![0.0; first.len()];
+        own[place] = first[place];
+        oscillators(&own, 0.0)
+    };
+    let parts = (0..first.len()).map(part).collect_vec();
+    job_of_matrices(method, &oscillators(first, joint), &parts, &modes)
+}
+
+/// A job one of whose test modes resembles no mode of the first model, until the two others have told the springs apart.
+fn mixed(method: &str) -> Files {
+    let (first, real) = ([1000.0, 1050.0, 1100.0], [1000.0, 1300.0, 1650.0]);
+    joined(method, [&first, &real], 60.0)
+}
+
+#[test]
+fn a_mode_left_out_is_compared_once_it_resembles_a_mode_of_the_model() {
+    for method in ["paper", "gauss_newton"] {
+        let loaded = prepared(&mixed(method));
+        let [left] = loaded.unpaired[..] else {
+            panic!("{method}")
+        };
+        assert_eq!(left.why, Kind::Unlike, "{method}");
+        let left = left.mode + 1;
+        let result = finished(&loaded);
+        assert_eq!(
+            result.trust.about(Kind::Joined),
+            [left.to_string()],
+            "{method}"
+        );
+        assert!(
+            result
+                .trust
+                .all()
+                .iter()
+                .all(|own| own.grade() != Grade::LeftOut)
+        );
+        let report = Report::from_job(&loaded, Some(&result)).unwrap();
+        assert_eq!(report.mode_numbers, [1, 2, 3], "{method}");
+        assert_eq!(report.corrected().errors.shape_count, 3, "{method}");
+        assert!(result.verdict.is_within, "{method}: {}", report.words());
+    }
+}
+
+/// In bounds of .5 to 1.6 the second spring, 1.24 times as stiff in the end, may still be 1.29 times that, and its mode 1.136 times as high but for
+/// four deviations of .5 %. A mode of less that joins adds no more than nine to the squares of the others.
+#[test]
+fn reach_at_the_end_is_what_its_factors_leave_of_the_bounds() {
+    for (ratio, kinds) in [
+        (1.03, vec![]),
+        (1.05, vec![Kind::WouldHarm]),
+        (1.13, vec![Kind::WouldHarm]),
+        (1.17, vec![Kind::OutOfReach]),
+    ] {
+        let mut files = retested(mixed("gauss_newton"), |data| {
+            data.frequencies_hz[1] *= ratio
+        });
+        let job = file(&mut files, "job.toml");
+        *job = job.replace("matrix =", "lower = 0.5\nupper = 1.6\nmatrix =");
+        let trust = finished(&prepared(&files)).trust;
+        let left = trust
+            .all()
+            .iter()
+            .filter(|own| own.grade() == Grade::LeftOut);
+        assert_eq!(left.map(|own| own.kind).collect_vec(), kinds, "{ratio}");
+    }
+}
+
+/// On the way from springs far off to the optimum of the modes compared at first, the other mode is like one of the model.
+#[test]
+fn weighted_steps_look_at_a_mode_left_out_before_their_optimum() {
+    let first = [1000.0, 1050.0, 1100.0, 3000.0, 3200.0, 2000.0];
+    let real = [1000.0, 2300.0, 5400.0, 20000.0, 20160.0, 20600.0];
+    let files = joined("gauss_newton", [&first, &real], 60.0);
+    let files = comparing(files, "analysis_modes = 3\nresidual_vectors = 0");
+    let loaded = prepared(&files);
+    let result = finished(&loaded);
+    assert_eq!(result.trust.about(Kind::Joined), ["2"]);
+    assert!(result.verdict.is_within);
+}
+
+#[test]
+fn a_stopped_run_says_so_in_words_and_in_its_verdict() {
+    let loaded = prepared(&mixed("paper"));
+    let result = run(&loaded, |_| {}, || false).unwrap();
+    let report = Report::from_job(&loaded, Some(&result)).unwrap();
+    let all = render::text(&[trust_table(&result.trust)]);
+    assert!(all.contains("Stopped by request"), "{all}");
+    assert!(result.verdict.is_within || report.words().contains("It was stopped by request."));
+}
+
+/// With one sensor all shapes are alike: the order of frequencies decides, and every output says so.
+#[test]
+fn what_shapes_do_not_decide_is_paired_by_frequency_and_said() {
+    let files = retested(rods(), |data| {
+        data.sensors.drain(..2);
+        data.shapes = data.shapes.rows(2, 1).into_owned();
+    });
+    let loaded = prepared(&files);
+    assert_eq!(loaded.loaded.placed.len(), 1);
+    assert_eq!(loaded.undecided, [0, 1, 2]);
+    let model = loaded.analyze(&[1.0; 2]).unwrap();
+    let exact = model.model().exact();
+    assert_eq!(exact.pairing.analysis_mode, [0, 1, 2]);
+    let trust = trust_in(&loaded);
+    assert_eq!(trust.about(Kind::Undecided), ["1", "2", "3"]);
+    let all = render::text(&[trust_table(&trust)]);
+    let all = all.split_whitespace().collect_vec().join(" ");
+    assert!(
+        all.contains("those of test modes 1, 2, 3; they are paired by their frequencies."),
+        "{all}"
+    );
+}
+
+/// One root three times, and parts that would split it: no perturbation of single modes can follow.
+#[test]
+fn repeated_roots_in_the_papers_loops_name_the_other_method() {
+    let modes = modes_of(&oscillators(&[1000.0, 1300.0, 1650.0], 60.0));
+    let whole = DMatrix::from_diagonal_element(3, 3, 1000.0);
+    let part = oscillators(&[300.0, 310.0, 320.0], 60.0);
+    let parts = [0.5 * &part, 0.5 * &part, &whole - &part];
+    let refused = said(&job_of_matrices("paper", &whole, &parts, &modes));
+    let remedy = "compare.method = \"gauss_newton\" needs none";
+    assert!(refused.contains(remedy), "{refused}");
+}
+
+/// Six equal masses joined by five equal springs and held nowhere, whose shapes are cosines; the sensor of this place is turned.
+fn free_chain(turned: Option<usize>) -> Files {
+    let spring = |place: usize| springs(6, &[(place + 1, Some(place), 1000.0)]).dense();
+    let parts = [0, 1, 2, 3, 4].map(spring);
+    let angle = |mode: usize| PI * mode as f64 / 12.0;
+    // The springs are a tenth softer than the model's.
+    let hertz = [1, 2, 3].map(|mode| 2.0 * 900.0_f64.sqrt() * angle(mode).sin() / TAU);
+    let shapes = DMatrix::from_fn(6, 3, |place, mode| {
+        let sign = if turned == Some(place) { -1.0 } else { 1.0 };
+        sign * (angle(mode + 1) * (2.0 * place as f64 + 1.0)).cos()
+    });
+    let modes = Modes::from_measured(&hertz, &shapes).unwrap();
+    job_of_matrices("gauss_newton", &parts.iter().sum(), &parts, &modes)
+}
+
+#[test]
+fn the_pre_flight_sees_a_turned_sensor_of_a_structure_that_hangs_free() {
+    let said = |turned| trust_in(&prepared(&free_chain(turned)));
+    let right = said(None);
+    assert_eq!((rigid_bodies(&right), right.has_doubt()), (1.0, false));
+    for place in 1..5 {
+        let trust = said(Some(place));
+        let named = format!("reversed-S{}", place + 1);
+        let is_named = |doubt: &Concern| doubt.stands() && doubt.identifier() == named;
+        assert!(trust.all().iter().any(is_named), "{named}: {trust:?}");
+    }
+}
