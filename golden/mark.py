@@ -56,6 +56,12 @@ def faults(vector, own, mistakes):
     return [say(keys, name) for name, keys in by_mistake.items()]
 
 
+def explained_in(vector):
+    """The chapters of the tour that explain a vector: one or two."""
+    chapter = vector["chapter"]
+    return chapter if isinstance(chapter, list) else [chapter]
+
+
 def mark(vectors, wrong_answers, answers):
     """A line for each wrong vector, and how many of all answers are right, wrong and missing."""
     lines, right, missing = [], 0, 0
@@ -77,8 +83,8 @@ def mark(vectors, wrong_answers, answers):
 def main(arguments):
     vectors = json.loads((HERE / "vectors.json").read_text())["vectors"]
     if arguments[:1] == ["--chapter"]:
-        chapters = sorted({vector["chapter"] for vector in vectors})
-        vectors = [vector for vector in vectors if str(vector["chapter"]) == "".join(arguments[1:2])]
+        chapters = sorted({chapter for vector in vectors for chapter in explained_in(vector)})
+        vectors = [vector for vector in vectors if "".join(arguments[1:2]) in map(str, explained_in(vector))]
         if not vectors:
             sys.exit(f"--chapter {' '.join(arguments[1:2])}: the chapters with vectors are {', '.join(map(str, chapters))}")
         arguments = arguments[2:]

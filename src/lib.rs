@@ -30,7 +30,7 @@
 //! - [`files`]: NASTRAN decks, matrices, tests.
 //! - [`job`]: a user's structure, from its files to the corrected model and its [`verdict`](job::verdict), with a pre-flight that
 //!   names mistakes in model and test before the first step.
-//! - [`tour`]: ten chapters that teach the method, with code that runs. Read this first if the paper is new to you.
+//! - [`tour`]: eleven chapters that teach the method, with code that runs. Read this first if the paper is new to you.
 //! - [`specification`]: every equation on one page, with its tests and the wrong forms that they notice.
 //! - `present` and the program `corfem`, with the feature `program`: tables, figures, a page, commands. How the paper's own cases are
 //!   shown stands beside the paper, in `paper/presentation`.

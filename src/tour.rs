@@ -1,4 +1,4 @@
-//! A guided tour of the method: ten chapters, ten minutes each, in which every number is computed where it stands.
+//! A guided tour of the method: eleven chapters, ten minutes each, in which every number is computed where it stands.
 //!
 //! Every chapter has its derivation, code that runs, one figure and one exercise with its answer. `cargo test --doc tour` compiles and
 //! runs all of it. Read in order; each chapter needs those before it and no other book.
@@ -7,12 +7,13 @@
 //! 2. [From one row to the recursion](chapter_02_recursion)
 //! 3. [Which mode is which, and how far apart](chapter_03_error_sum)
 //! 4. [The step](chapter_04_step)
-//! 5. [The inner loop](chapter_05_inner_loop)
-//! 6. [Condensation, and two bounds](chapter_06_condensation)
-//! 7. [The box and Cases 1 to 3](chapter_07_box)
-//! 8. [Case 4: finding a mistake](chapter_08_mistake)
-//! 9. [Noise, and what cannot be seen](chapter_09_noise)
-//! 10. [Your own structure](chapter_10_own_structure)
+//! 5. [One sentence, four readings](chapter_05_readings)
+//! 6. [The inner loop](chapter_06_inner_loop)
+//! 7. [Condensation, and two bounds](chapter_07_condensation)
+//! 8. [The box and Cases 1 to 3](chapter_08_box)
+//! 9. [Case 4: finding a mistake](chapter_09_mistake)
+//! 10. [Noise, and what cannot be seen](chapter_10_noise)
+//! 11. [Your own structure](chapter_11_own_structure)
 
 pub mod chapter_01_two_springs {
     #![doc = include_str!("../paper/tour/01_two_springs.md")]
@@ -48,27 +49,35 @@ pub mod chapter_04_step {
     #![doc = include_str!("../paper/figures/tour_04_narrow.svg")]
 }
 
-pub mod chapter_05_inner_loop {
+pub mod chapter_05_readings {
+    #![doc = include_str!("../paper/tour/05_readings.md")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/counted_gages.svg")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/counted_gages_narrow.svg")]
+}
+
+pub mod chapter_06_inner_loop {
     #![allow(rustdoc::invalid_html_tags, reason = "the figure's script writes tags")]
-    #![doc = include_str!("../paper/tour/05_inner_loop.md")]
+    #![doc = include_str!("../paper/tour/06_inner_loop.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_05.svg")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_05_narrow.svg")]
     #![doc = ""]
-    #![doc = include_str!("../paper/tour/05_play.html")]
+    #![doc = include_str!("../paper/tour/06_play.html")]
 }
 
-pub mod chapter_06_condensation {
-    #![doc = include_str!("../paper/tour/06_condensation.md")]
+pub mod chapter_07_condensation {
+    #![doc = include_str!("../paper/tour/07_condensation.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_06.svg")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_06_narrow.svg")]
 }
 
-pub mod chapter_07_box {
-    #![doc = include_str!("../paper/tour/07_box.md")]
+pub mod chapter_08_box {
+    #![doc = include_str!("../paper/tour/08_box.md")]
     #![doc = ""]
     #![doc = include_str!("../golden/figures/box_points.svg")]
     #![doc = ""]
@@ -83,24 +92,24 @@ pub mod chapter_07_box {
     #![doc = include_str!("../paper/figures/tour_07_narrow.svg")]
 }
 
-pub mod chapter_08_mistake {
-    #![doc = include_str!("../paper/tour/08_mistake.md")]
+pub mod chapter_09_mistake {
+    #![doc = include_str!("../paper/tour/09_mistake.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_08.svg")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_08_narrow.svg")]
 }
 
-pub mod chapter_09_noise {
-    #![doc = include_str!("../paper/tour/09_noise.md")]
+pub mod chapter_10_noise {
+    #![doc = include_str!("../paper/tour/10_noise.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_09.svg")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_09_narrow.svg")]
 }
 
-pub mod chapter_10_own_structure {
-    #![doc = include_str!("../paper/tour/10_own_structure.md")]
+pub mod chapter_11_own_structure {
+    #![doc = include_str!("../paper/tour/11_own_structure.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_10.svg")]
     #![doc = ""]

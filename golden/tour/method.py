@@ -3,8 +3,8 @@
     corfem dump 2 | python3 golden/tour/method.py        (or: method.py dump.json)
 
 It is given what the finite element model is asked for, K_D, M and the elements' shares of every analysis, and what was tested. All
-else it computes: modes (chapter 6), pairs and errors (3), derivatives (4), the step with its bounds and halvings (4, 5), new modes by
-Recursive 1 (2), and where the loops end (5). It prints the largest relative difference from the dump and fails above 1e-9.
+else it computes: modes (chapter 7), pairs and errors (3), derivatives (4), the step with its bounds and halvings (4 to 6), new modes by
+Recursive 1 (2), and where the loops end (6). It prints the largest relative difference from the dump and fails above 1e-9.
 """
 import json
 import sys
@@ -13,7 +13,7 @@ import numpy as np
 
 
 def modes(k, m):
-    """K v = w^2 M v with V^t M V = I, lowest first; M is diagonal (chapter 6)."""
+    """K v = w^2 M v with V^t M V = I, lowest first; M is diagonal (chapter 7)."""
     s = np.sqrt(np.diag(m))
     w2, v = np.linalg.eigh(k / np.outer(s, s))
     return w2, v / s[:, None]
@@ -115,7 +115,7 @@ def main():
     dump = json.load(open(sys.argv[1]) if len(sys.argv) > 1 else sys.stdin)
     test = {"w2": (2 * np.pi * np.array(dump["test"]["frequencies_hz"])) ** 2, "v": np.array(dump["test"]["V_G"])}
     settings, worst = dump["settings"], 0.0
-    # Case 3 keeps gages between its own two (chapter 5).
+    # Case 3 keeps gages between its own two (chapter 6).
     bounds = None
     if dump["case"] == 3:
         first = np.array(dump["analyses"][0]["sizes"][:15])

@@ -1,10 +1,11 @@
-//! The figures of the tour, by the number of their chapter: what is drawn is computed here. Those of the box stand beside.
+//! The figures of the tour, in the order of its chapters: what is drawn is computed here. Those of the box stand beside.
 
 use super::diagram::{Diagram, Series, SeriesMark};
 use super::tour_figures_box::{bounds, demands, deviations, gages, history, orders};
 use crate::prelude::*;
 
-/// Every chapter's figure.
+/// Every chapter's figure by the number of its file. Chapter 5 shows one of the readings, so that those behind it have one less than their
+/// chapter.
 pub fn figures() -> [(&'static str, Diagram); 10] {
     [
         ("01", two_springs()),

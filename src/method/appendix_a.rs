@@ -1,5 +1,5 @@
 //! Appendix A: the structural stiffness, and from structural to dynamic degrees of freedom.
-//! Tour: [chapter 6](crate::tour::chapter_06_condensation).
+//! Tour: [chapter 7](crate::tour::chapter_07_condensation).
 
 use super::elements::unit_stiffness;
 use super::error::{Error, Result, at_least_one, check_places};

@@ -1,5 +1,5 @@
 //! Appendix B: measured modes made fit for correlation.
-//! Tour: [chapter 9](crate::tour::chapter_09_noise).
+//! Tour: [chapter 10](crate::tour::chapter_10_noise).
 //!
 //! Measured modes violate equilibrium and orthogonality by the errors of the test. Three steps, in order:
 //!

@@ -1,5 +1,5 @@
 //! The inner loop: steps by perturbation alone, from one exact solution to the next.
-//! Tour: [chapter 5](crate::tour::chapter_05_inner_loop).
+//! Tour: [chapter 6](crate::tour::chapter_06_inner_loop).
 
 use super::analysis::{Analysis, State};
 use super::error::{Error, Result, positive};

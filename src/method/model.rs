@@ -1,5 +1,5 @@
 //! The finite element model as the correlation sees it: a structure, its dynamic points, what may change, and its analysis.
-//! Tour: [chapter 10](crate::tour::chapter_10_own_structure).
+//! Tour: [chapter 11](crate::tour::chapter_11_own_structure).
 
 use super::analysis::{Analysis, DERIVATIVE_STEP, State, changes_by, without_close_couplings};
 use super::appendix_a::{

@@ -1,5 +1,5 @@
 //! The structure: grid points, materials, elements, and which motions are constrained.
-//! Tour: [chapter 7](crate::tour::chapter_07_box).
+//! Tour: [chapter 8](crate::tour::chapter_08_box).
 
 use super::error::{Error, Result, at_least_one, check_count, positive, require};
 use nalgebra::Vector3;

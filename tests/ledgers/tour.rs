@@ -157,7 +157,7 @@ fn what_the_tour_quotes_are_the_lines_of_the_method() {
 /// The loop fits on a screen, and a reader sees all of a line.
 #[test]
 fn the_whole_loop_has_fifteen_lines_at_most() {
-    let (_, text) = &chapters()["05"];
+    let (_, text) = &chapters()["06"];
     let (_, rest) = text.split_once("## The whole loop\n\n```text\n").unwrap();
     let lines = rest.split("```").next().unwrap().lines().collect_vec();
     assert!((10..=15).contains(&lines.len()), "{} lines", lines.len());

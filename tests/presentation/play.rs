@@ -37,10 +37,10 @@ fn figure_to_play_with_is_short_and_needs_nothing_beside_it() {
     );
 }
 
-/// Chapter 5 of the tour has the same figure.
+/// Chapter 6 of the tour has the same figure.
 #[test]
 fn figure_of_the_tour_is_that_of_the_report() {
-    let path = in_root("paper/tour/05_play.html");
+    let path = in_root("paper/tour/06_play.html");
     let html = html();
     if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "1") {
         fs::write(&path, &html).unwrap();

@@ -1,5 +1,5 @@
 //! The one factorization, of every symmetric matrix, with its inertia.
-//! Tour: [chapter 6](crate::tour::chapter_06_condensation).
+//! Tour: [chapter 7](crate::tour::chapter_07_condensation).
 
 mod plan;
 
