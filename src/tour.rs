@@ -61,9 +61,9 @@ pub mod chapter_06_inner_loop {
     #![allow(rustdoc::invalid_html_tags, reason = "the figure's script writes tags")]
     #![doc = include_str!("../paper/tour/06_inner_loop.md")]
     #![doc = ""]
-    #![doc = include_str!("../paper/figures/tour_05.svg")]
+    #![doc = include_str!("../paper/figures/tour_06.svg")]
     #![doc = ""]
-    #![doc = include_str!("../paper/figures/tour_05_narrow.svg")]
+    #![doc = include_str!("../paper/figures/tour_06_narrow.svg")]
     #![doc = ""]
     #![doc = include_str!("../paper/tour/06_play.html")]
 }
@@ -71,9 +71,9 @@ pub mod chapter_06_inner_loop {
 pub mod chapter_07_condensation {
     #![doc = include_str!("../paper/tour/07_condensation.md")]
     #![doc = ""]
-    #![doc = include_str!("../paper/figures/tour_06.svg")]
+    #![doc = include_str!("../paper/figures/tour_07.svg")]
     #![doc = ""]
-    #![doc = include_str!("../paper/figures/tour_06_narrow.svg")]
+    #![doc = include_str!("../paper/figures/tour_07_narrow.svg")]
 }
 
 pub mod chapter_08_box {
@@ -87,31 +87,31 @@ pub mod chapter_08_box {
     #![doc = ""]
     #![doc = include_str!("../golden/figures/case_1_mode_shapes_narrow.svg")]
     #![doc = ""]
-    #![doc = include_str!("../paper/figures/tour_07.svg")]
-    #![doc = ""]
-    #![doc = include_str!("../paper/figures/tour_07_narrow.svg")]
-}
-
-pub mod chapter_09_mistake {
-    #![doc = include_str!("../paper/tour/09_mistake.md")]
-    #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_08.svg")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_08_narrow.svg")]
 }
 
-pub mod chapter_10_noise {
-    #![doc = include_str!("../paper/tour/10_noise.md")]
+pub mod chapter_09_mistake {
+    #![doc = include_str!("../paper/tour/09_mistake.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_09.svg")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_09_narrow.svg")]
 }
 
-pub mod chapter_11_own_structure {
-    #![doc = include_str!("../paper/tour/11_own_structure.md")]
+pub mod chapter_10_noise {
+    #![doc = include_str!("../paper/tour/10_noise.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_10.svg")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_10_narrow.svg")]
+}
+
+pub mod chapter_11_own_structure {
+    #![doc = include_str!("../paper/tour/11_own_structure.md")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_11.svg")]
+    #![doc = ""]
+    #![doc = include_str!("../paper/figures/tour_11_narrow.svg")]
 }
