@@ -126,6 +126,23 @@ fn a_mode_held_out_is_compared_and_not_fitted() {
     );
     let apart = (1.0 + right.measure[1] / 100.0) / (1.0 + wrong.measure[1] / 100.0);
     assert_within(apart, 1.02, 1e-6);
+    // The answer tells it apart from the others, whose errors are those of a job without it.
+    let answer = |found: &JobResult| {
+        Report::from_job(&found.found.prepared, Some(found))
+            .unwrap()
+            .answer()
+    };
+    let without = with(
+        third_higher(rods()),
+        "job.toml",
+        "[test]",
+        "[test]\nmodes = [1, 2]",
+    );
+    let (without, off) = (answer(&ran(&without)), answer(&off));
+    let errors = without.split([',', ';']).next().unwrap();
+    let [before, after] = [wrong.measure[0], wrong.measure[1]].map(f64::abs);
+    let expected = format!("{errors}, held out {before:.2} → {after:.2} %");
+    assert!(off.starts_with(&expected), "{off} {expected}");
     assert!(ran(&rods()).trust.of(Kind::HeldOut).next().is_none());
     for (modes, says) in [
         ("[4]", "mode 4 is none of the test modes"),

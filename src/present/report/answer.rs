@@ -1,6 +1,8 @@
 //! The answer of a report in one line, and its parameters in the order of what is surest.
 
 use super::Report;
+use crate::job::concern::Kind;
+use crate::method::error_sum::Errors;
 use crate::present::table::Digits;
 use crate::present::tables::RMS_PERCENT;
 use crate::weighted::identifiability::MOSTLY_PRIOR;
@@ -61,6 +63,32 @@ impl Report {
         order
     }
 
+    /// The fall of the root mean square errors of `count` modes, those that are held out told apart: their numbers begin at `place`.
+    fn fall(&self, what: &str, rms: [f64; 2], count: usize, place: usize) -> String {
+        let held = [Kind::HeldOut, Kind::HeldOutFrequency];
+        let held = held
+            .into_iter()
+            .flat_map(|kind| self.trust.iter().flat_map(move |it| it.of(kind)));
+        let held: Vec<&[f64]> = held
+            .filter_map(|own| own.measure.get(place..place + 2))
+            .collect();
+        let squares = [0, 1].map(|end| held.iter().map(|own| own[end].powi(2)).sum::<f64>());
+        let words = |squares: [f64; 2], count: usize| {
+            let [first, last] =
+                squares.map(|sum| RMS_PERCENT.write((sum.max(0.0) / count as f64).sqrt()));
+            format!("{first} → {last} %")
+        };
+        let rest = [0, 1].map(|end| count as f64 * (100.0 * rms[end]).powi(2) - squares[end]);
+        match held.len() {
+            0 => format!("{what} error {}", words(rest, count)),
+            out => format!(
+                "{what} error {}, held out {}",
+                words(rest, count - out),
+                words(squares, out)
+            ),
+        }
+    }
+
     /// One line: what is against it, the errors before and after, the surest changes, and how many factors are known.
     pub fn answer(&self) -> String {
         let against = match &self.verdict {
@@ -74,17 +102,11 @@ impl Report {
             _ => "",
         };
         let (first, last) = (&self.initial.errors, &self.corrected().errors);
-        let fall = |what: &str, first: f64, last: f64| {
-            let [first, last] = [first, last].map(|error| RMS_PERCENT.write(100.0 * error));
-            format!("{what} error {first} → {last} %")
-        };
-        let mut parts = vec![fall(
-            "frequency",
-            first.frequency_rms(),
-            last.frequency_rms(),
-        )];
+        let rms = [first, last].map(Errors::frequency_rms);
+        let mut parts = vec![self.fall("frequency", rms, first.frequency_count, 0)];
         if self.test.len() > 0 {
-            parts.push(fall("shape", first.shape_rms(), last.shape_rms()));
+            let rms = [first, last].map(Errors::shape_rms);
+            parts.push(self.fall("shape", rms, first.shape_count, 2));
         }
         let errors = parts.join(", ");
         let surest = self.by_sureness().into_iter().take(NAMED);
