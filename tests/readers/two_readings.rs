@@ -40,6 +40,34 @@ properties! {
     }
 }
 
+/// Numbers that touch are those of their columns, unless a column ends within one of them.
+#[test]
+fn columns_that_cut_a_number_are_refused() {
+    let read_as = |line: &str| {
+        read(
+            "wing.unv",
+            real_mode(&format!("        12\n{line}\n")).as_bytes(),
+        )
+    };
+    for (line, found) in [
+        (
+            "-1.000000E+00-2.000000E+00-3.000000E+00",
+            [-1.0, -2.0, -3.0],
+        ),
+        ("1.0000000E+001.2500000D-013.0000000E+00", [1.0, 0.125, 3.0]),
+    ] {
+        assert_eq!(read_as(line).unwrap().shapes.as_slice(), found, "{line}");
+    }
+    for line in [
+        // Three numbers of 26 columns are six of 13.
+        "-0.6843851563267933091d+00-0.5000000000000000000d+00-0.2500000000000000000d+00",
+        // The last digit of an exponent stands in the second column.
+        "1.23456789E+00            2.0",
+    ] {
+        assert!(read_as(line).is_err(), "{line}");
+    }
+}
+
 /// A sensor whose motion is along the directions of a cylindrical system at 30 degrees of its place.
 #[test]
 fn cylindrical_axes_of_a_test_turn_with_the_angle() {

@@ -54,14 +54,16 @@ impl<'a> Block<'a> {
     }
 
     /// The numbers of the next line in columns of the given widths, or between blanks; the rest of the line is ignored. A line that gives
-    /// other numbers by columns than by blanks is refused.
+    /// other numbers by columns than by blanks is refused, as is one whose columns cut a number that blanks do not give.
     pub fn reals(&mut self, what: &str, widths: &[usize]) -> Result<Vec<f64>, FileError> {
         let line = self.line(what)?;
-        let mut start = 0;
+        let (mut start, mut is_number_cut) = (0, false);
         let column = |&width: &usize| {
-            let text = line.get(start..line.len().min(start + width));
+            let end = line.len().min(start + width);
+            let text = line.get(start..end)?;
+            is_number_cut |= is_cut(text, &line[end..]);
             start += width;
-            text.and_then(|text| real(text.trim()))
+            real(text.trim())
         };
         let by_columns: Option<Vec<f64>> = widths.iter().map(column).collect();
         let by_blanks = || {
@@ -77,6 +79,7 @@ impl<'a> Block<'a> {
                 line.trim(),
                 widths[0]
             ))),
+            (Some(_), None) if is_number_cut => Err(self.is_not(line.trim(), what)),
             (by_columns, by_blanks) => by_columns
                 .or(by_blanks)
                 .ok_or_else(|| self.is_not(line.trim(), what)),
@@ -90,6 +93,19 @@ impl<'a> Block<'a> {
             .map(|number| integer(number).ok_or_else(|| self.is_not(number, what)))
             .collect()
     }
+}
+
+/// True if a column ends within a number: between two digits of which the first ends no exponent of two.
+fn is_cut(column: &str, rest: &str) -> bool {
+    let is_digit = |own: char| own.is_ascii_digit();
+    let mantissa = column.trim_end_matches(is_digit);
+    let unsigned = mantissa.trim_end_matches(['+', '-']);
+    let is_exponent = match unsigned.len() < mantissa.len() {
+        true => unsigned.ends_with(|own: char| is_digit(own) || "eEdD.".contains(own)),
+        false => unsigned.ends_with(['e', 'E', 'd', 'D']),
+    };
+    let digits = column.len() - mantissa.len();
+    digits > 0 && rest.starts_with(is_digit) && !(is_exponent && digits > 1)
 }
 
 /// A whole number from zero up.
