@@ -157,6 +157,10 @@ properties! {
             };
             let moved = |order: usize| largest_change(&of_order(order).unwrap().roots, &of_order(order - 1).unwrap().roots);
             let is_quiet = |order| order > 1 && moved(order) < ROOT_TOLERANCE;
+            // A change within round-off of the tolerance may be told either way.
+            if (2..=settled.order).any(|order| (moved(order) - ROOT_TOLERANCE).abs() < 8.0 * f64::EPSILON) {
+                continue;
+            }
             let stop = (2..MOST_ORDERS).find(|&order| is_quiet(order) && is_quiet(order + 1 - quiet));
             prop_assert_eq!(Some(settled.order), stop);
             prop_assert_eq!(found, &of_order(settled.order)?);
