@@ -18,7 +18,8 @@ pub enum Error {
     LostRoot(usize),
     /// Two modes came so close that the denominator of (C.21) vanished.
     CloseModes(usize, usize),
-    /// Recursive 1 did not settle in the orders allowed; the last relative change of a root.
+    /// Recursive 1 did not settle in the orders allowed, or its residuals do not prove it; the last relative change of a root, and the
+    /// bound on its error.
     Unsettled(f64, f64),
 }
 

@@ -8,7 +8,7 @@ use crate::method::structure::StructuralDof;
 use crate::sparse::SparseMatrix;
 use crate::weighted::comparison::Comparison;
 use crate::weighted::measurements::deviations;
-use nalgebra::{DMatrix, DVectorView};
+use nalgebra::DMatrix;
 use std::sync::Arc;
 
 /// Multiplications that the changes of one kind may take together: about a quarter of a second.
@@ -105,10 +105,12 @@ impl PreparedJob {
         }))?;
         // Without the only sensor that sees it a test mode has no shape.
         let shapes = &at_hand.model.test.shapes;
-        let is_seen = |shape: DVectorView<f64>| shape.amax() > NOTHING * shapes.amax();
-        let without = |row: &usize| shapes.clone().remove_row(*row);
-        let all = (0..placed.len()).filter(|row| without(row).column_iter().all(is_seen));
-        let all: Vec<usize> = all.collect();
+        let least = NOTHING * shapes.amax();
+        let is_needed = |row: usize| {
+            let mut columns = shapes.column_iter();
+            columns.any(|shape| (0..shape.len()).all(|own| own == row || shape[own].abs() <= least))
+        };
+        let all: Vec<usize> = (0..placed.len()).filter(|&row| !is_needed(row)).collect();
         let alone = placed.len() - all.len();
         let of_alone = || format!("Not ranked: {alone} sensors that see a test mode alone.");
         unranked.extend((alone > 0 && placed.len() > 1).then(of_alone));

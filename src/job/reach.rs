@@ -28,10 +28,8 @@ impl PreparedJob {
         let (exact, shares) = (&model.model.exact, &model.model.shares);
         let room = |e: usize| {
             let prior = (FAR * source.priors[e]).exp();
-            let range = ranges[e].unwrap_or(Bounds {
-                lower: 1.0 / prior,
-                upper: prior,
-            });
+            let (lower, upper) = (1.0 / prior, prior);
+            let range = ranges[e].unwrap_or(Bounds { lower, upper });
             // The state of an analysis has factors on what it began with; its place knows them all.
             let now = model.model.whole().map_or(1.0, |place| place.factors[e]);
             [range.lower / now - 1.0, range.upper / now - 1.0]
@@ -76,11 +74,8 @@ impl PreparedJob {
             let about = [test + 1, partner + 1];
             let ratio = own / hertz[partner];
             if !self.is_within(near, test) {
-                return Some(Concern::new(
-                    Kind::BeyondReach,
-                    &about,
-                    &[own, near.lower, near.upper],
-                ));
+                let measure = [own, near.lower, near.upper];
+                return Some(Concern::new(Kind::BeyondReach, &about, &measure));
             }
             let is_far = ratio.max(1.0 / ratio) > FAR_APART;
             is_far.then(|| Concern::new(Kind::FarApart, &about, &[own, hertz[partner], ratio]))
@@ -98,10 +93,9 @@ impl PreparedJob {
     ) -> DMatrix<f64> {
         assurance.map_with_location(|mode, test, close| {
             let is_compared = self.modes.contains(&tests[test]);
-            if is_compared || self.is_within(reach[mode], tests[test]) {
-                close
-            } else {
-                0.0
+            match is_compared || self.is_within(reach[mode], tests[test]) {
+                true => close,
+                false => 0.0,
             }
         })
     }

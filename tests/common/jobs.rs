@@ -266,6 +266,11 @@ pub fn supposing(files: Files, prior: f64, rigid: usize) -> Files {
     }
 }
 
+/// Text without the breaks of lines.
+pub fn unbroken(text: &str) -> String {
+    text.split_whitespace().collect_vec().join(" ")
+}
+
 /// What is said of a job, without its folder.
 pub fn said(files: &Files) -> String {
     let (folder, path) = placed(files);

@@ -1,6 +1,6 @@
 //! Modes that join a correction, stay out of it or are told by frequency alone, by both methods.
 
-use crate::common::jobs::{of_parts, run, said};
+use crate::common::jobs::{of_parts, run, said, unbroken};
 use crate::prelude::*;
 use crate::readers::job_concerns::rigid_bodies;
 use corfem::job::concern::Grade;
@@ -140,8 +140,7 @@ fn what_shapes_do_not_decide_is_paired_by_frequency_and_said() {
     assert_eq!(exact.pairing.analysis_mode, [0, 1, 2]);
     let trust = trust_in(&loaded);
     assert_eq!(trust.about(Kind::Undecided), ["1", "2", "3"]);
-    let all = render::text(&[trust_table(&trust)]);
-    let all = all.split_whitespace().collect_vec().join(" ");
+    let all = unbroken(&render::text(&[trust_table(&trust)]));
     assert!(
         all.contains("those of test modes 1, 2, 3; they are paired by their frequencies."),
         "{all}"

@@ -235,6 +235,9 @@ fn mode_labels(report: &Report, count: usize) -> Vec<String> {
 /// # Errors
 /// The errors of [`Report::agreement`].
 pub fn assurance_maps(report: &Report) -> Result<String, Error> {
+    if report.test.len() == 0 {
+        return Ok(String::new());
+    }
     let [first, last] = [&report.initial, report.corrected()];
     let maps = [("before", first), ("after", last)].map(|(when, check)| {
         let found = report.agreement(check)?;
@@ -267,7 +270,7 @@ pub fn assurance_maps(report: &Report) -> Result<String, Error> {
             written: (100.0, 0),
             framed: pairs,
         };
-        Ok(if pairs.is_empty() { String::new() } else { heat.draw() })
+        Ok(heat.draw())
     });
     maps.into_iter().collect()
 }

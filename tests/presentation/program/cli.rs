@@ -62,11 +62,6 @@ pub fn numbers(value: &Value) -> Vec<f64> {
     numbers.map(|number| number.as_f64().unwrap()).collect()
 }
 
-/// Text without the breaks of lines.
-pub fn unbroken(text: &str) -> String {
-    text.split_whitespace().collect_vec().join(" ")
-}
-
 /// A path on a command line.
 pub fn words(path: &Path) -> &str {
     path.to_str().unwrap()

@@ -1,8 +1,8 @@
 //! `corfem correlate` and `corfem check JOB` from outside: what they print, write and leave alone.
 
-use crate::common::jobs::folder_of;
+use crate::common::jobs::{folder_of, unbroken};
 use crate::prelude::*;
-use crate::presentation::program::cli::{corfem, numbers, text, unbroken, words};
+use crate::presentation::program::cli::{corfem, numbers, text, words};
 use corfem::present::render::WIDTH;
 use std::process::Output;
 

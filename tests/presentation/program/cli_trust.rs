@@ -1,7 +1,7 @@
 //! What may lower the trust in a job's result, in every output and in the exit status.
 
+use crate::common::jobs::unbroken;
 use crate::prelude::*;
-use crate::presentation::program::cli::unbroken;
 use corfem::present::json;
 use corfem::present::page::report_page;
 

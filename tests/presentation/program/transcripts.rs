@@ -8,8 +8,9 @@
 //! `<` the most characters of a line.
 
 use crate::common::jobs::folder_of;
+use crate::common::jobs::unbroken;
 use crate::prelude::*;
-use crate::presentation::program::cli::{text, unbroken};
+use crate::presentation::program::cli::text;
 use std::process::Output;
 
 fn ran(folder: &Path, words: &str) -> Output {
