@@ -6,6 +6,7 @@ pub mod properties;
 
 pub mod prelude;
 
+pub mod answer;
 pub mod appendix_b;
 pub mod appendix_c;
 pub mod boxes;

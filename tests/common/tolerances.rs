@@ -17,6 +17,10 @@ pub const HELD_OUT: f64 = 1e-3;
 pub const SET_UP: f64 = 0.05;
 /// Quantiles of chi-squared, which are sought to the root of the rounding of doubles and better.
 pub const QUANTILE: f64 = 1e-9;
+/// Ends of golden runs, in standard deviations of a factor: steps end within a hundred-thousandth of the optimum.
+pub const RUN_DEVIATIONS: f64 = 1e-3;
+/// Chi-squared of golden runs that end where it is not stationary, relative to the larger of it and one.
+pub const RUN_OBJECTIVE: f64 = 1e-6;
 /// What is round-off and nothing else: errors over nine modes whose roots span 4e4.
 pub const ROUND_OFF_FLOOR: f64 = 1e-11;
 /// A matrix product chain of a dozen DOF, relative to its largest entry.

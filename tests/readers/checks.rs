@@ -27,7 +27,7 @@ fn few(files: Files, count: usize) -> Files {
 }
 
 /// Masses that move along x and y, with sensors along x; at one of them a sensor along y is taken for one along x.
-fn plane(is_turned: bool) -> Files {
+pub fn plane(is_turned: bool) -> Files {
     let rows = 12;
     let row = |grid: usize, along: usize| 2 * grid + along;
     let mut all = Vec::new();
@@ -63,7 +63,7 @@ fn plane(is_turned: bool) -> Files {
 }
 
 /// Masses in a row on springs between them, held nowhere.
-fn free() -> Files {
+pub fn free() -> Files {
     let links = (1..6).map(|row| (row, Some(row - 1), 1e5)).collect_vec();
     let (stiffness, mass) = (springs(6, &links).dense(), masses(&[3.0; 6]).dense());
     let all = solve(&(&stiffness + 1e-3 * &mass), &mass, 6).unwrap();

@@ -4,7 +4,7 @@ use crate::prelude::*;
 
 /// Two towers of three floors side by side, one stiffer than the other by `split`, and a test of both in which every pair of modes is
 /// turned by an angle (radians) and its stiffer tower is stiffer by `truth`.
-fn towers([split, truth, angle]: [f64; 3]) -> Files {
+pub fn towers([split, truth, angle]: [f64; 3]) -> Files {
     let tower = |first: usize, size: f64| {
         let spring =
             move |row: usize| (first + row, row.checked_sub(1).map(|row| first + row), size);

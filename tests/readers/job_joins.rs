@@ -44,7 +44,7 @@ fn joined(method: &str, [first, real]: [&[f64]; 2], joint: f64) -> Files {
 }
 
 /// A job one of whose test modes resembles no mode of the first model, until the two others have told the springs apart.
-fn mixed(method: &str) -> Files {
+pub fn mixed(method: &str) -> Files {
     let (first, real) = ([1000.0, 1050.0, 1100.0], [1000.0, 1300.0, 1650.0]);
     joined(method, [&first, &real], 60.0)
 }
@@ -160,7 +160,7 @@ fn repeated_roots_in_the_papers_loops_name_the_other_method() {
 }
 
 /// Six equal masses joined by five equal springs and held nowhere, whose shapes are cosines; the sensor of this place is turned.
-fn free_chain(turned: Option<usize>) -> Files {
+pub fn free_chain(turned: Option<usize>) -> Files {
     let spring = |place: usize| springs(6, &[(place + 1, Some(place), 1000.0)]).dense();
     let parts = [0, 1, 2, 3, 4].map(spring);
     let angle = |mode: usize| PI * mode as f64 / 12.0;

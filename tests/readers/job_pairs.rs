@@ -10,13 +10,13 @@ fn ready(files: &Files) -> PreparedJob {
     prepared(files)
 }
 
-fn normal(draws: &mut Draws) -> f64 {
+pub fn normal(draws: &mut Draws) -> f64 {
     let radius = (-2.0 * (1.0 - uniform(&mut draws.0)).ln()).sqrt();
     radius * (TAU * uniform(&mut draws.0)).cos()
 }
 
 /// A net of springs and masses in a row with some cross links, in parameters of one matrix each.
-fn net(draws: &mut Draws, parameters: usize) -> (WholeModel, Vec<DMatrix<f64>>, DMatrix<f64>) {
+pub fn net(draws: &mut Draws, parameters: usize) -> (WholeModel, Vec<DMatrix<f64>>, DMatrix<f64>) {
     let count = 8 + draws.below(8);
     let mut parts = vec![DMatrix::zeros(count, count); parameters];
     for row in 0..count {

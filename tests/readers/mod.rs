@@ -43,6 +43,7 @@ pub mod nastran95_process;
 pub mod nastran95_program;
 pub mod readers_survive;
 pub mod repeats;
+mod runs;
 pub mod study;
 pub mod study_draws;
 pub mod test_data;

@@ -5,12 +5,12 @@ use crate::common::jobs::said;
 use crate::prelude::*;
 
 /// The building's exact test.
-fn exact() -> TestData {
+pub fn exact() -> TestData {
     prepared(&building()).loaded.data.clone()
 }
 
 /// The same with noise, scaled and signed anyhow as an identification leaves it.
-fn noisy(exact: &TestData, seed: u64) -> TestData {
+pub fn noisy(exact: &TestData, seed: u64) -> TestData {
     let modes = Modes::from_measured(&exact.frequencies_hz, &exact.shapes).unwrap();
     let test = with_noise(&modes, Noise::USUAL, seed).unwrap();
     let (mut shapes, mut draws) = (test.shapes().clone(), Draws(seed));
@@ -25,7 +25,7 @@ fn noisy(exact: &TestData, seed: u64) -> TestData {
 }
 
 /// The building's job with these tests as repeats, and these modes of them (from one).
-fn repeated(tests: &[TestData], modes: &str) -> Files {
+pub fn repeated(tests: &[TestData], modes: &str) -> Files {
     let names = (1..=tests.len())
         .map(|number| format!("{number}.csv"))
         .collect_vec();
