@@ -18,7 +18,6 @@ use crate::weighted::residuals::DEVIATIONS;
 use sha2::{Digest, Sha256};
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 /// A job with everything it names read and matched.
 #[derive(Debug, Clone)]
@@ -35,8 +34,6 @@ pub struct LoadedJob {
     pub placed: Vec<PlacedSensor>,
     /// Matrix that reads them off the model (sensors × DOF).
     pub sensors: SparseMatrix,
-    /// Ends, once true, an analysis of a factor's step under way; none to let each end.
-    pub stop: Option<Arc<AtomicBool>>,
     /// Numbers of the test modes that the job selects.
     numbers: Vec<usize>,
     /// Selected test modes, from zero, of which a frequency alone is known, ascending, with their partners in the first model.
@@ -111,7 +108,6 @@ impl LoadedJob {
             data,
             placed,
             sensors,
-            stop: None,
             numbers,
             alone,
         })

@@ -40,7 +40,7 @@ pub use concern::{Concern, Kind, Trust};
 #[doc(hidden)]
 pub use concerns::of_bodies;
 #[doc(hidden)]
-pub use correlated::{CorrelatedJob, History, Trial};
+pub use correlated::{CorrelatedJob, History};
 #[doc(hidden)]
 pub use entries::removed_step;
 pub use judged::{JobResult, run};

@@ -60,8 +60,6 @@ pub struct PreparedJob {
     pub analysis_modes: usize,
     /// The first analysis, with as many modes as the pre-flight looks at.
     pub(super) first: Arc<Place>,
-    /// Analyses at hand where a run begins that compares more modes, with their factors.
-    at_hand: Vec<(Vec<f64>, Arc<Place>)>,
     /// Shapes of the partners of frequencies alone, as the sensors see them.
     partner_shapes: DMatrix<f64>,
 }
@@ -99,7 +97,6 @@ impl PreparedJob {
             undecided: Vec::new(),
             together: Vec::new(),
             analysis_modes,
-            at_hand: vec![(loaded.ones(), Arc::clone(&first))],
             first,
             partner_shapes: exact.shapes.select_columns(&partners),
             loaded: Arc::new(loaded),
@@ -165,17 +162,13 @@ impl PreparedJob {
             self.test = self.test.select(&kept);
             self.modes = kept.into_iter().map(|mode| self.modes[mode]).collect();
         }
-        self.together = self.indistinct(exact, |_| EQUAL)?;
+        self.together = self.indistinct(exact)?;
         Ok(self)
     }
 
     /// Groups of the test modes with shapes, by place, whose frequencies are no further apart than the test's deviations tell, or those of
     /// their partners among these modes than by other relative deviations ([`indistinct_groups`]).
-    fn indistinct(
-        &self,
-        exact: &Modes,
-        told: impl Fn(f64) -> f64,
-    ) -> Result<Vec<Vec<usize>>, FileError> {
+    fn indistinct(&self, exact: &Modes) -> Result<Vec<Vec<usize>>, FileError> {
         let hertz: Vec<f64> = self
             .modes
             .iter()
@@ -192,7 +185,7 @@ impl PreparedJob {
         let of_model = partners.iter().zip(&hertz);
         let of_model = of_model.map(|(partner, own)| partner.map_or(*own, |mode| roots[mode]));
         let mut groups = indistinct_groups(&hertz, &deviations);
-        let of_root: Vec<f64> = deviations.into_iter().map(told).collect();
+        let of_root = vec![EQUAL; deviations.len()];
         for more in indistinct_groups(&of_model.collect::<Vec<_>>(), &of_root) {
             let (meeting, mut apart): (Vec<_>, Vec<_>) = groups
                 .into_iter()
@@ -204,26 +197,6 @@ impl PreparedJob {
         }
         groups.sort_by(|a, b| hertz[a[0]].total_cmp(&hertz[b[0]]));
         Ok(groups)
-    }
-
-    /// A job like this one with groups split whose modes a later model and the test tell apart; none where no group splits.
-    pub(super) fn split_by(&self, model: &Comparison) -> Result<Option<Self>, FileError> {
-        let apart = self.indistinct(&model.model.exact.modes, |deviation| deviation)?;
-        let split = |group: &Vec<usize>| -> Vec<Vec<usize>> {
-            let kept = |of: &Vec<usize>| -> Vec<usize> {
-                of.iter()
-                    .copied()
-                    .filter(|mode| group.contains(mode))
-                    .collect()
-            };
-            apart.iter().map(kept).filter(|of| !of.is_empty()).collect()
-        };
-        let together: Vec<Vec<usize>> = self.together.iter().flat_map(split).collect();
-        let is_split = together.len() > self.together.len();
-        Ok(is_split.then(|| Self {
-            together,
-            ..self.clone()
-        }))
     }
 
     /// Test modes, from zero, of which a frequency alone is compared, ascending, with their partners in the first model.
@@ -296,7 +269,7 @@ impl PreparedJob {
         let hertz = &self.loaded.data.frequencies_hz;
         again.modes.sort_by(|&a, &b| hertz[a].total_cmp(&hertz[b]));
         again.test = self.loaded.measured(&again.modes)?;
-        again.together = again.indistinct(&self.first.modes(self.analysis_modes)?, |_| EQUAL)?;
+        again.together = again.indistinct(&self.first.modes(self.analysis_modes)?)?;
         Ok(again)
     }
 
@@ -441,16 +414,6 @@ impl PreparedJob {
         self.compared().map(weight).collect()
     }
 
-    /// This job with analyses that it need not make again.
-    pub(super) fn with_analyses(mut self, made: [(&[f64], &Comparison); 2]) -> Self {
-        let places = made.into_iter().filter_map(|(factors, comparison)| {
-            let place = comparison.model.whole()?;
-            Some((factors.to_vec(), Arc::clone(place)))
-        });
-        self.at_hand.extend(places);
-        self
-    }
-
     /// The modal model of the loops at the given parameter factors.
     ///
     /// # Errors
@@ -470,13 +433,13 @@ impl PreparedJob {
             modes: self.analysis_modes,
             residual_vectors: self.residual_vectors(),
         };
-        let mut known = self.at_hand.iter().filter(|(at, _)| at == factors);
-        let model = match known.next() {
-            Some((_, place)) => {
+        let model = match factors == self.loaded.ones() {
+            true => {
                 let deflections = Deflections::Each(size.residual_vectors);
-                SensorModel::of_whole(Arc::clone(place), size.modes, &self.test, pair, deflections)
+                let first = Arc::clone(&self.first);
+                SensorModel::of_whole(first, size.modes, &self.test, pair, deflections)
             }
-            None => {
+            false => {
                 let sensors = &self.loaded.sensors;
                 whole.analyze_near(factors, sensors, &self.test, pair, size, near)
             }

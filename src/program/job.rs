@@ -241,9 +241,6 @@ fn corrected(
 ) -> Result<(PreparedJob, JobResult), PresentError> {
     let mut loaded = LoadedJob::new(job_file(&arguments.job)?)?;
     let go_on = || !stop.load(Ordering::SeqCst);
-    // The paper's loops keep a pass only when its analysis has ended.
-    let may_end = arguments.starts.is_some() || loaded.job.compare.method == Method::GaussNewton;
-    loaded.stop = may_end.then(|| Arc::clone(&stop));
     if let Some(starts) = arguments.starts {
         let compare = &mut loaded.job.compare;
         compare.method = Method::GaussNewton;

@@ -123,7 +123,6 @@ impl Report {
             work: Some(found.work),
             minima,
             starts,
-            trials: found.trials.clone(),
             intervals: intervals.clone(),
             residuals: mode_residuals(found)?,
             moved: moved(found),

@@ -5,7 +5,7 @@ pub(super) mod job;
 
 use crate::job::concern::Grade;
 use crate::job::verdict::Verdict;
-use crate::job::{Kind, Trial, Trust};
+use crate::job::{Kind, Trust};
 use crate::method::analysis::DERIVATIVE_STEP;
 use crate::method::error::Error;
 use crate::method::error_sum::Errors;
@@ -144,8 +144,6 @@ pub struct Report {
     pub minima: Vec<Minimum>,
     /// The end of every start of weighted steps; none where it failed.
     pub starts: Vec<Option<StartEnd>>,
-    /// Trials of other results, in their order.
-    pub trials: Vec<Trial>,
     /// The interval of every parameter, or why it has none; none of a report without a result.
     #[serde(serialize_with = "ends_or_reasons")]
     pub intervals: Vec<Result<Bounds, Withheld>>,
@@ -289,7 +287,6 @@ impl Report {
             work: None,
             minima: Vec::new(),
             starts: Vec::new(),
-            trials: Vec::new(),
             intervals: Vec::new(),
             residuals: Vec::new(),
             truth: Vec::new(),
