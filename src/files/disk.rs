@@ -4,10 +4,10 @@
 //! one fails. Every creation, opening, read, write, sync and rename of the process counts, from one. Questions about a file, which
 //! may fail without harm, do not count.
 
-pub use std::fs::{Metadata, TryLockError, metadata, read_dir, read_link, symlink_metadata};
+pub use std::fs::{Metadata, metadata, read_dir, read_link, symlink_metadata};
 
 use std::fs::{File, OpenOptions, create_dir};
-use std::io::{self, Error, ErrorKind, Read, Seek, SeekFrom, Write};
+use std::io::{self, Error, ErrorKind, Read, Write};
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
 
@@ -53,18 +53,6 @@ impl<F> Opened<F> {
     }
 }
 
-impl OpenFile {
-    /// Cuts the file off at a length and goes on writing there.
-    ///
-    /// # Errors
-    /// The operating system's error.
-    pub fn go_on_from(&mut self, length: u64) -> io::Result<()> {
-        begin("write", &self.path)?;
-        self.file.set_len(length)?;
-        self.file.seek(SeekFrom::Start(length)).map(drop)
-    }
-}
-
 impl<F> Deref for Opened<F> {
     type Target = F;
     fn deref(&self) -> &F {
@@ -76,12 +64,6 @@ impl<F: Read> Read for Opened<F> {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
         begin("read", &self.path)?;
         self.file.read(bytes)
-    }
-}
-
-impl<F: Seek> Seek for Opened<F> {
-    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        self.file.seek(to)
     }
 }
 
@@ -110,16 +92,6 @@ pub fn open(path: &Path) -> io::Result<OpenFile> {
 /// The operating system's error.
 pub fn append(path: &Path) -> io::Result<OpenFile> {
     Opened::new("open", path, || OpenOptions::new().append(true).open(path))
-}
-
-/// A file to read and to continue: the one that is there with its contents, or a new one.
-///
-/// # Errors
-/// The operating system's error.
-pub fn open_or_create(path: &Path) -> io::Result<OpenFile> {
-    let mut options = OpenOptions::new();
-    options.create(true).read(true).write(true).truncate(false);
-    Opened::new("open", path, || options.open(path))
 }
 
 /// Standard output.

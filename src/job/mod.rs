@@ -23,9 +23,7 @@ mod parts;
 #[doc(hidden)]
 pub mod preflight;
 mod repeats;
-mod samples;
 mod sensors;
-mod study;
 // The four values of a job, in their order, and what is said of them.
 mod loaded;
 mod unseen;
@@ -53,11 +51,7 @@ pub use model::{GridLayout, ModelSource};
 pub use next_measurement::{NextMeasurement, mean_deviation};
 pub use prepared::{LeftOut, PreparedJob};
 #[doc(hidden)]
-pub use samples::{Samples, Spread, Summary};
-#[doc(hidden)]
 pub use sensors::PlacedSensor;
-#[doc(hidden)]
-pub use study::{Study, Vary};
 
 use crate::files::error::{FileError, is_not};
 use crate::files::read_bytes;

@@ -10,7 +10,7 @@ use std::io::{Error, ErrorKind};
 use std::path::Path;
 
 /// Files that a command replaces in its folder: names, or endings where they begin with a dot.
-const REPLACED: [(&str, &[&str]); 5] = [
+const REPLACED: [(&str, &[&str]); 4] = [
     (
         "correlate",
         &[
@@ -23,7 +23,6 @@ const REPLACED: [(&str, &[&str]); 5] = [
             "corrected.bdf",
         ],
     ),
-    ("study", &["summary.csv"]),
     ("report", &["report.html"]),
     ("figures", &[".svg"]),
     ("dump", &["dump.json", ".mtx"]),

@@ -82,7 +82,7 @@ pub struct CheckArguments {
 }
 
 /// The job's file name without its folders, which say nothing about the run.
-pub fn file_name(job: &Path) -> String {
+fn file_name(job: &Path) -> String {
     job.file_name()
         .map_or_else(String::new, |name| escaped(&name.to_string_lossy()))
 }
@@ -91,7 +91,7 @@ pub fn file_name(job: &Path) -> String {
 ///
 /// # Errors
 /// [`FileError::Refused`] for a folder.
-pub fn job_file(path: &Path) -> Result<&Path, FileError> {
+fn job_file(path: &Path) -> Result<&Path, FileError> {
     if !path.is_dir() {
         return Ok(path);
     }

@@ -14,7 +14,6 @@ mod progress;
 mod settings;
 mod signals;
 mod studies;
-mod study;
 
 use cases::CasesArguments;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -31,7 +30,6 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use studies::{FewerModesArguments, TablesArguments};
-use study::StudyArguments;
 
 const BAD_INPUT: u8 = 2;
 const NOT_CONVERGED: u8 = 3;
@@ -69,10 +67,6 @@ a second one ends the program at once and leaves no half-written file.
 Exit status: 0 within tolerance and no doubt stands; 2 bad input, or a file that cannot be read or written; 3 not within tolerance, or a doubt \
 stands, which --accept answers for; the best found is printed all the same.";
 
-const STUDY_USAGE: &str = "\
-corfem study [OPTIONS] --samples <N> --folder <DIR> <JOB>
-       corfem study [OPTIONS] --sample <K> <JOB>";
-
 const CHECK_HELP: &str = "\
 Exit status: 0 no doubt stands; 2 bad input, or a file that cannot be read; 3 a doubt stands, which --accept answers for.";
 
@@ -93,9 +87,6 @@ enum Command {
     /// Correct the model of your own structure: a job file names its deck or matrices and its ground vibration test
     #[command(after_help = JOB_HELP)]
     Correlate(CorrelateArguments),
-    /// Run a job many times with its test varied, and report how its factors scatter
-    #[command(after_help = JOB_HELP, override_usage = STUDY_USAGE)]
-    Study(StudyArguments),
     /// Write a job file or the table of a test that explains its entries, or a whole example that runs
     #[command(after_help = PLAIN_HELP)]
     Init(InitArguments),
@@ -155,7 +146,6 @@ pub fn run() -> ExitCode {
             studies::fewer_modes(&arguments, quiet).map(|()| true)
         }
         Some(Command::Correlate(arguments)) => job::correlate(&arguments, quiet),
-        Some(Command::Study(arguments)) => study::study(&arguments, quiet),
         Some(Command::Init(arguments)) => job::init(&arguments, quiet).map(|()| true),
         Some(Command::Check(arguments)) => job::check_job(&arguments, quiet),
         Some(Command::Figures(arguments)) => pictures::figures(&arguments, quiet).map(|()| true),

@@ -21,15 +21,6 @@ pub fn during<T>(quiet: bool, words: &'static str, work: impl FnOnce() -> T) -> 
     done
 }
 
-/// Work of known length: a bar and the time left.
-pub fn bar(quiet: bool, count: u64) -> ProgressBar {
-    shown(
-        ProgressBar::new(count),
-        "{wide_bar} {pos} of {len}, {eta} left",
-        quiet,
-    )
-}
-
 fn shown(bar: ProgressBar, template: &str, quiet: bool) -> ProgressBar {
     if quiet {
         return ProgressBar::hidden();

@@ -44,7 +44,7 @@ pub struct SettingsArguments {
 }
 
 /// A value by its name in JSON, so that what the report prints can be typed.
-pub fn named<T: for<'a> Deserialize<'a>>(text: &str) -> Result<T, Error> {
+fn named<T: for<'a> Deserialize<'a>>(text: &str) -> Result<T, Error> {
     let from: StrDeserializer<Error> = text.into_deserializer();
     T::deserialize(from)
 }

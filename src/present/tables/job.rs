@@ -7,8 +7,7 @@ use crate::job::concern::Grade;
 use crate::job::localization::{by_factor, by_single_fit};
 use crate::job::metrics::coordinate_assurance;
 use crate::job::{
-    Concern, JobResult, LoadedJob, Method, PlacedSensor, PreparedJob, Study, Summary, Trust, Vary,
-    mean_deviation,
+    Concern, JobResult, LoadedJob, Method, PlacedSensor, PreparedJob, Trust, mean_deviation,
 };
 use crate::present::table::{Cell, Digits, Table, counted, numbers};
 use crate::weighted::residuals::residuals;
@@ -268,53 +267,4 @@ pub fn measurement_table(prepared: &PreparedJob) -> Result<Table, FileError> {
         sensor that has it the same fraction is less, and with one that reads more it is more.";
     let is_ranked = !table.rows.is_empty();
     Ok(table.notes(is_ranked.then_some(note)).notes(next.unranked))
-}
-
-/// Mean, standard deviation and quantiles of every factor over the samples that did not fail.
-pub fn study_table(study: &Study, summary: &Summary) -> Table {
-    let name = |vary: &Vary| match vary {
-        Vary::Noise => "noise on the test",
-        Vary::Start => "the first point",
-        Vary::Subset => "sensors or modes left out",
-    };
-    let (
-        Summary {
-            spreads,
-            within,
-            outside,
-            failed,
-        },
-        vary,
-    ) = (summary, study.vary.iter().map(name));
-    let count = within + outside + failed.len();
-    let note = format!(
-        "{}, seed {}, with {}: {within} within tolerance, {outside} not, {} failed.",
-        counted(count, "sample", "samples"),
-        study.seed,
-        vary.collect::<Vec<_>>().join(" and "),
-        failed.len(),
-    );
-    let why = |first| {
-        format!("Failed samples do not count; --sample {first} says why sample {first} failed.")
-    };
-    let mut table = Table::new(
-        "study",
-        format!("{}: factors over many runs", study.prepared.loaded.title),
-        "Parameter",
-    )
-    .headings(["mean", "deviation", "2.5 %", "median", "97.5 %"], "")
-    .headings(["at a bound"], "samples")
-    .notes([note])
-    .notes(failed.first().map(why));
-    for (name, spread) in spreads {
-        let spread = spread.iter().flat_map(|spread| {
-            // Factors that a bound holds have no scatter of their own.
-            let deviation = (spread.at_bound < spread.count).then_some(spread.deviation);
-            let [low, median, high] = spread.quantiles.map(Some);
-            let all = [Some(spread.mean), deviation, low, median, high];
-            numbers(all, Digits::Fixed(4)).chain([Cell::count(spread.at_bound)])
-        });
-        table.row(name, spread);
-    }
-    table
 }
