@@ -1,7 +1,9 @@
 //! Doubts about a job before its first step, and remarks.
 
-use super::concern::{Check, Concern, Kind, Trust};
-use super::preflight::{LARGEST_TOLERANCE, Names, SeenModes, check_settings, preflight_at_sensors};
+use super::concern::{Check, Concern, Grade, Trust, some};
+use super::preflight::{
+    LARGEST_TOLERANCE, Names, SeenModes, check_settings, percent, preflight_at_sensors,
+};
 use super::prepared::LeftOut;
 use super::sensors::{PlacedSensor, motion};
 use super::{LoadedJob, Method, PreparedJob};
@@ -10,7 +12,8 @@ use crate::files::error::FileError;
 use crate::method::error::Error;
 use crate::method::modes::Modes;
 use crate::sparse::rigid_bodies::BodyFinding;
-use crate::weighted::comparison::LoneFrequency;
+use crate::sparse::visibility::visibilities;
+use crate::weighted::comparison::Comparison;
 use crate::weighted::noise::Noise;
 use crate::weighted::residuals::DEVIATIONS;
 use nalgebra::Vector3;
@@ -32,9 +35,13 @@ const PLACE_DIGITS: f64 = 1e-5;
 /// a meter.
 const UNIT_DIGITS: f64 = 1e-4;
 
-/// A concern about several things, if there are any.
-fn about_any(kind: Kind, about: &[impl ToString]) -> Option<Concern> {
-    (!about.is_empty()).then(|| Concern::new(kind, about, &[]))
+/// About nothing in particular.
+const NONE: [&str; 0] = [];
+
+/// A remark with a list at its end, if there is anything in it.
+fn listed(check: Check, name: &str, words: &str, about: &[impl ToString]) -> Option<Concern> {
+    let said = || Concern::remark(check, name, about, format!("{words}: {}.", some(about)));
+    (!about.is_empty()).then(said)
 }
 
 /// Places from zero as numbers from one.
@@ -50,17 +57,17 @@ impl Trust {
     pub fn before(prepared: &PreparedJob) -> Result<Self, FileError> {
         let loaded = &prepared.loaded;
         let mut all = prepared.preflight_concerns()?;
-        all.extend(prepared.pairing_concerns()?);
         // Where there are fewer modes than test modes there are no pairs, and no comparison.
         let first = prepared.analyze(&loaded.ones()).ok();
         // A mistake in the readings or in all frequencies says more than each pair that it makes.
         all.extend(match all.iter().any(Concern::stands) {
-            true => vec![Check::skipped(
-                &[Check::Reach],
+            true => vec![Concern::not_checked(
+                Check::Reach,
                 "another doubt is answered first",
             )],
             false => prepared.frequency_concerns(first.as_ref()),
         });
+        all.extend(prepared.pairing_concerns());
         if !prepared.is_without_pairs() {
             all.extend(first.as_ref().and_then(|first| prepared.unanswered(first)));
         }
@@ -68,84 +75,167 @@ impl Trust {
         all.extend(prepared.noise_concerns());
         all.extend(loaded.part_concerns()?);
         all.extend(loaded.data_concerns());
-        all.extend(loaded.mass_concerns());
-        all.extend(about_any(Kind::NotUsed, &loaded.unused()));
+        all.extend(listed(
+            Check::Inputs,
+            "not-used",
+            "Not used of the inputs",
+            &loaded.unused(),
+        ));
         Ok(Self::new(all))
-    }
-}
-
-impl LeftOut {
-    /// What is said of the mode.
-    pub(super) fn concern(&self) -> Concern {
-        Concern::new(self.why, &[self.mode + 1], &[self.assurance])
     }
 }
 
 impl PreparedJob {
     /// Remarks on which test modes are compared with which modes of the model.
-    fn pairing_concerns(&self) -> Result<Vec<Concern>, Error> {
-        let loaded = &self.loaded;
+    fn pairing_concerns(&self) -> Vec<Concern> {
         let mut all: Vec<Concern> = self.unpaired.iter().map(LeftOut::concern).collect();
-        let pair = |(mode, lone): &(usize, LoneFrequency)| {
-            format!("{} with the model's {}", mode + 1, lone.partner + 1)
+        let open = |name: &str, modes: &[usize], words: &str| {
+            let words = format!("Test modes {} {words}", some(modes));
+            (!modes.is_empty())
+                .then(|| Concern::new(Grade::NotChecked, Check::Pairs, name, modes, words))
         };
-        let alone: Vec<String> = self.alone().iter().map(pair).collect();
-        let modes = loaded.data.vibrations().into_iter();
-        let left: Vec<usize> = modes.filter(|mode| !loaded.job.selects(*mode)).collect();
-        let rigid = numbers(loaded.data.rigid.iter().copied());
-        all.extend(about_any(Kind::RigidModes, &rigid));
-        all.extend(about_any(
-            Kind::Undecided,
-            &numbers(self.undecided.iter().copied()),
+        let undecided = numbers(self.undecided.iter().copied());
+        all.extend(open(
+            "undecided",
+            &undecided,
+            "are like several modes of the model each; they are paired by their frequencies.",
         ));
-        all.extend(about_any(Kind::FrequenciesAlone, &alone));
-        all.extend(about_any(Kind::NotSelected, &left));
-        if loaded.job.compare.method == Method::GaussNewton {
-            let close = self.together().iter().filter(|group| group.len() > 1);
-            all.extend(close.map(|group| {
-                let modes = numbers(group.iter().map(|place| self.modes[*place]));
-                Concern::new(Kind::CloseModes, &modes, &[])
-            }));
-        }
-        let rigid = loaded.source.whole.rigid_bodies()?.rigid();
-        let measure = [self.analysis_modes as f64, rigid as f64];
-        all.push(Concern::plain(Kind::AnalysisModes, &measure));
-        Ok(all)
+        let alone = numbers(self.alone().iter().map(|own| own.0));
+        let words = "have no shapes and are paired by number, which nothing checks; the model's modes are followed by shape from there.";
+        all.extend(open("frequencies-alone", &alone, words));
+        let close = self.together().iter().filter(|group| group.len() > 1);
+        let close = close.filter(|_| self.loaded.job.compare.method == Method::GaussNewton);
+        all.extend(close.map(|group| {
+            let modes = numbers(group.iter().map(|place| self.modes[*place]));
+            let words = format!(
+                "The frequencies of test modes {}, or of their partners in the first model, are no further apart than the deviations \
+                 tell: their shapes are compared as one subspace.",
+                some(&modes)
+            );
+            Concern::remark(Check::Pairs, "close-modes-", &modes, words)
+        }));
+        all
     }
 
     /// Remarks on what the test is weighted by.
     fn noise_concerns(&self) -> Vec<Concern> {
-        let loaded = &self.loaded;
-        let lacks =
-            |component: usize, mode: usize| loaded.given_deviations(mode)[component].is_none();
-        let percent = |deviation: f64, what: &str| format!("{} % of {what}", 100.0 * deviation);
-        let frequencies = self.compared().any(|mode| lacks(0, mode));
-        let shapes = self.modes.iter().any(|&mode| lacks(1, mode));
-        let assumed: Vec<String> = [
-            frequencies.then(|| percent(DEVIATIONS.frequency, "frequencies")),
-            shapes.then(|| percent(DEVIATIONS.shape, "shapes")),
-        ]
+        let (loaded, remark) = (&self.loaded, |name: &str, words: String| {
+            Concern::remark(Check::Deviations, name, &NONE, words)
+        });
+        let assumed = self.assumed_deviations();
+        let mut all: Vec<Concern> = listed(
+            Check::Deviations,
+            "assumed-deviations",
+            "Standard deviations assumed",
+            &assumed,
+        )
         .into_iter()
-        .flatten()
         .collect();
-        let mut all: Vec<Concern> = about_any(Kind::AssumedDeviations, &assumed)
-            .into_iter()
-            .collect();
-        let divides = |weight: f64| ![0.0, 1.0].contains(&weight);
         let own = self.own_weights();
         let mut own = own.iter().flat_map(|own| [own.frequency, own.shape]);
-        if loaded.job.compare.method == Method::GaussNewton && own.any(divides) {
-            all.push(Concern::plain(Kind::OwnWeights, &[]));
+        let divides = own.any(|weight| ![0.0, 1.0].contains(&weight));
+        let words = "The job's weights count as dividing the standard deviations: chi-squared and intervals hold for deviations so divided.";
+        let is_said = divides && loaded.job.compare.method == Method::GaussNewton;
+        all.extend(is_said.then(|| remark("own-weights", words.into())));
+        let (tests, free) = (loaded.data.scatter.ncols(), self.free_numbers());
+        if tests > 0 {
+            let counts = match self.covariance() {
+                Some(_) => "their covariance counts".to_owned(),
+                None => format!(
+                    "their variances alone count, for a covariance of {free} numbers needs {} tests and no weights of the job's own",
+                    free + 3
+                ),
+            };
+            let words = format!(
+                "The test is the mean of {tests}; {counts}. What all of them have wrong does not scatter."
+            );
+            all.push(remark("repeats", words));
         }
-        let tests = loaded.data.scatter.ncols() as f64;
-        let free = self.free_numbers() as f64;
-        if tests > 0.0 {
-            all.push(match self.covariance() {
-                Some(_) => Concern::plain(Kind::Covariance, &[tests]),
-                None => Concern::plain(Kind::Variances, &[tests, free, free + 3.0]),
-            });
-        }
+        all.extend(loaded.data.drift.map(|lag| {
+            let wider = ((1.0 + lag) / (1.0 - lag)).sqrt();
+            let words = format!(
+                "The repeated tests drift: each is like the one before, with a correlation of {lag:.2}. Their deviations count as \
+                 {wider:.1} times as large as if they were independent."
+            );
+            remark("drift", words)
+        }));
         all
+    }
+
+    /// Standard deviations that neither test nor job gives, in words.
+    pub fn assumed_deviations(&self) -> Vec<String> {
+        let lacks =
+            |component: usize, mode: usize| self.loaded.given_deviations(mode)[component].is_none();
+        let frequencies = self.compared().any(|mode| lacks(0, mode));
+        let shapes = self.modes.iter().any(|&mode| lacks(1, mode));
+        let percent = |deviation: f64, what: &str| format!("{} % of {what}", 100.0 * deviation);
+        let both = [
+            frequencies.then(|| percent(DEVIATIONS.frequency, "frequencies")),
+            shapes.then(|| percent(DEVIATIONS.shape, "shapes")),
+        ];
+        both.into_iter().flatten().collect()
+    }
+
+    /// Remarks on parts of the model without a sensor, and on modes of the first model that move none.
+    fn unseen_concerns(&self) -> Vec<Concern> {
+        let (source, hertz) = (&self.loaded.source, self.first.unseen());
+        let hertz: Vec<String> = hertz.iter().map(|hertz| format!("{hertz:.4}")).collect();
+        let parts = format!(
+            "In parts of the model without a sensor, which are left out, {} degrees of freedom",
+            source.left_out.len()
+        );
+        let modes = format!(
+            "Modes of the model that no sensor sees, and that take no part, {}, at Hz",
+            hertz.len()
+        );
+        let loose = "Mechanisms in parts of the model without a sensor, which nothing resists";
+        let all = [
+            listed(
+                Check::Sight,
+                "parts-without-sensor",
+                &parts,
+                &source.left_out,
+            ),
+            listed(
+                Check::FreeMotions,
+                "loose-without-sensor",
+                loose,
+                &source.loose,
+            ),
+            listed(Check::Sight, "unseen-modes", &modes, &hertz),
+        ];
+        all.into_iter().flatten().collect()
+    }
+
+    /// A remark on the modes of a model between the first and the last frequency of the test that no test mode answers: the test may have
+    /// missed them.
+    pub(super) fn unanswered(&self, model: &Comparison) -> Option<Concern> {
+        let exact = &model.model.exact;
+        let (hertz, seen) = (
+            exact.modes.frequencies_hz(),
+            visibilities(&exact.modes.shapes),
+        );
+        let tested = self
+            .compared()
+            .map(|mode| self.loaded.data.frequencies_hz[mode]);
+        let (first, last) = tested.fold((f64::INFINITY, 0.0_f64), |(first, last), hertz| {
+            (first.min(hertz), last.max(hertz))
+        });
+        let partners = model.partners();
+        let is_lacking =
+            |mode: &usize| (first..=last).contains(&hertz[*mode]) && !partners.contains(mode);
+        let name = |mode: usize| {
+            format!(
+                "mode {} ({:.4} Hz, {:.2})",
+                mode + 1,
+                hertz[mode],
+                seen[mode]
+            )
+        };
+        let names: Vec<String> = (0..hertz.len()).filter(is_lacking).map(name).collect();
+        let words = "Modes of the model between the first and the last frequency of the test that no test mode answers, and the part of \
+                     other modes' motion that sensors see of them";
+        listed(Check::Pairs, "unanswered-modes", words, &names)
     }
 
     /// What the pre-flight finds in all modes of the test.
@@ -162,7 +252,7 @@ impl PreparedJob {
         let mut concerns: Vec<Concern> = bodies.map(|finding| of_bodies(&finding)).collect();
         let is_said = loaded.job.model.rigid_bodies.is_some() && whole.rigid_bodies()?.rigid() > 0;
         let said = "model.rigid_bodies says how many there are";
-        concerns.extend(is_said.then(|| Check::skipped(&[Check::FreeMotions], said)));
+        concerns.extend(is_said.then(|| Concern::not_checked(Check::FreeMotions, said)));
         concerns.extend(loaded.percent_deviations(&modes));
         concerns.extend(loaded.places_concerns());
         let (settings, ranges) = (&loaded.job.correlation, whole.ranges());
@@ -174,15 +264,10 @@ impl PreparedJob {
         };
         let modes = &names.modes;
         if modes.is_empty() {
-            use Check::*;
-            let none = [
-                Readings,
-                Directions,
-                Copies,
-                CommonFactor,
-                OrderOfFrequencies,
-            ];
-            concerns.push(Check::skipped(&none, "the test has no shapes"));
+            concerns.push(Concern::not_checked(
+                Check::Readings,
+                "the test has no shapes",
+            ));
             concerns.extend(check_settings(settings, &ranges, &names));
             return Ok(concerns);
         }
@@ -208,9 +293,6 @@ impl PreparedJob {
             shares: self.first.shares(shapes.ncols()),
             modes: Modes::new(squares, loaded.sensors.times(&shapes)?)?,
         };
-        let one = "the model moves in no other direction there";
-        let is_open = seen.directions.is_empty();
-        concerns.extend(is_open.then(|| Check::skipped(&[Check::Directions], one)));
         // Assumed deviations are no less than a test's own, and declare none.
         let declared = |&mode: &usize| {
             let [frequency, shape] = loaded.given_deviations(mode).map(Option::unwrap_or_default);
@@ -223,7 +305,8 @@ impl PreparedJob {
         )?);
         let has_doubt = concerns.iter().any(Concern::stands);
         if self.is_without_pairs() && !has_doubt {
-            concerns.push(Concern::plain(Kind::NoPair, &[]));
+            let words = "No test mode resembles a mode of the model: another structure, other sensors, or several mistakes at once?";
+            concerns.push(Concern::doubt(Check::Pairs, "no-pair", &NONE, words.into()));
         }
         Ok(concerns)
     }
@@ -235,45 +318,56 @@ impl LoadedJob {
         let data = &self.data;
         let phases = data.phase_collinearity.iter().enumerate();
         let complex = phases.filter(|(_, phase)| **phase < COLLINEAR);
-        let complex =
-            complex.map(|(mode, phase)| Concern::new(Kind::Complex, &[mode + 1], &[*phase]));
-        let mut all: Vec<Concern> = complex.collect();
-        all.extend(data.drift.map(|lag| {
-            let wider = ((1.0 + lag) / (1.0 - lag)).sqrt();
-            Concern::plain(Kind::Drift, &[lag, wider])
+        let mut all: Vec<Concern> = complex
+            .map(|(mode, phase)| {
+                let words = format!(
+                    "Test mode {} is complex: its phase collinearity is {phase:.2}.",
+                    mode + 1
+                );
+                Concern::remark(Check::ComplexShapes, "complex-", &[mode + 1], words)
+            })
+            .collect();
+        let rigid = numbers(data.rigid.iter().copied());
+        all.extend(listed(
+            Check::Inputs,
+            "rigid-modes",
+            "Test modes of 0 Hz, rigid-body modes, are not compared",
+            &rigid,
+        ));
+        let lacking = "Sensors left out because some mode of the file has no value at them";
+        all.extend(listed(
+            Check::Inputs,
+            "not-in-every-mode",
+            lacking,
+            &data.incomplete,
+        ));
+        let skipped = "Datasets of the Universal File that are not read";
+        all.extend(listed(
+            Check::Inputs,
+            "datasets-not-read",
+            skipped,
+            &data.skipped,
+        ));
+        // The job chooses by number, and the file has other numbers, or another order.
+        let given = &data.numbers;
+        let is_chosen = self.job.test.modes.is_some() && !given.is_empty();
+        all.extend((is_chosen || !given.is_sorted()).then(|| {
+            let words = format!(
+                "The test's file numbers its modes {}; here they are counted from 1 in the order of the file, in test.modes too.",
+                some(given)
+            );
+            Concern::doubt(Check::Inputs, "numbered-otherwise", given, words)
         }));
-        all.extend(about_any(Kind::NotInEveryMode, &data.incomplete));
-        all.extend(about_any(Kind::DatasetsNotRead, &data.skipped));
-        all.extend(self.numbers_concern());
         if let (Some(units), Some([factor, known])) = (&data.units, data.lengths_to_meter) {
             let is_other = (factor / known - 1.0).abs() > UNIT_DIGITS;
-            let doubt = || Concern::new(Kind::UnitsDisagree, &[units], &[factor, known]);
-            all.extend(is_other.then(doubt));
-        } else if data.units.is_some() {
-            let own = "its file has a system of units of its own";
-            all.push(Check::skipped(&[Check::Units], own));
+            let words = format!(
+                "The test's file says that it is in {units}, of {known:.6} to a meter, but its factor of length is {factor:.6}."
+            );
+            all.extend(
+                is_other.then(|| Concern::doubt(Check::Units, "units-disagree", &[units], words)),
+            );
         }
-        let units = data.units.iter();
-        all.extend(units.map(|units| Concern::new(Kind::UnitsOfTest, &[units], &[])));
         all
-    }
-
-    /// Remarks on the total mass and its center.
-    fn mass_concerns(&self) -> Vec<Concern> {
-        let mass: [f64; 3] = self.source.mass.into();
-        let said = mass.map(|along| format!("{along:.5e}"));
-        let kind = match said.iter().all(|along| *along == said[0]) {
-            true => Kind::Mass,
-            false => Kind::MassByDirection,
-        };
-        let mass = (mass != [0.0; 3]).then(|| Concern::plain(kind, &mass));
-        let center = self.source.mass_center.map(|center| {
-            let far = center.amax();
-            // What is left of sums that cancel is no distance.
-            let rounded = center.map(|part| if part.abs() < 1e-9 * far { 0.0 } else { part });
-            Concern::plain(Kind::CenterOfMass, rounded.as_slice())
-        });
-        mass.into_iter().chain(center).collect()
     }
 
     /// Cards, sensors and entries of the job's file that nothing uses.
@@ -303,20 +397,19 @@ impl LoadedJob {
         let large = both
             .into_iter()
             .filter(|(_, value)| *value > LARGEST_TOLERANCE);
-        let concern =
-            |(setting, value): (&str, f64)| match setting == "shape_deviation" && value < PERCENT {
-                true => Concern::new(Kind::LargeDeviation, &[setting], &[value, 100.0 * value]),
-                false => Concern::percent(setting, value),
-            };
+        let concern = |(setting, value): (&str, f64)| match setting == "shape_deviation"
+            && value < PERCENT
+        {
+            true => {
+                let words = format!(
+                    "Setting {setting} is {value}: a standard deviation of {} % of a shape's largest component?",
+                    100.0 * value
+                );
+                Concern::remark(Check::Settings, "large-", &[setting], words)
+            }
+            false => percent(setting, value),
+        };
         large.map(concern).collect()
-    }
-
-    /// A doubt about the numbers that the test's file gives its modes, where they are in another order, or the job chooses by number.
-    fn numbers_concern(&self) -> Option<Concern> {
-        let numbers = &self.data.numbers;
-        let chooses = self.job.test.modes.is_some() && !numbers.is_empty();
-        (chooses || !numbers.is_sorted())
-            .then(|| Concern::new(Kind::NumberedOtherwise, numbers, &[]))
     }
 
     /// Doubts about places of sensors that span much more than the model does, or that are twice as near to another grid as to the one
@@ -325,31 +418,29 @@ impl LoadedJob {
         let known = || self.placed.iter().filter(|own| own.distance.is_some());
         if known().next().is_none() {
             let reason = "the places of sensors or of their grids are not given";
-            return vec![Check::skipped(&[Check::Places], reason)];
+            return vec![Concern::not_checked(Check::PlacesOfSensors, reason)];
         }
-        let grids = &self.source.geometry.places;
         let is_elsewhere = |own: &&PlacedSensor| {
-            let at = self.data.sensors[own.row].place;
-            let (Some(at), Some(distance)) = (at, own.distance) else {
+            let sensor = &self.data.sensors[own.row];
+            let (Some(at), Some(distance)) = (sensor.place, own.distance) else {
                 return false;
             };
             // Grids may be close, and sensors stand on a skin.
             let is_nearer = |place: &Vector3<f64>| 2.0 * (place - at).norm() < distance;
-            let is_off = distance > PLACE_DIGITS * at.amax();
+            let is_off = distance > PLACE_DIGITS * at.amax() && sensor.grid == Some(own.grid);
             is_off
-                && self.data.sensors[own.row].grid == Some(own.grid)
-                && grids.values().any(is_nearer)
+                && self.job.sensors.distance.is_none()
+                && self.source.geometry.places.values().any(is_nearer)
         };
-        let elsewhere = known().filter(is_elsewhere).map(|own| &own.name);
-        let elsewhere: Vec<&String> = match self.job.sensors.distance {
-            None => elsewhere.collect(),
-            Some(_) => Vec::new(),
-        };
-        let unit = self.unit_of_places();
-        about_any(Kind::OtherGrid, &elsewhere)
-            .into_iter()
-            .chain(unit)
-            .collect()
+        let elsewhere: Vec<&String> = known().filter(is_elsewhere).map(|own| &own.name).collect();
+        let words = format!(
+            "By their places sensors {} are nearer to other grids than to those that they name; is a place, a grid or a unit of length \
+             wrong? sensors.distance says how far a sensor may be.",
+            some(&elsewhere)
+        );
+        let doubt = || Concern::doubt(Check::PlacesOfSensors, "other-grid", &elsewhere, words);
+        let other = (!elsewhere.is_empty()).then(doubt);
+        other.into_iter().chain(self.unit_of_places()).collect()
     }
 
     /// A doubt about the unit of the sensors' places where they span much more than the model does.
@@ -371,16 +462,31 @@ impl LoadedJob {
             extent(self.source.geometry.places.values().copied().collect())?,
         );
         let ratio = test / model;
-        (ratio > LARGEST_SPAN).then(|| Concern::plain(Kind::UnitOfPlaces, &[ratio]))
+        let words = format!(
+            "The sensors' places span {ratio:.1} times what the model's do: another unit of length?"
+        );
+        (ratio > LARGEST_SPAN)
+            .then(|| Concern::doubt(Check::PlacesOfSensors, "unit-of-places", &NONE, words))
     }
 }
 
 /// What the digits of a stiffness leave open, as a concern.
 pub fn of_bodies(finding: &BodyFinding) -> Concern {
+    let check = Check::FreeMotions;
     match finding {
-        BodyFinding::Mechanisms(rows) => Concern::new(Kind::Mechanisms, rows, &[]),
+        BodyFinding::Mechanisms(rows) => {
+            let words = format!(
+                "Motions of {} are none of a rigid body, and the digits of the stiffness do not tell that anything resists them: \
+                 mechanisms, or springs too soft for it. They count as free; model.rigid_bodies decides.",
+                some(rows)
+            );
+            Concern::doubt(check, "mechanisms", rows, words)
+        }
         BodyFinding::Held { row, free } => {
-            Concern::new(Kind::HeldDirection, &[row], &[*free as f64])
+            let words = format!(
+                "Motions of a rigid body that are free: {free}; one that is not meets most force at {row}: held on purpose?"
+            );
+            Concern::remark(check, "held-direction", &[row], words)
         }
         BodyFinding::ByDigits {
             count,
@@ -388,11 +494,16 @@ pub fn of_bodies(finding: &BodyFinding) -> Concern {
             hidden_hz,
             is_sure,
         } => {
-            let kind = match is_sure {
-                true => Kind::SuspensionHidden,
-                false => Kind::FreeByDigits,
+            let words = format!(
+                "Free by {digits} of the stiffness: {count}; a suspension below {hidden_hz:.0e} Hz would not show. Places of the rows, or \
+                 model.rigid_bodies, decide."
+            );
+            let grade = if *is_sure {
+                Grade::NotChecked
+            } else {
+                Grade::Doubt
             };
-            Concern::new(kind, &[digits], &[*count as f64, *hidden_hz])
+            Concern::new(grade, check, "free-by-digits", &NONE, words)
         }
     }
 }

@@ -1,6 +1,6 @@
 //! A correlated job with everything that says how far to trust it: its last value.
 
-use super::concern::{Check, Concern, Kind, Trust};
+use super::concern::{Check, Concern, Trust, some};
 use super::correlated::{Caller, CorrelatedJob, History};
 use super::verdict::{Judged, Outcome, Stationary, Verdict, sum_of_nine_modes};
 use super::{LeftOut, PreparedJob};
@@ -153,73 +153,112 @@ impl CorrelatedJob {
         let prepared = &self.prepared;
         let names: Vec<&str> = prepared.loaded.parameter_names().collect();
         let of = |places: &[usize]| places.iter().map(|&e| names[e]).collect::<Vec<&str>>();
+        let about = |check: Check, name: &str, about: &[&str], words: &str| {
+            let words = format!("{words}: {}.", some(about));
+            (!about.is_empty()).then(|| Concern::remark(check, name, about, words))
+        };
         let mut blind = [&seen.blind[..], &verdict.unseen].concat();
         blind.sort_unstable();
         blind.dedup();
-        let all = 0..names.len();
-        let mostly_prior: Vec<usize> = all.filter(|&e| seen.is_mostly_prior(e)).collect();
+        let mostly_prior: Vec<usize> = (0..names.len())
+            .filter(|&e| seen.is_mostly_prior(e) && !blind.contains(&e))
+            .collect();
+        let mut all: Vec<Concern> = Vec::new();
+        all.extend(
+            misfit
+                .untested()
+                .map(|reason| Concern::not_checked(Check::Fit, &reason)),
+        );
+        all.extend(
+            (!misfit.is_by_noise())
+                .then(|| Concern::remark(Check::Fit, "misfit", &[""; 0], misfit.in_numbers())),
+        );
+        all.extend(misfit.is_below_noise().then(|| {
+            let words = format!(
+                "Noise alone would leave a chi-squared of {:.1} or more in 999 of 1000 tests, for {:.1} here: the test was computed, or \
+                 its deviations are too large, and so are the intervals.",
+                misfit.least_by_noise, misfit.chi_squared
+            );
+            Concern::remark(Check::Deviations, "below-noise", &[""; 0], words)
+        }));
+        all.extend(
+            seen.parallel_groups()
+                .iter()
+                .chain(&seen.dependent)
+                .map(|group| {
+                    let words = format!(
+                        "The test cannot tell {} apart; only combinations of them are known.",
+                        some(&of(group))
+                    );
+                    Concern::remark(Check::Sight, "not-apart-", &of(group), words)
+                }),
+        );
+        all.extend(about(
+            Check::Sight,
+            "blind",
+            &of(&blind),
+            "Hardly seen by the test, and so not to be trusted",
+        ));
+        all.extend(about(
+            Check::Sight,
+            "mostly-prior",
+            &of(&mostly_prior),
+            "Known more from the prior than from the test",
+        ));
+        all.extend(about(
+            Check::Sight,
+            "at-bound",
+            &of(&verdict.at_bound),
+            "At a bound",
+        ));
         let joined: Vec<usize> = prepared.joined.iter().map(|mode| mode + 1).collect();
-        let kind = match misfit.is_by_noise() {
-            true => Kind::ChiSquared,
-            false => Kind::Misfit,
-        };
-        let mut concerns = vec![Concern::plain(
-            kind,
-            &[
-                misfit.chi_squared,
-                misfit.degrees_of_freedom,
-                misfit.largest_by_noise,
-            ],
-        )];
-        let untested = misfit.untested();
-        concerns.extend(untested.map(|reason| Check::skipped(&[Check::Fit], &reason)));
-        concerns.extend((self.is_interrupted).then(|| Concern::plain(Kind::Interrupted, &[])));
-        let below = [misfit.chi_squared, misfit.least_by_noise];
-        concerns
-            .extend((misfit.is_below_noise()).then(|| Concern::plain(Kind::BelowNoise, &below)));
-        let groups = seen.parallel_groups();
-        let parallel = groups
-            .iter()
-            .map(|group| Concern::new(Kind::Parallel, &of(group), &[]));
-        concerns.extend(parallel);
-        let dependent = seen.dependent.iter();
-        concerns.extend(dependent.map(|group| Concern::new(Kind::Dependent, &of(group), &[])));
-        let lists = [
-            (Kind::Blind, of(&blind)),
-            (Kind::MostlyPrior, of(&mostly_prior)),
-            (Kind::AtBound, of(&verdict.at_bound)),
-        ];
-        let some = lists.into_iter().filter(|(_, names)| !names.is_empty());
-        concerns.extend(some.map(|(kind, names)| Concern::new(kind, &names, &[])));
-        concerns.extend((!joined.is_empty()).then(|| Concern::new(Kind::Joined, &joined, &[])));
-        concerns.extend(self.held_out()?);
-        concerns.extend(prepared.unanswered(&self.last));
+        let words = format!(
+            "Test modes left out at first and compared since: {}.",
+            some(&joined)
+        );
+        all.extend(
+            (!joined.is_empty()).then(|| Concern::remark(Check::Pairs, "joined", &joined, words)),
+        );
+        all.extend(self.held_out()?.iter().map(|held| {
+            let [first, last] = held.frequency;
+            let shape = held.shape.map_or(String::new(), |[first, last]| {
+                format!(", its shape by {first:.2} % and {last:.2} % RMS")
+            });
+            let words = format!("Test mode {} was not fitted: its frequency was off by {first:.2} % and is by {last:.2} %{shape}.", held.mode);
+            Concern::remark(Check::HeldOut, "held-out-", &[held.mode], words)
+        }));
         let left = prepared.unlike(&self.last)?;
-        concerns.extend(left.iter().map(LeftOut::concern));
-        Ok(concerns)
+        all.extend(left.iter().map(LeftOut::concern));
+        Ok(all)
     }
-}
 
-impl CorrelatedJob {
-    /// Remarks on how far the test modes that are held out were off and are.
-    fn held_out(&self) -> Result<Vec<Concern>, FileError> {
+    /// How far the test modes that are held out were off and are.
+    pub(crate) fn held_out(&self) -> Result<Vec<HeldOut>, FileError> {
         let (first, last) = (self.first.mode_errors()?, self.last.mode_errors()?);
         let held = &self.prepared.loaded.job.test.hold_out;
         let both = self.prepared.compared().zip(first.iter().zip(&last));
         let both = both.filter(|(mode, _)| held.contains(&(mode + 1)));
-        let concern = |(mode, (first, last)): (usize, (&ModeErrors, &ModeErrors))| {
-            let frequencies = [100.0 * first.frequency, 100.0 * last.frequency];
-            match (first.shape, last.shape) {
-                (Some(before), Some(after)) => {
-                    let shapes = [100.0 * before, 100.0 * after];
-                    let measure = [frequencies, shapes].concat();
-                    Concern::new(Kind::HeldOut, &[mode + 1], &measure)
-                }
-                _ => Concern::new(Kind::HeldOutFrequency, &[mode + 1], &frequencies),
-            }
+        let of_mode = |(mode, (first, last)): (usize, (&ModeErrors, &ModeErrors))| HeldOut {
+            mode: mode + 1,
+            frequency: [first, last].map(|own| 100.0 * own.frequency),
+            shape: first
+                .shape
+                .zip(last.shape)
+                .map(|(first, last)| [100.0 * first, 100.0 * last]),
         };
-        Ok(both.map(concern).collect())
+        Ok(both.map(of_mode).collect())
     }
+}
+
+/// Errors of a test mode that is held out, at the first and at the best factors, in percent.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeldOut {
+    /// Its number.
+    pub mode: usize,
+    /// Those of its frequency.
+    pub frequency: [f64; 2],
+    /// Those of its shape, if it has one.
+    pub shape: Option<[f64; 2]>,
 }
 
 impl JobResult {
@@ -272,7 +311,7 @@ impl JobResult {
         };
         let reasons: Vec<String> = Withheld::ALL.iter().filter_map(reason).collect();
         if !reasons.is_empty() {
-            let skipped = Check::skipped(&[Check::Intervals], &reasons.join("; "));
+            let skipped = Concern::not_checked(Check::Intervals, &reasons.join("; "));
             self.trust = Trust::new([self.trust.all(), &[skipped]].concat());
         }
         self

@@ -26,7 +26,6 @@ mod repeats;
 mod sensors;
 // The four values of a job, in their order, and what is said of them.
 mod loaded;
-mod unseen;
 mod prepared;
 mod reach;
 mod correlated;
@@ -34,14 +33,14 @@ mod judged;
 pub mod concern;
 pub mod verdict;
 
-pub use concern::{Concern, Kind, Trust};
+pub use concern::{Check, Concern, Trust};
 #[doc(hidden)]
 pub use concerns::of_bodies;
 #[doc(hidden)]
 pub use correlated::{CorrelatedJob, History};
 #[doc(hidden)]
 pub use entries::removed_step;
-pub use judged::{JobResult, run};
+pub use judged::{HeldOut, JobResult, run};
 pub use loaded::LoadedJob;
 #[doc(hidden)]
 pub use matrices::matrix_modes;

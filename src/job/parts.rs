@@ -1,6 +1,7 @@
 //! Doubts about parameters' matrices that are no parts of the first model's, as far as the digits of the files tell.
 
-use super::{Concern, Kind, LoadedJob};
+use super::LoadedJob;
+use super::concern::{Check, Concern, Grade, some};
 use crate::files::error::FileError;
 use crate::method::error::Error;
 use crate::sparse::brackets::Excess;
@@ -36,6 +37,10 @@ impl LoadedJob {
     }
 }
 
+fn doubt(name: &str, about: &[&str], words: String) -> Concern {
+    Concern::doubt(Check::PartsOfTheModel, name, about, words)
+}
+
 fn concerns_of(
     what: &'static str,
     whole: &SparseMatrix,
@@ -49,21 +54,39 @@ fn concerns_of(
     for (place, (name, part)) in parts.iter().enumerate() {
         let own = excess.of(0.0, &[(1.0, part)]);
         let rest = excess.of(1.0, &[(-1.0, part)]);
-        for (found, kind) in [(own, Kind::NegativePart), (rest, Kind::NotPart)] {
-            all.extend(answer(found, |_| Concern::new(kind, &[name], &[]), name));
+        for (found, kind, what) in [
+            (
+                own,
+                "negative-",
+                "has negative energy, more than its digits explain",
+            ),
+            (
+                rest,
+                "not-part-",
+                "is not part of the first model's, which without it has negative energy",
+            ),
+        ] {
+            let words = format!("The matrix of parameter \"{name}\" {what}.");
+            all.extend(answer(found, |_| doubt(kind, &[name], words), name));
         }
         let twins = parts[..place].iter();
         let twins = twins.filter(|(_, twin)| twin.entries().eq(part.entries()));
-        all.extend(twins.map(|(other, _)| Concern::new(Kind::Twin, &[other, name], &[])));
+        all.extend(twins.map(|(other, _)| {
+            let words = format!("Parameters \"{other}\" and \"{name}\" have the same matrix.");
+            doubt("twin-", &[other, name], words)
+        }));
     }
     if !all.iter().any(Concern::stands) {
         let together: Vec<_> = parts.iter().map(|(_, part)| (-1.0, *part)).collect();
-        let kind = match what {
-            "stiffness" => Kind::SumOfStiffness,
-            _ => Kind::SumOfMass,
+        let too_much = |motion: DVector<f64>| {
+            let most = most_energy(parts, &motion);
+            let words = format!(
+                "The parameters' matrices together are more than the first {what}, most by {}: is a part in two of them?",
+                some(&most)
+            );
+            doubt(&format!("sum-of-{what}"), &most, words)
         };
-        let doubt = |motion: DVector<f64>| Concern::new(kind, &most_energy(parts, &motion), &[]);
-        all.extend(answer(excess.of(1.0, &together), doubt, "all"));
+        all.extend(answer(excess.of(1.0, &together), too_much, "all"));
     }
     Ok(all)
 }
@@ -77,8 +100,16 @@ fn answer(
     match found {
         Ok(motion) => motion.map(doubt),
         Err(error) => {
-            let about = [name.to_owned(), error.to_string()];
-            Some(Concern::new(Kind::PartNotChecked, &about, &[]))
+            let words = format!(
+                "Whether parameter \"{name}\" is part of the first model was not checked: {error}."
+            );
+            Some(Concern::new(
+                Grade::NotChecked,
+                Check::PartsOfTheModel,
+                "part-not-checked-",
+                &[name],
+                words,
+            ))
         }
     }
 }

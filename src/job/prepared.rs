@@ -1,9 +1,10 @@
 //! A job with the first model's modes and the test modes' partners among them: its second value, from which a correlation starts.
 
 use super::bodies::explained;
+use super::concern::{Check, Concern, Grade};
 use super::expansion::mass_by_modes;
 use super::likelihood::{decided, pairs};
-use super::{Kind, LoadedJob, Method};
+use super::{LoadedJob, Method};
 use crate::files::error::FileError;
 use crate::method::error::Error;
 use crate::method::modes::Modes;
@@ -26,15 +27,43 @@ const EQUAL: f64 = 3e-9;
 /// Distance from the optimum, in deviations, at which weighted steps stop: no interval shows it.
 const TOLERANCE: f64 = 1e-5;
 
-/// A test mode that is not compared, why, and its largest modal assurance with any mode of the model.
+/// A test mode that is not compared, and why.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeftOut {
     /// Its place in the test's file, from zero.
     pub mode: usize,
-    /// The largest modal assurance.
+    /// Its largest modal assurance with any mode of the model.
     pub assurance: f64,
-    /// The kind of concern that says why.
-    pub why: Kind,
+    /// The reason.
+    pub why: &'static str,
+}
+
+/// Reasons for which a test mode is not compared.
+const UNLIKE: &str = "it resembles no mode of the model";
+const TAKEN: &str = "the mode of the model that it resembles belongs to another test mode";
+const HARM: &str = "compared it makes the others worse";
+const OUT_OF_REACH: &str = "no mode of the model that it resembles can have its frequency within the bounds and priors of the parameters";
+
+impl LeftOut {
+    /// The concern that says so.
+    pub(super) fn concern(&self) -> Concern {
+        let Self {
+            mode,
+            assurance,
+            why,
+        } = self;
+        let mode = mode + 1;
+        let words = format!(
+            "Test mode {mode} is not compared: {why} (modal assurance {assurance:.2} at most)."
+        );
+        Concern::new(
+            Grade::LeftOut,
+            Check::Pairs,
+            "not-compared-",
+            &[mode],
+            words,
+        )
+    }
 }
 
 /// A job with its first analysis, and its test modes with their partners in it.
@@ -136,8 +165,8 @@ impl PreparedJob {
         let left_out = |mode: usize| {
             let assurance = assurance.column(mode).max();
             let why = match assurance < FLOOR {
-                true => Kind::Unlike,
-                false => Kind::PartnerTaken,
+                true => UNLIKE,
+                false => TAKEN,
             };
             let mode = self.modes[mode];
             LeftOut {
@@ -212,10 +241,10 @@ impl PreparedJob {
             let close = assurance_of_roots(modes, &test.shapes)?;
             let assurance = close.max();
             let why = match self.within(&close, &[mode], &reach).max() < FLOOR {
-                _ if self.refused.contains(&mode) => Kind::WouldHarm,
-                _ if assurance < FLOOR => Kind::Unlike,
-                true => Kind::OutOfReach,
-                false => Kind::PartnerTaken,
+                _ if self.refused.contains(&mode) => HARM,
+                _ if assurance < FLOOR => UNLIKE,
+                true => OUT_OF_REACH,
+                false => TAKEN,
             };
             Ok(LeftOut {
                 mode,

@@ -1,8 +1,8 @@
 //! Frequencies that a mode of the model can have within the bounds and the priors of the parameters.
 
-use super::concern::Check;
+use super::PreparedJob;
+use super::concern::{Check, Concern};
 use super::preflight::FEWER;
-use super::{Concern, Kind, PreparedJob};
 use crate::method::step::Bounds;
 use crate::sparse::ParameterMatrix;
 use crate::weighted::comparison::Comparison;
@@ -64,21 +64,35 @@ impl PreparedJob {
     /// units has too.
     pub(super) fn frequency_concerns(&self, first: Option<&Comparison>) -> Vec<Concern> {
         let Some(first) = first else {
-            return vec![Check::skipped(&[Check::Reach], FEWER)];
+            return vec![Concern::not_checked(Check::Reach, FEWER)];
         };
         let hertz = first.model.exact.modes.frequencies_hz();
         let reach = self.reach(first);
         let pairs = self.compared().zip(first.partners());
         let concern = |(test, partner): (usize, usize)| {
             let (own, near) = (self.loaded.data.frequencies_hz[test], reach[partner]);
-            let about = [test + 1, partner + 1];
-            let ratio = own / hertz[partner];
+            let (mode, other, ratio) = (test + 1, partner + 1, own / hertz[partner]);
             if !self.is_within(near, test) {
-                let measure = [own, near.lower, near.upper];
-                return Some(Concern::new(Kind::BeyondReach, &about, &measure));
+                let words = format!(
+                    "Test mode {mode} has {own} Hz, and its partner, mode {other} of the first model, can have {:.4} to {:.4} Hz within \
+                     the bounds and priors of the parameters: another mode, or another unit?",
+                    near.lower, near.upper
+                );
+                return Some(Concern::doubt(
+                    Check::Reach,
+                    "beyond-reach-",
+                    &[mode],
+                    words,
+                ));
             }
             let is_far = ratio.max(1.0 / ratio) > FAR_APART;
-            is_far.then(|| Concern::new(Kind::FarApart, &about, &[own, hertz[partner], ratio]))
+            let words = || {
+                format!(
+                    "Test mode {mode} has {own} Hz, {ratio:.2} times its partner's, mode {other} of the first model, {:.4} Hz.",
+                    hertz[partner]
+                )
+            };
+            is_far.then(|| Concern::remark(Check::Reach, "far-apart-", &[mode], words()))
         };
         pairs.filter_map(concern).collect()
     }

@@ -10,7 +10,7 @@ use super::tables::deck::{not_read, unit_shapes};
 use crate::files::deck::Unread;
 use crate::files::test_data::DIRECTIONS;
 use crate::files::turns;
-use crate::job::{Trust, of_bodies};
+use crate::job::of_bodies;
 use crate::method::inner_loop::Iteration;
 use crate::method::structure::StructuralDof;
 use crate::sparse::whole_modes::WholeModes;
@@ -82,7 +82,7 @@ pub fn report(report: &Report) -> Result<Value, PresentError> {
     let follows = json!({
         "answer": report.answer(),
         "converged": report.converged(),
-        "checks": report.trust.as_ref().map(Trust::answers),
+        "checks": report.trust.as_ref().map(|trust| trust.answers(report.verdict.is_some())),
         "verdict_in_words": report.words(),
         "factors": factors,
         "prior_shares": report.prior_shares(),
@@ -170,7 +170,7 @@ pub fn deck_modes(
         "moving_dof": moving.iter().map(|(dof, _)| named(dof)).collect::<Value>(),
         "moving_shapes": masses.iter().enumerate().map(|(mode, mass)| at(mode, mass)).collect::<Value>(),
         "rigid_body_modes": modes.rigid_body,
-        "doubtful": modes.doubtful.iter().map(|found| of_bodies(found).words()).collect::<Vec<_>>(),
+        "doubtful": modes.doubtful.iter().map(|found| of_bodies(found).words).collect::<Vec<_>>(),
         "frequencies_hz": modes.modes.frequencies_hz().into_iter().take(count).collect::<Value>(),
         "generalized_masses": masses,
         "shapes": shapes,

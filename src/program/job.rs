@@ -163,7 +163,9 @@ pub fn check_job(
         Ok::<_, PresentError>((trust, tables))
     })?;
     let document = || {
-        json::own_document(json!({ "trust": trust, "checks": trust.answers(), "tables": tables }))
+        json::own_document(
+            json!({ "trust": trust, "checks": trust.answers(false), "tables": tables }),
+        )
     };
     output.write(&tables, document)?;
     Ok(!trust.stands_against())
@@ -230,7 +232,7 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
     if result.found.is_interrupted {
         note("corfem: stopped by request; the best factors so far are given");
     }
-    Ok(result.verdict.is_within && result.trust.is_clear())
+    Ok(result.verdict.is_within && !result.trust.stands_against() && !result.found.is_interrupted)
 }
 
 /// Reads, prepares and runs a job.

@@ -16,7 +16,7 @@ pub use readings::SeenModes;
 pub use shapes::Change;
 pub use words::Names;
 
-use crate::job::concern::{Check, Concern, Kind};
+use crate::job::concern::{Check, Concern, some};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::Modes;
@@ -79,12 +79,16 @@ impl Copies {
 
     /// A doubt where a mode was measured twice, and else a remark: few sensors may see two modes alike.
     fn concern(&self, names: &Names) -> Concern {
-        let kind = match self.is_measured_twice {
-            true => Kind::MeasuredTwice,
-            false => Kind::Alike,
-        };
         let modes = self.modes.map(|mode| names.mode(mode));
-        Concern::new(kind, &modes, &[self.assurance, self.frequency_ratio])
+        let words = format!(
+            "Test modes {} and {} are nearly the same shape, modal assurance {:.3}",
+            modes[0], modes[1], self.assurance
+        );
+        let check = Check::ModesMeasuredTwice;
+        match self.is_measured_twice {
+            true => Concern::doubt(check, "same-", &modes, words + "; measured twice?"),
+            false => Concern::remark(check, "same-", &modes, words + "."),
+        }
     }
 }
 
@@ -125,15 +129,23 @@ fn judge_frequencies(
         let [a, b] = found.modes;
         test.swap(a, b);
         let modes = found.modes.map(|mode| names.mode(places[mode]));
-        let percent = [100.0 * found.before, 100.0 * found.after];
-        Concern::new(Kind::FrequenciesExchanged, &modes, &percent)
+        let words = format!(
+            "Frequencies of test modes {} and {} exchanged? It would lower the mean deviation of the ratios from {:.1} to {:.1} %.",
+            modes[0], modes[1], 100.0 * found.before, 100.0 * found.after
+        );
+        Concern::doubt(Check::OrderOfFrequencies, "frequencies-exchanged-", &modes, words)
     });
     let common = frequencies::common_factor(&test, &analysis).map(|common| {
-        let measure = [common.median, common.deviation];
-        match common.named {
-            None => Concern::plain(Kind::UnnamedFactor, &measure),
-            Some(named) => Concern::new(Kind::NamedFactor, &[named.name, named.mistake], &measure),
-        }
+        let why = common
+            .named
+            .map_or("by no mistake known here.".to_owned(), |own| {
+                format!("near {}: {}?", own.name, own.mistake)
+            });
+        let words = format!(
+            "Test frequencies are {:.4} times the model's, {why}",
+            common.median
+        );
+        Concern::doubt(Check::CommonFactor, "common-factor", &[""; 0], words)
     });
     exchanged.into_iter().chain(common).collect()
 }
@@ -169,8 +181,10 @@ pub fn preflight_at_sensors(
         test.shapes = changed(&test.shapes, change);
     }
     let mut concerns: Vec<Concern> = Vec::new();
-    let both = [Check::Readings, Check::Directions];
-    concerns.extend(told.silent.map(|reason| Check::skipped(&both, reason)));
+    concerns.extend(
+        told.silent
+            .map(|reason| Concern::not_checked(Check::Readings, reason)),
+    );
     let unnoticed: Vec<String> = told
         .unnoticed
         .iter()
@@ -178,7 +192,7 @@ pub fn preflight_at_sensors(
         .collect();
     if !unnoticed.is_empty() {
         let reason = format!("one reversed would not show at {}", unnoticed.join(", "));
-        concerns.push(Check::skipped(&[Check::Readings], &reason));
+        concerns.push(Concern::not_checked(Check::Readings, &reason));
     }
     // At one sensor all shapes are alike, and say nothing of partners.
     let alike = "at one sensor all shapes are alike";
@@ -187,13 +201,13 @@ pub fn preflight_at_sensors(
         true => ((0..test.len()).collect(), Vec::new()),
         false => distinct_shapes(&test, noise)?,
     };
-    concerns.extend(is_one.then(|| Check::skipped(&[Check::Copies], alike)));
+    concerns.extend(is_one.then(|| Concern::not_checked(Check::ModesMeasuredTwice, alike)));
     concerns.extend(copies.iter().map(|copies| copies.concern(names)));
     let test = test.select(&places);
     if is_one || test.len() > seen.modes.len() {
         let reason = if is_one { alike } else { FEWER };
         let both = [Check::CommonFactor, Check::OrderOfFrequencies];
-        concerns.push(Check::skipped(&both, reason));
+        concerns.extend(both.map(|check| Concern::not_checked(check, reason)));
     } else {
         let analysis = seen.modes.frequencies_hz();
         let judge =
@@ -206,7 +220,7 @@ pub fn preflight_at_sensors(
         let mut found = judge(&pair_modes(&assurance)?.analysis_mode);
         // Shapes of two modes may be one at the sensors: what the likely partners do not say too is their mistake.
         if let Some(likely) = places.iter().map(likely).collect::<Option<Vec<_>>>() {
-            let is_order = |own: &Concern| own.kind == Kind::FrequenciesExchanged;
+            let is_order = |own: &Concern| own.check == Check::OrderOfFrequencies;
             let also: Vec<bool> = judge(&likely).iter().map(is_order).collect();
             found.retain(|own| also.contains(&is_order(own)));
         }
@@ -224,6 +238,15 @@ pub fn preflight_at_sensors(
     Ok(concerns)
 }
 
+/// A doubt about a setting that looks like percent.
+pub(in crate::job) fn percent(setting: &str, value: f64) -> Concern {
+    let words = format!(
+        "Setting {setting} is {value}, that is {} %: a percentage where a fraction is meant?",
+        100.0 * value
+    );
+    Concern::doubt(Check::Settings, "percent-", &[setting], words)
+}
+
 /// A remark on test modes, whose shapes have unit length, that the points do not distinguish.
 fn too_many_modes(shapes: &DMatrix<f64>) -> Result<Option<Concern>, Error> {
     let (points, modes) = shapes.shape();
@@ -232,8 +255,11 @@ fn too_many_modes(shapes: &DMatrix<f64>) -> Result<Option<Concern>, Error> {
     let smallest = squares[0].max(0.0).sqrt();
     let least = LEAST_SINGULAR.powi(2);
     let distinct = squares.iter().filter(|square| **square >= least).count();
-    let measure = [modes as f64, points as f64, distinct as f64, smallest];
-    Ok((distinct < modes).then(|| Concern::plain(Kind::TooManyModes, &measure)))
+    let words = format!(
+        "{modes} test modes at {points} points: only {distinct} are told apart, the smallest singular value is {smallest:.3}."
+    );
+    Ok((distinct < modes)
+        .then(|| Concern::remark(Check::NumberOfModes, "too-many-modes", &[""; 0], words)))
 }
 
 /// Concerns about tolerances that look like percent and about bounds.
@@ -252,20 +278,19 @@ pub(in crate::job) fn check_settings(
     let large = tolerances
         .into_iter()
         .filter(|(_, value)| *value > LARGEST_TOLERANCE);
-    let percent = large.map(|(setting, value)| Concern::percent(setting, value));
+    let percent = large.map(|(setting, value)| percent(setting, value));
     let excluding = ranges.iter().enumerate().filter_map(|(parameter, range)| {
         let Bounds { lower, upper } = range.filter(|range| !range.holds_start())?;
         let parameter = names.parameter(parameter);
-        Some(Concern::new(
-            Kind::ExcludesStart,
-            &[parameter],
-            &[lower, upper],
-        ))
+        let words = format!("Bounds on the factor of parameter {parameter}, {lower} to {upper}, exclude its first value.");
+        Some(Concern::doubt(Check::Settings, "excludes-start-", &[parameter], words))
     });
     let unbounded = (0..ranges.len()).filter(|&parameter| ranges[parameter].is_none());
     let unbounded: Vec<String> = unbounded
         .map(|parameter| names.parameter(parameter))
         .collect();
-    let unbounded = (!unbounded.is_empty()).then(|| Concern::new(Kind::Unbounded, &unbounded, &[]));
+    let words = format!("Parameters without bounds: {}.", some(&unbounded));
+    let unbounded = (!unbounded.is_empty())
+        .then(|| Concern::remark(Check::Settings, "unbounded", &unbounded, words));
     percent.chain(excluding).chain(unbounded).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::shapes::Change;
 use crate::files::test_data::DIRECTIONS;
-use crate::job::concern::{Concern, Kind};
+use crate::job::concern::{Check, Concern};
 
 /// Names of sensors and parameters, their places from one where they have none, and numbers of test modes.
 #[derive(Debug, Clone, Default)]
@@ -39,22 +39,48 @@ impl Change {
     /// The doubt that a change raises which makes the shapes more likely by ten to the power of `evidence`.
     pub fn concern(&self, evidence: f64, names: &Names) -> Concern {
         let sensor = |place: &usize| names.sensor(*place);
-        let (kind, about) = match self {
-            Self::Reversed(place) => (Kind::Reversed, vec![sensor(place)]),
-            Self::Exchanged(both) => (Kind::Exchanged, both.iter().map(sensor).collect()),
-            Self::Reordered(order) => {
-                let numbers = order.iter().map(|place| (place + 1).to_string());
-                (Kind::Reordered, numbers.collect())
-            }
-            Self::Gain(place, gain) => {
-                return Concern::new(Kind::Gain, &[sensor(place)], &[evidence, *gain]);
-            }
-            Self::Dead(place) => (Kind::Dead, vec![sensor(place)]),
-            Self::Direction(place, along) => (
-                Kind::Direction,
-                vec![sensor(place), DIRECTIONS[*along].to_owned()],
+        let (name, about, question) = match self {
+            Self::Reversed(place) => (
+                "reversed-",
+                vec![sensor(place)],
+                format!("Sensor {} reversed?", sensor(place)),
             ),
+            Self::Exchanged([a, b]) => {
+                let both = [sensor(a), sensor(b)];
+                (
+                    "exchanged-",
+                    both.to_vec(),
+                    format!("Sensors {} and {} exchanged?", both[0], both[1]),
+                )
+            }
+            Self::Reordered(order) => {
+                let order: Vec<String> =
+                    order.iter().map(|place| (place + 1).to_string()).collect();
+                let question = format!("Points in another order ({})?", order.join(", "));
+                ("reordered", order, question)
+            }
+            Self::Gain(place, gain) => (
+                "gain-",
+                vec![sensor(place)],
+                format!("Sensor {} reads {gain:.3} times too much?", sensor(place)),
+            ),
+            Self::Dead(place) => (
+                "dead-",
+                vec![sensor(place)],
+                format!("Sensor {} dead?", sensor(place)),
+            ),
+            Self::Direction(place, along) => {
+                let question = format!(
+                    "Sensor {} measures along {}?",
+                    sensor(place),
+                    DIRECTIONS[*along]
+                );
+                ("direction-", vec![sensor(place)], question)
+            }
         };
-        Concern::new(kind, &about, &[evidence])
+        let words = format!(
+            "{question} The test's shapes would be 10^{evidence:.0} times as likely, with its noise and a model 30 % wrong."
+        );
+        Concern::doubt(Check::Readings, name, &about, words)
     }
 }

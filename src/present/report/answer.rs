@@ -1,7 +1,6 @@
 //! The answer of a report in one line, and its parameters in the order of what is surest.
 
 use super::Report;
-use crate::job::concern::Kind;
 use crate::method::error_sum::Errors;
 use crate::present::table::Digits;
 use crate::present::tables::RMS_PERCENT;
@@ -63,15 +62,8 @@ impl Report {
         order
     }
 
-    /// The fall of the root mean square errors of `count` modes, those that are held out told apart: their numbers begin at `place`.
-    fn fall(&self, what: &str, rms: [f64; 2], count: usize, place: usize) -> String {
-        let held = [Kind::HeldOut, Kind::HeldOutFrequency];
-        let held = held
-            .into_iter()
-            .flat_map(|kind| self.trust.iter().flat_map(move |it| it.of(kind)));
-        let held: Vec<&[f64]> = held
-            .filter_map(|own| own.measure.get(place..place + 2))
-            .collect();
+    /// The fall of the root mean square errors of `count` modes, those that are held out told apart.
+    fn fall(&self, what: &str, rms: [f64; 2], count: usize, held: Vec<[f64; 2]>) -> String {
         let squares = [0, 1].map(|end| held.iter().map(|own| own[end].powi(2)).sum::<f64>());
         let words = |squares: [f64; 2], count: usize| {
             let [first, last] =
@@ -103,10 +95,13 @@ impl Report {
         };
         let (first, last) = (&self.initial.errors, &self.corrected().errors);
         let rms = [first, last].map(Errors::frequency_rms);
-        let mut parts = vec![self.fall("frequency", rms, first.frequency_count, 0)];
+        let held = self.held_out.iter();
+        let of_frequency = held.clone().map(|own| own.frequency).collect();
+        let mut parts = vec![self.fall("frequency", rms, first.frequency_count, of_frequency)];
         if self.test.len() > 0 {
             let rms = [first, last].map(Errors::shape_rms);
-            parts.push(self.fall("shape", rms, first.shape_count, 2));
+            let of_shape = held.filter_map(|own| own.shape).collect();
+            parts.push(self.fall("shape", rms, first.shape_count, of_shape));
         }
         let errors = parts.join(", ");
         let surest = self.by_sureness().into_iter().take(NAMED);

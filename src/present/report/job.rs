@@ -126,6 +126,8 @@ impl Report {
             intervals: intervals.clone(),
             residuals: mode_residuals(found)?,
             moved: moved(found),
+            assumed: prepared.assumed_deviations(),
+            held_out: found.held_out()?,
             verdict: Some(verdict.clone()),
             trust: Some(trust.clone()),
             ..report

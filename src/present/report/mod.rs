@@ -5,7 +5,7 @@ pub(super) mod job;
 
 use crate::job::concern::Grade;
 use crate::job::verdict::Verdict;
-use crate::job::{Kind, Trust};
+use crate::job::{HeldOut, Trust};
 use crate::method::analysis::DERIVATIVE_STEP;
 use crate::method::error::Error;
 use crate::method::error_sum::Errors;
@@ -161,6 +161,12 @@ pub struct Report {
     /// Test modes that are not compared: their numbers and frequencies, Hz.
     #[serde(skip)]
     pub left_out: Vec<(usize, f64)>,
+    /// Standard deviations that are assumed, in words.
+    #[serde(skip)]
+    pub assumed: Vec<String>,
+    /// Test modes that are held out, with their errors.
+    #[serde(skip)]
+    pub held_out: Vec<HeldOut>,
     /// Doubts about it and remarks; none of the paper's cases.
     pub trust: Option<Trust>,
     /// Rows of the shapes; none where nothing is known of them.
@@ -293,6 +299,8 @@ impl Report {
             test: test.clone(),
             mode_numbers: (1..=test.len()).collect(),
             left_out: Vec::new(),
+            assumed: Vec::new(),
+            held_out: Vec::new(),
             trust: None,
             sensors: Vec::new(),
             frame: Vec::new(),
@@ -348,8 +356,8 @@ impl Report {
                 let names = trust
                     .all()
                     .iter()
-                    .filter_map(|concern| match concern.grade() {
-                        _ if concern.stands() => Some(format!("doubt {}", concern.identifier())),
+                    .filter_map(|concern| match concern.grade {
+                        _ if concern.stands() => Some(format!("doubt {}", concern.identifier)),
                         Grade::LeftOut => {
                             Some(format!("test mode {} not compared", concern.about[0]))
                         }
@@ -359,9 +367,7 @@ impl Report {
                 format!("Not to be trusted as it stands ({}). ", names.join(", "))
             });
         let judged = self.misfit.as_ref().filter(|_| self.is_judged_by_noise);
-        let judged = judged.zip(self.trust.as_ref());
-        let judged =
-            judged.map(|(misfit, trust)| misfit.in_words(&trust.about(Kind::AssumedDeviations)));
+        let judged = judged.map(|misfit| misfit.in_words(&self.assumed));
         let verdict = self.verdict.iter();
         let words = verdict.map(|verdict| {
             verdict_in_words(

@@ -45,7 +45,7 @@ pub fn deck_tables(unread: &[Unread], modes: &WholeModes, count: usize) -> Vec<T
             modes
                 .doubtful
                 .iter()
-                .map(|finding| of_bodies(finding).words()),
+                .map(|finding| of_bodies(finding).words),
         );
     let ignored = Table::new(
         "ignored",

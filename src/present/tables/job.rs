@@ -126,7 +126,7 @@ pub fn trust_table(trust: &Trust) -> Table {
 
 /// Doubts alone with what is left out, and remarks alone.
 pub fn doubts_and_remarks(trust: &Trust) -> [Table; 2] {
-    let is_remark = |concern: &Concern| concern.grade() == Grade::Remark;
+    let is_remark = |concern: &Concern| concern.grade > Grade::LeftOut;
     let doubts = concerns_table("What stands against it", trust, |concern| {
         !is_remark(concern)
     });
@@ -138,21 +138,22 @@ pub fn doubts_and_remarks(trust: &Trust) -> [Table; 2] {
 
 fn concerns_table(title: &str, trust: &Trust, is_of_it: impl Fn(&Concern) -> bool) -> Table {
     let all = || trust.all().iter().filter(|concern| is_of_it(concern));
-    let kind = |concern: &Concern| match concern.grade() {
+    let kind = |concern: &Concern| match concern.grade {
         Grade::Doubt if concern.is_accepted => "doubt, accepted",
         Grade::Doubt => "doubt",
         Grade::LeftOut => "left out",
+        Grade::NotChecked => "not checked",
         Grade::Remark => "remark",
     };
-    let has_doubt = all().any(|concern| concern.grade() == Grade::Doubt);
+    let has_doubt = all().any(|concern| concern.grade == Grade::Doubt);
     let standing = "A doubt names a mistake; --accept IDENTIFIER answers for it.";
     Table::new("trust", title, "Identifier")
-        .labels(all().map(Concern::identifier))
+        .labels(all().map(|own| &own.identifier))
         .column("Kind", "", all().map(|concern| Cell::text(kind(concern))))
         .column(
             "Finding",
             "",
-            all().map(|concern| Cell::Sentence(concern.words())),
+            all().map(|concern| Cell::Sentence(concern.words.clone())),
         )
         .notes(has_doubt.then(|| standing.to_owned()))
 }

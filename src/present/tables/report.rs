@@ -1,7 +1,6 @@
 //! Tables of any correlation: paired modes, factors, and its history.
 
 use super::{HERTZ, RMS_PERCENT};
-use crate::job::Kind;
 use crate::method::error::Error;
 use crate::present::report::{PairAgreement, Report};
 use crate::present::table::{Cell, Digits, Table, counted, numbers, percents};
@@ -251,8 +250,7 @@ fn intervals_in_words(report: &Report) -> Vec<String> {
 /// A sentence on how many parameters the test tells apart, and on their deviations.
 fn told_apart(report: &Report) -> Option<String> {
     let [_, seen] = report.seen.as_ref()?;
-    let trust = report.trust.as_ref();
-    let assumed = trust.map_or_else(Vec::new, |trust| trust.about(Kind::AssumedDeviations));
+    let assumed = &report.assumed;
     let assumed = match &assumed[..] {
         [] => String::new(),
         assumed => format!(", assumed: {}", assumed.join(" and ")),
