@@ -23,7 +23,7 @@ pub const MOST_BYTES: u64 = 1 << 31;
 /// The operating system's error; `InvalidInput` for anything but a regular file, `FileTooLarge` for a longer one.
 #[doc(hidden)]
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, Error> {
-    let found = disk::metadata(path)?;
+    let found = path.metadata()?;
     if !found.is_file() {
         let reason = match found.is_dir() {
             true => "it is a folder; name a file in it",
@@ -34,7 +34,7 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, Error> {
     let (mut bytes, mut length) = (Vec::new(), found.len());
     if length <= MOST_BYTES {
         // The file may have grown meanwhile.
-        length = disk::open(path)?
+        length = std::fs::File::open(path)?
             .take(MOST_BYTES + 1)
             .read_to_end(&mut bytes)? as u64;
     }

@@ -9,7 +9,6 @@ use super::sensors::{PlacedSensor, motion};
 use super::{LoadedJob, Method, PreparedJob};
 use crate::files::deck::{Reason, Unread};
 use crate::files::error::FileError;
-use crate::method::error::Error;
 use crate::method::modes::Modes;
 use crate::sparse::rigid_bodies::BodyFinding;
 use crate::sparse::visibility::visibilities;

@@ -14,7 +14,6 @@ use crate::weighted::lower_place::lower_place;
 use crate::weighted::misfit::Misfit;
 use crate::weighted::residuals::residuals;
 use crate::weighted::starts::{WeightedHistory, from_several_starts};
-use nalgebra::DMatrix;
 
 /// Most by which chi-squared of the numbers that two results compare may rise from one to the next: the square of three deviations, which
 /// a right mode more exceeds in three of a thousand tests and a wrong one by far.

@@ -6,7 +6,6 @@ use super::sensors::{PlacedSensor, place};
 use super::{Job, Method, ModelSource, PreparedJob, read};
 use crate::files::deck::rewrite;
 use crate::files::error::FileError;
-use crate::files::read_bytes;
 use crate::files::test_data::TestData;
 use crate::method::error::{Error, at_least_one};
 use crate::method::modes::Modes;
@@ -15,7 +14,6 @@ use crate::sparse::{Place, SparseMatrix, WholeParameter, WholeShare, no_modes};
 use crate::weighted::comparison::LoneFrequency;
 use crate::weighted::noise::Noise;
 use crate::weighted::residuals::DEVIATIONS;
-use sha2::{Digest, Sha256};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -161,37 +159,6 @@ impl LoadedJob {
             .for_each(|(mut row, sensor)| row *= sensor.sign);
         let hertz = modes.iter().map(|&mode| self.data.frequencies_hz[mode]);
         Modes::from_measured(&hertz.collect::<Vec<_>>(), &shapes)
-    }
-
-    /// The first 128 bits, in hexadecimal, of the SHA-256 digest (FIPS 180-4) of the program's version with what the command line
-    /// `adds`, of the files that the job names and of its own, each after the number of its bytes.
-    ///
-    /// # Errors
-    /// [`FileError::File`] when one of them cannot be read any more.
-    pub fn identity(&self, adds: &str) -> Result<String, FileError> {
-        let job = &self.job;
-        let named = job.files().map(|file| job.beside(file));
-        let program = format!("{} {adds}", env!("CARGO_PKG_VERSION"));
-        let mut digest = Sha256::new();
-        let mut add = |bytes: &[u8]| {
-            digest.update((bytes.len() as u64).to_be_bytes());
-            digest.update(bytes);
-        };
-        add(program.as_bytes());
-        for file in named.chain([job.path.clone()]) {
-            // A # may choose one matrix of the file.
-            let text = file.to_string_lossy();
-            let chosen = text.rsplit_once('#').filter(|_| !file.exists());
-            let path = chosen.map_or(&*file, |(file, _)| Path::new(file));
-            let bytes = read_bytes(path).map_err(FileError::of_file(path, "read"))?;
-            add(&bytes);
-        }
-        let bytes = digest.finalize();
-        Ok(bytes
-            .iter()
-            .take(16)
-            .map(|byte| format!("{byte:02x}"))
-            .collect())
     }
 
     /// Standard deviations of a mode of the test's file, from zero: the test's own, else the job's, else 0.5 % and 2 %.

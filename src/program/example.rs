@@ -3,7 +3,6 @@
 use super::output::note;
 use super::place::write_report;
 use clap::ValueEnum;
-use corfem::files::disk::make_folder;
 use corfem::files::error::FileError;
 use corfem::present::PresentError;
 use std::io::{Error, ErrorKind};
@@ -54,7 +53,7 @@ impl Example {
             );
         }
         if !folder.is_dir() {
-            make_folder(folder).map_err(FileError::of_file(folder, "write"))?;
+            std::fs::create_dir(folder).map_err(FileError::of_file(folder, "write"))?;
         }
         for (path, text) in &paths {
             write_report(Some(path), text)?;

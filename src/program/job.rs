@@ -1,14 +1,11 @@
 //! `corfem correlate`, `corfem check` and `corfem init`: the user's own structure.
 
 use super::example::Example;
-use super::folder::write_files;
 use super::output::{OutputArguments, note};
-use super::place::write_report;
-use super::{progress, signals};
+use super::place::{write_files, write_report};
+use super::progress;
 use clap::Args;
-use corfem::files::disk::read_dir;
 use corfem::files::error::FileError;
-use corfem::files::escaped;
 use corfem::job::{
     CorrelatedJob, JobResult, LoadedJob, Method, PreparedJob, TEMPLATE, TEST_TEMPLATE, Trust, run,
 };
@@ -26,6 +23,8 @@ use corfem::present::tables::report::{
 use corfem::present::universal::universal;
 use corfem::present::{PresentError, json, rows};
 use serde_json::json;
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -81,12 +80,6 @@ pub struct CheckArguments {
     output: OutputArguments,
 }
 
-/// The job's file name without its folders, which say nothing about the run.
-fn file_name(job: &Path) -> String {
-    job.file_name()
-        .map_or_else(String::new, |name| escaped(&name.to_string_lossy()))
-}
-
 /// The path of a job, unless it is a folder: then an error says which file in it to name, or how to write one.
 ///
 /// # Errors
@@ -95,7 +88,7 @@ fn job_file(path: &Path) -> Result<&Path, FileError> {
     if !path.is_dir() {
         return Ok(path);
     }
-    let entries = read_dir(path).into_iter().flatten().flatten();
+    let entries = path.read_dir().into_iter().flatten().flatten();
     let jobs = entries.map(|entry| entry.path());
     let mut jobs: Vec<PathBuf> = jobs
         .filter(|path| path.extension().is_some_and(|end| end == "toml"))
@@ -173,8 +166,7 @@ pub fn check_job(
 
 /// Corrects the model of a job and writes the report; true if it is within tolerance.
 pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, PresentError> {
-    // Postponed until the report is written, so that a request to stop ends the program with the best so far.
-    let (stop, _postponed) = signals::postpone_first();
+    let stop = stopped_by_signals();
     let (prepared, result) = corrected(arguments, quiet, stop)?;
     let report = Report::from_job(&prepared, Some(&result))?;
     let (paired, factors) = (paired_table(&report)?, factor_table(&report));
@@ -227,7 +219,7 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
             ),
             ("correlation.json".to_owned(), document()?.into_bytes()),
         ];
-        write_results(arguments, folder, files, &result.found)?;
+        write_results(folder, files, &result.found)?;
     }
     if result.found.is_interrupted {
         note("corfem: stopped by request; the best factors so far are given");
@@ -265,6 +257,17 @@ fn corrected(
     finished
 }
 
+/// A flag that the first request to stop sets; the second ends the program.
+fn stopped_by_signals() -> Arc<AtomicBool> {
+    let stop = Arc::new(AtomicBool::new(false));
+    for signal in [SIGINT, SIGTERM] {
+        // A program that cannot be told to stop still does its work.
+        let _ = flag::register_conditional_default(signal, Arc::clone(&stop));
+        let _ = flag::register(signal, Arc::clone(&stop));
+    }
+    stop
+}
+
 /// The command of a report, which is the same page in any folder.
 fn command(arguments: &CorrelateArguments) -> String {
     let starts = arguments.starts.map(|starts| format!(" --starts {starts}"));
@@ -282,18 +285,15 @@ fn command(arguments: &CorrelateArguments) -> String {
 
 /// Writes the files of a result and its corrected deck; a deck that cannot be written does not lose the others of a long correlation.
 fn write_results(
-    arguments: &CorrelateArguments,
     folder: &Path,
     mut files: Vec<(String, Vec<u8>)>,
     found: &CorrelatedJob,
 ) -> Result<(), PresentError> {
     let loaded = &found.prepared.loaded;
-    let identity = loaded.identity(&format!("{:?} {:?}", arguments.starts, arguments.seed))?;
-    let run = format!("correlate {}, inputs {identity}", file_name(&arguments.job));
     let deck = loaded.corrected_deck(&found.factors);
     let bytes = deck.as_ref().ok().cloned().flatten();
     files.extend(bytes.map(|bytes| ("corrected.bdf".to_owned(), bytes)));
-    write_files(folder, &files, &run)?;
+    write_files(folder, &files)?;
     deck?;
     Ok(())
 }

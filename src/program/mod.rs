@@ -3,7 +3,6 @@
 mod cases;
 mod deck;
 mod example;
-mod folder;
 mod job;
 mod output;
 #[path = "../../paper/presentation/mod.rs"]
@@ -12,7 +11,6 @@ mod pictures;
 mod place;
 mod progress;
 mod settings;
-mod signals;
 mod studies;
 
 use cases::CasesArguments;
@@ -21,7 +19,6 @@ use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use corfem::files::error::FileError;
 use corfem::present::PresentError;
 use deck::{DeckArguments, ModesArguments};
-use folder::check_folder;
 use job::{CheckArguments, CorrelateArguments, InitArguments};
 use output::note;
 use pictures::{DumpArguments, FiguresArguments, ReportArguments};
@@ -162,33 +159,23 @@ fn check_places(matches: &ArgMatches) -> Result<(), PresentError> {
         return Ok(());
     };
     let path = |name| own.try_get_one::<PathBuf>(name).ok().flatten();
-    let refuse_page = |path: &Path, words: String| match path.extension() {
-        Some(kind) if kind.eq_ignore_ascii_case("html") => {
+    let refuse_page = |path: &Path| match path.extension() {
+        Some(kind) if kind.eq_ignore_ascii_case("html") && !path.is_dir() => {
+            let words = "corfem correlate --folder writes the page of a job, corfem report -o that of the cases";
             let found = io::Error::new(io::ErrorKind::InvalidInput, words);
             Err(FileError::of_file(path, "write")(found))
         }
         _ => Ok(()),
     };
-    if let Some(file) = path("output") {
-        if command != "report" {
-            let page = match command {
-                "correlate" => "--folder writes the page of a job",
-                _ => "corfem report -o writes a page",
-            };
-            refuse_page(file, format!("corfem {command} -o writes no HTML; {page}"))?;
-        }
-        check(file)?;
+    let [file, folder] = ["output", "folder"].map(path);
+    for page in file
+        .into_iter()
+        .filter(|_| command != "report")
+        .chain(folder)
+    {
+        refuse_page(page)?;
     }
-    if let Some(folder) = path("folder") {
-        if !folder.is_dir() {
-            refuse_page(
-                folder,
-                "--folder takes a folder, and this names a page".to_owned(),
-            )?;
-        }
-        check_folder(folder, command)?;
-    }
-    Ok(())
+    check(file.map(PathBuf::as_path), folder.map(PathBuf::as_path))
 }
 
 fn status(done: Result<bool, PresentError>) -> ExitCode {

@@ -1,10 +1,10 @@
 //! `corfem figures`, `corfem report` and `corfem dump`: files in a folder.
 
-use super::folder::write_files;
 use super::output::note;
 use super::paper::dump::dump as open;
 use super::paper::figures::{Figure, case_figures, comparison_figures};
 use super::paper::page::{Contents, page};
+use super::place::write_files;
 use super::place::write_report;
 use clap::Args;
 use corfem::present::PresentError;
@@ -55,10 +55,9 @@ fn drawn(quiet: bool) -> Result<CasesAndFigures, PresentError> {
 fn write_counted(
     folder: &Path,
     files: &[(String, Vec<u8>)],
-    run: &str,
     quiet: bool,
 ) -> Result<(), PresentError> {
-    write_files(folder, files, run)?;
+    write_files(folder, files)?;
     if !quiet {
         note(format_args!(
             "{} files in {}",
@@ -77,7 +76,7 @@ pub fn figures(
     let (_, _, figures) = drawn(quiet)?;
     let files = figures.into_iter().flat_map(Figure::files);
     let files: Vec<_> = files.map(|(name, svg)| (name, svg.into_bytes())).collect();
-    write_counted(folder, &files, "figures", quiet)
+    write_counted(folder, &files, quiet)
 }
 
 /// Writes the page that has the figures and the tables.
@@ -97,11 +96,7 @@ pub fn report(arguments: &ReportArguments, quiet: bool) -> Result<(), PresentErr
         command: &format!("corfem report {place}"),
     })?;
     if let Some(folder) = &arguments.folder {
-        write_files(
-            folder,
-            &[("report.html".to_owned(), html.into_bytes())],
-            "report",
-        )
+        write_files(folder, &[("report.html".to_owned(), html.into_bytes())])
     } else {
         write_report(arguments.output.as_deref(), &html)
     }
@@ -130,5 +125,5 @@ pub fn dump(arguments: &DumpArguments, quiet: bool) -> Result<(), PresentError> 
             .into_iter()
             .map(|(name, text)| (name, text.into_bytes())),
     );
-    write_counted(folder, &files, &format!("dump {}", arguments.case), quiet)
+    write_counted(folder, &files, quiet)
 }

@@ -1,85 +1,64 @@
-//! The place of a report: standard output, a device or a pipe, or a file, which is written whole or not at all.
+//! The place of a report: standard output, a device or a pipe, a file, which is written whole or not at all, or a folder of files.
 
-use corfem::files::disk::{
-    append, is_standard_output, metadata, probe, read_link, replace, replaceable, standard_output,
-};
+use corfem::files::disk::{probe, replace};
 use corfem::files::error::FileError;
 use corfem::present::PresentError;
-use std::io::{self, ErrorKind, Write};
-use std::path::{Path, PathBuf};
+use std::fs::{OpenOptions, create_dir};
+use std::io::{ErrorKind, Write, stdout};
+use std::path::Path;
 
-/// The place of a report.
-enum OutputPlace {
-    StandardOutput,
-    /// An existing path that is not a regular file, such as a pipe.
-    Device(PathBuf),
-    /// A regular file, or a new one; links are followed.
-    File(PathBuf),
+/// The file that is asked for, if it is not standard output.
+fn named(path: Option<&Path>) -> Option<&Path> {
+    path.filter(|path| path.as_os_str() != "-")
 }
 
-/// Refuses a path that could not be written, before there is anything to write. Nothing is changed by it.
-pub fn check(path: &Path) -> Result<(), PresentError> {
-    let check = || match place(Some(path))? {
-        OutputPlace::File(path) => {
-            replaceable(&path)?;
-            probe(path.parent().unwrap_or(&path))
-        }
-        // A pipe is not opened yet, because that waits for its reader.
-        OutputPlace::StandardOutput | OutputPlace::Device(_) => Ok(()),
-    };
-    Ok(check().map_err(FileError::of_file(named(Some(path)), "write"))?)
+/// True of a pipe or a device, which is written to and not replaced.
+fn is_device(path: &Path) -> bool {
+    path.metadata()
+        .is_ok_and(|found| !found.is_file() && !found.is_dir())
+}
+
+/// Refuses a file or a folder that could not be written, before there is anything to write.
+pub fn check(file: Option<&Path>, folder: Option<&Path>) -> Result<(), PresentError> {
+    for path in named(file).into_iter().filter(|path| !is_device(path)) {
+        probe(path).map_err(FileError::of_file(path, "write"))?;
+    }
+    if let Some(path) = folder {
+        let of_it = path.join("x");
+        let place = if path.is_dir() { &of_it } else { path };
+        probe(place).map_err(FileError::of_file(path, "write"))?;
+    }
+    Ok(())
 }
 
 /// Writes to standard output, which `-` is too, through to a device or a pipe, or to a file, whole or not at all.
 pub fn write_report(path: Option<&Path>, text: &str) -> Result<(), PresentError> {
-    let write = || match place(path)? {
-        OutputPlace::StandardOutput => write_all_to(standard_output(), text),
-        OutputPlace::Device(path) => write_all_to(append(&path)?, text),
-        OutputPlace::File(path) => replace(&path, text.as_bytes()),
-    };
-    Ok(write().map_err(FileError::of_file(named(path), "write"))?)
-}
-
-fn named(path: Option<&Path>) -> &Path {
-    path.filter(|path| path.as_os_str() != "-")
-        .unwrap_or(Path::new("standard output"))
-}
-
-fn place(path: Option<&Path>) -> io::Result<OutputPlace> {
-    let Some(path) = path.filter(|path| path.as_os_str() != "-") else {
-        return Ok(OutputPlace::StandardOutput);
-    };
-    match metadata(path) {
-        Ok(found) if found.is_dir() => return Err(ErrorKind::IsADirectory.into()),
-        Ok(found) if is_standard_output(&found) => return Ok(OutputPlace::StandardOutput),
-        Ok(found) if !found.is_file() => return Ok(OutputPlace::Device(path.to_owned())),
-        Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
-        _ => {}
-    }
-    let mut path = path.to_owned();
-    while let Ok(target) = read_link(&path) {
-        if is_descriptor(&path) {
-            // A file that is already open is appended to.
-            return Ok(OutputPlace::Device(path));
+    let written = match named(path) {
+        None => stdout().write_all(text.as_bytes()),
+        Some(path) if is_device(path) => {
+            let device = OpenOptions::new().append(true).open(path);
+            device.and_then(|mut device| device.write_all(text.as_bytes()))
         }
-        path = path.parent().unwrap_or(Path::new("")).join(target);
-    }
-    if path.file_name().is_none() || path.as_os_str().as_encoded_bytes().ends_with(b"/") {
-        return Err(ErrorKind::IsADirectory.into());
-    }
-    Ok(OutputPlace::File(path))
-}
-
-/// True for a name of one of the program's own open files, such as `/dev/fd/3`.
-fn is_descriptor(path: &Path) -> bool {
-    let folder = path.parent().and_then(|folder| folder.canonicalize().ok());
-    folder.is_some_and(|folder| folder.starts_with("/proc"))
-}
-
-/// Writes a whole text. A reader that closes the pipe early is not an error.
-fn write_all_to(mut out: impl Write, text: &str) -> io::Result<()> {
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Some(path) => replace(path, text.as_bytes()),
+    };
+    match written {
+        // A reader that closes the pipe early is no error.
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
-        done => done,
+        done => Ok(done.map_err(FileError::of_file(
+            named(path).unwrap_or(Path::new("standard output")),
+            "write",
+        ))?),
     }
+}
+
+/// Writes the files of a run, by name and bytes, into a folder, made if it is new.
+pub fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<(), PresentError> {
+    if !folder.is_dir() {
+        create_dir(folder).map_err(FileError::of_file(folder, "write"))?;
+    }
+    for (name, bytes) in files {
+        let path = folder.join(name);
+        replace(&path, bytes).map_err(FileError::of_file(&path, "write"))?;
+    }
+    Ok(())
 }

@@ -46,8 +46,6 @@ pub(in crate::job) const FEWER: &str = "the model has fewer modes than the test"
 struct Copies {
     modes: [usize; 2],
     assurance: f64,
-    /// The second frequency over the first.
-    frequency_ratio: f64,
     /// True if noise alone, in all but one of a thousand tests, makes one mode differ so much from itself.
     is_measured_twice: bool,
 }
@@ -71,7 +69,6 @@ impl Copies {
         Self {
             modes,
             assurance,
-            frequency_ratio,
             is_measured_twice: law
                 .is_ok_and(|law| chi_squared <= law.inverse_cdf(1.0 - FALSE_ALARMS)),
         }
