@@ -38,8 +38,6 @@ pub use concern::{Check, Concern, Trust};
 pub use concerns::of_bodies;
 #[doc(hidden)]
 pub use correlated::{CorrelatedJob, History};
-#[doc(hidden)]
-pub use entries::removed_step;
 pub use judged::{HeldOut, JobResult, run};
 pub use loaded::LoadedJob;
 #[doc(hidden)]
@@ -56,7 +54,7 @@ use crate::files::error::{FileError, is_not};
 use crate::files::read_bytes;
 use crate::files::text::decoded;
 use crate::method::outer_loop::Settings;
-use entries::{CorrelationEntries, entry_of, refuse_removed};
+use entries::{CorrelationEntries, entry_of};
 use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::fmt::Display;
@@ -243,7 +241,6 @@ pub fn read(path: &Path) -> Result<Job, FileError> {
     let text = decoded(&bytes);
     // Text that is not TOML is refused below, by its line.
     let given = toml::from_str(&text).unwrap_or_default();
-    refuse_removed(path, &given)?;
     let job = toml::from_str(&text).map(|job| Job {
         path: path.to_owned(),
         text: text.clone().into_owned(),

@@ -360,7 +360,7 @@ impl PreparedJob {
         if !self.is_invertible(&paired, &test.shapes) {
             return None;
         }
-        let mass = mass_by_modes(&paired).ok()?;
+        let mass = mass_by_modes(&paired)?;
         test.scaled_with(&mass).ok().map(|_| mass)
     }
 

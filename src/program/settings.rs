@@ -1,15 +1,14 @@
 //! Settings of the loops from the command line, so that a reader tries another reading without writing Rust.
 
 use clap::Args;
-use corfem::job::removed_step;
 use corfem::method::linear_algebra::check_length;
 use corfem::method::outer_loop::Settings;
 use corfem::method::step::Bounds;
 use corfem::method::step::{Accumulation, StepRule};
 use corfem::present::PresentError;
 use serde::Deserialize;
+use serde::de::IntoDeserializer;
 use serde::de::value::{Error, StrDeserializer};
-use serde::de::{Error as _, IntoDeserializer};
 
 #[derive(Debug, Default, Args)]
 #[command(next_help_heading = "Settings of the loops")]
@@ -19,7 +18,7 @@ pub struct SettingsArguments {
     ///   matrix    by that and what it couples between test modes
     ///   relative  by the relative change alone, so that every element counts the same
     ///   gage      by the change of its gage, so that thin panels change more
-    #[arg(long, value_name = "RULE", value_parser = rule, verbatim_doc_comment)]
+    #[arg(long, value_name = "RULE", value_parser = named::<StepRule>, verbatim_doc_comment)]
     rule: Option<StepRule>,
     /// Combination of the changes of several iterations:
     ///   sum       each changes the stiffness that the pass began with, as the paper prints
@@ -47,11 +46,6 @@ pub struct SettingsArguments {
 fn named<T: for<'a> Deserialize<'a>>(text: &str) -> Result<T, Error> {
     let from: StrDeserializer<Error> = text.into_deserializer();
     T::deserialize(from)
-}
-
-/// A rule of the step by its name; the error for a removed one says so.
-fn rule(text: &str) -> Result<StepRule, Error> {
-    removed_step(text).map_or_else(|| named(text), |removed| Err(Error::custom(removed)))
 }
 
 impl SettingsArguments {

@@ -15,7 +15,6 @@ use crate::method::modes::Modes;
 use crate::method::step::Bounds;
 use nalgebra::DMatrix;
 use std::ops::RangeInclusive;
-use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, OnceLock};
 
 /// What may change: a part of the stiffness or mass that is scaled by one factor.
@@ -169,11 +168,6 @@ impl WholeModel {
     /// Work that analyses of this model have taken so far.
     pub fn work(&self) -> Work {
         self.0.plan.work()
-    }
-
-    /// Lets analyses fail once a flag is true, or no longer.
-    pub(crate) fn stop_at(&self, flag: Option<Arc<AtomicBool>>) {
-        self.0.plan.stop_at(flag);
     }
 
     /// The largest part of an entry of the first stiffness by which it is rounded.

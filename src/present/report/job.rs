@@ -319,7 +319,7 @@ fn moved(found: &CorrelatedJob) -> Option<[Vec<Vec<Vector3<f64>>>; 3]> {
         let sign = pair.0.dot(&pair.1).signum();
         pair.1 *= sign;
     }
-    let test = expand(&all, &seen, &found.first.model.test.shapes).ok();
+    let test = expand(&all, &seen, &found.first.model.test.shapes);
     let at = |shape: DVectorView<f64>, grid: usize| {
         Vector3::from_fn(|direction, _| {
             let motion = source.motions.get(&StructuralDof { grid, direction });

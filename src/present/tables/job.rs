@@ -55,20 +55,12 @@ pub fn places_table(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Ta
         .flat_map(|result| [&result.found.first, &result.found.last])
         .filter(|model| model.model.test.len() > 0);
     for (name, model) in ["first COMAC", "corrected COMAC"].into_iter().zip(models) {
-        let pairs: Vec<Option<usize>> = model
-            .model
-            .exact
-            .pairing
-            .analysis_mode
-            .iter()
-            .copied()
-            .map(Some)
-            .collect();
-        let assurance = coordinate_assurance(
-            &model.model.exact.modes.shapes,
-            &model.model.test.shapes,
-            &pairs,
-        )?;
+        let exact = &model.model.exact;
+        let paired = exact
+            .modes
+            .shapes
+            .select_columns(&exact.pairing.analysis_mode);
+        let assurance = coordinate_assurance(&paired, &model.model.test.shapes);
         table = table.column(
             name,
             "",

@@ -115,7 +115,6 @@ impl Factor {
     pub fn solve(&self, right: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         let (count, turn) = (right.ncols(), &self.plan.turn);
         check_shape("loads", finite("loads", right)?, self.scale.len(), count)?;
-        self.plan.go_on()?;
         let (mut rows, mut is_loaded) = (vec![0.0; right.len()], vec![false; right.nrows()]);
         for (row, &turn) in turn.iter().enumerate() {
             for (column, value) in rows[turn * count..][..count].iter_mut().enumerate() {

@@ -17,8 +17,8 @@ use nalgebra::DVector;
 use serde::Serialize;
 use std::mem::take;
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
-use std::sync::{Arc, Mutex};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// Parts of a factorization that do not change with the sizes: the order in which the DOF are eliminated, and the places where the
 /// stiffness and its factor have entries.
@@ -36,8 +36,6 @@ pub struct FactorizationPlan {
     /// Factorizations and eigensolutions made so far.
     factorizations: AtomicUsize,
     eigensolutions: AtomicUsize,
-    /// Asks, once true, to give up.
-    stop: Mutex<Option<Arc<AtomicBool>>>,
 }
 
 /// Work that analyses of a structure have taken.
@@ -111,28 +109,7 @@ impl FactorizationPlan {
             spare: Mutex::default(),
             factorizations: AtomicUsize::new(0),
             eigensolutions: AtomicUsize::new(0),
-            stop: Mutex::default(),
         })
-    }
-
-    /// Lets factorizations and solutions fail once a flag is true, or no longer.
-    pub(in crate::sparse) fn stop_at(&self, flag: Option<Arc<AtomicBool>>) {
-        if let Ok(mut stop) = self.stop.lock() {
-            *stop = flag;
-        }
-    }
-
-    /// Fails if it is to stop.
-    pub(super) fn go_on(&self) -> Result<(), Error> {
-        let stop = self.stop.lock();
-        let is_over = stop.is_ok_and(|stop| stop.as_ref().is_some_and(|flag| flag.load(Relaxed)));
-        match is_over {
-            false => Ok(()),
-            true => Err(Error::Failed {
-                what: "analysis",
-                why: "stopped by request".to_owned(),
-            }),
-        }
     }
 
     /// Counts a search for modes.
@@ -236,7 +213,6 @@ impl FactorizationPlan {
     /// $L$ and $D$ of given entries, and where a pivot is zero, in one thread whatever the library's global setting: its parallel kernels
     /// have open reports of wrong results on large matrices.
     pub(super) fn factor(&self, entries: &[f64]) -> Result<(Vec<f64>, Option<usize>), Error> {
-        self.go_on()?;
         self.factorizations.fetch_add(1, Relaxed);
         let (symbolic, one) = (&self.symbolic, Par::Seq);
         let mut values = self
