@@ -5,7 +5,7 @@ use super::preflight::{
     LARGEST_TOLERANCE, Names, SeenModes, check_settings, percent, preflight_at_sensors,
 };
 use super::prepared::LeftOut;
-use super::sensors::{PlacedSensor, motion};
+use super::sensors::PlacedSensor;
 use super::{LoadedJob, Method, PreparedJob};
 use crate::files::deck::{Reason, Unread};
 use crate::files::error::FileError;
@@ -136,28 +136,11 @@ impl PreparedJob {
         let words = "The job's weights count as dividing the standard deviations: chi-squared and intervals hold for deviations so divided.";
         let is_said = divides && loaded.job.compare.method == Method::GaussNewton;
         all.extend(is_said.then(|| remark("own-weights", words.into())));
-        let (tests, free) = (loaded.data.scatter.ncols(), self.free_numbers());
-        if tests > 0 {
-            let counts = match self.covariance() {
-                Some(_) => "their covariance counts".to_owned(),
-                None => format!(
-                    "their variances alone count, for a covariance of {free} numbers needs {} tests and no weights of the job's own",
-                    free + 3
-                ),
-            };
-            let words = format!(
-                "The test is the mean of {tests}; {counts}. What all of them have wrong does not scatter."
-            );
-            all.push(remark("repeats", words));
-        }
-        all.extend(loaded.data.drift.map(|lag| {
-            let wider = ((1.0 + lag) / (1.0 - lag)).sqrt();
-            let words = format!(
-                "The repeated tests drift: each is like the one before, with a correlation of {lag:.2}. Their deviations count as \
-                 {wider:.1} times as large as if they were independent."
-            );
-            remark("drift", words)
-        }));
+        let tests = self.loaded.job.test.repeats.len();
+        let words = format!(
+            "The test is the mean of {tests}; what all of them have wrong does not scatter."
+        );
+        all.extend((tests > 0).then(|| remark("repeats", words)));
         all
     }
 
@@ -275,20 +258,7 @@ impl PreparedJob {
             omega_squared: squares,
             shapes,
         } = self.first.shapes(2 * loaded.usual_modes());
-        let along = |(place, sensor): (usize, &PlacedSensor)| {
-            let own = sensor.direction;
-            let others = (own / 3 * 3..own / 3 * 3 + 3).filter(move |other| *other != own);
-            let read = |other: usize| {
-                let axis = Vector3::ith(other % 3, 1.0);
-                let motion = motion(&loaded.source, sensor.grid, other, axis);
-                let rows = motion.map(|(row, coefficient)| shapes.row(row) * coefficient);
-                rows.reduce(|sum, row| sum + row)
-                    .map(|readings| (place, other, readings))
-            };
-            others.filter_map(read).collect::<Vec<_>>()
-        };
         let seen = SeenModes {
-            directions: loaded.placed.iter().enumerate().flat_map(along).collect(),
             shares: self.first.shares(shapes.ncols()),
             modes: Modes::new(squares, loaded.sensors.times(&shapes)?)?,
         };

@@ -102,9 +102,12 @@ impl CorrelatedJob {
     /// The residuals at the best factors, compared with the noise; parameters at a bound are not fitted.
     fn misfit(&self, at_bound: &[usize]) -> Result<Misfit, FileError> {
         let (prepared, priors) = (&self.prepared, &self.prepared.loaded.source.priors);
-        let mut misfit = Misfit::of(&self.last, &prepared.weights(), priors, at_bound)?;
-        misfit.chi_squared *= prepared.estimate_scale(misfit.degrees_of_freedom);
-        Ok(misfit)
+        Ok(Misfit::of(
+            &self.last,
+            &prepared.weights(),
+            priors,
+            at_bound,
+        )?)
     }
 
     /// The verdict by the reason why it ended and by the tolerances.
@@ -227,6 +230,7 @@ impl CorrelatedJob {
             let words = format!("Test mode {} was not fitted: its frequency was off by {first:.2} % and is by {last:.2} %{shape}.", held.mode);
             Concern::remark(Check::HeldOut, "held-out-", &[held.mode], words)
         }));
+        all.extend(prepared.unanswered(&self.last));
         let left = prepared.unlike(&self.last)?;
         all.extend(left.iter().map(LeftOut::concern));
         Ok(all)

@@ -62,8 +62,8 @@ impl PreparedJob {
         let (loaded, placed) = (&self.loaded, &self.loaded.placed);
         let (priors, mut unranked) = (&loaded.source.priors, Vec::new());
         let is_unpaired = self.modes.is_empty() || self.is_without_pairs();
-        if priors.is_empty() || is_unpaired || self.covariance().is_some() {
-            let why = "Nothing is ranked without parameters, compared shapes, and numbers that are independent.";
+        if priors.is_empty() || is_unpaired {
+            let why = "Nothing is ranked without parameters and compared shapes.";
             return Ok(NextMeasurement {
                 unranked: vec![why.to_owned()],
                 changes: Default::default(),

@@ -485,10 +485,7 @@ impl PreparedJob {
                 if self.partner_shapes.ncols() > 0 {
                     comparison = comparison.followed_by_shape(self.partner_shapes.clone())?;
                 }
-                match self.covariance() {
-                    Some(covariance) => comparison.with_covariance(&covariance),
-                    None => Ok(comparison),
-                }
+                Ok(comparison)
             }
         }
     }

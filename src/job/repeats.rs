@@ -1,12 +1,10 @@
 //! Repeated tests: their mean, and the standard deviations and the covariance that their scatter gives.
 
+use super::Job;
 use super::prepared::FLOOR;
-use super::{Job, PreparedJob};
 use crate::files::error::FileError;
 use crate::files::test_data::{self, Sensor, TestData};
-use crate::method::linear_algebra::{cholesky, symmetric_eigen, symmetric_part};
-use crate::sparse::ModeWeight;
-use crate::weighted::comparison::HALF_THE_DIGITS;
+use crate::method::linear_algebra::symmetric_eigen;
 use nalgebra::{DMatrix, DVector};
 use std::path::PathBuf;
 
@@ -80,10 +78,10 @@ fn mean_of(job: &Job, tests: &[TestData]) -> Result<TestData, FileError> {
             }
         }
     }
+    let mut of_frequencies = DMatrix::zeros(modes, tests.len());
     let mut data = TestData {
         frequency_deviation: None,
         shape_deviation: None,
-        scatter: DMatrix::zeros(modes * (1 + sensors), tests.len()),
         ..first.clone()
     };
     for mode in 0..modes {
@@ -93,9 +91,7 @@ fn mean_of(job: &Job, tests: &[TestData]) -> Result<TestData, FileError> {
         );
         data.frequencies_hz[mode] = hertz.mean();
         let relative = hertz / data.frequencies_hz[mode];
-        let row = mode * (1 + sensors);
-        data.scatter
-            .set_row(row, &relative.add_scalar(-1.0).transpose());
+        of_frequencies.set_row(mode, &relative.add_scalar(-1.0).transpose());
         if data.alone.contains(&mode) {
             continue;
         }
@@ -123,60 +119,20 @@ fn mean_of(job: &Job, tests: &[TestData]) -> Result<TestData, FileError> {
         }
         let mean = shapes.column_mean();
         let largest = mean.amax();
-        for (test, shape) in shapes.column_iter().enumerate() {
-            let apart = (shape - &mean) / largest;
-            data.scatter
-                .view_mut((row + 1, test), (sensors, 1))
-                .copy_from(&apart);
-        }
+        shapes
+            .column_iter_mut()
+            .for_each(|mut shape| shape -= &mean);
+        let apart = shapes / largest;
         data.shapes.set_column(mode, &(mean / largest));
         if sensors > 1 {
-            let apart = data.scatter.rows(row + 1, sensors).into_owned();
             let what = format!("the shape of mode {}", mode + 1);
             let own = deviations(job, &apart, sensors - 1, &what)?;
             data.component_deviation.insert(mode, own);
         }
     }
-    let frequencies: Vec<usize> = (0..modes).map(|mode| mode * (1 + sensors)).collect();
-    let apart = data.scatter.select_rows(&frequencies);
-    let own = deviations(job, &apart, modes, "frequencies")?;
+    let own = deviations(job, &of_frequencies, modes, "frequencies")?;
     data.frequency_deviation = Some(own.data.into());
-    data.drift = drift(&data.scatter);
-    if let Some(lag) = data.drift {
-        // The mean of R numbers that are alike from one to the next by r has a variance (1 + r)/(1 - r) times as large.
-        let wider = ((1.0 + lag) / (1.0 - lag)).sqrt();
-        let frequencies = data.frequency_deviation.iter_mut().flatten();
-        frequencies.for_each(|deviation| *deviation *= wider);
-        let components = data.component_deviation.values_mut();
-        components.for_each(|deviations| *deviations *= wider);
-        data.scatter *= wider;
-    }
     Ok(data)
-}
-
-/// Standard deviations by which the likeness of neighboring tests exceeds that of independent ones at least where tests drift.
-const RARE: f64 = 3.0;
-/// Largest likeness that counts: tests that change by less than this leaves tell nothing of their mean.
-const MOST_ALIKE: f64 = 0.95;
-
-/// Correlation of a test's deviations from the mean (numbers × tests) with those of the next, if independent tests hardly have it by chance.
-///
-/// Every number counts as much. Independent tests have $-1/R$ in the mean, with a deviation of $1/\sqrt{R n}$ of $n$ numbers that are
-/// independent of one another; of numbers that scatter together $n$ is $(\sum \mu)^2/\sum \mu^2$ with the eigenvalues $\mu$ of their products.
-fn drift(scatter: &DMatrix<f64>) -> Option<f64> {
-    let mut unit = scatter.clone();
-    for mut row in unit.row_iter_mut().filter(|row| row.amax() > 0.0) {
-        let size = row.norm();
-        row /= size;
-    }
-    let (products, tests) = (unit.tr_mul(&unit), scatter.ncols() as f64);
-    let total = products.trace();
-    let next: f64 = (1..scatter.ncols())
-        .map(|test| products[(test - 1, test)])
-        .sum();
-    let lag = next / total + 1.0 / tests;
-    let numbers = total * total / products.norm_squared();
-    (lag * (tests * numbers).sqrt() > RARE).then(|| lag.min(MOST_ALIKE))
 }
 
 fn key(sensor: &Sensor) -> (&str, Option<usize>, usize) {
@@ -204,104 +160,4 @@ fn deviations(
         format!("test.repeats: {tests} tests do not tell the deviations of {what}; name more, or one as test.file with deviations")
     })?;
     Ok(variances.map(|variance| (variance / count).sqrt()))
-}
-
-impl PreparedJob {
-    /// Covariance of the weighted residuals of repeated tests, where there are enough of them; none where variances are all that is
-    /// known, and the residuals count as independent.
-    ///
-    /// Of $p$ numbers that $R$ tests have beside the scales of shapes, with the deviations $X$ ($p \times R$) over the standard
-    /// deviations, it is $X X^t/(R (R - p - 2))$: its inverse is right in the mean, and there is none without at least $p + 3$ tests. A
-    /// shape's own direction, in which nothing is left, gets the variance one, which the free scale takes away again. Modes that are held
-    /// out have no part in it. Weights of the job's own leave the residuals independent.
-    pub(super) fn covariance(&self) -> Option<DMatrix<f64>> {
-        let (sensors, tests) = (
-            self.loaded.data.sensors.len(),
-            self.loaded.data.scatter.ncols(),
-        );
-        let numbers = self.free_numbers();
-        let (weights, fitted) = (self.own_weights(), self.fitted());
-        let mut own = weights.iter().zip(&fitted);
-        if own.any(|(own, is_fitted)| *is_fitted && *own != ModeWeight::ONE) || tests < numbers + 3
-        {
-            return None;
-        }
-        // For every residual its row of the scatter, one over its deviation, and the component of the shape that it measures.
-        type MeasuredNumber = (usize, f64, Option<(usize, f64)>);
-        let mut rows: Vec<MeasuredNumber> = Vec::new();
-        for (place, mode) in self.compared().enumerate() {
-            let (row, noise) = (mode * (1 + sensors), self.loaded.deviations(mode));
-            let is_fitted = f64::from(u8::from(fitted[place]));
-            rows.push((row, is_fitted / noise.frequency, None));
-            let own = self.loaded.data.component_deviation.get(&mode);
-            for sensor in self
-                .loaded
-                .placed
-                .iter()
-                .filter(|_| place < self.modes.len())
-            {
-                let deviation = own.map_or(noise.shape, |own| own[sensor.row]);
-                let component = self.loaded.data.shapes[(sensor.row, mode)];
-                let of_shape = Some((place, component));
-                let scale = is_fitted * sensor.sign / deviation;
-                rows.push((row + 1 + sensor.row, scale, of_shape));
-            }
-        }
-        let apart = DMatrix::from_fn(rows.len(), tests, |number, test| {
-            let (row, scale, _) = rows[number];
-            scale * self.loaded.data.scatter[(row, test)]
-        });
-        let mut along = DMatrix::from_fn(rows.len(), self.modes.len(), |number, mode| {
-            let (_, scale, of_shape) = rows[number];
-            of_shape.map_or(0.0, |(place, component)| {
-                if place == mode {
-                    scale * component
-                } else {
-                    0.0
-                }
-            })
-        });
-        for mut along in along.column_iter_mut() {
-            along /= along.norm().max(f64::MIN_POSITIVE);
-        }
-        let sizes = (tests * (tests - numbers - 2)) as f64;
-        let covariance = &apart * apart.transpose() / sizes + &along * along.transpose();
-        let mut covariance = symmetric_part(&covariance);
-        // Residuals of modes that are held out weigh nothing, and stay apart from the others.
-        for number in (0..rows.len()).filter(|number| rows[*number].1 == 0.0) {
-            covariance[(number, number)] = 1.0;
-        }
-        // Files that are given twice leave it singular.
-        let is_whole = cholesky("covariance", &covariance, HALF_THE_DIGITS).is_ok();
-        is_whole.then_some(covariance)
-    }
-
-    /// Factor on chi-squared by an estimated covariance, after a fit that leaves these degrees of freedom.
-    ///
-    /// The least over the fitted parameters is chi-squared by the covariance of what is left, $\nu$ of the $p$ numbers, and one over
-    /// that of $R$ tests is right in the mean with $R - \nu - 2$ for $R - p - 2$. The parameters' own deviations need the latter.
-    pub(super) fn estimate_scale(&self, freedom: f64) -> f64 {
-        let room = self.loaded.data.scatter.ncols() as f64 - 2.0;
-        let all = self.free_numbers() as f64;
-        match self.covariance() {
-            Some(_) => (room - freedom) / (room - all),
-            None => 1.0,
-        }
-    }
-
-    /// True of every test mode that has any weight.
-    fn fitted(&self) -> Vec<bool> {
-        let weights = self.own_weights().into_iter();
-        weights
-            .map(|own| own.frequency > 0.0 || own.shape > 0.0)
-            .collect()
-    }
-
-    /// Count of the test's numbers for a covariance: all that are fitted, less a scale a shape.
-    pub(super) fn free_numbers(&self) -> usize {
-        let (fitted, of_mode) = (self.fitted(), self.loaded.placed.len().max(1));
-        let (shaped, alone) = fitted.split_at(self.modes.len());
-        let count = |of: &[bool]| of.iter().filter(|is_fitted| **is_fitted).count();
-        count(shaped) * of_mode + count(alone)
-    }
 }

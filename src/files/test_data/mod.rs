@@ -83,11 +83,6 @@ pub struct TestData {
     pub shape_deviation: Option<Vec<f64>>,
     /// Standard deviation of every component of a shape, a fraction of its largest, by mode, from zero, where a mode has them.
     pub component_deviation: BTreeMap<usize, DVector<f64>>,
-    /// Deviations of repeated tests from their mean, one column a test: for every mode that of its frequency, a fraction of it,
-    /// then those of its components, fractions of the largest; empty for a single test.
-    pub scatter: DMatrix<f64>,
-    /// Correlation of each of repeated tests with the next, where it is not by chance; deviations and scatter are as much larger.
-    pub drift: Option<f64>,
     /// Modal phase collinearity of every mode that was complex before it was made real; empty when all were real.
     pub phase_collinearity: Vec<f64>,
     /// Lines of the wire frame of the test, as pairs of grid numbers.

@@ -6,7 +6,6 @@
 //! apart there; their ratios are judged after shapes have been paired.
 
 mod frequencies;
-mod order;
 mod readings;
 mod shapes;
 mod words;
@@ -182,15 +181,6 @@ pub fn preflight_at_sensors(
         told.silent
             .map(|reason| Concern::not_checked(Check::Readings, reason)),
     );
-    let unnoticed: Vec<String> = told
-        .unnoticed
-        .iter()
-        .map(|&own| names.sensor(own))
-        .collect();
-    if !unnoticed.is_empty() {
-        let reason = format!("one reversed would not show at {}", unnoticed.join(", "));
-        concerns.push(Concern::not_checked(Check::Readings, &reason));
-    }
     // At one sensor all shapes are alike, and say nothing of partners.
     let alike = "at one sensor all shapes are alike";
     let is_one = test.shapes.nrows() == 1;

@@ -14,7 +14,6 @@
 //! $\ln \sigma \lvert q_i \rvert$ each, or a mode of which the sensors hardly see anything would explain any shape as noise. Close modes mix freely, so clusters are compared as subspaces. No mass is needed: free
 //! structures and light points are judged like others.
 
-use super::order::{matched, unit};
 use super::shapes::{Change, changed};
 use crate::job::assignment::pair_optimally;
 use crate::job::likelihood::Frequencies;
@@ -40,8 +39,6 @@ const OTHER_ERROR: f64 = 0.003;
 pub(super) const FALSE_ALARMS: f64 = 1e-3;
 /// A gain closer to one than this factor may be the model's.
 const LEAST_GAIN: f64 = 1.5;
-/// A sensor is dead when its readings are below this part of those expected.
-const DEAD: f64 = 0.1;
 /// Number of suspect sensors, those that others predict worst, tried for exchanged labels.
 const MOST_EXCHANGED: usize = 24;
 
@@ -52,8 +49,6 @@ pub struct SeenModes {
     pub modes: Modes,
     /// $V^t K_e V$ or $V^t M_e V$ of every parameter, with the whole shapes.
     pub shares: Vec<ParameterMatrix>,
-    /// What a sensor would read if it measured along another direction of its grid: sensor, direction, readings.
-    pub directions: Vec<(usize, usize, RowDVector<f64>)>,
 }
 
 /// The mode of the model that every test mode comes from, and its sign.
@@ -244,8 +239,6 @@ pub(super) struct Told {
     /// The single mistake that explains the test best, if it does so well enough, and by which factor it makes the test more likely, as
     /// a decimal logarithm.
     pub(super) mistake: Option<(Change, f64)>,
-    /// Sensors that could be reversed in an exact test of the model without a word.
-    pub(super) unnoticed: Vec<usize>,
     /// The mode of the model that every test mode most likely is, if all have one.
     pub(super) partners: Option<Vec<usize>>,
     /// The reason why they tell nothing, if they do not.
@@ -275,14 +268,13 @@ pub(super) fn explain(seen: &SeenModes, (test, noise): (&Modes, &[Noise])) -> Re
         return silent("the sensors do not tell the modes of the model apart");
     };
     let (before, partners) = model.of_test(test, |_, _| 0.0)?;
-    let tried = tried(seen, &model, test)?;
+    let tried = tried(&model, test)?;
     let enough = (tried.len() as f64 / FALSE_ALARMS).ln();
     let best = tried.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
     let mistake = best
         .map(|(change, after)| (change, before - after))
         .filter(|(_, gain)| *gain > enough)
         .map(|(change, gain)| (change, gain / std::f64::consts::LN_10));
-    let unnoticed = unnoticed(&model, &partners, enough)?;
     let right = match &mistake {
         Some((change, _)) => model.of_test(&changed(test, change), |_, _| 0.0)?.1,
         None => partners,
@@ -293,17 +285,12 @@ pub(super) fn explain(seen: &SeenModes, (test, noise): (&Modes, &[Noise])) -> Re
     Ok(Told {
         mistake,
         partners: right.collect(),
-        unnoticed,
         silent: None,
     })
 }
 
 /// Changes of a test, each with the negative logarithm of its likelihood with the change.
-fn tried(
-    seen: &SeenModes,
-    model: &Likelihood,
-    test: &DMatrix<f64>,
-) -> Result<Vec<(Change, f64)>, Error> {
+fn tried(model: &Likelihood, test: &DMatrix<f64>) -> Result<Vec<(Change, f64)>, Error> {
     let sensors = test.nrows();
     let mut tried: Vec<(Change, f64)> = Vec::new();
     let mut others: Vec<(f64, usize)> = Vec::new();
@@ -321,31 +308,15 @@ fn tried(
         let (row, readings) = (model.shapes.row(sensor).into_owned(), test.row(sensor));
         others.push((without.misfit(&rest)?, sensor));
         let expected = without.expected(&rest, &row);
-        let size = expected.iter().map(|value| value * value).sum::<f64>();
-        if readings.norm_squared() < DEAD * DEAD * size {
-            let noise_alone = |test: usize, noise: f64| {
-                let noise = noise.max(f64::MIN_POSITIVE);
-                0.5 * (readings[test] / noise).powi(2).min(1e9) + noise.ln()
-            };
-            let (misfit, _) = without.of_test(&rest, noise_alone)?;
-            tried.push((Change::Dead(sensor), misfit));
-        }
         // Every mode's own ratio is a candidate; choosing among them costs the logarithm of their number, and readings so many times as
         // large are spread as much wider.
         for (reading, expected) in readings.iter().zip(&expected) {
             let gain = reading / expected;
-            if gain.is_finite() && gain > DEAD && gain.max(1.0 / gain) > LEAST_GAIN {
+            if gain.is_finite() && gain > 0.0 && gain.max(1.0 / gain) > LEAST_GAIN {
                 let modes = test.ncols() as f64;
                 let costs = modes.ln() + modes * gain.ln();
                 try_change(&mut tried, Change::Gain(sensor, gain), costs)?;
             }
-        }
-    }
-    for (sensor, direction, readings) in &seen.directions {
-        let mut shapes = model.shapes.clone();
-        shapes.set_row(*sensor, readings);
-        if let Some(turned) = model.with(shapes) {
-            tried.push((Change::Direction(*sensor, *direction), turned.misfit(test)?));
         }
     }
     others.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -355,52 +326,5 @@ fn tried(
             try_change(&mut tried, Change::Exchanged([a.min(b), a.max(b)]), 0.0)?;
         }
     }
-    // There are as many orders as the factorial says.
-    let orders: f64 = (2..=sensors).map(|count| (count as f64).ln()).sum();
-    for order in [(0..sensors).rev().collect(), ordered(model, test)?] {
-        try_change(&mut tried, Change::Reordered(order), orders)?;
-    }
     Ok(tried)
-}
-
-/// Sensors that could be reversed in an exact test of these modes without a gain that is enough.
-fn unnoticed(model: &Likelihood, partners: &Partners, enough: f64) -> Result<Vec<usize>, Error> {
-    let all: Option<Vec<usize>> = partners.iter().map(|partner| Some((*partner)?.0)).collect();
-    let Some(modes) = all else {
-        return Ok(Vec::new());
-    };
-    let exact = model.shapes.select_columns(&modes);
-    let (right, mut found) = (model.misfit(&exact)?, Vec::new());
-    for sensor in 0..exact.nrows() {
-        let reversed = model.misfit(&changed(&exact, &Change::Reversed(sensor)))?;
-        if reversed - right <= enough {
-            found.push(sensor);
-        }
-    }
-    Ok(found)
-}
-
-/// The order of the test's points that looks most like the model's: at first by the size of what every point does in the lowest
-/// modes, then by the modes so paired.
-fn ordered(model: &Likelihood, test: &DMatrix<f64>) -> Result<Vec<usize>, Error> {
-    let given: Vec<usize> = (0..test.nrows()).collect();
-    let lowest = test.ncols().min(model.shapes.ncols());
-    let shapes = unit(test.clone());
-    let first = unit(model.shapes.columns(0, lowest).into_owned()).abs();
-    let mut order = matched(&first, &shapes.columns(0, lowest).abs()).unwrap_or(given);
-    for _ in 0..super::order::ROUNDS {
-        let (_, partners) = model.of_test(&test.select_rows(&order), |_, _| 0.0)?;
-        let Some(partners) = partners.into_iter().collect::<Option<Vec<_>>>() else {
-            break;
-        };
-        let columns: Vec<DVector<f64>> = partners
-            .iter()
-            .map(|&(mode, sign)| sign * model.shapes.column(mode))
-            .collect();
-        match matched(&unit(DMatrix::from_columns(&columns)), &shapes) {
-            Some(next) if next != order => order = next,
-            _ => break,
-        }
-    }
-    Ok(order)
 }

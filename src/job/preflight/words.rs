@@ -1,7 +1,6 @@
 //! Names of sensors, parameters and test modes, and a change of the readings as a concern.
 
 use super::shapes::Change;
-use crate::files::test_data::DIRECTIONS;
 use crate::job::concern::{Check, Concern};
 
 /// Names of sensors and parameters, their places from one where they have none, and numbers of test modes.
@@ -53,30 +52,11 @@ impl Change {
                     format!("Sensors {} and {} exchanged?", both[0], both[1]),
                 )
             }
-            Self::Reordered(order) => {
-                let order: Vec<String> =
-                    order.iter().map(|place| (place + 1).to_string()).collect();
-                let question = format!("Points in another order ({})?", order.join(", "));
-                ("reordered", order, question)
-            }
             Self::Gain(place, gain) => (
                 "gain-",
                 vec![sensor(place)],
                 format!("Sensor {} reads {gain:.3} times too much?", sensor(place)),
             ),
-            Self::Dead(place) => (
-                "dead-",
-                vec![sensor(place)],
-                format!("Sensor {} dead?", sensor(place)),
-            ),
-            Self::Direction(place, along) => {
-                let question = format!(
-                    "Sensor {} measures along {}?",
-                    sensor(place),
-                    DIRECTIONS[*along]
-                );
-                ("direction-", vec![sensor(place)], question)
-            }
         };
         let words = format!(
             "{question} The test's shapes would be 10^{evidence:.0} times as likely, with its noise and a model 30 % wrong."
