@@ -6,6 +6,7 @@ use super::sensors::{PlacedSensor, place};
 use super::{Job, Method, ModelSource, PreparedJob, read};
 use crate::files::deck::rewrite;
 use crate::files::error::FileError;
+use crate::files::read_bytes;
 use crate::files::test_data::TestData;
 use crate::method::error::{Error, at_least_one};
 use crate::method::modes::Modes;
@@ -14,6 +15,7 @@ use crate::sparse::{Place, SparseMatrix, WholeParameter, WholeShare, no_modes};
 use crate::weighted::comparison::LoneFrequency;
 use crate::weighted::noise::Noise;
 use crate::weighted::residuals::DEVIATIONS;
+use sha2::{Digest, Sha256};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -181,6 +183,30 @@ impl LoadedJob {
             mean.or(own(&data.shape_deviation))
                 .or(compare.shape_deviation),
         ]
+    }
+
+    /// The inputs' digest: the first 128 bits, in hexadecimal, of the SHA-256 digest (FIPS 180-4) of the program's version, of the files
+    /// that the job names and of its own, each after the number of its bytes.
+    ///
+    /// # Errors
+    /// [`FileError::File`] when one of them cannot be read any more.
+    pub fn digest(&self) -> Result<String, FileError> {
+        let named = self.job.files().map(|file| self.job.beside(file));
+        let mut digest = Sha256::new_with_prefix(env!("CARGO_PKG_VERSION"));
+        for file in named.chain([self.job.path.clone()]) {
+            // A # may choose one matrix of the file.
+            let text = file.to_string_lossy();
+            let chosen = text.rsplit_once('#').filter(|_| !file.exists());
+            let path = chosen.map_or(&*file, |(file, _)| Path::new(file));
+            let bytes = read_bytes(path).map_err(FileError::of_file(path, "read"))?;
+            digest.update((bytes.len() as u64).to_be_bytes());
+            digest.update(&bytes);
+        }
+        let bytes = digest.finalize();
+        Ok(bytes[..16]
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect())
     }
 
     /// The deck with elements and point masses scaled by `factors` and every other byte as it was; none for a model of matrices.

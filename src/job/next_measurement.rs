@@ -1,4 +1,4 @@
-//! The next measurement: the deviations of the factors with one sensor more, one mode more or one sensor less.
+//! The next measurement: the deviations of the factors with one sensor more or less.
 
 use super::{Method, PlacedSensor, PreparedJob};
 use crate::files::error::FileError;
@@ -17,14 +17,12 @@ const MOST_WORK: usize = 250_000_000;
 const MOST_PLACES: usize = 8;
 /// Part of the largest reading below which a place does not move.
 const NOTHING: f64 = 1e-8;
-/// Deviations of a frequency within which modes might be compared together: twice that of a difference of two, with room.
-const CLOSE: f64 = 3.0;
 
 /// Single changes of a test and the deviations of the factors' logarithms after each.
 #[derive(Debug, Clone)]
 pub struct NextMeasurement {
-    /// Kinds of change, each with its best changes first: none, one sensor more, one more mode of the model, one sensor less.
-    pub changes: [Changes; 4],
+    /// Kinds of change, each with its best changes first: none, one sensor more, one sensor less.
+    pub changes: [Changes; 3],
     /// Changes that are not ranked, and why.
     pub unranked: Vec<String>,
 }
@@ -49,12 +47,10 @@ fn ranked<T>(
 }
 
 impl PreparedJob {
-    /// Deviations of the factors at the first model with one sensor more at a grid of it, with one more of its modes, and with one sensor
-    /// less. A new sensor reads what the model says of it; a new mode is as the model has it, with the deviations of the test's
-    /// last one.
+    /// Deviations of the factors at the first model with one sensor more at a grid of it, and with one sensor less. A new sensor reads what
+    /// the model says of it.
     ///
-    /// Every place is ranked by the modes at hand; the best have exact slopes, and with these the deviations of a job with that sensor. Of
-    /// a further mode the part that the modes left out have in the slopes is rough, to a thousandth.
+    /// Every place is ranked by the modes at hand; the best have exact slopes, and with these the deviations of a job with that sensor.
     ///
     /// # Errors
     /// The errors of the analysis and of the covariance.
@@ -72,37 +68,18 @@ impl PreparedJob {
         let mut weighted = self.clone();
         Arc::make_mut(&mut weighted.loaded).job.compare.method = Method::GaussNewton;
         let at_hand = weighted.analyze(&loaded.ones())?;
-        let (weights, partners) = (weighted.weights(), at_hand.partners());
-        let by = |own: &Comparison| deviations(&[(own, &weights)], priors);
-        let hertz = at_hand.model.exact.modes.frequencies_hz();
-        let noise = loaded.deviations(self.modes[self.modes.len() - 1]);
-        // The test would compare modes together that it does not tell apart.
-        let width = CLOSE * noise.frequency;
-        let is_free = |mode: &usize| {
-            let apart = |&other: &usize| (hertz[*mode] / hertz[other]).ln().abs() > width;
-            partners.iter().all(apart)
-        };
-        let free = (0..hertz.len()).filter(is_free).collect();
-        let free: Vec<usize> = self.some(free, "modes", &mut unranked);
+        let weights = weighted.weights();
+        let by = |own: &Comparison| deviations(own, &weights, priors);
         let compared = at_hand.model.compared();
+        let modes = at_hand.model.exact.modes.len();
         let beyond = self
             .first
-            .slopes_beyond(&loaded.sensors, hertz.len(), [&compared, &free])?;
-        let (mut comparison, mut further) = (at_hand.clone(), at_hand.clone());
-        for (place, (&mode, own)) in compared.iter().chain(&free).zip(beyond).enumerate() {
-            let into = match place < compared.len() {
-                true => &mut comparison,
-                false => &mut further,
-            };
-            into.model.beyond[mode] = Some(own);
+            .slopes_beyond(&loaded.sensors, modes, &compared)?;
+        let mut comparison = at_hand.clone();
+        for (&mode, own) in compared.iter().zip(beyond) {
+            comparison.model.beyond[mode] = Some(own);
         }
         let more = self.more_sensors([&at_hand, &comparison], &compared, by, &mut unranked)?;
-        let modes = ranked(free.into_iter().map(|mode| {
-            let own = further.of_mode(mode);
-            let both = [(&comparison, &weights[..]), (&own, &[noise.weight()])];
-            let words = format!("with mode {} of the model, {:.2} Hz", mode + 1, hertz[mode]);
-            Ok((words, deviations(&both, priors)?))
-        }))?;
         // Without the only sensor that sees it a test mode has no shape.
         let shapes = &at_hand.model.test.shapes;
         let least = NOTHING * shapes.amax();
@@ -121,7 +98,7 @@ impl PreparedJob {
             Ok((words, by(&comparison.at_sensors(&rest))?))
         }))?;
         let now = vec![("as it is".to_owned(), by(&comparison)?)];
-        let changes = [now, more, modes, less];
+        let changes = [now, more, less];
         Ok(NextMeasurement { changes, unranked })
     }
 
@@ -170,7 +147,7 @@ impl PreparedJob {
             let size = source.whole.dof_count();
             let sensors = SparseMatrix::new("sensors", places.len(), size, entries)?;
             let [basis, unseen] = self.first.read_by(&sensors, count)?;
-            let beyond = self.first.slopes_beyond(&sensors, count, [modes, &[]])?;
+            let beyond = self.first.slopes_beyond(&sensors, count, modes)?;
             let is_seen = |row: &usize| unseen.row(*row).amax() <= NOTHING * basis.amax();
             ranked((0..places.len()).filter(is_seen).map(|row| {
                 let of_row = |all: &DMatrix<f64>| all.rows(row, 1).into_owned();

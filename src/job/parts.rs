@@ -1,22 +1,18 @@
 //! Doubts about parameters' matrices that are no parts of the first model's, as far as the digits of the files tell.
 
 use super::LoadedJob;
-use super::concern::{Check, Concern, Grade, some};
+use super::concern::{Check, Concern, Grade};
 use crate::files::error::FileError;
 use crate::method::error::Error;
 use crate::sparse::brackets::Excess;
 use crate::sparse::{SparseMatrix, WholeShare};
 use nalgebra::DVector;
 
-/// Part of the energy of an offending motion that the parameters named have together.
-const NAMED: f64 = 0.9;
-
 /// A parameter's name and matrix.
 type Part<'a> = (&'a str, &'a SparseMatrix);
 
 impl LoadedJob {
-    /// Doubts about parameters' matrices that have negative energy, exceed the first stiffness or mass, one by one or together, or are
-    /// given twice; remarks where the signs of pivots do not tell.
+    /// Doubts about parameters' matrices that have negative energy, exceed the first stiffness or mass, or are given twice; remarks where the signs of pivots do not tell.
     ///
     /// # Errors
     /// Errors of the first matrices and of a factorization's plan.
@@ -67,7 +63,7 @@ fn concerns_of(
             ),
         ] {
             let words = format!("The matrix of parameter \"{name}\" {what}.");
-            all.extend(answer(found, |_| doubt(kind, &[name], words), name));
+            all.extend(answer(found, doubt(kind, &[name], words), name));
         }
         let twins = parts[..place].iter();
         let twins = twins.filter(|(_, twin)| twin.entries().eq(part.entries()));
@@ -76,29 +72,17 @@ fn concerns_of(
             doubt("twin-", &[other, name], words)
         }));
     }
-    if !all.iter().any(Concern::stands) {
-        let together: Vec<_> = parts.iter().map(|(_, part)| (-1.0, *part)).collect();
-        let too_much = |motion: DVector<f64>| {
-            let most = most_energy(parts, &motion);
-            let words = format!(
-                "The parameters' matrices together are more than the first {what}, most by {}: is a part in two of them?",
-                some(&most)
-            );
-            doubt(&format!("sum-of-{what}"), &most, words)
-        };
-        all.extend(answer(excess.of(1.0, &together), too_much, "all"));
-    }
     Ok(all)
 }
 
-/// The doubt about a motion of negative energy, or a remark where there is no answer.
+/// The doubt where there is a motion of negative energy, or a remark where there is no answer.
 fn answer(
     found: Result<Option<DVector<f64>>, Error>,
-    doubt: impl FnOnce(DVector<f64>) -> Concern,
+    doubt: Concern,
     name: &str,
 ) -> Option<Concern> {
     match found {
-        Ok(motion) => motion.map(doubt),
+        Ok(motion) => motion.map(|_| doubt),
         Err(error) => {
             let words = format!(
                 "Whether parameter \"{name}\" is part of the first model was not checked: {error}."
@@ -112,29 +96,4 @@ fn answer(
             ))
         }
     }
-}
-
-/// The parameters that have most of the energy of all in a motion.
-fn most_energy<'a>(parts: &[Part<'a>], motion: &DVector<f64>) -> Vec<&'a str> {
-    let energy = |part: &SparseMatrix| {
-        let all = part.entries();
-        all.map(|(row, column, value)| motion[row] * value * motion[column])
-            .sum::<f64>()
-    };
-    let mut energies: Vec<_> = parts
-        .iter()
-        .map(|(name, part)| (energy(part), *name))
-        .collect();
-    energies.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut left = NAMED * energies.iter().map(|(energy, _)| energy).sum::<f64>();
-    let is_named = |(energy, _): &&(f64, &str)| {
-        let is_named = left > 0.0;
-        left -= energy;
-        is_named
-    };
-    energies
-        .iter()
-        .take_while(is_named)
-        .map(|(_, name)| *name)
-        .collect()
 }

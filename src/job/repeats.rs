@@ -1,4 +1,4 @@
-//! Repeated tests: their mean, and the standard deviations and the covariance that their scatter gives.
+//! Repeated tests: their mean, and the standard deviations that their scatter gives.
 
 use super::Job;
 use super::prepared::FLOOR;
@@ -7,12 +7,6 @@ use crate::files::test_data::{self, Sensor, TestData};
 use crate::method::linear_algebra::symmetric_eigen;
 use nalgebra::{DMatrix, DVector};
 use std::path::PathBuf;
-
-/// Fewest repeats that give every number a variance of its own.
-///
-/// What is fitted by weights $w$ of one over variances estimated from $R$ tests has a variance larger than $1/\sum w$ says by
-/// $(R - 3)/(R - 5)$, the mean of $w^2$ over the square of its mean. Intervals of 95 % hold 93 % with 1.17 times, so from $R - 1 = 16$ on.
-const OWN_VARIANCES: usize = 17;
 
 impl Job {
     /// The test, or the mean of its repeats ([`mean_of`]).
@@ -41,10 +35,8 @@ impl Job {
 /// common shape $m$ is the one nearest to all of them at unit length, their leading singular vector, and each counts as $a u$ with
 /// $m^t a u = m^t m$: one sum for all orders of the tests, and nothing is left of the scale, which is free in the residuals too.
 ///
-/// Of $R$ tests the squares $q$ of a number's deviations from the mean give it the variance $q/(R (R - 3))$. One over it is right in the
-/// mean; $q/(R - 1)$ would make chi-squared too large by $(R - 1)/(R - 3)$. A shape of $d$ components has $d - 1$ free numbers, so
-/// theirs are larger by $d/(d - 1)$. Where fewer than [`OWN_VARIANCES`] tests or a number that is always the same leave none, all
-/// components of a shape, or all frequencies, have one variance. Tests of which each is like the one before ([`drift`]) tell less.
+/// All components of a shape, and all frequencies, have one variance. Of $R$ tests the squares $q$ of the deviations of $n$ free numbers
+/// from the mean give it as $q/(R (n (R - 1) - 2))$: one over it is right in the mean. A shape of $d$ components has $d - 1$ free numbers.
 ///
 /// # Errors
 /// [`FileError::Refused`] naming the file for sensors or modes that the first does not have, for shapes of modal assurance below
@@ -146,18 +138,14 @@ fn deviations(
     free: usize,
     what: &str,
 ) -> Result<DVector<f64>, FileError> {
-    let (numbers, tests) = apart.shape();
-    let squares = apart.map(|apart| apart * apart).column_sum();
-    let (count, free) = (tests as f64, free as f64);
-    let variances = if tests >= OWN_VARIANCES && squares.min() > 0.0 {
-        squares * (numbers as f64 / free / (count - 3.0))
-    } else {
-        let common = squares.sum() / (free * (count - 1.0) - 2.0);
-        DVector::from_element(numbers, common)
-    };
-    let untold = (!(variances.min() > 0.0 && variances.max() < f64::INFINITY)).then_some(());
+    let (tests, count) = (apart.ncols(), apart.ncols() as f64);
+    let variance = apart.norm_squared() / (free as f64 * (count - 1.0) - 2.0);
+    let untold = (!(variance > 0.0 && variance < f64::INFINITY)).then_some(());
     job.refuse_if(untold, |()| {
         format!("test.repeats: {tests} tests do not tell the deviations of {what}; name more, or one as test.file with deviations")
     })?;
-    Ok(variances.map(|variance| (variance / count).sqrt()))
+    Ok(DVector::from_element(
+        apart.nrows(),
+        (variance / count).sqrt(),
+    ))
 }

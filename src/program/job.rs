@@ -14,7 +14,8 @@ use corfem::present::report::Report;
 use corfem::present::table::Table;
 use corfem::present::tables::deck::not_read;
 use corfem::present::tables::job::{
-    doubts_and_remarks, inputs_table, measurement_table, places_table, suspects_table, trust_table,
+    doubts_and_remarks, inputs_table, measurement_table, model_table, places_table, suspects_table,
+    trust_table,
 };
 use corfem::present::tables::report::{
     BRIEF_FACTORS, BRIEF_MODES, answer_table, factor_table, history_table, minima_table,
@@ -148,6 +149,7 @@ pub fn check_job(
         };
         let tables = [
             trust_table(&trust),
+            model_table(&prepared)?,
             places_table(&prepared.loaded, None)?,
             paired_table(&report)?,
             suspects_table(&prepared)?,
@@ -186,12 +188,18 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
     let brief: Vec<Table> = brief.into_iter().chain(last()).collect();
     let all = [trust_table(&result.trust), factors, paired].into_iter();
     let all: Vec<Table> = all.chain(last()).collect();
-    let document = || json::own_document(json::report(&report)?);
+    let digest = prepared.loaded.digest()?;
+    let document = || {
+        let mut document = json::report(&report)?;
+        document["inputs"] = json!(digest);
+        json::own_document(document)
+    };
     arguments.output.write_in_brief(&brief, &all, document)?;
     if let Some(folder) = &arguments.folder {
         let places = [
+            model_table(&prepared)?,
             places_table(&prepared.loaded, Some(&result))?,
-            inputs_table(&prepared),
+            inputs_table(&prepared, &digest),
         ];
         let page = report_page(
             &report,

@@ -58,8 +58,7 @@ const PLAIN_HELP: &str = "\
 Exit status: 0 all is printed or written; 2 bad input, or a file or standard output that cannot be read or written.";
 
 const JOB_HELP: &str = "\
-Ctrl-C ends the analysis under way, or lets that of a study or of the paper's loops end, and keeps the best so far or the samples done; \
-a second one ends the program at once and leaves no half-written file.
+Ctrl-C lets the analysis under way end and keeps the best so far; a second one ends the program at once and leaves no half-written file.
 
 Exit status: 0 within tolerance and no doubt stands; 2 bad input, or a file that cannot be read or written; 3 not within tolerance, or a doubt \
 stands, which --accept answers for; the best found is printed all the same.";

@@ -18,8 +18,6 @@ use std::sync::{Arc, Mutex};
 /// Largest error of what the modes left out add to a slope, relative to it. It moves the end of weighted steps by at most as much times
 /// the root of chi-squared, in deviations: by the tolerance of a job's steps at a chi-squared of a hundred.
 const SLOPE_ERROR: f64 = 1e-6;
-/// Largest error of the same for modes that are not compared but might be: a part of a planned measurement's deviation that nobody reads.
-const ROUGH_ERROR: f64 = 1e-3;
 /// Most terms of the series for it: a mode left out within 4 % of one that is compared needs as many.
 const MOST_TERMS: usize = 26;
 /// Most deflections of one parameter's own: more add less than the lowest mode left out.
@@ -438,7 +436,7 @@ impl Place {
         Ok([sensors.times(&basis)?, sensors.times(&unseen)?])
     }
 
-    /// Parts that all but a number of modes have in the slopes of these modes, and of further ones roughly, at sensors, which see none but
+    /// Parts that all but a number of modes have in the slopes of these modes at sensors, which see none but
     /// those of this analysis (d × p each).
     ///
     /// Of a mode i, the column of parameter e is the sum over the modes found beyond `count`, as in [`jacobian`](crate::weighted::residuals::jacobian),
@@ -454,18 +452,15 @@ impl Place {
         &self,
         sensors: &SparseMatrix,
         count: usize,
-        [modes, further]: [&[usize]; 2],
+        modes: &[usize],
     ) -> Result<Vec<DMatrix<f64>>, Error> {
-        let root = |&mode: &usize| self.vibrations.omega_squared[mode];
-        let highest = |modes: &[usize]| modes.iter().map(root).fold(0.0, f64::max);
-        let terms = terms(highest(modes), self.next, SLOPE_ERROR).max(terms(
-            highest(further),
-            self.next,
-            ROUGH_ERROR,
-        ));
-        let modes = &[modes, further].concat()[..];
+        let roots = modes
+            .iter()
+            .map(|&mode| self.vibrations.omega_squared[mode]);
+        let roots: Vec<f64> = roots.collect();
+        let highest = roots.iter().copied().fold(0.0, f64::max);
+        let terms = terms(highest, self.next);
         let all = self.loads_of(modes);
-        let roots: Vec<f64> = modes.iter().map(root).collect();
         let mut slopes = vec![DMatrix::zeros(sensors.rows(), all.len()); modes.len()];
         let beyond = self
             .vibrations
@@ -560,12 +555,12 @@ pub(crate) fn turn_alike(whole: &mut DMatrix<f64>, seen: &DMatrix<f64>, signed: 
     }
 }
 
-/// Terms that [`coefficients`] need for a root, for an error relative to their sum.
-fn terms(root: f64, next: Option<f64>, error: f64) -> usize {
+/// Terms that [`coefficients`] need for a root, for an error of [`SLOPE_ERROR`] relative to their sum.
+fn terms(root: f64, next: Option<f64>) -> usize {
     let Some(next) = next.filter(|next| *next > root) else {
         return if next.is_some() { MOST_TERMS } else { 1 };
     };
-    let needed = (1.0 / error).acosh() / (2.0 * next / root - 1.0).acosh();
+    let needed = (1.0 / SLOPE_ERROR).acosh() / (2.0 * next / root - 1.0).acosh();
     (needed.ceil() as usize).clamp(1, MOST_TERMS)
 }
 

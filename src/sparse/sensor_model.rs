@@ -282,7 +282,7 @@ impl SensorModel {
             && self.beyond.iter().all(Option::is_none)
         {
             let (compared, count) = (self.compared(), self.exact.modes.len());
-            let slopes = place.slopes_beyond(place.sensors(), count, [&compared, &[]])?;
+            let slopes = place.slopes_beyond(place.sensors(), count, &compared)?;
             for (mode, slopes) in compared.into_iter().zip(slopes) {
                 self.beyond[mode] = Some(slopes);
             }

@@ -7,7 +7,7 @@ use crate::method::analysis::State;
 use crate::method::analysis::{Analysis, DERIVATIVE_STEP};
 use crate::method::error::{Error, check_count, positive, require};
 use crate::method::error_sum::{Errors, ModeError, mode_errors};
-use crate::method::linear_algebra::{check_shape, cholesky};
+use crate::method::linear_algebra::check_shape;
 use crate::method::model::Model;
 use crate::method::modes::Modes;
 use crate::method::perturbation::SMALLEST_SEPARATION;
@@ -17,9 +17,6 @@ use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 use std::f64::consts::TAU;
 use std::sync::Arc;
-
-/// Part of a variance that must be left when those before have explained what they can of it.
-pub(crate) const HALF_THE_DIGITS: f64 = 1e-8;
 
 /// A frequency of the test without a shape, and the mode of the model that it is compared with.
 #[doc(hidden)]
@@ -74,8 +71,6 @@ pub struct Test {
     pub(crate) lone: Vec<LoneFrequency>,
     /// The shapes of their partners in the first model (d × lone), by which these are followed.
     pub(crate) partner_shapes: Option<DMatrix<f64>>,
-    /// Cholesky factor of the covariance of the weighted residuals; none where they are independent.
-    pub(crate) covariance: Option<DMatrix<f64>>,
 }
 
 /// A model seen by sensors beside a test.
@@ -108,7 +103,6 @@ impl From<SensorModel> for Comparison {
                 component_weights: DMatrix::from_element(dof, modes, 1.0),
                 lone: Vec::new(),
                 partner_shapes: None,
-                covariance: None,
             },
             correction: None,
             model,
@@ -228,20 +222,6 @@ impl Comparison {
             lone.partner = partner;
         }
         self.test.partner_shapes = Some(shapes);
-        Ok(self)
-    }
-
-    /// This comparison with the covariance of its weighted residuals (N × N, in their order), which then are not independent.
-    ///
-    /// # Errors
-    /// [`Error::WrongShape`] and [`Error::Value`] for a covariance that does not fit or is not symmetric;
-    /// [`Error::NotPositiveDefinite`] where less than half the digits of a variance are its own.
-    pub fn with_covariance(mut self, covariance: &DMatrix<f64>) -> Result<Self, Error> {
-        let (dof, modes) = self.model.test.shapes.shape();
-        let numbers = (1 + dof) * modes + self.test.lone.len();
-        check_shape("covariance of residuals", covariance, numbers, numbers)?;
-        let factor = cholesky("covariance of residuals", covariance, HALF_THE_DIGITS)?;
-        self.test.covariance = Some(factor);
         Ok(self)
     }
 

@@ -1,26 +1,23 @@
-//! A test with one sensor less or more, or with more modes, as a model has them.
+//! A test with one sensor less or more, as a model has it.
 
 use super::close_modes::members;
 use super::comparison::Comparison;
 use super::identifiability::covariance;
 use super::residuals::{compared, jacobian};
 use crate::method::error::Error;
-use crate::method::sorting::Pairing;
 use crate::sparse::{ModeWeight, gram};
 use nalgebra::DMatrix;
 
-/// Deviations of the logarithms of the factors by independent tests with their weights, and prior deviations.
+/// Deviations of the logarithms of the factors by a test with its weights, and prior deviations.
 ///
 /// # Errors
 /// The errors of [`jacobian`] and of the covariance.
 pub(crate) fn deviations(
-    tests: &[(&Comparison, &[ModeWeight])],
+    comparison: &Comparison,
+    weights: &[ModeWeight],
     priors: &[f64],
 ) -> Result<Vec<f64>, Error> {
-    let mut information = DMatrix::zeros(priors.len(), priors.len());
-    for (comparison, weights) in tests {
-        information += gram(&jacobian(comparison, weights)?);
-    }
+    let information = gram(&jacobian(comparison, weights)?);
     let deviations = covariance(information, priors)?.map_diagonal(f64::sqrt);
     Ok(deviations.as_slice().to_vec())
 }
@@ -84,16 +81,5 @@ impl Comparison {
             matrix.set_row(last, &row.row(0));
         }
         own
-    }
-
-    /// A comparison with one mode of this one's model, whose slopes are known, as the model has it.
-    pub(crate) fn of_mode(&self, mode: usize) -> Self {
-        let mut model = self.model.clone();
-        model.test = model.exact.modes.select(&[mode]);
-        model.exact.pairing = Pairing {
-            analysis_mode: vec![mode],
-            sign: vec![1.0],
-        };
-        model.into()
     }
 }

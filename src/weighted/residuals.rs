@@ -4,11 +4,11 @@ use crate::method::analysis::State;
 use crate::method::error::Error;
 use crate::method::modes::Modes;
 use crate::method::sorting::Pairing;
-use crate::sparse::{ModeWeight, SensorModel, check_weights, finite, solve_lower};
+use crate::sparse::{ModeWeight, SensorModel, check_weights, finite};
 use crate::weighted::close_modes::{Nearest, SEPARATION, members, nearest};
 use crate::weighted::comparison::{Comparison, Correction, Test};
 use crate::weighted::noise::Noise;
-use nalgebra::{DMatrix, DVector, Dyn, QR, RowDVector};
+use nalgebra::{DMatrix, DVector, RowDVector};
 use std::collections::HashMap;
 
 /// Standard deviations unless others are known: 0.5 % of a frequency, 2 % of a shape's largest component. They are about twice
@@ -26,8 +26,7 @@ pub const DEVIATIONS: Noise = Noise {
 ///
 /// with $v_i$ the paired analysis shape and $u_j$ the test shape of unit largest component. Of test modes that are compared
 /// together ([`Comparison::with_groups`]) $V V^+ u_j$ stands for $a_j v_i$, with the shapes of all their partners in $V$. Components with
-/// weights of their own ([`Comparison::with_component_weights`]) are multiplied by these in $v_i$, $V$ and $u_j$ first. Residuals with a
-/// covariance ([`Comparison::with_covariance`]) are made independent. The analysis shape's scale is that of least squares (the modal
+/// weights of their own ([`Comparison::with_component_weights`]) are multiplied by these in $v_i$, $V$ and $u_j$ first. The analysis shape's scale is that of least squares (the modal
 /// scale factor) instead of the paper's: it gives the sign, has no kink where the largest component
 /// changes its place, and the noise of one component does not enter all others. Eliminating a linear unknown in this way
 /// leaves the covariance of the others as it is with the scale among the unknowns, on which intervals depend.
@@ -59,24 +58,9 @@ pub(crate) fn residuals_of(
     comparison: &Comparison,
     weights: &[ModeWeight],
 ) -> DVector<f64> {
-    let residuals = correlated(modes, pairing, comparison, weights);
-    let roots = &modes.omega_squared;
-    match Whitening::of((&modes.shapes, roots, pairing), comparison) {
-        Some(of) => of.independent(&residuals).column(0).into_owned(),
-        None => residuals.column(0).into_owned(),
-    }
-}
-
-/// The same in one column, before a covariance is taken out.
-fn correlated(
-    modes: &Modes,
-    pairing: &Pairing,
-    comparison: &Comparison,
-    weights: &[ModeWeight],
-) -> DMatrix<f64> {
     let (test, Test { together, lone, .. }) = (&comparison.model.test, &comparison.test);
     let rows = 1 + test.shapes.nrows();
-    let mut residuals = DMatrix::zeros(rows * test.len() + lone.len(), 1);
+    let mut residuals = DVector::zeros(rows * test.len() + lone.len());
     for (j, &i) in pairing.analysis_mode.iter().enumerate() {
         residuals[rows * j] =
             weights[j].frequency * ((modes.omega_squared[i] / test.omega_squared[j]).sqrt() - 1.0);
@@ -90,52 +74,6 @@ fn correlated(
         residuals[rows * test.len() + place] = weight.frequency * lone.error(modes);
     }
     residuals
-}
-
-/// What makes weighted residuals of a covariance $L L^t$ independent and of unit variance:
-///
-/// $$ (I - Q Q^t) L^{-1} r, \qquad Q R = L^{-1} \Phi $$
-///
-/// The residuals are $\Phi a - u$ with the compared shapes in $\Phi$, every test mode's in its rows and in columns of their own, and
-/// zeros in the rows of frequencies. This takes them to the scales $a$ that are least squares with the covariance.
-struct Whitening<'a> {
-    factor: &'a DMatrix<f64>,
-    shapes: QR<f64, Dyn, Dyn>,
-}
-
-impl<'a> Whitening<'a> {
-    /// None where residuals are independent as they are.
-    fn of(
-        (shapes, roots, pairing): (&DMatrix<f64>, &DVector<f64>, &Pairing),
-        comparison: &'a Comparison,
-    ) -> Option<Self> {
-        let factor = comparison.test.covariance.as_ref()?;
-        let (rows, mut all) = (1 + shapes.nrows(), DMatrix::zeros(factor.nrows(), 0));
-        for j in 0..comparison.model.test.len() {
-            let members = members(roots, pairing, &comparison.test.together, j);
-            let (shapes, _) = compared(shapes, comparison, &members, j);
-            let first = all.ncols();
-            all = all.resize_horizontally(first + members.len(), 0.0);
-            all.view_mut((rows * j + 1, first), (rows - 1, members.len()))
-                .copy_from(&shapes);
-        }
-        let shapes = solve_lower(factor, all).qr();
-        Some(Self { factor, shapes })
-    }
-
-    /// Of residuals, or of derivatives at the right scales, one column each.
-    fn independent(&self, residuals: &DMatrix<f64>) -> DMatrix<f64> {
-        let residuals = solve_lower(self.factor, residuals.clone());
-        let q = self.shapes.q();
-        &residuals - &q * q.tr_mul(&residuals)
-    }
-
-    /// By how much the scales of residuals are above those of least squares with the covariance.
-    fn excess(&self, residuals: &DMatrix<f64>) -> DMatrix<f64> {
-        let residuals = solve_lower(self.factor, residuals.clone());
-        let along = self.shapes.q().tr_mul(&residuals);
-        self.shapes.r().solve_upper_triangular_unchecked(&along)
-    }
 }
 
 /// The `members` among shapes as test mode `j` is compared with them, every component over its deviation, and their combination nearest
@@ -171,8 +109,7 @@ pub(super) fn compared(
 /// the second of modes compared together. Weights of components multiply $v$, $\mathrm d v$ and $u$ alike, so nothing else changes.
 ///
 /// The sum goes over the whole basis, rigid-body modes with $\omega_r^2 = 0$ among it. It is exact with all modes, unless a
-/// condensation's $B$ moves mass. Of residuals with a covariance ([`Comparison::with_covariance`]) it leaves out what turns them within
-/// themselves (Kaufman, *BIT* 15 (1975), 49), which is orthogonal to them: the gradient $J^t r$ is exact. Modes whose squared frequencies are closer than a millionth keep their own shapes.
+/// condensation's $B$ moves mass. Modes whose squared frequencies are closer than a millionth keep their own shapes.
 ///
 /// # Errors
 /// Those of [`residuals`].
@@ -189,14 +126,10 @@ pub fn jacobian(comparison: &Comparison, weights: &[ModeWeight]) -> Result<DMatr
     let slopes = Slopes::new(model);
     let (rows, count) = (1 + test.shapes.nrows(), model.shares.len());
     let roots = &modes.omega_squared;
-    let whitening = Whitening::of((&model.basis, roots, pairing), comparison);
-    let excess = whitening
-        .as_ref()
-        .map(|of| of.excess(&correlated(modes, pairing, comparison, weights)));
     let mut all = model.compared();
     all.extend(lone.iter().map(|lone| lone.partner));
     let couplings: HashMap<_, _> = all.iter().copied().zip(model.couplings(&all)).collect();
-    let (mut jacobian, mut column) = (DMatrix::zeros(rows * test.len() + lone.len(), count), 0..);
+    let mut jacobian = DMatrix::zeros(rows * test.len() + lone.len(), count);
     for (j, of) in weights.iter().enumerate().take(test.len()) {
         let members = members(roots, pairing, together, j);
         let (v, nearest) = compared(&model.basis, comparison, &members, j);
@@ -213,8 +146,6 @@ pub fn jacobian(comparison: &Comparison, weights: &[ModeWeight]) -> Result<DMatr
                 let own = slopes.of_frequency(of, ratio, i, &couplings);
                 jacobian.set_row(rows * j, &own);
             }
-            let (weight, column) = (of.shape, column.next().unwrap_or_default());
-            let excess = excess.as_ref().map_or(0.0, |excess| excess[column]);
             // dv, over the components' deviations, and what becomes of it in the residuals.
             let mut moved = &model.basis * slopes.added(i, &members, couplings);
             if let Some(beyond) = &model.beyond[i] {
@@ -226,7 +157,7 @@ pub fn jacobian(comparison: &Comparison, weights: &[ModeWeight]) -> Result<DMatr
             let turned = inverse.row(place).transpose() * apart.tr_mul(&moved);
             let along = &v * (&inverse * &moved);
             let mut shape = jacobian.rows_mut(rows * j + 1, rows - 1);
-            shape += (weight * shares[place] - excess) * (moved - along) - weight * turned;
+            shape += of.shape * (shares[place] * (moved - along) - turned);
         }
     }
     for (place, (lone, weight)) in lone.iter().zip(&weights[test.len()..]).enumerate() {
@@ -234,10 +165,6 @@ pub fn jacobian(comparison: &Comparison, weights: &[ModeWeight]) -> Result<DMatr
         let row = slopes.of_frequency(weight, ratio, i, &couplings[&i]);
         jacobian.set_row(rows * test.len() + place, &row);
     }
-    let mut jacobian = match whitening {
-        Some(of) => of.independent(&jacobian),
-        None => jacobian,
-    };
     if let Some(correction) = correction {
         jacobian += &*correction.slopes;
     }

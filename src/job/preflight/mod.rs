@@ -15,7 +15,7 @@ pub use readings::SeenModes;
 pub use shapes::Change;
 pub use words::Names;
 
-use crate::job::concern::{Check, Concern, some};
+use crate::job::concern::{Check, Concern};
 use crate::method::error::Error;
 use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::Modes;
@@ -249,7 +249,7 @@ fn too_many_modes(shapes: &DMatrix<f64>) -> Result<Option<Concern>, Error> {
         .then(|| Concern::remark(Check::NumberOfModes, "too-many-modes", &[""; 0], words)))
 }
 
-/// Concerns about tolerances that look like percent and about bounds.
+/// Doubts about tolerances that look like percent and about bounds.
 pub(in crate::job) fn check_settings(
     settings: &Settings,
     ranges: &[Option<Bounds>],
@@ -272,12 +272,5 @@ pub(in crate::job) fn check_settings(
         let words = format!("Bounds on the factor of parameter {parameter}, {lower} to {upper}, exclude its first value.");
         Some(Concern::doubt(Check::Settings, "excludes-start-", &[parameter], words))
     });
-    let unbounded = (0..ranges.len()).filter(|&parameter| ranges[parameter].is_none());
-    let unbounded: Vec<String> = unbounded
-        .map(|parameter| names.parameter(parameter))
-        .collect();
-    let words = format!("Parameters without bounds: {}.", some(&unbounded));
-    let unbounded = (!unbounded.is_empty())
-        .then(|| Concern::remark(Check::Settings, "unbounded", &unbounded, words));
-    percent.chain(excluding).chain(unbounded).collect()
+    percent.chain(excluding).collect()
 }

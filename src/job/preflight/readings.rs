@@ -39,6 +39,8 @@ const OTHER_ERROR: f64 = 0.003;
 pub(super) const FALSE_ALARMS: f64 = 1e-3;
 /// A gain closer to one than this factor may be the model's.
 const LEAST_GAIN: f64 = 1.5;
+/// A sensor is dead when its readings are below this part of those expected.
+const DEAD: f64 = 0.1;
 /// Number of suspect sensors, those that others predict worst, tried for exchanged labels.
 const MOST_EXCHANGED: usize = 24;
 
@@ -308,11 +310,20 @@ fn tried(model: &Likelihood, test: &DMatrix<f64>) -> Result<Vec<(Change, f64)>, 
         let (row, readings) = (model.shapes.row(sensor).into_owned(), test.row(sensor));
         others.push((without.misfit(&rest)?, sensor));
         let expected = without.expected(&rest, &row);
+        let size = expected.iter().map(|value| value * value).sum::<f64>();
+        if readings.norm_squared() < DEAD * DEAD * size {
+            let noise_alone = |test: usize, noise: f64| {
+                let noise = noise.max(f64::MIN_POSITIVE);
+                0.5 * (readings[test] / noise).powi(2).min(1e9) + noise.ln()
+            };
+            let (misfit, _) = without.of_test(&rest, noise_alone)?;
+            tried.push((Change::Dead(sensor), misfit));
+        }
         // Every mode's own ratio is a candidate; choosing among them costs the logarithm of their number, and readings so many times as
         // large are spread as much wider.
         for (reading, expected) in readings.iter().zip(&expected) {
             let gain = reading / expected;
-            if gain.is_finite() && gain > 0.0 && gain.max(1.0 / gain) > LEAST_GAIN {
+            if gain.is_finite() && gain > DEAD && gain.max(1.0 / gain) > LEAST_GAIN {
                 let modes = test.ncols() as f64;
                 let costs = modes.ln() + modes * gain.ln();
                 try_change(&mut tried, Change::Gain(sensor, gain), costs)?;

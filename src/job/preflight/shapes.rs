@@ -11,6 +11,8 @@ pub enum Change {
     Exchanged([usize; 2]),
     /// A sensor whose readings are so many times too large.
     Gain(usize, f64),
+    /// A sensor that reads nothing but noise.
+    Dead(usize),
 }
 
 /// The test shapes after a change.
@@ -20,6 +22,7 @@ pub(super) fn changed(shapes: &DMatrix<f64>, change: &Change) -> DMatrix<f64> {
         Change::Reversed(sensor) => changed.row_mut(*sensor).neg_mut(),
         Change::Exchanged([a, b]) => changed.swap_rows(*a, *b),
         Change::Gain(sensor, gain) => changed.row_mut(*sensor).unscale_mut(*gain),
+        Change::Dead(_) => {}
     }
     changed
 }

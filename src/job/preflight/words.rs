@@ -57,6 +57,11 @@ impl Change {
                 vec![sensor(place)],
                 format!("Sensor {} reads {gain:.3} times too much?", sensor(place)),
             ),
+            Self::Dead(place) => (
+                "dead-",
+                vec![sensor(place)],
+                format!("Sensor {} dead?", sensor(place)),
+            ),
         };
         let words = format!(
             "{question} The test's shapes would be 10^{evidence:.0} times as likely, with its noise and a model 30 % wrong."

@@ -2,22 +2,19 @@
 
 use super::{Derivatives, ModeResiduals, Report, SensorPoint, Stage};
 use crate::job::expansion::expand;
-use crate::job::{
-    CorrelatedJob, History, JobResult, LoadedJob, Method, ModelSource, PlacedSensor, PreparedJob,
-};
+use crate::job::{CorrelatedJob, History, JobResult, LoadedJob, Method, PlacedSensor, PreparedJob};
 use crate::method::error::Error;
 use crate::method::modes::Modes;
 use crate::method::step::Bounds;
 use crate::method::structure::StructuralDof;
 use crate::present::PresentError;
-use crate::sparse::SparseMatrix;
 use crate::weighted::comparison::{Comparison, ExactResult};
 use crate::weighted::gauss_newton::{WeightedCorrelation, WeightedStop};
 use crate::weighted::identifiability::NORMAL_95;
 use crate::weighted::intervals::Withheld;
 use crate::weighted::residuals::residuals;
 use nalgebra::{DMatrix, DVectorView, Vector3};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 impl Report {
     /// A job with its result, or before its first step and without derivatives.
@@ -39,7 +36,7 @@ impl Report {
             found.map_or_else(|| prepared.analyze(&ones), |found| Ok(found.first.clone()))?;
         let stem = loaded.job.stem();
         let geometry = &loaded.source.geometry;
-        let (frame, owners) = pieces(loaded)?.into_iter().unzip();
+        let (frame, owners) = pieces(loaded).into_iter().unzip();
         let still = |grid: &&usize| {
             let dof = |direction| StructuralDof {
                 grid: **grid,
@@ -200,9 +197,8 @@ fn left_out(prepared: &PreparedJob) -> Vec<(usize, f64)> {
 /// Corners of a piece of the structure, and the parameters that scale it.
 type Piece = (Vec<Vector3<f64>>, Vec<usize>);
 
-/// The structure: the elements of a deck, else the lines of the test, else lines between grids that the stiffness couples, else lines that
-/// join the sensors.
-fn pieces(loaded: &LoadedJob) -> Result<Vec<Piece>, Error> {
+/// The structure: the elements of a deck, else the lines of the test, else lines that join the sensors.
+fn pieces(loaded: &LoadedJob) -> Vec<Piece> {
     let (source, geometry) = (&loaded.source, &loaded.source.geometry);
     let corners = |grids: &[usize]| -> Vec<Vector3<f64>> {
         let places = grids.iter().map(|grid| geometry.places.get(grid));
@@ -233,49 +229,11 @@ fn pieces(loaded: &LoadedJob) -> Result<Vec<Piece>, Error> {
     );
     pieces.retain(|(corners, _)| corners.len() > 1);
     if pieces.is_empty() {
-        pieces = coupled(source)?;
-    }
-    if pieces.is_empty() {
         let places = loaded.placed.iter().filter_map(|sensor| sensor.place);
         let lines = joined(places.collect()).into_iter();
         pieces = lines.map(|line| (line, Vec::new())).collect();
     }
-    Ok(pieces)
-}
-
-/// Couplings to a grid beyond which matrices are condensed, and their lines show nothing.
-const MOST_COUPLED: usize = 8;
-
-/// Lines between the grids that the stiffness of matrices couples, with the parameters that couple them too.
-fn coupled(source: &ModelSource) -> Result<Vec<Piece>, Error> {
-    let places = &source.geometry.places;
-    let mut grid_of = BTreeMap::new();
-    for (dof, rows) in &source.motions {
-        grid_of.extend(rows.iter().map(|(row, _)| (*row, dof.grid)));
-    }
-    let lines = |matrix: &SparseMatrix| -> BTreeSet<[usize; 2]> {
-        let entries = matrix.entries();
-        let pairs = entries.filter_map(|(i, j, _)| Some([*grid_of.get(&i)?, *grid_of.get(&j)?]));
-        pairs.filter(|[a, b]| a < b).collect()
-    };
-    let parameters = source.whole.parameters();
-    let (stiffness, _) = source.whole.at(&vec![1.0; parameters.len()])?;
-    let all = lines(&stiffness);
-    if all.len() > MOST_COUPLED * places.len() {
-        return Ok(Vec::new());
-    }
-    let shares: Vec<_> = parameters
-        .iter()
-        .map(|parameter| lines(parameter.share.matrix()))
-        .collect();
-    let piece = |line: &[usize; 2]| {
-        let ends = line.map(|grid| places.get(&grid).copied());
-        let ends: Option<Vec<_>> = ends.into_iter().collect();
-        let owners = shares.iter().enumerate();
-        let owners = owners.filter(|(_, share)| share.contains(line));
-        Some((ends?, owners.map(|(e, _)| e).collect()))
-    };
-    Ok(all.iter().filter_map(piece).collect())
+    pieces
 }
 
 /// Motions of the grids, see [`Report::moved`]: the models as their own shapes at all degrees of freedom, the test as the nearest

@@ -11,7 +11,7 @@ use crate::job::{
 };
 use crate::present::table::{Cell, Digits, Table, counted, numbers};
 use crate::weighted::residuals::residuals;
-use nalgebra::DVector;
+use nalgebra::{DVector, Vector3};
 
 /// Most parameters in the table of suspects.
 pub const MOST_SUSPECTS: usize = 20;
@@ -77,10 +77,50 @@ pub fn places_table(loaded: &LoadedJob, result: Option<&JobResult>) -> Result<Ta
     Ok(table)
 }
 
+/// The facts of a job's model: modes taken, mass and its center, parameters without bounds.
+///
+/// # Errors
+/// The errors of the count of rigid-body modes.
+pub fn model_table(prepared: &PreparedJob) -> Result<Table, FileError> {
+    let source = &prepared.loaded.source;
+    let (taken, rigid) = (
+        prepared.analysis_modes,
+        source.whole.rigid_bodies()?.rigid(),
+    );
+    let write = |at: &Vector3<f64>| {
+        // What is left of sums that cancel is no distance.
+        let parts = at.map(|own| {
+            if own.abs() < 1e-9 * at.amax() {
+                0.0
+            } else {
+                own
+            }
+        });
+        let [x, y, z] = <[f64; 3]>::from(parts).map(|own| Digits::Significant(6).write(own));
+        format!("{x}, {y}, {z}")
+    };
+    let unbounded = source.whole.parameters().iter();
+    let unbounded = unbounded.filter(|own| own.range.is_none());
+    let unbounded: Vec<&str> = unbounded.map(|own| &own.name[..]).collect();
+    let mut table = Table::new("model", "The model", "Fact").headings(["value"], "");
+    let mut add = |fact: &str, value: String| table.row(fact, [Cell::Text(value)]);
+    add(
+        "modes taken",
+        format!("the lowest {taken}, beside {rigid} rigid-body modes"),
+    );
+    add("mass along x, y, z", write(&source.mass));
+    source
+        .mass_center
+        .iter()
+        .for_each(|own| add("center of gravity", write(own)));
+    add("parameters without bounds", unbounded.join(", "));
+    Ok(table)
+}
+
 /// The inputs of a job: its files, its method for the factors, and the weights of the compared test modes.
 ///
 /// # Errors
-pub fn inputs_table(prepared: &PreparedJob) -> Table {
+pub fn inputs_table(prepared: &PreparedJob, digest: &str) -> Table {
     let loaded = &prepared.loaded;
     let compare = &loaded.job.compare;
     let files: Vec<String> = loaded
@@ -90,6 +130,10 @@ pub fn inputs_table(prepared: &PreparedJob) -> Table {
         .collect();
     let mut rows = vec![
         ("files".to_owned(), files.join(", ")),
+        (
+            "digest of them and of the job".to_owned(),
+            digest.to_owned(),
+        ),
         ("method".to_owned(), compare.method.name().to_owned()),
     ];
     if compare.method == Method::GaussNewton {
