@@ -211,7 +211,7 @@ fn of_job(name: &str, files: Files, truth: &[f64]) -> Result<Subject, FileError>
                 intervals: intervals.into_iter().map(Result::ok).collect(),
                 learned: seen.learned,
                 misfit,
-                is_explained: verdict.is_within && trust.is_clear(),
+                is_explained: verdict.is_within && !trust.stands_against(),
             })
         }),
     })

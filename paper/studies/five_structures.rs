@@ -436,7 +436,7 @@ pub fn corrections(structure: usize, noise: Noise, tests: usize) -> Corrections 
         let trust = Trust::before(&prepared).unwrap_or_else(|error| panic!("{error}"));
         let result = run(&prepared, &trust, |_| {}, || true);
         let result = result.unwrap_or_else(|error| panic!("{error}"));
-        let is_accepted = result.verdict.is_within && result.trust.is_clear();
+        let is_accepted = result.verdict.is_within && !result.trust.stands_against();
         if times > 1.0 {
             all.found += usize::from(!is_accepted);
             continue;
@@ -525,7 +525,7 @@ pub fn repeat_rates(structure: usize, noise: Noise, repeats: usize, tests: usize
         let trust = Trust::before(&prepared).unwrap_or_else(|error| panic!("{error}"));
         let result = run(&prepared, &trust, |_| {}, || true);
         let result = result.unwrap_or_else(|error| panic!("{error}"));
-        accepted += usize::from(result.verdict.is_within && result.trust.is_clear());
+        accepted += usize::from(result.verdict.is_within && !result.trust.stands_against());
         for ((held, interval), truth) in held.iter_mut().zip(&result.intervals).zip(&factors) {
             given += usize::from(interval.is_ok());
             *held += usize::from(interval.is_ok_and(|ends| ends.contains(*truth)));
@@ -595,27 +595,15 @@ pub fn counts(structure: usize, mistake: Mistake, tests: usize) -> Counts {
         let stands: Vec<&Concern> = trust
             .all()
             .iter()
-            .filter(|own| own.grade() == Grade::Doubt)
+            .filter(|own| own.grade == Grade::Doubt)
             .collect();
-        let (_, readings, ..) = Check::ALL[Check::Readings as usize];
-        let is_open = trust.of(Kind::NotChecked).any(|own| {
-            let said = own.words();
-            said.contains(readings)
-                && (wrong.1.is_empty()
-                    || wrong
-                        .1
-                        .iter()
-                        .any(|name| said.contains(&format!(" {name}"))))
-        });
+        let is_open = trust
+            .of(Check::Readings)
+            .any(|own| own.grade == Grade::NotChecked);
         match &stands[..] {
             [] if is_open => found.not_checked += 1,
             [] => found.silent += 1,
-            all if all
-                .iter()
-                .any(|own| (own.kind, &own.about) == (wrong.0, &wrong.1)) =>
-            {
-                found.named += 1
-            }
+            all if all.iter().any(|own| own.identifier == wrong) => found.named += 1,
             _ => found.other += 1,
         }
     }
@@ -658,32 +646,32 @@ pub fn measure(loaded: &mut LoadedJob, right: &Right, noise: Noise, state: &mut 
     data.shapes = shapes;
 }
 
-/// Makes a mistake in a test's readings: the kind of doubt that names it, and the sensors that it is about.
-fn spoil(data: &mut TestData, mistake: Mistake, state: &mut u64) -> (Kind, Vec<String>) {
+/// Makes a mistake in a test's readings: the identifier of the doubt that names it.
+fn spoil(data: &mut TestData, mistake: Mistake, state: &mut u64) -> String {
     let rows = data.sensors.len();
     let a = super::readings_rates::below(state, rows);
     let b = (a + 1 + super::readings_rates::below(state, rows - 1)) % rows;
     let name = |place: usize| data.sensors[place].name.clone();
-    let (one, shapes) = (vec![name(a)], &mut data.shapes);
+    let (one, shapes) = (name(a), &mut data.shapes);
     match mistake {
-        Mistake::None => (Kind::NoPair, Vec::new()),
+        Mistake::None => String::new(),
         Mistake::Reversed => {
             shapes.row_mut(a).neg_mut();
-            (Kind::Reversed, one)
+            format!("reversed-{one}")
         }
         Mistake::Gain => {
             shapes.row_mut(a).scale_mut(2.5);
-            (Kind::Gain, one)
+            format!("gain-{one}")
         }
         Mistake::Dead => {
             let own = |own: &mut f64| *own = NOISE.shape * normal(state);
             shapes.row_mut(a).apply(own);
-            (Kind::Dead, one)
+            format!("dead-{one}")
         }
         Mistake::Exchanged => {
-            let both = vec![name(a.min(b)), name(a.max(b))];
+            let both = format!("exchanged-{}-{}", name(a.min(b)), name(a.max(b)));
             data.shapes.swap_rows(a, b);
-            (Kind::Exchanged, both)
+            both
         }
     }
 }

@@ -73,7 +73,6 @@ impl Specimen {
         let seen_share = |share| ParameterMatrix::Stiffness(shapes.tr_mul(&(share * shapes)));
         let seen = SeenModes {
             shares: shares.iter().map(seen_share).collect(),
-            directions: Vec::new(),
             modes,
         };
         let names = Names::default();

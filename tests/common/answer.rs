@@ -59,10 +59,7 @@ pub fn answer(job: &Path) -> Answer {
     let deviations = found["standard_deviations"].as_array().unwrap();
     let end = |interval: &Value, end| interval[end].as_f64();
     let intervals = found["intervals"].as_array().unwrap().iter();
-    let is_against = |own: &&Value| {
-        let name = own["identifier"].as_str().unwrap();
-        own["is_doubt"] == true || name.starts_with("not-compared-")
-    };
+    let is_against = |own: &&Value| own["grade"] == "doubt" || own["grade"] == "left_out";
     let against = found["trust"].as_array().unwrap().iter().filter(is_against);
     let best = match found["best_pass"].as_u64() {
         Some(pass) => &found["passes"][pass as usize - 1]["exact"],

@@ -314,6 +314,13 @@ pub fn trust_in(job: &PreparedJob) -> Trust {
     Trust::before(job).unwrap()
 }
 
+/// Names of what a concern is about, none where nobody says it.
+pub fn about(trust: &Trust, identifier: &str) -> Vec<String> {
+    let mut all = trust.all().iter();
+    let found = all.find(|own| own.identifier == identifier);
+    found.map_or_else(Vec::new, |own| own.about.clone())
+}
+
 /// What comes of a job that nobody stops.
 pub fn finished(job: &PreparedJob) -> JobResult {
     run(job, |_| {}, || true).unwrap()

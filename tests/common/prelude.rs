@@ -31,7 +31,7 @@ pub use crate::common::{
     ground_tests::{ground_test, wing_test},
     in_root,
     jobs::{
-        Files, STORIES, building, comparing, file, finished, measured_building, new_folder,
+        Files, STORIES, about, building, comparing, file, finished, measured_building, new_folder,
         of_matrices, placed, prepare, prepared, report_of, retested, rods, rods_with, supposing,
         trust_in, with, worked,
     },
@@ -101,7 +101,7 @@ pub use corfem::{
         test_data::{self, Sensor, TestData, read},
     },
     job::{
-        Concern, History, JobResult, Kind, PreparedJob, Trust,
+        Concern, History, JobResult, PreparedJob, Trust,
         assignment::pair_optimally,
         expansion::mass_by_modes,
         localization::{by_factor, by_single_fit},

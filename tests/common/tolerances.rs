@@ -313,7 +313,5 @@ pub const CERTIFIED_CHI_SQUARED: f64 = 2.2e-4;
 /// Deviations of factors that are told of another test, relative to those of that test: slopes err by a millionth, and where parameters
 /// are hard to tell apart a deviation magnifies it some ten times.
 pub const MEASURED_NEXT: f64 = 1e-5;
-/// The same of a further mode, whose slopes err by a thousandth of what the modes left out add.
-pub const FURTHER_MODE: f64 = 1e-4;
 /// A number of three digits in percent, such as 4.18.
 pub const THREE_DIGITS: f64 = 0.005;

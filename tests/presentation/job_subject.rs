@@ -4,9 +4,7 @@ use crate::common::jobs::run;
 use crate::paper::report::case_report;
 use crate::prelude::*;
 use crate::presentation::figures::{results, wings};
-use corfem::job::{Spread, Study, Summary, Vary};
 use corfem::present::report::Derivatives;
-use corfem::present::tables::job::study_table;
 use std::sync::Arc;
 
 fn at(x: f64) -> Vector3<f64> {
@@ -101,46 +99,6 @@ fn a_mode_is_doubtful_when_it_is_complex_beyond_the_limit() {
         "{doubts}"
     );
     assert_eq!(doubts.matches("is complex").count(), 1, "{doubts}");
-}
-
-/// Samples that failed are counted among all, and the first of them is named. A factor that a bound holds in every sample has no
-/// scatter of its own; one that it holds in some has.
-#[test]
-fn a_study_counts_what_failed_and_what_is_at_a_bound() {
-    let (_folder, path) = placed(&rods());
-    let study = Study::new(&path, 3, &[Vary::Noise], &[]).unwrap();
-    let of = |at_bound| {
-        Some(Spread {
-            count: 7,
-            at_bound,
-            mean: 0.8,
-            deviation: 0.0,
-            quantiles: [0.8; 3],
-        })
-    };
-    let spreads = [("all", of(7)), ("some", of(2)), ("none", None)];
-    let summary = Summary {
-        within: 4,
-        outside: 1,
-        failed: vec![2, 6],
-        spreads: spreads
-            .map(|(name, spread)| (name.to_owned(), spread))
-            .into(),
-    };
-    let Table { notes, rows, .. } = study_table(&study, &summary);
-    assert_eq!(
-        notes[0],
-        "7 samples, seed 3, with noise on the test: 4 within tolerance, 1 not, 2 failed."
-    );
-    assert!(notes[1].contains("--sample 2 says"), "{}", notes[1]);
-    let cells = |row: usize| {
-        rows[row].cells[1..]
-            .iter()
-            .map(Cell::computed)
-            .collect_vec()
-    };
-    assert_eq!(cells(0), ["", "0.8000", "0.8000", "0.8000", "7"]);
-    assert_eq!(cells(1), ["0.0000", "0.8000", "0.8000", "0.8000", "2"]);
 }
 
 /// Each suspect stands beside the slope of its own.

@@ -43,9 +43,8 @@ fn turned_shapes_of_close_modes_are_no_error() {
         let (loaded, result) = corrected(&towers([split, 1.014, angle]));
         assert_eq!(loaded.together(), [vec![0, 1], vec![2, 3], vec![4, 5]]);
         assert!(!result.trust.has_doubt(), "{:?}", result.trust);
-        let mut close = result.trust.of(Kind::CloseModes);
-        let named = close.any(|concern| concern.identifier() == "close-modes-3-4");
-        assert!(named && result.trust.is_clear());
+        assert_eq!(about(&result.trust, "close-modes-3-4"), ["3", "4"]);
+        assert!(!result.trust.stands_against());
         assert_eq!(result.verdict.outcome, Outcome::Tolerance);
         // Turned shapes leave nothing: every factor follows the frequencies of both towers.
         assert!(
@@ -68,20 +67,6 @@ fn turned_shapes_of_close_modes_are_no_error() {
         assert!(paired_table(&report).is_ok());
         assert!(result.misfit.chi_squared < 1.0);
     }
-}
-
-/// Two towers that are equal in the model begin as one subspace, for no shape of theirs is their own; once they have parted they are
-/// compared one by one.
-#[test]
-fn modes_that_model_and_test_tell_apart_are_compared_alone() {
-    let (loaded, result) = corrected(&towers([1.0, 1.2, 0.0]));
-    assert_eq!(loaded.together().len(), 3);
-    assert_eq!(
-        result.found.prepared.together(),
-        (0..6).map(|mode| vec![mode]).collect_vec()
-    );
-    let factors = &result.found.factors;
-    assert_within(factors[1] / factors[0], 1.2, 1e-3);
 }
 
 /// A ring of six masses has two shapes at each of two roots, and its parameters leave it a ring: a test that has one of the two may have

@@ -4,7 +4,8 @@ use crate::common::cases::hold;
 use crate::common::jobs::run;
 use crate::common::jobs::said;
 use crate::prelude::*;
-use corfem::job::{LeftOut, Study, Vary};
+use corfem::job::LeftOut;
+use corfem::present::tables::job::model_table;
 use std::sync::Arc;
 
 const A: &str = "elements = [1]";
@@ -27,14 +28,13 @@ fn of_job(text: &str, _: &[String]) -> Result<Value, String> {
     let known = prepare(&path).and_then(|job| {
         let trust = Trust::before(&job)?;
         run(&job, |_| {}, || true)?;
-        let mass = trust
-            .all()
-            .iter()
-            .filter(|own| own.identifier().contains("mass"));
+        let facts = model_table(&job)?;
+        let mass = facts.rows.iter().skip(1).map(|row| row.cells[0].computed());
+        let mass = mass.take(facts.rows.len() - 2).collect_vec();
         Ok(json!({
             "motions": job.loaded.source.motions.len(),
-            "mass": mass.map(Concern::words).collect_vec().join(" "),
-            "unused": trust.about(Kind::NotUsed),
+            "mass": mass.join(" at "),
+            "unused": about(&trust, "not-used"),
         }))
     });
     known.map_err(|error| {
@@ -284,7 +284,10 @@ fn a_sensor_left_out_for_a_mode_without_it_is_a_remark() {
     let data = &mut Arc::make_mut(&mut prepared.loaded).data;
     data.incomplete = vec!["7 y".to_owned(), "9 z".to_owned()];
     let trust = trust_in(&prepared);
-    let found = trust.of(Kind::NotInEveryMode).next().unwrap();
+    let mut all = trust.all().iter();
+    let found = all
+        .find(|own| own.identifier == "not-in-every-mode")
+        .unwrap();
     let words = "Sensors left out because some mode of the file has no value at them: 7 y, 9 z.";
-    assert_eq!((found.stands(), &found.words()[..]), (false, words));
+    assert_eq!((found.stands(), &found.words[..]), (false, words));
 }

@@ -197,8 +197,8 @@ fn a_hardly_seen_mode_takes_no_partner_from_one_that_is_seen() {
 /// The doubts about a job, by identifier.
 fn against(job: &PreparedJob) -> Vec<String> {
     let trust = trust_in(job);
-    let all = trust.all().iter().filter(|own| own.grade() == Grade::Doubt);
-    all.map(Concern::identifier).collect()
+    let all = trust.all().iter().filter(|own| own.grade == Grade::Doubt);
+    all.map(|own| own.identifier.clone()).collect()
 }
 
 /// The law: whatever number of the model's modes a job takes, the same is found of its readings.

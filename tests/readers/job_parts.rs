@@ -2,6 +2,7 @@
 
 use super::job_unseen::{chain, files};
 use crate::prelude::*;
+use corfem::job::concern::Check;
 
 /// The files with the numbers of all matrices written with so many digits, those of one after a factor.
 fn written(files: &Files, digits: usize, (name, factor): (&str, f64)) -> Files {
@@ -29,10 +30,8 @@ fn written(files: &Files, digits: usize, (name, factor): (&str, f64)) -> Files {
 /// Doubts about parts.
 fn doubts(files: &Files) -> Vec<String> {
     let trust = trust_in(&prepared(files));
-    let of_parts = ["negative-", "not-part-", "sum-of-", "twin-"];
-    let all = trust.all().iter().map(Concern::identifier);
-    all.filter(|identifier| of_parts.iter().any(|part| identifier.starts_with(part)))
-        .collect()
+    let all = trust.of(Check::PartsOfTheModel);
+    all.map(|own| own.identifier.clone()).collect()
 }
 
 properties! {

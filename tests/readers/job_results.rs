@@ -3,7 +3,7 @@
 use crate::common::jobs::run;
 use crate::common::jobs::said as said_of;
 use crate::prelude::*;
-use corfem::job::{Study, Vary};
+use corfem::job::HeldOut;
 use corfem::present::json;
 use corfem::present::page::report_page;
 use corfem::present::tables::report::minima_table;
@@ -119,12 +119,22 @@ fn a_mode_held_out_is_compared_and_not_fitted() {
     };
     let [one, off] = [rods(), third_higher(rods())].map(|files| ran(&held(files, "[3]")));
     assert_alike(&one.found.factors, &off.found.factors, ROUND_OFF);
-    let [right, wrong] = [&one, &off].map(|found| found.trust.of(Kind::HeldOut).next().unwrap());
-    assert_eq!(
-        (&right.about[..], right.measure.len()),
-        (&["3".to_owned()][..], 4)
-    );
-    let apart = (1.0 + right.measure[1] / 100.0) / (1.0 + wrong.measure[1] / 100.0);
+    let held_of = |found: &JobResult| report_of(found).held_out;
+    let [right, wrong] = [&one, &off].map(|found| {
+        assert_eq!(about(&found.trust, "held-out-3"), ["3"]);
+        let [
+            HeldOut {
+                mode: 3,
+                frequency,
+                shape: Some(_),
+            },
+        ] = held_of(found)[..]
+        else {
+            panic!("mode 3 is held out")
+        };
+        frequency
+    });
+    let apart = (1.0 + right[1] / 100.0) / (1.0 + wrong[1] / 100.0);
     assert_within(apart, 1.02, 1e-6);
     // The answer tells it apart from the others, whose errors are those of a job without it.
     let answer = |found: &JobResult| {
@@ -140,10 +150,10 @@ fn a_mode_held_out_is_compared_and_not_fitted() {
     );
     let (without, off) = (answer(&ran(&without)), answer(&off));
     let errors = without.split([',', ';']).next().unwrap();
-    let [before, after] = [wrong.measure[0], wrong.measure[1]].map(f64::abs);
+    let [before, after] = wrong.map(f64::abs);
     let expected = format!("{errors}, held out {before:.2} → {after:.2} %");
     assert!(off.starts_with(&expected), "{off} {expected}");
-    assert!(ran(&rods()).trust.of(Kind::HeldOut).next().is_none());
+    assert!(held_of(&ran(&rods())).is_empty());
     for (modes, says) in [
         ("[4]", "mode 4 is none of the test modes"),
         ("[1, 2, 3]", "a mode at least must be left"),
@@ -160,7 +170,7 @@ fn modes_of_the_model_that_no_test_mode_answers_are_said() {
     let unanswered = |entry: &str| {
         let found = ran(&rods_with("[test]", entry));
         let before = trust_in(&found.found.prepared);
-        let [before, after] = [&before, &found.trust].map(|trust| trust.about(Kind::Unanswered));
+        let [before, after] = [&before, &found.trust].map(|trust| about(trust, "unanswered-modes"));
         assert_eq!(before.len(), after.len());
         after
     };
@@ -250,8 +260,8 @@ fn no_interval_stands_where_the_papers_rule_stops() {
             .iter()
             .all(|one| *one == Err(Withheld::NoOptimum))
     );
-    let mut said = found.trust.all().iter().map(Concern::words);
-    assert!(said.any(|words| words.contains("minimum of weighted steps alone")));
+    let mut said = found.trust.all().iter();
+    assert!(said.any(|own| own.words.contains("minimum of weighted steps alone")));
 }
 
 /// A prior of a millionth leaves its factor at one and keeps all of its variance; the others have the job's, and these the test decides.
@@ -271,7 +281,7 @@ fn a_prior_is_the_parameters_own_or_that_of_all() {
         let kept = (seen.deviations[e] / 0.5).powi(2);
         assert!((seen.learned[e] - (1.0 - kept)).abs() < ROUND_OFF && seen.learned[e] > 0.9);
     }
-    assert_eq!(found.trust.about(Kind::MostlyPrior), ["a"]);
+    assert_eq!(about(&found.trust, "mostly-prior"), ["a"]);
     assert_eq!(found.intervals[0], Err(Withheld::MostlyPrior));
 }
 
@@ -280,7 +290,8 @@ fn a_prior_is_the_parameters_own_or_that_of_all() {
 fn own_weights_and_the_papers_settings_are_said() {
     let words = |entries: &str| -> String {
         let files = rods_with("[compare]", entries);
-        ran(&files).trust.all().iter().map(Concern::words).collect()
+        let trust = ran(&files).trust;
+        trust.all().iter().map(|own| &own.words[..]).collect()
     };
     for (entries, divides, unused) in [
         ("[compare]", false, false),
@@ -411,27 +422,6 @@ fn a_pass_of_the_papers_loop_is_told_by_its_errors_in_percent() {
         {
             assert_within(percent / 100.0, error, PRINTED_RMS);
         }
-    }
-}
-
-/// The paper's loop counts factors from its start; the bounds are those of the first model all the same.
-#[test]
-fn bounds_hold_from_wherever_the_papers_loop_starts() {
-    let bounds = "elements = [1]\nlower = 0.9\nupper = 1.2";
-    let each =
-        "elements = [2]\nlower = 0.8\nupper = 1.02\n[[parameter]]\nname = \"c\"\nelements = [3]";
-    let files = with(rods_with(A, bounds), "job.toml", B, each);
-    let (_folder, path) = placed(&with(files, "job.toml", "method = \"gauss_newton\"", ""));
-    let study = Study::new(&path, 5, &[Vary::Start], &[]).unwrap();
-    for sample in 1..=6 {
-        let (line, failure) = study.run(sample, || true).unwrap();
-        assert!(failure.is_none(), "{line}");
-        let factors = line
-            .split(',')
-            .skip(5)
-            .map(|cell| cell.parse::<f64>().unwrap());
-        // The rods that the test was made of are beyond both.
-        assert_alike(factors.take(2), [0.9, 1.02], 2.0 * ROUND_OFF);
     }
 }
 

@@ -44,8 +44,6 @@ pub mod nastran95_program;
 pub mod readers_survive;
 pub mod repeats;
 mod runs;
-pub mod study;
-pub mod study_draws;
 pub mod test_data;
 pub mod test_data_analysis;
 mod test_data_axes;

@@ -130,7 +130,7 @@ fn rigid_modes_of_a_test_are_left_out_and_said() {
     let (_folder, path) = placed(&measured);
     let without = run(&prepare(&path).unwrap(), |_| {}, || true).unwrap();
     assert_eq!(found.found.factors, without.found.factors);
-    assert_eq!(found.trust.about(Kind::RigidModes), ["6"]);
+    assert_eq!(about(&found.trust, "rigid-modes"), ["6"]);
     let named = with(
         with_rigid,
         "job.toml",

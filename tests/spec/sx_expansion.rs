@@ -18,7 +18,7 @@ properties! {
     fn shapes_in_the_span_of_the_modes_are_reproduced(shares in prop::collection::vec(-1.0..1.0_f64, 6)) {
         let all = modes();
         let shapes = &all * DMatrix::from_vec(3, 2, shares);
-        let expanded = expand(&all, &all.select_rows(&SENSORS), &shapes.select_rows(&SENSORS))?;
+        let expanded = expand(&all, &all.select_rows(&SENSORS), &shapes.select_rows(&SENSORS)).unwrap();
         prop_assert!((expanded - &shapes).amax() < MATRIX_ROUND_OFF * all.amax());
     }
 
@@ -29,7 +29,7 @@ properties! {
     ) {
         let (all, measured) = (modes() * 10_f64.powi(scale), DMatrix::from_vec(4, 1, measured));
         let at_sensors = all.select_rows(&SENSORS);
-        let expanded = expand(&all, &at_sensors, &measured)?;
+        let expanded = expand(&all, &at_sensors, &measured).unwrap();
         let left = measured - expanded.select_rows(&SENSORS);
         prop_assert!(at_sensors.tr_mul(&left).amax() < MATRIX_ROUND_OFF * at_sensors.amax());
     }
@@ -48,14 +48,7 @@ fn with_the_mass_by_modes_they_are_orthonormal_and_a_test_shape_weighs_what_its_
         relative_error(weight, shares.norm_squared()) < MATRIX_ROUND_OFF,
         "{weight}"
     );
-    assert!(matches!(
-        mass_by_modes(&DMatrix::identity(2, 3)),
-        Err(Error::Count {
-            found: 3,
-            most: 2,
-            ..
-        })
-    ));
+    assert_eq!(mass_by_modes(&DMatrix::identity(2, 3)), None);
 }
 
 #[test]
@@ -68,30 +61,13 @@ fn sensors_that_cannot_tell_the_modes_apart_are_refused() {
             &DMatrix::identity(rows.len(), 1),
         )
     };
-    assert!(matches!(
-        few(&[1, 3]),
-        Err(Error::Count {
-            found: 3,
-            most: 2,
-            ..
-        })
-    ));
-    assert!(matches!(
-        few(&[1, 3, 3, 1]),
-        Err(Error::NotPositiveDefinite { row: 2, .. })
-    ));
+    assert_eq!([few(&[1, 3]), few(&[1, 3, 3, 1])], [None, None]);
     let unseen = dmatrix![1.0, 0.0; 2.0, 0.0; 0.5, 0.0];
-    let refused = expand(&unseen, &unseen, &DMatrix::identity(3, 1));
-    assert!(
-        matches!(refused, Err(Error::NotPositiveDefinite { row: 1, .. })),
-        "{refused:?}"
-    );
     let twice = dmatrix![1.0, -2.0, 0.0; 0.0, 0.0, 1.0; 0.5, -1.0, 0.0];
-    let refused = expand(&twice, &twice, &DMatrix::identity(3, 1));
-    assert!(
-        matches!(refused, Err(Error::NotPositiveDefinite { row: 1, .. })),
-        "{refused:?}"
-    );
+    for all in [unseen, twice, DMatrix::zeros(2, 0), f64::NAN * eye(2)] {
+        let test = DMatrix::identity(all.nrows(), 1);
+        assert_eq!(expand(&all, &all, &test), None);
+    }
 }
 
 #[test]
@@ -101,56 +77,6 @@ fn modes_are_dependent_that_differ_by_a_billionth_of_their_length() {
         let two = dmatrix![1.0, 1.0; 0.0, angle];
         expand(&two, &two, &dmatrix![1.0; 0.0])
     };
-    assert!(matches!(
-        at(1.9e-9),
-        Err(Error::NotPositiveDefinite { row: 1, .. })
-    ));
-    assert!(at(2.1e-9).is_ok());
-}
-
-#[test]
-fn what_does_not_fit_is_refused() {
-    let (two, three) = (eye(2), eye(3));
-    let (none, no_number) = (DMatrix::zeros(2, 0), f64::NAN * &two);
-    for (all, at_sensors, test, words) in [
-        (&two, &two, &two, "an answer"),
-        (
-            &three,
-            &two,
-            &two,
-            "analysis modes at all degrees of freedom: 3 x 3 instead of 3 x 2",
-        ),
-        (
-            &two,
-            &two,
-            &three,
-            "test mode shapes: 3 x 3 instead of 2 x 3",
-        ),
-        (
-            &two,
-            &none,
-            &two,
-            "analysis modes for these sensors: 0 given or asked for; there must be 1 to 2",
-        ),
-        (
-            &two,
-            &no_number,
-            &two,
-            "analysis mode at the sensors of entry (0, 0) is NaN; it must be a finite number",
-        ),
-        (
-            &two,
-            &two,
-            &no_number,
-            "expanded test shapes of entry (0, 0) is NaN; it must be a finite number",
-        ),
-        (
-            &no_number,
-            &two,
-            &two,
-            "expanded test shapes of entry (0, 0) is NaN; it must be a finite number",
-        ),
-    ] {
-        assert_eq!(said(expand(all, at_sensors, test)), words);
-    }
+    assert_eq!(at(1.9e-9), None);
+    assert!(at(2.1e-9).is_some());
 }

@@ -1,4 +1,4 @@
-//! Where to measure next: the deviations that are told of a test with one sensor more or less, or one more mode, are those of that test.
+//! Where to measure next: the deviations that are told of a test with one sensor more or less are those of that test.
 
 use crate::common::jobs::{Files, building, loaded, of_matrices, of_whole, run};
 use crate::common::tolerances::{MEASURED_NEXT, THREE_DIGITS};
@@ -78,17 +78,6 @@ fn with_sensor(files: &Files, grid: usize) -> Files {
     })
 }
 
-fn with_mode(files: &Files, mode: usize) -> Files {
-    let (hertz, read) = seen(files);
-    retested(files.clone(), |data| {
-        data.frequencies_hz.push(hertz[mode]);
-        data.shapes.extend([read.column(mode).into_owned()]);
-        for own in [&mut data.frequency_deviation, &mut data.shape_deviation] {
-            own.iter_mut().for_each(|own| own.push(own[4]));
-        }
-    })
-}
-
 fn without(files: &Files, name: &str) -> Files {
     let leave_out = format!("[sensors]\nleave_out = [\"{name}\"]\n\n[[parameter]]");
     with(files.clone(), "job.toml", "[[parameter]]", &leave_out)
@@ -103,10 +92,10 @@ fn number(words: &str, before: &str) -> usize {
 }
 
 #[test]
-fn deviations_told_are_those_of_a_job_with_that_sensor_or_mode() {
+fn deviations_told_are_those_of_a_job_with_that_sensor() {
     for (name, files) in subjects() {
         let next = prepared(&files).next_measurement().unwrap();
-        let [now, more, modes, less] = &next.changes;
+        let [now, more, less] = &next.changes;
         assert_close(&now[0].1, &deviations(&files), MEASURED_NEXT, name);
         assert_eq!(less.len(), 5, "{name}");
         assert!(more.len() >= 5, "{name}");
@@ -122,23 +111,6 @@ fn deviations_told_are_those_of_a_job_with_that_sensor_or_mode() {
         for (words, told) in less {
             let left = without(&files, words.strip_prefix("without ").unwrap());
             assert_close(told, &deviations(&left), MEASURED_NEXT, words);
-        }
-        // A mode compared together with others is not ranked, and a component's own deviation cannot be given to some modes alone.
-        match name {
-            "together" => assert_eq!(modes.len(), 0),
-            "own deviations" => assert!(!modes.is_empty()),
-            _ => {
-                assert!(modes.len() >= 3, "{name}");
-                for (words, told) in modes.iter().take(2) {
-                    let mode = number(words, "with mode ") - 1;
-                    assert_close(
-                        told,
-                        &deviations(&with_mode(&files, mode)),
-                        FURTHER_MODE,
-                        words,
-                    );
-                }
-            }
         }
     }
 }
@@ -166,7 +138,7 @@ fn changes_of_a_kind_come_with_the_least_deviation_first() {
         }
         let now = mean_deviation(&next.changes[0][0].1);
         // One more number of a test never tells less where the shape keeps its largest component.
-        let least = mean_deviation(&next.changes[3][0].1);
+        let least = mean_deviation(&next.changes[2][0].1);
         assert!(least > now, "{name}");
     }
 }
@@ -256,7 +228,7 @@ fn a_sensor_that_sees_a_mode_alone_is_not_left_out() {
     let modes = Modes::new(dvector![1e4, 4e4], eye(2)).unwrap();
     let next = prepared(&of_matrices(&parts, &eye(2), &modes));
     let next = next.next_measurement().unwrap();
-    assert_eq!(next.changes[3].len(), 0);
+    assert_eq!(next.changes[2].len(), 0);
     let alone = "Not ranked: 2 sensors that see a test mode alone.";
     assert_eq!(next.unranked, [alone]);
 }
@@ -283,5 +255,5 @@ fn of_too_many_places_and_sensors_a_part_is_looked_at() {
             "Of 60 sensors one in 9 was loo"
         ]
     );
-    assert_eq!(next.changes[3].len(), 7);
+    assert_eq!(next.changes[2].len(), 7);
 }

@@ -39,7 +39,7 @@ fn a_stop_by_gradient_is_stationary() {
 
 /// True if nothing is said against a result.
 fn is_silent(result: &JobResult) -> bool {
-    result.verdict.is_within && result.trust.is_clear()
+    result.verdict.is_within && !result.trust.stands_against()
 }
 
 /// Jobs of light oscillators by exact data: those that end in the truth, and those that end elsewhere without a word.

@@ -9,11 +9,9 @@ pub mod cli_places;
 mod cli_shapes;
 mod cli_shown;
 pub mod cli_streams;
-pub mod cli_study;
 pub mod cli_trust;
 pub mod deck_cli;
 pub mod dump;
-pub mod failing_operations;
 pub mod stops;
 #[cfg(unix)]
 mod transcripts;

@@ -284,15 +284,6 @@ pub const LOOPS: &[Entry] = &[
         let comparison = comparison.with_component_weights(own)?;
         residuals(&comparison, &vec![ModeWeight::ONE; modes]).map(|found| found.data.into())
     }),
-    ("Comparison::with_covariance", |d| {
-        let comparison = comparison(d)?;
-        let (dof, modes) = comparison.model().test().shapes().shape();
-        let count = d.about((1 + dof) * modes);
-        let (size, root) = (d.number(), eye(count));
-        let covariance = root * size;
-        let comparison = comparison.with_covariance(&covariance)?;
-        residuals(&comparison, &vec![ModeWeight::ONE; modes]).map(|found| found.data.into())
-    }),
     ("Accumulation::next_share_factor", |d| {
         for accumulation in [Accumulation::Sum, Accumulation::Product] {
             accumulation.next_share_factor(d.number(), d.number(), d.number());
