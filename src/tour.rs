@@ -65,7 +65,11 @@ pub mod chapter_06_inner_loop {
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_06_narrow.svg")]
     #![doc = ""]
-    #![doc = include_str!("../paper/tour/06_play.html")]
+    #![doc = include_str!("../paper/presentation/page/play.html")]
+    #![doc = "<script>"]
+    #![doc = include_str!("../paper/tour/06_play.js")]
+    #![doc = include_str!("../paper/presentation/page/play.js")]
+    #![doc = "</script>"]
 }
 
 pub mod chapter_07_condensation {

@@ -1,6 +1,4 @@
-"use strict";
 {
-const DATA = @DATA@;
 const count = DATA.squares.length, panels = DATA.shares.length, all = [...Array(count).keys()];
 const sum = (list, of) => list.reduce((total, item, at) => total + of(item, at), 0);
 // Roots in ascending order and unit vectors, in columns, of a symmetric matrix: cyclic Jacobi rotations.

@@ -3,7 +3,6 @@
 use corfem::method::analysis::Analysis;
 use corfem::method::step::LEAST_SHARE;
 use corfem::present::PresentError;
-use corfem::present::table::Digits;
 use corfem::torque_box::CaseResult;
 use corfem::torque_box::wing_box::TEST_GAGE;
 use nalgebra::DMatrix;
@@ -37,14 +36,6 @@ pub fn play(result: &CaseResult) -> Result<String, PresentError> {
     let shares = first.shares().iter().map(triangle);
     let steps = pass.inner.iterations.iter().map(|step| &step.factors);
     let mils = 1000.0 * case.first_gages().first().copied().unwrap_or(TEST_GAGE);
-    let follows = first.at(&pass.inner.factors)?;
-    // The gages of the test configuration, by the first model's transformation.
-    let truth: Vec<f64> = case
-        .first_gages()
-        .iter()
-        .map(|gage| TEST_GAGE / gage)
-        .collect();
-    let truth = first.at(&truth)?;
     let modes = &first.exact().modes;
     let data = json!({
         "squares": modes.omega_squared().as_slice(),
@@ -59,18 +50,13 @@ pub fn play(result: &CaseResult) -> Result<String, PresentError> {
         "exact": pass.check.errors.sum(),
         "least": LEAST_SHARE,
     });
-    let script = include_str!("play.js").replace("@DATA@", &data.to_string());
-    let percent = |sum: f64| Digits::Fixed(1).write(100.0 * sum) + " %";
     Ok([
-        ("@BELIEVED@", percent(pass.inner.last.errors.sum())),
-        ("@EXACT@", percent(pass.check.errors.sum())),
-        ("@FOLLOWS@", percent(follows.errors.sum())),
-        ("@TRUTH@", percent(truth.errors.sum())),
-        ("@SCRIPT@", script),
+        include_str!("play.html"),
+        "<script>\nconst DATA = ",
+        &data.to_string(),
+        ";\n",
+        include_str!("play.js"),
+        "</script>\n",
     ]
-    .into_iter()
-    .fold(
-        include_str!("play.html").to_owned(),
-        |page, (place, text)| page.replace(place, &text),
-    ))
+    .concat())
 }
