@@ -21,40 +21,30 @@ pub mod chapter_01_two_springs {
     #![doc = include_str!("../paper/figures/springs.svg")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_01.svg")]
-    #![doc = ""]
-    #![doc = include_str!("../paper/figures/tour_01_narrow.svg")]
 }
 
 pub mod chapter_02_recursion {
     #![doc = include_str!("../paper/tour/02_recursion.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_02.svg")]
-    #![doc = ""]
-    #![doc = include_str!("../paper/figures/tour_02_narrow.svg")]
 }
 
 pub mod chapter_03_error_sum {
     #![doc = include_str!("../paper/tour/03_error_sum.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_03.svg")]
-    #![doc = ""]
-    #![doc = include_str!("../paper/figures/tour_03_narrow.svg")]
 }
 
 pub mod chapter_04_step {
     #![doc = include_str!("../paper/tour/04_step.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_04.svg")]
-    #![doc = ""]
-    #![doc = include_str!("../paper/figures/tour_04_narrow.svg")]
 }
 
 pub mod chapter_05_readings {
     #![doc = include_str!("../paper/tour/05_readings.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/counted_gages.svg")]
-    #![doc = ""]
-    #![doc = include_str!("../paper/figures/counted_gages_narrow.svg")]
 }
 
 pub mod chapter_06_inner_loop {
@@ -62,8 +52,6 @@ pub mod chapter_06_inner_loop {
     #![doc = include_str!("../paper/tour/06_inner_loop.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_06.svg")]
-    #![doc = ""]
-    #![doc = include_str!("../paper/figures/tour_06_narrow.svg")]
     #![doc = ""]
     #![doc = include_str!("../paper/presentation/page/play.html")]
     #![doc = "<script>"]
@@ -76,8 +64,6 @@ pub mod chapter_07_condensation {
     #![doc = include_str!("../paper/tour/07_condensation.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_07.svg")]
-    #![doc = ""]
-    #![doc = include_str!("../paper/figures/tour_07_narrow.svg")]
 }
 
 pub mod chapter_08_box {
@@ -85,37 +71,25 @@ pub mod chapter_08_box {
     #![doc = ""]
     #![doc = include_str!("../golden/figures/box_points.svg")]
     #![doc = ""]
-    #![doc = include_str!("../golden/figures/box_points_narrow.svg")]
-    #![doc = ""]
     #![doc = include_str!("../golden/figures/case_1_mode_shapes.svg")]
     #![doc = ""]
-    #![doc = include_str!("../golden/figures/case_1_mode_shapes_narrow.svg")]
-    #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_08.svg")]
-    #![doc = ""]
-    #![doc = include_str!("../paper/figures/tour_08_narrow.svg")]
 }
 
 pub mod chapter_09_mistake {
     #![doc = include_str!("../paper/tour/09_mistake.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_09.svg")]
-    #![doc = ""]
-    #![doc = include_str!("../paper/figures/tour_09_narrow.svg")]
 }
 
 pub mod chapter_10_noise {
     #![doc = include_str!("../paper/tour/10_noise.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_10.svg")]
-    #![doc = ""]
-    #![doc = include_str!("../paper/figures/tour_10_narrow.svg")]
 }
 
 pub mod chapter_11_own_structure {
     #![doc = include_str!("../paper/tour/11_own_structure.md")]
     #![doc = ""]
     #![doc = include_str!("../paper/figures/tour_11.svg")]
-    #![doc = ""]
-    #![doc = include_str!("../paper/figures/tour_11_narrow.svg")]
 }

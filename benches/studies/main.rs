@@ -13,7 +13,7 @@ mod common;
 
 use common::prelude;
 use common::presentation::paper;
-use common::presentation::paper::figures::canvas::WIDE;
+use common::presentation::paper::figures::Figure;
 use common::presentation::studies::counted_figures::counted_figures;
 use common::presentation::studies::tour_figures::figures;
 use common::presentation::studies::{LONG, QUICK};
@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         let found = drawn().find(|(own, _)| own == name);
         let (_, diagram) = found.ok_or_else(|| format!("there is no study {name}"))?;
-        print!("{}", diagram.svg(WIDE)?);
+        print!("{}", Figure::drawn(name, "", &diagram.svg()?).svg);
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use crate::paper::figures::canvas::{
     Area, BLUE, Dash, Drawn, Form, GRAY, INK, KEY, LINE, Mark, Named, ORANGE, Pen, SKY, VERMILION,
-    WIDE, axes, chart, corners, line, mark, name_ends, name_upright, placed, polygon, svg, width,
+    axes, chart, corners, line, mark, name_ends, name_upright, placed, polygon, svg,
 };
 use crate::paper::figures::chart::Chart;
 use crate::prelude::*;
@@ -68,20 +68,18 @@ const MARGINS: [f64; 4] = [72.0, 20.0, 10.0, 48.0];
 const COLORS: [RGBColor; 6] = [BLUE, VERMILION, ORANGE, GRAY, SKY, INK];
 /// Half the width of a bar, px.
 const HALF_BAR: f64 = 9.0;
-/// Most labels along the axis across, and along that of the narrow form.
-const LABELS: [usize; 2] = [7, 5];
+/// Most labels along the axis across.
+const LABELS: usize = 7;
 
 impl Diagram {
-    /// The diagram as SVG, as wide as a figure's form; the narrow one has its names above it.
+    /// The diagram as SVG.
     ///
     /// # Errors
     /// [`PresentError::Drawing`].
-    pub fn svg(&self, wide: f64) -> Result<String, PresentError> {
-        let margins = self.margins(wide);
-        let height = HEIGHT + margins[2] - MARGINS[2];
-        svg(self.title, self.title, (wide, height), |area| {
+    pub fn svg(&self) -> Result<String, PresentError> {
+        svg(self.title, self.title, HEIGHT, |area| {
             let (x, y) = (self.x.0..self.x.1, self.y.0..self.y.1);
-            let mut builder = chart(area, margins);
+            let mut builder = chart(area, self.margins());
             if !self.is_logarithmic {
                 return self.draw_on(area, builder.build_cartesian_2d(x, y)?);
             }
@@ -93,17 +91,12 @@ impl Diagram {
         })
     }
 
-    /// Room of the axes, and of the names at the ends of lines or, in the narrow form, above all.
-    fn margins(&self, wide: f64) -> [f64; 4] {
+    /// Room of the axes, and of the names at the ends of lines.
+    fn margins(&self) -> [f64; 4] {
         let [left, right, top, bottom] = MARGINS;
-        let names = self.series.iter().filter(|series| !series.name.is_empty());
-        let names = names.map(|series| Named((0.0, 0.0), series.name, None, None));
-        let names = names.collect_vec();
-        match (wide < WIDE, self.has_lines()) {
-            (true, _) if names.len() > 1 => [left, right, top + LINE * names.len() as f64, bottom],
-            (false, true) => [left, name_margin(&names), top, bottom],
-            _ => MARGINS,
-        }
+        let names = name_margin(self.series.iter().map(|series| series.name));
+        let right = if self.has_lines() { names } else { right };
+        [left, right, top, bottom]
     }
 
     /// True if names stand at the ends of lines; bars and dots have a legend instead.
@@ -121,8 +114,6 @@ impl Diagram {
     where
         Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
     {
-        let [left, right, top, bottom] = self.margins(width(area));
-        let is_narrow = width(area) < WIDE;
         // Four digits, without the round-off of sums of decimal steps.
         let tick = |value: &f64| {
             let text = format!("{value:.3e}");
@@ -134,19 +125,14 @@ impl Diagram {
         };
         axes(&mut chart)
             .disable_x_mesh()
-            .x_labels(LABELS[usize::from(is_narrow)])
+            .x_labels(LABELS)
             .y_labels(6)
             .x_label_formatter(&tick)
             .y_label_formatter(&upright)
             .x_desc(self.labels[0])
             .draw()?;
-        name_upright(
-            area,
-            self.labels[1],
-            0.5 * HEIGHT + top - 0.5 * (MARGINS[2] + bottom),
-        )?;
-        // Bars of neighbors do not meet.
-        let half_bar = HALF_BAR * ((width(area) - left - right) / (WIDE - left - right)).min(1.0);
+        let [_, _, top, bottom] = MARGINS;
+        name_upright(area, self.labels[1], 0.5 * (HEIGHT + top - bottom))?;
         let ground = if self.is_logarithmic { self.y.0 } else { 0.0 };
         let end_of = placed(area, &chart, self.x.1, self.y.1);
         let mut ends: Vec<Named> = Vec::new();
@@ -175,7 +161,7 @@ impl Diagram {
                 }
                 SeriesMark::Dots => places.iter().try_for_each(|(at, _)| mark(area, *at, dot))?,
                 SeriesMark::Bars => places.iter().try_for_each(|((x, y), (_, ground))| {
-                    let bar = corners((x - half_bar, *y), (x + half_bar, *ground));
+                    let bar = corners((x - HALF_BAR, *y), (x + HALF_BAR, *ground));
                     polygon(area, &bar, Some(color), Pen::solid(color, 1.0))
                 })?,
             }
@@ -190,11 +176,9 @@ impl Diagram {
                 _ => ends.push(Named(end, name, pen, key)),
             }
         }
-        if is_narrow || !self.has_lines() {
-            let (left, first) = match is_narrow {
-                true => (left - 9.0, 8.0),
-                false => (end_of.0 - name_margin(&ends) - 6.0, end_of.1 + 14.0),
-            };
+        if !self.has_lines() {
+            let names = name_margin(ends.iter().map(|named| named.1));
+            let (left, first) = (end_of.0 - names - 6.0, end_of.1 + 14.0);
             let rows = ends
                 .iter_mut()
                 .zip((0..).map(|row| first + LINE * f64::from(row)));
@@ -215,8 +199,8 @@ impl Diagram {
 }
 
 /// Room for names behind the ends of their lines, px.
-fn name_margin(names: &[Named]) -> f64 {
-    let longest = names.iter().map(|named| named.1.chars().count()).max();
+fn name_margin<'a>(names: impl Iterator<Item = &'a str>) -> f64 {
+    let longest = names.map(|name| name.chars().count()).max();
     KEY + 7.8 * longest.unwrap_or(0) as f64
 }
 

@@ -74,8 +74,9 @@ pub fn figures(
     quiet: bool,
 ) -> Result<(), PresentError> {
     let (_, _, figures) = drawn(quiet)?;
-    let files = figures.into_iter().flat_map(Figure::files);
-    let files: Vec<_> = files.map(|(name, svg)| (name, svg.into_bytes())).collect();
+    let files = figures.into_iter();
+    let files = files.map(|Figure { name, svg, .. }| (format!("{name}.svg"), svg.into_bytes()));
+    let files: Vec<_> = files.collect();
     write_counted(folder, &files, quiet)
 }
 

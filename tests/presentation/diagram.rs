@@ -2,7 +2,6 @@
 
 use crate::common::drawings::attribute;
 use crate::evidence::diagram::{Diagram, Series, SeriesMark};
-use crate::paper::figures::canvas::WIDE;
 use crate::prelude::*;
 
 #[test]
@@ -17,7 +16,7 @@ fn a_point_midway_on_both_axes_lies_midway() {
             is_logarithmic,
             series: vec![Series::new("dots", SeriesMark::Dots, points)],
         };
-        let svg = diagram.svg(WIDE).unwrap();
+        let svg = diagram.svg().unwrap();
         // The legend's dots come behind them.
         let circles = svg.split("<circle").skip(1).step_by(2).take(3);
         let dots = circles.map(|tag| ["cx", "cy"].map(|name| attribute(tag, name)));

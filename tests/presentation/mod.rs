@@ -4,8 +4,6 @@ pub mod diagram;
 pub mod figures;
 pub mod figures_drawing;
 pub mod figures_legible;
-pub mod figures_made_up;
-pub mod figures_structure;
 pub mod frame;
 pub mod job_subject;
 pub mod moving;

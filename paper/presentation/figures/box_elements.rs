@@ -2,7 +2,7 @@
 
 use super::super::tables::kind_letter;
 use super::canvas::*;
-use super::view::{DEPTH_DRAWN, RISE, STEEP, View};
+use super::view::{AXES, View};
 use corfem::method::structure::{Element, ElementKind, Structure};
 use corfem::present::table::Digits;
 use corfem::torque_box::wing_box::TEST_GAGE;
@@ -45,14 +45,13 @@ const LAYERS: [(Layer, [&str; 2]); 3] = [
 ];
 /// Distances of the layers from the top of a box, in parts of its width.
 const DOWN: [f64; 3] = [30.0 / 720.0, 228.0 / 720.0, 464.0 / 720.0];
-/// Distances of the layers in the steep view of the narrow form, in parts of its width.
-const STEEP_DOWN: [f64; 3] = [0.12, 1.0, 2.24];
+/// Factor by which the box's depth is drawn larger; the depth is a twentieth of its span.
+const DEPTH_DRAWN: f64 = 7.0;
 
-/// Style of a box: left and top, width, rise of its plan axes, fill and name of its panels, and whether its rods are numbered.
+/// Style of a box: left and top, width, fill and name of its panels, and whether its rods are numbered.
 struct Look<'a> {
     corner: Place,
     width: f64,
-    rise: f64,
     panel: &'a dyn Fn(&Element) -> (RGBColor, String),
     has_numbers: bool,
 }
@@ -61,17 +60,15 @@ struct Look<'a> {
 ///
 /// # Errors
 /// The errors of [`Case::model`]; [`PresentError::Drawing`].
-pub fn draw(case: &Case, wide: f64) -> Result<String, PresentError> {
+pub fn draw(case: &Case) -> Result<String, PresentError> {
     let model = case.model()?;
     let title = format!(
         "Case {}: the wing torque box taken apart, panels 1 to 15 and rods 16 to 39",
         case.number
     );
-    let is_narrow = wide < WIDE;
     let look = Look {
-        corner: (if is_narrow { EDGE } else { 20.0 }, 0.0),
-        width: if is_narrow { wide - 2.0 * EDGE } else { 720.0 },
-        rise: if is_narrow { STEEP } else { RISE },
+        corner: (20.0, 0.0),
+        width: 720.0,
         panel: &|element| {
             let letter = kind_letter(element.kind);
             (fill(element.kind), format!("{} {letter}", element.label))
@@ -79,22 +76,14 @@ pub fn draw(case: &Case, wide: f64) -> Result<String, PresentError> {
         has_numbers: true,
     };
     let notes = [
-        "Blue, S: shear panels. Orange, M: membranes.",
-        "Large numbers: panels. Small ones: rods.",
-        &format!("Webs drawn {DEPTH_DRAWN:.0} times as deep."),
+        "Blue, S: shear panels. Orange, M: membranes.".to_owned(),
+        "Large numbers: panels. Small ones: rods.".to_owned(),
+        format!("Webs drawn {DEPTH_DRAWN:.0} times as deep."),
     ];
-    let notes: Vec<String> = notes
-        .iter()
-        .flat_map(|note| paragraph(note, wide))
-        .collect();
-    let (at, height) = match is_narrow {
-        true => ((EDGE, 1060.0), 1070.0 + LINE * notes.len() as f64),
-        false => ((400.0, 626.0), 690.0),
-    };
-    svg("box_elements", &title, (wide, height), |area| {
-        let view = draw_box(area, model.structure(), &look)?;
-        write_lines(area, &notes, at, START)?;
-        write(area, &view.axes(), (EDGE, 20.0), START)
+    svg("box_elements", &title, 690.0, |area| {
+        draw_box(area, model.structure(), &look)?;
+        write_lines(area, &notes, (400.0, 626.0), START)?;
+        write(area, AXES, (EDGE, 20.0), START)
     })
 }
 
@@ -102,7 +91,7 @@ pub fn draw(case: &Case, wide: f64) -> Result<String, PresentError> {
 ///
 /// # Errors
 /// The errors of [`Case::model`]; [`PresentError::Drawing`].
-pub fn draw_gages(result: &CaseResult, wide: f64) -> Result<String, PresentError> {
+pub fn draw_gages(result: &CaseResult) -> Result<String, PresentError> {
     let model = result.case.model()?;
     let before = result.case.first_gages();
     let factors = result.correlation.best_factors.iter();
@@ -113,17 +102,10 @@ pub fn draw_gages(result: &CaseResult, wide: f64) -> Result<String, PresentError
     );
     let words =
         "Orange is too thick, blue too thin; the full color is half too much or too little.";
-    let words = paragraph(words, wide);
-    // Beside each other, or below in the narrow form.
-    let (width, second, below) = match wide < WIDE {
-        true => (wide - 2.0 * EDGE, (EDGE, 340.0), 690.0),
-        false => (354.0, (392.0, 0.0), 368.0),
-    };
-    let height = below - 2.0 + LINE * words.len() as f64;
-    svg("box_gages", &title, (wide, height), |area| {
-        for ((left, top), name, gages) in [
-            ((EDGE, 0.0), "First model", &before),
-            (second, "Corrected model", &after),
+    svg("box_gages", &title, 366.0 + LINE, |area| {
+        for (left, name, gages) in [
+            (EDGE, "First model", &before),
+            (392.0, "Corrected model", &after),
         ] {
             let panel = |element: &Element| {
                 let gage = gages.get(element.label - 1).copied().unwrap_or(TEST_GAGE);
@@ -131,21 +113,20 @@ pub fn draw_gages(result: &CaseResult, wide: f64) -> Result<String, PresentError
                 (shade(gage), signed(error))
             };
             let look = Look {
-                corner: (left, top + 18.0),
-                width,
-                rise: RISE,
+                corner: (left, 18.0),
+                width: 354.0,
                 panel: &panel,
                 has_numbers: false,
             };
-            write(area, name, (left, top + 14.0), START.bold())?;
+            write(area, name, (left, 14.0), START.bold())?;
             draw_box(area, model.structure(), &look)?;
         }
-        write_lines(area, &words, (EDGE, below), START)
+        write(area, words, (EDGE, 368.0), START)
     })
 }
 
 /// The three layers at the scale at which the webs, the highest, fill the width.
-fn draw_box(area: &Area, structure: &Structure, look: &Look) -> Drawn<View> {
+fn draw_box(area: &Area, structure: &Structure, look: &Look) -> Drawn {
     let corners = structure.corners().iter().cloned();
     let elements: Vec<CornersOf> = structure.elements().iter().zip(corners).collect();
     let corners: Vec<Vector3<f64>> = elements
@@ -156,10 +137,9 @@ fn draw_box(area: &Area, structure: &Structure, look: &Look) -> Drawn<View> {
     let (left, top) = look.corner;
     // As wide as there is room; heights follow.
     let room = [left, 0.0, look.width, f64::INFINITY];
-    let mut fitted = View::rising(look.rise, DEPTH_DRAWN).fitted(&corners, room);
+    let mut fitted = View::rising(DEPTH_DRAWN).fitted(&corners, room);
     fitted.origin.1 = 0.0;
-    let downs = if look.rise > RISE { STEEP_DOWN } else { DOWN };
-    for ((layer, names), down) in LAYERS.into_iter().zip(downs) {
+    for ((layer, names), down) in LAYERS.into_iter().zip(DOWN) {
         let of_layer = elements
             .iter()
             .filter(|(_, corners)| Layer::from_corners(corners) == layer);
@@ -167,7 +147,7 @@ fn draw_box(area: &Area, structure: &Structure, look: &Look) -> Drawn<View> {
         let place = (layer, name, top + look.width * down);
         draw_layer(area, fitted, of_layer.collect(), place, look)?;
     }
-    Ok(fitted)
+    Ok(())
 }
 
 /// One layer with its name, its highest point at `top`.
@@ -190,14 +170,10 @@ fn draw_layer(
     view.origin.1 += top - highest;
     let side = leftmost.map_or(top, |at| at.1 + top - highest);
     let above = 16.0 + 14.0 * look.width / 720.0;
-    // To the left of what is highest, or above its leftmost corner.
-    let at = match look.rise > RISE {
-        true => (look.corner.0, top + 10.0),
-        false => (
-            look.corner.0 - 6.0 * f64::from(look.has_numbers),
-            side - above,
-        ),
-    };
+    let at = (
+        look.corner.0 - 6.0 * f64::from(look.has_numbers),
+        side - above,
+    );
     write(area, name, at, START.bold())?;
     // Elements farther from the eye are drawn first.
     elements.sort_by(|a, b| nearness(a).total_cmp(&nearness(b)));
@@ -242,9 +218,9 @@ fn draw_layer(
 /// Membranes are pale orange, shear panels blue.
 fn fill(kind: ElementKind) -> RGBColor {
     if kind == ElementKind::Membrane {
-        between(WHITE, ORANGE, 0.4)
+        tint(ORANGE, 0.4)
     } else {
-        between(PALE, SKY, 0.25)
+        tint(SKY, 0.35)
     }
 }
 
@@ -268,9 +244,5 @@ fn nearness((element, corners): &CornersOf) -> f64 {
 /// Thin is blue and thick is orange; half or one and a half times the test gage have the full color.
 pub fn shade(gage: f64) -> RGBColor {
     let excess = (2.0 * (gage / TEST_GAGE - 1.0)).clamp(-1.0, 1.0);
-    between(
-        WHITE,
-        if excess < 0.0 { SKY } else { ORANGE },
-        0.85 * excess.abs(),
-    )
+    tint(if excess < 0.0 { SKY } else { ORANGE }, 0.85 * excess.abs())
 }

@@ -1,12 +1,11 @@
 //! The paper figures are drawn on: an SVG through plotters, its lines, marks and letters.
 //!
-//! Lengths are in pixels of a figure 760 wide, which printed 17 cm wide makes its smallest letters 7 points high, or of its narrow
-//! form. The plotting library knows whole units only, so a unit is a tenth of a pixel.
+//! Lengths are in pixels of a figure 760 wide, which printed 17 cm wide makes its smallest letters 7 points high. The plotting library
+//! knows whole units only, so a unit is a tenth of a pixel.
 
 pub use super::chart::{axes, chart, placed};
-use super::colors::dark_palette;
 pub use super::colors::{
-    BLUE, GRAY, INK, ORANGE, PALE, SILVER, SKY, VERMILION, between, hex, legible_on, toned,
+    BLUE, GRAY, INK, ORANGE, PALE, SILVER, SKY, VERMILION, hex, legible_on, tint, toned,
 };
 use corfem::files::escaped;
 pub use corfem::present::PresentError;
@@ -19,10 +18,9 @@ pub use plotters::style::{RGBColor, WHITE};
 
 /// Units to a pixel.
 pub const UNITS: f64 = 10.0;
-/// Widths of every figure's two forms, px: where there is room, and what a telephone 390 px wide leaves between its margins.
+/// Width of every figure, px.
 pub const WIDE: f64 = 760.0;
-pub const NARROW: f64 = 358.0;
-/// Height that a title of one line fills above everything else, and that every other line adds, px.
+/// Height that a title fills above everything else, and of a line below another, px.
 const HEAD: f64 = 30.0;
 pub const LINE: f64 = 18.0;
 /// Room left and right of what is written along a figure, px.
@@ -138,22 +136,11 @@ impl Letters {
     }
 }
 
-/// Draws a figure of a width and a height below its title and returns it as an SVG document that names itself to a screen reader too,
-/// with its colors on a dark page.
+/// Draws a figure of a height below its title and returns it as an SVG document that names itself to a screen reader too.
 pub fn svg(
     name: &str,
     title: &str,
-    size: Place,
-    draw: impl FnOnce(&Area) -> Drawn,
-) -> Result<String, PresentError> {
-    draft(name, title, size, draw).map(|drawn| finished(&drawn))
-}
-
-/// A figure as [`svg`] without its colors on a dark page, for more to be drawn on it.
-pub fn draft(
-    name: &str,
-    title: &str,
-    (wide, height): Place,
+    height: f64,
     draw: impl FnOnce(&Area) -> Drawn,
 ) -> Result<String, PresentError> {
     let mut drawn = String::new();
@@ -161,17 +148,15 @@ pub fn draft(
         height: 14.0,
         ..START.bold()
     };
-    let heading = folded(title, wide, bold.height);
-    let head = HEAD + LINE * (heading.len().max(1) - 1) as f64;
     let (across, down) = (
-        units(wide).unsigned_abs(),
-        units(head + height).unsigned_abs(),
+        units(WIDE).unsigned_abs(),
+        units(HEAD + height).unsigned_abs(),
     );
     {
         let area = SVGBackend::with_string(&mut drawn, (across, down)).into_drawing_area();
         area.fill(&WHITE)
-            .and_then(|()| write_lines(&area, &heading, (EDGE, 16.0), bold))
-            .and_then(|()| draw(&area.split_vertically(units(head)).1))
+            .and_then(|()| write(&area, title, (EDGE, 16.0), bold))
+            .and_then(|()| draw(&area.split_vertically(units(HEAD)).1))
             .and_then(|()| area.present())
             .map_err(|error| PresentError::Drawing {
                 figure: name.to_owned(),
@@ -180,22 +165,11 @@ pub fn draft(
     }
     let body = drawn.split_once('\n').map_or("", |(_, body)| body);
     let title = title.replace('&', "&amp;").replace('<', "&lt;");
-    let form = if wide < WIDE { "narrow" } else { "wide" };
     Ok(escaped(&format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"drawn {form}\" width=\"{wide}\" height=\"{}\" viewBox=\"0 0 {across} \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"drawn\" width=\"{WIDE}\" height=\"{}\" viewBox=\"0 0 {across} \
         {down}\" role=\"img\">\n<title>{title}</title>\n{body}",
-        head + height
+        HEAD + height
     )))
-}
-
-/// A figure with its colors on a dark page, once nothing more is drawn on it.
-pub fn finished(svg: &str) -> String {
-    svg.replacen("</title>\n", &format!("</title>\n{}", dark_palette(svg)), 1)
-}
-
-/// Width of what is drawn on, px.
-pub fn width(area: &Area) -> f64 {
-    f64::from(area.dim_in_pixel().0) / UNITS
 }
 
 /// Distance of what is drawn on from the top of its figure, px.
@@ -203,19 +177,10 @@ pub fn top(area: &Area) -> f64 {
     f64::from(area.get_pixel_range().1.start) / UNITS
 }
 
-/// Letters of a height that a figure of a width has room for on a line, px.
-pub fn letters_across(wide: f64, height: f64) -> usize {
-    ((wide - 2.0 * EDGE) / (0.6 * height)) as usize
-}
-
-/// Words in lines that a figure of a width has room for, in letters of a height, px.
-pub fn folded(words: &str, wide: f64, height: f64) -> Vec<String> {
-    lines(words.split(' '), letters_across(wide, height))
-}
-
-/// Words as [`folded`] at the usual height.
-pub fn paragraph(words: &str, wide: f64) -> Vec<String> {
-    folded(words, wide, START.height)
+/// Words in lines that a figure has room for.
+pub fn paragraph(words: &str) -> Vec<String> {
+    let across = (WIDE - 2.0 * EDGE) / (0.6 * START.height);
+    lines(words.split(' '), across as usize)
 }
 
 /// Lines below each other, the first at a place.
@@ -336,24 +301,6 @@ pub fn signed(text: String) -> String {
 
 /// Room for names that end beside an axis: as much as the longest asks for, px.
 pub fn name_room<'a>(names: impl Iterator<Item = &'a String>, least: f64) -> f64 {
-    let longest = names
-        .map(|name| shortened(name).chars().count())
-        .max()
-        .unwrap_or(0);
+    let longest = names.map(|name| name.chars().count()).max().unwrap_or(0);
     least.max(34.0 + 7.8 * longest as f64)
-}
-
-/// A name as long as a figure has room for.
-pub fn shortened(name: &str) -> String {
-    cut(name, 40)
-}
-
-/// A text of at most so many letters.
-pub fn cut(text: &str, most: usize) -> String {
-    let cut = || text.chars().take(most - 1).chain(['…']).collect();
-    if text.chars().count() > most {
-        cut()
-    } else {
-        text.to_owned()
-    }
 }

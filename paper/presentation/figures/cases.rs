@@ -25,29 +25,25 @@ pub fn case_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError>
         let caption = "Cases 1 to 4: the wing torque box with its structural and dynamic points (the paper's Figure 2).";
         let title = "Cases 1 to 4: the wing torque box, its structural and dynamic points";
         let report = case_report(first)?.with_structure(case.model()?.structure());
-        figures.push(Figure::drawn("box_points", caption, |wide| {
-            draw_structure("box_points", title, &report, wide)
-        })?);
+        let drawn = draw_structure("box_points", title, &report)?;
+        figures.push(Figure::drawn("box_points", caption, &drawn));
         // From the second case on covers are membranes.
         let case = &results.get(1).unwrap_or(first).case;
         let caption = "the box taken apart, its elements numbered (the paper's Figure 3).";
         let caption = format!("Case {}: {caption}", case.number);
-        figures.push(Figure::drawn("box_elements", caption, |wide| {
-            box_elements::draw(case, wide)
-        })?);
+        let drawn = box_elements::draw(case)?;
+        figures.push(Figure::drawn("box_elements", caption, &drawn));
     }
     if let Some(shown) = results.iter().find(|result| result.case.number == SHOWN) {
         let caption = gages_caption(shown);
-        figures.push(Figure::drawn("box_gages", caption, |wide| {
-            box_elements::draw_gages(shown, wide)
-        })?);
+        let drawn = box_elements::draw_gages(shown)?;
+        figures.push(Figure::drawn("box_gages", caption, &drawn));
     }
     let cases: Vec<Case> = results.iter().map(|result| result.case.clone()).collect();
     let caption = "Cases 1 to 4: cover gages of the test configuration (GVT) and of each first model (the paper's Figure 4); root at \
         the left.";
-    figures.push(Figure::drawn("cover_gages", caption, |wide| {
-        cover_gages::draw(&cases, wide)
-    })?);
+    let drawn = cover_gages::draw(&cases)?;
+    figures.push(Figure::drawn("cover_gages", caption, &drawn));
     for result in results {
         add_figures_of(result, &mut figures)?;
     }
@@ -57,36 +53,27 @@ pub fn case_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError>
 /// Adds the figures of one case: those of its correlation, or of Case 4 the factors that its single iteration asks for; and its
 /// derivatives.
 fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), PresentError> {
-    let report = case_report(result)?;
     let case = result.case.number;
-    let all = report_figures(&report)?;
-    let kept = |what: &str| {
-        let mut figure = all
-            .iter()
-            .find(|figure| figure.name == format!("case_{case}_{what}"))?
-            .clone();
-        let number = match (what, case) {
-            ("errors", 1) => 5,
-            ("mode_shapes", 1) => 6,
-            ("errors", 2) => 7,
-            ("errors", 3) => 8,
-            _ => return Some(figure),
-        };
-        figure.caption = format!(
-            "{} (the paper's Figure {number}).",
-            figure.caption.trim_end_matches('.')
-        );
-        Some(figure)
-    };
+    let mut all = report_figures(&case_report(result)?)?;
+    for (name, number) in [
+        ("case_1_errors", 5),
+        ("case_1_mode_shapes", 6),
+        ("case_2_errors", 7),
+        ("case_3_errors", 8),
+    ] {
+        if let Some(figure) = all.iter_mut().find(|figure| figure.name == name) {
+            let caption = figure.caption.trim_end_matches('.');
+            figure.caption = format!("{caption} (the paper's Figure {number}).");
+        }
+    }
     if case == CASES[3] {
         let drawn = Factors {
             rows: unlimited_factors(result),
             limits: Some(result.case.settings.inner.factor_range),
-            across: "unlimited stiffness change factor, first iteration".to_owned(),
+            across: "unlimited stiffness change factor, first iteration",
             down: "element",
             origin: 1.0,
             decimals: 1,
-            published: "published (“about 60”)",
         };
         let most = |is_it: fn(&DrawnFactor) -> bool| {
             let values = drawn.rows.iter().filter(|row| is_it(row));
@@ -98,21 +85,12 @@ fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), 
             most(|row| row.remark.is_some()),
             most(|row| row.remark.is_none()),
         );
-        figures.push(Figure::drawn("case_4_factors", caption, |wide| {
-            let title = "Case 4: unlimited stiffness change factors";
-            drawn.draw("case_4_factors", title, wide)
-        })?);
-        figures.extend(kept("derivatives"));
-        return Ok(());
+        let title = "Case 4: unlimited stiffness change factors";
+        let svg = drawn.draw("case_4_factors", title)?;
+        figures.push(Figure::drawn("case_4_factors", caption, &svg));
+        all.retain(|figure| figure.name.ends_with("derivatives"));
     }
-    let whats = [
-        "frequencies",
-        "errors",
-        "mode_shapes",
-        "agreement",
-        "derivatives",
-    ];
-    figures.extend(whats.into_iter().filter_map(kept));
+    figures.extend(all);
     Ok(())
 }
 

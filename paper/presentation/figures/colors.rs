@@ -1,7 +1,7 @@
 //! Colors on light and on dark pages, and letters that can be read on them.
 
 use plotters::style::{BLACK, RGBColor, WHITE};
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 // The colors of Okabe and Ito, which people with any common color blindness tell apart. Figures never rely on color
 // alone: lines differ in dashes, marks in form, cells carry their numbers.
@@ -19,7 +19,9 @@ const NIGHT: RGBColor = RGBColor(0x17, 0x17, 0x17);
 const PENCIL: RGBColor = RGBColor(0xe4, 0xe4, 0xe4);
 /// A color on a white page, and on a dark one as a fill and as a line or letter. Fills are dark enough for light letters to have a
 /// contrast of 4.5 to 1 on them, and light enough to have one of 3 to 1 on the page; lines and letters have 4.5 there.
-const IN_THE_DARK: [[RGBColor; 3]; 9] = [
+const IN_THE_DARK: [[RGBColor; 3]; 10] = [
+    // White letters stand on cells, whose letters are light in the dark.
+    [WHITE, NIGHT, PENCIL],
     [BLACK, PENCIL, PENCIL],
     [INK, PENCIL, PENCIL],
     [GRAY, RGBColor(0x68, 0x68, 0x68), RGBColor(0x8c, 0x8c, 0x8c)],
@@ -42,17 +44,19 @@ const IN_THE_DARK: [[RGBColor; 3]; 9] = [
         RGBColor(0xf0, 0x8a, 0x4b),
     ],
 ];
-/// Shades between white and a full color that [`toned`] makes.
-const SHADES: f64 = 20.0;
+/// Tints of a color.
+const TINTS: u8 = 20;
+
+/// White with a share of a color from 0 to 1, rounded to one of its tints.
+pub fn tint(color: RGBColor, share: f64) -> RGBColor {
+    let tints = f64::from(TINTS);
+    between(WHITE, color, (tints * share).round() / tints)
+}
 
 /// Blue for what is positive and red for what is negative, one in magnitude in the full color.
 pub fn toned(value: f64) -> RGBColor {
     let full = if value < 0.0 { VERMILION } else { BLUE };
-    between(
-        WHITE,
-        full,
-        (SHADES * value.abs().min(1.0)).round() / SHADES,
-    )
+    tint(full, value.abs().min(1.0))
 }
 
 /// A color as SVG has it.
@@ -60,61 +64,38 @@ pub fn hex(RGBColor(red, green, blue): RGBColor) -> String {
     format!("#{red:02X}{green:02X}{blue:02X}")
 }
 
-/// A color on a dark page, as a fill (0) or as a line (1): as far from the page toward the partner of a color as it is from white
-/// toward the color that it is mixed of.
-fn in_the_dark(RGBColor(red, green, blue): RGBColor, kind: usize) -> RGBColor {
-    let far = |RGBColor(red, green, blue): RGBColor| {
-        [red, green, blue].map(|part| 255.0 - f64::from(part))
-    };
-    let dot =
-        |one: [f64; 3], other: [f64; 3]| -> f64 { one.iter().zip(other).map(|(a, b)| a * b).sum() };
-    let own = far(RGBColor(red, green, blue));
-    let fit = |[light, ..]: &[RGBColor; 3]| {
-        let share = dot(own, far(*light)) / dot(far(*light), far(*light));
-        let rest = [0, 1, 2].map(|at| own[at] - share * far(*light)[at]);
-        (dot(rest, rest), share)
-    };
-    let mut best = (f64::INFINITY, 0.0, NIGHT);
-    for partners in &IN_THE_DARK {
-        let (rest, share) = fit(partners);
-        // Grays are mixtures of each other; the nearest is not mixed.
-        let rest = rest + (share - 1.0).powi(2);
-        if rest < best.0 {
-            best = (rest, share, partners[1 + kind]);
+/// A drawing with a style for dark screens, where a tint is as far from the page toward a color's partner as it is from white toward
+/// the color.
+pub fn with_dark(svg: &str) -> String {
+    let mut rules = BTreeMap::new();
+    for [light, fill, line] in IN_THE_DARK {
+        for share in (1..=TINTS).map(|tint| f64::from(tint) / f64::from(TINTS)) {
+            let digits = hex(tint(light, share));
+            // Letters are lines; the lines of cells close the gaps between them.
+            for (tag, attribute, dark) in [
+                ("", "fill", fill),
+                ("", "stroke", line),
+                ("text", "fill", line),
+                ("path", "stroke", fill),
+            ] {
+                let drawn = format!("{attribute}=\"{digits}\"");
+                if svg.contains(&drawn) {
+                    let dark = hex(between(NIGHT, dark, share));
+                    rules.insert(format!(".drawn {tag}[{drawn}]"), (attribute, dark));
+                }
+            }
         }
     }
-    between(NIGHT, best.2, best.1.min(1.0))
-}
-
-/// A style that gives every color of a drawing its partner on a dark screen.
-pub fn dark_palette(svg: &str) -> String {
-    let mut rules = BTreeSet::new();
-    for tag in svg.split('<') {
-        for (kind, attribute) in ["fill", "stroke"].into_iter().enumerate() {
-            let start = format!(" {attribute}=\"#");
-            let digits = tag.split_once(&start).and_then(|(_, rest)| rest.get(..6));
-            let Some((digits, color)) = digits.and_then(|digits| {
-                Some((digits, u32::from_str_radix(digits, 16).ok()?.to_be_bytes()))
-            }) else {
-                continue;
-            };
-            let color = RGBColor(color[1], color[2], color[3]);
-            let (name, dark) = match tag.split(' ').next() {
-                // White letters stand on cells, whose letters are light in the dark.
-                Some("text") if color == WHITE => ("text", PENCIL),
-                Some("text") => ("text", in_the_dark(color, 1)),
-                // The lines of cells close the gaps between them.
-                Some("path") => ("path", in_the_dark(color, 0)),
-                _ => ("", in_the_dark(color, kind)),
-            };
-            let dark = hex(dark);
-            rules.insert(format!(
-                ".drawn {name}[{attribute}=\"#{digits}\"]{{{attribute}:{dark}}}\n"
-            ));
-        }
-    }
-    let rules: String = rules.into_iter().collect();
-    format!("<style>@media screen and (prefers-color-scheme: dark) {{\n{rules}}}</style>\n")
+    let rules: String = rules
+        .into_iter()
+        .map(|(what, (attribute, dark))| format!("{what}{{{attribute}:{dark}}}\n"))
+        .collect();
+    let style = "<style>@media screen and (prefers-color-scheme: dark) {";
+    svg.replacen(
+        "</title>\n",
+        &format!("</title>\n{style}\n{rules}}}</style>\n"),
+        1,
+    )
 }
 
 /// The color for letters that has a contrast of at least 4.5 to 1 on a fill (WCAG 2.2, relative luminance).

@@ -44,8 +44,8 @@ pub fn comparison_figures(
         analysis modes.{}",
         said.unwrap_or_default()
     );
-    let draw = |wide: f64| draw_by_twos("truncation", &title, &maps, &[note], wide);
-    Ok(vec![Figure::drawn("truncation", caption, draw)?])
+    let drawn = draw_by_twos("truncation", &title, &maps, &[note])?;
+    Ok(vec![Figure::drawn("truncation", caption, &drawn)])
 }
 
 /// Titles of the [`COSTS`].

@@ -8,70 +8,42 @@ use corfem::torque_box::Case;
 use corfem::torque_box::wing_box::{Panel, TEST_GAGE};
 use nalgebra::Vector3;
 
-/// Height of one configuration's row, of either cover in the narrow form, and above the rows, px.
+/// Height of one configuration's row, and above the rows, px.
 const ROW: f64 = 188.0;
-const LOW_ROW: f64 = 150.0;
 const HEAD: f64 = 40.0;
 
-/// The covers of the test configuration and of every case's first model as SVG; lower ones below upper ones in the narrow form.
-pub fn draw(cases: &[Case], wide: f64) -> Result<String, PresentError> {
+/// The covers of the test configuration and of every case's first model as SVG.
+pub fn draw(cases: &[Case]) -> Result<String, PresentError> {
     let test = cases.first().map(|first| ("GVT".to_owned(), first, true));
     let starts = cases
         .iter()
         .map(|case| (format!("Case {}", case.number), case, false));
     let configurations: Vec<_> = test.into_iter().chain(starts).collect();
-    let is_narrow = wide < WIDE;
-    let (head, pitch) = if is_narrow {
-        (10.0, 20.0 + 2.0 * LOW_ROW)
-    } else {
-        (HEAD, ROW)
-    };
-    let below = head + pitch * configurations.len() as f64;
+    let below = HEAD + ROW * configurations.len() as f64;
     let title = "Cases 1 to 4: cover gages of the test configuration and of each first model";
     let words = "In each panel: element number, S shear panel or M membrane, and gage in inches.";
-    let words = paragraph(words, wide);
     let shades = [
         ("thinner than in the test", 0.5),
         ("as in the test (0.010 in)", 1.0),
         ("thicker than in the test", 1.5),
     ];
-    let key = below + LINE * words.len() as f64 + 14.0;
-    let down = if is_narrow { LINE } else { 0.0 };
-    let height = key + 30.0 + 2.0 * down;
-    svg("cover_gages", title, (wide, height), |area| {
-        if !is_narrow {
-            write(area, "Upper covers", (255.0, 22.0), MIDDLE.bold())?;
-            write(area, "Lower covers", (585.0, 22.0), MIDDLE.bold())?;
-        }
+    let key = below + LINE + 14.0;
+    svg("cover_gages", title, key + 30.0, |area| {
+        write(area, "Upper covers", (255.0, 22.0), MIDDLE.bold())?;
+        write(area, "Lower covers", (585.0, 22.0), MIDDLE.bold())?;
         for (row, (name, case, is_test)) in configurations.into_iter().enumerate() {
-            let above = head + pitch * row as f64;
-            let (rooms, at, name) = match is_narrow {
-                true => (
-                    [0.0, LOW_ROW]
-                        .map(|down| [EDGE, above + 24.0 + down, wide - 2.0 * EDGE, LOW_ROW - 8.0]),
-                    above + 10.0,
-                    format!("{name}: upper covers, lower covers below"),
-                ),
-                false => (
-                    [88.0, 424.0].map(|left| [left, above + 4.0, 322.0, ROW - 14.0]),
-                    above + 0.5 * ROW,
-                    name,
-                ),
-            };
-            write(area, &name, (EDGE, at), START.bold())?;
+            let above = HEAD + ROW * row as f64;
+            let rooms = [88.0, 424.0].map(|left| [left, above + 4.0, 322.0, ROW - 14.0]);
+            write(area, &name, (EDGE, above + 0.5 * ROW), START.bold())?;
             draw_covers(area, case, is_test, rooms)?;
         }
-        write_lines(area, &words, (EDGE, below + 16.0), START)?;
+        write(area, words, (EDGE, below + 16.0), START)?;
         for (row, (text, part)) in shades.into_iter().enumerate() {
-            let row = row as f64;
-            let (left, y) = match is_narrow {
-                true => (EDGE, key + LINE * row),
-                false => (EDGE + 200.0 * row, key),
-            };
-            let swatch = corners((left, y), (left + 22.0, y + 14.0));
+            let left = EDGE + 200.0 * row as f64;
+            let swatch = corners((left, key), (left + 22.0, key + 14.0));
             let fill = Some(shade(part * TEST_GAGE));
             polygon(area, &swatch, fill, Pen::solid(INK, 0.8))?;
-            write(area, text, (left + 30.0, y + 7.0), START)?;
+            write(area, text, (left + 30.0, key + 7.0), START)?;
         }
         Ok(())
     })
@@ -102,7 +74,7 @@ fn draw_covers(area: &Area, case: &Case, is_test: bool, [upper, lower]: [Room; 2
     for (panel, corners) in covers {
         let is_upper = Layer::from_corners(&corners) == Layer::Upper;
         let room = if is_upper { upper } else { lower };
-        let plan = View::plan(&all).fitted(&all, room);
+        let plan = View::plan().fitted(&all, room);
         let (gage, kind) = if is_test {
             (TEST_GAGE, "")
         } else {

@@ -5,55 +5,41 @@ use corfem::method::error_sum::Errors;
 use corfem::present::report::{Report, Stage};
 use plotters::prelude::{BindKeyPoints, IntoLogRange};
 
-/// The SRSS errors of one stage, fractions.
+/// The SRSS errors of one pass, fractions.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PassHistory {
+struct PassHistory {
     /// Iterations before the pass.
-    pub from: usize,
+    from: usize,
+    /// Iterations at its end.
+    to: usize,
     /// Errors of the exact solution that the pass starts from, then after every iteration by perturbation.
-    pub inner: Vec<Errors>,
+    inner: Vec<Errors>,
     /// Errors of the exact check at the end of the pass.
-    pub check: Errors,
+    check: Errors,
     /// Tolerance of its inner loop on the error sum, a fraction, if known.
-    pub tolerance: Option<f64>,
-    /// True if the pass has an inner loop; without one it is one iteration.
-    pub is_inner: bool,
+    tolerance: Option<f64>,
 }
 
-/// The history of a correlation.
-pub fn error_history(report: &Report) -> Vec<PassHistory> {
+/// The history of a correlation by inner loops.
+fn error_history(report: &Report) -> Vec<PassHistory> {
     let mut from = 0;
     let history = |(row, stage): (usize, &Stage)| {
-        let (tolerance, is_inner) = (
-            report.settings.as_ref().map(|settings| match row {
+        let inner = report.inner_errors(row);
+        let to = from + inner.len() - 1;
+        let pass = PassHistory {
+            from,
+            to,
+            inner,
+            check: stage.check.errors,
+            tolerance: report.settings.as_ref().map(|settings| match row {
                 0 => settings.inner.tolerance,
                 _ => settings.later_inner_tolerance,
             }),
-            stage.inner.is_some(),
-        );
-        let pass = PassHistory {
-            from,
-            inner: report.inner_errors(row),
-            check: stage.check.errors,
-            tolerance,
-            is_inner,
         };
-        from = pass.to();
+        from = to;
         pass
     };
     report.stages.iter().enumerate().map(history).collect()
-}
-
-impl PassHistory {
-    /// Iterations at its end.
-    pub fn to(&self) -> usize {
-        self.from
-            + if self.is_inner {
-                self.inner.len() - 1
-            } else {
-                1
-            }
-    }
 }
 
 /// The three errors as drawn: name, value, color, form and dash.
@@ -72,27 +58,17 @@ const SERIES: [Measure; 3] = [
 
 /// Powers of ten that the error axis begins and ends with at most, percent.
 const DECADES: (i32, i32) = (-3, 4);
-/// The foot of the longest axis, percent: smaller errors are drawn on it.
-const FOOT: f64 = 1e-3;
 /// Decades up to which an axis has ticks at two and five times their powers of ten.
 const FEW_DECADES: f64 = 3.1;
-/// Margins of the plot: left, right, top, bottom, px; the narrow form has the names of its lines above it.
+/// Margins of the plot: left, right, top, bottom, px.
 const MARGINS: [f64; 4] = [72.0, 150.0, 64.0, 48.0];
-const NARROW_MARGINS: [f64; 4] = [72.0, 12.0, 124.0, 48.0];
 const HEIGHT: f64 = 426.0;
 
-fn margins(wide: f64) -> [f64; 4] {
-    if wide < WIDE { NARROW_MARGINS } else { MARGINS }
-}
-
 /// The history as SVG: errors on a logarithmic scale, passes side by side.
-pub fn draw(
-    name: &str,
-    title: &str,
-    passes: &[PassHistory],
-    wide: f64,
-) -> Result<String, PresentError> {
-    svg(name, title, (wide, HEIGHT), |area| draw_on(area, passes))
+pub fn draw(name: &str, title: &str, report: &Report) -> Result<String, PresentError> {
+    svg(name, title, HEIGHT, |area| {
+        draw_on(area, &error_history(report))
+    })
 }
 
 /// An error in percent as it is drawn: a logarithmic scale has no zero.
@@ -100,28 +76,12 @@ fn percent(error: f64) -> f64 {
     (100.0 * error).clamp(1.2 * 10f64.powi(DECADES.0), 0.8 * 10f64.powi(DECADES.1))
 }
 
-/// The errors that are drawn: all three, or the one part that is not zero throughout, as where no shapes are measured.
-fn measures(passes: &[PassHistory]) -> Vec<Measure> {
-    let errors = || {
-        passes
-            .iter()
-            .flat_map(|pass| pass.inner.iter().chain([&pass.check]))
-    };
-    let [sum, parts @ ..] = SERIES;
-    let is_there = |part: &Measure| errors().any(|errors| part.1(errors) != 0.0);
-    match parts.into_iter().filter(is_there).collect::<Vec<_>>() {
-        one if one.len() == 1 => one,
-        both => [vec![sum], both].concat(),
-    }
-}
-
 /// Ends of the axis that just hold every error, and its ticks, percent.
 fn ticks(passes: &[PassHistory]) -> (f64, f64, Vec<f64>) {
     let errors = passes
         .iter()
         .flat_map(|pass| pass.inner.iter().chain([&pass.check]));
-    let measures = measures(passes);
-    let values = errors.flat_map(|errors| measures.iter().map(|it| percent(it.1(errors))));
+    let values = errors.flat_map(|errors| SERIES.iter().map(|it| percent(it.1(errors))));
     let (least, most) = values.fold((f64::INFINITY, 0.0), |(low, high), value| {
         (value.min(low), value.max(high))
     });
@@ -147,12 +107,11 @@ fn ticks(passes: &[PassHistory]) -> (f64, f64, Vec<f64>) {
 }
 
 fn draw_on(area: &Area, passes: &[PassHistory]) -> Drawn {
-    let last = passes.last().map_or(0, PassHistory::to);
+    let last = passes.last().map_or(0, |pass| pass.to);
     let (low, high, ticks) = ticks(passes);
-    let [left, right, top, bottom] = margins(width(area));
-    let is_narrow = width(area) < WIDE;
+    let [left, right, top, bottom] = MARGINS;
     // As many as there is room for.
-    let room = width(area) - left - right - 12.0;
+    let room = WIDE - left - right - 12.0;
     let most_labels = (room / (10.0 + 7.8 * last.to_string().len() as f64)) as usize;
     let range = (low..high).log_scale().with_key_points(ticks);
     let mut chart = chart(area, [left, right, top, bottom])
@@ -161,27 +120,18 @@ fn draw_on(area: &Area, passes: &[PassHistory]) -> Drawn {
         .disable_x_mesh()
         .x_labels((last + 1).min(most_labels))
         .x_label_formatter(&|x| format!("{x:.0}"))
-        .y_label_formatter(&|y| format!("{}{y}", if *y == FOOT { "≤ " } else { "" }))
-        .x_desc(if passes.iter().any(|pass| pass.is_inner) {
-            "accepted iterations of the inner loop"
-        } else {
-            "iterations"
-        })
+        .y_label_formatter(&|y| y.to_string())
+        .x_desc("accepted iterations of the inner loop")
         .draw()?;
     let place = |iteration: usize, percent: f64| placed(area, &chart, iteration as f64, percent);
     for (row, pass) in passes.iter().enumerate() {
-        if !pass.is_inner {
-            continue;
-        }
-        let (from, to, number) = (pass.from, pass.to(), row + 1);
+        let (from, to, number) = (pass.from, pass.to, row + 1);
         let (begin, end) = (place(from, high), place(to, high));
         let name = match (end.0 - begin.0, pass.tolerance) {
             (wide, Some(most)) if wide > 180.0 => {
                 format!("pass {number} (tolerance {:.1} %)", 100.0 * most)
             }
-            (wide, _) if wide > 50.0 => format!("pass {number}"),
-            (wide, _) if wide > 7.8 * number.to_string().len() as f64 => number.to_string(),
-            _ => String::new(),
+            _ => format!("pass {number}"),
         };
         write(
             area,
@@ -205,23 +155,22 @@ fn draw_on(area: &Area, passes: &[PassHistory]) -> Drawn {
     )?;
     // Lines first, so that no line crosses the open marks of exact solutions.
     let mut ends = Vec::new();
-    for (name, value, color, form, dash) in measures(passes) {
+    for (name, value, color, form, dash) in SERIES {
         let at = |iteration: usize, errors: &Errors| place(iteration, percent(value(errors)));
         let pen = Pen(color, 1.8, dash);
         let dot = Mark(form, 2.6, Some(color), Pen::solid(color, 1.0));
         for pass in passes {
-            let exact = (!pass.is_inner).then_some(&pass.check);
             let points = (pass.from..)
-                .zip(pass.inner.iter().chain(exact))
+                .zip(&pass.inner)
                 .map(|(row, errors)| at(row, errors));
             let points: Vec<Place> = points.collect();
             line(area, &points, pen)?;
-            for &point in &points[1..pass.inner.len()] {
+            for &point in &points[1..] {
                 mark(area, point, dot)?;
             }
         }
         let start = passes.first().map(|pass| at(pass.from, &pass.inner[0]));
-        let checks = passes.iter().map(|pass| at(pass.to(), &pass.check));
+        let checks = passes.iter().map(|pass| at(pass.to, &pass.check));
         let exact: Vec<Place> = start.into_iter().chain(checks).collect();
         for &exact in &exact {
             mark(area, exact, Mark(form, 5.5, None, Pen::solid(color, 1.8)))?;
@@ -229,20 +178,12 @@ fn draw_on(area: &Area, passes: &[PassHistory]) -> Drawn {
         let end = exact.last();
         ends.extend(end.map(|&end| Named(end, name, Some(pen), Some(dot))));
     }
-    // The rows above them are for the marks.
-    for (row, end) in ends.iter_mut().enumerate().filter(|_| is_narrow) {
-        end.0 = (0.0, 54.0 + LINE * row as f64);
-    }
     name_ends(area, ends)?;
     let open = Mark(Form::Circle, 5.5, Some(WHITE), Pen::solid(INK, 1.8));
-    let left = if is_narrow { 18.0 } else { left + 8.0 };
+    let left = left + 8.0;
     marked(area, (left, 18.0), open, "large, open: exact solution")?;
     if passes.iter().any(|pass| pass.tolerance.is_some()) {
-        let (x, y) = if is_narrow {
-            (8.0, 36.0)
-        } else {
-            (left + 242.0, 18.0)
-        };
+        let (x, y) = (left + 242.0, 18.0);
         line(area, &[(x, y), (x + 34.0, y)], Pen::solid(GRAY, 1.4))?;
         let words = "tolerance of the pass on the sum";
         write(area, words, (x + 41.0, y), START)?;

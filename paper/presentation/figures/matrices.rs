@@ -24,92 +24,54 @@ pub struct HeatMap {
 const ROOM: (f64, f64) = (297.0, 270.0);
 
 /// Room above matrices for their titles and the names of their columns, px.
-fn above(maps: &[HeatMap], wide: f64) -> f64 {
-    let lines = maps.iter().map(|map| paragraph(&map.title, wide).len());
-    let lines = if wide < WIDE { lines.max() } else { None };
-    64.0 + LINE * (lines.unwrap_or(1) - 1) as f64
-}
+const ABOVE: f64 = 64.0;
 
-/// A figure of matrices two by two, or below each other in its narrow form, as large as there is room, with sentences below.
+/// A figure of matrices two by two, as large as there is room, with sentences below.
 pub fn draw_by_twos(
     name: &str,
     title: &str,
     maps: &[HeatMap],
     notes: &[&str],
-    wide: f64,
 ) -> Result<String, PresentError> {
-    let lefts: &[f64] = if wide < WIDE { &[52.0] } else { &[66.0, 446.0] };
+    const LEFTS: [f64; 2] = [66.0, 446.0];
     let most = maps.iter().map(|map| map.values.nrows()).max().unwrap_or(0);
-    let above = above(maps, wide);
-    let pitch = above + 26.0 + ROOM.1 * most.min(9) as f64 / 9.0;
-    let down = pitch * maps.len().div_ceil(lefts.len()) as f64;
-    let notes: Vec<String> = notes
-        .iter()
-        .flat_map(|note| paragraph(note, wide))
-        .collect();
+    let pitch = ABOVE + 26.0 + ROOM.1 * most.min(9) as f64 / 9.0;
+    let down = pitch * maps.len().div_ceil(LEFTS.len()) as f64;
+    let notes: Vec<String> = notes.iter().flat_map(|note| paragraph(note)).collect();
     let height = down + 20.0 + LINE * notes.len() as f64;
-    svg(name, title, (wide, height), |area| {
+    svg(name, title, height, |area| {
         for (at, map) in maps.iter().enumerate() {
             let (rows, columns) = map.values.shape();
             let cell = (ROOM.0 / columns.max(9) as f64, ROOM.1 / rows.max(9) as f64);
-            let (row, column) = (at / lefts.len(), at % lefts.len());
-            map.draw(area, (lefts[column], above + pitch * row as f64), cell)?;
+            let (row, column) = (at / LEFTS.len(), at % LEFTS.len());
+            map.draw(area, (LEFTS[column], ABOVE + pitch * row as f64), cell)?;
         }
-        let left = if wide < WIDE { EDGE } else { lefts[0] };
-        write_lines(area, &notes, (left, down + 8.0), START)
+        write_lines(area, &notes, (LEFTS[0], down + 8.0), START)
     })
 }
 
-/// A figure of derivatives: the effect of each parameter on each frequency, and on the error sum; below that in the narrow form.
+/// A figure of derivatives: the effect of each parameter on each frequency, and on the error sum beside it.
 pub fn draw_derivatives(
     name: &str,
     title: &str,
-    maps: &[HeatMap; 2],
-    wide: f64,
+    [frequency, error_sum]: &[HeatMap; 2],
 ) -> Result<String, PresentError> {
     const HIGH: f64 = 26.0;
-    let ([frequency, error_sum], above) = (maps, above(maps, wide));
     let note =
         "An empty cell rounds to zero. Red is negative: more of that parameter lowers the error.";
-    let notes = paragraph(note, wide);
-    let high = HIGH * frequency.values.nrows() as f64;
-    let columns = frequency.values.ncols().max(9) as f64;
-    let names = frequency.rows.1.iter();
-    let (left, right, below) = match wide < WIDE {
-        true => (
-            name_room(names, 52.0).min(130.0),
-            wide - 9.0,
-            above + high + 20.0,
-        ),
-        false => (name_room(names, 66.0), 516.0, 0.0),
-    };
-    // Beside the names of the first, or with its own.
-    let (sums, place) = match wide < WIDE {
-        true => (error_sum.clone(), (left, above + below)),
-        false => {
-            let rows = (String::new(), Vec::new());
-            (
-                HeatMap {
-                    rows,
-                    ..error_sum.clone()
-                },
-                (612.0, above),
-            )
-        }
-    };
-    let down = below + above + high;
-    let height = down + 24.0 + LINE * notes.len() as f64;
-    svg(name, title, (wide, height), |area| {
-        frequency.draw(area, (left, above), ((right - left) / columns, HIGH))?;
-        sums.draw(area, place, (90.0, HIGH))?;
-        let at = if wide < WIDE { EDGE } else { 66.0 };
-        write_lines(area, &notes, (at, down + 24.0), START)
+    let left = name_room(frequency.rows.1.iter(), 66.0);
+    let wide = (516.0 - left) / frequency.values.ncols().max(9) as f64;
+    let down = ABOVE + HIGH * frequency.values.nrows() as f64;
+    svg(name, title, down + 24.0 + LINE, |area| {
+        frequency.draw(area, (left, ABOVE), (wide, HIGH))?;
+        error_sum.draw(area, (612.0, ABOVE), (90.0, HIGH))?;
+        write(area, note, (66.0, down + 24.0), START)
     })
 }
 
 impl HeatMap {
     /// A value as it stands in its cell.
-    pub fn write(&self, value: f64) -> String {
+    fn write(&self, value: f64) -> String {
         let (factor, decimals) = self.written;
         let text = format!("{:.decimals$}", factor * value);
         if text.chars().all(|c| matches!(c, '-' | '0' | '.')) {
@@ -124,37 +86,14 @@ impl HeatMap {
         let (rows, columns) = self.values.shape();
         let at = |i: f64, j: f64| (left + wide * j, top + high * i);
         let small = MIDDLE.small();
-        // Digits and labels stand where there is room for them.
-        let longest = self
-            .values
-            .iter()
-            .flatten()
-            .map(|value| self.write(*value).chars().count())
-            .max()
-            .unwrap_or(0);
-        let fits = wide > 6.2 * longest as f64 && high > 10.0;
-        let every = |size: f64, room: f64| (room / size).ceil().max(1.0) as usize;
-        // Names are cut where they would leave the figure.
-        let room = (((left - 12.0) / 6.6) as usize).clamp(2, 40);
-        let names = self
-            .rows
-            .1
-            .iter()
-            .map(|name| cut(name, room).chars().count());
-        let beside = names
-            .max()
-            .map_or(34.0, |longest| (12.0 + 6.6 * longest as f64).max(34.0));
-        let (down, across) = (every(high, 11.0), every(wide, 20.0));
-        for (j, name) in self.columns.1.iter().enumerate().step_by(across) {
+        let longest = self.rows.1.iter().map(|name| name.chars().count()).max();
+        let beside = longest.map_or(34.0, |longest| (12.0 + 6.6 * longest as f64).max(34.0));
+        for (j, name) in self.columns.1.iter().enumerate() {
             write(area, name, (at(0.0, j as f64 + 0.5).0, top - 9.0), small)?;
         }
-        for (i, name) in self.rows.1.iter().enumerate().step_by(down) {
-            write(
-                area,
-                &cut(name, room),
-                (left - 6.0, at(i as f64 + 0.5, 0.0).1),
-                END.small(),
-            )?;
+        for (i, name) in self.rows.1.iter().enumerate() {
+            let place = (left - 6.0, at(i as f64 + 0.5, 0.0).1);
+            write(area, name, place, END.small())?;
         }
         let middle = at(0.5 * rows as f64, 0.5 * columns as f64);
         write(area, &self.columns.0, (middle.0, top - 26.0), small)?;
@@ -171,15 +110,9 @@ impl HeatMap {
             },
         )?;
         // A title longer than its matrix does not begin left of the figure.
-        if width(area) < WIDE {
-            let lines = paragraph(&self.title, width(area));
-            let first = top - 28.0 - LINE * lines.len() as f64;
-            write_lines(area, &lines, (EDGE, first), START.bold())?;
-        } else {
-            let half = 3.8 * self.title.chars().count() as f64;
-            let title = middle.0.max(left - 50.0 + half);
-            write(area, &self.title, (title, top - 46.0), MIDDLE.bold())?;
-        }
+        let half = 3.8 * self.title.chars().count() as f64;
+        let title = middle.0.max(left - 50.0 + half);
+        write(area, &self.title, (title, top - 46.0), MIDDLE.bold())?;
         for i in 0..rows {
             for j in 0..columns {
                 let Some(value) = self.values[(i, j)] else {
@@ -188,17 +121,16 @@ impl HeatMap {
                 let (row, column) = (i as f64, j as f64);
                 let fill = toned(value / self.full.max(f64::MIN_POSITIVE));
                 rectangle(area, at(row, column), at(row + 1.0, column + 1.0), fill)?;
-                if fits {
-                    write(
-                        area,
-                        &self.write(value),
-                        at(row + 0.5, column + 0.5),
-                        Letters {
-                            color: legible_on(fill),
-                            ..small
-                        },
-                    )?;
-                }
+                let letters = Letters {
+                    color: legible_on(fill),
+                    ..small
+                };
+                write(
+                    area,
+                    &self.write(value),
+                    at(row + 0.5, column + 0.5),
+                    letters,
+                )?;
             }
         }
         let frame = corners((left, top), at(rows as f64, columns as f64));

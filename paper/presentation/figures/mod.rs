@@ -22,9 +22,9 @@ pub use cases::{SHOWN, case_figures};
 pub use comparisons::comparison_figures;
 pub use report::report_figures;
 
-use canvas::{NARROW, PresentError, WIDE};
+use colors::with_dark;
 
-/// A figure, drawn in two forms.
+/// A figure.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Figure {
     /// Name for files, such as `case_1_errors`.
@@ -33,37 +33,16 @@ pub struct Figure {
     pub caption: String,
     /// The drawing, 760 px wide.
     pub svg: String,
-    /// The drawing for pages narrower than 640 px.
-    pub narrow: String,
 }
 
 impl Figure {
-    /// A figure, drawn in its two widths, px.
-    ///
-    /// # Errors
-    /// Those of the drawing.
-    pub fn drawn(
-        name: &str,
-        caption: impl Into<String>,
-        draw: impl Fn(f64) -> Result<String, PresentError>,
-    ) -> Result<Self, PresentError> {
-        Ok(Self {
+    /// A figure of a drawing, which gets its colors on a dark page.
+    pub fn drawn(name: &str, caption: impl Into<String>, svg: &str) -> Self {
+        Self {
             name: name.to_owned(),
             caption: caption.into(),
-            svg: draw(WIDE)?,
-            narrow: draw(NARROW)?,
-        })
-    }
-
-    /// The names of its files, with what stands in them.
-    pub fn files(self) -> [(String, String); 2] {
-        let Self {
-            name, svg, narrow, ..
-        } = self;
-        [
-            (format!("{name}.svg"), svg),
-            (format!("{name}_narrow.svg"), narrow),
-        ]
+            svg: with_dark(svg),
+        }
     }
 }
 

@@ -4,13 +4,10 @@ use super::super::figures::Figure;
 use corfem::present::page::html::escaped;
 use pulldown_cmark::{Event, HeadingLevel, Options, Parser, Tag, TagEnd, html};
 
-/// A figure in its two forms, of which the style sheet shows one; `see` says before the caption what to look for.
+/// A figure; `see` says before the caption what to look for.
 pub(super) fn figure(drawn: &Figure, see: &str) -> String {
     let (caption, name) = (escaped(&drawn.caption), escaped(&drawn.name));
-    let drawing = format!(
-        "<div class=\"drawing\">\n{}{}</div>\n",
-        drawn.svg, drawn.narrow
-    );
+    let drawing = format!("<div class=\"drawing\">\n{}</div>\n", drawn.svg);
     let see = if see.is_empty() {
         String::new()
     } else {
