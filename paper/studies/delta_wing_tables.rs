@@ -1,6 +1,5 @@
 //! The delta wing as tables: its answers beside others', and what a correlation finds of its gages.
 
-use super::wing_subjects::wing_subject;
 use super::{PERCENT, RMS_PERCENT};
 use crate::prelude::*;
 
@@ -35,6 +34,22 @@ pub fn delta_wing_tables(
         paired,
         history_table(&subject),
     ])
+}
+
+/// The delta wing with wrong gages, correlated, as its tables show it.
+fn wing_subject(wing: &DeltaWing, run: &WingCorrelation) -> Result<Report, PresentError> {
+    let names = GROUPS.map(|group| group.name.to_owned());
+    Ok(Report {
+        title: "Delta wing with wrong gages".to_owned(),
+        mass: Some(first_model(wing)?.matrices(&[1.0; GROUPS.len()])?.mass),
+        ..Report::from_correlation(
+            "delta_wing",
+            &names,
+            &run.test,
+            &ExactResult::from(&run.correlation.initial),
+            Some(&run.correlation),
+        )
+    })
 }
 
 /// Somebody else's numbers: who, their heading in the table of known ones, digits of them and of the difference.

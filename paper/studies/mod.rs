@@ -27,7 +27,6 @@ pub mod rules;
 pub mod specimen;
 pub mod tour_figures;
 pub mod tour_figures_box;
-pub mod wing_subjects;
 
 use crate::prelude::*;
 use std::error::Error;

@@ -8,20 +8,16 @@ pub mod wing;
 
 use corfem::method::error::Error;
 use corfem::method::modes::Modes;
-use corfem::method::outer_loop::{Correlation, Settings, correlate};
 use corfem::torque_box::Case;
 use corfem::torque_box::error::CaseError;
 use corfem::torque_box::wing_box::TEST_GAGE;
 use delta_wing::DeltaWing;
-use delta_wing::correlation::{self, GROUPS, Group, first_model, test_modes};
-use eigensolved::Eigensolved;
+use delta_wing::correlation::{GROUPS, Group, first_model, test_modes};
 use weighed::Weighed;
 use wing::Wing;
 
 /// Modes of the wing's test and analysis.
 pub const WING_MODES: usize = 10;
-/// Error sum to which the wing is correlated, a fraction.
-const WING_ERROR_SUM: f64 = 0.025;
 
 /// A structure whose true factors are known.
 pub struct Known {
@@ -91,26 +87,4 @@ pub fn planted(wing: &Wing) -> Result<Known, Error> {
         test,
         truth,
     })
-}
-
-/// The planted wing of 1,458 structural DOF, correlated to an error sum of 2.5 %.
-///
-/// # Errors
-/// Those of [`planted`] and [`correlate`].
-pub fn recovered() -> Result<(Known, Correlation), Error> {
-    let known = planted(&Wing::default())?;
-    let settings = Settings {
-        error_sum_tolerance: WING_ERROR_SUM,
-        ..correlation::settings()
-    };
-    let analyze = |factors: &[f64]| {
-        let model = known
-            .model
-            .analyze(factors, &known.test, Some(WING_MODES))?;
-        Ok::<_, Error>(Eigensolved(model))
-    };
-    let run = correlate(analyze, &known.model.factor_ranges()?, &settings, |_, _| {
-        true
-    })?;
-    Ok((known, run))
 }

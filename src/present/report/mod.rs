@@ -149,9 +149,6 @@ pub struct Report {
     pub intervals: Vec<Result<Bounds, Withheld>>,
     /// Residuals at the best factors over their standard deviations, of every test mode, those without shapes last.
     pub residuals: Vec<ModeResiduals>,
-    /// Factors that make the model right, where they are known.
-    #[serde(skip)]
-    pub truth: Vec<f64>,
     /// Test modes, sensors × modes.
     #[serde(skip)]
     pub test: Modes,
@@ -295,7 +292,6 @@ impl Report {
             starts: Vec::new(),
             intervals: Vec::new(),
             residuals: Vec::new(),
-            truth: Vec::new(),
             test: test.clone(),
             mode_numbers: (1..=test.len()).collect(),
             left_out: Vec::new(),
