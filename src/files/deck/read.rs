@@ -4,7 +4,7 @@
 use super::card::{Card, Numbered};
 use super::constraints::Constraints;
 use super::coordinates::CoordinateSystems;
-use super::elements::{ELEMENT_CARDS, ElementCards, Members, point_mass, take_masses};
+use super::elements::{ElementCards, Members, point_mass, take_masses};
 use super::lines::{INCLUDES, Joined, NO_CARD, Selected, join, sections};
 use super::model::{BulkData, PointMass};
 use super::number::nearest_in_field;
@@ -39,7 +39,7 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
         .iter()
         .map(|card| card.trim().to_ascii_uppercase())
         .collect();
-    if let Some(card) = ignored.iter().find(|name| is_read(name)) {
+    if let Some(card) = ignored.iter().find(|name| kind(name) == Some(READ)) {
         return Err(FileError::refused(
             "--ignore",
             format!("corfem reads {card}; only cards that it does not read can be left out"),
@@ -51,16 +51,19 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
     let (selected, lines) = sections(file, &readable(file, text)?)?;
     let (cards, others): (Vec<Joined>, Vec<Joined>) = join(&file.into(), lines)?
         .into_iter()
-        .partition(|found| is_read(&name(&found.card)));
+        .partition(|found| kind(&name(&found.card)) == Some(READ));
     let (nameless, others): (Vec<Joined>, Vec<Joined>) = others
         .into_iter()
         .partition(|found| found.card.name == NO_CARD);
-    let why = |card: &Card| match name(card) {
-        name if is_among(&name, WITHOUT_PART) => Reason::WithoutPart,
-        name if ignored.contains(&name) => Reason::Ignored,
-        name if is_of_element(&name) => Reason::Lacking,
-        name if INCLUDES.contains(&name.as_str()) => Reason::Elsewhere,
-        _ => Reason::Unknown,
+    let why = |card: &Card| {
+        let name = name(card);
+        match kind(&name) {
+            Some("without part") => Reason::WithoutPart,
+            _ if ignored.contains(&name) => Reason::Ignored,
+            Some(_) => Reason::Lacking,
+            None if INCLUDES.contains(&name.as_str()) => Reason::Elsewhere,
+            None => Reason::Unknown,
+        }
     };
     let unread = others
         .iter()
@@ -69,7 +72,7 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
     let refused = [Reason::Lacking, Reason::Elsewhere, Reason::Unknown];
     let is_refused = |card: &&mut Unread| refused.contains(&card.reason);
     let mut left = unread.iter_mut().filter(is_refused);
-    if left.any(|card| !is_among(&card.card, BY_REFERENCE)) {
+    if left.any(|card| kind(&card.card) != Some(BY_REFERENCE)) {
         let (file, cards) = (file.to_owned(), counted(&unread));
         return Err(FileError::DeckCards { file, cards });
     }
@@ -182,58 +185,23 @@ fn scale<'a>(card: &Card, masses: impl Iterator<Item = &'a mut f64>) -> Result<(
     Ok(())
 }
 
-/// Cards that are read, besides `PARAM,WTMASS` and those of elements with their properties. EIGR and EIGRL say how to look for
-/// eigenvalues, which is no part of the model and needs no note.
-const READ: &str = "\
-    GRID GRDSET CORD1R CORD1C CORD1S CORD2R CORD2C CORD2S CONROD MAT1 CMASS1 PMASS CMASS2 CONM2 SPC SPC1 \
-    SPCADD MPC MPCADD EIGR EIGRL";
-/// Cards that carry no stiffness, mass, support or coordinates in a search for normal modes: loads, temperatures, heat, tables,
-/// damping, output, the order of equations, elements that are alike, other solutions' methods, optimization, sets and aerodynamics.
-const WITHOUT_PART: &str = "\
-    PARAM MDLPRM PLOTEL SEQGP CNGRNT FORCE FORCE1 FORCE2 MOMENT MOMENT1 MOMENT2 PLOAD PLOAD1 PLOAD2 \
-    PLOAD3 PLOAD4 LOAD GRAV RFORCE ACCEL ACCEL1 LSEQ SLOAD SPCD DEFORM TEMP TEMPD TEMPP1 TEMPP2 TEMPP3 \
-    TEMPRB TEMPBC QVOL QBDY1 QBDY2 QBDY3 QHBDY QVECT MAT4 MAT5 MATS1 TABLES1 TABLEM1 TABLEM2 TABLEM3 \
-    TABLEM4 NLPARM TSTEPNL PLFACT DLOAD RLOAD1 RLOAD2 TLOAD1 TLOAD2 DAREA DELAY DPHASE RANDPS RANDT1 TIC \
-    FREQ FREQ1 FREQ2 FREQ3 FREQ4 FREQ5 TSTEP TABDMP1 TABLED1 TABLED2 TABLED3 TABLED4 TABRND1 CVISC PVISC \
-    CDAMP1 CDAMP2 CDAMP3 CDAMP4 PDAMP EIGB EIGC EIGP DESVAR DVPREL1 DVPREL2 DVMREL1 DVMREL2 DVCREL1 \
-    DVCREL2 DVGRID DRESP1 DRESP2 DRESP3 DCONSTR DCONADD DLINK DEQATN DTABLE DDVAL DOPTPRM DSCREEN DSCONS \
-    DTI USET USET1 RVDOF RVDOF1 SET1 SET2 SET3 AERO AEROS AEFACT AELINK AELIST AEPARM AESTAT AESURF \
-    AESURFS CAERO1 CAERO2 CAERO3 CAERO4 CAERO5 PAERO1 PAERO2 PAERO3 PAERO4 PAERO5 SPLINE1 SPLINE2 \
-    SPLINE3 SPLINE4 SPLINE5 MKAERO1 MKAERO2 FLUTTER FLFACT TRIM GUST DIVERG CSSCHD MONPNT1 MONPNT2 \
-    MONPNT3 MONDSP1";
-/// Cards that elements and other cards which the crate lacks refer to: they mean nothing where no such card is.
-const BY_REFERENCE: &str = "\
-    PBAR PBARL PBEAM PBEAML PBCOMP PBUSH PBUSH1D PBUSHT PELAS PELAST PGAP PSHELL PCOMP PCOMPG PCOMPP PSOLID PLSOLID PLPLANE PSHEARN \
-    PTUBE PTRIA1 PTRIA2 PQUAD1 PQUAD2 PTRPLT PQDPLT PTRBSC PQDMEM1 PQDMEM2 PTORDRG PTOROD PIHEX PVISCO PWELD PFAST PCONEAX PBEND \
-    MAT2 MAT3 MAT8 MAT9 MAT10 BAROR BEAMOR SPOINT";
-/// Cards of the model that the crate lacks, beside these and all whose names begin with C, R, Q or S as those of elements and
-/// superelements do: none can be left out and leave the modes as they are.
-const OF_ELEMENTS: &str = "MATT1 MAT11 GENEL ASET ASET1 OMIT OMIT1 SUPORT SUPORT1 DMIG DMI EPOINT";
-/// Beginnings of the names of elements and of superelements' cards.
-const ELEMENTS: &str = "\
-    CBAR CBEAM CBEND CBUSH CCONEAX CELAS CFAST CGAP CHEX CIHEX CMASS3 CMASS4 CONM1 CPENTA CPYRAM CQDMEM1 \
-    CQDMEM2 CQDPLT CQUAD CTETRA CTORDRG CTRAPRG CTRBSC CTRIA CTRPLT CTUBE CWEDGE CWELD RBAR RBE RROD RSPLINE \
-    RTRPLT SEB SEC SEE SEL SEM SENQ SEQSET SESET SESUP SETREE CSUP";
+/// Cards by what they are to the modes, kind by kind.
+const CARDS: &str = include_str!("cards.txt");
+/// Kind of the cards that are read.
+const READ: &str = "read";
+/// Kind of those that mean nothing where no card refers to them.
+const BY_REFERENCE: &str = "by reference";
 
-/// True if a list of words has this one.
-fn is_among(name: &str, all: &str) -> bool {
-    all.split(' ').any(|known| known == name)
+/// The kind that `cards.txt` gives to cards of a [`name`].
+fn kind(name: &str) -> Option<&'static str> {
+    let is_own = |own: &str| match own.strip_suffix('*') {
+        Some(start) => name.starts_with(start),
+        None => name == own,
+    };
+    let kinds = CARDS.lines().filter_map(|line| line.split_once(": "));
+    let mut own = kinds.filter(|(_, names)| names.split(", ").any(is_own));
+    own.next().map(|(kind, _)| kind)
 }
-
-/// True of a card that only elements which the crate lacks have.
-fn is_of_element(name: &str) -> bool {
-    is_among(name, OF_ELEMENTS)
-        || is_among(name, BY_REFERENCE)
-        || name.starts_with("PARAM ")
-        || ELEMENTS.split(' ').any(|start| name.starts_with(start))
-}
-
-/// Parameters that change stiffness or mass; the last only with a positive value.
-const OF_THE_MODEL: &str = "WTMASS CK1 CK2 CM1 CM2 COUPMASS";
-/// Parameters of MDLPRM that say what is printed and how equations are solved; others may choose the formulation of elements.
-const OF_OUTPUT: &str = "\
-    HDF5 H5GM34 H5INFO H5MDL H5MTX H5NORDOF H5XHH NONUPIV PIVTHRSH PRDIDPVT PRDITRFN PRDMTYPE PRDOOC PRDWMTCH \
-    PRTELAS PRTFAST PRTMASS PRTSEAM PRTWELD";
 
 /// Cards of one name that were not read, for one reason.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -279,29 +247,20 @@ impl Unread {
 
 /// The name that decides about a card: its own, with the parameter behind it for one that changes the model or may do so.
 pub(super) fn name(card: &Card) -> String {
-    let (parameter, value) = (card.text(2), card.text(3));
-    let is_off = parameter == "COUPMASS"
+    let with = |field| format!("{} {}", card.name, card.text(field));
+    let value = card.text(3);
+    let is_off = card.text(2) == "COUPMASS"
         && (value == "NO" || value.parse::<i64>().is_ok_and(|value| value <= 0));
     let changes = match card.name.as_str() {
-        "PARAM" if !is_off => Some(parameter).filter(|own| is_among(own, OF_THE_MODEL)),
+        "PARAM" if !is_off => Some(with(2)).filter(|own| kind(own).is_some()),
         // Pairs of names and values: the names are in even fields.
         "MDLPRM" => {
             let names = card.filled().into_iter().filter(|field| field % 2 == 0);
-            let mut names = names.map(|field| card.text(field));
-            names.find(|own| !is_among(own, OF_OUTPUT))
+            names.map(with).find(|own| kind(own).is_none())
         }
         _ => None,
     };
-    changes.map_or(card.name.clone(), |own| format!("{} {own}", card.name))
-}
-
-/// True if cards of this [`name`] are read.
-fn is_read(name: &str) -> bool {
-    name == "PARAM WTMASS"
-        || is_among(name, READ)
-        || ELEMENT_CARDS
-            .iter()
-            .any(|known| name == known.0 || name == known.1)
+    changes.unwrap_or_else(|| card.name.clone())
 }
 
 fn one_unread(card: &Card, reason: Reason) -> Unread {
