@@ -1,17 +1,16 @@
 //! Decks of every supported card, each in a form of its own: in small, large or free field, with tabs, in lower case, with continuations
-//! by tag, by star, by plus and by blanks, with replication and remarks. They are read back as the model that they were made of.
+//! by tag, by star, by plus and by blanks, and with remarks. They are read back as the model that they were made of.
 
 use crate::prelude::*;
 
 /// Names of all cards that are read.
-const CARDS: [&str; 31] = [
-    "GRID", "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S", "CONROD", "MAT1",
-    "CMASS1", "PMASS", "CMASS2", "CONM2", "SPC", "SPC1", "SPCADD", "MPC", "MPCADD", "PARAM",
-    "EIGR", "EIGRL", "CROD", "PROD", "CSHEAR", "PSHEAR", "CQDMEM", "PQDMEM", "CTRMEM", "PTRMEM",
-    "FORCE",
+const CARDS: [&str; 27] = [
+    "GRID", "GRDSET", "CORD2R", "CORD2C", "CONROD", "MAT1", "CMASS1", "PMASS", "CMASS2", "CONM2",
+    "SPC", "SPC1", "SPCADD", "MPC", "MPCADD", "PARAM", "EIGR", "EIGRL", "CROD", "PROD", "CSHEAR",
+    "PSHEAR", "CQDMEM", "PQDMEM", "CTRMEM", "PTRMEM", "FORCE",
 ];
 /// Forms that some deck must have, beside every card in small, large and free field.
-const FORMS: [&str; 34] = [
+const FORMS: [&str; 30] = [
     "a tag that begins with +",
     "a tag that begins with *",
     "a tag that begins with C",
@@ -19,7 +18,6 @@ const FORMS: [&str; 34] = [
     "a continuation by star alone",
     "a continuation by plus alone",
     "a continuation by blanks",
-    "a continuation elsewhere",
     "a continuation of another width",
     "ten free fields and more, with a sign",
     "ten free fields and more, without",
@@ -30,9 +28,6 @@ const FORMS: [&str; 34] = [
     "a comment",
     "a remark in field 10",
     "text behind column 80",
-    "a replica",
-    "a replica to the end of the line",
-    "replicas by number",
     "an exponent with a letter",
     "a blank in a number",
     "a free number of more than 16 characters",
@@ -60,8 +55,8 @@ fn turned(system: usize) -> ([usize; 3], [f64; 3]) {
 /// A deck that is being written.
 struct Deck {
     draws: Draws,
-    /// Lines that belong together; their order among each other is free.
-    units: Vec<Vec<String>>,
+    /// Cards, in any order.
+    cards: Vec<String>,
     /// What stands in case control beside what selects sets.
     control: String,
     tags: usize,
@@ -102,17 +97,12 @@ impl Deck {
 
     /// Adds a card in any form.
     fn card(&mut self, name: &str, fields: &[String]) {
-        let (lines, elsewhere) = self.lines(name, fields);
-        self.units.push(lines);
-        self.units.extend(elsewhere);
-    }
-
-    /// Lines of a card, and continuations by tag that may stand anywhere.
-    fn lines(&mut self, name: &str, fields: &[String]) -> (Vec<String>, Vec<Vec<String>>) {
         let filled = fields.iter().rposition(|field| !field.is_empty());
         let fields = &fields[..filled.map_or(1, |last| last + 1)];
         if fields.len() > 9 && self.chance(4) {
-            return (vec![self.many(name, fields)], Vec::new());
+            let line = self.many(name, fields);
+            self.cards.push(line);
+            return;
         }
         let rows = fields.chunks(8).collect_vec();
         // Every row is one small line, or two large ones of which the last may be missing.
@@ -132,22 +122,21 @@ impl Deck {
         if parts.iter().any(|part| part.1 != parts[0].1) {
             self.see("a continuation of another width");
         }
-        let mut lines = vec![Vec::new()];
+        let mut lines = Vec::new();
         let mut begin = format!("{name}{}", if parts[0].1 { "*" } else { "" });
         for (at, (cells, is_large)) in parts.iter().enumerate() {
             let next = parts.get(at + 1);
             let (mut end, mut next_begin) = (String::new(), String::new());
-            let mut moves = false;
             if let Some((_, large)) = next {
                 let mark = if *large { "*" } else { "+" };
-                (end, next_begin, moves) = match self.draws.below(3) {
+                (end, next_begin) = match self.draws.below(3) {
                     0 => {
                         self.see(if *large {
                             "a continuation by star alone"
                         } else {
                             "a continuation by plus alone"
                         });
-                        (String::new(), mark.to_owned(), false)
+                        (String::new(), mark.to_owned())
                     }
                     1 if !large => {
                         self.see("a continuation by blanks");
@@ -158,11 +147,7 @@ impl Deck {
                         let first = self.pick(&['+', '*', 'C', '0']);
                         self.see(&format!("a tag that begins with {first}"));
                         let tag = format!("Q{}", self.tags);
-                        (
-                            format!("{first}{tag}"),
-                            format!("{mark}{tag}"),
-                            self.chance(2),
-                        )
+                        (format!("{first}{tag}"), format!("{mark}{tag}"))
                     }
                 };
             } else if self.chance(6) {
@@ -170,16 +155,10 @@ impl Deck {
                 end = "REMARK".to_owned();
             }
             let form = if at == 0 { name } else { "" };
-            let line = self.line(form, &begin, cells, *is_large, &end);
-            lines.last_mut().unwrap().push(line);
+            lines.push(self.line(form, &begin, cells, *is_large, &end));
             begin = next_begin;
-            if moves {
-                self.see("a continuation elsewhere");
-                lines.push(Vec::new());
-            }
         }
-        let own = lines.remove(0);
-        (own, lines)
+        self.cards.push(lines.join("\n"));
     }
 
     /// A line of more than ten free fields, which goes on as the next would.
@@ -336,7 +315,7 @@ fn shortened(model: &mut BulkData) {
 fn drawn(mut model: BulkData, seed: u64) -> (String, BulkData, BTreeSet<String>) {
     let mut deck = Deck {
         draws: Draws(seed),
-        units: Vec::new(),
+        cards: Vec::new(),
         control: String::new(),
         tags: 0,
         seen: BTreeSet::new(),
@@ -379,12 +358,12 @@ fn drawn(mut model: BulkData, seed: u64) -> (String, BulkData, BTreeSet<String>)
     deck.card("EIGRL", &words(["1", "", "", "6"]));
     let method = words(["2", "INV", "1.", "90.", "4", "4", "", "", "MASS"]);
     deck.card("EIGR", &method);
-    let mut order: Vec<(usize, Vec<String>)> = Vec::new();
-    for unit in std::mem::take(&mut deck.units) {
-        order.push((deck.draws.below(1 << 30), unit));
+    let mut order: Vec<(usize, String)> = Vec::new();
+    for card in std::mem::take(&mut deck.cards) {
+        order.push((deck.draws.below(1 << 30), card));
     }
     order.sort();
-    let bulk = order.into_iter().flat_map(|(_, unit)| unit).collect_vec();
+    let bulk = order.into_iter().map(|(_, card)| card).collect_vec();
     let mpc = if model.ties.is_empty() {
         ""
     } else {
@@ -400,41 +379,24 @@ fn drawn(mut model: BulkData, seed: u64) -> (String, BulkData, BTreeSet<String>)
 
 /// Writes coordinate systems, grids and supports; the coordinate system of each grid's directions.
 fn write_grids(deck: &mut Deck, model: &mut BulkData, has_common: bool) -> BTreeMap<usize, usize> {
-    let base = model.first_free_label();
-    let fixed = |label, position| Grid {
+    let label = model.first_free_label();
+    model.grids.push(Grid {
         label,
-        position,
+        position: Vector3::new(2.5, 0.0, 4.0),
         constrained: [true; 3],
-    };
-    // Three points of the basic axes, one in a cylindrical and one in a spherical system, and four in a row.
-    let places = [
-        [0.0; 3],
-        [0.0, 0.0, 1.0],
-        [1.0, 0.0, 0.0],
-        [2.5, 0.0, 4.0],
-        [0.0, 0.0, 3.0],
-    ];
-    let mut extra = (base..)
-        .zip(places)
-        .map(|(label, at)| fixed(label, at.into()))
-        .collect_vec();
-    let run = base + 10;
-    extra.extend(
-        (0..4).map(|place| fixed(run + 2 * place, Vector3::new(1.5 * place as f64, 0.0, 0.0))),
-    );
-    let [o, a, b] = [base, base + 1, base + 2].map(|label| label.to_string());
-    let axes = |number: usize| [number.to_string(), o.clone(), a.clone(), b.clone()];
-    deck.card("CORD1R", &[axes(5), axes(7)].concat());
-    deck.card("CORD1C", &axes(6));
-    deck.card("CORD1S", &axes(8));
+    });
     for (name, number, [along, across]) in [
+        ("CORD2R", "5", [["0.", "0.", "1."], ["1.", "0.", "0."]]),
         ("CORD2R", "1", [["2.", "0.", "0."], ["0.", "1.", "0."]]),
         ("CORD2R", "2", [["0.", "0.", "4."], ["0.", "1.", "0."]]),
         ("CORD2C", "3", [["0.", "0.", "1."], ["2.", "0.", "1."]]),
-        ("CORD2S", "4", [["0.", "0.", "1."], ["1.", "0.", "0."]]),
     ] {
-        let reference = deck.pick(&["", "0", "5"]);
-        let mut fields = words([number, reference, "0.", "0.", "0."]);
+        let references = if number == "5" {
+            &["", "0"][..]
+        } else {
+            &["", "5"]
+        };
+        let mut fields = words([number, deck.pick(references), "0.", "0.", "0."]);
         fields.extend(words(along));
         fields.extend(words(across));
         deck.card(name, &fields);
@@ -464,15 +426,10 @@ fn write_grids(deck: &mut Deck, model: &mut BulkData, has_common: bool) -> BTree
     let mut systems = BTreeMap::new();
     let mut supports: Vec<[String; 2]> = Vec::new();
     let mut lists: BTreeMap<String, Vec<usize>> = BTreeMap::new();
-    let mut before: Option<Vec<String>> = None;
-    let of_model = model.grids.len();
-    for (place, grid) in model.grids.iter().chain(&extra[..5]).enumerate() {
-        let of_place = match place - place.min(of_model) {
-            3 if place >= of_model => deck.pick(&[3, 6]),
-            4 if place >= of_model => deck.pick(&[4, 8]),
-            _ if place >= of_model => 0,
-            _ => deck.pick(&[0, 1, 2, 5]),
-        };
+    for grid in &model.grids {
+        // The last one is at its place in the cylindrical system.
+        let is_last = grid.label == label;
+        let of_place = if is_last { 3 } else { deck.pick(&[0, 1, 2, 5]) };
         let of_motion = if has_common {
             0
         } else {
@@ -480,21 +437,12 @@ fn write_grids(deck: &mut Deck, model: &mut BulkData, has_common: bool) -> BTree
         };
         systems.insert(grid.label, of_motion);
         let ((along, signs), at) = (turned(of_place), grid.position);
-        let mut local = [0, 1, 2].map(|axis| signs[axis] * at[along[axis]]);
-        match of_place {
-            3 | 6 => local = [at.x, 0.0, at.z],
-            4 | 8 => local = [at.z, 0.0, 0.0],
-            _ => {}
-        }
+        let local = [0, 1, 2].map(|axis| signs[axis] * at[along[axis]]);
         let held: String = (0..3)
             .filter(|axis| grid.constrained[turned(of_motion).0[*axis]])
             .map(|axis| (axis + 1).to_string())
             .collect();
-        let how = if place < of_model {
-            deck.draws.below(4)
-        } else {
-            0
-        };
+        let how = if is_last { 0 } else { deck.draws.below(4) };
         let mut fields = vec![grid.label.to_string()];
         for (system, default) in [of_place, of_motion].into_iter().zip(defaults) {
             let is_blank = system == default && deck.chance(2) || system == 0 && default == 0;
@@ -519,61 +467,10 @@ fn write_grids(deck: &mut Deck, model: &mut BulkData, has_common: bool) -> BTree
             2 | 3 if !held.is_empty() => lists.entry(held).or_default().push(grid.label),
             _ => {}
         }
-        let is_one_line = deck.units.last().is_some_and(|unit| unit.len() == 1);
-        let earlier = before.take().filter(|_| is_one_line);
-        if let Some(earlier) = earlier.filter(|_| deck.chance(2)) {
-            let line = replica(deck, &earlier, &fields);
-            deck.units.last_mut().unwrap().push(line);
-            continue;
-        }
-        // A line of eight fields may be repeated.
-        let is_short = fields.iter().all(|field| field.len() <= 8);
-        if is_short && deck.chance(3) {
-            let line = deck.line("GRID", "GRID", &fields, false, "");
-            deck.units.push(vec![line]);
-            before = Some(fields);
-        } else {
-            deck.card("GRID", &fields);
-        }
+        deck.card("GRID", &fields);
     }
-    deck.see("replicas by number");
-    let zero = named(0);
-    let cp = if defaults[0] == 0 { &zero } else { "0" };
-    let cd = if defaults[1] == 0 { &zero } else { "0" };
-    let run = [
-        format!("GRID,{run},{cp},0.,0.,0.,{cd},123"),
-        "=,*(2),=,*(1.5),==".to_owned(),
-        "=(2)".to_owned(),
-    ];
-    deck.units.push(run.to_vec());
-    model.grids.extend(extra);
     write_supports(deck, model, supports, &lists);
     systems
-}
-
-/// The card that repeats the one before with the differences of another.
-fn replica(deck: &mut Deck, earlier: &[String], fields: &[String]) -> String {
-    deck.see("a replica");
-    let labels = [earlier, fields].map(|all| all[0].parse::<usize>().unwrap());
-    let mut changes = vec![format!("*({})", labels[1] - labels[0])];
-    for (place, (old, new)) in earlier.iter().zip(fields).enumerate().skip(1) {
-        if earlier[place..] == fields[place..] {
-            deck.see("a replica to the end of the line");
-            changes.push("==".to_owned());
-            break;
-        }
-        changes.push(if old == new {
-            "=".to_owned()
-        } else {
-            new.clone()
-        });
-    }
-    let is_small = changes.iter().all(|change| change.len() <= 8);
-    if is_small {
-        deck.line("", "=", &changes, false, "")
-    } else {
-        format!("=,{}", changes.join(","))
-    }
 }
 
 fn write_supports(

@@ -36,8 +36,8 @@ const BAD_FIELDS: &str = "\
 1 | GRID*,123456789,,0.,0. | 2 | at most eight digits | 123456789
 2 | GRID,2,,10,0.,0. | 4 | a real number with a decimal point | 10
 2 | GRID,2,,10.,0.,1.X | 6 | a real number | 1.X
-2 | GRID,2,3,10.,0.,0. | 3 | the number of a coordinate system's card | 3
-2 | GRID,2,,10.,0.,0.,5 | 7 | the number of a coordinate system's card | 5
+2 | GRID,2,3,10.,0.,0. | 3 | the number of a CORD2R or CORD2C card | 3
+2 | GRID,2,,10.,0.,0.,5 | 7 | the number of a CORD2R or CORD2C card | 5
 2 | GRID,2,,10.,0.,0.,,127 | 8 | a list of components 1 to 6 | 127
 2 | GRID,1,,10.,0.,0. | 2 | the card in line 1 | 1
 - | CROD,1,1,2,1 | 2 | the card in line 3 | 1

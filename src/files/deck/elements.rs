@@ -243,15 +243,11 @@ pub(super) fn point_mass(
     if card.name.starts_with("CMASS") {
         card.absent(6, "masses between two degrees of freedom")?;
         let grid = card.label(4)?;
-        let own = card.direction(5)?;
-        let axis = motions
-            .axis(grid, own)
-            .ok_or_else(|| card.error(5, OBLIQUE))?;
-        let direction = Some(axis.direction);
+        let axis = motions.axis(grid, card.direction(5)?);
         return Ok(PointMass {
             label,
             grid,
-            direction,
+            direction: Some(axis.ok_or_else(|| card.error(5, OBLIQUE))?),
             mass: match card.name.as_str() {
                 "CMASS1" => card.referred(3, properties, "PMASS")?.value,
                 _ => card.positive(3)?,

@@ -1,9 +1,8 @@
 //! From a file to its cards: sections, comments, the free, small and large formats, and continuations.
 
-use super::card::{Card, FIELDS_PER_LINE, Field, LARGEST_LABEL};
+use super::card::{Card, FIELDS_PER_LINE, Field};
 use super::number::{LARGE_FIELD, SMALL_FIELD, parse_real};
 use crate::files::error::FileError;
-use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Data fields of a line in the large format.
@@ -12,8 +11,11 @@ pub(super) const LARGE_FIELDS_PER_LINE: usize = 4;
 pub(super) const INCLUDES: [&str; 2] = ["INCLUDE", "READFILE"];
 /// Characters that end the first word of such a statement, or of a parameter.
 const WORD_ENDS: [char; 5] = [' ', ',', '=', '\'', '"'];
-/// Name of what is left of a line that is no line of a card; what reads cards finds out whether it matters.
-pub(super) const NO_CARD: &str = "";
+/// Fault of a line that is no line of a card.
+const NO_CARD: &str = "is neither a card's name nor a continuation";
+/// Fault of a line that begins by `=`.
+const REPLICA: &str = "repeats the card before it, and replication (=, ==, *(n)) is not read; write the cards out, as pyNastran's read_bdf \
+                       and write_bdf do";
 
 /// Sets of constraints that case control selects by `SPC = n` and `MPC = n`, each with its line. The first subcase's selection
 /// counts, or else the one above all subcases.
@@ -26,6 +28,7 @@ pub(super) struct Line {
     number: usize,
     /// Field 1 in capitals: a name, or of a continuation its tag without `+` or `*`.
     first: String,
+    /// True of every line that begins no card.
     continues: bool,
     /// Fields 2 to 9, or four large ones, or those of several such lines.
     data: Vec<Field>,
@@ -38,14 +41,12 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// Tags of the continuation that this line asks for: columns 2 to 8 of field 10 count, whatever the first is, and programs leave that
-    /// away.
-    fn wanted(&self) -> Vec<String> {
-        let whole = self.tag.trim_start_matches(['+', '*']).to_owned();
-        let behind: String = self.tag.chars().skip(1).collect();
-        let mut tags = vec![whole, behind.trim().to_owned()];
-        tags.retain(|tag| !tag.is_empty());
-        tags
+    /// True of a continuation of a line that ends with this tag: columns 2 to 8 of field 10 count, whatever the first is, and programs
+    /// leave that away.
+    fn follows(&self, tag: &str) -> bool {
+        let whole = tag.trim_start_matches(['+', '*']);
+        let behind: String = tag.chars().skip(1).collect();
+        self.first.is_empty() || [whole, behind.trim()].contains(&self.first.as_str())
     }
 }
 
@@ -237,16 +238,17 @@ fn fields(file: &str, number: usize, text: &str) -> Line {
         *tag = tag.chars().take(SMALL_FIELD).collect();
     }
     let first = name.trim();
-    let continues = first.is_empty() || first.starts_with(['+', '*']);
+    let continues = !first.starts_with(|c: char| c.is_ascii_alphabetic());
+    // What reads the card before a line that is none finds out whether it matters.
     let mut fault = None;
-    let is_name = first.starts_with(|c: char| c.is_ascii_alphabetic() || c == '=');
-    let first = if continues {
-        first.trim_start_matches(['+', '*'])
-    } else if is_name {
+    let first = if !continues {
         first.trim_end_matches('*')
+    } else if first.is_empty() || first.starts_with(['+', '*']) {
+        first.trim_start_matches(['+', '*'])
     } else {
-        fault = Some(wrong(first, "is neither a card's name nor a continuation"));
-        NO_CARD
+        let is_replica = first.starts_with('=');
+        fault = Some(wrong(first, if is_replica { REPLICA } else { NO_CARD }));
+        ""
     }
     .to_owned();
     let field = |place: &usize| Field {
@@ -311,165 +313,42 @@ impl Joined {
     }
 }
 
-/// Joins lines to cards, in the order of the file. A continuation belongs to the card that ends with its tag, wherever it
-/// stands; without a tag, to the line before it. A card `=` repeats the one before with some fields changed.
+/// Joins lines to cards, in the order of the file. A continuation stands directly behind its card, with the tag at the end of the line
+/// before it or without one.
 pub(super) fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Joined>, FileError> {
     let mut cards: Vec<Joined> = Vec::new();
-    // Continuations may stand before their card: they wait by tag until all lines are known.
-    let mut waiting: HashMap<String, Vec<Line>> = HashMap::new();
-    let mut ends: Vec<Vec<String>> = Vec::new();
-    // The tag of the continuation that the next line goes on, if it has none of its own; none where it goes on a card.
-    let mut open: Option<String> = None;
-    for mut line in lines {
-        let fault = line.fault.take();
-        let is_more = line.first.is_empty() && (line.continues || fault.is_some());
-        let before = open.as_ref().and_then(|tag| waiting.get_mut(tag));
-        match (before, cards.last_mut()) {
-            (Some(before), _) if is_more => {
-                line.fault = fault;
-                before.push(line);
-            }
-            (None, Some(card)) if is_more => {
-                append(&mut card.card, &line);
-                card.fault = card.fault.take().or(fault);
-                if let Some(end) = ends.last_mut() {
-                    *end = line.wanted();
-                }
-            }
-            _ if !line.continues => {
-                ends.push(line.wanted());
-                open = None;
-                let card = Card {
+    let mut tag = String::new();
+    for line in lines {
+        match cards.last_mut() {
+            _ if !line.continues => cards.push(Joined {
+                card: Card {
                     file: file.clone(),
                     line: line.number,
                     name: line.first,
                     fields: line.data,
-                };
-                cards.push(Joined { card, fault });
+                },
+                fault: line.fault,
+            }),
+            Some(Joined { card, fault }) if line.follows(&tag) => {
+                // The second half of a card of the large format may be missing.
+                if line.count == FIELDS_PER_LINE {
+                    let whole = card.fields.len().next_multiple_of(FIELDS_PER_LINE);
+                    card.fields.resize(whole, Field::blank(line.number));
+                }
+                card.fields.extend(line.data);
+                *fault = fault.take().or(line.fault);
             }
-            _ if line.first.is_empty() => return Err(no_parent(file, &line)),
             _ => {
-                open = Some(line.first.clone());
-                let (tag, number) = (line.first.clone(), line.number);
-                line.fault = fault;
-                if let Some(first) = waiting.insert(tag.clone(), vec![line]) {
-                    let reason = format!(
-                        "the continuation in line {} has the tag {tag} already",
-                        first[0].number
-                    );
-                    return Err(FileError::line(file, number, reason));
-                }
+                let reason = format!(
+                    "continuation +{} does not stand directly behind the line that ends with its tag; move it there, or correct its tag",
+                    line.first
+                );
+                let astray = FileError::line(file, line.number, reason);
+                return Err(line.fault.unwrap_or(astray));
             }
         }
+        // Field 10 without a continuation is a remark.
+        tag = line.tag;
     }
-    let mut taken: HashMap<String, usize> = HashMap::new();
-    for (card, mut tags) in cards.iter_mut().zip(ends) {
-        // Field 10 without a continuation is a remark, and the card ends here.
-        while let Some((tag, lines)) = tags.iter().find_map(|tag| waiting.remove_entry(tag)) {
-            taken.insert(tag, card.card.line);
-            for line in lines {
-                append(&mut card.card, &line);
-                tags = line.wanted();
-                card.fault = card.fault.take().or(line.fault);
-            }
-        }
-        if let Some((tag, first)) = tags.iter().find_map(|tag| Some((tag, taken.get(tag)?))) {
-            let reason = format!("tag {tag} continues the card of line {first} already");
-            return Err(FileError::line(file, card.card.line, reason));
-        }
-    }
-    match waiting.values().flatten().min_by_key(|line| line.number) {
-        Some(orphan) => Err(no_parent(file, orphan)),
-        None => replicated(cards),
-    }
-}
-
-/// Cards with every `=` replaced by what it repeats: a field `=` is that of the card before, `==` that and all behind it, `*(n)` as much
-/// more; a card `=(n)` repeats the last one's changes n times.
-fn replicated(cards: Vec<Joined>) -> Result<Vec<Joined>, FileError> {
-    let mut all: Vec<Joined> = Vec::new();
-    let mut changes: Option<Card> = None;
-    for found in cards {
-        if !found.card.name.starts_with('=') {
-            changes = None;
-            all.push(found);
-            continue;
-        }
-        let card = found.sound()?;
-        let times = card.name[1..].trim_matches(['(', ')']).to_owned();
-        let none = || card.error(1, format!("\"{}\" repeats no card with changes", card.name));
-        let (count, change) = match (times.as_str(), changes.take()) {
-            ("", _) => (1, card),
-            (times, Some(change)) => (times.parse().map_err(|_| none())?, change),
-            (_, None) => return Err(none()),
-        };
-        for _ in 0..count {
-            let card = repeated(&change, all.last().map(|last| &last.card))?;
-            all.push(Joined { card, fault: None });
-            let is_left = all.len() <= LARGEST_LABEL;
-            change.require(
-                is_left,
-                1,
-                "a number of repetitions that leaves numbers for cards",
-            )?;
-        }
-        changes = Some(change);
-    }
-    Ok(all)
-}
-
-/// The card that repeats the one before with changes.
-fn repeated(change: &Card, before: Option<&Card>) -> Result<Card, FileError> {
-    let none = || change.error(1, "there is no card before of one line to repeat");
-    let before = before.filter(|before| before.fields.len() == FIELDS_PER_LINE);
-    let mut card = before.ok_or_else(none)?.clone();
-    card.line = change.line;
-    for (place, field) in change.fields.iter().enumerate() {
-        let at = place + 2;
-        let Some(own) = card.fields.get_mut(place) else {
-            change.require(
-                field.text.is_empty(),
-                at,
-                "empty behind a line's last field",
-            )?;
-            continue;
-        };
-        own.line = field.line;
-        match field.text.as_str() {
-            "==" => break,
-            "=" => {}
-            text => match text.strip_prefix('*') {
-                None => own.text = text.to_owned(),
-                Some(more) => {
-                    let more = more.trim_matches(['(', ')']);
-                    let whole = own.text.parse::<i64>().ok().zip(more.parse::<i64>().ok());
-                    let real = parse_real(&own.text).zip(parse_real(more));
-                    let sum = whole
-                        .and_then(|(own, more)| own.checked_add(more))
-                        .map(|sum| sum.to_string());
-                    let sum = sum.or(real.map(|(own, more)| format!("{:?}", own + more)));
-                    own.text = sum
-                        .ok_or_else(|| change.wrong(at, "an increment of the field it repeats"))?;
-                }
-            },
-        }
-    }
-    Ok(card)
-}
-
-fn no_parent(file: &str, line: &Line) -> FileError {
-    let reason = match line.first.as_str() {
-        "" => "this line continues a card, but there is none before it".to_owned(),
-        tag => format!("this line continues a card that ends with tag {tag}, but none does"),
-    };
-    FileError::line(file, line.number, reason)
-}
-
-fn append(card: &mut Card, line: &Line) {
-    // The second half of a card of the large format may be missing.
-    if line.count == FIELDS_PER_LINE {
-        let whole = card.fields.len().next_multiple_of(FIELDS_PER_LINE);
-        card.fields.resize(whole, Field::blank(line.number));
-    }
-    card.fields.extend(line.data.iter().cloned());
+    Ok(cards)
 }

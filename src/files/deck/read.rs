@@ -3,9 +3,9 @@
 
 use super::card::{Card, Numbered};
 use super::constraints::Constraints;
-use super::coordinates::CoordinateSystems;
+use super::coordinates;
 use super::elements::{ElementCards, Members, point_mass, take_masses};
-use super::lines::{INCLUDES, Joined, NO_CARD, Selected, join, sections};
+use super::lines::{INCLUDES, Joined, Selected, join, sections};
 use super::model::{BulkData, PointMass};
 use super::number::nearest_in_field;
 use crate::files::error::FileError;
@@ -25,7 +25,7 @@ pub struct Deck {
 /// Reads a deck in UTF-8 or Latin-1, without cards of the names `ignored` that are not understood; `file` is its name in messages.
 ///
 /// It may have executive and case control in front of `BEGIN BULK`, or be bulk data alone. Read are GRID, GRDSET,
-/// CORD1R, CORD1C, CORD1S, CORD2R, CORD2C, CORD2S, CROD, PROD, CONROD, CSHEAR, PSHEAR, CQDMEM, PQDMEM, CTRMEM, PTRMEM, MAT1,
+/// CORD2R, CORD2C, CROD, PROD, CONROD, CSHEAR, PSHEAR, CQDMEM, PQDMEM, CTRMEM, PTRMEM, MAT1,
 /// SPC, SPC1, SPCADD, MPC, MPCADD, CMASS1, PMASS, CMASS2, CONM2 and `PARAM,WTMASS`, which multiplies every mass and density,
 /// in any order. Cards that say nothing of stiffness, mass,
 /// supports or coordinates, such as loads, or properties and points to which no card refers, are listed in [`Deck::unread`], and so are
@@ -52,9 +52,6 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
     let (cards, others): (Vec<Joined>, Vec<Joined>) = join(&file.into(), lines)?
         .into_iter()
         .partition(|found| kind(&name(&found.card)) == Some(READ));
-    let (nameless, others): (Vec<Joined>, Vec<Joined>) = others
-        .into_iter()
-        .partition(|found| found.card.name == NO_CARD);
     let why = |card: &Card| {
         let name = name(card);
         match kind(&name) {
@@ -80,9 +77,6 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
     for card in unread.iter_mut().filter(is_refused) {
         card.reason = Reason::WithoutPart;
     }
-    for found in nameless {
-        found.sound()?;
-    }
     let mut found = Found::default();
     for card in cards {
         found.take(card.sound()?)?;
@@ -99,7 +93,7 @@ struct Found {
     elements: ElementCards,
     masses: Numbered<()>,
     mass_properties: Numbered<f64>,
-    systems: CoordinateSystems,
+    systems: Numbered<()>,
     constraints: Constraints,
 }
 
@@ -116,7 +110,7 @@ impl Found {
             "PARAM" => once(&mut self.weight, card, "PARAM,WTMASS"),
             "PMASS" => take_masses(&card, &mut self.mass_properties),
             "CMASS1" | "CMASS2" | "CONM2" => card.keep(2, (), &mut self.masses),
-            name if name.starts_with("CORD") => self.systems.take(card),
+            "CORD2R" | "CORD2C" => card.keep(2, (), &mut self.systems),
             "SPC" | "SPC1" | "SPCADD" | "MPC" | "MPCADD" => self.constraints.take(card),
             _ => self.elements.take(&card),
         }
@@ -137,9 +131,8 @@ impl Found {
             card: format!("{} J", card.name),
             ..one_unread(card, Reason::Torsion)
         }));
-        let (mut grids, motions) = self
-            .systems
-            .grids(&self.grids, self.grid_default.as_ref())?;
+        let default = self.grid_default.as_ref();
+        let (mut grids, motions) = coordinates::grids(&self.grids, &self.systems, default)?;
         self.constraints.constrain(&mut grids, &motions)?;
         let masses = self.masses.values().map(|kept| {
             let field = if kept.card.name == "CONM2" { 3 } else { 4 };

@@ -285,12 +285,7 @@ impl Changes<'_> {
     fn add(&mut self, card: &Card, entries: &str) -> Result<(), FileError> {
         self.writer.text.clear();
         self.writer.push(&card.name, entries)?;
-        let line = card
-            .fields
-            .iter()
-            .map(|field| field.line)
-            .max()
-            .unwrap_or(card.line);
+        let line = card.fields.last().map_or(card.line, |field| field.line);
         self.added
             .entry(line)
             .or_default()
