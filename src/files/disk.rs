@@ -13,12 +13,16 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// Writes and syncs a new file before it takes the place of the old one, if any. A link is followed, and stays one.
+/// Writes and syncs a new file before it takes the place of the old one, if any. A link is followed, and stays one; one to nothing is
+/// refused.
 ///
 /// # Errors
 /// The operating system's error; the old file is then as it was.
 pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let path = &path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let path = &match path.is_symlink() {
+        true => path.canonicalize()?,
+        false => path.to_owned(),
+    };
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
@@ -34,8 +38,12 @@ pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// # Errors
 /// The operating system's error.
 pub fn probe(path: &Path) -> io::Result<()> {
-    match path.is_dir() {
-        true => Err(io::ErrorKind::IsADirectory.into()),
-        false => tempfile::tempfile_in(folder_of(path)).map(drop),
+    match path.metadata() {
+        Ok(found) if found.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+        Err(nothing) if path.is_symlink() => Err(nothing),
+        _ if path.as_os_str().as_encoded_bytes().ends_with(b"/") => {
+            Err(io::ErrorKind::IsADirectory.into())
+        }
+        _ => tempfile::tempfile_in(folder_of(path)).map(drop),
     }
 }

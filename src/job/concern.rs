@@ -56,6 +56,15 @@ pub enum Answer {
     NotChecked,
 }
 
+/// A question by its name, and its answer.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Answered {
+    /// The name.
+    pub check: &'static str,
+    /// The answer.
+    pub answer: Answer,
+}
+
 impl Check {
     /// All questions and their names, those of a result last.
     const ALL: [(Self, &str); 19] = [
@@ -109,7 +118,7 @@ const LONGEST: usize = 40;
 const MOST_LISTED: usize = 8;
 
 /// Names in a sentence, at most eight of them.
-pub(super) fn some(names: &[impl ToString]) -> String {
+pub(crate) fn some(names: &[impl ToString]) -> String {
     let more = names.len().saturating_sub(MOST_LISTED);
     let listed = if more > 1 { MOST_LISTED } else { names.len() };
     let names: Vec<String> = names[..listed].iter().map(ToString::to_string).collect();
@@ -204,7 +213,7 @@ impl Trust {
     }
 
     /// The answer to every question, of a result's too after a run.
-    pub fn answers(&self, is_run: bool) -> Vec<(&'static str, Answer)> {
+    pub fn answers(&self, is_run: bool) -> Vec<Answered> {
         let asked = Check::ALL
             .iter()
             .filter(|own| is_run || own.0 < Check::Sight);
@@ -215,7 +224,10 @@ impl Trust {
                 false if grades().next().is_some() => Answer::NotChecked,
                 false => Answer::No,
             };
-            (name, answer)
+            Answered {
+                check: name,
+                answer,
+            }
         };
         asked.map(answer).collect()
     }

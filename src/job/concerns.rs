@@ -327,7 +327,14 @@ impl LoadedJob {
             );
             Concern::doubt(Check::Inputs, "numbered-otherwise", given, words)
         }));
-        if let (Some(units), Some([factor, known])) = (&data.units, data.lengths_to_meter) {
+        if let Some(units) = &data.units {
+            let Some([factor, known]) = data.lengths_to_meter else {
+                all.push(Concern::not_checked(
+                    Check::Units,
+                    "the length of its unit is not known",
+                ));
+                return all;
+            };
             let is_other = (factor / known - 1.0).abs() > UNIT_DIGITS;
             let words = format!(
                 "The test's file says that it is in {units}, of {known:.6} to a meter, but its factor of length is {factor:.6}."

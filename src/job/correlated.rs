@@ -4,6 +4,7 @@ use super::{Method, PreparedJob};
 use crate::files::error::FileError;
 use crate::method::error::Error;
 use crate::method::outer_loop::{Correlation, Pass, correlate};
+use crate::method::step::Bounds;
 use crate::sparse::Work;
 use crate::weighted::comparison::Comparison;
 use crate::weighted::gauss_newton::{
@@ -102,7 +103,7 @@ impl PreparedJob {
     fn run(&self, start: &[f64], caller: &Caller) -> Result<CorrelatedJob, FileError> {
         let first = self.analyze(start)?.with_slopes()?;
         let (factors, history, last, analyses, is_lowest) = match self.loaded.job.compare.method {
-            Method::Paper => self.by_loops(caller)?,
+            Method::Paper => self.by_loops((start, &first), caller)?,
             Method::GaussNewton => self.by_weighted_steps((start, &first), caller)?,
         };
         Ok(CorrelatedJob {
@@ -118,9 +119,17 @@ impl PreparedJob {
         })
     }
 
-    /// The paper's loops, from the first model.
-    fn by_loops(&self, caller: &Caller) -> Result<Found, FileError> {
+    /// The paper's loops, which count factors from one: the start is their first model.
+    fn by_loops(
+        &self,
+        (start, first): (&[f64], &Comparison),
+        caller: &Caller,
+    ) -> Result<Found, FileError> {
         let job = &self.loaded.job;
+        let total = |factors: &[f64]| -> Vec<f64> {
+            let both = factors.iter().zip(start);
+            both.map(|(factor, start)| factor * start).collect()
+        };
         let report_pass = |number: usize, pass: &Pass| {
             let (errors, percent) = (&pass.check.errors, |error: f64| 100.0 * error);
             (caller.progress)(&format!(
@@ -132,25 +141,41 @@ impl PreparedJob {
         };
         let mut analyses = 1;
         let analyze = |factors: &[f64]| {
+            let factors = total(factors);
+            if factors == start {
+                return Ok(first.clone().into_model());
+            }
             analyses += 1;
-            Ok::<_, Error>(self.analyze(factors)?.into_model())
+            Ok::<_, Error>(self.analyze(&factors)?.into_model())
         };
         let settings = job.correlation.for_modes(self.modes.len());
-        let ranges = self.loaded.source.whole.ranges();
+        let ranges = self.loaded.source.whole.ranges().into_iter().zip(start);
+        let ranges: Vec<_> = ranges
+            .map(|(range, start)| {
+                range.map(|range| Bounds {
+                    lower: range.lower / start,
+                    upper: range.upper / start,
+                })
+            })
+            .collect();
         let run = correlate(analyze, &ranges, &settings, report_pass);
-        let run = run.map_err(|error| match error {
+        let mut run = run.map_err(|error| match error {
             error if error.is_of_close_modes() => job.refused(format!(
                 "the paper's loops need modes that stay apart: {error}; compare.method = \"gauss_newton\" needs none"
             )),
             other => other.into(),
         })?;
+        for pass in &mut run.passes {
+            pass.factors = total(&pass.factors);
+        }
+        run.best_factors = total(&run.best_factors);
         let factors = run.best_factors.clone();
         let last = self.analyze(&factors)?.with_slopes()?;
         Ok((
             factors,
             History::Paper(Box::new(run)),
             last,
-            analyses,
+            analyses + 1,
             false,
         ))
     }
@@ -163,10 +188,11 @@ impl PreparedJob {
     ) -> Result<Found, FileError> {
         let (compare, ranges) = (&self.loaded.job.compare, self.loaded.source.whole.ranges());
         let (weights, settings) = (self.weights(), self.weighted_settings());
-        let (mut analyses, mut near) = (1, None);
+        let (mut analyses, mut near, mut is_over) = (1, None, false);
         let mut best = (f64::INFINITY, start.to_vec());
         let mut analyze = |factors: &[f64]| {
             let model = match factors == start {
+                _ if is_over => return Err(FileError::Interrupted),
                 true => first.clone(),
                 false => {
                     analyses += 1;
@@ -183,20 +209,21 @@ impl PreparedJob {
                 best = (objective, factors.to_vec());
                 (caller.progress)(&format!("sum of squares {objective:.4e}"));
             }
-            match (caller.go_on)() {
-                true => Ok(model),
-                false => Err(FileError::Interrupted),
+            is_over = !(caller.go_on)();
+            match is_over {
+                true => Err(FileError::Interrupted),
+                false => Ok(model),
             }
         };
         let mut is_lowest = false;
         let steps = match compare.starts.filter(|_| start == self.loaded.ones()) {
-            Some(starts) if starts > 1 => from_several_starts(
+            Some(starts) if starts != 1 => from_several_starts(
                 &mut analyze,
                 &ranges,
                 &weights,
                 &settings,
-                starts,
-                compare.seed,
+                (starts, compare.seed),
+                caller.go_on,
             ),
             _ => gauss_newton(&mut analyze, start, &ranges, &weights, &settings).map(|run| {
                 WeightedHistory {
@@ -215,12 +242,12 @@ impl PreparedJob {
             Ok(WeightedHistory { best, ..steps })
         });
         match steps {
-            Ok(steps) => {
+            Ok(steps) if !is_over => {
                 let (factors, last) = (steps.best.factors.clone(), steps.best.last.clone());
                 let history = History::GaussNewton(Some(Box::new(steps)));
                 Ok((factors, history, last, analyses, is_lowest))
             }
-            Err(FileError::Interrupted) => {
+            Ok(_) | Err(FileError::Interrupted) => {
                 let last = self.analyze(&best.1)?.with_slopes()?;
                 Ok((
                     best.1,

@@ -146,7 +146,7 @@ impl CorrelatedJob {
         })
     }
 
-    /// What there is to know after the steps.
+    /// Everything there is to know after the steps.
     fn concerns(
         &self,
         verdict: &Verdict,
@@ -154,18 +154,6 @@ impl CorrelatedJob {
         misfit: &Misfit,
     ) -> Result<Vec<Concern>, FileError> {
         let prepared = &self.prepared;
-        let names: Vec<&str> = prepared.loaded.parameter_names().collect();
-        let of = |places: &[usize]| places.iter().map(|&e| names[e]).collect::<Vec<&str>>();
-        let about = |check: Check, name: &str, about: &[&str], words: &str| {
-            let words = format!("{words}: {}.", some(about));
-            (!about.is_empty()).then(|| Concern::remark(check, name, about, words))
-        };
-        let mut blind = [&seen.blind[..], &verdict.unseen].concat();
-        blind.sort_unstable();
-        blind.dedup();
-        let mostly_prior: Vec<usize> = (0..names.len())
-            .filter(|&e| seen.is_mostly_prior(e) && !blind.contains(&e))
-            .collect();
         let mut all: Vec<Concern> = Vec::new();
         all.extend(
             misfit
@@ -184,6 +172,44 @@ impl CorrelatedJob {
             );
             Concern::remark(Check::Deviations, "below-noise", &[""; 0], words)
         }));
+        all.extend(self.sight_concerns(verdict, seen));
+        let joined: Vec<usize> = prepared.joined.iter().map(|mode| mode + 1).collect();
+        let words = format!(
+            "Test modes left out at first and compared since: {}.",
+            some(&joined)
+        );
+        all.extend(
+            (!joined.is_empty()).then(|| Concern::remark(Check::Pairs, "joined", &joined, words)),
+        );
+        all.extend(self.held_out()?.iter().map(|held| {
+            let [first, last] = held.frequency;
+            let shape = held.shape.map_or(String::new(), |[first, last]| {
+                format!(", its shape by {first:.2} % and {last:.2} % RMS")
+            });
+            let words = format!("Test mode {} was not fitted: its frequency was off by {first:.2} % and is by {last:.2} %{shape}.", held.mode);
+            Concern::remark(Check::HeldOut, "held-out-", &[held.mode], words)
+        }));
+        all.extend(prepared.unanswered(&self.last));
+        let left = prepared.unlike(&self.last)?;
+        all.extend(left.iter().map(LeftOut::concern));
+        Ok(all)
+    }
+
+    /// Remarks on what the test does not see, or cannot tell apart, and on bounds that hold factors.
+    fn sight_concerns(&self, verdict: &Verdict, seen: &Identifiability) -> Vec<Concern> {
+        let names: Vec<&str> = self.prepared.loaded.parameter_names().collect();
+        let of = |places: &[usize]| places.iter().map(|&e| names[e]).collect::<Vec<&str>>();
+        let about = |check: Check, name: &str, about: &[&str], words: &str| {
+            let words = format!("{words}: {}.", some(about));
+            (!about.is_empty()).then(|| Concern::remark(check, name, about, words))
+        };
+        let mut blind = [&seen.blind[..], &verdict.unseen].concat();
+        blind.sort_unstable();
+        blind.dedup();
+        let mostly_prior: Vec<usize> = (0..names.len())
+            .filter(|&e| seen.is_mostly_prior(e) && !blind.contains(&e))
+            .collect();
+        let mut all: Vec<Concern> = Vec::new();
         all.extend(
             seen.parallel_groups()
                 .iter()
@@ -214,29 +240,10 @@ impl CorrelatedJob {
             &of(&verdict.at_bound),
             "At a bound",
         ));
-        let joined: Vec<usize> = prepared.joined.iter().map(|mode| mode + 1).collect();
-        let words = format!(
-            "Test modes left out at first and compared since: {}.",
-            some(&joined)
-        );
-        all.extend(
-            (!joined.is_empty()).then(|| Concern::remark(Check::Pairs, "joined", &joined, words)),
-        );
-        all.extend(self.held_out()?.iter().map(|held| {
-            let [first, last] = held.frequency;
-            let shape = held.shape.map_or(String::new(), |[first, last]| {
-                format!(", its shape by {first:.2} % and {last:.2} % RMS")
-            });
-            let words = format!("Test mode {} was not fitted: its frequency was off by {first:.2} % and is by {last:.2} %{shape}.", held.mode);
-            Concern::remark(Check::HeldOut, "held-out-", &[held.mode], words)
-        }));
-        all.extend(prepared.unanswered(&self.last));
-        let left = prepared.unlike(&self.last)?;
-        all.extend(left.iter().map(LeftOut::concern));
-        Ok(all)
+        all
     }
 
-    /// How far the test modes that are held out were off and are.
+    /// Errors of the test modes that are held out, at first and at the end.
     pub(crate) fn held_out(&self) -> Result<Vec<HeldOut>, FileError> {
         let (first, last) = (self.first.mode_errors()?, self.last.mode_errors()?);
         let held = &self.prepared.loaded.job.test.hold_out;
@@ -259,9 +266,9 @@ impl CorrelatedJob {
 pub struct HeldOut {
     /// Its number.
     pub mode: usize,
-    /// Those of its frequency.
+    /// Errors of its frequency.
     pub frequency: [f64; 2],
-    /// Those of its shape, if it has one.
+    /// Errors of its shape, if it has one.
     pub shape: Option<[f64; 2]>,
 }
 

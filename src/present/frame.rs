@@ -210,14 +210,15 @@ pub struct DrawnModes {
 }
 
 impl DrawnModes {
-    /// All modes of a report, in the order and with the signs of the test modes, those without shapes last; none when no sensor has a
-    /// place and a direction, and the models' motions are not known either.
+    /// All modes of a report, in the order and with the signs of the test modes, those without shapes last; none when no place is
+    /// known, or no sensor has a direction and the models' motions are not known either.
     ///
     /// # Errors
     /// [`WrongShape`](crate::method::error::Error::WrongShape) unless every row of the shapes has a sensor.
     pub fn from_report(report: &Report) -> Result<Option<Self>, PresentError> {
         let mut frame = Frame::from_report(report);
-        if frame.known.values().all(Vec::is_empty) && report.moved.is_none() {
+        let is_known = frame.known.values().any(|own| !own.is_empty()) || report.moved.is_some();
+        if frame.nodes.is_empty() || !is_known {
             return Ok(None);
         }
         // Nothing is measured near a support: a color there would come from the interpolation.

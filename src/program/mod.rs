@@ -60,7 +60,7 @@ Exit status: 0 all is printed or written; 2 bad input, or a file or standard out
 const JOB_HELP: &str = "\
 Ctrl-C lets the analysis under way end and keeps the best so far; a second one ends the program at once and leaves no half-written file.
 
-Exit status: 0 within tolerance and no doubt stands; 2 bad input, or a file that cannot be read or written; 3 not within tolerance, or a doubt \
+Exit status: 0 within tolerance and no doubt stands; 2 bad input, or a file that cannot be read or written; 3 not within tolerance, stopped, or a doubt \
 stands, which --accept answers for; the best found is printed all the same.";
 
 const CHECK_HELP: &str = "\

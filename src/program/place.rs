@@ -12,10 +12,10 @@ fn named(path: Option<&Path>) -> Option<&Path> {
     path.filter(|path| path.as_os_str() != "-")
 }
 
-/// True of a pipe or a device, which is written to and not replaced.
+/// True of a pipe, a device or an open file by its name in `/dev`, which is written to and not replaced.
 fn is_device(path: &Path) -> bool {
-    path.metadata()
-        .is_ok_and(|found| !found.is_file() && !found.is_dir())
+    let found = path.metadata();
+    path.starts_with("/dev") || found.is_ok_and(|found| !found.is_file() && !found.is_dir())
 }
 
 /// Refuses a file or a folder that could not be written, before there is anything to write.
@@ -24,9 +24,12 @@ pub fn check(file: Option<&Path>, folder: Option<&Path>) -> Result<(), PresentEr
         probe(path).map_err(FileError::of_file(path, "write"))?;
     }
     if let Some(path) = folder {
-        let of_it = path.join("x");
-        let place = if path.is_dir() { &of_it } else { path };
-        probe(place).map_err(FileError::of_file(path, "write"))?;
+        // What has the name already must be a folder, and be there.
+        let probed = match path.symlink_metadata() {
+            Ok(_) => probe(&path.join("x")),
+            Err(_) => probe(path),
+        };
+        probed.map_err(FileError::of_file(path, "write"))?;
     }
     Ok(())
 }

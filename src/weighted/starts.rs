@@ -58,14 +58,14 @@ pub struct WeightedHistory {
 /// in 95 of 100 tests (Wilks, *Annals of Mathematical Statistics* 9 (1938), 60–62). The prior counts as measurements of the parameters.
 ///
 /// # Errors
-/// Those of [`gauss_newton`] of the last start when all fail; [`Error::Count`] without starts.
+/// Those of [`gauss_newton`] of the last start when all fail, or of any once `go_on` is false; [`Error::Count`] without starts.
 pub fn from_several_starts<E: From<Error>>(
     mut analyze: impl FnMut(&[f64]) -> Result<Comparison, E>,
     ranges: &[Option<Bounds>],
     weights: &[ModeWeight],
     settings: &WeightedSettings,
-    starts: usize,
-    seed: u64,
+    (starts, seed): (usize, u64),
+    go_on: impl Fn() -> bool,
 ) -> Result<WeightedHistory, E> {
     at_least_one("starts", starts)?;
     let (mut state, mut ends, mut failed, mut all) = (seed, Vec::new(), None, Vec::new());
@@ -79,6 +79,7 @@ pub fn from_several_starts<E: From<Error>>(
                 all.push(Some(found.end()));
                 ends.push(found);
             }
+            Err(error) if !go_on() => return Err(error),
             Err(error) => {
                 all.push(None);
                 failed = Some(error);

@@ -64,7 +64,7 @@ impl Change {
             ),
         };
         let words = format!(
-            "{question} The test's shapes would be 10^{evidence:.0} times as likely, with its noise and a model 30 % wrong."
+            "{question} The test's shapes would be 10^{evidence:.1} times as likely, with its noise and a model 30 % wrong."
         );
         Concern::doubt(Check::Readings, name, &about, words)
     }

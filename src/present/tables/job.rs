@@ -3,7 +3,7 @@
 
 use crate::files::error::FileError;
 use crate::files::test_data::DIRECTIONS;
-use crate::job::concern::Grade;
+use crate::job::concern::{Grade, some};
 use crate::job::localization::{by_factor, by_single_fit};
 use crate::job::metrics::coordinate_assurance;
 use crate::job::{
@@ -113,7 +113,7 @@ pub fn model_table(prepared: &PreparedJob) -> Result<Table, FileError> {
         .mass_center
         .iter()
         .for_each(|own| add("center of gravity", write(own)));
-    add("parameters without bounds", unbounded.join(", "));
+    add("parameters without bounds", some(&unbounded));
     Ok(table)
 }
 
