@@ -42,10 +42,25 @@ def correct(stiffness, mass, parts, frequencies_hz, shapes, sensors, entries="",
     return result | {"status": run.returncode}
 
 
+def scatter(tests, frequencies_hz, shapes, seed=0, frequency=0.005, shape=0.02, **job):
+    """The factors (tests x parameters) of as many noisy tests, drawn from a seed with these standard deviations of a frequency and of a
+    shape's largest component; `job` has the other arguments of `correct`."""
+    draw, found = np.random.default_rng(seed), []
+    for _ in range(tests):
+        hertz = frequencies_hz * (1 + frequency * draw.standard_normal(len(frequencies_hz)))
+        noisy = shapes + shape * np.abs(shapes).max(axis=0) * draw.standard_normal(shapes.shape)
+        found.append(correct(frequencies_hz=hertz, shapes=noisy, **job)["factors"])
+    return np.array(found)
+
+
 if __name__ == "__main__":
     # Two masses on two springs, of which the second was built half as stiff again.
     springs = [np.array([[1.0, 0], [0, 0]]), np.array([[1.0, -1], [-1, 1]])]
     values, shapes = np.linalg.eigh(300 * springs[0] + 450 * springs[1])
     parts = {"wall": 300 * springs[0], "link": 300 * springs[1]}
-    found = correct(sum(parts.values()), np.eye(2), parts, np.sqrt(values) / (2 * np.pi), shapes, [0, 1], program=__import__("sys").argv[1])
+    job = dict(stiffness=sum(parts.values()), mass=np.eye(2), parts=parts, sensors=[0, 1], program=__import__("sys").argv[1])
+    test = dict(frequencies_hz=np.sqrt(values) / (2 * np.pi), shapes=shapes)
+    found = correct(**job, **test)
     print(*np.round(found["factors"], 6), found["status"])
+    spread = scatter(20, **job, **test).std(axis=0)
+    print(*(np.round(spread / found["standard_deviations"], 1)))

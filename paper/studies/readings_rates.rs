@@ -243,6 +243,8 @@ pub fn findings(
     let modes = solve(&true_stiffness, &mass, MODES).unwrap();
     let a = below(state, sensors.len());
     let b = (a + 1 + below(state, sensors.len() - 1)) % sensors.len();
+    // Once chose another direction: the stored counts are of these draws.
+    uniform(state);
     let shapes = unit(modes.shapes().select_rows(&sensors));
     let exact = Modes::new(modes.omega_squared().clone(), shapes).unwrap();
     let usual = Noise {
