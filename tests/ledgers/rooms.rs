@@ -180,22 +180,3 @@ fn the_check_finds_every_import() {
         ]
     );
 }
-
-/// Whatever touches a file goes through one module, so that a test can make it fail.
-#[test]
-fn one_module_alone_calls_the_operating_system_for_files() {
-    let source = in_root("src");
-    let alone = source.join("files/disk.rs");
-    let calls = ["std::fs", "fs::", "tempfile::", "File::", "OpenOptions"];
-    for file in files_below(&source) {
-        let text = fs::read_to_string(&file).unwrap();
-        let has = |call: &&&str| text.contains(**call);
-        let found = calls.iter().filter(has).collect_vec();
-        assert_eq!(
-            found.is_empty(),
-            file != alone,
-            "{}: {found:?}",
-            file.display()
-        );
-    }
-}

@@ -1,4 +1,4 @@
-//! The weight of the code: no room of `src/` grows beyond its ceiling in `tests/ceilings.toml`, and no function grows long.
+//! The weight of the code: no room grows beyond its ceiling in `tests/ceilings.toml`, and no function grows long.
 //!
 //! A token weighs one: a name, a number, a string, an operator. Comments, documentation and white space weigh nothing, so
 //! that neither layout nor a longer explanation changes a weight.
@@ -209,7 +209,7 @@ fn no_room_weighs_more_than_its_ceiling() {
         weights.insert(room, weight);
     }
     weights.insert("src".to_owned(), weights.values().sum());
-    for beside in ["paper/presentation", "paper/studies"] {
+    for beside in ["paper/presentation", "paper/studies", "tests"] {
         let files = files_below(&root().join(beside)).into_iter();
         let sources = files.filter(|file| file.extension().is_some_and(|own| own == "rs"));
         let weight = sources.map(|file| tokens(&fs::read_to_string(file).unwrap()).len());
@@ -226,8 +226,8 @@ fn no_room_weighs_more_than_its_ceiling() {
         let weight = weights.get(&room);
         let weight = *weight.unwrap_or_else(|| panic!("tests/ceilings.toml: no room {room}"));
         assert!(
-            !reason.is_empty(),
-            "tests/ceilings.toml: {room} needs a reason"
+            (1..=100).contains(&reason.len()),
+            "tests/ceilings.toml: {room} needs a reason of one line"
         );
         if weight > ceiling {
             heavy.push(format!(
