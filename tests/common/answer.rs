@@ -3,7 +3,7 @@
 use crate::prelude::*;
 
 /// What `corfem correlate` says of a job.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Answer {
     /// The exit status.
     pub status: i32,
@@ -46,14 +46,8 @@ pub fn answer(job: &Path) -> Answer {
     let Ok(found) = serde_json::from_slice::<Value>(&output.stdout) else {
         return Answer {
             status,
-            factors: Vec::new(),
-            deviations: Vec::new(),
-            intervals: Vec::new(),
-            doubts: Vec::new(),
-            frequencies: Vec::new(),
-            is_stationary: false,
-            chi_squared: f64::NAN,
             words: String::from_utf8(output.stderr).unwrap(),
+            ..Answer::default()
         };
     };
     let deviations = found["standard_deviations"].as_array().unwrap();

@@ -21,11 +21,6 @@ pub fn written(svg: &str) -> Vec<Written> {
     svg.split("<text ").skip(1).map(one).collect()
 }
 
-/// The same without their places.
-pub fn words(svg: &str) -> Vec<String> {
-    written(svg).into_iter().map(|word| word.text).collect()
-}
-
 fn one(element: &str) -> Written {
     const UNITS: f64 = 10.0;
     let (tag, rest) = element.split_once('>').unwrap();

@@ -140,8 +140,6 @@ pub const GOLDEN_ABSOLUTE_ROOT_PERCENT: f64 = 1e-12;
 /// Two update rules exact to 1e-13 in roots through the same two dozen iterations, each of which multiplies what
 /// differs; the same reason as `GOLDEN_RELATIVE`, on one machine.
 pub const SAME_HISTORY: f64 = 1e-6;
-/// Displacements between sensors, of a largest of one: some ten roundings of bilinear or weighted means.
-pub const INTERPOLATED: f64 = 1e-12;
 /// Generalized stiffness of two covers that are mirror images, relative to that of the stiffest element: condensation's condition
 /// number times round-off.
 pub const MIRRORED_COVERS: f64 = 1e-8;

@@ -1,8 +1,8 @@
 //! What the figures show can be told apart and read: digits on their cells, in the dark too, and captions that promise nothing else.
 
-use crate::common::drawings::{color, contrast, value, words};
+use crate::common::drawings::{color, contrast, value};
 use crate::paper::figures::Figure;
-use crate::paper::figures::factors::{DrawnFactor, Factors};
+
 use crate::paper::figures::matrices::{HeatMap, draw_by_twos};
 use crate::prelude::*;
 use crate::presentation::figures::figures;
@@ -116,97 +116,6 @@ fn figures_have_a_palette_of_their_own_on_dark_pages() {
             }
         }
         assert!(letters > 2, "{name}");
-    }
-}
-
-/// The three states of a mode stand side by side, and what the two models differ from the test by.
-#[test]
-fn modes_that_differ_have_three_states_and_two_differences() {
-    for figure in of_kind("mode_shapes") {
-        let said = words(&figure.svg);
-        let modes = said.iter().filter(|word| word.starts_with("Mode ")).count();
-        assert!((1..9).contains(&modes), "{}: {modes} differ", figure.name);
-        for column in [
-            "test",
-            "first",
-            "corrected",
-            "first − test",
-            "corrected − test",
-        ] {
-            let found = said.iter().filter(|word| *word == column);
-            assert_eq!(found.count(), modes, "{column}");
-        }
-        assert!(
-            said.iter()
-                .any(|word| word.contains("Blue moves along +z, red along −z"))
-        );
-    }
-}
-
-/// What a caption says of a drawing, and what in the drawing keeps the word: a color, or words.
-const PROMISES: [(&str, &str); 5] = [
-    (
-        "an inner loop steps",
-        "accepted iterations of the inner loop",
-    ),
-    ("cross-orthogonality", "Cross-orthogonality before"),
-    ("and of the error sum", "\nError sum\n"),
-    ("mode shapes of the test", "Mode "),
-    ("its elements numbered", "\n1 S"),
-];
-
-#[test]
-fn captions_promise_nothing_that_is_not_drawn() {
-    let mut kept = BTreeSet::new();
-    for Figure {
-        name, caption, svg, ..
-    } in figures()
-    {
-        for (words, drawn) in PROMISES {
-            if caption.contains(words) {
-                assert!(svg.contains(drawn), "{name} promises {words:?}: {caption}");
-                kept.insert(words);
-            }
-        }
-    }
-    assert_eq!(kept.len(), PROMISES.len(), "{kept:?}");
-}
-
-/// What is never negative has an axis that is not, and what has no end of its own on an axis of factors none below zero.
-#[test]
-fn an_axis_of_what_is_not_negative_does_not_begin_below_zero() {
-    let row = |value: f64| DrawnFactor {
-        value,
-        published: Some(1.1),
-        ..DrawnFactor::default()
-    };
-    let drawn = |values: &[f64], limits| Factors {
-        rows: values.iter().copied().map(row).collect(),
-        limits,
-        across: "factor",
-        down: "parameter",
-        origin: 1.0,
-        decimals: 2,
-    };
-    let limits = Some(Bounds {
-        lower: 0.5,
-        upper: 1.5,
-    });
-    for limits in [None, limits] {
-        for (values, is_negative) in [
-            (&[0.02, 3.0][..], false),
-            (&[0.0, 9.0], false),
-            (&[-2.0, 3.0], true),
-        ] {
-            let svg = drawn(values, limits).draw("factors", "Factors").unwrap();
-            // Labels of the axis stand on one line below all rows, before its name.
-            let said = words(&svg);
-            let name = said.iter().position(|word| word == "factor").unwrap();
-            let numbers = said.iter().enumerate().filter(|(row, _)| *row != name);
-            let axis = numbers.filter_map(|(_, word)| word.replace('−', "-").parse::<f64>().ok());
-            let least = axis.fold(f64::INFINITY, f64::min);
-            assert_eq!(least < 0.0, is_negative, "{values:?}: {said:?}");
-        }
     }
 }
 

@@ -12,6 +12,5 @@ pub mod play;
 pub mod program;
 pub mod published_tables;
 pub mod render;
-pub mod story;
 pub mod subject;
 pub mod weighted_tables;

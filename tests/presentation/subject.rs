@@ -1,8 +1,6 @@
 //! Any correlation as tables and a page: a chain, in any place of space.
 
 use crate::prelude::*;
-use corfem::present::page::report_page;
-use corfem::present::render::WIDTH;
 use corfem::present::report::{Derivatives, SensorPoint};
 
 /// A chain of masses whose springs are wrong by these factors, correlated: sensors along it, or anywhere else.
@@ -59,14 +57,6 @@ fn wrong_chain() -> Report {
 
 fn along(row: usize) -> (Vector3<f64>, Vector3<f64>) {
     (Vector3::new(row as f64, 0.0, 0.0), Vector3::x())
-}
-
-fn subject_tables(subject: &Report) -> Vec<Table> {
-    vec![
-        paired_table(subject).unwrap(),
-        factor_table(subject),
-        history_table(subject),
-    ]
 }
 
 /// The document without its scripts, which hold no tags of it.
@@ -218,38 +208,5 @@ fn the_answer_says_what_is_sure_and_no_more() {
         let words = format!("{words}: frequency error ");
         assert!(failed.answer().starts_with(&words));
         failed.is_judged_by_noise = true;
-    }
-}
-
-#[test]
-fn stages_without_an_inner_loop_are_one_iteration_each() {
-    let mut subject = wrong_chain();
-    subject
-        .stages
-        .iter_mut()
-        .for_each(|stage| stage.inner = None);
-    let table = history_table(&subject);
-    let columns = table.columns.iter().map(|of| &of.name[..]).collect_vec();
-    assert_eq!(columns, ["Iterations", "Stopped by", "Error sum exact"]);
-    assert!(table.rows.iter().all(|row| row.cells[0] == Cell::count(1)));
-}
-
-properties! {
-    #![proptest_config(crate::common::costly_config())]
-
-    /// Names, places and directions as a user's file may have them.
-    #[test]
-    fn any_subject_has_sound_tables_and_page(
-        wrong in prop::collection::vec(0.8..1.25_f64, 2..6),
-        name in "[ -~äß°]{1,30}",
-        places in prop::array::uniform32(-1e3..1e3_f64),
-        flat in prop::array::uniform3(any::<bool>()),
-        is_rotation in any::<bool>(),
-    ) {
-        let place = |row: usize| Vector3::from_fn(|axis, _| if flat[axis] { 0.0 } else { places[3 * row + axis] });
-        let direction = |row: usize| if is_rotation { Vector3::zeros() } else { Vector3::ith(row % 3, 1.0) };
-        let subject = chain(name.trim(), &wrong, |row| (place(row), direction(row)));
-        prop_assert!(is_well_formed(&report_page(&subject, &[], &name, &name).unwrap()));
-        prop_assert!(text(&subject_tables(&subject)).lines().all(|line| line.chars().count() <= WIDTH));
     }
 }

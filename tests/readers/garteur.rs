@@ -48,7 +48,7 @@ fn the_airplane_hangs_free_and_its_test_is_eight_published_frequencies() {
         .map(|(_, lone)| lone.frequency_hz)
         .collect_vec();
     assert_eq!(hertz, PUBLISHED_HZ);
-    assert_eq!(rigid_bodies(&RESULT.trust), 6.0);
+    assert_eq!(rigid_bodies(&RESULT.found.prepared), 6);
     assert!(RESULT.found.prepared.loaded.placed.is_empty());
 }
 

@@ -174,11 +174,6 @@ fn a_job_without_parameters_is_looked_at_and_not_run() {
         .expect_err(none)
         .to_string();
     assert!(refused.ends_with(none), "{refused}");
-    let refused = Study::new(&path, 1, &[Vary::Noise], &[])
-        .map(drop)
-        .expect_err(none)
-        .to_string();
-    assert!(refused.ends_with(none), "{refused}");
 }
 
 /// What a job leaves out of its settings is the library's, and what it gives is taken.

@@ -56,6 +56,7 @@ fn a_mode_left_out_is_compared_once_it_resembles_a_mode_of_the_model() {
         let [left] = loaded.unpaired[..] else {
             panic!("{method}")
         };
+        assert_eq!(left.why, "it resembles no mode of the model", "{method}");
         let left = left.mode + 1;
         let result = finished(&loaded);
         assert_eq!(
@@ -73,7 +74,14 @@ fn a_mode_left_out_is_compared_once_it_resembles_a_mode_of_the_model() {
         let report = Report::from_job(&loaded, Some(&result)).unwrap();
         assert_eq!(report.mode_numbers, [1, 2, 3], "{method}");
         assert_eq!(report.corrected().errors.shape_count, 3, "{method}");
-        assert!(result.verdict.is_within, "{method}: {}", report.words());
+        // From where the others have led the paper's loops find a minimum of their own.
+        let is_within = method != "paper";
+        assert_eq!(
+            result.verdict.is_within,
+            is_within,
+            "{method}: {}",
+            report.words()
+        );
     }
 }
 
@@ -162,8 +170,11 @@ pub fn free_chain(turned: Option<usize>) -> Files {
 #[test]
 fn the_pre_flight_sees_a_turned_sensor_of_a_structure_that_hangs_free() {
     let said = |turned| trust_in(&prepared(&free_chain(turned)));
-    let right = said(None);
-    assert_eq!((rigid_bodies(&right), right.has_doubt()), (1.0, false));
+    let right = prepared(&free_chain(None));
+    assert_eq!(
+        (rigid_bodies(&right), trust_in(&right).has_doubt()),
+        (1, false)
+    );
     for place in 1..5 {
         let trust = said(Some(place));
         let named = format!("reversed-S{}", place + 1);

@@ -3,13 +3,14 @@
 use crate::common::jobs::torque_box;
 use crate::prelude::*;
 
-fn about(files: &Files, kind: Kind) -> Vec<Vec<String>> {
+fn about(files: &Files, identifier: &str) -> Vec<Vec<String>> {
     let loaded = prepared(files);
     let trust = trust_in(&loaded);
-    trust
-        .of(kind)
-        .map(|own: &Concern| own.about.clone())
-        .collect()
+    let all = trust
+        .all()
+        .iter()
+        .filter(|own| own.identifier.starts_with(identifier));
+    all.map(|own| own.about.clone()).collect()
 }
 
 /// A job whose sensors are at other places.
@@ -68,49 +69,40 @@ fn a_place_that_is_another_grids_is_doubted() {
     for (one, other) in [(0, 1), (2, 7), (3, 8)] {
         let exchanged = with_places(torque_box(), |places| places.swap(one, other));
         let named = [one, other].map(|place| format!("D{}", place + 1));
-        assert_eq!(about(&exchanged, Kind::OtherGrid), [named]);
+        assert_eq!(about(&exchanged, "other-grid"), [named]);
         // Somebody who says how far a sensor may be answers for it.
         let mut told = exchanged;
         told[0].1 = told[0]
             .1
             .replace("[test]", "[sensors]\ndistance = 1e6\n[test]");
-        assert_eq!(about(&told, Kind::OtherGrid), [[""; 0]; 0]);
+        assert_eq!(about(&told, "other-grid"), [[""; 0]; 0]);
     }
     let near = with_places(torque_box(), |places| {
         places
             .iter_mut()
             .for_each(|place| *place += Vector3::new(0.02, -0.01, 0.03));
     });
-    assert_eq!(about(&near, Kind::OtherGrid), [[""; 0]; 0]);
-    assert_eq!(about(&torque_box(), Kind::OtherGrid), [[""; 0]; 0]);
+    assert_eq!(about(&near, "other-grid"), [[""; 0]; 0]);
+    assert_eq!(about(&torque_box(), "other-grid"), [[""; 0]; 0]);
 }
 
 #[test]
 fn numbers_of_modes_in_another_order_are_doubted() {
     let none = [[""; 0]; 0];
-    assert_eq!(
-        about(&numbered([1, 2, 3, 4]), Kind::NumberedOtherwise),
-        none
-    );
+    assert_eq!(about(&numbered([1, 2, 3, 4]), "numbered-otherwise"), none);
     let other = numbered([2, 1, 3, 4]);
-    assert_eq!(
-        about(&other, Kind::NumberedOtherwise),
-        [["2", "1", "3", "4"]]
-    );
+    assert_eq!(about(&other, "numbered-otherwise"), [["2", "1", "3", "4"]]);
     // A part of a test keeps its numbers; who chooses modes by number may mean either.
     let part = numbered([3, 5, 6, 9]);
-    assert_eq!(about(&part, Kind::NumberedOtherwise), none);
+    assert_eq!(about(&part, "numbered-otherwise"), none);
     let mut chosen = part;
     chosen[0].1 = chosen[0]
         .1
         .replace("\"test.unv\"", "\"test.unv\"\nmodes = [1, 3]");
-    assert_eq!(
-        about(&chosen, Kind::NumberedOtherwise),
-        [["3", "5", "6", "9"]]
-    );
+    assert_eq!(about(&chosen, "numbered-otherwise"), [["3", "5", "6", "9"]]);
     // Numbers that tell nothing apart are none.
     for same in [[1; 4], [0; 4]] {
-        assert_eq!(about(&numbered(same), Kind::NumberedOtherwise), none);
+        assert_eq!(about(&numbered(same), "numbered-otherwise"), none);
     }
 }
 
@@ -131,12 +123,12 @@ fn a_factor_of_length_that_is_another_units_is_doubted() {
     ];
     for (code, length) in systems {
         assert_eq!(
-            about(&universal(code, length), Kind::UnitsDisagree),
+            about(&universal(code, length), "units-disagree"),
             none,
             "{code}"
         );
         let other = universal(code, 25.4 * length);
-        assert_eq!(about(&other, Kind::UnitsDisagree), [["Own"]], "{code}");
+        assert_eq!(about(&other, "units-disagree"), [["Own"]], "{code}");
     }
-    assert_eq!(about(&universal(9, 12.0), Kind::UnitsDisagree), none);
+    assert_eq!(about(&universal(9, 12.0), "units-disagree"), none);
 }

@@ -91,7 +91,7 @@ fn no_call_around_the_method_ends_in_a_panic() {
     }
     let starts = |count, ranges: &[Option<_>]| {
         let analyze = |_: &[f64]| Ok::<_, Error>(comparison());
-        from_several_starts(analyze, ranges, &ones, &settings, count, 1)
+        from_several_starts(analyze, ranges, &ones, &settings, (count, 1), || true)
     };
     no_panic! {
         starts(0, &[None]);

@@ -12,20 +12,9 @@ fn exchanged_frequencies_are_named_where_models_are_closer_than_modes() {
                 squares.swap_rows(first, first + 1)
             });
             let found = findings(&wrong);
-            let [
-                Concern {
-                    kind: Kind::FrequenciesExchanged,
-                    about,
-                    measure,
-                    ..
-                },
-            ] = &found[..]
-            else {
-                panic!("{} {first}: {found:?}", specimen.name)
-            };
-            let modes = [first + 1, first + 2].map(|mode| mode.to_string());
-            assert_eq!(about[..], modes);
-            assert!(measure[1] < measure[0]);
+            let found = found.iter().map(|own| &own.identifier[..]).collect_vec();
+            let named = format!("frequencies-exchanged-{}-{}", first + 1, first + 2);
+            assert_eq!(found, [named], "{}", specimen.name);
         }
     }
 }
@@ -41,6 +30,6 @@ fn two_mistakes_at_once_are_both_named() {
     let [factor, change] = &found[..] else {
         panic!("{found:?}")
     };
-    assert_eq!(factor.about, [FACTORS[0].name, FACTORS[0].mistake]);
+    assert!(factor.words.ends_with("near 2π: the test is in rad/s?"));
     assert!(is_of(change, &Change::Reversed(3)), "{change:?}");
 }

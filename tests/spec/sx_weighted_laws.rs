@@ -846,7 +846,10 @@ fn runs_cut_short_make_no_minima() {
             prior_deviations: vec![10.0],
         };
         let history =
-            from_several_starts(in_a_row(), &[None; 2], &weights, &settings, 20, 3).unwrap();
+            from_several_starts(in_a_row(), &[None; 2], &weights, &settings, (20, 3), || {
+                true
+            })
+            .unwrap();
         let cut = history
             .starts
             .iter()
@@ -874,8 +877,8 @@ fn runs_cut_short_make_no_minima() {
         &[None; 2],
         &weights,
         &with_priors(&[0.01]),
-        2,
-        3,
+        (2, 3),
+        || true,
     )
     .unwrap();
     let own = residuals(&history.best.last, &weights)
@@ -895,8 +898,8 @@ fn noise_allows_a_minimum_up_to_the_quantile_of_as_many_parameters() {
             &[None; 2],
             &weights,
             &with_priors(&[1e3]),
-            20,
-            3,
+            (20, 3),
+            || true,
         )
         .unwrap()
         .minima

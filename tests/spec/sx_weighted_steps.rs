@@ -18,7 +18,7 @@ fn random_starts_are_log_uniform_from_half_to_twice_the_first_factors() {
         firsts.push(factors.to_vec());
         compare(&known, factors)
     };
-    let best = from_several_starts(analyze, &[None; 15], &weights, &settings, 41, 7)
+    let best = from_several_starts(analyze, &[None; 15], &weights, &settings, (41, 7), || true)
         .unwrap()
         .best;
     assert_eq!(
@@ -73,7 +73,7 @@ fn ends_of_one_valley_count_once() {
         minima,
         starts: ends,
         ..
-    } = from_several_starts(analyze, &[None; 2], &weights, &settings, 12, 5).unwrap();
+    } = from_several_starts(analyze, &[None; 2], &weights, &settings, (12, 5), || true).unwrap();
     let [valley] = &minima[..] else {
         panic!("{minima:?}")
     };
@@ -97,7 +97,14 @@ fn a_start_or_a_trial_without_a_model_is_rejected_and_the_others_stand() {
             }
             compare(&known, factors)
         };
-        let found = from_several_starts(analyze, &[None; 15], &weights, &settings, count, 7);
+        let found = from_several_starts(
+            analyze,
+            &[None; 15],
+            &weights,
+            &settings,
+            (count, 7),
+            || true,
+        );
         (found, failed)
     };
     let (all, _) = starts(3, &|_, _| false);

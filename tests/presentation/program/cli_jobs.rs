@@ -104,15 +104,12 @@ fn a_worked_job_has_its_report_its_factors_and_its_deck() {
         for key in ["factors", "standard_deviations", "intervals"] {
             assert_eq!(count(key), count("parameters"), "{name}");
         }
-        let run = concat!(
-            "corfem ",
-            env!("CARGO_PKG_VERSION"),
-            " correlate job.toml, inputs "
+        // The document and the page have the digest of what was read.
+        let digest = found["inputs"].as_str().unwrap();
+        assert!(
+            digest.len() == 32 && files["report.html"].contains(digest),
+            "{name}"
         );
-        for text in files.values() {
-            // The lines of a deck's head are short.
-            assert!(text.replace("\n$ ", "").contains(run), "{name}");
-        }
         let lines = |file: &str| {
             let lines = files[file].lines().filter(|line| !line.starts_with('#'));
             lines.skip(1).count()
@@ -226,6 +223,11 @@ fn the_wrapper_for_python_returns_what_the_program_finds() {
         (numbers[0] - 1.0).abs() < 1e-3 && (numbers[1] - 1.5).abs() < 1e-3,
         "{said}"
     );
+    // Factors of drawn tests scatter by the deviations that are told.
+    assert!(
+        numbers[3..].iter().all(|times| (0.5..2.0).contains(times)),
+        "{said}"
+    );
 }
 
 /// So do the examples, which are these jobs.
@@ -326,7 +328,6 @@ fn a_second_signal_ends_the_program_at_once() {
 #[test]
 fn a_signal_keeps_the_best_so_far() {
     use crate::common::signals::{corfem_run_by, send, undisturbed};
-    use std::os::unix::process::ExitStatusExt;
     let endless = "method = \"gauss_newton\"\nstarts = 1000000";
     let (folder, job) = changed("wing", "method = \"gauss_newton\"", endless);
     let out = folder.path().join("out");
@@ -341,7 +342,7 @@ fn a_signal_keeps_the_best_so_far() {
     assert!(child.try_wait().unwrap().is_none(), "it lasts");
     send(&child, Signal::INT);
     let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.signal(), Some(Signal::INT.as_raw()));
+    assert_eq!(output.status.code(), Some(3));
     assert_eq!(
         text(&output.stderr),
         "corfem: stopped by request; the best factors so far are given\n"

@@ -2,140 +2,53 @@
 
 use crate::common::jobs::unbroken;
 use crate::prelude::*;
+use corfem::job::concern::{Check, Grade};
+use corfem::job::of_bodies;
 use corfem::present::json;
 use corfem::present::page::report_page;
+use corfem::sparse::BodyFinding;
 
-/// Every kind of concern, in order.
-pub const KINDS: [Kind; Kind::UnitsOfTest as usize + 1] = {
-    use Kind::*;
-    [
-        Interrupted,
-        Mechanisms,
-        FreeByDigits,
-        MeasuredTwice,
-        FrequenciesExchanged,
-        NamedFactor,
-        UnnamedFactor,
-        Reversed,
-        Exchanged,
-        Reordered,
-        Gain,
-        Dead,
-        Direction,
-        Percent,
-        ExcludesStart,
-        UnitOfPlaces,
-        OtherGrid,
-        NumberedOtherwise,
-        UnitsDisagree,
-        NoPair,
-        BeyondReach,
-        NegativePart,
-        NotPart,
-        Twin,
-        SumOfStiffness,
-        SumOfMass,
-        Unlike,
-        PartnerTaken,
-        WouldHarm,
-        OutOfReach,
-        NotChecked,
-        PartNotChecked,
-        Parallel,
-        Dependent,
-        Undecided,
-        Joined,
-        Blind,
-        MostlyPrior,
-        AtBound,
-        AssumedDeviations,
-        NotUsed,
-        NotSelected,
-        RigidModes,
-        AnalysisModes,
-        Mass,
-        MassByDirection,
-        CenterOfMass,
-        ChiSquared,
-        Misfit,
-        BelowNoise,
-        HeldOut,
-        HeldOutFrequency,
-        Unanswered,
-        UnseenModes,
-        PartsWithoutSensor,
-        LooseWithoutSensor,
-        HeldDirection,
-        SuspensionHidden,
-        LargeDeviation,
-        FarApart,
-        Alike,
-        TooManyModes,
-        Unbounded,
-        FrequenciesAlone,
-        CloseModes,
-        OwnWeights,
-        Covariance,
-        Variances,
-        Drift,
-        Complex,
-        NotInEveryMode,
-        DatasetsNotRead,
-        UnitsOfTest,
-    ]
-};
-
-/// An account with a concern of every kind.
+/// An account with a concern of every grade, and words that outputs must quote.
 fn full() -> Trust {
-    let concern = |kind| Concern::new(kind, &["7", "rib"], &[0.31, 2.0, 3.0, 4.0]);
-    Trust::new(KINDS.map(concern).to_vec())
-}
-
-/// The words of a concern stand alone, in a table or a sentence of their own, and its identifier on a command line.
-#[test]
-fn every_kind_of_concern_has_a_sentence_and_an_identifier() {
-    assert!(KINDS.is_sorted_by(|one, next| one < next));
-    for concern in full().all() {
-        let (words, identifier) = (concern.words(), concern.identifier());
-        assert!(
-            words.starts_with(|first: char| first.is_uppercase() || first.is_numeric()),
-            "{words}"
-        );
-        assert!(words.ends_with(['.', '?']), "{words}");
-        assert!(
-            !words.contains(['{', '}']) && !words.contains("NaN"),
-            "{words}"
-        );
-        let is_plain = |letter: char| letter.is_alphanumeric() || letter == '-';
-        assert!(identifier.chars().all(is_plain), "{identifier}");
-    }
+    let rib = || "Hardly seen: \"rib\".".to_owned();
+    Trust::new(vec![
+        Concern::remark(Check::Sight, "blind", &["rib"], rib()),
+        Concern::new(
+            Grade::NotChecked,
+            Check::Fit,
+            "not-checked-",
+            &["the fit"],
+            "Not checked: the fit, of too few numbers.".to_owned(),
+        ),
+        Concern::new(Grade::LeftOut, Check::Pairs, "not-compared-", &[7], rib()),
+        Concern::doubt(Check::Pairs, "no-pair", &[""; 0], "No pair?".to_owned()),
+        Concern::doubt(Check::Readings, "reversed-", &["S 7"], rib()),
+    ])
 }
 
 /// Names of any length make identifiers of at most forty characters, and of two long ones that begin alike two.
 #[test]
 fn identifiers_are_short_and_differ() {
-    let long = |end: &str| {
-        let name = format!("the upper skin between the ribs at {end}");
-        Concern::new(Kind::NotPart, &[name], &[]).identifier()
+    let of = |name: &str, about: &[&str]| {
+        Concern::doubt(Check::PartsOfTheModel, name, about, String::new()).identifier
     };
+    let long = |end| of("not-part-", &["the upper skin between the ribs at", end]);
     let both = [long("station 110"), long("station 120")];
     assert!(both.iter().all(|one| one.chars().count() == 40), "{both:?}");
     assert_ne!(both[0], both[1]);
-    assert_eq!(
-        Concern::new(Kind::Twin, &["a b", "c"], &[]).identifier(),
-        "twin-a-b-c"
-    );
+    assert_eq!(of("twin-", &["a b", "c"]), "twin-a-b-c");
+    assert_eq!(of("twin", &["a b", "c"]), "twin");
 }
 
 /// A list of many names tells how many it leaves out.
 #[test]
 fn a_long_list_names_eight_and_counts_the_rest() {
-    let unbounded = |count: usize| {
-        let names = (1..=count).collect_vec();
-        Concern::new(Kind::Unbounded, &names, &[]).words()
+    let free = |count: usize| {
+        let names = (1..=count).map(|name| name.to_string()).collect();
+        of_bodies(&BodyFinding::Mechanisms(names)).words
     };
-    assert!(unbounded(9).ends_with(": 1, 2, 3, 4, 5, 6, 7, 8, 9."));
-    assert!(unbounded(100).ends_with(": 1, 2, 3, 4, 5, 6, 7, 8 and 92 more."));
+    assert!(free(9).starts_with("Motions of 1, 2, 3, 4, 5, 6, 7, 8, 9 are"));
+    assert!(free(100).starts_with("Motions of 1, 2, 3, 4, 5, 6, 7, 8 and 92 more are"));
 }
 
 #[test]
@@ -149,8 +62,8 @@ fn all_that_is_said_of_trust_stands_first_in_text_csv_json_and_html() {
     let page = report_page(&report, &[], "corfem correlate job.toml", "").unwrap();
     let document: Value = serde_json::from_str(&document).unwrap();
     assert_eq!(document["trust"], serde_json::to_value(full()).unwrap());
-    for words in full().all().iter().map(Concern::words) {
-        assert!(unbroken(&render::text(&table)).contains(&words), "{words}");
+    for Concern { words, .. } in full().all() {
+        assert!(unbroken(&render::text(&table)).contains(words), "{words}");
         let doubled = words.replace('"', "\"\"");
         assert!(unbroken(&render::csv(&table)).contains(&doubled), "{words}");
         let escaped = words.replace('"', "&quot;");
@@ -159,9 +72,6 @@ fn all_that_is_said_of_trust_stands_first_in_text_csv_json_and_html() {
     // Before anything else that was computed.
     let first = page.find("What to know before trusting this").unwrap();
     assert!(first < page.find("test modes and their partners").unwrap());
-    assert!(
-        report.words().starts_with(
-            "Not to be trusted as it stands (doubt mechanisms, doubt free-by-digits, "
-        )
-    );
+    let against = "Not to be trusted as it stands (doubt reversed-S-7, doubt no-pair, test mode 7 not compared). ";
+    assert!(report.words().starts_with(against));
 }

@@ -4,7 +4,6 @@ pub mod cli;
 pub mod cli_environment;
 pub mod cli_init;
 pub mod cli_jobs;
-pub mod cli_pictures;
 pub mod cli_places;
 mod cli_shapes;
 mod cli_shown;

@@ -165,4 +165,4 @@ macro_rules! transcripts {
     )+};
 }
 
-transcripts! { cases modes jobs studies outputs tables }
+transcripts! { cases modes jobs outputs tables }
