@@ -3,7 +3,6 @@
 use crate::method::error::{Error, at_least_one, check_count, require};
 use crate::method::linear_algebra::{check_length, check_shape, symmetric_part};
 use nalgebra::{DMatrix, DVector};
-use std::mem::swap;
 use std::sync::Arc;
 
 /// Largest difference between two entries that should be equal, relative to the largest of the matrix: files carry twelve digits.
@@ -14,8 +13,6 @@ pub(super) const ASSEMBLED: f64 = 30.0 * f64::EPSILON;
 
 /// Columns that a product takes at once, so that the entries are read once for all of them.
 const AT_ONCE: usize = 16;
-/// Most bits of a row or column by which entries are sorted at once.
-const MOST_SORTED_BITS: u32 = 14;
 
 /// A real matrix by its nonzero entries, column by column and in each from the first row down; no place is given twice.
 ///
@@ -49,7 +46,7 @@ impl SparseMatrix {
             check_count("rows of a matrix", row.saturating_add(1), 1, rows)?;
             check_count("columns of a matrix", column.saturating_add(1), 1, columns)?;
         }
-        let mut entries = summed(entries, rows, columns);
+        let mut entries = summed(entries);
         entries.retain(|entry| entry.2 != 0.0);
         Self::of_sorted(rows, columns, &entries).finite(what)
     }
@@ -153,7 +150,7 @@ impl SparseMatrix {
         Self::of_sorted(
             self.rows,
             self.columns,
-            &summed(new, self.rows, self.columns),
+            &summed(new),
         )
     }
 
@@ -258,7 +255,7 @@ impl SparseMatrix {
         let turned = self
             .entries()
             .map(|(row, column, value)| (column, row, value));
-        let entries = sorted(turned.collect(), self.columns, self.rows);
+        let entries = summed(turned.collect());
         Self::of_sorted(self.columns, self.rows, &entries).with_rounding(self.rounding)
     }
 
@@ -438,47 +435,9 @@ fn add_columns(
     }
 }
 
-/// Entries column by column and in each from the first row down, those at one place in the order given.
-///
-/// Digit by digit, so that a file's promise of many rows takes no memory.
-fn sorted(
-    mut entries: Vec<(usize, usize, f64)>,
-    rows: usize,
-    columns: usize,
-) -> Vec<(usize, usize, f64)> {
-    let mut next = vec![(0, 0, 0.0); entries.len()];
-    let bits = entries.len().max(2).ilog2().min(MOST_SORTED_BITS);
-    for (size, is_of_column) in [(rows, false), (columns, true)] {
-        for shift in (0..usize::BITS - size.leading_zeros()).step_by(bits as usize) {
-            let digit = |entry: &(usize, usize, f64)| {
-                let key = if is_of_column { entry.1 } else { entry.0 };
-                key >> shift & ((1 << bits) - 1)
-            };
-            let mut places = vec![0; (1 << bits) + 1];
-            entries
-                .iter()
-                .for_each(|entry| places[digit(entry) + 1] += 1);
-            for place in 0..1 << bits {
-                places[place + 1] += places[place];
-            }
-            for entry in &entries {
-                let place = &mut places[digit(entry)];
-                next[*place] = *entry;
-                *place += 1;
-            }
-            swap(&mut entries, &mut next);
-        }
-    }
-    entries
-}
-
-/// Entries in the same order, those at one place as their sum.
-fn summed(
-    entries: Vec<(usize, usize, f64)>,
-    rows: usize,
-    columns: usize,
-) -> Vec<(usize, usize, f64)> {
-    let mut entries = sorted(entries, rows, columns);
+/// Entries column by column and in each from the first row down, those at one place as their sum in the order given.
+fn summed(mut entries: Vec<(usize, usize, f64)>) -> Vec<(usize, usize, f64)> {
+    entries.sort_by_key(|&(row, column, _)| (column, row));
     entries.dedup_by(|next, kept| {
         let is_same = (next.0, next.1) == (kept.0, kept.1);
         if is_same {
