@@ -302,9 +302,6 @@ pub const EXACT_SLOPES: f64 = 2e-3;
 pub const STATIONARY: f64 = 1e-5;
 /// Error of slopes, relative to them: it moves a stop by as much times the root of chi-squared, in deviations.
 pub const SLOPES_TOLD: f64 = 1e-6;
-/// Places on a page, of the largest extent: motions are written in thousandths and drawn an eighth of it long, places to four digits and
-/// heights up to seven times as long.
-pub const DRAWN_THOUSANDTHS: f64 = 0.125 * 0.5e-3 + 7.0 * 0.5e-4 + 1e-9;
 /// Chi-squared of a stop against that of the certified optimum. Beside the optimum it moves by twice the root of the prior's pull, 0.5 to
 /// 1.7, for every deviation that all factors together are off, and slopes within [`STATIONARY`] leave 3 to 13 times as many; 8e-7 at worst.
 pub const CERTIFIED_CHI_SQUARED: f64 = 2.2e-4;

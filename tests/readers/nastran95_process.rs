@@ -3,50 +3,13 @@
 #![cfg(unix)]
 
 use crate::common::fake_solver::{fake, solver};
-use crate::common::outer_loop::program::{case_numbers, status};
+use crate::common::outer_loop::program::status;
 use crate::common::signals::send;
 use crate::prelude::*;
-use std::os::unix::fs::PermissionsExt;
 use std::process::Output;
 
 fn entries(folder: &Path) -> usize {
     fs::read_dir(folder).unwrap().count()
-}
-
-#[test]
-fn a_missing_solver_is_named() {
-    let empty = new_folder();
-    let no_formats = fake("exit 0");
-    fs::remove_dir(no_formats.path().join("rf")).unwrap();
-    let no_program = fake("exit 0");
-    fs::remove_file(no_program.path().join("bin/nastrn")).unwrap();
-    for folder in [
-        empty.path(),
-        no_formats.path(),
-        no_program.path(),
-        Path::new("no/such/folder"),
-    ] {
-        let error = Nastran95::in_folder(folder).expect_err("nothing there");
-        let said = format!(
-            "no folder with bin/nastrn and rf/ at {}; golden/nastran95/README.md says how to install it, or name its folder \
-             by the environment variable NASTRAN95",
-            folder.display()
-        );
-        assert!(error.to_string().ends_with(&said), "{error}");
-    }
-}
-
-#[test]
-fn a_program_that_cannot_start_is_named() {
-    let home = fake("exit 0");
-    let program = home.path().join("bin/nastrn");
-    fs::set_permissions(&program, PermissionsExt::from_mode(0o644)).unwrap();
-    let error = solver(&home).run("").expect_err("it cannot start");
-    let file = error.downcast_ref();
-    assert!(
-        matches!(file, Some(FileError::File { path, action: "run", .. }) if path.ends_with("bin/nastrn")),
-        "{error}"
-    );
 }
 
 #[test]
@@ -72,26 +35,6 @@ fn a_run_gets_its_deck_and_its_files_and_gives_back_what_it_wrote() {
         lines[2..],
         ["at home", "10"],
         "deck, two outputs and seven files"
-    );
-}
-
-#[test]
-fn a_run_without_an_answer_says_what_was_printed_last() {
-    let home = fake("echo one; echo two; echo; echo three; echo four");
-    let error = solver(&home)
-        .matrices("", 0)
-        .expect_err("nothing on unit 15");
-    assert_eq!(
-        error.to_string(),
-        "NASTRAN-95: nothing was written on Fortran unit 15; printed last: two / three / four"
-    );
-    let silent = solver(&fake("exit 0"))
-        .matrices("", 0)
-        .expect_err("nothing at all");
-    let silent = silent.to_string();
-    assert!(
-        silent.ends_with("printed last: nothing printed"),
-        "{silent}"
     );
 }
 
@@ -261,34 +204,4 @@ fn a_signal_ends_the_solver_and_then_the_program_and_leaves_nothing() {
         assert_eq!(error_of(ended), "NASTRAN-95 was stopped by request");
         assert_eq!(entries(temporary.path()), 0, "{signal:?}");
     }
-}
-
-#[test]
-fn a_temporary_folder_that_cannot_be_made_is_named() {
-    let output = program(&fake("exit 0"), Path::new("/no/such/folder")).output();
-    let error = error_of(output.unwrap());
-    assert!(
-        error.starts_with("cannot write /no/such/folder: "),
-        "{error}"
-    );
-}
-
-#[test]
-fn cases_are_named_by_their_numbers() {
-    let numbers =
-        |arguments: &[&str]| case_numbers(arguments.iter().map(|text| (*text).to_owned()));
-    assert_eq!(numbers(&[]).unwrap(), CASES);
-    assert_eq!(numbers(&["3", "1"]).unwrap(), [3, 1]);
-    for wrong in ["5", "0", "one", "\u{7}"] {
-        let error = numbers(&["1", wrong]).expect_err(wrong).to_string();
-        assert!(error.ends_with(" is no case of the paper; name cases by their numbers, 1 to 4"));
-        assert!(!error.contains(char::is_control), "{error:?}");
-    }
-}
-
-#[test]
-fn the_wheels_folder_is_where_its_readme_unpacks_it() {
-    let folder = default_folder();
-    assert!(folder.ends_with(".cache/nastran95/nastran95/_data"));
-    assert_eq!(folder.is_absolute(), std::env::home_dir().is_some());
 }
