@@ -1,12 +1,12 @@
 //! Words about motions that a model leaves free, or resists with negative energy.
 
 use crate::method::error::Error;
-use crate::sparse::rigid_bodies::digits;
+use crate::sparse::HalfUnit;
 
-/// Sentence on what is wrong with matrices whose stiffness is rounded by up to a part, with the way on; none for other errors. Rows have names.
+/// Sentence on what is wrong with matrices whose stiffness is rounded so, with the way on; none for other errors. Rows have names.
 pub(super) fn explained(
     error: &Error,
-    rounding: f64,
+    half_unit: HalfUnit,
     name: impl Fn(usize) -> String,
 ) -> Option<String> {
     Some(match *error {
@@ -17,7 +17,7 @@ pub(super) fn explained(
             "model.stiffness has negative energy in a motion of {}, more than {} explain: is a number cut off, a sign wrong or a row \
              exchanged? Write it with all its digits",
             name(row),
-            digits(rounding)
+            half_unit.words()
         ),
         Error::NotPositiveDefinite {
             what: "mass of rigid-body motions",
@@ -33,7 +33,7 @@ pub(super) fn explained(
             ..
         } => format!(
             "model.rigid_bodies is {found}, but {} of model.stiffness leave at most {most} motions free",
-            digits(rounding)
+            half_unit.words()
         ),
         _ => return None,
     })

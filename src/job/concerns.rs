@@ -34,6 +34,9 @@ const PLACE_DIGITS: f64 = 1e-5;
 /// a meter.
 const UNIT_DIGITS: f64 = 1e-4;
 
+/// Part of a frequency beyond which what digits leave open is said: a fifth of the least deviation that is assumed.
+pub(crate) const OPEN: f64 = 1e-3;
+
 /// About nothing in particular.
 const NONE: [&str; 0] = [];
 
@@ -130,6 +133,19 @@ impl PreparedJob {
         )
         .into_iter()
         .collect();
+        let open = self.compared().map(|mode| (mode, self.open_part(mode)));
+        let (open, parts): (Vec<usize>, Vec<f64>) = open.filter(|own| own.1 > OPEN).unzip();
+        let most = parts.into_iter().fold(0.0, f64::max);
+        let open = numbers(open);
+        let words = format!(
+            "The digits of the matrices leave the frequencies of test modes {} open by {:.2} % at most, which is added to their deviations.",
+            some(&open),
+            100.0 * most
+        );
+        all.extend(
+            (!open.is_empty())
+                .then(|| Concern::remark(Check::Deviations, "open-by-digits", &open, words)),
+        );
         let own = self.own_weights();
         let mut own = own.iter().flat_map(|own| [own.frequency, own.shape]);
         let divides = own.any(|weight| ![0.0, 1.0].contains(&weight));
@@ -467,12 +483,16 @@ pub fn of_bodies(finding: &BodyFinding) -> Concern {
         BodyFinding::ByDigits {
             count,
             digits,
+            if_held,
             hidden_hz,
             is_sure,
         } => {
+            let hertz = |[own, open]: &[f64; 2]| format!("{own:.1e} ± {open:.0e}");
+            let held: Vec<String> = if_held.iter().map(hertz).collect();
             let words = format!(
-                "Free by {digits} of the stiffness: {count}; a suspension below {hidden_hz:.0e} Hz would not show. Places of the rows, or \
-                 model.rigid_bodies, decide."
+                "Not told from free by {digits} of the stiffness: {count}, at {} Hz if held; a suspension below {hidden_hz:.0e} Hz would \
+                 not show. Places of the rows, or model.rigid_bodies, decide.",
+                held.join(", ")
             );
             let grade = if *is_sure {
                 Grade::NotChecked

@@ -10,9 +10,10 @@ use crate::files::text::decoded;
 use crate::method::error::Error;
 use crate::method::modes::Modes;
 use crate::method::structure::StructuralDof;
+use crate::sparse::visibility::open_parts;
 use crate::sparse::whole_modes::WholeModes;
 use crate::sparse::{
-    FINITE, Factor, Places, SparseMatrix, Support, WholeModel, WholeParameter, WholeShare,
+    FINITE, Factor, HalfUnit, Places, SparseMatrix, Support, WholeModel, WholeParameter, WholeShare,
 };
 use nalgebra::{DMatrix, Vector3};
 use std::collections::BTreeMap;
@@ -157,7 +158,7 @@ pub fn matrix_modes(file: &Path, mass: &Path, most: usize) -> Result<WholeModes,
             ..
         }) if available > 0 => whole.modes(&[], available)?,
         Err(error) => {
-            return Err(match explained(&error, whole.rounding(), name) {
+            return Err(match explained(&error, whole.half_unit(), name) {
                 Some(reason) => FileError::refused(file.display(), reason),
                 None => error.into(),
             });
@@ -169,6 +170,8 @@ pub fn matrix_modes(file: &Path, mass: &Path, most: usize) -> Result<WholeModes,
         shapes,
     } = found.vibrations;
     let modes = Modes::signed(omega_squared, shapes);
+    let (stiffness, mass) = whole.at(&[])?;
+    let open = open_parts([&stiffness, &mass], &modes)?;
     let lowest = modes.frequencies_hz().first().copied();
     let doubtful = whole.body_findings(name)?.into_iter();
     let rigid_body = found.rigid_body.ncols();
@@ -179,6 +182,7 @@ pub fn matrix_modes(file: &Path, mass: &Path, most: usize) -> Result<WholeModes,
         modes,
         at_rows: DMatrix::zeros(0, 0),
         rigid_body,
+        open,
     })
 }
 
@@ -215,10 +219,10 @@ fn part_of(
         let entries = matrix.entries();
         entries.for_each(|(row, column, value)| both.entry((row, column)).or_default()[of] = value);
     }
-    let rounding = first.rounding().max(second.rounding());
+    let halves = [first.half_unit(), second.half_unit()];
     let mut largest = 0.0_f64;
     let of_place = |(&(row, column), &[one, two]): (&(usize, usize), &[f64; 2])| {
-        let (change, rounded) = ((two - one).abs(), rounding * (one.abs() + two.abs()));
+        let (change, rounded) = ((two - one).abs(), halves[0].of(one) + halves[1].of(two));
         let is_told = change > rounded;
         largest = largest.max(if is_told { rounded / change } else { 0.0 });
         is_told.then_some((row, column, (two - one) / (at - 1.0)))
@@ -231,7 +235,7 @@ fn part_of(
         )
     })?;
     let part = SparseMatrix::new("part of a parameter", first.rows(), first.rows(), entries)?;
-    Ok(part.with_rounding(largest))
+    Ok(part.with_half_unit(HalfUnit::of_each(largest)))
 }
 
 /// The degree of freedom of a label: component 0 of a scalar point is its first.
@@ -302,7 +306,7 @@ fn on_rows(
         row_of.len(),
         entries.collect(),
     )?;
-    Ok(all.with_rounding(matrix.rounding()))
+    Ok(all.with_half_unit(matrix.half_unit()))
 }
 
 /// Labels and places of a model's rows, and the largest part of a coordinate by which it is rounded.
@@ -331,7 +335,9 @@ fn read_rows(job: &Job, file: &Path) -> Result<Rows, FileError> {
             return Err(FileError::line(&file.display().to_string(), number, reason));
         }
     }
-    Ok((labels, places, digits.rounding()))
+    let farthest = places.values().map(Vector3::amax).fold(0.0, f64::max);
+    let rounding = digits.half_unit().of(farthest) / farthest.max(f64::MIN_POSITIVE);
+    Ok((labels, places, rounding))
 }
 
 /// Grid and direction of a row, and its place if it has one.

@@ -7,7 +7,7 @@
 #[doc(hidden)]
 pub mod assignment;
 mod bodies;
-mod concerns;
+pub(crate) mod concerns;
 mod entries;
 #[doc(hidden)]
 pub mod expansion;

@@ -89,6 +89,8 @@ pub struct PreparedJob {
     pub analysis_modes: usize,
     /// The first analysis, with as many modes as the pre-flight looks at.
     pub(super) first: Arc<Place>,
+    /// Frequencies of the first model, Hz, with the part of each that the digits of its matrices leave open.
+    open: Vec<[f64; 2]>,
     /// Shapes of the partners of frequencies alone, as the sensors see them.
     partner_shapes: DMatrix<f64>,
 }
@@ -126,6 +128,7 @@ impl PreparedJob {
             undecided: Vec::new(),
             together: Vec::new(),
             analysis_modes,
+            open: first.open_frequencies()?,
             first,
             partner_shapes: exact.shapes.select_columns(&partners),
             loaded: Arc::new(loaded),
@@ -409,12 +412,22 @@ impl PreparedJob {
         let weight = |(own, mode): (ModeWeight, usize)| {
             let noise = self.loaded.deviations(mode);
             ModeWeight {
-                frequency: own.frequency / noise.frequency,
+                frequency: own.frequency / noise.frequency.hypot(self.open_part(mode)),
                 shape: own.shape / noise.shape,
             }
         };
         let own = self.own_weights().into_iter();
         own.zip(self.compared()).map(weight).collect()
+    }
+
+    /// The part of a test mode's frequency that the digits of the model's matrices leave open, as a standard deviation: that of the nearest
+    /// mode of the first model.
+    pub(super) fn open_part(&self, mode: usize) -> f64 {
+        let own = self.loaded.data.frequencies_hz[mode];
+        let far = |hertz: f64| (hertz / own).ln().abs();
+        let nearest = self.open.iter();
+        let nearest = nearest.min_by(|a, b| far(a[0]).total_cmp(&far(b[0])));
+        nearest.map_or(0.0, |nearest| nearest[1])
     }
 
     /// The job's own weights of the test modes, ones where it has none, and zeros of those that are held out.
@@ -547,7 +560,7 @@ fn first_analysis(loaded: &LoadedJob) -> Result<(usize, Arc<Place>), FileError> 
         first => {
             let refused = |error| {
                 let name = |row| loaded.source.row_name(row);
-                match explained(&error, loaded.source.whole.rounding(), name) {
+                match explained(&error, loaded.source.whole.half_unit(), name) {
                     Some(reason) => loaded.job.refused(reason),
                     None => error.into(),
                 }

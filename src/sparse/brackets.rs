@@ -1,6 +1,7 @@
 //! What the rounding of a matrix's numbers may do to its energy, proven by the signs of pivots.
 
 use super::factorization::FactorizationPlan;
+use super::matrix::GIVEN;
 use super::{Factor, SparseMatrix};
 use crate::method::error::Error;
 use nalgebra::DVector;
@@ -9,16 +10,17 @@ use std::sync::Arc;
 /// Numbers by which a slack is taken: another only where a pivot vanishes at those before.
 const NUMBERS: [f64; 3] = [1.0, 1.25, 1.5];
 
-/// The diagonal $u D$ that bounds the energy $y^t E y$ of any rounding $\lvert E_{ij} \rvert \le u \lvert A_{ij} \rvert$ of a symmetric $A$,
+/// The diagonal $D$ that bounds the energy $y^t E y$ of any rounding $\lvert E_{ij} \rvert \le h_{ij}$ of a symmetric matrix with the half
+/// units $h$ of its last written places,
 ///
-/// $$ \lvert y^t E y \rvert \le u y^t D y, \qquad D_i = \sum_j \lvert A_{ij} \rvert \frac{s_i}{s_j}, $$
+/// $$ \lvert y^t E y \rvert \le y^t D y, \qquad D_i = \sum_j h_{ij} \frac{s_i}{s_j}, $$
 ///
 /// for any sizes $s$, since $2 \lvert y_i y_j \rvert \le y_i^2 s_i / s_j + y_j^2 s_j / s_i$. With $s_i = \sqrt{K_{ii}}$ of a whole
 /// matrix no unit of displacement is in it.
 pub(crate) fn slack(matrix: &SparseMatrix, sizes: &DVector<f64>) -> DVector<f64> {
     let mut slack = DVector::zeros(matrix.rows());
     for (row, column, value) in matrix.entries() {
-        slack[row] += matrix.rounding() * value.abs() * sizes[row] / sizes[column];
+        slack[row] += matrix.half_unit().of(value) * (sizes[row] / sizes[column]);
     }
     slack
 }
@@ -83,7 +85,14 @@ impl<'a> Excess<'a> {
     ) -> Result<Option<DVector<f64>>, Error> {
         let terms = [&[(number, self.whole)], parts].concat();
         let all = terms.iter().filter(|(number, _)| *number != 0.0);
-        let sum = all.map(|(_, matrix)| slack(matrix, &self.sizes));
+        // An entry may be left of a sum whose terms were as large as the diagonal, and carry their rounding as a mirrored one does.
+        let cancelled = |matrix: &SparseMatrix| {
+            let mut all = slack(matrix, &self.sizes);
+            let entries = matrix.entries().filter(|entry| entry.2 != 0.0);
+            entries.for_each(|(row, ..)| all[row] += GIVEN * self.sizes[row].powi(2));
+            all
+        };
+        let sum = all.map(|(_, matrix)| cancelled(matrix));
         let sum = sum.fold(DVector::zeros(self.whole.rows()), |sum, own| sum + own);
         // A row where nothing is rounded has no entries.
         let sum = sum.map(|own| if own == 0.0 { 1.0 } else { own });

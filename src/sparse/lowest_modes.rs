@@ -1,6 +1,7 @@
 //! The lowest modes of a sparse pencil, none of them missed: of structures on supports and of those that hang free, as an aircraft in
 //! its test, and where degrees of freedom have no mass. Zero and infinite eigenvalues are neither lost nor counted as vibrations.
 
+use super::brackets::slack;
 use super::matrix::GIVEN;
 use super::subspace::{Directions, Found, Growth, Solve, Wanted, subspace};
 use super::{
@@ -265,17 +266,20 @@ fn all(solve: Solve, rigid: usize, mass: &SparseMatrix) -> Result<Found, Error> 
 }
 
 /// $F$ (rows × rank) of a semidefinite $M = F F^t$ by the eigenvectors of the matrix scaled to unit diagonal, so that a mass may be as
-/// small as it likes beside others; what is negative must be within the digits that files carry.
+/// small as it likes beside others; what is negative, or none, is within the rounding of its entries.
 fn root(mass: &SparseMatrix) -> Result<DMatrix<f64>, Error> {
     let dense = mass.dense();
     let scale = SparseMatrix::unit_scale(&dense.diagonal());
     let unit = dense.component_div(&(&scale * scale.transpose()));
     let (sizes, vectors) = symmetric_eigen("mass", &unit)?;
-    if sizes[0] < -GIVEN {
+    // No eigenvalue moves by more than the largest sum of a row of the roundings.
+    let squares = scale.component_mul(&scale);
+    let rounded = slack(mass, &scale).component_div(&squares).max();
+    if sizes[0] < -rounded.max(GIVEN) {
         let (what, row) = ("mass", vectors.column(0).iamax());
         return Err(Error::NotPositiveDefinite { what, row });
     }
-    let own = places_above(&sizes, GIVEN);
+    let own = places_above(&sizes, rounded.max(GIVEN));
     let sizes = DMatrix::from_diagonal(&sizes.select_rows(&own).map(f64::sqrt));
     Ok(DMatrix::from_diagonal(&scale) * vectors.select_columns(&own) * sizes)
 }

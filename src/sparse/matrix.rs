@@ -11,6 +11,51 @@ pub(super) const GIVEN: f64 = 1e-11;
 /// Part of an entry by which assembling rounds it: a sum of some thirty parts.
 pub(super) const ASSEMBLED: f64 = 30.0 * f64::EPSILON;
 
+/// Half the unit of the last place with which a matrix's entries are written: a part of each, or one number for all. Zeros are exact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct HalfUnit {
+    part: f64,
+    fixed: f64,
+}
+
+impl HalfUnit {
+    /// Half a unit of so large a part of each entry, and never less than assembling rounds.
+    pub(crate) fn of_each(part: f64) -> Self {
+        let part = part.max(ASSEMBLED);
+        Self { part, fixed: 0.0 }
+    }
+
+    /// One number for all entries.
+    pub(crate) fn of_all(fixed: f64) -> Self {
+        Self {
+            fixed,
+            ..Self::of_each(0.0)
+        }
+    }
+
+    /// The most by which rounding moves an entry.
+    pub(crate) fn of(self, value: f64) -> f64 {
+        match value == 0.0 {
+            true => 0.0,
+            false => self.fixed.max(self.part * value.abs()),
+        }
+    }
+
+    /// True if it is more than assembling rounds.
+    pub(crate) fn is_written(self) -> bool {
+        self.fixed > 0.0 || self.part > ASSEMBLED
+    }
+
+    /// Digits or decimals in words.
+    pub(crate) fn words(self) -> String {
+        match (1.0 - (2.0 * self.part).log10()).round() {
+            _ if self.fixed > 0.0 => format!("numbers written to {:.0e}", 2.0 * self.fixed),
+            _ if !self.is_written() => "the digits of a double".to_owned(),
+            count => format!("{count} digits"),
+        }
+    }
+}
+
 /// Columns that a product takes at once, so that the entries are read once for all of them.
 const AT_ONCE: usize = 16;
 
@@ -24,7 +69,7 @@ pub struct SparseMatrix {
     /// Row and column of every entry.
     places: Arc<Vec<[u32; 2]>>,
     values: Vec<f64>,
-    rounding: f64,
+    half_unit: HalfUnit,
 }
 
 impl SparseMatrix {
@@ -48,7 +93,7 @@ impl SparseMatrix {
         }
         let mut entries = summed(entries);
         entries.retain(|entry| entry.2 != 0.0);
-        Self::of_sorted(rows, columns, &entries).finite(what)
+        Self::of_sorted(rows, columns, &entries, HalfUnit::of_each(0.0)).finite(what)
     }
 
     /// This matrix, unless an entry is beyond the range of numbers.
@@ -111,31 +156,44 @@ impl SparseMatrix {
             columns: size,
             places: Arc::new(places),
             values,
-            rounding: ASSEMBLED,
+            half_unit: HalfUnit::of_each(0.0),
         };
         matrix.finite(what)
     }
 
-    fn of_sorted(rows: usize, columns: usize, entries: &[(usize, usize, f64)]) -> Self {
+    fn of_sorted(
+        rows: usize,
+        columns: usize,
+        entries: &[(usize, usize, f64)],
+        half_unit: HalfUnit,
+    ) -> Self {
         let place = |&(row, column, _): &(usize, usize, f64)| [row as u32, column as u32];
         Self {
             rows,
             columns,
             places: Arc::new(entries.iter().map(place).collect()),
             values: entries.iter().map(|entry| entry.2).collect(),
-            rounding: ASSEMBLED,
+            half_unit,
         }
     }
 
-    /// The matrix of entries each rounded by up to this part of it when a file was written, and never less than assembling rounds.
-    pub(crate) fn with_rounding(self, part: f64) -> Self {
-        let rounding = part.max(ASSEMBLED);
-        Self { rounding, ..self }
+    /// The matrix of entries that were rounded so when they were written.
+    pub(crate) fn with_half_unit(self, half_unit: HalfUnit) -> Self {
+        Self { half_unit, ..self }
     }
 
-    /// The largest part of an entry by which it is rounded.
-    pub(crate) fn rounding(&self) -> f64 {
-        self.rounding
+    /// Half the unit of the last written place of its entries.
+    pub(crate) fn half_unit(&self) -> HalfUnit {
+        self.half_unit
+    }
+
+    /// The half units of all entries at their places.
+    pub(super) fn half_units(&self) -> Self {
+        let own = self.values.iter().map(|value| self.half_unit.of(*value));
+        Self {
+            values: own.collect(),
+            ..self.clone()
+        }
     }
 
     /// The matrix with zeros at the places of these entries where it has none.
@@ -147,11 +205,7 @@ impl SparseMatrix {
             return self;
         }
         new.extend(self.entries());
-        Self::of_sorted(
-            self.rows,
-            self.columns,
-            &summed(new),
-        )
+        Self::of_sorted(self.rows, self.columns, &summed(new), self.half_unit)
     }
 
     /// Places of the first entry of every column, and of the end.
@@ -256,7 +310,7 @@ impl SparseMatrix {
             .entries()
             .map(|(row, column, value)| (column, row, value));
         let entries = summed(turned.collect());
-        Self::of_sorted(self.columns, self.rows, &entries).with_rounding(self.rounding)
+        Self::of_sorted(self.columns, self.rows, &entries, self.half_unit)
     }
 
     /// The product with a dense matrix (columns × m), rows × m.
@@ -408,7 +462,7 @@ impl SparseMatrix {
         };
         let entries = self.entries().filter_map(place).collect();
         let part = Self::new("part of a matrix", self.rows, columns.len(), entries)?;
-        Ok(part.with_rounding(self.rounding))
+        Ok(part.with_half_unit(self.half_unit))
     }
 
     /// The matrix as a dense one.

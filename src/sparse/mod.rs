@@ -42,6 +42,7 @@ pub use factorization::{Factor, Work};
 pub use lowest_modes::{CountedModes, FINITE, MOST_DENSE_ROWS};
 #[doc(hidden)]
 pub use mass_changes::normalize_with_mass;
+pub(crate) use matrix::HalfUnit;
 pub use matrix::SparseMatrix;
 pub(crate) use place::{Deflections, Place};
 #[doc(hidden)]

@@ -5,7 +5,7 @@ use super::lowest_modes::{FINITE, Flexibility};
 use super::random::random_block;
 use super::residual_vectors::{leading_loads, residual_vectors};
 use super::share::{ParameterMatrix, WholeShare};
-use super::visibility::visible;
+use super::visibility::{open_parts, visible};
 use super::{SparseMatrix, WholeModel, no_modes, take_product, transposed_product};
 use crate::method::error::{Error, check_count};
 use crate::method::linear_algebra::symmetric_part;
@@ -125,6 +125,13 @@ impl Place {
             flexibility: Mutex::new(Some(Arc::new(flexibility))),
             vibrations,
         })
+    }
+
+    /// Frequencies (Hz) of the vibrations that the sensors see, and the part of each that the digits of the matrices leave open.
+    pub(crate) fn open_frequencies(&self) -> Result<Vec<[f64; 2]>, Error> {
+        let parts = open_parts([&self.stiffness, &self.mass], &self.vibrations)?;
+        let both = self.modes.frequencies_hz().into_iter().zip(parts);
+        Ok(both.map(|(hertz, part)| [hertz, part]).collect())
     }
 
     /// The flexibility, found again where its memory was given back.

@@ -2,11 +2,13 @@
 
 use super::brackets::{bracket, slack};
 use super::factorization::FactorizationPlan;
-use super::matrix::ASSEMBLED;
+use super::matrix::{ASSEMBLED, HalfUnit};
 use super::random::random_block;
+use super::visibility::open_squares;
 use super::{Factor, SparseMatrix, places_above};
 use crate::method::error::Error;
-use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
+use crate::method::linear_algebra::{cholesky, pencil_eigen, symmetric_eigen, symmetric_part};
+use crate::method::modes::Modes;
 use nalgebra::{DMatrix, DVector, Vector3};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -80,20 +82,20 @@ pub struct RigidBodies {
     pub is_told: bool,
     /// True if thirty times the rounding leaves as many.
     pub is_sure: bool,
-    /// The largest part of an entry by which it is rounded.
-    pub rounding: f64,
-    /// $u D$ ([`slack`]).
+    /// Half the unit of the last written place of the entries.
+    half_unit: HalfUnit,
+    /// $D$ ([`slack`]).
     slack: DVector<f64>,
 }
 
 impl RigidBodies {
-    /// The null space of a symmetric matrix $K$ of which each entry is rounded by up to a part $u$.
+    /// The null space of a symmetric matrix $K$ of which each entry is rounded by up to $h_{ij}$.
     ///
-    /// The exact matrix is within $K \pm u D$ ([`slack`]). If $K + u D$ has a negative pivot, that is not semidefinite. If $K - u D$ has n,
+    /// The exact matrix is within $K \pm D$ ([`slack`]). If $K + D$ has a negative pivot, that is not semidefinite. If $K - D$ has n,
     /// no more than n motions are free, and as many count as free unless `support` has a number. Where places are known, those
     /// combinations $R t$ of rigid motions are free of which rounding explains every force,
     ///
-    /// $$ \lvert K R t \rvert \le \lvert K \rvert (u \lvert R \rvert + \lvert \delta R \rvert), $$
+    /// $$ \lvert K R t \rvert \le h \lvert R \rvert + \lvert K \rvert \lvert \delta R \rvert, $$
     ///
     /// $t$ being the singular vectors of $K R$ in units of the right side; other motions among the n are mechanisms. A better matrix of the
     /// same null space that `support` has stands for $K$. `plan` is for whichever tells it, among others.
@@ -108,15 +110,18 @@ impl RigidBodies {
     ) -> Result<Self, Error> {
         let what = "stiffness";
         let matrix = support.resisting.as_ref().unwrap_or(matrix);
-        let (rows, rounding) = (matrix.rows(), matrix.rounding());
+        let (rows, half_unit) = (matrix.rows(), matrix.half_unit());
         let sizes = SparseMatrix::unit_scale(&matrix.diagonal());
         // A row without entries has nothing that could be rounded; with any slack its motion counts.
-        let slack = slack(matrix, &sizes).map(|own| if own == 0.0 { rounding } else { own });
+        let slack = slack(matrix, &sizes).map(|own| if own == 0.0 { ASSEMBLED } else { own });
         let root = slack.map(f64::sqrt);
-        let entries = matrix.entries();
-        let entries = entries.map(|(i, j, value)| (i, j, value / root[i] / root[j]));
         // In units of displacement that give every row a slack of one.
-        let unit = SparseMatrix::new(what, rows, rows, entries.collect())?;
+        let in_units = |matrix: &SparseMatrix| {
+            let entries = matrix.entries();
+            let entries = entries.map(|(i, j, value)| (i, j, value / root[i] / root[j]));
+            SparseMatrix::new(what, rows, rows, entries.collect())
+        };
+        let unit = in_units(matrix)?;
         let ones = DVector::from_element(rows, 1.0);
         let at = |number: f64| bracket(plan, what, &[(1.0, &unit)], (number, &ones));
         let most = at(-1.0)?.negative_count();
@@ -137,7 +142,7 @@ impl RigidBodies {
             held: None,
             is_told: support.count.is_some() || support.places.is_some(),
             is_sure: true,
-            rounding,
+            half_unit,
             slack,
         };
         if most == 0 {
@@ -147,7 +152,10 @@ impl RigidBodies {
         let weakest = weakest(&unit, &at(1.0)?.check_signs(what)?, count)?;
         match &support.places {
             _ if support.count.is_some() => (),
-            Some(places) => found.judge(&unit, places, &root, &weakest)?,
+            Some(places) => {
+                let rounded = in_units(&matrix.half_units())?;
+                found.judge([&unit, &rounded], places, &root, &weakest)?;
+            }
             None => found.is_sure = at(-GAP)?.negative_count() == most,
         }
         found.rows = moving_rows(&weakest);
@@ -170,10 +178,11 @@ impl RigidBodies {
         Ok(found)
     }
 
-    /// Tells the motions of a rigid body among the weakest (rows × n, orthonormal) from mechanisms, of a matrix in units of a `root`.
+    /// Tells the motions of a rigid body among the weakest (rows × n, orthonormal) from mechanisms, of a matrix and the half units of its
+    /// entries in units of a `root`.
     fn judge(
         &mut self,
-        unit: &SparseMatrix,
+        [unit, rounded]: [&SparseMatrix; 2],
         places: &Places,
         root: &DVector<f64>,
         weakest: &DMatrix<f64>,
@@ -193,10 +202,12 @@ impl RigidBodies {
             symmetric_eigen("rigid motions", &symmetric_part(&motions.tr_mul(&motions)))?;
         let apart = vectors.select_columns(&places_above(&sizes, ASSEMBLED));
         let (motions, errors) = (motions * &apart, errors * apart.abs());
-        let slack = (self.rounding * motions.abs() + errors).column_sum();
-        let mut explained: DVector<f64> = DVector::zeros(slack.len());
-        unit.entries()
-            .for_each(|(row, column, value)| explained[row] += value.abs() * slack[column]);
+        let mut explained: DVector<f64> = DVector::zeros(motions.nrows());
+        for (matrix, all) in [(unit, errors), (rounded, motions.abs())] {
+            let slack = all.column_sum();
+            let entries = matrix.entries();
+            entries.for_each(|(row, column, value)| explained[row] += value.abs() * slack[column]);
+        }
         let mut forces = unit.times(&motions)?;
         for (mut forces, explained) in forces.row_iter_mut().zip(&explained) {
             forces /= explained.max(f64::MIN_POSITIVE);
@@ -226,12 +237,15 @@ impl RigidBodies {
         self.rows.len() - self.mechanisms.len()
     }
 
-    /// Findings that the digits of the stiffness leave open, with the mass and the rows' names.
+    /// Findings that the digits of the stiffness leave open, with stiffness and mass and the rows' names.
+    ///
+    /// # Errors
+    /// Errors of an eigensolution of the motions.
     pub(crate) fn findings(
         &self,
-        mass: &SparseMatrix,
+        [stiffness, mass]: [&SparseMatrix; 2],
         name: impl Fn(usize) -> String,
-    ) -> Vec<BodyFinding> {
+    ) -> Result<Vec<BodyFinding>, Error> {
         let names = |rows: &[usize]| rows.iter().map(|&row| name(row)).collect();
         let mut all = Vec::new();
         if !self.mechanisms.is_empty() {
@@ -246,12 +260,33 @@ impl RigidBodies {
         if !self.rows.is_empty() && !self.is_told {
             all.push(BodyFinding::ByDigits {
                 count: self.rows.len(),
-                digits: digits(self.rounding),
+                digits: self.half_unit.words(),
+                if_held: self.if_held([stiffness, mass])?,
                 hidden_hz: self.hidden(mass).sqrt() / TAU,
                 is_sure: self.is_sure,
             });
         }
-        all
+        Ok(all)
+    }
+
+    /// Frequencies of the motions, and their deviations by the digits, if the stiffness as it is written holds them.
+    fn if_held(&self, pencil: [&SparseMatrix; 2]) -> Result<Vec<[f64; 2]>, Error> {
+        let of = |matrix: &SparseMatrix| {
+            let forces = matrix.times(&self.motions)?;
+            Ok(symmetric_part(&self.motions.tr_mul(&forces)))
+        };
+        let lower = cholesky("mass of rigid-body motions", &of(pencil[1])?, 0.0)?;
+        let (squares, vectors) = pencil_eigen("motions", &of(pencil[0])?, &lower, self.rows.len())?;
+        let modes = Modes {
+            omega_squared: squares.map(|own| own.max(0.0)),
+            shapes: &self.motions * vectors,
+        };
+        let open = open_squares(pencil, &modes)?;
+        let squares = modes.omega_squared.iter().zip(&open);
+        let hertz = |own: f64| own.sqrt() / TAU;
+        Ok(squares
+            .map(|(own, open)| [hertz(*own), hertz(own + open) - hertz(*own)])
+            .collect())
     }
 
     /// A bound on the squared frequency of a suspension that the rounding of the stiffness would hide, with the mass: of the motions'
@@ -267,14 +302,6 @@ impl RigidBodies {
             .ok()
             .and_then(|forces| symmetric_part(&self.motions.tr_mul(&forces)).cholesky());
         mass.map_or(f64::INFINITY, |mass| mass.solve(&slack).trace())
-    }
-}
-
-/// Digits of numbers that are rounded by up to a part $u = \frac{1}{2} \cdot 10^{1 - n}$ of them, in words.
-pub(crate) fn digits(part: f64) -> String {
-    match (1.0 - (2.0 * part).log10()).round() {
-        _ if part <= ASSEMBLED => "the digits of a double".to_owned(),
-        count => format!("{count} digits"),
     }
 }
 
@@ -296,6 +323,8 @@ pub enum BodyFinding {
         count: usize,
         /// The digits that leave them free, in words.
         digits: String,
+        /// Their frequencies if they are held, and the deviations of these by the digits, Hz.
+        if_held: Vec<[f64; 2]>,
         /// A frequency below which a suspension would not show, Hz.
         hidden_hz: f64,
         /// True if the digits of a double leave as many free.

@@ -5,6 +5,7 @@ use super::matrix::ASSEMBLED;
 use crate::method::error::Error;
 use crate::method::modes::Modes;
 use nalgebra::{DMatrix, DVector, DVectorView};
+use std::f64::consts::SQRT_2;
 
 /// Part of what a sensor reads of other modes that counts as nothing: shapes are found to the root of the rounding of doubles, of which
 /// the square is in their frequencies.
@@ -47,9 +48,9 @@ pub(super) struct Visible {
 
 /// Sorts modes of unit generalized mass by what sensors $S$ see of them; of those seen at most so many stay.
 ///
-/// Rounding of the entries by a part $u$ leaves the energy of two modes with a deviation $\sigma_{il}$,
+/// Rounding of the entries by up to $h$, of the stiffness, and $m$, of the mass, leaves the energy of two modes with a deviation $\sigma_{il}$,
 ///
-/// $$ \sigma_{il}^2 = \frac{u^2}{3} \sum_{pq} (K_{pq}^2 + \omega_i^2 \omega_l^2 M_{pq}^2) v_{ip}^2 v_{lq}^2, $$
+/// $$ \sigma_{il}^2 = \frac13 \sum_{pq} (h_{pq}^2 + \omega_i^2 \omega_l^2 m_{pq}^2) v_{ip}^2 v_{lq}^2, $$
 ///
 /// and mixes mode l into mode i by $\sigma_{il} / \lvert \omega_i^2 - \omega_l^2 \rvert$. A mode is unseen where no sensor reads more of
 /// it than four times what this brings in of others, 1e-8 of what it reads of any, or 1e-8 of its own largest component. Modes that the solver's own rounding does not tell
@@ -79,12 +80,10 @@ pub(super) fn visible(
         modes = modes.select(&all[..cut]);
     }
     let readings = sensors.times(&modes.shapes)?;
-    let (sizes, rounding) = (
-        sizes(&readings),
-        pencil[0].rounding().max(pencil[1].rounding()),
-    );
+    let [stiffness, mass] = pencil.map(SparseMatrix::half_units);
+    let (sizes, rounded) = (sizes(&readings), deviations([&stiffness, &mass], &modes)?);
     let mixed = |i: usize, l: usize| {
-        let (apart, part) = ((roots[i] - roots[l]).abs(), rounding * unit[(i, l)]);
+        let (apart, part) = ((roots[i] - roots[l]).abs(), rounded[(i, l)]);
         match apart > part.max(SAME * roots[i].max(roots[l])) {
             true => RARE * part / apart,
             false => 0.0,
@@ -138,7 +137,7 @@ pub(super) fn visible(
     })
 }
 
-/// The $\sigma_{il}$ of [`visible`] for $u = 1$.
+/// The $\sigma_{il}$ of [`visible`] for matrices of half units.
 fn deviations(pencil: [&SparseMatrix; 2], modes: &Modes) -> Result<DMatrix<f64>, Error> {
     // Squares of very large or small numbers leave the range of numbers.
     let size = modes.shapes.amax();
@@ -151,6 +150,32 @@ fn deviations(pencil: [&SparseMatrix; 2], modes: &Modes) -> Result<DMatrix<f64>,
     let frequencies = modes.omega_squared.map(f64::sqrt);
     let mass = of(pencil[1])?.component_mul(&(&frequencies * frequencies.transpose()));
     Ok(of(pencil[0])?.zip_map(&mass, f64::hypot))
+}
+
+/// Standard deviations of the squared frequencies of modes of unit generalized mass by the rounding of a pencil's entries as [`visible`]
+/// has it: $\sqrt2 \sigma_{ii}$, for both triangles of a matrix have one rounding.
+///
+/// # Errors
+/// [`Error::WrongShape`] for matrices that do not fit.
+pub(super) fn open_squares(
+    pencil: [&SparseMatrix; 2],
+    modes: &Modes,
+) -> Result<DVector<f64>, Error> {
+    let [stiffness, mass] = pencil.map(SparseMatrix::half_units);
+    Ok(deviations([&stiffness, &mass], modes)?.diagonal() * SQRT_2)
+}
+
+/// Standard deviations of the frequencies, relative to them, by the digits of matrices from files; zeros for other matrices.
+///
+/// # Errors
+/// [`Error::WrongShape`] for matrices that do not fit.
+pub(crate) fn open_parts(pencil: [&SparseMatrix; 2], modes: &Modes) -> Result<Vec<f64>, Error> {
+    let squares = open_squares(pencil, modes)?.component_div(&modes.omega_squared) / 2.0;
+    let is_written = pencil.iter().any(|matrix| matrix.half_unit().is_written());
+    Ok(squares
+        .iter()
+        .map(|part| if is_written { *part } else { 0.0 })
+        .collect())
 }
 
 /// Rows that couplings join, one by one or by others, to a row that a sensor reads.

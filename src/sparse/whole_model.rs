@@ -8,7 +8,7 @@ use super::rigid_bodies::BodyFinding;
 use super::sensor_model::{Pair, SensorModel};
 use super::share::{Share, WholeShare};
 use super::visibility::rows_with_sensor;
-use super::{RigidBodies, SparseMatrix, Support};
+use super::{HalfUnit, RigidBodies, SparseMatrix, Support};
 use crate::method::error::{Error, check_count, positive};
 use crate::method::linear_algebra::check_length;
 use crate::method::modes::Modes;
@@ -170,9 +170,9 @@ impl WholeModel {
         self.0.plan.work()
     }
 
-    /// The largest part of an entry of the first stiffness by which it is rounded.
-    pub(crate) fn rounding(&self) -> f64 {
-        self.0.first[0].rounding()
+    /// Half the unit of the last written place of the first stiffness.
+    pub(crate) fn half_unit(&self) -> HalfUnit {
+        self.0.first[0].half_unit()
     }
 
     /// Sentences about these motions, with the rows' names.
@@ -183,7 +183,8 @@ impl WholeModel {
         &self,
         name: impl Fn(usize) -> String,
     ) -> Result<Vec<BodyFinding>, Error> {
-        Ok(self.rigid_bodies()?.findings(&self.0.first[1], name))
+        let [stiffness, mass] = &self.0.first;
+        self.rigid_bodies()?.findings([stiffness, mass], name)
     }
 
     /// Rows in those parts of the model in which a sensor reads a row. What two parameters couple may cancel, but not at all factors;

@@ -38,6 +38,8 @@ pub struct WholeModes {
     pub rigid_body: usize,
     /// Findings about free motions that the digits of the stiffness leave open.
     pub doubtful: Vec<BodyFinding>,
+    /// The part of every frequency that the digits of given matrices leave open, as a standard deviation; none of a deck.
+    pub open: Vec<f64>,
 }
 
 /// The lowest vibrations of finite frequency of $K_S$ (free SDOF × free SDOF, lbf/in) and $T M T^t$ at the DOF that have mass, counted
@@ -79,5 +81,6 @@ pub fn whole_modes(
         at_rows,
         rigid_body,
         doubtful: whole.body_findings(name)?,
+        open: Vec::new(),
     })
 }

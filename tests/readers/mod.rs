@@ -14,6 +14,7 @@ pub mod deck_numbers;
 pub mod deck_reading;
 pub mod deck_rewrite;
 pub mod deck_rewrite_drawn;
+mod digits;
 mod file_bounds;
 mod files;
 pub mod garteur;

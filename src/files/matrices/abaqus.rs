@@ -79,6 +79,6 @@ fn of_entries(file: &str, entries: &[Entry]) -> Result<LabeledMatrix, FileError>
     Ok(LabeledMatrix {
         rows: Some(labels.clone()),
         columns: Some(labels),
-        matrix: matrix.with_rounding(digits.rounding()),
+        matrix: matrix.with_half_unit(digits.half_unit()),
     })
 }

@@ -1,5 +1,7 @@
 //! The digits with which a file writes its numbers, and the rounding that these leave.
 
+use crate::sparse::HalfUnit;
+
 /// Digits from which on numbers come from a program: shorter ones are somebody's own and exact.
 const PRINTED: usize = 5;
 
@@ -10,8 +12,8 @@ pub(crate) struct Digits {
     written: usize,
     /// Most of them without the zeros at the end.
     needed: usize,
-    /// True once a number has a point or an exponent.
-    is_real: bool,
+    /// Decimals of the numbers so far, if they are alike and none has an exponent; none before the first.
+    decimals: Option<Option<usize>>,
 }
 
 impl Digits {
@@ -28,19 +30,22 @@ impl Digits {
             .written
             .max(if has_point { digits.len() } else { needed });
         self.needed = self.needed.max(needed);
-        self.is_real |= has_point || end.is_some();
+        let decimals = mantissa.split_once('.').map_or(0, |(_, own)| own.len());
+        let own = Some(decimals).filter(|_| end.is_none());
+        self.decimals = Some(own.filter(|_| self.decimals.is_none_or(|before| before == own)));
     }
 
-    /// The largest part of a number by which it was rounded when it was written: half a unit of the last of $n$ digits,
+    /// Half the unit of the last written place: of numbers with as many decimals each, integers among them, that of the last decimal; of
+    /// others, with $n$ digits, a part of each number,
     ///
-    /// $$ u = \frac{1}{2} \cdot 10^{1 - n} , $$
+    /// $$ u = \frac{1}{2} \cdot 10^{1 - n} . $$
     ///
-    /// and nothing where all numbers are integers or shorter than a program prints them.
-    pub(crate) fn rounding(&self) -> f64 {
-        if self.is_real && self.needed >= PRINTED {
-            0.5 * 10_f64.powf(1.0 - self.written as f64)
-        } else {
-            0.0
+    /// Numbers shorter than a program prints them are exact.
+    pub(crate) fn half_unit(&self) -> HalfUnit {
+        match self.decimals.flatten() {
+            _ if self.needed < PRINTED => HalfUnit::of_each(0.0),
+            Some(decimals) => HalfUnit::of_all(0.5 * 10_f64.powf(-(decimals as f64))),
+            None => HalfUnit::of_each(0.5 * 10_f64.powf(1.0 - self.written as f64)),
         }
     }
 }

@@ -113,7 +113,7 @@ fn matrix(header: &Card, cards: &[&Card]) -> Result<LabeledMatrix, FileError> {
     Ok(LabeledMatrix {
         rows: Some(rows),
         columns: Some(columns),
-        matrix: matrix.with_rounding(digits.rounding()),
+        matrix: matrix.with_half_unit(digits.half_unit()),
     })
 }
 

@@ -84,7 +84,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
         })?;
     }
     let matrix = SparseMatrix::new("matrix of a file", own.rows, own.columns, entries)?;
-    Ok(matrix.with_rounding(digits.rounding()))
+    Ok(matrix.with_half_unit(digits.half_unit()))
 }
 
 /// Reads the banner and the line of sizes, each with its number; the file ends in line `end`.

@@ -216,7 +216,7 @@ impl Lines<'_> {
             entries.extend(mirrored);
         }
         let matrix = SparseMatrix::new("matrix of OUTPUT4", rows, columns, entries)?;
-        Ok(matrix.with_rounding(digits.rounding()))
+        Ok(matrix.with_half_unit(digits.half_unit()))
     }
 
     /// Takes the numbers after this line from a row of a column on, and returns how many there are.

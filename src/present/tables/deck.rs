@@ -2,8 +2,10 @@
 
 use crate::files::deck::{Reason, Unread};
 use crate::files::test_data::row_name;
+use crate::job::concerns::OPEN;
 use crate::job::of_bodies;
 use crate::present::table::{Cell, Digits, Table, counted, numbers};
+use crate::sparse::rigid_bodies::BodyFinding;
 use crate::sparse::whole_modes::WholeModes;
 
 /// Modes side by side in one table of shapes: as many as a line of text has room for.
@@ -29,8 +31,16 @@ pub fn deck_tables(unread: &[Unread], modes: &WholeModes, count: usize) -> Vec<T
         "rigid-body mode is",
         "rigid-body modes are",
     );
-    let rigid =
-        (modes.rigid_body > 0).then(|| format!("The structure hangs free: {rigid} not listed."));
+    let by_digits = |finding: &BodyFinding| matches!(finding, BodyFinding::ByDigits { .. });
+    let is_free = modes.rigid_body > 0 && !modes.doubtful.iter().any(by_digits);
+    let rigid = is_free.then(|| format!("The structure hangs free: {rigid} not listed."));
+    let open = (1..=count).zip(&modes.open).filter(|own| *own.1 > OPEN);
+    let open = open.map(|(mode, part)| {
+        let percent = Digits::Significant(2).write(100.0 * part);
+        format!(
+            "The digits of the matrices leave the frequency of mode {mode} open by {percent} %."
+        )
+    });
     let frequencies = Table::new("frequencies", title, "Mode")
         .labels(1..=masses.len())
         .column(
@@ -40,6 +50,7 @@ pub fn deck_tables(unread: &[Unread], modes: &WholeModes, count: usize) -> Vec<T
         )
         .column("Generalized mass", "", numbers(masses, MASS))
         .notes(others.into_iter().map(not_read))
+        .notes(open)
         .notes(rigid)
         .notes(
             modes
@@ -47,22 +58,18 @@ pub fn deck_tables(unread: &[Unread], modes: &WholeModes, count: usize) -> Vec<T
                 .iter()
                 .map(|finding| of_bodies(finding).words),
         );
+    let counts = |of: fn(&Unread) -> usize| {
+        let counts = left_out.iter().map(move |unread| Cell::count(of(unread)));
+        counts.collect::<Vec<_>>()
+    };
     let ignored = Table::new(
         "ignored",
         "Cards left out by request: these modes lack what they say",
         "Card",
     )
     .labels(left_out.iter().map(|unread| &unread.card))
-    .column(
-        "Cards",
-        "",
-        left_out.iter().map(|unread| Cell::count(unread.count)),
-    )
-    .column(
-        "First line",
-        "",
-        left_out.iter().map(|unread| Cell::count(unread.line)),
-    );
+    .column("Cards", "", counts(|unread| unread.count))
+    .column("First line", "", counts(|unread| unread.line));
     let mut tables = if left_out.is_empty() {
         vec![frequencies]
     } else {
