@@ -270,9 +270,10 @@ impl LoadedJob {
     }
 
     /// The whole model's first analysis, with these modes and those that the pre-flight looks at, which are twice the usual number whatever
-    /// the job takes.
+    /// the job takes, and some more than it takes, so that the root of the last of them is there with all its modes.
     pub(super) fn analyzed(&self, modes: usize) -> Result<Arc<Place>, Error> {
-        let (whole, most) = (&self.source.whole, modes.max(2 * self.usual_modes()));
+        let (whole, twice) = (&self.source.whole, 2 * self.usual_modes());
+        let most = if modes + 2 < twice { twice } else { modes + 8 };
         whole.exactly(&self.ones(), &self.sensors, modes..=most, None)
     }
 

@@ -539,7 +539,7 @@ impl PreparedJob {
 }
 
 /// The first analysis with twice as many modes as the job takes, and how many it takes: the job's number, else the usual one, or fewer where
-/// the model has no more.
+/// the model has no more, and as many more as are nearer to the last of them than modes whose shapes a change mixes.
 fn first_analysis(loaded: &LoadedJob) -> Result<(usize, Arc<Place>), FileError> {
     let asked = loaded.job.compare.analysis_modes;
     let most = loaded.source.whole.dof_count();
@@ -551,12 +551,12 @@ fn first_analysis(loaded: &LoadedJob) -> Result<(usize, Arc<Place>), FileError> 
             "test.partners: mode {highest} of the model is not among the {modes} taken; see compare.analysis_modes"
         )
     })?;
-    match loaded.analyzed(modes) {
+    let (modes, first) = match loaded.analyzed(modes) {
         Err(Error::Count {
             what: FINITE,
             most: available,
             ..
-        }) if asked.is_none() && available > 0 => Ok((available, loaded.analyzed(available)?)),
+        }) if asked.is_none() && available > 0 => (available, loaded.analyzed(available)?),
         first => {
             let refused = |error| {
                 let name = |row| loaded.source.row_name(row);
@@ -565,7 +565,8 @@ fn first_analysis(loaded: &LoadedJob) -> Result<(usize, Arc<Place>), FileError> 
                     None => error.into(),
                 }
             };
-            Ok((modes, first.map_err(refused)?))
+            (modes, first.map_err(refused)?)
         }
-    }
+    };
+    Ok((first.whole_roots(modes), first))
 }

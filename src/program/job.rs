@@ -152,8 +152,8 @@ pub fn check_job(
             model_table(&prepared)?,
             places_table(&prepared.loaded, None)?,
             paired_table(&report)?,
-            suspects_table(&prepared)?,
-            measurement_table(&prepared)?,
+            suspects_table(&prepared),
+            measurement_table(&prepared),
         ];
         Ok::<_, PresentError>((trust, tables))
     })?;

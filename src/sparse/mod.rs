@@ -44,8 +44,7 @@ pub use lowest_modes::{CountedModes, FINITE, MOST_DENSE_ROWS};
 pub use mass_changes::normalize_with_mass;
 pub(crate) use matrix::HalfUnit;
 pub use matrix::SparseMatrix;
-pub(crate) use place::{Deflections, Place};
-#[doc(hidden)]
+pub(crate) use place::{Deflections, Place, is_held};
 pub use rigid_bodies::{BodyFinding, Places, RigidBodies, Support};
 pub use sensor_model::SensorModel;
 #[doc(hidden)]

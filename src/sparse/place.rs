@@ -24,6 +24,9 @@ const MOST_TERMS: usize = 26;
 const MOST_EACH: usize = 4;
 /// Sensors whose deflections are held at once.
 const SENSORS_AT_ONCE: usize = 32;
+/// Separation of two squared frequencies, relative, at which modes keep their own shapes in slopes. Slopes of closer ones are those of a
+/// change by less than a millionth, and with weights of a hundred their squares leave no digit of a prior deviation of one.
+const SEPARATION: f64 = 1e-6;
 
 /// Deflections that stand behind the modes in a basis.
 #[derive(Debug, Clone, Copy)]
@@ -303,6 +306,13 @@ impl Place {
         Ok(self.some_modes(0, count))
     }
 
+    /// The least number of modes, from so many on, that does not end between modes which keep their own shapes in slopes.
+    pub(crate) fn whole_roots(&self, count: usize) -> usize {
+        let near = self.modes.omega_squared.as_slice().windows(2);
+        let near = near.skip(count - 1);
+        count + near.take_while(|pair| is_held(pair[0], pair[1])).count()
+    }
+
     /// The lowest shapes at all degrees of freedom (DOF × n), at most so many.
     pub(crate) fn shapes(&self, count: usize) -> Modes {
         let count = count.min(self.modes.len());
@@ -477,7 +487,12 @@ impl Place {
             for ((slopes, &mode), root) in slopes.iter_mut().zip(modes).zip(&roots) {
                 let scale = if share.is_mass() { -root } else { 1.0 };
                 let own = share.matrix().view((count, mode), (beyond.len(), 1));
-                let apart = beyond.omega_squared.map(|other| root - other);
+                let apart = beyond
+                    .omega_squared
+                    .map(|other| match is_held(*root, other) {
+                        true => f64::INFINITY,
+                        false => root - other,
+                    });
                 let shares = scale * own.component_div(&apart);
                 slopes.set_column(e, &(&seen * shares));
             }
@@ -552,6 +567,11 @@ impl Place {
         }
         Ok(())
     }
+}
+
+/// True of squared frequencies so near that their modes keep their own shapes in slopes.
+pub(crate) fn is_held(a: f64, b: f64) -> bool {
+    (a - b).abs() <= SEPARATION * a.max(b)
 }
 
 /// Turns the columns of shapes at all DOF whose counterparts at the sensors the sign rule has turned.

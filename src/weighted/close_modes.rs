@@ -36,10 +36,6 @@ pub fn indistinct_groups(frequencies_hz: &[f64], deviations: &[f64]) -> Vec<Vec<
     groups
 }
 
-/// Separation of two squared frequencies, relative, at which modes keep their own shapes in slopes. Slopes of closer ones are those of a
-/// change by less than a millionth, and with weights of a hundred their squares leave no digit of a prior deviation of one.
-pub(crate) const SEPARATION: f64 = 1e-6;
-
 /// The analysis modes, of squared frequencies `k`, with which the shape of test mode `j` is compared: its partner, then those of the others
 /// of its group, then modes of the same roots that are nobody's partner.
 pub(crate) fn members(

@@ -1,7 +1,7 @@
 //! A model beside a test as weighted steps compare them: with groups of close modes, frequencies without shapes, and what is known of
 //! the errors of components.
 
-use super::close_modes::{SEPARATION, members, turned};
+use super::close_modes::{members, turned};
 use crate::method::analysis::State;
 #[cfg(feature = "program")]
 use crate::method::analysis::{Analysis, DERIVATIVE_STEP};
@@ -10,9 +10,10 @@ use crate::method::error_sum::{Errors, ModeError, mode_errors};
 use crate::method::linear_algebra::check_shape;
 use crate::method::model::Model;
 use crate::method::modes::Modes;
-use crate::method::perturbation::SMALLEST_SEPARATION;
 use crate::method::sorting::{Pairing, pair_modes};
-use crate::sparse::{Candidates, ModeWeight, ParameterMatrix, SensorModel, cosines};
+use crate::sparse::{
+    Candidates, ModeWeight, ParameterMatrix, SensorModel, cosines, is_held, is_one_root,
+};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -264,14 +265,14 @@ impl Comparison {
         }
     }
 
-    /// True if a compared mode meets another one that is not compared together with it: apart, but by less than [`SEPARATION`], so that its
-    /// slopes are not told.
+    /// True if a compared mode meets another one that is not compared together with it: apart, but by so little that each keeps its
+    /// own shape in slopes.
     pub(super) fn meets(&self) -> bool {
         let State { modes, pairing, .. } = &self.model.exact;
         let roots = &modes.omega_squared;
         let meets = |i: usize, r: usize, members: &[usize]| {
-            let apart = (roots[i] / roots[r] - 1.0).abs();
-            !members.contains(&r) && apart > SMALLEST_SEPARATION && apart <= SEPARATION
+            let (own, other) = (roots[i], roots[r]);
+            !members.contains(&r) && is_held(own, other) && !is_one_root(own, other)
         };
         (0..self.model.test.len()).any(|j| {
             let members = members(roots, pairing, &self.test.together, j);

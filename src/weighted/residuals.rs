@@ -4,8 +4,8 @@ use crate::method::analysis::State;
 use crate::method::error::Error;
 use crate::method::modes::Modes;
 use crate::method::sorting::Pairing;
-use crate::sparse::{ModeWeight, SensorModel, check_weights, finite};
-use crate::weighted::close_modes::{Nearest, SEPARATION, members, nearest};
+use crate::sparse::{ModeWeight, SensorModel, check_weights, finite, is_held};
+use crate::weighted::close_modes::{Nearest, members, nearest};
 use crate::weighted::comparison::{Comparison, Correction, Test};
 use crate::weighted::noise::Noise;
 use nalgebra::{DMatrix, DVector, RowDVector};
@@ -201,11 +201,10 @@ impl Slopes {
     fn added(&self, i: usize, members: &[usize], mut couplings: DMatrix<f64>) -> DMatrix<f64> {
         let k = &self.k;
         for (r, mut row) in couplings.row_iter_mut().enumerate() {
-            let (apart, held) = (k[i] - k[r], SEPARATION * k[i].max(k[r]));
-            if apart.abs() > held && !members.contains(&r) {
-                row /= apart;
-            } else {
+            if is_held(k[i], k[r]) || members.contains(&r) {
                 row.fill(0.0);
+            } else {
+                row /= k[i] - k[r];
             }
         }
         couplings

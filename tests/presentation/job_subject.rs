@@ -106,7 +106,7 @@ fn a_mode_is_doubtful_when_it_is_complex_beyond_the_limit() {
 fn suspects_have_their_own_unlimited_factors() {
     let each = "elements = [\"2-3\"]\neach = true";
     let prepared = prepared(&rods_with("elements = [\"2-3\"]", each));
-    let table = suspects_table(&prepared).unwrap();
+    let table = suspects_table(&prepared);
     let first = prepared.analyze(&[1.0; 3]).unwrap();
     let settings = prepared
         .loaded

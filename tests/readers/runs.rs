@@ -137,6 +137,18 @@ fn ring() -> Files {
     of_matrices(&parts, &mass, &modes)
 }
 
+/// A building of three floors that is alike in x and y, a part a story.
+fn alike() -> Files {
+    let springs_of = |at: usize| {
+        let below = at.checked_sub(1);
+        [0, 3].map(|first| (first + at, below.map(|below| first + below), 1e5))
+    };
+    let parts = [0, 1, 2].map(|at| springs(6, &springs_of(at)).dense());
+    let real = 1.1 * &parts[0] + 0.8 * &parts[1] + &parts[2];
+    let modes = solve(&real, &(50.0 * eye(6)), 6).unwrap();
+    of_matrices(&parts, &(50.0 * eye(6)), &modes)
+}
+
 /// Structures built here.
 fn built() -> Vec<(String, Files)> {
     let mut all: Vec<(String, Files)> = Vec::new();
@@ -243,6 +255,24 @@ fn built() -> Vec<(String, Files)> {
         );
     }
     all
+}
+
+#[test]
+fn equal_roots_end_no_run_however_many_modes_are_taken() {
+    for files in [alike(), ring(), towers([1.0, 1.014, 0.6])] {
+        for (taken, shown) in (1..=6).flat_map(|taken| (1..=taken).map(move |own| (taken, own))) {
+            let shown = format!("[test]\nmodes = {:?}", (1..=shown).collect_vec());
+            let files = with(files.clone(), "job.toml", "[test]", &shown);
+            let files = comparing(files, &format!("analysis_modes = {taken}"));
+            let (_folder, path) = placed(&files);
+            for command in ["check", "correlate"] {
+                let mut program = assert_cmd::Command::cargo_bin("corfem").unwrap();
+                let output = program.arg(command).arg(&path).arg("-q").output().unwrap();
+                let words = String::from_utf8(output.stderr).unwrap();
+                assert_ne!(output.status.code(), Some(2), "{command}, {taken}: {words}");
+            }
+        }
+    }
 }
 
 #[test]

@@ -195,18 +195,20 @@ fn concerns_table(title: &str, trust: &Trust, is_of_it: impl Fn(&Concern) -> boo
 }
 
 /// Parameters that may be the one that is wrong, by how much of the test's chi-squared each alone can take away, at most
-/// [`MOST_SUSPECTS`]; beside it the paper's unlimited factor of the first iteration.
-///
-/// # Errors
-/// The errors of the rankings.
-pub fn suspects_table(prepared: &PreparedJob) -> Result<Table, FileError> {
+/// [`MOST_SUSPECTS`]; beside it the paper's unlimited factor of the first iteration. What keeps them from being ranked is a note.
+pub fn suspects_table(prepared: &PreparedJob) -> Table {
+    let title = "Suspects: what one parameter alone explains";
+    let table = Table::new("suspects", title, "Parameter");
+    if prepared.loaded.source.priors.is_empty() {
+        return table.notes(["The job has no parameters."]);
+    }
+    suspects(prepared, table.clone())
+        .unwrap_or_else(|why| table.notes([format!("Not ranked: {why}.")]))
+}
+
+fn suspects(prepared: &PreparedJob, table: Table) -> Result<Table, FileError> {
     let loaded = &prepared.loaded;
     let parameters = loaded.source.whole.parameters();
-    let title = "Suspects: what one parameter alone explains";
-    if parameters.is_empty() {
-        return Ok(Table::new("suspects", title, "Parameter")
-            .notes(["The job has no parameters.".to_owned()]));
-    }
     let (far, first) = prepared.far_from_first()?;
     let weights = far.weights();
     let suspects = by_single_fit(&first, &weights)?;
@@ -248,7 +250,7 @@ pub fn suspects_table(prepared: &PreparedJob) -> Result<Table, FileError> {
             .find(|slope| slope.parameter == parameter)
             .map(|slope| slope.factor)
     };
-    Ok(Table::new("suspects", title, "Parameter")
+    Ok(table
         .labels(shown().map(|suspect| &parameters[suspect.parameter].name))
         .column(
             "factor",
@@ -279,16 +281,19 @@ pub fn suspects_table(prepared: &PreparedJob) -> Result<Table, FileError> {
         .notes((left > 0).then_some(less)))
 }
 
-/// Changes of a test that lower the deviations of the factors most, or raise them least, at most three of a kind.
-///
-/// # Errors
-/// The errors of [`PreparedJob::next_measurement`].
-pub fn measurement_table(prepared: &PreparedJob) -> Result<Table, FileError> {
-    let next = prepared.next_measurement()?;
-    let names: Vec<&str> = prepared.loaded.parameter_names().collect();
-    let mut table = Table::new("next_measurement", "Where to measure next", "Test")
+/// Changes of a test that lower the deviations of the factors most, or raise them least, at most three of a kind. What keeps them from
+/// being ranked is a note.
+pub fn measurement_table(prepared: &PreparedJob) -> Table {
+    let table = Table::new("next_measurement", "Where to measure next", "Test")
         .headings(["deviation", "largest"], "%")
         .headings(["parameter"], "");
+    measurements(prepared, table.clone())
+        .unwrap_or_else(|why| table.notes([format!("Not ranked: {why}.")]))
+}
+
+fn measurements(prepared: &PreparedJob, mut table: Table) -> Result<Table, FileError> {
+    let next = prepared.next_measurement()?;
+    let names: Vec<&str> = prepared.loaded.parameter_names().collect();
     let shown = next
         .changes
         .into_iter()
