@@ -234,8 +234,10 @@ impl Trust {
 
     /// The account after a run, with what is known since; test modes are left out by what it ended with.
     pub(super) fn after(&self, concerns: Vec<Concern>) -> Self {
-        let is_of_first =
-            |own: &&Concern| own.grade == Grade::LeftOut || own.identifier == "unanswered-modes";
+        let is_of_first = |own: &&Concern| {
+            let name = &own.identifier;
+            name.starts_with("not-compared-") || name == "unanswered-modes"
+        };
         let before = self.concerns.iter().filter(|own| !is_of_first(own));
         Self::new(before.cloned().chain(concerns).collect())
     }

@@ -4,7 +4,6 @@ use super::concern::{Check, Concern, Grade, Trust, some};
 use super::preflight::{
     LARGEST_TOLERANCE, Names, SeenModes, check_settings, percent, preflight_at_sensors,
 };
-use super::prepared::LeftOut;
 use super::sensors::PlacedSensor;
 use super::{LoadedJob, Method, PreparedJob};
 use crate::files::deck::{Reason, Unread};
@@ -90,7 +89,9 @@ impl Trust {
 impl PreparedJob {
     /// Remarks on which test modes are compared with which modes of the model.
     fn pairing_concerns(&self) -> Vec<Concern> {
-        let mut all: Vec<Concern> = self.unpaired.iter().map(LeftOut::concern).collect();
+        // What is unlike the first model may be like the corrected one.
+        let unpaired = self.unpaired.iter();
+        let mut all: Vec<Concern> = unpaired.map(|own| own.concern(Grade::Remark)).collect();
         let open = |name: &str, modes: &[usize], words: &str| {
             let words = format!("Test modes {} {words}", some(modes));
             (!modes.is_empty())

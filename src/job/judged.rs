@@ -1,9 +1,9 @@
 //! A correlated job with everything that says how far to trust it: its last value.
 
-use super::concern::{Check, Concern, Trust, some};
+use super::PreparedJob;
+use super::concern::{Check, Concern, Grade, Trust, some};
 use super::correlated::{Caller, CorrelatedJob, History};
 use super::verdict::{Judged, Outcome, Stationary, Verdict, sum_of_nine_modes};
-use super::{LeftOut, PreparedJob};
 use crate::files::error::FileError;
 use crate::method::error_sum::mode_errors;
 use crate::method::step::Bounds;
@@ -191,7 +191,7 @@ impl CorrelatedJob {
         }));
         all.extend(prepared.unanswered(&self.last));
         let left = prepared.unlike(&self.last)?;
-        all.extend(left.iter().map(LeftOut::concern));
+        all.extend(left.iter().map(|own| own.concern(Grade::LeftOut)));
         Ok(all)
     }
 

@@ -45,8 +45,8 @@ const HARM: &str = "compared it makes the others worse";
 const OUT_OF_REACH: &str = "no mode of the model that it resembles can have its frequency within the bounds and priors of the parameters";
 
 impl LeftOut {
-    /// The concern that says so.
-    pub(super) fn concern(&self) -> Concern {
+    /// The concern that says so: a remark before the steps.
+    pub(super) fn concern(&self, grade: Grade) -> Concern {
         let Self {
             mode,
             assurance,
@@ -56,13 +56,7 @@ impl LeftOut {
         let words = format!(
             "Test mode {mode} is not compared: {why} (modal assurance {assurance:.2} at most)."
         );
-        Concern::new(
-            Grade::LeftOut,
-            Check::Pairs,
-            "not-compared-",
-            &[mode],
-            words,
-        )
+        Concern::new(grade, Check::Pairs, "not-compared-", &[mode], words)
     }
 }
 

@@ -131,7 +131,7 @@ pub fn init(
     write_report(path, if *test { TEST_TEMPLATE } else { TEMPLATE })
 }
 
-/// Reports every doubt about a job and ranks its parameters, without a step; true if none stands and every selected mode is compared.
+/// Reports every doubt about a job and ranks its parameters, without a step; true if none stands.
 pub fn check_job(
     CheckArguments {
         job,
@@ -163,7 +163,7 @@ pub fn check_job(
         )
     };
     output.write(&tables, document)?;
-    Ok(!trust.stands_against())
+    Ok(!trust.has_doubt())
 }
 
 /// Corrects the model of a job and writes the report; true if it is within tolerance.

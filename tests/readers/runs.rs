@@ -275,6 +275,27 @@ fn equal_roots_end_no_run_however_many_modes_are_taken() {
     }
 }
 
+/// The law: a look ends in status 3 exactly where a doubt stands, and what is unlike the first model stands against nothing yet.
+#[test]
+fn a_look_ends_in_3_exactly_where_a_doubt_stands() {
+    for (name, path) in [in_folder("tests/jobs"), in_folder("tests/runs")].concat() {
+        let mut program = assert_cmd::Command::cargo_bin("corfem").unwrap();
+        let command = program.arg("check").arg(path).args(["-q", "-f", "json"]);
+        let output = command.output().unwrap();
+        let Ok(found) = serde_json::from_slice::<Value>(&output.stdout) else {
+            assert_eq!(output.status.code(), Some(2), "{name}");
+            continue;
+        };
+        let has = |grade| {
+            let mut all = found["trust"].as_array().unwrap().iter();
+            all.any(|own| own["grade"] == grade)
+        };
+        let status = if has("doubt") { 3 } else { 0 };
+        assert_eq!(output.status.code(), Some(status), "{name}");
+        assert!(!has("left_out"), "{name}");
+    }
+}
+
 #[test]
 fn golden_runs_end_where_they_ended() {
     let stored = [in_folder("tests/jobs"), in_folder("tests/runs")].concat();
