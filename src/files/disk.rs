@@ -33,6 +33,13 @@ pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     Ok(())
 }
 
+/// The file of a name, in which a # may choose one matrix of several.
+pub(crate) fn file_of(name: &Path) -> &Path {
+    let parts = name.to_str().and_then(|text| text.rsplit_once('#'));
+    let chosen = parts.filter(|_| !name.exists());
+    chosen.map_or(name, |(file, _)| Path::new(file))
+}
+
 /// Refuses a place where no file can be made, before there is anything to write.
 ///
 /// # Errors

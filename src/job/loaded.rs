@@ -5,6 +5,7 @@ use super::model::from_deck;
 use super::sensors::{PlacedSensor, place};
 use super::{Job, Method, ModelSource, PreparedJob, read};
 use crate::files::deck::rewrite;
+use crate::files::disk::file_of;
 use crate::files::error::FileError;
 use crate::files::read_bytes;
 use crate::files::test_data::TestData;
@@ -191,13 +192,9 @@ impl LoadedJob {
     /// # Errors
     /// [`FileError::File`] when one of them cannot be read any more.
     pub fn digest(&self) -> Result<String, FileError> {
-        let named = self.job.files().map(|file| self.job.beside(file));
         let mut digest = Sha256::new_with_prefix(env!("CARGO_PKG_VERSION"));
-        for file in named.chain([self.job.path.clone()]) {
-            // A # may choose one matrix of the file.
-            let text = file.to_string_lossy();
-            let chosen = text.rsplit_once('#').filter(|_| !file.exists());
-            let path = chosen.map_or(&*file, |(file, _)| Path::new(file));
+        for file in self.job.inputs() {
+            let path = file_of(&file);
             let bytes = read_bytes(path).map_err(FileError::of_file(path, "read"))?;
             digest.update((bytes.len() as u64).to_be_bytes());
             digest.update(&bytes);

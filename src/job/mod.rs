@@ -50,6 +50,7 @@ pub use prepared::{LeftOut, PreparedJob};
 #[doc(hidden)]
 pub use sensors::PlacedSensor;
 
+use crate::files::disk::file_of;
 use crate::files::error::{FileError, is_not};
 use crate::files::read_bytes;
 use crate::files::text::decoded;
@@ -231,6 +232,50 @@ impl Method {
 /// Most numbers in one list, against a slip of the finger that fills the memory.
 const MOST_LABELS: usize = 10_000_000;
 
+/// Files of a result, that of decks last.
+pub const FILES: [&str; 7] = [
+    "report.html",
+    "factors.csv",
+    "shapes.csv",
+    "shapes.unv",
+    "residuals.csv",
+    "correlation.json",
+    "corrected.bdf",
+];
+
+/// Refuses a report and a folder of [`FILES`] over what a run reads: files that are named, or those of a job. One that cannot be read is
+/// refused where it is needed.
+///
+/// # Errors
+/// [`FileError::Refused`] naming the file.
+pub fn spare(
+    job: Option<&PathBuf>,
+    named: [Option<&PathBuf>; 4],
+    [file, folder]: [Option<&PathBuf>; 2],
+) -> Result<(), FileError> {
+    #[cfg(unix)]
+    let identity = |path: &Path| {
+        use std::os::unix::fs::MetadataExt;
+        path.metadata().map(|found| (found.dev(), found.ino()))
+    };
+    #[cfg(not(unix))]
+    let identity = Path::canonicalize;
+    let job = job.and_then(|job| read(job).ok());
+    let named = named.into_iter().flatten().cloned();
+    let inputs = named.chain(job.iter().flat_map(Job::inputs));
+    let read: Vec<_> = inputs.flat_map(|own| identity(file_of(&own))).collect();
+    let outputs = folder
+        .into_iter()
+        .flat_map(|own| FILES.map(|name| own.join(name)));
+    let lost = outputs
+        .chain(file.cloned())
+        .find(|own| identity(own).is_ok_and(|own| read.contains(&own)));
+    lost.map_or(Ok(()), |path| {
+        let reason = "this run reads it and would overwrite it; name another folder or file";
+        Err(FileError::refused(path.display(), reason))
+    })
+}
+
 /// Reads a job file.
 ///
 /// # Errors
@@ -277,6 +322,12 @@ impl Job {
         let matrices = rules.flat_map(|rule| [&rule.matrix, &rule.stiffness, &rule.mass]);
         let named = model.into_iter().chain(matrices).flatten();
         named.chain(&self.test.file).chain(&self.test.repeats)
+    }
+
+    /// Paths of all that it reads, its own last.
+    pub fn inputs(&self) -> impl Iterator<Item = PathBuf> {
+        let named = self.files().map(|file| self.beside(file));
+        named.chain([self.path.clone()])
     }
 
     /// True if the job's file has this entry, such as `compare.seed`.

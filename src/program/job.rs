@@ -7,7 +7,8 @@ use super::progress;
 use clap::Args;
 use corfem::files::error::FileError;
 use corfem::job::{
-    CorrelatedJob, JobResult, LoadedJob, Method, PreparedJob, TEMPLATE, TEST_TEMPLATE, Trust, run,
+    CorrelatedJob, FILES, JobResult, LoadedJob, Method, PreparedJob, TEMPLATE, TEST_TEMPLATE,
+    Trust, run,
 };
 use corfem::present::page::report_page;
 use corfem::present::report::Report;
@@ -207,27 +208,15 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
             &command(arguments),
             &prepared.loaded.job.text,
         )?;
-        let files = vec![
-            ("report.html".to_owned(), page.into_bytes()),
-            (
-                "factors.csv".to_owned(),
-                rows::factor_rows(&report).into_bytes(),
-            ),
-            (
-                "shapes.csv".to_owned(),
-                rows::shape_rows(&report)?.into_bytes(),
-            ),
-            (
-                "shapes.unv".to_owned(),
-                universal(&report, &prepared.loaded)?.into_bytes(),
-            ),
-            (
-                "residuals.csv".to_owned(),
-                rows::residual_rows(&report).into_bytes(),
-            ),
-            ("correlation.json".to_owned(), document()?.into_bytes()),
+        let texts = [
+            page,
+            rows::factor_rows(&report),
+            rows::shape_rows(&report)?,
+            universal(&report, &prepared.loaded)?,
+            rows::residual_rows(&report),
+            document()?,
         ];
-        write_results(folder, files, &result.found)?;
+        write_results(folder, texts, &result.found)?;
     }
     if result.found.is_interrupted {
         note("corfem: stopped by request; the best factors so far are given");
@@ -294,14 +283,15 @@ fn command(arguments: &CorrelateArguments) -> String {
 /// Writes the files of a result and its corrected deck; a deck that cannot be written does not lose the others of a long correlation.
 fn write_results(
     folder: &Path,
-    mut files: Vec<(String, Vec<u8>)>,
+    texts: [String; 6],
     found: &CorrelatedJob,
 ) -> Result<(), PresentError> {
     let loaded = &found.prepared.loaded;
     let deck = loaded.corrected_deck(&found.factors);
     let bytes = deck.as_ref().ok().cloned().flatten();
-    files.extend(bytes.map(|bytes| ("corrected.bdf".to_owned(), bytes)));
-    write_files(folder, &files)?;
+    let all = texts.map(String::into_bytes).into_iter().chain(bytes);
+    let names = FILES.map(str::to_owned).into_iter();
+    write_files(folder, &names.zip(all).collect::<Vec<_>>())?;
     deck?;
     Ok(())
 }

@@ -17,6 +17,7 @@ use cases::CasesArguments;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use corfem::files::error::FileError;
+use corfem::job::spare;
 use corfem::present::PresentError;
 use deck::{DeckArguments, ModesArguments};
 use job::{CheckArguments, CorrelateArguments, InitArguments};
@@ -174,6 +175,8 @@ fn check_places(matches: &ArgMatches) -> Result<(), PresentError> {
     {
         refuse_page(page)?;
     }
+    let named = ["deck", "stiffness", "mass", "box_file"].map(path);
+    spare(path("job"), named, [file, folder])?;
     check(file.map(PathBuf::as_path), folder.map(PathBuf::as_path))
 }
 

@@ -146,3 +146,38 @@ fn new_files_are_on_the_disk_before_they_take_a_name() {
         .collect();
     assert_eq!(kinds, "srs".repeat(names(&out.path().join("figures"))));
 }
+
+/// The law: no command writes over what it reads, by whatever name.
+#[test]
+fn no_output_takes_the_place_of_an_input() {
+    for name in ["shapes.csv", "factors.csv", "residuals.csv"] {
+        let mut files = building();
+        let job = file(&mut files, "job.toml");
+        *job = job.replace("\"test.csv\"", &format!("{name:?}"));
+        let test = files.iter_mut().find(|(own, _)| own == "test.csv");
+        test.unwrap().0 = name.to_owned();
+        let (folder, _) = placed(&files);
+        symlink(folder.path(), folder.path().join("link")).unwrap();
+        let commands = [
+            "correlate job.toml --folder .".to_owned(),
+            "correlate job.toml --folder link".to_owned(),
+            format!("correlate job.toml -o link/{name}"),
+            "correlate job.toml -o job.toml".to_owned(),
+            format!("check job.toml -o {name}"),
+            "modes --stiffness stiffness.mtx --mass mass.mtx -o link/mass.mtx".to_owned(),
+        ];
+        for command in commands {
+            let mut program = Command::new(assert_cmd::cargo::cargo_bin("corfem"));
+            let program = program.args(command.split(' ')).current_dir(folder.path());
+            let found = program.output().unwrap();
+            let words = text(&found.stderr);
+            assert_eq!(found.status.code(), Some(2), "{command}: {words}");
+            assert!(words.contains("this run reads it"), "{command}: {words}");
+            for (name, text) in &files {
+                assert!(fs::read_to_string(folder.path().join(name)).unwrap() == *text);
+            }
+            let count = fs::read_dir(folder.path()).unwrap().count();
+            assert_eq!(count, files.len() + 1, "{command}");
+        }
+    }
+}
