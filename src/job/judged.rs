@@ -68,10 +68,11 @@ impl CorrelatedJob {
         let misfit = self.misfit(&verdict.at_bound)?;
         let seen_first = self.sees(&self.first, 1.0)?;
         let seen = self.sees(&self.last, misfit.widening())?;
-        // Weighted steps are judged by the noise that weighs them, where a wrong model would have failed; not those that ended short.
+        // Weighted steps are judged by the noise that weighs them, where a wrong model would have failed; not those that ended short or
+        // were stopped.
         let is_short = matches!(
             verdict.outcome,
-            Outcome::Wall | Outcome::Short | Outcome::Cap
+            Outcome::Wall | Outcome::Short | Outcome::Cap | Outcome::Request
         );
         let is_weighted = matches!(self.history, History::GaussNewton(_));
         if is_weighted && misfit.is_by_noise() && !is_short {

@@ -7,8 +7,7 @@ use super::progress;
 use clap::Args;
 use corfem::files::error::FileError;
 use corfem::job::{
-    CorrelatedJob, FILES, JobResult, LoadedJob, Method, PreparedJob, TEMPLATE, TEST_TEMPLATE,
-    Trust, run,
+    CorrelatedJob, FILES, JobResult, LoadedJob, PreparedJob, TEMPLATE, TEST_TEMPLATE, Trust, run,
 };
 use corfem::present::page::report_page;
 use corfem::present::report::Report;
@@ -234,7 +233,6 @@ fn corrected(
     let go_on = || !stop.load(Ordering::SeqCst);
     if let Some(starts) = arguments.starts {
         let compare = &mut loaded.job.compare;
-        compare.method = Method::GaussNewton;
         compare.starts = Some(starts as usize);
         compare.seed = arguments.seed.unwrap_or(compare.seed);
     }
