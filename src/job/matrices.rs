@@ -3,6 +3,7 @@
 use super::bodies::explained;
 use super::model::{GridLayout, ModelSource, prior, range};
 use super::{Job, Scales};
+use crate::files::deck::number::{LARGEST, real};
 use crate::files::error::{FileError, is_not};
 use crate::files::matrices::{self, Digits, Label, LabeledMatrix};
 use crate::files::test_data::{self, cells, row_name, separator};
@@ -25,7 +26,7 @@ pub(super) fn from_matrices(
     stiffness: &Path,
     mass: &Path,
 ) -> Result<ModelSource, FileError> {
-    let stiffness = matrix(job, stiffness, "model.stiffness")?;
+    let stiffness = matrix(job, stiffness, "model.stiffness", None)?;
     let count = stiffness.matrix.rows();
     let own: Option<Vec<_>> = stiffness
         .rows
@@ -56,7 +57,7 @@ pub(super) fn from_matrices(
             )
         })?;
     }
-    let mass = on_rows(job, (mass, "model.mass"), &row_of)?;
+    let mass = on_rows(job, (mass, "model.mass"), &row_of, count)?;
     let (mut parameters, mut priors) = (Vec::new(), Vec::new());
     for rule in &job.parameters {
         let name = &rule.name;
@@ -76,7 +77,7 @@ pub(super) fn from_matrices(
             ))
         })?;
         let entry = format!("parameter \"{name}\"");
-        let mut matrix = on_rows(job, (file, &entry), &row_of)?;
+        let mut matrix = on_rows(job, (file, &entry), &row_of, count)?;
         if let Some(at) = at {
             let first = match scales {
                 Scales::Stiffness => &stiffness.matrix,
@@ -143,10 +144,10 @@ pub fn matrix_modes(file: &Path, mass: &Path, most: usize) -> Result<WholeModes,
         rows,
         matrix: stiffness,
         ..
-    } = matrix(&job, file, "--stiffness")?;
+    } = matrix(&job, file, "--stiffness", None)?;
     let dof: Vec<_> = rows.iter().flatten().map(degree_of_freedom).collect();
     let row_of = (0..).zip(&dof).map(|(row, dof)| (*dof, row)).collect();
-    let mass = on_rows(&job, (mass, "--mass"), &row_of)?;
+    let mass = on_rows(&job, (mass, "--mass"), &row_of, stiffness.rows())?;
     let most = most.min(stiffness.rows());
     let rows_with_mass = motions_with_mass(&mass);
     let name = |row: usize| row_name(row, &dof);
@@ -246,8 +247,14 @@ fn degree_of_freedom(label: &Label) -> StructuralDof {
     }
 }
 
-/// A matrix of a file, with the same labels for rows and columns; `#` in the name chooses one of several.
-fn matrix(job: &Job, file: &Path, entry: &str) -> Result<LabeledMatrix, FileError> {
+/// A square matrix of a file, with the same labels for rows and columns, or of so many rows without any; `#` in the name chooses one of
+/// several.
+fn matrix(
+    job: &Job,
+    file: &Path,
+    entry: &str,
+    count: Option<usize>,
+) -> Result<LabeledMatrix, FileError> {
     let text = file.to_string_lossy();
     let is_file = |file: &str| job.beside(Path::new(file)).is_file();
     // A number sign may be part of the file's own name.
@@ -263,9 +270,26 @@ fn matrix(job: &Job, file: &Path, entry: &str) -> Result<LabeledMatrix, FileErro
     let file = job.beside(Path::new(file));
     let bytes = job.bytes(&file, entry)?;
     let found = matrices::read(&file.display().to_string(), &bytes, wanted)?;
+    let is_huge = |value: f64| value.abs() > LARGEST;
+    if found.matrix.entries().any(|entry| is_huge(entry.2)) {
+        let has_huge = |line: &str| {
+            line.split([' ', '\t', ','])
+                .any(|word| real(word).is_some_and(is_huge))
+        };
+        let line = decoded(&bytes).lines().position(has_huge).unwrap_or(0) + 1;
+        let reason =
+            format!("a number is beyond {LARGEST:e}, and its square is none; look at its exponent");
+        return Err(FileError::line(&file.display().to_string(), line, reason));
+    }
     let others = (found.columns != found.rows).then_some(&text);
     job.refuse_if(others, |text| {
         format!("{text}: rows and columns have different names")
+    })?;
+    let shape = [found.matrix.rows(), found.matrix.columns()];
+    let wanted = count.filter(|_| found.rows.is_none()).unwrap_or(shape[0]);
+    let other = (shape != [wanted; 2]).then_some(shape);
+    job.refuse_if(other, |[rows, columns]| {
+        format!("{text} ({entry}) is {rows} x {columns}; it must be {wanted} x {wanted}")
     })?;
     // Labels ascend, so that two of one degree of freedom are neighbors.
     let labels = found.rows.as_deref().unwrap_or_default();
@@ -284,8 +308,9 @@ fn on_rows(
     job: &Job,
     (file, entry): (&Path, &str),
     row_of: &BTreeMap<StructuralDof, usize>,
+    count: usize,
 ) -> Result<SparseMatrix, FileError> {
-    let LabeledMatrix { rows, matrix, .. } = matrix(job, file, entry)?;
+    let LabeledMatrix { rows, matrix, .. } = matrix(job, file, entry, Some(count))?;
     let Some(labels) = &rows else {
         return Ok(matrix);
     };

@@ -135,7 +135,12 @@ impl ModelSource {
             .iter()
             .map(|(place, mass)| Some((*place)? * mass.sum()))
             .collect();
-        let center = moments.map(|moments| moments.iter().sum::<Vector3<f64>>() / total.sum());
+        let places = placed.iter().flat_map(|own| own.0);
+        let farthest = places.fold(0.0_f64, |most, place| most.max(place.amax()));
+        // What is left of sums that cancel is no distance.
+        let told = |own: f64| own * f64::from(own.abs() >= 1e-9 * farthest);
+        let center =
+            moments.map(|moments| (moments.iter().sum::<Vector3<f64>>() / total.sum()).map(told));
         Ok((total, center.filter(|_| total.sum() > 0.0)))
     }
 }

@@ -131,3 +131,62 @@ fn labels_that_fall_on_one_row_are_an_error_in_every_matrix() {
         );
     }
 }
+
+#[test]
+fn a_matrix_of_another_size_is_named_with_its_own() {
+    let other = "%%MatrixMarket matrix coordinate real general\n3 2 1\n1 1 1.0\n";
+    for (name, entry, wanted) in [
+        ("stiffness.mtx", "model.stiffness", 3),
+        ("mass.mtx", "model.mass", 10),
+        ("story_7.mtx", "parameter \"story 7\"", 10),
+    ] {
+        let mut files = building();
+        *file(&mut files, name) = other.to_owned();
+        let words = format!("{name} ({entry}) is 3 x 2; it must be {wanted} x {wanted}");
+        assert_eq!(said(&files), format!("job.toml: {words}"));
+    }
+}
+
+/// Masses in a ring about the origin have their center there, whatever the round-off of the sum.
+#[test]
+fn round_off_is_no_center_of_gravity() {
+    for (count, radius) in [(3, 1.0), (5, 11.7), (6, 3e-3), (7, 4e5)] {
+        let ground = springs(
+            count,
+            &(0..count)
+                .map(|row| (row, None, 1e4 + row as f64))
+                .collect_vec(),
+        );
+        let (ground, mass) = ([ground.dense()], 1.7 * eye(count));
+        let mut files = of_matrices(&ground, &mass, &solve(&ground[0], &mass, 2).unwrap());
+        *file(&mut files, "rows.csv") = (0..count)
+            .map(|row| {
+                let (sine, cosine) = (TAU * row as f64 / count as f64).sin_cos();
+                format!("{},x,{},{},7.5\n", row + 1, radius * cosine, radius * sine)
+            })
+            .collect();
+        let [x, y, z] = prepared(&files).loaded.source.mass_center.unwrap().into();
+        assert_eq!([x, y], [0.0; 2]);
+        assert_within(z, 7.5, ROUND_OFF);
+    }
+}
+
+#[test]
+fn a_number_without_a_square_is_refused_by_its_line() {
+    for value in ["nan", "inf", "-inf", "1.e200", "-1.0e155"] {
+        let heading = "%%MatrixMarket matrix coordinate real general\n1 1 1\n";
+        for text in [
+            format!("{heading}1 1 {value}\n"),
+            format!("** of a part\n1,1,1,1,1.0\n1,2,1,2,{value}\n"),
+            format!("$ of a part\nDMIG,K,0,6,1\nDMIG,K,1,1,,1,1,{value}\n"),
+        ] {
+            let mut files = building();
+            *file(&mut files, "mass.mtx") = text;
+            let error = said(&files);
+            assert!(error.starts_with("mass.mtx, line 3: "), "{error}");
+        }
+        let test = format!("frequency_hz,,1.0\nname,direction,mode 1\na,x,1.0\nb,x,{value}\n");
+        let error = test_data::read("t", test.as_bytes()).unwrap_err();
+        assert!(error.to_string().starts_with("t, line 4: "), "{error}");
+    }
+}

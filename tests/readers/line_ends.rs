@@ -66,11 +66,13 @@ fn check(name: &str, bytes: &[u8], read: Reader) -> Result<String, String> {
         ("CR", ended(bytes, b"\r")),
         ("no last end", open),
     ] {
-        assert!(
-            read(&other) == said,
-            "{name} with {end}: {said:?}, {:?}",
-            read(&other)
-        );
+        let others = read(&other);
+        // Damage may leave a last number as one that the end of the file cut.
+        let is_cut = others
+            .as_ref()
+            .is_err_and(|own| own.contains("ends inside"));
+        let is_same = others == said || end == "no last end" && is_cut;
+        assert!(is_same, "{name} with {end}: {said:?}, {others:?}");
     }
     said
 }

@@ -161,6 +161,33 @@ fn the_owners_programs_read_what_the_crate_writes() {
     }
 }
 
+/// The law: a file that ends inside its last number is refused, wherever in it, and one that lacks its last line end alone is read.
+#[test]
+fn a_file_that_ends_inside_a_number_is_refused() {
+    for [one, other, last] in [
+        ["1.250000e+05", "-3.500000e-02", "2.000000e+03"],
+        ["125.000000", "-0.035000", "2000.123456"],
+        ["1.25e5", "-3.5e-2", "2.5e3"],
+    ] {
+        let market = format!(
+            "%%MatrixMarket matrix coordinate real general\n2 2 3\n1 1 {one}\n1 2 {other}\n2 2 {last}"
+        );
+        let labeled = format!("1,1,1,1,{one}\n1,2,1,2,{other}\n1,3,1,3,{last}");
+        let bulk = (1..).zip([one, other, last]);
+        let bulk = bulk.map(|(grid, value)| format!("DMIG,K,{grid},1,,{grid},1,{value}"));
+        let bulk = bulk.collect_vec().join("\n");
+        for text in [market, labeled, format!("DMIG,K,0,6,1\n{bulk}")] {
+            assert!(read("m", text.as_bytes(), None).is_ok(), "{text}");
+            for cut in 1..last.len() {
+                let left = &text[..text.len() - cut];
+                let error = read("m", left.as_bytes(), None).expect_err(left);
+                let line = format!("m, line {}: ", text.lines().count());
+                assert!(error.to_string().starts_with(&line), "{error}");
+            }
+        }
+    }
+}
+
 properties! {
     #[test]
     fn a_written_matrix_reads_back_exactly(

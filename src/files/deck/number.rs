@@ -31,6 +31,9 @@ pub fn parse_real(text: &str) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
+/// Largest number of a model or a test: its square is a number as well.
+pub(crate) const LARGEST: f64 = 1e150;
+
 /// A finite number without blanks, as Fortran, NASTRAN or a spreadsheet writes it, with a point or without.
 pub(crate) fn real(text: &str) -> Option<f64> {
     let value = || text.replace(['d', 'D'], "e").parse().ok();

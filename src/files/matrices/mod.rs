@@ -12,10 +12,11 @@ pub(crate) use digits::Digits;
 #[doc(hidden)]
 pub use matrix_market::write_matrix_market;
 
+use crate::files::deck::number::real;
 use crate::files::error::FileError;
 use crate::files::text::readable;
 use crate::sparse::SparseMatrix;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A grid and its component, 1 to 6, or 0 for a scalar point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -47,6 +48,7 @@ pub struct LabeledMatrix {
 /// matrix; the errors of [`SparseMatrix::new`].
 pub fn read(name: &str, bytes: &[u8], wanted: Option<&str>) -> Result<LabeledMatrix, FileError> {
     let text = readable(name, bytes)?;
+    check_end(name, &text)?;
     if let Some(matrix) = abaqus::read(name, &text) {
         return matrix;
     }
@@ -113,6 +115,30 @@ fn mirrored(entries: Vec<Entry>) -> Result<Vec<Entry>, (usize, usize)> {
         Some((place, _)) => Err(*place),
         None => Ok(entries),
     }
+}
+
+/// Refuses a text that ends inside a number: no line end is behind it, and it lacks an exponent that all numbers before it have, or decimals
+/// or a digit of the exponent where all of them have as many.
+fn check_end(name: &str, text: &str) -> Result<(), FileError> {
+    let mut numbers = text.split([' ', '\t', ',', '\r', '\n']).map(|word| {
+        real(word)?;
+        let end = word.find(['e', 'E', 'd', 'D']).unwrap_or(word.len());
+        let point = word[..end].find('.').unwrap_or(end);
+        Some([word.len() - end, end - point])
+    });
+    let Some(last) = numbers.next_back().flatten() else {
+        return Ok(());
+    };
+    let before: BTreeSet<_> = numbers.flatten().filter(|own| own[1] > 0).collect();
+    let is_cut = before.first().is_some_and(|least| {
+        let is_shorter = last[0] < least[0] || last[1] < least[1];
+        least[0] > 0 && last[0] == 0 || before.len() == 1 && is_shorter
+    });
+    if is_cut {
+        let reason = "the file ends inside a number, which lacks what all before it have; write it again, or end its last line if it is whole";
+        return Err(FileError::line(name, text.lines().count(), reason));
+    }
+    Ok(())
 }
 
 fn is_wanted(name: &str, wanted: Option<&str>) -> bool {

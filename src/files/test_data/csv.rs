@@ -28,6 +28,7 @@
 //!   fractions) or `phase_collinearity` have a number in each column of a mode. Every other row below the header is a sensor.
 
 use super::{DIRECTION, Sensor, TestData, default_name, direction, real};
+use crate::files::deck::number::LARGEST;
 use crate::files::error::{FileError, is_not};
 use crate::files::inert;
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -86,6 +87,7 @@ impl TestRow<'_> {
             } else {
                 cell.replace(',', ".")
             });
+            let value = value.filter(|value| value.abs() <= LARGEST);
             value.map_or_else(|| self.is_not(cell, "a number"), Ok)
         };
         columns.iter().map(number).collect()

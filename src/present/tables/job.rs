@@ -88,15 +88,7 @@ pub fn model_table(prepared: &PreparedJob) -> Result<Table, FileError> {
         source.whole.rigid_bodies()?.rigid(),
     );
     let write = |at: &Vector3<f64>| {
-        // What is left of sums that cancel is no distance.
-        let parts = at.map(|own| {
-            if own.abs() < 1e-9 * at.amax() {
-                0.0
-            } else {
-                own
-            }
-        });
-        let [x, y, z] = <[f64; 3]>::from(parts).map(|own| Digits::Significant(6).write(own));
+        let [x, y, z] = <[f64; 3]>::from(*at).map(|own| Digits::Significant(6).write(own));
         format!("{x}, {y}, {z}")
     };
     let unbounded = source.whole.parameters().iter();
