@@ -180,17 +180,28 @@ fn the_answer_says_what_is_sure_and_no_more() {
     let ([f, fs], [s, ss]) = (rms(Errors::frequency_rms), rms(Errors::shape_rms));
     let errors = format!("Frequency error {f:.2} → {fs:.2} %, shape error {s:.2} → {ss:.2} %; ");
     let surest = |deviations: Option<Vec<Option<f64>>>| {
+        let each = deviations.iter().flatten().zip(subject.factors());
+        let intervals = each.map(|(own, factor)| {
+            let off = 2.0 * own.ok_or(Withheld::NoOptimum)?;
+            let ends = [1.0 - off, 1.0 + off].map(|end| factor * end);
+            Ok(Bounds {
+                lower: ends[0],
+                upper: ends[1],
+            })
+        });
         let subject = Report {
+            intervals: intervals.collect(),
             deviations,
             ..subject.clone()
         };
         subject.answer().replace(&errors, "")
     };
     // A tenth of every factor is nothing sure, a thousandth is, and where none is known only the errors and changes are told.
-    let unsure = "no factor surely changed; 0 of 4 factors known within 5 %.";
+    let unsure =
+        "no factor surely changed; 0 of 4 factors known within 5 %, if only these are wrong.";
     assert_eq!(surest(Some(vec![Some(0.1); 4])), unsure);
     let sure = surest(Some(vec![Some(0.001); 4]));
-    let mut parts = vec!["; 4 of 4 factors known within 5 %.".to_owned()];
+    let mut parts = vec!["; 4 of 4 factors known within 5 %, if only these are wrong.".to_owned()];
     for e in [0, 1] {
         let percent = 100.0 * (subject.factors()[e] - 1.0);
         let sign = if percent < 0.0 { "−" } else { "+" };
@@ -201,6 +212,9 @@ fn the_answer_says_what_is_sure_and_no_more() {
         "{sure}: {parts:?}"
     );
     assert!(surest(Some(vec![None; 4])).ends_with("; no factor has an interval."));
+    // Ends of an interval are two deviations away.
+    let mixed = surest(Some([0.024, 0.026, 0.04, 0.06].map(Some).to_vec()));
+    assert!(mixed.contains("; 1 of 4 factors known"), "{mixed}");
     assert!(!surest(None).contains("known"));
     let mut failed = subject.clone();
     failed.verdict.as_mut().unwrap().is_within = false;

@@ -2,6 +2,7 @@
 
 use super::Report;
 use crate::method::error_sum::Errors;
+use crate::method::step::Bounds;
 use crate::present::table::Digits;
 use crate::present::tables::RMS_PERCENT;
 use crate::weighted::identifiability::MOSTLY_PRIOR;
@@ -11,8 +12,8 @@ const SURE: f64 = 2.0;
 /// Change of a factor that is named where no deviation is known. A frequency goes with the root of a stiffness: less than this moves none
 /// by more than 0.25 %, half of the deviation that is assumed of measured frequencies.
 const CHANGED: f64 = 0.005;
-/// Standard deviation of a factor, a fraction of it, within which it counts as known: no frequency is uncertain by more than 2.5 % for its
-/// sake, half of what models are customarily asked to come to their test within.
+/// Distance of the ends of a factor's 95 % interval, a fraction of it, within which it counts as known: no frequency is uncertain by more
+/// than 2.5 % for its sake, half of what models are customarily asked to come to their test within.
 const KNOWN: f64 = 0.05;
 /// Most factors that the line names, which is to be one line and a half of a terminal.
 const NAMED: usize = 3;
@@ -122,20 +123,23 @@ impl Report {
             [] => Some("no factor surely changed".to_owned()),
             _ => Some(changed.join(", ")),
         };
-        let count = self.parameters.len();
-        let known = self.deviations.as_ref().map(|deviations| {
-            let is_known = |e: &usize| {
-                deviations[*e].is_some() && self.log_deviation(*e).is_some_and(|it| it <= KNOWN)
-            };
-            match deviations.iter().flatten().count() {
+        let all = self.intervals.iter().zip(self.factors());
+        let off = all.filter_map(|(own, factor)| {
+            let Bounds { lower, upper } = own.as_ref().ok()?;
+            Some((upper / factor - 1.0).max(1.0 - lower / factor))
+        });
+        let known = self
+            .deviations
+            .as_ref()
+            .map(|all| match off.clone().count() {
                 0 => "no factor has an interval".to_owned(),
                 _ => format!(
-                    "{} of {count} factors known within {:.0} %",
-                    (0..count).filter(is_known).count(),
+                    "{} of {} factors known within {:.0} %, if only these are wrong",
+                    off.filter(|off| *off <= KNOWN).count(),
+                    all.len(),
                     100.0 * KNOWN
                 ),
-            }
-        });
+            });
         let parts: Vec<String> = [errors].into_iter().chain(changed).chain(known).collect();
         let line = format!("{against}{}.", parts.join("; "));
         line[..1].to_uppercase() + &line[1..]
