@@ -13,7 +13,6 @@ use std::path::Path;
 
 /// Size in bytes of the longest file that is read, 2 GiB: enough for a matrix of sixty million entries. The text and the data read
 /// from it take some three times as much memory.
-#[doc(hidden)]
 pub const MOST_BYTES: u64 = 1 << 31;
 
 /// The bytes of a regular file of at most [`MOST_BYTES`]. Anything else, such as a device or a pipe, is refused before it is

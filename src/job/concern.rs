@@ -271,7 +271,6 @@ impl Trust {
     }
 
     /// True if a doubt or a selected mode that is not compared stands against the result.
-    #[doc(hidden)]
     pub fn stands_against(&self) -> bool {
         self.has_doubt() || self.concerns.iter().any(|own| own.grade == Grade::LeftOut)
     }

@@ -36,18 +36,14 @@ pub mod verdict;
 pub use concern::{Check, Concern, Trust};
 #[doc(hidden)]
 pub use concerns::of_bodies;
-#[doc(hidden)]
 pub use correlated::{CorrelatedJob, History};
 pub use judged::{HeldOut, JobResult, run};
 pub use loaded::LoadedJob;
 #[doc(hidden)]
 pub use matrices::matrix_modes;
-#[doc(hidden)]
 pub use model::{GridLayout, ModelSource};
-#[doc(hidden)]
 pub use next_measurement::{NextMeasurement, mean_deviation};
 pub use prepared::{LeftOut, PreparedJob};
-#[doc(hidden)]
 pub use sensors::PlacedSensor;
 
 use crate::files::disk::file_of;
@@ -62,11 +58,9 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 /// A job that explains its entries.
-#[doc(hidden)]
 pub const TEMPLATE: &str = include_str!("template.toml");
 
 /// A test as a table that explains itself.
-#[doc(hidden)]
 pub const TEST_TEMPLATE: &str = include_str!("template.csv");
 
 /// Content of a job file; [`TEMPLATE`] explains every entry.

@@ -11,7 +11,6 @@ use serde::Serialize;
 
 /// Largest part of a test mode's generalized stiffness (or mass) below which a parameter counts as unseen: twice as much of it
 /// would move no frequency by half a percent.
-#[doc(hidden)]
 pub const UNSEEN_SHARE: f64 = 0.01;
 
 /// Reason why a correlation ended.
@@ -69,7 +68,6 @@ pub struct Verdict {
 }
 
 /// What a verdict judges beside the best factors.
-#[doc(hidden)]
 pub struct Judged<'a> {
     /// Largest part of a test mode that each parameter had at first.
     pub seen: &'a [f64],

@@ -33,6 +33,7 @@ pub fn key(at: &Vector3<f64>) -> [i64; 3] {
     [at.x, at.y, at.z].map(|component| (component + 0.0).to_bits() as i64)
 }
 
+/// True of a place whose coordinates are numbers.
 pub fn is_finite(at: &Vector3<f64>) -> bool {
     at.iter().all(|component| component.is_finite())
 }

@@ -1,9 +1,8 @@
 //! The reader's view of results: tables as data and as text, Markdown or CSV, JSON, and the report as one page.
 //!
-//! A [`report::Report`] is any correlation with all that a reader needs; [`tables::report`], [`json::report`],
-//! [`rows`] and [`page::report_page`] are views of it. The paper's cases are reports with more beside them, which `paper/presentation` shows.
+//! A [`report::Report`] is any correlation with all that a reader needs; tables, JSON, rows of numbers
+//! and a page are views of it. The paper's cases are reports with more beside them, which `paper/presentation` shows.
 
-#[doc(hidden)]
 pub mod frame;
 #[doc(hidden)]
 pub mod json;

@@ -15,7 +15,6 @@ mod mass_changes;
 mod matrix;
 mod ordering;
 mod place;
-#[doc(hidden)]
 pub mod random;
 mod residual_vectors;
 pub(crate) mod rigid_bodies;
@@ -23,7 +22,6 @@ mod sensor_model;
 mod share;
 mod subspace;
 pub(crate) mod visibility;
-#[doc(hidden)]
 pub mod whole_modes;
 mod whole_model;
 
@@ -36,9 +34,7 @@ pub(crate) use checks::{
     finite, gram, inverse_of_positive, places_above, solve_lower, solve_positive, start_vector,
     take_product, transposed_product,
 };
-#[doc(hidden)]
 pub use factorization::{Factor, Work};
-#[doc(hidden)]
 pub use lowest_modes::{CountedModes, FINITE, MOST_DENSE_ROWS};
 #[doc(hidden)]
 pub use mass_changes::normalize_with_mass;
@@ -46,15 +42,10 @@ pub(crate) use matrix::HalfUnit;
 pub use matrix::SparseMatrix;
 pub(crate) use place::{Deflections, Place, is_held};
 pub use rigid_bodies::{BodyFinding, Places, RigidBodies, Support};
-pub use sensor_model::SensorModel;
-#[doc(hidden)]
-pub use sensor_model::{Candidates, ModeWeight, Pair};
+pub use sensor_model::{Candidates, ModeWeight, Pair, SensorModel};
 pub(crate) use sensor_model::{check_weights, is_one_root, parts_of};
-#[doc(hidden)]
 pub use share::{ParameterMatrix, Share, WholeShare};
-#[doc(hidden)]
-pub use whole_model::BasisSize;
-pub use whole_model::{WholeModel, WholeParameter};
+pub use whole_model::{BasisSize, WholeModel, WholeParameter};
 
 use crate::method::modes::Modes;
 use nalgebra::{DMatrix, DVector};

@@ -3,17 +3,12 @@
 pub mod error;
 #[doc(hidden)]
 pub mod fewer_modes;
-#[doc(hidden)]
 pub mod published;
 mod run;
-#[doc(hidden)]
 pub mod table_1;
-#[doc(hidden)]
 pub mod wing_box;
 
-#[doc(hidden)]
-pub use run::{ANOMALY_RATIO, Anomaly, stands_out};
-pub use run::{CaseResult, run_case};
+pub use run::{ANOMALY_RATIO, Anomaly, CaseResult, run_case, stands_out};
 
 use crate::method::inner_loop::InnerSettings;
 use crate::method::linear_algebra::check_length;
@@ -220,7 +215,6 @@ impl Case {
 }
 
 /// Number of passes of a case that the paper prints: two, two, three; Case 4 was a single iteration.
-#[doc(hidden)]
 pub fn published_passes(case: usize) -> usize {
     match case {
         1 | 2 => 2,
@@ -231,7 +225,6 @@ pub fn published_passes(case: usize) -> usize {
 
 /// The reading of the step that comes nearest to the published gages of a case; for Case 4, which has none, the one that the box
 /// was fitted with (`paper/interpretation.md`).
-#[doc(hidden)]
 pub fn published_reading(case: usize) -> StepRule {
     if case == 2 || case == 3 {
         StepRule::Relative

@@ -20,7 +20,6 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// A frequency of the test without a shape, and the mode of the model that it is compared with.
-#[doc(hidden)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoneFrequency {
     /// Hz.

@@ -6,19 +6,13 @@
 pub mod close_modes;
 pub mod comparison;
 pub mod gauss_newton;
-#[doc(hidden)]
 pub mod identifiability;
 pub mod intervals;
 pub mod misfit;
 pub(crate) mod lower_place;
 pub(crate) mod measurements;
-#[doc(hidden)]
 pub mod next_step;
-#[doc(hidden)]
 pub mod noise;
-#[doc(hidden)]
 pub mod residuals;
-#[doc(hidden)]
 pub mod second_order;
-#[doc(hidden)]
 pub mod starts;

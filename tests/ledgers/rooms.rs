@@ -180,3 +180,57 @@ fn the_check_finds_every_import() {
         ]
     );
 }
+
+/// A name that is handed on without a page of its own stands in no documented signature but those of its own kind.
+#[test]
+fn no_documented_signature_has_a_hidden_name() {
+    let source = in_root("src");
+    let files = files_below(&source).into_iter();
+    let files = files.filter(|file| file.extension().is_some_and(|end| end == "rs"));
+    let texts = files.map(|file| (fs::read_to_string(&file).unwrap(), file));
+    let texts = texts.collect_vec();
+    let words = |text: &str| -> BTreeSet<String> {
+        let words = text.split(|c: char| !c.is_alphanumeric() && c != '_');
+        words.map(str::to_owned).collect()
+    };
+    let behind = |text: &str, what: &str| {
+        let mark = format!("#[doc(hidden)]\npub {what} ");
+        let all = text.split(&mark).skip(1);
+        all.map(|rest| rest.split(';').next().unwrap().to_owned())
+            .collect_vec()
+    };
+    let uses = texts.iter().flat_map(|(text, _)| behind(text, "use"));
+    let hidden: BTreeSet<String> = uses.flat_map(|names| words(&names)).collect();
+    let modules = texts.iter().flat_map(|(text, file)| {
+        let folder = file.parent().unwrap();
+        behind(text, "mod")
+            .into_iter()
+            .map(|name| folder.join(name))
+    });
+    let modules = modules.collect_vec();
+    let is_shown = |file: &Path| {
+        let own = file.with_extension("");
+        modules.iter().all(|module| !own.starts_with(module))
+    };
+    let mut found = Vec::new();
+    for (text, file) in texts.iter().filter(|(_, file)| is_shown(file)) {
+        let mut owner = BTreeSet::new();
+        for part in text.split("\n\n") {
+            if !part.starts_with(' ') {
+                let own = part.lines().find(|line| line.starts_with("impl"));
+                owner = words(own.unwrap_or_default());
+            }
+            let Some((before, rest)) = part.split_once("pub fn ") else {
+                continue;
+            };
+            let signature = words(rest.split('{').next().unwrap());
+            let name = words(rest.split(['(', '<']).next().unwrap());
+            let is_hidden = before.contains("doc(hidden)") || !hidden.is_disjoint(&name);
+            if before.contains("///") && !is_hidden && hidden.is_disjoint(&owner) {
+                let names = signature.intersection(&hidden).cloned();
+                found.extend(names.map(|name| format!("{}: {name}", file.display())));
+            }
+        }
+    }
+    assert_eq!(found, [""; 0]);
+}

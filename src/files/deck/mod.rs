@@ -34,15 +34,10 @@ pub(super) use card::Card;
 pub(crate) use elements::Membership;
 pub(super) use lines::cards;
 
-pub use model::BulkData;
-#[doc(hidden)]
-pub use model::{PointMass, Tie};
+pub use model::{BulkData, PointMass, Tie};
 #[doc(hidden)]
 pub use modes::{modes, moving};
-pub use read::{Deck, read};
-#[doc(hidden)]
-pub use read::{Reason, Unread};
-#[doc(hidden)]
+pub use read::{Deck, Reason, Unread, read};
 pub use rewrite::rewrite;
 #[doc(hidden)]
 pub use write::{Task, write};

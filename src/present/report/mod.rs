@@ -28,7 +28,6 @@ use serde::{Serialize, Serializer};
 use serde_json::json;
 
 /// A row of the shapes.
-#[doc(hidden)]
 #[derive(Debug, Clone, PartialEq)]
 pub struct SensorPoint {
     /// Name.
@@ -53,7 +52,6 @@ pub struct Stage {
 }
 
 /// Residuals of a test mode over their standard deviations.
-#[doc(hidden)]
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ModeResiduals {
     /// The test mode's number.
@@ -65,7 +63,6 @@ pub struct ModeResiduals {
 }
 
 /// Derivatives at the first model by the relative stiffness or mass of each parameter.
-#[doc(hidden)]
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Derivatives {
     /// $\partial \ln f_i/\partial \ln s_e$ of the mode paired with test mode $i$ (parameters × test modes, those without shapes last).
@@ -207,7 +204,6 @@ pub struct Report {
 }
 
 /// Agreement of analysis modes (rows) and test modes (columns).
-#[doc(hidden)]
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PairAgreement {
     /// The analysis mode paired with every test mode, from one.
