@@ -55,7 +55,8 @@ def main(program):
                 if other != nearest:
                     at = next((i for i, (a, b) in enumerate(zip(nearest, other)) if a != b), min(len(nearest), len(other)))
                     failures.append(f"{' '.join(command)}, rounding {way}: {' '.join(other[at - 6:at + 6])}\n  to nearest: {' '.join(nearest[at - 6:at + 6])}")
-    assert min(moved.values()) > 5, f"digits of {moved} commands differ: the library was not loaded"
+    # The JSON of four commands has all digits of what it says.
+    assert min(moved.values()) >= 4, f"digits of {moved} commands differ: the library was not loaded"
     print(f"{counted} words and integers compared")
     sys.exit("\n".join(failures) or None)
 
