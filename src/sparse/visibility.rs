@@ -170,12 +170,11 @@ pub(super) fn open_squares(
 /// # Errors
 /// [`Error::WrongShape`] for matrices that do not fit.
 pub(crate) fn open_parts(pencil: [&SparseMatrix; 2], modes: &Modes) -> Result<Vec<f64>, Error> {
-    let squares = open_squares(pencil, modes)?.component_div(&modes.omega_squared) / 2.0;
-    let is_written = pencil.iter().any(|matrix| matrix.half_unit().is_written());
-    Ok(squares
-        .iter()
-        .map(|part| if is_written { *part } else { 0.0 })
-        .collect())
+    if !pencil.iter().any(|matrix| matrix.half_unit().is_written()) {
+        return Ok(vec![0.0; modes.len()]);
+    }
+    let parts = open_squares(pencil, modes)?.component_div(&modes.omega_squared) / 2.0;
+    Ok(parts.as_slice().to_vec())
 }
 
 /// Rows that couplings join, one by one or by others, to a row that a sensor reads.
