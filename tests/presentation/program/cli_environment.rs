@@ -1,6 +1,7 @@
 //! Whatever the terminal, home, time zone and language of who runs it, the program writes the same bytes.
 
 use crate::prelude::*;
+use corfem::job::FILES;
 use std::process::Command;
 
 /// Variables with another value, or without one.
@@ -41,16 +42,7 @@ fn terminal_home_time_zone_and_language_make_no_difference() {
             };
         }
         let output = command.output().unwrap();
-        let written = [
-            "report.html",
-            "factors.csv",
-            "shapes.csv",
-            "shapes.unv",
-            "residuals.csv",
-            "correlation.json",
-            "corrected.bdf",
-        ];
-        let written = written.map(|name| fs::read(path.join(name)).ok());
+        let written = FILES.map(|name| fs::read(path.join(name)).ok());
         (output.status.code(), output.stdout, output.stderr, written)
     };
     for words in [
