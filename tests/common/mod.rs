@@ -15,7 +15,6 @@ pub mod closed_forms;
 pub mod complex_pencils;
 pub mod condensed;
 pub mod decks;
-pub mod drawings;
 pub mod draws;
 #[cfg(unix)]
 pub mod fake_solver;

@@ -281,8 +281,6 @@ pub const GOLDEN_STEPS: f64 = 0.05;
 pub const CHAIN_ROUND_OFF: f64 = 1e-14;
 /// Relative margin by which every decision of a history is far from falling otherwise: 4.4e-4 in the nearest.
 pub const NEAREST_DECISION: f64 = 4e-4;
-/// Units of a drawing by which a rounded place may be off: one, of a tenth of a pixel, for two roundings of a half.
-pub const DRAWN_UNIT: f64 = 1.001;
 /// Roots of a pencil against a dense decomposition, relative to the root; the decomposition itself rounds at a part of the largest.
 pub const CLUSTERED_ROOT: f64 = 1e-7;
 /// The least part of a strategy's draws that reach what its law is about.

@@ -1,10 +1,7 @@
 //! Tables, figures, the page, and the program from outside.
 
-pub mod diagram;
 pub mod figures;
 pub mod figures_drawing;
-pub mod figures_legible;
-pub mod frame;
 pub mod job_subject;
 pub mod moving;
 pub mod page;
