@@ -211,18 +211,13 @@ impl CorrelatedJob {
             .filter(|&e| seen.is_mostly_prior(e) && !blind.contains(&e))
             .collect();
         let mut all: Vec<Concern> = Vec::new();
-        all.extend(
-            seen.parallel_groups()
-                .iter()
-                .chain(&seen.dependent)
-                .map(|group| {
-                    let words = format!(
-                        "The test cannot tell {} apart; only combinations of them are known.",
-                        some(&of(group))
-                    );
-                    Concern::remark(Check::Sight, "not-apart-", &of(group), words)
-                }),
-        );
+        all.extend(seen.parallel_groups().iter().map(|group| {
+            let words = format!(
+                "The test cannot tell {} apart; only combinations of them are known.",
+                some(&of(group))
+            );
+            Concern::remark(Check::Sight, "not-apart-", &of(group), words)
+        }));
         all.extend(about(
             Check::Sight,
             "blind",

@@ -7,7 +7,6 @@ use crate::method::modes::Modes;
 use crate::weighted::comparison::ExactResult;
 use crate::weighted::identifiability::MOSTLY_PRIOR;
 use nalgebra::DVectorView;
-use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// A row a parameter, `parameter,first,factor,deviation,low,high,test`: its first and its best factor, the standard deviation of this and
@@ -37,16 +36,11 @@ fn said_of(report: &Report, e: usize, factor: f64) -> String {
     let Some([_, seen]) = &report.seen else {
         return String::new();
     };
-    let pairs = seen.parallel.iter().map(|&(a, b, _)| vec![a, b]);
-    let groups = pairs.chain(seen.dependent.iter().cloned());
-    let others = groups
-        .filter(|group| group.contains(&e))
-        .flatten()
-        .filter(|&other| other != e);
-    let others: BTreeSet<usize> = others.collect();
-    let others = others
-        .into_iter()
-        .map(|other| &report.parameters[other][..]);
+    let others = seen.parallel.iter().filter_map(|&(a, b, _)| match e {
+        _ if e == a => Some(b),
+        _ => (e == b).then_some(a),
+    });
+    let others = others.map(|other| &report.parameters[other][..]);
     let others: Vec<&str> = others.collect();
     match () {
         () if report.is_at_bound(e, factor) => "at bound".to_owned(),

@@ -26,8 +26,6 @@ pub struct Identifiability {
     pub condition: f64,
     /// Pairs above [`PARALLEL_COSINE`] with their cosine, negative where one undoes the other.
     pub parallel: Vec<(usize, usize, f64)>,
-    /// Groups of three of which the first is nearly what the two others do together.
-    pub dependent: Vec<Vec<usize>>,
     /// Parameters below [`BLIND_FRACTION`].
     pub blind: Vec<usize>,
     /// Those that say more than the prior beyond what the ones before can imitate, by QR with column pivoting.
@@ -98,7 +96,6 @@ pub fn identifiability(jacobian: &DMatrix<f64>, priors: &[f64]) -> Result<Identi
         parallel: parallel
             .filter(|(_, _, cosine)| cosine.abs() > PARALLEL_COSINE)
             .collect(),
-        dependent: dependent(&unit_products(&gram, &lengths), &blind),
         subset: subset(gram.map_with_location(|a, b, product| priors[a] * product * priors[b])),
         learned: deviations
             .iter()
@@ -154,54 +151,6 @@ fn subset(mut left: DMatrix<f64>) -> Vec<usize> {
         left.row_mut(next).fill(0.0);
         left.column_mut(next).fill(0.0);
     }
-}
-
-/// Most parameters that are looked at as what others imitate; where a test tells fewer apart their number says it.
-const MOST_DEPENDENT: usize = 8;
-
-/// Cosines between columns of these lengths, zero of a column without length.
-fn unit_products(gram: &DMatrix<f64>, lengths: &[f64]) -> DMatrix<f64> {
-    gram.map_with_location(|a, b, product| match lengths[a] * lengths[b] {
-        0.0 => f64::from(u8::from(a == b)),
-        lengths => product / lengths,
-    })
-}
-
-/// Groups of three columns of which the first is imitated by the two others together, as one of two parallel ones by the other: what is
-/// left of it beside them is shorter than $\sqrt{1 - 0.98^2}$ of it. The worst column comes first, with those of the largest coefficients,
-/// and is left out then. What takes more than two others its deviation tells.
-fn dependent(cosines: &DMatrix<f64>, blind: &[usize]) -> Vec<Vec<usize>> {
-    let most_left = 1.0 - PARALLEL_COSINE * PARALLEL_COSINE;
-    // A dependence to round-off is one to a billionth as well.
-    let inverse = |of: &[usize]| {
-        let own = cosines.select_rows(of).select_columns(of);
-        let floor = DMatrix::from_diagonal_element(of.len(), of.len(), 1e-9);
-        (own + floor).cholesky().map(|factor| factor.inverse())
-    };
-    let left = |of: &[usize]| inverse(of).map_or(1.0, |inverse| inverse[(0, 0)].recip());
-    let mut active: Vec<usize> = (0..cosines.nrows())
-        .filter(|e| !blind.contains(e))
-        .collect();
-    let mut groups = Vec::new();
-    for _ in 0..MOST_DEPENDENT {
-        let Some(all) = inverse(&active).filter(|_| active.len() > 2) else {
-            break;
-        };
-        let worst = all.diagonal().imax();
-        if all[(worst, worst)] < 1.0 / most_left {
-            break;
-        }
-        let mut others: Vec<usize> = (0..active.len()).filter(|e| *e != worst).collect();
-        let size = |e: &usize| all[(*e, worst)].abs();
-        others.sort_by(|a, b| size(b).total_cmp(&size(a)).then(a.cmp(b)));
-        let group = [worst, others[0], others[1]].map(|place| active[place]);
-        let is_pair = left(&group[..2]) < most_left;
-        if !is_pair && left(&group) < most_left {
-            groups.push(group.to_vec());
-        }
-        active.remove(worst);
-    }
-    groups
 }
 
 impl Identifiability {
