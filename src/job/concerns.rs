@@ -490,10 +490,13 @@ pub fn of_bodies(finding: &BodyFinding) -> Concern {
         } => {
             let hertz = |[own, open]: &[f64; 2]| format!("{own:.1e} ± {open:.0e}");
             let held: Vec<String> = if_held.iter().map(hertz).collect();
+            let held = match &held[..] {
+                [] => "taken as held".to_owned(),
+                held => format!("at {} Hz if held", held.join(", ")),
+            };
             let words = format!(
-                "Not told from free by {digits} of the stiffness: {count}, at {} Hz if held; a suspension below {hidden_hz:.0e} Hz would \
-                 not show. Places of the rows, or model.rigid_bodies, decide.",
-                held.join(", ")
+                "Not told from free by {digits} of the stiffness: {count}, {held}; a suspension below {hidden_hz:.0e} Hz would not show. \
+                 Places of the rows, or model.rigid_bodies, decide."
             );
             let grade = if *is_sure {
                 Grade::NotChecked

@@ -39,17 +39,12 @@ impl PreparedJob {
             let square = exact.modes.omega_squared[mode];
             let (mut soft, mut stiff) = ([1.0; 2], [1.0; 2]);
             for (e, share) in shares.iter().enumerate() {
-                let ([down, up], part) = (room(e), share.part(mode, square));
-                match share {
-                    ParameterMatrix::Stiffness(_) => {
-                        soft[0] += part * down;
-                        stiff[0] += part * up;
-                    }
-                    ParameterMatrix::Mass(_) => {
-                        soft[1] += part * up;
-                        stiff[1] += part * down;
-                    }
-                }
+                // Round-off may leave a negative part.
+                let mut ends = room(e).map(|far| share.part(mode, square) * far);
+                ends.sort_by(f64::total_cmp);
+                let at = usize::from(matches!(share, ParameterMatrix::Mass(_)));
+                soft[at] += ends[at];
+                stiff[at] += ends[1 - at];
             }
             let root = |of: [f64; 2]| (of[0].max(0.0) / of[1].max(f64::MIN_POSITIVE)).sqrt();
             Bounds {
@@ -114,9 +109,10 @@ impl PreparedJob {
         })
     }
 
-    /// True if a measured frequency (Hz) of a test mode lies within reach, but for its own deviation.
+    /// True if a measured frequency (Hz) of a test mode lies within reach, but for its deviation with what digits leave open.
     pub(super) fn is_within(&self, reach: Bounds, mode: usize) -> bool {
-        let noise = FAR * self.loaded.deviations(mode).frequency;
+        let noise = self.loaded.deviations(mode).frequency;
+        let noise = FAR * noise.hypot(self.open_part(mode));
         let hertz = self.loaded.data.frequencies_hz[mode];
         (reach.lower * (1.0 - noise)..=reach.upper * (1.0 + noise)).contains(&hertz)
     }

@@ -259,9 +259,9 @@ fn all(solve: Solve, rigid: usize, mass: &SparseMatrix) -> Result<Found, Error> 
     let kept: Vec<usize> = kept.filter(|&at| at >= rigid).collect();
     Ok(Found {
         roots: roots.select_rows(&kept),
+        is_all: kept.len() + rigid == f.ncols(),
         shapes: deflections * vectors.select_columns(&kept),
         forces: f * vectors.select_columns(&kept),
-        is_all: true,
     })
 }
 

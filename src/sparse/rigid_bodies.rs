@@ -70,7 +70,8 @@ pub struct Support {
 /// The null space of a semidefinite stiffness.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigidBodies {
-    /// Motions that span the null space (rows × r): each is one at a row of its own in `rows` and zero at the others.
+    /// Motions that span the null space (rows × r): each is one at a row of its own in `rows` and zero at the others. Without these rows
+    /// they are the lowest modes, nearly, which the digits do not tell from free among others of as little resistance.
     pub motions: DMatrix<f64>,
     /// Rows at which one of the motions is one and the others are zero.
     pub rows: Vec<usize>,
@@ -158,6 +159,15 @@ impl RigidBodies {
             }
             None => found.is_sure = at(-GAP)?.negative_count() == most,
         }
+        // Motions among others of as little resistance are no null space: as modes they are exact, where doubles hold them.
+        let doubles = (
+            -1.0,
+            &super::brackets::slack(&unit, &SparseMatrix::unit_scale(&unit.diagonal())),
+        );
+        if !found.is_sure && bracket(plan, what, &[(1.0, &unit)], doubles)?.negative_count() == 0 {
+            found.motions = per_row(weakest, &root);
+            return Ok(found);
+        }
         found.rows = moving_rows(&weakest);
         // Held by springs at these rows, one of which is displaced by one, the structure moves by a motion that nothing
         // resists. A solution gives all its digits; a decomposition mixes in motions that strain little beside the stiffest.
@@ -169,10 +179,7 @@ impl RigidBodies {
             displacements[(row, at)] = ground[row];
         }
         let held = bracket(plan, what, &[(1.0, &unit)], (1.0, &ground))?;
-        let mut motions = held.solve(&displacements)?;
-        for mut motion in motions.column_iter_mut() {
-            motion.component_div_assign(&root);
-        }
+        let motions = per_row(held.solve(&displacements)?, &root);
         let own = motions.select_rows(&found.rows).try_inverse();
         found.motions = motions * own.ok_or(Error::no_convergence("rigid-body modes"))?;
         Ok(found)
@@ -257,11 +264,14 @@ impl RigidBodies {
                 free: self.rigid(),
             });
         }
-        if !self.rows.is_empty() && !self.is_told {
+        if self.motions.ncols() > 0 && !self.is_told {
             all.push(BodyFinding::ByDigits {
-                count: self.rows.len(),
+                count: self.motions.ncols(),
                 digits: self.half_unit.words(),
-                if_held: self.if_held([stiffness, mass])?,
+                if_held: match self.rows.len() {
+                    0 => Vec::new(),
+                    _ => self.if_held([stiffness, mass])?,
+                },
                 hidden_hz: self.hidden(mass).sqrt() / TAU,
                 is_sure: self.is_sure,
             });
@@ -323,7 +333,7 @@ pub enum BodyFinding {
         count: usize,
         /// The digits that leave them free, in words.
         digits: String,
-        /// Their frequencies if they are held, and the deviations of these by the digits, Hz.
+        /// Their frequencies if they are held, and the deviations of these by the digits, Hz; none where they are listed as modes.
         if_held: Vec<[f64; 2]>,
         /// A frequency below which a suspension would not show, Hz.
         hidden_hz: f64,
@@ -355,6 +365,13 @@ fn weakest(unit: &SparseMatrix, factor: &Factor, count: usize) -> Result<DMatrix
     let energies = symmetric_part(&weakest.tr_mul(&unit.times(&weakest)?));
     let (_, vectors) = symmetric_eigen("resistance of motions", &energies)?;
     Ok(weakest * vectors.columns(0, count))
+}
+
+/// Motions over a unit of displacement of every row.
+fn per_row(mut motions: DMatrix<f64>, unit: &DVector<f64>) -> DMatrix<f64> {
+    let each = motions.column_iter_mut();
+    each.for_each(|mut motion| motion.component_div_assign(unit));
+    motions
 }
 
 /// The row that moves most in motions, then the one that moves most in what the first leaves free, as many as there are motions.

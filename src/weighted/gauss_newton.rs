@@ -82,7 +82,8 @@ impl WeightedSettings {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum WeightedStop {
-    /// A step that nothing damps promises a fall within tolerance, but for what the gradient presses against bounds.
+    /// A step that nothing damps promises a fall within tolerance, but for what the gradient presses against bounds; or one that no test
+    /// can tell, a hundredth of [`LOWER`], where shorter steps found none.
     Gradient,
     /// Only short steps promise as little, and ahead of them pairs of modes change or meet, or there is no model.
     Wall,
@@ -367,7 +368,7 @@ impl<'a> Problem<'a> {
             }
             let foretold = self.foretold(&place, &second_order, damping.now)?;
             let Some((promised, step)) = foretold.filter(|(fall, _)| *fall > least) else {
-                break place.end(is_wall);
+                break place.end(is_wall, whole);
             };
             if trials == self.settings.trials {
                 break WeightedStop::Trials;
@@ -609,11 +610,12 @@ impl Damping {
 }
 
 impl Iterate {
-    /// Reason why steps ended here though their slopes promise a fall.
-    fn end(&self, is_wall: bool) -> WeightedStop {
-        match is_wall || self.comparison.meets() {
-            true => WeightedStop::Wall,
-            false => WeightedStop::Short,
+    /// Reason why steps ended here though their slopes promise a fall, the `whole` one without damping.
+    fn end(&self, is_wall: bool, whole: f64) -> WeightedStop {
+        match (self.comparison.meets(), is_wall) {
+            (false, _) if whole <= TOLD * LOWER => WeightedStop::Gradient,
+            (false, false) => WeightedStop::Short,
+            _ => WeightedStop::Wall,
         }
     }
 

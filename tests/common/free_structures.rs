@@ -3,7 +3,6 @@
 use crate::prelude::*;
 use corfem::files::matrices::read;
 use corfem::sparse::Places;
-use std::fmt::Write;
 
 /// A structure by its stiffness and mass, with place and direction of every row, and how many motions nothing resists.
 pub struct Drawn {
@@ -14,14 +13,12 @@ pub struct Drawn {
 }
 
 /// Kinds of drawn structures.
-pub const KINDS: usize = 4;
+pub const KINDS: usize = 2;
 
 /// A structure of a kind, of which the first grids are held or none.
 pub fn drawn(draws: &mut Draws, kind: usize, is_held: bool) -> Drawn {
     match kind {
-        0 => chain(draws, is_held),
-        1 => beam(draws, is_held),
-        2 => frame(draws, is_held),
+        0 => frame(draws, is_held),
         _ => truss(draws, is_held),
     }
 }
@@ -55,21 +52,6 @@ fn add(into: &mut DMatrix<f64>, rows: &[usize], part: &DMatrix<f64>) {
     }
 }
 
-fn chain(draws: &mut Draws, is_held: bool) -> Drawn {
-    let count = 5 + draws.below(40);
-    let place = |at: usize| (Vector3::new(at as f64, 0.0, 0.0), 0);
-    let mut all = nothing((0..count).map(place).collect(), 1);
-    let spring = dmatrix![1.0, -1.0; -1.0, 1.0];
-    for at in 0..count {
-        all.mass[(at, at)] = draws.between(1.0, 5.0);
-        if at > 0 {
-            let size = 10_f64.powf(draws.between(4.0, 7.0));
-            add(&mut all.stiffness, &[at - 1, at], &(size * &spring));
-        }
-    }
-    if is_held { without(all, 1, 0) } else { all }
-}
-
 /// Stiffness of a beam of a length in deflection and slope at both ends, with a bending stiffness of one.
 fn bending(length: f64) -> DMatrix<f64> {
     let (l, square) = (length, length * length);
@@ -81,42 +63,6 @@ fn bending(length: f64) -> DMatrix<f64> {
         6.0 * l, 2.0 * square, -6.0 * l, 4.0 * square,
     ];
     DMatrix::from_row_slice(4, 4, &matrix) / l.powi(3)
-}
-
-/// A beam along x in z and about y, in meters or millimeters.
-fn beam(draws: &mut Draws, is_held: bool) -> Drawn {
-    let (count, unit) = (10 + draws.below(40), [1.0, 1e3][draws.below(2)]);
-    let lengths = (0..count)
-        .map(|_| draws.between(0.5, 2.0) * unit * 10.0 / count as f64)
-        .collect_vec();
-    let mut x = 0.0;
-    let mut rows = Vec::new();
-    for at in 0..=count {
-        rows.extend([2, 4].map(|direction| (Vector3::new(x, 0.0, 0.0), direction)));
-        x += lengths.get(at).copied().unwrap_or(0.0);
-    }
-    let mut all = nothing(rows, 2);
-    // A slope dw/dx turns about -y.
-    let sign = DMatrix::from_fn(4, 4, |i, j| if (i + j) % 2 == 0 { 1.0 } else { -1.0 });
-    for (at, &length) in lengths.iter().enumerate() {
-        let size = 1e5 * draws.between(0.5, 2.0) * unit * unit;
-        let own = (2 * at..2 * at + 4).collect_vec();
-        add(
-            &mut all.stiffness,
-            &own,
-            &(size * bending(length).component_mul(&sign)),
-        );
-        let mass = draws.between(0.5, 2.0) * length / unit;
-        for row in own {
-            let turned = if row % 2 == 1 {
-                length * length / 12.0
-            } else {
-                1.0
-            };
-            all.mass[(row, row)] += 0.5 * mass * turned;
-        }
-    }
-    if is_held { without(all, 2, 0) } else { all }
 }
 
 /// A plane frame of stories, turned in its plane.
@@ -218,31 +164,28 @@ fn truss(draws: &mut Draws, is_held: bool) -> Drawn {
     if is_held { without(all, 12, 0) } else { all }
 }
 
-/// The text of a symmetric matrix with so many digits.
-pub fn written(matrix: &DMatrix<f64>, digits: usize) -> String {
+/// The text of a symmetric matrix with so many digits, none standing for six decimals, and with its zeros if they are asked for.
+pub fn written(matrix: &DMatrix<f64>, digits: usize, zeros: bool) -> String {
     let size = matrix.nrows();
-    let lower = (0..size).flat_map(|column| (column..size).map(move |row| (row, column)));
-    let lower = lower.filter(|at| matrix[*at] != 0.0).collect_vec();
-    let mut text = format!(
-        "%%MatrixMarket matrix coordinate real symmetric\n{size} {size} {}\n",
-        lower.len()
-    );
-    for at in lower {
-        let _ = writeln!(
-            text,
-            "{} {} {:.*e}",
-            at.0 + 1,
-            at.1 + 1,
-            digits - 1,
-            matrix[at]
-        );
-    }
-    text
+    let places = (0..size).flat_map(|j| (j..size).map(move |i| (i, j)));
+    let places = places
+        .filter(|&at| zeros || matrix[at] != 0.0)
+        .collect_vec();
+    let lines = places.iter().map(|&(i, j)| match digits {
+        0 => format!("{} {} {:.6}\n", i + 1, j + 1, matrix[(i, j)]),
+        _ => format!("{} {} {:.*e}\n", i + 1, j + 1, digits - 1, matrix[(i, j)]),
+    });
+    let head = "%%MatrixMarket matrix coordinate real symmetric";
+    format!(
+        "{head}\n{size} {size} {}\n{}",
+        places.len(),
+        lines.collect::<String>()
+    )
 }
 
 /// The matrix as read from a file with so many digits.
 pub fn rewritten(matrix: &DMatrix<f64>, digits: usize) -> SparseMatrix {
-    let text = written(matrix, digits);
+    let text = written(matrix, digits, false);
     read("matrix", text.as_bytes(), None).unwrap().matrix
 }
 

@@ -392,50 +392,6 @@ fn columns_at_right_angles_tell_by_their_lengths() {
     assert_eq!(of(&[2.0, 3.0, 2.0, 3.0], &[1.0; 4]).subset, [1, 3, 0, 2]);
 }
 
-/// Of c = (x a + y b) + s n, all of length one, s is what a and b together cannot imitate: a dependence below $\sqrt{1 - 0.98^2}$ = .199. The
-/// column d has a part in c that is less, and a blind one imitates nothing.
-#[test]
-fn three_columns_depend_where_two_imitate_a_third() {
-    let of = |s: f64, scale: f64| {
-        let (x, y, z) = (0.75, 0.55, 0.1);
-        let size = ((1.0 - s * s) / (x * x + y * y + z * z)).sqrt();
-        let mut columns = DMatrix::identity(5, 4);
-        columns.set_column(3, &dvector![size * x, size * y, size * z, 0.0, s]);
-        columns.column_mut(1).scale_mut(scale);
-        columns
-    };
-    let found = |columns: &DMatrix<f64>| {
-        identifiability(columns, &vec![1.0; columns.ncols()])
-            .unwrap()
-            .dependent
-    };
-    // What a and b alone leave of c is also what d has in it.
-    for (s, groups) in [(0.15, vec![vec![3, 0, 1]]), (0.18, vec![])] {
-        assert_eq!(found(&of(s, 1.0)), groups, "{s}");
-    }
-    assert_eq!(found(&of(0.15, 0.005)), [[0; 0]; 0]);
-    assert_eq!(found(&columns(&[0.0, 0.1, 1.5])), [[0; 0]; 0]);
-    let three = |s: f64| {
-        let part = ((1.0 - s * s) / 2.0).sqrt();
-        dmatrix![1.0, 0.0, part; 0.0, 1.0, part; 0.0, 0.0, s]
-    };
-    assert_eq!(found(&three(0.19)), [[2, 0, 1]]);
-    assert_eq!(found(&three(0.21)), [[0; 0]; 0]);
-    // Nine apart from one another: as many as eight are looked at.
-    let mut nine = zero_square(27);
-    (0..9).for_each(|block| {
-        nine.view_mut((3 * block, 3 * block), (3, 3))
-            .copy_from(&three(0.1))
-    });
-    let groups = found(&nine);
-    assert_eq!(groups.len(), 8);
-    assert!(
-        groups
-            .iter()
-            .all(|group| group[0] % 3 == 2 && group[0] - group[2] == 1 && group[0] - group[1] == 2)
-    );
-}
-
 /// With $r = w (e^{x/2} - 1)$ the deviation at x is $e^{-x/2}$ times that at the optimum, 2/w. At $x = \pm 2 \cdot 1.96/w$ the truth lies beyond
 /// an end by slopes in 6.6 % of the tests with w = 4, and in 7.1 % with w = 3.5: from 7 % on the ends are where $r = \pm 1.96$. With w = 2 and
 /// $\tau^{-2}$ = .4 it is 6.3 %, and would be 8.2 % if the deviations there and here changed places.
@@ -798,23 +754,26 @@ fn an_end_by_gradient_has_one_within_tolerance() {
     }
 }
 
-/// An analysis whose last digits come and go, here up to a thousandth of the stiffness, leaves a gradient, and no pairs change ahead.
+/// An analysis whose last digits come and go, here up to a thousandth of the stiffness, leaves a gradient, and no pairs change ahead: the end
+/// is short of a minimum where these digits are a part of a deviation, and one where no test tells them.
 #[test]
 fn steps_among_digits_end_short_of_a_gradient() {
-    let (inner, mut calls) = (side_by_side(&[1.0], 1.5), 0);
-    let analyze = |factors: &[f64]| {
-        calls += 1;
-        inner(&[factors[0] * (1.0 + 1e-3 * (0.618 * f64::from(calls)).fract())])
-    };
-    let found = gauss_newton(
-        analyze,
-        &[1.0],
-        &[None],
-        &by_frequency(10.0),
-        &with_priors(&[3.0]),
-    )
-    .unwrap();
-    assert_eq!(found.stop, WeightedStop::Short);
+    for (weight, stop) in [(300.0, WeightedStop::Short), (3.0, WeightedStop::Gradient)] {
+        let (inner, mut calls) = (side_by_side(&[1.0], 1.5), 0);
+        let analyze = |factors: &[f64]| {
+            calls += 1;
+            inner(&[factors[0] * (1.0 + 1e-3 * (0.618 * f64::from(calls)).fract())])
+        };
+        let found = gauss_newton(
+            analyze,
+            &[1.0],
+            &[None],
+            &by_frequency(weight),
+            &with_priors(&[3.0]),
+        )
+        .unwrap();
+        assert_eq!(found.stop, stop);
+    }
 }
 
 /// Two masses of one on two springs in a row, beside the frequencies and shapes of factors (1.4, 1): (2, 0.7) has the same frequencies.
