@@ -4,37 +4,10 @@
 use super::readings_rates::normal;
 use crate::common::jobs::of_whole;
 use crate::prelude::*;
-use corfem::job::concern::{Check, Grade};
 use corfem::job::{LoadedJob, run};
 
 /// Standard deviation of the logarithm of the true factors.
 const MODEL: f64 = 0.15;
-/// Noise of the tests, which they declare.
-const NOISE: Noise = Noise {
-    shape: 0.01,
-    frequency: 0.005,
-};
-
-/// A mistake in the readings.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Mistake {
-    /// None.
-    None,
-    /// A sensor the wrong way round.
-    Reversed,
-    /// A sensor that reads 2.5 times too much.
-    Gain,
-    /// A sensor that reads noise.
-    Dead,
-    /// Two sensors exchanged.
-    Exchanged,
-}
-
-/// All of them.
-pub const MISTAKES: [Mistake; 5] = {
-    use Mistake::*;
-    [None, Reversed, Gain, Dead, Exchanged]
-};
 
 /// Matrices of the parameters, the mass of every row, and the rows that sensors read.
 pub type Built = (Vec<DMatrix<f64>>, Vec<f64>, Vec<usize>);
@@ -52,9 +25,6 @@ pub struct Structure {
     /// What builds it.
     build: fn() -> Built,
 }
-
-/// Number of the first structures of which the pre-flight is asked.
-pub const FIVE: usize = 5;
 
 /// Place of the tower.
 pub const TOWER: usize = 6;
@@ -349,19 +319,6 @@ fn files(
     supposing(files, 0.3, rigid)
 }
 
-/// What became of a number of tests with a mistake.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Counts {
-    /// The mistake was named.
-    pub named: usize,
-    /// The account says that it was not checked at a sensor that is wrong.
-    pub not_checked: usize,
-    /// Another doubt was raised.
-    pub other: usize,
-    /// Nothing was said.
-    pub silent: usize,
-}
-
 /// A structure with its job, whose test declares a noise.
 fn built(structure: usize, noise: Noise) -> (WholeModel, LoadedJob, usize, Vec<usize>) {
     let Structure {
@@ -575,41 +532,6 @@ pub fn all_repeat_rates() -> String {
     COLUMNS.to_owned() + &of(0) + &of(1)
 }
 
-/// Counts of tests of a structure with a mistake.
-pub fn counts(structure: usize, mistake: Mistake, tests: usize) -> Counts {
-    let (model, first, parameters, sensors) = built(structure, NOISE);
-    let (mut found, mut state) = (Counts::default(), 7 + structure as u64);
-    for _ in 0..tests {
-        let truth = drawn(parameters, &mut state);
-        let mut loaded = LoadedJob::clone(&first);
-        let right = Right {
-            model: &model,
-            factors: &truth,
-            rows: &sensors,
-            modes: STRUCTURES[structure].modes,
-        };
-        measure(&mut loaded, &right, NOISE, &mut state);
-        let wrong = spoil(&mut loaded.data, mistake, &mut state);
-        let prepared = loaded.prepare().unwrap_or_else(|error| panic!("{error}"));
-        let trust = Trust::before(&prepared).unwrap_or_else(|error| panic!("{error}"));
-        let stands: Vec<&Concern> = trust
-            .all()
-            .iter()
-            .filter(|own| own.grade == Grade::Doubt)
-            .collect();
-        let is_open = trust
-            .of(Check::Readings)
-            .any(|own| own.grade == Grade::NotChecked);
-        match &stands[..] {
-            [] if is_open => found.not_checked += 1,
-            [] => found.silent += 1,
-            all if all.iter().any(|own| own.identifier == wrong) => found.named += 1,
-            _ => found.other += 1,
-        }
-    }
-    found
-}
-
 /// True model, and the rows and modes of it that a test has.
 pub struct Right<'a> {
     /// The model.
@@ -644,34 +566,4 @@ pub fn measure(loaded: &mut LoadedJob, right: &Right, noise: Noise, state: &mut 
         .map(|hertz| hertz * (1.0 + noise.frequency * normal(state)))
         .collect();
     data.shapes = shapes;
-}
-
-/// Makes a mistake in a test's readings: the identifier of the doubt that names it.
-fn spoil(data: &mut TestData, mistake: Mistake, state: &mut u64) -> String {
-    let rows = data.sensors.len();
-    let a = super::readings_rates::below(state, rows);
-    let b = (a + 1 + super::readings_rates::below(state, rows - 1)) % rows;
-    let name = |place: usize| data.sensors[place].name.clone();
-    let (one, shapes) = (name(a), &mut data.shapes);
-    match mistake {
-        Mistake::None => String::new(),
-        Mistake::Reversed => {
-            shapes.row_mut(a).neg_mut();
-            format!("reversed-{one}")
-        }
-        Mistake::Gain => {
-            shapes.row_mut(a).scale_mut(2.5);
-            format!("gain-{one}")
-        }
-        Mistake::Dead => {
-            let own = |own: &mut f64| *own = NOISE.shape * normal(state);
-            shapes.row_mut(a).apply(own);
-            format!("dead-{one}")
-        }
-        Mistake::Exchanged => {
-            let both = format!("exchanged-{}-{}", name(a.min(b)), name(a.max(b)));
-            data.shapes.swap_rows(a, b);
-            both
-        }
-    }
 }

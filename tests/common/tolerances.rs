@@ -214,12 +214,6 @@ pub const COUNTED_ROOT: f64 = 1e-9;
 pub const UNLIKE_STIFFNESS: f64 = 1e-5;
 /// Counts of seeds of a hundred in a golden: one at a threshold may fall on its other side on another machine.
 pub const GOLDEN_COUNT: f64 = 1.0;
-/// Most findings on thirty right tests of each of five structures, all together: one in a thousand tests is allowed to.
-pub const MOST_FALSE_OF_THIRTY: usize = 1;
-/// Least reversed sensors named of thirty: two may be at nodes of all measured modes.
-pub const LEAST_REVERSED_OF_THIRTY: usize = 28;
-/// The same for other single mistakes in the readings.
-pub const LEAST_OF_THIRTY: usize = 27;
 /// Least tests of a hundred in which a panel that is too thin is the first suspect.
 pub const LEAST_DETECTIONS: usize = 95;
 /// Least boxes of a hundred, unlike the reconstructed one, on which Case 4 names its faulty element: 67 to 73 when first counted.

@@ -18,7 +18,7 @@ const DIGITS: [usize; 7] = [17, 12, 10, 8, 7, 5, 0];
 /// swings on springs.
 ///
 /// Its elements are alike, so that entries of parts cancel where they meet.
-fn parts(
+pub fn parts(
     draws: &mut Draws,
     kind: usize,
     elements: usize,
@@ -99,7 +99,10 @@ fn parts(
     (parts, suspended)
 }
 
-fn whole(parts: &[[DMatrix<f64>; 2]], factors: impl Fn(usize, usize) -> f64) -> [DMatrix<f64>; 2] {
+pub fn whole(
+    parts: &[[DMatrix<f64>; 2]],
+    factors: impl Fn(usize, usize) -> f64,
+) -> [DMatrix<f64>; 2] {
     [0, 1].map(|which| {
         let each = parts.iter().enumerate();
         each.map(|(part, own)| factors(part, which) * &own[which])
@@ -108,7 +111,7 @@ fn whole(parts: &[[DMatrix<f64>; 2]], factors: impl Fn(usize, usize) -> f64) -> 
 }
 
 /// The lowest modes of matrices in files.
-fn modes(files: [String; 2]) -> WholeModes {
+pub fn modes(files: [String; 2]) -> WholeModes {
     let folder = new_folder();
     let paths = ["k.mtx", "m.mtx"].map(|name| folder.path().join(name));
     paths
@@ -128,8 +131,9 @@ fn open(found: &WholeModes) -> Option<(usize, f64)> {
     })
 }
 
-/// Modes of matrices with fewer digits beside frequencies of all: each is listed, to a thousandth or within what is said, or not told from free; what is held
-/// lies below what is said not to show. Entries of elements that are alike are rounded alike: n of them as one, and so √n times as far.
+/// Modes of matrices with fewer digits beside frequencies of all: each is listed, to a thousandth or within what is said, or not told from
+/// free; what is held lies below what is said not to show. Entries of elements that are alike are rounded alike: n of them as one, and so √n
+/// times as far.
 fn agree(all: &[f64], found: &WholeModes, free: usize, alike: usize, case: &str) {
     let (count, hidden_hz) = open(found).unwrap_or((free, 0.0));
     assert!(

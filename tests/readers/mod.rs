@@ -1,5 +1,6 @@
 //! A user's files: decks, matrices, tests, NASTRAN-95's formats, jobs.
 
+pub mod answers;
 pub mod checks;
 mod close_modes;
 pub mod complex_modes;
