@@ -5,12 +5,8 @@ use std::path::Path;
 
 /// The folder of a file: a bare name has the present one.
 fn folder_of(path: &Path) -> &Path {
-    let parent = path.parent().unwrap_or(Path::new("."));
-    if parent.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        parent
-    }
+    let named = path.parent().filter(|own| !own.as_os_str().is_empty());
+    named.unwrap_or(Path::new("."))
 }
 
 /// Writes and syncs a new file before it takes the place of the old one, if any. A link is followed, and stays one; one to nothing is

@@ -144,51 +144,45 @@ fn why(action: &str, source: &std::io::Error) -> String {
 /// those without part in the model.
 fn of_cards(file: &str, cards: &[Unread]) -> String {
     let of = |reason| cards.iter().filter(move |card| card.reason == reason);
-    let [lacking, elsewhere, unknown, without]: [Vec<&Unread>; 4] = [
-        Reason::Lacking,
-        Reason::Elsewhere,
-        Reason::Unknown,
-        Reason::WithoutPart,
-    ]
-    .map(|own| of(own).collect());
-    let places = |cards: &[&Unread]| {
-        let places: Vec<String> = cards.iter().map(|card| card.place()).collect();
-        places.join(", ")
+    let coupled = match of(Reason::Lacking).any(|card| card.card == "PARAM COUPMASS") {
+        true => {
+            "; and PARAM COUPMASS couples masses, and its modes differ from those of the lumped masses here; remove it if lumped ones will do"
+        }
+        false => "",
     };
-    let mut said = Vec::new();
-    if !lacking.is_empty() {
-        said.push(format!(
-            "corfem lacks what {} stand for, and without them the modes are others; let the program that the deck is for write the \
-             stiffness and mass, and give these (paper/matrices.md)",
-            places(&lacking)
-        ));
-    }
-    if lacking.iter().any(|card| card.card == "PARAM COUPMASS") {
-        said.push(
-            "PARAM COUPMASS couples masses, and its modes differ from those of the lumped masses here; remove it if lumped ones will do"
-                .to_owned(),
-        );
-    }
-    if !elsewhere.is_empty() {
-        said.push(format!(
-            "corfem reads one file, and any of the model may be in those that {} name; paste their text in place of these lines",
-            places(&elsewhere)
-        ));
-    }
-    if !unknown.is_empty() {
-        let names: Vec<&str> = unknown.iter().map(|card| card.card.as_str()).collect();
-        said.push(format!(
-            "corfem does not read {}, which may carry stiffness, mass, supports or coordinates; correct them, or take responsibility for \
-             leaving them out with --ignore '{}'",
-            places(&unknown),
-            names.join(",")
-        ));
-    }
-    if !without.is_empty() {
-        said.push(format!(
-            "no part in the model, so left out: {}",
-            places(&without)
-        ));
-    }
-    format!("{file}: {}", said.join("; and "))
+    let unknown: Vec<&str> = of(Reason::Unknown).map(|card| &card.card[..]).collect();
+    let said = [
+        (
+            Reason::Lacking,
+            "corfem lacks what ",
+            format!(
+                " stand for, and without them the modes are others; let the program that the deck is for write the stiffness and mass, \
+                 and give these (paper/matrices.md){coupled}"
+            ),
+        ),
+        (
+            Reason::Elsewhere,
+            "corfem reads one file, and any of the model may be in those that ",
+            " name; paste their text in place of these lines".to_owned(),
+        ),
+        (
+            Reason::Unknown,
+            "corfem does not read ",
+            format!(
+                ", which may carry stiffness, mass, supports or coordinates; correct them, or take responsibility for leaving them out \
+                 with --ignore '{}'",
+                unknown.join(",")
+            ),
+        ),
+        (
+            Reason::WithoutPart,
+            "no part in the model, so left out: ",
+            String::new(),
+        ),
+    ];
+    let said = said.into_iter().filter_map(|(reason, before, behind)| {
+        let places: Vec<String> = of(reason).map(Unread::place).collect();
+        (!places.is_empty()).then(|| format!("{before}{}{behind}", places.join(", ")))
+    });
+    format!("{file}: {}", said.collect::<Vec<_>>().join("; and "))
 }

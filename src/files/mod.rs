@@ -1,5 +1,6 @@
 //! Files of other programs: bytes to data and back.
 
+mod axes;
 pub mod deck;
 #[doc(hidden)]
 pub mod disk;

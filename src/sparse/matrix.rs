@@ -405,7 +405,7 @@ impl SparseMatrix {
             return Ok(());
         };
         let owner = || format!("{what}, entry ({row}, {column}) beside its mirror");
-        let expected = "at most 1e-11: the matrix must be symmetric";
+        let expected = "at most 1e-11: the matrix must be symmetric, and a file of one triangle alone must call it symmetric, not general";
         require(false, "relative difference", owner, part, expected)
     }
 

@@ -61,16 +61,16 @@ const BAD_FIELDS: &str = "\
 4 | PROD,1,1 | 4 | a positive real number | missing
 4 | PROD,1,1,-.5 | 4 | a positive real number | -.5
 4 | PROD,1,1,.5,X | 5 | a real number | X
-4 | PROD,1,1,.5,,,.1 | 7 | no nonstructural mass | .1
-- | PSHEAR,2,1,.5,.1 | 5 | no nonstructural mass | .1
+4 | PROD,1,1,.5,,,-.1 | 7 | a nonstructural mass of zero or more | -.1
+- | PSHEAR,2,1,.5,-.1 | 5 | a nonstructural mass of zero or more | -.1
 - | PSHEAR,2,1,.5,,1.5 | 6 | no extension of shear panels | 1.5
 - | PSHEAR,2,1,.5,,,.5 | 7 | no extension of shear panels | .5
 - | PSHEAR,2,1,.5,,0.,0.,3 | 8 | no extension of shear panels | 3
 - | PSHEAR,2,1,.5,,3,1,-.5 | 8 | a positive real number | -.5
-- | PTRMEM,2,1,.5,,3,1,.5,2. | 9 | no nonstructural mass | 2.
+- | PTRMEM,2,1,.5,,3,1,.5,-2. | 9 | a nonstructural mass of zero or more | -2.
 - | CONROD,2,1,2,1,-1. | 6 | a positive real number | -1.
 - | CONROD,2,1,2,1,1.,1 | 7 | a real number | 1
-- | CONROD,2,1,2,1,1.,,,1. | 9 | no nonstructural mass | 1.
+- | CONROD,2,1,2,1,1.,,,-1. | 9 | a nonstructural mass of zero or more | -1.
 7 | CMASS2,7,-.4,2,1 | 3 | a positive real number | -.4
 7 | CMASS2,7,.4,2,4 | 5 | component 1, 2 or 3 | 4
 7 | CMASS2,7,.4,2,1,1,1 | 6 | no masses between two degrees of freedom | 1

@@ -35,6 +35,7 @@ fn of_deck(text: &str, ignore: &[String]) -> Result<Value, String> {
             let of = element.material;
             [of.youngs_modulus, of.shear_modulus, of.poissons_ratio, of.density]
         }).collect_vec(),
+        "mass": found.model.placed_masses().map_or(0.0, |all| all.iter().map(|own| own.1.x).sum()),
         "masses": masses.iter().map(|own| json!([own.grid, own.direction.map(|of| DIRECTIONS[of]), own.mass])).collect_vec(),
         "ties": ties.collect_vec(),
         "unread": found.unread.iter().map(|card| format!("{} {:?}", card.place(), card.reason)).collect_vec(),

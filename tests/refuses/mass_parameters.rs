@@ -19,7 +19,7 @@ fn shares_of_the_mass_that_cannot_be_are_named() {
         ),
         (
             dmatrix![1.0, 0.0; 0.25, 1.0],
-            "relative difference of mass of a parameter, entry (1, 0) beside its mirror is 0.25; it must be at most 1e-11: the matrix must be symmetric",
+            "relative difference of mass of a parameter, entry (1, 0) beside its mirror is 0.25; it must be at most 1e-11: the matrix must be symmetric, and a file of one triangle alone must call it symmetric, not general",
         ),
         (
             dmatrix![1.0, 0.0; 0.0, f64::NAN],

@@ -1,6 +1,7 @@
 //! Coordinate systems of a deck: they say where its grids are, and along which directions these move.
 
 use super::card::{Card, Numbered};
+use crate::files::axes::Axes;
 use crate::files::error::FileError;
 use crate::method::structure::Grid;
 use nalgebra::{Matrix3, Vector3};
@@ -16,8 +17,7 @@ const SYSTEMS: &str = "the number of a CORD2R or CORD2C card; write a system by 
 /// Part of a unit vector below which it is the round-off of the digits of a card.
 const ROUND_OFF: f64 = 1e-6;
 
-/// Unit vectors along the directions in which grids move, in columns, of those that have a coordinate system for it; none where one has
-/// no motion, as in a fluid.
+/// Unit vectors along the directions in which grids move, in columns; none of a grid that has no motion, as in a fluid.
 #[derive(Debug, Default)]
 pub(super) struct Motions(BTreeMap<usize, Matrix3<f64>>);
 
@@ -56,44 +56,6 @@ impl Motions {
     }
 }
 
-/// A coordinate system: origin, and axes in columns.
-struct System {
-    origin: Vector3<f64>,
-    axes: Matrix3<f64>,
-    is_cylindrical: bool,
-}
-
-impl System {
-    fn basic() -> Self {
-        Self {
-            origin: Vector3::zeros(),
-            axes: Matrix3::identity(),
-            is_cylindrical: false,
-        }
-    }
-
-    /// The basic place of coordinates: x, y, z, or radius, angle in degrees and height.
-    fn place(&self, mut at: Vector3<f64>) -> Vector3<f64> {
-        if self.is_cylindrical {
-            let (sine, cosine) = at.y.to_radians().sin_cos();
-            at = Vector3::new(at.x * cosine, at.x * sine, at.z);
-        }
-        self.origin + self.axes * at
-    }
-
-    /// Unit vectors along its directions at a basic place, in columns; those of the axes where the place is on the axis of a cylindrical
-    /// one, as NASTRAN has it.
-    fn directions(&self, place: Vector3<f64>) -> Matrix3<f64> {
-        let local = self.axes.tr_mul(&(place - self.origin));
-        let around = local.xy().norm();
-        if !self.is_cylindrical || around <= ROUND_OFF * local.norm() {
-            return self.axes;
-        }
-        let [x, y] = [local.x / around, local.y / around];
-        self.axes * Matrix3::new(x, -y, 0.0, y, x, 0.0, 0.0, 0.0, 1.0)
-    }
-}
-
 /// The grids at their basic places, with what their own cards hold, and the directions in which they move, by the cards of grids and
 /// of coordinate systems. GRDSET fills blanks.
 pub(super) fn grids(
@@ -107,19 +69,17 @@ pub(super) fn grids(
         let system = system(systems, chosen(card, default, 3), 3, 0)?;
         let position = system.place(point(card, [4, 5, 6])?);
         let moves = chosen(card, default, 7);
-        let is_fluid = moves.text(7) == "-1";
-        if !is_fluid {
-            let system = self::system(systems, moves, 7, 0)?;
-            if system.is_cylindrical || system.axes != Matrix3::identity() {
-                motions.0.insert(label, system.directions(position));
+        let constrained = match moves.text(7) {
+            "-1" => [true; 3],
+            _ => {
+                let system = self::system(systems, moves, 7, 0)?;
+                // On the axis of a cylindrical one they are those of its axes, as NASTRAN has it.
+                let own = system.directions(position, ROUND_OFF);
+                motions.0.insert(label, own.unwrap_or(system.rotation));
+                let held = chosen(card, default, 8);
+                let own = motions.held(label, held.directions(8)?);
+                own.ok_or_else(|| held.error(8, OBLIQUE))?
             }
-        }
-        let held = chosen(card, default, 8);
-        let constrained = match is_fluid {
-            true => [true; 3],
-            false => motions
-                .held(label, held.directions(8)?)
-                .ok_or_else(|| held.error(8, OBLIQUE))?,
         };
         grids.insert(
             label,
@@ -140,9 +100,9 @@ fn system(
     by: &Card,
     field: usize,
     depth: usize,
-) -> Result<System, FileError> {
+) -> Result<Axes, FileError> {
     if ["", "0"].contains(&by.text(field)) {
-        return Ok(System::basic());
+        return Ok(Axes::GLOBAL);
     }
     let kept = systems.get(&by.label(field)?);
     let card = &kept.ok_or_else(|| by.wrong(field, SYSTEMS))?.card;
@@ -163,10 +123,10 @@ fn system(
     let y = y
         .try_normalize(ROUND_OFF * (across - origin).norm())
         .ok_or_else(degenerate)?;
-    Ok(System {
+    Ok(Axes {
+        kind: usize::from(card.name == "CORD2C"),
         origin,
-        axes: Matrix3::from_columns(&[y.cross(&z), y, z]),
-        is_cylindrical: card.name == "CORD2C",
+        rotation: Matrix3::from_columns(&[y.cross(&z), y, z]),
     })
 }
 

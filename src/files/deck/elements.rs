@@ -27,7 +27,7 @@ pub(super) type Members = BTreeMap<usize, Membership>;
 pub(super) struct ElementCards {
     /// The place of every element's kind in [`ELEMENT_CARDS`]; none for a CONROD.
     pub connections: Numbered<Option<usize>>,
-    pub properties: [Numbered<f64>; 4],
+    pub properties: [Numbered<()>; 4],
     pub materials: Numbered<Material>,
     /// Materials of which E alone is given: rods need no more.
     axial: Vec<usize>,
@@ -35,12 +35,15 @@ pub(super) struct ElementCards {
     pub torsion: Vec<Card>,
 }
 
-/// The card that has the size and the material of an element, and the fields where it has them.
+/// The card that has an element's material, size and nonstructural mass: the fields of the last two, the material's before them, and
+/// what they say.
 pub(super) struct Holder<'a> {
     pub card: &'a Card,
-    pub size: f64,
     pub size_field: usize,
-    pub material_field: usize,
+    pub size: f64,
+    pub mass_field: usize,
+    /// Mass beside that of the material, on a unit of a rod's length or a panel's area.
+    pub mass: f64,
 }
 
 /// The cards that an element refers to: its property's number, none for a CONROD, and its material's.
@@ -60,10 +63,8 @@ impl<T> Kept<Option<T>> {
 /// Takes the masses of a PMASS card, up to four with their numbers.
 pub(super) fn take_masses(card: &Card, masses: &mut Numbered<f64>) -> Result<(), FileError> {
     let starts = [2, 4, 6, 8].into_iter();
-    let filled = starts.filter(|&start| start == 2 || !card.text(start).is_empty());
-    filled
-        .into_iter()
-        .try_for_each(|start| card.keep(start, card.positive(start + 1)?, masses))
+    let mut filled = starts.filter(|&start| start == 2 || !card.text(start).is_empty());
+    filled.try_for_each(|start| card.keep(start, card.positive(start + 1)?, masses))
 }
 
 impl ElementCards {
@@ -84,23 +85,18 @@ impl ElementCards {
                 if name == connection {
                     card.keep(start, Some(row), &mut self.connections)?;
                 } else if name == property {
-                    let is_rod = kind == ElementKind::Rod;
-                    if is_rod {
-                        has_area(card, start + 2)?;
+                    if kind == ElementKind::Rod {
                         self.note_torsion(card, start + 3)?;
                     }
-                    let size = card.positive(start + 2)?;
-                    card.absent(start + if is_rod { 5 } else { 3 }, "nonstructural mass")?;
-                    card.keep(start, size, &mut self.properties[row])?;
+                    Holder::new(card, start + 2)?;
+                    card.keep(start, (), &mut self.properties[row])?;
                 }
             }
         }
         match name {
             "CONROD" => {
-                has_area(card, 6)?;
-                card.positive(6)?;
                 self.note_torsion(card, 7)?;
-                card.absent(9, "nonstructural mass")?;
+                Holder::new(card, 6)?;
                 card.keep(2, None, &mut self.connections)?;
             }
             "MAT1" => {
@@ -128,22 +124,11 @@ impl ElementCards {
     ) -> Result<Holder<'a>, FileError> {
         let Kept { value, card, .. } = connection;
         let Some(row) = *value else {
-            return Ok(Holder {
-                card,
-                size: card.positive(6)?,
-                size_field: 6,
-                material_field: 5,
-            });
+            return Holder::new(card, 6);
         };
         let field = connection.property_field();
-        let Kept { value, card, start } =
-            card.referred(field, &self.properties[row], ELEMENT_CARDS[row].1)?;
-        Ok(Holder {
-            card,
-            size: *value,
-            size_field: start + 2,
-            material_field: start + 1,
-        })
+        let property = card.referred(field, &self.properties[row], ELEMENT_CARDS[row].1)?;
+        Holder::new(&property.card, property.start + 2)
     }
 
     /// The elements by number, and the cards that they refer to; property, material and grids must exist.
@@ -159,14 +144,12 @@ impl ElementCards {
             let first_grid = if value.is_some() { start + 2 } else { 3 };
             let corners = (first_grid..).take(kind.corner_count());
             let corners = corners.map(|field| Ok(card.referred(field, grids, "GRID")?.label));
-            let material = holder
-                .card
-                .referred(holder.material_field, &self.materials, "MAT1")?
-                .value;
-            let number = holder.card.label(holder.material_field)?;
+            let mut material = holder.material(&self.materials)?.value;
+            material.density = holder.density(&material);
+            let number = holder.card.label(holder.size_field - 1)?;
             holder.card.require(
                 kind == ElementKind::Rod || !self.axial.contains(&number),
-                holder.material_field,
+                holder.size_field - 1,
                 "a material with G or NU, which panels need",
             )?;
             let grids = corners.collect::<Result<_, FileError>>()?;
@@ -191,13 +174,48 @@ impl ElementCards {
     }
 }
 
-/// Refuses a rod without area.
-fn has_area(card: &Card, field: usize) -> Result<(), FileError> {
-    if card.optional_real(field)? == Some(0.0) {
-        let reason = "a rod without area resists torsion alone, which corfem does not read; leave the rod out";
-        return Err(card.error(field, reason));
+impl<'a> Holder<'a> {
+    /// The size and the mass of a card whose size is in this field: a rod's constants of torsion stand before its nonstructural mass.
+    fn new(card: &'a Card, size_field: usize) -> Result<Self, FileError> {
+        let is_rod = card.name.ends_with("ROD");
+        if is_rod && card.optional_real(size_field)? == Some(0.0) {
+            let reason = "a rod without area resists torsion alone, which corfem does not read; leave the rod out";
+            return Err(card.error(size_field, reason));
+        }
+        let (size, mass_field) = (
+            card.positive(size_field)?,
+            size_field + if is_rod { 3 } else { 1 },
+        );
+        let mass = match card.text(mass_field) {
+            "0" => 0.0,
+            _ => card.real(mass_field)?,
+        };
+        card.require(
+            mass >= 0.0,
+            mass_field,
+            "a nonstructural mass of zero or more",
+        )?;
+        Ok(Self {
+            card,
+            size_field,
+            size,
+            mass_field,
+            mass,
+        })
     }
-    Ok(())
+
+    pub fn material<'b>(
+        &self,
+        all: &'b Numbered<Material>,
+    ) -> Result<&'b Kept<Material>, FileError> {
+        self.card.referred(self.size_field - 1, all, "MAT1")
+    }
+
+    /// The density that gives an element all its mass, rounded to what a deck can hold: nonstructural mass is lumped as the material's is,
+    /// $\rho + m/s$ for size $s$.
+    pub fn density(&self, material: &Material) -> f64 {
+        nearest_in_field(material.density + self.mass / self.size)
+    }
 }
 
 /// MAT1: of E, G and NU two give the third, $G = E/\big(2(1+\nu)\big)$; all three are taken as they are. E alone is that of rods.

@@ -83,17 +83,14 @@ pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<
         return Err(FileError::line(file, *number, reason));
     }
     let (control, bulk) = lines.split_at(begin.map_or(0, |row| row + 1));
-    let (mut selected, mut levels) = (Selected::default(), [Selected::default(); 2]);
-    let mut subcases = 0;
+    let (mut levels, mut subcases) = ([Selected::default(); 2], 0);
     for (number, line) in control {
         subcases += usize::from(statement(line, &["SUBCASE"]).is_some());
         if let Some(level) = levels.get_mut(subcases) {
             select(file, *number, line, level)?;
         }
     }
-    for (row, chosen) in selected.iter_mut().enumerate() {
-        *chosen = levels[1][row].or(levels[0][row]);
-    }
+    let selected = [0, 1].map(|row| levels[1][row].or(levels[0][row]));
     let of_model = |(_, line): &&(usize, String)| {
         statement(line, &["PARAM"])
             .or(statement(line, &INCLUDES))

@@ -190,23 +190,17 @@ impl BulkData {
 
     /// Grids that no element, mass or equation touches and no support holds: nothing would resist their motion.
     pub(crate) fn untouched(&self) -> BTreeSet<usize> {
-        let of_elements = self
-            .elements
-            .iter()
-            .flat_map(|own| own.grids.iter().copied());
-        let of_masses = self.masses.iter().map(|mass| mass.grid);
-        let dof = |tie: &Tie| {
-            let terms = tie.terms.iter().map(|(dof, _)| dof.grid);
-            terms.chain([tie.dependent.grid]).collect::<Vec<_>>()
-        };
-        let of_ties = self.ties.iter().flat_map(dof);
-        let touched: BTreeSet<usize> = of_elements.chain(of_masses).chain(of_ties).collect();
-        let grids = self
-            .grids
-            .iter()
-            .filter(|grid| grid.constrained != [true; 3]);
-        let labels = grids.map(|grid| grid.label);
-        labels.filter(|label| !touched.contains(label)).collect()
+        let of_elements = self.elements.iter().flat_map(|own| &own.grids);
+        let of_masses = self.masses.iter().map(|mass| &mass.grid);
+        let of_ties = self.ties.iter().flat_map(|tie| {
+            let terms = tie.terms.iter().map(|(dof, _)| &dof.grid);
+            terms.chain([&tie.dependent.grid])
+        });
+        let touched: BTreeSet<&usize> = of_elements.chain(of_masses).chain(of_ties).collect();
+        let is_untouched =
+            |grid: &&Grid| grid.constrained != [true; 3] && !touched.contains(&grid.label);
+        let untouched = self.grids.iter().filter(is_untouched);
+        untouched.map(|grid| grid.label).collect()
     }
 
     /// The structure: its free DOF are those that neither an SPC1 card constrains nor an MPC equation makes dependent, of grids that
@@ -373,9 +367,5 @@ impl BulkData {
             grids.flat_map(|grid| (0..3).map(move |direction| StructuralDof { grid, direction }));
         let all = all.map(move |dof| (dof, motion_of(dof)));
         all.filter(|(_, motion)| !motion.is_empty())
-    }
-
-    pub(super) fn sizes(&self) -> Vec<f64> {
-        self.elements.iter().map(|element| element.size).collect()
     }
 }

@@ -29,7 +29,8 @@ pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
     let elements: Vec<_> = element_matrices(&structure).collect();
     check_stiffness(&structure, &elements)?;
     let at = model.mass_dof(&structure)?;
-    let (sizes, free) = (model.sizes(), structure.free_dof());
+    let sizes = model.elements.iter().map(|element| element.size);
+    let free = structure.free_dof();
     let stiffness = stiffness_of(free.len(), elements.iter().zip(sizes))?;
     let support = support(&structure, &elements)?;
     let mut found = whole_modes(&stiffness, at, most, &support, |row| row_name(row, free))
@@ -104,12 +105,7 @@ fn check_stiffness(structure: &Structure, elements: &[ElementMatrix]) -> Result<
 
 /// Errors if fewer modes were found than masses move independently.
 fn check_count(found: usize, at: MassDof) -> Result<(), FileError> {
-    let place = |row: usize| {
-        format!(
-            "grid {} {}",
-            at.dof[row].grid, DIRECTIONS[at.dof[row].direction]
-        )
-    };
+    let place = |row: usize| format!("grid {}", row_name(row, &at.dof));
     let [lightest, heaviest] =
         [at.mass.imin(), at.mass.imax()].map(|row| (at.mass[row], place(row)));
     let mut motions = at.load_distribution.dense();

@@ -140,18 +140,14 @@ impl Changes<'_> {
                 (element.size.to_bits(), element.material.density.to_bits()),
             );
         }
-        // By kind and number of the property, or of the element that has none.
+        // By the place of the size.
         let mut users: BTreeMap<_, (Holder, SizeBits, Groups)> = BTreeMap::new();
         for (label, kept) in &known.connections {
             let holder = known.holder(kept)?;
-            let number = kept
-                .value
-                .map_or(Ok(*label), |_| kept.card.label(kept.property_field()))?;
             let own = (holder.size.to_bits(), self.density(&holder)?.to_bits());
-            let (.., groups) =
-                users
-                    .entry((kept.value, number))
-                    .or_insert((holder, own, BTreeMap::new()));
+            let (.., groups) = users
+                .entry((holder.card.line, holder.size_field))
+                .or_insert((holder, own, BTreeMap::new()));
             groups
                 .entry(wanted.get(label).copied().unwrap_or(own))
                 .or_default()
@@ -159,36 +155,35 @@ impl Changes<'_> {
         }
         for (holder, own, groups) in users.into_values() {
             let Holder {
-                card,
-                size_field,
-                material_field,
-                ..
+                card, size_field, ..
             } = holder;
+            // Nonstructural mass keeps its part of an element's mass; without either it is zero and not 0/0.
+            let mass_of = |bits: SizeBits| f64::from_bits(bits.0) * f64::from_bits(bits.1);
+            let mass = |target| {
+                nearest_in_field((holder.mass * (mass_of(target) / mass_of(own))).max(0.0))
+            };
             let most = groups
                 .iter()
                 .max_by_key(|(target, members)| (**target == own, members.len()));
             let stays = most.map_or(own, |(target, _)| *target);
             if stays.0 != own.0 {
-                let text = large_real(f64::from_bits(stays.0));
-                self.set(
-                    card,
-                    size_field,
-                    text.ok_or_else(|| {
-                        card.error(size_field, "the new size is not a finite number")
-                    })?,
-                )?;
+                self.set_number(card, size_field, f64::from_bits(stays.0))?;
             }
             if stays.1 != own.1 {
                 let material = self.material(&holder, own.1, stays.1)?;
-                self.set(card, material_field, material)?;
+                self.set(card, size_field - 1, material)?;
+            }
+            if mass(stays) != holder.mass {
+                self.set_number(card, holder.mass_field, mass(stays))?;
             }
             for (target, members) in groups.into_iter().filter(|(target, _)| *target != stays) {
                 let (label, size) = (self.next_property, f64::from_bits(target.0));
                 let material = self.material(&holder, own.1, target.1)?;
-                let last = if card.name == "PROD" { 3 } else { 1 };
-                let rest: String = (1..=last)
-                    .map(|field| format!(",{}", card.text(size_field + field)))
-                    .collect();
+                let text = |field| match field == holder.mass_field && holder.mass > 0.0 {
+                    true => format!(",{:?}", mass(target)),
+                    false => format!(",{}", card.text(field)),
+                };
+                let rest: String = (size_field + 1..=holder.mass_field).map(text).collect();
                 self.add(card, &format!("{label},{material},{size:?}{rest}"))?;
                 for member in members {
                     self.set(&member.card, member.start + 1, label.to_string())?;
@@ -206,10 +201,8 @@ impl Changes<'_> {
             .map(|point| (point.label, point.mass))
             .collect();
         let mut properties = Numbered::new();
-        let of_masses = cards.iter().filter(|card| card.name == "PMASS");
-        of_masses
-            .into_iter()
-            .try_for_each(|card| take_masses(card, &mut properties))?;
+        let mut of_masses = cards.iter().filter(|card| card.name == "PMASS");
+        of_masses.try_for_each(|card| take_masses(card, &mut properties))?;
         let mut new_properties: BTreeMap<usize, f64> = BTreeMap::new();
         for card in cards {
             let (holder, field) = match card.name.as_str() {
@@ -232,52 +225,43 @@ impl Changes<'_> {
                 return Err(card.error(3, reason));
             }
             if mass != own {
-                let text = large_real(mass / self.weight);
-                let none = || holder.error(field, "the new mass is not a finite number");
-                self.set(holder, field, text.ok_or_else(none)?)?;
+                self.set_number(holder, field, mass / self.weight)?;
             }
         }
         Ok(())
     }
 
-    /// The density of the material of an element, as the reader gives it to elements.
-    fn density(
-        &self,
-        Holder {
-            card,
-            material_field,
-            ..
-        }: &Holder,
-    ) -> Result<f64, FileError> {
-        Ok(nearest_in_field(
-            self.weight
-                * card
-                    .referred(*material_field, &self.known.materials, "MAT1")?
-                    .value
-                    .density,
-        ))
+    /// The density of an element, as the reader gives it to elements.
+    fn density(&self, holder: &Holder) -> Result<f64, FileError> {
+        let material = holder.material(&self.known.materials)?.value;
+        Ok(nearest_in_field(self.weight * holder.density(&material)))
     }
 
     /// The number of the material of an element for another density: of a new one, or its own if the density is the same.
     fn material(&mut self, holder: &Holder, own: u64, density: u64) -> Result<String, FileError> {
-        let first = holder.card.label(holder.material_field)?;
-        if own == density {
+        let first = holder.card.label(holder.size_field - 1)?;
+        let Kept { value, card, .. } = holder.material(&self.known.materials)?;
+        // Of an element with nonstructural mass the material has its part of the new density.
+        let of_material = match holder.mass > 0.0 {
+            true => {
+                nearest_in_field(value.density * (f64::from_bits(density) / f64::from_bits(own)))
+            }
+            false => f64::from_bits(density) / self.weight,
+        };
+        if own == density || of_material == value.density {
             return Ok(first.to_string());
         }
-        if let Some(label) = self.materials.get(&(first, density)) {
+        let key = (first, of_material.to_bits());
+        if let Some(label) = self.materials.get(&key) {
             return Ok(label.to_string());
         }
-        let card = &holder
-            .card
-            .referred(holder.material_field, &self.known.materials, "MAT1")?
-            .card;
         let label = self.next_material;
         let mut entries: Vec<String> = card.fields.iter().map(|field| field.text.clone()).collect();
         entries[0] = label.to_string();
-        entries[4] = format!("{:?}", f64::from_bits(density) / self.weight);
+        entries[4] = format!("{of_material:?}");
         self.add(card, &entries.join(","))?;
         self.next_material += 1;
-        self.materials.insert((first, density), label);
+        self.materials.insert(key, label);
         Ok(label.to_string())
     }
 
@@ -291,6 +275,12 @@ impl Changes<'_> {
             .or_default()
             .push_str(&self.writer.text);
         Ok(())
+    }
+
+    /// Writes a number in a field of a card.
+    fn set_number(&mut self, card: &Card, field: usize, value: f64) -> Result<(), FileError> {
+        let none = || card.error(field, "the new number is not finite");
+        self.set(card, field, large_real(value).ok_or_else(none)?)
     }
 
     /// Writes a field of a card anew.

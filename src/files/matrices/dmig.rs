@@ -56,13 +56,11 @@ fn own_lines(text: &str) -> String {
 fn matrix(header: &Card, cards: &[&Card]) -> Result<LabeledMatrix, FileError> {
     let is_symmetric = header.text(4) == "6";
     let is_square = is_symmetric || header.text(4) == "1";
+    let is_of = |field, texts: [&str; 2]| texts.contains(&header.text(field));
+    let is_form = is_square || is_of(4, ["2", "9"]);
+    header.require(is_form, 4, "a form (1, 2, 6 or 9)")?;
     header.require(
-        is_square || ["2", "9"].contains(&header.text(4)),
-        4,
-        "a form (1, 2, 6 or 9)",
-    )?;
-    header.require(
-        ["1", "2"].contains(&header.text(5)),
+        is_of(5, ["1", "2"]),
         5,
         "the type of a real matrix (1 or 2)",
     )?;
@@ -83,25 +81,21 @@ fn matrix(header: &Card, cards: &[&Card]) -> Result<LabeledMatrix, FileError> {
                 .ok_or_else(|| card.wrong(start + 2, "a real number"))?;
             card.absent(start + 3, "complex matrices")?;
             digits.add(card.text(start + 2));
-            let place = if is_symmetric {
-                (row.min(column), row.max(column))
-            } else {
-                (row, column)
-            };
-            if !places.insert(place) {
+            let is_again = is_symmetric && places.contains(&(column, row));
+            if !places.insert((row, column)) || is_again {
                 return Err(card.error(start, "another entry has this place of the matrix"));
             }
-            rows.extend(if is_square { [row, column] } else { [row; 2] });
-            columns.extend(if is_square {
-                [row, column]
-            } else {
-                [column; 2]
-            });
+            rows.insert(row);
+            columns.insert(column);
             entries.push((row, column, value));
             if is_symmetric && row != column {
                 entries.push((column, row, value));
             }
         }
+    }
+    if is_square {
+        rows.append(&mut columns);
+        columns.clone_from(&rows);
     }
     let [rows, columns] = [rows, columns].map(|labels| labels.into_iter().collect::<Vec<Label>>());
     // Every label was put in its list above.

@@ -61,6 +61,9 @@ pub fn read(name: &str, bytes: &[u8], wanted: Option<&str>) -> Result<LabeledMat
         });
     }
     let is_dmig = text.lines().any(|line| begins(line.trim_start(), "DMIG"));
+    if let Some(reason) = other_format(&text).filter(|_| !is_dmig) {
+        return Err(FileError::refused(name, reason));
+    }
     let read = if is_dmig { dmig::read } else { output4::read };
     let numbered = wanted.and_then(|wanted| wanted.rsplit_once('@'));
     let numbered = numbered.and_then(|(name, at)| Some((name, at.parse::<usize>().ok()?)));
@@ -78,12 +81,43 @@ pub fn read(name: &str, bytes: &[u8], wanted: Option<&str>) -> Result<LabeledMat
             (Some(name), _) => format!("there is not one matrix {name}"),
             (None, _) => "name one matrix".to_owned(),
         };
-        let names = if names.is_empty() {
-            "none".to_owned()
-        } else {
-            names.join(", ")
+        let names = match &names[..] {
+            [] => "none".to_owned(),
+            names => names.join(", "),
         };
         FileError::line(name, 1, format!("{asked}; the file has {names}"))
+    })
+}
+
+/// First letters of the third line of a Harwell-Boeing file: real or pattern, symmetric or not, assembled or of elements.
+const HARWELL_BOEING: [&str; 4] = ["RSA", "RUA", "PSA", "RSE"];
+
+/// The format that a text without names of matrices seems to have, and what to do with it.
+fn other_format(text: &str) -> Option<&'static str> {
+    let lines = || text.lines().filter(|line| !line.trim().is_empty());
+    let third = lines().nth(2).unwrap_or_default();
+    if HARWELL_BOEING.iter().any(|kind| begins(third, kind)) {
+        return Some(
+            "is in the Harwell-Boeing format, which corfem does not read; write Matrix Market",
+        );
+    }
+    let numbers = |line: &str| -> Option<Vec<f64>> {
+        let words = line
+            .split([' ', '\t', ',', ';'])
+            .filter(|word| !word.is_empty());
+        words.map(real).collect()
+    };
+    let is_place = |number: &f64| *number >= 1.0 && number.fract() == 0.0;
+    let is_entry = |line: &str| {
+        numbers(line).is_some_and(|own| own.len() == 3 && own[..2].iter().all(is_place))
+    };
+    numbers(lines().next()?)?;
+    Some(match lines().all(is_entry) {
+        true => {
+            "has rows, columns and values without a header, as CalculiX's .sti and .mas; put the banner %%MatrixMarket matrix \
+                 coordinate real symmetric and a line with the numbers of rows, columns and entries before them"
+        }
+        false => "is a plain array of numbers, which corfem does not read; write Matrix Market",
     })
 }
 

@@ -15,17 +15,20 @@
 //!   the header begin so, they are sensors with such names; where some do that could be sensors, the file is refused.
 //! - A first row `sep=;` names the separator.
 //! - One row, the header, has the titles of the columns, in any order and in capitals or not. `direction` must be there (x, y, z; rx,
-//!   ry, rz for rotations), `name` or `grid` or both, and a column whose title begins with `mode` for every mode. `sign` says which way
-//!   the sensor points along its axis: `+`, `-`, or empty for `+`. `x`, `y`, `z` are its place, all three or none of them.
+//!   ry, rz for rotations), `name` or `grid` or both, and a column for every mode, whose title begins with `mode` or with its number, as
+//!   `1st bending` does. `sign` says which way the sensor points along its axis: `+`, `-`, or empty for `+`. `x`, `y`, `z` are its place,
+//!   all three or none of them.
 //!   Where titles number the modes, the numbers ascend by one from left to right, from any first number; elsewhere they are 1, 2, 3.
 //!   A mode of 0 Hz is a rigid-body mode and is not compared.
 //! - A column `deviation 1` has the standard deviation of every component of mode 1, a fraction of the shape's largest component; it
 //!   takes the place of that mode's `shape_deviation`.
+//! - A sensor without a reading in some mode is left out of all modes and named in [`TestData::incomplete`].
 //! - A mode whose column has no number but its frequency has no shape. A table of frequencies alone needs no sensors, and of titles only
 //!   those of the modes.
 //! - A sensor has a cell below each title, the rows above a number below each mode's, and neither has anything elsewhere but blanks.
 //! - Rows whose first cell is `frequency_hz` (Hz, must be there), `frequency_deviation`, `shape_deviation` (standard deviations as
-//!   fractions) or `phase_collinearity` have a number in each column of a mode. Every other row below the header is a sensor.
+//!   fractions) or `phase_collinearity` have a number in each column of a mode. Only letters count there: `Frequency (Hz)` is the first.
+//!   Every other row below the header is a sensor.
 
 use super::{DIRECTION, Sensor, TestData, default_name, direction, real};
 use crate::files::deck::number::LARGEST;
@@ -34,12 +37,12 @@ use crate::files::inert;
 use nalgebra::{DMatrix, DVector, Vector3};
 use std::collections::BTreeMap;
 
-/// First cells of the rows with a number for every mode.
+/// Letters of the first cells of the rows with a number for every mode.
 const ROWS: [&str; 4] = [
-    "frequency_hz",
-    "frequency_deviation",
-    "shape_deviation",
-    "phase_collinearity",
+    "frequencyhz",
+    "frequencydeviation",
+    "shapedeviation",
+    "phasecollinearity",
 ];
 /// Titles of columns that are no modes.
 const TITLES: [&str; 7] = ["name", "grid", "direction", "sign", "x", "y", "z"];
@@ -95,94 +98,65 @@ impl TestRow<'_> {
 
     fn header(&self) -> Result<Header, FileError> {
         let (mut titles, mut modes, mut deviations) = ([None; 7], Vec::new(), BTreeMap::new());
-        let mut first = None;
-        for (column, cell) in self
-            .cells
-            .iter()
-            .enumerate()
-            .filter(|(_, cell)| !cell.is_empty())
-        {
+        for (column, cell) in self.cells.iter().enumerate() {
+            if cell.is_empty() {
+                continue;
+            }
             let title = cell.to_lowercase();
-            match TITLES.iter().position(|name| *name == title) {
-                Some(place) if titles[place].is_none() => titles[place] = Some(column),
-                None if title.starts_with("mode") => {
-                    modes.push(column);
-                    self.check_mode(column, &title, modes.len(), &mut first)?;
+            let place = TITLES.iter().position(|name| *name == title);
+            let is_taken = match (place, title.strip_prefix("deviation"), of_mode(&title)) {
+                (Some(place), ..) => titles[place].replace(column).is_none(),
+                (_, Some(number), _) => number
+                    .trim()
+                    .parse::<usize>()
+                    .is_ok_and(|number| deviations.insert(number, column).is_none()),
+                (.., Some(number)) => {
+                    modes.push((column, number));
+                    true
                 }
-                None if title.starts_with("deviation") => {
-                    let number = title["deviation".len()..].trim().parse::<usize>().ok();
-                    if number.is_none_or(|number| deviations.insert(number, column).is_some()) {
-                        return self.is_not(
-                            cell,
-                            "a title deviation with the number of a mode, once each",
-                        );
-                    }
-                }
-                _ => {
-                    return self.is_not(
-                        cell,
-                        "a title: name, grid, direction, sign, x, y and z once each, modes and deviations",
-                    );
-                }
+                _ => false,
+            };
+            if !is_taken {
+                let what = "a title: name, grid, direction, sign, x, y and z once each, mode 1 or 1 and so on, or a title deviation with the \
+                            number of a mode, once each";
+                return self.is_not(cell, what);
+            }
+        }
+        let mut numbered = modes.iter().enumerate();
+        let first = numbered.find_map(|(place, own)| Some(own.1?.saturating_sub(place)));
+        let first = first.unwrap_or(1).max(1);
+        for (number, &(column, own)) in (first..).zip(&modes) {
+            let cell = &self.cells[column];
+            let is_it = |other: &String| other.to_lowercase() == cell.to_lowercase();
+            if own.is_some_and(|own| own != number) || self.cells[..column].iter().any(is_it) {
+                return self.wrong(format!(
+                    "column {}: this is mode {number}, but its title is \"{cell}\"; titles must differ and number modes from left to right",
+                    column + 1
+                ));
             }
         }
         let axes = titles[4..].iter().flatten().count();
         let names_sensors =
             titles[2].is_some() && titles[..2] != [None; 2] && [0, 3].contains(&axes);
         let complete = (names_sensors || titles == [None; 7]) && !modes.is_empty();
-        let what = "a header with direction, name or grid, a column for every mode, and all of x, y, z or none";
-        let first = first.unwrap_or(1);
         let known = first..first + modes.len();
         if let Some(mode) = deviations.keys().find(|mode| !known.contains(*mode)) {
             return self.wrong(format!(
                 "there is a column deviation {mode}, but no mode {mode}"
             ));
         }
-        let of_place = deviations.into_iter();
-        let deviations = of_place.map(|(number, column)| (number - first, column));
-        if complete {
-            Ok(Header {
-                titles,
-                modes,
-                first,
-                deviations: deviations.collect(),
-            })
-        } else {
-            self.is_not(&self.cells.join(" "), what)
+        let deviations = deviations.into_iter();
+        let deviations = deviations.map(|(number, column)| (number - first, column));
+        let what = "a header with direction, name or grid, a column for every mode, and all of x, y, z or none";
+        if !complete {
+            return self.is_not(&self.cells.join(" "), what);
         }
-    }
-
-    /// Refuses the title of a mode that is there twice, or whose number does not follow from the first one's.
-    fn check_mode(
-        &self,
-        column: usize,
-        title: &str,
-        place: usize,
-        first: &mut Option<usize>,
-    ) -> Result<(), FileError> {
-        let behind = title
-            .chars()
-            .skip("mode".len())
-            .skip_while(|c| !c.is_alphanumeric());
-        let number: String = behind.take_while(char::is_ascii_digit).collect();
-        let number: Option<usize> = number.parse().ok();
-        let from_first = number.and_then(|number| (number + 1).checked_sub(place));
-        let from_first = from_first.filter(|first| *first > 0);
-        let is_other =
-            number.is_some() && from_first.is_none_or(|own| own != *first.get_or_insert(own));
-        let cell = &self.cells[column];
-        if is_other
-            || self.cells[..column]
-                .iter()
-                .any(|other| other.to_lowercase() == title)
-        {
-            return self.wrong(format!(
-                "column {}: this is mode {}, but its title is \"{cell}\"; titles must differ and number modes from left to right",
-                column + 1,
-                first.unwrap_or(1) + place - 1
-            ));
-        }
-        Ok(())
+        Ok(Header {
+            titles,
+            modes: modes.into_iter().map(|own| own.0).collect(),
+            first,
+            deviations: deviations.collect(),
+        })
     }
 
     /// Refuses a row that ends before its last number, or has something beside the columns of its numbers and, of a sensor, its names.
@@ -226,12 +200,10 @@ impl TestRow<'_> {
             "-" | "-1" => -1.0,
             other => return self.is_not(other, "a sign + or -"),
         };
-        let number = |text: &str| text.parse().or_else(|_| self.is_not(text, "a grid number"));
-        let grid = if grid.is_empty() {
-            None
-        } else {
-            Some(number(grid)?)
-        };
+        // Programs that know one kind of number write 12.0 for 12.
+        let number = |text: &str| text.strip_suffix(".0").unwrap_or(text).parse();
+        let number = |text| number(text).or_else(|_| self.is_not(text, "a grid number"));
+        let grid = (!grid.is_empty()).then(|| number(grid)).transpose()?;
         let axes: Vec<usize> = titles[4..].iter().flatten().copied().collect();
         let is_placed = [x, y, z] != [""; 3];
         let place = is_placed.then(|| self.numbers(&axes)).transpose()?;
@@ -252,6 +224,17 @@ impl TestRow<'_> {
             sign,
         ))
     }
+}
+
+/// The number in the title of a mode, if it has one, and none for other titles: it begins with `mode` or with a whole number.
+fn of_mode(title: &str) -> Option<Option<usize>> {
+    let behind = title.strip_prefix("mode");
+    let blank = |c: char| !c.is_alphanumeric();
+    let rest = behind.map_or(title, |own| own.trim_start_matches(blank));
+    let end = rest.find(|c: char| !c.is_ascii_digit());
+    let number = rest[..end.unwrap_or(rest.len())].parse().ok();
+    let is_whole = number.is_some() && real(title).is_none_or(|own| own.fract() == 0.0);
+    (behind.is_some() || is_whole).then_some(number)
 }
 
 pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
@@ -287,14 +270,15 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
             hashed.extend(Some(row).filter(|_| is_sensor && !line.starts_with("##")));
             continue;
         }
-        let name = row.cell(Some(0)).to_lowercase();
+        let letters = row.cell(Some(0)).chars().filter(|c| c.is_alphanumeric());
+        let name = letters.collect::<String>().to_lowercase();
         if header.is_none() && is_comment(line) || row.cells.iter().all(String::is_empty) {
             continue;
         } else if line.matches('"').count() % 2 == 1 {
             return row.wrong(format!("a quotation mark is not closed: {line}"));
         } else if let Some(place) = ROWS.iter().position(|row| *row == name) {
             if by_mode[place].is_some() {
-                return row.wrong(format!("this is the second row {name}"));
+                return row.wrong(format!("this is the second row {}", row.cells[0]));
             }
             by_mode[place] = Some(row);
         } else if header.is_none() {
@@ -347,18 +331,29 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
         (0..modes.len()).partition(|&mode| rows.iter().all(|row| is_empty(row, modes[mode])));
     let columns: Vec<usize> = shaped.iter().map(|&mode| modes[mode]).collect();
     data.shapes = DMatrix::zeros(rows.len(), modes.len());
-    for (place, row) in rows.iter().enumerate() {
+    let mut whole = Vec::new();
+    for row in &rows {
         let (sensor, sign) = row.sensor(&titles)?;
-        data.sensors.push(sensor);
-        for (&mode, value) in shaped.iter().zip(row.numbers(&columns)?) {
-            data.shapes[(place, mode)] = sign * value;
+        if let Some(mode) = shaped.iter().find(|&&mode| is_empty(row, modes[mode])) {
+            data.incomplete
+                .push(format!("{} (mode {})", sensor.name, first + mode));
+            continue;
         }
+        for (&mode, value) in shaped.iter().zip(row.numbers(&columns)?) {
+            data.shapes[(whole.len(), mode)] = sign * value;
+        }
+        data.sensors.push(sensor);
+        whole.push(row);
     }
+    if whole.is_empty() && !rows.is_empty() {
+        return Err(missing("a sensor with a reading in every mode"));
+    }
+    data.shapes.resize_vertically_mut(whole.len(), 0.0);
     for (mode, column) in deviations
         .into_iter()
         .filter(|(mode, _)| !alone.contains(mode))
     {
-        let values = rows.iter().map(|row| Ok(row.numbers(&[column])?[0]));
+        let values = whole.iter().map(|row| Ok(row.numbers(&[column])?[0]));
         let values: Vec<f64> = values.collect::<Result<_, FileError>>()?;
         data.component_deviation
             .insert(mode, DVector::from_vec(values));

@@ -26,8 +26,7 @@ use std::collections::{BTreeMap, HashSet};
 pub const DIRECTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
 /// Forms of a direction, in errors.
-pub(crate) const DIRECTION: &str =
-    "a direction x, y, z, rx, ry or rz, 1 to 6, or UX to UZ and RX to RZ, with a sign or without";
+pub(crate) const DIRECTION: &str = "a direction x, y, z, rx, ry or rz, 1 to 6, or UX to UZ and RX to RZ or ROTX to ROTZ, with a sign or without";
 
 /// Direction 0 to 5 of a word and its sign: `z`, `-z`, `+Z`, `3` or `UZ`.
 pub(crate) fn direction(word: &str) -> Option<(usize, f64)> {
@@ -35,7 +34,7 @@ pub(crate) fn direction(word: &str) -> Option<(usize, f64)> {
     let bare = word.trim_start_matches(['+', '-']).trim_start();
     let sign = if word.starts_with('-') { -1.0 } else { 1.0 };
     let is_signed_once = word.len() - word.trim_start_matches(['+', '-']).len() < 2;
-    let letters = bare.strip_prefix('u').unwrap_or(bare);
+    let letters = bare.strip_prefix('u').unwrap_or(bare).replace("rot", "r");
     let by_name = DIRECTIONS.iter().position(|name| *name == letters);
     let by_number = bare.parse().ok().filter(|own| (1..=6).contains(own));
     let found = by_name.or(by_number.map(|own: usize| own - 1));
@@ -95,7 +94,7 @@ pub struct TestData {
     pub units: Option<String>,
     /// Modes, from zero, of a frequency of zero: the structure moves as a rigid body, and nothing of them is compared.
     pub rigid: Vec<usize>,
-    /// Names of the sensors of a Universal File that are left out because some mode has no value at them.
+    /// Names of the sensors that are left out because some mode has no value at them; of a table, each with the first such mode.
     pub incomplete: Vec<String>,
     /// Numbers of the datasets of a Universal File that were not read, ascending.
     pub skipped: Vec<usize>,

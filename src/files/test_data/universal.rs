@@ -17,9 +17,10 @@
 //! with an imaginary part that is not negative is read. Velocities are divided by the circular frequency and accelerations by its
 //! square and minus one. When a shape is complex, all are made real by [`realize`], and how near they were is kept.
 
-use super::universal_axes::{Axes, ROTATION, Systems, by_matrices, by_points};
+use super::universal_axes::{ROTATION, Systems, by_matrices, by_points};
 use super::universal_block::{Block, INTEGER, LONG_REAL, REAL, VALUES, integer};
 use super::{Sensor, TestData, default_name};
+use crate::files::axes::Axes;
 use crate::files::error::FileError;
 use crate::files::test_data::complex_modes::realize;
 use nalgebra::{Complex, DMatrix, Vector3};
@@ -160,15 +161,12 @@ impl FoundModes {
     fn units(&mut self, block: &mut Block) -> Result<(), FileError> {
         let line = block.line("the code of a system of units and its description")?;
         let words: String = line.chars().skip(INTEGER).take(20).collect();
-        self.data.units = Some(
-            if words.trim().is_empty() {
-                line
-            } else {
-                &words
-            }
-            .trim()
-            .to_owned(),
-        );
+        let words = if words.trim().is_empty() {
+            line
+        } else {
+            &words
+        };
+        self.data.units = Some(words.trim().to_owned());
         let factors = block.reals("three factors of units", &[LONG_REAL; 3])?;
         let code = line.chars().take(INTEGER).collect::<String>();
         let code = code.trim().parse::<usize>().unwrap_or_default();
@@ -327,7 +325,7 @@ impl FoundModes {
                 .flat_map(|(_, both, line)| both.map(|number| (number, *line)))
             {
                 let is_global = number < 2 && !self.systems.contains_key(&number);
-                if !is_global && self.systems.get(&number).is_none_or(Axes::is_spherical) {
+                if !is_global && self.systems.get(&number).is_none_or(|own| own.kind > 1) {
                     let reason = format!(
                         "node {node} has coordinate system {number}, which is no Cartesian or cylindrical one of a dataset 18 or 2420 of \
                          the file"
@@ -349,7 +347,8 @@ impl FoundModes {
                 at.map(|(place, ..)| to_global(*place)),
             );
             let along = |axes: &Axes| {
-                let own = axes.directions(place.unwrap_or_default()).ok_or_else(|| {
+                let own = axes.directions(place.unwrap_or_default(), ROTATION);
+                let own = own.ok_or_else(|| {
                     let reason =
                         format!("node {node} is on the axis of its cylindrical coordinate system");
                     FileError::line(file, at.map_or(1, |(.., line)| *line), reason)

@@ -1,52 +1,13 @@
 //! Coordinate systems of a Universal File: dataset 18 gives them by three points, dataset 2420 by a matrix.
 
 use super::universal_block::{Block, LONG_REAL, VALUES};
+use crate::files::axes::Axes;
 use crate::files::error::FileError;
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 
 /// Deviation from a rotation that a matrix may have: the round-off of six digits.
 pub(super) const ROTATION: f64 = 1e-4;
-
-/// A coordinate system; no node may refer to a spherical one.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Axes {
-    /// 0 of a Cartesian one, 1 of a cylindrical one, 2 of a spherical one.
-    pub kind: usize,
-    pub origin: Vector3<f64>,
-    /// Unit vectors along the axes, in columns.
-    pub rotation: Matrix3<f64>,
-}
-
-impl Axes {
-    pub fn is_spherical(&self) -> bool {
-        self.kind > 1
-    }
-
-    /// The global place of coordinates in the system: of a cylindrical one radius, angle in degrees and height.
-    pub fn place(&self, at: Vector3<f64>) -> Vector3<f64> {
-        let (sine, cosine) = at.y.to_radians().sin_cos();
-        let at = match self.kind {
-            1 => Vector3::new(at.x * cosine, at.x * sine, at.z),
-            _ => at,
-        };
-        self.origin + self.rotation * at
-    }
-
-    /// Unit vectors along the system's directions at a global place, in columns: of a cylindrical one outward, around and along its axis;
-    /// none on that axis.
-    pub fn directions(&self, place: Vector3<f64>) -> Option<Matrix3<f64>> {
-        if self.kind == 0 {
-            return Some(self.rotation);
-        }
-        let own = self.rotation.tr_mul(&(place - self.origin));
-        let outward = own.xy().try_normalize(ROTATION * own.norm())?;
-        let turn = Matrix3::new(
-            outward.x, -outward.y, 0.0, outward.y, outward.x, 0.0, 0.0, 0.0, 1.0,
-        );
-        Some(self.rotation * turn)
-    }
-}
 
 /// Coordinate systems by their numbers; 0, and 1 if it is not there, are the global axes.
 pub(super) type Systems = BTreeMap<usize, Axes>;
@@ -55,14 +16,9 @@ pub(super) type Systems = BTreeMap<usize, Axes>;
 pub(super) fn by_points(block: &mut Block, systems: &mut Systems) -> Result<(), FileError> {
     while !block.is_done() {
         let numbers = block.integers("the number, type and reference of a coordinate system", 3)?;
-        let global = Axes {
-            kind: 0,
-            origin: Vector3::zeros(),
-            rotation: Matrix3::identity(),
-        };
         let what = "zero or the number of a Cartesian coordinate system before this one";
         let base = if numbers[2] == 0 {
-            Some(&global)
+            Some(&Axes::GLOBAL)
         } else {
             systems.get(&numbers[2])
         };
