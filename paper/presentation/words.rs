@@ -8,7 +8,7 @@ use corfem::torque_box::CaseResult;
 /// still make.
 pub fn case_in_words(result: &CaseResult) -> String {
     let names = &result.parameter_names;
-    let mut words = verdict_in_words(&Verdict::of_case(result), None, names, &[]);
+    let mut words = verdict_in_words(&Verdict::of_case(result), names, &[]);
     let Some(next) = &result.next_step else {
         return words;
     };

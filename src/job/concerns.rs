@@ -40,13 +40,18 @@ pub(crate) const OPEN: f64 = 1e-3;
 const NONE: [&str; 0] = [];
 
 /// A remark with a list at its end, if there is anything in it.
-fn listed(check: Check, name: &str, words: &str, about: &[impl ToString]) -> Option<Concern> {
+pub(super) fn listed(
+    check: Check,
+    name: &str,
+    words: &str,
+    about: &[impl ToString],
+) -> Option<Concern> {
     let said = || Concern::remark(check, name, about, format!("{words}: {}.", some(about)));
     (!about.is_empty()).then(said)
 }
 
 /// Places from zero as numbers from one.
-fn numbers(places: impl IntoIterator<Item = usize>) -> Vec<usize> {
+pub(super) fn numbers(places: impl IntoIterator<Item = usize>) -> Vec<usize> {
     places.into_iter().map(|place| place + 1).collect()
 }
 
@@ -256,10 +261,13 @@ impl PreparedJob {
         concerns.extend(loaded.places_concerns());
         let (settings, ranges) = (&loaded.job.correlation, whole.ranges());
         let sensors = loaded.placed.iter();
+        let tests = loaded.job.test.file.iter().chain(&loaded.job.test.repeats);
+        let tests: Vec<_> = tests.map(|file| file.display()).collect();
         let names = Names {
             sensors: sensors.map(|sensor| sensor.name.clone()).collect(),
             parameters: loaded.parameter_names().map(str::to_owned).collect(),
             modes,
+            file: some(&tests),
         };
         let modes = &names.modes;
         if modes.is_empty() {

@@ -2,13 +2,14 @@
 
 use super::PreparedJob;
 use super::concern::{Check, Concern, Grade, Trust, some};
+use super::concerns::{listed, numbers};
 use super::correlated::{Caller, CorrelatedJob, History};
 use super::verdict::{Judged, Outcome, Stationary, Verdict, sum_of_nine_modes};
 use crate::files::error::FileError;
 use crate::method::error_sum::mode_errors;
 use crate::method::step::Bounds;
 use crate::sparse::Deflections;
-use crate::weighted::comparison::{Comparison, ModeErrors};
+use crate::weighted::comparison::ModeErrors;
 use crate::weighted::gauss_newton::WeightedStop;
 use crate::weighted::identifiability::{Identifiability, identifiability};
 use crate::weighted::intervals::{Withheld, intervals};
@@ -65,9 +66,16 @@ impl CorrelatedJob {
     /// The errors of [`Misfit::of`] and [`identifiability`].
     pub(super) fn judge(self, trust: &Trust) -> Result<JobResult, FileError> {
         let mut verdict = self.verdict()?;
-        let misfit = self.misfit(&verdict.at_bound)?;
-        let seen_first = self.sees(&self.first, 1.0)?;
-        let seen = self.sees(&self.last, misfit.widening())?;
+        let (weights, priors) = (self.prepared.weights(), &self.prepared.loaded.source.priors);
+        // Parameters at a bound are not fitted.
+        let misfit = Misfit::of(&self.last, &weights, priors, &verdict.at_bound)?;
+        // With deviations of the measurement so many times as large.
+        let sees = |model, widening| {
+            let jacobian = jacobian(model, &weights)?;
+            identifiability(&(jacobian / widening), priors)
+        };
+        let seen_first = sees(&self.first, 1.0)?;
+        let seen = sees(&self.last, misfit.widening())?;
         // Weighted steps are judged by the noise that weighs them, where a wrong model would have failed; not those that ended short or
         // were stopped.
         let is_short = matches!(
@@ -81,6 +89,8 @@ impl CorrelatedJob {
                 false => (Outcome::Untested, false),
             };
         }
+        let parameters = 0..self.factors.len();
+        verdict.unseen = parameters.filter(|&e| seen.is_mostly_prior(e)).collect();
         let after = self.concerns(&verdict, &seen, &misfit)?;
         Ok(JobResult {
             intervals: vec![Err(Withheld::NoOptimum); self.factors.len()],
@@ -93,29 +103,12 @@ impl CorrelatedJob {
         })
     }
 
-    /// What the test sees of the parameters at a model, with deviations of the measurement so many times as large.
-    fn sees(&self, model: &Comparison, widening: f64) -> Result<Identifiability, FileError> {
-        let jacobian = jacobian(model, &self.prepared.weights())? / widening;
-        let priors = &self.prepared.loaded.source.priors;
-        Ok(identifiability(&jacobian, priors)?)
-    }
-
-    /// The residuals at the best factors, compared with the noise; parameters at a bound are not fitted.
-    fn misfit(&self, at_bound: &[usize]) -> Result<Misfit, FileError> {
-        let (prepared, priors) = (&self.prepared, &self.prepared.loaded.source.priors);
-        Ok(Misfit::of(
-            &self.last,
-            &prepared.weights(),
-            priors,
-            at_bound,
-        )?)
-    }
-
     /// The verdict by the reason why it ended and by the tolerances.
     fn verdict(&self) -> Result<Verdict, FileError> {
         let ranges = self.prepared.loaded.source.whole.ranges();
         let judged = Judged {
-            seen: &self.first.largest_parts(),
+            // What a test with deviations does not see its deviations say.
+            seen: &[],
             ranges: &ranges,
         };
         let found = match &self.history {
@@ -174,14 +167,9 @@ impl CorrelatedJob {
             Concern::remark(Check::Deviations, "below-noise", &[""; 0], words)
         }));
         all.extend(self.sight_concerns(verdict, seen));
-        let joined: Vec<usize> = prepared.joined.iter().map(|mode| mode + 1).collect();
-        let words = format!(
-            "Test modes left out at first and compared since: {}.",
-            some(&joined)
-        );
-        all.extend(
-            (!joined.is_empty()).then(|| Concern::remark(Check::Pairs, "joined", &joined, words)),
-        );
+        let joined = numbers(prepared.joined.iter().copied());
+        let since = "Test modes left out at first and compared since";
+        all.extend(listed(Check::Pairs, "joined", since, &joined));
         all.extend(self.held_out()?.iter().map(|held| {
             let [first, last] = held.frequency;
             let shape = held.shape.map_or(String::new(), |[first, last]| {
@@ -200,41 +188,24 @@ impl CorrelatedJob {
     fn sight_concerns(&self, verdict: &Verdict, seen: &Identifiability) -> Vec<Concern> {
         let names: Vec<&str> = self.prepared.loaded.parameter_names().collect();
         let of = |places: &[usize]| places.iter().map(|&e| names[e]).collect::<Vec<&str>>();
-        let about = |check: Check, name: &str, about: &[&str], words: &str| {
-            let words = format!("{words}: {}.", some(about));
-            (!about.is_empty()).then(|| Concern::remark(check, name, about, words))
-        };
-        let mut blind = [&seen.blind[..], &verdict.unseen].concat();
-        blind.sort_unstable();
-        blind.dedup();
-        let mostly_prior: Vec<usize> = (0..names.len())
-            .filter(|&e| seen.is_mostly_prior(e) && !blind.contains(&e))
-            .collect();
+        let groups = seen.untold_groups();
+        let (mut alone, grouped) = (verdict.unseen.clone(), groups.concat());
+        alone.retain(|e| !grouped.contains(e));
         let mut all: Vec<Concern> = Vec::new();
-        all.extend(seen.parallel_groups().iter().map(|group| {
+        all.extend(groups.iter().map(|group| {
             let words = format!(
                 "The test cannot tell {} apart; only combinations of them are known.",
                 some(&of(group))
             );
             Concern::remark(Check::Sight, "not-apart-", &of(group), words)
         }));
-        all.extend(about(
-            Check::Sight,
-            "blind",
-            &of(&blind),
-            "Hardly seen by the test, and so not to be trusted",
-        ));
-        all.extend(about(
-            Check::Sight,
-            "mostly-prior",
-            &of(&mostly_prior),
-            "Known more from the prior than from the test",
-        ));
-        all.extend(about(
+        let prior = "Known more from the prior than from the test";
+        all.extend(listed(Check::Sight, "mostly-prior", prior, &of(&alone)));
+        all.extend(listed(
             Check::Sight,
             "at-bound",
-            &of(&verdict.at_bound),
             "At a bound",
+            &of(&verdict.at_bound),
         ));
         all
     }
@@ -312,7 +283,10 @@ impl JobResult {
             let names: Vec<&str> = names.map(|(name, _)| name).collect();
             match (names.is_empty(), withheld) {
                 (true, _) => None,
-                (_, Withheld::NoOptimum) => Some(withheld.words().to_owned()),
+                // Remarks name the others.
+                (_, Withheld::NoOptimum | Withheld::AtBound | Withheld::MostlyPrior) => {
+                    Some(withheld.words().to_owned())
+                }
                 _ => Some(format!("{}: {}", withheld.words(), names.join(", "))),
             }
         };

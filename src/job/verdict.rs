@@ -88,7 +88,11 @@ impl Judged<'_> {
             .max_by(|&a, &b| errors[a].square().total_cmp(&errors[b].square()))
             .unwrap_or(0);
         let at_end = |e: &usize| self.ranges[*e].is_some_and(|range| is_at_end(range, factors[*e]));
-        let is_unseen = |e: &usize| factors[*e] * self.seen[*e] < UNSEEN_SHARE;
+        let is_unseen = |&e: &usize| {
+            self.seen
+                .get(e)
+                .is_some_and(|seen| factors[e] * seen < UNSEEN_SHARE)
+        };
         Verdict {
             outcome,
             stationary: None,

@@ -5,12 +5,11 @@ use crate::files::test_data::quoted;
 use crate::method::error::Error;
 use crate::method::modes::Modes;
 use crate::weighted::comparison::ExactResult;
-use crate::weighted::identifiability::MOSTLY_PRIOR;
 use nalgebra::DVectorView;
 use std::fmt::Write;
 
 /// A row a parameter, `parameter,first,factor,deviation,low,high,test`: its first and its best factor, the standard deviation of this and
-/// the ends of its 95 % interval, empty where there is none, and what the test says of it: `seen`, `mostly prior`, `blind`, `at bound`, or
+/// the ends of its 95 % interval, empty where there is none, and what the test says of it: `seen`, `mostly prior`, `at bound`, or
 /// `group` and the others that it does not tell from it.
 pub fn factor_rows(report: &Report) -> String {
     let mut text = "parameter,first,factor,deviation,low,high,test\n".to_owned();
@@ -36,17 +35,16 @@ fn said_of(report: &Report, e: usize, factor: f64) -> String {
     let Some([_, seen]) = &report.seen else {
         return String::new();
     };
-    let others = seen.parallel.iter().filter_map(|&(a, b, _)| match e {
-        _ if e == a => Some(b),
-        _ => (e == b).then_some(a),
-    });
-    let others = others.map(|other| &report.parameters[other][..]);
-    let others: Vec<&str> = others.collect();
+    let groups = seen.untold_groups().into_iter();
+    let others = groups
+        .filter(|group| group.contains(&e))
+        .flatten()
+        .filter(|&other| other != e);
+    let others: Vec<&str> = others.map(|other| &report.parameters[other][..]).collect();
     match () {
         () if report.is_at_bound(e, factor) => "at bound".to_owned(),
-        () if seen.blind.contains(&e) => "blind".to_owned(),
         () if !others.is_empty() => format!("group: {}", others.join(", ")),
-        () if seen.learned[e] < MOSTLY_PRIOR => "mostly prior".to_owned(),
+        () if seen.is_mostly_prior(e) => "mostly prior".to_owned(),
         () => "seen".to_owned(),
     }
 }

@@ -8,17 +8,31 @@ const SHORT: &str =
     " Steps ended short of a minimum: the digits of an analysis tell no lower place.";
 
 /// The verdict in sentences, with the parameters' names and the numbers of the test modes; places from one stand for those that
-/// have none. The criterion it is `judged` by stands first; without one that is the tolerance.
-pub fn verdict_in_words(
-    verdict: &Verdict,
-    judged: Option<&str>,
-    names: &[String],
-    mode_numbers: &[usize],
-) -> String {
+/// have none.
+pub fn verdict_in_words(verdict: &Verdict, names: &[String], mode_numbers: &[usize]) -> String {
     let named = |indices: &[usize]| {
         let name = |&e: &usize| names.get(e).cloned().unwrap_or_else(|| (e + 1).to_string());
         indices.iter().map(name).collect::<Vec<_>>().join(", ")
     };
+    let mut words = outcome_in_words(verdict, None, mode_numbers);
+    if !verdict.at_bound.is_empty() {
+        words += &format!(" At a bound: {}.", named(&verdict.at_bound));
+    }
+    if !verdict.unseen.is_empty() {
+        words += &format!(
+            " Hardly seen by the test modes, and so not to be trusted: {}.",
+            named(&verdict.unseen)
+        );
+    }
+    words + advice(verdict)
+}
+
+/// The end of a correlation in sentences. The criterion it is `judged` by stands first; without one that is the tolerance.
+pub(super) fn outcome_in_words(
+    verdict: &Verdict,
+    judged: Option<&str>,
+    mode_numbers: &[usize],
+) -> String {
     let end = match verdict.outcome {
         _ if verdict.stationary == Some(Stationary::Lowest) => &format!(
             " Steps ended at a stationary place, and nothing lower was found from {PLACES} others."
@@ -43,7 +57,7 @@ pub fn verdict_in_words(
         }
     };
     let judged = judged.map_or_else(by_tolerance, str::to_owned);
-    let mut words = format!(
+    format!(
         "{judged}{end} Worst is mode {}: frequency {:+.2} %{}.",
         mode_numbers
             .get(verdict.worst_mode)
@@ -57,32 +71,23 @@ pub fn verdict_in_words(
                 ", shape {:.2} % RMS",
                 100.0 * shape
             ))
-    );
-    if !verdict.at_bound.is_empty() {
-        words += &format!(" At a bound: {}.", named(&verdict.at_bound));
+    )
+}
+
+/// Advice on the next try, if there is a reason for one.
+pub(super) fn advice(verdict: &Verdict) -> &'static str {
+    match verdict.outcome {
+        _ if verdict.is_within => "",
+        Outcome::Cap => " Try more iterations or passes.",
+        Outcome::Untested => {
+            " Compare more modes or sensors, or group the parameters; the test confirms nothing."
+        }
+        Outcome::Nothing => " Look for a mistake in the test's units, sensors or order of modes.",
+        _ if !verdict.at_bound.is_empty() => {
+            " Try wider bounds, or look at how the elements at a bound are modeled."
+        }
+        _ => {
+            " Try other parameters or groups, or look at how the elements of the worst mode are modeled."
+        }
     }
-    if !verdict.unseen.is_empty() {
-        words += &format!(
-            " Hardly seen by the test modes, and so not to be trusted: {}.",
-            named(&verdict.unseen)
-        );
-    }
-    if !verdict.is_within {
-        words += match verdict.outcome {
-            Outcome::Cap => " Try more iterations or passes.",
-            Outcome::Untested => {
-                " Compare more modes or sensors, or group the parameters; the test confirms nothing."
-            }
-            Outcome::Nothing => {
-                " Look for a mistake in the test's units, sensors or order of modes."
-            }
-            _ if !verdict.at_bound.is_empty() => {
-                " Try wider bounds, or look at how the elements at a bound are modeled."
-            }
-            _ => {
-                " Try other parameters or groups, or look at how the elements of the worst mode are modeled."
-            }
-        };
-    }
-    words
 }

@@ -147,7 +147,7 @@ pub fn check_job(
             trust: Some(trust.clone()),
             ..Report::from_job(&prepared, None)?
         };
-        let tables = [
+        let mut tables = vec![
             trust_table(&trust),
             model_table(&prepared)?,
             places_table(&prepared.loaded, None)?,
@@ -155,6 +155,10 @@ pub fn check_job(
             suspects_table(&prepared),
             measurement_table(&prepared),
         ];
+        // A test that is doubtful accuses any parameter.
+        if trust.has_doubt() {
+            tables.retain(|own| own.name != "suspects");
+        }
         Ok::<_, PresentError>((trust, tables))
     })?;
     let document = || {
@@ -177,10 +181,10 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
         let minima = minima_table(&report).into_iter();
         minima.chain([history_table(&report)])
     };
-    // A terminal has the answer first, and no room for every column.
+    // A terminal has doubts first, then the answer, and no room for every column.
     let brief = [
-        answer_table(&report),
         doubts,
+        answer_table(&report),
         factors.clone().only(&BRIEF_FACTORS),
         paired.clone().only(&BRIEF_MODES),
         remarks,

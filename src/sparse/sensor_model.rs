@@ -357,12 +357,6 @@ impl SensorModel {
         Errors::of(&each.collect::<Vec<_>>())
     }
 
-    /// The largest part of a test mode's stiffness or mass that each parameter has.
-    pub(crate) fn largest_parts(&self) -> Vec<f64> {
-        let largest = |share: &DMatrix<f64>| share.diagonal().amax();
-        self.test_shares.iter().map(largest).collect()
-    }
-
     /// The change of all parameters together.
     fn change(&self, factors: &[f64]) -> Result<Change, Error> {
         check_length("parameter factors", factors.len(), self.shares.len())?;

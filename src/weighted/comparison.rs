@@ -11,9 +11,7 @@ use crate::method::linear_algebra::check_shape;
 use crate::method::model::Model;
 use crate::method::modes::Modes;
 use crate::method::sorting::{Pairing, pair_modes};
-use crate::sparse::{
-    Candidates, ModeWeight, ParameterMatrix, SensorModel, cosines, is_held, is_one_root,
-};
+use crate::sparse::{Candidates, ModeWeight, SensorModel, cosines, is_held, is_one_root};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -333,22 +331,6 @@ impl Comparison {
             .map(ModeErrors::from)
             .chain(lone)
             .collect())
-    }
-
-    /// The largest part of a test mode's stiffness or mass that each parameter has.
-    pub(crate) fn largest_parts(&self) -> Vec<f64> {
-        let modes = &self.model.exact.modes;
-        let part = |(share, largest): (&ParameterMatrix, f64)| {
-            let of_lone = |&LoneFrequency { partner, .. }: &LoneFrequency| match share {
-                ParameterMatrix::Stiffness(beta) => {
-                    beta[(partner, partner)] / modes.omega_squared[partner]
-                }
-                ParameterMatrix::Mass(alpha) => alpha[(partner, partner)],
-            };
-            self.test.lone.iter().map(of_lone).fold(largest, f64::max)
-        };
-        let shares = self.model.shares.iter();
-        shares.zip(self.model.largest_parts()).map(part).collect()
     }
 
     /// Errors of paired modes, with those of the frequencies without shapes.

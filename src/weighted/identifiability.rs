@@ -8,8 +8,6 @@ use serde::Serialize;
 
 /// Cosine of two parameters' columns above which they are nearly parallel: a fifth of one is what the other cannot imitate.
 pub const PARALLEL_COSINE: f64 = 0.98;
-/// Length of a parameter's column below which it is blind, as a fraction of the longest.
-pub const BLIND_FRACTION: f64 = 0.01;
 /// Standard deviations on either side that hold 95 % of a normal distribution.
 pub const NORMAL_95: f64 = 1.959_963_984_540_054;
 
@@ -26,8 +24,6 @@ pub struct Identifiability {
     pub condition: f64,
     /// Pairs above [`PARALLEL_COSINE`] with their cosine, negative where one undoes the other.
     pub parallel: Vec<(usize, usize, f64)>,
-    /// Parameters below [`BLIND_FRACTION`].
-    pub blind: Vec<usize>,
     /// Those that say more than the prior beyond what the ones before can imitate, by QR with column pivoting.
     pub subset: Vec<usize>,
     /// Covariance of the logarithms, $(J^t J + \mathrm{diag}(\tau^{-2}))^{-1}$ (p × p).
@@ -42,7 +38,7 @@ pub struct Identifiability {
 /// Part of the prior variance that a parameter known mostly from the prior keeps at least: the prior then says more of it than the test.
 pub const MOSTLY_PRIOR: f64 = 0.5;
 
-/// Singular values, blind and parallel parameters, a subset, and covariance with priors of standard deviations $\tau$, one a
+/// Singular values, parallel parameters, a subset, and covariance with priors of standard deviations $\tau$, one a
 /// parameter.
 ///
 /// The covariance is that of a linear model with normal errors as the weights say, and of logarithms normal about zero
@@ -71,10 +67,6 @@ pub fn identifiability(jacobian: &DMatrix<f64>, priors: &[f64]) -> Result<Identi
         .for_each(|value| *value = 0.0);
     let smallest = singular_values[count - 1];
     let lengths: Vec<f64> = jacobian.column_iter().map(|column| column.norm()).collect();
-    let longest = lengths.iter().copied().fold(0.0, f64::max);
-    let blind: Vec<usize> = (0..count)
-        .filter(|&e| lengths[e] <= BLIND_FRACTION * longest)
-        .collect();
     let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b)));
     let cosine = |(a, b)| {
         let cosine: f64 = gram[(a, b)] / (lengths[a] * lengths[b]);
@@ -103,7 +95,6 @@ pub fn identifiability(jacobian: &DMatrix<f64>, priors: &[f64]) -> Result<Identi
             .map(|(deviation, prior)| 1.0 - (deviation / prior).powi(2))
             .collect(),
         singular_values,
-        blind,
         covariance,
         deviations,
     })
@@ -175,6 +166,13 @@ impl Identifiability {
             groups = joined;
         }
         groups.sort();
+        groups
+    }
+
+    /// Groups of parallel parameters of which each is known more from the prior than from the test: it tells their combinations alone.
+    pub fn untold_groups(&self) -> Vec<Vec<usize>> {
+        let mut groups = self.parallel_groups();
+        groups.retain(|group| group.iter().all(|&e| self.is_mostly_prior(e)));
         groups
     }
 }

@@ -70,7 +70,7 @@ fn the_corrected_airplane_is_nearer_and_still_not_explained() {
         (steps.best.stop, RESULT.verdict.outcome),
         (WeightedStop::Wall, Outcome::Wall)
     );
-    let blind = about(&RESULT.trust, "blind");
+    let blind = about(&RESULT.trust, "mostly-prior");
     let named = |name: &str| blind.iter().any(|blind| blind == name);
     assert!(named("tailplane") && named("joint"), "{blind:?}");
 }

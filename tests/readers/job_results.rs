@@ -79,7 +79,7 @@ fn a_test_that_no_model_can_fail_confirms_nothing() {
         (
             found.verdict.outcome,
             found.verdict.is_within,
-            report_of(&found).words(),
+            report_of(&found).answer() + &report_of(&found).words(),
         )
     };
     for (entries, reason) in [
@@ -98,6 +98,7 @@ fn a_test_that_no_model_can_fail_confirms_nothing() {
     ] {
         let (outcome, is_within, words) = outcome(entries);
         assert_eq!((outcome, is_within), (Outcome::Untested, false), "{words}");
+        assert!(words.starts_with("The test confirms nothing: "), "{words}");
         for said in [reason, "Nothing to judge by", "the test confirms nothing"] {
             assert!(words.contains(said), "{words}");
         }

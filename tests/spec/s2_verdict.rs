@@ -27,18 +27,16 @@ fn every_outcome_is_said_as_what_it_is() {
         (within.outcome, within.is_within),
         (Outcome::Tolerance, true)
     );
-    assert!(verdict_in_words(&within, None, &[], &[]).starts_with("Correlated: error sum "));
+    assert!(verdict_in_words(&within, &[], &[]).starts_with("Correlated: error sum "));
     let (_, capped) = chain_with(|settings| {
         settings.most_passes = 1;
         settings.inner.iterations = 1;
     });
     assert_eq!((capped.outcome, capped.is_within), (Outcome::Cap, false));
-    assert!(verdict_in_words(&capped, None, &[], &[]).contains("Try more iterations or passes."));
+    assert!(verdict_in_words(&capped, &[], &[]).contains("Try more iterations or passes."));
     let (_, none) = chain_with(|settings| settings.most_passes = 0);
     assert_eq!((none.outcome, none.is_within), (Outcome::Nothing, false));
-    assert!(
-        verdict_in_words(&none, None, &[], &[]).contains("No step from the first model lowered it")
-    );
+    assert!(verdict_in_words(&none, &[], &[]).contains("No step from the first model lowered it"));
     // Bounds that hold the truth out end in a local minimum at the bound.
     let (chain, ranges) = (
         Chain::uniform(3),
@@ -71,7 +69,6 @@ fn every_outcome_is_said_as_what_it_is() {
     assert_eq!(held.at_bound, [0]);
     let words = verdict_in_words(
         &held,
-        None,
         &["wall".to_owned(), "b".to_owned(), "c".to_owned()],
         &[],
     );
@@ -200,7 +197,7 @@ fn an_element_in_no_test_mode_is_named_as_unseen() {
     let found = verdict_of(&found, &analyze(&[1.0; 4]).unwrap(), &[None; 4]);
     assert_eq!(found.unseen, [3]);
     assert!(
-        verdict_in_words(&found, None, &[], &[])
+        verdict_in_words(&found, &[], &[])
             .contains("Hardly seen by the test modes, and so not to be trusted: 4.")
     );
 }

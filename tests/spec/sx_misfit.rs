@@ -112,6 +112,10 @@ fn a_verdict_says_what_noise_allows_what_no_noise_explains_and_what_so_few_numbe
         let words = misfit.in_words(&assumed);
         assert!(words.contains(says), "{words}");
     }
+    // Chi-squared of one number is beyond 3.841 in five tests of a hundred, and beyond 10.828 in one of a thousand.
+    let marks =
+        [3.84, 3.85, 10.82, 10.84].map(|squares| corfem::weighted::misfit::mark(squares, 1));
+    assert_eq!(marks, ["good", "acceptable", "acceptable", "poor"]);
     assert_within(wrong.widening(), 14.0, MATRIX_ROUND_OFF);
     assert_eq!((all.widening(), none.times_the_noise()), (1.0, None));
 }

@@ -46,7 +46,8 @@ struct Copies {
     modes: [usize; 2],
     assurance: f64,
     /// True if noise alone, in all but one of a thousand tests, makes one mode differ so much from itself.
-    is_measured_twice: bool,
+    /// None if it makes one mode of shapes at right angles as well.
+    is_measured_twice: Option<bool>,
 }
 
 impl Copies {
@@ -62,14 +63,15 @@ impl Copies {
         let sum = |of: fn(&Noise) -> f64| noise.iter().map(|own| of(own).powi(2)).sum::<f64>();
         let shape = test.shapes.column(a);
         let size = shape.norm_squared() / shape.amax().powi(2);
-        let chi_squared = size * (1.0 - assurance) / sum(|own| own.shape)
-            + frequency_ratio.ln().powi(2) / sum(|own| own.frequency);
+        let unlike = size / sum(|own| own.shape);
+        let chi_squared =
+            unlike * (1.0 - assurance) + frequency_ratio.ln().powi(2) / sum(|own| own.frequency);
         let law = ChiSquared::new(shape.len() as f64);
+        let largest = law.map_or(0.0, |law| law.inverse_cdf(1.0 - FALSE_ALARMS));
         Self {
             modes,
             assurance,
-            is_measured_twice: law
-                .is_ok_and(|law| chi_squared <= law.inverse_cdf(1.0 - FALSE_ALARMS)),
+            is_measured_twice: (unlike > largest).then_some(chi_squared <= largest),
         }
     }
 
@@ -82,8 +84,9 @@ impl Copies {
         );
         let check = Check::ModesMeasuredTwice;
         match self.is_measured_twice {
-            true => Concern::doubt(check, "same-", &modes, words + "; measured twice?"),
-            false => Concern::remark(check, "same-", &modes, words + "."),
+            None => Concern::not_checked(check, "by these deviations all shapes are alike"),
+            Some(true) => Concern::doubt(check, "same-", &modes, words + "; measured twice?"),
+            Some(false) => Concern::remark(check, "same-", &modes, words + "."),
         }
     }
 }
@@ -164,7 +167,9 @@ pub fn preflight_at_sensors(
         _ => distinct_shapes(test, noise)?.1,
     };
     let is_copy = |mode: &usize| {
-        let mut twice = copies.iter().filter(|copies| copies.is_measured_twice);
+        let mut twice = copies
+            .iter()
+            .filter(|own| own.is_measured_twice == Some(true));
         twice.any(|copies| copies.modes[1] == *mode)
     };
     let once: Vec<usize> = (0..test.len()).filter(|mode| !is_copy(mode)).collect();

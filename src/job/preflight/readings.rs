@@ -277,6 +277,13 @@ pub(super) fn explain(seen: &SeenModes, (test, noise): (&Modes, &[Noise])) -> Re
         .map(|(change, after)| (change, before - after))
         .filter(|(_, gain)| *gain > enough)
         .map(|(change, gain)| (change, gain / std::f64::consts::LN_10));
+    // A reversed sensor moves a reading r by 2r/σ deviations, and a logarithm of a likelihood by no more than half their squares.
+    let mut moved = 2.0 * test;
+    for (mut shape, times) in moved.column_iter_mut().zip(&model.times) {
+        shape /= 0.5 * shape.amax() * model.common * times;
+    }
+    let most = moved.row_iter().map(|row| 0.5 * row.norm_squared());
+    let is_weak = mistake.is_none() && most.fold(0.0, f64::max) <= enough;
     let right = match &mistake {
         Some((change, _)) => model.of_test(&changed(test, change), |_, _| 0.0)?.1,
         None => partners,
@@ -287,7 +294,7 @@ pub(super) fn explain(seen: &SeenModes, (test, noise): (&Modes, &[Noise])) -> Re
     Ok(Told {
         mistake,
         partners: right.collect(),
-        silent: None,
+        silent: is_weak.then_some("by these deviations a reversed sensor would not show"),
     })
 }
 

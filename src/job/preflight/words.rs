@@ -12,6 +12,8 @@ pub struct Names {
     pub parameters: Vec<String>,
     /// Places of the test modes in the test's file.
     pub modes: Vec<usize>,
+    /// The test's file.
+    pub file: String,
 }
 
 fn name(names: &[String], place: usize) -> String {
@@ -37,34 +39,30 @@ impl Names {
 impl Change {
     /// The doubt that a change raises which makes the shapes more likely by ten to the power of `evidence`.
     pub fn concern(&self, evidence: f64, names: &Names) -> Concern {
-        let sensor = |place: &usize| names.sensor(*place);
-        let (name, about, question) = match self {
+        let (name, places, what) = match self {
             Self::Reversed(place) => (
                 "reversed-",
-                vec![sensor(place)],
-                format!("Sensor {} reversed?", sensor(place)),
+                vec![*place],
+                "reversed? Give its row the other sign".to_owned(),
             ),
-            Self::Exchanged([a, b]) => {
-                let both = [sensor(a), sensor(b)];
-                (
-                    "exchanged-",
-                    both.to_vec(),
-                    format!("Sensors {} and {} exchanged?", both[0], both[1]),
-                )
-            }
+            Self::Exchanged(both) => (
+                "exchanged-",
+                both.to_vec(),
+                "exchanged? Exchange the readings of their rows".to_owned(),
+            ),
             Self::Gain(place, gain) => (
                 "gain-",
-                vec![sensor(place)],
-                format!("Sensor {} reads {gain:.3} times too much?", sensor(place)),
+                vec![*place],
+                format!("reads {gain:.3} times too much? Divide its row by that"),
             ),
-            Self::Dead(place) => (
-                "dead-",
-                vec![sensor(place)],
-                format!("Sensor {} dead?", sensor(place)),
-            ),
+            Self::Dead(place) => ("dead-", vec![*place], "dead? Leave out its row".to_owned()),
         };
+        let about: Vec<String> = places.into_iter().map(|own| names.sensor(own)).collect();
         let words = format!(
-            "{question} The test's shapes would be 10^{evidence:.1} times as likely, with its noise and a model 30 % wrong."
+            "Sensor{} {} {what} in {}. The test's shapes would be 10^{evidence:.1} times as likely, with its noise and a model 30 % wrong.",
+            if about.len() > 1 { "s" } else { "" },
+            about.join(" and "),
+            names.file
         );
         Concern::doubt(Check::Readings, name, &about, words)
     }

@@ -1,6 +1,7 @@
 //! The answer of a report in one line, and its parameters in the order of what is surest.
 
 use super::Report;
+use crate::job::verdict::Outcome;
 use crate::method::error_sum::Errors;
 use crate::method::step::Bounds;
 use crate::present::table::Digits;
@@ -89,7 +90,14 @@ impl Report {
                 "Not to be trusted as it stands: "
             }
             Some(verdict) if !verdict.is_within && self.is_judged_by_noise => {
-                "The model does not explain the test: "
+                match (
+                    self.misfit.is_some_and(|own| own.is_by_noise()),
+                    verdict.outcome,
+                ) {
+                    (false, _) => "The model does not explain the test: ",
+                    (_, Outcome::Untested) => "The test confirms nothing: ",
+                    _ => "Steps ended short: ",
+                }
             }
             Some(verdict) if !verdict.is_within => "Outside tolerance: ",
             _ => "",

@@ -78,6 +78,7 @@ impl Report {
                 .filter(still)
                 .map(|grid| geometry.places[grid])
                 .collect(),
+            residuals: mode_residuals(prepared, found.map_or(&first, |found| &found.last))?,
             mass: prepared.mass_at_sensors(found.map_or(&first, |found| &found.last)),
             derivatives: found
                 .map(|found| Derivatives::at(&found.first))
@@ -121,7 +122,6 @@ impl Report {
             minima,
             starts,
             intervals: intervals.clone(),
-            residuals: mode_residuals(found)?,
             moved: moved(found),
             assumed: prepared.assumed_deviations(),
             held_out: found.held_out()?,
@@ -168,11 +168,10 @@ impl Report {
     }
 }
 
-/// The residuals at the best factors, mode by mode.
-fn mode_residuals(found: &CorrelatedJob) -> Result<Vec<ModeResiduals>, Error> {
-    let prepared = &found.prepared;
-    let all = residuals(&found.last, &prepared.weights())?;
-    let rows = 1 + found.last.model.test.shapes.nrows();
+/// The residuals of a model, mode by mode.
+fn mode_residuals(prepared: &PreparedJob, model: &Comparison) -> Result<Vec<ModeResiduals>, Error> {
+    let all = residuals(model, &prepared.weights())?;
+    let rows = 1 + model.model.test.shapes.nrows();
     let (shaped, alone) = all.as_slice().split_at(rows * prepared.modes.len());
     let each = shaped.chunks(rows).chain(alone.chunks(1));
     let of_mode = |(mode, own): (usize, &[f64])| ModeResiduals {

@@ -3,7 +3,6 @@
 mod answer;
 pub(super) mod job;
 
-use crate::job::concern::Grade;
 use crate::job::verdict::Verdict;
 use crate::job::{HeldOut, Trust};
 use crate::method::analysis::DERIVATIVE_STEP;
@@ -15,7 +14,7 @@ use crate::method::outer_loop::{Correlation, Pass, Settings};
 use crate::method::sorting::cross_orthogonality;
 use crate::method::step::Bounds;
 use crate::method::structure::Structure;
-use crate::present::verdict::verdict_in_words;
+use crate::present::verdict::{advice, outcome_in_words, verdict_in_words};
 use crate::sparse::{ParameterMatrix, Work, modal_assurance};
 use crate::weighted::close_modes::turned;
 use crate::weighted::comparison::{Comparison, ExactResult};
@@ -338,38 +337,24 @@ impl Report {
         self.mode_numbers.get(place).copied().unwrap_or(place + 1)
     }
 
-    /// The verdict in words, after what stands against it.
+    /// The verdict in words.
     pub fn words(&self) -> String {
-        let against = self
-            .trust
-            .iter()
-            .filter(|trust| trust.stands_against())
-            .map(|trust| {
-                let names = trust
-                    .all()
-                    .iter()
-                    .filter_map(|concern| match concern.grade {
-                        _ if concern.stands() => Some(format!("doubt {}", concern.identifier)),
-                        Grade::LeftOut => {
-                            Some(format!("test mode {} not compared", concern.about[0]))
-                        }
-                        _ => None,
-                    });
-                let names: Vec<String> = names.collect();
-                format!("Not to be trusted as it stands ({}). ", names.join(", "))
-            });
         let judged = self.misfit.as_ref().filter(|_| self.is_judged_by_noise);
         let judged = judged.map(|misfit| misfit.in_words(&self.assumed));
         let verdict = self.verdict.iter();
-        let words = verdict.map(|verdict| {
-            verdict_in_words(
-                verdict,
-                judged.as_deref(),
-                &self.parameters,
-                &self.mode_numbers,
-            )
+        // Of a job bounds and what is not seen are remarks, and a doubt is answered before anything else is tried.
+        let words = verdict.map(|verdict| match &self.trust {
+            None => verdict_in_words(verdict, &self.parameters, &self.mode_numbers),
+            Some(trust) => {
+                let next = if trust.has_doubt() {
+                    ""
+                } else {
+                    advice(verdict)
+                };
+                outcome_in_words(verdict, judged.as_deref(), &self.mode_numbers) + next
+            }
         });
-        against.chain(words).collect()
+        words.collect()
     }
 
     /// Number of starts that failed.
