@@ -180,8 +180,8 @@ impl Misfit {
         )
     }
 
-    /// The same after what it means, in noise of which `assumed` is supposed.
-    pub fn in_words(&self, assumed: &[String]) -> String {
+    /// The same after what it means.
+    pub fn in_words(&self) -> String {
         let is_few = self.power < 1.0 - MISSED;
         let mut words = match self.untested() {
             _ if !self.is_by_noise() => format!(
@@ -194,9 +194,6 @@ impl Misfit {
                 self.times_the_noise().unwrap_or_default()
             ),
         };
-        if !assumed.is_empty() {
-            words += &format!(" The noise is assumed: {}.", assumed.join(" and "));
-        }
         // Of a larger one a remark has the numbers.
         if self.is_by_noise() {
             words += &format!(" {}", self.in_numbers());

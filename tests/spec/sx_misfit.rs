@@ -89,11 +89,10 @@ fn a_verdict_says_what_noise_allows_what_no_noise_explains_and_what_so_few_numbe
         chi_squared: 16.0 * 14.0_f64.powi(2),
         ..all
     };
-    let assumed = ["0.5 % of frequencies".to_owned()];
     for (misfit, says) in [
         (
             all,
-            "As good as the noise allows: residuals are 0.00 times the noise. The noise is assumed: 0.5 % of frequencies. \
+            "As good as the noise allows: residuals are 0.00 times the noise. \
                Chi-squared is 0.0 for 16.0 degrees of freedom; noise alone leaves at most 39.3 in 999 of 1000 tests.",
         ),
         (
@@ -109,7 +108,7 @@ fn a_verdict_says_what_noise_allows_what_no_noise_explains_and_what_so_few_numbe
             "Nothing to judge by: the fit leaves less than one number over.",
         ),
     ] {
-        let words = misfit.in_words(&assumed);
+        let words = misfit.in_words();
         assert!(words.contains(says), "{words}");
     }
     // Chi-squared of one number is beyond 3.841 in five tests of a hundred, and beyond 10.828 in one of a thousand.

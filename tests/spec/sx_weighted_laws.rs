@@ -262,7 +262,7 @@ fn every_limit_of_a_verdict_has_two_sides() {
         );
         for (power, is_said) in [(0.989, true), (0.991, false)] {
             let own = Misfit { power, ..own };
-            let (words, is_good) = (own.in_words(&[]), own.can_fail() && own.is_by_noise());
+            let (words, is_good) = (own.in_words(), own.can_fail() && own.is_by_noise());
             assert_eq!(
                 words.contains("so few numbers would show 99 %"),
                 is_said && is_good,

@@ -123,7 +123,6 @@ impl Report {
             starts,
             intervals: intervals.clone(),
             moved: moved(found),
-            assumed: prepared.assumed_deviations(),
             held_out: found.held_out()?,
             verdict: Some(verdict.clone()),
             trust: Some(trust.clone()),

@@ -154,9 +154,6 @@ pub struct Report {
     /// Test modes that are not compared: their numbers and frequencies, Hz.
     #[serde(skip)]
     pub left_out: Vec<(usize, f64)>,
-    /// Standard deviations that are assumed, in words.
-    #[serde(skip)]
-    pub assumed: Vec<String>,
     /// Test modes that are held out, with their errors.
     #[serde(skip)]
     pub held_out: Vec<HeldOut>,
@@ -290,7 +287,6 @@ impl Report {
             test: test.clone(),
             mode_numbers: (1..=test.len()).collect(),
             left_out: Vec::new(),
-            assumed: Vec::new(),
             held_out: Vec::new(),
             trust: None,
             sensors: Vec::new(),
@@ -340,7 +336,7 @@ impl Report {
     /// The verdict in words.
     pub fn words(&self) -> String {
         let judged = self.misfit.as_ref().filter(|_| self.is_judged_by_noise);
-        let judged = judged.map(|misfit| misfit.in_words(&self.assumed));
+        let judged = judged.map(Misfit::in_words);
         let verdict = self.verdict.iter();
         // Of a job bounds and what is not seen are remarks, and a doubt is answered before anything else is tried.
         let words = verdict.map(|verdict| match &self.trust {
