@@ -5,20 +5,17 @@ use crate::files::error::FileError;
 use crate::method::error::Error;
 use crate::method::outer_loop::{Correlation, Pass, correlate};
 use crate::method::step::Bounds;
-use crate::sparse::Work;
+use crate::sparse::{ModeWeight, Work};
 use crate::weighted::comparison::Comparison;
 use crate::weighted::gauss_newton::{
     LOWER, WeightedCorrelation, WeightedStop, gauss_newton, gauss_newton_below,
 };
 use crate::weighted::intervals::MOST_FOLLOWED;
 use crate::weighted::lower_place::lower_place;
-use crate::weighted::misfit::Misfit;
+use crate::weighted::misfit::{Misfit, most_by_noise};
 use crate::weighted::residuals::residuals;
 use crate::weighted::starts::{WeightedHistory, from_several_starts};
 
-/// Most by which chi-squared of the numbers that two results compare may rise from one to the next: the square of three deviations, which
-/// a right mode more exceeds in three of a thousand tests and a wrong one by far.
-const MOST_RISE: f64 = 9.0;
 /// Most ends of one run that a lower place is gone to from.
 const MOST_LEFT: usize = 5;
 /// Most deflections of parameters, beside two of every mode, in the basis in which a lower place is looked for: exact steps decide.
@@ -70,8 +67,9 @@ type Found = (Vec<f64>, History, Comparison, usize, bool);
 impl PreparedJob {
     /// The factors of the job, from given ones on.
     ///
-    /// A test mode that was left out is compared, from the end on, if a mode of the model there is like it; what comes of that counts if it
-    /// explains the numbers that both compare no worse ([`MOST_RISE`]). A mode that makes others worse stays left out.
+    /// Test modes that were left out are compared, from the end on, if modes of the model there are like them, and each alone where all
+    /// together lead to a place that explains the others worse ([`CorrelatedJob::explains`]). A mode that does so alone stays left out
+    /// until another one joins, which leads to another end.
     ///
     /// # Errors
     /// [`FileError::Refused`] for a test in which no mode has a partner; the errors of the analyses and of the loops.
@@ -82,15 +80,18 @@ impl PreparedJob {
     ) -> Result<CorrelatedJob, FileError> {
         self.check_paired()?;
         let mut found = self.run(start, caller)?;
+        let mut most = usize::MAX;
         while !found.is_interrupted
-            && let Some(joined) = found.prepared.joined_by(&found.last)?
+            && let Some(joined) = found.prepared.joined_by(&found.last, most)?
         {
             (caller.progress)(&format!("test modes compared: {}", joined.modes.len()));
             let next = joined.run(&found.factors, caller)?;
             let analyses = found.analyses + next.analyses;
-            if next.is_interrupted || found.is_no_better_than(&next)? {
+            if next.is_interrupted || next.explains(&found)? {
                 let first = joined.analyze(start)?.with_slopes()?;
-                found = CorrelatedJob { first, ..next };
+                (found, most) = (CorrelatedJob { first, ..next }, usize::MAX);
+            } else if joined.modes.len() > found.prepared.modes.len() + 1 {
+                most = 1;
             } else {
                 found.prepared.refused.extend(&joined.joined);
             }
@@ -298,11 +299,18 @@ impl PreparedJob {
 }
 
 impl CorrelatedJob {
-    /// True if another result explains the numbers that this one compares no worse.
-    fn is_no_better_than(&self, other: &Self) -> Result<bool, FileError> {
-        let weights = self.prepared.weights();
-        let there = self.prepared.analyze(&other.factors)?;
-        let own = residuals(&self.last, &weights)?.norm_squared();
-        Ok(residuals(&there, &weights)?.norm_squared() <= own + MOST_RISE)
+    /// True if this result explains the numbers that an earlier one compares as noise lets it: a right mode more moves the factors, and
+    /// chi-squared of the others rises from its minimum by at most a chi-squared of as many degrees of freedom as factors. Close modes
+    /// count as they are compared here: in one subspace, where the earlier result had the shape of one alone.
+    fn explains(&self, earlier: &Self) -> Result<bool, FileError> {
+        let mut weights = self.prepared.weights();
+        for (weight, mode) in weights.iter_mut().zip(&self.prepared.modes) {
+            if !earlier.prepared.modes.contains(mode) {
+                *weight = ModeWeight::NONE;
+            }
+        }
+        let before = residuals(&earlier.last, &earlier.prepared.weights())?.norm_squared();
+        let rise = residuals(&self.last, &weights)?.norm_squared() - before;
+        Ok(rise <= most_by_noise(self.factors.len() as f64)?)
     }
 }

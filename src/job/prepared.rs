@@ -73,7 +73,7 @@ pub struct PreparedJob {
     pub unpaired: Vec<LeftOut>,
     /// Test modes, from zero, that were left out at first and are compared since.
     pub joined: Vec<usize>,
-    /// Test modes, from zero, that would make others worse, and so stay left out.
+    /// Test modes, from zero, that make others worse from this end, and so stay left out.
     pub(super) refused: Vec<usize>,
     /// Test modes, from zero, that several modes of the first model resemble equally, and which are paired in the order of frequencies.
     pub undecided: Vec<usize>,
@@ -258,9 +258,13 @@ impl PreparedJob {
         left.filter(|mode| !self.modes.contains(mode))
     }
 
-    /// The same job that also compares the test modes left out so far that resemble a mode of this model which can have their frequency,
-    /// each one of its own; none where none does.
-    pub(super) fn joined_by(&self, model: &Comparison) -> Result<Option<Self>, FileError> {
+    /// The same job that also compares the test modes left out so far, as many at most, that resemble a mode of this model which can have
+    /// their frequency, each one of its own; none where none does.
+    pub(super) fn joined_by(
+        &self,
+        model: &Comparison,
+        most: usize,
+    ) -> Result<Option<Self>, FileError> {
         let left = self.not_compared();
         let left = left.filter(|mode| !self.refused.contains(mode));
         let all: Vec<usize> = self.modes.iter().copied().chain(left).collect();
@@ -279,12 +283,14 @@ impl PreparedJob {
         let joined: Vec<usize> = left
             .filter(|(partner, _)| partner.is_some())
             .map(|(_, mode)| *mode)
+            .take(most)
             .collect();
         if joined.is_empty() || compared.contains(&None) {
             return Ok(None);
         }
         let mut again = self.comparing_too(&joined)?;
         again.joined.extend(joined);
+        again.refused.clear();
         Ok(Some(again))
     }
 
@@ -438,10 +444,7 @@ impl PreparedJob {
         };
         let held = &self.loaded.job.test.hold_out;
         let weight = |mode: usize| match held.contains(&(mode + 1)) {
-            true => ModeWeight {
-                frequency: 0.0,
-                shape: 0.0,
-            },
+            true => ModeWeight::NONE,
             false => ModeWeight {
                 frequency: of(&compare.frequency_weights, mode),
                 shape: of(&compare.shape_weights, mode),

@@ -54,6 +54,11 @@ impl ModeWeight {
         frequency: 1.0,
         shape: 1.0,
     };
+    /// Weight of a mode that counts for nothing.
+    pub const NONE: Self = Self {
+        frequency: 0.0,
+        shape: 0.0,
+    };
 }
 
 /// Requires one finite, non-negative weight per test mode and number, not all zero.

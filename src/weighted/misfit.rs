@@ -53,6 +53,18 @@ pub fn mark(squares: f64, numbers: usize) -> &'static str {
     }
 }
 
+fn chi_squared_law(degrees_of_freedom: f64) -> Result<ChiSquared, Error> {
+    ChiSquared::new(degrees_of_freedom.max(1.0)).map_err(|_| Error::no_convergence("chi-squared"))
+}
+
+/// The 99.9 % quantile of chi-squared of so many degrees of freedom, or of one where there are fewer.
+///
+/// # Errors
+/// One for a number of degrees that is not finite.
+pub(crate) fn most_by_noise(degrees: f64) -> Result<f64, Error> {
+    Ok(chi_squared_law(degrees)?.inverse_cdf(1.0 - FALSE_ALARMS))
+}
+
 impl Misfit {
     /// Of a model at its best factors, with the priors of all parameters but those at a bound.
     ///
@@ -110,9 +122,8 @@ impl Misfit {
             degrees_of_freedom,
             "a finite number",
         )?;
-        let law = ChiSquared::new(degrees_of_freedom.max(1.0))
-            .map_err(|_| Error::no_convergence("chi-squared"))?;
-        let largest_by_noise = law.inverse_cdf(1.0 - FALSE_ALARMS);
+        let law = chi_squared_law(degrees_of_freedom)?;
+        let largest_by_noise = most_by_noise(degrees_of_freedom)?;
         Ok(Self {
             chi_squared,
             degrees_of_freedom,

@@ -3,16 +3,13 @@
 use crate::common::jobs::{of_parts, run, said, unbroken};
 use crate::prelude::*;
 use crate::readers::job_concerns::rigid_bodies;
+use crate::readers::job_pairs::{noisy, normal};
 use corfem::job::concern::Grade;
 
 /// Masses, each on a spring to the ground, joined weakly in a row: where their springs are alike they move together.
 fn oscillators(own: &[f64], joint: f64) -> DMatrix<f64> {
-    let to_ground = own
-        .iter()
-        .enumerate()
-        .map(|(row, spring)| (row, None, *spring));
-    let joints = (1..own.len()).map(|row| (row, Some(row - 1), joint));
-    springs(own.len(), &to_ground.chain(joints).collect_vec()).dense()
+    let joints = chain_of_springs(ChainEnds::FreeFree, own.len(), joint);
+    joints.dense() + DMatrix::from_diagonal(&DVector::from_column_slice(own))
 }
 
 /// The job of unit masses with this stiffness, of parameters with these parts of it, and of a test with these modes.
@@ -31,9 +28,9 @@ fn modes_of(stiffness: &DMatrix<f64>) -> Modes {
     solve(stiffness, &eye(stiffness.nrows()), stiffness.nrows()).unwrap()
 }
 
-/// A job of joined masses, with a factor on every spring and the three lowest modes of other springs.
+/// A job of joined masses, with a factor on every spring and the modes of other springs.
 fn joined(method: &str, [first, real]: [&[f64]; 2], joint: f64) -> Files {
-    let modes = modes_of(&oscillators(real, joint)).lowest(3).unwrap();
+    let modes = modes_of(&oscillators(real, joint));
     let part = |place: usize| {
         let mut own = vec![0.0; first.len()];
         own[place] = first[place];
@@ -64,36 +61,45 @@ fn a_mode_left_out_is_compared_once_it_resembles_a_mode_of_the_model() {
             [left.to_string()],
             "{method}"
         );
-        assert!(
-            result
-                .trust
-                .all()
-                .iter()
-                .all(|own| own.grade != Grade::LeftOut)
-        );
+        let mut all = result.trust.all().iter();
+        assert!(all.all(|own| own.grade != Grade::LeftOut));
         let report = Report::from_job(&loaded, Some(&result)).unwrap();
         assert_eq!(report.mode_numbers, [1, 2, 3], "{method}");
         assert_eq!(report.corrected().errors.shape_count, 3, "{method}");
         // From where the others have led the paper's loops find a minimum of their own.
-        let is_within = method != "paper";
-        assert_eq!(
-            result.verdict.is_within,
-            is_within,
-            "{method}: {}",
-            report.words()
+        let is_within = result.verdict.is_within;
+        assert_eq!(is_within, method != "paper", "{}", report.words());
+    }
+}
+
+/// Eight oscillators that stand alone or in pairs by what their springs are, with the usual noise. What the shape of one close mode alone
+/// says of them depends on springs a hundredth apart, and goes once its neighbor is compared with it: no reason to refuse that.
+#[test]
+fn a_right_mode_is_not_refused_for_good() {
+    let first = [1.0, 1.0, 1.3, 1.3, 1.6, 1.6, 1.9, 1.9].map(|own| 1e4 * own);
+    let mut draws = Draws(1);
+    for test in 0..40 {
+        let real = first.map(|own| own * (0.15 * normal(&mut draws)).exp());
+        let files = noisy(joined("gauss_newton", [&first, &real], 500.0), &mut draws);
+        let words = unbroken(&answer(&placed(&files).1).words);
+        let is_said = |what| words.contains(what);
+        assert!(
+            is_said("Chi-squared") && !is_said("makes the others worse"),
+            "{test}: {words}"
         );
     }
 }
 
 /// In bounds of .5 to 1.6 the second spring, 1.24 times as stiff in the end, may still be 1.29 times that, and its mode 1.136 times as high but for
-/// four deviations of .5 %. A mode of less that joins adds no more than nine to the squares of the others.
+/// four deviations of .5 %. A mode that joins adds no more to the squares of the others than noise that moves three
+/// factors.
 #[test]
 fn reach_at_the_end_is_what_its_factors_leave_of_the_bounds() {
     let [harm, far] = [
         "compared it makes the others worse",
         "can have its frequency",
     ];
-    for (ratio, why) in [(1.03, ""), (1.05, harm), (1.13, harm), (1.17, far)] {
+    for (ratio, why) in [(1.03, ""), (1.07, harm), (1.13, harm), (1.17, far)] {
         let mut files = retested(mixed("gauss_newton"), |data| {
             data.frequencies_hz[1] *= ratio
         });

@@ -6,13 +6,20 @@ use crate::prelude::*;
 use corfem::job::concern::Grade;
 use corfem::sparse::random::uniform;
 
-fn ready(files: &Files) -> PreparedJob {
-    prepared(files)
-}
-
 pub fn normal(draws: &mut Draws) -> f64 {
     let radius = (-2.0 * (1.0 - uniform(&mut draws.0)).ln()).sqrt();
     radius * (TAU * uniform(&mut draws.0)).cos()
+}
+
+/// A job with the noise in its test that it supposes without deviations.
+pub fn noisy(files: Files, draws: &mut Draws) -> Files {
+    retested(files, |data| {
+        for (mode, mut shape) in data.shapes.column_iter_mut().enumerate() {
+            shape /= shape.amax();
+            shape.apply(|own| *own += DEVIATIONS.shape * normal(draws));
+            data.frequencies_hz[mode] *= 1.0 + DEVIATIONS.frequency * normal(draws);
+        }
+    })
 }
 
 /// A net of springs and masses in a row with some cross links, in parameters of one matrix each.
@@ -58,18 +65,9 @@ fn wrong(draws: &mut Draws, sensors: usize, jobs: usize) -> [usize; 3] {
         while rows.len() > sensors {
             rows.remove(draws.below(rows.len()));
         }
-        let noise = Noise {
-            shape: 0.02,
-            frequency: 0.005,
-        };
-        let files = of_whole(&model, &truth, &rows, tests, noise);
-        let files = with(
-            files,
-            "job.toml",
-            "[[parameter]]",
-            "[compare]\nprior_deviation = 0.3\nanalysis_modes = 8\n[[parameter]]",
-        );
-        let job = ready(&files);
+        let files = of_whole(&model, &truth, &rows, tests, DEVIATIONS);
+        let files = comparing(files, "prior_deviation = 0.3\nanalysis_modes = 8");
+        let job = prepared(&files);
         let sum = |factors: &[f64]| -> DMatrix<f64> {
             parts
                 .iter()
@@ -148,11 +146,7 @@ fn a_hardly_seen_mode_takes_no_partner_from_one_that_is_seen() {
         let mass = masses(&[60.0; 20]);
         let model = WholeModel::new(stiffness, mass.clone(), parameters).unwrap();
         let rows = [2, 4, 6, 9];
-        let noise = Noise {
-            shape: 0.02,
-            frequency: 0.005,
-        };
-        let files = of_whole(&model, &[1.0, 1.0], &rows, 4, noise);
+        let files = of_whole(&model, &[1.0, 1.0], &rows, 4, DEVIATIONS);
         let found = solve(&springs(20, &real).dense(), &mass.dense(), 20).unwrap();
         let on = |shapes: &DMatrix<f64>, mode: usize| {
             shapes.view((0, mode), (10, 1)).norm_squared() * 60.0
@@ -166,13 +160,8 @@ fn a_hardly_seen_mode_takes_no_partner_from_one_that_is_seen() {
             data.frequencies_hz = measured.iter().map(|&mode| hertz[mode]).collect();
             data.shapes = found.shapes().select_rows(&rows).select_columns(&measured);
         });
-        let files = with(
-            files,
-            "job.toml",
-            "[[parameter]]",
-            "[compare]\nanalysis_modes = 16\n[[parameter]]",
-        );
-        let job = ready(&files);
+        let files = comparing(files, "analysis_modes = 16");
+        let job = prepared(&files);
         let analyzed = job.analyze(&[1.0, 1.0]).unwrap();
         let result = analyzed.result().unwrap();
         let dense = model.at(&[1.0, 1.0]).unwrap().0.dense();
@@ -238,13 +227,8 @@ fn no_finding_hangs_on_the_number_of_modes_taken() {
             }
         });
         let found = [12, 24, 60, 400].map(|modes| {
-            let compare = format!("[compare]\nanalysis_modes = {modes}\n[[parameter]]");
-            against(&ready(&with(
-                files.clone(),
-                "job.toml",
-                "[[parameter]]",
-                &compare,
-            )))
+            let entry = format!("analysis_modes = {modes}");
+            against(&prepared(&comparing(files.clone(), &entry)))
         });
         let expected: &[&str] = match slip {
             0 => &[],
@@ -278,8 +262,8 @@ fn readings_are_judged_by_the_deviations_that_the_test_declares() {
                 }
             })
         };
-        alarms += against(&ready(&with_noise(false))).len();
-        named += usize::from(against(&ready(&with_noise(true))) == ["reversed-7"]);
+        alarms += against(&prepared(&with_noise(false))).len();
+        named += usize::from(against(&prepared(&with_noise(true))) == ["reversed-7"]);
     }
     assert!(alarms <= 1 && named >= 36, "{alarms} {named}");
 }
