@@ -56,9 +56,6 @@ impl HalfUnit {
     }
 }
 
-/// Columns that a product takes at once, so that the entries are read once for all of them.
-const AT_ONCE: usize = 16;
-
 /// A real matrix by its nonzero entries, column by column and in each from the first row down; no place is given twice.
 ///
 /// A symmetric one has both triangles. Clones share the places.
@@ -319,24 +316,10 @@ impl SparseMatrix {
     /// [`Error::WrongShape`] when they do not fit.
     pub fn times(&self, right: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         check_shape("right factor", right, self.columns, right.ncols())?;
-        let count = right.ncols();
-        let mut product = DMatrix::zeros(self.rows, count);
-        // Few entries, as of lumped masses, take less than to turn the columns to rows.
-        if self.values.len() <= self.columns {
-            for (mut product, right) in product.column_iter_mut().zip(right.column_iter()) {
-                self.entries()
-                    .for_each(|(row, column, value)| product[row] += value * right[column]);
-            }
-            return Ok(product);
-        }
-        let turned = self.entries();
-        let turned = turned.map(|(row, column, value)| (column, row, value));
-        for first in (0..count).step_by(AT_ONCE) {
-            let own = AT_ONCE.min(count - first);
-            let mut into = DMatrix::zeros(own, self.rows);
-            let from = right.columns(first, own).transpose();
-            add_columns(turned.clone(), &from, &mut into);
-            product.columns_mut(first, own).tr_copy_from(&into);
+        let mut product = DMatrix::zeros(self.rows, right.ncols());
+        for (mut product, right) in product.column_iter_mut().zip(right.column_iter()) {
+            self.entries()
+                .for_each(|(row, column, value)| product[row] += value * right[column]);
         }
         Ok(product)
     }

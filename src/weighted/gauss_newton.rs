@@ -22,12 +22,8 @@ const LONGEST_STEP: f64 = 1.0;
 const WRONG_PROMISE: f64 = 0.1;
 /// Part of the fall of the first step that the last one in a basis may leave: a tenth of what the basis was wrong by.
 const LEFT: f64 = 0.1 * WRONG_PROMISE;
-/// Rounding of an objective, relative to it, as a sum of a thousand squares has it.
-const OBJECTIVE_DIGITS: f64 = 16.0 * f64::EPSILON;
-/// Error that an analysis leaves in residuals, over the largest weight: of shapes found to 1e-10, amplified a hundred times by modes a
-/// hundredth apart. It moves an objective by as much times the root of chi-squared, and with weights of hundreds a gradient by less than
-/// the tolerance of a job.
-const UNSURE: f64 = 1e-8;
+/// Rounding of an objective, relative to it: of a sum of squares of residuals that an analysis tells to some 1e-10.
+const OBJECTIVE_DIGITS: f64 = 1e-12;
 /// Fall of the objective below an end that is worth to go on: a chi-squared of two thousandths, which no test can tell.
 pub(crate) const LOWER: f64 = 1e-3;
 /// Part of it that steps may leave which do not lead lower.
@@ -324,12 +320,6 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Fall at an objective that is lost in what an analysis leaves unsure.
-    fn unsure(&self, objective: f64) -> f64 {
-        let weights = self.weights.iter().map(|own| own.frequency.max(own.shape));
-        UNSURE * weights.fold(0.0, f64::max) * (2.0 * objective).sqrt()
-    }
-
     /// The exact analysis at the first factors.
     fn first_at<E: From<Error>>(
         &self,
@@ -357,7 +347,7 @@ impl<'a> Problem<'a> {
         let (initial, mut iterations) = (place.comparison.result()?, Vec::new());
         let (mut trials, mut further, mut damping) = (0, 0, Damping::FIRST);
         let mut is_wall = false;
-        let (mut second_order, mut before) = (SecondOrder::new(first.len()), f64::INFINITY);
+        let mut second_order = SecondOrder::new(first.len());
         let most = 6 * place.comparison.model.test.len() + 30;
         let stop = loop {
             let least = self.least(place.objective);
@@ -374,36 +364,36 @@ impl<'a> Problem<'a> {
                 break WeightedStop::Trials;
             }
             trials += 1;
-            // Near the end the gradients of exact places tell the curvature better than a basis that was wrong.
-            let unsure = self.unsure(place.objective);
-            let is_wrong = whole > WRONG_PROMISE * before && second_order.told().is_some();
-            let ahead = match is_wrong && whole <= unsure {
-                true => None,
-                false => {
-                    let step = (promised, &step);
-                    self.ahead(&place, step, damping.now, further, &mut second_order)
-                }
-            };
+            let ahead = self.ahead(
+                &place,
+                (promised, &step),
+                damping.now,
+                further,
+                &mut second_order,
+            );
             let (promised, trial) = ahead.unwrap_or_else(|| (promised, place.after(&step)));
             place.comparison.model.release();
-            let next = self.lower(&mut watched, &place, (promised, trial), (unsure, whole));
-            let fall = next.as_ref().map_or(0.0, |(_, fall)| *fall);
+            // A place without a model is no better than this one.
+            let next = self
+                .place_at(&mut watched, trial, place.objective)
+                .ok()
+                .flatten();
+            let fall = next
+                .as_ref()
+                .map_or(0.0, |next| place.objective - next.objective);
             if (fall - promised).abs() > WRONG_PROMISE * promised {
                 further = most;
             }
             match next {
-                Some((next, _)) => {
+                Some(next) => {
                     next.teach(&mut second_order, &place);
-                    (place, before, is_wall) = (next, whole, false);
+                    (place, is_wall) = (next, false);
                     damping.after(fall / promised);
                     iterations.push(place.iteration()?);
                 }
                 None => {
-                    // A fall that is lost in what is unsure tells no wall.
-                    if promised > unsure {
-                        let has_same = |shapes| place.comparison.has_partners(&shapes);
-                        is_wall = !tried.take().is_some_and(has_same);
-                    }
+                    let has_same = |shapes| place.comparison.has_partners(&shapes);
+                    is_wall = !tried.take().is_some_and(has_same);
                     damping.more();
                 }
             }
@@ -420,45 +410,9 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// The place at a trial's factors and how far the objective has fallen to it; none where it has not, or, where the `promised` fall is
-    /// lost in what an analysis leaves `unsure`, where an undamped step from there would promise no less than the `whole` one from here. A
-    /// place without a model is no better than this one.
-    fn lower<E: From<Error>>(
-        &self,
-        analyze: &mut dyn FnMut(&[f64]) -> Result<Comparison, E>,
-        place: &Iterate,
-        (promised, trial): (f64, Vec<f64>),
-        (unsure, whole): (f64, f64),
-    ) -> Option<(Iterate, f64)> {
-        let is_told = promised > unsure;
-        let below = place.objective + if is_told { 0.0 } else { unsure };
-        let next = self.place_at(analyze, trial, below).ok().flatten()?;
-        if is_told {
-            let fall = place.objective - next.objective;
-            return Some((next, fall));
-        }
-        let there = self.whole_fall(&next).ok()?;
-        (there < whole).then_some((next, promised))
-    }
-
-    /// The lowest objective that steps in one basis find from `first`, and the factors there, but for a fall that may be `left`, and as
-    /// far as to an objective that is low `enough`.
+    /// The lowest objective that steps in one basis find from `first`, with an estimate of the second order, and the factors there, but for
+    /// a fall that may be `left`, and as far as to an objective that is low `enough`.
     pub(super) fn lowest(
-        &self,
-        analyze: &mut dyn FnMut(&[f64]) -> Result<Comparison, Error>,
-        first: &[f64],
-        (left, enough): (f64, f64),
-    ) -> Result<(f64, Vec<f64>), Error> {
-        self.descent(
-            &mut SecondOrder::new(first.len()),
-            analyze,
-            first,
-            (left, enough),
-        )
-    }
-
-    /// Place of [`Self::lowest`] from steps that know an estimate of the second order.
-    fn descent(
         &self,
         second_order: &mut SecondOrder,
         analyze: &mut dyn FnMut(&[f64]) -> Result<Comparison, Error>,
@@ -570,7 +524,7 @@ impl<'a> Problem<'a> {
             ..*self
         };
         let (objective, factors) = held
-            .descent(second_order, &mut follow, &place.factors, (left, 0.0))
+            .lowest(second_order, &mut follow, &place.factors, (left, 0.0))
             .ok()?;
         let moved = logs_of(&factors) - &logs;
         let held = 0.5 * moved.component_mul(&moved).dot(&holding);

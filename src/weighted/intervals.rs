@@ -4,6 +4,7 @@ use super::comparison::Comparison;
 use super::gauss_newton::{Problem, WeightedSettings, logs_of};
 use super::identifiability::{MOSTLY_PRIOR, NORMAL_95, covariance, information, tikhonov};
 use super::residuals::{jacobian, residuals};
+use super::second_order::SecondOrder;
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::step::Bounds;
@@ -191,7 +192,10 @@ impl Profile<'_> {
         let enough = self.least - LEFT;
         let (objective, found) = Problem::new(first.len(), &ranges, self.weights, &self.settings)
             .map(|problem| problem.held_at(logs_of(self.factors), self.held.clone()))
-            .and_then(|problem| problem.lowest(analyze, &first, (LEFT, enough)))
+            .and_then(|problem| {
+                let second_order = &mut SecondOrder::new(first.len());
+                problem.lowest(second_order, analyze, &first, (LEFT, enough))
+            })
             .map_err(|_| Withheld::NoEnd)?;
         if objective < enough {
             return Err(Withheld::Lower);

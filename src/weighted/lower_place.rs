@@ -1,6 +1,7 @@
 //! A lower place than an end of weighted steps, looked for in a basis about it.
 
 use super::gauss_newton::{LOWER, Problem, WeightedCorrelation, WeightedSettings};
+use super::second_order::SecondOrder;
 use super::starts::draw;
 use crate::method::error::Error;
 use crate::method::step::Bounds;
@@ -37,8 +38,12 @@ pub(crate) fn lower_place(
     };
     let problem = Problem::new(end.factors.len(), ranges, weights, &settings)?;
     let mut follow = basis.about(&end.factors);
+    let mut lowest = |first: &[f64]| {
+        let second_order = &mut SecondOrder::new(first.len());
+        problem.lowest(second_order, &mut follow, first, (LOWER, 0.0))
+    };
     // The basis has a minimum of its own near the end.
-    let (own, _) = problem.lowest(&mut follow, &end.factors, (LOWER, 0.0))?;
+    let (own, _) = lowest(&end.factors)?;
     let (mut least, mut place) = (own - LOWER, None);
     let nearer = if is_doubted { &NEARER[..] } else { &[] };
     for (width, seed) in [1.0].iter().chain(nearer).zip(seed..) {
@@ -46,8 +51,8 @@ pub(crate) fn lower_place(
         for _ in 0..PLACES {
             let first = draw(ranges.len(), &mut state).into_iter();
             let first: Vec<f64> = first.map(|factor| factor.powf(*width)).collect();
-            let found = problem.lowest(&mut follow, &first, (LOWER, 0.0));
-            if let Some((objective, factors)) = found.ok().filter(|(found, _)| *found < least) {
+            let found = lowest(&first).ok().filter(|(found, _)| *found < least);
+            if let Some((objective, factors)) = found {
                 (least, place) = (objective, Some(factors));
             }
         }

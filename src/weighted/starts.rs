@@ -53,7 +53,7 @@ pub struct WeightedHistory {
 /// start ended, none where it failed. One that stops short of a gradient within tolerance makes no minimum of its own, unless it is the best.
 ///
 /// Two ends are one minimum where $h^t A h/2$ is at most a thousandth, $h$ being the difference of their logarithms and $A$ the curvature
-/// at either, or where steps from half way between them end in one minimum with both: ends of one valley. Noise allows a minimum if twice its objective is above twice the least by at most the 95 % quantile of chi-squared
+/// at the lower. Noise allows a minimum if twice its objective is above twice the least by at most the 95 % quantile of chi-squared
 /// of as many degrees of freedom as parameters: what likelihood ratios exclude beyond that has no part in the region that holds the truth
 /// in 95 of 100 tests (Wilks, *Annals of Mathematical Statistics* 9 (1938), 60–62). The prior counts as measurements of the parameters.
 ///
@@ -93,16 +93,11 @@ pub fn from_several_starts<E: From<Error>>(
     let allowed = ChiSquared::new(ranges.len() as f64)
         .map_or(0.0, |chi_squared| 0.5 * chi_squared.inverse_cdf(0.95));
     let mut minima: Vec<(&WeightedCorrelation, usize)> = Vec::new();
-    let mut steps_from =
-        |first: &[f64]| gauss_newton(&mut analyze, first, ranges, weights, settings).ok();
     for end in &ends {
         let is_new = minima.is_empty()
             || end.stop == WeightedStop::Gradient && end.objective <= best.objective + allowed;
-        let mut known = minima.iter().map(|(minimum, _)| *minimum);
-        let place = known.clone().position(|minimum| is_same(minimum, end));
-        let mut of_valley =
-            || known.position(|minimum| are_joined(&mut steps_from, minimum, end, HALVINGS));
-        match place.or_else(|| if is_new { of_valley() } else { None }) {
+        let known = minima.iter().position(|(minimum, _)| is_same(minimum, end));
+        match known {
             Some(place) => minima[place].1 += 1,
             None if is_new => minima.push((end, 1)),
             None => (),
@@ -136,32 +131,6 @@ impl WeightedCorrelation {
 pub(super) fn draw(count: usize, state: &mut u64) -> Vec<f64> {
     let draw = |_| 0.5 * 4.0_f64.powf(uniform(state));
     (0..count).map(draw).collect()
-}
-
-/// Most times that the way between two ends is halved.
-const HALVINGS: u32 = 6;
-
-/// True if two ends are of one valley: the same, or both of one with where steps from half way between them end.
-fn are_joined(
-    steps_from: &mut dyn FnMut(&[f64]) -> Option<WeightedCorrelation>,
-    one: &WeightedCorrelation,
-    other: &WeightedCorrelation,
-    halvings: u32,
-) -> bool {
-    if is_same(one, other) || is_same(other, one) {
-        return true;
-    }
-    let Some(halvings) = halvings.checked_sub(1) else {
-        return false;
-    };
-    let both = one.factors.iter().zip(&other.factors);
-    let middle: Vec<f64> = both.map(|(one, other)| (one * other).sqrt()).collect();
-    let level = one.objective.max(other.objective) + SAME_OBJECTIVE;
-    let between = steps_from(&middle).filter(|between| between.objective <= level);
-    between.is_some_and(|between| {
-        are_joined(steps_from, one, &between, halvings)
-            && are_joined(steps_from, &between, other, halvings)
-    })
 }
 
 /// True if steps have ended in a minimum again.

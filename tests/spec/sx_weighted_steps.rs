@@ -1,7 +1,7 @@
 //! Where weighted correlations begin, and what their Jacobian holds of modes that are all but one.
 
 use crate::prelude::*;
-use crate::spec::sx_weighted::{at, compare};
+use crate::spec::sx_weighted::compare;
 use corfem::weighted::starts::{Minimum, StartEnd};
 
 #[test]
@@ -44,41 +44,6 @@ fn random_starts_are_log_uniform_from_half_to_twice_the_first_factors() {
             STANDARD_ERRORS * (variance / logs.len() as f64).sqrt(),
         );
     }
-}
-
-/// Of two springs in a row under a mass, whose frequency alone is known, the flexibilities add: a valley that bends, with one bottom.
-#[test]
-fn ends_of_one_valley_count_once() {
-    let first = DynamicModel {
-        stiffness: dmatrix![2.0, -1.0; -1.0, 1.0],
-        mass: diagonal([1e-3, 1.0]),
-        shares: vec![dmatrix![1.0, 0.0; 0.0, 0.0], dmatrix![1.0, -1.0; -1.0, 1.0]],
-    };
-    let real = at(&first, &[1.3, 0.8]);
-    let test = solve(&real.stiffness, &real.mass, 2).unwrap();
-    let analyze = |factors: &[f64]| {
-        let model = at(&first, factors).analyze(&test, None);
-        model.map(|model| Comparison::from(&model))
-    };
-    let weight = |frequency| ModeWeight {
-        frequency,
-        shape: 0.0,
-    };
-    let settings = WeightedSettings {
-        prior_deviations: vec![1e3],
-        ..WeightedSettings::default()
-    };
-    let weights = [weight(200.0), weight(0.0)];
-    let WeightedHistory {
-        minima,
-        starts: ends,
-        ..
-    } = from_several_starts(analyze, &[None; 2], &weights, &settings, (12, 5), || true).unwrap();
-    let [valley] = &minima[..] else {
-        panic!("{minima:?}")
-    };
-    assert_eq!(valley.starts, 12);
-    assert!(ends.iter().flatten().all(|end| end.objective < 1e-3));
 }
 
 /// Of three starts the second has no model, and later a trial has none: the others end where all of them do.
