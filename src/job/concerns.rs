@@ -14,7 +14,7 @@ use crate::sparse::visibility::visibilities;
 use crate::weighted::comparison::Comparison;
 use crate::weighted::noise::Noise;
 use crate::weighted::residuals::DEVIATIONS;
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, Vector3};
 
 /// Modal phase collinearity below which a complex test mode is doubtful as a real one.
 const COLLINEAR: f64 = 0.95;
@@ -75,7 +75,11 @@ impl Trust {
         });
         all.extend(prepared.pairing_concerns());
         if !prepared.is_without_pairs() {
-            all.extend(first.as_ref().and_then(|first| prepared.unanswered(first)));
+            all.extend(
+                first
+                    .as_ref()
+                    .and_then(|first| prepared.unanswered(first, None)),
+            );
         }
         all.extend(prepared.unseen_concerns());
         all.extend(prepared.noise_concerns());
@@ -152,7 +156,7 @@ impl PreparedJob {
             (!open.is_empty())
                 .then(|| Concern::remark(Check::Deviations, "open-by-digits", &open, words)),
         );
-        let own = self.own_weights();
+        let own = self.own_weights(false);
         let mut own = own.iter().flat_map(|own| [own.frequency, own.shape]);
         let divides = own.any(|weight| ![0.0, 1.0].contains(&weight));
         let words = "The job's weights count as dividing the standard deviations: chi-squared and intervals hold for deviations so divided.";
@@ -212,8 +216,12 @@ impl PreparedJob {
     }
 
     /// A remark on the modes of a model between the first and the last frequency of the test that no test mode answers: the test may have
-    /// missed them.
-    pub(super) fn unanswered(&self, model: &Comparison) -> Option<Concern> {
+    /// missed them. Their frequencies have deviations by the covariance of the factors' logarithms, where that is known.
+    pub(super) fn unanswered(
+        &self,
+        model: &Comparison,
+        covariance: Option<&DMatrix<f64>>,
+    ) -> Option<Concern> {
         let exact = &model.model.exact;
         let (hertz, seen) = (
             exact.modes.frequencies_hz(),
@@ -228,9 +236,18 @@ impl PreparedJob {
         let partners = model.partners();
         let is_lacking =
             |mode: &usize| (first..=last).contains(&hertz[*mode]) && !partners.contains(mode);
-        let name = |mode: usize| {
+        let deviation = |mode: usize, covariance: &DMatrix<f64>| {
+            let slopes = model.model.couplings(&[mode])[0].row(mode)
+                / (2.0 * exact.modes.omega_squared[mode]);
             format!(
-                "mode {} ({:.4} Hz, {:.2})",
+                " ± {:.4}",
+                hertz[mode] * (&slopes * covariance).dot(&slopes).sqrt()
+            )
+        };
+        let name = |mode: usize| {
+            let deviation = covariance.map_or(String::new(), |own| deviation(mode, own));
+            format!(
+                "mode {} ({:.4}{deviation} Hz, {:.2})",
                 mode + 1,
                 hertz[mode],
                 seen[mode]

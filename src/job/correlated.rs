@@ -132,11 +132,11 @@ impl PreparedJob {
             both.map(|(factor, start)| factor * start).collect()
         };
         let report_pass = |number: usize, pass: &Pass| {
-            let (errors, percent) = (&pass.check.errors, |error: f64| 100.0 * error);
+            let errors = &pass.check.errors;
             (caller.progress)(&format!(
                 "pass {number}: frequencies {:.2} %, shapes {:.2} % RMS",
-                percent(errors.frequency_rms()),
-                percent(errors.shape_rms())
+                100.0 * errors.frequency_rms(),
+                100.0 * errors.shape_rms()
             ));
             (caller.go_on)()
         };

@@ -13,7 +13,7 @@ use crate::weighted::comparison::ModeErrors;
 use crate::weighted::gauss_newton::WeightedStop;
 use crate::weighted::identifiability::{Identifiability, identifiability};
 use crate::weighted::intervals::{Withheld, intervals};
-use crate::weighted::misfit::Misfit;
+use crate::weighted::misfit::{Misfit, Prediction};
 use crate::weighted::residuals::jacobian;
 use std::cell::RefCell;
 
@@ -33,6 +33,8 @@ pub struct JobResult {
     pub seen: Identifiability,
     /// The residuals at the best factors, compared with the noise.
     pub misfit: Misfit,
+    /// The numbers that are held out, beside what the factors foretell of them.
+    pub predicted: Option<Prediction>,
     /// 95 % intervals about the factors, where they are true, or why there is none: around the optimum of weighted steps alone, not around
     /// the stop of the paper's rule, of steps too short or of too many trials.
     pub intervals: Vec<Result<Bounds, Withheld>>,
@@ -91,6 +93,9 @@ impl CorrelatedJob {
         }
         let parameters = 0..self.factors.len();
         verdict.unseen = parameters.filter(|&e| seen.is_mostly_prior(e)).collect();
+        let held = self.prepared.weights_of(true);
+        let predicted = Prediction::of(&self.last, &held, &seen.covariance, misfit.widening())?;
+        verdict.is_within &= predicted.iter().all(|own| own.missed.is_none());
         let after = self.concerns(&verdict, &seen, &misfit)?;
         Ok(JobResult {
             intervals: vec![Err(Withheld::NoOptimum); self.factors.len()],
@@ -100,6 +105,7 @@ impl CorrelatedJob {
             seen_first,
             seen,
             misfit,
+            predicted,
         })
     }
 
@@ -178,7 +184,7 @@ impl CorrelatedJob {
             let words = format!("Test mode {} was not fitted: its frequency was off by {first:.2} % and is by {last:.2} %{shape}.", held.mode);
             Concern::remark(Check::HeldOut, "held-out-", &[held.mode], words)
         }));
-        all.extend(prepared.unanswered(&self.last));
+        all.extend(prepared.unanswered(&self.last, Some(&seen.covariance)));
         let left = prepared.unlike(&self.last)?;
         all.extend(left.iter().map(|own| own.concern(Grade::LeftOut)));
         Ok(all)
@@ -245,11 +251,7 @@ impl JobResult {
     /// # Errors
     /// The errors of the basis and of [`intervals`].
     fn with_intervals(mut self) -> Result<Self, FileError> {
-        let is_optimum = match &self.found.history {
-            History::GaussNewton(Some(found)) => found.best.stop == WeightedStop::Gradient,
-            _ => false,
-        };
-        if !is_optimum {
+        if self.verdict.stationary.is_none() {
             return Ok(self.with_reasons());
         }
         let (prepared, factors, model) =

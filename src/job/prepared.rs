@@ -407,8 +407,14 @@ impl PreparedJob {
         }
     }
 
-    /// The weight of every test mode, of those without shapes last: one over its standard deviation, times the job's weight.
+    /// The weights of the test modes that are fitted, see [`Self::weights_of`].
     pub fn weights(&self) -> Vec<ModeWeight> {
+        self.weights_of(false)
+    }
+
+    /// The weight of every test mode, of those without shapes last: one over its standard deviation, times the job's weight; of those that
+    /// are held out alone, or of those that are fitted.
+    pub(super) fn weights_of(&self, is_held_out: bool) -> Vec<ModeWeight> {
         let weight = |(own, mode): (ModeWeight, usize)| {
             let noise = self.loaded.deviations(mode);
             ModeWeight {
@@ -416,7 +422,7 @@ impl PreparedJob {
                 shape: own.shape / noise.shape,
             }
         };
-        let own = self.own_weights().into_iter();
+        let own = self.own_weights(is_held_out).into_iter();
         own.zip(self.compared()).map(weight).collect()
     }
 
@@ -430,8 +436,8 @@ impl PreparedJob {
         nearest.map_or(0.0, |nearest| nearest[1])
     }
 
-    /// The job's own weights of the test modes, ones where it has none, and zeros of those that are held out.
-    pub(super) fn own_weights(&self) -> Vec<ModeWeight> {
+    /// The job's own weights of the test modes, ones where it has none, of those that are held out or of the others; zeros of the rest.
+    pub(super) fn own_weights(&self, is_held_out: bool) -> Vec<ModeWeight> {
         let (numbers, compare) = (&self.loaded.job.test.modes, &self.loaded.job.compare);
         let of = |list: &Option<Vec<f64>>, mode: usize| {
             let place = numbers.as_ref().map_or(Some(mode), |all| {
@@ -443,12 +449,12 @@ impl PreparedJob {
                 .unwrap_or(1.0)
         };
         let held = &self.loaded.job.test.hold_out;
-        let weight = |mode: usize| match held.contains(&(mode + 1)) {
-            true => ModeWeight::NONE,
-            false => ModeWeight {
+        let weight = |mode: usize| match held.contains(&(mode + 1)) == is_held_out {
+            true => ModeWeight {
                 frequency: of(&compare.frequency_weights, mode),
                 shape: of(&compare.shape_weights, mode),
             },
+            false => ModeWeight::NONE,
         };
         self.compared().map(weight).collect()
     }
@@ -485,7 +491,7 @@ impl PreparedJob {
         }?;
         // Gauss-Newton steps have weights of their own.
         match self.loaded.job.compare.method {
-            Method::Paper => Ok(model.weighted(&self.own_weights())?.into()),
+            Method::Paper => Ok(model.weighted(&self.own_weights(false))?.into()),
             Method::GaussNewton => {
                 let lone = self.alone().iter().map(|(_, lone)| *lone);
                 let mut comparison = Comparison::from(model)

@@ -77,7 +77,8 @@ pub(super) fn shapes(report: &Report) -> Result<[Modes; 3], Error> {
     Ok([report.test.clone(), paired(&report.initial)?, paired(last)?])
 }
 
-/// A row a residual, `mode,sensor,residual`, in standard deviations at the best factors, with an empty sensor for a frequency.
+/// A row a residual, `mode,sensor,residual`, in standard deviations at the best factors, predicted ones of a mode that is held out, with an
+/// empty sensor for a frequency.
 pub fn residual_rows(report: &Report) -> String {
     let mut text = "mode,sensor,residual\n".to_owned();
     for own in &report.residuals {

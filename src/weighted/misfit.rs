@@ -7,6 +7,7 @@ use crate::method::error::Error;
 use crate::method::error::require;
 use crate::method::linear_algebra::check_length;
 use crate::sparse::{ModeWeight, gram};
+use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -65,6 +66,73 @@ pub(crate) fn most_by_noise(degrees: f64) -> Result<f64, Error> {
     Ok(chi_squared_law(degrees)?.inverse_cdf(1.0 - FALSE_ALARMS))
 }
 
+/// Number of frequencies and shape components with a weight, less the scales of the shapes.
+fn numbers(comparison: &Comparison, weights: &[ModeWeight]) -> usize {
+    let shapes = &comparison.model.test.shapes;
+    let compared = |(mode, weight): (usize, &ModeWeight)| {
+        let mut groups = comparison.test.together.iter();
+        let size = groups
+            .find(|group| group.contains(&mode))
+            .map_or(1, Vec::len);
+        let is_shape = weight.shape > 0.0 && mode < shapes.ncols();
+        usize::from(weight.frequency > 0.0)
+            + usize::from(is_shape) * shapes.nrows().saturating_sub(size)
+    };
+    weights.iter().enumerate().map(compared).sum()
+}
+
+/// Numbers of a test that were not fitted, beside what a fit foretells of them.
+#[derive(Debug, Clone)]
+pub struct Prediction {
+    /// Residuals over their predicted deviations, zero of what was fitted.
+    pub residuals: DVector<f64>,
+    /// Words for numbers that neither noise nor what is open of the factors explains.
+    pub missed: Option<String>,
+}
+
+impl Prediction {
+    /// Prediction of the numbers with these weights, their residuals $r$ and Jacobian $J$, by factors whose logarithms have the covariance
+    /// $C$ without them, in noise $w$ times as large as declared; none where no number has a weight. They share the errors of the factors,
+    /// and are judged together, by the 99.9 % quantile of chi-squared:
+    ///
+    /// $$ S = w^2 I + J C J^t, \qquad \chi^2 = r^t S^{-1} r = \frac{1}{w^2} \Big( r^t r - \frac{1}{w^2} g^t C \big( I + \frac{1}{w^2} J^t J C
+    ///    \big)^{-1} g \Big), \qquad g = J^t r . $$
+    ///
+    /// # Errors
+    /// The errors of [`residuals`] and [`jacobian`]; one for a singular $S$.
+    pub(crate) fn of(
+        comparison: &Comparison,
+        weights: &[ModeWeight],
+        covariance: &DMatrix<f64>,
+        widening: f64,
+    ) -> Result<Option<Self>, Error> {
+        let degrees_of_freedom = numbers(comparison, weights) as f64;
+        if degrees_of_freedom == 0.0 {
+            return Ok(None);
+        }
+        let residuals = residuals(comparison, weights)? / widening;
+        let jacobian = jacobian(comparison, weights)? / widening;
+        let by_factors = &jacobian * covariance;
+        let slopes = jacobian.tr_mul(&residuals);
+        let mixed = DMatrix::identity(slopes.len(), slopes.len()) + jacobian.tr_mul(&by_factors);
+        let explained = mixed.lu().solve(&slopes);
+        let explained = explained.ok_or(Error::no_convergence("predicted deviations"))?;
+        let chi_squared = residuals.norm_squared() - slopes.dot(&(covariance * explained));
+        let most = most_by_noise(degrees_of_freedom)?;
+        let squares = by_factors.component_mul(&jacobian).column_sum();
+        let deviations = squares.map(|square| (1.0 + square).sqrt());
+        Ok(Some(Self {
+            residuals: residuals.component_div(&deviations),
+            missed: (chi_squared > most).then(|| {
+                format!(
+                    "The model does not hold where it was not fitted: chi-squared of the modes held out is {chi_squared:.1} by predicted \
+                     deviations; noise alone leaves at most {most:.1} in 999 of 1000 tests."
+                )
+            }),
+        }))
+    }
+}
+
 impl Misfit {
     /// Of a model at its best factors, with the priors of all parameters but those at a bound.
     ///
@@ -95,18 +163,7 @@ impl Misfit {
             let left = left.iter().zip(&priors);
             left.map(|(left, prior)| 1.0 - left / prior.powi(2)).sum()
         };
-        let (test, sensors) = (&comparison.model.test, comparison.model.test.shapes.nrows());
-        let compared = |(mode, weight): (usize, &ModeWeight)| {
-            let groups = &comparison.test.together;
-            let size = groups
-                .iter()
-                .find(|group| group.contains(&mode))
-                .map_or(1, Vec::len);
-            let is_shape = weight.shape > 0.0 && mode < test.len();
-            usize::from(weight.frequency > 0.0)
-                + usize::from(is_shape) * sensors.saturating_sub(size)
-        };
-        let numbers: usize = weights.iter().enumerate().map(compared).sum();
+        let (test, numbers) = (&comparison.model.test, numbers(comparison, weights));
         let unlike = |(mode, weight): (usize, &ModeWeight)| {
             let shapes = (mode < test.len()).then(|| test.shapes.column(mode));
             let size = shapes.map_or(0.0, |shape| (shape / shape.amax()).norm());

@@ -152,7 +152,8 @@ fn a_mode_held_out_is_compared_and_not_fitted() {
     let (without, off) = (answer(&ran(&without)), answer(&off));
     let errors = without.split([',', ';']).next().unwrap();
     let [before, after] = wrong.map(f64::abs);
-    let expected = format!("{errors}, held out {before:.2} → {after:.2} %");
+    let errors = format!("does not hold where it was not fitted: f{}", &errors[1..]);
+    let expected = format!("The model {errors}, held out {before:.2} → {after:.2} %");
     assert!(off.starts_with(&expected), "{off} {expected}");
     assert!(held_of(&ran(&rods())).is_empty());
     for (modes, says) in [

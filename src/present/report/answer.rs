@@ -89,6 +89,7 @@ impl Report {
             _ if self.trust.iter().any(|trust| trust.stands_against()) => {
                 "Not to be trusted as it stands: "
             }
+            _ if self.missed.is_some() => "The model does not hold where it was not fitted: ",
             Some(verdict) if !verdict.is_within && self.is_judged_by_noise => {
                 match (
                     self.misfit.is_some_and(|own| own.is_by_noise()),

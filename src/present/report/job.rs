@@ -12,6 +12,7 @@ use crate::weighted::comparison::{Comparison, ExactResult};
 use crate::weighted::gauss_newton::{WeightedCorrelation, WeightedStop};
 use crate::weighted::identifiability::NORMAL_95;
 use crate::weighted::intervals::Withheld;
+use crate::weighted::misfit::Prediction;
 use crate::weighted::residuals::residuals;
 use nalgebra::{DMatrix, DVectorView, Vector3};
 use std::collections::BTreeMap;
@@ -78,7 +79,11 @@ impl Report {
                 .filter(still)
                 .map(|grid| geometry.places[grid])
                 .collect(),
-            residuals: mode_residuals(prepared, found.map_or(&first, |found| &found.last))?,
+            residuals: mode_residuals(
+                prepared,
+                found.map_or(&first, |found| &found.last),
+                result.and_then(|result| result.predicted.as_ref()),
+            )?,
             mass: prepared.mass_at_sensors(found.map_or(&first, |found| &found.last)),
             derivatives: found
                 .map(|found| Derivatives::at(&found.first))
@@ -92,6 +97,7 @@ impl Report {
             seen_first,
             seen,
             misfit,
+            predicted,
             intervals,
         }) = result
         else {
@@ -124,6 +130,7 @@ impl Report {
             intervals: intervals.clone(),
             moved: moved(found),
             held_out: found.held_out()?,
+            missed: predicted.as_ref().and_then(|own| own.missed.clone()),
             verdict: Some(verdict.clone()),
             trust: Some(trust.clone()),
             ..report
@@ -167,9 +174,16 @@ impl Report {
     }
 }
 
-/// The residuals of a model, mode by mode.
-fn mode_residuals(prepared: &PreparedJob, model: &Comparison) -> Result<Vec<ModeResiduals>, Error> {
-    let all = residuals(model, &prepared.weights())?;
+/// The residuals of a model, mode by mode, over predicted deviations where a mode is held out.
+fn mode_residuals(
+    prepared: &PreparedJob,
+    model: &Comparison,
+    predicted: Option<&Prediction>,
+) -> Result<Vec<ModeResiduals>, Error> {
+    let mut all = residuals(model, &prepared.weights())?;
+    if let Some(predicted) = predicted {
+        all += &predicted.residuals;
+    }
     let rows = 1 + model.model.test.shapes.nrows();
     let (shaped, alone) = all.as_slice().split_at(rows * prepared.modes.len());
     let each = shaped.chunks(rows).chain(alone.chunks(1));

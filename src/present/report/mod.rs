@@ -50,7 +50,7 @@ pub struct Stage {
     pub stop: String,
 }
 
-/// Residuals of a test mode over their standard deviations.
+/// Residuals of a test mode over their standard deviations, or where it is held out over those predicted of them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ModeResiduals {
     /// The test mode's number.
@@ -127,7 +127,10 @@ pub struct Report {
     pub seen: Option<[Identifiability; 2]>,
     /// Residuals at a job's end, compared with the noise.
     pub misfit: Option<Misfit>,
-    /// True if that decides the verdict, and not the tolerances.
+    /// Words for modes held out that the model does not hold for.
+    #[serde(skip)]
+    pub missed: Option<String>,
+    /// True if the misfit decides the verdict, and not the tolerances.
     #[serde(skip)]
     pub is_judged_by_noise: bool,
     /// Number of exact analyses that the result took.
@@ -277,6 +280,7 @@ impl Report {
             deviations: None,
             seen: None,
             misfit: None,
+            missed: None,
             is_judged_by_noise: false,
             analyses: None,
             work: None,
@@ -337,6 +341,8 @@ impl Report {
     pub fn words(&self) -> String {
         let judged = self.misfit.as_ref().filter(|_| self.is_judged_by_noise);
         let judged = judged.map(Misfit::in_words);
+        let missed = self.missed.iter().cloned().chain(judged);
+        let judged = missed.reduce(|missed, judged| missed + " " + &judged);
         let verdict = self.verdict.iter();
         // Of a job bounds and what is not seen are remarks, and a doubt is answered before anything else is tried.
         let words = verdict.map(|verdict| match &self.trust {

@@ -74,7 +74,7 @@ pub fn paired_table(report: &Report) -> Result<Table, Error> {
         let by_residuals = report.residuals.iter().map(|mode| {
             let squares =
                 mode.shape.iter().map(|own| own * own).sum::<f64>() + mode.frequency.powi(2);
-            // A shape's scale is free; a mode that is not fitted has no residuals.
+            // A shape's scale is free; before a fit a mode that is held out has no residuals.
             let marked = || mark(squares, mode.shape.len().max(1));
             Cell::text(if squares > 0.0 { marked() } else { "–" })
         });
@@ -130,6 +130,14 @@ pub fn paired_table(report: &Report) -> Result<Table, Error> {
         "Others: the largest {measure} of either mode with any but its partner. {marked}{by} MAC is not mass-weighted. Shape RMS: of \
         components, largest one, over all modes."
     );
+    if !report.held_out.is_empty() {
+        // An error is as many predicted deviations as its residual says.
+        let predicted = report.residuals.iter().map(|own| {
+            let held = report.held_out.iter().find(|held| held.mode == own.mode)?;
+            Some(held.frequency[1] / own.frequency).filter(|own| own.is_finite())
+        });
+        table = table.column("Predicted deviation", "%", numbers(predicted, RMS_PERCENT));
+    }
     Ok(table
         .column(verdict.0, "", verdict.1)
         .notes(is_shaped.then_some(note))
@@ -167,12 +175,13 @@ pub const BRIEF_FACTORS: [&str; 6] = [
     "Remark",
 ];
 /// Columns of the modes that a terminal has room for.
-pub const BRIEF_MODES: [&str; 7] = [
+pub const BRIEF_MODES: [&str; 8] = [
     "Test",
     "First",
     "First error",
     "Corrected",
     "Corrected error",
+    "Predicted deviation",
     "Corrected MAC",
     "Corrected is",
 ];
