@@ -60,9 +60,8 @@ fn every_view_tells_the_same_factors_and_errors() {
         for (e, parameter) in report.parameters.iter().enumerate() {
             let factor = document["factors"][e].as_f64().unwrap();
             assert_eq!(factor, report.factors()[e]);
-            let row = plain
-                .lines()
-                .find(|line| line.starts_with(&format!("{parameter} ")));
+            let mut rows_of = plain.lines().skip_while(|line| !line.is_empty());
+            let row = rows_of.find(|line| line.starts_with(&format!("{parameter} ")));
             let four = Digits::Fixed(4).write(factor);
             assert!(
                 row.is_some_and(|row| row.contains(&four)),

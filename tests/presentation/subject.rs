@@ -135,14 +135,6 @@ fn a_factor_at_its_bound_says_so_and_one_within_does_not() {
         let is_said = cell(e, "Remark").contains("at bound");
         assert_eq!(is_said, subject.is_at_bound(e, *factor));
     }
-    let percent = 100.0 * 0.02 / factors[2];
-    assert_eq!(cell(2, "Deviation"), Digits::Significant(3).write(percent));
-    let without = Report {
-        deviations: None,
-        ..subject.clone()
-    };
-    let columns = factor_table(&without).columns;
-    assert!(columns.iter().all(|column| column.name != "Deviation"));
 }
 
 /// The surest change stands first: by deviations where they are known, else by size.
@@ -197,25 +189,28 @@ fn the_answer_says_what_is_sure_and_no_more() {
         subject.answer().replace(&errors, "")
     };
     // A tenth of every factor is nothing sure, a thousandth is, and where none is known only the errors and changes are told.
-    let unsure =
-        "no factor surely changed; 0 of 4 factors known within 5 %, if only these are wrong.";
+    let of = |count: usize| {
+        format!("{count} of 4 factors differ from 1 beyond their interval, if only these are wrong")
+    };
+    let unsure = format!("{}; 4 unchanged, 0 unknown.", of(0));
     assert_eq!(surest(Some(vec![Some(0.1); 4])), unsure);
-    let sure = surest(Some(vec![Some(0.001); 4]));
-    let mut parts = vec!["; 4 of 4 factors known within 5 %, if only these are wrong.".to_owned()];
+    let sure = surest(Some(vec![Some(0.001), Some(0.001), None, None]));
+    let mut parts = vec![of(2), "; 0 unchanged, 2 unknown.".to_owned()];
     for e in [0, 1] {
         let percent = 100.0 * (subject.factors()[e] - 1.0);
         let sign = if percent < 0.0 { "−" } else { "+" };
-        parts.push(format!("rod {e} {sign}{:.0} %", percent.abs()));
+        parts.push(format!("rod {e} {sign}{:.1} %", percent.abs()));
     }
     assert!(
         parts.iter().all(|part| sure.contains(part)),
         "{sure}: {parts:?}"
     );
-    assert!(surest(Some(vec![None; 4])).ends_with("; no factor has an interval."));
-    // Ends of an interval are two deviations away.
-    let mixed = surest(Some([0.024, 0.026, 0.04, 0.06].map(Some).to_vec()));
-    assert!(mixed.contains("; 1 of 4 factors known"), "{mixed}");
-    assert!(!surest(None).contains("known"));
+    assert_eq!(surest(Some(vec![None; 4])), "no factor has an interval.");
+    let named = surest(None);
+    assert!(
+        named.starts_with("rod ") && !named.contains("interval"),
+        "{named}"
+    );
     let mut failed = subject.clone();
     failed.verdict.as_mut().unwrap().is_within = false;
     for words in ["Outside tolerance", "The model does not explain the test"] {

@@ -1,7 +1,8 @@
 //! What a run of a job comes to: its verdict, what is told on the way, the best so far, bounds from any start, and the deck.
 
-use crate::common::jobs::run;
+use super::job_pairs::net;
 use crate::common::jobs::said as said_of;
+use crate::common::jobs::{of_whole, run, unbroken};
 use crate::prelude::*;
 use corfem::job::HeldOut;
 use corfem::present::json;
@@ -462,5 +463,37 @@ fn a_corrected_deck_has_factors_in_sizes_and_densities() {
         let elements = deck.model.elements.iter();
         let sizes = elements.map(|element| (element.size, element.material.density));
         assert_eq!(sizes.collect_vec(), expected);
+    }
+}
+
+/// The law: the first line counts the factors whose interval leaves out 1, names each of them and no other, and counts the rest.
+#[test]
+fn the_answer_names_every_factor_that_differs_from_one() {
+    for seed in 0..5 {
+        let mut draws = Draws(seed);
+        let (model, ..) = net(&mut draws, 6);
+        let truth = (0..6)
+            .map(|_| draws.between(0.8, 1.4).min(1.0))
+            .collect_vec();
+        let (_folder, path) = placed(&of_whole(&model, &truth, &[0, 2, 4, 6], 4, Noise::USUAL));
+        let found = answer(&path);
+        let is_told = |own: &Option<[f64; 2]>| own.is_some();
+        let differs =
+            |own: &Option<[f64; 2]>| own.is_some_and(|[low, high]| low > 1.0 || high < 1.0);
+        let all = |is: &dyn Fn(&Option<[f64; 2]>) -> bool| {
+            found.intervals.iter().filter(|own| is(own)).count()
+        };
+        let (count, told) = (all(&differs), all(&is_told));
+        let line = unbroken(found.words.split("\n\n").next().unwrap());
+        let said = format!("; {count} of 6 factors differ from 1 beyond their interval, ");
+        let rest = format!("; {} unchanged, {} unknown.", told - count, 6 - told);
+        assert!(line.contains(&said) && line.ends_with(&rest), "{line}");
+        for (number, own) in found.intervals.iter().enumerate() {
+            assert_eq!(
+                line.contains(&format!(" p{number} ")),
+                differs(own),
+                "{line}"
+            );
+        }
     }
 }
