@@ -67,3 +67,15 @@ pub fn pair_optimally(closeness: &DMatrix<f64>, floor: f64) -> Result<Vec<Option
     let of = |test| (0..analysis_count).find(|place| owner[*place] == Some(test));
     Ok((0..test_count).map(of).collect())
 }
+
+/// The mode of the model of every test mode, in as many pairs as there are, of the least total of their costs (n × g), and this total.
+///
+/// # Errors
+/// Errors of [`pair_optimally`].
+pub(super) fn pair_cheaply(costs: &DMatrix<f64>) -> Result<(Vec<Option<usize>>, f64), Error> {
+    let dearest = costs.max() + 1.0;
+    let partners = pair_optimally(&costs.map(|cost| dearest - cost), 0.0)?;
+    let cost = |(test, mode): (usize, &Option<usize>)| Some(costs[((*mode)?, test)]);
+    let total = partners.iter().enumerate().filter_map(cost).sum();
+    Ok((partners, total))
+}

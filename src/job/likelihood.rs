@@ -1,6 +1,6 @@
 //! The likelihood of pairs of test modes and modes of a model, by shapes and frequencies.
 
-use super::assignment::pair_optimally;
+use super::assignment::{pair_cheaply, pair_optimally};
 use super::{Method, PreparedJob};
 use crate::method::error::{Error, check_count};
 use crate::method::modes::Modes;
@@ -29,13 +29,9 @@ impl Frequencies {
     ///
     /// $$ z = \frac{1}{t} \ln \frac{f_j}{f_i}, \qquad t^2 = \sigma_j^2 + \sum_e (\frac{1}{2} \delta_e s_{ie})^2, $$
     ///
-    /// where $s_{ie}$ is the part (n × p) of parameter e in mode i's stiffness or mass and $\delta_e$ its spread. Zero in a model of one
-    /// parameter alone, which does not tell what the others move.
+    /// where $s_{ie}$ is the part (n × p) of parameter e in mode i's stiffness or mass and $\delta_e$ its spread.
     pub(super) fn costs(&self, modes: &Modes, parts: &DMatrix<f64>) -> DMatrix<f64> {
         let (hertz, spreads) = (modes.frequencies_hz(), &self.spreads);
-        if parts.ncols() != spreads.len() {
-            return DMatrix::zeros(hertz.len(), self.test.len());
-        }
         let moved = |mode: usize| {
             let parts = parts.row(mode).into_owned();
             let both = parts.iter().zip(spreads);
@@ -51,14 +47,33 @@ impl Frequencies {
     }
 }
 
-/// The mode of the model of every test mode, or none: as many pairs as there are of a modal assurance (n × g) no less than the floor, of
-/// the least total cost, the negative logarithm of their likelihood,
+/// The negative logarithm of the likelihood of every pair of a mode of the model and a test mode, by their modal assurance (n × g),
 ///
 /// $$ \frac{d - 1}{2} \ln \big( 1 + \frac{1 - \mathrm{MAC}}{(d - 1) s^2} \big) + 2 \ln \frac{1}{\nu} $$
 ///
 /// at d sensors, for a mode of visibility $\nu$ ([`visibilities`]), and what its frequency costs, where that counts
 /// ([`Frequencies::costs`]). That of the shape is Student's with the deviation $s$ of 0.1. What sensors see of a mode that they hardly see
 /// may be anything, and looks like any test mode.
+pub(super) fn costs(
+    assurance: &DMatrix<f64>,
+    readings: &DMatrix<f64>,
+    by_frequency: Option<&DMatrix<f64>>,
+) -> DMatrix<f64> {
+    let free = readings.nrows().saturating_sub(1) as f64;
+    let prices: Vec<f64> = visibilities(readings)
+        .into_iter()
+        .map(|seen| -2.0 * seen.max(f64::EPSILON).ln())
+        .collect();
+    // One sensor tells no shapes apart.
+    let likeness = (free * UNLIKE * UNLIKE).max(f64::MIN_POSITIVE);
+    assurance.map_with_location(|mode, test, close| {
+        let by_shape = 0.5 * free * (1.0 + (1.0 - close).max(0.0) / likeness).ln();
+        by_shape + prices[mode] + by_frequency.map_or(0.0, |costs| costs[(mode, test)])
+    })
+}
+
+/// The mode of the model of every test mode, or none: as many pairs as there are of a modal assurance (n × g) no less than the floor, of
+/// the least total cost ([`costs`]).
 ///
 /// With many sensors modal assurance alone finds a pair more often than with frequencies, which a model far off has in another order:
 /// of 207 exact pairs at eight sensors it has none wrong where this has one, at two 55 where this has 18.
@@ -71,17 +86,7 @@ pub(super) fn pairs(
     by_frequency: Option<&DMatrix<f64>>,
     floor: f64,
 ) -> Result<Vec<Option<usize>>, Error> {
-    let free = readings.nrows().saturating_sub(1) as f64;
-    let prices = visibilities(readings).into_iter();
-    let prices: Vec<f64> = prices
-        .map(|seen| -2.0 * seen.max(f64::EPSILON).ln())
-        .collect();
-    // One sensor tells no shapes apart.
-    let likeness = (free * UNLIKE * UNLIKE).max(f64::MIN_POSITIVE);
-    let costs = assurance.map_with_location(|mode, test, close| {
-        let by_shape = 0.5 * free * (1.0 + (1.0 - close).max(0.0) / likeness).ln();
-        by_shape + prices[mode] + by_frequency.map_or(0.0, |costs| costs[(mode, test)])
-    });
+    let costs = costs(assurance, readings, by_frequency);
     // One pair more outweighs whatever it costs the others.
     let most = costs.max();
     let enough = 1.0 + costs.ncols() as f64 * (most - costs.min()) + most;
@@ -139,11 +144,8 @@ impl PreparedJob {
             } else {
                 let price = |seen: &f64| 4.0 * UNLIKE * UNLIKE * seen.max(f64::EPSILON).ln();
                 let prices: Vec<f64> = visibilities(readings).iter().map(price).collect();
-                // None is negative, which would be as good as no pair.
-                let least = prices.iter().copied().fold(0.0, f64::min);
-                let close =
-                    squares.map_with_location(|mode, _, close| close + prices[mode] - least);
-                pair_optimally(&decided(&close), 0.0)?
+                let costs = squares.map_with_location(|mode, _, close| -close - prices[mode]);
+                pair_cheaply(&decided(&costs))?.0
             };
             check_count("test modes", of.cross.ncols(), 0, of.cross.nrows())?;
             let analysis_mode = partners.into_iter().flatten().collect();

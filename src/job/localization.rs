@@ -1,17 +1,21 @@
 //! Which parameter is wrong: by the paper's unlimited factor, a slope that tells little about gross errors, and by single fits.
 
+use super::assignment::pair_cheaply;
 use crate::method::analysis::Analysis;
 use crate::method::error::Error;
 use crate::method::inner_loop::{InnerSettings, first_factors};
-use crate::sparse::{Deflections, ModeWeight, SensorModel};
+use crate::method::modes::Modes;
+use crate::method::sorting::Pairing;
+use crate::sparse::{Deflections, ModeWeight};
 use crate::weighted::comparison::Comparison;
 use crate::weighted::residuals::{residuals, residuals_of};
+use nalgebra::DMatrix;
 use serde::Serialize;
 
 /// Factors tried first on either side of one, three decades of them.
-const PLACES: i32 = 6;
+const PLACES: i32 = 12;
 /// Decades from one of them to the next.
-const SPACING: f64 = 0.5;
+const SPACING: f64 = 0.25;
 /// Decades between neighbors at last: 1 %.
 const FINEST: f64 = 0.004;
 
@@ -45,14 +49,15 @@ pub fn by_factor(analysis: &dyn Analysis, settings: &InnerSettings) -> Result<Ve
         evidence: (factor - 1.0).abs(),
     };
     let factors = first_factors(analysis, settings)?;
-    Ok(ranked(factors.into_iter().enumerate().map(suspect)))
+    let suspects = factors.into_iter().enumerate().map(suspect);
+    Ok(ranked(suspects.collect()))
 }
 
 /// By how far each parameter alone can lower $\frac{1}{2} \sum r^2$ of the weighted residuals, the farthest first.
 ///
 /// The modes at a factor are an eigensolution in the modal coordinates of the one exact analysis there is. Factors are tried from
 /// $10^{-3}$ to $10^3$, then halfway to the neighbors of the best, again and again. The fall is the logarithm of the likelihood ratio
-/// of this one error against none.
+/// of this one error against none. At every factor the pairs are those that leave the least.
 ///
 /// # Errors
 /// Those of [`residuals`].
@@ -60,33 +65,21 @@ pub fn by_single_fit(
     comparison: &Comparison,
     weights: &[ModeWeight],
 ) -> Result<Vec<Suspect>, Error> {
-    let first = 0.5 * residuals(comparison, weights)?.norm_squared();
-    let count = comparison.model.shares.len();
-    let objective = |model: &SensorModel, log: f64| {
-        let squares = || {
-            let (modes, pairing) = model.far(&[10.0_f64.powf(log)])?;
-            let residuals = residuals_of(&modes, &pairing, comparison, weights);
-            Ok::<_, Error>(0.5 * residuals.norm_squared())
-        };
-        // A factor that leaves no modes of vibration cannot fit.
-        squares().unwrap_or(f64::INFINITY)
-    };
-    // Other pairs alone are no evidence against a parameter.
-    let start = match count == 0 {
-        true => first,
-        false => first.min(objective(
-            &comparison.model.in_basis(Deflections::Own(0))?,
-            0.0,
-        )),
-    };
+    let first = unexplained(comparison, weights)?;
     let best = |parameter: usize| {
         let model = comparison.model.in_basis(Deflections::Own(parameter))?;
+        // A factor that leaves no modes of vibration cannot fit.
+        let objective = |log: f64| {
+            let there = model.followed(&[10.0_f64.powf(log)]);
+            let least = there.and_then(|(model, _)| least(&model.exact.modes, comparison, weights));
+            least.unwrap_or(f64::INFINITY)
+        };
         let better = |best: (f64, f64), log: f64| {
-            let value = objective(&model, log);
+            let value = objective(log);
             if value < best.0 { (value, log) } else { best }
         };
         let everywhere = (-PLACES..=PLACES).map(|place| SPACING * f64::from(place));
-        let mut best = everywhere.fold((f64::INFINITY, 0.0), better);
+        let mut best = everywhere.fold((first, 0.0), better);
         let mut step = SPACING;
         while step > FINEST {
             step /= 2.0;
@@ -98,15 +91,48 @@ pub fn by_single_fit(
         Ok(Suspect {
             parameter,
             factor: 10.0_f64.powf(log),
-            evidence: start - lowest,
+            evidence: first - lowest,
         })
     };
-    let suspects: Vec<_> = (0..count).map(best).collect::<Result<_, Error>>()?;
-    Ok(ranked(suspects.into_iter()))
+    let count = comparison.model.shares.len();
+    Ok(ranked((0..count).map(best).collect::<Result<_, _>>()?))
 }
 
-fn ranked(suspects: impl Iterator<Item = Suspect>) -> Vec<Suspect> {
-    let mut suspects: Vec<Suspect> = suspects.collect();
+/// Half the weighted squared error that no parameter explains yet: that of the first model in the pairs that leave the least.
+///
+/// # Errors
+/// Errors of [`residuals`].
+pub fn unexplained(comparison: &Comparison, weights: &[ModeWeight]) -> Result<f64, Error> {
+    let own = 0.5 * residuals(comparison, weights)?.norm_squared();
+    Ok(least(&comparison.model.exact.modes, comparison, weights)?.min(own))
+}
+
+/// The least of $\frac{1}{2} \sum r^2$ over all pairs of these modes with the test's.
+///
+/// # Errors
+/// Errors of [`pair_cheaply`].
+fn least(modes: &Modes, comparison: &Comparison, weights: &[ModeWeight]) -> Result<f64, Error> {
+    let (rows, tests) = comparison.model.test.shapes.shape();
+    let with = |partners| {
+        let pairing = Pairing {
+            analysis_mode: partners,
+            sign: vec![1.0; tests],
+        };
+        residuals_of(modes, &pairing, comparison, weights)
+    };
+    // What each mode leaves of every test mode (columns) that it answers.
+    let mut costs = DMatrix::zeros(modes.len(), tests);
+    for mode in 0..modes.len() {
+        let left = with(vec![mode; tests]);
+        for test in 0..tests {
+            costs[(mode, test)] = left.rows((1 + rows) * test, 1 + rows).norm_squared();
+        }
+    }
+    let (partners, _) = pair_cheaply(&costs)?;
+    Ok(0.5 * with(partners.into_iter().flatten().collect()).norm_squared())
+}
+
+fn ranked(mut suspects: Vec<Suspect>) -> Vec<Suspect> {
     // Parameters that symmetry makes alike differ by round-off, which the digits of a single-precision number leave out; they stay in order.
     suspects.sort_by(|a, b| (b.evidence as f32).total_cmp(&(a.evidence as f32)));
     suspects

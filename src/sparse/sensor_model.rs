@@ -485,25 +485,6 @@ impl SensorModel {
             parts: Some(&parts),
         })
     }
-
-    /// Modes at factors far from the exact ones, by an eigensolution in the basis, and their pairs: there a mode of the test may continue
-    /// none of the exact modes but a residual vector, of which the cosines with them know nothing.
-    pub(crate) fn far(&self, factors: &[f64]) -> Result<(Modes, Pairing), Error> {
-        let (vibrations, generalized) = self.solved(factors)?;
-        let count = self.omega_squared.len();
-        let shapes = &self.basis * generalized.columns(0, count);
-        let modes = Modes {
-            omega_squared: vibrations.omega_squared,
-            shapes,
-        };
-        let is_plain = count == self.exact.modes.len();
-        let cross = match is_plain {
-            true => generalized.columns(0, count).tr_mul(&self.cross),
-            false => cosines(&modes.shapes, &self.test.shapes)?,
-        };
-        let pairing = self.paired(&cross, &modes)?;
-        Ok((modes, pairing))
-    }
 }
 
 impl From<&Model> for SensorModel {

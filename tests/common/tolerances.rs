@@ -254,6 +254,8 @@ pub const GOLDEN_COVERAGE: f64 = 0.34;
 pub const END_OF_INTERVAL: f64 = 0.03;
 /// Coverage in four tests, over a dozen parameters: their errors are correlated, so that it scatters by many percent.
 pub const FEW_COVERAGE: f64 = 0.75;
+/// A suspect's factor and evidence beside those of a correlation: what the prior and a basis of modes and deflections leave.
+pub const SUSPECT: f64 = 0.05;
 /// A factor found on a grid refined to 1 %: a step of it, and the evidence that it leaves.
 pub const SINGLE_FIT_FACTOR: f64 = 0.01;
 /// Results of a worked job, relative and in percent points: the steps of a correlation magnify another machine's last digit.

@@ -1,9 +1,11 @@
 //! Pairs by likelihood: frequencies count where shapes hardly differ, hardly seen modes pay, and no finding hangs on the number of modes.
 
 use super::job_concerns::tested;
+use super::repeats::noisy;
 use crate::common::jobs::of_whole;
 use crate::prelude::*;
 use corfem::job::concern::Grade;
+use corfem::job::localization::unexplained;
 use corfem::sparse::random::uniform;
 
 pub fn normal(draws: &mut Draws) -> f64 {
@@ -266,4 +268,46 @@ fn readings_are_judged_by_the_deviations_that_the_test_declares() {
         named += usize::from(against(&prepared(&with_noise(true))) == ["reversed-7"]);
     }
     assert!(alarms <= 1 && named >= 36, "{alarms} {named}");
+}
+
+/// A net's job with noise, measured at five of its masses.
+fn noisy_net(model: &WholeModel, truth: &[f64], seed: u64) -> Files {
+    let files = of_whole(model, truth, &[0, 2, 4, 5, 7], 5, Noise::USUAL);
+    retested(files, |data| *data = noisy(data, seed))
+}
+
+/// The law: evidence is a part of the whole, and that against the only wrong parameter is what a correlation of it alone takes away, at the
+/// same factor, wherever that explains the test.
+#[test]
+fn evidence_is_what_the_suspect_alone_takes_away() {
+    let (mut draws, mut explained) = (Draws(1), 0);
+    for seed in 0..20 {
+        let parameters = 2 + draws.below(4);
+        let (model, ..) = net(&mut draws, parameters);
+        let (culprit, ones) = (draws.below(parameters), vec![1.0; parameters]);
+        let mut truth = ones.clone();
+        truth[culprit] = draws.between(0.3, 0.8).powf([-1.0, 1.0][draws.below(2)]);
+        let (far, first) = ready(&noisy_net(&model, &truth, seed))
+            .far_from_first()
+            .unwrap();
+        let whole = unexplained(&first, &far.weights()).unwrap();
+        let suspects = by_single_fit(&first, &far.weights()).unwrap();
+        for own in &suspects {
+            assert!((0.0..=whole).contains(&own.evidence), "{own:?} {whole}");
+        }
+        let (stiffness, mass) = model.at(&ones).unwrap();
+        let own = model.parameters()[culprit].clone();
+        let alone = WholeModel::new(stiffness, mass, vec![own]).unwrap();
+        let alone = supposing(noisy_net(&alone, &[truth[culprit]], seed), 3.0, 0);
+        let alone = finished(&ready(&alone));
+        if alone.verdict.is_within {
+            explained += 1;
+            assert_eq!(suspects[0].parameter, culprit, "{seed}");
+            let taken = whole - 0.5 * alone.misfit.chi_squared;
+            let apart = relative_error(suspects[0].factor, alone.found.factors[0]);
+            let apart = apart.max(relative_error(suspects[0].evidence, taken));
+            assert!(apart < SUSPECT, "{seed}: {taken} {suspects:?}");
+        }
+    }
+    assert!(explained >= 18, "{explained}");
 }

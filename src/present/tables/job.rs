@@ -4,7 +4,7 @@
 use crate::files::error::FileError;
 use crate::files::test_data::DIRECTIONS;
 use crate::job::concern::{Grade, some};
-use crate::job::localization::{by_factor, by_single_fit};
+use crate::job::localization::{by_factor, by_single_fit, unexplained};
 use crate::job::metrics::coordinate_assurance;
 use crate::job::{
     Concern, JobResult, LoadedJob, Method, PlacedSensor, PreparedJob, Trust, mean_deviation,
@@ -212,14 +212,13 @@ fn suspects(prepared: &PreparedJob, table: Table) -> Result<Table, FileError> {
         )?,
         _ => Vec::new(),
     };
-    let residuals = residuals(&first, &weights)?;
     let note = format!(
         "Evidence: how far half the weighted squared error, {:.3e} from {} measured numbers, falls when this parameter alone has \
         this factor: the logarithm of a likelihood ratio, in which less than about three says nothing. Where the first leaves much \
         more than half a unit a number, several are wrong, and it need not be among them. Modes are combined from {} of the first \
         model; far from one, factors are rough where these are few. Paper's factor: unlimited, of the first iteration.",
-        0.5 * residuals.norm_squared(),
-        residuals.len(),
+        unexplained(&first, &weights)?,
+        residuals(&first, &weights)?.len(),
         first.model.exact.modes.len(),
     );
     let left = suspects.len().saturating_sub(MOST_SUSPECTS);
@@ -242,32 +241,14 @@ fn suspects(prepared: &PreparedJob, table: Table) -> Result<Table, FileError> {
             .find(|slope| slope.parameter == parameter)
             .map(|slope| slope.factor)
     };
+    let mut table = table.headings(["factor", "evidence", "paper's factor"], "");
+    for suspect in shown() {
+        let own = [suspect.factor, suspect.evidence];
+        let cells = numbers(own, Digits::Significant(3));
+        let slope = numbers([slope(suspect.parameter)], Digits::Fixed(2));
+        table.row(&parameters[suspect.parameter].name, cells.chain(slope));
+    }
     Ok(table
-        .labels(shown().map(|suspect| &parameters[suspect.parameter].name))
-        .column(
-            "factor",
-            "",
-            numbers(
-                shown().map(|suspect| suspect.factor),
-                Digits::Significant(3),
-            ),
-        )
-        .column(
-            "evidence",
-            "",
-            numbers(
-                shown().map(|suspect| suspect.evidence),
-                Digits::Significant(3),
-            ),
-        )
-        .column(
-            "paper's factor",
-            "",
-            numbers(
-                shown().map(|suspect| slope(suspect.parameter)),
-                Digits::Fixed(2),
-            ),
-        )
         .notes([note])
         .notes((!at_edge.is_empty()).then_some(edge))
         .notes((left > 0).then_some(less)))
