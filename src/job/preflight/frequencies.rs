@@ -1,5 +1,14 @@
 //! Frequencies that are all wrong by one factor, or that belong to other shapes.
 
+use super::SeenModes;
+use super::readings::{FALSE_ALARMS, frequency_costs};
+use crate::job::assignment::pair_cheaply;
+use crate::job::concern::{Check, Concern};
+use crate::job::likelihood::costs;
+use crate::method::error::Error;
+use crate::method::modes::Modes;
+use crate::sparse::modal_assurance;
+use crate::weighted::noise::Noise;
 use std::f64::consts::TAU;
 
 /// How far the median ratio may be from a named factor: a first model is up to 30 % wrong.
@@ -32,11 +41,6 @@ const fn named(factor: f64, name: &'static str, mistake: &'static str) -> NamedF
     }
 }
 
-/// Square roots of 1000, 386.09 and 9.81.
-const THOUSAND: f64 = 31.622_776_601_683_793;
-const INCHES: f64 = 19.649_173_010_587_493;
-const METERS: f64 = 3.132_091_952_673_165;
-
 /// The known factors, in both directions.
 pub const FACTORS: [NamedFactor; 10] = [
     named(TAU, "2π", "the test is in rad/s"),
@@ -48,43 +52,36 @@ pub const FACTORS: [NamedFactor; 10] = [
     named(60.0, "60", "the test is in rpm"),
     named(1.0 / 60.0, "1/60", "the test was divided by 60"),
     named(
-        THOUSAND,
+        31.622_776_601_683_793,
         "√1000",
         "the model's mass is 1000 times too large, as grams for kilograms",
     ),
     named(
-        1.0 / THOUSAND,
+        1.0 / 31.622_776_601_683_793,
         "1/√1000",
         "the model's mass is 1000 times too small, as kilograms for grams",
     ),
     named(
-        INCHES,
+        19.649_173_010_587_493,
         "√386.09",
         "the model has weight in lbf for mass in lbf·s²/in",
     ),
     named(
-        1.0 / INCHES,
+        1.0 / 19.649_173_010_587_493,
         "1/√386.09",
         "the model's mass was divided by 386.09 in/s² twice",
     ),
-    named(METERS, "√9.81", "the model has weight in N for mass in kg"),
     named(
-        1.0 / METERS,
+        3.132_091_952_673_165,
+        "√9.81",
+        "the model has weight in N for mass in kg",
+    ),
+    named(
+        1.0 / 3.132_091_952_673_165,
         "1/√9.81",
         "the model's mass was divided by 9.81 m/s² twice",
     ),
 ];
-
-/// One factor between all frequencies.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CommonFactor {
-    /// Median of $f_G/f_F$ of the pairs.
-    pub median: f64,
-    /// Mean of $\lvert\ln(f_G/f_F) - \ln \text{median}\rvert$.
-    pub deviation: f64,
-    /// The mistake it suggests, if it is near a known factor.
-    pub named: Option<NamedFactor>,
-}
 
 /// Median of the logarithms of the ratios, and their mean deviation from it.
 fn spread(test: &[f64], analysis: &[f64]) -> (f64, f64) {
@@ -104,58 +101,102 @@ fn spread(test: &[f64], analysis: &[f64]) -> (f64, f64) {
     (median, deviation)
 }
 
-/// The factor between paired frequencies, if it is more than a model's error, and the same for all.
-pub(super) fn common_factor(test: &[f64], analysis: &[f64]) -> Option<CommonFactor> {
-    let (median, deviation) = spread(test, analysis);
+/// The factor between the frequencies of test modes and of their partners, and a doubt about it, if the median ratio is more than a model's
+/// error, and that of half of them at least: some pairs may be wrong.
+///
+/// Partners hang on the units: they are the most likely ones in those of the test or, where that makes it likelier by enough, in those that
+/// a known factor leads to, or the median ratio of partners by shapes alone.
+///
+/// # Errors
+/// Errors of [`modal_assurance`] and [`pair_cheaply`].
+pub(super) fn common_factor(
+    seen: &SeenModes,
+    (test, noise): (&Modes, &[Noise]),
+) -> Result<Option<(f64, Concern)>, Error> {
+    let seen_shapes = &seen.modes.shapes;
+    let assurance = modal_assurance(seen_shapes, &test.shapes)?;
+    let test = test.frequencies_hz();
+    let by = |factor: f64| {
+        let hertz: Vec<f64> = test.iter().map(|own| own / factor).collect();
+        let by_frequency = frequency_costs(seen, &hertz, noise);
+        pair_cheaply(&costs(&assurance, seen_shapes, Some(&by_frequency)))
+    };
+    let of = |partners: Vec<Option<usize>>| {
+        let partners: Vec<usize> = partners.into_iter().flatten().collect();
+        let own = seen.modes.select(&partners).frequencies_hz();
+        (spread(&test, &own).0, own)
+    };
+    let by_shape = pair_cheaply(&costs(&assurance, seen_shapes, None))?.0;
+    let unnamed = of(by_shape).0.exp();
+    let (mut best, mut least) = by(1.0)?;
+    // Markov's inequality, as of readings.
+    least -= (FACTORS.len() as f64 / FALSE_ALARMS).ln();
+    for factor in FACTORS
+        .map(|known| known.factor)
+        .into_iter()
+        .chain([unnamed])
+    {
+        let (partners, cost) = by(factor)?;
+        if cost < least {
+            (best, least) = (partners, cost);
+        }
+    }
+    let (median, analysis) = of(best);
     let distance = |factor: f64| (median - factor.ln()).abs();
-    if deviation > MODEL_ERROR.ln() || distance(1.0) < UNNAMED.ln() {
-        return None;
+    let ratios = test.iter().zip(&analysis).map(|(test, own)| test / own);
+    let alike = ratios.filter(|ratio| distance(*ratio) < MODEL_ERROR.ln());
+    if 2 * alike.count() < test.len() || distance(1.0) < UNNAMED.ln() {
+        return Ok(None);
     }
     let nearest = FACTORS
         .into_iter()
         .min_by(|a, b| distance(a.factor).total_cmp(&distance(b.factor)));
     let named = nearest.filter(|known| distance(known.factor) < MODEL_ERROR.ln());
-    Some(CommonFactor {
-        median: median.exp(),
-        deviation,
-        named,
-    })
+    let why = named.map_or("by no mistake known here.".to_owned(), |own| {
+        format!("near {}: {}?", own.name, own.mistake)
+    });
+    let factor = named.map_or(median.exp(), |own| own.factor);
+    let words = format!(
+        "Test frequencies are {:.4} times the model's, {why}",
+        median.exp()
+    );
+    let doubt = Concern::doubt(Check::CommonFactor, "common-factor", &[""; 0], words);
+    Ok(Some((factor, doubt)))
 }
 
-/// Two frequencies that would fit better if they were exchanged.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FrequenciesExchanged {
-    /// The test modes, from zero.
-    pub modes: [usize; 2],
-    /// Mean deviation of the ratios' logarithms from their median, as given.
-    pub before: f64,
-    /// The same with these two exchanged.
-    pub after: f64,
-}
-
-/// The exchange of two frequencies that makes the ratios most alike, if it does so enough.
-pub(super) fn exchanged(test: &[f64], analysis: &[f64]) -> Option<FrequenciesExchanged> {
-    let before = spread(test, analysis).1;
-    let mut frequencies = test.to_vec();
-    let mut best = FrequenciesExchanged {
-        modes: [0; 2],
-        before,
-        after: before,
+/// A doubt about the two frequencies, of modes that have numbers, whose exchange makes the ratios most alike, if it does so enough.
+pub(super) fn exchanged(
+    test: &[f64],
+    analysis: &[f64],
+    number: impl Fn(usize) -> usize,
+) -> Option<Concern> {
+    let deviation = |test: &[f64]| spread(test, analysis).1;
+    let before = deviation(test);
+    let after = |&[a, b]: &[usize; 2]| {
+        let mut test = test.to_vec();
+        test.swap(a, b);
+        deviation(&test)
     };
-    for b in 0..test.len() {
-        for a in 0..b {
-            frequencies.swap(a, b);
-            let after = spread(&frequencies, analysis).1;
-            frequencies.swap(a, b);
-            if after < best.after {
-                best = FrequenciesExchanged {
-                    modes: [a, b],
-                    before,
-                    after,
-                };
-            }
-        }
+    let all = (0..test.len()).flat_map(|b| (0..b).map(move |a| [a, b]));
+    let both = all.min_by(|one, other| after(one).total_cmp(&after(other)))?;
+    let gain = before - after(&both);
+    let is_enough = gain * test.len() as f64 >= LEAST_GAIN && gain >= LEAST_SHARE * before;
+    // Modes are numbered as their frequencies ascend: only where these do not may two be exchanged.
+    if !is_enough || test[both[0]] <= test[both[1]] {
+        return None;
     }
-    let gain = before - best.after;
-    (gain * test.len() as f64 >= LEAST_GAIN && gain >= LEAST_SHARE * before).then_some(best)
+    let modes = both.map(number);
+    let words = format!(
+        "Frequencies of test modes {} and {} exchanged? It would lower the mean deviation of the ratios from {:.1} to {:.1} %.",
+        modes[0],
+        modes[1],
+        100.0 * before,
+        100.0 * (before - gain)
+    );
+    Some(Concern::doubt(
+        Check::OrderOfFrequencies,
+        "frequencies-exchanged-",
+        &modes,
+        words,
+    ))
 }

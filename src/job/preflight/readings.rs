@@ -15,7 +15,7 @@
 //! structures and light points are judged like others.
 
 use super::shapes::{Change, changed};
-use crate::job::assignment::pair_optimally;
+use crate::job::assignment::pair_cheaply;
 use crate::job::likelihood::Frequencies;
 use crate::method::error::Error;
 use crate::method::modes::Modes;
@@ -53,9 +53,6 @@ pub struct SeenModes {
     pub shares: Vec<ParameterMatrix>,
 }
 
-/// The mode of the model that every test mode comes from, and its sign.
-type Partners = Vec<Option<(usize, f64)>>;
-
 /// What the readings of a test mode may be if it came from one mode of the model or another.
 struct Likelihood {
     shapes: DMatrix<f64>,
@@ -72,20 +69,26 @@ struct Likelihood {
     frequencies: DMatrix<f64>,
 }
 
+/// Costs of every test mode's frequency (columns), if it came from each mode of the model.
+pub(super) fn frequency_costs(seen: &SeenModes, hertz: &[f64], noise: &[Noise]) -> DMatrix<f64> {
+    let own = |mode: usize| noise.get(mode).map_or(0.0, |noise| noise.frequency);
+    let test = |(mode, hertz): (usize, &f64)| [*hertz, own(mode).max(LEAST.frequency)];
+    let frequencies = Frequencies {
+        test: hertz.iter().enumerate().map(test).collect(),
+        spreads: vec![MODEL_ERROR; seen.shares.len()],
+    };
+    frequencies.costs(&seen.modes, &parts_of(&seen.shares, &seen.modes))
+}
+
 impl Likelihood {
     fn new(seen: &SeenModes, hertz: &[f64], noise: &[Noise]) -> Option<Self> {
-        let own = |mode: usize| noise.get(mode).copied().unwrap_or(LEAST);
-        let deviations = (0..hertz.len()).map(|mode| own(mode).shape.max(LEAST.shape));
-        let deviations: Vec<f64> = deviations.collect();
+        let own = |mode: usize| noise.get(mode).map_or(0.0, |noise| noise.shape);
+        let deviations: Vec<f64> = (0..hertz.len())
+            .map(|mode| own(mode).max(LEAST.shape))
+            .collect();
         let squares = deviations.iter().map(|own| own * own).sum::<f64>();
         let common = (squares / deviations.len().max(1) as f64).sqrt();
-        let test = hertz.iter().enumerate();
-        let test = test.map(|(mode, hertz)| [*hertz, own(mode).frequency.max(LEAST.frequency)]);
-        let frequencies = Frequencies {
-            test: test.collect(),
-            spreads: vec![MODEL_ERROR; seen.shares.len()],
-        };
-        let frequencies = frequencies.costs(&seen.modes, &parts_of(&seen.shares, &seen.modes));
+        let frequencies = frequency_costs(seen, hertz, noise);
         let shapes = seen.modes.shapes().clone();
         let squares = seen.modes.omega_squared();
         let prior = |mode: usize| {
@@ -143,8 +146,10 @@ impl Likelihood {
     /// The same with other readings of the model's modes, or fewer.
     fn with(&self, shapes: DMatrix<f64>) -> Option<Self> {
         let (gram, count) = (shapes.transpose() * &shapes, shapes.ncols());
-        let noise = shapes.column_iter().map(|own| self.common * own.amax());
-        let noise: Vec<f64> = noise.collect();
+        let noise: Vec<f64> = shapes
+            .column_iter()
+            .map(|own| self.common * own.amax())
+            .collect();
         let (unit, mut halves) = (
             DMatrix::identity(count, count),
             DMatrix::zeros(count * count, count),
@@ -206,12 +211,12 @@ impl Likelihood {
             .collect()
     }
 
-    /// The same of all shapes, each from a mode of its own, with what `adds` says of each; and these modes and signs.
+    /// The same of all shapes, each from a mode of its own, with what `adds` says of each, after these modes.
     fn of_test(
         &self,
         test: &DMatrix<f64>,
         adds: impl Fn(usize, f64) -> f64,
-    ) -> Result<(f64, Partners), Error> {
+    ) -> Result<(Vec<Option<usize>>, f64), Error> {
         let [mut costs, parts] = self.of_shapes(test);
         for test in 0..test.ncols() {
             for (mode, noise) in self.noise.iter().enumerate() {
@@ -219,19 +224,11 @@ impl Likelihood {
                 costs[(mode, test)] += adds(test, noise * size);
             }
         }
-        let dearest = costs.max() + 1.0;
-        let partners = pair_optimally(&costs.map(|cost| dearest - cost), 0.0)?;
-        let of =
-            |(test, mode): (usize, &Option<usize>)| mode.map_or(0.0, |mode| costs[(mode, test)]);
-        let sum = partners.iter().enumerate().map(of).sum();
-        let sign = |(test, mode): (usize, Option<usize>)| {
-            mode.map(|mode| (mode, parts[(mode, test)].signum()))
-        };
-        Ok((sum, partners.into_iter().enumerate().map(sign).collect()))
+        pair_cheaply(&costs)
     }
 
     fn misfit(&self, test: &DMatrix<f64>) -> Result<f64, Error> {
-        Ok(self.of_test(test, |_, _| 0.0)?.0)
+        Ok(self.of_test(test, |_, _| 0.0)?.1)
     }
 }
 
@@ -243,6 +240,8 @@ pub(super) struct Told {
     pub(super) mistake: Option<(Change, f64)>,
     /// The mode of the model that every test mode most likely is, if all have one.
     pub(super) partners: Option<Vec<usize>>,
+    /// The negative logarithm of the likelihood of the test without that mistake.
+    pub(super) least: f64,
     /// The reason why they tell nothing, if they do not.
     pub(super) silent: Option<&'static str>,
 }
@@ -253,7 +252,7 @@ pub(super) struct Told {
 /// inequality), so H mistakes tried need $T = \ln(H / \alpha)$ for false alarms in a share $\alpha$.
 ///
 /// # Errors
-/// Those of [`pair_optimally`].
+/// Those of [`pair_cheaply`].
 pub(super) fn explain(seen: &SeenModes, (test, noise): (&Modes, &[Noise])) -> Result<Told, Error> {
     let (hertz, test) = (test.frequencies_hz(), test.shapes());
     let sensors = test.nrows();
@@ -269,14 +268,13 @@ pub(super) fn explain(seen: &SeenModes, (test, noise): (&Modes, &[Noise])) -> Re
     let Some(model) = Likelihood::new(seen, &hertz, noise) else {
         return silent("the sensors do not tell the modes of the model apart");
     };
-    let (before, partners) = model.of_test(test, |_, _| 0.0)?;
+    let (partners, before) = model.of_test(test, |_, _| 0.0)?;
     let tried = tried(&model, test)?;
     let enough = (tried.len() as f64 / FALSE_ALARMS).ln();
     let best = tried.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
     let mistake = best
-        .map(|(change, after)| (change, before - after))
-        .filter(|(_, gain)| *gain > enough)
-        .map(|(change, gain)| (change, gain / std::f64::consts::LN_10));
+        .filter(|(_, after)| before - after > enough)
+        .map(|(change, after)| (change, (before - after) / std::f64::consts::LN_10));
     // A reversed sensor moves a reading r by 2r/σ deviations, and a logarithm of a likelihood by no more than half their squares.
     let mut moved = 2.0 * test;
     for (mut shape, times) in moved.column_iter_mut().zip(&model.times) {
@@ -284,16 +282,14 @@ pub(super) fn explain(seen: &SeenModes, (test, noise): (&Modes, &[Noise])) -> Re
     }
     let most = moved.row_iter().map(|row| 0.5 * row.norm_squared());
     let is_weak = mistake.is_none() && most.fold(0.0, f64::max) <= enough;
-    let right = match &mistake {
-        Some((change, _)) => model.of_test(&changed(test, change), |_, _| 0.0)?.1,
-        None => partners,
+    let (right, least) = match &mistake {
+        Some((change, _)) => model.of_test(&changed(test, change), |_, _| 0.0)?,
+        None => (partners, before),
     };
-    let right = right
-        .into_iter()
-        .map(|partner| partner.map(|(mode, _)| mode));
     Ok(Told {
         mistake,
-        partners: right.collect(),
+        partners: right.into_iter().collect(),
+        least,
         silent: is_weak.then_some("by these deviations a reversed sensor would not show"),
     })
 }
@@ -323,7 +319,7 @@ fn tried(model: &Likelihood, test: &DMatrix<f64>) -> Result<Vec<(Change, f64)>, 
                 let noise = noise.max(f64::MIN_POSITIVE);
                 0.5 * (readings[test] / noise).powi(2).min(1e9) + noise.ln()
             };
-            let (misfit, _) = without.of_test(&rest, noise_alone)?;
+            let (_, misfit) = without.of_test(&rest, noise_alone)?;
             tried.push((Change::Dead(sensor), misfit));
         }
         // Every mode's own ratio is a candidate; choosing among them costs the logarithm of their number, and readings so many times as
