@@ -82,7 +82,7 @@ impl CorrelatedJob {
         // were stopped.
         let is_short = matches!(
             verdict.outcome,
-            Outcome::Wall | Outcome::Short | Outcome::Cap | Outcome::Request
+            Outcome::Short | Outcome::Cap | Outcome::Request
         );
         let is_weighted = matches!(self.history, History::GaussNewton(_));
         if is_weighted && misfit.is_by_noise() && !is_short {
@@ -130,7 +130,6 @@ impl CorrelatedJob {
             Some((_, true)) => Outcome::Nothing,
             None => Outcome::Request,
             Some((WeightedStop::Trials, _)) => Outcome::Cap,
-            Some((WeightedStop::Wall, _)) => Outcome::Wall,
             Some((WeightedStop::Short, _)) => Outcome::Short,
             _ => Outcome::LocalMinimum,
         };

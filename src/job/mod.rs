@@ -188,7 +188,6 @@ enum Scales {
 #[serde(default, deny_unknown_fields)]
 pub struct Compare {
     analysis_modes: Option<usize>,
-    residual_vectors: Option<usize>,
     /// Method that finds the factors.
     pub method: Method,
     frequency_deviation: Option<f64>,

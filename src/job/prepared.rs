@@ -476,7 +476,11 @@ impl PreparedJob {
         let (whole, pair) = (&self.loaded.source.whole, self.pair());
         let size = BasisSize {
             modes: self.analysis_modes,
-            residual_vectors: self.residual_vectors(),
+            // Weighted steps have deflections of their own.
+            residual_vectors: match self.loaded.job.compare.method {
+                Method::Paper => RESIDUAL_VECTORS,
+                Method::GaussNewton => 0,
+            },
         };
         let model = match factors == self.loaded.ones() {
             true => {
@@ -503,19 +507,6 @@ impl PreparedJob {
                 }
                 Ok(comparison)
             }
-        }
-    }
-
-    /// Residual vectors a parameter behind the modes, in which the paper's loops follow changes. Weighted steps have deflections of their own.
-    fn residual_vectors(&self) -> usize {
-        match self.loaded.job.compare.method {
-            Method::Paper => self
-                .loaded
-                .job
-                .compare
-                .residual_vectors
-                .unwrap_or(RESIDUAL_VECTORS),
-            Method::GaussNewton => 0,
         }
     }
 

@@ -21,9 +21,8 @@ pub enum Outcome {
     Tolerance,
     /// No step lowered the error sum any more.
     LocalMinimum,
-    /// Weighted steps ended where pairs of modes change ahead of them, so that the objective rises though its slopes promise a fall.
-    Wall,
-    /// Weighted steps ended short of a gradient, where the digits of an analysis tell no lower place.
+    /// Weighted steps ended where the objective falls no more though its slopes promise it: pairs of modes change ahead, or the digits of
+    /// an analysis tell no lower place.
     Short,
     /// The passes allowed were used up, or the iterations of the only one.
     Cap,

@@ -3,10 +3,6 @@
 use crate::job::verdict::{Outcome, Stationary, Verdict};
 use crate::weighted::lower_place::PLACES;
 
-const WALL: &str = " Steps ended short of a minimum, where pairs of modes change ahead of them.";
-const SHORT: &str =
-    " Steps ended short of a minimum: the digits of an analysis tell no lower place.";
-
 /// The verdict in sentences, with the parameters' names and the numbers of the test modes; places from one stand for those that
 /// have none.
 pub fn verdict_in_words(verdict: &Verdict, names: &[String], mode_numbers: &[usize]) -> String {
@@ -42,8 +38,9 @@ pub(super) fn outcome_in_words(
         }
         Outcome::Tolerance | Outcome::Untested => "",
         Outcome::LocalMinimum => " No further step lowered it.",
-        Outcome::Wall => WALL,
-        Outcome::Short => SHORT,
+        Outcome::Short => {
+            " Steps ended short of a minimum: ahead of them no place is lower, where their slopes promise one."
+        }
         Outcome::Cap => " The iterations or passes allowed ran out.",
         Outcome::Request => " It was stopped by request.",
         Outcome::Nothing => " No step from the first model lowered it, or none was allowed.",

@@ -138,21 +138,6 @@ impl Comparison {
         paired.chain(lone).copied().collect()
     }
 
-    /// Shapes of these partners, one column each.
-    pub(super) fn shapes_of_partners(&self) -> DMatrix<f64> {
-        self.model
-            .exact
-            .modes
-            .shapes
-            .select_columns(&self.partners())
-    }
-
-    /// True if each of these shapes has more of its partner here than of anything else: cosines above the root of a half.
-    pub(super) fn has_partners(&self, shapes: &DMatrix<f64>) -> bool {
-        let own = cosines(&self.shapes_of_partners(), shapes);
-        own.is_ok_and(|own| own.diagonal().iter().all(|cosine| cosine * cosine > 0.5))
-    }
-
     /// This comparison with groups of test modes (from zero) whose shapes are compared as subspaces.
     ///
     /// # Errors

@@ -12,7 +12,6 @@ use crate::method::step::Bounds;
 use crate::sparse::{Deflections, ModeWeight, solve_positive};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
-use std::cell::RefCell;
 
 /// Damping of the first step, relative to the curvature of each parameter.
 const FIRST_DAMPING: f64 = 1e-3;
@@ -81,9 +80,7 @@ pub enum WeightedStop {
     /// A step that nothing damps promises a fall within tolerance, but for what the gradient presses against bounds; or one that no test
     /// can tell, a hundredth of [`LOWER`], where shorter steps found none.
     Gradient,
-    /// Only short steps promise as little, and ahead of them pairs of modes change or meet, or there is no model.
-    Wall,
-    /// Only short steps promise as little, with the same pairs ahead: the digits of an analysis tell no lower place.
+    /// Only short steps promise as little: ahead of them pairs of modes change or meet, or the digits of an analysis tell no lower place.
     Short,
     /// The trials allowed were used up.
     Trials,
@@ -161,7 +158,7 @@ struct Iterate {
 /// compared ones along the first step, with slopes corrected to the exact ones. Where a model has all its modes, that is the end. The
 /// exact objective decides. A basis that promised another fall than there was is followed by one with deflections of all parameters, in
 /// which $\mu \thinspace \mathrm{diag} A$ holds the factors at the place. Steps end where the fall that is promised without damping is
-/// that of a step shorter than the tolerance, or the round-off of the objective; and short of that at a wall, where rejections have damped
+/// that of a step shorter than the tolerance, or the round-off of the objective; and short of that where rejections have damped
 /// them until they promise no more.
 ///
 /// `analyze` and `ranges` are those of [`crate::method::outer_loop::correlate`]. Source: Marquardt, *SIAM Journal* 11
@@ -336,17 +333,9 @@ impl<'a> Problem<'a> {
         analyze: &mut dyn FnMut(&[f64]) -> Result<Comparison, E>,
         first: &[f64],
     ) -> Result<WeightedCorrelation, E> {
-        let tried = RefCell::new(None);
-        let mut watched = |factors: &[f64]| -> Result<Comparison, E> {
-            tried.take();
-            let found = analyze(factors)?;
-            tried.replace(Some(found.shapes_of_partners()));
-            Ok(found)
-        };
-        let mut place = self.first_at(&mut watched, first)?;
+        let mut place = self.first_at(analyze, first)?;
         let (initial, mut iterations) = (place.comparison.result()?, Vec::new());
         let (mut trials, mut further, mut damping) = (0, 0, Damping::FIRST);
-        let mut is_wall = false;
         let mut second_order = SecondOrder::new(first.len());
         let most = 6 * place.comparison.model.test.len() + 30;
         let stop = loop {
@@ -358,7 +347,7 @@ impl<'a> Problem<'a> {
             }
             let foretold = self.foretold(&place, &second_order, damping.now)?;
             let Some((promised, step)) = foretold.filter(|(fall, _)| *fall > least) else {
-                break place.end(is_wall, whole);
+                break place.end(whole);
             };
             if trials == self.settings.trials {
                 break WeightedStop::Trials;
@@ -375,7 +364,7 @@ impl<'a> Problem<'a> {
             place.comparison.model.release();
             // A place without a model is no better than this one.
             let next = self
-                .place_at(&mut watched, trial, place.objective)
+                .place_at(analyze, trial, place.objective)
                 .ok()
                 .flatten();
             let fall = next
@@ -387,15 +376,11 @@ impl<'a> Problem<'a> {
             match next {
                 Some(next) => {
                     next.teach(&mut second_order, &place);
-                    (place, is_wall) = (next, false);
+                    place = next;
                     damping.after(fall / promised);
                     iterations.push(place.iteration()?);
                 }
-                None => {
-                    let has_same = |shapes| place.comparison.has_partners(&shapes);
-                    is_wall = !tried.take().is_some_and(has_same);
-                    damping.more();
-                }
+                None => damping.more(),
             }
         };
         Ok(WeightedCorrelation {
@@ -565,11 +550,10 @@ impl Damping {
 
 impl Iterate {
     /// Reason why steps ended here though their slopes promise a fall, the `whole` one without damping.
-    fn end(&self, is_wall: bool, whole: f64) -> WeightedStop {
-        match (self.comparison.meets(), is_wall) {
-            (false, _) if whole <= TOLD * LOWER => WeightedStop::Gradient,
-            (false, false) => WeightedStop::Short,
-            _ => WeightedStop::Wall,
+    fn end(&self, whole: f64) -> WeightedStop {
+        match whole <= TOLD * LOWER && !self.comparison.meets() {
+            true => WeightedStop::Gradient,
+            false => WeightedStop::Short,
         }
     }
 

@@ -222,8 +222,6 @@ pub const LEAST_DETECTED_BOXES: usize = 65;
 pub const LEAST_FIRST_SUSPECTS: usize = 24;
 /// The same of ten jobs.
 pub const LEAST_FIRST_SUSPECTS_OF_TEN: usize = 8;
-/// How far the median ratio of frequencies of the first models is from one: 17 % in Case 2.
-pub const FIRST_FREQUENCY_RATIO: f64 = 0.2;
 /// Shapes of a subspace whose residual is 1e-10 of its root, divided by the distance of neighboring roots.
 pub const WHOLE_SHAPE: f64 = 1e-6;
 /// Stories of an exact building that five of ten floors recover without condensation, where the paper's loop stops at an error sum of a

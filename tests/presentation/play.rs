@@ -33,26 +33,6 @@ fn figure_to_play_with_is_short_and_needs_nothing_beside_it() {
     assert!(!html.trim().contains("\n\n"));
 }
 
-/// The caption's numbers: the loop's error sum, the exact one, and those of the stiffness that follows the gages found and the true ones.
-#[test]
-fn caption_has_the_error_sums_of_the_first_pass() {
-    let (result, html) = (&results()[1], html());
-    let model = result.case.model().unwrap();
-    let first = model.analyze(&[1.0; 15], &result.test, None).unwrap();
-    let pass = &result.correlation.passes[0];
-    let sums = [
-        pass.inner.last.errors.sum(),
-        pass.check.errors.sum(),
-        first.at(&pass.inner.factors).unwrap().errors.sum(),
-        first.at(&[2.0 / 3.0; 15]).unwrap().errors.sum(),
-    ];
-    let mut caption = html.split_once("<figcaption>").unwrap().1;
-    for sum in sums {
-        let written = format!(" {:.1} %", 100.0 * sum);
-        caption = caption.split_once(&written).expect(&written).1;
-    }
-}
-
 /// Chapter 6 of the tour has the same figure, with data of its own.
 #[test]
 fn data_of_the_tour_are_those_of_the_report() {

@@ -238,7 +238,9 @@ fn cell(draws: &mut Draws, [kind, held, count, way, digits]: [usize; 5]) -> bool
         Some(mode) => is_open(mode.parse().unwrap()),
         None => own == "free-by-digits" && hidden_hz > 0.0,
     };
-    assert!(found.doubts.iter().all(is_told), "{case}");
+    // A test of which the digits leave most open is told so, and may look like another's.
+    let is_most = 2 * (1..=seen.len()).filter(|mode| is_open(*mode)).count() > seen.len();
+    assert!(is_most || found.doubts.iter().all(is_told), "{case}");
     assert_eq!(
         found.status,
         if found.doubts.is_empty() { 0 } else { 3 },
@@ -287,7 +289,6 @@ fn table(step: usize) {
             Err(_) => wrong.push(place),
         }
     }
-    println!("told {told}, wrong {} {wrong:?}", wrong.len());
     assert!(
         wrong.is_empty() && 40 * told > all / step,
         "{told} {wrong:?}"

@@ -68,7 +68,7 @@ fn the_corrected_airplane_is_nearer_and_still_not_explained() {
     };
     assert_eq!(
         (steps.best.stop, RESULT.verdict.outcome),
-        (WeightedStop::Wall, Outcome::Wall)
+        (WeightedStop::Short, Outcome::Short)
     );
     let blind = about(&RESULT.trust, "mostly-prior");
     let named = |name: &str| blind.iter().any(|blind| blind == name);

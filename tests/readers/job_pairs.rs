@@ -1,7 +1,7 @@
 //! Pairs by likelihood: frequencies count where shapes hardly differ, hardly seen modes pay, and no finding hangs on the number of modes.
 
 use super::job_concerns::tested;
-use super::repeats::noisy;
+use super::repeats;
 use crate::common::jobs::of_whole;
 use crate::prelude::*;
 use corfem::job::concern::{Check, Grade};
@@ -273,7 +273,7 @@ fn readings_are_judged_by_the_deviations_that_the_test_declares() {
 /// A net's job with noise, measured at five of its masses.
 fn noisy_net(model: &WholeModel, truth: &[f64], seed: u64) -> Files {
     let files = of_whole(model, truth, &[0, 2, 4, 5, 7], 5, Noise::USUAL);
-    retested(files, |data| *data = noisy(data, seed))
+    retested(files, |data| *data = repeats::noisy(data, seed))
 }
 
 /// The law: evidence is a part of the whole, and that against the only wrong parameter is what a correlation of it alone takes away, at the
@@ -287,7 +287,7 @@ fn evidence_is_what_the_suspect_alone_takes_away() {
         let (culprit, ones) = (draws.below(parameters), vec![1.0; parameters]);
         let mut truth = ones.clone();
         truth[culprit] = draws.between(0.3, 0.8).powf([-1.0, 1.0][draws.below(2)]);
-        let (far, first) = ready(&noisy_net(&model, &truth, seed))
+        let (far, first) = prepared(&noisy_net(&model, &truth, seed))
             .far_from_first()
             .unwrap();
         let whole = unexplained(&first, &far.weights()).unwrap();
@@ -299,7 +299,7 @@ fn evidence_is_what_the_suspect_alone_takes_away() {
         let own = model.parameters()[culprit].clone();
         let alone = WholeModel::new(stiffness, mass, vec![own]).unwrap();
         let alone = supposing(noisy_net(&alone, &[truth[culprit]], seed), 3.0, 0);
-        let alone = finished(&ready(&alone));
+        let alone = finished(&prepared(&alone));
         if alone.verdict.is_within {
             explained += 1;
             assert_eq!(suspects[0].parameter, culprit, "{seed}");
@@ -327,7 +327,10 @@ fn of_units(nets: u64) -> [usize; 2] {
                     .iter_mut()
                     .for_each(|own| *own *= known.factor)
             });
-            let (trust, name) = (trust_in(&ready(&files)), format!("near {}: ", known.name));
+            let (trust, name) = (
+                trust_in(&prepared(&files)),
+                format!("near {}: ", known.name),
+            );
             let is_accused =
                 |own: &Concern| own.grade == Grade::Doubt && own.check == Check::Readings;
             named += usize::from(trust.all().iter().any(|own| own.words.contains(&name)));

@@ -36,7 +36,6 @@ mod line_ends;
 pub mod lone_frequencies;
 pub mod matrices;
 pub mod nastran95_analysis;
-pub mod nastran95_bounds;
 pub mod nastran95_delta_wing;
 pub mod nastran95_model;
 pub mod nastran95_outer_loop;

@@ -44,35 +44,6 @@ pub fn is_of(concern: &Concern, change: &Change) -> bool {
 }
 
 #[test]
-fn every_factor_is_named_and_a_models_error_is_none() {
-    for specimen in [case(2), case(3), wing(), chain()] {
-        let with_factor = |factor: f64| {
-            let mut wrong = specimen.clone();
-            alter(&mut wrong.test, |squares, _| *squares *= factor * factor);
-            let found = findings(&wrong);
-            found.into_iter().map(|own| own.words).collect_vec()
-        };
-        for known in FACTORS {
-            let found = with_factor(known.factor).concat();
-            let why = format!(
-                " times the model's, near {}: {}?",
-                known.name, known.mistake
-            );
-            let ratio = found.strip_prefix("Test frequencies are ");
-            let ratio = ratio.and_then(|words| words.strip_suffix(&why));
-            let ratio: f64 = ratio.unwrap_or(&found).parse().expect(&found);
-            assert_within(ratio / known.factor, 1.0, FIRST_FREQUENCY_RATIO);
-        }
-        assert_eq!(with_factor(1.2), [""; 0]);
-        let unnamed = with_factor(2.1).concat();
-        assert!(
-            unnamed.ends_with("times the model's, by no mistake known here."),
-            "{unnamed}"
-        );
-    }
-}
-
-#[test]
 fn factors_are_what_they_are_called() {
     for (known, squared) in
         FACTORS

@@ -146,7 +146,6 @@ impl Report {
     ) -> Self {
         let stop = match run.stop {
             WeightedStop::Gradient => "gradient",
-            WeightedStop::Wall => "wall",
             WeightedStop::Short => "short",
             WeightedStop::Trials => "trials",
         };
