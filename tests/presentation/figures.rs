@@ -16,15 +16,12 @@ pub fn fewer_modes_runs() -> &'static [FewerModesRun] {
     RUNS.get_or_init(|| all_runs(&case_of(PUBLISHED_CASE)).unwrap())
 }
 
-/// Every figure of the report, drawn anew.
-pub fn draw_all() -> Vec<Figure> {
-    let mut figures = case_figures(results()).unwrap();
-    figures.extend(comparison_figures(PUBLISHED_CASE, fewer_modes_runs()).unwrap());
-    figures
-}
-
 /// Every figure of the report, drawn once.
 pub fn figures() -> &'static [Figure] {
     static FIGURES: OnceLock<Vec<Figure>> = OnceLock::new();
-    FIGURES.get_or_init(draw_all)
+    FIGURES.get_or_init(|| {
+        let mut figures = case_figures(results()).unwrap();
+        figures.extend(comparison_figures(PUBLISHED_CASE, fewer_modes_runs()).unwrap());
+        figures
+    })
 }

@@ -20,19 +20,6 @@ pub fn by_node(program: &str) -> Value {
     serde_json::from_slice(&output.stdout).unwrap_or_else(|error| panic!("{error}: {words}"))
 }
 
-#[test]
-fn figure_to_play_with_is_short_and_needs_nothing_beside_it() {
-    let html = html();
-    assert!(html.len() < 60_000, "{} bytes", html.len());
-    let lines = script(&html).trim().lines().count();
-    assert!(lines <= 150, "{lines} lines of script");
-    for outside in ["http", "src=", "url(", "import", "fetch", "eval"] {
-        assert!(!html.contains(outside), "{outside}");
-    }
-    // Markdown ends an HTML block at a blank line.
-    assert!(!html.trim().contains("\n\n"));
-}
-
 /// Chapter 6 of the tour has the same figure, with data of its own.
 #[test]
 fn data_of_the_tour_are_those_of_the_report() {
