@@ -40,22 +40,24 @@ impl Comparison {
         self.model.test.shapes.column(j).amax()
     }
 
-    /// This comparison at some of its sensors. Weights of components that are not alike stay what they are over a component.
+    /// This comparison with the noise of another, which is a part of the largest reading there.
+    fn with_noise_of(mut self, other: &Self) -> Self {
+        for j in 0..self.model.test.len() {
+            let scale = self.largest(j) / other.largest(j);
+            self.test.component_weights.column_mut(j).scale_mut(scale);
+        }
+        self
+    }
+
+    /// This comparison at some of its sensors, each with the noise that it has.
     pub(crate) fn at_sensors(&self, rows: &[usize]) -> Self {
         let mut own = self.clone();
         own.by_sensors()
             .for_each(|matrix| *matrix = matrix.select_rows(rows));
-        for j in 0..own.model.test.len() {
-            let scale = own.largest(j) / self.largest(j);
-            let mut weights = own.test.component_weights.column_mut(j);
-            if weights.iter().any(|own| *own != 1.0) {
-                weights *= scale;
-            }
-        }
-        own
+        own.with_noise_of(self)
     }
 
-    /// This comparison with one more sensor, which reads this of the basis (1 × N) and what the model says of the test; `beyond` is what
+    /// This comparison with one more sensor of the same noise, which reads this of the basis (1 × N) and what the model says of the test; `beyond` is what
     /// modes beyond the basis add there to the slopes that are known, of modes in ascending order.
     pub(crate) fn with_sensor(&self, basis: DMatrix<f64>, beyond: Vec<DMatrix<f64>>) -> Self {
         let exact = &self.model.exact;
@@ -80,6 +82,6 @@ impl Comparison {
             *matrix = std::mem::take(matrix).insert_row(last, 0.0);
             matrix.set_row(last, &row.row(0));
         }
-        own
+        own.with_noise_of(self)
     }
 }

@@ -278,8 +278,8 @@ fn measurements(prepared: &PreparedJob, mut table: Table) -> Result<Table, FileE
         table.row(words, cells.chain([Cell::text(names[worst])]));
     }
     let note = "Deviation: root mean square of the factors' standard deviations (of logarithms, with priors), by the slopes at the \
-        first model. A new sensor is taken to read what the model says. Deviations of shapes are fractions of their largest component: without the \
-        sensor that has it the same fraction is less, and with one that reads more it is more.";
+        first model. A new sensor is taken to read what the model says. Every reading has the noise that it has in this test, a fraction of its \
+        largest one, and a new one that of its shape.";
     let is_ranked = !table.rows.is_empty();
     Ok(table.notes(is_ranked.then_some(note)).notes(next.unranked))
 }
