@@ -482,8 +482,7 @@ fn every_limit_of_places_has_two_sides() {
 /// 1 nothing is doubted and nothing checked that could not fail; a sensor turned round comes first, with its edit, and no parameter is advised on.
 #[test]
 fn words_agree_with_numbers() {
-    let name = "tests/runs/tower_contradicts_itself";
-    let all = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(name)).unwrap();
+    let all = fs::read_dir(in_root("tests/runs/tower_contradicts_itself")).unwrap();
     let read = |entry: std::io::Result<fs::DirEntry>| {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_str().unwrap().to_owned();

@@ -390,10 +390,19 @@ fn columns_at_right_angles_tell_by_their_lengths() {
 /// they do alike and of that which undoes it then 1/3 and 1 of the prior's variance is left, 2/3 of each factor's.
 #[test]
 fn parallel_parameters_are_untold_by_their_own_deviations() {
-    for (size, groups) in [(100.0, vec![]), (1.0, vec![vec![0, 1]])] {
+    let all = [
+        (100.0, vec![], 2),
+        (5.0, vec![], 1),
+        (1.0, vec![vec![0, 1]], 0),
+    ];
+    for (size, groups, told) in all {
         let found = identifiability(&(size * columns(&[0.0, 0.1])), &[1.0; 2]).unwrap();
         assert_eq!(found.parallel_groups(), [[0, 1]]);
-        assert_eq!(found.untold_groups(), groups, "{size}");
+        assert_eq!(
+            (found.untold_groups(), found.subset.len()),
+            (groups, told),
+            "{size}"
+        );
     }
 }
 

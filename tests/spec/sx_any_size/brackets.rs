@@ -32,7 +32,8 @@ properties! {
     ) {
         let of = drawn(&mut Draws(seed), kind, is_held);
         let found = bodies(&of, digits, &Support::default());
-        let count = found.rows.len();
+        // Those that are taken as held, for want of a gap, count as well.
+        let count = found.motions.ncols();
         prop_assert!(count >= of.free && !found.is_told);
         prop_assert!(count == of.free || digits < 12, "{count} for {} at {digits}", of.free);
         let said = Support { count: Some(of.free), ..Support::default() };
