@@ -407,7 +407,8 @@ impl PreparedJob {
         }
     }
 
-    /// The weights of the test modes that are fitted, see [`Self::weights_of`].
+    /// The weights of the test modes that are fitted, of those without shapes last: one over the standard deviation of each, times the job's
+    /// weight; zeros of those that are held out.
     pub fn weights(&self) -> Vec<ModeWeight> {
         self.weights_of(false)
     }

@@ -78,7 +78,7 @@ impl WeightedSettings {
 #[serde(rename_all = "snake_case")]
 pub enum WeightedStop {
     /// A step that nothing damps promises a fall within tolerance, but for what the gradient presses against bounds; or one that no test
-    /// can tell, a hundredth of [`LOWER`], where shorter steps found none.
+    /// can tell, where shorter steps found none.
     Gradient,
     /// Only short steps promise as little: ahead of them pairs of modes change or meet, or the digits of an analysis tell no lower place.
     Short,
