@@ -1,6 +1,6 @@
 //! The motions that a stiffness does not resist as far as its numbers tell, and which of them are those of a rigid body.
 
-use super::brackets::{bracket, slack};
+use super::brackets::{self, bracket};
 use super::factorization::FactorizationPlan;
 use super::matrix::{ASSEMBLED, HalfUnit};
 use super::random::random_block;
@@ -114,7 +114,8 @@ impl RigidBodies {
         let (rows, half_unit) = (matrix.rows(), matrix.half_unit());
         let sizes = SparseMatrix::unit_scale(&matrix.diagonal());
         // A row without entries has nothing that could be rounded; with any slack its motion counts.
-        let slack = slack(matrix, &sizes).map(|own| if own == 0.0 { ASSEMBLED } else { own });
+        let slack =
+            brackets::slack(matrix, &sizes).map(|own| if own == 0.0 { ASSEMBLED } else { own });
         let root = slack.map(f64::sqrt);
         // In units of displacement that give every row a slack of one.
         let in_units = |matrix: &SparseMatrix| {
@@ -160,13 +161,12 @@ impl RigidBodies {
             None => found.is_sure = at(-GAP)?.negative_count() == most,
         }
         // Motions among others of as little resistance are no null space: as modes they are exact, where doubles hold them.
-        let doubles = (
-            -1.0,
-            &super::brackets::slack(&unit, &SparseMatrix::unit_scale(&unit.diagonal())),
-        );
-        if !found.is_sure && bracket(plan, what, &[(1.0, &unit)], doubles)?.negative_count() == 0 {
-            found.motions = per_row(weakest, &root);
-            return Ok(found);
+        if !found.is_sure {
+            let doubles = brackets::slack(&unit, &SparseMatrix::unit_scale(&unit.diagonal()));
+            if bracket(plan, what, &[(1.0, &unit)], (-1.0, &doubles))?.negative_count() == 0 {
+                found.motions = per_row(weakest, &root);
+                return Ok(found);
+            }
         }
         found.rows = moving_rows(&weakest);
         // Held by springs at these rows, one of which is displaced by one, the structure moves by a motion that nothing

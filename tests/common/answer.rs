@@ -34,6 +34,12 @@ fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(number).collect()
 }
 
+/// The program's answer to the files of a job.
+pub fn answered(files: &Files) -> Answer {
+    let (_folder, path) = placed(files);
+    answer(&path)
+}
+
 /// The program's answer to a job.
 pub fn answer(job: &Path) -> Answer {
     let run = |format| {

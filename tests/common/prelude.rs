@@ -3,7 +3,7 @@
 pub use crate::common::tolerances::*;
 pub use crate::common::{
     CollectVec, Largest, alter,
-    answer::{Answer, answer},
+    answer::{Answer, answer, answered},
     appendix_b::{mass_norm, modes, relative_difference, slight_overlap, unit_shapes},
     appendix_c::{
         FORMULAE, ModalChange, ascending, change_of, eigensolution, exact, four_modes,

@@ -1,9 +1,9 @@
 //! The law over all answers: right tests of ten structures raise no doubt, and one mistake in a test is named, and no other sensor.
 
-use super::digits::{modes, parts, whole};
+use super::digits::{job, modes, parts, whole};
 use crate::common::draws::Draws;
 use crate::common::free_structures::written;
-use crate::common::jobs::{file, matrix_job, sensor, test_data};
+use crate::common::jobs::{sensor, test_data};
 use crate::prelude::*;
 
 /// Structures with one way of sensors, clamped or free, with singular mass, on soft springs, with equal roots, condensed by Craig and
@@ -188,20 +188,10 @@ fn told(kind: usize, mistake: &str, seed: u64, unit: f64) -> (Answer, Vec<String
         frequencies_hz: hertz.clone(),
         ..test_data(&Modes::new(squares, shapes).unwrap(), own)
     };
-    let [k, m] = whole(&parts, |_, _| unit);
-    let named = (1..=k.nrows()).map(|row| format!("{row},x\n"));
-    let sparse = [&k, &m].map(|own| sparse(own).unwrap());
-    let mut files = matrix_job([&sparse[0], &sparse[1]], named, &data);
+    let own = parts[1..].iter().map(|own| ("matrix", unit * &own[0]));
     let write = |own: &DMatrix<f64>| written(own, if kind == 7 { 10 } else { 17 }, false);
-    *file(&mut files, "stiffness.mtx") = write(&k);
-    *file(&mut files, "mass.mtx") = write(&m);
-    for (part, own) in parts.iter().enumerate().skip(1) {
-        files[0].1 += &format!("[[parameter]]\nname = \"p{part}\"\nmatrix = \"p{part}.mtx\"\n");
-        files.push((format!("p{part}.mtx"), write(&(unit * &own[0]))));
-    }
-    let (_folder, job) = placed(&files);
     (
-        answer(&job),
+        answered(&job(&whole(&parts, |_, _| unit), own, &data, write)),
         wrong.iter().map(|at| format!("S{at}")).collect(),
     )
 }
@@ -225,8 +215,8 @@ fn missed(tests: u64) -> [Vec<String>; 2] {
             let seed = 7000 + 100 * at as u64 + test;
             let (found, wrong) = told(seed as usize % KINDS, mistake, seed, 1.0);
             let words = format!(
-                "{mistake} {seed} {wrong:?}: {} {:?}",
-                found.status, found.doubts
+                "{mistake} {seed} {wrong:?}: {} {:?} {}",
+                found.status, found.doubts, found.words
             );
             let is_wrong = |own: &String| {
                 wrong

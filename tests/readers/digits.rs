@@ -154,6 +154,25 @@ fn agree(all: &[f64], found: &WholeModes, free: usize, alike: usize, case: &str)
     }
 }
 
+/// A job of matrices with parameters, each by its entry of the job and its matrix, all as `write` writes them.
+pub fn job<'a>(
+    whole: &[DMatrix<f64>; 2],
+    parts: impl Iterator<Item = (&'a str, DMatrix<f64>)>,
+    data: &TestData,
+    write: impl Fn(&DMatrix<f64>) -> String,
+) -> Files {
+    let named = (1..=whole[0].nrows()).map(|row| format!("{row},x\n"));
+    let sparse = whole.each_ref().map(|matrix| sparse(matrix).unwrap());
+    let mut files = matrix_job([&sparse[0], &sparse[1]], named, data);
+    *file(&mut files, "stiffness.mtx") = write(&whole[0]);
+    *file(&mut files, "mass.mtx") = write(&whole[1]);
+    for (part, (entry, matrix)) in (1..).zip(parts) {
+        files[0].1 += &format!("[[parameter]]\nname = \"p{part}\"\n{entry} = \"p{part}.mtx\"\n");
+        files.push((format!("p{part}.mtx"), write(&matrix)));
+    }
+    files
+}
+
 /// One cell of the table, whether it is told that a motion may be free.
 fn cell(draws: &mut Draws, [kind, held, count, way, digits]: [usize; 5]) -> bool {
     let is_held = held == 0 && kind != 3;
@@ -215,21 +234,12 @@ fn cell(draws: &mut Draws, [kind, held, count, way, digits]: [usize; 5]) -> bool
         shape_deviation: Some(vec![0.02; seen.len()]),
         ..test_data(&seen, sensors)
     };
-    let named = (1..=first[0].nrows()).map(|row| format!("{row},x\n"));
-    let sparse = first.each_ref().map(|matrix| sparse(matrix).unwrap());
-    let mut files = matrix_job([&sparse[0], &sparse[1]], named, &data);
-    *file(&mut files, "stiffness.mtx") = write(&first[0]);
-    *file(&mut files, "mass.mtx") = write(&first[1]);
-    for (part, own) in parts.iter().enumerate().skip(1) {
-        let (entry, matrix) = match way {
-            0 => ("matrix", own[0].clone()),
-            1 => ("at = 2.0\nstiffness", &first[0] + &own[0]),
-            _ => ("scales = \"mass\"\nmatrix", own[1].clone()),
-        };
-        files[0].1 += &format!("[[parameter]]\nname = \"p{part}\"\n{entry} = \"p{part}.mtx\"\n");
-        files.push((format!("p{part}.mtx"), write(&matrix)));
-    }
-    let (_folder, job) = placed(&files);
+    let of_part = |own: &[DMatrix<f64>; 2]| match way {
+        0 => ("matrix", own[0].clone()),
+        1 => ("at = 2.0\nstiffness", &first[0] + &own[0]),
+        _ => ("scales = \"mass\"\nmatrix", own[1].clone()),
+    };
+    let (_folder, job) = placed(&job(&first, parts[1..].iter().map(of_part), &data, write));
     let found = answer(&job);
     let case = format!("{case}: {:?} {}", found.doubts, found.words);
     // What may be free is not listed, and so not compared.

@@ -81,7 +81,7 @@ fn a_right_mode_is_not_refused_for_good() {
     for _ in 0..40 {
         let real = first.map(|own| own * (0.15 * normal(&mut draws)).exp());
         let files = noisy(joined("gauss_newton", [&first, &real], 500.0), &mut draws);
-        let words = unbroken(&answer(&placed(&files).1).words);
+        let words = unbroken(&answered(&files).words);
         let is_refused = words.contains("the others worse");
         assert!(words.contains("Chi-squared") && !is_refused, "{words}");
     }

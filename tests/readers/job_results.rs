@@ -475,8 +475,7 @@ fn the_answer_names_every_factor_that_differs_from_one() {
         let truth = (0..6)
             .map(|_| draws.between(0.8, 1.4).min(1.0))
             .collect_vec();
-        let (_folder, path) = placed(&of_whole(&model, &truth, &[0, 2, 4, 6], 4, Noise::USUAL));
-        let found = answer(&path);
+        let found = answered(&of_whole(&model, &truth, &[0, 2, 4, 6], 4, Noise::USUAL));
         let is_told = |own: &Option<[f64; 2]>| own.is_some();
         let differs =
             |own: &Option<[f64; 2]>| own.is_some_and(|[low, high]| low > 1.0 || high < 1.0);

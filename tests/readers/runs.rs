@@ -329,12 +329,6 @@ fn golden_runs_end_where_they_ended() {
     );
 }
 
-/// The answer to files.
-fn answered(files: &Files) -> Answer {
-    let (_folder, path) = placed(files);
-    answer(&path)
-}
-
 #[test]
 #[ignore = "waits for answers in the smaller house: the box ends a deviation from a lower place"]
 fn the_box_ends_at_the_lowest_of_twenty_starts() {

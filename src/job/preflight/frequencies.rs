@@ -41,6 +41,11 @@ const fn named(factor: f64, name: &'static str, mistake: &'static str) -> NamedF
     }
 }
 
+/// Square roots of 1000, 386.09 and 9.81.
+const THOUSAND: f64 = 31.622_776_601_683_793;
+const INCHES: f64 = 19.649_173_010_587_493;
+const METERS: f64 = 3.132_091_952_673_165;
+
 /// The known factors, in both directions.
 pub const FACTORS: [NamedFactor; 10] = [
     named(TAU, "2π", "the test is in rad/s"),
@@ -52,32 +57,28 @@ pub const FACTORS: [NamedFactor; 10] = [
     named(60.0, "60", "the test is in rpm"),
     named(1.0 / 60.0, "1/60", "the test was divided by 60"),
     named(
-        31.622_776_601_683_793,
+        THOUSAND,
         "√1000",
         "the model's mass is 1000 times too large, as grams for kilograms",
     ),
     named(
-        1.0 / 31.622_776_601_683_793,
+        1.0 / THOUSAND,
         "1/√1000",
         "the model's mass is 1000 times too small, as kilograms for grams",
     ),
     named(
-        19.649_173_010_587_493,
+        INCHES,
         "√386.09",
         "the model has weight in lbf for mass in lbf·s²/in",
     ),
     named(
-        1.0 / 19.649_173_010_587_493,
+        1.0 / INCHES,
         "1/√386.09",
         "the model's mass was divided by 386.09 in/s² twice",
     ),
+    named(METERS, "√9.81", "the model has weight in N for mass in kg"),
     named(
-        3.132_091_952_673_165,
-        "√9.81",
-        "the model has weight in N for mass in kg",
-    ),
-    named(
-        1.0 / 3.132_091_952_673_165,
+        1.0 / METERS,
         "1/√9.81",
         "the model's mass was divided by 9.81 m/s² twice",
     ),

@@ -23,12 +23,12 @@ use crate::method::outer_loop::Settings;
 use crate::method::sorting::pair_modes;
 use crate::method::step::Bounds;
 use crate::sparse::{cosines, modal_assurance};
+use crate::weighted::misfit::most_by_noise;
 use crate::weighted::noise::Noise;
 use frequencies::{common_factor, exchanged};
 use nalgebra::DMatrix;
-use readings::{FALSE_ALARMS, LEAST, explain};
+use readings::{LEAST, explain};
 use shapes::changed;
-use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// Modal assurance of two test modes from which they are nearly one shape. Two modes of the box, whose masses differ
 /// several hundredfold, have 0.75 with noise of 1 %, and a mode measured twice has 0.99. It does not depend on the
@@ -55,7 +55,7 @@ fn is_measured_twice(
     [a, b]: [usize; 2],
     assurance: f64,
     noise: [Noise; 2],
-) -> Option<bool> {
+) -> Result<Option<bool>, Error> {
     let hertz = test.frequencies_hz();
     let frequency_ratio = hertz[b] / hertz[a];
     let sum = |of: fn(&Noise) -> f64| noise.iter().map(|own| of(own).powi(2)).sum::<f64>();
@@ -64,9 +64,8 @@ fn is_measured_twice(
     let unlike = size / sum(|own| own.shape);
     let chi_squared =
         unlike * (1.0 - assurance) + frequency_ratio.ln().powi(2) / sum(|own| own.frequency);
-    let law = ChiSquared::new(shape.len() as f64);
-    let largest = law.map_or(0.0, |law| law.inverse_cdf(1.0 - FALSE_ALARMS));
-    (unlike > largest).then_some(chi_squared <= largest)
+    let most = most_by_noise(shape.len() as f64)?;
+    Ok((unlike > most).then_some(chi_squared <= most))
 }
 
 /// The places of test modes without near copies of earlier ones; of modes that were measured twice; and what is said of each copy: a doubt
@@ -95,7 +94,7 @@ fn distinct_shapes(
         );
         let check = Check::ModesMeasuredTwice;
         concerns.push(
-            match is_measured_twice(test, both, assurance, both.map(own)) {
+            match is_measured_twice(test, both, assurance, both.map(own))? {
                 None => Concern::not_checked(check, "by these deviations all shapes are alike"),
                 Some(true) => {
                     twice.push(b);
